@@ -1,0 +1,401 @@
+/* spherecloud.h - the public C interface of the SphereCloud SDK.
+ *
+ * What it does.  Given a colour image and a time-of-flight (ToF) depth image taken at about the same time,
+ * and a map that was built beforehand, the library answers where the camera is in the map.  The map is a
+ * *sphere cloud* (Moon et al., "Depth-Guided Privacy-Preserving Visual Localization Using 3D Sphere Clouds",
+ * BMVC 2024): of every map point it keeps only the direction from the map's centre, mixed with fake
+ * directions, so that the file holds no 3D geometry.
+ *
+ * A session, in the order of the calls:
+ *
+ *     sphc_map_memory, sphc_map_init              view a map file that you loaded or mapped
+ *     sphc_config_init, set the cameras           describe the headset
+ *     sphc_localizer_memory, sphc_localizer_init  hand over memory once
+ *     sphc_localizer_process ...                  a frame in, a pose out; never allocates
+ *     sphc_localizer_fini, sphc_map_fini
+ *
+ * Conventions.
+ *   Frames     `target_from_source` everywhere: x_target = R(q) x_source + t.  Camera axes are OpenCV's: x right,
+ *              y down, z forward.  The map frame has its origin at the sphere centre.
+ *   Units      metres, nanoseconds, radians and pixels; the name says which (`_m`, `_ns`, `_rad`, `_px`).
+ *   Pixels     the centre of the top-left pixel is (0.5, 0.5), as in COLMAP.  OpenCV calls the same point (0, 0): add 0.5
+ *              to an OpenCV principal point.
+ *   Memory     "borrows": reads only until the call returns unless a longer time is stated.  "caller memory": the
+ *              library never resizes, frees or copies it away.  No function of this header allocates.
+ *   Failure    status < 0: outputs are untouched, except a message that explains.
+ *   Structs    those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do).
+ *              Atoms (sphc_rigid, sphc_camera, sphc_image) never change.
+ *   Threads    the class stands in brackets behind every function:
+ *              [pure]      touches no instance but those being made; any thread, any time
+ *              [shared]    may run at the same time on one instance
+ *              [exclusive] one call at a time per instance
+ *              The library starts no thread, takes no lock, and has no mutable global of its own.
+ */
+#ifndef SPHERECLOUD_SPHERECLOUD_H
+#define SPHERECLOUD_SPHERECLOUD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(SPHC_STATIC)
+#define SPHC_API
+#elif defined(_WIN32)
+#if defined(SPHC_BUILDING)
+#define SPHC_API __declspec(dllexport)
+#else
+#define SPHC_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define SPHC_API __attribute__((visibility("default")))
+#else
+#define SPHC_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- version ---------------------------------------------------------------------------------------------- */
+
+#define SPHC_VERSION_MAJOR 0
+#define SPHC_VERSION_MINOR 1
+#define SPHC_VERSION_PATCH 0
+#define SPHC_ABI 0u /* raised only when an existing symbol or the prefix of a struct changes; 0 promises nothing yet */
+
+/* ABI the library was built with; compare with SPHC_ABI before anything else. [pure] */
+SPHC_API uint32_t sphc_abi(void);
+/* "major.minor.patch"; static storage. [pure] */
+SPHC_API const char *sphc_version_string(void);
+
+/* ---- status and message ------------------------------------------------------------------------------------ */
+
+/* 0: done.  > 0: an answer that is not a failure, outputs as documented.  < 0: failure, outputs untouched.
+ * Values are pinned: never renumbered, never reused. */
+typedef int32_t sphc_status;
+enum {
+  SPHC_OK = 0,
+  SPHC_AGAIN = 1,         /* nothing yet: within the timeout, or until more input comes */
+  SPHC_NOT_LOCALIZED = 2, /* the frame was processed, but no pose passed the checks; result.outcome says which */
+  SPHC_END = 3,           /* a finite source (a recording) has no more captures */
+
+  SPHC_E_ARGUMENT = -10,    /* null, not finite, out of range, or at odds with another argument */
+  SPHC_E_STRUCT_SIZE = -11, /* struct_size is not one this library knows */
+  SPHC_E_STATE = -12,       /* the call is not allowed in the current state */
+  SPHC_E_IMAGE = -13,       /* an image's size, stride, format or pointer does not fit the config */
+
+  SPHC_E_MEMORY_SIZE = -20,
+  SPHC_E_MEMORY_ALIGNMENT = -21,
+  SPHC_E_CAPACITY = -22, /* an input exceeds a capacity fixed in the config */
+
+  SPHC_E_MAP_FORMAT = -30,    /* not a sphere-cloud file, cut short, or its fields contradict each other */
+  SPHC_E_MAP_VERSION = -31,   /* made by a newer format than this library reads */
+  SPHC_E_MAP_CHECKSUM = -32,  /* bytes changed since it was written */
+  SPHC_E_MAP_EXTRACTOR = -33, /* its descriptors were made by another extractor than this library's */
+
+  SPHC_E_DEVICE = -40,
+  SPHC_E_DEVICE_LOST = -41, /* unplugged; stop, and open again once it is back */
+
+  SPHC_E_UNSUPPORTED = -50,
+  SPHC_E_INTERNAL = -90 /* a defect of this library; please report */
+};
+
+/* "SPHC_OK" and so on; "SPHC_?" for a value this library does not know; never null; static storage. [pure] */
+SPHC_API const char *sphc_status_name(sphc_status status);
+
+/* Room for one explanation: what was wrong, with the values seen, and what to do.  Every argument of this type is
+ * caller memory and may be null.  Written only on failure; always terminated. */
+#define SPHC_MESSAGE_BYTES 256u
+typedef struct sphc_message {
+  char text[SPHC_MESSAGE_BYTES];
+} sphc_message;
+
+/* ---- atoms: frozen layouts --------------------------------------------------------------------------------- */
+
+typedef int32_t sphc_format;
+enum {
+  SPHC_FORMAT_GRAY8 = 1, /* 1 byte a pixel */
+  SPHC_FORMAT_RGB8 = 2,  /* 3 bytes a pixel: red, green, blue */
+  SPHC_FORMAT_BGR8 = 3,  /* 3 bytes a pixel: blue, green, red */
+  SPHC_FORMAT_DEPTH16 = 10 /* uint16, native byte order; metres per unit stand in the config; 0 = no measurement */
+};
+
+/* Rigid transform; named target_from_source everywhere: x_target = R(q) x_source + t. */
+typedef struct sphc_rigid {
+  double q_wxyz[4]; /* unit quaternion, real part first */
+  double t_m[3];
+} sphc_rigid;
+
+typedef int32_t sphc_camera_model;
+enum {
+  SPHC_CAMERA_PINHOLE = 1,        /* fx fy cx cy */
+  SPHC_CAMERA_BROWN5 = 2,         /* fx fy cx cy k1 k2 p1 p2 k3           (OpenCV's order) */
+  SPHC_CAMERA_BROWN8 = 3,         /* fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6  (OpenCV's rational model) */
+  SPHC_CAMERA_KANNALA_BRANDT4 = 4 /* fx fy cx cy k1 k2 k3 k4              (OpenCV's fisheye) */
+};
+
+/* Camera intrinsics, in pixels of an image of width x height. */
+typedef struct sphc_camera {
+  sphc_camera_model model;
+  uint32_t width, height;
+  uint32_t param_count; /* 4, 9, 12 or 8, by model */
+  double params[12];    /* unused ones are 0 */
+} sphc_camera;
+
+typedef struct sphc_image {
+  const void *data; /* caller memory; top-left pixel */
+  uint32_t width, height;
+  uint32_t stride_bytes; /* from a row to the next; at least width * bytes a pixel */
+  sphc_format format;
+} sphc_image;
+
+/* ---- camera and rigid transform functions ------------------------------------------------------------------- */
+
+/* SPHC_OK if the camera can be used: known model, right param_count, finite parameters, fx and fy > 0, size within
+ * 16 to 8192 pixels.  Else SPHC_E_ARGUMENT. [pure] */
+SPHC_API sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message);
+/* Pixel of a point given in camera coordinates.  SPHC_E_ARGUMENT if it is not in front of the camera or lies beyond
+ * the range in which the distortion is invertible. [pure] */
+SPHC_API sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]);
+/* Unit bearing (camera coordinates) of a pixel.  SPHC_E_ARGUMENT if no bearing projects there. [pure] */
+SPHC_API sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]);
+
+/* c_from_a = c_from_b * b_from_a; the quaternion is normalised.  c_from_a may be one of the inputs. [pure] */
+SPHC_API void sphc_rigid_compose(const sphc_rigid *c_from_b, const sphc_rigid *b_from_a, sphc_rigid *c_from_a);
+/* a_from_b = inverse of b_from_a.  Both may be the same object. [pure] */
+SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_b);
+/* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
+SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
+
+/* ---- frame --------------------------------------------------------------------------------------------------- */
+
+/* A colour and a depth image taken at about the same time; everything is borrowed. */
+typedef struct sphc_frame {
+  uint32_t struct_size;
+  uint32_t sequence;     /* the caller's own number; comes back in the result */
+  int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
+  int64_t depth_time_ns;
+  sphc_image color; /* GRAY8, RGB8 or BGR8; the size in config.color_camera */
+  sphc_image depth; /* DEPTH16; the size in config.depth_camera */
+} sphc_frame;
+
+/* ---- map: an immutable view of borrowed bytes ------------------------------------------------------------------ */
+
+typedef struct sphc_map sphc_map;
+
+typedef struct sphc_map_info {
+  uint32_t struct_size;
+  uint32_t format_version;
+  uint32_t point_count; /* real and fake together; the file does not tell them apart */
+  uint32_t extractor;   /* id of the keypoint extractor that described the points */
+  uint64_t file_bytes;
+  uint8_t map_id[16]; /* random name of this build */
+} sphc_map_info;
+
+/* Bytes and alignment that sphc_map_init needs for its view (not for the file). [pure] */
+SPHC_API sphc_status sphc_map_memory(size_t *bytes, size_t *alignment);
+/* Validates the whole file (structure, checksums, every direction) and makes a view of it in caller memory.
+ * `file` is borrowed until sphc_map_fini and must not change; 8-byte aligned.  Reads each byte once: about 1 ms a MB.
+ * Errors: MEMORY_SIZE, MEMORY_ALIGNMENT, MAP_FORMAT, MAP_VERSION, MAP_CHECKSUM, MAP_EXTRACTOR, ARGUMENT. [pure] */
+SPHC_API sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, size_t file_bytes,
+                                   sphc_map **map, sphc_message *message);
+/* Set info->struct_size first. [shared] */
+SPHC_API sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info);
+/* Unit direction of point `index` from the sphere centre, map frame. [shared] */
+SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, double direction[3]);
+/* Ends the view; accepts null and pointer to null; sets *map to null; frees nothing. [exclusive] */
+SPHC_API void sphc_map_fini(sphc_map **map);
+
+/* ---- localizer --------------------------------------------------------------------------------------------------- */
+
+typedef int32_t sphc_log_level;
+enum { SPHC_LOG_ERROR = 1, SPHC_LOG_WARNING = 2, SPHC_LOG_INFO = 3, SPHC_LOG_DEBUG = 4 };
+/* Called on the calling thread only; `text` is terminated and borrowed for the call. */
+typedef void (*sphc_log_fn)(void *user, sphc_log_level level, const char *text, size_t length);
+/* Monotonic clock in nanoseconds, from the caller: the library makes no OS call. */
+typedef int64_t (*sphc_clock_fn)(void *user);
+
+typedef struct sphc_config {
+  uint32_t struct_size;
+  uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
+  uint32_t max_iterations; /* upper bound on minimal samples drawn; bounds the time of a call; 1 to 1000000 */
+  float max_ratio;         /* Lowe's ratio test, on distances; 0 to 1 */
+  uint64_t seed;           /* same seed, map, config and frame: same bytes in the result */
+
+  sphc_camera color_camera;
+  sphc_camera depth_camera;
+  sphc_rigid color_from_depth; /* identity with equal cameras: depth is already registered to colour */
+
+  double depth_unit_m;            /* metres per unit of the depth image */
+  double depth_min_m, depth_max_m; /* measurements outside are ignored */
+  double depth_sigma_m;           /* noise (1 sigma) of the sensor at 1 m: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2 */
+  double depth_sigma_per_m2;
+  double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
+
+  uint32_t min_inliers; /* a pose with fewer is not given out */
+  uint32_t reserved;
+
+  sphc_log_fn log; /* may be null */
+  void *log_user;
+  sphc_clock_fn clock; /* may be null: stage times are then 0 */
+  void *clock_user;
+} sphc_config;
+
+typedef int32_t sphc_outcome;
+enum {
+  SPHC_OUTCOME_LOCALIZED = 0,
+  SPHC_OUTCOME_FEW_KEYPOINTS = 1, /* too few keypoints: dark, blurred or blank image */
+  SPHC_OUTCOME_FEW_DEPTHS = 2,    /* too few keypoints with depth: sensor blind, or calibration wrong */
+  SPHC_OUTCOME_FEW_MATCHES = 3,   /* too few look like anything in the map: another place, or much changed */
+  SPHC_OUTCOME_NO_CONSENSUS = 4,  /* no pose agrees with clearly more matches than chance would */
+  SPHC_OUTCOME_UNCERTAIN = 5      /* a pose was found but the matches pin it down too weakly */
+};
+
+typedef struct sphc_result {
+  uint32_t struct_size;
+  uint32_t sequence; /* of the frame */
+  int64_t time_ns;   /* frame.color_time_ns */
+  sphc_outcome outcome;
+  uint32_t keypoints; /* found in the colour image */
+  uint32_t lifted;    /* of these, with depth */
+  uint32_t matches;   /* of these, with a map point that passed the ratio test */
+  uint32_t inliers;   /* of these, agreeing with the pose */
+  uint32_t iterations; /* minimal samples drawn */
+  sphc_rigid camera_from_map; /* valid when outcome is LOCALIZED, else identity */
+  /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a perturbation
+   * applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
+  double covariance[36];
+  uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
+} sphc_result;
+
+/* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero and must be
+ * set.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
+SPHC_API sphc_status sphc_config_init(sphc_config *config, size_t struct_size);
+
+typedef struct sphc_memory {
+  size_t state_bytes;   /* lives as long as the localizer */
+  size_t scratch_bytes; /* used only inside sphc_localizer_process; may be shared by localizers of one thread */
+  size_t alignment;     /* of both */
+} sphc_memory;
+
+/* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+SPHC_API sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message);
+
+/* One named piece of the memory, for the byte ledger: `index` from 0 until SPHC_END.  `name` is static storage.
+ * [pure] */
+typedef struct sphc_memory_piece {
+  const char *name; /* "features.pyramid" */
+  size_t bytes;
+  uint32_t scratch; /* 1: in scratch, 0: in state */
+  uint32_t reserved;
+} sphc_memory_piece;
+SPHC_API sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t index, sphc_memory_piece *piece);
+
+typedef struct sphc_localizer sphc_localizer;
+
+/* Makes a localizer in caller memory.  `config` is copied; `state`, `scratch` and `map` are borrowed until
+ * sphc_localizer_fini.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
+SPHC_API sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
+                                         const sphc_config *config, const sphc_map *map, sphc_localizer **localizer,
+                                         sphc_message *message);
+/* Accepts null and pointer to null; sets *localizer to null; frees nothing. [exclusive] */
+SPHC_API void sphc_localizer_fini(sphc_localizer **localizer);
+
+/* Where was the colour camera?  Set result->struct_size first.  SPHC_OK: localized, *result filled.
+ * SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT, STRUCT_SIZE,
+ * IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame.
+ * Bounded time, no allocation, no OS call. [exclusive] */
+SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame, sphc_result *result);
+
+/* Text about the last failure of sphc_localizer_process on this instance, "" if it did not fail; owned by the instance,
+ * valid until its next call. [exclusive] */
+SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
+
+/* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
+enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };
+typedef struct sphc_observation {
+  float x_px, y_px;   /* in the colour image */
+  float scale_px;     /* standard deviation of the Gaussian it was found at */
+  float depth_m;      /* z in the colour camera; 0 unless LIFTED */
+  uint32_t map_index; /* of the matched point; valid when MATCHED */
+  uint32_t flags;
+} sphc_observation;
+/* Copies up to `capacity` observations and sets *count to how many there are.  Before the first frame *count is 0.
+ * [exclusive] */
+SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
+                                                 uint32_t capacity, uint32_t *count);
+
+/* ---- source: the contract that a driver fills; polled, never called back ------------------------------------------ */
+
+typedef int32_t sphc_stream;
+enum { SPHC_STREAM_NONE = 0, SPHC_STREAM_COLOR = 1, SPHC_STREAM_DEPTH = 2 };
+
+/* One image of one stream, on loan from its source until released. */
+typedef struct sphc_capture {
+  uint32_t struct_size;
+  sphc_stream stream;
+  int64_t time_ns;   /* mid-exposure, the source's monotonic clock */
+  uint64_t token;    /* the source's own; hand it back unchanged */
+  uint32_t sequence; /* counts the captures of this stream, lost ones too: a gap is a loss */
+  uint32_t reserved;
+  sphc_image image; /* valid until release */
+} sphc_capture;
+
+/* Filled by a driver; the functions take its `self`.  States: stopped (after opening) -> start -> running -> stop ->
+ * stopped, any number of times.  All [exclusive] per source. */
+typedef struct sphc_source {
+  uint32_t struct_size;
+  uint32_t loan_limit; /* captures that may be out on loan at once; acquire beyond it is SPHC_E_STATE */
+  void *self;
+  /* SPHC_E_STATE when running already. */
+  sphc_status (*start)(void *self);
+  /* Next capture in order of time.  SPHC_AGAIN: none within timeout_us.  SPHC_END: a recording is over.
+   * SPHC_E_DEVICE_LOST: unplugged.  SPHC_E_STATE: not running, or loan_limit reached. */
+  sphc_status (*acquire)(void *self, uint32_t timeout_us, sphc_capture *capture);
+  /* Every acquired capture exactly once, before stop; one that is not on loan is ignored. */
+  void (*release)(void *self, const sphc_capture *capture);
+  /* After it no loan is valid.  Does nothing when stopped. */
+  void (*stop)(void *self);
+  /* Explains the last failure; owned by the source, valid until its next call; never null. */
+  const char *(*message)(const void *self);
+} sphc_source;
+
+/* ---- pairer: two streams in, frames of colour and depth out; pure, no device ---------------------------------------- */
+
+#define SPHC_PAIRER_SLOTS 8u /* captures of each stream it can hold */
+
+typedef struct sphc_pairer_config {
+  uint32_t struct_size;
+  uint32_t slots;       /* captures of each stream held while waiting for a partner; 1 to SPHC_PAIRER_SLOTS */
+  int64_t tolerance_ns; /* pair only when the mid-exposure times differ by at most this */
+} sphc_pairer_config;
+
+/* A time-matched pair.  Both captures are out on loan to the caller, who releases them to their source after use. */
+typedef struct sphc_pair {
+  uint32_t struct_size;
+  uint32_t reserved;
+  sphc_capture color;
+  sphc_capture depth;
+} sphc_pair;
+
+typedef struct sphc_pairer sphc_pairer;
+/* Defaults: 4 slots, 20 ms. [pure] */
+SPHC_API sphc_status sphc_pairer_config_init(sphc_pairer_config *config, size_t struct_size);
+SPHC_API sphc_status sphc_pairer_memory(size_t *bytes, size_t *alignment); /* [pure] */
+/* `config` is copied. Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
+SPHC_API sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const sphc_pairer_config *config,
+                                      sphc_pairer **pairer, sphc_message *message);
+SPHC_API void sphc_pairer_fini(sphc_pairer **pairer); /* [exclusive] */
+/* Gives the pairer one capture (a copy; the loan goes with it).  Call sphc_pairer_pop until SPHC_AGAIN after each push.
+ * SPHC_E_CAPACITY: its stream's slots are full; pop first (drops come out there). [exclusive] */
+SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture);
+/* SPHC_OK: *pair is the oldest pair, and *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing more
+ * until the next push.  SPHC_AGAIN with another dropped->stream: a capture that can no longer find a partner is handed
+ * back for release; call again. [exclusive] */
+SPHC_API sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_pair *pair, sphc_capture *dropped);
+/* Ends the input: every capture still held comes out of sphc_pairer_pop as a pair or a drop. [exclusive] */
+SPHC_API void sphc_pairer_flush(sphc_pairer *pairer);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* SPHERECLOUD_SPHERECLOUD_H */

@@ -1,0 +1,67 @@
+# One way to declare a library of this project, so that every module gets the same warnings, language level and
+# sanitizers.
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_C_STANDARD 99)
+set(CMAKE_C_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+find_program(SPHC_CCACHE ccache)
+if(SPHC_CCACHE)
+  set(CMAKE_C_COMPILER_LAUNCHER ${SPHC_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${SPHC_CCACHE})
+endif()
+
+add_library(sphc_flags INTERFACE)
+target_compile_options(sphc_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion
+  -ffp-contract=off # the same bytes on every machine: multiply-add only where the code says so
+  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>)
+if(SPHC_SANITIZE)
+  target_compile_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=all)
+  target_link_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE})
+endif()
+
+# The device side: no exceptions, no RTTI; Eigen may neither allocate nor print.
+add_library(sphc_runtime_flags INTERFACE)
+target_link_libraries(sphc_runtime_flags INTERFACE sphc_flags)
+target_compile_options(sphc_runtime_flags INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics>)
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy>=1.0)
+
+# sphc_module(NAME SOURCES... [RUNTIME] [LINKS...]): a folder is a target.
+# RUNTIME modules are objects gathered into the one library `spherecloud`; others are static libraries.
+function(sphc_module name)
+  cmake_parse_arguments(arg "RUNTIME" "" "SOURCES;LINKS" ${ARGN})
+  if(arg_RUNTIME)
+    add_library(${name} OBJECT ${arg_SOURCES})
+    target_link_libraries(${name} PUBLIC sphc_runtime_flags PRIVATE ${arg_LINKS})
+    target_compile_definitions(${name} PRIVATE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO)
+    set_property(GLOBAL APPEND PROPERTY SPHC_RUNTIME_OBJECTS ${name})
+  else()
+    add_library(${name} STATIC ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE sphc_flags PUBLIC ${arg_LINKS})
+  endif()
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/sdk ${CMAKE_SOURCE_DIR}/sdk/include)
+  # Other people's headers are SYSTEM, so that our warnings speak of our code alone.
+  target_include_directories(${name} SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS} /usr/include/eigen3)
+endfunction()
+
+# sphc_test(NAME SOURCES... LINKS... LABELS...): a GoogleTest program, one ctest entry a test case.
+function(sphc_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE sphc_flags ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/sdk)
+  target_include_directories(${name} SYSTEM PRIVATE /usr/include/eigen3)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 300)
+endfunction()
