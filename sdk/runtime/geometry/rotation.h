@@ -1,6 +1,7 @@
 // Rotations: quaternions from outside, matrices inside, rotation vectors for small steps.
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "runtime/base/elementary.h"
 

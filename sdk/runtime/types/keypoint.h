@@ -15,7 +15,7 @@ struct Keypoint {
 constexpr size_t kDescriptorBytes = 128;
 // RootSIFT: square roots of the L1-normalised histogram, times 512, at most 255.
 struct Descriptor {
-  alignas(16) uint8_t bytes[kDescriptorBytes];
+  uint8_t bytes[kDescriptorBytes];
 };
 static_assert(sizeof(Descriptor) == kDescriptorBytes);
 
