@@ -9,8 +9,8 @@ namespace sphc {
 
 // The two nearest of the descriptors seen so far.
 struct NearestTwo {
-  uint32_t best2 = UINT32_MAX, second2 = UINT32_MAX;
-  uint32_t best_index = 0;
+  uint32_t best2, second2;
+  uint32_t best_index;
 
   void see(uint32_t distance2, uint32_t index) {
     if (distance2 < best2) {

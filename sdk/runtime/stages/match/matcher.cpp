@@ -7,15 +7,16 @@ namespace {
 
 constexpr uint32_t kTile = 256;  // map descriptors that stay in the nearest cache while all queries pass over them
 
+constexpr uint32_t kNobody = UINT32_MAX;
+// Two unrelated descriptors are seldom nearer than this; a lone candidate has to beat it by the ratio.
+constexpr uint32_t kUnrelated2 = 300 * 300;
+constexpr NearestTwo kStart = {kUnrelated2, kUnrelated2, kNobody};
+
 bool passesRatio(const NearestTwo &nearest, float max_ratio) {
-  if (nearest.best2 == UINT32_MAX) return false;
-  if (nearest.second2 == UINT32_MAX) return true;  // nothing else in reach: unrivalled
+  if (nearest.best_index == kNobody) return false;
   return static_cast<double>(nearest.best2) <
          static_cast<double>(max_ratio) * static_cast<double>(max_ratio) * static_cast<double>(nearest.second2);
 }
-
-// A lone candidate is judged against a middling distance between unrelated descriptors.
-constexpr uint32_t kUnrelated2 = 300 * 300;
 
 }  // namespace
 
@@ -35,7 +36,7 @@ uint32_t Matcher::matchAll(const MapView &map, Span<const Descriptor> queries, f
                            Span<Match> matches) {
   const uint32_t count = static_cast<uint32_t>(queries.size());
   const Span<NearestTwo> nearest = nearest_.first(count);
-  for (NearestTwo &n : nearest) n = NearestTwo();
+  for (NearestTwo &n : nearest) n = kStart;
   for (uint32_t begin = 0; begin < map.pointCount(); begin += kTile)
     searchRange(map.descriptors(), begin, std::min(begin + kTile, map.pointCount()), queries, nearest);
   return select(count, max_ratio, matches);
@@ -45,8 +46,7 @@ uint32_t Matcher::matchNear(const MapView &map, Span<const Descriptor> queries, 
                             float max_angle_cosine, float max_ratio, Span<Match> matches) {
   const uint32_t count = static_cast<uint32_t>(queries.size());
   for (uint32_t q = 0; q < count; ++q) {
-    nearest_[q] = NearestTwo();
-    nearest_[q].second2 = kUnrelated2;
+    nearest_[q] = kStart;
     expected_x_[q] = expected[q].x;
     expected_y_[q] = expected[q].y;
     expected_z_[q] = expected[q].z;
