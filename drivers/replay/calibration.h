@@ -23,12 +23,13 @@ typedef struct sphc_calibration {
   double depth_unit_m;         /* metres per unit of the depth image */
 } sphc_calibration;
 
-/* Identity, 0.001 m a unit, cameras all zero (to be set); sets struct_size.  Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+/* Identity, 0.001 m a unit, cameras all zero (to be set); sets struct_size.  Errors: ARGUMENT, STRUCT_SIZE. [pure]
+ */
 sphc_status sphc_calibration_init(sphc_calibration *calibration, size_t struct_size);
 
-/* SPHC_OK if it can be used: known camera models with the right param_count, finite parameters, fx and fy > 0, sizes
- * within 16 to 8192 pixels, unit quaternion (within 1e-3), depth unit within 1e-6 to 1 m.
- * Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+/* SPHC_OK if it can be used: known camera models with the right param_count, finite parameters, fx and fy > 0,
+ * sizes within 16 to 8192 pixels, unit quaternion (within 1e-3), depth unit within 1e-6 to 1 m. Errors: ARGUMENT,
+ * STRUCT_SIZE. [pure] */
 sphc_status sphc_calibration_check(const sphc_calibration *calibration, sphc_message *message);
 
 /* Reads a calibration file.  Set calibration->struct_size first (sphc_calibration_init does).

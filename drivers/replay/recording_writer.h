@@ -5,8 +5,8 @@
  *     FOLDER/depth.txt, depth/000000.png, ...
  *     FOLDER/groundtruth.txt                   "time tx ty tz qx qy qz qw" a line, world_from_camera
  *
- * An image is complete on disk before its list names it, and every line is handed to the operating system at once: a
- * recording cut short by a crash of the program can be read up to there.
+ * An image is complete on disk before its list names it, and every line is handed to the operating system at once:
+ * a recording cut short by a crash of the program can be read up to there.
  *
  * Conventions are those of spherecloud.h.  These functions allocate and write files; no C++ exception leaves them.
  */
@@ -24,8 +24,8 @@ extern "C" {
 typedef struct sphc_recording_writer sphc_recording_writer;
 
 /* Starts a recording in `folder`, which is made if need be (its parent must be there).  `calibration` is copied and
- * written.  Errors: ARGUMENT (null, calibration), STRUCT_SIZE, STATE (the folder holds a recording already; nothing is
- * overwritten), DEVICE (cannot be written). [pure] */
+ * written.  Errors: ARGUMENT (null, calibration), STRUCT_SIZE, STATE (the folder holds a recording already; nothing
+ * is overwritten), DEVICE (cannot be written). [pure] */
 sphc_status sphc_recording_create(const char *folder, const sphc_calibration *calibration,
                                   sphc_recording_writer **writer, sphc_message *message);
 

@@ -35,23 +35,23 @@ typedef struct sphc_replay sphc_replay;
 typedef int32_t sphc_replay_mode;
 enum {
   SPHC_REPLAY_FAST = 1,     /* acquire gives the next capture at once */
-  SPHC_REPLAY_REAL_TIME = 2 /* a capture comes as long after start as it came in the recording, or later if the caller
-                               is slow; none is ever dropped */
+  SPHC_REPLAY_REAL_TIME = 2 /* a capture comes as long after start as it came in the recording, or later if the
+                               caller is slow; none is ever dropped */
 };
 
 /* Bits of sphc_replay_config.streams. */
 enum { SPHC_REPLAY_STREAM_COLOR = 1u, SPHC_REPLAY_STREAM_DEPTH = 2u };
 
-/* Frames are chosen by the number of their colour image: NNNNNN in the 7-Scenes layout, the place in rgb.txt, from 0,
- * in the TUM layout.  A depth image goes with the colour image nearest in time. */
+/* Frames are chosen by the number of their colour image: NNNNNN in the 7-Scenes layout, the place in rgb.txt, from
+ * 0, in the TUM layout.  A depth image goes with the colour image nearest in time. */
 typedef struct sphc_replay_config {
   uint32_t struct_size;
-  sphc_replay_mode mode;    /* FAST */
-  uint32_t streams;         /* what the source gives; both */
-  sphc_format color_format; /* BGR8; or RGB8, GRAY8 */
-  uint32_t first, last;     /* numbers of the first and the last frame; 0, UINT32_MAX */
-  uint32_t step;            /* of these every step-th: first, first + step, ...; 1 */
-  uint32_t loan_limit;      /* of the source; 1 to 64; 8 */
+  sphc_replay_mode mode;     /* FAST */
+  uint32_t streams;          /* what the source gives; both */
+  sphc_format color_format;  /* BGR8; or RGB8, GRAY8 */
+  uint32_t first, last;      /* numbers of the first and the last frame; 0, UINT32_MAX */
+  uint32_t step;             /* of these every step-th: first, first + step, ...; 1 */
+  uint32_t loan_limit;       /* of the source; 1 to 64; 8 */
   int64_t pair_tolerance_ns; /* frames by index: colour and depth differ by at most this; 20 ms */
   int64_t pose_gap_ns;       /* poses are interpolated between recorded ones at most so far apart; 50 ms */
 } sphc_replay_config;
@@ -63,8 +63,9 @@ sphc_status sphc_replay_config_init(sphc_replay_config *config, size_t struct_si
 
 /* Opens the recording in `folder`.  `calibration_path` null: calibration.json in the folder.  `config` null: the
  * defaults; it is copied.  No image is read yet.
- * Errors: ARGUMENT (null, config, contents of the calibration or of a list), STRUCT_SIZE, DEVICE (folder or file cannot
- * be read, or the folder holds no recording); each with file, place, cause and cure in the message. [pure] */
+ * Errors: ARGUMENT (null, config, contents of the calibration or of a list), STRUCT_SIZE, DEVICE (folder or file
+ * cannot be read, or the folder holds no recording); each with file, place, cause and cure in the message. [pure]
+ */
 sphc_status sphc_replay_open(const char *folder, const char *calibration_path, const sphc_replay_config *config,
                              sphc_replay **replay, sphc_message *message);
 /* Ends every loan and every borrowed image.  Accepts null and pointer to null; sets *replay to null. [exclusive] */
@@ -89,18 +90,18 @@ sphc_status sphc_replay_calibration(const sphc_replay *replay, sphc_calibration 
 
 /* ---- as a source -------------------------------------------------------------------------------------------- */
 
-/* Fills *source (struct_size too) with the contract of spherecloud.h; valid until sphc_replay_close.  A handle has one
- * source; a second call gives the same one.  Every start begins at the first chosen capture.  capture.time_ns is the
- * recorded time, capture.sequence the frame number (7-Scenes) or the place in the list (TUM): frames that the config
- * leaves out show as gaps.
- * acquire: E_DEVICE when an image is missing or corrupt, E_IMAGE when it does not fit the calibration; source.message
- * names the file, and the next acquire goes on behind it.  Errors: ARGUMENT. [exclusive] */
+/* Fills *source (struct_size too) with the contract of spherecloud.h; valid until sphc_replay_close.  A handle has
+ * one source; a second call gives the same one.  Every start begins at the first chosen capture.  capture.time_ns
+ * is the recorded time, capture.sequence the frame number (7-Scenes) or the place in the list (TUM): frames that
+ * the config leaves out show as gaps. acquire: E_DEVICE when an image is missing or corrupt, E_IMAGE when it does
+ * not fit the calibration; source.message names the file, and the next acquire goes on behind it.  Errors:
+ * ARGUMENT. [exclusive] */
 sphc_status sphc_replay_source(sphc_replay *replay, sphc_source *source);
 
 /* ---- frame by frame ----------------------------------------------------------------------------------------- */
 
-/* Frames are the chosen colour images that have a depth image within pair_tolerance_ns, in order of time; of several
- * the nearest.  0 for null. [shared] */
+/* Frames are the chosen colour images that have a depth image within pair_tolerance_ns, in order of time; of
+ * several the nearest.  0 for null. [shared] */
 uint32_t sphc_replay_frame_count(const sphc_replay *replay);
 
 typedef struct sphc_replay_frame_info {
@@ -121,8 +122,8 @@ sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index
 sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_frame *frame, sphc_message *message);
 
 /* Recorded pose of the colour camera at the colour time of frame `index`; the world is the recording's own.
- * Exact when a pose has this very time, else interpolated (config.pose_gap_ns).  SPHC_NOT_LOCALIZED: the recording has
- * none here; the output is untouched.  Errors: ARGUMENT. [shared] */
+ * Exact when a pose has this very time, else interpolated (config.pose_gap_ns).  SPHC_NOT_LOCALIZED: the recording
+ * has none here; the output is untouched.  Errors: ARGUMENT. [shared] */
 sphc_status sphc_replay_pose(const sphc_replay *replay, uint32_t index, sphc_rigid *world_from_camera);
 /* The same at any time. [shared] */
 sphc_status sphc_replay_pose_at(const sphc_replay *replay, int64_t time_ns, sphc_rigid *world_from_camera);

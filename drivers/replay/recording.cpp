@@ -1,0 +1,79 @@
+#include "recording.h"
+
+#include <algorithm>
+
+#include "failure.h"
+
+namespace sphc::replay {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Index of the image nearest in time; of two equally near the earlier.  `images` is not empty.
+size_t nearestInTime(const std::vector<RecordedImage> &images, int64_t time_ns) {
+  const auto after =
+      std::lower_bound(images.begin(), images.end(), time_ns,
+                       [](const RecordedImage &image, int64_t time) { return image.time_ns < time; });
+  const size_t index = static_cast<size_t>(after - images.begin());
+  if (index == 0) return 0;
+  if (index == images.size()) return index - 1;
+  return time_ns - images[index - 1].time_ns <= images[index].time_ns - time_ns ? index - 1 : index;
+}
+
+bool isChosen(const sphc_replay_config &config, uint32_t sequence) {
+  return sequence >= config.first && sequence <= config.last && (sequence - config.first) % config.step == 0;
+}
+
+bool holdsSequences(const fs::path &folder) {
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder))
+    if (entry.is_directory() && entry.path().filename().string().rfind("seq-", 0) == 0) return true;
+  return false;
+}
+
+}  // namespace
+
+Recording openRecording(const fs::path &folder) {
+  const std::string name = shortPath(folder.string());
+  if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder; give a recording's folder");
+  if (isTum(folder)) return openTum(folder);
+  if (is7Scenes(folder)) return open7Scenes(folder);
+  if (holdsSequences(folder))
+    throw Failure(SPHC_E_DEVICE, name + ": holds several sequences; give one of its seq-* folders");
+  throw Failure(SPHC_E_DEVICE, name +
+                                   ": no recording here; expected rgb.txt and depth.txt (TUM) or "
+                                   "frame-000000.color.png and so on (7-Scenes)");
+}
+
+void selectFrames(const sphc_replay_config &config, Recording &recording) {
+  const uint32_t lowest = recording.color.front().sequence;
+  const uint32_t highest = recording.color.back().sequence;
+  std::vector<RecordedImage> depth;
+  for (const RecordedImage &image : recording.depth)
+    if (isChosen(config, recording.color[nearestInTime(recording.color, image.time_ns)].sequence))
+      depth.push_back(image);
+  std::vector<RecordedImage> color;
+  for (const RecordedImage &image : recording.color)
+    if (isChosen(config, image.sequence)) color.push_back(image);
+  if (color.empty())
+    throw Failure(SPHC_E_ARGUMENT, "config: first " + std::to_string(config.first) + ", last " +
+                                       std::to_string(config.last) + ", step " + std::to_string(config.step) +
+                                       " chooses no frame; the recording has numbers " + std::to_string(lowest) +
+                                       " to " + std::to_string(highest));
+  recording.color = std::move(color);
+  recording.depth = std::move(depth);
+}
+
+std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_ns) {
+  std::vector<FramePair> pairs;
+  if (recording.depth.empty()) return pairs;
+  pairs.reserve(recording.color.size());
+  for (size_t i = 0; i < recording.color.size(); ++i) {
+    const size_t nearest = nearestInTime(recording.depth, recording.color[i].time_ns);
+    if (std::abs(recording.depth[nearest].time_ns - recording.color[i].time_ns) <= tolerance_ns)
+      pairs.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(nearest)});
+  }
+  return pairs;
+}
+
+}  // namespace sphc::replay

@@ -1,0 +1,106 @@
+// The layout of the 7-Scenes data set: one folder, three files a frame, numbered.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "failure.h"
+#include "recording.h"
+#include "text_field.h"
+
+namespace sphc::replay {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int64_t kFramesPerSecond = 30;
+
+struct FrameFile {
+  uint32_t number;
+  std::string_view kind;  // "color.png"
+};
+
+// frame-NNNNNN.KIND
+bool parseFrameFile(std::string_view name, FrameFile &file) {
+  constexpr std::string_view kPrefix = "frame-";
+  if (name.substr(0, kPrefix.size()) != kPrefix) return false;
+  name.remove_prefix(kPrefix.size());
+  const size_t dot = name.find('.');
+  if (dot == std::string_view::npos || dot > 9 || !parseUnsigned(name.substr(0, dot), file.number)) return false;
+  file.kind = name.substr(dot + 1);
+  return true;
+}
+
+bool isColor(std::string_view kind) { return kind == "color.jpg" || kind == "color.png"; }
+
+int64_t timeOf(uint32_t number) { return (int64_t{number} * 1000000000 + kFramesPerSecond / 2) / kFramesPerSecond; }
+
+void sortByNumber(const std::string &folder, std::vector<RecordedImage> &images) {
+  std::sort(images.begin(), images.end(),
+            [](const RecordedImage &a, const RecordedImage &b) { return a.sequence < b.sequence; });
+  const auto twice =
+      std::adjacent_find(images.begin(), images.end(),
+                         [](const RecordedImage &a, const RecordedImage &b) { return a.sequence == b.sequence; });
+  if (twice != images.end())
+    throw Failure(SPHC_E_DEVICE, folder + ": both " + twice->file + " and " + (twice + 1)->file +
+                                     " have one frame's number; remove one of them");
+}
+
+bool readPose(const fs::path &path, sphc_rigid &pose) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string_view rest = content;
+  double matrix[16];
+  for (double &value : matrix)
+    if (!parseDouble(takeWord(rest), value)) return false;
+  return rigidFromMatrix(matrix, pose);
+}
+
+// Frames whose tracking failed have a pose of NaN: they simply have none.
+void readPoses(const fs::path &folder, std::vector<RecordedImage> &files, Recording &recording) {
+  sortByNumber(shortPath(folder.string()), files);
+  for (const RecordedImage &file : files) {
+    sphc_rigid pose;
+    if (readPose(folder / file.file, pose))
+      recording.poses.add(file.time_ns, pose);
+    else
+      ++recording.bad_pose_count;
+  }
+}
+
+}  // namespace
+
+bool is7Scenes(const fs::path &folder) {
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    FrameFile file;
+    if (parseFrameFile(name, file) && (isColor(file.kind) || file.kind == "depth.png")) return true;
+  }
+  return false;
+}
+
+Recording open7Scenes(const fs::path &folder) {
+  Recording recording;
+  recording.layout = SPHC_REPLAY_7SCENES;
+  recording.folder = folder;
+  std::vector<RecordedImage> poses;
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    FrameFile file;
+    if (!parseFrameFile(name, file)) continue;
+    const RecordedImage image{timeOf(file.number), file.number, name};
+    if (isColor(file.kind)) recording.color.push_back(image);
+    if (file.kind == "depth.png") recording.depth.push_back(image);
+    if (file.kind == "pose.txt") poses.push_back(image);
+  }
+  const std::string name = shortPath(folder.string());
+  sortByNumber(name, recording.color);
+  sortByNumber(name, recording.depth);
+  if (recording.color.empty()) throw Failure(SPHC_E_DEVICE, name + ": no frame-*.color.png or .jpg; copy them too");
+  if (recording.depth.empty()) throw Failure(SPHC_E_DEVICE, name + ": no frame-*.depth.png; copy them too");
+  readPoses(folder, poses, recording);
+  return recording;
+}
+
+}  // namespace sphc::replay

@@ -1,0 +1,94 @@
+// The layout of the TUM RGB-D benchmark: lists of times and files.
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string_view>
+
+#include "failure.h"
+#include "recording.h"
+#include "text_field.h"
+
+namespace sphc::replay {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void failLine(const fs::path &path, uint32_t line, const std::string &cause) {
+  throw Failure(SPHC_E_ARGUMENT, shortPath(path.string()) + ", line " + std::to_string(line) + ": " + cause);
+}
+
+std::string readText(const fs::path &path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Failure(SPHC_E_DEVICE, shortPath(path.string()) + ": cannot be read; is it there?");
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// Gives `parse` each line that is neither empty nor a comment; parse says false when the line is malformed.
+// A malformed last line without its newline is what an interrupted recording leaves behind: it is not there.
+using LineParser = std::function<bool(std::string_view line, uint32_t number)>;
+void forEachLine(const fs::path &path, const char *expected, const LineParser &parse) {
+  const std::string text = readText(path);
+  std::string_view rest = text;
+  for (uint32_t number = 1; !rest.empty(); ++number) {
+    const size_t end = rest.find('\n');
+    const bool complete = end != std::string_view::npos;
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(complete ? end + 1 : rest.size());
+    if (line.empty() || line[0] == '#' || parse(line, number) || !complete) continue;
+    failLine(path, number, std::string("expected \"") + expected + "\"");
+  }
+}
+
+std::vector<RecordedImage> readImageList(const fs::path &path) {
+  std::vector<RecordedImage> images;
+  forEachLine(path, "seconds file", [&](std::string_view line, uint32_t number) {
+    RecordedImage image{};
+    if (!parseSeconds(takeWord(line), image.time_ns)) return false;
+    image.file = trimmed(line);
+    if (image.file.empty()) return false;
+    image.sequence = static_cast<uint32_t>(images.size());
+    if (!images.empty() && image.time_ns <= images.back().time_ns)
+      failLine(path, number, "time does not increase; sort the list and remove doubles");
+    images.push_back(std::move(image));
+    return true;
+  });
+  if (images.empty())
+    throw Failure(SPHC_E_DEVICE, shortPath(path.string()) + ": names no image; expected \"seconds file\" lines");
+  return images;
+}
+
+void readGroundTruth(const fs::path &path, Recording &recording) {
+  int64_t last_ns = INT64_MIN;
+  forEachLine(path, "seconds tx ty tz qx qy qz qw", [&](std::string_view line, uint32_t number) {
+    int64_t time_ns = 0;
+    double value[7];
+    if (!parseSeconds(takeWord(line), time_ns)) return false;
+    for (double &field : value)
+      if (!parseDouble(takeWord(line), field)) return false;
+    if (time_ns < last_ns) failLine(path, number, "time decreases; sort the list");
+    last_ns = time_ns;
+    sphc_rigid pose{{value[6], value[3], value[4], value[5]}, {value[0], value[1], value[2]}};
+    if (isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2))
+      recording.poses.add(time_ns, pose);
+    else
+      ++recording.bad_pose_count;
+    return true;
+  });
+}
+
+}  // namespace
+
+bool isTum(const fs::path &folder) { return fs::exists(folder / "rgb.txt") || fs::exists(folder / "depth.txt"); }
+
+Recording openTum(const fs::path &folder) {
+  Recording recording;
+  recording.layout = SPHC_REPLAY_TUM;
+  recording.folder = folder;
+  recording.color = readImageList(folder / "rgb.txt");
+  recording.depth = readImageList(folder / "depth.txt");
+  if (fs::exists(folder / "groundtruth.txt")) readGroundTruth(folder / "groundtruth.txt", recording);
+  return recording;
+}
+
+}  // namespace sphc::replay

@@ -1,0 +1,236 @@
+#include "recording_writer.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "failure.h"
+#include "image_file.h"
+#include "pose_track.h"
+#include "text_field.h"
+
+using namespace sphc::replay;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE *file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+[[noreturn]] void failWrite(const fs::path &path) {
+  throw Failure(SPHC_E_DEVICE, shortPath(path.string()) + ": cannot be written; is there room and permission?");
+}
+
+// A list of the recording: a line an entry, each handed over at once, times increasing.
+class List {
+ public:
+  List(const fs::path &path, const char *heading) : path_(path), file_(std::fopen(path.string().c_str(), "wb")) {
+    if (!file_) failWrite(path_);
+    writeLine(heading);
+  }
+
+  uint32_t count() const { return count_; }
+
+  void checkTime(int64_t time_ns) const {
+    if (time_ns <= last_ns_)
+      throw Failure(SPHC_E_ARGUMENT, path_.filename().string() + ": time " +
+                                         formatSeconds(std::max<int64_t>(time_ns, 0)) +
+                                         " s is negative or not later than the one before; give increasing times");
+  }
+
+  void add(int64_t time_ns, const std::string &rest) {
+    writeLine(formatSeconds(time_ns) + " " + rest);
+    last_ns_ = time_ns;
+    ++count_;
+  }
+
+ private:
+  void writeLine(const std::string &line) {
+    if (std::fputs((line + "\n").c_str(), file_.get()) < 0 || std::fflush(file_.get()) != 0) failWrite(path_);
+  }
+
+  fs::path path_;
+  File file_;
+  int64_t last_ns_ = -1;
+  uint32_t count_ = 0;
+};
+
+void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_color) {
+  const std::string name = is_color ? "colour image" : "depth image";
+  const bool is_depth_format = image.format == SPHC_FORMAT_DEPTH16;
+  if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null");
+  if (bytesPerPixel(image.format) == 0 || is_depth_format == is_color)
+    throw Failure(SPHC_E_IMAGE, name + ": format " + std::to_string(image.format) + " does not fit; " +
+                                    (is_color ? "give GRAY8, RGB8 or BGR8" : "give DEPTH16"));
+  if (image.width != camera.width || image.height != camera.height)
+    throw Failure(SPHC_E_IMAGE, name + ": is " + std::to_string(image.width) + " x " +
+                                    std::to_string(image.height) + ", its camera in the calibration " +
+                                    std::to_string(camera.width) + " x " + std::to_string(camera.height) +
+                                    "; they must be equal");
+  const uint64_t row_bytes = uint64_t{image.width} * bytesPerPixel(image.format);
+  if (image.stride_bytes < row_bytes || (is_depth_format && image.stride_bytes % 2 != 0))
+    throw Failure(SPHC_E_IMAGE,
+                  name + ": stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row or odd");
+}
+
+int matType(sphc_format format) {
+  if (format == SPHC_FORMAT_DEPTH16) return CV_16UC1;
+  return format == SPHC_FORMAT_GRAY8 ? CV_8UC1 : CV_8UC3;
+}
+
+void writeFile(const fs::path &path, const std::vector<uint8_t> &bytes) {
+  std::FILE *file = std::fopen(path.string().c_str(), "wb");
+  if (!file) failWrite(path);
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if ((std::fclose(file) == 0) && written) return;
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  failWrite(path);
+}
+
+std::string poseText(const sphc_rigid &pose) {
+  char text[256];  // 17 digits bring back the same bits
+  std::snprintf(text, sizeof text, "%.17g %.17g %.17g %.17g %.17g %.17g %.17g", pose.t_m[0], pose.t_m[1],
+                pose.t_m[2], pose.q_wxyz[1], pose.q_wxyz[2], pose.q_wxyz[3], pose.q_wxyz[0]);
+  return text;
+}
+
+}  // namespace
+
+struct sphc_recording_writer {
+  sphc_recording_writer(const fs::path &where, const sphc_calibration &its_calibration)
+      : folder(where),
+        calibration(its_calibration),
+        color(where / "rgb.txt", "# colour images: seconds file"),
+        depth(where / "depth.txt", "# depth images: seconds file"),
+        poses(where / "groundtruth.txt", "# world_from_camera: seconds tx ty tz qx qy qz qw") {}
+
+  void add(sphc_stream stream, int64_t time_ns, const sphc_image &image);
+  void encode(const sphc_image &image);
+
+  fs::path folder;
+  sphc_calibration calibration;
+  List color, depth, poses;
+  std::vector<uint8_t> bgr;  // scratch of RGB images
+  std::vector<uint8_t> encoded;
+  bool is_broken = false;  // a list may end in half a line: no more lines
+};
+
+void sphc_recording_writer::encode(const sphc_image &image) {
+  cv::Mat mat(static_cast<int>(image.height), static_cast<int>(image.width), matType(image.format),
+              const_cast<void *>(image.data), image.stride_bytes);
+  if (image.format == SPHC_FORMAT_RGB8) {
+    bgr.resize(size_t{image.width} * image.height * 3);
+    uint8_t *out = bgr.data();
+    for (int y = 0; y < mat.rows; ++y)
+      for (const uint8_t *p = mat.ptr(y), *end = p + 3 * mat.cols; p < end; p += 3, out += 3) {
+        out[0] = p[2];
+        out[1] = p[1];
+        out[2] = p[0];
+      }
+    mat = cv::Mat(mat.rows, mat.cols, CV_8UC3, bgr.data());
+  }
+  if (!cv::imencode(".png", mat, encoded, {cv::IMWRITE_PNG_COMPRESSION, 1}))
+    throw Failure(SPHC_E_INTERNAL, "the image cannot be encoded as PNG");
+}
+
+void sphc_recording_writer::add(sphc_stream stream, int64_t time_ns, const sphc_image &image) {
+  const bool is_color = stream == SPHC_STREAM_COLOR;
+  if (!is_color && stream != SPHC_STREAM_DEPTH)
+    throw Failure(SPHC_E_ARGUMENT, "capture.stream is " + std::to_string(stream) + "; give COLOR or DEPTH");
+  List &list = is_color ? color : depth;
+  checkImage(image, is_color ? calibration.color_camera : calibration.depth_camera, is_color);
+  list.checkTime(time_ns);
+  encode(image);
+  char name[32];
+  std::snprintf(name, sizeof name, "%s/%06u.png", is_color ? "rgb" : "depth", list.count());
+  writeFile(folder / name, encoded);
+  list.add(time_ns, name);
+}
+
+namespace {
+
+// Runs one append; after a failure to write, the recording is closed to further ones.
+template <typename Body>
+sphc_status append(sphc_recording_writer *writer, sphc_message *message, Body &&body) {
+  const sphc_status status = guarded(message, [&]() -> sphc_status {
+    if (!writer) throw Failure(SPHC_E_ARGUMENT, "writer is null");
+    if (writer->is_broken) throw Failure(SPHC_E_STATE, "an earlier write failed; close the recording");
+    return body();
+  });
+  if (status == SPHC_E_DEVICE) writer->is_broken = true;
+  return status;
+}
+
+}  // namespace
+
+extern "C" {
+
+sphc_status sphc_recording_create(const char *folder, const sphc_calibration *calibration,
+                                  sphc_recording_writer **writer, sphc_message *message) {
+  return guarded(message, [&]() -> sphc_status {
+    if (!folder || !writer) throw Failure(SPHC_E_ARGUMENT, "folder or writer is null");
+    const sphc_status status = sphc_calibration_check(calibration, message);
+    if (status < 0) return status;
+    const fs::path path(folder);
+    for (const char *name : {"rgb.txt", "depth.txt", "groundtruth.txt", "calibration.json"})
+      if (fs::exists(path / name))
+        throw Failure(SPHC_E_STATE, shortPath(folder) + ": holds a " + name +
+                                        " already; remove it or record into another folder");
+    for (const fs::path &each : {path, path / "rgb", path / "depth"}) fs::create_directory(each);
+    const sphc_status written =
+        sphc_calibration_write((path / "calibration.json").string().c_str(), calibration, message);
+    if (written < 0) return written;
+    *writer = std::make_unique<sphc_recording_writer>(path, *calibration).release();
+    return SPHC_OK;
+  });
+}
+
+sphc_status sphc_recording_add(sphc_recording_writer *writer, const sphc_capture *capture, sphc_message *message) {
+  return append(writer, message, [&]() -> sphc_status {
+    if (!capture) throw Failure(SPHC_E_ARGUMENT, "capture is null");
+    writer->add(capture->stream, capture->time_ns, capture->image);
+    return SPHC_OK;
+  });
+}
+
+sphc_status sphc_recording_add_frame(sphc_recording_writer *writer, const sphc_frame *frame,
+                                     sphc_message *message) {
+  return append(writer, message, [&]() -> sphc_status {
+    if (!frame) throw Failure(SPHC_E_ARGUMENT, "frame is null");
+    checkImage(frame->depth, writer->calibration.depth_camera, false);  // both or none
+    writer->depth.checkTime(frame->depth_time_ns);
+    writer->add(SPHC_STREAM_COLOR, frame->color_time_ns, frame->color);
+    writer->add(SPHC_STREAM_DEPTH, frame->depth_time_ns, frame->depth);
+    return SPHC_OK;
+  });
+}
+
+sphc_status sphc_recording_add_pose(sphc_recording_writer *writer, int64_t time_ns,
+                                    const sphc_rigid *world_from_camera, sphc_message *message) {
+  return append(writer, message, [&]() -> sphc_status {
+    if (!world_from_camera) throw Failure(SPHC_E_ARGUMENT, "world_from_camera is null");
+    sphc_rigid pose = *world_from_camera;
+    if (!isFinite(pose)) throw Failure(SPHC_E_ARGUMENT, "pose: not finite");
+    if (!normalizeQuaternion(pose.q_wxyz, 1e-3))
+      throw Failure(SPHC_E_ARGUMENT, "pose: q_wxyz is not of unit length; divide by its length");
+    writer->poses.checkTime(time_ns);
+    writer->poses.add(time_ns, poseText(pose));
+    return SPHC_OK;
+  });
+}
+
+void sphc_recording_close(sphc_recording_writer **writer) {
+  if (!writer) return;
+  delete *writer;
+  *writer = nullptr;
+}
+
+}  // extern "C"

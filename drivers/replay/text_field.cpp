@@ -1,0 +1,76 @@
+#include "text_field.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+namespace sphc::replay {
+
+namespace {
+
+constexpr int64_t kNsPerSecond = 1000000000;
+constexpr std::string_view kSpace = " \t\r\n\v\f";
+
+template <typename Number>
+bool parseWhole(std::string_view field, Number &value) {
+  const char *end = field.data() + field.size();
+  const std::from_chars_result result = std::from_chars(field.data(), end, value);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+// "1753" -> 175300000 (+ 1 if the tenth digit says so)
+bool parseFraction(std::string_view digits, int64_t &ns) {
+  ns = 0;
+  for (size_t i = 0; i < digits.size(); ++i)
+    if (!isDigit(digits[i])) return false;
+  for (size_t i = 0; i < 9; ++i) ns = 10 * ns + (i < digits.size() ? digits[i] - '0' : 0);
+  if (digits.size() > 9 && digits[9] >= '5') ++ns;
+  return true;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+std::string_view takeWord(std::string_view &text) {
+  const size_t begin = text.find_first_not_of(kSpace);
+  if (begin == std::string_view::npos) return text = {};
+  const size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
+  const std::string_view word = text.substr(begin, end - begin);
+  text.remove_prefix(end);
+  return word;
+}
+
+bool parseDouble(std::string_view field, double &value) {
+  if (!field.empty() && field[0] == '+') field.remove_prefix(1);
+  return parseWhole(field, value);
+}
+
+bool parseUnsigned(std::string_view field, uint32_t &value) { return parseWhole(field, value); }
+
+bool parseSeconds(std::string_view field, int64_t &time_ns) {
+  const size_t point = std::min(field.find('.'), field.size());
+  const std::string_view whole = field.substr(0, point);
+  const std::string_view fraction = point < field.size() ? field.substr(point + 1) : std::string_view();
+  int64_t seconds = 0;
+  int64_t ns = 0;
+  if (whole.empty() || !isDigit(whole[0]) || !parseWhole(whole, seconds)) return false;
+  if (seconds >= INT64_MAX / kNsPerSecond || !parseFraction(fraction, ns)) return false;
+  time_ns = seconds * kNsPerSecond + ns;
+  return true;
+}
+
+std::string formatSeconds(int64_t time_ns) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%lld.%09lld", static_cast<long long>(time_ns / kNsPerSecond),
+                static_cast<long long>(time_ns % kNsPerSecond));
+  return text;
+}
+
+}  // namespace sphc::replay

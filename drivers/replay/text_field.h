@@ -1,0 +1,24 @@
+// Fields of text files, read the same under every locale.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace sphc::replay {
+
+// Takes the first word off `text`; empty when there is none.
+std::string_view takeWord(std::string_view &text);
+
+std::string_view trimmed(std::string_view text);
+
+// Whole field or nothing; "nan" and "inf" are numbers here.
+bool parseDouble(std::string_view field, double &value);
+bool parseUnsigned(std::string_view field, uint32_t &value);
+
+// Decimal seconds to nanoseconds without a float between them; digits behind the ninth are rounded.
+bool parseSeconds(std::string_view field, int64_t &time_ns);
+// Its inverse for times >= 0: nine decimals.
+std::string formatSeconds(int64_t time_ns);
+
+}  // namespace sphc::replay
