@@ -196,6 +196,7 @@ sphc_status sphc_recording_create(const char *folder, const sphc_calibration *ca
 sphc_status sphc_recording_add(sphc_recording_writer *writer, const sphc_capture *capture, sphc_message *message) {
   return append(writer, message, [&]() -> sphc_status {
     if (!capture) throw Failure(SPHC_E_ARGUMENT, "capture is null");
+    if (capture->struct_size != sizeof *capture) throw Failure(SPHC_E_STRUCT_SIZE, "capture.struct_size");
     writer->add(capture->stream, capture->time_ns, capture->image);
     return SPHC_OK;
   });
@@ -205,6 +206,7 @@ sphc_status sphc_recording_add_frame(sphc_recording_writer *writer, const sphc_f
                                      sphc_message *message) {
   return append(writer, message, [&]() -> sphc_status {
     if (!frame) throw Failure(SPHC_E_ARGUMENT, "frame is null");
+    if (frame->struct_size != sizeof *frame) throw Failure(SPHC_E_STRUCT_SIZE, "frame.struct_size");
     checkImage(frame->depth, writer->calibration.depth_camera, false);  // both or none
     writer->depth.checkTime(frame->depth_time_ns);
     writer->add(SPHC_STREAM_COLOR, frame->color_time_ns, frame->color);

@@ -31,7 +31,9 @@ sphc_status sphc_recording_create(const char *folder, const sphc_calibration *ca
 
 /* Appends an image: stream, time_ns and image of *capture; the rest is ignored.  Borrows.  Lossless PNG of fast
  * compression.  Times of a stream must increase and not be negative.  The image's size must be the calibration's.
- * Errors: ARGUMENT (null, time, stream), IMAGE, DEVICE (disk full); the recording stays as it was. [exclusive] */
+ * Errors:
+ * ARGUMENT (null, time, stream), STRUCT_SIZE, IMAGE: nothing is added, go on; DEVICE (disk full): what was added
+ * stays readable, but every later call is SPHC_E_STATE. [exclusive] */
 sphc_status sphc_recording_add(sphc_recording_writer *writer, const sphc_capture *capture, sphc_message *message);
 
 /* Both images of a frame: sphc_recording_add of colour, then of depth. [exclusive] */

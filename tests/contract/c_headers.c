@@ -1,0 +1,7 @@
+/* The public headers are C. */
+#include "drivers/replay/calibration.h"
+#include "drivers/replay/recording_writer.h"
+#include "drivers/replay/replay.h"
+#include "drivers/sample/sample.h"
+
+typedef int c_headers_compile;

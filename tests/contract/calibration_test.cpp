@@ -1,0 +1,208 @@
+#include "drivers/replay/calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "temp_folder.h"
+#include "tiny_recording.h"
+
+namespace sphc::contract {
+
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr const char *kGood = R"({
+  "format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+  "color_camera": {"model": "pinhole", "width": 640, "height": 480, "params": [525.505, 525.5, 320, 240]},
+  "depth_camera": {"model": "pinhole", "width": 320, "height": 240, "params": [290, 291, 160, 120]},
+  "color_from_depth": {"q_wxyz": [0.6, 0, 0.8, 0], "t_m": [0.02, -0.005, -0.0125]},
+  "depth_unit_m": 0.001
+})";
+
+std::string replaced(std::string text, const std::string &from, const std::string &to) {
+  const size_t at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("no " + from);
+  return text.replace(at, from.size(), to);
+}
+
+struct Parsed {
+  sphc_status status;
+  sphc_calibration calibration;
+  std::string message;
+};
+
+Parsed parse(const std::string &text) {
+  Parsed parsed{};
+  sphc_message message{};
+  sphc_calibration_init(&parsed.calibration, sizeof parsed.calibration);
+  parsed.status = sphc_calibration_parse(text.data(), text.size(), "rig.json", &parsed.calibration, &message);
+  parsed.message = message.text;
+  return parsed;
+}
+
+TEST(Calibration, ReadsEveryField) {
+  const Parsed parsed = parse(kGood);
+  ASSERT_EQ(parsed.status, SPHC_OK) << parsed.message;
+  const sphc_calibration &c = parsed.calibration;
+  EXPECT_EQ(c.color_camera.model, SPHC_CAMERA_PINHOLE);
+  EXPECT_EQ(c.color_camera.width, 640u);
+  EXPECT_EQ(c.color_camera.height, 480u);
+  EXPECT_EQ(c.color_camera.param_count, 4u);
+  EXPECT_EQ(c.color_camera.params[0], 525.505);
+  EXPECT_EQ(c.color_camera.params[2], 320);
+  EXPECT_EQ(c.depth_camera.params[1], 291);
+  EXPECT_EQ(c.color_from_depth.q_wxyz[2], 0.8);
+  EXPECT_EQ(c.color_from_depth.t_m[0], 0.02);
+  EXPECT_EQ(c.depth_unit_m, 0.001);
+}
+
+TEST(Calibration, ShiftsOpenCvPixelsByAHalf) {
+  const Parsed parsed = parse(replaced(kGood, "\"pixel_center\": 0.5", "\"pixel_center\": 0"));
+  ASSERT_EQ(parsed.status, SPHC_OK) << parsed.message;
+  EXPECT_EQ(parsed.calibration.color_camera.params[0], 525.505);
+  EXPECT_EQ(parsed.calibration.color_camera.params[2], 320.5);
+  EXPECT_EQ(parsed.calibration.color_camera.params[3], 240.5);
+  EXPECT_EQ(parsed.calibration.depth_camera.params[2], 160.5);
+}
+
+TEST(Calibration, TakesRegisteredDepthForTheColourCamera) {
+  const Parsed parsed = parse(R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+    "color_camera": {"model": "kannala_brandt4", "width": 540, "height": 360, "params": [495, 496, 270, 169, 0, 0, 0, 0]},
+    "depth_unit_m": 0.001, "depth_registered": true})");
+  ASSERT_EQ(parsed.status, SPHC_OK) << parsed.message;
+  EXPECT_EQ(std::memcmp(&parsed.calibration.color_camera, &parsed.calibration.depth_camera, sizeof(sphc_camera)),
+            0);
+  EXPECT_EQ(parsed.calibration.color_from_depth.q_wxyz[0], 1);
+}
+
+struct Mistake {
+  const char *name;
+  const char *from, *to;
+  const char *key;   // must stand in the message
+  const char *cure;  // likewise
+};
+void PrintTo(const Mistake &mistake, std::ostream *out) { *out << mistake.name; }  // NOLINT: GoogleTest's name
+
+class CalibrationMistake : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(CalibrationMistake, IsExplained) {
+  const Mistake &mistake = GetParam();
+  const Parsed parsed = parse(replaced(kGood, mistake.from, mistake.to));
+  EXPECT_EQ(parsed.status, SPHC_E_ARGUMENT);
+  EXPECT_THAT(parsed.message, AllOf(HasSubstr("rig.json"), HasSubstr(mistake.key), HasSubstr(mistake.cure)));
+  EXPECT_EQ(parsed.calibration.color_camera.width, 0u) << "output touched";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CalibrationMistake,
+    ::testing::Values(
+        Mistake{"NotJson", "\"version\"", "version", "not valid JSON", "line 2"},
+        Mistake{"CutShort", "\"depth_unit_m\": 0.001\n}", "", "not valid JSON", "line"},
+        Mistake{"Format", "spherecloud-calibration", "other", "format", "must be"},
+        Mistake{"Version", "\"version\": 1", "\"version\": 2", "version", "reads 1"},
+        Mistake{"NoPixelCenter", "\"pixel_center\": 0.5,", "", "pixel_center", "missing; add it"},
+        Mistake{"PixelCenter", "\"pixel_center\": 0.5", "\"pixel_center\": 1", "pixel_center", "OpenCV"},
+        Mistake{"UnknownKey", "\"version\": 1", "\"version\": 1, \"depth_unit\": 1", "depth_unit: unknown key",
+                "depth_unit_m"},
+        Mistake{"UnknownCameraKey", "\"width\": 640", "\"width\": 640, \"fov\": 1", "color_camera.fov",
+                "known here: height"},
+        Mistake{"KeyTwice", "\"version\": 1", "\"version\": 1, \"version\": 1", "version", "twice"},
+        Mistake{"NoCamera", "\"color_camera\"", "\"colour_camera\"", "color_camera", "missing"},
+        Mistake{"CameraNoObject",
+                "{\"model\": \"pinhole\", \"width\": 320, \"height\": 240, \"params\": [290, 291, 160, 120]}", "[]",
+                "depth_camera", "must be an object"},
+        Mistake{"Model", "\"pinhole\"", "\"fisheye\"", "color_camera.model", "kannala_brandt4"},
+        Mistake{"ModelNumber", "\"pinhole\"", "1", "color_camera.model", "brown5"},
+        Mistake{"ParamCount", "[290, 291, 160, 120]", "[290, 291, 160]", "depth_camera.params",
+                "has 3 numbers; pinhole takes 4: fx fy cx cy"},
+        Mistake{"ParamString", "[290, 291,", "[\"290\", 291,", "depth_camera.params[0]", "must be a number"},
+        Mistake{"ParamNan", "[290, 291,", "[NaN, 291,", "not valid JSON", "finite"},
+        Mistake{"ParamInfinite", "[290, 291,", "[1e999, 291,", "not valid JSON", "finite"},
+        Mistake{"Focal", "[290, 291,", "[290, -291,", "depth_camera.params", "greater than 0"},
+        Mistake{"WidthNegative", "\"width\": 640", "\"width\": -640", "color_camera.width", "16 to 8192"},
+        Mistake{"WidthFraction", "\"width\": 640", "\"width\": 640.5", "color_camera.width", "whole number"},
+        Mistake{"HeightTooSmall", "\"height\": 240", "\"height\": 2", "depth_camera.height", "16 to 8192"},
+        Mistake{"QuaternionCount", "[0.6, 0, 0.8, 0]", "[1, 0, 0]", "color_from_depth.q_wxyz",
+                "must be 4: w x y z"},
+        Mistake{"QuaternionLength", "[0.6, 0, 0.8, 0]", "[0.6, 0.1, 0.8, 0.2]", "color_from_depth.q_wxyz",
+                "divide by its length"},
+        Mistake{"QuaternionZero", "[0.6, 0, 0.8, 0]", "[0, 0, 0, 0]", "color_from_depth.q_wxyz", "must be 1"},
+        Mistake{"TranslationCount", "[0.02, -0.005, -0.0125]", "[0.02]", "color_from_depth.t_m", "must be 3"},
+        Mistake{"NoTransform", "\"color_from_depth\"", "\"depth_from_color\"", "color_from_depth", "missing"},
+        Mistake{"UnitZero", "\"depth_unit_m\": 0.001", "\"depth_unit_m\": 0", "depth_unit_m",
+                "0.001 for millimetres"},
+        Mistake{"UnitString", "\"depth_unit_m\": 0.001", "\"depth_unit_m\": \"mm\"", "depth_unit_m",
+                "must be a number"},
+        Mistake{"Registered", "\"version\": 1", "\"version\": 1, \"depth_registered\": true", "depth_registered",
+                "remove them or say false"},
+        Mistake{"RegisteredString", "\"version\": 1", "\"version\": 1, \"depth_registered\": \"yes\"",
+                "depth_registered", "true or false"}),
+    [](const auto &suite) { return suite.param.name; });
+
+TEST(Calibration, ExplainsAFileThatIsNotThere) {
+  const TempFolder folder;
+  sphc_calibration calibration;
+  sphc_calibration_init(&calibration, sizeof calibration);
+  sphc_message message{};
+  EXPECT_EQ(sphc_calibration_read((folder / "rig.json").c_str(), &calibration, &message), SPHC_E_DEVICE);
+  EXPECT_THAT(message.text, AllOf(HasSubstr("rig.json"), HasSubstr("no such"), HasSubstr("docs/drivers.md")));
+  EXPECT_EQ(sphc_calibration_read(folder.path().c_str(), &calibration, &message), SPHC_E_DEVICE) << "a folder";
+}
+
+TEST(Calibration, ShortensALongPathInMessages) {
+  sphc_calibration calibration;
+  sphc_calibration_init(&calibration, sizeof calibration);
+  sphc_message message{};
+  const std::string path = std::string(300, 'd') + "/rig.json";
+  EXPECT_EQ(sphc_calibration_read(path.c_str(), &calibration, &message), SPHC_E_DEVICE);
+  EXPECT_THAT(message.text, AllOf(HasSubstr("/rig.json: no such"), HasSubstr("give its path")));
+}
+
+TEST(Calibration, ReadsBackTheSameBits) {
+  const TempFolder folder;
+  const sphc_calibration written = tinyCalibration();
+  sphc_message message{};
+  ASSERT_EQ(sphc_calibration_write((folder / "c.json").c_str(), &written, &message), SPHC_OK) << message.text;
+  sphc_calibration read;
+  sphc_calibration_init(&read, sizeof read);
+  ASSERT_EQ(sphc_calibration_read((folder / "c.json").c_str(), &read, &message), SPHC_OK) << message.text;
+  EXPECT_EQ(std::memcmp(&read, &written, sizeof read), 0);
+}
+
+TEST(Calibration, RefusesToWriteWhatItWouldNotRead) {
+  const TempFolder folder;
+  sphc_calibration calibration = tinyCalibration();
+  calibration.depth_camera.params[8] = std::numeric_limits<double>::quiet_NaN();
+  sphc_message message{};
+  EXPECT_EQ(sphc_calibration_write((folder / "c.json").c_str(), &calibration, &message), SPHC_E_ARGUMENT);
+  EXPECT_THAT(message.text, HasSubstr("depth_camera.params: not finite"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "c.json"));
+  calibration = tinyCalibration();
+  calibration.color_camera.param_count = 5;
+  EXPECT_EQ(sphc_calibration_check(&calibration, nullptr), SPHC_E_ARGUMENT);
+  calibration = tinyCalibration();
+  calibration.color_camera.model = 99;
+  EXPECT_EQ(sphc_calibration_check(&calibration, nullptr), SPHC_E_ARGUMENT);
+  calibration = tinyCalibration();
+  EXPECT_EQ(sphc_calibration_write((folder / "no/such/c.json").c_str(), &calibration, &message), SPHC_E_DEVICE);
+}
+
+TEST(Calibration, ChecksItsArguments) {
+  sphc_calibration calibration{};
+  EXPECT_EQ(sphc_calibration_init(nullptr, sizeof calibration), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_calibration_init(&calibration, 4), SPHC_E_STRUCT_SIZE);
+  EXPECT_EQ(sphc_calibration_read("x", &calibration, nullptr), SPHC_E_STRUCT_SIZE);
+  EXPECT_EQ(sphc_calibration_read(nullptr, &calibration, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_calibration_check(&calibration, nullptr), SPHC_E_STRUCT_SIZE);
+  EXPECT_EQ(sphc_calibration_check(nullptr, nullptr), SPHC_E_ARGUMENT);
+}
+
+}  // namespace
+
+}  // namespace sphc::contract

@@ -1,0 +1,369 @@
+// The contract of sphc_source (spherecloud.h), clause by clause, on every driver.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "drivers.h"
+
+namespace sphc::contract {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using ::testing::ValuesIn;
+
+constexpr uint32_t kTimeoutUs = 20000;
+constexpr auto kPatience = std::chrono::seconds(10);  // for a capture to come at all
+
+class DriverContract : public ::testing::TestWithParam<Driver> {
+ protected:
+  void SetUp() override {
+    opened_ = GetParam().open();
+    ASSERT_NE(opened_.handle, nullptr);
+  }
+
+  static sphc_status start(const OpenedDriver &driver) { return driver.source.start(driver.source.self); }
+  sphc_status start() const { return start(opened_); }
+  void stop() const { opened_.source.stop(opened_.source.self); }
+  void release(const sphc_capture &capture) const { opened_.source.release(opened_.source.self, &capture); }
+  const char *message() const { return opened_.source.message(opened_.source.self); }
+
+  // Asks again while there is nothing yet.
+  static sphc_status acquire(const OpenedDriver &driver, sphc_capture *capture) {
+    const Clock::time_point give_up = Clock::now() + kPatience;
+    sphc_status status = SPHC_AGAIN;
+    while (status == SPHC_AGAIN && Clock::now() < give_up)
+      status = driver.source.acquire(driver.source.self, kTimeoutUs, capture);
+    return status;
+  }
+  sphc_status acquire(sphc_capture *capture) const { return acquire(opened_, capture); }
+
+  // Fills the loan limit.
+  std::vector<sphc_capture> acquireAll() const {
+    std::vector<sphc_capture> loans(opened_.source.loan_limit);
+    for (sphc_capture &loan : loans) EXPECT_EQ(acquire(&loan), SPHC_OK) << message();
+    return loans;
+  }
+
+  // Acquire without a timeout until it says something other than "nothing yet".
+  void expectLimitReached() const {
+    sphc_capture capture;
+    EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
+    EXPECT_STRNE(message(), "");
+  }
+
+  // Up to `count` captures, each shown and then released.
+  template <typename Visit>
+  void forEachCapture(uint32_t count, Visit visit) const {
+    for (uint32_t i = 0; i < count; ++i) {
+      sphc_capture capture;
+      const sphc_status status = acquire(&capture);
+      if (status == SPHC_END) return;
+      ASSERT_EQ(status, SPHC_OK) << message();
+      visit(capture);
+      release(capture);
+    }
+  }
+
+  OpenedDriver opened_;
+};
+
+// Touches every byte, so that a sanitizer sees a buffer that is too short.
+uint64_t checksum(const sphc_image &image) {
+  const uint32_t pixel_bytes = image.format == SPHC_FORMAT_GRAY8 ? 1 : image.format == SPHC_FORMAT_DEPTH16 ? 2 : 3;
+  uint64_t sum = 0;
+  for (uint32_t y = 0; y < image.height; ++y) {
+    const uint8_t *row = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
+    for (uint32_t i = 0; i < image.width * pixel_bytes; ++i) sum = 31 * sum + row[i];
+  }
+  return sum;
+}
+
+// ---- the struct ------------------------------------------------------------------------------------------------
+
+TEST_P(DriverContract, FillsEveryFieldOfTheSource) {
+  EXPECT_EQ(opened_.source.struct_size, sizeof(sphc_source));
+  EXPECT_GE(opened_.source.loan_limit, 2u) << "one of each stream must fit";
+  EXPECT_NE(opened_.source.self, nullptr);
+  EXPECT_NE(opened_.source.start, nullptr);
+  EXPECT_NE(opened_.source.acquire, nullptr);
+  EXPECT_NE(opened_.source.release, nullptr);
+  EXPECT_NE(opened_.source.stop, nullptr);
+  ASSERT_NE(opened_.source.message, nullptr);
+}
+
+TEST_P(DriverContract, HasAMessageInEveryState) {
+  EXPECT_NE(message(), nullptr);
+  ASSERT_EQ(start(), SPHC_OK);
+  EXPECT_NE(message(), nullptr);
+  stop();
+  EXPECT_NE(message(), nullptr);
+}
+
+// ---- states ----------------------------------------------------------------------------------------------------
+
+TEST_P(DriverContract, RefusesToAcquireBeforeStart) {
+  sphc_capture capture;
+  EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
+  EXPECT_STRNE(message(), "");
+}
+
+TEST_P(DriverContract, RefusesToStartTwiceAndGoesOn) {
+  ASSERT_EQ(start(), SPHC_OK) << message();
+  EXPECT_EQ(start(), SPHC_E_STATE);
+  EXPECT_STRNE(message(), "");
+  sphc_capture capture;
+  EXPECT_EQ(acquire(&capture), SPHC_OK) << message();
+}
+
+TEST_P(DriverContract, RefusesToAcquireAfterStop) {
+  ASSERT_EQ(start(), SPHC_OK);
+  stop();
+  sphc_capture capture;
+  EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
+}
+
+TEST_P(DriverContract, StopsWhenStoppedWithoutEffect) {
+  stop();
+  stop();
+  EXPECT_EQ(start(), SPHC_OK) << message();
+  stop();
+  stop();
+}
+
+TEST_P(DriverContract, StartsAgainAndAgain) {
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(start(), SPHC_OK) << message();
+    forEachCapture(4, [](const sphc_capture &) {});
+    stop();
+  }
+}
+
+TEST_P(DriverContract, ClosesWhileRunningWithLoansOut) {
+  ASSERT_EQ(start(), SPHC_OK);
+  sphc_capture capture;
+  ASSERT_EQ(acquire(&capture), SPHC_OK);
+  opened_.handle.reset();  // a sanitizer would see what is left behind
+}
+
+// ---- loans -----------------------------------------------------------------------------------------------------
+
+TEST_P(DriverContract, LendsUpToTheLimitAndAgainAfterRelease) {
+  ASSERT_EQ(start(), SPHC_OK);
+  const std::vector<sphc_capture> loans = acquireAll();
+  expectLimitReached();
+  release(loans.front());
+  sphc_capture capture;
+  EXPECT_EQ(acquire(&capture), SPHC_OK) << message();
+  expectLimitReached();
+}
+
+TEST_P(DriverContract, KeepsEachLoanApartFromTheOthers) {
+  ASSERT_EQ(start(), SPHC_OK);
+  std::vector<sphc_capture> loans(opened_.source.loan_limit);
+  std::vector<uint64_t> sums;
+  std::set<const void *> buffers;
+  for (sphc_capture &loan : loans) {
+    ASSERT_EQ(acquire(&loan), SPHC_OK);
+    sums.push_back(checksum(loan.image));
+    buffers.insert(loan.image.data);
+  }
+  EXPECT_EQ(buffers.size(), loans.size());
+  for (size_t i = 0; i < loans.size(); ++i) EXPECT_EQ(checksum(loans[i].image), sums[i]) << "loan " << i;
+}
+
+TEST_P(DriverContract, IgnoresASecondRelease) {
+  ASSERT_EQ(start(), SPHC_OK);
+  const std::vector<sphc_capture> loans = acquireAll();
+  release(loans.front());
+  release(loans.front());
+  sphc_capture capture;
+  ASSERT_EQ(acquire(&capture), SPHC_OK);
+  release(loans.front());  // its place has a new tenant now
+  expectLimitReached();
+}
+
+TEST_P(DriverContract, IgnoresTheReleaseOfWhatItNeverLent) {
+  ASSERT_EQ(start(), SPHC_OK);
+  const std::vector<sphc_capture> loans = acquireAll();
+  sphc_capture foreign{};
+  release(foreign);
+  foreign = loans.front();
+  foreign.token = ~foreign.token;
+  release(foreign);
+  opened_.source.release(opened_.source.self, nullptr);
+  expectLimitReached();
+}
+
+TEST_P(DriverContract, IgnoresTheReleaseOfAnothersCapture) {
+  if (!GetParam().opens_twice) GTEST_SKIP() << "cannot be opened twice";
+  const OpenedDriver other = GetParam().open();
+  ASSERT_EQ(start(), SPHC_OK);
+  ASSERT_EQ(start(other), SPHC_OK);
+  const std::vector<sphc_capture> loans = acquireAll();
+  sphc_capture foreign;
+  ASSERT_EQ(acquire(other, &foreign), SPHC_OK);
+  release(foreign);
+  expectLimitReached();
+}
+
+TEST_P(DriverContract, EndsEveryLoanAtStop) {
+  ASSERT_EQ(start(), SPHC_OK);
+  const std::vector<sphc_capture> old_loans = acquireAll();
+  stop();
+  release(old_loans.front());
+  ASSERT_EQ(start(), SPHC_OK);
+  const std::vector<sphc_capture> loans = acquireAll();
+  for (const sphc_capture &old : old_loans) release(old);
+  expectLimitReached();
+}
+
+// ---- captures --------------------------------------------------------------------------------------------------
+
+TEST_P(DriverContract, FillsEveryCapture) {
+  ASSERT_EQ(start(), SPHC_OK);
+  forEachCapture(20, [](const sphc_capture &capture) {
+    EXPECT_EQ(capture.struct_size, sizeof capture);
+    EXPECT_TRUE(capture.stream == SPHC_STREAM_COLOR || capture.stream == SPHC_STREAM_DEPTH);
+    EXPECT_EQ(capture.reserved, 0u);
+  });
+}
+
+TEST_P(DriverContract, GivesImagesThatFitTheirStream) {
+  ASSERT_EQ(start(), SPHC_OK);
+  forEachCapture(20, [](const sphc_capture &capture) {
+    const sphc_image &image = capture.image;
+    ASSERT_NE(image.data, nullptr);
+    const bool is_depth = capture.stream == SPHC_STREAM_DEPTH;
+    const bool is_color_format =
+        image.format == SPHC_FORMAT_GRAY8 || image.format == SPHC_FORMAT_RGB8 || image.format == SPHC_FORMAT_BGR8;
+    EXPECT_TRUE(is_depth ? image.format == SPHC_FORMAT_DEPTH16 : is_color_format) << image.format;
+    EXPECT_GE(std::min(image.width, image.height), 16u);
+    EXPECT_LE(std::max(image.width, image.height), 8192u);
+    const uint32_t pixel_bytes = is_depth ? 2 : image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
+    EXPECT_GE(image.stride_bytes, image.width * pixel_bytes);
+    if (is_depth) {
+      EXPECT_EQ(reinterpret_cast<uintptr_t>(image.data) % 2, 0u);
+      EXPECT_EQ(image.stride_bytes % 2, 0u);
+    }
+    checksum(image);
+  });
+}
+
+TEST_P(DriverContract, KeepsSizeAndFormatOfAStream) {
+  ASSERT_EQ(start(), SPHC_OK);
+  std::map<sphc_stream, sphc_image> first;
+  forEachCapture(20, [&](const sphc_capture &capture) {
+    const sphc_image &image = capture.image;
+    const sphc_image &expected = first.emplace(capture.stream, image).first->second;
+    EXPECT_EQ(image.width, expected.width);
+    EXPECT_EQ(image.height, expected.height);
+    EXPECT_EQ(image.stride_bytes, expected.stride_bytes);
+    EXPECT_EQ(image.format, expected.format);
+  });
+  EXPECT_EQ(first.size(), 2u) << "both streams must come";
+}
+
+TEST_P(DriverContract, GivesCapturesInOrderOfTime) {
+  ASSERT_EQ(start(), SPHC_OK);
+  int64_t last_ns = INT64_MIN;
+  std::map<sphc_stream, int64_t> last_of_stream;
+  forEachCapture(30, [&](const sphc_capture &capture) {
+    EXPECT_GE(capture.time_ns, last_ns);
+    last_ns = capture.time_ns;
+    const auto [it, is_first] = last_of_stream.emplace(capture.stream, capture.time_ns);
+    if (!is_first) {
+      EXPECT_GT(capture.time_ns, it->second) << "two of one stream at one time";
+    }
+    it->second = capture.time_ns;
+  });
+}
+
+TEST_P(DriverContract, CountsTheCapturesOfAStreamUpwards) {
+  ASSERT_EQ(start(), SPHC_OK);
+  std::map<sphc_stream, uint32_t> last;
+  forEachCapture(30, [&](const sphc_capture &capture) {
+    const auto [it, is_first] = last.emplace(capture.stream, capture.sequence);
+    if (!is_first) {
+      EXPECT_GT(capture.sequence, it->second);
+    }
+    it->second = capture.sequence;
+  });
+}
+
+TEST_P(DriverContract, ReusesItsMemory) {
+  ASSERT_EQ(start(), SPHC_OK);
+  std::set<const void *> buffers;
+  forEachCapture(100, [&](const sphc_capture &capture) { buffers.insert(capture.image.data); });
+  EXPECT_LE(buffers.size(), opened_.source.loan_limit);
+}
+
+// ---- failure, end, time
+// ------------------------------------------------------------------------------------------
+
+TEST_P(DriverContract, LeavesTheCaptureUntouchedWhenItGivesNone) {
+  sphc_capture capture;
+  std::memset(&capture, 0x5a, sizeof capture);
+  const sphc_capture before = capture;
+  EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
+  EXPECT_EQ(std::memcmp(&capture, &before, sizeof capture), 0) << "stopped";
+  ASSERT_EQ(start(), SPHC_OK);
+  const std::vector<sphc_capture> loans = acquireAll();
+  EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
+  EXPECT_EQ(std::memcmp(&capture, &before, sizeof capture), 0) << "limit reached";
+}
+
+TEST_P(DriverContract, RefusesANullCapture) {
+  ASSERT_EQ(start(), SPHC_OK);
+  EXPECT_EQ(opened_.source.acquire(opened_.source.self, 0, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_STRNE(message(), "");
+}
+
+TEST_P(DriverContract, EndsOnceAllAreGivenAndStartsFromTheBeginning) {
+  if (GetParam().captures_until_end == 0) GTEST_SKIP() << "endless";
+  for (int run = 0; run < 2; ++run) {
+    ASSERT_EQ(start(), SPHC_OK);
+    uint32_t count = 0;
+    forEachCapture(GetParam().captures_until_end + 10, [&](const sphc_capture &) { ++count; });
+    EXPECT_EQ(count, GetParam().captures_until_end);
+    sphc_capture capture;
+    EXPECT_EQ(acquire(&capture), SPHC_END);
+    EXPECT_EQ(acquire(&capture), SPHC_END) << "and stays there";
+    stop();
+  }
+}
+
+TEST_P(DriverContract, ComesBackWithinTheTimeout) {
+  constexpr auto kSlack = std::chrono::seconds(2);  // a loaded machine, a sanitizer, a decoder
+  ASSERT_EQ(start(), SPHC_OK);
+  for (const uint32_t timeout_us : {0u, 1u, 1000u, 20000u}) {
+    const Clock::time_point begin = Clock::now();
+    sphc_capture capture;
+    const sphc_status status = opened_.source.acquire(opened_.source.self, timeout_us, &capture);
+    EXPECT_LT(Clock::now() - begin, std::chrono::microseconds(timeout_us) + kSlack);
+    EXPECT_TRUE(status == SPHC_OK || status == SPHC_AGAIN) << status;
+    if (status == SPHC_OK) release(capture);
+  }
+}
+
+TEST_P(DriverContract, RunsBesideAnotherOfItsKind) {
+  if (!GetParam().opens_twice) GTEST_SKIP() << "cannot be opened twice";
+  const OpenedDriver other = GetParam().open();
+  ASSERT_EQ(start(), SPHC_OK);
+  ASSERT_EQ(start(other), SPHC_OK);
+  stop();
+  sphc_capture capture;
+  EXPECT_EQ(acquire(other, &capture), SPHC_OK);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drivers, DriverContract, ValuesIn(driversUnderTest()),
+                         [](const auto &suite) { return suite.param.name; });
+
+}  // namespace
+
+}  // namespace sphc::contract

@@ -1,0 +1,34 @@
+// The drivers that the contract suite runs on.
+#pragma once
+
+#include <spherecloud/spherecloud.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace sphc::contract {
+
+struct OpenedDriver {
+  sphc_source source;
+  std::shared_ptr<void> handle;  // closes the driver when the last copy goes
+};
+
+struct Driver {
+  std::string name;  // letters and digits
+  std::function<OpenedDriver()> open;
+  uint32_t captures_until_end = 0;  // 0: endless
+  bool opens_twice = true;          // two at the same time; a real device cannot
+};
+inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
+
+std::vector<Driver> driversUnderTest();
+
+// One file each.
+std::vector<Driver> sampleDrivers();
+std::vector<Driver> replayDrivers();
+
+}  // namespace sphc::contract
