@@ -176,12 +176,12 @@ void fillCorners(Builder &b, RoomPlan &plan) {
 }
 
 void buildShell(Builder &b, const RoomPlan &plan) {
-  constexpr float kTexel = 0.003f;
+  constexpr float kTexel = 0.0037f;
   std::vector<Material> walls{Material::kBrick,   Material::kWallpaper, Material::kPlaster,
                               Material::kPlaster, Material::kPanelling, Material::kWallpaper};
   shuffle(walls, b.rng());
   const Finish faces[kMaxFaces] = {{walls[0], kTexel}, {walls[1], kTexel},         {walls[2], kTexel},
-                                   {walls[3], kTexel}, {Material::kFloor, kTexel}, {Material::kCeiling, 0.006f}};
+                                   {walls[3], kTexel}, {Material::kFloor, kTexel}, {Material::kCeiling, 0.007f}};
   b.room(plan.half, faces);
 }
 
