@@ -5,7 +5,7 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr Finish kWood{Material::kWood, 0.0033f};
+constexpr Finish kWood{Material::kWood, 0.0037f};
 constexpr Finish kHiddenWood{Material::kWood, 0.02f};
 constexpr Finish kCloth{Material::kFabric, 0.003f};
 constexpr Finish kBlack{Material::kMetal, 0.004f};
