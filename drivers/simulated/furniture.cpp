@@ -5,7 +5,7 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr Finish kWood{Material::kWood, 0.0033f};
+constexpr Finish kWood{Material::kWood, 0.0037f};
 constexpr Finish kHiddenWood{Material::kWood, 0.02f};
 constexpr Finish kCloth{Material::kFabric, 0.003f};
 constexpr Finish kBlack{Material::kMetal, 0.004f};
@@ -20,7 +20,7 @@ void legs(Builder &b, const Place &place, double half_x, double half_y, double h
 void vase(Builder &b, const Place &place) {
   const double radius = b.rng().real(0.035, 0.075), height = b.rng().real(0.06, 0.14);
   b.cylinder(place, {0, 0, height}, radius, height, {Material::kCeramic, 0.0025f}, {Material::kCeramic, 0.004f});
-  if (b.rng().chance(0.5f)) {
+  if (b.rng().chance(0.25f)) {
     b.ellipsoid(place, {0, 0, 2 * height + 0.08}, {0.09, 0.09, 0.11}, 0, {Material::kLeaves, 0.003f});
   }
 }
@@ -197,7 +197,7 @@ void addWindow(Builder &b, const Place &place, double width) {
   for (const double side : {-1.0, 1.0}) {
     for (int fold = 0; fold < 4; ++fold) {
       const double x = side * (half - 0.02 + 0.085 * fold), y = 0.1 + (fold % 2 == 0 ? 0.02 : -0.015);
-      b.cylinder(place, {x, y, 1.37}, 0.05, 0.92, curtain, curtain);
+      b.cylinder(place, {x, y, 1.59}, 0.05, 0.7, curtain, curtain);
     }
   }
   addClutter(b, at(place, 0, 0.09, kMiddle - kHalfHeight - 0.025), width - 0.2, 0.04, 2);

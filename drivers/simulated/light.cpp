@@ -7,7 +7,7 @@ namespace sphc::simulated {
 namespace {
 
 constexpr float kLift = 0.006f;  // a ray leaves its surface this far, so that it does not meet it again
-constexpr int kOpenRays = 16;
+constexpr int kOpenRays = 11;
 constexpr Vec3f kLampColor{1.0f, 0.93f, 0.8f}, kSkyColor{0.85f, 0.93f, 1.05f};
 
 // Directions around a normal, cosine-weighted: a golden-angle spiral over the disc, lifted to the hemisphere.
@@ -87,7 +87,7 @@ Vec3f mixed(const Vec3f &a, const Vec3f &b, float t) { return a + (b - a) * t; }
 
 void shade(const Bvh &bvh, const RoomPlan &plan, const Shape &shape, int face, const Texture &texture,
            Texel *texels) {
-  constexpr float kPitch = 0.1f;
+  constexpr float kPitch = 0.12f;
   float width_m = 0, height_m = 0;
   faceSize(shape, face, &width_m, &height_m);
   const int columns = 2 + static_cast<int>(width_m / kPitch), rows = 2 + static_cast<int>(height_m / kPitch);
