@@ -349,7 +349,7 @@ typedef struct sphc_source {
   void *self;
   /* SPHC_E_STATE when running already. */
   sphc_status (*start)(void *self);
-  /* Next capture in order of time.  SPHC_AGAIN: none within timeout_us.  SPHC_END: a recording is over.
+  /* Next capture in order of time; the caller sets capture->struct_size before.  SPHC_AGAIN: none within timeout_us.  SPHC_END: a recording is over.
    * SPHC_E_DEVICE_LOST: unplugged.  SPHC_E_STATE: not running, or loan_limit reached. */
   sphc_status (*acquire)(void *self, uint32_t timeout_us, sphc_capture *capture);
   /* Every acquired capture exactly once, before stop; one that is not on loan is ignored. */
