@@ -52,7 +52,8 @@
 extern "C" {
 #endif
 
-/* ---- version ---------------------------------------------------------------------------------------------- */
+/* ---- version ---------------------------------------------------------------------------------------------------
+ */
 
 #define SPHC_VERSION_MAJOR 0
 #define SPHC_VERSION_MINOR 1
@@ -65,7 +66,8 @@ SPHC_API uint32_t sphc_abi(void);
 /* "major.minor.patch"; static storage. [pure] */
 SPHC_API const char *sphc_version_string(void);
 
-/* ---- status and message ------------------------------------------------------------------------------------ */
+/* ---- status and message ----------------------------------------------------------------------------------------
+ */
 
 /* 0: done.  > 0: an answer that is not a failure, outputs as documented.  < 0: failure, outputs untouched.
  * Values are pinned: never renumbered, never reused. */
@@ -107,7 +109,8 @@ typedef struct sphc_message {
   char text[SPHC_MESSAGE_BYTES];
 } sphc_message;
 
-/* ---- atoms: frozen layouts --------------------------------------------------------------------------------- */
+/* ---- atoms: frozen layouts -------------------------------------------------------------------------------------
+ */
 
 typedef int32_t sphc_format;
 enum {
@@ -146,7 +149,8 @@ typedef struct sphc_image {
   sphc_format format;
 } sphc_image;
 
-/* ---- camera and rigid transform functions ------------------------------------------------------------------- */
+/* ---- camera and rigid transform functions ----------------------------------------------------------------------
+ */
 
 /* SPHC_OK if the camera can be used: known model, right param_count, finite parameters, fx and fy > 0, size within
  * 16 to 8192 pixels.  Else SPHC_E_ARGUMENT. [pure] */
@@ -164,7 +168,8 @@ SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_
 /* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
 SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
 
-/* ---- frame --------------------------------------------------------------------------------------------------- */
+/* ---- frame -----------------------------------------------------------------------------------------------------
+ */
 
 /* A colour and a depth image taken at about the same time; everything is borrowed. */
 typedef struct sphc_frame {
@@ -194,7 +199,8 @@ typedef struct sphc_map_info {
 SPHC_API sphc_status sphc_map_memory(size_t *bytes, size_t *alignment);
 /* Validates the whole file (structure, checksums, every direction) and makes a view of it in caller memory.
  * `file` is borrowed until sphc_map_fini and must not change; 8-byte aligned.  Reads each byte once: about 1 ms a
- * MB. Errors: MEMORY_SIZE, MEMORY_ALIGNMENT, MAP_FORMAT, MAP_VERSION, MAP_CHECKSUM, MAP_EXTRACTOR, ARGUMENT. [pure]
+ * MB.  Errors: MEMORY_SIZE, MEMORY_ALIGNMENT, MAP_FORMAT, MAP_VERSION, MAP_CHECKSUM, MAP_EXTRACTOR, ARGUMENT.
+ * [pure]
  */
 SPHC_API sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, size_t file_bytes,
                                    sphc_map **map, sphc_message *message);
@@ -205,8 +211,8 @@ SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, dou
 /* Ends the view; accepts null and pointer to null; sets *map to null; frees nothing. [exclusive] */
 SPHC_API void sphc_map_fini(sphc_map **map);
 
-/* ---- localizer
- * --------------------------------------------------------------------------------------------------- */
+/* ---- localizer -------------------------------------------------------------------------------------------------
+ */
 
 typedef int32_t sphc_log_level;
 enum { SPHC_LOG_ERROR = 1, SPHC_LOG_WARNING = 2, SPHC_LOG_INFO = 3, SPHC_LOG_DEBUG = 4 };
@@ -219,7 +225,7 @@ typedef struct sphc_config {
   uint32_t struct_size;
   uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
   uint32_t max_iterations; /* upper bound on minimal samples drawn; bounds the time of a call; 1 to 1000000 */
-  float max_ratio;         /* Lowe's ratio test, on distances; 0 to 1 */
+  float max_ratio;         /* Lowe's ratio test, on distances; 0.1 to 1 */
   uint64_t seed;           /* same seed, map, config and frame: same bytes in the result */
 
   sphc_camera color_camera;
@@ -228,9 +234,8 @@ typedef struct sphc_config {
 
   double depth_unit_m;             /* metres per unit of the depth image */
   double depth_min_m, depth_max_m; /* measurements outside are ignored */
-  double
-      depth_sigma_m; /* noise (1 sigma) of the sensor at 1 m: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2 */
-  double depth_sigma_per_m2;
+  /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
+  double depth_sigma_m, depth_sigma_per_m2;
   double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
   double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
 
@@ -329,8 +334,8 @@ typedef struct sphc_observation {
 SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
                                                  uint32_t capacity, uint32_t *count);
 
-/* ---- source: the contract that a driver fills; polled, never called back
- * ------------------------------------------ */
+/* ---- source: the contract that a driver fills; polled, never called back ---------------------------------------
+ */
 
 typedef int32_t sphc_stream;
 enum { SPHC_STREAM_NONE = 0, SPHC_STREAM_COLOR = 1, SPHC_STREAM_DEPTH = 2 };
@@ -366,8 +371,8 @@ typedef struct sphc_source {
   const char *(*message)(const void *self);
 } sphc_source;
 
-/* ---- pairer: two streams in, frames of colour and depth out; pure, no device
- * ---------------------------------------- */
+/* ---- pairer: two streams in, frames of colour and depth out; pure, no device -----------------------------------
+ */
 
 #define SPHC_PAIRER_SLOTS 8u /* captures of each stream it can hold */
 
