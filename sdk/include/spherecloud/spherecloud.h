@@ -52,8 +52,7 @@
 extern "C" {
 #endif
 
-/* ---- version ---------------------------------------------------------------------------------------------------
- */
+/* ---- version ---- */
 
 #define SPHC_VERSION_MAJOR 0
 #define SPHC_VERSION_MINOR 1
@@ -66,8 +65,7 @@ SPHC_API uint32_t sphc_abi(void);
 /* "major.minor.patch"; static storage. [pure] */
 SPHC_API const char *sphc_version_string(void);
 
-/* ---- status and message ----------------------------------------------------------------------------------------
- */
+/* ---- status and message ---- */
 
 /* 0: done.  > 0: an answer that is not a failure, outputs as documented.  < 0: failure, outputs untouched.
  * Values are pinned: never renumbered, never reused. */
@@ -109,8 +107,7 @@ typedef struct sphc_message {
   char text[SPHC_MESSAGE_BYTES];
 } sphc_message;
 
-/* ---- atoms: frozen layouts -------------------------------------------------------------------------------------
- */
+/* ---- atoms: frozen layouts ---- */
 
 typedef int32_t sphc_format;
 enum {
@@ -149,8 +146,7 @@ typedef struct sphc_image {
   sphc_format format;
 } sphc_image;
 
-/* ---- camera and rigid transform functions ----------------------------------------------------------------------
- */
+/* ---- camera and rigid transform functions ---- */
 
 /* SPHC_OK if the camera can be used: known model, right param_count, finite parameters, fx and fy > 0, size within
  * 16 to 8192 pixels.  Else SPHC_E_ARGUMENT. [pure] */
@@ -168,8 +164,7 @@ SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_
 /* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
 SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
 
-/* ---- frame -----------------------------------------------------------------------------------------------------
- */
+/* ---- frame ---- */
 
 /* A colour and a depth image taken at about the same time; everything is borrowed. */
 typedef struct sphc_frame {
@@ -181,8 +176,7 @@ typedef struct sphc_frame {
   sphc_image depth; /* DEPTH16; the size in config.depth_camera */
 } sphc_frame;
 
-/* ---- map: an immutable view of borrowed bytes ------------------------------------------------------------------
- */
+/* ---- map: an immutable view of borrowed bytes ---- */
 
 typedef struct sphc_map sphc_map;
 
@@ -211,8 +205,7 @@ SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, dou
 /* Ends the view; accepts null and pointer to null; sets *map to null; frees nothing. [exclusive] */
 SPHC_API void sphc_map_fini(sphc_map **map);
 
-/* ---- localizer -------------------------------------------------------------------------------------------------
- */
+/* ---- localizer ---- */
 
 typedef int32_t sphc_log_level;
 enum { SPHC_LOG_ERROR = 1, SPHC_LOG_WARNING = 2, SPHC_LOG_INFO = 3, SPHC_LOG_DEBUG = 4 };
@@ -334,8 +327,7 @@ typedef struct sphc_observation {
 SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
                                                  uint32_t capacity, uint32_t *count);
 
-/* ---- source: the contract that a driver fills; polled, never called back ---------------------------------------
- */
+/* ---- source: the contract that a driver fills; polled, never called back ---- */
 
 typedef int32_t sphc_stream;
 enum { SPHC_STREAM_NONE = 0, SPHC_STREAM_COLOR = 1, SPHC_STREAM_DEPTH = 2 };
@@ -371,8 +363,7 @@ typedef struct sphc_source {
   const char *(*message)(const void *self);
 } sphc_source;
 
-/* ---- pairer: two streams in, frames of colour and depth out; pure, no device -----------------------------------
- */
+/* ---- pairer: two streams in, frames of colour and depth out; pure, no device ---- */
 
 #define SPHC_PAIRER_SLOTS 8u /* captures of each stream it can hold */
 
