@@ -26,10 +26,7 @@ void Player::addEvents(sphc_stream stream, const std::vector<RecordedImage> &ima
 
 sphc_status Player::start() {
   if (running_) throw Failure(SPHC_E_STATE, "start: running already; call stop first");
-  for (Slot &slot : slots_) {
-    slot.pixels.resize(slot_bytes_);
-    slot.token = 0;
-  }
+  for (Slot &slot : slots_) slot.pixels.resize(slot_bytes_);  // allocates at the first start
   next_event_ = 0;
   started_ = Clock::now();
   running_ = true;

@@ -1,6 +1,7 @@
 #include "recording_writer.h"
 
-#include <cmath>
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -95,11 +96,17 @@ void writeFile(const fs::path &path, const std::vector<uint8_t> &bytes) {
   failWrite(path);
 }
 
+// The shortest digits that bring back the same bits, under every locale.
 std::string poseText(const sphc_rigid &pose) {
-  char text[256];  // 17 digits bring back the same bits
-  std::snprintf(text, sizeof text, "%.17g %.17g %.17g %.17g %.17g %.17g %.17g", pose.t_m[0], pose.t_m[1],
-                pose.t_m[2], pose.q_wxyz[1], pose.q_wxyz[2], pose.q_wxyz[3], pose.q_wxyz[0]);
-  return text;
+  const double fields[] = {pose.t_m[0],    pose.t_m[1],    pose.t_m[2],   pose.q_wxyz[1],
+                           pose.q_wxyz[2], pose.q_wxyz[3], pose.q_wxyz[0]};
+  std::string line;
+  for (const double field : fields) {
+    char text[32];
+    const std::to_chars_result end = std::to_chars(text, text + sizeof text, field);
+    line.append(line.empty() ? "" : " ").append(text, end.ptr);
+  }
+  return line;
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ void Builder::add(Kind kind, const Place &place, const Vec3d &center, const Vec3
     float width = 0, height = 0;
     faceSize(shape, face, &width, &height);
     shape.texture[face] = pool.add(width, height, faces[face].texel_m);
-    jobs.push_back(
-        {static_cast<uint32_t>(shapes.size()), shape.texture[face], face, faces[face].material, rng_.next()});
+    jobs.push_back({static_cast<uint32_t>(shapes.size()), shape.texture[face], face, faces[face].material, style_,
+                    rng_.next()});
   }
   shapes.push_back(shape);
 }

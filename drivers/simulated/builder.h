@@ -20,7 +20,7 @@ struct Job {
   uint32_t shape, texture;
   int face;
   Material material;
-  uint64_t seed;
+  uint64_t style, seed;
 };
 
 struct Finish {
@@ -32,6 +32,9 @@ class Builder {
  public:
   explicit Builder(uint64_t seed) : rng_(seed) {}
   Rng &rng() { return rng_; }
+
+  // A new piece: what is added from here on shares its kinds of wood and cloth.
+  void newStyle() { style_ = rng_.next(); }
 
   // Half extents in metres; the centre is in the place's coordinates.
   void box(const Place &place, Vec3d center, Vec3d half, Finish all);
@@ -59,6 +62,7 @@ class Builder {
            const Finish faces[kMaxFaces]);
 
   Rng rng_;
+  uint64_t style_ = 0;
 };
 
 }  // namespace sphc::simulated

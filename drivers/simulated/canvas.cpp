@@ -33,6 +33,18 @@ Ink randomInk(Rng &rng, float saturation_min, float saturation_max, float value_
   return hsv(hue, saturation, rng.uniform(value_min, value_max), rng.uniform(0.3f, 0.8f));
 }
 
+Ink tasteful(Rng &rng) {
+  // Browns, reds, blues, greens and greys that people buy: hue, saturation, value.
+  constexpr float kChoices[14][3] = {{0.99f, 0.75f, 0.5f},  {0.60f, 0.65f, 0.42f}, {0.08f, 0.6f, 0.48f},
+                                     {0.38f, 0.5f, 0.38f},  {0.13f, 0.65f, 0.8f},  {0.11f, 0.22f, 0.88f},
+                                     {0.58f, 0.08f, 0.6f},  {0.6f, 0.15f, 0.22f},  {0.49f, 0.55f, 0.5f},
+                                     {0.95f, 0.6f, 0.36f},  {0.05f, 0.78f, 0.8f},  {0.56f, 0.45f, 0.75f},
+                                     {0.78f, 0.35f, 0.48f}, {0.25f, 0.4f, 0.55f}};
+  const float *choice = kChoices[rng.index(14)];
+  return hsv(choice[0] + rng.uniform(-0.02f, 0.02f), choice[1] * rng.uniform(0.8f, 1.15f),
+             std::min(0.92f, choice[2] * rng.uniform(0.85f, 1.2f)), rng.uniform(0.3f, 0.8f));
+}
+
 Canvas::Canvas(Texel *texels, uint32_t width, uint32_t height, float width_m, float height_m)
     : texels_(texels),
       width_(width),
@@ -138,7 +150,9 @@ void Canvas::speckle(Rng &rng, float per_m2, float radius_min, float radius_max,
     // Many small, few large: equal numbers in equal shares of 1 / radius.
     const float radius = 1.0f / (1.0f / radius_min + (1.0f / radius_max - 1.0f / radius_min) * pick);
     const float x = rng.uniform(0, width_m_), y = rng.uniform(0, height_m_);
-    spot(x, y, std::max(radius, 0.7f * texel()), 1 + rng.uniform(-contrast, contrast));
+    // Large spots are faint: wear, not mould.
+    const float strength = contrast * std::sqrt(radius_min / radius);
+    spot(x, y, std::max(radius, 0.7f * texel()), 1 + rng.uniform(-strength, strength));
   }
 }
 

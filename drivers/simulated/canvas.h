@@ -20,6 +20,8 @@ constexpr Ink mix(const Ink &a, const Ink &b, float t) {
 }
 // Hue in turns, saturation, value.
 Ink hsv(float hue, float saturation, float value, float ir = 0.5f);
+// One of the colours that things in a living room have.
+Ink tasteful(Rng &rng);
 Ink randomInk(Rng &rng, float saturation_min, float saturation_max, float value_min, float value_max);
 
 inline float smooth(float low, float high, float x) {

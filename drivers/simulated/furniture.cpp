@@ -5,7 +5,7 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr Finish kWood{Material::kWood, 0.0025f};
+constexpr Finish kWood{Material::kWood, 0.0037f};
 constexpr Finish kHiddenWood{Material::kWood, 0.02f};
 constexpr Finish kCloth{Material::kFabric, 0.003f};
 constexpr Finish kBlack{Material::kMetal, 0.004f};
@@ -20,7 +20,7 @@ void legs(Builder &b, const Place &place, double half_x, double half_y, double h
 void vase(Builder &b, const Place &place) {
   const double radius = b.rng().real(0.035, 0.075), height = b.rng().real(0.06, 0.14);
   b.cylinder(place, {0, 0, height}, radius, height, {Material::kCeramic, 0.0025f}, {Material::kCeramic, 0.004f});
-  if (b.rng().chance(0.5f)) {
+  if (b.rng().chance(0.25f)) {
     b.ellipsoid(place, {0, 0, 2 * height + 0.08}, {0.09, 0.09, 0.11}, 0, {Material::kLeaves, 0.003f});
   }
 }
@@ -62,6 +62,7 @@ void addBooks(Builder &b, const Place &place, double x0, double x1, double front
 }
 
 void addBookshelf(Builder &b, const Place &place, double width, double height) {
+  b.newStyle();
   constexpr double kDepth = 0.3, kBoard = 0.012;
   const double half = 0.5 * width;
   const int shelves = static_cast<int>(height / 0.34);
@@ -87,6 +88,7 @@ void addBookshelf(Builder &b, const Place &place, double width, double height) {
 }
 
 void addSofa(Builder &b, const Place &place, double width) {
+  b.newStyle();
   constexpr double kDepth = 0.88;
   const double half = 0.5 * width;
   b.box(place, {0, 0.5 * kDepth, 0.2}, {half - 0.18, 0.5 * kDepth - 0.02, 0.14}, kCloth);
@@ -108,6 +110,7 @@ void addSofa(Builder &b, const Place &place, double width) {
 }
 
 void addCabinet(Builder &b, const Place &place, double width, double height, int columns, int rows) {
+  b.newStyle();
   constexpr double kDepth = 0.42, kFoot = 0.06;
   const double half = 0.5 * width, body = height - kFoot;
   b.box(place, {0, 0.5 * kDepth, kFoot + 0.5 * body}, {half, 0.5 * kDepth, 0.5 * body}, kWood);
@@ -130,6 +133,7 @@ void addTvBench(Builder &b, const Place &place, double width) {
 }
 
 void addDesk(Builder &b, const Place &place, double width) {
+  b.newStyle();
   const double half = 0.5 * width;
   b.box(place, {0, 0.32, 0.73}, {half, 0.32, 0.018}, kWood);
   legs(b, at(place, 0, 0.32), half - 0.05, 0.27, 0.71, 0.025);
@@ -143,6 +147,7 @@ void addDesk(Builder &b, const Place &place, double width) {
 }
 
 void addChair(Builder &b, const Place &place) {
+  b.newStyle();
   b.box(place, {0, 0, 0.45}, {0.21, 0.2, 0.02}, kWood);
   b.box(place, {0, 0, 0.49}, {0.2, 0.19, 0.022}, kCloth);
   legs(b, place, 0.18, 0.17, 0.43, 0.02);
@@ -153,6 +158,7 @@ void addChair(Builder &b, const Place &place) {
 }
 
 void addDiningSet(Builder &b, const Place &place) {
+  b.newStyle();
   const Place middle = at(place, 0, 0.55);
   b.boxWithTop(middle, {0, 0, 0.74}, {0.65, 0.4, 0.018}, kWood, {Material::kFabric, 0.0025f});
   legs(b, middle, 0.58, 0.33, 0.72, 0.03);
@@ -163,6 +169,7 @@ void addDiningSet(Builder &b, const Place &place) {
 }
 
 void addDoor(Builder &b, const Place &place) {
+  b.newStyle();
   b.boxWithFront(place, {0, 0.02, 1.02}, {0.43, 0.02, 1.02}, kWood, {Material::kDoor, 0.003f});
   for (const double side : {-0.47, 0.47}) b.box(place, {side, 0.03, 1.05}, {0.045, 0.03, 1.05}, kWood);
   b.box(place, {0, 0.03, 2.1}, {0.52, 0.03, 0.045}, kWood);
@@ -176,6 +183,7 @@ void addBoxes(Builder &b, const Place &place) {
 }
 
 void addWindow(Builder &b, const Place &place, double width) {
+  b.newStyle();
   constexpr double kMiddle = 1.55, kHalfHeight = 0.6;
   const double half = 0.5 * width;
   b.boxWithFront(place, {0, 0.005, kMiddle}, {half, 0.005, kHalfHeight}, kHiddenWood, {Material::kWindow, 0.004f});
@@ -189,13 +197,14 @@ void addWindow(Builder &b, const Place &place, double width) {
   for (const double side : {-1.0, 1.0}) {
     for (int fold = 0; fold < 4; ++fold) {
       const double x = side * (half - 0.02 + 0.085 * fold), y = 0.1 + (fold % 2 == 0 ? 0.02 : -0.015);
-      b.cylinder(place, {x, y, 1.37}, 0.05, 0.92, curtain, curtain);
+      b.cylinder(place, {x, y, 1.59}, 0.05, 0.7, curtain, curtain);
     }
   }
   addClutter(b, at(place, 0, 0.09, kMiddle - kHalfHeight - 0.025), width - 0.2, 0.04, 2);
 }
 
 void addPicture(Builder &b, const Place &place, double width, double height, double middle_height) {
+  b.newStyle();
   const double half_w = 0.5 * width, half_h = 0.5 * height;
   b.boxWithFront(place, {0, 0.012, middle_height}, {half_w, 0.008, half_h}, kHiddenWood,
                  {Material::kPicture, 0.002f});
@@ -211,12 +220,14 @@ void addClock(Builder &b, const Place &place, double middle_height) {
 }
 
 void addWallShelf(Builder &b, const Place &place, double width, double height) {
+  b.newStyle();
   b.box(place, {0, 0.11, height}, {0.5 * width, 0.11, 0.014}, kWood);
   addBooks(b, place, -0.48 * width, 0.05 * width, 0.2, height + 0.014, 0.28);
   addClutter(b, at(place, 0.28 * width, 0.1, height + 0.014), 0.4 * width, 0.06, 3);
 }
 
 void addCoffeeTable(Builder &b, const Place &place) {
+  b.newStyle();
   b.boxWithTop(place, {0, 0, 0.41}, {0.5, 0.28, 0.02}, kWood, {Material::kWood, 0.002f});
   b.box(place, {0, 0, 0.15}, {0.44, 0.22, 0.012}, kWood);
   legs(b, place, 0.44, 0.22, 0.39, 0.025);

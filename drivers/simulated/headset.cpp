@@ -11,13 +11,21 @@ namespace {
 // z at the centre of every pixel.
 void oracle(const Scene &scene, const sphc_camera &camera, const RayTable &rays, const Pose &pose, uint32_t threads,
             float *depth_m) {
-  const Raster raster(scene, camera, rays, {makeView(scene, pose)});
+  const Raster raster(scene, camera, rays, {pose, pose, pose, pose});
   parallelFor(raster.tileRows(), threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
-      depth_m[static_cast<size_t>(row) * camera.width + column] = raster.cast(list, 0, rays.center(column, row)).z;
+      if (column % kLanes != 0) return;
+      Rays four;
+      for (uint32_t i = 0; i < kLanes; ++i) four.lane[i] = rays.center(column + i, row);
+      const Hits hits = raster.cast(list, four);
+      for (uint32_t i = 0; i < kLanes; ++i) {
+        depth_m[static_cast<size_t>(row) * camera.width + column + i] = hits.lane[i].z;
+      }
     });
   });
 }
+
+static_assert(kColorWidth % kTile == 0 && kDepthWidth % kTile == 0 && kTile % kLanes == 0, "rows are cut in fours");
 
 }  // namespace
 

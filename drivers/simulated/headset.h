@@ -35,6 +35,7 @@ class Headset {
   // The pose `offset_s` after a time: fractions of an exposure are finer than the clock.
   Pose colorPoseAfter(int64_t time_ns, double offset_s) const;
   Pose depthPose(int64_t time_ns) const;
+  void renderIdealDepth(uint32_t index, uint16_t *depth) const;
   uint64_t noiseSeed(uint32_t index, uint64_t stream) const;
 
   sphc_simulated_config config_;

@@ -11,8 +11,7 @@ namespace sphc::simulated {
 namespace {
 
 // Four rays a pixel, on a turned square, each at its own quarter of the exposure.
-constexpr uint32_t kRays = 4;
-constexpr float kOffsets[kRays][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
+constexpr float kOffsets[kLanes][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
 
 // Full scale is 1.  A tone of 0.3 gets a noise of 0.0079, about 2 of 255 after the gamma.
 constexpr float kReadNoise = 0.0016f, kShotNoise = 2e-4f;
@@ -54,13 +53,12 @@ float exposureAt(double time_s) {
 void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
   static const Squares kSquares;
   const int64_t time_ns = colorTime(index);
-  std::vector<View> views;
-  for (uint32_t i = 0; i < kRays; ++i) {
-    const double part = (i + 0.5) / kRays - 0.5;
-    views.push_back(
-        makeView(scene_, colorPoseAfter(time_ns, config_.motion_blur != 0 ? part * config_.exposure_s : 0)));
+  Pose poses[kLanes];
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const double part = (i + 0.5) / kLanes - 0.5;
+    poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? part * config_.exposure_s : 0);
   }
-  const Raster raster(scene_, color_, color_rays_, std::move(views));
+  const Raster raster(scene_, color_, color_rays_, poses);
   const float gain =
       config_.exposure_drift != 0 ? exposureAt(static_cast<double>(time_ns - config_.start_time_ns) * 1e-9) : 1.0f;
   const uint64_t seed = noiseSeed(index, 0);
@@ -71,13 +69,20 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
   parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       Light sum;
-      for (uint32_t i = 0; i < kRays; ++i) {
-        const Ray2 ray = color_rays_.at(column, row, kOffsets[i][0], kOffsets[i][1]);
-        const Hit hit = raster.cast(list, i, ray);
-        const Seen seen = raster.look(hit, i, ray);
+      Rays rays;
+      for (uint32_t i = 0; i < kLanes; ++i) {
+        rays.lane[i] = color_rays_.at(column, row, kOffsets[i][0], kOffsets[i][1]);
+      }
+      const Hits hits = raster.cast(list, rays);
+      for (uint32_t i = 0; i < kLanes; ++i) {
+        const Hit &hit = hits.lane[i];
+        const Seen seen = raster.look(hit, i, rays.lane[i]);
         // Between the short and the long side of a slanted footprint.
         const float size = hit.z * footprint / (seen.texture->texel_m * std::sqrt(seen.cosine));
-        const Texel texel = scene_.pool.sample(*seen.texture, seen.u, seen.v, log2Approximate(size));
+        // Each ray takes one level; together they mix the two that are nearest.
+        const float level = log2Approximate(size) + (static_cast<float>(i) + 0.5f) / kLanes;
+        const Texel texel =
+            scene_.pool.sample(*seen.texture, seen.u, seen.v, static_cast<int>(std::max(level, 0.0f)));
         sum.r += kSquares.of[texel & 255];
         sum.g += kSquares.of[(texel >> 8) & 255];
         sum.b += kSquares.of[(texel >> 16) & 255];
@@ -85,7 +90,7 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
       const Ray2 &center = color_rays_.center(column, row);
       const float off_axis = center.x * center.x + center.y * center.y;
       const float vignette = 1.0f / ((1 + 0.45f * off_axis) * (1 + 0.45f * off_axis));
-      const float scale = gain * vignette / kRays;
+      const float scale = gain * vignette / kLanes;
       const uint64_t pixel = static_cast<uint64_t>(row) * kColorWidth + column;
       uint8_t *out = rgb + 3 * pixel;
       out[0] = develop(sum.r * scale, noise * gaussian(hash64(seed + 3 * pixel)));

@@ -10,8 +10,7 @@ namespace sphc::simulated {
 namespace {
 
 // Rays a pixel: its light is the sum of theirs, and at an edge so is its range.
-constexpr uint32_t kRays = 4;
-constexpr float kOffsets[kRays][2] = {{-0.32f, -0.14f}, {0.14f, -0.32f}, {-0.14f, 0.32f}, {0.32f, 0.14f}};
+constexpr float kOffsets[kLanes][2] = {{-0.32f, -0.14f}, {0.14f, -0.32f}, {-0.14f, 0.32f}, {0.32f, 0.14f}};
 
 // Returned light: reflectance times cosine over squared distance.  Below kBlind nothing is measured; up to kDim
 // ever more is.
@@ -32,12 +31,16 @@ Echo listen(const Scene &scene, const Raster &raster, const RayTable &rays, floa
             uint32_t row, const Raster::List &list) {
   Echo echo;
   float nearest = kFar, farthest = 0, weighted = 0;
-  for (const auto &offset : kOffsets) {
-    const Ray2 ray = rays.at(column, row, offset[0], offset[1]);
-    const Hit hit = raster.cast(list, 0, ray);
-    const Seen seen = raster.look(hit, 0, ray);
-    const float level = std::log2(std::max(1.0f, hit.z / (focal * seen.texture->texel_m)));
-    const Texel texel = scene.pool.nearest(*seen.texture, seen.u, seen.v, level);
+  Rays four;
+  for (uint32_t i = 0; i < kLanes; ++i) four.lane[i] = rays.at(column, row, kOffsets[i][0], kOffsets[i][1]);
+  const Hits hits = raster.cast(list, four);
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const Hit &hit = hits.lane[i];
+    const Ray2 &ray = four.lane[i];
+    const Seen seen = raster.look(hit, i, ray);
+    // The level whose texels are about as large as a quarter of a pixel.
+    const int level = std::ilogb(std::max(1.0f, 0.7f * hit.z / (focal * seen.texture->texel_m)));
+    const Texel texel = scene.pool.sample(*seen.texture, seen.u, seen.v, level);
     const float surface = static_cast<float>(texel >> 24) * (1.0f / 255.0f) * seen.cosine;
     const float light = surface / (hit.z * hit.z * (1 + ray.x * ray.x + ray.y * ray.y));
     weighted += light * hit.z;
@@ -48,8 +51,8 @@ Echo listen(const Scene &scene, const Raster &raster, const RayTable &rays, floa
   }
   echo.z = weighted / std::max(echo.light, 1e-9f);
   echo.spread = farthest - nearest;
-  echo.light /= kRays;
-  echo.surface /= kRays;
+  echo.light /= kLanes;
+  echo.surface /= kLanes;
   return echo;
 }
 
@@ -76,8 +79,16 @@ double measure(const sphc_simulated_config &config, const Echo &echo, uint64_t n
 
 }  // namespace
 
+void Headset::renderIdealDepth(uint32_t index, uint16_t *depth) const {
+  std::vector<float> z(size_t{kDepthWidth} * kDepthHeight);
+  oracleDepth(depthTime(index), z.data());
+  std::transform(z.begin(), z.end(), depth, [](float z_m) { return units(static_cast<double>(z_m)); });
+}
+
 void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
-  const Raster raster(scene_, depth_, depth_rays_, {makeView(scene_, depthPose(depthTime(index)))});
+  if (config_.ideal_depth != 0) return renderIdealDepth(index, depth);
+  const Pose pose = depthPose(depthTime(index));
+  const Raster raster(scene_, depth_, depth_rays_, {pose, pose, pose, pose});
   const uint64_t seed = noiseSeed(index, 1);
   const auto focal = static_cast<float>(depth_.params[0]);
   const auto far_m = static_cast<float>(config_.depth_max_m);
@@ -85,10 +96,6 @@ void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       const uint64_t pixel = static_cast<uint64_t>(row) * kDepthWidth + column;
       const Ray2 &center = depth_rays_.center(column, row);
-      if (config_.ideal_depth != 0) {
-        depth[pixel] = units(static_cast<double>(raster.cast(list, 0, center).z));
-        return;
-      }
       const Echo echo = listen(scene_, raster, depth_rays_, focal, column, row, list);
       const float z_max = far_m / std::sqrt(1 + center.x * center.x + center.y * center.y);
       const bool missing = isMissing(echo, z_max, hash64(seed + 2 * pixel));

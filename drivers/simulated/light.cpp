@@ -7,7 +7,7 @@ namespace sphc::simulated {
 namespace {
 
 constexpr float kLift = 0.006f;  // a ray leaves its surface this far, so that it does not meet it again
-constexpr int kOpenRays = 16;
+constexpr int kOpenRays = 11;
 constexpr Vec3f kLampColor{1.0f, 0.93f, 0.8f}, kSkyColor{0.85f, 0.93f, 1.05f};
 
 // Directions around a normal, cosine-weighted: a golden-angle spiral over the disc, lifted to the hemisphere.
@@ -67,8 +67,8 @@ Vec3f rootLight(const Bvh &bvh, const RoomPlan &plan, const Vec3f &point, const 
   for (size_t i = 0; i < plan.lamps.size(); ++i)
     lamps += plan.strength[i] * lampLight(bvh, point, normal, plan.lamps[i]);
   const float sky = 1.7f * windowLight(bvh, plan, point, normal);
-  const float ambient = 0.10f + 0.42f * open * open;
-  const Vec3f light = kLampColor * (ambient + 0.62f * lamps) + kSkyColor * sky;
+  const float ambient = 0.14f + 0.46f * open * open;
+  const Vec3f light = kLampColor * (ambient + 0.72f * lamps) + kSkyColor * sky;
   const auto root = [](float x) { return std::sqrt(std::min(x, 1.35f)); };
   return {root(light.x), root(light.y), root(light.z)};
 }
@@ -87,16 +87,22 @@ Vec3f mixed(const Vec3f &a, const Vec3f &b, float t) { return a + (b - a) * t; }
 
 void shade(const Bvh &bvh, const RoomPlan &plan, const Shape &shape, int face, const Texture &texture,
            Texel *texels) {
-  constexpr float kPitch = 0.08f;
+  constexpr float kPitch = 0.12f;
   float width_m = 0, height_m = 0;
   faceSize(shape, face, &width_m, &height_m);
   const int columns = 2 + static_cast<int>(width_m / kPitch), rows = 2 + static_cast<int>(height_m / kPitch);
   std::vector<Vec3f> grid(static_cast<size_t>(columns * rows));
+  // A small face is lit evenly.
+  const bool even = std::max(width_m, height_m) < kPitch;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
+      if (even && i + j > 0) {
+        grid[static_cast<size_t>(j * columns + i)] = grid[0];
+        continue;
+      }
       // Samples keep off the edges, where a neighbouring solid may touch the face.
-      const float u = 0.02f + 0.96f * static_cast<float>(i) / static_cast<float>(columns - 1);
-      const float v = 0.02f + 0.96f * static_cast<float>(j) / static_cast<float>(rows - 1);
+      const float u = even ? 0.5f : 0.02f + 0.96f * static_cast<float>(i) / static_cast<float>(columns - 1);
+      const float v = even ? 0.5f : 0.02f + 0.96f * static_cast<float>(j) / static_cast<float>(rows - 1);
       Vec3f unit, normal;
       facePoint(shape, face, u, v, &unit, &normal);
       grid[static_cast<size_t>(j * columns + i)] =

@@ -4,8 +4,8 @@ namespace sphc::simulated {
 
 bool isBright(Material material) { return material == Material::kWindow || material == Material::kLampshade; }
 
-void paint(Canvas &canvas, Material material, uint64_t seed) {
-  Rng rng(seed);
+void paint(Canvas &canvas, Material material, uint64_t style_seed, uint64_t seed) {
+  Rng rng(seed), style(style_seed);
   switch (material) {
     case Material::kBrick:
       return paintBrick(canvas, rng);
@@ -22,19 +22,19 @@ void paint(Canvas &canvas, Material material, uint64_t seed) {
     case Material::kCarpet:
       return paintCarpet(canvas, rng);
     case Material::kWood:
-      return paintWood(canvas, rng);
+      return paintWood(canvas, style, rng);
     case Material::kCabinetDoor:
-      return paintCabinetDoor(canvas, rng);
+      return paintCabinetDoor(canvas, style, rng);
     case Material::kDoor:
-      return paintDoor(canvas, rng);
+      return paintDoor(canvas, style, rng);
     case Material::kSpine:
       return paintSpine(canvas, rng);
     case Material::kPaper:
       return paintPaper(canvas, rng);
     case Material::kFabric:
-      return paintFabric(canvas, rng);
+      return paintFabric(canvas, style, rng);
     case Material::kCurtain:
-      return paintCurtain(canvas, rng);
+      return paintCurtain(canvas, style, rng);
     case Material::kPicture:
       return paintPicture(canvas, rng);
     case Material::kWindow:

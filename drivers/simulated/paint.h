@@ -32,8 +32,9 @@ enum class Material : uint8_t {
   kMagazine,
 };
 
-// Paints the whole canvas.  The same material and seed on the same canvas give the same texels.
-void paint(Canvas &canvas, Material material, uint64_t seed);
+// Paints the whole canvas.  `style` decides the kind of cloth or wood, which the parts of one piece share; `seed`
+// the details.  The same arguments on the same canvas give the same texels.
+void paint(Canvas &canvas, Material material, uint64_t style, uint64_t seed);
 // Whether the surface shines by itself, so that light and shadow do not change it.
 bool isBright(Material material);
 
@@ -43,12 +44,12 @@ void paintWallpaper(Canvas &canvas, Rng &rng);
 void paintPlaster(Canvas &canvas, Rng &rng);
 void paintCeiling(Canvas &canvas, Rng &rng);
 void paintPlanks(Canvas &canvas, Rng &rng, float plank_width_m, float plank_length_m, bool upright);
-void paintWood(Canvas &canvas, Rng &rng);
-void paintCabinetDoor(Canvas &canvas, Rng &rng);
-void paintDoor(Canvas &canvas, Rng &rng);
+void paintWood(Canvas &canvas, Rng &style, Rng &rng);
+void paintCabinetDoor(Canvas &canvas, Rng &style, Rng &rng);
+void paintDoor(Canvas &canvas, Rng &style, Rng &rng);
 void paintCarpet(Canvas &canvas, Rng &rng);
-void paintFabric(Canvas &canvas, Rng &rng);
-void paintCurtain(Canvas &canvas, Rng &rng);
+void paintFabric(Canvas &canvas, Rng &style, Rng &rng);
+void paintCurtain(Canvas &canvas, Rng &style, Rng &rng);
 void paintPicture(Canvas &canvas, Rng &rng);
 void paintWindow(Canvas &canvas, Rng &rng);
 void paintSpine(Canvas &canvas, Rng &rng);

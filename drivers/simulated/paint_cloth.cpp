@@ -54,11 +54,7 @@ void threads(Canvas &canvas, Rng &rng, const Ink &base, float strength) {
 
 void paintCarpet(Canvas &canvas, Rng &rng) {
   Ink palette[5];
-  const float hue = rng.uniform();
-  for (int i = 0; i < 5; ++i) {
-    palette[i] = hsv(hue + 0.12f * static_cast<float>(i) * rng.uniform(), rng.uniform(0.25f, 0.75f),
-                     0.3f + 0.14f * static_cast<float>(i) + rng.uniform(0, 0.08f), rng.uniform(0.4f, 0.7f));
-  }
+  for (Ink &ink : palette) ink = tasteful(rng);
   threads(canvas, rng, palette[1], 0.12f);
   const float w = canvas.width(), h = canvas.height();
   const float field = 0.32f;
@@ -76,37 +72,35 @@ void paintCarpet(Canvas &canvas, Rng &rng) {
   canvas.speckle(rng, 5000, 0.003f, 0.02f, 0.3f);
 }
 
-void paintFabric(Canvas &canvas, Rng &rng) {
-  const float hue = rng.uniform();
-  const Ink base = hsv(hue, rng.uniform(0.25f, 0.6f), rng.uniform(0.4f, 0.75f), 0.6f);
+void paintFabric(Canvas &canvas, Rng &style, Rng &rng) {
+  const Ink base = tasteful(style) * 1.15f;
   threads(canvas, rng, base, 0.1f);
-  const int style = rng.index(3);
-  const float pitch = rng.uniform(0.05f, 0.1f);
+  const int kind = style.index(3);
+  const float pitch = style.uniform(0.05f, 0.1f), band = style.uniform(0.006f, 0.02f);
+  Ink palette[5];
+  for (Ink &ink : palette) ink = mix(base, tasteful(style), style.uniform(0.3f, 0.9f));
   const float w = canvas.width(), h = canvas.height();
-  const auto vary = [&] {
-    return hsv(hue + rng.uniform(-0.15f, 0.5f), rng.uniform(0.2f, 0.7f), rng.uniform(0.3f, 0.9f), 0.55f);
-  };
-  if (style == 0) {
-    const float band = rng.uniform(0.006f, 0.02f);
-    for (float x = 0; x < w; x += pitch * rng.uniform(0.5f, 1.4f))
-      canvas.rectangle(x, 0, x + band, h, vary(), 0.5f);
-    for (float y = 0; y < h; y += pitch * rng.uniform(0.5f, 1.4f))
-      canvas.rectangle(0, y, w, y + band, vary(), 0.5f);
+  if (kind == 0) {
+    for (float x = 0; x < w; x += pitch * rng.uniform(0.5f, 1.4f)) {
+      canvas.rectangle(x, 0, x + band, h, palette[rng.index(5)], 0.5f);
+    }
+    for (float y = 0; y < h; y += pitch * rng.uniform(0.5f, 1.4f)) {
+      canvas.rectangle(0, y, w, y + band, palette[rng.index(5)], 0.5f);
+    }
   } else {
-    const Ink palette[5] = {vary(), vary(), vary(), vary(), base * 0.6f};
+    const float jitter = kind == 1 ? 0.1f : 0.35f;
     for (float y = 0.5f * pitch; y < h; y += pitch) {
       for (float x = 0.5f * pitch; x < w; x += pitch) {
-        const float jitter = style == 1 ? 0.1f : 0.35f;
         motif(canvas, rng, x + pitch * rng.uniform(-jitter, jitter), y + pitch * rng.uniform(-jitter, jitter),
               pitch * rng.uniform(0.2f, 0.5f), palette);
       }
     }
   }
-  canvas.speckle(rng, 2500, 0.003f, 0.02f, 0.3f);
+  canvas.speckle(rng, 2500, 0.003f, 0.02f, 0.35f);
 }
 
-void paintCurtain(Canvas &canvas, Rng &rng) {
-  paintFabric(canvas, rng);
+void paintCurtain(Canvas &canvas, Rng &style, Rng &rng) {
+  paintFabric(canvas, style, rng);
   const float w = canvas.width(), h = canvas.height();
   for (float x = 0; x < w; x += rng.uniform(0.03f, 0.07f)) {
     const float slant = rng.uniform(-0.02f, 0.02f);

@@ -76,7 +76,7 @@ void landscape(Canvas &canvas, Rng &rng) {
 }
 
 void poster(Canvas &canvas, Rng &rng) {
-  paper(canvas, rng, randomInk(rng, 0.2f, 0.7f, 0.55f, 0.95f), 0.08f);
+  paper(canvas, rng, mix(tasteful(rng), {0.95f, 0.92f, 0.85f, 0.7f}, rng.uniform(0.2f, 0.8f)), 0.08f);
   const float w = canvas.width(), h = canvas.height();
   const Ink dark = randomInk(rng, 0.4f, 0.9f, 0.1f, 0.3f);
   const std::string title = randomWord(rng, 5 + rng.index(3));
@@ -171,10 +171,10 @@ void paintWindow(Canvas &canvas, Rng &rng) {
 
 void paintSpine(Canvas &canvas, Rng &rng) {
   const float w = canvas.width(), h = canvas.height();
-  const Ink cover = randomInk(rng, 0.25f, 0.85f, 0.2f, 0.85f);
+  const Ink cover = tasteful(rng);
   paper(canvas, rng, cover, 0.12f);
-  const bool light = cover.r + cover.g + cover.b < 1.4f;
-  const Ink ink = light ? Ink{0.95f, 0.88f, 0.6f, 0.7f} : Ink{0.1f, 0.08f, 0.1f, 0.2f};
+  const bool is_dark = cover.r + cover.g + cover.b < 1.4f;
+  const Ink ink = is_dark ? Ink{0.95f, 0.88f, 0.6f, 0.7f} : Ink{0.1f, 0.08f, 0.1f, 0.2f};
   const int bands = rng.index(4);
   for (int i = 0; i < bands; ++i) {
     const float y = h * (rng.chance(0.5f) ? rng.uniform(0.03f, 0.15f) : rng.uniform(0.82f, 0.96f));
@@ -236,7 +236,7 @@ void paintCardboard(Canvas &canvas, Rng &rng) {
 
 void paintCeramic(Canvas &canvas, Rng &rng) {
   const float w = canvas.width(), h = canvas.height();
-  paper(canvas, rng, randomInk(rng, 0.1f, 0.6f, 0.45f, 0.9f), 0.12f);
+  paper(canvas, rng, tasteful(rng) * 1.2f, 0.12f);
   const float pitch = std::max(0.02f, 0.14f * h);
   for (float y = 0.5f * pitch; y < h; y += pitch) {
     const Ink ink = randomInk(rng, 0.3f, 0.8f, 0.15f, 0.9f);

@@ -54,10 +54,10 @@ void paintBrick(Canvas &canvas, Rng &rng) {
   canvas.fill([&](float x, float y) {
     // Courses wander a little, and every second one is displaced by half a brick.
     const float wy = y + 0.004f * noise(x * 3, y * 3, seed + 1);
-    const float course = std::floor(wy / kHeight);
+    const float course = static_cast<float>(floorInt(wy / kHeight));
     const auto row = static_cast<int32_t>(course);
     const float wx = x + ((row & 1) != 0 ? kLength * 0.5f : 0) + 0.03f * unitFloat(hash32(row, 7, seed));
-    const float column = std::floor(wx / kLength);
+    const float column = static_cast<float>(floorInt(wx / kLength));
     const uint32_t id = hash32(static_cast<int32_t>(column), row, seed + 2);
     const float bx = wx - column * kLength, by = wy - course * kHeight;
     const float chip = 0.004f * fbm(x * 45, y * 45, 3, seed + 3);
@@ -97,13 +97,13 @@ void paintWallpaper(Canvas &canvas, Rng &rng) {
              petal, heart);
     }
   }
-  canvas.speckle(rng, 700, 0.003f, 0.02f, 0.3f);
+  canvas.speckle(rng, 1200, 0.004f, 0.02f, 0.3f);
 }
 
 void paintPlaster(Canvas &canvas, Rng &rng) {
   const uint32_t seed = noiseSeed(rng);
-  const Ink base = hsv(rng.uniform(), rng.uniform(0.05f, 0.35f), rng.uniform(0.66f, 0.84f), 0.65f);
-  const Ink under = hsv(rng.uniform(), rng.uniform(0.1f, 0.4f), rng.uniform(0.45f, 0.7f), 0.5f);
+  const Ink base = mix(tasteful(rng), {0.9f, 0.88f, 0.82f, 0.7f}, rng.uniform(0.6f, 0.8f));
+  const Ink under = mix(base, tasteful(rng), 0.35f);
   canvas.fill([&](float x, float y) {
     const float roller = fbm(x * 70, y * 25, 4, seed, 0.75f);
     const float large = fbm(x * 1.4f, y * 1.4f, 5, seed + 1, 0.6f);
@@ -111,9 +111,9 @@ void paintPlaster(Canvas &canvas, Rng &rng) {
     const Ink paint = mix(base, under, 0.75f * smooth(0.42f, 0.5f, worn));
     return paint * (1 + 0.09f * roller + 0.12f * large);
   });
-  canvas.speckle(rng, 1100, 0.003f, 0.03f, 0.3f);
+  canvas.speckle(rng, 2200, 0.004f, 0.03f, 0.3f);
   const Ink dark = under * 0.5f;
-  for (int i = 0; i < static_cast<int>(canvas.width() * 3); ++i) crack(canvas, rng, dark);
+  for (int i = 0; i < static_cast<int>(canvas.width() * 2); ++i) crack(canvas, rng, dark);
 }
 
 void paintCeiling(Canvas &canvas, Rng &rng) {

@@ -6,29 +6,35 @@ namespace {
 
 struct Grain {
   uint32_t seed;
-  float hue, saturation, value;
+  Ink ink;
 };
 
-Grain randomGrain(Rng &rng) {
-  return {static_cast<uint32_t>(rng.next()), rng.uniform(0.055f, 0.1f), rng.uniform(0.3f, 0.6f),
-          rng.uniform(0.42f, 0.72f)};
+Grain randomGrain(Rng &style, Rng &rng) {
+  const float hue = style.uniform(0.05f, 0.1f), saturation = style.uniform(0.3f, 0.65f);
+  return {static_cast<uint32_t>(rng.next()), hsv(hue, saturation, style.uniform(0.36f, 0.8f), 0.45f)};
+}
+
+// exp(-x) for x >= 0, near enough for a bend in the grain.
+inline float fallOff(float x) {
+  const float root = 1 / (1 + 0.25f * x);
+  return root * root * root * root;
 }
 
 // Wood at `along` and `across` the grain, with a knot every third of a metre or so.
 Ink wood(const Grain &grain, float along, float across) {
-  const float cell = std::floor(along / 0.35f);
-  const uint32_t id = hash32(static_cast<int32_t>(cell), 0, grain.seed + 9);
-  const float kx = along - (cell + 0.2f + 0.6f * unitFloat(id)) * 0.35f;
+  const int32_t cell = floorInt(along * (1 / 0.35f));
+  const uint32_t id = hash32(cell, 0, grain.seed + 9);
+  const float kx = along - (static_cast<float>(cell) + 0.2f + 0.6f * unitFloat(id)) * 0.35f;
   const float ky = across - 0.1f * unitFloat(hash32(static_cast<int32_t>(id), 1, 5));
-  const float knot = std::sqrt(kx * kx * 0.3f + ky * ky);
-  const float bend = 0.035f * std::exp(-knot * knot / 0.0012f);
-  const float warp = fbm(along * 1.7f, across * 7, 3, grain.seed);
-  const float rings = std::sin((across + bend) * 260 + 9 * warp);
-  const float streak = fbm(along * 9, (across + bend) * 240, 3, grain.seed + 3, 0.7f);
-  const float pores = noise(along * 70, across * 420, grain.seed + 5);
-  const float eye = smooth(0.014f, 0.006f, knot) * (unitFloat(id) > 0.45f ? 1.0f : 0.0f);
-  const float shade = 1 + 0.09f * rings + 0.17f * streak + 0.06f * pores - 0.5f * eye;
-  return hsv(grain.hue, grain.saturation, grain.value, 0.45f) * shade;
+  const float knot_sq = kx * kx * 0.3f + ky * ky;
+  const float bent = across + 0.035f * fallOff(knot_sq / 0.0012f);
+  const float warp = fbm(along * 1.7f, across * 7, 2, grain.seed);
+  // A saw-like wave whose teeth are the year rings.
+  const float phase = bent * 41 + 1.4f * warp;
+  const float ring = std::fabs(2 * (phase - static_cast<float>(floorInt(phase))) - 1);
+  const float streak = fbm(along * 9, bent * 240, 3, grain.seed + 3, 0.7f);
+  const float eye = unitFloat(id) > 0.45f && knot_sq < 2e-4f ? smooth(2e-4f, 4e-5f, knot_sq) : 0.0f;
+  return grain.ink * (0.92f + 0.16f * ring + 0.2f * streak - 0.5f * eye);
 }
 
 void handle(Canvas &canvas, float x, float y, float length) {
@@ -39,19 +45,19 @@ void handle(Canvas &canvas, float x, float y, float length) {
 }  // namespace
 
 void paintPlanks(Canvas &canvas, Rng &rng, float plank_width_m, float plank_length_m, bool upright) {
-  const Grain grain = randomGrain(rng);
+  const Grain grain = randomGrain(rng, rng);
   canvas.fill([&](float x, float y) {
     const float along_all = upright ? y : x, across_all = upright ? x : y;
-    const float row = std::floor(across_all / plank_width_m);
+    const float row = static_cast<float>(floorInt(across_all / plank_width_m));
     const auto r = static_cast<int32_t>(row);
     const float shifted = along_all + plank_length_m * unitFloat(hash32(r, 3, grain.seed));
-    const float column = std::floor(shifted / plank_length_m);
+    const float column = static_cast<float>(floorInt(shifted / plank_length_m));
     const uint32_t id = hash32(static_cast<int32_t>(column), r, grain.seed + 1);
     const float along = shifted - column * plank_length_m, across = across_all - row * plank_width_m;
     Grain own = grain;
     own.seed = id;
-    own.value *= 0.78f + 0.4f * unitFloat(id);
-    own.hue += 0.02f * unitFloat(hash32(static_cast<int32_t>(id), 4, 1)) - 0.01f;
+    own.ink = own.ink * (0.78f + 0.4f * unitFloat(id));
+    own.ink.b *= 0.85f + 0.3f * unitFloat(hash32(static_cast<int32_t>(id), 4, 1));
     const float edge = std::min(std::min(along, plank_length_m - along), std::min(across, plank_width_m - across));
     return wood(own, along, across) * (0.35f + 0.65f * smooth(0.0005f, 0.0035f, edge)) *
            (1 + 0.14f * fbm(x * 1.6f, y * 1.6f, 3, grain.seed + 8));
@@ -64,16 +70,16 @@ void paintPlanks(Canvas &canvas, Rng &rng, float plank_width_m, float plank_leng
   }
 }
 
-void paintWood(Canvas &canvas, Rng &rng) {
-  const Grain grain = randomGrain(rng);
+void paintWood(Canvas &canvas, Rng &style, Rng &rng) {
+  const Grain grain = randomGrain(style, rng);
   const bool upright = canvas.height() > canvas.width();
   const float shift = rng.uniform(0, 10);
   canvas.fill([&](float x, float y) { return upright ? wood(grain, y + shift, x) : wood(grain, x + shift, y); });
   canvas.speckle(rng, 900, 0.002f, 0.015f, 0.35f);
 }
 
-void paintCabinetDoor(Canvas &canvas, Rng &rng) {
-  paintWood(canvas, rng);
+void paintCabinetDoor(Canvas &canvas, Rng &style, Rng &rng) {
+  paintWood(canvas, style, rng);
   const float w = canvas.width(), h = canvas.height(), rim = std::min(0.06f, 0.15f * std::min(w, h));
   const Ink dark{0.1f, 0.07f, 0.05f, 0.3f}, light{0.85f, 0.75f, 0.6f, 0.5f};
   canvas.line(0, 0, w, 0, 0.012f, dark, 0.8f);
@@ -93,8 +99,8 @@ void paintCabinetDoor(Canvas &canvas, Rng &rng) {
   canvas.speckle(rng, 600, 0.003f, 0.02f, 0.3f);
 }
 
-void paintDoor(Canvas &canvas, Rng &rng) {
-  paintWood(canvas, rng);
+void paintDoor(Canvas &canvas, Rng &style, Rng &rng) {
+  paintWood(canvas, style, rng);
   const float w = canvas.width(), h = canvas.height();
   const Ink dark{0.12f, 0.09f, 0.06f, 0.3f}, light{0.85f, 0.75f, 0.6f, 0.5f};
   for (int j = 0; j < 3; ++j) {

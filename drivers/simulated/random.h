@@ -2,7 +2,6 @@
 // the same on every machine.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 namespace sphc::simulated {
@@ -49,17 +48,36 @@ class Rng {
   uint64_t state_;
 };
 
-// Smooth noise with one lattice point a unit, in [-1, 1].
+// The whole number at or below x; std::floor is a function call where the target lacks the instruction.
+inline int32_t floorInt(float x) {
+  const auto i = static_cast<int32_t>(x);
+  return i - (x < static_cast<float>(i) ? 1 : 0);
+}
+
+// Random values in [-1, 1] for the lattice of the noise, which repeats after kSide points.
+struct NoiseLattice {
+  static constexpr uint32_t kSide = 128;
+  float value[kSide * kSide];
+  NoiseLattice();
+};
+extern const NoiseLattice kNoiseLattice;
+
+// Smooth noise with one lattice point a unit, in [-1, 1]; `seed` displaces the lattice.
 inline float noise(float x, float y, uint32_t seed) {
-  const float fx = std::floor(x), fy = std::floor(y);
-  const auto ix = static_cast<int32_t>(fx), iy = static_cast<int32_t>(fy);
-  float u = x - fx, v = y - fy;
+  constexpr uint32_t kMask = NoiseLattice::kSide - 1;
+  const int32_t ix = floorInt(x), iy = floorInt(y);
+  float u = x - static_cast<float>(ix), v = y - static_cast<float>(iy);
   u = u * u * (3 - 2 * u);
   v = v * v * (3 - 2 * v);
-  const float a = unitFloat(hash32(ix, iy, seed)), b = unitFloat(hash32(ix + 1, iy, seed));
-  const float c = unitFloat(hash32(ix, iy + 1, seed)), d = unitFloat(hash32(ix + 1, iy + 1, seed));
+  const uint32_t shift = seed * 0x9E3779B1u;
+  const uint32_t x0 = static_cast<uint32_t>(ix) + (shift >> 25),
+                 y0 = static_cast<uint32_t>(iy) + ((shift >> 18) & kMask);
+  const float *row0 = kNoiseLattice.value + (y0 & kMask) * NoiseLattice::kSide;
+  const float *row1 = kNoiseLattice.value + ((y0 + 1) & kMask) * NoiseLattice::kSide;
+  const float a = row0[x0 & kMask], b = row0[(x0 + 1) & kMask];
+  const float c = row1[x0 & kMask], d = row1[(x0 + 1) & kMask];
   const float top = a + (b - a) * u, bottom = c + (d - c) * u;
-  return 2 * (top + (bottom - top) * v) - 1;
+  return top + (bottom - top) * v;
 }
 
 // Octaves of noise, each of half the size and `gain` times the amplitude of the one before; about [-1, 1].

@@ -12,33 +12,36 @@ constexpr float kNear = 0.02f;
 
 }  // namespace
 
-View makeView(const Scene &scene, const Pose &pose) {
-  View view;
-  view.world_from_camera = pose;
-  view.locals.reserve(scene.shapes.size());
-  const Mat3f rotation = toFloat(pose.rotation);
-  for (const Shape &shape : scene.shapes) {
-    const Mat3f m = shape.local_from_world * rotation;
-    // In double: the difference of two places, a few metres from the origin, decides a depth.
-    const Vec3f away = toFloat(pose.center - toDouble(shape.center));
-    const Vec3f o = shape.local_from_world * away;
-    const Vec3f scale{1 / shape.half.x, 1 / shape.half.y, 1 / shape.half.z};
-    view.locals.push_back({{o.x * scale.x, o.y * scale.y, o.z * scale.z},
-                           {m.row[0].x * scale.x, m.row[1].x * scale.y, m.row[2].x * scale.z},
-                           {m.row[0].y * scale.x, m.row[1].y * scale.y, m.row[2].y * scale.z},
-                           {m.row[0].z * scale.x, m.row[1].z * scale.y, m.row[2].z * scale.z}});
+Raster::Local Raster::localOf(const Shape &shape, const Pose (&poses)[kLanes]) {
+  Local local{};
+  const Vec3f scale{1 / shape.half.x, 1 / shape.half.y, 1 / shape.half.z};
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const Mat3f m = shape.local_from_world * toFloat(poses[i].rotation);
+    // The difference in double: it decides a depth.
+    const Vec3f o = shape.local_from_world * toFloat(poses[i].center - toDouble(shape.center));
+    const auto put = [&](Vec4 &to, float x, float y, float z) {
+      to.x[i] = x * scale.x;
+      to.y[i] = y * scale.y;
+      to.z[i] = z * scale.z;
+    };
+    put(local.origin, o.x, o.y, o.z);
+    put(local.x, m.row[0].x, m.row[1].x, m.row[2].x);
+    put(local.y, m.row[0].y, m.row[1].y, m.row[2].y);
+    put(local.z, m.row[0].z, m.row[1].z, m.row[2].z);
   }
-  return view;
+  return local;
 }
 
-Raster::Raster(const Scene &scene, const sphc_camera &camera, const RayTable &rays, std::vector<View> views)
-    : scene_(scene), rays_(rays), width_(camera.width), height_(camera.height), views_(std::move(views)) {
+Raster::Raster(const Scene &scene, const sphc_camera &camera, const RayTable &rays, const Pose (&poses)[kLanes])
+    : scene_(scene), rays_(rays), width_(camera.width), height_(camera.height), cut_(poses[0]) {
+  locals_.reserve(scene.shapes.size());
+  for (const Shape &shape : scene.shapes) locals_.push_back(localOf(shape, poses));
   measure();
 }
 
 // Projects each shape's box; edges that cross the plane z = kNear are cut there.
 void Raster::measure() {
-  const Pose &pose = views_[0].world_from_camera;
+  const Pose &pose = cut_;
   const Mat3f camera_from_world = toFloat(transposed(pose.rotation));
   for (uint32_t i = 1; i < scene_.shapes.size(); ++i) {
     Vec3f corner[8];
@@ -88,22 +91,62 @@ void Raster::gather(uint32_t left, uint32_t top, uint32_t right, uint32_t bottom
   }
 }
 
-Hit Raster::cast(const List &list, uint32_t view, const Ray2 &ray) const {
-  Hit hit;
-  for (const uint32_t i : list) {
-    const Extent &e = extents_[i];
-    if (e.z - 2 * kMargin > hit.z) break;
-    const float z = intersect(scene_.shapes[e.shape].kind, local(e.shape, view, ray), kNear, hit.z);
-    if (z < hit.z) hit = {z, e.shape};
-  }
-  // Nothing stands behind the walls.
-  if (hit.z == kFar) hit = {intersect(Kind::kRoom, local(0, view, ray), kNear, kFar), 0};
-  return hit;
+LocalRay Raster::local(uint32_t shape, uint32_t lane, const Ray2 &ray) const {
+  const Local &l = locals_[shape];
+  const auto of = [lane](const Vec4 &v) { return Vec3f{v.x[lane], v.y[lane], v.z[lane]}; };
+  return {of(l.origin), of(l.x) * ray.x + of(l.y) * ray.y + of(l.z)};
 }
 
-Seen Raster::look(const Hit &hit, uint32_t view, const Ray2 &ray) const {
+// Lowers each lane's hit to this shape where it is nearer.
+void Raster::meet(uint32_t shape, const Rays &rays, Float4 x, Float4 y, Hits &hits, Float4 &nearest) const {
+  const Kind kind = scene_.shapes[shape].kind;
+  Float4 z = all(kFar);
+  if (kind == Kind::kBox || kind == Kind::kRoom) {
+    const Local &l = locals_[shape];
+    Float4 enter = all(-kFar), leave = all(kFar);
+    const auto slab = [&](Float4 origin, Float4 direction) {
+      const Float4 tiny = all(1e-12f);
+      const Float4 inverse = 1.0f / (direction * direction < tiny * tiny ? tiny : direction);
+      const Float4 a = (-1.0f - origin) * inverse, b = (1.0f - origin) * inverse;
+      enter = higher(enter, lower(a, b));
+      leave = lower(leave, higher(a, b));
+    };
+    slab(l.origin.x, l.x.x * x + l.y.x * y + l.z.x);
+    slab(l.origin.y, l.x.y * x + l.y.y * y + l.z.y);
+    slab(l.origin.z, l.x.z * x + l.y.z * y + l.z.z);
+    const Float4 at = kind == Kind::kRoom ? leave : enter;
+    z = enter < leave ? at : z;
+    z = at > all(kNear) ? z : all(kFar);
+  } else {
+    for (uint32_t i = 0; i < kLanes; ++i) z[i] = intersect(kind, local(shape, i, rays.lane[i]), kNear, kFar);
+  }
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    if (z[i] < nearest[i]) hits.lane[i] = {z[i], shape};
+  }
+  nearest = lower(nearest, z);
+}
+
+Hits Raster::cast(const List &list, const Rays &rays) const {
+  const Float4 x{rays.lane[0].x, rays.lane[1].x, rays.lane[2].x, rays.lane[3].x};
+  const Float4 y{rays.lane[0].y, rays.lane[1].y, rays.lane[2].y, rays.lane[3].y};
+  Hits hits;
+  Float4 nearest = all(kFar);
+  const auto farthest = [&] {
+    return std::max(std::max(nearest[0], nearest[1]), std::max(nearest[2], nearest[3]));
+  };
+  for (const uint32_t i : list) {
+    const Extent &e = extents_[i];
+    if (e.z - 2 * kMargin > farthest()) return hits;
+    meet(e.shape, rays, x, y, hits, nearest);
+  }
+  // Nothing stands behind the walls.
+  if (farthest() == kFar) meet(0, rays, x, y, hits, nearest);
+  return hits;
+}
+
+Seen Raster::look(const Hit &hit, uint32_t lane, const Ray2 &ray) const {
   const Shape &shape = scene_.shapes[hit.shape];
-  const LocalRay in = local(hit.shape, view, ray);
+  const LocalRay in = local(hit.shape, lane, ray);
   const Contact where = contact(shape.kind, in, hit.z);
   // Both back in metres: a unit-space normal is divided by the half extents, a direction multiplied.
   const Vec3f n{where.normal.x / shape.half.x, where.normal.y / shape.half.y, where.normal.z / shape.half.z};

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "drivers/simulated/lanes.h"
 #include "drivers/simulated/lens.h"
 #include "drivers/simulated/scene.h"
 #include "drivers/simulated/vec.h"
@@ -12,16 +13,6 @@
 namespace sphc::simulated {
 
 constexpr uint32_t kTile = 16;
-
-struct View {
-  Pose world_from_camera;
-  // Of each shape: the ray (x, y, 1) of the camera in its unit space.
-  struct Local {
-    Vec3f origin, x, y, z;
-  };
-  std::vector<Local> locals;
-};
-View makeView(const Scene &scene, const Pose &world_from_camera);
 
 struct Hit {
   float z = kFar;  // depth along the camera's axis
@@ -35,10 +26,18 @@ struct Seen {
   float cosine;  // between the ray and the surface's normal
 };
 
+// Rays are cast four at a time: four samples of a pixel, or four neighbours.
+struct Hits {
+  Hit lane[kLanes];
+};
+struct Rays {
+  Ray2 lane[kLanes];
+};
+
 class Raster {
  public:
-  // `views` are one or more moments of one exposure; the first serves to cut the tiles.  Borrows all but `views`.
-  Raster(const Scene &scene, const sphc_camera &camera, const RayTable &rays, std::vector<View> views);
+  // world_from_camera of each lane: moments of one exposure, or one moment four times.  Borrows all but the poses.
+  Raster(const Scene &scene, const sphc_camera &camera, const RayTable &rays, const Pose (&poses)[kLanes]);
 
   uint32_t tileRows() const { return (height_ + kTile - 1) / kTile; }
   // Calls pixel(column, row, list) for each pixel of one row of tiles.
@@ -56,8 +55,8 @@ class Raster {
       }
     }
   }
-  Hit cast(const List &list, uint32_t view, const Ray2 &ray) const;
-  Seen look(const Hit &hit, uint32_t view, const Ray2 &ray) const;
+  Hits cast(const List &list, const Rays &rays) const;
+  Seen look(const Hit &hit, uint32_t lane, const Ray2 &ray) const;
 
  private:
   // Where a shape may appear: a rectangle of the plane z = 1, and its least depth.
@@ -67,15 +66,19 @@ class Raster {
   };
   void gather(uint32_t left, uint32_t top, uint32_t right, uint32_t bottom, List &list) const;
   void measure();
-  LocalRay local(uint32_t shape, uint32_t view, const Ray2 &ray) const {
-    const View::Local &l = views_[view].locals[shape];
-    return {l.origin, l.x * ray.x + l.y * ray.y + l.z};
-  }
+  // Of a shape: the ray (x, y, 1) of each lane's camera in its unit space.
+  struct Local {
+    Vec4 origin, x, y, z;
+  };
+  static Local localOf(const Shape &shape, const Pose (&poses)[kLanes]);
+  LocalRay local(uint32_t shape, uint32_t lane, const Ray2 &ray) const;
+  void meet(uint32_t shape, const Rays &rays, Float4 x, Float4 y, Hits &hits, Float4 &nearest) const;
 
   const Scene &scene_;
   const RayTable &rays_;
   uint32_t width_, height_;
-  std::vector<View> views_;
+  Pose cut_;  // the pose by which tiles are cut
+  std::vector<Local> locals_;
   std::vector<Extent> extents_;  // nearest first; the room is not among them
 };
 

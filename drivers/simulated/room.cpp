@@ -93,12 +93,13 @@ void shuffle(std::vector<T> &items, Rng &rng) {
 }
 
 // Stands pieces along a wall from one corner to the other until no more fit, and spreads the gaps.
-void furnish(Builder &b, Wall &wall, std::vector<Piece> &pieces) {
+// Tall ones keep away from the wall with the window.
+void furnish(Builder &b, Wall &wall, std::vector<Piece> &pieces, bool low) {
   std::vector<Piece> chosen;
   double left = 2 * (wall.half - kCorner);
   for (size_t i = 0; i < pieces.size();) {
     const double width = sizeOf(pieces[i]).width + 0.08;
-    if (width > left) {
+    if (width > left || (low && sizeOf(pieces[i]).height > 1.3)) {
       ++i;
       continue;
     }
@@ -140,21 +141,13 @@ void hangPictures(Builder &b, Wall &wall) {
   }
 }
 
-// The widest free stretch at the window's height, tried at random.
-bool placeWindow(Builder &b, Wall &wall, RoomPlan &plan) {
-  for (int attempt = 0; attempt < 40; ++attempt) {
-    const double width = b.rng().real(1.1, 1.6), reach = 0.5 * width + 0.42;
-    const double x = b.rng().real(-wall.half + reach, wall.half - reach);
-    const Taken area{x - reach, x + reach, 0.9, 2.4};
-    if (!wall.isFree(area)) continue;
-    addWindow(b, at(wall.place, x, 0), width);
-    wall.taken.push_back({x - reach, x + reach, 0.4, 2.5});
-    const Vec3d normal = yawRotation(wall.place.yaw) * Vec3d{0, 1, 0};
-    plan.window = toFloat(at(wall.place, x, 0.3, 1.55).origin);
-    plan.window_normal = toFloat(normal);
-    return true;
-  }
-  return false;
+void placeWindow(Builder &b, Wall &wall, RoomPlan &plan) {
+  const double width = b.rng().real(1.2, 1.7), reach = 0.5 * width + 0.45;
+  const double x = b.rng().real(-0.7, 0.7) * (wall.half - kCorner - 0.5 * width);
+  addWindow(b, at(wall.place, x, 0), width);
+  wall.taken.push_back({x - reach, x + reach, 0.85, 2.5});
+  plan.window = toFloat(at(wall.place, x, 0.3, 1.55).origin);
+  plan.window_normal = toFloat(yawRotation(wall.place.yaw) * Vec3d{0, 1, 0});
 }
 
 void fillCorners(Builder &b, RoomPlan &plan) {
@@ -176,12 +169,12 @@ void fillCorners(Builder &b, RoomPlan &plan) {
 }
 
 void buildShell(Builder &b, const RoomPlan &plan) {
-  constexpr float kTexel = 0.003f;
+  constexpr float kTexel = 0.0037f;
   std::vector<Material> walls{Material::kBrick,   Material::kWallpaper, Material::kPlaster,
                               Material::kPlaster, Material::kPanelling, Material::kWallpaper};
   shuffle(walls, b.rng());
   const Finish faces[kMaxFaces] = {{walls[0], kTexel}, {walls[1], kTexel},         {walls[2], kTexel},
-                                   {walls[3], kTexel}, {Material::kFloor, kTexel}, {Material::kCeiling, 0.006f}};
+                                   {walls[3], kTexel}, {Material::kFloor, kTexel}, {Material::kCeiling, 0.007f}};
   b.room(plan.half, faces);
 }
 
@@ -212,10 +205,9 @@ RoomPlan layOut(Builder &b) {
                             Piece::kTv,      Piece::kCabinet,  Piece::kDining, Piece::kShelfSmall,
                             Piece::kDresser, Piece::kArmchair, Piece::kBoxes};
   shuffle(pieces, rng);
-  for (const int i : order) furnish(b, walls[i], pieces);
-  for (const int i : order) {
-    if (placeWindow(b, walls[i], plan)) break;
-  }
+  // The low pieces go to the window's wall before others claim them.
+  placeWindow(b, walls[order[0]], plan);
+  for (const int i : order) furnish(b, walls[i], pieces, i == order[0]);
   for (Wall &wall : walls) hangPictures(b, wall);
   fillCorners(b, plan);
   const Place center{{rng.real(-0.15, 0.15), rng.real(-0.1, 0.1), 0}, rng.real(-0.15, 0.15)};

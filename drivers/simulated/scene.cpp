@@ -30,7 +30,7 @@ Scene makeScene(uint64_t seed, uint32_t threads) {
     float width_m = 0, height_m = 0;
     faceSize(shape, job.face, &width_m, &height_m);
     Canvas canvas(scene.pool.texels(job.texture), texture.width, texture.height, width_m, height_m);
-    paint(canvas, job.material, job.seed);
+    paint(canvas, job.material, job.style, job.seed);
     if (!isBright(job.material)) shade(bvh, scene.plan, shape, job.face, texture, scene.pool.texels(job.texture));
     scene.pool.buildPyramid(job.texture);
   });

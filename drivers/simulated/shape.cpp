@@ -30,11 +30,15 @@ float intersectCylinder(const LocalRay &ray, float t_min, float t_max) {
   const float b = o.x * d.x + o.y * d.y;
   const float c = o.x * o.x + o.y * o.y - 1;
   const float discriminant = b * b - a * c;
-  if (discriminant <= 0) return kFar;
-  const float root = std::sqrt(discriminant);
-  const float inverse = 1.0f / std::max(a, 1e-12f);
-  enter = std::max(enter, (-b - root) * inverse);
-  leave = std::min(leave, (-b + root) * inverse);
+  if (a < 1e-12f) {
+    // Along the axis: only the caps count.
+    if (c >= 0) return kFar;
+  } else {
+    if (discriminant <= 0) return kFar;
+    const float root = std::sqrt(discriminant);
+    enter = std::max(enter, (-b - root) / a);
+    leave = std::min(leave, (-b + root) / a);
+  }
   return enter < leave && enter > t_min && enter < t_max ? enter : kFar;
 }
 

@@ -2,7 +2,7 @@
  * who walks them through the room.  Everything is known exactly, so that what the library answers can be judged.
  *
  *     sphc_simulated_config_init, change what you like
- *     sphc_simulated_open                         builds and paints the room: a second or two
+ *     sphc_simulated_open                         builds and paints the room: a few seconds
  *     sphc_simulated_cameras                      the calibration that sphc_config wants
  *     sphc_simulated_source                       captures in order of time, as any driver gives them
  *     sphc_simulated_pose_at, _oracle_depth       the truth

@@ -32,14 +32,10 @@ class TexturePool {
   const Texture &texture(uint32_t index) const { return textures_[index]; }
   uint32_t size() const { return static_cast<uint32_t>(textures_.size()); }
   size_t bytes() const { return texels_.size() * sizeof(Texel); }
-  // Trilinear; u and v in [0, 1]; `level` is the base-2 logarithm of the footprint in texels of level 0.
-  Texel sample(const Texture &texture, float u, float v, float level) const;
-  // The nearest texel of level round(level).
-  Texel nearest(const Texture &texture, float u, float v, float level) const;
+  // Bilinear in one level (clamped to those there are); u and v in [0, 1].
+  Texel sample(const Texture &texture, float u, float v, int level) const;
 
  private:
-  uint64_t bilinear(const Texture &texture, int level, float u, float v) const;
-
   std::vector<Texture> textures_;
   std::vector<Texel> texels_;
   size_t total_ = 0;

@@ -20,6 +20,13 @@ using ::testing::ValuesIn;
 constexpr uint32_t kTimeoutUs = 20000;
 constexpr auto kPatience = std::chrono::seconds(10);  // for a capture to come at all
 
+// The consumer sets struct_size; a driver may insist on it.
+sphc_capture emptyCapture() {
+  sphc_capture capture{};
+  capture.struct_size = sizeof capture;
+  return capture;
+}
+
 class DriverContract : public ::testing::TestWithParam<Driver> {
  protected:
   void SetUp() override {
@@ -45,14 +52,14 @@ class DriverContract : public ::testing::TestWithParam<Driver> {
 
   // Fills the loan limit.
   std::vector<sphc_capture> acquireAll() const {
-    std::vector<sphc_capture> loans(opened_.source.loan_limit);
+    std::vector<sphc_capture> loans(opened_.source.loan_limit, emptyCapture());
     for (sphc_capture &loan : loans) EXPECT_EQ(acquire(&loan), SPHC_OK) << message();
     return loans;
   }
 
   // Acquire without a timeout until it says something other than "nothing yet".
   void expectLimitReached() const {
-    sphc_capture capture;
+    sphc_capture capture = emptyCapture();
     EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
     EXPECT_STRNE(message(), "");
   }
@@ -61,7 +68,7 @@ class DriverContract : public ::testing::TestWithParam<Driver> {
   template <typename Visit>
   void forEachCapture(uint32_t count, Visit visit) const {
     for (uint32_t i = 0; i < count; ++i) {
-      sphc_capture capture;
+      sphc_capture capture = emptyCapture();
       const sphc_status status = acquire(&capture);
       if (status == SPHC_END) return;
       ASSERT_EQ(status, SPHC_OK) << message();
@@ -108,7 +115,7 @@ TEST_P(DriverContract, HasAMessageInEveryState) {
 // ---- states ----------------------------------------------------------------------------------------------------
 
 TEST_P(DriverContract, RefusesToAcquireBeforeStart) {
-  sphc_capture capture;
+  sphc_capture capture = emptyCapture();
   EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
   EXPECT_STRNE(message(), "");
 }
@@ -117,14 +124,14 @@ TEST_P(DriverContract, RefusesToStartTwiceAndGoesOn) {
   ASSERT_EQ(start(), SPHC_OK) << message();
   EXPECT_EQ(start(), SPHC_E_STATE);
   EXPECT_STRNE(message(), "");
-  sphc_capture capture;
+  sphc_capture capture = emptyCapture();
   EXPECT_EQ(acquire(&capture), SPHC_OK) << message();
 }
 
 TEST_P(DriverContract, RefusesToAcquireAfterStop) {
   ASSERT_EQ(start(), SPHC_OK);
   stop();
-  sphc_capture capture;
+  sphc_capture capture = emptyCapture();
   EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
 }
 
@@ -146,7 +153,7 @@ TEST_P(DriverContract, StartsAgainAndAgain) {
 
 TEST_P(DriverContract, ClosesWhileRunningWithLoansOut) {
   ASSERT_EQ(start(), SPHC_OK);
-  sphc_capture capture;
+  sphc_capture capture = emptyCapture();
   ASSERT_EQ(acquire(&capture), SPHC_OK);
   opened_.handle.reset();  // a sanitizer would see what is left behind
 }
@@ -158,14 +165,14 @@ TEST_P(DriverContract, LendsUpToTheLimitAndAgainAfterRelease) {
   const std::vector<sphc_capture> loans = acquireAll();
   expectLimitReached();
   release(loans.front());
-  sphc_capture capture;
+  sphc_capture capture = emptyCapture();
   EXPECT_EQ(acquire(&capture), SPHC_OK) << message();
   expectLimitReached();
 }
 
 TEST_P(DriverContract, KeepsEachLoanApartFromTheOthers) {
   ASSERT_EQ(start(), SPHC_OK);
-  std::vector<sphc_capture> loans(opened_.source.loan_limit);
+  std::vector<sphc_capture> loans(opened_.source.loan_limit, emptyCapture());
   std::vector<uint64_t> sums;
   std::set<const void *> buffers;
   for (sphc_capture &loan : loans) {
@@ -182,7 +189,7 @@ TEST_P(DriverContract, IgnoresASecondRelease) {
   const std::vector<sphc_capture> loans = acquireAll();
   release(loans.front());
   release(loans.front());
-  sphc_capture capture;
+  sphc_capture capture = emptyCapture();
   ASSERT_EQ(acquire(&capture), SPHC_OK);
   release(loans.front());  // its place has a new tenant now
   expectLimitReached();
@@ -206,9 +213,14 @@ TEST_P(DriverContract, IgnoresTheReleaseOfAnothersCapture) {
   ASSERT_EQ(start(), SPHC_OK);
   ASSERT_EQ(start(other), SPHC_OK);
   const std::vector<sphc_capture> loans = acquireAll();
-  sphc_capture foreign;
+  sphc_capture foreign = emptyCapture();
   ASSERT_EQ(acquire(other, &foreign), SPHC_OK);
   release(foreign);
+  expectLimitReached();
+  for (const sphc_capture &loan : loans) {  // tokens of two sources may well be equal; their images are not
+    foreign.token = loan.token;
+    release(foreign);
+  }
   expectLimitReached();
 }
 
@@ -309,6 +321,7 @@ TEST_P(DriverContract, ReusesItsMemory) {
 TEST_P(DriverContract, LeavesTheCaptureUntouchedWhenItGivesNone) {
   sphc_capture capture;
   std::memset(&capture, 0x5a, sizeof capture);
+  capture.struct_size = sizeof capture;
   const sphc_capture before = capture;
   EXPECT_EQ(acquire(&capture), SPHC_E_STATE);
   EXPECT_EQ(std::memcmp(&capture, &before, sizeof capture), 0) << "stopped";
@@ -331,7 +344,7 @@ TEST_P(DriverContract, EndsOnceAllAreGivenAndStartsFromTheBeginning) {
     uint32_t count = 0;
     forEachCapture(GetParam().captures_until_end + 10, [&](const sphc_capture &) { ++count; });
     EXPECT_EQ(count, GetParam().captures_until_end);
-    sphc_capture capture;
+    sphc_capture capture = emptyCapture();
     EXPECT_EQ(acquire(&capture), SPHC_END);
     EXPECT_EQ(acquire(&capture), SPHC_END) << "and stays there";
     stop();
@@ -343,7 +356,7 @@ TEST_P(DriverContract, ComesBackWithinTheTimeout) {
   ASSERT_EQ(start(), SPHC_OK);
   for (const uint32_t timeout_us : {0u, 1u, 1000u, 20000u}) {
     const Clock::time_point begin = Clock::now();
-    sphc_capture capture;
+    sphc_capture capture = emptyCapture();
     const sphc_status status = opened_.source.acquire(opened_.source.self, timeout_us, &capture);
     EXPECT_LT(Clock::now() - begin, std::chrono::microseconds(timeout_us) + kSlack);
     EXPECT_TRUE(status == SPHC_OK || status == SPHC_AGAIN) << status;
@@ -357,7 +370,7 @@ TEST_P(DriverContract, RunsBesideAnotherOfItsKind) {
   ASSERT_EQ(start(), SPHC_OK);
   ASSERT_EQ(start(other), SPHC_OK);
   stop();
-  sphc_capture capture;
+  sphc_capture capture = emptyCapture();
   EXPECT_EQ(acquire(other, &capture), SPHC_OK);
 }
 

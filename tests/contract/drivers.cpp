@@ -4,7 +4,9 @@ namespace sphc::contract {
 
 std::vector<Driver> driversUnderTest() {
   std::vector<Driver> all;
-  for (const auto &some : {sampleDrivers(), replayDrivers()}) all.insert(all.end(), some.begin(), some.end());
+  const auto add = [&all](const std::vector<Driver> &some) { all.insert(all.end(), some.begin(), some.end()); };
+  add(sampleDrivers());
+  add(replayDrivers());
   return all;
 }
 

@@ -25,6 +25,7 @@ struct Driver {
 };
 inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
 
+// Each program of the suite has its own.
 std::vector<Driver> driversUnderTest();
 
 // One file each.

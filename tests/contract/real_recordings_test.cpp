@@ -67,7 +67,8 @@ uint32_t countCaptures(const OpenReplay &replay) {
 constexpr const char *kKinect = R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
   "color_camera": {"model": "pinhole", "width": 640, "height": 480, "params": [525.505, 525.505, 320, 240]},
   "depth_camera": {"model": "pinhole", "width": 640, "height": 480, "params": [579.751, 579.751, 317.152, 241.145]},
-  "color_from_depth": {"q_wxyz": [0.999981728, -0.002676072, 0.003826517, -0.003942993], "t_m": [-0.01979, 0.00483, 0.0124]},
+  "color_from_depth": {"q_wxyz": [0.999981324, 0.002676102, -0.003826529, 0.003943001],
+                       "t_m": [-0.019871, 0.004829, 0.012417]},
   "depth_unit_m": 0.001})";
 
 constexpr const char *kHeadset = R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,

@@ -50,7 +50,7 @@ class FrameDescriber {
                                        static_cast<int32_t>(frame.depth.stride_bytes / 2)};
     std::vector<Observation> observations;
     for (uint32_t i = 0; i < *keypoints; ++i) {
-      const Vector2 pixel(double{keypoints_[i].x_px}, double{keypoints_[i].y_px});
+      const Vector2 pixel(static_cast<double>(keypoints_[i].x_px), static_cast<double>(keypoints_[i].y_px));
       Vector3 point;
       double sigma = 0;
       if (!aligner_.lift(depth, pixel, &point, &sigma)) continue;
@@ -60,7 +60,7 @@ class FrameDescriber {
       o.pixel_px = pixel;
       o.depth_m = point.z();
       o.sigma_m = sigma;
-      o.metric_scale_m = double{keypoints_[i].scale_px} * point.z() / camera_.focal();
+      o.metric_scale_m = static_cast<double>(keypoints_[i].scale_px) * point.z() / camera_.focal();
       o.descriptor = descriptors_[i];
       observations.push_back(o);
     }

@@ -4,7 +4,6 @@
 #include "runtime/geometry/rigid.h"
 
 using sphc::Camera;
-using sphc::Rigid;
 using sphc::Vector2;
 using sphc::Vector3;
 

@@ -17,7 +17,7 @@ bool inRange(const char *name, double value, double low, double high, sphc_messa
 bool checkNumbers(const sphc_config &c, sphc_message *message) {
   return inRange("max_keypoints", c.max_keypoints, 64, 4096, message) &&
          inRange("max_iterations", c.max_iterations, 1, 1e6, message) &&
-         inRange("max_ratio", double{c.max_ratio}, 0.1, 1, message) &&
+         inRange("max_ratio", static_cast<double>(c.max_ratio), 0.1, 1, message) &&
          inRange("depth_unit_m", c.depth_unit_m, 1e-6, 0.1, message) &&
          inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
          inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&

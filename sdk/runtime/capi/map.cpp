@@ -48,9 +48,9 @@ sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
 sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, double direction[3]) {
   if (!map || !direction || index >= map->view.pointCount()) return SPHC_E_ARGUMENT;
   const sphc::Direction d = map->view.direction(index);
-  direction[0] = double{d.x};
-  direction[1] = double{d.y};
-  direction[2] = double{d.z};
+  direction[0] = static_cast<double>(d.x);
+  direction[1] = static_cast<double>(d.y);
+  direction[2] = static_cast<double>(d.z);
   return SPHC_OK;
 }
 

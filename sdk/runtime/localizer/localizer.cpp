@@ -100,7 +100,7 @@ void Localizer::lift(const sphc_image &depth) {
     if (!aligner_.lift(view, {keypoint.x_px, keypoint.y_px}, &lifted.point_m, &sigma_z)) continue;
     const double z = lifted.point_m.z();
     // coarser keypoints are placed less exactly
-    const double pixel = config_.pixel_sigma_px * (keypoint.scale_px > 2 ? 0.5 * double{keypoint.scale_px} : 1.0);
+    const double pixel = config_.pixel_sigma_px * (keypoint.scale_px > 2 ? 0.5 * static_cast<double>(keypoint.scale_px) : 1.0);
     const double across = pixel * z / focal;
     lifted.sideways_m = sqrtOf(across * across + config_.map_sigma_m * config_.map_sigma_m);
     const double along = sigma_z * lifted.point_m.norm() / z;
@@ -118,7 +118,7 @@ void Localizer::correspond(uint32_t match_count) {
   match_count_ = match_count;
   for (uint32_t i = 0; i < match_count; ++i) {
     const Direction d = map_.direction(matches_[i].map_index);
-    correspondences_[i] = {lifted_[matches_[i].query], Vector3(double{d.x}, double{d.y}, double{d.z})};
+    correspondences_[i] = {lifted_[matches_[i].query], Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z))};
   }
 }
 

@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "handle.h"
+
+namespace sphc::simulated::test {
+namespace {
+
+struct Images {
+  std::vector<uint8_t> rgb = std::vector<uint8_t>(3 * kColorPixels);
+  std::vector<uint16_t> depth = std::vector<uint16_t>(kDepthPixels);
+};
+
+Images render(const Handle &handle, uint32_t index) {
+  Images images;
+  EXPECT_EQ(sphc_simulated_render_color(handle.get(), index, images.rgb.data()), SPHC_OK);
+  EXPECT_EQ(sphc_simulated_render_depth(handle.get(), index, images.depth.data()), SPHC_OK);
+  return images;
+}
+
+TEST(SimulatedHeadset, SameConfigSameBytesWhateverTheThreads) {
+  sphc_simulated_config config = defaults();
+  config.seed = 5;
+  config.threads = 1;
+  const Handle one(config);
+  config.threads = 3;
+  const Handle three(config);
+  // In another order, too.
+  const Images a150 = render(one, 150), a0 = render(one, 0);
+  const Images b0 = render(three, 0), b150 = render(three, 150);
+  EXPECT_EQ(a0.rgb, b0.rgb);
+  EXPECT_EQ(a0.depth, b0.depth);
+  EXPECT_EQ(a150.rgb, b150.rgb);
+  EXPECT_EQ(a150.depth, b150.depth);
+  EXPECT_NE(a0.rgb, a150.rgb);
+}
+
+}  // namespace
+}  // namespace sphc::simulated::test
