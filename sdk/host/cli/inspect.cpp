@@ -98,7 +98,8 @@ Command inspectCommand(CLI::App *root) {
   auto options = std::make_shared<Options>();
   CLI::App *app = root->add_subcommand("inspect");
   app->description(
-      "Checks a map file and shows what an outsider can see in it: where its bytes go, how its directions\n"
+      "A close look at a map file, with a picture.\n\nChecks a map file and shows what an outsider can see in it: "
+      "where its bytes go, how its directions\n"
       "are spread, what its descriptors are like, and a picture of the sky of directions.");
   app->footer(
       "Example:\n  spherecloud inspect room.sphc\nWhat comes out: three small tables, and "

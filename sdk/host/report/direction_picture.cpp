@@ -70,7 +70,7 @@ cv::Mat drawDirections(const std::vector<std::array<double, 3>> &directions, dou
   cv::applyColorMap(tone, picture, cv::COLORMAP_INFERNO);
   cv::Mat grid = picture.clone();
   drawGrid(&grid);
-  cv::addWeighted(grid, 0.55, picture, 0.45, 0, picture);
+  cv::addWeighted(grid, 0.7, picture, 0.3, 0, picture);
   return picture;
 }
 

@@ -33,22 +33,24 @@ cv::Mat muted(const cv::Mat &color) {
   cv::resize(color, large, cv::Size(), kEnlarge, kEnlarge, cv::INTER_LINEAR);
   cv::cvtColor(large, gray, cv::COLOR_BGR2GRAY);
   cv::cvtColor(gray, gray, cv::COLOR_GRAY2BGR);
-  cv::addWeighted(large, 0.5, gray, 0.25, 0, mixed);
+  cv::addWeighted(large, 0.6, gray, 0.3, 6, mixed);
   return mixed;
 }
 
 void drawMark(cv::Mat *picture, const sphc_observation &seen, const cv::Scalar &color, int thickness) {
   constexpr int kShift = 4;  // OpenCV draws with 4 fractional bits
   const auto at = [](float px) { return cvRound((px - 0.5f) * kEnlarge * (1 << kShift)); };
-  const float radius = std::clamp(2.5f * seen.scale_px, 2.5f, 14.0f) * kEnlarge;
+  const float radius = std::clamp(1.8f * seen.scale_px, 2.5f, 9.0f) * kEnlarge;
   cv::circle(*picture, {at(seen.x_px), at(seen.y_px)}, cvRound(radius * (1 << kShift)), color, thickness,
              cv::LINE_AA, kShift);
 }
 
 // Three layers, the telling one on top.
 void drawMarks(cv::Mat *picture, const std::vector<sphc_observation> &observations) {
-  for (const auto &seen : observations) {
-    if (!(seen.flags & SPHC_OBSERVATION_MATCHED)) drawMark(picture, seen, kGrey, 1);
+  for (sphc_observation seen : observations) {
+    if (seen.flags & SPHC_OBSERVATION_MATCHED) continue;
+    seen.scale_px = 1;  // small: there are many of them, and they tell the least
+    drawMark(picture, seen, kGrey, 1);
   }
   for (const auto &seen : observations) {
     const bool outlier = (seen.flags & SPHC_OBSERVATION_MATCHED) && !(seen.flags & SPHC_OBSERVATION_INLIER);
@@ -69,7 +71,7 @@ int drawEntry(cv::Mat *picture, int x, int y, const cv::Scalar &color, const std
 std::string verdict(const FrameRecord &frame) {
   if (!frame.localized) return outcomeName(frame.outcome);
   if (!frame.has_truth) return "localized";
-  return fixed(100 * frame.translation_error_m, 1) + " cm, " + fixed(frame.rotation_error_deg, 2) + " deg off";
+  return fixed(100 * frame.translation_error_m, 2) + " cm, " + fixed(frame.rotation_error_deg, 2) + " deg off";
 }
 
 void drawLegend(cv::Mat *picture, const FrameRecord &frame) {

@@ -47,13 +47,13 @@ std::string figure(const PagePicture &picture) {
   if (!picture.svg.empty())
     html += picture.svg;
   else
-    html += "<img alt='" + escapeHtml(picture.title) + "' src='data:" + picture.mime + ";base64," +
+    html += "<img tabindex='0' alt='" + escapeHtml(picture.title) + "' src='data:" + picture.mime + ";base64," +
             base64(picture.encoded) + "'>";
   return html + "<figcaption>" + escapeHtml(picture.caption) + "</figcaption></figure>\n";
 }
 
-std::string figures(const std::vector<PagePicture> &pictures) {
-  std::string html = "<div class='pictures'>\n";
+std::string figures(const std::vector<PagePicture> &pictures, const std::string &kind = "") {
+  std::string html = "<div class='pictures " + kind + "'>\n";
   for (const PagePicture &picture : pictures) html += figure(picture);
   return html + "</div>\n";
 }
@@ -71,35 +71,23 @@ std::string tableOf(const std::vector<Row> &rows) {
   return html + "</tbody></table>\n";
 }
 
-std::string howToRead(const Summary &s) {
-  std::string text =
-      "<p>Each frame of the recording, a colour and a depth image, was given to the localizer together with the "
-      "map. It "
-      "answered where the camera was, or that it cannot tell.</p>"
-      "<p class='soft'>The map is a <b>sphere cloud</b>: of every point it keeps only the direction from one "
-      "centre, hidden "
-      "among fake directions. No room can be rebuilt from it by simple means, and still a camera that measures "
-      "depth finds its "
-      "place in it.</p>";
-  if (!s.with_truth) {
-    text +=
-        "<p class='warn'>The truth was not given, so this report cannot say how exact the answers are. Run again "
-        "with "
-        "<code>--owner-note</code> on a recording that has poses.</p>";
-  }
-  return text;
-}
+const char kHowToRead[] = R"(<p>Each frame of the recording, a colour and a depth image, was given to the localizer
+together with the map. It answered where the camera was, or that it cannot tell.</p>
+<p class='soft'>The map is a <b>sphere cloud</b>: of every point it keeps only the direction from one centre, hidden
+among fake directions. It holds no point's place in the room, and still a camera that measures depth finds its place in
+it: the depths come from the camera, not from the map.</p>)";
+const char kNoTruth[] =
+    R"(<p class='warn'>The truth was not given, so this report cannot say how exact the answers are.
+Run again with <code>--owner-note</code> on a recording that has poses.</p>)";
 
-std::string overlayIntro() {
-  return "<p class='soft'><span class='key' style='border-color:#a3a3a3'></span>keypoint "
-         "&nbsp; <span class='key' style='border-color:#f59e0b'></span>looks like a point of the map, but does not "
-         "fit the pose "
-         "(often a fake point: they carry real looks) &nbsp; <span class='key' "
-         "style='border-color:#22c55e'></span>fits the "
-         "pose. Rings are as large as the pattern that was recognised. Green rings spread over the whole image pin "
-         "the pose down "
-         "best.</p>";
-}
+std::string howToRead(const Summary &s) { return std::string(kHowToRead) + (s.with_truth ? "" : kNoTruth); }
+
+const char kOverlayIntro[] = R"(<p class='soft'>
+<span class='key' style='border-color:#a3a3a3'></span>keypoint &nbsp;
+<span class='key' style='border-color:#f59e0b'></span>looks like a point of the map but does not fit the pose
+(often a fake point: they carry real looks) &nbsp;
+<span class='key' style='border-color:#22c55e'></span>fits the pose.
+Green rings spread over the whole image pin the pose down best. Click a picture to enlarge it.</p>)";
 
 std::string outcomeTable(const Summary &s) {
   std::vector<Row> rows;
@@ -111,20 +99,39 @@ std::string outcomeTable(const Summary &s) {
   return tableOf(rows);
 }
 
+// Pieces of one name are one row, largest first.
+std::vector<std::pair<MemoryPiece, size_t>> gatherPieces(const Run &run) {
+  std::vector<std::pair<MemoryPiece, size_t>> gathered;
+  for (const MemoryPiece &piece : run.memory) {
+    const auto same = std::find_if(gathered.begin(), gathered.end(), [&piece](const auto &known) {
+      return known.first.name == piece.name && known.first.scratch == piece.scratch;
+    });
+    if (same == gathered.end()) {
+      gathered.emplace_back(piece, 1);
+      continue;
+    }
+    same->first.bytes += piece.bytes;
+    ++same->second;
+  }
+  std::stable_sort(gathered.begin(), gathered.end(),
+                   [](const auto &a, const auto &b) { return a.first.bytes > b.first.bytes; });
+  return gathered;
+}
+
 std::string memoryTable(const Run &run) {
-  std::vector<MemoryPiece> pieces = run.memory;
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const MemoryPiece &a, const MemoryPiece &b) { return a.bytes > b.bytes; });
-  constexpr size_t kShown = 10;
+  constexpr size_t kShown = 9;
   std::vector<Row> rows = {
       {"map file", humanBytes(static_cast<double>(run.map.file_bytes)), "read-only, used in place"}};
+  const auto pieces = gatherPieces(run);
   size_t rest = 0;
   for (size_t i = 0; i < pieces.size(); ++i) {
-    if (i >= kShown)
-      rest += pieces[i].bytes;
-    else
-      rows.push_back({pieces[i].name, humanBytes(static_cast<double>(pieces[i].bytes)),
-                      pieces[i].scratch ? "scratch" : "state"});
+    const auto &[piece, count] = pieces[i];
+    if (i >= kShown) {
+      rest += piece.bytes;
+      continue;
+    }
+    rows.push_back({piece.name + (count > 1 ? " × " + std::to_string(count) : ""),
+                    humanBytes(static_cast<double>(piece.bytes)), piece.scratch ? "scratch" : "state"});
   }
   if (rest) rows.push_back({"everything else", humanBytes(static_cast<double>(rest)), ""});
   return tableOf(rows);
@@ -171,7 +178,8 @@ std::string reportPage(const Run &run, const Summary &s, const PageContent &cont
   html += cards(run, s);
   html += section("What you are looking at", howToRead(s));
   html += section("In pictures", plotSection(content));
-  if (!content.overlays.empty()) html += section("What the camera saw", overlayIntro() + figures(content.overlays));
+  if (!content.overlays.empty())
+    html += section("What the camera saw", kOverlayIntro + figures(content.overlays, "overlays"));
   html += section("Figures", tableOf(tableRows(run, s)) +
                                  "<div class='columns'><div><h3>What became of the frames</h3>" + outcomeTable(s) +
                                  "</div><div><h3>Where the bytes go</h3>" + memoryTable(run) + "</div></div>");

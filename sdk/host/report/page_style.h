@@ -27,12 +27,16 @@ p { margin:.3rem 0 .8rem; } .soft, figcaption { color:var(--soft); font-size:.9r
 .pictures { display:grid; grid-template-columns:repeat(auto-fit,minmax(420px,1fr)); gap:1.3rem; align-items:start; }
 figure { margin:0; min-width:0; } figure.wide { grid-column:1/-1; }
 figure img, figure svg { width:100%; height:auto; border-radius:10px; display:block; }
+figure img { cursor:zoom-in; outline:none; }
+figure img:focus { position:fixed; inset:2vh 2vw; width:96vw; height:96vh; object-fit:contain; z-index:9; cursor:zoom-out;
+                   background:rgba(15,23,42,.92); }
+.overlays { grid-template-columns:repeat(auto-fit,minmax(340px,1fr)); }
 figure svg { border:1px solid var(--line); background:#fff; }
 table { border-collapse:collapse; width:100%; font-size:.93rem; }
 th { text-align:left; color:var(--soft); font-weight:600; } th, td { padding:.36rem .9rem .36rem 0; vertical-align:top; }
 tr + tr td, thead + tbody td { border-top:1px solid var(--line); }
 td.value { font-variant-numeric:tabular-nums; white-space:nowrap; font-weight:600; }
-.columns { display:grid; grid-template-columns:repeat(auto-fit,minmax(320px,1fr)); gap:1.4rem 2.4rem; }
+.columns { display:grid; grid-template-columns:repeat(auto-fit,minmax(320px,1fr)); gap:1.4rem 2.4rem; margin-top:1.2rem; }
 .key { display:inline-block; width:.75em; height:.75em; border-radius:50%; border:2.5px solid; margin:0 .25em 0 .1em; }
 .warn { background:#fef3c7; border-left:4px solid var(--fair); padding:.7rem 1rem; border-radius:8px; }
 code { font-size:.9em; background:var(--ground); padding:.08em .35em; border-radius:5px; word-break:break-all; }

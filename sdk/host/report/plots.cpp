@@ -59,19 +59,36 @@ Path splitPath(const Run &run) {
   return path;
 }
 
-// Tall paths get tall pictures, within reason.
-PlotSize pathSize(const Path &path) {
-  double low[2] = {path.centre[0], path.centre[1]}, high[2] = {path.centre[0], path.centre[1]};
+// What the picture has to hold, with a margin around it.
+struct Extent {
+  double low[2], high[2];
+};
+Extent extentOf(const Path &path) {
+  Extent e = {{path.centre[0], path.centre[1]}, {path.centre[0], path.centre[1]}};
   for (const Points *points : {&path.truth, &path.estimate}) {
     for (const auto &p : *points) {
       for (size_t i = 0; i < 2; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
+        e.low[i] = std::min(e.low[i], p[i]);
+        e.high[i] = std::max(e.high[i], p[i]);
       }
     }
   }
-  const double width = std::max(0.5, high[0] - low[0]), height = std::max(0.5, high[1] - low[1]);
-  return {760, static_cast<int>(std::clamp(90 + 640 * height / width, 320.0, 640.0))};
+  const double margin = 0.05 + 0.06 * std::max(e.high[0] - e.low[0], e.high[1] - e.low[1]);
+  for (size_t i = 0; i < 2; ++i) {
+    e.low[i] -= margin;
+    e.high[i] += margin;
+  }
+  return e;
+}
+
+// Tall paths get tall pictures, within reason.
+PlotSize pathSize(const Extent &e) {
+  const double shape = (e.high[1] - e.low[1]) / (e.high[0] - e.low[0]);
+  return {560, static_cast<int>(std::clamp(100 + 430 * shape, 240.0, 560.0))};
+}
+
+std::string range(const char *axis, double low, double high) {
+  return std::string("set ") + axis + " [" + fixed(low, 6) + ":" + fixed(high, 6) + "]\n";
 }
 
 // ---- cumulative errors ----
@@ -96,20 +113,26 @@ Points cumulative(const Run &run, double (*error)(const FrameRecord &)) {
   return points;
 }
 
+std::string markScript(double mark, const std::string &text) {
+  const std::string at = fixed(mark, 3);
+  return "set arrow from first " + at + ", graph 0 to first " + at + ", graph 1 nohead dashtype 2 linewidth 1.5 " +
+         color(kGreen) + "\nset label '" + text + "' at first " + at +
+         ", graph 0.06 right offset -0.8,0 textcolor rgb '" + kGreen + "'\n";
+}
+
 std::string cdfScript(const Points &points, const std::string &unit, double mark, const std::string &mark_text) {
   if (points.empty()) return "";
-  const double right = std::max(1.3 * mark, 1.1 * points.back()[0]);
-  // A tail much longer than the mark would squeeze everything else to the left edge.
-  const bool logarithmic = right > 4 * mark;
-  const double low = std::max(1e-3, 0.8 * points.front()[0]);
+  const double worst = points.back()[0];
+  const bool marked = worst > mark / 3;  // else the mark would squeeze the curve to the left edge
+  const double right = marked ? std::max(1.3 * mark, 1.1 * worst) : 1.15 * worst;
+  const bool logarithmic = right > 4 * mark;  // and so would a long tail
   std::string script = kLook + block("cdf", points);
   script += "set yrange [0:100]\nset ylabel 'share of frames, %'\nset xlabel 'error, " + unit + "'\n";
-  if (logarithmic) script += "set logscale x\nset xrange [" + fixed(low, 6) + ":" + fixed(right, 6) + "]\n";
-  if (!logarithmic) script += "set xrange [0:" + fixed(right, 6) + "]\n";
-  script += "set arrow from first " + fixed(mark, 3) + ", graph 0 to first " + fixed(mark, 3) +
-            ", graph 1 nohead dashtype 2 linewidth 1.5 " + color(kGreen) + "\n";
-  script += "set label '" + mark_text + "' at first " + fixed(mark, 3) +
-            ", graph 0.06 right offset -0.8,0 textcolor rgb '" + kGreen + "'\n";
+  if (logarithmic) script += "set logscale x\n";
+  script += range("xrange", logarithmic ? std::max(1e-3, 0.8 * points.front()[0]) : 0, right);
+  script += marked ? markScript(mark, mark_text)
+                   : "set label 'all far within " + mark_text +
+                         "' at graph 0.97, graph 0.08 right textcolor rgb '" + kGreen + "'\n";
   script += "unset key\nset style fill transparent solid 0.10 noborder\n";
   script += "plot $cdf using 1:2 with filledcurves y1=0 " + color(kBlue) +
             " notitle, $cdf using 1:2 with lines linewidth 2.5 " + color(kBlue) + " notitle";
@@ -122,19 +145,22 @@ Drawing pathFromAbove(const Run &run) {
   const Path path = splitPath(run);
   if (path.truth.empty() && path.estimate.empty()) return {"path", "", "", "", {}};
   const bool truth = !path.truth.empty();
+  const Extent extent = extentOf(path);
   std::string script = kLook + block("truth", path.truth) + block("estimate", path.estimate) +
                        block("lost", path.lost) + block("centre", {{path.centre[0], path.centre[1], 0}});
-  script += "set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n";
-  script += "set xlabel 'metres'\nset ylabel 'metres'\nset key outside top center horizontal samplen 2\n";
+  script += "set size ratio -1\n" + range("xrange", extent.low[0], extent.high[0]) +
+            range("yrange", extent.low[1], extent.high[1]);
+  script +=
+      "set xlabel 'metres'\nset ylabel 'metres'\nset key outside top center horizontal reverse Left samplen 2\n";
   if (truth) {
     script += "set palette defined (0 '#16a34a', 0.5 '#facc15', 1 '#dc2626')\nset cbrange [0:5]\n";
     script +=
-        "set cblabel 'error, cm (5 and more is red)' textcolor rgb '#334155'\nset colorbox user origin 0.93,0.2 "
+        "set cblabel 'error, cm' offset -1,0 textcolor rgb '#334155'\nset colorbox user origin 0.93,0.2 "
         "size 0.018,0.6 noborder\nset rmargin at screen 0.9\n";
   }
   script += "plot ";
   if (truth) script += "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', ";
-  script += std::string("$estimate using 1:2") + (truth ? ":3" : "") + " with points pointtype 7 pointsize 0.6 " +
+  script += std::string("$estimate using 1:2") + (truth ? ":3" : "") + " with points pointtype 7 pointsize 0.7 " +
             (truth ? "linecolor palette" : color(kBlue)) + " title 'estimate'";
   if (!path.lost.empty())
     script += ", $lost using 1:2 with points pointtype 2 pointsize 1 linewidth 1.5 " + color(kRed) +
@@ -143,9 +169,10 @@ Drawing pathFromAbove(const Run &run) {
       ", $centre using 1:2 with points pointtype 3 pointsize 1.6 linewidth 2 linecolor rgb '#7c3aed' title 'sphere "
       "centre'";
   return {"path", "The path from above",
-          truth ? "Every dot is one answer, coloured by how far it is from the true place (grey line)."
+          truth ? "Every dot is one answer, coloured by how far it is from the true place (grey line). "
+                  "The star is the sphere centre, from which the map's directions point."
                 : "Every dot is one answer, in the map's own frame.",
-          script, pathSize(path)};
+          script, pathSize(extent)};
 }
 
 Drawing translationCdf(const Run &run) {
@@ -181,7 +208,8 @@ Drawing timeline(const Run &run) {
   }
   std::string script = kLook + block("matches", matches) + block("inliers", inliers) + block("lost", lost);
   script +=
-      "set yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\nset key outside top center horizontal samplen 2\n";
+      "set yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\nset key outside top center horizontal reverse "
+      "Left samplen 2\n";
   script += "set style fill transparent solid 0.15 noborder\n";
   script += "plot $matches using 1:2 with lines linewidth 1.5 " + color(kAmber) +
             " title 'matches with the map', " + "$inliers using 1:2 with impulses linewidth 2 " + color(kGreen) +
@@ -191,8 +219,7 @@ Drawing timeline(const Run &run) {
               " title 'not localized'";
   return {"timeline",
           "Frame by frame",
-          "Of all matches with the map, most with fake points included, the green ones agree with one pose. Few "
-          "green ones "
+          "Matches with fake points are among the amber ones; the green ones agree with one pose. Few green ones "
           "mean a weak answer.",
           script,
           {1140, 340}};

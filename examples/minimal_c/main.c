@@ -1,0 +1,78 @@
+/* minimal_c - a map, a recording, a pose a frame; C99, and all of the library's memory in static buffers.
+ *
+ *     minimal_c MAP.sphc RECORDING
+ */
+#define _POSIX_C_SOURCE 200809L
+#include <drivers/replay/replay.h>
+#include <fcntl.h>
+#include <spherecloud/spherecloud.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+/* Sizes as sphc_map_memory and sphc_localizer_memory give them, rounded up; one too small is refused with the size.
+ */
+static __attribute__((aligned(64))) char view[512], state[1 << 18], scratch[24 << 20];
+static sphc_message message;
+
+static void check(sphc_status status, const char *what) {
+  if (status >= 0) return;
+  fprintf(stderr, "%s: %s %s\n", what, sphc_status_name(status), message.text);
+  exit(1);
+}
+
+/* The map is used in place, from wherever its bytes lie. */
+static sphc_map *open_map(const char *path) {
+  const int file = open(path, O_RDONLY);
+  struct stat info = {0};
+  fstat(file, &info);
+  const void *bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  sphc_map *map = NULL;
+  check(bytes == MAP_FAILED ? SPHC_E_DEVICE : SPHC_OK, path);
+  check(sphc_map_init(view, sizeof view, bytes, (size_t)info.st_size, &map, &message), path);
+  return map;
+}
+
+static sphc_localizer *make_localizer(const sphc_map *map, const sphc_replay *replay) {
+  sphc_calibration cameras = {.struct_size = sizeof cameras};
+  check(sphc_replay_calibration(replay, &cameras), "calibration");
+  sphc_config config;
+  check(sphc_config_init(&config, sizeof config), "config");
+  config.color_camera = cameras.color_camera;
+  config.depth_camera = cameras.depth_camera;
+  config.color_from_depth = cameras.color_from_depth;
+  config.depth_unit_m = cameras.depth_unit_m;
+  sphc_localizer *localizer = NULL;
+  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, map, &localizer, &message),
+        "init");
+  return localizer;
+}
+
+int main(int argc, char **argv) {
+  if (argc != 3) return fprintf(stderr, "usage: %s MAP.sphc RECORDING\n", argv[0]), 2;
+  sphc_replay *replay = NULL;
+  check(sphc_replay_open(argv[2], NULL, NULL, &replay, &message), argv[2]);
+  sphc_map *map = open_map(argv[1]);
+  sphc_localizer *localizer = make_localizer(map, replay);
+  for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {
+    sphc_frame frame;
+    sphc_result result = {.struct_size = sizeof result};
+    sphc_rigid pose; /* map_from_camera */
+    check(sphc_replay_read_frame(replay, i, &frame, &message), "frame");
+    const sphc_status status = sphc_localizer_process(localizer, &frame, &result);
+    check(status, sphc_localizer_message(localizer));
+    sphc_rigid_inverse(&result.camera_from_map, &pose);
+    const double *t = pose.t_m, *q = pose.q_wxyz;
+    if (status == SPHC_OK) {
+      printf("%u at %.3f %.3f %.3f, q_wxyz %.4f %.4f %.4f %.4f\n", (unsigned)frame.sequence, t[0], t[1], t[2], q[0],
+             q[1], q[2], q[3]);
+    } else {
+      printf("%u not localized, outcome %d\n", (unsigned)frame.sequence, (int)result.outcome);
+    }
+  }
+  sphc_localizer_fini(&localizer);
+  sphc_map_fini(&map);
+  sphc_replay_close(&replay);
+  return 0;
+}

@@ -1,0 +1,75 @@
+// minimal_cpp - a map, a recording, a pose a frame, through spherecloud.hpp.
+//
+//     minimal_cpp MAP.sphc RECORDING
+#include <drivers/replay/replay.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <spherecloud/spherecloud.hpp>
+
+namespace {
+
+struct CloseReplay {
+  void operator()(sphc_replay *replay) const { sphc_replay_close(&replay); }
+};
+using Replay = std::unique_ptr<sphc_replay, CloseReplay>;
+
+Replay openReplay(const char *folder) {
+  sphc_replay *replay = nullptr;
+  spherecloud::Status status;
+  status.set(sphc_replay_open(folder, nullptr, nullptr, &replay, status.message())).orThrow();
+  return Replay(replay);
+}
+
+sphc_config configFor(const sphc_replay *replay) {
+  sphc_calibration cameras = {};
+  cameras.struct_size = sizeof cameras;
+  spherecloud::Status(sphc_replay_calibration(replay, &cameras)).orThrow();
+  sphc_config config = spherecloud::defaultConfig();
+  config.color_camera = cameras.color_camera;
+  config.depth_camera = cameras.depth_camera;
+  config.color_from_depth = cameras.color_from_depth;
+  config.depth_unit_m = cameras.depth_unit_m;
+  return config;
+}
+
+void localizeAll(const char *map_path, const char *folder) {
+  const Replay replay = openReplay(folder);
+  spherecloud::AlignedBuffer file;
+  spherecloud::Map map;
+  spherecloud::Localizer localizer;
+  spherecloud::readFile(map_path, &file).orThrow();
+  spherecloud::Map::open(file.data(), file.size(), &map).orThrow();
+  spherecloud::Localizer::make(configFor(replay.get()), map, &localizer).orThrow();
+
+  sphc_result result = spherecloud::emptyResult();
+  for (uint32_t i = 0; i < sphc_replay_frame_count(replay.get()); ++i) {
+    sphc_frame frame = {};
+    spherecloud::Status read;
+    read.set(sphc_replay_read_frame(replay.get(), i, &frame, read.message())).orThrow();
+    if (localizer.process(frame, &result).orThrow().ok()) {
+      const sphc_rigid pose = spherecloud::inverse(result.camera_from_map);  // map_from_camera
+      std::printf("%u at %.3f %.3f %.3f, q_wxyz %.4f %.4f %.4f %.4f\n", frame.sequence, pose.t_m[0], pose.t_m[1],
+                  pose.t_m[2], pose.q_wxyz[0], pose.q_wxyz[1], pose.q_wxyz[2], pose.q_wxyz[3]);
+    } else {
+      std::printf("%u not localized, outcome %d\n", frame.sequence, result.outcome);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: %s MAP.sphc RECORDING\n", argv[0]);
+    return 2;
+  }
+  try {
+    localizeAll(argv[1], argv[2]);
+    return 0;
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
