@@ -230,6 +230,7 @@ typedef struct sphc_config {
   double depth_sigma_m;           /* noise (1 sigma) of the sensor at 1 m: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2 */
   double depth_sigma_per_m2;
   double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
+  double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
 
   uint32_t min_inliers; /* a pose with fewer is not given out */
   uint32_t reserved;

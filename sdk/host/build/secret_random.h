@@ -1,0 +1,40 @@
+// Randomness that an attacker must not guess: which points are real hangs on it.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace sphc::host {
+
+using SecretKey = std::array<uint8_t, 32>;
+
+// From the operating system.
+SecretKey newSecretKey();
+// 64 hexadecimal digits, from a file that holds nothing else; throws std::runtime_error with cause and cure.
+SecretKey readSecretKey(const std::string &path);
+// Writes it, readable by its owner alone; refuses to replace a file.
+void writeSecretKey(const std::string &path, const SecretKey &key);
+
+// A stream of ChaCha20 (libsodium) under the key; the same key gives the same stream.
+class SecretRandom {
+ public:
+  explicit SecretRandom(const SecretKey &key);
+
+  uint64_t next();
+  // Uniform in [0, bound), without bias.
+  uint64_t below(uint64_t bound);
+  double uniform();  // [0, 1)
+  double normal();   // mean 0, variance 1
+
+ private:
+  void refill();
+
+  SecretKey key_;
+  uint64_t block_ = 0;
+  std::array<uint64_t, 512> buffer_ = {};
+  size_t used_ = 512;
+  double spare_normal_ = 0;
+  bool has_spare_ = false;
+};
+
+}  // namespace sphc::host

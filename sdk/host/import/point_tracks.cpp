@@ -1,0 +1,183 @@
+#include "host/import/point_tracks.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace sphc::host {
+namespace {
+
+constexpr int kCellPx = 16;
+constexpr size_t kMostKept = 24;          // observations a track remembers
+constexpr double kScaleRatio = 1.8;       // keypoints of one point differ in metric size at most by this factor
+constexpr double kAgreement2 = 16;        // squared Mahalanobis distance of an observation that supports the mean
+constexpr double kTwinM = 0.015;          // points so near to each other ...
+constexpr double kTwinDescriptor = 220;   // ... and so alike are one
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+int cellsAcross(int pixels) { return pixels / kCellPx + 1; }
+
+double descriptorDistance(const Descriptor &a, const Descriptor &b) {
+  int sum = 0;
+  for (size_t i = 0; i < kDescriptorBytes; ++i) {
+    const int d = a.bytes[i] - b.bytes[i];
+    sum += d * d;
+  }
+  return std::sqrt(static_cast<double>(sum));
+}
+
+// Weighted mean of the observations that lie within reach of `around`.
+size_t fuse(const std::vector<Observation> &observations, const Vector3 &around, double reach2, Vector3 *mean,
+            Matrix3 *information) {
+  Vector3 sum = Vector3::Zero();
+  Matrix3 total = Matrix3::Zero();
+  size_t used = 0;
+  for (const Observation &o : observations) {
+    const Vector3 off = o.position_m - around;
+    if (off.dot(o.information * off) > reach2) continue;
+    total += o.information;
+    sum += o.information * o.position_m;
+    ++used;
+  }
+  if (used) {
+    *mean = total.inverse() * sum;
+    *information = total;
+  }
+  return used;
+}
+
+// The observation whose descriptor is nearest to all others (medoid).
+const Descriptor &representative(const std::vector<Observation> &observations) {
+  size_t best = 0;
+  double best_sum = kInfinite;
+  for (size_t i = 0; i < observations.size(); ++i) {
+    double sum = 0;
+    for (const Observation &other : observations) sum += descriptorDistance(observations[i].descriptor, other.descriptor);
+    if (sum < best_sum) best_sum = sum, best = i;
+  }
+  return observations[best].descriptor;
+}
+
+// Keeps of each group of twins the one seen most often.
+std::vector<ModelPoint> withoutTwins(std::vector<ModelPoint> points) {
+  std::stable_sort(points.begin(), points.end(),
+                   [](const ModelPoint &a, const ModelPoint &b) { return a.observations > b.observations; });
+  std::map<std::tuple<int, int, int>, std::vector<size_t>> cells;
+  std::vector<ModelPoint> kept;
+  const auto cellOf = [](double x) { return static_cast<int>(std::floor(x / kTwinM)); };
+  for (const ModelPoint &point : points) {
+    const int x = cellOf(point.position_m.x()), y = cellOf(point.position_m.y()), z = cellOf(point.position_m.z());
+    bool twin = false;
+    for (int dx = -1; dx <= 1 && !twin; ++dx)
+      for (int dy = -1; dy <= 1 && !twin; ++dy)
+        for (int dz = -1; dz <= 1 && !twin; ++dz) {
+          const auto cell = cells.find({x + dx, y + dy, z + dz});
+          if (cell == cells.end()) continue;
+          for (size_t i : cell->second)
+            twin = twin || ((kept[i].position_m - point.position_m).norm() < kTwinM &&
+                            descriptorDistance(kept[i].descriptor, point.descriptor) < kTwinDescriptor);
+        }
+    if (twin) continue;
+    cells[{x, y, z}].push_back(kept.size());
+    kept.push_back(point);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<std::vector<PointTracks::Candidate>> PointTracks::project(const Camera &camera,
+                                                                      const Rigid &camera_from_world) const {
+  const int across = cellsAcross(camera.width()), down = cellsAcross(camera.height());
+  std::vector<std::vector<Candidate>> grid(static_cast<size_t>(across * down));
+  for (size_t i = 0; i < tracks_.size(); ++i) {
+    const Vector3 point = camera_from_world * tracks_[i].position_m;
+    Vector2 pixel;
+    if (point.z() < 0.1 || !camera.project(point, &pixel)) continue;
+    if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() >= camera.width() || pixel.y() >= camera.height()) continue;
+    const int cell = static_cast<int>(pixel.y()) / kCellPx * across + static_cast<int>(pixel.x()) / kCellPx;
+    grid[static_cast<size_t>(cell)].push_back({i, pixel, point.z()});
+  }
+  return grid;
+}
+
+// Descriptor distance of an observation to a candidate, infinite where place, depth or size speak against it.
+double PointTracks::compare(const Observation &observation, const Candidate &candidate) const {
+  const double reach = options_.merge_pixels;
+  if ((candidate.pixel_px - observation.pixel_px).squaredNorm() > reach * reach) return kInfinite;
+  const double depth_reach = std::max(4 * observation.sigma_m, 0.03 * observation.depth_m);
+  if (std::abs(candidate.depth_m - observation.depth_m) > depth_reach) return kInfinite;
+  const Track &track = tracks_[candidate.track];
+  const double ratio = observation.metric_scale_m / track.metric_scale_m;
+  if (ratio > kScaleRatio || ratio < 1 / kScaleRatio) return kInfinite;
+  double nearest = kInfinite;
+  const size_t looked_at = std::min<size_t>(track.observations.size(), 6);  // the newest look most like the next
+  for (size_t k = 0; k < looked_at; ++k)
+    nearest = std::min(nearest, descriptorDistance(track.observations[track.observations.size() - 1 - k].descriptor,
+                                                   observation.descriptor));
+  return nearest < options_.max_descriptor_distance ? nearest : kInfinite;
+}
+
+size_t PointTracks::add(const Camera &camera, const Rigid &camera_from_world,
+                        const std::vector<Observation> &observations) {
+  const auto grid = project(camera, camera_from_world);
+  const int across = cellsAcross(camera.width()), down = cellsAcross(camera.height());
+  struct Proposal {
+    double distance;
+    size_t observation, track;
+  };
+  std::vector<Proposal> proposals;
+  for (size_t i = 0; i < observations.size(); ++i) {
+    const int cx = static_cast<int>(observations[i].pixel_px.x()) / kCellPx;
+    const int cy = static_cast<int>(observations[i].pixel_px.y()) / kCellPx;
+    for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, down - 1); ++y)
+      for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, across - 1); ++x)
+        for (const Candidate &candidate : grid[static_cast<size_t>(y * across + x)]) {
+          const double distance = compare(observations[i], candidate);
+          if (distance < kInfinite) proposals.push_back({distance, i, candidate.track});
+        }
+  }
+  std::sort(proposals.begin(), proposals.end(), [](const Proposal &a, const Proposal &b) {
+    return std::tie(a.distance, a.observation, a.track) < std::tie(b.distance, b.observation, b.track);
+  });
+  // Nearest first; an observation joins one track, a track takes one observation of a frame.
+  std::vector<bool> joined(observations.size(), false);
+  std::vector<bool> taken(tracks_.size(), false);
+  size_t merged = 0;
+  for (const Proposal &p : proposals) {
+    if (joined[p.observation] || taken[p.track]) continue;
+    joined[p.observation] = taken[p.track] = true;
+    Track &track = tracks_[p.track];
+    if (track.observations.size() == kMostKept) track.observations.erase(track.observations.begin());
+    track.observations.push_back(observations[p.observation]);
+    Matrix3 information;
+    fuse(track.observations, track.position_m, kInfinite, &track.position_m, &information);
+    ++merged;
+  }
+  for (size_t i = 0; i < observations.size(); ++i)
+    if (!joined[i]) tracks_.push_back({observations[i].position_m, observations[i].metric_scale_m, {observations[i]}});
+  return merged;
+}
+
+PointModel PointTracks::finish(size_t *dropped) const {
+  std::vector<ModelPoint> points;
+  for (const Track &track : tracks_) {
+    ModelPoint point;
+    Matrix3 information;
+    point.position_m = track.position_m;
+    const size_t agreeing = fuse(track.observations, track.position_m, kAgreement2, &point.position_m, &information);
+    if (agreeing < options_.min_observations) continue;
+    point.descriptor = representative(track.observations);
+    point.sigma_m = std::sqrt(information.inverse().trace() / 3);
+    point.observations = static_cast<uint32_t>(agreeing);
+    points.push_back(point);
+  }
+  PointModel model = {withoutTwins(std::move(points))};
+  *dropped = tracks_.size() - model.points.size();
+  return model;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,51 @@
+// Points that grow as frames are added: observations that agree are merged.
+#pragma once
+#include <vector>
+
+#include "host/import/point_model.h"
+#include "host/import/rgbd_import.h"
+#include "runtime/geometry/camera.h"
+#include "runtime/geometry/rigid.h"
+
+namespace sphc::host {
+
+// A keypoint of one mapping frame, lifted and placed in the world.
+struct Observation {
+  Vector3 position_m;     // world
+  Matrix3 information;    // inverse covariance of position_m, world axes
+  Vector2 pixel_px;
+  double depth_m;
+  double sigma_m;         // along the view
+  double metric_scale_m;  // size of the keypoint's Gaussian in space
+  Descriptor descriptor;
+};
+
+class PointTracks {
+ public:
+  explicit PointTracks(const RgbdImportOptions &options) : options_(options) {}
+
+  // Joins a frame's observations to the points they reproject onto and resemble, and makes new points of the others.
+  // Returns how many joined.
+  size_t add(const Camera &camera, const Rigid &camera_from_world, const std::vector<Observation> &observations);
+  // Robust positions, representative descriptors; points with too few agreeing observations are left out.
+  PointModel finish(size_t *dropped) const;
+
+ private:
+  struct Track {
+    Vector3 position_m;
+    double metric_scale_m;
+    std::vector<Observation> observations;
+  };
+  struct Candidate {
+    size_t track;
+    Vector2 pixel_px;
+    double depth_m;
+  };
+  std::vector<std::vector<Candidate>> project(const Camera &camera, const Rigid &camera_from_world) const;
+  double compare(const Observation &observation, const Candidate &candidate) const;
+
+  RgbdImportOptions options_;
+  std::vector<Track> tracks_;
+};
+
+}  // namespace sphc::host

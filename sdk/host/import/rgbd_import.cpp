@@ -1,0 +1,140 @@
+#include "host/import/rgbd_import.h"
+
+#include <cmath>
+
+#include "host/import/point_tracks.h"
+#include "runtime/stages/align/sparse.h"
+#include "runtime/stages/features/extractor.h"
+#include "runtime/stages/features/gray.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr double kPixelSigma = 1.0, kPoseSigmaM = 0.002;
+const DepthSensor kNoise = {0, 0, 0, 0.004, 0.002};
+
+// The device's own stages, in memory from the workstation's heap.
+class FrameDescriber {
+ public:
+  FrameDescriber(const sphc_calibration &calibration, const RgbdImportOptions &options)
+      : camera_(calibration.color_camera), width_(camera_.width()), height_(camera_.height()) {
+    FeatureConfig config;
+    config.width = width_;
+    config.height = height_;
+    config.max_keypoints = options.max_keypoints;
+    Arena state_size, scratch_size;
+    FeatureExtractor::layout(config, state_size, scratch_size, nullptr);
+    state_.resize(state_size.used() + kArenaAlignment);
+    scratch_.resize(scratch_size.used() + kArenaAlignment);
+    Arena state(aligned(state_)), scratch(aligned(scratch_));
+    FeatureExtractor::layout(config, state, scratch, &extractor_);
+    extractor_.init();
+    const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m, kNoise.sigma_m,
+                                kNoise.sigma_per_m2};
+    aligner_ = SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromDoor(calibration.color_from_depth),
+                             sensor);
+    gray_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));
+    keypoints_.resize(options.max_keypoints);
+    descriptors_.resize(options.max_keypoints);
+  }
+
+  const Camera &camera() const { return camera_; }
+
+  std::vector<Observation> describe(const sphc_frame &frame, const Rigid &world_from_camera, uint32_t *keypoints) {
+    bgrToGray(static_cast<const uint8_t *>(frame.color.data), static_cast<int32_t>(frame.color.stride_bytes), width_,
+              height_, gray_.data(), width_);
+    *keypoints = extractor_.extract({gray_.data(), width_, height_, width_}, {keypoints_.data(), keypoints_.size()},
+                                    {descriptors_.data(), descriptors_.size()});
+    const ImageView<uint16_t> depth = {static_cast<const uint16_t *>(frame.depth.data),
+                                       static_cast<int32_t>(frame.depth.width),
+                                       static_cast<int32_t>(frame.depth.height),
+                                       static_cast<int32_t>(frame.depth.stride_bytes / 2)};
+    std::vector<Observation> observations;
+    for (uint32_t i = 0; i < *keypoints; ++i) {
+      const Vector2 pixel(double{keypoints_[i].x_px}, double{keypoints_[i].y_px});
+      Vector3 point;
+      double sigma = 0;
+      if (!aligner_.lift(depth, pixel, &point, &sigma)) continue;
+      Observation o;
+      o.position_m = world_from_camera * point;
+      o.information = information(point, sigma, world_from_camera.rotation);
+      o.pixel_px = pixel;
+      o.depth_m = point.z();
+      o.sigma_m = sigma;
+      o.metric_scale_m = double{keypoints_[i].scale_px} * point.z() / camera_.focal();
+      o.descriptor = descriptors_[i];
+      observations.push_back(o);
+    }
+    return observations;
+  }
+
+ private:
+  static void *aligned(std::vector<uint8_t> &memory) {
+    const auto address = reinterpret_cast<uintptr_t>(memory.data());
+    return memory.data() + (kArenaAlignment - address % kArenaAlignment) % kArenaAlignment;
+  }
+
+  // Exact across the view, uncertain along it.
+  Matrix3 information(const Vector3 &point, double sigma, const Matrix3 &world_from_camera) const {
+    const Vector3 view = world_from_camera * point.normalized();
+    const double across_px = kPixelSigma * point.z() / camera_.focal();
+    const double across2 = across_px * across_px + kPoseSigmaM * kPoseSigmaM;
+    const double along2 = sigma * sigma + kPoseSigmaM * kPoseSigmaM;
+    return Matrix3::Identity() / across2 + (1 / along2 - 1 / across2) * view * view.transpose();
+  }
+
+  Camera camera_;
+  int32_t width_, height_;
+  std::vector<uint8_t> state_, scratch_, gray_;
+  FeatureExtractor extractor_;
+  SparseAligner aligner_;
+  std::vector<Keypoint> keypoints_;
+  std::vector<Descriptor> descriptors_;
+};
+
+sphc_calibration calibrationOf(const sphc_replay *replay) {
+  sphc_calibration calibration;
+  sphc_calibration_init(&calibration, sizeof calibration);
+  if (sphc_replay_calibration(replay, &calibration) != SPHC_OK)
+    throw std::runtime_error("the recording's calibration cannot be read");
+  return calibration;
+}
+
+}  // namespace
+
+PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, const Progress &progress,
+                      RgbdImportSummary *summary) {
+  *summary = {};
+  FrameDescriber describer(calibrationOf(replay), options);
+  PointTracks tracks(options);
+  const uint32_t total = sphc_replay_frame_count(replay);
+  for (uint32_t i = 0; i < total; ++i) {
+    sphc_rigid pose;
+    sphc_frame frame;
+    sphc_message message;
+    if (sphc_replay_pose(replay, i, &pose) != SPHC_OK) {
+      ++summary->frames_without_pose;
+    } else if (sphc_replay_read_frame(replay, i, &frame, &message) != SPHC_OK) {
+      ++summary->frames_unreadable;
+    } else {
+      const Rigid world_from_camera = rigidFromDoor(pose);
+      uint32_t keypoints = 0;
+      const std::vector<Observation> observations = describer.describe(frame, world_from_camera, &keypoints);
+      summary->merged += tracks.add(describer.camera(), world_from_camera.inverse(), observations);
+      summary->keypoints += keypoints;
+      summary->lifted += observations.size();
+      ++summary->frames_used;
+    }
+    if (progress) progress(i + 1, total);
+  }
+  if (!summary->frames_used)
+    throw std::runtime_error("no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
+                             "groundtruth.txt)");
+  size_t dropped = 0;
+  PointModel model = tracks.finish(&dropped);
+  summary->points_kept = static_cast<uint32_t>(model.points.size());
+  summary->points_dropped = static_cast<uint32_t>(dropped);
+  return model;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,35 @@
+// Builds a point model from a recording of colour, depth and known poses.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "drivers/replay/replay.h"
+#include "host/import/point_model.h"
+
+namespace sphc::host {
+
+struct RgbdImportOptions {
+  uint32_t max_keypoints = 1200;    // of a frame
+  uint32_t min_observations = 2;    // frames that must agree on a point
+  double depth_min_m = 0.3, depth_max_m = 6.0;
+  double merge_pixels = 4;          // an observation joins a point that reprojects within this
+  double max_descriptor_distance = 260;  // and whose descriptor is within this (L2 of bytes)
+};
+
+struct RgbdImportSummary {
+  uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
+  uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
+  uint32_t points_kept = 0, points_dropped = 0;
+};
+
+// Told after each frame; may be empty.
+using Progress = std::function<void(uint32_t done, uint32_t total)>;
+
+// All frames of `replay` that have a pose take part.  Throws std::runtime_error, with cause and cure, when no map can
+// come of it.
+PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, const Progress &progress,
+                      RgbdImportSummary *summary);
+
+}  // namespace sphc::host

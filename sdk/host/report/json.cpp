@@ -1,0 +1,73 @@
+#include "host/report/json.h"
+
+#include <cmath>
+
+namespace sphc::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rigidJson(const sphc_rigid &rigid) { return {{"q_wxyz", rigid.q_wxyz}, {"t_m", rigid.t_m}}; }
+
+// JSON knows no NaN; what could not be measured is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json spreadJson(const Spread &spread) {
+  return {{"median", number(spread.median)}, {"p90", number(spread.p90)}, {"worst", number(spread.worst)}};
+}
+
+}  // namespace
+
+Json frameJson(const FrameRecord &frame, const std::string &base) {
+  Json json = {{"sequence", frame.sequence},   {"time_ns", frame.time_ns},   {"outcome", outcomeName(frame.outcome)},
+               {"localized", frame.localized}, {"keypoints", frame.keypoints}, {"lifted", frame.lifted},
+               {"matches", frame.matches},     {"inliers", frame.inliers},   {"iterations", frame.iterations}};
+  if (frame.localized) {
+    json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
+    json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
+                     {"translation_m", number(frame.sigma_translation_m)}};
+  }
+  if (frame.has_truth) json["truth_" + base + "_from_camera"] = rigidJson(frame.truth_base_from_camera);
+  if (frame.localized && frame.has_truth) {
+    json["error"] = {{"rotation_deg", number(frame.rotation_error_deg)},
+                     {"translation_m", number(frame.translation_error_m)}};
+  }
+  json["time_us"] = {{"features", frame.features_us},
+                     {"align", frame.align_us},
+                     {"match", frame.match_us},
+                     {"pose", frame.pose_us},
+                     {"total", frame.total_us}};
+  return json;
+}
+
+std::string framesJsonLines(const Run &run) {
+  std::string text;
+  for (const FrameRecord &frame : run.frames) text += frameJson(frame, run.base).dump() + "\n";
+  return text;
+}
+
+Json summaryJson(const Run &run, const Summary &s) {
+  Json json = {{"recording", run.recording}, {"map", run.map.path},         {"map_id", run.map.id},
+               {"base", run.base},           {"frames", s.frames},          {"unreadable", run.unreadable},
+               {"localized", s.localized},   {"localized_percent", percent(s.localized, s.frames)}};
+  for (size_t i = 0; i < s.outcomes.size(); ++i) {
+    json["outcomes"][outcomeName(static_cast<sphc_outcome>(i))] = s.outcomes[i];
+  }
+  json["with_truth"] = s.with_truth;
+  json["within_5cm_5deg"] = s.good;
+  json["within_5cm_5deg_percent"] = s.with_truth ? Json(percent(s.good, s.with_truth)) : Json(nullptr);
+  json["rotation_error_deg"] = spreadJson(s.rotation_deg);
+  json["translation_error_m"] = spreadJson(s.translation_m);
+  for (size_t i = 0; i < kStageCount; ++i) {
+    json["time_ms"][kStageNames[i]] = {{"median", number(s.stage_median_ms[i])}, {"p90", number(s.stage_p90_ms[i])}};
+  }
+  json["memory_bytes"] = {
+      {"state", run.state_bytes}, {"scratch", run.scratch_bytes}, {"map", run.map.file_bytes}};
+  json["median"] = {{"keypoints", number(s.median_keypoints)},
+                    {"matches", number(s.median_matches)},
+                    {"inliers", number(s.median_inliers)}};
+  for (const Setting &setting : run.settings) json["settings"][setting.name] = setting.value;
+  return json;
+}
+
+}  // namespace sphc::host

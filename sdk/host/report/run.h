@@ -1,0 +1,68 @@
+// What happened in one run of the localizer over a recording; everything the report and the table are made from.
+#pragma once
+#include <spherecloud/spherecloud.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sphc::host {
+
+// One frame.  Poses are `base_from_camera`; the base is the recording's world when the owner's note is at hand, else
+// the map's own frame.
+struct FrameRecord {
+  uint32_t index = 0;  // of the recording's chosen frames: where its images can be read again
+  uint32_t sequence = 0;
+  int64_t time_ns = 0;
+  sphc_outcome outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
+  uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0, iterations = 0;
+  uint32_t features_us = 0, align_us = 0, match_us = 0, pose_us = 0, total_us = 0;
+
+  bool localized = false;
+  sphc_rigid base_from_camera = {{1, 0, 0, 0}, {0, 0, 0}};
+  double sigma_rotation_deg = 0, sigma_translation_m = 0;  // what the localizer itself believes
+
+  bool has_truth = false;
+  sphc_rigid truth_base_from_camera = {{1, 0, 0, 0}, {0, 0, 0}};
+  double rotation_error_deg = 0, translation_error_m = 0;  // when localized with truth
+
+  std::vector<sphc_observation> observations;  // kept only when pictures are wanted
+};
+
+struct MemoryPiece {
+  std::string name;
+  size_t bytes = 0;
+  bool scratch = false;
+};
+
+struct Setting {
+  std::string name, value;
+};
+
+struct MapFacts {
+  std::string path, id;
+  uint32_t points = 0, format_version = 0, extractor = 0;
+  uint64_t file_bytes = 0;
+};
+
+struct Run {
+  std::string recording;
+  std::string base = "map";  // "world" or "map"
+  MapFacts map;
+  size_t state_bytes = 0, scratch_bytes = 0;
+  std::vector<MemoryPiece> memory;
+  std::vector<Setting> settings;
+  std::vector<FrameRecord> frames;
+  uint32_t unreadable = 0;  // frames that could not be decoded; not part of `frames`
+};
+
+// "few matches" and so on: a word or two for tables, and a sentence with the likely cause.
+const char *outcomeName(sphc_outcome outcome);
+const char *outcomeAdvice(sphc_outcome outcome);
+
+// "12345" as "12.3 kB"; powers of 1000.
+std::string humanBytes(double bytes);
+// Fixed number of digits after the point.
+std::string fixed(double value, int digits);
+
+}  // namespace sphc::host

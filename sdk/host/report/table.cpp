@@ -1,0 +1,72 @@
+#include "host/report/table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sphc::host {
+namespace {
+
+std::string share(uint32_t count, uint32_t total) { return fixed(percent(count, total), 1) + " %"; }
+
+std::string ofTotal(uint32_t count, uint32_t total) {
+  return std::to_string(count) + " of " + std::to_string(total);
+}
+
+void addErrors(const Summary &s, std::vector<Row> *rows) {
+  if (s.with_truth == 0) {
+    rows->push_back({"error against the truth", "not known", "give --owner-note, and a recording with poses"});
+    return;
+  }
+  rows->push_back({"within 5 cm and 5 deg", share(s.good, s.with_truth), ofTotal(s.good, s.with_truth)});
+  if (std::isnan(s.rotation_deg.median)) return;
+  const auto add = [rows](const char *name, const Spread &spread, double scale, const char *unit) {
+    rows->push_back({std::string(name) + " error, median", fixed(scale * spread.median, 2) + " " + unit,
+                     "90 % within " + fixed(scale * spread.p90, 2) + " " + unit + ", worst accepted " +
+                         fixed(scale * spread.worst, 2) + " " + unit});
+  };
+  add("rotation", s.rotation_deg, 1, "deg");
+  add("translation", s.translation_m, 100, "cm");
+}
+
+std::string stageNote(const Summary &s) {
+  std::string note;
+  for (size_t i = 0; i < kTotal; ++i) {
+    note += std::string(note.empty() ? "" : ", ") + kStageNames[i] + " " + fixed(s.stage_median_ms[i], 1);
+  }
+  return note;
+}
+
+}  // namespace
+
+std::vector<Row> tableRows(const Run &run, const Summary &s) {
+  std::vector<Row> rows;
+  rows.push_back({"frames", std::to_string(s.frames),
+                  run.unreadable ? std::to_string(run.unreadable) + " more could not be read" : ""});
+  rows.push_back({"localized", share(s.localized, s.frames), ofTotal(s.localized, s.frames)});
+  addErrors(s, &rows);
+  rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});
+  const double device = static_cast<double>(run.state_bytes + run.scratch_bytes + run.map.file_bytes);
+  rows.push_back({"device memory", humanBytes(device),
+                  "state " + humanBytes(static_cast<double>(run.state_bytes)) + ", scratch " +
+                      humanBytes(static_cast<double>(run.scratch_bytes)) + ", map " +
+                      humanBytes(static_cast<double>(run.map.file_bytes))});
+  return rows;
+}
+
+std::string tableText(const std::vector<Row> &rows) {
+  size_t name_width = 0, value_width = 0;
+  for (const Row &row : rows) {
+    name_width = std::max(name_width, row.name.size());
+    value_width = std::max(value_width, row.value.size());
+  }
+  std::string text;
+  for (const Row &row : rows) {
+    std::string line = "  " + row.name + std::string(name_width - row.name.size() + 2, ' ') +
+                       std::string(value_width - row.value.size(), ' ') + row.value;
+    if (!row.note.empty()) line += "   " + row.note;
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace sphc::host

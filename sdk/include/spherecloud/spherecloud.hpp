@@ -1,0 +1,322 @@
+// spherecloud.hpp - the C++17 face of spherecloud.h: objects that own their memory and end themselves. Header-only.
+//
+//     spherecloud::AlignedBuffer file;                   // or any 8-byte aligned bytes: mmap, flash, ...
+//     spherecloud::readFile("room.sphc", &file);
+//     spherecloud::Map map;
+//     spherecloud::Map::open(file.data(), file.size(), &map);
+//     sphc_config config = spherecloud::defaultConfig(); // then set the cameras
+//     spherecloud::Localizer localizer;
+//     spherecloud::Localizer::make(config, map, &localizer);
+//     sphc_result result = spherecloud::emptyResult();
+//     spherecloud::Status status = localizer.process(frame, &result);   // never allocates
+//
+// Every step returns a Status; nothing here throws.  With exceptions switched on, status.orThrow() turns a failure
+// into spherecloud::Error, so that either habit reads well:
+//
+//     if (auto status = Map::open(...); !status.ok()) return report(status.text());
+//     Map::open(...).orThrow();
+//
+// What a call means, borrows and may fail with, and its thread class, stand in spherecloud.h.  Objects move and do
+// not copy; a moved-from object is empty.  Lifetimes: bytes of the file > Map > Localizer.
+#ifndef SPHERECLOUD_SPHERECLOUD_HPP
+#define SPHERECLOUD_SPHERECLOUD_HPP
+
+#include <spherecloud/spherecloud.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <new>
+#include <utility>
+#if defined(__cpp_exceptions)
+#include <stdexcept>
+#include <string>
+#endif
+
+namespace spherecloud {
+
+// ---- status
+// ------------------------------------------------------------------------------------------------------
+
+#if defined(__cpp_exceptions)
+class Error : public std::runtime_error {
+ public:
+  Error(sphc_status code, const char *text)
+      : std::runtime_error(std::string(text) + " [" + sphc_status_name(code) + "]"), code_(code) {}
+  sphc_status code() const { return code_; }
+
+ private:
+  sphc_status code_;
+};
+#endif
+
+// What a call answered, and why it failed.
+class [[nodiscard]] Status {
+ public:
+  Status() = default;
+  explicit Status(sphc_status code) : code_(code) {}
+  Status(sphc_status code, const char *text) : code_(code) {
+    std::snprintf(message_.text, sizeof message_.text, "%s", text);
+  }
+
+  bool ok() const { return code_ == SPHC_OK; }
+  bool failed() const { return code_ < 0; }  // SPHC_AGAIN, NOT_LOCALIZED and END are answers, not failures
+  sphc_status code() const { return code_; }
+  const char *name() const { return sphc_status_name(code_); }
+  // Cause and cure; the status' name when the library had no more to say.
+  const char *text() const { return message_.text[0] != '\0' ? message_.text : name(); }
+
+#if defined(__cpp_exceptions)
+  // Throws Error on a failure; else gives the status on.
+  const Status &orThrow() const {
+    if (failed()) throw Error(code_, text());
+    return *this;
+  }
+#endif
+
+  // For calls of the C door: status.set(sphc_...(..., status.message())).
+  sphc_message *message() { return &message_; }
+  Status &set(sphc_status code) {
+    code_ = code;
+    return *this;
+  }
+
+ private:
+  sphc_status code_ = SPHC_OK;
+  sphc_message message_ = {};
+};
+
+// ---- memory
+// ------------------------------------------------------------------------------------------------------
+
+// Bytes from the heap at an alignment; zeroed.  data() is null when empty or when there was no memory.
+class AlignedBuffer {
+ public:
+  AlignedBuffer() = default;
+  AlignedBuffer(std::size_t size, std::size_t alignment) : alignment_(alignment) {
+    data_ = ::operator new(size != 0 ? size : 1, std::align_val_t(alignment), std::nothrow);
+    if (!data_) return;
+    size_ = size;
+    auto *bytes = static_cast<unsigned char *>(data_);
+    for (std::size_t i = 0; i < size; ++i) bytes[i] = 0;
+  }
+  AlignedBuffer(AlignedBuffer &&other) noexcept { swap(other); }
+  AlignedBuffer &operator=(AlignedBuffer &&other) noexcept {
+    AlignedBuffer moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  AlignedBuffer(const AlignedBuffer &) = delete;
+  AlignedBuffer &operator=(const AlignedBuffer &) = delete;
+  ~AlignedBuffer() {
+    if (data_) ::operator delete(data_, std::align_val_t(alignment_));
+  }
+
+  void *data() const { return data_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  void swap(AlignedBuffer &other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(alignment_, other.alignment_);
+  }
+
+  void *data_ = nullptr;
+  std::size_t size_ = 0, alignment_ = alignof(std::max_align_t);
+};
+
+// The whole file, aligned as sphc_map_init wants it.
+inline Status readFile(const char *path, AlignedBuffer *bytes) {
+  std::FILE *file = std::fopen(path, "rb");
+  if (!file) return Status(SPHC_E_DEVICE, "cannot open the file; check its name and permissions");
+  Status status(SPHC_E_DEVICE, "cannot read the file; is it a folder, or a device?");
+  if (std::fseek(file, 0, SEEK_END) == 0) {
+    const long size = std::ftell(file);
+    if (size >= 0 && std::fseek(file, 0, SEEK_SET) == 0) {
+      AlignedBuffer buffer(static_cast<std::size_t>(size), 64);
+      if (!buffer.data()) {
+        status = Status(SPHC_E_MEMORY_SIZE, "not enough memory for the file");
+      } else if (std::fread(buffer.data(), 1, buffer.size(), file) == buffer.size()) {
+        *bytes = std::move(buffer);
+        status = Status();
+      }
+    }
+  }
+  std::fclose(file);
+  return status;
+}
+
+// ---- map
+// ---------------------------------------------------------------------------------------------------------
+
+class Map {
+ public:
+  Map() = default;
+  Map(Map &&other) noexcept { swap(other); }
+  Map &operator=(Map &&other) noexcept {
+    Map moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  Map(const Map &) = delete;
+  Map &operator=(const Map &) = delete;
+  ~Map() { sphc_map_fini(&map_); }
+
+  // Validates and views `file`, which is borrowed until the map ends.  Takes a little memory for the view.
+  static Status open(const void *file, std::size_t file_bytes, Map *map) {
+    std::size_t bytes = 0, alignment = 0;
+    Status status(sphc_map_memory(&bytes, &alignment));
+    if (!status.ok()) return status;
+    Map made;
+    made.memory_ = AlignedBuffer(bytes, alignment);
+    if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the view of the map");
+    return open(made.memory_.data(), bytes, file, file_bytes, &made, map);
+  }
+  // The same in the caller's memory (sphc_map_memory), borrowed too; takes none of its own.
+  static Status open(void *memory, std::size_t memory_bytes, const void *file, std::size_t file_bytes, Map *map) {
+    Map made;
+    return open(memory, memory_bytes, file, file_bytes, &made, map);
+  }
+
+  sphc_map_info info() const {
+    sphc_map_info info = {};
+    info.struct_size = sizeof info;
+    if (map_) sphc_map_get_info(map_, &info);
+    return info;
+  }
+  const sphc_map *get() const { return map_; }
+  explicit operator bool() const { return map_ != nullptr; }
+
+ private:
+  static Status open(void *memory, std::size_t memory_bytes, const void *file, std::size_t file_bytes, Map *made,
+                     Map *map) {
+    Status status;
+    status.set(sphc_map_init(memory, memory_bytes, file, file_bytes, &made->map_, status.message()));
+    if (status.ok()) *map = std::move(*made);
+    return status;
+  }
+  void swap(Map &other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(map_, other.map_);
+  }
+
+  AlignedBuffer memory_;
+  sphc_map *map_ = nullptr;
+};
+
+// ---- localizer
+// ---------------------------------------------------------------------------------------------------
+
+inline sphc_config defaultConfig() {
+  sphc_config config = {};
+  sphc_config_init(&config, sizeof config);
+  return config;
+}
+
+inline sphc_result emptyResult() {
+  sphc_result result = {};
+  result.struct_size = sizeof result;
+  result.camera_from_map.q_wxyz[0] = 1;
+  return result;
+}
+
+class Localizer {
+ public:
+  Localizer() = default;
+  Localizer(Localizer &&other) noexcept { swap(other); }
+  Localizer &operator=(Localizer &&other) noexcept {
+    Localizer moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  Localizer(const Localizer &) = delete;
+  Localizer &operator=(const Localizer &) = delete;
+  ~Localizer() { sphc_localizer_fini(&localizer_); }
+
+  // Takes its memory from the heap, once, here.  The map is borrowed.
+  static Status make(const sphc_config &config, const Map &map, Localizer *localizer) {
+    Status status;
+    sphc_memory need = {};
+    if (status.set(sphc_localizer_memory(&config, &need, status.message())).failed()) return status;
+    Localizer made;
+    made.state_ = AlignedBuffer(need.state_bytes, need.alignment);
+    made.scratch_ = AlignedBuffer(need.scratch_bytes, need.alignment);
+    if (!made.state_.data() || !made.scratch_.data())
+      return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the localizer; lower config.max_keypoints");
+    return make(config, map, made.state_.data(), need.state_bytes, made.scratch_.data(), need.scratch_bytes, &made,
+                localizer);
+  }
+  // In the caller's memory (sphc_localizer_memory), borrowed until the localizer ends; takes none of its own.
+  static Status make(const sphc_config &config, const Map &map, void *state, std::size_t state_bytes, void *scratch,
+                     std::size_t scratch_bytes, Localizer *localizer) {
+    Localizer made;
+    return make(config, map, state, state_bytes, scratch, scratch_bytes, &made, localizer);
+  }
+
+  // ok(): localized.  code() SPHC_NOT_LOCALIZED: result->outcome says why.  failed(): the frame does not fit.
+  Status process(const sphc_frame &frame, sphc_result *result) {
+    const sphc_status code = sphc_localizer_process(localizer_, &frame, result);
+    return code < 0 && localizer_ ? Status(code, sphc_localizer_message(localizer_)) : Status(code);
+  }
+  // Copies at most `capacity` and returns how many there are.
+  std::uint32_t observations(sphc_observation *observations, std::uint32_t capacity) const {
+    std::uint32_t count = 0;
+    if (localizer_) sphc_localizer_observations(localizer_, observations, capacity, &count);
+    return count;
+  }
+  sphc_localizer *get() const { return localizer_; }
+  explicit operator bool() const { return localizer_ != nullptr; }
+
+ private:
+  static Status make(const sphc_config &config, const Map &map, void *state, std::size_t state_bytes, void *scratch,
+                     std::size_t scratch_bytes, Localizer *made, Localizer *localizer) {
+    Status status;
+    status.set(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config, map.get(),
+                                   &made->localizer_, status.message()));
+    if (status.ok()) *localizer = std::move(*made);
+    return status;
+  }
+  void swap(Localizer &other) noexcept {
+    std::swap(state_, other.state_);
+    std::swap(scratch_, other.scratch_);
+    std::swap(localizer_, other.localizer_);
+  }
+
+  AlignedBuffer state_, scratch_;
+  sphc_localizer *localizer_ = nullptr;
+};
+
+// ---- frames and poses
+// --------------------------------------------------------------------------------------------
+
+// A tightly packed image when stride_bytes is 0.
+inline sphc_image image(const void *data, std::uint32_t width, std::uint32_t height, sphc_format format,
+                        std::uint32_t stride_bytes = 0) {
+  const std::uint32_t pixel = format == SPHC_FORMAT_GRAY8 ? 1 : format == SPHC_FORMAT_DEPTH16 ? 2 : 3;
+  return {data, width, height, stride_bytes != 0 ? stride_bytes : width * pixel, format};
+}
+
+inline sphc_frame frame(std::uint32_t sequence, std::int64_t color_time_ns, const sphc_image &color,
+                        std::int64_t depth_time_ns, const sphc_image &depth) {
+  return {sizeof(sphc_frame), sequence, color_time_ns, depth_time_ns, color, depth};
+}
+
+inline sphc_rigid identity() { return {{1, 0, 0, 0}, {0, 0, 0}}; }
+
+// compose(c_from_b, b_from_a) is c_from_a.
+inline sphc_rigid compose(const sphc_rigid &c_from_b, const sphc_rigid &b_from_a) {
+  sphc_rigid c_from_a = {};
+  sphc_rigid_compose(&c_from_b, &b_from_a, &c_from_a);
+  return c_from_a;
+}
+
+inline sphc_rigid inverse(const sphc_rigid &b_from_a) {
+  sphc_rigid a_from_b = {};
+  sphc_rigid_inverse(&b_from_a, &a_from_b);
+  return a_from_b;
+}
+
+}  // namespace spherecloud
+
+#endif  // SPHERECLOUD_SPHERECLOUD_HPP

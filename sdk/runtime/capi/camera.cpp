@@ -1,0 +1,48 @@
+#include "runtime/geometry/camera.h"
+
+#include "runtime/base/message.h"
+#include "runtime/geometry/rigid.h"
+
+using sphc::Camera;
+using sphc::Rigid;
+using sphc::Vector2;
+using sphc::Vector3;
+
+sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message) {
+  if (!camera) {
+    sphc::MessageWriter(message) << "camera is null";
+    return SPHC_E_ARGUMENT;
+  }
+  return sphc::checkCamera(*camera, message) ? SPHC_OK : SPHC_E_ARGUMENT;
+}
+
+sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]) {
+  if (!camera || !point_m || !pixel_px || !sphc::checkCamera(*camera, nullptr)) return SPHC_E_ARGUMENT;
+  Vector2 pixel;
+  if (!Camera(*camera).project({point_m[0], point_m[1], point_m[2]}, &pixel)) return SPHC_E_ARGUMENT;
+  pixel_px[0] = pixel.x();
+  pixel_px[1] = pixel.y();
+  return SPHC_OK;
+}
+
+sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]) {
+  if (!camera || !pixel_px || !bearing || !sphc::checkCamera(*camera, nullptr)) return SPHC_E_ARGUMENT;
+  Vector2 ray;
+  if (!Camera(*camera).unproject({pixel_px[0], pixel_px[1]}, &ray)) return SPHC_E_ARGUMENT;
+  const Vector3 unit = Vector3(ray.x(), ray.y(), 1).normalized();
+  for (int i = 0; i < 3; ++i) bearing[i] = unit[i];
+  return SPHC_OK;
+}
+
+void sphc_rigid_compose(const sphc_rigid *c_from_b, const sphc_rigid *b_from_a, sphc_rigid *c_from_a) {
+  *c_from_a = sphc::doorFromRigid(sphc::rigidFromDoor(*c_from_b) * sphc::rigidFromDoor(*b_from_a));
+}
+
+void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_b) {
+  *a_from_b = sphc::doorFromRigid(sphc::rigidFromDoor(*b_from_a).inverse());
+}
+
+void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]) {
+  const Vector3 x = sphc::rigidFromDoor(*b_from_a) * Vector3(x_a[0], x_a[1], x_a[2]);
+  for (int i = 0; i < 3; ++i) x_b[i] = x[i];
+}

@@ -1,0 +1,130 @@
+#include "runtime/capi/check.h"
+
+#include "runtime/base/message.h"
+#include "runtime/geometry/camera.h"
+#include "runtime/geometry/rigid.h"
+
+namespace sphc {
+namespace {
+
+// A field that has to lie in [low, high].
+bool inRange(const char *name, double value, double low, double high, sphc_message *message) {
+  if (value >= low && value <= high) return true;
+  MessageWriter(message) << "config." << name << " is " << value << "; it must lie in " << low << " to " << high;
+  return false;
+}
+
+bool checkNumbers(const sphc_config &c, sphc_message *message) {
+  return inRange("max_keypoints", c.max_keypoints, 64, 4096, message) &&
+         inRange("max_iterations", c.max_iterations, 1, 1e6, message) &&
+         inRange("max_ratio", double{c.max_ratio}, 0.1, 1, message) &&
+         inRange("depth_unit_m", c.depth_unit_m, 1e-6, 0.1, message) &&
+         inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
+         inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
+         inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
+         inRange("depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1, message) &&
+         inRange("pixel_sigma_px", c.pixel_sigma_px, 0.01, 20, message) &&
+         inRange("map_sigma_m", c.map_sigma_m, 0, 1, message) &&
+         inRange("min_inliers", c.min_inliers, 4, 4096, message);
+}
+
+uint32_t bytesPerPixel(sphc_format format) {
+  switch (format) {
+    case SPHC_FORMAT_GRAY8: return 1;
+    case SPHC_FORMAT_RGB8:
+    case SPHC_FORMAT_BGR8: return 3;
+    case SPHC_FORMAT_DEPTH16: return 2;
+    default: return 0;
+  }
+}
+
+sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
+                       sphc_message *message) {
+  const uint32_t pixel = bytesPerPixel(image.format);
+  if (!pixel || (image.format == SPHC_FORMAT_DEPTH16) != depth) {
+    MessageWriter(message) << name << " image has format " << image.format << "; give "
+                           << (depth ? "SPHC_FORMAT_DEPTH16" : "GRAY8, RGB8 or BGR8");
+    return SPHC_E_IMAGE;
+  }
+  if (image.width != camera.width || image.height != camera.height) {
+    MessageWriter(message) << name << " image is " << image.width << " x " << image.height << ", its camera in the config "
+                           << camera.width << " x " << camera.height << "; scale neither, give the calibrated size";
+    return SPHC_E_IMAGE;
+  }
+  const uint64_t row = uint64_t{image.width} * pixel;
+  if (image.stride_bytes < row || image.stride_bytes > (1u << 20) || (depth && image.stride_bytes % 2)) {
+    MessageWriter(message) << name << " image has a stride of " << image.stride_bytes << " bytes; a row has " << row
+                           << (depth ? " and the stride must be even" : "");
+    return SPHC_E_IMAGE;
+  }
+  if (!image.data || (depth && reinterpret_cast<uintptr_t>(image.data) % 2)) {
+    MessageWriter(message) << name << " image's data pointer is " << (image.data ? "odd" : "null");
+    return SPHC_E_IMAGE;
+  }
+  return SPHC_OK;
+}
+
+}  // namespace
+
+sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message) {
+  if (!config) {
+    MessageWriter(message) << "config is null";
+    return SPHC_E_ARGUMENT;
+  }
+  if (config->struct_size != sizeof(sphc_config)) {
+    MessageWriter(message) << "config.struct_size is " << config->struct_size << ", this library knows "
+                           << static_cast<uint64_t>(sizeof(sphc_config)) << "; call sphc_config_init first";
+    return SPHC_E_STRUCT_SIZE;
+  }
+  *copy = *config;
+  sphc_message camera_message;
+  const struct {
+    const char *name;
+    const sphc_camera &camera;
+  } cameras[] = {{"color_camera: ", copy->color_camera}, {"depth_camera: ", copy->depth_camera}};
+  for (const auto &entry : cameras) {
+    if (checkCamera(entry.camera, &camera_message)) continue;
+    MessageWriter(message) << "config." << entry.name << camera_message.text;
+    return SPHC_E_ARGUMENT;
+  }
+  if (!isValidRigid(copy->color_from_depth)) {
+    MessageWriter(message) << "config.color_from_depth is not a rigid transform: its quaternion must have unit length "
+                              "and all numbers must be finite";
+    return SPHC_E_ARGUMENT;
+  }
+  return checkNumbers(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;
+}
+
+sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, sphc_message *message) {
+  if (!frame) {
+    MessageWriter(message) << "frame is null";
+    return SPHC_E_ARGUMENT;
+  }
+  if (frame->struct_size != sizeof(sphc_frame)) {
+    MessageWriter(message) << "frame.struct_size is " << frame->struct_size << ", this library knows "
+                           << static_cast<uint64_t>(sizeof(sphc_frame));
+    return SPHC_E_STRUCT_SIZE;
+  }
+  const sphc_status status = checkImage("color", frame->color, config.color_camera, false, message);
+  return status != SPHC_OK ? status : checkImage("depth", frame->depth, config.depth_camera, true, message);
+}
+
+sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
+                        sphc_message *message) {
+  if (!memory) {
+    MessageWriter(message) << what << " memory is null";
+    return SPHC_E_ARGUMENT;
+  }
+  if (reinterpret_cast<uintptr_t>(memory) % alignment) {
+    MessageWriter(message) << what << " memory must be aligned to " << static_cast<uint64_t>(alignment) << " bytes";
+    return SPHC_E_MEMORY_ALIGNMENT;
+  }
+  if (bytes < needed) {
+    MessageWriter(message) << what << " memory has " << static_cast<uint64_t>(bytes) << " bytes, "
+                           << static_cast<uint64_t>(needed) << " are needed";
+    return SPHC_E_MEMORY_SIZE;
+  }
+  return SPHC_OK;
+}
+
+}  // namespace sphc

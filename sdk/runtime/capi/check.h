@@ -1,0 +1,15 @@
+// Validation of what comes through the door.
+#pragma once
+#include "spherecloud/spherecloud.h"
+
+namespace sphc {
+
+// Copies a growing struct of any known size; what the caller's version lacks keeps its default.
+sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message);
+// Do a frame's images fit the config?
+sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, sphc_message *message);
+// Is memory there, aligned and large enough?  `what` names it in the message.
+sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
+                        sphc_message *message);
+
+}  // namespace sphc

@@ -1,0 +1,151 @@
+#include <new>
+
+#include "runtime/base/message.h"
+#include "runtime/capi/check.h"
+#include "runtime/capi/objects.h"
+
+namespace {
+
+using sphc::Arena;
+using sphc::Localizer;
+
+constexpr size_t kObjectBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
+
+sphc_memory measure(const sphc_config &config) {
+  Arena state, scratch;
+  Localizer::layout(config, state, scratch, nullptr);
+  return {kObjectBytes + state.used(), scratch.used(), sphc::kArenaAlignment};
+}
+
+// Finds the index-th piece of the layout walk.
+struct PieceSearch {
+  uint32_t wanted, seen;
+  bool scratch;
+  sphc_memory_piece *piece;
+  bool found;
+
+  static void visit(void *user, const char *name, size_t bytes) {
+    auto *search = static_cast<PieceSearch *>(user);
+    if (search->seen++ != search->wanted) return;
+    *search->piece = {name, bytes, search->scratch, 0};
+    search->found = true;
+  }
+};
+
+void clear(sphc_result *result, const sphc_frame &frame) {
+  const uint32_t struct_size = result->struct_size;
+  *result = {};
+  result->struct_size = struct_size;
+  result->sequence = frame.sequence;
+  result->time_ns = frame.color_time_ns;
+  result->camera_from_map.q_wxyz[0] = 1;
+}
+
+}  // namespace
+
+sphc_status sphc_config_init(sphc_config *config, size_t struct_size) {
+  if (!config) return SPHC_E_ARGUMENT;
+  if (struct_size != sizeof(sphc_config)) return SPHC_E_STRUCT_SIZE;
+  *config = {};
+  config->struct_size = static_cast<uint32_t>(struct_size);
+  config->max_keypoints = 800;
+  config->max_iterations = 20000;
+  config->max_ratio = 0.85f;
+  config->color_from_depth.q_wxyz[0] = 1;
+  config->depth_unit_m = 0.001;
+  config->depth_min_m = 0.25;
+  config->depth_max_m = 6;
+  config->depth_sigma_m = 0.004;
+  config->depth_sigma_per_m2 = 0.002;
+  config->pixel_sigma_px = 0.8;
+  config->map_sigma_m = 0.004;
+  config->min_inliers = 10;
+  return SPHC_OK;
+}
+
+sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message) {
+  sphc_config checked;
+  const sphc_status status = sphc::readConfig(config, &checked, message);
+  if (status != SPHC_OK) return status;
+  if (!memory) {
+    sphc::MessageWriter(message) << "memory is null";
+    return SPHC_E_ARGUMENT;
+  }
+  *memory = measure(checked);
+  return SPHC_OK;
+}
+
+sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t index, sphc_memory_piece *piece) {
+  sphc_config checked;
+  const sphc_status status = sphc::readConfig(config, &checked, nullptr);
+  if (status != SPHC_OK) return status;
+  if (!piece) return SPHC_E_ARGUMENT;
+  if (index == 0) {
+    *piece = {"localizer.object", kObjectBytes, 0, 0};
+    return SPHC_OK;
+  }
+  PieceSearch in_state = {index - 1, 0, false, piece, false};
+  Arena state(&PieceSearch::visit, &in_state), unseen;
+  Localizer::layout(checked, state, unseen, nullptr);
+  if (in_state.found) return SPHC_OK;
+  PieceSearch in_scratch = {index - 1 - in_state.seen, 0, true, piece, false};
+  Arena unseen_state, scratch(&PieceSearch::visit, &in_scratch);
+  Localizer::layout(checked, unseen_state, scratch, nullptr);
+  return in_scratch.found ? SPHC_OK : SPHC_END;
+}
+
+sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
+                                const sphc_config *config, const sphc_map *map, sphc_localizer **localizer,
+                                sphc_message *message) {
+  sphc_config checked;
+  sphc_status status = sphc::readConfig(config, &checked, message);
+  if (status != SPHC_OK) return status;
+  if (!map || !localizer) {
+    sphc::MessageWriter(message) << (map ? "localizer" : "map") << " is null";
+    return SPHC_E_ARGUMENT;
+  }
+  const sphc_memory need = measure(checked);
+  status = sphc::checkMemory(state, state_bytes, need.state_bytes, need.alignment, "state", message);
+  if (status != SPHC_OK) return status;
+  status = sphc::checkMemory(scratch, scratch_bytes, need.scratch_bytes, need.alignment, "scratch", message);
+  if (status != SPHC_OK) return status;
+
+  auto *made = new (state) sphc_localizer();
+  Arena state_arena(static_cast<unsigned char *>(state) + kObjectBytes), scratch_arena(scratch);
+  Localizer::layout(checked, state_arena, scratch_arena, &made->localizer);
+  made->localizer.init(checked, map->view);
+  *localizer = made;
+  return SPHC_OK;
+}
+
+void sphc_localizer_fini(sphc_localizer **localizer) {
+  if (localizer) *localizer = nullptr;
+}
+
+sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame, sphc_result *result) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  localizer->message.text[0] = '\0';
+  const sphc_status status = sphc::checkFrame(frame, localizer->localizer.config(), &localizer->message);
+  if (status != SPHC_OK) return status;
+  if (!result || result->struct_size != sizeof(sphc_result)) {
+    sphc::MessageWriter(&localizer->message) << (result ? "set result.struct_size to sizeof(sphc_result) first"
+                                                        : "result is null");
+    return result ? SPHC_E_STRUCT_SIZE : SPHC_E_ARGUMENT;
+  }
+  clear(result, *frame);
+  localizer->localizer.process(*frame, result);
+  return result->outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
+}
+
+const char *sphc_localizer_message(const sphc_localizer *localizer) {
+  return localizer ? localizer->message.text : "localizer is null";
+}
+
+sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
+                                        uint32_t capacity, uint32_t *count) {
+  if (!localizer || !count || (capacity && !observations)) return SPHC_E_ARGUMENT;
+  const sphc::Span<const sphc_observation> seen = localizer->localizer.observations();
+  for (uint32_t i = 0; i < capacity && i < seen.size(); ++i) observations[i] = seen[i];
+  *count = static_cast<uint32_t>(seen.size());
+  return SPHC_OK;
+}

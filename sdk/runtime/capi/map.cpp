@@ -1,0 +1,59 @@
+#include <cstring>
+#include <new>
+
+#include "runtime/base/message.h"
+#include "runtime/capi/check.h"
+#include "runtime/capi/objects.h"
+#include "runtime/stages/features/extractor.h"
+
+sphc_status sphc_map_memory(size_t *bytes, size_t *alignment) {
+  if (!bytes || !alignment) return SPHC_E_ARGUMENT;
+  *bytes = sizeof(sphc_map);
+  *alignment = alignof(sphc_map);
+  return SPHC_OK;
+}
+
+sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, size_t file_bytes, sphc_map **map,
+                          sphc_message *message) {
+  if (!map || !file) {
+    sphc::MessageWriter(message) << (map ? "file" : "map") << " is null";
+    return SPHC_E_ARGUMENT;
+  }
+  const sphc_status memory_status =
+      sphc::checkMemory(memory, memory_bytes, sizeof(sphc_map), alignof(sphc_map), "map", message);
+  if (memory_status != SPHC_OK) return memory_status;
+  if (reinterpret_cast<uintptr_t>(file) % 8) {
+    sphc::MessageWriter(message) << "the map file's bytes must be aligned to 8; malloc and mmap do so";
+    return SPHC_E_MEMORY_ALIGNMENT;
+  }
+  sphc::MapView view;
+  const sphc_status status = sphc::MapView::open(file, file_bytes, sphc::kExtractorId, &view, message);
+  if (status != SPHC_OK) return status;
+  *map = new (memory) sphc_map{view};
+  return SPHC_OK;
+}
+
+sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
+  if (!map || !info) return SPHC_E_ARGUMENT;
+  if (info->struct_size != sizeof(sphc_map_info)) return SPHC_E_STRUCT_SIZE;
+  const sphc::MapHeader &header = map->view.header();
+  info->format_version = header.version;
+  info->point_count = header.point_count;
+  info->extractor = header.extractor;
+  info->file_bytes = header.file_bytes;
+  std::memcpy(info->map_id, header.map_id, sizeof info->map_id);
+  return SPHC_OK;
+}
+
+sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, double direction[3]) {
+  if (!map || !direction || index >= map->view.pointCount()) return SPHC_E_ARGUMENT;
+  const sphc::Direction d = map->view.direction(index);
+  direction[0] = double{d.x};
+  direction[1] = double{d.y};
+  direction[2] = double{d.z};
+  return SPHC_OK;
+}
+
+void sphc_map_fini(sphc_map **map) {
+  if (map) *map = nullptr;
+}

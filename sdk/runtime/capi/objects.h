@@ -1,0 +1,18 @@
+// What the door's opaque handles point to.
+#pragma once
+#include "runtime/localizer/localizer.h"
+#include "runtime/map/map_view.h"
+#include "runtime/stages/capture/pairer.h"
+
+struct sphc_map {
+  sphc::MapView view;
+};
+
+struct alignas(sphc::kArenaAlignment) sphc_localizer {
+  sphc::Localizer localizer;
+  sphc_message message;
+};
+
+struct sphc_pairer {
+  sphc::Pairer pairer;
+};

@@ -1,0 +1,177 @@
+#include "runtime/geometry/camera.h"
+
+#include "runtime/base/message.h"
+
+namespace sphc {
+namespace {
+
+constexpr double kWidestRay2 = 57.0 * 57.0;  // tan(89 deg)^2
+constexpr int kDomainSteps = 512;
+
+uint32_t paramCount(sphc_camera_model model) {
+  switch (model) {
+    case SPHC_CAMERA_PINHOLE: return 4;
+    case SPHC_CAMERA_BROWN5: return 9;
+    case SPHC_CAMERA_BROWN8: return 12;
+    case SPHC_CAMERA_KANNALA_BRANDT4: return 8;
+    default: return 0;
+  }
+}
+
+// Ratio of distorted to true radius of the Brown-Conrady models; k7.. are absent.  params from k1 on.
+double brownRadial(const double *k, double r2) {
+  const double up = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  const double down = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+  return up / down;
+}
+double brownRadialDerivative(const double *k, double r2) {  // by r2
+  const double up = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  const double down = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+  const double up_d = k[0] + r2 * (2 * k[1] + 3 * r2 * k[4]);
+  const double down_d = k[5] + r2 * (2 * k[6] + 3 * r2 * k[7]);
+  return (up_d * down - up * down_d) / (down * down);
+}
+
+// Distorted angle of the Kannala-Brandt model (2006, with OpenCV's normalisation), and its derivative.
+double kannalaBrandt(const double *k, double theta) {
+  const double t2 = theta * theta;
+  return theta * (1 + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3]))));
+}
+double kannalaBrandtDerivative(const double *k, double theta) {
+  const double t2 = theta * theta;
+  return 1 + t2 * (3 * k[0] + t2 * (5 * k[1] + t2 * (7 * k[2] + t2 * 9 * k[3])));
+}
+
+}  // namespace
+
+bool checkCamera(const sphc_camera &camera, sphc_message *message) {
+  const uint32_t count = paramCount(camera.model);
+  if (!count) {
+    MessageWriter(message) << "camera model " << camera.model << " is not known; use an SPHC_CAMERA_ value";
+    return false;
+  }
+  if (camera.param_count != count) {
+    MessageWriter(message) << "camera model " << camera.model << " takes " << count << " parameters, not "
+                           << camera.param_count;
+    return false;
+  }
+  if (camera.width < 16 || camera.width > 8192 || camera.height < 16 || camera.height > 8192) {
+    MessageWriter(message) << "camera size " << camera.width << " x " << camera.height
+                           << " is outside 16 to 8192 pixels";
+    return false;
+  }
+  for (uint32_t i = 0; i < 12; ++i) {
+    if (isFinite(camera.params[i])) continue;
+    MessageWriter(message) << "camera parameter " << i << " is not finite; check the calibration";
+    return false;
+  }
+  if (!(camera.params[0] > 0) || !(camera.params[1] > 0)) {
+    MessageWriter(message) << "camera focal lengths " << camera.params[0] << ", " << camera.params[1]
+                           << " must be positive (pixels)";
+    return false;
+  }
+  return true;
+}
+
+Camera::Camera(const sphc_camera &door) : door_(door) {
+  for (uint32_t i = door_.param_count; i < 12; ++i) door_.params[i] = 0;
+  max_radius2_ = findMaxRadius2();
+}
+
+// Radial distortion folds back on itself beyond some radius; rays past the fold have no pixel of their own.
+double Camera::findMaxRadius2() const {
+  const double *k = door_.params + 4;
+  if (door_.model == SPHC_CAMERA_PINHOLE) return kWidestRay2;
+  const bool fisheye = door_.model == SPHC_CAMERA_KANNALA_BRANDT4;
+  const double last = fisheye ? 89 * kPi / 180 : 8;  // radians, or tan of 83 degrees
+  double valid = 0;
+  for (int step = 1; step <= kDomainSteps; ++step) {
+    const double at = last * step / kDomainSteps;
+    const double slope = fisheye ? kannalaBrandtDerivative(k, at)
+                                 : brownRadial(k, at * at) + 2 * at * at * brownRadialDerivative(k, at * at);
+    if (!(slope > 0)) break;
+    valid = at;
+  }
+  if (!fisheye) return valid * valid;
+  double s, c;
+  sinCos(valid, &s, &c);
+  return (s / c) * (s / c);
+}
+
+Vector2 Camera::distort(const Vector2 &ray, Eigen::Matrix2d *derivative) const {
+  const double x = ray.x(), y = ray.y(), r2 = x * x + y * y;
+  const double *k = door_.params + 4;
+  const double p1 = k[2], p2 = k[3];
+  const double radial = brownRadial(k, r2);
+  if (derivative) {
+    const double d = 2 * brownRadialDerivative(k, r2);
+    *derivative << radial + d * x * x + 2 * p1 * y + 6 * p2 * x, d * x * y + 2 * p1 * x + 2 * p2 * y,
+        d * x * y + 2 * p1 * x + 2 * p2 * y, radial + d * y * y + 6 * p1 * y + 2 * p2 * x;
+  }
+  return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+}
+
+bool Camera::project(const Vector3 &point_m, Vector2 *pixel_px) const {
+  if (!(point_m.z() > 0)) return false;
+  Vector2 ray(point_m.x() / point_m.z(), point_m.y() / point_m.z());
+  const double r2 = ray.squaredNorm();
+  if (!(r2 <= max_radius2_)) return false;
+  if (door_.model == SPHC_CAMERA_KANNALA_BRANDT4) {
+    const double r = sqrtOf(r2);
+    if (r > 1e-12) ray *= kannalaBrandt(door_.params + 4, atan2Of(r, 1)) / r;
+  } else if (door_.model != SPHC_CAMERA_PINHOLE) {
+    ray = distort(ray, nullptr);
+  }
+  *pixel_px = {door_.params[0] * ray.x() + door_.params[2], door_.params[1] * ray.y() + door_.params[3]};
+  return true;
+}
+
+bool Camera::undistortBrown(const Vector2 &distorted, Vector2 *ray) const {
+  Vector2 guess = distorted;
+  const double start2 = guess.squaredNorm();
+  if (start2 > max_radius2_) guess *= sqrtOf(max_radius2_ / start2) * 0.99;
+  for (int i = 0; i < 20; ++i) {
+    Eigen::Matrix2d j;
+    const Vector2 error = distort(guess, &j) - distorted;
+    const double det = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
+    if (!(absOf(det) > 1e-12)) return false;
+    guess -= Vector2(j(1, 1) * error.x() - j(0, 1) * error.y(), j(0, 0) * error.y() - j(1, 0) * error.x()) / det;
+    if (error.squaredNorm() < 1e-26) break;
+  }
+  if (!(guess.squaredNorm() <= max_radius2_) || !((distort(guess, nullptr) - distorted).squaredNorm() < 1e-16))
+    return false;
+  *ray = guess;
+  return true;
+}
+
+bool Camera::undistortKannalaBrandt(const Vector2 &distorted, Vector2 *ray) const {
+  const double target = sqrtOf(distorted.squaredNorm());
+  if (target < 1e-12) return *ray = distorted, true;
+  double low = 0, high = atan2Of(sqrtOf(max_radius2_), 1), theta = target < high ? target : high;
+  if (kannalaBrandt(door_.params + 4, high) < target) return false;
+  for (int i = 0; i < 40; ++i) {  // Newton, kept inside the shrinking bracket
+    const double error = kannalaBrandt(door_.params + 4, theta) - target;
+    (error > 0 ? high : low) = theta;
+    double next = theta - error / kannalaBrandtDerivative(door_.params + 4, theta);
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (absOf(next - theta) < 1e-15) break;
+    theta = next;
+  }
+  double s, c;
+  sinCos(theta, &s, &c);
+  *ray = distorted * (s / c / target);
+  return true;
+}
+
+bool Camera::unproject(const Vector2 &pixel_px, Vector2 *ray) const {
+  if (!isFinite(pixel_px.x()) || !isFinite(pixel_px.y())) return false;
+  const Vector2 distorted((pixel_px.x() - door_.params[2]) / door_.params[0],
+                          (pixel_px.y() - door_.params[3]) / door_.params[1]);
+  if (door_.model == SPHC_CAMERA_KANNALA_BRANDT4) return undistortKannalaBrandt(distorted, ray);
+  if (door_.model != SPHC_CAMERA_PINHOLE) return undistortBrown(distorted, ray);
+  if (!(distorted.squaredNorm() <= kWidestRay2)) return false;
+  *ray = distorted;
+  return true;
+}
+
+}  // namespace sphc

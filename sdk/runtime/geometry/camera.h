@@ -1,0 +1,39 @@
+// Camera models of the door: pinhole, Brown-Conrady with 5 and 8 coefficients, Kannala-Brandt with 4.
+#pragma once
+#include "runtime/geometry/rotation.h"
+#include "spherecloud/spherecloud.h"
+
+namespace sphc {
+
+// False, with a message, when the camera cannot be used; see sphc_camera_check.
+bool checkCamera(const sphc_camera &camera, sphc_message *message);
+
+class Camera {
+ public:
+  Camera() = default;
+  // `door` has passed checkCamera.
+  explicit Camera(const sphc_camera &door);
+
+  // Pixel of a point in camera coordinates; false behind the camera or beyond the invertible field of view.
+  bool project(const Vector3 &point_m, Vector2 *pixel_px) const;
+  // Ray (x, y, 1) through a pixel; false where none projects there, or only at 89 degrees and more off the axis.
+  bool unproject(const Vector2 &pixel_px, Vector2 *ray) const;
+
+  double fx() const { return door_.params[0]; }
+  double fy() const { return door_.params[1]; }
+  double focal() const { return 0.5 * (fx() + fy()); }
+  int32_t width() const { return static_cast<int32_t>(door_.width); }
+  int32_t height() const { return static_cast<int32_t>(door_.height); }
+
+ private:
+  // Distorted normalised coordinates of (x, y, 1), and their derivative when asked for.
+  Vector2 distort(const Vector2 &ray, Eigen::Matrix2d *derivative) const;
+  bool undistortBrown(const Vector2 &distorted, Vector2 *ray) const;
+  bool undistortKannalaBrandt(const Vector2 &distorted, Vector2 *ray) const;
+  double findMaxRadius2() const;
+
+  sphc_camera door_ = {};
+  double max_radius2_ = 0;  // largest x^2 + y^2 of a ray up to which the distortion is one to one
+};
+
+}  // namespace sphc

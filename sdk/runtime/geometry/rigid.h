@@ -1,0 +1,24 @@
+// Rigid transform, named target_from_source: x_target = rotation x_source + translation_m.
+#pragma once
+#include "runtime/geometry/rotation.h"
+#include "spherecloud/spherecloud.h"
+
+namespace sphc {
+
+struct Rigid {
+  Matrix3 rotation = Matrix3::Identity();
+  Vector3 translation_m = Vector3::Zero();
+
+  Vector3 operator*(const Vector3 &x_source) const { return rotation * x_source + translation_m; }
+  Rigid operator*(const Rigid &source_from_other) const {
+    return {rotation * source_from_other.rotation, *this * source_from_other.translation_m};
+  }
+  Rigid inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation_m)}; }
+};
+
+Rigid rigidFromDoor(const sphc_rigid &door);
+sphc_rigid doorFromRigid(const Rigid &rigid);
+// Finite, and the quaternion's length within 1e-3 of 1.
+bool isValidRigid(const sphc_rigid &door);
+
+}  // namespace sphc

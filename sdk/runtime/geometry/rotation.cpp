@@ -1,0 +1,47 @@
+#include "runtime/geometry/rotation.h"
+
+namespace sphc {
+
+Matrix3 rotationFromQuaternion(const double q_wxyz[4]) {
+  const double n = q_wxyz[0] * q_wxyz[0] + q_wxyz[1] * q_wxyz[1] + q_wxyz[2] * q_wxyz[2] + q_wxyz[3] * q_wxyz[3];
+  if (!(n > 0)) return Matrix3::Identity();
+  const double s = 2 / n, w = q_wxyz[0], x = q_wxyz[1], y = q_wxyz[2], z = q_wxyz[3];
+  Matrix3 r;
+  r << 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),  //
+      s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),   //
+      s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y);
+  return r;
+}
+
+void quaternionFromRotation(const Matrix3 &r, double q_wxyz[4]) {
+  const double squares[4] = {1 + r(0, 0) + r(1, 1) + r(2, 2), 1 + r(0, 0) - r(1, 1) - r(2, 2),
+                             1 - r(0, 0) + r(1, 1) - r(2, 2), 1 - r(0, 0) - r(1, 1) + r(2, 2)};  // 4 q_i^2
+  int largest = 0;
+  for (int i = 1; i < 4; ++i)
+    if (squares[i] > squares[largest]) largest = i;
+  const double product[4][4] = {  // 4 q_i q_j
+      {squares[0], r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)},
+      {r(2, 1) - r(1, 2), squares[1], r(1, 0) + r(0, 1), r(0, 2) + r(2, 0)},
+      {r(0, 2) - r(2, 0), r(1, 0) + r(0, 1), squares[2], r(2, 1) + r(1, 2)},
+      {r(1, 0) - r(0, 1), r(0, 2) + r(2, 0), r(2, 1) + r(1, 2), squares[3]}};
+  double norm = 0;
+  for (int i = 0; i < 4; ++i) norm += product[largest][i] * product[largest][i];
+  const double scale = (product[largest][0] < 0 ? -1 : 1) / sqrtOf(norm);
+  for (int i = 0; i < 4; ++i) q_wxyz[i] = product[largest][i] * scale;
+}
+
+Matrix3 rotationFromVector(const Vector3 &rotation_rad) {
+  const double angle = sqrtOf(rotation_rad.squaredNorm());
+  const Matrix3 k = crossMatrix(rotation_rad);
+  if (angle < 1e-8) return Matrix3::Identity() + k + 0.5 * (k * k);
+  double s, c;
+  sinCos(angle, &s, &c);
+  return Matrix3::Identity() + (s / angle) * k + ((1 - c) / (angle * angle)) * (k * k);
+}
+
+double rotationAngle(const Matrix3 &r) {
+  const Vector3 twice_sine(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
+  return atan2Of(sqrtOf(twice_sine.squaredNorm()), r.trace() - 1);
+}
+
+}  // namespace sphc

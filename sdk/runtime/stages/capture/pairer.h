@@ -1,0 +1,30 @@
+// Pairs two streams by time.  Holds loans, never images; knows no device.
+#pragma once
+#include "spherecloud/spherecloud.h"
+
+namespace sphc {
+
+class Pairer {
+ public:
+  explicit Pairer(const sphc_pairer_config &config) : config_(config) {}
+
+  sphc_status push(const sphc_capture &capture);
+  sphc_status pop(sphc_pair *pair, sphc_capture *dropped);
+  void flush() { ended_ = true; }
+
+ private:
+  // Captures of one stream in order of time.
+  struct Queue {
+    sphc_capture slots[SPHC_PAIRER_SLOTS] = {};
+    uint32_t count = 0;
+
+    sphc_capture takeFront();
+  };
+  bool canStillImprove() const;
+
+  sphc_pairer_config config_;
+  Queue color_, depth_;
+  bool ended_ = false;
+};
+
+}  // namespace sphc

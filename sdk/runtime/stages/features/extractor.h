@@ -1,0 +1,49 @@
+// The feature stage: grey image in, keypoints and descriptors out, in fixed memory.
+#pragma once
+#include <cstdint>
+
+#include "runtime/base/arena.h"
+#include "runtime/base/span.h"
+#include "runtime/stages/features/candidates.h"
+#include "runtime/stages/features/config.h"
+#include "runtime/stages/features/descriptor.h"
+#include "runtime/stages/features/extrema.h"
+#include "runtime/stages/features/gaussian_table.h"
+#include "runtime/stages/features/orientation.h"
+#include "runtime/stages/features/scale_space.h"
+#include "runtime/types/image_view.h"
+#include "runtime/types/keypoint.h"
+
+namespace sphc {
+
+// Written to maps; raise it whenever the same image would give other descriptors.
+constexpr uint32_t kExtractorId = 1;
+
+class FeatureExtractor {
+ public:
+  // True where the configuration is one that layout() may be asked about.
+  static bool accepts(const FeatureConfig &config);
+
+  // One layout walk: tables into `state`, pyramids and lists into `scratch`.  `out` is null while measuring.
+  static void layout(const FeatureConfig &config, Arena &state, Arena &scratch, FeatureExtractor *out);
+  // Computes the tables; once, after a layout over memory.
+  void init();
+
+  // `gray` has the configured size; `keypoints` and `descriptors` have room for max_keypoints.  Returns how many were
+  // found, strongest first.  Scratch keeps nothing from call to call; the same image gives the same bytes.
+  uint32_t extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors);
+
+ private:
+  void sweepOctave(int32_t octave, GrayView gray);
+  uint32_t describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints, Descriptor *descriptors);
+
+  FeatureConfig config_;
+  ScaleSpace space_;
+  ExtremaFinder finder_;
+  CandidateList candidates_;
+  GaussianTable gaussian_;
+  OrientationFinder orientation_;
+  Describer describer_;
+};
+
+}  // namespace sphc

@@ -1,0 +1,156 @@
+#include "runtime/stages/features/extrema.h"
+
+#include <cstring>
+
+#include "runtime/base/elementary.h"
+
+namespace sphc {
+namespace {
+
+constexpr int32_t kDogRingRows = 4;
+constexpr int32_t kBorder = 5;         // pixels at the image's edge without keypoints
+constexpr int32_t kRefineSteps = 5;    // times the fit may move to a neighbouring sample
+constexpr float kEarlyThreshold = 0.8f;  // of the contrast threshold: what a sample must exceed to be refined
+
+// Value and derivatives of the difference of Gaussians at a sample, by central differences.
+struct Derivatives {
+  float value;
+  float dx, dy, ds;
+  float dxx, dyy, dss, dxy, dxs, dys;
+};
+
+float dogAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
+  return space.level(l + 1).row(y)[x] - space.level(l).row(y)[x];
+}
+
+Derivatives derivativesAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
+  float d[3][3][3];
+  for (int32_t k = 0; k < 3; ++k) {
+    for (int32_t j = 0; j < 3; ++j) {
+      const float *upper = space.level(l + k).row(y + j - 1) + x, *lower = space.level(l + k - 1).row(y + j - 1) + x;
+      for (int32_t i = 0; i < 3; ++i) d[k][j][i] = upper[i - 1] - lower[i - 1];
+    }
+  }
+  Derivatives r;
+  r.value = d[1][1][1];
+  r.dx = 0.5f * (d[1][1][2] - d[1][1][0]);
+  r.dy = 0.5f * (d[1][2][1] - d[1][0][1]);
+  r.ds = 0.5f * (d[2][1][1] - d[0][1][1]);
+  r.dxx = d[1][1][2] + d[1][1][0] - 2.0f * r.value;
+  r.dyy = d[1][2][1] + d[1][0][1] - 2.0f * r.value;
+  r.dss = d[2][1][1] + d[0][1][1] - 2.0f * r.value;
+  r.dxy = 0.25f * ((d[1][2][2] - d[1][2][0]) - (d[1][0][2] - d[1][0][0]));
+  r.dxs = 0.25f * ((d[2][1][2] - d[2][1][0]) - (d[0][1][2] - d[0][1][0]));
+  r.dys = 0.25f * ((d[2][2][1] - d[2][0][1]) - (d[0][2][1] - d[0][0][1]));
+  return r;
+}
+
+// The extremum of the quadratic through the derivatives: offset = -Hessian^-1 gradient (Lowe 2004, equation 3), by
+// Cramer's rule.  False where the Hessian is singular.
+bool solveOffset(const Derivatives &d, float offset[3]) {
+  const float a = d.dyy * d.dss - d.dys * d.dys, b = d.dxs * d.dys - d.dxy * d.dss, c = d.dxy * d.dys - d.dxs * d.dyy;
+  const float determinant = d.dxx * a + d.dxy * b + d.dxs * c;
+  if (absOf(determinant) < 1e-20f) return false;
+  const float e = d.dxx * d.dss - d.dxs * d.dxs, f = d.dxy * d.dxs - d.dxx * d.dys, g = d.dxx * d.dyy - d.dxy * d.dxy;
+  offset[0] = -(a * d.dx + b * d.dy + c * d.ds) / determinant;
+  offset[1] = -(b * d.dx + e * d.dy + f * d.ds) / determinant;
+  offset[2] = -(c * d.dx + f * d.dy + g * d.ds) / determinant;
+  return true;
+}
+
+int32_t towards(float offset) { return offset > 0.5f ? 1 : (offset < -0.5f ? -1 : 0); }
+
+// Strictly beyond the neighbours that come before it and not below those after, so that one of equal samples remains.
+bool isStrictExtremum(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
+  const float value = dogAt(space, x, y, l);
+  for (int32_t i = 0; i < 13; ++i) {
+    const int32_t k = i / 9, j = i / 3 % 3, h = i % 3;
+    const float other = dogAt(space, x + h - 1, y + j - 1, l + k - 1);
+    if (value > 0.0f ? other >= value : other <= value) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void ExtremaFinder::layout(const FeatureConfig &config, Arena &scratch, ExtremaFinder *out) {
+  ExtremaFinder measured;
+  ExtremaFinder &self = out ? *out : measured;
+  const int32_t stride = paddedWidth(config.first_octave < 0 ? 2 * config.width : config.width);
+  const size_t row = static_cast<size_t>(stride);
+  for (Plane &plane : self.dog_) {
+    plane = {scratch.take<float>("features.differences", kDogRingRows * row).data(), stride, kDogRingRows - 1};
+  }
+  self.bounds_ = scratch.take<float>("features.extrema_bounds", 2 * kSearchedLayers * row);
+  self.flags_ = scratch.take<uint8_t>("features.extrema_flags", row + 8);
+  self.threshold_ = config.contrast_threshold;
+  self.edge_limit_ = (config.edge_ratio + 1.0f) * (config.edge_ratio + 1.0f) / config.edge_ratio;
+}
+
+void ExtremaFinder::beginOctave(int32_t octave, int32_t width, int32_t height) {
+  octave_ = octave;
+  width_ = width;
+  height_ = height;
+}
+
+void ExtremaFinder::step(const ScaleSpace &space, int32_t y, CandidateList *found) {
+  const int32_t newest = y - space.lag(kLevels - 1) - kRefineReach;
+  if (newest < 0) return;
+  if (newest < height_) {
+    for (int32_t l = 0; l < kDogLayers; ++l) {
+      subtractRow(space.level(l + 1).row(newest), space.level(l).row(newest), dog_[l].row(newest), width_);
+    }
+  }
+  const int32_t searched = newest - 1;
+  if (searched >= kBorder && searched < height_ - kBorder) searchRow(space, searched, found);
+}
+
+void ExtremaFinder::searchRow(const ScaleSpace &space, int32_t y, CandidateList *found) {
+  DogRows rows;
+  for (int32_t l = 0; l < kDogLayers; ++l) {
+    for (int32_t j = 0; j < 3; ++j) rows.rows[l][j] = dog_[l].row(y + j - 1);
+  }
+  flagExtrema(rows, kEarlyThreshold * threshold_, bounds_.data(), dog_[0].stride, flags_.data(), width_);
+  for (int32_t x = kBorder; x < width_ - kBorder;) {
+    uint64_t eight;  // most pixels are none: eight at a time; the row has room for reading past its end
+    std::memcpy(&eight, flags_.data() + x, sizeof eight);
+    if (eight == 0) {
+      x += 8;
+      continue;
+    }
+    for (int32_t l = 0; l < kScales; ++l) {
+      if (flags_[static_cast<size_t>(x)] >> l & 1) examine(space, x, y, l + 1, found);
+    }
+    ++x;
+  }
+}
+
+void ExtremaFinder::examine(const ScaleSpace &space, int32_t x, int32_t y, int32_t level,
+                            CandidateList *found) const {
+  if (!isStrictExtremum(space, x, y, level)) return;
+  const int32_t start = y;
+  for (int32_t i = 0; i < kRefineSteps; ++i) {
+    const Derivatives d = derivativesAt(space, x, y, level);
+    float offset[3];
+    if (!solveOffset(d, offset)) return;
+    const int32_t move_x = towards(offset[0]), move_y = towards(offset[1]), move_s = towards(offset[2]);
+    if (move_x == 0 && move_y == 0 && move_s == 0) {
+      const float response = absOf(d.value + 0.5f * (d.dx * offset[0] + d.dy * offset[1] + d.ds * offset[2]));
+      const float trace = d.dxx + d.dyy, determinant = d.dxx * d.dyy - d.dxy * d.dxy;
+      // not >= alone: a NaN must not pass
+      if (!(response >= threshold_) || !(trace * trace < edge_limit_ * determinant)) return;
+      found->push({response, static_cast<float>(x) + offset[0], static_cast<float>(y) + offset[1],
+                   static_cast<float>(level) + offset[2], static_cast<int16_t>(octave_), static_cast<int16_t>(level)});
+      return;
+    }
+    x += move_x;
+    y += move_y;
+    level += move_s;
+    if (level < 1 || level > kScales || x < kBorder || x >= width_ - kBorder || y < kBorder ||
+        y >= height_ - kBorder || absOf(y - start) > kRefineReach) {
+      return;
+    }
+  }
+}
+
+}  // namespace sphc

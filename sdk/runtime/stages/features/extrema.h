@@ -1,0 +1,31 @@
+// Extrema of the difference of Gaussians in space and scale, refined (Lowe 2004, sections 3.1, 4 and 4.1).
+#pragma once
+#include <cstdint>
+
+#include "runtime/base/arena.h"
+#include "runtime/stages/features/candidates.h"
+#include "runtime/stages/features/config.h"
+#include "runtime/stages/features/scale_space.h"
+
+namespace sphc {
+
+class ExtremaFinder {
+ public:
+  static void layout(const FeatureConfig &config, Arena &scratch, ExtremaFinder *out);
+
+  void beginOctave(int32_t octave, int32_t width, int32_t height);
+  // After step y of the sweep: finds the extrema of the row that the sweep has made complete.
+  void step(const ScaleSpace &space, int32_t y, CandidateList *found);
+
+ private:
+  void searchRow(const ScaleSpace &space, int32_t y, CandidateList *found);
+  void examine(const ScaleSpace &space, int32_t x, int32_t y, int32_t level, CandidateList *found) const;
+
+  float threshold_ = 0, edge_limit_ = 0;
+  Plane dog_[kDogLayers];  // rings
+  Span<float> bounds_;
+  Span<uint8_t> flags_;
+  int32_t octave_ = 0, width_ = 0, height_ = 0;
+};
+
+}  // namespace sphc

@@ -1,0 +1,146 @@
+#include "runtime/stages/features/scale_space.h"
+
+#include "runtime/base/elementary.h"
+
+namespace sphc {
+namespace {
+
+constexpr double kCameraSigma = 0.5;  // blur assumed in the input (Lowe 2004, section 3.3)
+constexpr double kBlurReach = 3.0;    // standard deviations at which kernels end
+constexpr int32_t kSmallestOctave = 12;
+// More rows than any level needs from its first use to its last: all lags, refinement on both sides, one blur.
+constexpr int32_t kRingRows = 64, kSourceRows = 16;
+
+int32_t clampRow(int32_t y, int32_t height) { return y < 0 ? 0 : (y < height ? y : height - 1); }
+
+int32_t sideOfOctave(int32_t side, int32_t first_octave, int32_t octave) {
+  int32_t n = first_octave < 0 ? 2 * side : side;
+  for (int32_t o = 0; o < octave; ++o) n = (n + 1) / 2;
+  return n;
+}
+
+Plane takePlane(Arena &arena, const char *name, int32_t width, int32_t rows, int32_t row_mask) {
+  const int32_t stride = paddedWidth(width);
+  return {arena.take<float>(name, static_cast<size_t>(stride) * static_cast<size_t>(rows)).data(), stride, row_mask};
+}
+
+double sigmaOfLevel(int32_t level) {
+  return double{kBaseSigma} * expOf(level * 0.69314718055994530942 / kScales);
+}
+
+}  // namespace
+
+ScaleSpace::Kernel ScaleSpace::gaussian(double sigma) {
+  Kernel kernel = {};
+  const int32_t radius = static_cast<int32_t>(floorOf(kBlurReach * sigma + 0.5));
+  kernel.radius = radius < 1 ? 1 : (radius > kMaxBlurRadius ? kMaxBlurRadius : radius);
+  double values[kMaxBlurRadius + 1], sum = 0;
+  for (int32_t k = 0; k <= kernel.radius; ++k) {
+    values[k] = expOf(-0.5 * k * k / (sigma * sigma));
+    sum += (k ? 2 : 1) * values[k];
+  }
+  for (int32_t k = 0; k <= kernel.radius; ++k) kernel.weights[k] = static_cast<float>(values[k] / sum);
+  return kernel;
+}
+
+int32_t ScaleSpace::octaveCount(const FeatureConfig &config) {
+  const int32_t shorter = config.width < config.height ? config.width : config.height;
+  int32_t count = 1;
+  while (count < kMaxOctaves && count < config.max_octaves &&
+         sideOfOctave(shorter, config.first_octave, count) >= kSmallestOctave) {
+    ++count;
+  }
+  return count;
+}
+
+void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, ScaleSpace *out) {
+  ScaleSpace measured;
+  ScaleSpace &self = out ? *out : measured;
+  self.first_octave_ = config.first_octave < 0 ? -1 : 0;
+  self.octaves_ = octaveCount(config);
+  for (int32_t o = 0; o < self.octaves_; ++o) {
+    self.widths_[o] = sideOfOctave(config.width, config.first_octave, o);
+    self.heights_[o] = sideOfOctave(config.height, config.first_octave, o);
+    for (Plane &plane : self.kept_[o]) {
+      plane = takePlane(scratch, "features.levels", self.widths_[o], self.heights_[o], -1);
+    }
+  }
+  const int32_t width = self.widths_[0];
+  for (int32_t l : {0, kLevels - 2, kLevels - 1}) {
+    self.ring_[l] = takePlane(scratch, "features.level_rings", width, kRingRows, kRingRows - 1);
+  }
+  self.source_ = takePlane(scratch, "features.source_ring", width, kSourceRows, kSourceRows - 1);
+  const size_t padded = static_cast<size_t>(paddedWidth(width + 2 * kMaxBlurRadius));
+  self.padded_ = scratch.take<float>("features.blur_row", padded);
+  self.doubled_ = scratch.take<float>("features.doubling_rows", self.first_octave_ < 0 ? 2 * padded : 0);
+}
+
+void ScaleSpace::init() {
+  const double assumed = first_octave_ < 0 ? 2 * kCameraSigma : kCameraSigma;
+  base_kernel_ = gaussian(sqrtOf(static_cast<double>(double{kBaseSigma}) * double{kBaseSigma} - assumed * assumed));
+  base_lags_[0] = 0;
+  for (int32_t l = 1; l < kLevels; ++l) {
+    const double below = sigmaOfLevel(l - 1), here = sigmaOfLevel(l);
+    kernels_[l] = gaussian(sqrtOf(here * here - below * below));
+    base_lags_[l] = base_lags_[l - 1] + kernels_[l].radius;
+  }
+  SPHC_ASSERT(base_lags_[kLevels - 1] + 2 * kRefineReach + 4 + base_kernel_.radius < kRingRows);
+}
+
+float ScaleSpace::pixelSize(int32_t octave) const {
+  const float whole = static_cast<float>(1 << octave);
+  return first_octave_ < 0 ? 0.5f * whole : whole;
+}
+
+void ScaleSpace::beginOctave(int32_t octave, GrayView gray) {
+  octave_ = octave;
+  width_ = widths_[octave];
+  height_ = heights_[octave];
+  gray_ = gray;
+  // In the first octave level 0 is itself blurred from the source rows and follows them.
+  for (int32_t l = 0; l < kLevels; ++l) {
+    lags_[l] = base_lags_[l] + (octave == 0 ? base_kernel_.radius : 0);
+    level_[l] = l >= 1 && l <= kScales ? kept_[octave][l - 1] : ring_[l];
+  }
+}
+
+void ScaleSpace::step(int32_t y) {
+  if (octave_ == 0) {
+    if (y < height_) sourceRow(y);
+    blurInto(base_kernel_, source_, level_[0], y - lags_[0]);
+  } else if (y < height_) {
+    decimateRow(y);
+  }
+  for (int32_t l = 1; l < kLevels; ++l) blurInto(kernels_[l], level_[l - 1], level_[l], y - lags_[l]);
+}
+
+void ScaleSpace::sourceRow(int32_t y) {
+  if (first_octave_ == 0) {
+    bytesToUnit(gray_.row(y), source_.row(y), width_);
+    return;
+  }
+  float *upper = doubled_.data(), *lower = upper + doubled_.size() / 2;
+  bytesToUnit(gray_.row(y / 2), upper, gray_.width);
+  bytesToUnit(gray_.row(clampRow((y + 1) / 2, gray_.height)), lower, gray_.width);
+  doubleRow(upper, lower, source_.row(y), gray_.width);
+}
+
+// Every second pixel of the level with twice the base's blur: pixel i here is pixel 2 i there.
+void ScaleSpace::decimateRow(int32_t y) {
+  const float *from = kept_[octave_ - 1][kScales - 1].row(2 * y);
+  float *to = level_[0].row(y);
+  for (int32_t x = 0; x < width_; ++x) to[x] = from[2 * x];
+}
+
+void ScaleSpace::blurInto(const Kernel &kernel, const Plane &from, const Plane &to, int32_t y) {
+  if (y < 0 || y >= height_) return;
+  BlurTaps taps;
+  taps.radius = kernel.radius;
+  for (int32_t k = -kernel.radius; k <= kernel.radius; ++k) {
+    taps.rows[kernel.radius + k] = from.row(clampRow(y + k, height_));
+  }
+  for (int32_t k = 0; k <= kernel.radius; ++k) taps.weights[k] = kernel.weights[k];
+  blurRow(taps, padded_.data(), to.row(y), width_);
+}
+
+}  // namespace sphc

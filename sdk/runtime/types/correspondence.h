@@ -1,0 +1,21 @@
+// What the pose stage works on: a lifted keypoint and the map direction it was matched to.
+#pragma once
+#include <cstdint>
+
+#include "runtime/geometry/rotation.h"
+
+namespace sphc {
+
+// A keypoint lifted by depth into camera coordinates, with what is known of its error.
+struct LiftedPoint {
+  Vector3 point_m;     // camera frame
+  double sideways_m;   // 1 sigma across the viewing ray: pixel noise at this depth, and the map's own error
+  double along_m;      // 1 sigma along the viewing ray: depth noise
+};
+
+struct Correspondence {
+  LiftedPoint lifted;
+  Vector3 direction;  // unit, map frame, from the sphere centre
+};
+
+}  // namespace sphc
