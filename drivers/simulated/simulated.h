@@ -8,20 +8,17 @@
  *     sphc_simulated_pose_at, _oracle_depth       the truth
  *     sphc_simulated_close
  *
- * Conventions are those of spherecloud.h (units in names, target_from_source, pixel centres at .5, status < 0 leaves
- * outputs untouched but for a message).  Beyond them:
- *   World      origin in the middle of the floor, x along the room's length, y along its width, z up; metres.
- *   Time       start_time_ns is mid-exposure of colour frame 0.  Frame i is at start + i / frame_rate_hz; its depth
- *              image depth_delay_ns later.
- *   Walk       one lap around the middle of the room takes lap_s; lap two sees the same places from other positions
- *              and heights; after two laps the path closes and repeats.  Frames of lap one make a map, frames of lap
- *              two query it.  The defaults (30 Hz, lap 16 s, 960 frames) are exactly two laps; frame_rate_hz 6.25
- *              and frame_count 200 are the same walk with fewer frames.
- *   Same bytes The same config gives the same bytes, whatever `threads` says and in whatever order frames are asked.
- *   Memory     this driver is a tool of the workstation: it allocates at open and while it renders (about 100 MB for
- *              the textures).
- *   Threads    a handle never changes after opening, but for the state of its one source; hence most of it is
- *              [shared].  Rendering starts up to `threads` threads and joins them before it returns.
+ * Conventions are those of spherecloud.h (units in names, target_from_source, pixel centres at .5, status < 0
+ * leaves outputs untouched but for a message).  Beyond them: World      origin in the middle of the floor, x along
+ * the room's length, y along its width, z up; metres. Time       start_time_ns is mid-exposure of colour frame 0.
+ * Frame i is at start + i / frame_rate_hz; its depth image depth_delay_ns later. Walk       one lap around the
+ * middle of the room takes lap_s; lap two sees the same places from other positions and heights; after two laps the
+ * path closes and repeats.  Frames of lap one make a map, frames of lap two query it.  The defaults (30 Hz, lap 16
+ * s, 960 frames) are exactly two laps; frame_rate_hz 6.25 and frame_count 200 are the same walk with fewer frames.
+ *   Same bytes The same config gives the same bytes, whatever `threads` says and in whatever order frames are
+ * asked. Memory     this driver is a tool of the workstation: it allocates at open and while it renders (about 100
+ * MB for the textures). Threads    a handle never changes after opening, but for the state of its one source; hence
+ * most of it is [shared].  Rendering starts up to `threads` threads and joins them before it returns.
  */
 #ifndef SPHERECLOUD_DRIVERS_SIMULATED_H
 #define SPHERECLOUD_DRIVERS_SIMULATED_H
@@ -60,13 +57,13 @@ typedef struct sphc_simulated_config {
   /* Depth.  Measured z' = depth_scale z + depth_offset_m + a wiggle of amplitude depth_wiggle_m, plus noise of
    * sigma(z) = (depth_sigma_m + depth_sigma_per_m2 z^2) times a factor of 0.6 to 3 that falls with the light that
    * comes back (dark or grazing surfaces are worse).  z is in metres along the ToF camera's axis. */
-  uint32_t ideal_depth;      /* 1: z at the pixel centre, rounded to the unit: no noise, bias, mixed or missing pixels;
-                                the five numbers below are then unused; default 0 */
-  uint32_t reserved;         /* 0 */
-  double depth_scale;        /* 0.8 to 1.2; default 1.001 */
-  double depth_offset_m;     /* -0.5 to 0.5; default 0.001 */
-  double depth_wiggle_m;     /* 0 to 0.1; default 0.0015 */
-  double depth_sigma_m;      /* 0 to 1; default 0.0013 */
+  uint32_t ideal_depth;  /* 1: z at the pixel centre, rounded to the unit: no noise, bias, mixed or missing pixels;
+                            the five numbers below are then unused; default 0 */
+  uint32_t reserved;     /* 0 */
+  double depth_scale;    /* 0.8 to 1.2; default 1.001 */
+  double depth_offset_m; /* -0.5 to 0.5; default 0.001 */
+  double depth_wiggle_m; /* 0 to 0.1; default 0.0015 */
+  double depth_sigma_m;  /* 0 to 1; default 0.0013 */
   double depth_sigma_per_m2; /* 0 to 1; default 0.0007 */
   double depth_max_m;        /* no measurement beyond this distance from the camera; 0.5 to 60; default 6 */
 } sphc_simulated_config;
@@ -83,19 +80,19 @@ sphc_status sphc_simulated_config_init(sphc_simulated_config *config, size_t str
 sphc_status sphc_simulated_open(const sphc_simulated_config *config, sphc_simulated **simulated,
                                 sphc_message *message);
 
-/* Stops its source, frees everything and sets *simulated to null.  Accepts null and pointer to null.  No image of the
- * source may be used after it. [exclusive] */
+/* Stops its source, frees everything and sets *simulated to null.  Accepts null and pointer to null.  No image of
+ * the source may be used after it. [exclusive] */
 void sphc_simulated_close(sphc_simulated **simulated);
 
-/* Fills the source contract; set source->struct_size first.  `source->self` borrows the handle until it is closed; one
- * handle has one source, and all its functions are [exclusive] together.  Captures come in order of time, colour RGB8
- * and depth DEPTH16, frame_count of each, then SPHC_END; no frame is ever lost or waited for, so timeout_us has no
- * effect and SPHC_AGAIN never comes.  Set capture->struct_size before acquire.  stop, then start begins again from
- * frame 0.  Errors of this call: ARGUMENT, STRUCT_SIZE. [shared] */
+/* Fills the source contract; set source->struct_size first.  `source->self` borrows the handle until it is closed;
+ * one handle has one source, and all its functions are [exclusive] together.  Captures come in order of time,
+ * colour RGB8 and depth DEPTH16, frame_count of each, then SPHC_END; no frame is ever lost or waited for, so
+ * timeout_us has no effect and SPHC_AGAIN never comes.  Set capture->struct_size before acquire.  stop, then start
+ * begins again from frame 0.  Errors of this call: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_simulated_source(sphc_simulated *simulated, sphc_source *source);
 
-/* The exact calibration: colour is BROWN5, depth KANNALA_BRANDT4; the same for every seed.  Each output may be null.
- * ARGUMENT: the handle is null. [shared] */
+/* The exact calibration: colour is BROWN5, depth KANNALA_BRANDT4; the same for every seed.  Each output may be
+ * null. ARGUMENT: the handle is null. [shared] */
 sphc_status sphc_simulated_cameras(const sphc_simulated *simulated, sphc_camera *color, sphc_camera *depth,
                                    sphc_rigid *color_from_depth);
 
@@ -107,20 +104,20 @@ uint32_t sphc_simulated_frame_count(const sphc_simulated *simulated);
 sphc_status sphc_simulated_frame_times(const sphc_simulated *simulated, uint32_t index, int64_t *color_time_ns,
                                        int64_t *depth_time_ns);
 
-/* Exact pose of the colour camera at any time of the start_time_ns clock, also between, before and after the frames.
- * ARGUMENT: a null pointer. [shared] */
+/* Exact pose of the colour camera at any time of the start_time_ns clock, also between, before and after the
+ * frames. ARGUMENT: a null pointer. [shared] */
 sphc_status sphc_simulated_pose_at(const sphc_simulated *simulated, int64_t time_ns, sphc_rigid *world_from_camera);
 
-/* Exact z depth in metres, along the colour camera's axis, at the centre of every colour pixel at this time; row-major,
- * COLOR_WIDTH x COLOR_HEIGHT floats in caller memory.  No noise, no blur.  0 never happens: the room is closed.
- * Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
+/* Exact z depth in metres, along the colour camera's axis, at the centre of every colour pixel at this time;
+ * row-major, COLOR_WIDTH x COLOR_HEIGHT floats in caller memory.  No noise, no blur.  0 never happens: the room is
+ * closed. Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_oracle_depth(const sphc_simulated *simulated, int64_t time_ns, float *depth_m);
 
 /* The same for the ToF camera: z along its own axis, DEPTH_WIDTH x DEPTH_HEIGHT floats. [shared] */
 sphc_status sphc_simulated_oracle_tof_depth(const sphc_simulated *simulated, int64_t time_ns, float *depth_m);
 
-/* Renders the colour image of frame `index` (RGB8, tightly packed, COLOR_WIDTH * COLOR_HEIGHT * 3 bytes) into caller
- * memory: the very bytes the source gives.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
+/* Renders the colour image of frame `index` (RGB8, tightly packed, COLOR_WIDTH * COLOR_HEIGHT * 3 bytes) into
+ * caller memory: the very bytes the source gives.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_render_color(const sphc_simulated *simulated, uint32_t index, uint8_t *rgb);
 
 /* Renders the depth image of frame `index` (tightly packed, DEPTH_WIDTH * DEPTH_HEIGHT values in DEPTH_UNIT_M) into

@@ -14,6 +14,7 @@ constexpr int kCellPx = 16;
 constexpr size_t kMostKept = 24;          // observations a track remembers
 constexpr double kScaleRatio = 1.8;       // keypoints of one point differ in metric size at most by this factor
 constexpr double kAgreement2 = 16;        // squared Mahalanobis distance of an observation that supports the mean
+constexpr double kLoneNoise = 2;          // a point seen once may scatter at most so many times the sensor's noise
 constexpr double kTwinM = 0.015;          // points so near to each other ...
 constexpr double kTwinDescriptor = 220;   // ... and so alike are one
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -48,6 +49,9 @@ size_t fuse(const std::vector<Observation> &observations, const Vector3 &around,
   }
   return used;
 }
+
+// May an observation be a point by itself?  Not at a depth edge, where its patch scatters.
+bool isTrustworthy(const Observation &lone) { return lone.sigma_m < kLoneNoise * kMappingNoise.sigmaAt(lone.depth_m); }
 
 // The observation whose descriptor is nearest to all others (medoid).
 const Descriptor &representative(const std::vector<Observation> &observations) {
@@ -170,6 +174,7 @@ PointModel PointTracks::finish(size_t *dropped) const {
     point.position_m = track.position_m;
     const size_t agreeing = fuse(track.observations, track.position_m, kAgreement2, &point.position_m, &information);
     if (agreeing < options_.min_observations) continue;
+    if (agreeing == 1 && !isTrustworthy(track.observations[0])) continue;
     point.descriptor = representative(track.observations);
     point.sigma_m = std::sqrt(information.inverse().trace() / 3);
     point.observations = static_cast<uint32_t>(agreeing);

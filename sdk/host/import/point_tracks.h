@@ -6,8 +6,12 @@
 #include "host/import/rgbd_import.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
+#include "runtime/types/depth_sensor.h"
 
 namespace sphc::host {
+
+// Noise assumed of the mapping sensor.
+constexpr DepthSensor kMappingNoise = {0, 0, 0, 0.004, 0.002};
 
 // A keypoint of one mapping frame, lifted and placed in the world.
 struct Observation {

@@ -11,7 +11,6 @@ namespace sphc::host {
 namespace {
 
 constexpr double kPixelSigma = 1.0, kPoseSigmaM = 0.002;
-const DepthSensor kNoise = {0, 0, 0, 0.004, 0.002};
 
 // The device's own stages, in memory from the workstation's heap.
 class FrameDescriber {
@@ -29,8 +28,8 @@ class FrameDescriber {
     Arena state(aligned(state_)), scratch(aligned(scratch_));
     FeatureExtractor::layout(config, state, scratch, &extractor_);
     extractor_.init();
-    const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m, kNoise.sigma_m,
-                                kNoise.sigma_per_m2};
+    const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m, kMappingNoise.sigma_m,
+                                kMappingNoise.sigma_per_m2};
     aligner_ = SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromDoor(calibration.color_from_depth),
                              sensor);
     gray_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));

@@ -19,9 +19,10 @@ Json spreadJson(const Spread &spread) {
 }  // namespace
 
 Json frameJson(const FrameRecord &frame, const std::string &base) {
-  Json json = {{"sequence", frame.sequence},   {"time_ns", frame.time_ns},   {"outcome", outcomeName(frame.outcome)},
-               {"localized", frame.localized}, {"keypoints", frame.keypoints}, {"lifted", frame.lifted},
-               {"matches", frame.matches},     {"inliers", frame.inliers},   {"iterations", frame.iterations}};
+  Json json = {
+      {"sequence", frame.sequence},   {"time_ns", frame.time_ns},     {"outcome", outcomeName(frame.outcome)},
+      {"localized", frame.localized}, {"keypoints", frame.keypoints}, {"lifted", frame.lifted},
+      {"matches", frame.matches},     {"inliers", frame.inliers},     {"iterations", frame.iterations}};
   if (frame.localized) {
     json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
     json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
@@ -47,8 +48,9 @@ std::string framesJsonLines(const Run &run) {
 }
 
 Json summaryJson(const Run &run, const Summary &s) {
-  Json json = {{"recording", run.recording}, {"map", run.map.path},         {"map_id", run.map.id},
-               {"base", run.base},           {"frames", s.frames},          {"unreadable", run.unreadable},
+  Json json = {{"recording", run.recording}, {"map", run.map.path},
+               {"map_id", run.map.id},       {"base", run.base},
+               {"frames", s.frames},         {"unreadable", run.unreadable},
                {"localized", s.localized},   {"localized_percent", percent(s.localized, s.frames)}};
   for (size_t i = 0; i < s.outcomes.size(); ++i) {
     json["outcomes"][outcomeName(static_cast<sphc_outcome>(i))] = s.outcomes[i];
@@ -59,10 +61,10 @@ Json summaryJson(const Run &run, const Summary &s) {
   json["rotation_error_deg"] = spreadJson(s.rotation_deg);
   json["translation_error_m"] = spreadJson(s.translation_m);
   for (size_t i = 0; i < kStageCount; ++i) {
-    json["time_ms"][kStageNames[i]] = {{"median", number(s.stage_median_ms[i])}, {"p90", number(s.stage_p90_ms[i])}};
+    json["time_ms"][kStageNames[i]] = {{"median", number(s.stage_median_ms[i])},
+                                       {"p90", number(s.stage_p90_ms[i])}};
   }
-  json["memory_bytes"] = {
-      {"state", run.state_bytes}, {"scratch", run.scratch_bytes}, {"map", run.map.file_bytes}};
+  json["memory_bytes"] = {{"state", run.state_bytes}, {"scratch", run.scratch_bytes}, {"map", run.map.file_bytes}};
   json["median"] = {{"keypoints", number(s.median_keypoints)},
                     {"matches", number(s.median_matches)},
                     {"inliers", number(s.median_inliers)}};

@@ -6,25 +6,39 @@ namespace sphc::host {
 
 const char *outcomeName(sphc_outcome outcome) {
   switch (outcome) {
-    case SPHC_OUTCOME_LOCALIZED: return "localized";
-    case SPHC_OUTCOME_FEW_KEYPOINTS: return "few keypoints";
-    case SPHC_OUTCOME_FEW_DEPTHS: return "few depths";
-    case SPHC_OUTCOME_FEW_MATCHES: return "few matches";
-    case SPHC_OUTCOME_NO_CONSENSUS: return "no consensus";
-    case SPHC_OUTCOME_UNCERTAIN: return "uncertain";
-    default: return "unknown";
+    case SPHC_OUTCOME_LOCALIZED:
+      return "localized";
+    case SPHC_OUTCOME_FEW_KEYPOINTS:
+      return "few keypoints";
+    case SPHC_OUTCOME_FEW_DEPTHS:
+      return "few depths";
+    case SPHC_OUTCOME_FEW_MATCHES:
+      return "few matches";
+    case SPHC_OUTCOME_NO_CONSENSUS:
+      return "no consensus";
+    case SPHC_OUTCOME_UNCERTAIN:
+      return "uncertain";
+    default:
+      return "unknown";
   }
 }
 
 const char *outcomeAdvice(sphc_outcome outcome) {
   switch (outcome) {
-    case SPHC_OUTCOME_LOCALIZED: return "a pose was given out";
-    case SPHC_OUTCOME_FEW_KEYPOINTS: return "dark, blurred or blank image";
-    case SPHC_OUTCOME_FEW_DEPTHS: return "the depth sensor saw little, or the calibration is wrong";
-    case SPHC_OUTCOME_FEW_MATCHES: return "another place than the map's, or much has changed";
-    case SPHC_OUTCOME_NO_CONSENSUS: return "no pose agrees with clearly more matches than chance would";
-    case SPHC_OUTCOME_UNCERTAIN: return "a pose was found, but the matches pin it down too weakly";
-    default: return "an outcome this report does not know";
+    case SPHC_OUTCOME_LOCALIZED:
+      return "a pose was given out";
+    case SPHC_OUTCOME_FEW_KEYPOINTS:
+      return "dark, blurred or blank image";
+    case SPHC_OUTCOME_FEW_DEPTHS:
+      return "the depth sensor saw little, or the calibration is wrong";
+    case SPHC_OUTCOME_FEW_MATCHES:
+      return "another place than the map's, or much has changed";
+    case SPHC_OUTCOME_NO_CONSENSUS:
+      return "no pose agrees with clearly more matches than chance would";
+    case SPHC_OUTCOME_UNCERTAIN:
+      return "a pose was found, but the matches pin it down too weakly";
+    default:
+      return "an outcome this report does not know";
   }
 }
 

@@ -2,14 +2,15 @@
 #pragma once
 #include <spherecloud/spherecloud.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace sphc::host {
 
-// One frame.  Poses are `base_from_camera`; the base is the recording's world when the owner's note is at hand, else
-// the map's own frame.
+// One frame.  Poses are `base_from_camera`; the base is the recording's world when the owner's note is at hand,
+// else the map's own frame.
 struct FrameRecord {
   uint32_t index = 0;  // of the recording's chosen frames: where its images can be read again
   uint32_t sequence = 0;
@@ -43,11 +44,13 @@ struct MapFacts {
   std::string path, id;
   uint32_t points = 0, format_version = 0, extractor = 0;
   uint64_t file_bytes = 0;
+  std::vector<std::array<double, 3>> directions;  // all that the file says of its points; for the picture
 };
 
 struct Run {
   std::string recording;
-  std::string base = "map";  // "world" or "map"
+  std::string base = "map";             // "world" or "map"
+  std::array<double, 3> centre_m = {};  // the sphere's centre in the base
   MapFacts map;
   size_t state_bytes = 0, scratch_bytes = 0;
   std::vector<MemoryPiece> memory;

@@ -94,7 +94,8 @@ Summary summarize(const Run &run) {
     summary.stage_p90_ms[i] = percentile(ms, 0.9);
   }
   const auto median = [&run](uint32_t FrameRecord::*field) {
-    return percentile(collect(run.frames, [field](const FrameRecord &frame) { return double{frame.*field}; }), 0.5);
+    return percentile(
+        collect(run.frames, [field](const FrameRecord &frame) { return static_cast<double>(frame.*field); }), 0.5);
   };
   summary.median_keypoints = median(&FrameRecord::keypoints);
   summary.median_matches = median(&FrameRecord::matches);

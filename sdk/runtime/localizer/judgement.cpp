@@ -3,24 +3,46 @@
 namespace sphc {
 namespace {
 
-// Around a wrong pose a match lands inside the inlier region about as often as that covers the search cap.
-constexpr double kChance = 0.12;
-constexpr double kMostLogChance = -20;  // accept when chance would do it once in e^20 frames
-constexpr double kMostRotationSigma = 0.02;    // rad
-constexpr double kMostTranslationSigma = 0.04; // m
+constexpr double kMostLogChance = -12;          // wrong poses on foreign maps were never seen below -6
+constexpr double kMostRotationSigma = 0.035;     // rad
+constexpr double kMostTranslationSigma = 0.06;  // m
 
-// Chernoff's bound on log P(at least `successes` of `trials` by chance).
-double logChance(uint32_t successes, uint32_t trials, double chance) {
-  const double share = static_cast<double>(successes) / trials;
+// Chernoff's bound on log P(at least `successes` of `trials`); for unequal chances too, given their mean.
+double logTail(double successes, double trials, double mean_chance) {
+  if (!(trials > 0)) return 0;
+  const double chance = mean_chance > 1e-9 ? mean_chance : 1e-9;
+  const double share = successes / trials;
   if (share <= chance) return 0;
   const double rest = share < 1 ? (1 - share) * logOf((1 - share) / (1 - chance)) : 0;
-  return -static_cast<double>(trials) * (share * logOf(share / chance) + rest);
+  return -trials * (share * logOf(share / chance) + rest);
+}
+
+// Share of the solid angle that the inlier region covers, seen from the sphere centre.
+double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double threshold2, double solid_angle_sr) {
+  const Vector3 offset = c.lifted.point_m - camera_from_map.translation_m;
+  const double distance2 = offset.squaredNorm();
+  const double along_view = offset.dot(c.lifted.point_m.normalized());
+  const double cosine2 = along_view * along_view / distance2;  // between the map ray and the viewing ray
+  const double s = c.lifted.sideways_m, a = c.lifted.along_m;
+  const double area = kPi * threshold2 * s * sqrtOf(s * s * cosine2 + a * a * (1 - cosine2));
+  const double share = area / (distance2 * solid_angle_sr);
+  return share < 1 ? share : 1;
 }
 
 }  // namespace
 
-sphc_outcome judgePose(const Estimate &estimate, uint32_t matches, uint32_t min_inliers) {
-  if (estimate.inliers < min_inliers || logChance(estimate.inliers, matches, kChance) > kMostLogChance)
+double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map, uint32_t inliers,
+                            uint32_t free, double inlier_threshold2, double solid_angle_sr) {
+  if (inliers <= free) return 0;
+  double sum = 0;
+  for (const Correspondence &c : correspondences)
+    sum += inlierShare(c, camera_from_map, inlier_threshold2, solid_angle_sr);
+  const double count = static_cast<double>(correspondences.size());
+  return logTail(inliers - free, count - free, sum / count);
+}
+
+sphc_outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t min_inliers) {
+  if (evidence.inliers < min_inliers || evidence.log_chance_first + evidence.log_chance_second > kMostLogChance)
     return SPHC_OUTCOME_NO_CONSENSUS;
   const double rotation2 = estimate.covariance.topLeftCorner<3, 3>().trace();
   // Of the camera's place in the map: rotation and translation errors compensate, so the raw block would mislead.

@@ -1,11 +1,26 @@
 // Is a pose to be believed?
 #pragma once
+#include "runtime/base/span.h"
+#include "runtime/types/correspondence.h"
 #include "runtime/types/estimate.h"
 #include "spherecloud/spherecloud.h"
 
 namespace sphc {
 
-// `matches`: found by looking near the pose's own predictions, of which `estimate.inliers` agree with it.
-sphc_outcome judgePose(const Estimate &estimate, uint32_t matches, uint32_t min_inliers);
+// Bound on the natural logarithm of the probability that as many as `inliers` of these correspondences would agree with
+// the pose by chance, their directions being spread evenly over `solid_angle_sr` (4 pi: the sphere) around the
+// predicted ones.  `free`: of the inliers, how many agree because the pose was made from them.
+// An a-contrario test, as in Moisan and Stival, "A probabilistic criterion to detect rigid point matches" (IJCV 2004).
+double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map, uint32_t inliers,
+                            uint32_t free, double inlier_threshold2, double solid_angle_sr);
+
+// What speaks for a pose.
+struct Evidence {
+  uint32_t inliers;          // in the second look
+  double log_chance_first;   // of the global matches that agree, times the poses tried
+  double log_chance_second;  // of the agreement in the second look, near the predictions
+};
+
+sphc_outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t min_inliers);
 
 }  // namespace sphc

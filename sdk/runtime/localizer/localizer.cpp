@@ -145,6 +145,11 @@ void Localizer::search(sphc_result *result) {
 // A pose says where in the map each keypoint lies: look there again.  True points that lost the ratio test against some
 // distant twin come back, and fakes, which lie anywhere, drop out.
 void Localizer::improve(Estimate *estimate, sphc_result *result) {
+  Evidence evidence = {};
+  evidence.log_chance_first = logChanceOfAgreement(correspondences_.first(match_count_), estimate->camera_from_map,
+                                                   estimate->inliers, 3, estimator_.inlierThreshold2(), 4 * kPi) +
+                              logOf(static_cast<double>(estimate->iterations));
+  double solid_angle_sr = 0;
   for (double cap_degrees : kCapDegrees) {
     const Rigid map_from_camera = estimate->camera_from_map.inverse();
     for (uint32_t i = 0; i < lifted_count_; ++i) {
@@ -155,6 +160,7 @@ void Localizer::improve(Estimate *estimate, sphc_result *result) {
     sinCos(cap_degrees * kPi / 180, &sine, &cosine);
     correspond(matcher_.matchNear(map_, descriptors_.first(lifted_count_), expected_.first(lifted_count_),
                                   static_cast<float>(cosine), config_.max_ratio, matches_));
+    solid_angle_sr = 2 * kPi * (1 - cosine);
     const uint32_t iterations = estimate->iterations;
     *estimate = estimator_.refine(correspondences_.first(match_count_), estimate->camera_from_map);
     estimate->iterations = iterations;
@@ -164,7 +170,11 @@ void Localizer::improve(Estimate *estimate, sphc_result *result) {
   for (uint32_t i = 0; i < match_count_; ++i)
     if (estimator_.isInlier(correspondences_[i], estimate->camera_from_map))
       observations_[lifted_keypoint_[matches_[i].query]].flags |= SPHC_OBSERVATION_INLIER;
-  result->outcome = judgePose(*estimate, match_count_, config_.min_inliers);
+  evidence.inliers = estimate->inliers;
+  evidence.log_chance_second =
+      logChanceOfAgreement(correspondences_.first(match_count_), estimate->camera_from_map, estimate->inliers, 3,
+                           estimator_.inlierThreshold2(), solid_angle_sr);
+  result->outcome = judgePose(evidence, *estimate, config_.min_inliers);
 }
 
 void Localizer::recordMatches() {

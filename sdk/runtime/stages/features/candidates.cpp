@@ -70,7 +70,8 @@ Span<Candidate> CandidateList::choose(uint32_t limit, const FeatureConfig &confi
   Candidate *chosen = begin;
   for (Candidate *c = begin; c != end && chosen != begin + limit; ++c) {
     if (in_cell[cellOf(*c, config)]++ >= quota) continue;
-    // Not a swap: rotating would keep all in order but costs quadratic time; the passed over are sorted again below.
+    // Not a swap: rotating would keep all in order but costs quadratic time; the passed over are sorted again
+    // below.
     std::swap(*chosen++, *c);
   }
   if (chosen != begin + limit) std::sort(chosen, end, isBefore);

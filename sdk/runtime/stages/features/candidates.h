@@ -11,9 +11,9 @@ namespace sphc {
 struct Candidate {
   float response;
   float x, y;
-  float layer;     // continuous: level + offset
+  float layer;  // continuous: level + offset
   int16_t octave;
-  int16_t level;   // 1 .. kScales
+  int16_t level;  // 1 .. kScales
 };
 
 // A total order, so that the result does not depend on the order of insertion: stronger first, then by place.

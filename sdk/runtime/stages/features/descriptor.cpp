@@ -1,5 +1,7 @@
 #include "runtime/stages/features/descriptor.h"
 
+#include <initializer_list>
+
 #include "runtime/base/elementary.h"
 #include "runtime/stages/features/row_kernels.h"
 
@@ -7,12 +9,12 @@ namespace sphc {
 namespace {
 
 constexpr int32_t kCells = 4, kBins = 8;
-constexpr float kCellSigmas = 3.0f;           // side of a cell in standard deviations of the keypoint
-constexpr int32_t kPerCell = 4;               // samples along the side of a cell
-constexpr int32_t kSide = 5 * kPerCell;       // gradient samples: the four cells and half a cell around them
-constexpr int32_t kPatchSide = kSide + 2;     // with their neighbours
-constexpr float kWindowCells = 2.0f;          // standard deviation of the window: half the descriptor's width
-constexpr float kClamp = 0.2f;                // against single strong gradients (Lowe 2004, section 6.1)
+constexpr float kCellSigmas = 3.0f;        // side of a cell in standard deviations of the keypoint
+constexpr int32_t kPerCell = 4;            // samples along the side of a cell
+constexpr int32_t kSide = 5 * kPerCell;    // gradient samples: the four cells and half a cell around them
+constexpr int32_t kPatchSide = kSide + 2;  // with their neighbours
+constexpr float kWindowCells = 2.0f;       // standard deviation of the window: half the descriptor's width
+constexpr float kClamp = 0.2f;             // against single strong gradients (Lowe 2004, section 6.1)
 
 constexpr int32_t kRowBins = (kCells + 2) * kBins;  // a cell of margin on each side, for samples outside
 
@@ -66,7 +68,8 @@ void Describer::layout(Arena &state, Arena &scratch, Describer *out) {
 void Describer::init() {
   const auto weight = [](int32_t i) {
     const double distance = cellOf(i) - (kCells - 1) / 2.0;
-    return expOf(-0.5 * distance * distance / (static_cast<double>(kWindowCells) * static_cast<double>(kWindowCells)));
+    return expOf(-0.5 * distance * distance /
+                 (static_cast<double>(kWindowCells) * static_cast<double>(kWindowCells)));
   };
   for (int32_t j = 0; j < kSide; ++j) {
     for (int32_t i = 0; i < kSide; ++i) {

@@ -1,8 +1,8 @@
 // Histograms of gradients around a keypoint, as bytes (Lowe 2004, section 6; RootSIFT: Arandjelovic and Zisserman,
 // "Three things everyone should know to improve object retrieval", CVPR 2012).
 //
-// The neighbourhood is resampled into a small patch, turned and scaled to the keypoint, so that the weights with which
-// a sample enters the cells are constants.
+// The neighbourhood is resampled into a small patch, turned and scaled to the keypoint, so that the weights with
+// which a sample enters the cells are constants.
 #pragma once
 #include <cstdint>
 

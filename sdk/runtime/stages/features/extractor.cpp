@@ -9,7 +9,7 @@ constexpr uint32_t kMostKeypoints = 65536;
 constexpr float kPixelCenter = 0.5f;  // array index 0 is the pixel centred at 0.5
 
 float sigmaOf(float layer) {
-  return kBaseSigma * static_cast<float>(expOf(static_cast<double>(layer) * (0.69314718055994530942 / kScales)));
+  return static_cast<float>(kBaseSigma * expOf(static_cast<double>(layer) * (0.69314718055994530942 / kScales)));
 }
 
 }  // namespace
@@ -47,7 +47,8 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
   uint32_t count = 0;
   for (const Candidate &candidate : chosen) {
     if (count == config_.max_keypoints) break;
-    count += describe(candidate, config_.max_keypoints - count, keypoints.data() + count, descriptors.data() + count);
+    count +=
+        describe(candidate, config_.max_keypoints - count, keypoints.data() + count, descriptors.data() + count);
   }
   return count;
 }

@@ -8,8 +8,8 @@ namespace sphc {
 namespace {
 
 constexpr int32_t kDogRingRows = 4;
-constexpr int32_t kBorder = 5;         // pixels at the image's edge without keypoints
-constexpr int32_t kRefineSteps = 5;    // times the fit may move to a neighbouring sample
+constexpr int32_t kBorder = 5;           // pixels at the image's edge without keypoints
+constexpr int32_t kRefineSteps = 5;      // times the fit may move to a neighbouring sample
 constexpr float kEarlyThreshold = 0.8f;  // of the contrast threshold: what a sample must exceed to be refined
 
 // Value and derivatives of the difference of Gaussians at a sample, by central differences.
@@ -27,7 +27,8 @@ Derivatives derivativesAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t
   float d[3][3][3];
   for (int32_t k = 0; k < 3; ++k) {
     for (int32_t j = 0; j < 3; ++j) {
-      const float *upper = space.level(l + k).row(y + j - 1) + x, *lower = space.level(l + k - 1).row(y + j - 1) + x;
+      const float *upper = space.level(l + k).row(y + j - 1) + x,
+                  *lower = space.level(l + k - 1).row(y + j - 1) + x;
       for (int32_t i = 0; i < 3; ++i) d[k][j][i] = upper[i - 1] - lower[i - 1];
     }
   }
@@ -48,10 +49,12 @@ Derivatives derivativesAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t
 // The extremum of the quadratic through the derivatives: offset = -Hessian^-1 gradient (Lowe 2004, equation 3), by
 // Cramer's rule.  False where the Hessian is singular.
 bool solveOffset(const Derivatives &d, float offset[3]) {
-  const float a = d.dyy * d.dss - d.dys * d.dys, b = d.dxs * d.dys - d.dxy * d.dss, c = d.dxy * d.dys - d.dxs * d.dyy;
+  const float a = d.dyy * d.dss - d.dys * d.dys, b = d.dxs * d.dys - d.dxy * d.dss,
+              c = d.dxy * d.dys - d.dxs * d.dyy;
   const float determinant = d.dxx * a + d.dxy * b + d.dxs * c;
   if (absOf(determinant) < 1e-20f) return false;
-  const float e = d.dxx * d.dss - d.dxs * d.dxs, f = d.dxy * d.dxs - d.dxx * d.dys, g = d.dxx * d.dyy - d.dxy * d.dxy;
+  const float e = d.dxx * d.dss - d.dxs * d.dxs, f = d.dxy * d.dxs - d.dxx * d.dys,
+              g = d.dxx * d.dyy - d.dxy * d.dxy;
   offset[0] = -(a * d.dx + b * d.dy + c * d.ds) / determinant;
   offset[1] = -(b * d.dx + e * d.dy + f * d.ds) / determinant;
   offset[2] = -(c * d.dx + f * d.dy + g * d.ds) / determinant;
@@ -60,7 +63,8 @@ bool solveOffset(const Derivatives &d, float offset[3]) {
 
 int32_t towards(float offset) { return offset > 0.5f ? 1 : (offset < -0.5f ? -1 : 0); }
 
-// Strictly beyond the neighbours that come before it and not below those after, so that one of equal samples remains.
+// Strictly beyond the neighbours that come before it and not below those after, so that one of equal samples
+// remains.
 bool isStrictExtremum(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
   const float value = dogAt(space, x, y, l);
   for (int32_t i = 0; i < 13; ++i) {
@@ -140,7 +144,8 @@ void ExtremaFinder::examine(const ScaleSpace &space, int32_t x, int32_t y, int32
       // not >= alone: a NaN must not pass
       if (!(response >= threshold_) || !(trace * trace < edge_limit_ * determinant)) return;
       found->push({response, static_cast<float>(x) + offset[0], static_cast<float>(y) + offset[1],
-                   static_cast<float>(level) + offset[2], static_cast<int16_t>(octave_), static_cast<int16_t>(level)});
+                   static_cast<float>(level) + offset[2], static_cast<int16_t>(octave_),
+                   static_cast<int16_t>(level)});
       return;
     }
     x += move_x;

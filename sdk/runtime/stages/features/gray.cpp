@@ -12,11 +12,13 @@ void toGray(const uint8_t *color, bool red_first, int32_t stride, int32_t width,
 
 }  // namespace
 
-void rgbToGray(const uint8_t *rgb, int32_t stride, int32_t width, int32_t height, uint8_t *gray, int32_t gray_stride) {
+void rgbToGray(const uint8_t *rgb, int32_t stride, int32_t width, int32_t height, uint8_t *gray,
+               int32_t gray_stride) {
   toGray(rgb, true, stride, width, height, gray, gray_stride);
 }
 
-void bgrToGray(const uint8_t *bgr, int32_t stride, int32_t width, int32_t height, uint8_t *gray, int32_t gray_stride) {
+void bgrToGray(const uint8_t *bgr, int32_t stride, int32_t width, int32_t height, uint8_t *gray,
+               int32_t gray_stride) {
   toGray(bgr, false, stride, width, height, gray, gray_stride);
 }
 

@@ -1,5 +1,7 @@
 #include "runtime/stages/features/orientation.h"
 
+#include <initializer_list>
+
 #include "runtime/stages/features/row_kernels.h"
 
 namespace sphc {

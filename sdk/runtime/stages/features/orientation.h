@@ -12,8 +12,8 @@ class OrientationFinder {
  public:
   static void layout(Arena &scratch, OrientationFinder *out);
 
-  // At (x, y) of a level of size width x height whose keypoint has the standard deviation `sigma`, all in the octave's
-  // pixels.  Writes at most `limit` <= 2 angles in (-pi, pi], the strongest first; returns their count.
+  // At (x, y) of a level of size width x height whose keypoint has the standard deviation `sigma`, all in the
+  // octave's pixels.  Writes at most `limit` <= 2 angles in (-pi, pi], the strongest first; returns their count.
   int32_t find(const Plane &level, int32_t width, int32_t height, float x, float y, float sigma,
                const GaussianTable &gaussian, int32_t limit, float angles[2]);
 

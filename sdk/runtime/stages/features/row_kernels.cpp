@@ -69,18 +69,30 @@ HWY_ATTR void blurWith(const BlurTaps &taps, float *padded, float *out, int32_t 
 
 HWY_ATTR void blurRow(const BlurTaps &taps, float *padded, float *out, int32_t width) {
   switch (taps.radius) {
-    case 1: return blurWith<1>(taps, padded, out, width);
-    case 2: return blurWith<2>(taps, padded, out, width);
-    case 3: return blurWith<3>(taps, padded, out, width);
-    case 4: return blurWith<4>(taps, padded, out, width);
-    case 5: return blurWith<5>(taps, padded, out, width);
-    case 6: return blurWith<6>(taps, padded, out, width);
-    case 7: return blurWith<7>(taps, padded, out, width);
-    case 8: return blurWith<8>(taps, padded, out, width);
-    case 9: return blurWith<9>(taps, padded, out, width);
-    case 10: return blurWith<10>(taps, padded, out, width);
-    case 11: return blurWith<11>(taps, padded, out, width);
-    default: return blurWith<12>(taps, padded, out, width);
+    case 1:
+      return blurWith<1>(taps, padded, out, width);
+    case 2:
+      return blurWith<2>(taps, padded, out, width);
+    case 3:
+      return blurWith<3>(taps, padded, out, width);
+    case 4:
+      return blurWith<4>(taps, padded, out, width);
+    case 5:
+      return blurWith<5>(taps, padded, out, width);
+    case 6:
+      return blurWith<6>(taps, padded, out, width);
+    case 7:
+      return blurWith<7>(taps, padded, out, width);
+    case 8:
+      return blurWith<8>(taps, padded, out, width);
+    case 9:
+      return blurWith<9>(taps, padded, out, width);
+    case 10:
+      return blurWith<10>(taps, padded, out, width);
+    case 11:
+      return blurWith<11>(taps, padded, out, width);
+    default:
+      return blurWith<12>(taps, padded, out, width);
   }
 }
 
@@ -166,7 +178,8 @@ HWY_ATTR void polarGradients(const float *__restrict dx, const float *__restrict
 HWY_ATTR void grayRow(const uint8_t *__restrict rgb, bool red_first, uint8_t *__restrict gray, int32_t width) {
   const uint32_t first = red_first ? 77 : 29, last = red_first ? 29 : 77;
   for (int32_t x = 0; x < width; ++x) {
-    gray[x] = static_cast<uint8_t>((first * rgb[3 * x] + 150u * rgb[3 * x + 1] + last * rgb[3 * x + 2] + 128u) >> 8);
+    gray[x] =
+        static_cast<uint8_t>((first * rgb[3 * x] + 150u * rgb[3 * x + 1] + last * rgb[3 * x + 2] + 128u) >> 8);
   }
 }
 
@@ -185,7 +198,9 @@ HWY_EXPORT(flagExtrema);
 HWY_EXPORT(polarGradients);
 HWY_EXPORT(grayRow);
 
-void bytesToUnit(const uint8_t *in, float *out, int32_t width) { HWY_DYNAMIC_DISPATCH(bytesToUnit)(in, out, width); }
+void bytesToUnit(const uint8_t *in, float *out, int32_t width) {
+  HWY_DYNAMIC_DISPATCH(bytesToUnit)(in, out, width);
+}
 void doubleRow(const float *upper, const float *lower, float *out, int32_t width) {
   HWY_DYNAMIC_DISPATCH(doubleRow)(upper, lower, out, width);
 }
@@ -195,7 +210,8 @@ void blurRow(const BlurTaps &taps, float *padded, float *out, int32_t width) {
 void subtractRow(const float *a, const float *b, float *out, int32_t width) {
   HWY_DYNAMIC_DISPATCH(subtractRow)(a, b, out, width);
 }
-void flagExtrema(const DogRows &dog, float threshold, float *scratch, int32_t stride, uint8_t *flags, int32_t width) {
+void flagExtrema(const DogRows &dog, float threshold, float *scratch, int32_t stride, uint8_t *flags,
+                 int32_t width) {
   HWY_DYNAMIC_DISPATCH(flagExtrema)(dog, threshold, scratch, stride, flags, width);
 }
 void polarGradients(const float *dx, const float *dy, float turn, float *magnitude, float *angle, int32_t count) {

@@ -1,8 +1,8 @@
 // The loops in which the time goes, each over one row.
 //
-// They are plain loops that compilers vectorise, compiled several times, for each instruction set one; the machine's is
-// chosen at run time.  Every element is computed by the same IEEE operations in the same order in all of them, so the
-// bytes do not depend on the choice.
+// They are plain loops that compilers vectorise, compiled several times, for each instruction set one; the
+// machine's is chosen at run time.  Every element is computed by the same IEEE operations in the same order in all
+// of them, so the bytes do not depend on the choice.
 #pragma once
 #include <cstdint>
 
@@ -33,7 +33,8 @@ void blurRow(const BlurTaps &taps, float *padded, float *out, int32_t width);
 void subtractRow(const float *a, const float *b, float *out, int32_t width);
 // flags[x] bit s-1: the pixel of layer s is beyond the threshold and no neighbour in 3 x 3 x 3 exceeds it.
 // `scratch` has room for 6 rows of `stride`.  Border pixels get 0.
-void flagExtrema(const DogRows &dog, float threshold, float *scratch, int32_t stride, uint8_t *flags, int32_t width);
+void flagExtrema(const DogRows &dog, float threshold, float *scratch, int32_t stride, uint8_t *flags,
+                 int32_t width);
 // Length times weight, and angle in [0, turn) with a full circle = turn, of each gradient (dx, dy).
 // `magnitude` holds the weights on entry.
 void polarGradients(const float *dx, const float *dy, float turn, float *magnitude, float *angle, int32_t count);

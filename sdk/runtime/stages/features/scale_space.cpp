@@ -1,5 +1,7 @@
 #include "runtime/stages/features/scale_space.h"
 
+#include <initializer_list>
+
 #include "runtime/base/elementary.h"
 
 namespace sphc {
@@ -21,12 +23,11 @@ int32_t sideOfOctave(int32_t side, int32_t first_octave, int32_t octave) {
 
 Plane takePlane(Arena &arena, const char *name, int32_t width, int32_t rows, int32_t row_mask) {
   const int32_t stride = paddedWidth(width);
-  return {arena.take<float>(name, static_cast<size_t>(stride) * static_cast<size_t>(rows)).data(), stride, row_mask};
+  return {arena.take<float>(name, static_cast<size_t>(stride) * static_cast<size_t>(rows)).data(), stride,
+          row_mask};
 }
 
-double sigmaOfLevel(int32_t level) {
-  return double{kBaseSigma} * expOf(level * 0.69314718055994530942 / kScales);
-}
+double sigmaOfLevel(int32_t level) { return kBaseSigma * expOf(level * 0.69314718055994530942 / kScales); }
 
 }  // namespace
 
@@ -77,7 +78,7 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
 
 void ScaleSpace::init() {
   const double assumed = first_octave_ < 0 ? 2 * kCameraSigma : kCameraSigma;
-  base_kernel_ = gaussian(sqrtOf(static_cast<double>(double{kBaseSigma}) * double{kBaseSigma} - assumed * assumed));
+  base_kernel_ = gaussian(sqrtOf(kBaseSigma * kBaseSigma - assumed * assumed));
   base_lags_[0] = 0;
   for (int32_t l = 1; l < kLevels; ++l) {
     const double below = sigmaOfLevel(l - 1), here = sigmaOfLevel(l);

@@ -1,8 +1,8 @@
 // The Gaussian scale space, octave by octave (Lowe 2004, section 3).
 //
-// An octave is swept once from top to bottom, every level following the one below it by the radius of its blur, so the
-// rows in work stay in the cache.  The levels from which descriptors are read are kept whole; the others live in rings
-// of rows that exist just long enough for the extrema search.
+// An octave is swept once from top to bottom, every level following the one below it by the radius of its blur, so
+// the rows in work stay in the cache.  The levels from which descriptors are read are kept whole; the others live
+// in rings of rows that exist just long enough for the extrema search.
 #pragma once
 #include <cstdint>
 
@@ -14,11 +14,11 @@
 
 namespace sphc {
 
-constexpr int32_t kScales = kSearchedLayers;   // per octave
-constexpr int32_t kLevels = kScales + 3;       // Gaussian images per octave
-constexpr int32_t kMaxOctaves = 11;            // 2 * 8192 down to 16
-constexpr float kBaseSigma = 1.6f;             // of level 0, in pixels of its octave
-constexpr int32_t kRefineReach = 5;            // rows an extremum may wander in refinement
+constexpr int32_t kScales = kSearchedLayers;  // per octave
+constexpr int32_t kLevels = kScales + 3;      // Gaussian images per octave
+constexpr int32_t kMaxOctaves = 11;           // 2 * 8192 down to 16
+constexpr double kBaseSigma = 1.6;            // of level 0, in pixels of its octave
+constexpr int32_t kRefineReach = 5;           // rows an extremum may wander in refinement
 
 class ScaleSpace {
  public:

@@ -24,6 +24,7 @@ class PoseEstimator {
   Estimate refine(Span<const Correspondence> correspondences, const Rigid &camera_from_map) const;
   // Does the correspondence agree with the pose?
   bool isInlier(const Correspondence &correspondence, const Rigid &camera_from_map) const;
+  double inlierThreshold2() const { return config_.inlier_threshold2; }
 
  private:
   struct Best {

@@ -1,0 +1,85 @@
+#include "drivers/simulated/headset.h"
+
+#include <cmath>
+
+#include "drivers/simulated/parallel.h"
+#include "drivers/simulated/raster.h"
+
+namespace sphc::simulated {
+namespace {
+
+// z at the centre of every pixel.
+void oracle(const Scene &scene, const sphc_camera &camera, const RayTable &rays, const Pose &pose, uint32_t threads,
+            float *depth_m) {
+  const Raster raster(scene, camera, rays, {makeView(scene, pose)});
+  parallelFor(raster.tileRows(), threads, [&](uint32_t tile_row) {
+    raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
+      depth_m[static_cast<size_t>(row) * camera.width + column] = raster.cast(list, 0, rays.center(column, row)).z;
+    });
+  });
+}
+
+}  // namespace
+
+sphc_camera colorCamera() {
+  sphc_camera camera{};
+  camera.model = SPHC_CAMERA_BROWN5;
+  camera.width = kColorWidth;
+  camera.height = kColorHeight;
+  camera.param_count = 9;
+  const double params[9] = {520.4, 519.7, 322.3, 238.6, -0.052, 0.021, 0.0005, -0.0004, -0.002};
+  for (int i = 0; i < 9; ++i) camera.params[i] = params[i];
+  return camera;
+}
+
+sphc_camera depthCamera() {
+  sphc_camera camera{};
+  camera.model = SPHC_CAMERA_KANNALA_BRANDT4;
+  camera.width = kDepthWidth;
+  camera.height = kDepthHeight;
+  camera.param_count = 8;
+  const double params[8] = {232.6, 232.9, 158.4, 145.3, 0.018, -0.011, 0.004, -0.001};
+  for (int i = 0; i < 8; ++i) camera.params[i] = params[i];
+  return camera;
+}
+
+sphc_rigid colorFromDepth() {
+  // About one degree down, half a degree to the left, a little roll: as two parts on one bracket are.
+  const double w = 1, x = -0.0096, y = 0.0047, z = 0.0031;
+  const double scale = 1 / std::sqrt(w * w + x * x + y * y + z * z);
+  return {{w * scale, x * scale, y * scale, z * scale}, {0.0382, -0.0041, 0.0063}};
+}
+
+Headset::Headset(const sphc_simulated_config &config)
+    : config_(config),
+      color_(colorCamera()),
+      depth_(depthCamera()),
+      color_from_depth_(poseOf(colorFromDepth())),
+      color_rays_(color_),
+      depth_rays_(depth_),
+      scene_(makeScene(config.seed, config.threads)),
+      walk_(scene_, config.walk_seed, config.lap_s) {}
+
+int64_t Headset::colorTime(uint32_t index) const {
+  return config_.start_time_ns + std::llround(static_cast<double>(index) * 1e9 / config_.frame_rate_hz);
+}
+
+Pose Headset::colorPoseAfter(int64_t time_ns, double offset_s) const {
+  return walk_.at(static_cast<double>(time_ns - config_.start_time_ns) * 1e-9 + offset_s);
+}
+
+Pose Headset::depthPose(int64_t time_ns) const { return compose(colorPose(time_ns), color_from_depth_); }
+
+uint64_t Headset::noiseSeed(uint32_t index, uint64_t stream) const {
+  return hash64(hash64(config_.seed, config_.walk_seed), 2 * static_cast<uint64_t>(index) + stream);
+}
+
+void Headset::oracleColor(int64_t time_ns, float *depth_m) const {
+  oracle(scene_, color_, color_rays_, colorPose(time_ns), config_.threads, depth_m);
+}
+
+void Headset::oracleDepth(int64_t time_ns, float *depth_m) const {
+  oracle(scene_, depth_, depth_rays_, depthPose(time_ns), config_.threads, depth_m);
+}
+
+}  // namespace sphc::simulated

@@ -1,0 +1,48 @@
+// headset.h - the room, the walk and the two cameras together; what an open handle holds.  Immutable once made, so
+// any number of threads may ask it for images.
+#pragma once
+
+#include "drivers/simulated/lens.h"
+#include "drivers/simulated/scene.h"
+#include "drivers/simulated/simulated.h"
+#include "drivers/simulated/walk.h"
+
+namespace sphc::simulated {
+
+constexpr uint32_t kColorWidth = SPHC_SIMULATED_COLOR_WIDTH, kColorHeight = SPHC_SIMULATED_COLOR_HEIGHT;
+constexpr uint32_t kDepthWidth = SPHC_SIMULATED_DEPTH_WIDTH, kDepthHeight = SPHC_SIMULATED_DEPTH_HEIGHT;
+
+sphc_camera colorCamera();
+sphc_camera depthCamera();
+sphc_rigid colorFromDepth();
+
+class Headset {
+ public:
+  // The config must have passed checkConfig.
+  explicit Headset(const sphc_simulated_config &config);
+
+  const sphc_simulated_config &config() const { return config_; }
+  int64_t colorTime(uint32_t index) const;
+  int64_t depthTime(uint32_t index) const { return colorTime(index) + config_.depth_delay_ns; }
+  Pose colorPose(int64_t time_ns) const { return colorPoseAfter(time_ns, 0); }
+
+  void renderColor(uint32_t index, uint8_t *rgb) const;
+  void renderDepth(uint32_t index, uint16_t *depth) const;
+  void oracleColor(int64_t time_ns, float *depth_m) const;
+  void oracleDepth(int64_t time_ns, float *depth_m) const;
+
+ private:
+  // The pose `offset_s` after a time: fractions of an exposure are finer than the clock.
+  Pose colorPoseAfter(int64_t time_ns, double offset_s) const;
+  Pose depthPose(int64_t time_ns) const;
+  uint64_t noiseSeed(uint32_t index, uint64_t stream) const;
+
+  sphc_simulated_config config_;
+  sphc_camera color_, depth_;
+  Pose color_from_depth_;
+  RayTable color_rays_, depth_rays_;
+  Scene scene_;
+  Walk walk_;
+};
+
+}  // namespace sphc::simulated

@@ -1,0 +1,98 @@
+// headset_color.cpp - the colour camera: exposure, blur, lens, sensor noise.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "drivers/simulated/headset.h"
+#include "drivers/simulated/parallel.h"
+#include "drivers/simulated/raster.h"
+
+namespace sphc::simulated {
+namespace {
+
+// Four rays a pixel, on a turned square, each at its own quarter of the exposure.
+constexpr uint32_t kRays = 4;
+constexpr float kOffsets[kRays][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
+
+// Full scale is 1.  A tone of 0.3 gets a noise of 0.0079, about 2 of 255 after the gamma.
+constexpr float kReadNoise = 0.0016f, kShotNoise = 2e-4f;
+
+struct Light {
+  float r = 0, g = 0, b = 0;
+};
+
+struct Squares {
+  float of[256];
+  Squares() : of() {
+    for (int i = 0; i < 256; ++i) of[i] = static_cast<float>(i * i) / (255.0f * 255.0f);
+  }
+};
+
+inline float log2Approximate(float x) {
+  // The exponent of a float, plus a parabola for its mantissa: within 0.01.
+  uint32_t bits = 0;
+  std::memcpy(&bits, &x, sizeof bits);
+  const float exponent = static_cast<float>(static_cast<int32_t>(bits >> 23) - 127);
+  bits = (bits & 0x7FFFFFu) | 0x3F800000u;
+  float m = 0;
+  std::memcpy(&m, &bits, sizeof m);
+  return exponent + (-0.33582878f * m + 2.0f) * m - 1.65871022f;
+}
+
+inline uint8_t develop(float light, float noise) {
+  const float noisy = light + noise * std::sqrt(kReadNoise * kReadNoise + kShotNoise * light);
+  return static_cast<uint8_t>(255.0f * std::sqrt(std::clamp(noisy, 0.0f, 1.0f)) + 0.5f);
+}
+
+// Brightness over time: the room is bright and dark by turns and the exposure control is slow.
+float exposureAt(double time_s) {
+  return static_cast<float>(1 + 0.14 * std::sin(0.83 * time_s) + 0.07 * std::sin(2.1 * time_s + 1.3));
+}
+
+}  // namespace
+
+void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
+  static const Squares kSquares;
+  const int64_t time_ns = colorTime(index);
+  std::vector<View> views;
+  for (uint32_t i = 0; i < kRays; ++i) {
+    const double part = (i + 0.5) / kRays - 0.5;
+    views.push_back(
+        makeView(scene_, colorPoseAfter(time_ns, config_.motion_blur != 0 ? part * config_.exposure_s : 0)));
+  }
+  const Raster raster(scene_, color_, color_rays_, std::move(views));
+  const float gain =
+      config_.exposure_drift != 0 ? exposureAt(static_cast<double>(time_ns - config_.start_time_ns) * 1e-9) : 1.0f;
+  const uint64_t seed = noiseSeed(index, 0);
+  const float noise = config_.color_noise != 0 ? 1.0f : 0.0f;
+  // A ray stands for half a pixel on a side; a little sharper than that keeps fine texture.
+  const float footprint = 0.6f / static_cast<float>(color_.params[0]);
+
+  parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
+    raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
+      Light sum;
+      for (uint32_t i = 0; i < kRays; ++i) {
+        const Ray2 ray = color_rays_.at(column, row, kOffsets[i][0], kOffsets[i][1]);
+        const Hit hit = raster.cast(list, i, ray);
+        const Seen seen = raster.look(hit, i, ray);
+        // Between the short and the long side of a slanted footprint.
+        const float size = hit.z * footprint / (seen.texture->texel_m * std::sqrt(seen.cosine));
+        const Texel texel = scene_.pool.sample(*seen.texture, seen.u, seen.v, log2Approximate(size));
+        sum.r += kSquares.of[texel & 255];
+        sum.g += kSquares.of[(texel >> 8) & 255];
+        sum.b += kSquares.of[(texel >> 16) & 255];
+      }
+      const Ray2 &center = color_rays_.center(column, row);
+      const float off_axis = center.x * center.x + center.y * center.y;
+      const float vignette = 1.0f / ((1 + 0.45f * off_axis) * (1 + 0.45f * off_axis));
+      const float scale = gain * vignette / kRays;
+      const uint64_t pixel = static_cast<uint64_t>(row) * kColorWidth + column;
+      uint8_t *out = rgb + 3 * pixel;
+      out[0] = develop(sum.r * scale, noise * gaussian(hash64(seed + 3 * pixel)));
+      out[1] = develop(sum.g * scale, noise * gaussian(hash64(seed + 3 * pixel + 1)));
+      out[2] = develop(sum.b * scale, noise * gaussian(hash64(seed + 3 * pixel + 2)));
+    });
+  });
+}
+
+}  // namespace sphc::simulated

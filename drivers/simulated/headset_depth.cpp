@@ -1,0 +1,100 @@
+// headset_depth.cpp - the ToF camera: mixed pixels, range bias, noise by returned light, missing measurements.
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/simulated/headset.h"
+#include "drivers/simulated/parallel.h"
+#include "drivers/simulated/raster.h"
+
+namespace sphc::simulated {
+namespace {
+
+// Rays a pixel: its light is the sum of theirs, and at an edge so is its range.
+constexpr uint32_t kRays = 4;
+constexpr float kOffsets[kRays][2] = {{-0.32f, -0.14f}, {0.14f, -0.32f}, {-0.14f, 0.32f}, {0.32f, 0.14f}};
+
+// Returned light: reflectance times cosine over squared distance.  Below kBlind nothing is measured; up to kDim
+// ever more is.
+constexpr float kBlind = 0.0035f, kDim = 0.0075f;
+// Depths that differ by more than this within a pixel are an edge; the sensor notices some of them.
+constexpr float kEdge_m = 0.08f;
+constexpr float kEdgeNoticed = 0.55f;
+
+struct Echo {
+  float z = 0;        // mean depth, weighted by light
+  float spread = 0;   // largest minus least depth
+  float light = 0;    // reflectance times cosine / distance^2, mean
+  float surface = 0;  // reflectance times cosine, mean
+};
+
+// What comes back to one pixel.
+Echo listen(const Scene &scene, const Raster &raster, const RayTable &rays, float focal, uint32_t column,
+            uint32_t row, const Raster::List &list) {
+  Echo echo;
+  float nearest = kFar, farthest = 0, weighted = 0;
+  for (const auto &offset : kOffsets) {
+    const Ray2 ray = rays.at(column, row, offset[0], offset[1]);
+    const Hit hit = raster.cast(list, 0, ray);
+    const Seen seen = raster.look(hit, 0, ray);
+    const float level = std::log2(std::max(1.0f, hit.z / (focal * seen.texture->texel_m)));
+    const Texel texel = scene.pool.nearest(*seen.texture, seen.u, seen.v, level);
+    const float surface = static_cast<float>(texel >> 24) * (1.0f / 255.0f) * seen.cosine;
+    const float light = surface / (hit.z * hit.z * (1 + ray.x * ray.x + ray.y * ray.y));
+    weighted += light * hit.z;
+    echo.light += light;
+    echo.surface += surface;
+    nearest = std::min(nearest, hit.z);
+    farthest = std::max(farthest, hit.z);
+  }
+  echo.z = weighted / std::max(echo.light, 1e-9f);
+  echo.spread = farthest - nearest;
+  echo.light /= kRays;
+  echo.surface /= kRays;
+  return echo;
+}
+
+uint16_t units(double z_m) {
+  return static_cast<uint16_t>(std::clamp(std::round(z_m / SPHC_SIMULATED_DEPTH_UNIT_M), 0.0, 65535.0));
+}
+
+bool isMissing(const Echo &echo, float z_max, uint64_t chance) {
+  if (echo.z > z_max || echo.light < kBlind * 0.25f) return true;
+  const float seen = std::clamp((echo.light - kBlind * 0.5f) / (kDim - kBlind * 0.5f), 0.0f, 1.0f);
+  const auto low = static_cast<uint32_t>(chance), high = static_cast<uint32_t>(chance >> 32);
+  if (unitFloat(low) > seen) return true;
+  return echo.spread > kEdge_m && unitFloat(high) < kEdgeNoticed;
+}
+
+double measure(const sphc_simulated_config &config, const Echo &echo, uint64_t noise) {
+  const auto z = static_cast<double>(echo.z);
+  const double bias = config.depth_offset_m + config.depth_wiggle_m * std::sin(z * (2 * 3.14159265358979 / 1.5));
+  // A wall of reflectance 0.55 seen straight on is the measure of good light.
+  const double light = std::clamp(std::sqrt(0.55 / std::max(1e-3, static_cast<double>(echo.surface))), 0.6, 3.0);
+  const double sigma = (config.depth_sigma_m + config.depth_sigma_per_m2 * z * z) * light;
+  return config.depth_scale * z + bias + sigma * static_cast<double>(gaussian(noise));
+}
+
+}  // namespace
+
+void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
+  const Raster raster(scene_, depth_, depth_rays_, {makeView(scene_, depthPose(depthTime(index)))});
+  const uint64_t seed = noiseSeed(index, 1);
+  const auto focal = static_cast<float>(depth_.params[0]);
+  const auto far_m = static_cast<float>(config_.depth_max_m);
+  parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
+    raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
+      const uint64_t pixel = static_cast<uint64_t>(row) * kDepthWidth + column;
+      const Ray2 &center = depth_rays_.center(column, row);
+      if (config_.ideal_depth != 0) {
+        depth[pixel] = units(static_cast<double>(raster.cast(list, 0, center).z));
+        return;
+      }
+      const Echo echo = listen(scene_, raster, depth_rays_, focal, column, row, list);
+      const float z_max = far_m / std::sqrt(1 + center.x * center.x + center.y * center.y);
+      const bool missing = isMissing(echo, z_max, hash64(seed + 2 * pixel));
+      depth[pixel] = missing ? uint16_t{0} : units(measure(config_, echo, hash64(seed + 2 * pixel + 1)));
+    });
+  });
+}
+
+}  // namespace sphc::simulated

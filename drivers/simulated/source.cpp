@@ -1,0 +1,103 @@
+#include "drivers/simulated/source.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "drivers/simulated/config.h"
+
+namespace sphc::simulated {
+
+Source::Source(const Headset &headset) : headset_(headset) {
+  for (Slot &slot : slots_) slot.bytes = std::make_unique<uint8_t[]>(kSlotBytes);
+}
+
+void Source::fill(sphc_source *source) {
+  source->loan_limit = kSlots;
+  source->self = this;
+  source->start = [](void *self) { return static_cast<Source *>(self)->start(); };
+  source->acquire = [](void *self, uint32_t, sphc_capture *capture) {
+    return static_cast<Source *>(self)->acquire(capture);
+  };
+  source->release = [](void *self, const sphc_capture *capture) {
+    if (capture != nullptr) static_cast<Source *>(self)->release(*capture);
+  };
+  source->stop = [](void *self) { static_cast<Source *>(self)->stop(); };
+  source->message = [](const void *self) -> const char * {
+    return static_cast<const Source *>(self)->message_.text;
+  };
+}
+
+sphc_status Source::fail(sphc_status status, const char *text) {
+  explain(&message_, "simulated: %s", text);
+  return status;
+}
+
+sphc_status Source::start() {
+  if (running_) return fail(SPHC_E_STATE, "start while running; stop first");
+  running_ = true;
+  captures_ = 0;
+  return SPHC_OK;
+}
+
+void Source::stop() {
+  running_ = false;
+  for (Slot &slot : slots_) slot.token = 0;
+}
+
+void Source::release(const sphc_capture &capture) {
+  for (Slot &slot : slots_) {
+    if (slot.token != 0 && slot.token == capture.token) slot.token = 0;
+  }
+}
+
+sphc_status Source::acquire(sphc_capture *capture) {
+  if (!running_) return fail(SPHC_E_STATE, "acquire while stopped; start first");
+  if (capture == nullptr) return fail(SPHC_E_ARGUMENT, "acquire into null; give a capture");
+  if (capture->struct_size != sizeof *capture) {
+    return fail(SPHC_E_STRUCT_SIZE, "capture.struct_size is not known; set it to sizeof(sphc_capture)");
+  }
+  const auto index = static_cast<uint32_t>(captures_ / 2);
+  if (index >= headset_.config().frame_count) return SPHC_END;
+  Slot *slot = std::find_if(std::begin(slots_), std::end(slots_), [](const Slot &s) { return s.token == 0; });
+  if (slot == std::end(slots_)) return fail(SPHC_E_STATE, "all 8 captures are on loan; release one first");
+  const bool color_first = headset_.config().depth_delay_ns >= 0;
+  const bool color = (captures_ % 2 == 0) == color_first;
+  try {
+    render(*slot, color ? SPHC_STREAM_COLOR : SPHC_STREAM_DEPTH, index, capture);
+  } catch (const std::bad_alloc &) {
+    return fail(SPHC_E_MEMORY_SIZE, "out of memory while rendering; free some and acquire again");
+  } catch (const std::exception &error) {
+    return fail(SPHC_E_INTERNAL, error.what());
+  }
+  ++captures_;
+  return SPHC_OK;
+}
+
+void Source::render(Slot &slot, sphc_stream stream, uint32_t index, sphc_capture *capture) {
+  sphc_capture out{};
+  out.struct_size = sizeof out;
+  out.stream = stream;
+  out.sequence = index;
+  out.image.data = slot.bytes.get();
+  if (stream == SPHC_STREAM_COLOR) {
+    headset_.renderColor(index, slot.bytes.get());
+    out.time_ns = headset_.colorTime(index);
+    out.image.width = kColorWidth;
+    out.image.height = kColorHeight;
+    out.image.stride_bytes = kColorWidth * 3;
+    out.image.format = SPHC_FORMAT_RGB8;
+  } else {
+    // Storage from new[] is aligned for any scalar.
+    headset_.renderDepth(index, reinterpret_cast<uint16_t *>(slot.bytes.get()));
+    out.time_ns = headset_.depthTime(index);
+    out.image.width = kDepthWidth;
+    out.image.height = kDepthHeight;
+    out.image.stride_bytes = kDepthWidth * static_cast<uint32_t>(sizeof(uint16_t));
+    out.image.format = SPHC_FORMAT_DEPTH16;
+  }
+  slot.token = out.token = ++last_token_;
+  *capture = out;
+}
+
+}  // namespace sphc::simulated

@@ -1,0 +1,107 @@
+#include "drivers/simulated/texture.h"
+
+#include <algorithm>
+
+namespace sphc::simulated {
+namespace {
+
+constexpr uint64_t kLanes = 0x00FF00FF00FF00FFu;
+constexpr uint64_t kHalf = 0x0080008000800080u;
+
+// The four bytes of a texel in four lanes of 16 bits, so that one multiplication scales all of them.
+inline uint64_t spread(Texel texel) {
+  uint64_t x = texel;
+  x = (x | (x << 16)) & 0x0000FFFF0000FFFFu;
+  return (x | (x << 8)) & kLanes;
+}
+inline Texel gather(uint64_t x) {
+  x = (x | (x >> 8)) & 0x0000FFFF0000FFFFu;
+  return static_cast<Texel>(x | (x >> 16));
+}
+// a + (b - a) * weight / 256; no lane overflows since 255 * 256 + 128 < 65536.
+inline uint64_t mix(uint64_t a, uint64_t b, uint32_t weight) {
+  return ((a * (256 - weight) + b * weight + kHalf) >> 8) & kLanes;
+}
+
+inline uint32_t levelWidth(uint32_t width, int level) { return std::max(width >> level, 1u); }
+
+}  // namespace
+
+uint32_t TexturePool::add(float width_m, float height_m, float texel_m) {
+  constexpr float kMaxSide = 4096;
+  const auto side = [&](float size_m) {
+    return static_cast<uint32_t>(std::clamp(std::round(size_m / texel_m), 2.0f, kMaxSide));
+  };
+  Texture texture;
+  texture.width = side(width_m);
+  texture.height = side(height_m);
+  texture.texel_m =
+      std::max(width_m / static_cast<float>(texture.width), height_m / static_cast<float>(texture.height));
+  for (int level = 0; level < Texture::kMaxLevels; ++level) {
+    const uint32_t w = levelWidth(texture.width, level), h = levelWidth(texture.height, level);
+    texture.offset[level] = total_;
+    total_ += static_cast<size_t>(w) * h;
+    texture.levels = level + 1;
+    if (w == 1 && h == 1) break;
+  }
+  textures_.push_back(texture);
+  return size() - 1;
+}
+
+void TexturePool::buildPyramid(uint32_t index) {
+  const Texture &texture = textures_[index];
+  for (int level = 1; level < texture.levels; ++level) {
+    const uint32_t from_w = levelWidth(texture.width, level - 1), from_h = levelWidth(texture.height, level - 1);
+    const uint32_t w = levelWidth(texture.width, level), h = levelWidth(texture.height, level);
+    const Texel *from = texels_.data() + texture.offset[level - 1];
+    Texel *to = texels_.data() + texture.offset[level];
+    for (uint32_t y = 0; y < h; ++y) {
+      const Texel *row0 = from + static_cast<size_t>(std::min(2 * y, from_h - 1)) * from_w;
+      const Texel *row1 = from + static_cast<size_t>(std::min(2 * y + 1, from_h - 1)) * from_w;
+      for (uint32_t x = 0; x < w; ++x) {
+        const uint32_t x0 = std::min(2 * x, from_w - 1), x1 = std::min(2 * x + 1, from_w - 1);
+        const uint64_t sum = spread(row0[x0]) + spread(row0[x1]) + spread(row1[x0]) + spread(row1[x1]);
+        to[static_cast<size_t>(y) * w + x] = gather(((sum + 0x0002000200020002u) >> 2) & kLanes);
+      }
+    }
+  }
+}
+
+// Texture coordinates are spread over the level's own texels.  An odd side loses half a texel at its end from a
+// level to the next (at most 0.5 / side of the face), far less than a pixel where that level is in use.
+uint64_t TexturePool::bilinear(const Texture &texture, int level, float u, float v) const {
+  const auto w = static_cast<int32_t>(levelWidth(texture.width, level));
+  const auto h = static_cast<int32_t>(levelWidth(texture.height, level));
+  // Level-0 texels scaled down, so that every level agrees on where a painted point is.
+  const float scale = 1.0f / static_cast<float>(1u << level);
+  const float x = u * static_cast<float>(texture.width) * scale - 0.5f;
+  const float y = v * static_cast<float>(texture.height) * scale - 0.5f;
+  const auto x256 = static_cast<int32_t>(std::clamp(x, 0.0f, static_cast<float>(w - 1)) * 256.0f);
+  const auto y256 = static_cast<int32_t>(std::clamp(y, 0.0f, static_cast<float>(h - 1)) * 256.0f);
+  const int32_t x0 = x256 >> 8, y0 = y256 >> 8;
+  const int32_t x1 = std::min(x0 + 1, w - 1);
+  const Texel *row0 = texels_.data() + texture.offset[level] + static_cast<size_t>(y0) * static_cast<size_t>(w);
+  const Texel *row1 = y0 + 1 < h ? row0 + w : row0;
+  const auto fx = static_cast<uint32_t>(x256 & 255), fy = static_cast<uint32_t>(y256 & 255);
+  return mix(mix(spread(row0[x0]), spread(row0[x1]), fx), mix(spread(row1[x0]), spread(row1[x1]), fx), fy);
+}
+
+Texel TexturePool::sample(const Texture &texture, float u, float v, float level) const {
+  const float top = static_cast<float>(texture.levels - 1);
+  const float clamped = std::clamp(level, 0.0f, top);
+  const int low = static_cast<int>(clamped);
+  const auto weight = static_cast<uint32_t>((clamped - static_cast<float>(low)) * 256.0f);
+  const uint64_t fine = bilinear(texture, low, u, v);
+  if (weight == 0 || low + 1 >= texture.levels) return gather(fine);
+  return gather(mix(fine, bilinear(texture, low + 1, u, v), weight));
+}
+
+Texel TexturePool::nearest(const Texture &texture, float u, float v, float level) const {
+  const int l = static_cast<int>(std::clamp(level + 0.5f, 0.0f, static_cast<float>(texture.levels - 1)));
+  const uint32_t w = levelWidth(texture.width, l), h = levelWidth(texture.height, l);
+  const uint32_t x = std::min(static_cast<uint32_t>(std::max(u, 0.0f) * static_cast<float>(w)), w - 1);
+  const uint32_t y = std::min(static_cast<uint32_t>(std::max(v, 0.0f) * static_cast<float>(h)), h - 1);
+  return texels_[texture.offset[l] + static_cast<size_t>(y) * w + x];
+}
+
+}  // namespace sphc::simulated

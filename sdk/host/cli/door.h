@@ -1,0 +1,20 @@
+// The C door and the drivers' C functions, for code that has exceptions.
+#pragma once
+#include <spherecloud/spherecloud.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace sphc::host {
+
+// Calls `call(&message)` and throws on a failure: "WHAT: message".
+template <typename Call>
+sphc_status orThrow(const std::string &what, Call call) {
+  sphc_message message = {};
+  const sphc_status status = call(&message);
+  if (status >= 0) return status;
+  const std::string why = message.text[0] != '\0' ? message.text : sphc_status_name(status);
+  throw std::runtime_error(what + ": " + why);
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,20 @@
+// What the command's exit status says; documented in docs/cli.md.
+#pragma once
+#include <stdexcept>
+
+namespace sphc::host {
+
+enum ExitCode {
+  kExitDone = 0,
+  kExitFailure = 1,       // something could not be read, written or done; the message has cause and cure
+  kExitUsage = 2,         // the command line makes no sense
+  kExitNotLocalized = 3,  // localize ran through, but not one frame was localized
+};
+
+// Options that parse but contradict each other.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace sphc::host

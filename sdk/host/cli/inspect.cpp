@@ -1,0 +1,112 @@
+// spherecloud inspect: a close look at a map file.
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+
+#include "host/cli/command.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/map_anatomy.h"
+#include "host/report/direction_picture.h"
+#include "host/report/table.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  std::string map, picture;
+  bool no_picture = false;
+};
+
+std::string percentText(double value) { return fixed(value, 1) + " %"; }
+
+void tell(const MapFacts &facts, const MapAnatomy &anatomy, const Console &console) {
+  console.say(facts.path + ": a valid sphere cloud of " + std::to_string(facts.points) + " points, id " + facts.id);
+  std::vector<Row> parts;
+  for (const BytePart &part : anatomy.parts) {
+    parts.push_back({part.name, std::to_string(part.bytes),
+                     percentText(100.0 * static_cast<double>(part.bytes) / static_cast<double>(facts.file_bytes))});
+  }
+  console.say("\nBytes\n" + tableText(parts));
+  console.say(
+      "Directions\n" +
+      tableText(
+          {{"nearest neighbour", fixed(anatomy.nearest_median_deg, 2) + " deg",
+            "median; for 10 % it is within " + fixed(anatomy.nearest_p10_deg, 2) + " deg"},
+           {"sky covered", percentText(anatomy.covered_percent), "of 800 cells of equal area hold a direction"},
+           {"lopsidedness", fixed(anatomy.lopsidedness, 2), "0: all around the centre; 1: all the same way"}}));
+  console.say(
+      "Descriptors\n" +
+      tableText({{"length", fixed(anatomy.length_mean, 1), "mean; sigma " + fixed(anatomy.length_sigma, 1)},
+                 {"bytes that are 0", percentText(anatomy.zero_percent), ""},
+                 {"bytes at the 255 limit", percentText(anatomy.saturated_percent), ""},
+                 {"doubles", std::to_string(anatomy.doubles), "descriptors that are there more than once"}}));
+}
+
+nlohmann::ordered_json json(const MapFacts &facts, const MapAnatomy &anatomy) {
+  nlohmann::ordered_json value = {{"map", facts.path},           {"valid", true},
+                                  {"points", facts.points},      {"bytes", facts.file_bytes},
+                                  {"map_id", facts.id},          {"format_version", facts.format_version},
+                                  {"extractor", facts.extractor}};
+  for (const BytePart &part : anatomy.parts) value["parts"][part.name] = part.bytes;
+  value["directions"] = {{"nearest_median_deg", anatomy.nearest_median_deg},
+                         {"nearest_p10_deg", anatomy.nearest_p10_deg},
+                         {"covered_percent", anatomy.covered_percent},
+                         {"lopsidedness", anatomy.lopsidedness}};
+  value["descriptors"] = {{"length_mean", anatomy.length_mean},
+                          {"length_sigma", anatomy.length_sigma},
+                          {"zero_percent", anatomy.zero_percent},
+                          {"saturated_percent", anatomy.saturated_percent},
+                          {"doubles", anatomy.doubles}};
+  return value;
+}
+
+// Gives the density at the brightest spot.
+double writePicture(const std::string &path, const MapFacts &facts) {
+  double peak = 0;
+  const cv::Mat picture = drawDirections(facts.directions, &peak);
+  bool written = false;
+  try {
+    written = cv::imwrite(path, picture);
+  } catch (const cv::Exception &) {  // a file name without a known ending
+  }
+  if (!written)
+    throw std::runtime_error("cannot write the picture " + path +
+                             ": choose a writable place and end its name in .png");
+  return peak;
+}
+
+int inspect(const Options &options, const Console &console) {
+  const MapFile file = openMapFile(options.map);
+  const MapFacts facts = mapFacts(file, options.map);
+  const MapAnatomy anatomy = dissect(file, facts);
+  tell(facts, anatomy, console);
+  nlohmann::ordered_json value = json(facts, anatomy);
+  if (!options.no_picture) {
+    const std::string path = options.picture.empty() ? options.map + ".directions.png" : options.picture;
+    const double peak = writePicture(path, facts);
+    console.say("Picture of the directions, as a map of the sky: " + path + "\n  (the brightest spot is " +
+                fixed(peak, 1) + " times denser than an even spread)");
+    value["picture"] = path;
+    value["directions"]["peak_density"] = peak;
+  }
+  console.give(value);
+  return kExitDone;
+}
+
+}  // namespace
+
+Command inspectCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("inspect");
+  app->description(
+      "Checks a map file and shows what an outsider can see in it: where its bytes go, how its directions\n"
+      "are spread, what its descriptors are like, and a picture of the sky of directions.");
+  app->footer(
+      "Example:\n  spherecloud inspect room.sphc\nWhat comes out: three small tables, and "
+      "room.sphc.directions.png.");
+  app->add_option("map", options->map, "Map file")->required()->type_name("FILE");
+  app->add_option("--picture", options->picture, "Where the picture goes [FILE.directions.png]")->type_name("PNG");
+  app->add_flag("--no-picture", options->no_picture, "No picture");
+  return {app, [options](const Console &console) { return inspect(*options, console); }};
+}
+
+}  // namespace sphc::host

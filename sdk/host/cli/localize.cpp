@@ -1,0 +1,157 @@
+// spherecloud localize: where was the camera, frame by frame?
+#include <algorithm>
+#include <memory>
+
+#include "host/build/map_writer.h"
+#include "host/cli/command.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/localize_run.h"
+#include "host/cli/map_file.h"
+#include "host/cli/progress.h"
+#include "host/cli/recording.h"
+#include "host/report/file.h"
+#include "host/report/json.h"
+#include "host/report/overlay.h"
+#include "host/report/report.h"
+#include "host/report/statistics.h"
+#include "host/report/table.h"
+#include "host/report/trajectory.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  RecordingOptions recording;
+  std::string map, owner_note, trajectory, frames_json, report;
+  sphc_config config = spherecloud::defaultConfig();
+};
+
+// The note is the owner's; it must belong to this very map.
+void readNote(const Options &options, const MapFile &map, LocalizeInput *input, Run *run) {
+  if (options.owner_note.empty()) return;
+  const OwnerNote note = readOwnerNote(options.owner_note);
+  const sphc_map_info info = map.map.info();
+  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id)) {
+    throw std::runtime_error(options.owner_note + " belongs to another map than " + options.map +
+                             " (their map ids differ); give the note that was written beside this map");
+  }
+  const Vector3 &centre = note.centre_in_world_m;
+  input->centre_in_world_m = {centre.x(), centre.y(), centre.z()};
+  run->centre_m = *input->centre_in_world_m;
+  run->base = "world";
+}
+
+Run localize(const Options &options, sphc_replay *replay, const Console &console) {
+  const MapFile map = openMapFile(options.map);
+  Run run;
+  run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
+  run.map = mapFacts(map, options.map);
+  LocalizeInput input;
+  input.replay = replay;
+  input.map = &map;
+  input.config = options.config;
+  input.keep_observations = !options.report.empty();
+  setCameras(replay, &input.config);
+  readNote(options, map, &input, &run);
+  run.settings = describeConfig(input.config);
+  ProgressBar bar("localizing");
+  localizeFrames(
+      input, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); },
+      [&console](const std::string &why) { console.warn("note: " + why); }, &run);
+  return run;
+}
+
+cv::Mat imageOf(sphc_replay *replay, const FrameRecord &frame) {
+  sphc_frame image = {};
+  if (sphc_replay_read_frame(replay, frame.index, &image, nullptr) < 0) return {};
+  return bgrFromImage(image.color);
+}
+
+void writeOutputs(const Options &options, const Run &run, sphc_replay *replay, const Console &console) {
+  if (!options.trajectory.empty()) {
+    writeText(options.trajectory, tumTrajectory(run));
+    console.say("Trajectory (" + run.base + "_from_camera): " + options.trajectory);
+  }
+  if (!options.frames_json.empty()) {
+    writeText(options.frames_json, framesJsonLines(run));
+    console.say("A JSON line a frame: " + options.frames_json);
+  }
+  if (options.report.empty()) return;
+  const ReportSummary report =
+      writeReport(options.report, run, [replay](const FrameRecord &frame) { return imageOf(replay, frame); });
+  if (!report.problem.empty()) console.warn("note: " + report.problem);
+  console.say("Report with pictures: " + report.page);
+}
+
+int run(const Options &options, const Console &console) {
+  const Replay replay = openRecording(options.recording);
+  const Run done = localize(options, replay.get(), console);
+  const Summary summary = summarize(done);
+  console.say(tableText(tableRows(done, summary)));
+  writeOutputs(options, done, replay.get(), console);
+  console.give(summaryJson(done, summary));
+  if (summary.localized > 0) return kExitDone;
+  console.warn(
+      "Not one frame was localized. Is this the place that the map shows? Is the calibration right? The report "
+      "(--report DIR) shows what the localizer saw.");
+  return kExitNotLocalized;
+}
+
+const char kHelp[] =
+    "Gives every frame of a recording to the localizer, together with a map, and tells where the camera was.\n"
+    "Frames go through the same C interface as on a device.  With the owner's note the answers come in the\n"
+    "recording's world and are compared with its poses; without it they are in the map's own frame.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud localize --recording walk --first 100 --map room.sphc\n"
+    "  spherecloud localize --recording walk --first 100 --map room.sphc \\\n"
+    "      --owner-note room.sphc.owner.json --report report --trajectory path.tum\n"
+    "  spherecloud localize -r kitchen -c kinect.json --first 620 --last 799 --step 5 -m kitchen.sphc --json\n"
+    "What comes out: one table; with --report a folder with report.html and pictures; with --trajectory a path\n"
+    "that evo reads (evo_traj tum path.tum).  Exit status 3: it ran, but not one frame was localized.";
+
+void addOutputs(CLI::App *app, Options *options) {
+  const char *group = "Output";
+  app->add_option("--trajectory", options->trajectory, "Localized poses in TUM format")
+      ->type_name("FILE")
+      ->group(group);
+  app->add_option("--frames-json", options->frames_json, "A JSON line a frame")->type_name("FILE")->group(group);
+  app->add_option("--report", options->report, "Folder for report.html and pictures")
+      ->type_name("DIR")
+      ->group(group);
+}
+
+void addLocalizerOptions(CLI::App *app, sphc_config *config) {
+  const auto add = [app](const char *name, auto &field, const char *text) {
+    app->add_option(name, field, text)->capture_default_str()->group("Localizer");
+  };
+  add("--seed", config->seed, "Of the random samples; the same seed gives the same answers");
+  add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096");
+  add("--ratio", config->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
+  add("--max-iterations", config->max_iterations, "Most samples drawn for a frame");
+  add("--min-inliers", config->min_inliers, "A pose with fewer is not given out");
+  add("--depth-min", config->depth_min_m, "Nearest depth used, metres");
+  add("--depth-max", config->depth_max_m, "Farthest depth used, metres");
+  add("--depth-sigma", config->depth_sigma_m, "Depth noise at z: this + the next * z^2, metres");
+  add("--depth-sigma-per-m2", config->depth_sigma_per_m2, "See --depth-sigma");
+  add("--pixel-sigma", config->pixel_sigma_px, "Noise of a keypoint's position, pixels");
+  add("--map-sigma", config->map_sigma_m, "Error of a map point across its direction, metres");
+}
+
+}  // namespace
+
+Command localizeCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("localize");
+  app->description("Find where the camera was, in a map.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addRecordingOptions(app, &options->recording);
+  app->add_option("-m,--map", options->map, "Map file")->required()->type_name("FILE");
+  app->add_option("--owner-note", options->owner_note, "Note that build wrote beside the map (FILE.owner.json)")
+      ->type_name("FILE");
+  addOutputs(app, options.get());
+  addLocalizerOptions(app, &options->config);
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,45 @@
+#include "host/cli/map_file.h"
+
+#include <stdexcept>
+
+namespace sphc::host {
+namespace {
+
+void check(const std::string &what, const spherecloud::Status &status) {
+  if (!status.ok()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
+}
+
+}  // namespace
+
+MapFile openMapFile(const std::string &path) {
+  MapFile file;
+  check("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
+  check("cannot use the map " + path, spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
+  return file;
+}
+
+MapFacts mapFacts(const MapFile &file, const std::string &path) {
+  const sphc_map_info info = file.map.info();
+  MapFacts facts;
+  facts.path = path;
+  facts.id = hexText(info.map_id, sizeof info.map_id);
+  facts.points = info.point_count;
+  facts.format_version = info.format_version;
+  facts.extractor = info.extractor;
+  facts.file_bytes = info.file_bytes;
+  facts.directions.resize(info.point_count);
+  for (uint32_t i = 0; i < info.point_count; ++i) sphc_map_direction(file.map.get(), i, facts.directions[i].data());
+  return facts;
+}
+
+std::string hexText(const uint8_t *bytes, size_t count) {
+  static const char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (size_t i = 0; i < count; ++i) {
+    text += kDigits[bytes[i] >> 4];
+    text += kDigits[bytes[i] & 15];
+  }
+  return text;
+}
+
+}  // namespace sphc::host

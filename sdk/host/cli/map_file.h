@@ -1,0 +1,20 @@
+// A map file in memory, opened through the door.
+#pragma once
+#include <spherecloud/spherecloud.hpp>
+#include <string>
+
+#include "host/report/run.h"
+
+namespace sphc::host {
+
+struct MapFile {
+  spherecloud::AlignedBuffer bytes;  // outlives the map
+  spherecloud::Map map;
+};
+
+// Validates every byte.  Throws std::runtime_error with cause and cure.
+MapFile openMapFile(const std::string &path);
+MapFacts mapFacts(const MapFile &file, const std::string &path);
+std::string hexText(const uint8_t *bytes, size_t count);
+
+}  // namespace sphc::host

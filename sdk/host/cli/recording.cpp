@@ -1,0 +1,54 @@
+#include "host/cli/recording.h"
+
+#include "host/cli/door.h"
+#include "host/cli/exit_code.h"
+
+namespace sphc::host {
+
+void addRecordingOptions(CLI::App *app, RecordingOptions *options) {
+  const char *group = "Recording";
+  app->add_option("-r,--recording", options->folder, "Folder of the recording (7-Scenes or TUM layout)")
+      ->required()
+      ->type_name("DIR")
+      ->group(group);
+  app->add_option("-c,--calibration", options->calibration, "Calibration file [DIR/calibration.json]")
+      ->type_name("FILE")
+      ->group(group);
+  app->add_option("--first", options->first, "Number of the first frame [0]")->type_name("N")->group(group);
+  app->add_option("--last", options->last, "Number of the last frame [all]")->type_name("N")->group(group);
+  app->add_option("--step", options->step, "Take every N-th: first, first + N, ... [1]")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+}
+
+Replay openRecording(const RecordingOptions &options) {
+  if (options.last < options.first) throw UsageError("--last lies before --first; swap them");
+  sphc_replay_config config;
+  orThrow("replay", [&](sphc_message *) { return sphc_replay_config_init(&config, sizeof config); });
+  config.first = options.first;
+  config.last = options.last;
+  config.step = options.step;
+  sphc_replay *replay = nullptr;
+  const char *calibration = options.calibration.empty() ? nullptr : options.calibration.c_str();
+  orThrow("cannot open the recording", [&](sphc_message *message) {
+    return sphc_replay_open(options.folder.c_str(), calibration, &config, &replay, message);
+  });
+  Replay owned(replay);
+  if (sphc_replay_frame_count(replay) == 0) {
+    throw std::runtime_error("no frame of colour and depth in " + options.folder + " for " +
+                             describeSelection(options) +
+                             ": check --first, --last, --step, and that depth images are there");
+  }
+  return owned;
+}
+
+std::string describeSelection(const RecordingOptions &options) {
+  const bool all = options.first == 0 && options.last == UINT32_MAX;
+  std::string text = all ? "all frames" : "frames " + std::to_string(options.first) + " to ";
+  if (!all) text += options.last == UINT32_MAX ? "the end" : std::to_string(options.last);
+  if (options.step > 1) text += ", every " + std::to_string(options.step) + ".";
+  return text;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,169 @@
+// spherecloud simulate: a recording of the simulated headset's walk.
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "drivers/replay/recording_writer.h"
+#include "drivers/simulated/simulated.h"
+#include "host/cli/command.h"
+#include "host/cli/door.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/progress.h"
+#include "host/report/run.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  std::string out;
+  sphc_simulated_config config = {};
+  bool ideal_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
+};
+
+struct SimulatedCloser {
+  void operator()(sphc_simulated *simulated) const { sphc_simulated_close(&simulated); }
+};
+struct WriterCloser {
+  void operator()(sphc_recording_writer *writer) const { sphc_recording_close(&writer); }
+};
+using Simulated = std::unique_ptr<sphc_simulated, SimulatedCloser>;
+using Writer = std::unique_ptr<sphc_recording_writer, WriterCloser>;
+
+Simulated openHeadset(const Options &options) {
+  sphc_simulated_config config = options.config;
+  config.ideal_depth = options.ideal_depth ? 1 : 0;
+  config.color_noise = options.no_noise ? 0 : 1;
+  config.motion_blur = options.no_blur ? 0 : 1;
+  config.exposure_drift = options.no_exposure_drift ? 0 : 1;
+  sphc_simulated *simulated = nullptr;
+  orThrow("cannot make the simulated headset",
+          [&](sphc_message *message) { return sphc_simulated_open(&config, &simulated, message); });
+  return Simulated(simulated);
+}
+
+Writer createRecording(const std::string &folder, const sphc_simulated *simulated) {
+  sphc_calibration calibration;
+  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
+  orThrow("cameras", [&](sphc_message *) {
+    return sphc_simulated_cameras(simulated, &calibration.color_camera, &calibration.depth_camera,
+                                  &calibration.color_from_depth);
+  });
+  calibration.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
+  sphc_recording_writer *writer = nullptr;
+  orThrow("cannot start the recording in " + folder, [&](sphc_message *message) {
+    return sphc_recording_create(folder.c_str(), &calibration, &writer, message);
+  });
+  return Writer(writer);
+}
+
+// One capture to disk, with the exact pose when it is a colour image.
+void keep(const sphc_capture &capture, const sphc_simulated *simulated, sphc_recording_writer *writer) {
+  orThrow("cannot write an image",
+          [&](sphc_message *message) { return sphc_recording_add(writer, &capture, message); });
+  if (capture.stream != SPHC_STREAM_COLOR) return;
+  sphc_rigid pose;
+  orThrow("pose", [&](sphc_message *) { return sphc_simulated_pose_at(simulated, capture.time_ns, &pose); });
+  orThrow("cannot write a pose",
+          [&](sphc_message *message) { return sphc_recording_add_pose(writer, capture.time_ns, &pose, message); });
+}
+
+void record(sphc_simulated *simulated, sphc_recording_writer *writer) {
+  sphc_source source = {};
+  source.struct_size = sizeof source;
+  orThrow("source", [&](sphc_message *) { return sphc_simulated_source(simulated, &source); });
+  const auto check = [&source](sphc_status status) {
+    if (status < 0)
+      throw std::runtime_error(std::string("the simulated headset failed: ") + source.message(source.self));
+    return status;
+  };
+  check(source.start(source.self));
+  ProgressBar bar("recording ");
+  const uint32_t total = sphc_simulated_frame_count(simulated);
+  sphc_capture capture = {};
+  capture.struct_size = sizeof capture;
+  while (check(source.acquire(source.self, 0, &capture)) != SPHC_END) {
+    keep(capture, simulated, writer);
+    if (capture.stream == SPHC_STREAM_DEPTH) bar.show(capture.sequence + 1, total);
+    source.release(source.self, &capture);
+  }
+  source.stop(source.self);
+}
+
+// Which frames belong to which lap, so that the hint after the run can be copied.
+void tellNext(const Options &options, const Console &console) {
+  const double lap_frames = options.config.lap_s * options.config.frame_rate_hz;
+  const auto second_lap = static_cast<uint32_t>(std::lround(lap_frames));
+  if (second_lap == 0 || second_lap >= options.config.frame_count) return;
+  console.say("Lap one is frames 0 to " + std::to_string(second_lap - 1) +
+              ": make a map of it with\n  spherecloud build --recording " + options.out + " --last " +
+              std::to_string(second_lap - 1) + " --map room.sphc\nLap two, from frame " +
+              std::to_string(second_lap) + " on, can then be localized in it.");
+}
+
+int simulate(const Options &options, const Console &console) {
+  const auto start = std::chrono::steady_clock::now();
+  const Simulated simulated = openHeadset(options);
+  Writer writer = createRecording(options.out, simulated.get());
+  record(simulated.get(), writer.get());
+  writer.reset();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  console.say("Recorded " + std::to_string(options.config.frame_count) + " frames to " + options.out + " in " +
+              fixed(seconds, 1) + " s: colour, depth, calibration and exact poses.");
+  tellNext(options, console);
+  console.give({{"recording", options.out},
+                {"frames", options.config.frame_count},
+                {"rate_hz", options.config.frame_rate_hz},
+                {"lap_s", options.config.lap_s},
+                {"seconds", seconds}});
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Records a walk of a headset that exists only in memory: a furnished room, a colour camera and a\n"
+    "time-of-flight camera with their usual faults, and exact poses.  The walk has two laps around the room;\n"
+    "lap two sees the same places from elsewhere, so map one and query the other.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud simulate --out walk            200 frames, two laps of 100\n"
+    "  spherecloud simulate --out walk30 --frames 960 --rate 30 --seed 7\n"
+    "What comes out: a folder in the TUM layout, with calibration.json, rgb/, depth/ and groundtruth.txt.\n"
+    "The same options give the same bytes on every machine.";
+
+void addOptions(CLI::App *app, Options *options) {
+  sphc_simulated_config &config = options->config;
+  app->add_option("-o,--out", options->out, "Folder to make; must not hold a recording yet")
+      ->required()
+      ->type_name("DIR");
+  app->add_option("--frames", config.frame_count, "How many frames")->capture_default_str()->type_name("N");
+  app->add_option("--rate", config.frame_rate_hz, "Frames a second")->capture_default_str()->type_name("HZ");
+  app->add_option("--lap", config.lap_s, "Seconds for a lap around the room")
+      ->capture_default_str()
+      ->type_name("S");
+  app->add_option("--seed", config.seed, "Another room for every number")->capture_default_str()->type_name("N");
+  app->add_option("--walk-seed", config.walk_seed, "Another walk and noise for every number")
+      ->capture_default_str()
+      ->type_name("N");
+  app->add_option("--threads", config.threads, "At most so many; 0: all cores")
+      ->capture_default_str()
+      ->type_name("N");
+  app->add_flag("--ideal-depth", options->ideal_depth, "Depth without noise, bias, holes or mixed pixels");
+  app->add_flag("--no-noise", options->no_noise, "Colour without noise");
+  app->add_flag("--no-blur", options->no_blur, "Colour without motion blur");
+  app->add_flag("--no-exposure-drift", options->no_exposure_drift, "Colour of constant brightness");
+}
+
+}  // namespace
+
+Command simulateCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  sphc_simulated_config_init(&options->config, sizeof options->config);
+  options->config.frame_count = 200;  // the driver's own walk, two laps, with few enough frames to be done soon
+  options->config.frame_rate_hz = 6.25;
+  CLI::App *app = root->add_subcommand("simulate");
+  app->description("Record a walk of the simulated headset.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addOptions(app, options.get());
+  return {app, [options](const Console &console) { return simulate(*options, console); }};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,135 @@
+#include "host/report/overlay.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "host/report/statistics.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr int kEnlarge = 2, kLegendHeight = 56;
+const cv::Scalar kGrey(190, 190, 190), kOrange(40, 150, 255), kGreen(90, 220, 60), kDark(38, 30, 27),
+    kWhite(245, 245, 245);
+
+// Places in run.frames of the localized frames, best first.
+std::vector<size_t> ranked(const Run &run) {
+  const bool truth = std::any_of(run.frames.begin(), run.frames.end(),
+                                 [](const FrameRecord &frame) { return frame.localized && frame.has_truth; });
+  std::vector<size_t> order;
+  for (size_t i = 0; i < run.frames.size(); ++i) {
+    if (run.frames[i].localized && (!truth || run.frames[i].has_truth)) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&run, truth](size_t a, size_t b) {
+    const FrameRecord &fa = run.frames[a], &fb = run.frames[b];
+    return truth ? fa.translation_error_m < fb.translation_error_m : fa.inliers > fb.inliers;
+  });
+  return order;
+}
+
+cv::Mat muted(const cv::Mat &color) {
+  cv::Mat large, gray, mixed;
+  cv::resize(color, large, cv::Size(), kEnlarge, kEnlarge, cv::INTER_LINEAR);
+  cv::cvtColor(large, gray, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(gray, gray, cv::COLOR_GRAY2BGR);
+  cv::addWeighted(large, 0.5, gray, 0.25, 0, mixed);
+  return mixed;
+}
+
+void drawMark(cv::Mat *picture, const sphc_observation &seen, const cv::Scalar &color, int thickness) {
+  constexpr int kShift = 4;  // OpenCV draws with 4 fractional bits
+  const auto at = [](float px) { return cvRound((px - 0.5f) * kEnlarge * (1 << kShift)); };
+  const float radius = std::clamp(2.5f * seen.scale_px, 2.5f, 14.0f) * kEnlarge;
+  cv::circle(*picture, {at(seen.x_px), at(seen.y_px)}, cvRound(radius * (1 << kShift)), color, thickness,
+             cv::LINE_AA, kShift);
+}
+
+// Three layers, the telling one on top.
+void drawMarks(cv::Mat *picture, const std::vector<sphc_observation> &observations) {
+  for (const auto &seen : observations) {
+    if (!(seen.flags & SPHC_OBSERVATION_MATCHED)) drawMark(picture, seen, kGrey, 1);
+  }
+  for (const auto &seen : observations) {
+    const bool outlier = (seen.flags & SPHC_OBSERVATION_MATCHED) && !(seen.flags & SPHC_OBSERVATION_INLIER);
+    if (outlier) drawMark(picture, seen, kOrange, 2);
+  }
+  for (const auto &seen : observations) {
+    if (seen.flags & SPHC_OBSERVATION_INLIER) drawMark(picture, seen, kGreen, 2);
+  }
+}
+
+// A coloured ring and its words; returns where the next one starts.
+int drawEntry(cv::Mat *picture, int x, int y, const cv::Scalar &color, const std::string &text) {
+  cv::circle(*picture, {x, y}, 9, color, 2, cv::LINE_AA);
+  cv::putText(*picture, text, {x + 18, y + 7}, cv::FONT_HERSHEY_SIMPLEX, 0.62, kWhite, 1, cv::LINE_AA);
+  return x + 18 + cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.62, 1, nullptr).width + 28;
+}
+
+std::string verdict(const FrameRecord &frame) {
+  if (!frame.localized) return outcomeName(frame.outcome);
+  if (!frame.has_truth) return "localized";
+  return fixed(100 * frame.translation_error_m, 1) + " cm, " + fixed(frame.rotation_error_deg, 2) + " deg off";
+}
+
+void drawLegend(cv::Mat *picture, const FrameRecord &frame) {
+  const int y = picture->rows - kLegendHeight / 2;
+  int x = 24;
+  x = drawEntry(picture, x, y, kGrey, std::to_string(frame.keypoints) + " keypoints");
+  x = drawEntry(picture, x, y, kOrange, std::to_string(frame.matches) + " matched");
+  drawEntry(picture, x, y, kGreen, std::to_string(frame.inliers) + " agree with the pose");
+  const std::string text = "frame " + std::to_string(frame.sequence) + ": " + verdict(frame);
+  const int width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.62, 1, nullptr).width;
+  cv::putText(*picture, text, {picture->cols - width - 24, y + 7}, cv::FONT_HERSHEY_SIMPLEX, 0.62, kWhite, 1,
+              cv::LINE_AA);
+}
+
+}  // namespace
+
+std::vector<Highlight> chooseHighlights(const Run &run) {
+  std::vector<Highlight> chosen;
+  const std::vector<size_t> order = ranked(run);
+  if (!order.empty()) chosen.push_back({"best", "Best pose", order.front()});
+  if (order.size() > 2) chosen.push_back({"median", "Median pose", order[order.size() / 2]});
+  if (order.size() > 1) chosen.push_back({"worst", "Worst accepted pose", order.back()});
+  std::vector<size_t> lost;
+  for (size_t i = 0; i < run.frames.size(); ++i) {
+    if (!run.frames[i].localized) lost.push_back(i);
+  }
+  // One early and one late: neighbours look alike.
+  for (size_t i = 0; i < std::min<size_t>(2, lost.size()); ++i) {
+    chosen.push_back(
+        {"not_localized_" + std::to_string(i + 1), "Not localized", i == 0 ? lost.front() : lost.back()});
+  }
+  return chosen;
+}
+
+cv::Mat drawOverlay(const cv::Mat &color, const FrameRecord &frame) {
+  cv::Mat picture;
+  cv::copyMakeBorder(muted(color), picture, 0, kLegendHeight, 0, 0, cv::BORDER_CONSTANT, kDark);
+  cv::Mat image = picture.rowRange(0, picture.rows - kLegendHeight);
+  drawMarks(&image, frame.observations);
+  drawLegend(&picture, frame);
+  return picture;
+}
+
+cv::Mat bgrFromImage(const sphc_image &image) {
+  const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
+  // OpenCV has no view of constant memory; it is only read here.
+  void *data = const_cast<void *>(image.data);
+  cv::Mat bgr;
+  switch (image.format) {
+    case SPHC_FORMAT_BGR8:
+      return cv::Mat(height, width, CV_8UC3, data, image.stride_bytes).clone();
+    case SPHC_FORMAT_RGB8:
+      cv::cvtColor(cv::Mat(height, width, CV_8UC3, data, image.stride_bytes), bgr, cv::COLOR_RGB2BGR);
+      return bgr;
+    case SPHC_FORMAT_GRAY8:
+      cv::cvtColor(cv::Mat(height, width, CV_8UC1, data, image.stride_bytes), bgr, cv::COLOR_GRAY2BGR);
+      return bgr;
+    default:
+      throw std::runtime_error("a depth image cannot be shown as colour");
+  }
+}
+
+}  // namespace sphc::host

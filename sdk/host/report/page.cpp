@@ -1,0 +1,185 @@
+#include "host/report/page.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/report/encode.h"
+#include "host/report/page_style.h"
+#include "host/report/table.h"
+
+namespace sphc::host {
+namespace {
+
+std::string card(const std::string &value, const std::string &name, const std::string &grade = "") {
+  return "<div class='card " + grade + "'><b>" + escapeHtml(value) + "</b><span>" + escapeHtml(name) +
+         "</span></div>\n";
+}
+
+// Traffic-light border of a card: value at least `good`, at least `fair`, or below.
+std::string grade(double value, double good, double fair) {
+  return value >= good ? "good" : value >= fair ? "fair" : "bad";
+}
+
+std::string cards(const Run &run, const Summary &s) {
+  const double localized = percent(s.localized, s.frames);
+  std::string html = "<div class='cards'>\n" + card(fixed(localized, 1) + " %",
+                                                    "of " + std::to_string(s.frames) + " frames localized",
+                                                    grade(localized, 90, 60));
+  if (s.with_truth) {
+    const double good = percent(s.good, s.with_truth);
+    html += card(fixed(good, 1) + " %", "within 5 cm and 5°", grade(good, 90, 60));
+  }
+  if (!std::isnan(s.translation_m.median)) {
+    html += card(fixed(100 * s.translation_m.median, 2) + " cm", "median distance from the truth",
+                 grade(-s.translation_m.median, -0.02, -0.05));
+    html += card(fixed(s.rotation_deg.median, 2) + "°", "median rotation error",
+                 grade(-s.rotation_deg.median, -0.5, -2));
+  }
+  if (!std::isnan(s.stage_median_ms[kTotal]))
+    html += card(fixed(s.stage_median_ms[kTotal], 1) + " ms", "a frame, median");
+  const double memory = static_cast<double>(run.state_bytes + run.scratch_bytes + run.map.file_bytes);
+  return html + card(humanBytes(memory), "of device memory, map included") + "</div>\n";
+}
+
+std::string figure(const PagePicture &picture) {
+  std::string html = std::string("<figure") + (picture.wide ? " class='wide'" : "") + "><h3>" +
+                     escapeHtml(picture.title) + "</h3>";
+  if (!picture.svg.empty())
+    html += picture.svg;
+  else
+    html += "<img alt='" + escapeHtml(picture.title) + "' src='data:" + picture.mime + ";base64," +
+            base64(picture.encoded) + "'>";
+  return html + "<figcaption>" + escapeHtml(picture.caption) + "</figcaption></figure>\n";
+}
+
+std::string figures(const std::vector<PagePicture> &pictures) {
+  std::string html = "<div class='pictures'>\n";
+  for (const PagePicture &picture : pictures) html += figure(picture);
+  return html + "</div>\n";
+}
+
+std::string section(const std::string &title, const std::string &body) {
+  return "<section><h2>" + escapeHtml(title) + "</h2>\n" + body + "</section>\n";
+}
+
+std::string tableOf(const std::vector<Row> &rows) {
+  std::string html = "<table><tbody>\n";
+  for (const Row &row : rows) {
+    html += "<tr><td>" + escapeHtml(row.name) + "</td><td class='value'>" + escapeHtml(row.value) +
+            "</td><td class='soft'>" + escapeHtml(row.note) + "</td></tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string howToRead(const Summary &s) {
+  std::string text =
+      "<p>Each frame of the recording, a colour and a depth image, was given to the localizer together with the "
+      "map. It "
+      "answered where the camera was, or that it cannot tell.</p>"
+      "<p class='soft'>The map is a <b>sphere cloud</b>: of every point it keeps only the direction from one "
+      "centre, hidden "
+      "among fake directions. No room can be rebuilt from it by simple means, and still a camera that measures "
+      "depth finds its "
+      "place in it.</p>";
+  if (!s.with_truth) {
+    text +=
+        "<p class='warn'>The truth was not given, so this report cannot say how exact the answers are. Run again "
+        "with "
+        "<code>--owner-note</code> on a recording that has poses.</p>";
+  }
+  return text;
+}
+
+std::string overlayIntro() {
+  return "<p class='soft'><span class='key' style='border-color:#a3a3a3'></span>keypoint "
+         "&nbsp; <span class='key' style='border-color:#f59e0b'></span>looks like a point of the map, but does not "
+         "fit the pose "
+         "(often a fake point: they carry real looks) &nbsp; <span class='key' "
+         "style='border-color:#22c55e'></span>fits the "
+         "pose. Rings are as large as the pattern that was recognised. Green rings spread over the whole image pin "
+         "the pose down "
+         "best.</p>";
+}
+
+std::string outcomeTable(const Summary &s) {
+  std::vector<Row> rows;
+  for (size_t i = 0; i < s.outcomes.size(); ++i) {
+    const auto outcome = static_cast<sphc_outcome>(i);
+    if (s.outcomes[i] || i == 0)
+      rows.push_back({outcomeName(outcome), std::to_string(s.outcomes[i]), outcomeAdvice(outcome)});
+  }
+  return tableOf(rows);
+}
+
+std::string memoryTable(const Run &run) {
+  std::vector<MemoryPiece> pieces = run.memory;
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const MemoryPiece &a, const MemoryPiece &b) { return a.bytes > b.bytes; });
+  constexpr size_t kShown = 10;
+  std::vector<Row> rows = {
+      {"map file", humanBytes(static_cast<double>(run.map.file_bytes)), "read-only, used in place"}};
+  size_t rest = 0;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    if (i >= kShown)
+      rest += pieces[i].bytes;
+    else
+      rows.push_back({pieces[i].name, humanBytes(static_cast<double>(pieces[i].bytes)),
+                      pieces[i].scratch ? "scratch" : "state"});
+  }
+  if (rest) rows.push_back({"everything else", humanBytes(static_cast<double>(rest)), ""});
+  return tableOf(rows);
+}
+
+std::string settingsTable(const Run &run) {
+  std::vector<Row> rows;
+  for (const Setting &setting : run.settings) rows.push_back({setting.name, setting.value, ""});
+  return tableOf(rows);
+}
+
+std::string mapSection(const Run &run, const PageContent &content) {
+  const std::vector<Row> rows = {
+      {"points, real and fake", std::to_string(run.map.points), "the file does not tell them apart"},
+      {"bytes", humanBytes(static_cast<double>(run.map.file_bytes)), ""},
+      {"map id", run.map.id.substr(0, 12) + "…", "random name of this build"},
+      {"format version", std::to_string(run.map.format_version), ""},
+      {"extractor", std::to_string(run.map.extractor), "what described the points"}};
+  PagePicture picture = content.directions;
+  picture.caption =
+      "All directions in the map, seen from its centre, as a map of the sky: longitude to the right, up is up. "
+      "The brightest spot is " +
+      fixed(content.direction_peak, 1) + " times denser than an even spread.";
+  return "<div class='columns' style='align-items:center'>" + figure(picture) + "<div>" + tableOf(rows) +
+         "</div></div>";
+}
+
+std::string plotSection(const PageContent &content) {
+  std::string body;
+  if (!content.plot_problem.empty()) body += "<p class='warn'>" + escapeHtml(content.plot_problem) + "</p>";
+  return body + (content.plots.empty() ? "" : figures(content.plots));
+}
+
+}  // namespace
+
+std::string reportPage(const Run &run, const Summary &s, const PageContent &content) {
+  std::string html =
+      "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width,initial-scale=1'><title>SphereCloud report</title>"
+      "<style>" +
+      std::string(kPageStyle) + "</style></head>\n<body>\n";
+  html += "<header><div><h1>Where was the camera?</h1><p>" + escapeHtml(run.recording) + " in the sphere cloud " +
+          escapeHtml(run.map.path) + "</p></div></header>\n<main>\n";
+  html += cards(run, s);
+  html += section("What you are looking at", howToRead(s));
+  html += section("In pictures", plotSection(content));
+  if (!content.overlays.empty()) html += section("What the camera saw", overlayIntro() + figures(content.overlays));
+  html += section("Figures", tableOf(tableRows(run, s)) +
+                                 "<div class='columns'><div><h3>What became of the frames</h3>" + outcomeTable(s) +
+                                 "</div><div><h3>Where the bytes go</h3>" + memoryTable(run) + "</div></div>");
+  html += section("The map", mapSection(run, content));
+  html += section("Settings", settingsTable(run));
+  return html + "<footer>Made by spherecloud " + sphc_version_string() +
+         ". The plots lie beside this page in plots/, with the "
+         "gnuplot scripts that drew them; per-frame figures in frames.jsonl.</footer>\n</main></body></html>\n";
+}
+
+}  // namespace sphc::host

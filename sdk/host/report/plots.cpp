@@ -1,0 +1,223 @@
+#include "host/report/plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "host/report/above.h"
+
+namespace sphc::host {
+namespace {
+
+// One look for all.
+const char kLook[] =
+    "set border 3 linecolor rgb '#94a3b8'\n"
+    "set tics nomirror textcolor rgb '#475569'\n"
+    "set xlabel textcolor rgb '#334155'\n"
+    "set ylabel textcolor rgb '#334155'\n"
+    "set grid linecolor rgb '#e2e8f0' linewidth 1\n"
+    "set key textcolor rgb '#334155'\n";
+const char kBlue[] = "#2563eb", kGreen[] = "#16a34a", kRed[] = "#dc2626", kAmber[] = "#d97706";
+
+using Points = std::vector<std::array<double, 3>>;
+
+// A gnuplot data block.  An empty one is an error in gnuplot; a point that is not a number draws nothing.
+std::string block(const std::string &name, const Points &points) {
+  std::string text = "$" + name + " << EOD\n";
+  for (const auto &p : points) text += fixed(p[0], 6) + " " + fixed(p[1], 6) + " " + fixed(p[2], 6) + "\n";
+  if (points.empty()) text += "NaN NaN NaN\n";
+  return text + "EOD\n";
+}
+
+std::string color(const char *rgb) { return std::string("linecolor rgb '") + rgb + "'"; }
+
+// ---- path ----
+
+struct Path {
+  Points truth, estimate, link, lost;
+  std::array<double, 2> centre = {};
+};
+
+Path splitPath(const Run &run) {
+  std::vector<sphc_rigid> poses;
+  for (const FrameRecord &frame : run.frames) {
+    if (frame.has_truth)
+      poses.push_back(frame.truth_base_from_camera);
+    else if (frame.localized)
+      poses.push_back(frame.base_from_camera);
+  }
+  const AboveView view = viewFromAbove(poses);
+  Path path;
+  path.centre = view.project(run.centre_m.data());
+  for (const FrameRecord &frame : run.frames) {
+    const auto truth = view.project(frame.truth_base_from_camera.t_m),
+               seen = view.project(frame.base_from_camera.t_m);
+    if (frame.has_truth) path.truth.push_back({truth[0], truth[1], 0});
+    if (frame.has_truth && !frame.localized) path.lost.push_back({truth[0], truth[1], 0});
+    if (frame.localized) path.estimate.push_back({seen[0], seen[1], 100 * frame.translation_error_m});
+  }
+  return path;
+}
+
+// Tall paths get tall pictures, within reason.
+PlotSize pathSize(const Path &path) {
+  double low[2] = {path.centre[0], path.centre[1]}, high[2] = {path.centre[0], path.centre[1]};
+  for (const Points *points : {&path.truth, &path.estimate}) {
+    for (const auto &p : *points) {
+      for (size_t i = 0; i < 2; ++i) {
+        low[i] = std::min(low[i], p[i]);
+        high[i] = std::max(high[i], p[i]);
+      }
+    }
+  }
+  const double width = std::max(0.5, high[0] - low[0]), height = std::max(0.5, high[1] - low[1]);
+  return {760, static_cast<int>(std::clamp(90 + 640 * height / width, 320.0, 640.0))};
+}
+
+// ---- cumulative errors ----
+
+// Share (percent) of all frames with truth whose error is at most x; frames not localized never come in.
+Points cumulative(const Run &run, double (*error)(const FrameRecord &)) {
+  std::vector<double> errors;
+  size_t total = 0;
+  for (const FrameRecord &frame : run.frames) {
+    if (!frame.has_truth) continue;
+    ++total;
+    if (frame.localized) errors.push_back(error(frame));
+  }
+  std::sort(errors.begin(), errors.end());
+  Points points;
+  for (size_t i = 0; i < errors.size(); ++i) {
+    const double before = 100.0 * static_cast<double>(i) / static_cast<double>(total);
+    const double after = 100.0 * static_cast<double>(i + 1) / static_cast<double>(total);
+    points.push_back({errors[i], before, 0});
+    points.push_back({errors[i], after, 0});
+  }
+  return points;
+}
+
+std::string cdfScript(const Points &points, const std::string &unit, double mark, const std::string &mark_text) {
+  if (points.empty()) return "";
+  const double right = std::max(1.3 * mark, 1.1 * points.back()[0]);
+  // A tail much longer than the mark would squeeze everything else to the left edge.
+  const bool logarithmic = right > 4 * mark;
+  const double low = std::max(1e-3, 0.8 * points.front()[0]);
+  std::string script = kLook + block("cdf", points);
+  script += "set yrange [0:100]\nset ylabel 'share of frames, %'\nset xlabel 'error, " + unit + "'\n";
+  if (logarithmic) script += "set logscale x\nset xrange [" + fixed(low, 6) + ":" + fixed(right, 6) + "]\n";
+  if (!logarithmic) script += "set xrange [0:" + fixed(right, 6) + "]\n";
+  script += "set arrow from first " + fixed(mark, 3) + ", graph 0 to first " + fixed(mark, 3) +
+            ", graph 1 nohead dashtype 2 linewidth 1.5 " + color(kGreen) + "\n";
+  script += "set label '" + mark_text + "' at first " + fixed(mark, 3) +
+            ", graph 0.06 right offset -0.8,0 textcolor rgb '" + kGreen + "'\n";
+  script += "unset key\nset style fill transparent solid 0.10 noborder\n";
+  script += "plot $cdf using 1:2 with filledcurves y1=0 " + color(kBlue) +
+            " notitle, $cdf using 1:2 with lines linewidth 2.5 " + color(kBlue) + " notitle";
+  return script;
+}
+
+}  // namespace
+
+Drawing pathFromAbove(const Run &run) {
+  const Path path = splitPath(run);
+  if (path.truth.empty() && path.estimate.empty()) return {"path", "", "", "", {}};
+  const bool truth = !path.truth.empty();
+  std::string script = kLook + block("truth", path.truth) + block("estimate", path.estimate) +
+                       block("lost", path.lost) + block("centre", {{path.centre[0], path.centre[1], 0}});
+  script += "set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n";
+  script += "set xlabel 'metres'\nset ylabel 'metres'\nset key outside top center horizontal samplen 2\n";
+  if (truth) {
+    script += "set palette defined (0 '#16a34a', 0.5 '#facc15', 1 '#dc2626')\nset cbrange [0:5]\n";
+    script +=
+        "set cblabel 'error, cm (5 and more is red)' textcolor rgb '#334155'\nset colorbox user origin 0.93,0.2 "
+        "size 0.018,0.6 noborder\nset rmargin at screen 0.9\n";
+  }
+  script += "plot ";
+  if (truth) script += "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', ";
+  script += std::string("$estimate using 1:2") + (truth ? ":3" : "") + " with points pointtype 7 pointsize 0.6 " +
+            (truth ? "linecolor palette" : color(kBlue)) + " title 'estimate'";
+  if (!path.lost.empty())
+    script += ", $lost using 1:2 with points pointtype 2 pointsize 1 linewidth 1.5 " + color(kRed) +
+              " title 'not localized'";
+  script +=
+      ", $centre using 1:2 with points pointtype 3 pointsize 1.6 linewidth 2 linecolor rgb '#7c3aed' title 'sphere "
+      "centre'";
+  return {"path", "The path from above",
+          truth ? "Every dot is one answer, coloured by how far it is from the true place (grey line)."
+                : "Every dot is one answer, in the map's own frame.",
+          script, pathSize(path)};
+}
+
+Drawing translationCdf(const Run &run) {
+  const Points points = cumulative(run, [](const FrameRecord &frame) { return 100 * frame.translation_error_m; });
+  return {"translation_error",
+          "How far off",
+          "Read it as: this share of all frames is off by at most so many centimetres. Steep and early is good; "
+          "where the "
+          "curve ends below 100 %, the rest was not localized.",
+          cdfScript(points, "cm", 100 * kGoodTranslationM, "5 cm"),
+          {560, 360}};
+}
+
+Drawing rotationCdf(const Run &run) {
+  const Points points = cumulative(run, [](const FrameRecord &frame) { return frame.rotation_error_deg; });
+  return {"rotation_error",
+          "How far turned",
+          "The same for the direction of view, in degrees.",
+          cdfScript(points, "deg", kGoodRotationDeg, "5 deg"),
+          {560, 360}};
+}
+
+Drawing timeline(const Run &run) {
+  if (run.frames.empty()) return {"timeline", "", "", "", {}};
+  Points matches, inliers, lost;
+  for (const FrameRecord &frame : run.frames) {
+    const double x = frame.sequence;
+    matches.push_back({x, static_cast<double>(frame.matches), 0});
+    if (frame.localized)
+      inliers.push_back({x, static_cast<double>(frame.inliers), 0});
+    else
+      lost.push_back({x, static_cast<double>(frame.inliers), 0});
+  }
+  std::string script = kLook + block("matches", matches) + block("inliers", inliers) + block("lost", lost);
+  script +=
+      "set yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\nset key outside top center horizontal samplen 2\n";
+  script += "set style fill transparent solid 0.15 noborder\n";
+  script += "plot $matches using 1:2 with lines linewidth 1.5 " + color(kAmber) +
+            " title 'matches with the map', " + "$inliers using 1:2 with impulses linewidth 2 " + color(kGreen) +
+            " title 'agree with the pose'";
+  if (!lost.empty())
+    script += ", $lost using 1:2 with points pointtype 2 pointsize 1 linewidth 1.5 " + color(kRed) +
+              " title 'not localized'";
+  return {"timeline",
+          "Frame by frame",
+          "Of all matches with the map, most with fake points included, the green ones agree with one pose. Few "
+          "green ones "
+          "mean a weak answer.",
+          script,
+          {1140, 340}};
+}
+
+Drawing stageTimes(const Summary &summary) {
+  Points bars;
+  std::string names;
+  for (size_t i = 0; i < kStageCount; ++i) {
+    const double row = static_cast<double>(kStageCount - 1 - i);
+    if (std::isnan(summary.stage_median_ms[i])) return {"stage_times", "", "", "", {}};
+    bars.push_back({summary.stage_median_ms[i], row, summary.stage_p90_ms[i]});
+    names += (i ? ", '" : "'") + std::string(kStageNames[i]) + "' " + fixed(row, 0);
+  }
+  std::string script = kLook + block("bars", bars);
+  script += "set border 1\nset grid noytics\nunset key\nset ytics scale 0 (" + names +
+            ")\nset yrange [-0.6:" + fixed(kStageCount - 0.4, 1) + "]\n";
+  script +=
+      "set xrange [0:*]\nset offsets 0, graph 0.12, 0, 0\nset xlabel 'milliseconds a frame: bar = median, whisker "
+      "= 90 % within'\nset style fill solid noborder\n";
+  script +=
+      "plot $bars using (0):2:(0):1:($2-0.3):($2+0.3) with boxxyerror linecolor rgb '#60a5fa', "
+      "$bars using 1:2:1:3 with xerrorbars pointtype 0 linewidth 1.5 linecolor rgb '#1e40af', "
+      "$bars using 3:2:(sprintf('%.1f', $1)) with labels left offset 1,0 textcolor rgb '#1e293b'";
+  return {"stage_times", "Where the time goes", "On this machine, one thread.", script, {560, 300}};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,114 @@
+#include "host/report/report.h"
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "host/report/direction_picture.h"
+#include "host/report/encode.h"
+#include "host/report/file.h"
+#include "host/report/json.h"
+#include "host/report/overlay.h"
+#include "host/report/page.h"
+#include "host/report/plots.h"
+#include "host/report/trajectory.h"
+
+namespace sphc::host {
+namespace {
+
+std::string textOf(const std::string &path) {
+  const auto bytes = readBytes(path);
+  return {bytes.begin(), bytes.end()};
+}
+
+// Encodes, writes FOLDER/NAME and returns the bytes for the page.
+std::vector<uint8_t> writePicture(const std::string &path, const cv::Mat &picture,
+                                  const std::vector<int> &options) {
+  std::vector<uint8_t> encoded;
+  if (!cv::imencode(std::filesystem::path(path).extension().string(), picture, encoded, options))
+    throw std::runtime_error("cannot encode " + path + ": OpenCV has no encoder for this kind");
+  writeText(path, {encoded.begin(), encoded.end()});
+  return encoded;
+}
+
+void addOverlays(const std::string &folder, const Run &run, const ImageOfFrame &image_of_frame,
+                 PageContent *content) {
+  for (const Highlight &highlight : chooseHighlights(run)) {
+    const FrameRecord &frame = run.frames[highlight.frame];
+    const cv::Mat color = image_of_frame ? image_of_frame(frame) : cv::Mat();
+    if (color.empty()) continue;
+    PagePicture picture;
+    picture.title = highlight.title;
+    picture.caption =
+        "Frame " + std::to_string(frame.sequence) + ": " +
+        (frame.localized
+             ? std::to_string(frame.inliers) + " of " + std::to_string(frame.matches) + " matches agree."
+             : std::string(outcomeName(frame.outcome)) + ", " + outcomeAdvice(frame.outcome) + ".");
+    picture.mime = "image/jpeg";
+    picture.encoded = writePicture(folder + "/overlay_" + highlight.name + ".jpg", drawOverlay(color, frame),
+                                   {cv::IMWRITE_JPEG_QUALITY, 88});
+    content->overlays.push_back(std::move(picture));
+  }
+}
+
+void addPlots(const std::string &folder, const Run &run, const Summary &summary, PageContent *content) {
+  const std::string plots = folder + "/plots";
+  makeFolder(plots);
+  std::filesystem::remove(plots + "/gnuplot.log");
+  for (const Drawing &drawing :
+       {pathFromAbove(run), stageTimes(summary), translationCdf(run), rotationCdf(run), timeline(run)}) {
+    if (drawing.script.empty()) continue;
+    const PlotResult result = plot(plots, drawing.name, drawing.script, drawing.size);
+    if (result == PlotResult::kNoGnuplot) {
+      content->plot_problem =
+          "The plots are missing because gnuplot is not installed. Install it (apt-get install "
+          "gnuplot-nox) and run the same command again, or run gnuplot on the scripts in plots/.";
+      return;
+    }
+    if (result == PlotResult::kFailed) {
+      content->plot_problem = "gnuplot could not draw " + drawing.name + "; plots/gnuplot.log says why.";
+      continue;
+    }
+    PagePicture picture;
+    picture.title = drawing.title;
+    picture.caption = drawing.caption;
+    picture.wide = drawing.size.width_px > 1000;
+    picture.svg = inlineSvg(textOf(plots + "/" + drawing.name + ".svg"), drawing.name + "-");
+    content->plots.push_back(std::move(picture));
+  }
+}
+
+void addDirections(const std::string &folder, const Run &run, PageContent *content) {
+  content->directions.title = "All that the map shows of the room";
+  content->directions.mime = "image/png";
+  const cv::Mat picture = drawDirections(run.map.directions, &content->direction_peak);
+  content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});
+}
+
+// Another run had other frames to show; its pictures must not stay beside this one's.
+void removeOldOverlays(const std::string &folder) {
+  std::vector<std::filesystem::path> old;
+  for (const auto &entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename().string().rfind("overlay_", 0) == 0) old.push_back(entry.path());
+  }
+  for (const auto &path : old) std::filesystem::remove(path);
+}
+
+}  // namespace
+
+ReportSummary writeReport(const std::string &folder, const Run &run, const ImageOfFrame &image_of_frame) {
+  makeFolder(folder);
+  removeOldOverlays(folder);
+  const Summary summary = summarize(run);
+  PageContent content;
+  addOverlays(folder, run, image_of_frame, &content);
+  addPlots(folder, run, summary, &content);
+  addDirections(folder, run, &content);
+  writeText(folder + "/frames.jsonl", framesJsonLines(run));
+  writeText(folder + "/summary.json", summaryJson(run, summary).dump(2) + "\n");
+  writeText(folder + "/trajectory.tum", tumTrajectory(run));
+  writeText(folder + "/report.html", reportPage(run, summary, content));
+  return {folder + "/report.html", content.plot_problem};
+}
+
+}  // namespace sphc::host
