@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# From nothing to a report with pictures: installs what is missing, builds, records a walk with the simulated headset,
+# makes a map of its first lap and localizes its second lap in it.
+#
+#     examples/quickstart.sh
+#
+# Made for Debian 12 and its relatives; takes a few minutes.  Everything it makes lies in build/quickstart and
+# out/quickstart; run it again at will.
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/quickstart
+out=$root/out/quickstart
+steps=5
+begin=$SECONDS
+
+bold='' plain=''
+if [ -t 1 ]; then bold=$'\033[1m' plain=$'\033[0m'; fi
+
+fail() {
+  printf '\nquickstart: %s\n' "$1" >&2
+  exit 1
+}
+
+step=0
+step() {
+  step=$((step + 1))
+  step_begin=$SECONDS
+  printf '%s[%d/%d] %s%s\n' "$bold" "$step" "$steps" "$1" "$plain"
+}
+
+finished() { printf '      done in %d s\n' $((SECONDS - step_begin)); }
+
+# Runs a command that reports its own progress on a terminal; elsewhere its words go to a log, shown on failure.
+run_logged() {
+  local log=$1
+  shift
+  if [ -t 1 ]; then
+    "$@" || fail "this command failed, see above: $*"
+  else
+    "$@" >"$log" 2>&1 || { tail -n 40 "$log" >&2; fail "this command failed: $* (all it said: $log)"; }
+  fi
+}
+
+missing_packages() {
+  local package
+  for package in $(sed -n '/^\[build\]/,/^\[test\]/{/^[a-z]/p}' "$root/toolchains/packages.txt"); do
+    dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || echo "$package"
+  done
+}
+
+install_packages() {
+  command -v dpkg-query >/dev/null || fail "this is no Debian; install what toolchains/packages.txt names, then run
+  cmake --preset release -DSPHC_TESTS=OFF && cmake --build --preset release"
+  local missing sudo=()
+  missing=$(missing_packages)
+  if [ -z "$missing" ]; then
+    echo "      all there"
+    return
+  fi
+  # shellcheck disable=SC2086 # a list of words on purpose
+  set -- $missing
+  echo "      installing: $*"
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "packages are missing and there is no sudo; as root run
+  apt-get install --no-install-recommends $*"
+    sudo=(sudo)
+  fi
+  run_logged "$out/apt.log" "${sudo[@]}" apt-get update -qq
+  run_logged "$out/apt.log" "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y --no-install-recommends "$@"
+}
+
+configure_and_build() {
+  (cd "$root" && run_logged "$out/configure.log" cmake --preset release -B "$build" -DSPHC_TESTS=OFF)
+  NINJA_STATUS='      [%f/%t] ' run_logged "$out/build.log" cmake --build "$build" --target spherecloud_cli
+}
+
+rm -rf "$out"
+mkdir -p "$out"
+spherecloud=$build/sdk/host/cli/spherecloud
+
+step "Packages"
+install_packages
+finished
+
+step "Build"
+configure_and_build
+finished
+
+step "Record: two laps of a simulated headset through a furnished room"
+"$spherecloud" simulate --out "$out/walk" --frames 200 --rate 6.25 >"$out/simulate.log" ||
+  fail "the recording failed, see above"
+finished
+
+step "Map: lap one becomes a sphere cloud, one direction in three real"
+"$spherecloud" build --recording "$out/walk" --last 99 --map "$out/room.sphc" |
+  sed "s|$root/||; s|^|      |" || fail "making the map failed, see above"
+finished
+
+step "Localize: lap two, frame by frame"
+echo
+"$spherecloud" localize --recording "$out/walk" --first 100 --map "$out/room.sphc" \
+  --owner-note "$out/room.sphc.owner.json" --trajectory "$out/path.tum" --report "$out/report" >"$out/table.txt" ||
+  { cat "$out/table.txt"; fail "localizing failed, see above"; }
+sed '/^$/,$d' "$out/table.txt"
+echo
+finished
+
+cat <<END
+
+${bold}All done in $((SECONDS - begin)) s.${plain} Look at
+  $out/report/report.html   all of it on one page
+  $out/report/              the pictures one by one
+  $out/walk/rgb/            what the headset saw
+Next: $build/sdk/host/cli/spherecloud --help
+END
