@@ -1,31 +1,88 @@
-#!/bin/sh
-# The main job end to end, on a fresh Debian 12: install what is missing, build, record a walk with the simulated
-# headset, make a sphere cloud of its first lap, localize the second lap in it, write pictures and a report.
-# Everything goes to out/quickstart.
-set -eu
-root=$(cd "$(dirname "$0")/.." && pwd)
-cd "$root"
-out=out/quickstart
-step() { printf '\n== %s\n' "$1"; }
+#!/usr/bin/env bash
+# From nothing to a report with pictures: installs what is missing, builds, records a walk with the simulated headset,
+# makes a map of its first lap and localizes its second lap in it.
+#
+#     examples/quickstart.sh
+#
+# Made for Debian 12 and its relatives; takes a few minutes.  Everything it makes lies in build/quickstart and
+# out/quickstart; run it again at will.
+set -euo pipefail
 
-step "1/5 packages"
-toolchains/install_packages.sh build run
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/quickstart
+out=$root/out/quickstart
+steps=5
+begin=$SECONDS
 
-step "2/5 build"
-cmake --preset release -DSPHC_TESTS=OFF -DSPHC_EXAMPLES=OFF >/dev/null
-cmake --build --preset release
-spherecloud=build/release/sdk/host/cli/spherecloud
+bold='' plain=''
+if [ -t 1 ]; then bold=$'\033[1m' plain=$'\033[0m'; fi
+
+fail() {
+  printf '\nquickstart: %s\n' "$1" >&2
+  exit 1
+}
+
+step=0
+step() {
+  step=$((step + 1))
+  step_begin=$SECONDS
+  printf '%s[%d/%d] %s%s\n' "$bold" "$step" "$steps" "$1" "$plain"
+}
+
+finished() { printf '      done in %d s\n' $((SECONDS - step_begin)); }
+
+# Runs a command that reports its own progress on a terminal; elsewhere its words go to a log, shown on failure.
+run_logged() {
+  local log=$1
+  shift
+  if [ -t 1 ]; then
+    "$@" || fail "this command failed, see above: $*"
+  else
+    "$@" >"$log" 2>&1 || { tail -n 40 "$log" >&2; fail "this command failed: $* (all it said: $log)"; }
+  fi
+}
+
+configure_and_build() {
+  (cd "$root" && run_logged "$out/configure.log" cmake --preset release -B "$build" -DSPHC_TESTS=OFF)
+  NINJA_STATUS='      [%f/%t] ' run_logged "$out/build.log" cmake --build "$build" --target spherecloud_cli
+}
 
 rm -rf "$out"
 mkdir -p "$out"
-step "3/5 a walk with the simulated headset"
-"$spherecloud" simulate --out "$out/walk" --frames 200 --rate 6.25
+spherecloud=$build/sdk/host/cli/spherecloud
 
-step "4/5 a sphere cloud of the first lap, eta 33 %"
-"$spherecloud" build --recording "$out/walk" --last 99 --map "$out/room.sphc" --eta 0.33
+step "Packages"
+"$root/toolchains/install_packages.sh" build
+finished
 
-step "5/5 the second lap, localized"
+step "Build"
+configure_and_build
+finished
+
+step "Record: two laps of a simulated headset through a furnished room"
+"$spherecloud" simulate --out "$out/walk" --frames 200 --rate 6.25 >"$out/simulate.log" ||
+  fail "the recording failed, see above"
+finished
+
+step "Map: lap one becomes a sphere cloud, one direction in three real"
+"$spherecloud" build --recording "$out/walk" --last 99 --map "$out/room.sphc" |
+  sed "s|$root/||; s|^|      |" || fail "making the map failed, see above"
+finished
+
+step "Localize: lap two, frame by frame"
+echo
 "$spherecloud" localize --recording "$out/walk" --first 100 --map "$out/room.sphc" \
-  --owner-note "$out/room.sphc.owner.json" --report "$out/report"
+  --owner-note "$out/room.sphc.owner.json" --trajectory "$out/path.tum" --report "$out/report" >"$out/table.txt" ||
+  { cat "$out/table.txt"; fail "localizing failed, see above"; }
+sed '/^$/,$d' "$out/table.txt"
+echo
+finished
 
-printf '\nLook at %s first; the pictures lie beside it.\n' "$root/$out/report/report.html"
+cat <<END
+
+${bold}All done in $((SECONDS - begin)) s.${plain} Look at
+  $out/report/report.html   all of it on one page
+  $out/report/              the pictures one by one
+  $out/walk/rgb/            what the headset saw
+Next: $build/sdk/host/cli/spherecloud --help
+END

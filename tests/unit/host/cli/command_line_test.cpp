@@ -1,0 +1,167 @@
+// Arguments, exit codes and where words go, seen from outside.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command_runner.h"
+#include "host/cli/exit_code.h"
+
+namespace sphc::host {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(CommandLine, HelpIsNoError) {
+  const Answer answer = runCommand("--help");
+  EXPECT_EQ(answer.exit_code, kExitDone);
+  EXPECT_THAT(answer.out, HasSubstr("spherecloud localize --recording"));
+}
+
+TEST(CommandLine, VersionIsOneLine) {
+  const Answer answer = runCommand("--version");
+  EXPECT_EQ(answer.exit_code, kExitDone);
+  EXPECT_THAT(answer.out, testing::MatchesRegex("spherecloud [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+class HelpTest : public testing::TestWithParam<const char *> {};
+
+TEST_P(HelpTest, TeachesByExample) {
+  const Answer answer = runCommand(std::string(GetParam()) + " --help");
+  EXPECT_EQ(answer.exit_code, kExitDone);
+  EXPECT_THAT(answer.out, HasSubstr("Example:\n  spherecloud " + std::string(GetParam())));
+  EXPECT_THAT(answer.out, HasSubstr("--json"));
+  EXPECT_EQ(answer.err, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
+                         testing::Values("simulate", "build", "localize", "inspect", "info"));
+
+class UsageTest : public testing::TestWithParam<const char *> {};
+
+TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
+  const Answer answer = runCommand(GetParam());
+  EXPECT_EQ(answer.exit_code, kExitUsage);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_THAT(answer.err, HasSubstr("--help"));
+}
+
+INSTANTIATE_TEST_SUITE_P(EachMistake, UsageTest,
+                         testing::Values("", "conquer", "info", "info a b", "simulate",
+                                         "simulate --out x --frames many", "build --recording r",
+                                         "build --recording r --map m --eta 1.5",
+                                         "build --recording r --map m --key a --new-key b",
+                                         "localize --recording r --map m --step 0",
+                                         "localize --recording r --map m --first 9 --last 3"));
+
+TEST(CommandLine, UsageNamesTheSubcommand) {
+  EXPECT_THAT(runCommand("build").err, HasSubstr("Try: spherecloud build --help"));
+}
+
+TEST(CommandLine, MissingInputIsExitCodeOneAndNamesIt) {
+  for (const std::string &command :
+       {std::string("info /nonexistent.sphc"), std::string("inspect /nonexistent.sphc"),
+        std::string("build --recording /nonexistent --map /tmp/never.sphc"),
+        std::string("localize --recording /nonexistent --map /tmp/never.sphc")}) {
+    const Answer answer = runCommand(command);
+    EXPECT_EQ(answer.exit_code, kExitFailure) << command;
+    EXPECT_THAT(answer.err, HasSubstr("/nonexistent")) << command;
+    EXPECT_EQ(answer.out, "") << command;
+  }
+}
+
+TEST(Info, PrintsOneScreenOrJson) {
+  const TempFolder folder;
+  writeTinyMap(folder / "tiny.sphc", 40);
+  const Answer human = runCommand("info " + (folder / "tiny.sphc"));
+  EXPECT_EQ(human.exit_code, kExitDone);
+  EXPECT_THAT(human.out, HasSubstr("valid sphere cloud"));
+  const Answer machine = runCommand("info --json " + (folder / "tiny.sphc"));
+  const auto json = nlohmann::json::parse(machine.out);
+  EXPECT_EQ(json["points"], 40);
+  EXPECT_EQ(json["map_id"].get<std::string>().substr(0, 6), "010203");
+}
+
+TEST(Info, RefusesADamagedMap) {
+  const TempFolder folder;
+  writeTinyMap(folder / "tiny.sphc", 40);
+  std::fstream file(folder / "tiny.sphc", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(500);
+  file.put('\x55');
+  file.close();
+  const Answer answer = runCommand("info " + (folder / "tiny.sphc"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("SPHC_E_MAP_CHECKSUM"));
+}
+
+TEST(Inspect, AccountsForEveryByteAndDrawsAPicture) {
+  const TempFolder folder;
+  writeTinyMap(folder / "tiny.sphc", 40);
+  const Answer answer = runCommand("inspect --json " + (folder / "tiny.sphc"));
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  const auto json = nlohmann::json::parse(answer.out);
+  uint64_t sum = 0;
+  for (const auto &part : json["parts"]) sum += part.get<uint64_t>();
+  EXPECT_EQ(sum, json["bytes"].get<uint64_t>());
+  EXPECT_EQ(sum, std::filesystem::file_size(folder / "tiny.sphc"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "tiny.sphc.directions.png"));
+}
+
+TEST(Inspect, NamesAPictureItCannotWrite) {
+  const TempFolder folder;
+  writeTinyMap(folder / "tiny.sphc", 40);
+  const Answer answer = runCommand("inspect " + (folder / "tiny.sphc") + " --picture " + (folder / "picture.what"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("picture.what"));
+}
+
+// The whole way on a few frames of a simulated walk.
+TEST(RoundTrip, SimulateBuildLocalize) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk", map = folder / "room.sphc";
+  const Answer recorded = runCommand("simulate --json --frames 6 --rate 6 --out " + walk);
+  ASSERT_EQ(recorded.exit_code, kExitDone) << recorded.err;
+  EXPECT_EQ(nlohmann::json::parse(recorded.out)["frames"], 6);
+  EXPECT_EQ(runCommand("simulate --frames 6 --out " + walk).exit_code, kExitFailure);  // nothing is overwritten
+
+  const Answer built = runCommand("build -r " + walk + " -m " + map + " --step 2 --new-key " + (folder / "key"));
+  ASSERT_EQ(built.exit_code, kExitDone) << built.err;
+  EXPECT_THAT(built.out, HasSubstr("never ship it"));
+  EXPECT_EQ(
+      runCommand("build -r " + walk + " -m " + (folder / "again.sphc") + " --step 2 --key " + (folder / "key"))
+          .exit_code,
+      kExitDone);
+  EXPECT_EQ(std::system(("cmp -s " + map + " " + (folder / "again.sphc")).c_str()), 0) << "same key, other bytes";
+
+  const std::string localize = "localize -r " + walk + " -m " + map + " --first 1 --step 2 --json";
+  const Answer found =
+      runCommand(localize + " --owner-note " + map + ".owner.json --trajectory " + (folder / "p.tum") +
+                 " --frames-json " + (folder / "f.jsonl") + " --report " + (folder / "report"));
+  ASSERT_EQ(found.exit_code, kExitDone) << found.err;
+  const auto json = nlohmann::json::parse(found.out);
+  EXPECT_EQ(json["frames"], 3);
+  EXPECT_EQ(json["within_5cm_5deg"], 3);
+  for (const char *file : {"p.tum", "f.jsonl", "report/report.html"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+  }
+
+  // Without the note: no truth, poses in the map's frame.
+  const auto blind = nlohmann::json::parse(runCommand(localize).out);
+  EXPECT_EQ(blind["base"], "map");
+  EXPECT_TRUE(blind["within_5cm_5deg_percent"].is_null());
+
+  // In another place's map.
+  writeTinyMap(folder / "other.sphc", 200);
+  const Answer lost = runCommand("localize -r " + walk + " -m " + (folder / "other.sphc"));
+  EXPECT_EQ(lost.exit_code, kExitNotLocalized);
+  EXPECT_THAT(lost.err, HasSubstr("Not one frame"));
+  const Answer mixed =
+      runCommand("localize -r " + walk + " -m " + (folder / "other.sphc") + " --owner-note " + map + ".owner.json");
+  EXPECT_EQ(mixed.exit_code, kExitFailure);
+  EXPECT_THAT(mixed.err, HasSubstr("belongs to another map"));
+}
+
+}  // namespace
+}  // namespace sphc::host

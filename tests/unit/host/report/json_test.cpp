@@ -1,0 +1,46 @@
+#include "host/report/json.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "frames.h"
+
+namespace sphc::host {
+namespace {
+
+TEST(FrameJson, IsALineAFrameThatParses) {
+  Run run;
+  run.base = "world";
+  run.frames = {goodFrame(1, 0.02, 1), lostFrame(2)};
+  std::istringstream lines(framesJsonLines(run));
+  std::string line;
+  std::vector<nlohmann::json> frames;
+  while (std::getline(lines, line)) frames.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0]["outcome"], "localized");
+  EXPECT_NEAR(frames[0]["error"]["translation_m"].get<double>(), 0.02, 1e-9);
+  EXPECT_NEAR(frames[0]["world_from_camera"]["t_m"][0].get<double>(), 0.12, 1e-9);
+  EXPECT_EQ(frames[1]["outcome"], "no consensus");
+  EXPECT_FALSE(frames[1].contains("world_from_camera"));
+  EXPECT_FALSE(frames[1].contains("error"));
+}
+
+TEST(FrameJson, NamesTheMapFrame) {
+  const auto json = frameJson(goodFrame(1, 0, 0), "map");
+  EXPECT_TRUE(json.contains("map_from_camera"));
+}
+
+TEST(SummaryJson, SaysNullForWhatIsNotKnown) {
+  Run run;
+  run.frames = {lostFrame(1)};
+  run.frames[0].has_truth = false;
+  const auto json = summaryJson(run, summarize(run));
+  EXPECT_TRUE(json["within_5cm_5deg_percent"].is_null());
+  EXPECT_TRUE(json["translation_error_m"]["median"].is_null());
+  EXPECT_EQ(json["outcomes"]["no consensus"], 1);
+  EXPECT_NO_THROW(nlohmann::json::parse(json.dump()));
+}
+
+}  // namespace
+}  // namespace sphc::host

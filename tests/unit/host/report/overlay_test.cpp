@@ -1,0 +1,65 @@
+#include "host/report/overlay.h"
+
+#include <gtest/gtest.h>
+
+#include "frames.h"
+
+namespace sphc::host {
+namespace {
+
+std::vector<std::string> names(const Run &run) {
+  std::vector<std::string> names;
+  for (const Highlight &highlight : chooseHighlights(run)) {
+    names.push_back(highlight.name + ":" + std::to_string(run.frames[highlight.frame].sequence));
+  }
+  return names;
+}
+
+TEST(Highlights, AreBestMedianWorstAndLost) {
+  Run run;
+  run.frames = {goodFrame(1, 0.03, 0), lostFrame(2), goodFrame(3, 0.01, 0), goodFrame(4, 0.02, 0), lostFrame(5)};
+  EXPECT_EQ(names(run),
+            (std::vector<std::string>{"best:3", "median:4", "worst:1", "not_localized_1:2", "not_localized_2:5"}));
+}
+
+TEST(Highlights, GoByInliersWithoutTruth) {
+  Run run;
+  run.frames = {goodFrame(1, 0, 0), goodFrame(2, 0, 0)};
+  for (FrameRecord &frame : run.frames) frame.has_truth = false;
+  run.frames[1].inliers = 90;
+  EXPECT_EQ(names(run), (std::vector<std::string>{"best:2", "worst:1"}));
+}
+
+TEST(Highlights, OfASingleFrameShowItOnce) {
+  Run run;
+  run.frames = {lostFrame(1)};
+  EXPECT_EQ(names(run), (std::vector<std::string>{"not_localized_1:1"}));
+  EXPECT_TRUE(chooseHighlights(Run()).empty());
+}
+
+TEST(Overlay, MarksAnInlierInGreen) {
+  const cv::Mat gray(60, 80, CV_8UC3, cv::Scalar(100, 100, 100));
+  FrameRecord frame = goodFrame(1, 0.01, 0);
+  frame.observations = {{30.5f, 30.5f, 2, 1, 0, SPHC_OBSERVATION_MATCHED | SPHC_OBSERVATION_INLIER}};
+  const cv::Mat picture = drawOverlay(gray, frame);
+  ASSERT_EQ(picture.cols, 160);
+  EXPECT_GT(picture.rows, 120);
+  int green = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const auto &pixel = picture.at<cv::Vec3b>(y, x);
+      green += pixel[1] > 180 && pixel[2] < 140;
+    }
+  }
+  EXPECT_GT(green, 20);
+}
+
+TEST(Overlay, ReadsEveryColourFormat) {
+  const uint8_t rgb[3] = {200, 100, 50};
+  const sphc_image image = {rgb, 1, 1, 3, SPHC_FORMAT_RGB8};
+  EXPECT_EQ(bgrFromImage(image).at<cv::Vec3b>(0, 0), cv::Vec3b(50, 100, 200));
+  EXPECT_THROW(bgrFromImage({rgb, 1, 1, 2, SPHC_FORMAT_DEPTH16}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,94 @@
+#include "host/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+
+#include "frames.h"
+#include "host/report/file.h"
+
+namespace sphc::host {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class ReportTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    char folder[] = "/tmp/sphc_report_XXXXXX";
+    ASSERT_NE(mkdtemp(folder), nullptr);
+    folder_ = folder;
+    run_.recording = "walk <one>";
+    run_.map.directions = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+    for (uint32_t i = 0; i < 8; ++i) run_.frames.push_back(goodFrame(i, 0.004 * i, 0.1 * i));
+    run_.frames.push_back(lostFrame(8));
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string write() {
+    const ImageOfFrame gray = [](const FrameRecord &) { return cv::Mat(48, 64, CV_8UC3, cv::Scalar(90, 90, 90)); };
+    problem_ = writeReport(folder_, run_, gray).problem;
+    const auto bytes = readBytes(folder_ + "/report.html");
+    return {bytes.begin(), bytes.end()};
+  }
+
+  std::string folder_, problem_;
+  Run run_;
+};
+
+TEST_F(ReportTest, IsOnePageThatNeedsNothingElse) {
+  const std::string page = write();
+  EXPECT_THAT(page, HasSubstr("data:image/jpeg;base64,"));
+  EXPECT_THAT(page, HasSubstr("walk &lt;one&gt;"));
+  EXPECT_THAT(page, Not(HasSubstr("src='http")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  for (const char *file : {"overlay_best.jpg", "overlay_not_localized_1.jpg", "map_directions.png", "frames.jsonl",
+                           "summary.json", "trajectory.tum", "plots/path.gp"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ + "/" + file)) << file;
+  }
+}
+
+TEST_F(ReportTest, SaysSoWithoutGnuplot) {
+  const char *path = getenv("PATH");
+  const std::string saved = path ? path : "";
+  setenv("PATH", "/nonexistent", 1);
+  const std::string page = write();
+  setenv("PATH", saved.c_str(), 1);
+  EXPECT_THAT(problem_, HasSubstr("apt-get install gnuplot-nox"));
+  EXPECT_THAT(page, HasSubstr("gnuplot is not installed"));
+  EXPECT_THAT(page, Not(HasSubstr("<svg")));
+}
+
+TEST_F(ReportTest, WorksWithoutTruth) {
+  for (FrameRecord &frame : run_.frames) frame.has_truth = false;
+  const std::string page = write();
+  EXPECT_THAT(page, HasSubstr("The truth was not given"));
+  EXPECT_THAT(page, Not(HasSubstr("How far off")));
+}
+
+TEST_F(ReportTest, WorksWhenNothingWasLocalized) {
+  run_.frames = {lostFrame(1)};
+  EXPECT_THAT(write(), HasSubstr("no consensus"));
+}
+
+TEST_F(ReportTest, LeavesNoPictureOfAnEarlierRun) {
+  write();
+  run_.frames.pop_back();
+  write();
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/overlay_not_localized_1.jpg"));
+}
+
+TEST_F(ReportTest, NamesTheFolderThatCannotBeWritten) {
+  try {
+    writeReport("/dev/null/report", run_, nullptr);
+    FAIL();
+  } catch (const std::runtime_error &error) {
+    EXPECT_THAT(error.what(), HasSubstr("/dev/null/report"));
+  }
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,46 @@
+#include "host/report/table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "frames.h"
+
+namespace sphc::host {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Table, HoldsTheFiguresAPersonAsksFor) {
+  Run run;
+  run.frames = {goodFrame(1, 0.01, 0.5), goodFrame(2, 0.03, 0.5), lostFrame(3), lostFrame(4)};
+  run.state_bytes = 1000;
+  run.scratch_bytes = 2500000;
+  run.map.file_bytes = 500000;
+  const std::string text = tableText(tableRows(run, summarize(run)));
+  EXPECT_THAT(text, HasSubstr("50.0 %   2 of 4"));
+  EXPECT_THAT(text, HasSubstr("2.00 cm"));
+  EXPECT_THAT(text, HasSubstr("0.50 deg"));
+  EXPECT_THAT(text, HasSubstr("3.00 MB"));
+}
+
+TEST(Table, SaysHowToGetErrorsWhenThereAreNone) {
+  Run run;
+  run.frames = {goodFrame(1, 0.01, 0.5)};
+  run.frames[0].has_truth = false;
+  EXPECT_THAT(tableText(tableRows(run, summarize(run))), HasSubstr("--owner-note"));
+}
+
+TEST(Table, AlignsItsColumns) {
+  const std::string text = tableText({{"a", "1", "x"}, {"long name", "1000", ""}});
+  EXPECT_EQ(text, "  a             1   x\n  long name  1000\n");
+}
+
+TEST(HumanBytes, PicksAUnit) {
+  EXPECT_EQ(humanBytes(999), "999 B");
+  EXPECT_EQ(humanBytes(26400), "26.4 kB");
+  EXPECT_EQ(humanBytes(2760000), "2.76 MB");
+  EXPECT_EQ(humanBytes(123456789), "123 MB");
+}
+
+}  // namespace
+}  // namespace sphc::host
