@@ -42,37 +42,13 @@ run_logged() {
   fi
 }
 
-missing_packages() {
-  local package
-  for package in $(sed -n '/^\[build\]/,/^\[test\]/{/^[a-z]/p}' "$root/toolchains/packages.txt"); do
-    dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || echo "$package"
-  done
-}
-
 install_packages() {
-  command -v dpkg-query >/dev/null || fail "this is no Debian; install what toolchains/packages.txt names, then run
-  cmake --preset release -DSPHC_TESTS=OFF && cmake --build --preset release"
-  local missing sudo=()
-  missing=$(missing_packages)
-  if [ -z "$missing" ]; then
-    echo "      all there"
-    return
-  fi
-  # shellcheck disable=SC2086 # a list of words on purpose
-  set -- $missing
-  echo "      installing: $*"
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || fail "packages are missing and there is no sudo; as root run
-  apt-get install --no-install-recommends $*"
-    sudo=(sudo)
-  fi
-  run_logged "$out/apt.log" "${sudo[@]}" apt-get update -qq
-  run_logged "$out/apt.log" "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y --no-install-recommends "$@"
+  "$root/toolchains/install_packages.sh" build run | sed 's/^/      /' ||
+    fail "packages are missing, see above; where there is no apt, install what toolchains/packages.txt names"
 }
 
 configure_and_build() {
-  (cd "$root" && run_logged "$out/configure.log" cmake --preset release -B "$build" -DSPHC_TESTS=OFF)
+  (cd "$root" && run_logged "$out/configure.log" cmake --preset release -B "$build" -DSPHC_TESTS=OFF -DSPHC_EXAMPLES=OFF)
   NINJA_STATUS='      [%f/%t] ' run_logged "$out/build.log" cmake --build "$build" --target spherecloud_cli
 }
 

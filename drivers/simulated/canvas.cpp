@@ -5,7 +5,9 @@
 namespace sphc::simulated {
 namespace {
 
-inline uint32_t byteOf(float x) { return static_cast<uint32_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f); }
+// Rounding: the cast cuts, and x is never negative.
+constexpr float kHalf = 0.5f;
+inline uint32_t byteOf(float x) { return static_cast<uint32_t>(std::clamp(x, 0.0f, 1.0f) * 255.0f + kHalf); }
 inline float channel(Texel texel, int shift) {
   return static_cast<float>((texel >> shift) & 255u) * (1.0f / 255.0f);
 }

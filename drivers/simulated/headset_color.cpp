@@ -38,9 +38,11 @@ inline float log2Approximate(float x) {
   return exponent + (-0.33582878f * m + 2.0f) * m - 1.65871022f;
 }
 
+// Rounding: the cast cuts, and the value is never negative.
+constexpr float kHalf = 0.5f;
 inline uint8_t develop(float light, float noise) {
   const float noisy = light + noise * std::sqrt(kReadNoise * kReadNoise + kShotNoise * light);
-  return static_cast<uint8_t>(255.0f * std::sqrt(std::clamp(noisy, 0.0f, 1.0f)) + 0.5f);
+  return static_cast<uint8_t>(255.0f * std::sqrt(std::clamp(noisy, 0.0f, 1.0f)) + kHalf);
 }
 
 // Brightness over time: the room is bright and dark by turns and the exposure control is slow.

@@ -16,7 +16,7 @@ constexpr float kOffsets[kLanes][2] = {{-0.32f, -0.14f}, {0.14f, -0.32f}, {-0.14
 // ever more is.
 constexpr float kBlind = 0.0035f, kDim = 0.0075f;
 // Depths that differ by more than this within a pixel are an edge; the sensor notices some of them.
-constexpr float kEdge_m = 0.08f;
+constexpr float kEdgeMetres = 0.08f;
 constexpr float kEdgeNoticed = 0.55f;
 
 struct Echo {
@@ -65,7 +65,7 @@ bool isMissing(const Echo &echo, float z_max, uint64_t chance) {
   const float seen = std::clamp((echo.light - kBlind * 0.5f) / (kDim - kBlind * 0.5f), 0.0f, 1.0f);
   const auto low = static_cast<uint32_t>(chance), high = static_cast<uint32_t>(chance >> 32);
   if (unitFloat(low) > seen) return true;
-  return echo.spread > kEdge_m && unitFloat(high) < kEdgeNoticed;
+  return echo.spread > kEdgeMetres && unitFloat(high) < kEdgeNoticed;
 }
 
 double measure(const sphc_simulated_config &config, const Echo &echo, uint64_t noise) {

@@ -37,14 +37,14 @@ void project(const sphc_camera &camera, double x, double y, double pixel_px[2]) 
 
 void unproject(const sphc_camera &camera, const double pixel_px[2], double xy[2]) {
   constexpr int kSteps = 12;
-  constexpr double kStep = 1e-6, kDone_px = 1e-9;
+  constexpr double kStep = 1e-6, kDonePixels = 1e-9;
   double x = (pixel_px[0] - camera.params[2]) / camera.params[0];
   double y = (pixel_px[1] - camera.params[3]) / camera.params[1];
   for (int i = 0; i < kSteps; ++i) {
     double at[2], dx[2], dy[2];
     project(camera, x, y, at);
     const double ex = pixel_px[0] - at[0], ey = pixel_px[1] - at[1];
-    if (ex * ex + ey * ey < kDone_px * kDone_px) break;
+    if (ex * ex + ey * ey < kDonePixels * kDonePixels) break;
     project(camera, x + kStep, y, dx);
     project(camera, x, y + kStep, dy);
     const double a = (dx[0] - at[0]) / kStep, b = (dy[0] - at[0]) / kStep;

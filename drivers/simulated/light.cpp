@@ -91,13 +91,16 @@ void shade(const Bvh &bvh, const RoomPlan &plan, const Shape &shape, int face, c
   float width_m = 0, height_m = 0;
   faceSize(shape, face, &width_m, &height_m);
   const int columns = 2 + static_cast<int>(width_m / kPitch), rows = 2 + static_cast<int>(height_m / kPitch);
-  std::vector<Vec3f> grid(static_cast<size_t>(columns * rows));
+  std::vector<Vec3f> grid(static_cast<size_t>(columns) * static_cast<size_t>(rows));
+  const auto cell = [columns](int i, int j) {
+    return static_cast<size_t>(j) * static_cast<size_t>(columns) + static_cast<size_t>(i);
+  };
   // A small face is lit evenly.
   const bool even = std::max(width_m, height_m) < kPitch;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       if (even && i + j > 0) {
-        grid[static_cast<size_t>(j * columns + i)] = grid[0];
+        grid[cell(i, j)] = grid[0];
         continue;
       }
       // Samples keep off the edges, where a neighbouring solid may touch the face.
@@ -105,8 +108,7 @@ void shade(const Bvh &bvh, const RoomPlan &plan, const Shape &shape, int face, c
       const float v = even ? 0.5f : 0.02f + 0.96f * static_cast<float>(j) / static_cast<float>(rows - 1);
       Vec3f unit, normal;
       facePoint(shape, face, u, v, &unit, &normal);
-      grid[static_cast<size_t>(j * columns + i)] =
-          rootLight(bvh, plan, worldPoint(shape, unit) + normal * kLift, normal);
+      grid[cell(i, j)] = rootLight(bvh, plan, worldPoint(shape, unit) + normal * kLift, normal);
     }
   }
   const float to_column = static_cast<float>(columns - 1) / static_cast<float>(texture.width);
@@ -117,7 +119,7 @@ void shade(const Bvh &bvh, const RoomPlan &plan, const Shape &shape, int face, c
     for (uint32_t x = 0; x < texture.width; ++x) {
       const float gx = (static_cast<float>(x) + 0.5f) * to_column;
       const int i = std::min(static_cast<int>(gx), columns - 2);
-      const Vec3f *g = &grid[static_cast<size_t>(j * columns + i)];
+      const Vec3f *g = &grid[cell(i, j)];
       const float fx = gx - static_cast<float>(i), fy = gy - static_cast<float>(j);
       Texel &texel = texels[static_cast<size_t>(y) * texture.width + x];
       texel = dim(texel, mixed(mixed(g[0], g[1], fx), mixed(g[columns], g[columns + 1], fx), fy));

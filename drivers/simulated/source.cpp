@@ -47,7 +47,8 @@ void Source::stop() {
 
 void Source::release(const sphc_capture &capture) {
   for (Slot &slot : slots_) {
-    if (slot.token != 0 && slot.token == capture.token) slot.token = 0;
+    // the image tells our captures from another source's with an equal token
+    if (slot.token != 0 && slot.token == capture.token && slot.bytes.get() == capture.image.data) slot.token = 0;
   }
 }
 

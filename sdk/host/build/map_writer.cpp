@@ -28,8 +28,8 @@ PackedDirection packDirection(const Vector3 &direction) {
 
 size_t alignUp(size_t offset) { return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment; }
 
-void addSection(SectionType type, const void *data, uint32_t element_bytes, size_t count, std::vector<uint8_t> *file,
-                MapSection *section) {
+void addSection(SectionType type, const void *data, uint32_t element_bytes, size_t count,
+                std::vector<uint8_t> *file, MapSection *section) {
   const size_t offset = alignUp(file->size()), bytes = element_bytes * count;
   file->resize(offset + bytes);
   std::memcpy(file->data() + offset, data, bytes);
@@ -50,7 +50,8 @@ MapId unhex(const std::string &text) {
   MapId id = {};
   if (text.size() != 2 * id.size() || text.find_first_not_of("0123456789abcdef") != std::string::npos)
     throw std::runtime_error("map_id is not 32 hexadecimal digits");
-  for (size_t i = 0; i < id.size(); ++i) id[i] = static_cast<uint8_t>(std::stoul(text.substr(2 * i, 2), nullptr, 16));
+  for (size_t i = 0; i < id.size(); ++i)
+    id[i] = static_cast<uint8_t>(std::stoul(text.substr(2 * i, 2), nullptr, 16));
   return id;
 }
 
@@ -68,7 +69,8 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
 
   MapSection sections[2];
   std::vector<uint8_t> file(sizeof(MapHeader) + sizeof sections);
-  addSection(kSectionDirections, directions.data(), sizeof(PackedDirection), directions.size(), &file, &sections[0]);
+  addSection(kSectionDirections, directions.data(), sizeof(PackedDirection), directions.size(), &file,
+             &sections[0]);
   addSection(kSectionDescriptors, descriptors.data(), sizeof(Descriptor), descriptors.size(), &file, &sections[1]);
 
   MapHeader header = {};
@@ -111,7 +113,9 @@ void writeOwnerNote(const std::string &path, const OwnerNote &note) {
 
 OwnerNote readOwnerNote(const std::string &path) {
   std::ifstream in(path);
-  if (!in) throw std::runtime_error("owner's note " + path + " cannot be read; spherecloud build writes it beside the map");
+  if (!in)
+    throw std::runtime_error("owner's note " + path +
+                             " cannot be read; spherecloud build writes it beside the map");
   try {
     const nlohmann::json json = nlohmann::json::parse(in);
     if (json.at("format") != "spherecloud-owner-note" || json.at("version") != 1)

@@ -30,10 +30,12 @@ SecretKey readSecretKey(const std::string &path) {
   std::ifstream in(path);
   std::string text;
   if (!in || !(in >> text))
-    throw std::runtime_error("key file " + path + " cannot be read; make one with: spherecloud build --new-key FILE");
+    throw std::runtime_error("key file " + path +
+                             " cannot be read; make one with: spherecloud build --new-key FILE");
   SecretKey key;
   size_t bytes = 0;
-  const bool parsed = sodium_hex2bin(key.data(), key.size(), text.data(), text.size(), nullptr, &bytes, nullptr) == 0;
+  const bool parsed =
+      sodium_hex2bin(key.data(), key.size(), text.data(), text.size(), nullptr, &bytes, nullptr) == 0;
   std::string rest;
   if (!parsed || bytes != key.size() || text.size() != 2 * key.size() || (in >> rest))
     throw std::runtime_error("key file " + path + " does not hold exactly 64 hexadecimal digits");

@@ -63,8 +63,8 @@ std::unique_ptr<FakeStrategy> gaussianFakes(double variance) {
   return std::make_unique<GaussianFakes>(variance);
 }
 
-SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options, const FakeStrategy &strategy,
-                            SecretRandom *random, Vector3 *centre_m) {
+SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options,
+                            const FakeStrategy &strategy, SecretRandom *random, Vector3 *centre_m) {
   checkModel(model, options);
   const Vector3 centre = meanOf(model.points);
 
@@ -72,7 +72,8 @@ SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &o
   points.reserve(model.points.size());
   for (const ModelPoint &point : model.points) {
     const Vector3 offset = point.position_m - centre;
-    if (offset.norm() > 1e-6) points.push_back({offset.normalized(), point.descriptor});  // at the centre: no direction
+    if (offset.norm() > 1e-6)
+      points.push_back({offset.normalized(), point.descriptor});  // at the centre: no direction
   }
   shuffle(&points, random);
   const size_t real_count =

@@ -21,7 +21,8 @@ class FakeStrategy {
   virtual ~FakeStrategy() = default;
   virtual std::string name() const = 0;
   // `count` directions from the real ones that stay.
-  virtual std::vector<Vector3> fakes(const std::vector<Vector3> &real, size_t count, SecretRandom *random) const = 0;
+  virtual std::vector<Vector3> fakes(const std::vector<Vector3> &real, size_t count,
+                                     SecretRandom *random) const = 0;
 };
 
 // Gaussian noise on the coordinates of the real directions in turn, projected back to the sphere; sigma^2 = 0.1.
@@ -37,7 +38,7 @@ struct SphereCloud {
 
 // `centre_m` receives the sphere centre in the model's world frame: for the owner, not for the map.
 // Throws std::runtime_error, with cause and cure, when the model cannot make a map.
-SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options, const FakeStrategy &strategy,
-                            SecretRandom *random, Vector3 *centre_m);
+SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options,
+                            const FakeStrategy &strategy, SecretRandom *random, Vector3 *centre_m);
 
 }  // namespace sphc::host

@@ -1,5 +1,5 @@
-// The private point model: where the map's points really are.  It exists on the owner's workstation alone; nothing in
-// host/audit/attack or on the device may see this type.
+// The private point model: where the map's points really are.  It exists on the owner's workstation alone; nothing
+// in host/audit/attack or on the device may see this type.
 #pragma once
 #include <vector>
 

@@ -11,12 +11,12 @@ namespace sphc::host {
 namespace {
 
 constexpr int kCellPx = 16;
-constexpr size_t kMostKept = 24;          // observations a track remembers
-constexpr double kScaleRatio = 1.8;       // keypoints of one point differ in metric size at most by this factor
-constexpr double kAgreement2 = 16;        // squared Mahalanobis distance of an observation that supports the mean
-constexpr double kLoneNoise = 2;          // a point seen once may scatter at most so many times the sensor's noise
-constexpr double kTwinM = 0.015;          // points so near to each other ...
-constexpr double kTwinDescriptor = 220;   // ... and so alike are one
+constexpr size_t kMostKept = 24;         // observations a track remembers
+constexpr double kScaleRatio = 1.8;      // keypoints of one point differ in metric size at most by this factor
+constexpr double kAgreement2 = 16;       // squared Mahalanobis distance of an observation that supports the mean
+constexpr double kLoneNoise = 2;         // a point seen once may scatter at most so many times the sensor's noise
+constexpr double kTwinM = 0.015;         // points so near to each other ...
+constexpr double kTwinDescriptor = 220;  // ... and so alike are one
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 int cellsAcross(int pixels) { return pixels / kCellPx + 1; }
@@ -51,7 +51,9 @@ size_t fuse(const std::vector<Observation> &observations, const Vector3 &around,
 }
 
 // May an observation be a point by itself?  Not at a depth edge, where its patch scatters.
-bool isTrustworthy(const Observation &lone) { return lone.sigma_m < kLoneNoise * kMappingNoise.sigmaAt(lone.depth_m); }
+bool isTrustworthy(const Observation &lone) {
+  return lone.sigma_m < kLoneNoise * kMappingNoise.sigmaAt(lone.depth_m);
+}
 
 // The observation whose descriptor is nearest to all others (medoid).
 const Descriptor &representative(const std::vector<Observation> &observations) {
@@ -59,7 +61,8 @@ const Descriptor &representative(const std::vector<Observation> &observations) {
   double best_sum = kInfinite;
   for (size_t i = 0; i < observations.size(); ++i) {
     double sum = 0;
-    for (const Observation &other : observations) sum += descriptorDistance(observations[i].descriptor, other.descriptor);
+    for (const Observation &other : observations)
+      sum += descriptorDistance(observations[i].descriptor, other.descriptor);
     if (sum < best_sum) best_sum = sum, best = i;
   }
   return observations[best].descriptor;
@@ -162,7 +165,8 @@ size_t PointTracks::add(const Camera &camera, const Rigid &camera_from_world,
     ++merged;
   }
   for (size_t i = 0; i < observations.size(); ++i)
-    if (!joined[i]) tracks_.push_back({observations[i].position_m, observations[i].metric_scale_m, {observations[i]}});
+    if (!joined[i])
+      tracks_.push_back({observations[i].position_m, observations[i].metric_scale_m, {observations[i]}});
   return merged;
 }
 
@@ -172,7 +176,8 @@ PointModel PointTracks::finish(size_t *dropped) const {
     ModelPoint point;
     Matrix3 information;
     point.position_m = track.position_m;
-    const size_t agreeing = fuse(track.observations, track.position_m, kAgreement2, &point.position_m, &information);
+    const size_t agreeing =
+        fuse(track.observations, track.position_m, kAgreement2, &point.position_m, &information);
     if (agreeing < options_.min_observations) continue;
     if (agreeing == 1 && !isTrustworthy(track.observations[0])) continue;
     point.descriptor = representative(track.observations);

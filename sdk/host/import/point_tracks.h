@@ -15,8 +15,8 @@ constexpr DepthSensor kMappingNoise = {0, 0, 0, 0.004, 0.002};
 
 // A keypoint of one mapping frame, lifted and placed in the world.
 struct Observation {
-  Vector3 position_m;     // world
-  Matrix3 information;    // inverse covariance of position_m, world axes
+  Vector3 position_m;   // world
+  Matrix3 information;  // inverse covariance of position_m, world axes
   Vector2 pixel_px;
   double depth_m;
   double sigma_m;         // along the view
@@ -28,8 +28,8 @@ class PointTracks {
  public:
   explicit PointTracks(const RgbdImportOptions &options) : options_(options) {}
 
-  // Joins a frame's observations to the points they reproject onto and resemble, and makes new points of the others.
-  // Returns how many joined.
+  // Joins a frame's observations to the points they reproject onto and resemble, and makes new points of the
+  // others. Returns how many joined.
   size_t add(const Camera &camera, const Rigid &camera_from_world, const std::vector<Observation> &observations);
   // Robust positions, representative descriptors; points with too few agreeing observations are left out.
   PointModel finish(size_t *dropped) const;

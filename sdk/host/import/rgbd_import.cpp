@@ -28,8 +28,8 @@ class FrameDescriber {
     Arena state(aligned(state_)), scratch(aligned(scratch_));
     FeatureExtractor::layout(config, state, scratch, &extractor_);
     extractor_.init();
-    const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m, kMappingNoise.sigma_m,
-                                kMappingNoise.sigma_per_m2};
+    const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m,
+                                kMappingNoise.sigma_m, kMappingNoise.sigma_per_m2};
     aligner_ = SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromDoor(calibration.color_from_depth),
                              sensor);
     gray_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));
@@ -40,14 +40,13 @@ class FrameDescriber {
   const Camera &camera() const { return camera_; }
 
   std::vector<Observation> describe(const sphc_frame &frame, const Rigid &world_from_camera, uint32_t *keypoints) {
-    bgrToGray(static_cast<const uint8_t *>(frame.color.data), static_cast<int32_t>(frame.color.stride_bytes), width_,
-              height_, gray_.data(), width_);
+    bgrToGray(static_cast<const uint8_t *>(frame.color.data), static_cast<int32_t>(frame.color.stride_bytes),
+              width_, height_, gray_.data(), width_);
     *keypoints = extractor_.extract({gray_.data(), width_, height_, width_}, {keypoints_.data(), keypoints_.size()},
                                     {descriptors_.data(), descriptors_.size()});
-    const ImageView<uint16_t> depth = {static_cast<const uint16_t *>(frame.depth.data),
-                                       static_cast<int32_t>(frame.depth.width),
-                                       static_cast<int32_t>(frame.depth.height),
-                                       static_cast<int32_t>(frame.depth.stride_bytes / 2)};
+    const ImageView<uint16_t> depth = {
+        static_cast<const uint16_t *>(frame.depth.data), static_cast<int32_t>(frame.depth.width),
+        static_cast<int32_t>(frame.depth.height), static_cast<int32_t>(frame.depth.stride_bytes / 2)};
     std::vector<Observation> observations;
     for (uint32_t i = 0; i < *keypoints; ++i) {
       const Vector2 pixel(static_cast<double>(keypoints_[i].x_px), static_cast<double>(keypoints_[i].y_px));
@@ -127,8 +126,9 @@ PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, con
     if (progress) progress(i + 1, total);
   }
   if (!summary->frames_used)
-    throw std::runtime_error("no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
-                             "groundtruth.txt)");
+    throw std::runtime_error(
+        "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
+        "groundtruth.txt)");
   size_t dropped = 0;
   PointModel model = tracks.finish(&dropped);
   summary->points_kept = static_cast<uint32_t>(model.points.size());

@@ -11,10 +11,10 @@
 namespace sphc::host {
 
 struct RgbdImportOptions {
-  uint32_t max_keypoints = 1200;    // of a frame
-  uint32_t min_observations = 1;    // frames that must agree on a point; 2 halves the map and costs recall
+  uint32_t max_keypoints = 1200;  // of a frame
+  uint32_t min_observations = 1;  // frames that must agree on a point; 2 halves the map and costs recall
   double depth_min_m = 0.3, depth_max_m = 6.0;
-  double merge_pixels = 4;          // an observation joins a point that reprojects within this
+  double merge_pixels = 4;               // an observation joins a point that reprojects within this
   double max_descriptor_distance = 260;  // and whose descriptor is within this (L2 of bytes)
 };
 
@@ -27,8 +27,8 @@ struct RgbdImportSummary {
 // Told after each frame; may be empty.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
-// All frames of `replay` that have a pose take part.  Throws std::runtime_error, with cause and cure, when no map can
-// come of it.
+// All frames of `replay` that have a pose take part.  Throws std::runtime_error, with cause and cure, when no map
+// can come of it.
 PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, const Progress &progress,
                       RgbdImportSummary *summary);
 

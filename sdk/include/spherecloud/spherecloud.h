@@ -18,18 +18,15 @@
  *   Frames     `target_from_source` everywhere: x_target = R(q) x_source + t.  Camera axes are OpenCV's: x right,
  *              y down, z forward.  The map frame has its origin at the sphere centre.
  *   Units      metres, nanoseconds, radians and pixels; the name says which (`_m`, `_ns`, `_rad`, `_px`).
- *   Pixels     the centre of the top-left pixel is (0.5, 0.5), as in COLMAP.  OpenCV calls the same point (0, 0): add 0.5
- *              to an OpenCV principal point.
- *   Memory     "borrows": reads only until the call returns unless a longer time is stated.  "caller memory": the
- *              library never resizes, frees or copies it away.  No function of this header allocates.
- *   Failure    status < 0: outputs are untouched, except a message that explains.
- *   Structs    those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do).
- *              Atoms (sphc_rigid, sphc_camera, sphc_image) never change.
- *   Threads    the class stands in brackets behind every function:
- *              [pure]      touches no instance but those being made; any thread, any time
- *              [shared]    may run at the same time on one instance
- *              [exclusive] one call at a time per instance
- *              The library starts no thread, takes no lock, and has no mutable global of its own.
+ *   Pixels     the centre of the top-left pixel is (0.5, 0.5), as in COLMAP.  OpenCV calls the same point (0, 0):
+ * add 0.5 to an OpenCV principal point. Memory     "borrows": reads only until the call returns unless a longer
+ * time is stated.  "caller memory": the library never resizes, frees or copies it away.  No function of this header
+ * allocates. Failure    status < 0: outputs are untouched, except a message that explains. Structs    those that
+ * begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do). Atoms (sphc_rigid,
+ * sphc_camera, sphc_image) never change. Threads    the class stands in brackets behind every function: [pure]
+ * touches no instance but those being made; any thread, any time [shared]    may run at the same time on one
+ * instance [exclusive] one call at a time per instance The library starts no thread, takes no lock, and has no
+ * mutable global of its own.
  */
 #ifndef SPHERECLOUD_SPHERECLOUD_H
 #define SPHERECLOUD_SPHERECLOUD_H
@@ -55,19 +52,20 @@
 extern "C" {
 #endif
 
-/* ---- version ---------------------------------------------------------------------------------------------- */
+/* ---- version ---- */
 
 #define SPHC_VERSION_MAJOR 0
 #define SPHC_VERSION_MINOR 1
 #define SPHC_VERSION_PATCH 0
-#define SPHC_ABI 0u /* raised only when an existing symbol or the prefix of a struct changes; 0 promises nothing yet */
+#define SPHC_ABI \
+  0u /* raised only when an existing symbol or the prefix of a struct changes; 0 promises nothing yet */
 
 /* ABI the library was built with; compare with SPHC_ABI before anything else. [pure] */
 SPHC_API uint32_t sphc_abi(void);
 /* "major.minor.patch"; static storage. [pure] */
 SPHC_API const char *sphc_version_string(void);
 
-/* ---- status and message ------------------------------------------------------------------------------------ */
+/* ---- status and message ---- */
 
 /* 0: done.  > 0: an answer that is not a failure, outputs as documented.  < 0: failure, outputs untouched.
  * Values are pinned: never renumbered, never reused. */
@@ -109,13 +107,13 @@ typedef struct sphc_message {
   char text[SPHC_MESSAGE_BYTES];
 } sphc_message;
 
-/* ---- atoms: frozen layouts --------------------------------------------------------------------------------- */
+/* ---- atoms: frozen layouts ---- */
 
 typedef int32_t sphc_format;
 enum {
-  SPHC_FORMAT_GRAY8 = 1, /* 1 byte a pixel */
-  SPHC_FORMAT_RGB8 = 2,  /* 3 bytes a pixel: red, green, blue */
-  SPHC_FORMAT_BGR8 = 3,  /* 3 bytes a pixel: blue, green, red */
+  SPHC_FORMAT_GRAY8 = 1,   /* 1 byte a pixel */
+  SPHC_FORMAT_RGB8 = 2,    /* 3 bytes a pixel: red, green, blue */
+  SPHC_FORMAT_BGR8 = 3,    /* 3 bytes a pixel: blue, green, red */
   SPHC_FORMAT_DEPTH16 = 10 /* uint16, native byte order; metres per unit stand in the config; 0 = no measurement */
 };
 
@@ -148,7 +146,7 @@ typedef struct sphc_image {
   sphc_format format;
 } sphc_image;
 
-/* ---- camera and rigid transform functions ------------------------------------------------------------------- */
+/* ---- camera and rigid transform functions ---- */
 
 /* SPHC_OK if the camera can be used: known model, right param_count, finite parameters, fx and fy > 0, size within
  * 16 to 8192 pixels.  Else SPHC_E_ARGUMENT. [pure] */
@@ -166,7 +164,7 @@ SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_
 /* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
 SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
 
-/* ---- frame --------------------------------------------------------------------------------------------------- */
+/* ---- frame ---- */
 
 /* A colour and a depth image taken at about the same time; everything is borrowed. */
 typedef struct sphc_frame {
@@ -178,7 +176,7 @@ typedef struct sphc_frame {
   sphc_image depth; /* DEPTH16; the size in config.depth_camera */
 } sphc_frame;
 
-/* ---- map: an immutable view of borrowed bytes ------------------------------------------------------------------ */
+/* ---- map: an immutable view of borrowed bytes ---- */
 
 typedef struct sphc_map sphc_map;
 
@@ -194,8 +192,10 @@ typedef struct sphc_map_info {
 /* Bytes and alignment that sphc_map_init needs for its view (not for the file). [pure] */
 SPHC_API sphc_status sphc_map_memory(size_t *bytes, size_t *alignment);
 /* Validates the whole file (structure, checksums, every direction) and makes a view of it in caller memory.
- * `file` is borrowed until sphc_map_fini and must not change; 8-byte aligned.  Reads each byte once: about 1 ms a MB.
- * Errors: MEMORY_SIZE, MEMORY_ALIGNMENT, MAP_FORMAT, MAP_VERSION, MAP_CHECKSUM, MAP_EXTRACTOR, ARGUMENT. [pure] */
+ * `file` is borrowed until sphc_map_fini and must not change; 8-byte aligned.  Reads each byte once: about 1 ms a
+ * MB.  Errors: MEMORY_SIZE, MEMORY_ALIGNMENT, MAP_FORMAT, MAP_VERSION, MAP_CHECKSUM, MAP_EXTRACTOR, ARGUMENT.
+ * [pure]
+ */
 SPHC_API sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, size_t file_bytes,
                                    sphc_map **map, sphc_message *message);
 /* Set info->struct_size first. [shared] */
@@ -205,7 +205,7 @@ SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, dou
 /* Ends the view; accepts null and pointer to null; sets *map to null; frees nothing. [exclusive] */
 SPHC_API void sphc_map_fini(sphc_map **map);
 
-/* ---- localizer --------------------------------------------------------------------------------------------------- */
+/* ---- localizer ---- */
 
 typedef int32_t sphc_log_level;
 enum { SPHC_LOG_ERROR = 1, SPHC_LOG_WARNING = 2, SPHC_LOG_INFO = 3, SPHC_LOG_DEBUG = 4 };
@@ -218,17 +218,17 @@ typedef struct sphc_config {
   uint32_t struct_size;
   uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
   uint32_t max_iterations; /* upper bound on minimal samples drawn; bounds the time of a call; 1 to 1000000 */
-  float max_ratio;         /* Lowe's ratio test, on distances; 0 to 1 */
+  float max_ratio;         /* Lowe's ratio test, on distances; 0.1 to 1 */
   uint64_t seed;           /* same seed, map, config and frame: same bytes in the result */
 
   sphc_camera color_camera;
   sphc_camera depth_camera;
   sphc_rigid color_from_depth; /* identity with equal cameras: depth is already registered to colour */
 
-  double depth_unit_m;            /* metres per unit of the depth image */
+  double depth_unit_m;             /* metres per unit of the depth image */
   double depth_min_m, depth_max_m; /* measurements outside are ignored */
-  double depth_sigma_m;           /* noise (1 sigma) of the sensor at 1 m: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2 */
-  double depth_sigma_per_m2;
+  /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
+  double depth_sigma_m, depth_sigma_per_m2;
   double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
   double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
 
@@ -256,20 +256,20 @@ typedef struct sphc_result {
   uint32_t sequence; /* of the frame */
   int64_t time_ns;   /* frame.color_time_ns */
   sphc_outcome outcome;
-  uint32_t keypoints; /* found in the colour image */
-  uint32_t lifted;    /* of these, with depth */
-  uint32_t matches;   /* of these, with a map point that passed the ratio test */
-  uint32_t inliers;   /* of these, agreeing with the pose */
-  uint32_t iterations; /* minimal samples drawn */
+  uint32_t keypoints;         /* found in the colour image */
+  uint32_t lifted;            /* of these, with depth */
+  uint32_t matches;           /* of these, with a map point that passed the ratio test */
+  uint32_t inliers;           /* of these, agreeing with the pose */
+  uint32_t iterations;        /* minimal samples drawn */
   sphc_rigid camera_from_map; /* valid when outcome is LOCALIZED, else identity */
-  /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a perturbation
-   * applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
+  /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
+   * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
 } sphc_result;
 
-/* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero and must be
- * set.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
+/* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero and must
+ * be set.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
 SPHC_API sphc_status sphc_config_init(sphc_config *config, size_t struct_size);
 
 typedef struct sphc_memory {
@@ -289,7 +289,8 @@ typedef struct sphc_memory_piece {
   uint32_t scratch; /* 1: in scratch, 0: in state */
   uint32_t reserved;
 } sphc_memory_piece;
-SPHC_API sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t index, sphc_memory_piece *piece);
+SPHC_API sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t index,
+                                                 sphc_memory_piece *piece);
 
 typedef struct sphc_localizer sphc_localizer;
 
@@ -305,10 +306,11 @@ SPHC_API void sphc_localizer_fini(sphc_localizer **localizer);
  * SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT, STRUCT_SIZE,
  * IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame.
  * Bounded time, no allocation, no OS call. [exclusive] */
-SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame, sphc_result *result);
+SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame,
+                                            sphc_result *result);
 
-/* Text about the last failure of sphc_localizer_process on this instance, "" if it did not fail; owned by the instance,
- * valid until its next call. [exclusive] */
+/* Text about the last failure of sphc_localizer_process on this instance, "" if it did not fail; owned by the
+ * instance, valid until its next call. [exclusive] */
 SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
 
 /* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
@@ -325,7 +327,7 @@ typedef struct sphc_observation {
 SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
                                                  uint32_t capacity, uint32_t *count);
 
-/* ---- source: the contract that a driver fills; polled, never called back ------------------------------------------ */
+/* ---- source: the contract that a driver fills; polled, never called back ---- */
 
 typedef int32_t sphc_stream;
 enum { SPHC_STREAM_NONE = 0, SPHC_STREAM_COLOR = 1, SPHC_STREAM_DEPTH = 2 };
@@ -341,16 +343,17 @@ typedef struct sphc_capture {
   sphc_image image; /* valid until release */
 } sphc_capture;
 
-/* Filled by a driver; the functions take its `self`.  States: stopped (after opening) -> start -> running -> stop ->
- * stopped, any number of times.  All [exclusive] per source. */
+/* Filled by a driver; the functions take its `self`.  States: stopped (after opening) -> start -> running -> stop
+ * -> stopped, any number of times.  All [exclusive] per source. */
 typedef struct sphc_source {
   uint32_t struct_size;
   uint32_t loan_limit; /* captures that may be out on loan at once; acquire beyond it is SPHC_E_STATE */
   void *self;
   /* SPHC_E_STATE when running already. */
   sphc_status (*start)(void *self);
-  /* Next capture in order of time.  SPHC_AGAIN: none within timeout_us.  SPHC_END: a recording is over.
-   * SPHC_E_DEVICE_LOST: unplugged.  SPHC_E_STATE: not running, or loan_limit reached. */
+  /* Next capture in order of time; the caller sets capture->struct_size before.  SPHC_AGAIN: none within
+   * timeout_us.  SPHC_END: a recording is over. SPHC_E_DEVICE_LOST: unplugged.  SPHC_E_STATE: not running, or
+   * loan_limit reached. */
   sphc_status (*acquire)(void *self, uint32_t timeout_us, sphc_capture *capture);
   /* Every acquired capture exactly once, before stop; one that is not on loan is ignored. */
   void (*release)(void *self, const sphc_capture *capture);
@@ -360,7 +363,7 @@ typedef struct sphc_source {
   const char *(*message)(const void *self);
 } sphc_source;
 
-/* ---- pairer: two streams in, frames of colour and depth out; pure, no device ---------------------------------------- */
+/* ---- pairer: two streams in, frames of colour and depth out; pure, no device ---- */
 
 #define SPHC_PAIRER_SLOTS 8u /* captures of each stream it can hold */
 
@@ -370,7 +373,8 @@ typedef struct sphc_pairer_config {
   int64_t tolerance_ns; /* pair only when the mid-exposure times differ by at most this */
 } sphc_pairer_config;
 
-/* A time-matched pair.  Both captures are out on loan to the caller, who releases them to their source after use. */
+/* A time-matched pair.  Both captures are out on loan to the caller, who releases them to their source after use.
+ */
 typedef struct sphc_pair {
   uint32_t struct_size;
   uint32_t reserved;
@@ -386,12 +390,12 @@ SPHC_API sphc_status sphc_pairer_memory(size_t *bytes, size_t *alignment); /* [p
 SPHC_API sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const sphc_pairer_config *config,
                                       sphc_pairer **pairer, sphc_message *message);
 SPHC_API void sphc_pairer_fini(sphc_pairer **pairer); /* [exclusive] */
-/* Gives the pairer one capture (a copy; the loan goes with it).  Call sphc_pairer_pop until SPHC_AGAIN after each push.
- * SPHC_E_CAPACITY: its stream's slots are full; pop first (drops come out there). [exclusive] */
+/* Gives the pairer one capture (a copy; the loan goes with it).  Call sphc_pairer_pop until SPHC_AGAIN after each
+ * push. SPHC_E_CAPACITY: its stream's slots are full; pop first (drops come out there). [exclusive] */
 SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture);
-/* SPHC_OK: *pair is the oldest pair, and *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing more
- * until the next push.  SPHC_AGAIN with another dropped->stream: a capture that can no longer find a partner is handed
- * back for release; call again. [exclusive] */
+/* SPHC_OK: *pair is the oldest pair, and *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing
+ * more until the next push.  SPHC_AGAIN with another dropped->stream: a capture that can no longer find a partner
+ * is handed back for release; call again. [exclusive] */
 SPHC_API sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_pair *pair, sphc_capture *dropped);
 /* Ends the input: every capture still held comes out of sphc_pairer_pop as a pair or a drop. [exclusive] */
 SPHC_API void sphc_pairer_flush(sphc_pairer *pairer);

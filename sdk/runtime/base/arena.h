@@ -1,7 +1,8 @@
 // One layout walk for both questions: "how many bytes?" and "where does each array lie?".
 //
-// A module describes its memory once, in a function that takes an Arena.  Run over an arena without memory it only adds
-// up; run over one with memory it hands out the arrays.  The two cannot disagree, because they are the same walk.
+// A module describes its memory once, in a function that takes an Arena.  Run over an arena without memory it only
+// adds up; run over one with memory it hands out the arrays.  The two cannot disagree, because they are the same
+// walk.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -30,11 +30,15 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
 
 uint32_t bytesPerPixel(sphc_format format) {
   switch (format) {
-    case SPHC_FORMAT_GRAY8: return 1;
+    case SPHC_FORMAT_GRAY8:
+      return 1;
     case SPHC_FORMAT_RGB8:
-    case SPHC_FORMAT_BGR8: return 3;
-    case SPHC_FORMAT_DEPTH16: return 2;
-    default: return 0;
+    case SPHC_FORMAT_BGR8:
+      return 3;
+    case SPHC_FORMAT_DEPTH16:
+      return 2;
+    default:
+      return 0;
   }
 }
 
@@ -47,8 +51,9 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
     return SPHC_E_IMAGE;
   }
   if (image.width != camera.width || image.height != camera.height) {
-    MessageWriter(message) << name << " image is " << image.width << " x " << image.height << ", its camera in the config "
-                           << camera.width << " x " << camera.height << "; scale neither, give the calibrated size";
+    MessageWriter(message) << name << " image is " << image.width << " x " << image.height
+                           << ", its camera in the config " << camera.width << " x " << camera.height
+                           << "; scale neither, give the calibrated size";
     return SPHC_E_IMAGE;
   }
   const uint64_t row = uint64_t{image.width} * pixel;
@@ -88,8 +93,9 @@ sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_messag
     return SPHC_E_ARGUMENT;
   }
   if (!isValidRigid(copy->color_from_depth)) {
-    MessageWriter(message) << "config.color_from_depth is not a rigid transform: its quaternion must have unit length "
-                              "and all numbers must be finite";
+    MessageWriter(message)
+        << "config.color_from_depth is not a rigid transform: its quaternion must have unit length "
+           "and all numbers must be finite";
     return SPHC_E_ARGUMENT;
   }
   return checkNumbers(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;

@@ -128,8 +128,8 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *
   const sphc_status status = sphc::checkFrame(frame, localizer->localizer.config(), &localizer->message);
   if (status != SPHC_OK) return status;
   if (!result || result->struct_size != sizeof(sphc_result)) {
-    sphc::MessageWriter(&localizer->message) << (result ? "set result.struct_size to sizeof(sphc_result) first"
-                                                        : "result is null");
+    sphc::MessageWriter(&localizer->message)
+        << (result ? "set result.struct_size to sizeof(sphc_result) first" : "result is null");
     return result ? SPHC_E_STRUCT_SIZE : SPHC_E_ARGUMENT;
   }
   clear(result, *frame);

@@ -10,11 +10,16 @@ constexpr int kDomainSteps = 512;
 
 uint32_t paramCount(sphc_camera_model model) {
   switch (model) {
-    case SPHC_CAMERA_PINHOLE: return 4;
-    case SPHC_CAMERA_BROWN5: return 9;
-    case SPHC_CAMERA_BROWN8: return 12;
-    case SPHC_CAMERA_KANNALA_BRANDT4: return 8;
-    default: return 0;
+    case SPHC_CAMERA_PINHOLE:
+      return 4;
+    case SPHC_CAMERA_BROWN5:
+      return 9;
+    case SPHC_CAMERA_BROWN8:
+      return 12;
+    case SPHC_CAMERA_KANNALA_BRANDT4:
+      return 8;
+    default:
+      return 0;
   }
 }
 

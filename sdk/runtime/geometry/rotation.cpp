@@ -19,11 +19,11 @@ void quaternionFromRotation(const Matrix3 &r, double q_wxyz[4]) {
   int largest = 0;
   for (int i = 1; i < 4; ++i)
     if (squares[i] > squares[largest]) largest = i;
-  const double product[4][4] = {  // 4 q_i q_j
-      {squares[0], r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)},
-      {r(2, 1) - r(1, 2), squares[1], r(1, 0) + r(0, 1), r(0, 2) + r(2, 0)},
-      {r(0, 2) - r(2, 0), r(1, 0) + r(0, 1), squares[2], r(2, 1) + r(1, 2)},
-      {r(1, 0) - r(0, 1), r(0, 2) + r(2, 0), r(2, 1) + r(1, 2), squares[3]}};
+  const double product[4][4] = {// 4 q_i q_j
+                                {squares[0], r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)},
+                                {r(2, 1) - r(1, 2), squares[1], r(1, 0) + r(0, 1), r(0, 2) + r(2, 0)},
+                                {r(0, 2) - r(2, 0), r(1, 0) + r(0, 1), squares[2], r(2, 1) + r(1, 2)},
+                                {r(1, 0) - r(0, 1), r(0, 2) + r(2, 0), r(2, 1) + r(1, 2), squares[3]}};
   double norm = 0;
   for (int i = 0; i < 4; ++i) norm += product[largest][i] * product[largest][i];
   const double scale = (product[largest][0] < 0 ? -1 : 1) / sqrtOf(norm);

@@ -4,7 +4,7 @@ namespace sphc {
 namespace {
 
 constexpr double kMostLogChance = -12;          // wrong poses on foreign maps were never seen below -6
-constexpr double kMostRotationSigma = 0.035;     // rad
+constexpr double kMostRotationSigma = 0.035;    // rad
 constexpr double kMostTranslationSigma = 0.06;  // m
 
 // Chernoff's bound on log P(at least `successes` of `trials`); for unequal chances too, given their mean.
@@ -18,7 +18,8 @@ double logTail(double successes, double trials, double mean_chance) {
 }
 
 // Share of the solid angle that the inlier region covers, seen from the sphere centre.
-double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double threshold2, double solid_angle_sr) {
+double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double threshold2,
+                   double solid_angle_sr) {
   const Vector3 offset = c.lifted.point_m - camera_from_map.translation_m;
   const double distance2 = offset.squaredNorm();
   const double along_view = offset.dot(c.lifted.point_m.normalized());
@@ -31,8 +32,8 @@ double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double
 
 }  // namespace
 
-double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map, uint32_t inliers,
-                            uint32_t free, double inlier_threshold2, double solid_angle_sr) {
+double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
+                            uint32_t inliers, uint32_t free, double inlier_threshold2, double solid_angle_sr) {
   if (inliers <= free) return 0;
   double sum = 0;
   for (const Correspondence &c : correspondences)

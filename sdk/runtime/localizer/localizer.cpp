@@ -88,7 +88,8 @@ void Localizer::extract(const sphc_image &color) {
 
 void Localizer::lift(const sphc_image &depth) {
   const ImageView<uint16_t> view = {static_cast<const uint16_t *>(depth.data), static_cast<int32_t>(depth.width),
-                                    static_cast<int32_t>(depth.height), static_cast<int32_t>(depth.stride_bytes / 2)};
+                                    static_cast<int32_t>(depth.height),
+                                    static_cast<int32_t>(depth.stride_bytes / 2)};
   const double focal = 0.5 * (config_.color_camera.params[0] + config_.color_camera.params[1]);
   lifted_count_ = 0;
   observation_count_ = keypoint_count_;
@@ -100,7 +101,8 @@ void Localizer::lift(const sphc_image &depth) {
     if (!aligner_.lift(view, {keypoint.x_px, keypoint.y_px}, &lifted.point_m, &sigma_z)) continue;
     const double z = lifted.point_m.z();
     // coarser keypoints are placed less exactly
-    const double pixel = config_.pixel_sigma_px * (keypoint.scale_px > 2 ? 0.5 * static_cast<double>(keypoint.scale_px) : 1.0);
+    const double pixel =
+        config_.pixel_sigma_px * (keypoint.scale_px > 2 ? 0.5 * static_cast<double>(keypoint.scale_px) : 1.0);
     const double across = pixel * z / focal;
     lifted.sideways_m = sqrtOf(across * across + config_.map_sigma_m * config_.map_sigma_m);
     const double along = sigma_z * lifted.point_m.norm() / z;
@@ -118,7 +120,8 @@ void Localizer::correspond(uint32_t match_count) {
   match_count_ = match_count;
   for (uint32_t i = 0; i < match_count; ++i) {
     const Direction d = map_.direction(matches_[i].map_index);
-    correspondences_[i] = {lifted_[matches_[i].query], Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z))};
+    correspondences_[i] = {lifted_[matches_[i].query],
+                           Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z))};
   }
 }
 
@@ -142,8 +145,8 @@ void Localizer::search(sphc_result *result) {
   result->pose_us = static_cast<uint32_t>((now() - matched) / 1000);
 }
 
-// A pose says where in the map each keypoint lies: look there again.  True points that lost the ratio test against some
-// distant twin come back, and fakes, which lie anywhere, drop out.
+// A pose says where in the map each keypoint lies: look there again.  True points that lost the ratio test against
+// some distant twin come back, and fakes, which lie anywhere, drop out.
 void Localizer::improve(Estimate *estimate, sphc_result *result) {
   Evidence evidence = {};
   evidence.log_chance_first = logChanceOfAgreement(correspondences_.first(match_count_), estimate->camera_from_map,
@@ -188,7 +191,8 @@ void Localizer::recordMatches() {
 void Localizer::fill(const Estimate &estimate, sphc_result *result) const {
   result->camera_from_map = doorFromRigid(estimate.camera_from_map);
   for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column) result->covariance[6 * row + column] = estimate.covariance(row, column);
+    for (int column = 0; column < 6; ++column)
+      result->covariance[6 * row + column] = estimate.covariance(row, column);
 }
 
 void Localizer::log(const sphc_result &result) const {

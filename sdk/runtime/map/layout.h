@@ -5,7 +5,8 @@
 
 namespace sphc {
 
-constexpr uint8_t kMapMagic[8] = {0x89, 'S', 'P', 'H', 'C', '\r', '\n', 0x1A};  // as PNG: text modes break it visibly
+constexpr uint8_t kMapMagic[8] = {0x89, 'S',  'P',  'H',
+                                  'C',  '\r', '\n', 0x1A};  // as PNG: text modes break it visibly
 constexpr uint32_t kMapVersion = 1;
 constexpr uint32_t kMapMinPoints = 16, kMapMaxPoints = 1u << 24;
 constexpr size_t kSectionAlignment = 64;

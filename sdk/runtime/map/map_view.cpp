@@ -64,7 +64,8 @@ class Validator {
                                      << static_cast<uint64_t>(bytes_) << " were given" << kRebuild;
     if (header().section_count < 2 || header().section_count > kMaxSections ||
         sizeof(MapHeader) + sizeof(MapSection) * header().section_count > bytes_)
-      return fail(SPHC_E_MAP_FORMAT) << "map has an impossible section count " << header().section_count << kRebuild;
+      return fail(SPHC_E_MAP_FORMAT) << "map has an impossible section count " << header().section_count
+                                     << kRebuild;
     return SPHC_OK;
   }
 
@@ -85,9 +86,9 @@ class Validator {
 
   sphc_status checkExtractor(uint32_t extractor) const {
     if (header().extractor != extractor)
-      return fail(SPHC_E_MAP_EXTRACTOR) << "map was described by extractor " << header().extractor
-                                        << ", this library has " << extractor
-                                        << "; rebuild the map with this version's builder";
+      return fail(SPHC_E_MAP_EXTRACTOR)
+             << "map was described by extractor " << header().extractor << ", this library has " << extractor
+             << "; rebuild the map with this version's builder";
     return SPHC_OK;
   }
 

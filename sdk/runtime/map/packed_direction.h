@@ -10,7 +10,8 @@ struct Direction {
 };
 
 inline Direction unpackDirection(PackedDirection packed) {
-  const float u = static_cast<float>(packed.u - 32768) / 32767.0f, v = static_cast<float>(packed.v - 32768) / 32767.0f;
+  const float u = static_cast<float>(packed.u - 32768) / 32767.0f,
+              v = static_cast<float>(packed.v - 32768) / 32767.0f;
   Direction d = {u, v, 1.0f - absOf(u) - absOf(v)};
   if (d.z < 0.0f) {  // the lower half is folded outwards
     d.x = (1.0f - absOf(v)) * (u < 0.0f ? -1.0f : 1.0f);

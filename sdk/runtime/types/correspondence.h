@@ -8,9 +8,9 @@ namespace sphc {
 
 // A keypoint lifted by depth into camera coordinates, with what is known of its error.
 struct LiftedPoint {
-  Vector3 point_m;     // camera frame
-  double sideways_m;   // 1 sigma across the viewing ray: pixel noise at this depth, and the map's own error
-  double along_m;      // 1 sigma along the viewing ray: depth noise
+  Vector3 point_m;    // camera frame
+  double sideways_m;  // 1 sigma across the viewing ray: pixel noise at this depth, and the map's own error
+  double along_m;     // 1 sigma along the viewing ray: depth noise
 };
 
 struct Correspondence {

@@ -6,10 +6,10 @@
 namespace sphc {
 
 struct Keypoint {
-  float x_px, y_px;      // centre of the top-left pixel is (0.5, 0.5)
-  float scale_px;        // standard deviation of the Gaussian at which it was found
-  float orientation_rad; // of the dominant gradient, image axes (x right, y down)
-  float response;        // |difference of Gaussians| at the refined extremum, grey levels in [0, 1]
+  float x_px, y_px;       // centre of the top-left pixel is (0.5, 0.5)
+  float scale_px;         // standard deviation of the Gaussian at which it was found
+  float orientation_rad;  // of the dominant gradient, image axes (x right, y down)
+  float response;         // |difference of Gaussians| at the refined extremum, grey levels in [0, 1]
 };
 
 constexpr size_t kDescriptorBytes = 128;

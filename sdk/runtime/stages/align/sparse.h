@@ -13,8 +13,8 @@ class SparseAligner {
   SparseAligner() = default;
   SparseAligner(const Camera &color, const Camera &depth, const Rigid &color_from_depth, const DepthSensor &sensor);
 
-  // Point seen at a colour pixel, in the colour camera's frame, and 1 sigma of its z; false where the depth camera has
-  // no answer: a hole, out of its view, or hidden from it behind something nearer.
+  // Point seen at a colour pixel, in the colour camera's frame, and 1 sigma of its z; false where the depth camera
+  // has no answer: a hole, out of its view, or hidden from it behind something nearer.
   bool lift(ImageView<uint16_t> depth, const Vector2 &color_pixel_px, Vector3 *point_m, double *sigma_m) const;
 
  private:

@@ -18,6 +18,26 @@ bool passesRatio(const NearestTwo &nearest, float max_ratio) {
          static_cast<double>(max_ratio) * static_cast<double>(max_ratio) * static_cast<double>(nearest.second2);
 }
 
+// A cone around all expected directions, widened by the cap: map points outside it are nobody's candidates.
+struct Cone {
+  Direction axis;
+  float cosine;
+};
+
+Cone coneAround(Span<const Direction> directions, float cap_cosine) {
+  Direction sum = {0.0f, 0.0f, 0.0f};
+  for (const Direction &d : directions) sum = {sum.x + d.x, sum.y + d.y, sum.z + d.z};
+  const float length = sqrtOf(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
+  if (!(length > 0.0f)) return {{0.0f, 0.0f, 1.0f}, -2.0f};
+  const Direction axis = {sum.x / length, sum.y / length, sum.z / length};
+  float widest = 1.0f;
+  for (const Direction &d : directions) widest = std::min(widest, axis.x * d.x + axis.y * d.y + axis.z * d.z);
+  // cos(a + b); a sum beyond 180 degrees takes everything in
+  const float sines = sqrtOf(std::max(0.0f, (1.0f - widest * widest) * (1.0f - cap_cosine * cap_cosine)));
+  const float cosine = widest <= -cap_cosine ? -2.0f : widest * cap_cosine - sines;
+  return {axis, cosine - 1e-5f};
+}
+
 }  // namespace
 
 void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
@@ -52,8 +72,10 @@ uint32_t Matcher::matchNear(const MapView &map, Span<const Descriptor> queries, 
     expected_z_[q] = expected[q].z;
   }
   const float *ex = expected_x_.data(), *ey = expected_y_.data(), *ez = expected_z_.data();
+  const Cone cone = coneAround(expected, max_angle_cosine);
   for (uint32_t i = 0; i < map.pointCount(); ++i) {
     const Direction d = map.direction(i);
+    if (d.x * cone.axis.x + d.y * cone.axis.y + d.z * cone.axis.z < cone.cosine) continue;
     for (uint32_t q = 0; q < count; ++q)
       if (d.x * ex[q] + d.y * ey[q] + d.z * ez[q] > max_angle_cosine)
         nearest_[q].see(distance2(map.descriptors()[i], queries[q]), i);

@@ -1,5 +1,5 @@
-// Matches query descriptors to map points: over the whole map, or, once a pose is roughly known, only to points in the
-// direction where the pose expects them.
+// Matches query descriptors to map points: over the whole map, or, once a pose is roughly known, only to points in
+// the direction where the pose expects them.
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/map/map_view.h"
@@ -12,8 +12,8 @@ class Matcher {
  public:
   static void layout(uint32_t max_queries, Arena &scratch, Matcher *matcher);
 
-  // Exact nearest neighbours over the whole map, Lowe's ratio test (on distances), and at most one query for each map
-  // point.  Writes to `matches` (room for every query), best ratio first; returns how many.
+  // Exact nearest neighbours over the whole map, Lowe's ratio test (on distances), and at most one query for each
+  // map point.  Writes to `matches` (room for every query), best ratio first; returns how many.
   uint32_t matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio, Span<Match> matches);
 
   // The same among map points within `max_angle_cosine` of each query's expected direction (unit, map frame).

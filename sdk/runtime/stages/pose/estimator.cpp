@@ -33,7 +33,8 @@ bool PoseEstimator::isInlier(const Correspondence &correspondence, const Rigid &
   return r.in_front && r.squared < config_.inlier_threshold2;
 }
 
-uint32_t PoseEstimator::countInliers(Span<const Correspondence> correspondences, const Rigid &camera_from_map) const {
+uint32_t PoseEstimator::countInliers(Span<const Correspondence> correspondences,
+                                     const Rigid &camera_from_map) const {
   uint32_t inliers = 0;
   for (const Correspondence &c : correspondences) inliers += isInlier(c, camera_from_map);
   return inliers;

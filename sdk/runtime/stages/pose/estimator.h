@@ -1,5 +1,5 @@
-// The robust loop: minimal samples, truncated scoring, local optimisation, final refinement (LO-RANSAC: Chum, Matas,
-// Kittler 2003; the paper's algorithm 2 with the whitened residual in place of its cost).
+// The robust loop: minimal samples, truncated scoring, local optimisation, final refinement (LO-RANSAC: Chum,
+// Matas, Kittler 2003; the paper's algorithm 2 with the whitened residual in place of its cost).
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/stages/pose/refine.h"

@@ -7,8 +7,8 @@ namespace {
 
 // The three unknown depths satisfy depth^T M_ij depth = d_ij^2: the law of cosines in triangle (origin, i, j).
 struct Triangle {
-  double cosine[3];    // between bearings 12, 13, 23
-  double distance2[3]; // between points 12, 13, 23
+  double cosine[3];     // between bearings 12, 13, 23
+  double distance2[3];  // between points 12, 13, 23
 };
 constexpr int kFirst[3] = {0, 0, 1}, kSecond[3] = {1, 2, 2};
 

@@ -47,7 +47,8 @@ Rigid moved(const Rigid &pose, const Vector6 &step) {
 
 }  // namespace
 
-Refinement refinePose(Span<const Correspondence> correspondences, const Rigid &start, double scale2, int iterations) {
+Refinement refinePose(Span<const Correspondence> correspondences, const Rigid &start, double scale2,
+                      int iterations) {
   Rigid pose = start;
   NormalEquations now = linearise(correspondences, pose, scale2);
   double damping = 1e-4;

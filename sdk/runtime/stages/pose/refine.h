@@ -1,5 +1,5 @@
-// Robust least squares on the pose: Gauss-Newton with Levenberg damping and the Geman-McClure loss, which lets go of
-// outliers altogether (fake directions leak into slower-dying losses).
+// Robust least squares on the pose: Gauss-Newton with Levenberg damping and the Geman-McClure loss, which lets go
+// of outliers altogether (fake directions leak into slower-dying losses).
 #pragma once
 #include "runtime/base/span.h"
 #include "runtime/types/correspondence.h"
@@ -14,6 +14,7 @@ struct Refinement {
 };
 
 // `scale2`: squared residual at which a correspondence has lost three quarters of its weight.
-Refinement refinePose(Span<const Correspondence> correspondences, const Rigid &start, double scale2, int iterations);
+Refinement refinePose(Span<const Correspondence> correspondences, const Rigid &start, double scale2,
+                      int iterations);
 
 }  // namespace sphc

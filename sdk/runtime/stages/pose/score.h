@@ -1,5 +1,5 @@
-// Scores pose hypotheses: truncated sum of squared residuals (MSAC) over all correspondences, in single precision and
-// in lanes that the compiler turns into SIMD.
+// Scores pose hypotheses: truncated sum of squared residuals (MSAC) over all correspondences, in single precision
+// and in lanes that the compiler turns into SIMD.
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/geometry/rigid.h"
@@ -17,8 +17,8 @@ class PoseScorer {
   float score(const Rigid &camera_from_map, float truncation, float bound) const;
 
  private:
-  static constexpr uint32_t kLanes = 8;    // order of summation is fixed by this, not by the machine
-  static constexpr uint32_t kBlock = 32;   // correspondences between two looks at the bound
+  static constexpr uint32_t kLanes = 8;   // order of summation is fixed by this, not by the machine
+  static constexpr uint32_t kBlock = 32;  // correspondences between two looks at the bound
   enum Row { kPx, kPy, kPz, kVx, kVy, kVz, kDx, kDy, kDz, kWeight, kStretch, kRowCount };
 
   Span<float> rows_[kRowCount];
