@@ -7,7 +7,7 @@ step() { printf '\n== %s\n' "$1"; }
 jobs=$(nproc)
 
 step "packages"
-toolchains/install_packages.sh build run test
+toolchains/install_packages.sh build test
 
 step "release: build and test"
 cmake --preset release -DSPHC_TESTS=ON -DSPHC_EXAMPLES=ON >/dev/null

@@ -1,0 +1,30 @@
+// Prints what the C++ reader makes of a map: for read_map_test.py, which compares.
+#include <cinttypes>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "runtime/map/crc32.h"
+#include "runtime/map/map_view.h"
+#include "runtime/stages/features/extractor.h"
+
+int main(int argc, char **argv) {
+  if (argc != 2) return 2;
+  std::ifstream in(argv[1], std::ios::binary);
+  const std::vector<char> file((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  sphc::MapView view;
+  sphc_message message = {};
+  const sphc_status status = sphc::MapView::open(file.data(), file.size(), sphc::kExtractorId, &view, &message);
+  std::printf("status %s\n", sphc_status_name(status));
+  if (status != SPHC_OK) return 0;
+  std::printf("points %u\n", view.pointCount());
+  const sphc::Span<const sphc::Descriptor> descriptors = view.descriptors();
+  std::printf("descriptor_crc %08" PRIx32 "\n",
+              sphc::crc32(0, descriptors.data(), descriptors.size() * sphc::kDescriptorBytes));
+  for (uint32_t i = 0; i < view.pointCount(); ++i) {
+    const sphc::Direction d = view.direction(i);
+    std::printf("direction %.9g %.9g %.9g\n", double{d.x}, double{d.y}, double{d.z});
+  }
+  return 0;
+}

@@ -1,0 +1,55 @@
+#include "tests/support/pose_world.h"
+
+#include "tests/support/random_numbers.h"
+
+namespace sphc::test {
+namespace {
+
+constexpr double kFocalPx = 525, kHalfWidth = 0.6, kHalfHeight = 0.45, kNearM = 0.6, kFarM = 4;
+
+Vector3 pointInView(Random *random) {
+  const double z = uniformIn(random, kNearM, kFarM);
+  const double x = uniformIn(random, -kHalfWidth, kHalfWidth), y = uniformIn(random, -kHalfHeight, kHalfHeight);
+  return {x * z, y * z, z};
+}
+
+Vector3 measured(const Vector3 &point, const PoseWorldOptions &options, Random *random) {
+  const double across = options.pixel_sigma_px * point.z() / kFocalPx;
+  const double dx = normal(random), dy = normal(random), along = normal(random);
+  const Vector3 view = point.normalized();
+  return point + across * Vector3(dx, dy, 0) + options.depth_sigma_m * along * view;
+}
+
+}  // namespace
+
+PoseWorld makePoseWorld(const PoseWorldOptions &options) {
+  Random random(options.seed);
+  std::vector<Vector3> points;
+  Vector3 centroid = Vector3::Zero();
+  for (size_t i = 0; i < options.count; ++i) points.push_back(pointInView(&random));
+  for (const Vector3 &point : points) centroid += point / static_cast<double>(points.size());
+
+  PoseWorld world;
+  world.camera_from_map.rotation = randomRotation(&random);
+  world.camera_from_map.translation_m = centroid + options.centre_offset_m;
+  const Rigid map_from_camera = world.camera_from_map.inverse();
+  const size_t true_count = static_cast<size_t>(options.true_share * static_cast<double>(options.count) + 0.5);
+  for (size_t i = 0; i < options.count; ++i) {
+    Correspondence c;
+    c.lifted = {measured(points[i], options, &random), options.stated_sideways_m, options.stated_depth_sigma_m};
+    const Vector3 fake = randomDirection(&random);
+    world.is_true.push_back(i < true_count);
+    c.direction = i < true_count ? (map_from_camera * points[i]).normalized() : fake;
+    world.correspondences.push_back(c);
+  }
+  return world;
+}
+
+double rotationErrorRad(const Rigid &estimate, const Rigid &truth) {
+  return rotationAngle(estimate.rotation.transpose() * truth.rotation);
+}
+double translationErrorM(const Rigid &estimate, const Rigid &truth) {
+  return (estimate.inverse().translation_m - truth.inverse().translation_m).norm();
+}
+
+}  // namespace sphc::test

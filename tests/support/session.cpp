@@ -1,0 +1,95 @@
+#include "tests/support/session.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace sphc::test {
+namespace {
+
+constexpr size_t kGuard = 256;
+constexpr uint8_t kGuardByte = 0xC5, kDirt = 0xEE;
+
+void require(sphc_status status, const sphc_message &message) {
+  if (status == SPHC_OK) return;
+  std::fprintf(stderr, "%s: %s\n", sphc_status_name(status), message.text);
+  std::abort();
+}
+
+}  // namespace
+
+GuardedMemory::GuardedMemory(size_t bytes, size_t alignment)
+    : storage_(bytes + alignment + 2 * kGuard, kGuardByte), bytes_(bytes) {
+  const auto first = reinterpret_cast<uintptr_t>(storage_.data()) + kGuard;
+  start_ = storage_.data() + kGuard + (alignment - first % alignment) % alignment;
+  for (size_t i = 0; i < bytes_; ++i) start_[i] = kDirt;  // the library must not count on zeros
+}
+
+bool GuardedMemory::guardsIntact() const {
+  for (const uint8_t *p = storage_.data(); p < start_; ++p)
+    if (*p != kGuardByte) return false;
+  for (const uint8_t *p = start_ + bytes_; p < storage_.data() + storage_.size(); ++p)
+    if (*p != kGuardByte) return false;
+  return true;
+}
+
+sphc_config sceneConfig() {
+  sphc_config config;
+  sphc_config_init(&config, sizeof config);
+  config.color_camera = pinhole(320, 240, 250);
+  config.depth_camera = pinhole(200, 160, 140);
+  config.color_from_depth.t_m[0] = 0.04;
+  config.max_keypoints = 400;
+  config.max_iterations = 5000;
+  config.depth_sigma_m = 0.002;
+  return config;
+}
+
+std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint) {
+  auto made = std::make_unique<SceneFrame>();
+  made->images = renderScene(config.color_camera, config.depth_camera, sceneViewpoint(viewpoint),
+                             rigidFromDoor(config.color_from_depth));
+  const sphc_camera &c = config.color_camera, &d = config.depth_camera;
+  made->frame = {};
+  made->frame.struct_size = sizeof(sphc_frame);
+  made->frame.sequence = viewpoint;
+  made->frame.color_time_ns = 1000 + viewpoint;
+  made->frame.depth_time_ns = 1001 + viewpoint;
+  made->frame.color = {made->images.gray.data(), c.width, c.height, c.width, SPHC_FORMAT_GRAY8};
+  made->frame.depth = {made->images.depth_mm.data(), d.width, d.height, 2 * d.width, SPHC_FORMAT_DEPTH16};
+  return made;
+}
+
+Session::Session(const sphc_config &config, double eta)
+    : scene_map_(makeSceneMap(config.color_camera, config.max_keypoints, 3, eta)) {
+  sphc_message message = {};
+  size_t bytes = 0, alignment = 0;
+  require(sphc_map_memory(&bytes, &alignment), message);
+  map_memory_ = GuardedMemory(bytes, alignment);
+  require(sphc_map_init(map_memory_.data(), bytes, scene_map_.file.data(), scene_map_.file.size(), &map_, &message),
+          message);
+  sphc_memory need;
+  require(sphc_localizer_memory(&config, &need, &message), message);
+  state_ = GuardedMemory(need.state_bytes, need.alignment);
+  scratch_ = GuardedMemory(need.scratch_bytes, need.alignment);
+  require(sphc_localizer_init(state_.data(), state_.size(), scratch_.data(), scratch_.size(), &config, map_,
+                              &localizer_, &message),
+          message);
+}
+
+Session::~Session() {
+  sphc_localizer_fini(&localizer_);
+  sphc_map_fini(&map_);
+}
+
+sphc_status Session::process(const sphc_frame &frame, sphc_result *result) {
+  result->struct_size = sizeof *result;
+  return sphc_localizer_process(localizer_, &frame, result);
+}
+
+double Session::errorM(const sphc_result &result, uint32_t viewpoint) const {
+  const Rigid map_from_camera = rigidFromDoor(result.camera_from_map).inverse();
+  const Vector3 centre = map_from_camera.translation_m + scene_map_.centre_in_world_m;
+  return (centre - sceneViewpoint(viewpoint).inverse().translation_m).norm();
+}
+
+}  // namespace sphc::test

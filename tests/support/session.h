@@ -1,0 +1,64 @@
+// A whole session through the door on the test room: map, config, memory, frames.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "spherecloud/spherecloud.h"
+#include "tests/support/scene.h"
+#include "tests/support/scene_map.h"
+
+namespace sphc::test {
+
+// Memory of exactly the bytes asked for, with guard bytes on both sides.
+class GuardedMemory {
+ public:
+  GuardedMemory() = default;
+  GuardedMemory(size_t bytes, size_t alignment);
+
+  void *data() { return start_; }
+  size_t size() const { return bytes_; }
+  bool guardsIntact() const;
+  // The contents, for comparing.
+  std::vector<uint8_t> copy() const { return {start_, start_ + bytes_}; }
+
+ private:
+  std::vector<uint8_t> storage_;
+  uint8_t *start_ = nullptr;
+  size_t bytes_ = 0;
+};
+
+// The room's cameras: colour 320 x 240, a smaller depth camera 4 cm beside it.
+sphc_config sceneConfig();
+// A frame and the images it borrows.
+struct SceneFrame {
+  SceneImages images;
+  sphc_frame frame;
+};
+std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint);
+
+class Session {
+ public:
+  // Asserts, by aborting, that every step works.
+  explicit Session(const sphc_config &config, double eta = 0.5);
+  ~Session();
+  Session(const Session &) = delete;
+  Session &operator=(const Session &) = delete;
+
+  const SceneMap &sceneMap() const { return scene_map_; }
+  sphc_map *map() { return map_; }
+  sphc_localizer *localizer() { return localizer_; }
+  GuardedMemory &state() { return state_; }
+  GuardedMemory &scratch() { return scratch_; }
+  sphc_status process(const sphc_frame &frame, sphc_result *result);
+  // Distance of the result's camera centre from the truth.
+  double errorM(const sphc_result &result, uint32_t viewpoint) const;
+
+ private:
+  SceneMap scene_map_;
+  GuardedMemory map_memory_, state_, scratch_;
+  sphc_map *map_ = nullptr;
+  sphc_localizer *localizer_ = nullptr;
+};
+
+}  // namespace sphc::test

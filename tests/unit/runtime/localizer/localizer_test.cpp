@@ -1,0 +1,74 @@
+// The stages together, on the test room.
+#include "runtime/localizer/localizer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/session.h"
+
+namespace sphc {
+namespace {
+
+TEST(Localizer, LocalizesInItsRoom) {
+  const sphc_config config = test::sceneConfig();
+  test::Session session(config);
+  for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) {  // 3 is none of the map's
+    const auto frame = test::sceneFrame(config, viewpoint);
+    sphc_result result;
+    EXPECT_EQ(session.process(frame->frame, &result), SPHC_OK) << viewpoint << " outcome " << result.outcome;
+    EXPECT_LT(session.errorM(result, viewpoint), 0.02) << viewpoint;
+    EXPECT_LE(result.inliers, result.matches);
+    EXPECT_LE(result.matches, result.lifted);
+    EXPECT_LE(result.lifted, result.keypoints);
+  }
+}
+
+TEST(Localizer, DarknessHasFewKeypoints) {
+  const sphc_config config = test::sceneConfig();
+  test::Session session(config);
+  const auto frame = test::sceneFrame(config, 0);
+  std::fill(frame->images.gray.begin(), frame->images.gray.end(), uint8_t{7});
+  sphc_result result;
+  EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
+  EXPECT_EQ(result.outcome, SPHC_OUTCOME_FEW_KEYPOINTS);
+}
+
+TEST(Localizer, ABlindDepthSensorHasFewDepths) {
+  const sphc_config config = test::sceneConfig();
+  test::Session session(config);
+  const auto frame = test::sceneFrame(config, 0);
+  std::fill(frame->images.depth_mm.begin(), frame->images.depth_mm.end(), uint16_t{0});
+  sphc_result result;
+  EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
+  EXPECT_EQ(result.outcome, SPHC_OUTCOME_FEW_DEPTHS);
+  EXPECT_EQ(result.lifted, 0u);
+}
+
+TEST(Localizer, AnotherPlaceIsNotLocalized) {
+  const sphc_config config = test::sceneConfig();
+  test::Session session(config);
+  const auto frame = test::sceneFrame(config, 0);
+  std::reverse(frame->images.gray.begin(), frame->images.gray.end());  // upside down and mirrored depth: no such room
+  sphc_result result;
+  EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
+  EXPECT_NE(result.outcome, SPHC_OUTCOME_LOCALIZED);
+}
+
+TEST(Localizer, LogsOnTheCallersThread) {
+  sphc_config config = test::sceneConfig();
+  std::string text;
+  config.log_user = &text;
+  config.log = [](void *user, sphc_log_level, const char *line, size_t length) {
+    static_cast<std::string *>(user)->append(line, length);
+  };
+  test::Session session(config);
+  const auto frame = test::sceneFrame(config, 1);
+  sphc_result result;
+  session.process(frame->frame, &result);
+  EXPECT_NE(text.find("frame 1: localized"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace sphc

@@ -1,0 +1,183 @@
+#include "runtime/stages/capture/pairer.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/random_numbers.h"
+
+namespace sphc {
+namespace {
+
+constexpr int64_t kMs = 1000000;
+
+sphc_capture capture(sphc_stream stream, int64_t time_ms, uint64_t token = 0) {
+  sphc_capture c = {};
+  c.struct_size = sizeof c;
+  c.stream = stream;
+  c.time_ns = time_ms * kMs;
+  c.token = token ? token : static_cast<uint64_t>(time_ms);
+  return c;
+}
+sphc_capture color(int64_t time_ms) { return capture(SPHC_STREAM_COLOR, time_ms); }
+sphc_capture depth(int64_t time_ms) { return capture(SPHC_STREAM_DEPTH, time_ms); }
+
+Pairer makePairer(uint32_t slots = 4, int64_t tolerance_ms = 20) {
+  return Pairer({sizeof(sphc_pairer_config), slots, tolerance_ms * kMs});
+}
+
+// Everything that comes out now: "c10+d11" a pair, "-d5" a drop.
+std::string drain(Pairer *pairer) {
+  std::string out;
+  for (int guard = 0; guard < 100; ++guard) {
+    sphc_pair pair = {};
+    sphc_capture dropped = {};
+    const sphc_status status = pairer->pop(&pair, &dropped);
+    if (status == SPHC_OK) {
+      EXPECT_EQ(dropped.stream, SPHC_STREAM_NONE);
+      EXPECT_EQ(pair.color.stream, SPHC_STREAM_COLOR);
+      EXPECT_EQ(pair.depth.stream, SPHC_STREAM_DEPTH);
+      out += "c" + std::to_string(pair.color.time_ns / kMs) + "+d" + std::to_string(pair.depth.time_ns / kMs) + " ";
+    } else if (dropped.stream != SPHC_STREAM_NONE) {
+      out += std::string(dropped.stream == SPHC_STREAM_COLOR ? "-c" : "-d") + std::to_string(dropped.time_ns / kMs) + " ";
+    } else {
+      EXPECT_EQ(status, SPHC_AGAIN);
+      return out;
+    }
+  }
+  ADD_FAILURE() << "the pairer never says that it has nothing more";
+  return out;
+}
+
+TEST(Pairer, PairsInOrder) {
+  Pairer pairer = makePairer();
+  std::string out;
+  for (int64_t t = 100; t < 400; t += 100) {
+    EXPECT_EQ(pairer.push(color(t)), SPHC_OK);
+    out += drain(&pairer);
+    EXPECT_EQ(pairer.push(depth(t + 4)), SPHC_OK);
+    out += drain(&pairer);
+  }
+  EXPECT_EQ(out, "c100+d104 c200+d204 c300+d304 ");
+}
+
+TEST(Pairer, DepthBeforeColorWaitsForABetterOne) {
+  Pairer pairer = makePairer();
+  pairer.push(depth(95));
+  pairer.push(color(100));
+  EXPECT_EQ(drain(&pairer), "");  // a depth at 101 might still come
+  pairer.push(depth(101));
+  EXPECT_EQ(drain(&pairer), "-d95 c100+d101 ");
+}
+
+TEST(Pairer, FlushEndsTheWaiting) {
+  Pairer pairer = makePairer();
+  pairer.push(depth(95));
+  pairer.push(color(100));
+  pairer.push(color(200));
+  pairer.flush();
+  EXPECT_EQ(drain(&pairer), "c100+d95 -c200 ");
+}
+
+TEST(Pairer, BeyondToleranceTheOlderIsDropped) {
+  Pairer pairer = makePairer(4, 10);
+  pairer.push(color(100));
+  pairer.push(depth(150));
+  EXPECT_EQ(drain(&pairer), "-c100 ");
+  pairer.push(color(155));
+  EXPECT_EQ(drain(&pairer), "");
+  pairer.flush();
+  EXPECT_EQ(drain(&pairer), "c155+d150 ");
+}
+
+TEST(Pairer, ExactlyTheToleranceIsAPair) {
+  Pairer pairer = makePairer(4, 10);
+  pairer.push(color(100));
+  pairer.push(depth(110));
+  EXPECT_EQ(drain(&pairer), "c100+d110 ");
+}
+
+TEST(Pairer, LoneStreamIsHandedBackWhenFull) {
+  Pairer pairer = makePairer(2);
+  EXPECT_EQ(pairer.push(color(1)), SPHC_OK);
+  EXPECT_EQ(drain(&pairer), "");
+  EXPECT_EQ(pairer.push(color(2)), SPHC_OK);
+  EXPECT_EQ(pairer.push(color(3)), SPHC_E_CAPACITY);
+  EXPECT_EQ(drain(&pairer), "-c1 ");
+  EXPECT_EQ(pairer.push(color(3)), SPHC_OK);
+}
+
+TEST(Pairer, OneSlotStillPairs) {
+  Pairer pairer = makePairer(1);
+  pairer.push(depth(99));
+  EXPECT_EQ(drain(&pairer), "-d99 ");  // full, and nothing to pair with: the next push must find room
+  pairer.push(color(100));
+  EXPECT_EQ(drain(&pairer), "-c100 ");
+}
+
+TEST(Pairer, RefusesOlderCapturesAndUnknownStreams) {
+  Pairer pairer = makePairer();
+  EXPECT_EQ(pairer.push(color(100)), SPHC_OK);
+  EXPECT_EQ(pairer.push(color(99)), SPHC_E_ARGUMENT);
+  EXPECT_EQ(pairer.push(depth(50)), SPHC_OK);
+  EXPECT_EQ(pairer.push(capture(SPHC_STREAM_NONE, 200)), SPHC_E_ARGUMENT);
+  EXPECT_EQ(pairer.push(capture(7, 200)), SPHC_E_ARGUMENT);
+}
+
+TEST(Pairer, KeepsTheLoansFieldsUnchanged) {
+  Pairer pairer = makePairer();
+  sphc_capture c = capture(SPHC_STREAM_COLOR, 100, 0xFEDCBA9876543210ull);
+  c.sequence = 41;
+  c.image.width = 640;
+  pairer.push(c);
+  pairer.push(depth(100));
+  sphc_pair pair = {};
+  sphc_capture dropped = {};
+  ASSERT_EQ(pairer.pop(&pair, &dropped), SPHC_OK);
+  EXPECT_EQ(pair.color.token, 0xFEDCBA9876543210ull);
+  EXPECT_EQ(pair.color.sequence, 41u);
+  EXPECT_EQ(pair.color.image.width, 640u);
+}
+
+// No loan is ever lost or given twice, pairs are in order and within tolerance, and nothing stalls.
+TEST(Pairer, RandomStreamsGiveBackEveryLoanOnce) {
+  Random random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    Pairer pairer = makePairer(1 + random.below(8), random.below(30));
+    std::vector<int> given[3] = {{}, std::vector<int>(200), std::vector<int>(200)};
+    int64_t time[3] = {}, last_pair = -1;
+    uint64_t count[3] = {};
+    const auto pop = [&] {
+      for (;;) {
+        sphc_pair pair = {};
+        sphc_capture dropped = {};
+        if (pairer.pop(&pair, &dropped) == SPHC_OK) {
+          ++given[1][pair.color.token];
+          ++given[2][pair.depth.token];
+          EXPECT_GT(pair.color.time_ns, last_pair);
+          last_pair = pair.color.time_ns;
+        } else if (dropped.stream != SPHC_STREAM_NONE) {
+          ++given[dropped.stream][dropped.token];
+        } else {
+          return;
+        }
+      }
+    };
+    for (int i = 0; i < 200; ++i) {
+      const auto stream = static_cast<sphc_stream>(1 + random.below(2));
+      time[stream] += 1 + random.below(40);
+      sphc_capture c = capture(stream, time[stream]);
+      c.token = count[stream]++;
+      ASSERT_EQ(pairer.push(c), SPHC_OK);
+      pop();
+    }
+    pairer.flush();
+    pop();
+    for (int stream = 1; stream < 3; ++stream)
+      for (uint64_t i = 0; i < count[stream]; ++i) ASSERT_EQ(given[stream][i], 1);
+  }
+}
+
+}  // namespace
+}  // namespace sphc

@@ -1,0 +1,34 @@
+// An estimator in memory of its own.
+#pragma once
+#include <vector>
+
+#include "runtime/stages/pose/estimator.h"
+#include "tests/support/pose_world.h"
+
+namespace sphc::test {
+
+class TestEstimator {
+ public:
+  explicit TestEstimator(uint32_t capacity = 4096, uint32_t max_iterations = 20000) {
+    EstimatorConfig config;
+    config.capacity = capacity;
+    config.max_iterations = max_iterations;
+    Arena measure;
+    PoseEstimator::layout(config, measure, nullptr);
+    memory_.resize(measure.used() + kArenaAlignment);
+    uint8_t *start = memory_.data();
+    while (reinterpret_cast<uintptr_t>(start) % kArenaAlignment) ++start;
+    Arena arena(start);
+    PoseEstimator::layout(config, arena, &estimator_);
+  }
+  Estimate search(const PoseWorld &world, uint64_t seed = 1) {
+    return estimator_.search({world.correspondences.data(), world.correspondences.size()}, seed);
+  }
+  PoseEstimator &get() { return estimator_; }
+
+ private:
+  std::vector<uint8_t> memory_;
+  PoseEstimator estimator_;
+};
+
+}  // namespace sphc::test
