@@ -1,6 +1,6 @@
 #include "host/build/sphere_cloud.h"
 
-#include <algorithm>
+#include <cmath>
 #include <cmath>
 #include <stdexcept>
 
@@ -48,11 +48,13 @@ Vector3 meanOf(const std::vector<ModelPoint> &points) {
 void checkModel(const PointModel &model, const SphereCloudOptions &options) {
   if (!(options.eta > 0 && options.eta <= 1))
     throw std::runtime_error("eta is " + std::to_string(options.eta) + "; it must lie in (0, 1]");
-  const double real = options.eta * static_cast<double>(model.points.size());
-  if (model.points.size() < kMapMinPoints || real < 1)
-    throw std::runtime_error("the model has " + std::to_string(model.points.size()) +
-                             " points, too few for a map; record more frames, slower, in better light");
   if (model.points.size() > kMapMaxPoints) throw std::runtime_error("the model has too many points for one map");
+}
+
+void checkCount(size_t points, double eta) {
+  if (points < kMapMinPoints || eta * static_cast<double>(points) < 1)
+    throw std::runtime_error("the model has " + std::to_string(points) +
+                             " points, too few for a map; record more frames, slower, in better light");
 }
 
 }  // namespace
@@ -66,6 +68,7 @@ std::unique_ptr<FakeStrategy> gaussianFakes(double variance) {
 SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options,
                             const FakeStrategy &strategy, SecretRandom *random, Vector3 *centre_m) {
   checkModel(model, options);
+  checkCount(model.points.size(), options.eta);
   const Vector3 centre = meanOf(model.points);
 
   std::vector<SpherePoint> points;
@@ -75,9 +78,9 @@ SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &o
     if (offset.norm() > 1e-6)
       points.push_back({offset.normalized(), point.descriptor});  // at the centre: no direction
   }
+  checkCount(points.size(), options.eta);
   shuffle(&points, random);
-  const size_t real_count =
-      std::max<size_t>(1, static_cast<size_t>(options.eta * static_cast<double>(points.size())));
+  const size_t real_count = static_cast<size_t>(options.eta * static_cast<double>(points.size()));
 
   std::vector<Vector3> real;
   real.reserve(real_count);

@@ -38,7 +38,7 @@ struct MapSection {
 static_assert(sizeof(MapSection) == 32);
 
 // A unit direction as two 16-bit octahedral coordinates, 1 to 65535 for -1 to 1 (Cigolle et al. 2014, "A Survey of
-// Efficient Representations for Independent Unit Vectors"); 0 is never written.  Largest error 0.05 mrad.
+// Efficient Representations for Independent Unit Vectors"); 0 is never written.  Largest error 0.07 mrad.
 struct PackedDirection {
   uint16_t u, v;
 };

@@ -83,26 +83,45 @@ TEST(PointTracks, ManyFramesMakeOnePointEachAndAverageTheNoise) {
   for (const ModelPoint &point : model.points) {
     const double error = distanceToNearest(point.position_m, world.points);
     squares += error * error / 3;
-    EXPECT_GE(point.observations, 2u);
-    EXPECT_LT(point.sigma_m, kSigma);
+    if (point.observations > 1) {
+      EXPECT_LT(point.sigma_m, kSigma);
+    }
   }
   EXPECT_LT(std::sqrt(squares / static_cast<double>(model.points.size())), 0.6 * kSigma);
 }
 
-TEST(PointTracks, WhatOneFrameAloneSawIsDropped) {
+TEST(PointTracks, WhatOneFrameAloneSawIsKeptOnlyWhereWanted) {
   World world;
-  PointTracks tracks({});
-  tracks.add(camera(), World::cameraFromWorld(0), world.observe(0, 0.002));
+  for (uint32_t least : {1u, 2u}) {
+    RgbdImportOptions options;
+    options.min_observations = least;
+    PointTracks tracks(options);
+    tracks.add(camera(), World::cameraFromWorld(0), world.observe(0, 0.002));
+    size_t dropped = 0;
+    const size_t kept = tracks.finish(&dropped).points.size();
+    EXPECT_EQ(kept > 150, least == 1);
+    EXPECT_EQ(dropped > 150, least == 2);
+  }
+}
+
+// At a depth edge a patch scatters; such an observation needs another one's word.
+TEST(PointTracks, ALoneObservationAtADepthEdgeIsDropped) {
+  World world;
+  RgbdImportOptions options;
+  options.min_observations = 1;
+  PointTracks tracks(options);
+  auto seen = world.observe(0, 0.002);
+  for (Observation &o : seen) o.sigma_m = 3 * kMappingNoise.sigmaAt(o.depth_m);
+  tracks.add(camera(), World::cameraFromWorld(0), seen);
   size_t dropped = 0;
   EXPECT_EQ(tracks.finish(&dropped).points.size(), 0u);
-  EXPECT_GT(dropped, 150u);
 }
 
 TEST(PointTracks, OutliersDoNotMoveAPoint) {
   World world(3, 60);
   PointTracks tracks({});
   for (int frame = 0; frame < 9; ++frame) {
-    auto seen = world.observe(frame, 0.002);
+    auto seen = world.observe(frame, 0.008);
     if (frame % 3 == 2)
       for (Observation &o : seen) {  // depth wrong by 2.5 %: the view still agrees
         const Vector3 eye = World::cameraFromWorld(frame).inverse().translation_m;

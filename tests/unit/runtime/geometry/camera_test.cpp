@@ -53,7 +53,7 @@ TEST(Camera, PixelToRayToPixel) {
         EXPECT_LT((pixel - Vector2(x, y)).norm(), 1e-6) << c.name << " at " << x << ", " << y;
       }
     }
-    EXPECT_GT(inside, 0.97 * total) << c.name;
+    EXPECT_GT(inside, 0.85 * total) << c.name;  // a fisheye's corners look beyond 89 degrees
   }
 }
 

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/capi/bytes.h"
+#include "tests/support/scene.h"
+
+namespace {
+
+using sphc::test::expectMentions;
+using sphc::test::Output;
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(DoorCamera, CheckExplains) {
+  sphc_message message = {};
+  sphc_camera camera = sphc::test::pinhole(640, 480, 500);
+  EXPECT_EQ(sphc_camera_check(&camera, &message), SPHC_OK);
+  EXPECT_EQ(sphc_camera_check(nullptr, &message), SPHC_E_ARGUMENT);
+  expectMentions(message.text, "null");
+  EXPECT_EQ(sphc_camera_check(nullptr, nullptr), SPHC_E_ARGUMENT);
+  camera.params[2] = kNan;
+  EXPECT_EQ(sphc_camera_check(&camera, &message), SPHC_E_ARGUMENT);
+  expectMentions(message.text, "not finite");
+}
+
+TEST(DoorCamera, ProjectAndBack) {
+  const sphc_camera camera = sphc::test::pinhole(640, 480, 500);
+  const double point[3] = {0.2, -0.1, 2};
+  double pixel[2], bearing[3];
+  ASSERT_EQ(sphc_camera_project(&camera, point, pixel), SPHC_OK);
+  EXPECT_DOUBLE_EQ(pixel[0], 320 + 50);
+  EXPECT_DOUBLE_EQ(pixel[1], 240 - 25);
+  ASSERT_EQ(sphc_camera_unproject(&camera, pixel, bearing), SPHC_OK);
+  const double norm = std::sqrt(0.04 + 0.01 + 4);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(bearing[i], point[i] / norm, 1e-12);
+}
+
+TEST(DoorCamera, FailureLeavesOutputsUntouched) {
+  const sphc_camera good = sphc::test::pinhole(640, 480, 500);
+  sphc_camera bad = good;
+  bad.param_count = 5;
+  const double behind[3] = {0, 0, -1}, front[3] = {0, 0, 1}, nan_point[3] = {kNan, 0, 1};
+  const double pixel[2] = {1, 1}, nan_pixel[2] = {kNan, 1};
+  Output<double[2]> projected;
+  Output<double[3]> bearing;
+  EXPECT_EQ(sphc_camera_project(&good, behind, *projected.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_project(&good, nan_point, *projected.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_project(&bad, front, *projected.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_project(nullptr, front, *projected.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_project(&good, nullptr, *projected.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_project(&good, front, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_unproject(&good, nan_pixel, *bearing.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_unproject(&bad, pixel, *bearing.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_unproject(nullptr, pixel, *bearing.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_unproject(&good, nullptr, *bearing.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_unproject(&good, pixel, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_TRUE(projected.untouched());
+  EXPECT_TRUE(bearing.untouched());
+}
+
+TEST(DoorRigid, OutputMayBeAnInput) {
+  const sphc_rigid a = {{0.8, 0.6, 0, 0}, {1, 2, 3}}, b = {{0.6, 0, -0.8, 0}, {-1, 0.5, 2}};
+  sphc_rigid ab, inverse, identity;
+  sphc_rigid_compose(&a, &b, &ab);
+  sphc_rigid left = a, right = b;
+  sphc_rigid_compose(&left, &b, &left);
+  sphc_rigid_compose(&a, &right, &right);
+  sphc_rigid_inverse(&ab, &inverse);
+  sphc_rigid_compose(&ab, &inverse, &identity);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_DOUBLE_EQ(left.q_wxyz[i], ab.q_wxyz[i]);
+    EXPECT_DOUBLE_EQ(right.q_wxyz[i], ab.q_wxyz[i]);
+    EXPECT_NEAR(identity.q_wxyz[i], i == 0, 1e-15);
+  }
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(identity.t_m[i], 0, 1e-14);
+  double x[3] = {0.3, -2, 1};
+  double y[3];
+  sphc_rigid_apply(&b, x, y);
+  sphc_rigid_apply(&a, y, y);
+  sphc_rigid_apply(&ab, x, x);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(x[i], y[i], 1e-14);
+}
+
+}  // namespace

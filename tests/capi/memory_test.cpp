@@ -1,0 +1,156 @@
+// sphc_config_init, sphc_localizer_memory and sphc_localizer_memory_piece.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "tests/capi/bytes.h"
+#include "tests/support/session.h"
+
+namespace {
+
+using sphc::test::expectMentions;
+using sphc::test::Output;
+
+TEST(DoorConfig, InitRefuses) {
+  EXPECT_EQ(sphc_config_init(nullptr, sizeof(sphc_config)), SPHC_E_ARGUMENT);
+  Output<sphc_config> config;
+  for (size_t size : {size_t{0}, sizeof(sphc_config) - 8, sizeof(sphc_config) + 8})
+    EXPECT_EQ(sphc_config_init(config.get(), size), SPHC_E_STRUCT_SIZE);
+  EXPECT_TRUE(config.untouched());
+}
+
+TEST(DoorConfig, DefaultsNeedOnlyCameras) {
+  sphc_config config;
+  ASSERT_EQ(sphc_config_init(&config, sizeof config), SPHC_OK);
+  sphc_memory need;
+  sphc_message message;
+  EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_E_ARGUMENT);
+  expectMentions(message.text, "color_camera");
+  config.color_camera = config.depth_camera = sphc::test::pinhole(640, 480, 500);
+  EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_OK);
+}
+
+struct Spoiled {
+  const char *words;  // that the message must have
+  void (*spoil)(sphc_config *config);
+};
+const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+
+const Spoiled kSpoiled[] = {
+    {"max_keypoints is 63", [](sphc_config *c) { c->max_keypoints = 63; }},
+    {"max_keypoints is 4097", [](sphc_config *c) { c->max_keypoints = 4097; }},
+    {"max_iterations", [](sphc_config *c) { c->max_iterations = 0; }},
+    {"max_iterations", [](sphc_config *c) { c->max_iterations = 1000001; }},
+    {"max_ratio", [](sphc_config *c) { c->max_ratio = 0; }},
+    {"max_ratio", [](sphc_config *c) { c->max_ratio = 1.5f; }},
+    {"max_ratio is nan", [](sphc_config *c) { c->max_ratio = std::numeric_limits<float>::quiet_NaN(); }},
+    {"color_camera: camera model", [](sphc_config *c) { c->color_camera.model = 0; }},
+    {"depth_camera: camera model", [](sphc_config *c) { c->depth_camera.model = 0; }},
+    {"color_camera", [](sphc_config *c) { c->color_camera.params[0] = kNan; }},
+    {"depth_camera", [](sphc_config *c) { c->depth_camera.params[3] = kInf; }},
+    {"depth_camera", [](sphc_config *c) { c->depth_camera.width = 8193; }},
+    {"color_from_depth", [](sphc_config *c) { c->color_from_depth.q_wxyz[0] = 0; }},
+    {"color_from_depth", [](sphc_config *c) { c->color_from_depth.q_wxyz[1] = kNan; }},
+    {"color_from_depth", [](sphc_config *c) { c->color_from_depth.t_m[2] = kInf; }},
+    {"depth_unit_m", [](sphc_config *c) { c->depth_unit_m = 0; }},
+    {"depth_unit_m is nan", [](sphc_config *c) { c->depth_unit_m = kNan; }},
+    {"depth_min_m", [](sphc_config *c) { c->depth_min_m = 0; }},
+    {"depth_min_m", [](sphc_config *c) { c->depth_min_m = kNan; }},
+    {"depth_max_m", [](sphc_config *c) { c->depth_max_m = c->depth_min_m; }},
+    {"depth_max_m is inf", [](sphc_config *c) { c->depth_max_m = kInf; }},
+    {"depth_sigma_m", [](sphc_config *c) { c->depth_sigma_m = 0; }},
+    {"depth_sigma_m", [](sphc_config *c) { c->depth_sigma_m = kNan; }},
+    {"depth_sigma_per_m2", [](sphc_config *c) { c->depth_sigma_per_m2 = -0.1; }},
+    {"depth_sigma_per_m2", [](sphc_config *c) { c->depth_sigma_per_m2 = kNan; }},
+    {"pixel_sigma_px", [](sphc_config *c) { c->pixel_sigma_px = 0; }},
+    {"pixel_sigma_px", [](sphc_config *c) { c->pixel_sigma_px = kInf; }},
+    {"map_sigma_m", [](sphc_config *c) { c->map_sigma_m = -1; }},
+    {"map_sigma_m", [](sphc_config *c) { c->map_sigma_m = kNan; }},
+    {"min_inliers", [](sphc_config *c) { c->min_inliers = 3; }},
+    {"min_inliers", [](sphc_config *c) { c->min_inliers = UINT32_MAX; }},
+};
+
+TEST(DoorConfig, EveryBadFieldIsNamed) {
+  for (const Spoiled &spoiled : kSpoiled) {
+    sphc_config config = sphc::test::sceneConfig();
+    spoiled.spoil(&config);
+    Output<sphc_memory> need;
+    sphc_message message = {};
+    EXPECT_EQ(sphc_localizer_memory(&config, need.get(), &message), SPHC_E_ARGUMENT) << spoiled.words;
+    expectMentions(message.text, spoiled.words);
+    EXPECT_TRUE(need.untouched());
+    EXPECT_EQ(sphc_localizer_memory(&config, need.get(), nullptr), SPHC_E_ARGUMENT);
+    Output<sphc_memory_piece> piece;
+    EXPECT_EQ(sphc_localizer_memory_piece(&config, 0, piece.get()), SPHC_E_ARGUMENT);
+    EXPECT_TRUE(piece.untouched());
+  }
+}
+
+TEST(DoorConfig, NullAndStructSize) {
+  sphc_config config = sphc::test::sceneConfig();
+  Output<sphc_memory> need;
+  sphc_message message = {};
+  EXPECT_EQ(sphc_localizer_memory(nullptr, need.get(), &message), SPHC_E_ARGUMENT);
+  expectMentions(message.text, "config is null");
+  EXPECT_EQ(sphc_localizer_memory(&config, nullptr, &message), SPHC_E_ARGUMENT);
+  expectMentions(message.text, "memory is null");
+  for (uint32_t size : {0u, 8u, static_cast<uint32_t>(sizeof config) + 1}) {
+    config.struct_size = size;
+    EXPECT_EQ(sphc_localizer_memory(&config, need.get(), &message), SPHC_E_STRUCT_SIZE);
+    expectMentions(message.text, "sphc_config_init");
+  }
+  EXPECT_TRUE(need.untouched());
+}
+
+TEST(DoorMemory, PiecesAddUpToTheWhole) {
+  for (uint32_t keypoints : {64u, 400u, 4096u}) {
+    sphc_config config = sphc::test::sceneConfig();
+    config.max_keypoints = keypoints;
+    sphc_memory need;
+    ASSERT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
+    size_t sum[2] = {};
+    sphc_memory_piece piece;
+    uint32_t index = 0;
+    for (; sphc_localizer_memory_piece(&config, index, &piece) == SPHC_OK; ++index) {
+      ASSERT_LE(piece.scratch, 1u);
+      EXPECT_GT(std::strlen(piece.name), 3u);
+      EXPECT_EQ(piece.bytes % need.alignment, 0u);
+      sum[piece.scratch] += piece.bytes;
+    }
+    EXPECT_GT(index, 10u);
+    EXPECT_EQ(sphc_localizer_memory_piece(&config, index, &piece), SPHC_END);
+    EXPECT_EQ(sphc_localizer_memory_piece(&config, UINT32_MAX, &piece), SPHC_END);
+    EXPECT_EQ(sum[0], need.state_bytes);
+    EXPECT_EQ(sum[1], need.scratch_bytes);
+  }
+}
+
+TEST(DoorMemory, GrowsWithWhatIsAskedFor) {
+  sphc_config config = sphc::test::sceneConfig();
+  sphc_memory small, more_keypoints, larger_image;
+  sphc_localizer_memory(&config, &small, nullptr);
+  config.max_keypoints *= 2;
+  sphc_localizer_memory(&config, &more_keypoints, nullptr);
+  config.color_camera.width *= 2;
+  sphc_localizer_memory(&config, &larger_image, nullptr);
+  EXPECT_LT(small.scratch_bytes, more_keypoints.scratch_bytes);
+  EXPECT_LT(more_keypoints.scratch_bytes, larger_image.scratch_bytes);
+  EXPECT_LT(small.state_bytes, more_keypoints.state_bytes);
+}
+
+// The extremes of the config can be asked about, whatever the machine has.
+TEST(DoorMemory, LargestConfig) {
+  sphc_config config = sphc::test::sceneConfig();
+  config.color_camera = sphc::test::pinhole(8192, 8192, 4000);
+  config.max_keypoints = 4096;
+  sphc_memory need;
+  EXPECT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
+  EXPECT_GT(need.scratch_bytes, size_t{8192} * 8192);
+  config.color_camera = config.depth_camera = sphc::test::pinhole(16, 16, 10);
+  config.max_keypoints = 64;
+  EXPECT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
+}
+
+}  // namespace

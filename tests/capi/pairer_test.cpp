@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include "tests/capi/bytes.h"
+#include "tests/support/session.h"
+
+namespace {
+
+using sphc::test::expectMentions;
+using sphc::test::GuardedMemory;
+using sphc::test::Output;
+
+class DoorPairer : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(sphc_pairer_memory(&bytes_, &alignment_), SPHC_OK);
+    memory_ = GuardedMemory(bytes_, alignment_);
+    ASSERT_EQ(sphc_pairer_config_init(&config_, sizeof config_), SPHC_OK);
+  }
+  sphc_status init() { return sphc_pairer_init(memory_.data(), bytes_, &config_, &pairer_, &message_); }
+  static sphc_capture capture(sphc_stream stream, int64_t time_ns) {
+    sphc_capture c = {};
+    c.struct_size = sizeof c;
+    c.stream = stream;
+    c.time_ns = time_ns;
+    return c;
+  }
+
+  size_t bytes_ = 0, alignment_ = 0;
+  GuardedMemory memory_;
+  sphc_pairer_config config_ = {};
+  sphc_pairer *pairer_ = nullptr;
+  sphc_message message_ = {};
+};
+
+TEST_F(DoorPairer, PairsThroughTheDoor) {
+  EXPECT_EQ(config_.slots, 4u);
+  EXPECT_EQ(config_.tolerance_ns, 20000000);
+  ASSERT_EQ(init(), SPHC_OK);
+  const sphc_capture color = capture(SPHC_STREAM_COLOR, 100), depth = capture(SPHC_STREAM_DEPTH, 105);
+  EXPECT_EQ(sphc_pairer_push(pairer_, &color), SPHC_OK);
+  EXPECT_EQ(sphc_pairer_push(pairer_, &depth), SPHC_OK);
+  sphc_pair pair = {};
+  pair.struct_size = sizeof pair;
+  sphc_capture dropped = {};
+  EXPECT_EQ(sphc_pairer_pop(pairer_, &pair, &dropped), SPHC_OK);
+  EXPECT_EQ(pair.depth.time_ns, 105);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, &pair, &dropped), SPHC_AGAIN);
+  EXPECT_EQ(dropped.stream, SPHC_STREAM_NONE);
+  EXPECT_TRUE(memory_.guardsIntact());
+  sphc_pairer_fini(&pairer_);
+  EXPECT_EQ(pairer_, nullptr);
+}
+
+TEST_F(DoorPairer, ForbiddenInits) {
+  EXPECT_EQ(sphc_pairer_config_init(nullptr, sizeof config_), SPHC_E_ARGUMENT);
+  Output<sphc_pairer_config> untouched;
+  EXPECT_EQ(sphc_pairer_config_init(untouched.get(), sizeof config_ - 1), SPHC_E_STRUCT_SIZE);
+  EXPECT_TRUE(untouched.untouched());
+  EXPECT_EQ(sphc_pairer_memory(nullptr, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_init(nullptr, bytes_, &config_, &pairer_, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_init(memory_.data(), bytes_, nullptr, &pairer_, &message_), SPHC_E_ARGUMENT);
+  expectMentions(message_.text, "config is null");
+  EXPECT_EQ(sphc_pairer_init(memory_.data(), bytes_, &config_, nullptr, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_init(memory_.data(), bytes_ - 1, &config_, &pairer_, &message_), SPHC_E_MEMORY_SIZE);
+  GuardedMemory larger(bytes_ + 64, 64);
+  EXPECT_EQ(sphc_pairer_init(static_cast<uint8_t *>(larger.data()) + 1, bytes_, &config_, &pairer_, &message_),
+            SPHC_E_MEMORY_ALIGNMENT);
+  for (uint32_t slots : {0u, SPHC_PAIRER_SLOTS + 1, UINT32_MAX}) {
+    config_.slots = slots;
+    EXPECT_EQ(init(), SPHC_E_ARGUMENT);
+    expectMentions(message_.text, "slots");
+  }
+  config_.slots = 4;
+  config_.tolerance_ns = -1;
+  EXPECT_EQ(init(), SPHC_E_ARGUMENT);
+  config_.tolerance_ns = 0;
+  config_.struct_size = 3;
+  EXPECT_EQ(init(), SPHC_E_STRUCT_SIZE);
+  expectMentions(message_.text, "struct_size is 3");
+  EXPECT_EQ(pairer_, nullptr);
+}
+
+TEST_F(DoorPairer, ForbiddenCalls) {
+  ASSERT_EQ(init(), SPHC_OK);
+  sphc_capture color = capture(SPHC_STREAM_COLOR, 1);
+  EXPECT_EQ(sphc_pairer_push(nullptr, &color), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_push(pairer_, nullptr), SPHC_E_ARGUMENT);
+  color.struct_size = 0;
+  EXPECT_EQ(sphc_pairer_push(pairer_, &color), SPHC_E_STRUCT_SIZE);
+  Output<sphc_pair> pair;
+  Output<sphc_capture> dropped;
+  EXPECT_EQ(sphc_pairer_pop(nullptr, pair.get(), dropped.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, nullptr, dropped.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, pair.get(), nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, pair.get(), dropped.get()), SPHC_E_STRUCT_SIZE);
+  EXPECT_TRUE(pair.untouched());
+  EXPECT_TRUE(dropped.untouched());
+  sphc_pairer_flush(nullptr);
+  sphc_pairer_fini(nullptr);
+}
+
+}  // namespace

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "spherecloud/spherecloud.h"
+
+namespace {
+
+struct Pinned {
+  sphc_status value;
+  const char *name;
+  int32_t number;
+};
+#define SPHC_PIN(name, number) \
+  { name, #name, number }
+const Pinned kPinned[] = {SPHC_PIN(SPHC_OK, 0),
+                          SPHC_PIN(SPHC_AGAIN, 1),
+                          SPHC_PIN(SPHC_NOT_LOCALIZED, 2),
+                          SPHC_PIN(SPHC_END, 3),
+                          SPHC_PIN(SPHC_E_ARGUMENT, -10),
+                          SPHC_PIN(SPHC_E_STRUCT_SIZE, -11),
+                          SPHC_PIN(SPHC_E_STATE, -12),
+                          SPHC_PIN(SPHC_E_IMAGE, -13),
+                          SPHC_PIN(SPHC_E_MEMORY_SIZE, -20),
+                          SPHC_PIN(SPHC_E_MEMORY_ALIGNMENT, -21),
+                          SPHC_PIN(SPHC_E_CAPACITY, -22),
+                          SPHC_PIN(SPHC_E_MAP_FORMAT, -30),
+                          SPHC_PIN(SPHC_E_MAP_VERSION, -31),
+                          SPHC_PIN(SPHC_E_MAP_CHECKSUM, -32),
+                          SPHC_PIN(SPHC_E_MAP_EXTRACTOR, -33),
+                          SPHC_PIN(SPHC_E_DEVICE, -40),
+                          SPHC_PIN(SPHC_E_DEVICE_LOST, -41),
+                          SPHC_PIN(SPHC_E_UNSUPPORTED, -50),
+                          SPHC_PIN(SPHC_E_INTERNAL, -90)};
+
+TEST(DoorStatus, ValuesArePinnedAndNamed) {
+  for (const Pinned &p : kPinned) {
+    EXPECT_EQ(p.value, p.number) << p.name;
+    EXPECT_STREQ(sphc_status_name(p.value), p.name);
+  }
+}
+
+TEST(DoorStatus, UnknownOnesHaveANameToo) {
+  std::set<int32_t> known;
+  for (const Pinned &p : kPinned) known.insert(p.number);
+  for (int32_t status = -200; status < 200; ++status)
+    if (!known.count(status)) EXPECT_STREQ(sphc_status_name(status), "SPHC_?");
+}
+
+TEST(DoorStatus, OtherPinnedValues) {
+  EXPECT_EQ(SPHC_FORMAT_GRAY8, 1);
+  EXPECT_EQ(SPHC_FORMAT_RGB8, 2);
+  EXPECT_EQ(SPHC_FORMAT_BGR8, 3);
+  EXPECT_EQ(SPHC_FORMAT_DEPTH16, 10);
+  EXPECT_EQ(SPHC_CAMERA_PINHOLE, 1);
+  EXPECT_EQ(SPHC_CAMERA_BROWN5, 2);
+  EXPECT_EQ(SPHC_CAMERA_BROWN8, 3);
+  EXPECT_EQ(SPHC_CAMERA_KANNALA_BRANDT4, 4);
+  EXPECT_EQ(SPHC_OUTCOME_LOCALIZED, 0);
+  EXPECT_EQ(SPHC_OUTCOME_FEW_KEYPOINTS, 1);
+  EXPECT_EQ(SPHC_OUTCOME_FEW_DEPTHS, 2);
+  EXPECT_EQ(SPHC_OUTCOME_FEW_MATCHES, 3);
+  EXPECT_EQ(SPHC_OUTCOME_NO_CONSENSUS, 4);
+  EXPECT_EQ(SPHC_OUTCOME_UNCERTAIN, 5);
+  EXPECT_EQ(SPHC_STREAM_COLOR, 1);
+  EXPECT_EQ(SPHC_STREAM_DEPTH, 2);
+}
+
+TEST(DoorStatus, Version) {
+  EXPECT_EQ(sphc_abi(), SPHC_ABI);
+  const std::string version = std::to_string(SPHC_VERSION_MAJOR) + "." + std::to_string(SPHC_VERSION_MINOR) + "." +
+                              std::to_string(SPHC_VERSION_PATCH);
+  EXPECT_EQ(sphc_version_string(), version);
+}
+
+}  // namespace
