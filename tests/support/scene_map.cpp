@@ -32,7 +32,8 @@ std::vector<WorldPoint> describeViews(const sphc_camera &camera, uint32_t keypoi
   FeatureExtractor::layout(config, state, scratch, &extractor);
   extractor.init();
 
-  const SparseAligner aligner(Camera(camera), Camera(camera), Rigid(), {0.001, 0.2, 6, 0.002, 0});
+  const Camera model{camera};
+  const SparseAligner aligner(model, model, Rigid(), {0.001, 0.2, 6, 0.002, 0});
   std::vector<Keypoint> found(keypoints);
   std::vector<Descriptor> descriptors(keypoints);
   std::vector<WorldPoint> points;

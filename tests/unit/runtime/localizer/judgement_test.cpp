@@ -18,27 +18,31 @@ Estimate sureEstimate(uint32_t inliers) {
   return estimate;
 }
 
-TEST(Judgement, ClearMajorityIsBelieved) { EXPECT_EQ(judgePose(sureEstimate(60), 100, 10), SPHC_OUTCOME_LOCALIZED); }
+constexpr Evidence kStrong = {60, -40, -30};
+
+TEST(Judgement, StrongEvidenceIsBelieved) {
+  EXPECT_EQ(judgePose(kStrong, sureEstimate(60), 10), SPHC_OUTCOME_LOCALIZED);
+}
 
 TEST(Judgement, FewerThanTheConfigAsksForAreNot) {
-  EXPECT_EQ(judgePose(sureEstimate(60), 100, 61), SPHC_OUTCOME_NO_CONSENSUS);
+  EXPECT_EQ(judgePose(kStrong, sureEstimate(60), 61), SPHC_OUTCOME_NO_CONSENSUS);
 }
 
 TEST(Judgement, WhatChanceWouldDoIsNot) {
-  EXPECT_EQ(judgePose(sureEstimate(12), 100, 10), SPHC_OUTCOME_NO_CONSENSUS);
-  EXPECT_EQ(judgePose(sureEstimate(20), 150, 10), SPHC_OUTCOME_NO_CONSENSUS);
-  EXPECT_EQ(judgePose(sureEstimate(0), 0, 4), SPHC_OUTCOME_NO_CONSENSUS);
+  EXPECT_EQ(judgePose({60, 0, 0}, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
+  EXPECT_EQ(judgePose({60, -4, -3}, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
+  EXPECT_EQ(judgePose({60, 9, -15}, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);  // many poses were tried
 }
 
 TEST(Judgement, AVaguePoseIsUncertain) {
   Estimate estimate = sureEstimate(80);
-  estimate.covariance(4, 4) = 0.05 * 0.05;
-  EXPECT_EQ(judgePose(estimate, 100, 10), SPHC_OUTCOME_UNCERTAIN);
+  estimate.covariance(4, 4) = 0.07 * 0.07;
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
   estimate = sureEstimate(80);
-  estimate.covariance(0, 0) = 0.03 * 0.03;
-  EXPECT_EQ(judgePose(estimate, 100, 10), SPHC_OUTCOME_UNCERTAIN);
+  estimate.covariance(0, 0) = 0.04 * 0.04;
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
   estimate.covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judgePose(estimate, 100, 10), SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
 }
 
 // What counts is the camera's place: a rotation about the camera itself moves the map's origin, however far it is.
@@ -50,7 +54,7 @@ TEST(Judgement, ADistantOriginIsNoUncertainty) {
   about_camera << Matrix3::Identity(), -crossMatrix(estimate.camera_from_map.translation_m);
   estimate.covariance = 1e-8 * Matrix6::Identity() + sigma * sigma * about_camera * about_camera.transpose();
   EXPECT_GT(estimate.covariance(4, 4), 0.08 * 0.08);
-  EXPECT_EQ(judgePose(estimate, 100, 10), SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_LOCALIZED);
 }
 
 TEST(Judgement, RandomOutliersAreNotAccepted) {
@@ -60,10 +64,38 @@ TEST(Judgement, RandomOutliersAreNotAccepted) {
     options.seed = seed;
     options.true_share = 0;
     options.count = 20 + 6 * seed;
-    const Estimate estimate = estimator.search(test::makePoseWorld(options), seed);
-    EXPECT_NE(judgePose(estimate, static_cast<uint32_t>(options.count), 10), SPHC_OUTCOME_LOCALIZED)
-        << estimate.inliers << " of " << options.count;
+    const test::PoseWorld world = test::makePoseWorld(options);
+    const Estimate estimate = estimator.search(world, seed);
+    EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED) << estimate.inliers << " of " << options.count;
   }
+}
+
+TEST(Judgement, ATruePoseAmongOutliersIsAccepted) {
+  test::TestEstimator estimator(400, 20000);
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    test::PoseWorldOptions options;
+    options.seed = seed;
+    options.true_share = 0.25;
+    const test::PoseWorld world = test::makePoseWorld(options);
+    EXPECT_EQ(estimator.judge(world, estimator.search(world, seed)), SPHC_OUTCOME_LOCALIZED) << seed;
+  }
+}
+
+// The bound must hold: agreement by chance is at least as rare as it says.
+TEST(Judgement, ChanceOfAgreement) {
+  test::PoseWorldOptions options;
+  const test::PoseWorld world = test::makePoseWorld(options);
+  const Span<const Correspondence> all = {world.correspondences.data(), world.correspondences.size()};
+  const auto chance = [&](uint32_t inliers, uint32_t free, double solid_angle) {
+    return logChanceOfAgreement(all, world.camera_from_map, inliers, free, 12, solid_angle);
+  };
+  EXPECT_EQ(chance(3, 3, 4 * kPi), 0);
+  EXPECT_EQ(chance(0, 3, 4 * kPi), 0);
+  EXPECT_LT(chance(100, 3, 4 * kPi), chance(50, 3, 4 * kPi));      // more agreement is rarer
+  EXPECT_LT(chance(100, 3, 4 * kPi), chance(100, 3, 0.1));         // in a narrower cap it is commoner
+  EXPECT_LT(chance(100, 0, 4 * kPi), chance(100, 30, 4 * kPi));    // what the pose was made from proves nothing
+  EXPECT_EQ(chance(100, 3, 1e-12), 0);
+  EXPECT_TRUE(isFinite(chance(300, 3, 4 * kPi)));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "runtime/localizer/judgement.h"
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
 #include "tests/unit/runtime/stages/pose/pose_test_estimator.h"
@@ -51,7 +50,7 @@ TEST(PaperClaims, AllSignsWrongIsNoMap) {
   for (Correspondence &c : world.correspondences) c.direction = -c.direction;
   test::TestEstimator estimator(300, 3000);
   const Estimate estimate = estimator.search(world);
-  EXPECT_NE(judgePose(estimate, 300, 10), SPHC_OUTCOME_LOCALIZED);
+  EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED);
 }
 
 // The paper's oracle-depth experiment: depth is what limits the accuracy.
@@ -99,7 +98,7 @@ TEST(PaperClaims, RandomDepthsGiveNoPose) {
     for (Correspondence &c : world.correspondences)
       c.lifted.point_m *= test::uniformIn(&random, 0.5, 5) / c.lifted.point_m.z();
     const Estimate estimate = estimator.search(world, seed);
-    EXPECT_NE(judgePose(estimate, 300, 10), SPHC_OUTCOME_LOCALIZED) << estimate.inliers;
+    EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED) << estimate.inliers;
   }
 }
 

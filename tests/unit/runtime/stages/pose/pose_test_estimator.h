@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "runtime/localizer/judgement.h"
 #include "runtime/stages/pose/estimator.h"
 #include "tests/support/pose_world.h"
 
@@ -25,6 +26,14 @@ class TestEstimator {
     return estimator_.search({world.correspondences.data(), world.correspondences.size()}, seed);
   }
   PoseEstimator &get() { return estimator_; }
+  // As the localizer judges a first pose that no second look supports.
+  sphc_outcome judge(const PoseWorld &world, const Estimate &estimate) const {
+    const double log_chance = logChanceOfAgreement({world.correspondences.data(), world.correspondences.size()},
+                                                   estimate.camera_from_map, estimate.inliers, 3,
+                                                   estimator_.inlierThreshold2(), 4 * kPi) +
+                              logOf(static_cast<double>(estimate.iterations));
+    return judgePose({estimate.inliers, log_chance, 0}, estimate, 10);
+  }
 
  private:
   std::vector<uint8_t> memory_;
