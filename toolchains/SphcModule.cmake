@@ -32,7 +32,7 @@ endif()
 add_library(sphc_runtime_flags INTERFACE)
 target_link_libraries(sphc_runtime_flags INTERFACE sphc_flags)
 target_compile_options(sphc_runtime_flags INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics>)
+  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>)
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(PkgConfig REQUIRED)

@@ -4,6 +4,15 @@
 #include "host/cli/exit_code.h"
 
 namespace sphc::host {
+namespace {
+
+std::string ordinal(uint32_t n) {
+  const uint32_t tens = n / 10 % 10, ones = n % 10;
+  const char *ending = tens == 1 || ones > 3 || ones == 0 ? "th" : ones == 1 ? "st" : ones == 2 ? "nd" : "rd";
+  return std::to_string(n) + ending;
+}
+
+}  // namespace
 
 void addRecordingOptions(CLI::App *app, RecordingOptions *options) {
   const char *group = "Recording";
@@ -47,7 +56,7 @@ std::string describeSelection(const RecordingOptions &options) {
   const bool all = options.first == 0 && options.last == UINT32_MAX;
   std::string text = all ? "all frames" : "frames " + std::to_string(options.first) + " to ";
   if (!all) text += options.last == UINT32_MAX ? "the end" : std::to_string(options.last);
-  if (options.step > 1) text += ", every " + std::to_string(options.step) + ".";
+  if (options.step > 1) text += ", every " + ordinal(options.step);
   return text;
 }
 

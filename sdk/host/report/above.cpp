@@ -1,44 +1,65 @@
 #include "host/report/above.h"
 
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace sphc::host {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector3d;
+// Eigen would be heavy here: its solvers take longer to compile than everything else of the report.
+using Vector = std::array<double, 3>;
 
-Vector3d upward(const std::vector<sphc_rigid> &poses) {
-  Vector3d sum = Vector3d::Zero();
+double dot(const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector cross(const Vector &a, const Vector &b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// a x + b y
+Vector mix(double a, const Vector &x, double b, const Vector &y) {
+  return {a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]};
+}
+
+Vector unit(const Vector &v) { return mix(1 / std::sqrt(dot(v, v)), v, 0, v); }
+
+Vector axis(size_t index, double sign) {
+  Vector v = {};
+  v[index] = sign;
+  return v;
+}
+
+Vector upward(const std::vector<sphc_rigid> &poses) {
+  Vector sum = {};
   for (const sphc_rigid &pose : poses) {
     const double *q = pose.q_wxyz;
-    sum -= Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d::UnitY();  // OpenCV's y points down
+    // Second column of the rotation matrix, negative: OpenCV's y points down.
+    sum[0] -= 2 * (q[1] * q[2] - q[0] * q[3]);
+    sum[1] -= 1 - 2 * (q[1] * q[1] + q[3] * q[3]);
+    sum[2] -= 2 * (q[2] * q[3] + q[0] * q[1]);
   }
-  if (sum.norm() < 0.1 * static_cast<double>(poses.size()) || poses.empty()) return Vector3d::UnitZ();
-  Vector3d up = sum.normalized();
+  if (poses.empty() || std::sqrt(dot(sum, sum)) < 0.1 * static_cast<double>(poses.size())) return axis(2, 1);
+  const Vector up = unit(sum);
   // A world with an axis close by was almost surely made with that axis up.
-  Vector3d::Index axis = 0;
-  if (up.cwiseAbs().maxCoeff(&axis) > 0.9) up = Vector3d::Unit(axis) * (up[axis] > 0 ? 1 : -1);
+  for (size_t i = 0; i < 3; ++i) {
+    if (std::abs(up[i]) > 0.9) return axis(i, up[i] > 0 ? 1 : -1);
+  }
   return up;
 }
 
-// Direction of the largest spread, in the plane of `a` and `b`.
-Vector2d longestExtent(const std::vector<sphc_rigid> &poses, const Vector3d &a, const Vector3d &b) {
-  Vector2d mean = Vector2d::Zero();
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+// Angle from `a` towards `b` of the direction in which the poses are spread most.
+double longestExtent(const std::vector<sphc_rigid> &poses, const Vector &a, const Vector &b) {
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  const double count = static_cast<double>(std::max<size_t>(1, poses.size()));
   for (const sphc_rigid &pose : poses) {
-    const Vector3d p(pose.t_m[0], pose.t_m[1], pose.t_m[2]);
-    const Vector2d flat(a.dot(p), b.dot(p));
-    mean += flat;
-    spread += flat * flat.transpose();
+    const Vector p = {pose.t_m[0], pose.t_m[1], pose.t_m[2]};
+    const double u = dot(a, p), v = dot(b, p);
+    x += u / count;
+    y += v / count;
+    xx += u * u / count;
+    xy += u * v / count;
+    yy += v * v / count;
   }
-  const double count = static_cast<double>(poses.size());
-  spread -= mean * mean.transpose() / count;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
-  Vector2d longest = solver.eigenvectors().col(1);
-  return longest.x() < 0 ? Vector2d(-longest) : longest;
+  return std::atan2(2 * (xy - x * y), (xx - x * x) - (yy - y * y)) / 2;  // in -90 to 90 degrees
 }
 
 }  // namespace
@@ -48,16 +69,13 @@ std::array<double, 2> AboveView::project(const double p[3]) const {
 }
 
 AboveView viewFromAbove(const std::vector<sphc_rigid> &poses) {
-  const Vector3d sky = upward(poses);
-  const Vector3d seed = std::abs(sky.x()) < 0.9 ? Vector3d::UnitX() : Vector3d::UnitY();
-  const Vector3d a = (seed - seed.dot(sky) * sky).normalized(), b = sky.cross(a);
-  const Vector2d longest = poses.size() > 1 ? longestExtent(poses, a, b) : Vector2d(1, 0);
-  const Vector3d right = longest.x() * a + longest.y() * b, up = sky.cross(right);
+  const Vector sky = upward(poses);
+  const Vector seed = axis(std::abs(sky[0]) < 0.9 ? 0 : 1, 1);
+  const Vector a = unit(mix(1, seed, -dot(seed, sky), sky)), b = cross(sky, a);
+  const double turn = poses.size() > 1 ? longestExtent(poses, a, b) : 0;
   AboveView view;
-  for (int i = 0; i < 3; ++i) {
-    view.right[static_cast<size_t>(i)] = right[i];
-    view.up[static_cast<size_t>(i)] = up[i];
-  }
+  view.right = mix(std::cos(turn), a, std::sin(turn), b);
+  view.up = cross(sky, view.right);
   return view;
 }
 

@@ -9,11 +9,11 @@ inline constexpr char kPageStyle[] = R"css(
 * { box-sizing:border-box; }
 body { margin:0; background:var(--ground); color:var(--ink); font:16px/1.55 system-ui,-apple-system,"Segoe UI",Roboto,
        "Helvetica Neue",Arial,sans-serif; }
-header { background:linear-gradient(120deg,#0f172a,#1e3a8a 70%,#2563eb); color:#fff; padding:2.4rem 1.5rem 5rem; }
-header > div, main { max-width:1180px; margin:0 auto; }
+header { background:linear-gradient(120deg,#0f172a,#1e3a8a 70%,#2563eb); color:#fff; padding:2.4rem 0 5rem; }
+header > div, main { max-width:1180px; margin:0 auto; padding:0 1.5rem; }
 header h1 { margin:0 0 .3rem; font-size:2rem; letter-spacing:-.02em; }
-header p { margin:0; opacity:.85; max-width:70ch; }
-main { padding:0 1.5rem 3rem; margin-top:-3.4rem; }
+header p { margin:0; opacity:.85; max-width:110ch; }
+main { padding-bottom:3rem; margin-top:-3.4rem; }
 .cards { display:grid; grid-template-columns:repeat(auto-fit,minmax(165px,1fr)); gap:.9rem; }
 .card, section { background:var(--paper); border-radius:14px; box-shadow:0 1px 3px rgba(15,23,42,.12); }
 .card { padding:1rem 1.1rem; border-top:4px solid var(--blue); }

@@ -17,7 +17,8 @@ const char kLook[] =
     "set ylabel textcolor rgb '#334155'\n"
     "set grid linecolor rgb '#e2e8f0' linewidth 1\n"
     "set key textcolor rgb '#334155'\n";
-const char kBlue[] = "#2563eb", kGreen[] = "#16a34a", kRed[] = "#dc2626", kAmber[] = "#d97706";
+const char kBlue[] = "#2563eb", kGreen[] = "#16a34a", kRed[] = "#dc2626", kAmber[] = "#d97706",
+           kViolet[] = "#7c3aed";
 
 using Points = std::vector<std::array<double, 3>>;
 
@@ -61,19 +62,32 @@ Path splitPath(const Run &run) {
 
 // What the picture has to hold, with a margin around it.
 struct Extent {
-  double low[2], high[2];
-};
-Extent extentOf(const Path &path) {
-  Extent e = {{path.centre[0], path.centre[1]}, {path.centre[0], path.centre[1]}};
-  for (const Points *points : {&path.truth, &path.estimate}) {
-    for (const auto &p : *points) {
-      for (size_t i = 0; i < 2; ++i) {
-        e.low[i] = std::min(e.low[i], p[i]);
-        e.high[i] = std::max(e.high[i], p[i]);
-      }
-    }
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+
+  void hold(double x, double y) {
+    low[0] = std::min(low[0], x);
+    low[1] = std::min(low[1], y);
+    high[0] = std::max(high[0], x);
+    high[1] = std::max(high[1], y);
   }
-  const double margin = 0.05 + 0.06 * std::max(e.high[0] - e.low[0], e.high[1] - e.low[1]);
+  double length() const { return std::max(high[0] - low[0], high[1] - low[1]); }
+  // How much longer it would get if it held the point too.
+  double lengthWith(const std::array<double, 2> &point) const {
+    Extent larger = *this;
+    larger.hold(point[0], point[1]);
+    return larger.length();
+  }
+};
+
+// Sets whether the sphere centre is in the picture: not when it is so far off that the path would shrink to a dot.
+Extent extentOf(const Path &path, bool *with_centre) {
+  Extent e;
+  for (const Points *points : {&path.truth, &path.estimate}) {
+    for (const auto &p : *points) e.hold(p[0], p[1]);
+  }
+  *with_centre = e.lengthWith(path.centre) < 1.6 * e.length();
+  if (*with_centre) e.hold(path.centre[0], path.centre[1]);
+  const double margin = 0.05 + 0.06 * e.length();
   for (size_t i = 0; i < 2; ++i) {
     e.low[i] -= margin;
     e.high[i] += margin;
@@ -89,6 +103,34 @@ PlotSize pathSize(const Extent &e) {
 
 std::string range(const char *axis, double low, double high) {
   return std::string("set ") + axis + " [" + fixed(low, 6) + ":" + fixed(high, 6) + "]\n";
+}
+
+const char kErrorColors[] =
+    "set palette defined (0 '#16a34a', 0.5 '#facc15', 1 '#dc2626')\n"
+    "set cbrange [0:5]\n"
+    "set label 'cm off' at screen 0.915, 0.86 textcolor rgb '#334155'\n"
+    "set colorbox user origin 0.93,0.2 size 0.018,0.6 noborder\n"
+    "set rmargin at screen 0.9\n";
+
+std::string pathScript(const Path &path, const Extent &extent, bool with_centre) {
+  const bool truth = !path.truth.empty();
+  std::string script = kLook + block("truth", path.truth) + block("estimate", path.estimate) +
+                       block("lost", path.lost) + block("centre", {{path.centre[0], path.centre[1], 0}});
+  script += "set size ratio -1\nset xlabel 'metres'\nset ylabel 'metres'\n";
+  script += range("xrange", extent.low[0], extent.high[0]) + range("yrange", extent.low[1], extent.high[1]);
+  script += "set key outside top center horizontal reverse Left samplen 2\n";
+  if (truth) script += kErrorColors;
+  script += "plot ";
+  if (truth) script += "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', ";
+  script += std::string("$estimate using 1:2") + (truth ? ":3" : "") + " with points pointtype 7 pointsize 0.7 " +
+            (truth ? "linecolor palette" : color(kBlue)) + " title 'estimate'";
+  const std::string mark = " with points linewidth 1.8 ";
+  if (!path.lost.empty())
+    script += ", $lost using 1:2" + mark + "pointtype 2 " + color(kRed) + " title 'not localized'";
+  if (with_centre)
+    script +=
+        ", $centre using 1:2" + mark + "pointtype 3 pointsize 1.6 " + color(kViolet) + " title 'sphere centre'";
+  return script;
 }
 
 // ---- cumulative errors ----
@@ -144,35 +186,13 @@ std::string cdfScript(const Points &points, const std::string &unit, double mark
 Drawing pathFromAbove(const Run &run) {
   const Path path = splitPath(run);
   if (path.truth.empty() && path.estimate.empty()) return {"path", "", "", "", {}};
-  const bool truth = !path.truth.empty();
-  const Extent extent = extentOf(path);
-  std::string script = kLook + block("truth", path.truth) + block("estimate", path.estimate) +
-                       block("lost", path.lost) + block("centre", {{path.centre[0], path.centre[1], 0}});
-  script += "set size ratio -1\n" + range("xrange", extent.low[0], extent.high[0]) +
-            range("yrange", extent.low[1], extent.high[1]);
-  script +=
-      "set xlabel 'metres'\nset ylabel 'metres'\nset key outside top center horizontal reverse Left samplen 2\n";
-  if (truth) {
-    script += "set palette defined (0 '#16a34a', 0.5 '#facc15', 1 '#dc2626')\nset cbrange [0:5]\n";
-    script +=
-        "set cblabel 'error, cm' offset -1,0 textcolor rgb '#334155'\nset colorbox user origin 0.93,0.2 "
-        "size 0.018,0.6 noborder\nset rmargin at screen 0.9\n";
-  }
-  script += "plot ";
-  if (truth) script += "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', ";
-  script += std::string("$estimate using 1:2") + (truth ? ":3" : "") + " with points pointtype 7 pointsize 0.7 " +
-            (truth ? "linecolor palette" : color(kBlue)) + " title 'estimate'";
-  if (!path.lost.empty())
-    script += ", $lost using 1:2 with points pointtype 2 pointsize 1 linewidth 1.5 " + color(kRed) +
-              " title 'not localized'";
-  script +=
-      ", $centre using 1:2 with points pointtype 3 pointsize 1.6 linewidth 2 linecolor rgb '#7c3aed' title 'sphere "
-      "centre'";
-  return {"path", "The path from above",
-          truth ? "Every dot is one answer, coloured by how far it is from the true place (grey line). "
-                  "The star is the sphere centre, from which the map's directions point."
-                : "Every dot is one answer, in the map's own frame.",
-          script, pathSize(extent)};
+  bool with_centre = false;
+  const Extent extent = extentOf(path, &with_centre);
+  std::string caption = path.truth.empty()
+                            ? "Every dot is one answer, in the map's own frame."
+                            : "Every dot is one answer, coloured by how far it is from the true place (grey line).";
+  if (with_centre) caption += " The star is the sphere centre, from which the map's directions point.";
+  return {"path", "The path from above", caption, pathScript(path, extent, with_centre), pathSize(extent)};
 }
 
 Drawing translationCdf(const Run &run) {

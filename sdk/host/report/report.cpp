@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "host/report/above.h"
 #include "host/report/direction_picture.h"
 #include "host/report/encode.h"
 #include "host/report/file.h"
@@ -78,10 +79,27 @@ void addPlots(const std::string &folder, const Run &run, const Summary &summary,
   }
 }
 
+// The map's axes are those of the recording's world, which may lie any way; turn the sky upright.
+std::vector<std::array<double, 3>> uprightDirections(const Run &run) {
+  std::vector<sphc_rigid> poses;
+  for (const FrameRecord &frame : run.frames) {
+    if (frame.localized) poses.push_back(frame.base_from_camera);
+  }
+  const AboveView view = viewFromAbove(poses);
+  const auto &r = view.right, &u = view.up;
+  const double sky[3] = {r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]};
+  std::vector<std::array<double, 3>> upright;
+  for (const auto &d : run.map.directions) {
+    const auto flat = view.project(d.data());
+    upright.push_back({flat[0], flat[1], sky[0] * d[0] + sky[1] * d[1] + sky[2] * d[2]});
+  }
+  return upright;
+}
+
 void addDirections(const std::string &folder, const Run &run, PageContent *content) {
   content->directions.title = "All that the map shows of the room";
   content->directions.mime = "image/png";
-  const cv::Mat picture = drawDirections(run.map.directions, &content->direction_peak);
+  const cv::Mat picture = drawDirections(uprightDirections(run), &content->direction_peak);
   content->directions.encoded = writePicture(folder + "/map_directions.png", picture, {});
 }
 

@@ -10,7 +10,7 @@ namespace sphc::host {
 namespace {
 
 TEST(FrameJson, IsALineAFrameThatParses) {
-  Run run;
+  host::Run run;
   run.base = "world";
   run.frames = {goodFrame(1, 0.02, 1), lostFrame(2)};
   std::istringstream lines(framesJsonLines(run));
@@ -32,7 +32,7 @@ TEST(FrameJson, NamesTheMapFrame) {
 }
 
 TEST(SummaryJson, SaysNullForWhatIsNotKnown) {
-  Run run;
+  host::Run run;
   run.frames = {lostFrame(1)};
   run.frames[0].has_truth = false;
   const auto json = summaryJson(run, summarize(run));

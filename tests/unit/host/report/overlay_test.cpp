@@ -16,14 +16,14 @@ std::vector<std::string> names(const Run &run) {
 }
 
 TEST(Highlights, AreBestMedianWorstAndLost) {
-  Run run;
+  host::Run run;
   run.frames = {goodFrame(1, 0.03, 0), lostFrame(2), goodFrame(3, 0.01, 0), goodFrame(4, 0.02, 0), lostFrame(5)};
   EXPECT_EQ(names(run),
             (std::vector<std::string>{"best:3", "median:4", "worst:1", "not_localized_1:2", "not_localized_2:5"}));
 }
 
 TEST(Highlights, GoByInliersWithoutTruth) {
-  Run run;
+  host::Run run;
   run.frames = {goodFrame(1, 0, 0), goodFrame(2, 0, 0)};
   for (FrameRecord &frame : run.frames) frame.has_truth = false;
   run.frames[1].inliers = 90;
@@ -31,10 +31,10 @@ TEST(Highlights, GoByInliersWithoutTruth) {
 }
 
 TEST(Highlights, OfASingleFrameShowItOnce) {
-  Run run;
+  host::Run run;
   run.frames = {lostFrame(1)};
   EXPECT_EQ(names(run), (std::vector<std::string>{"not_localized_1:1"}));
-  EXPECT_TRUE(chooseHighlights(Run()).empty());
+  EXPECT_TRUE(chooseHighlights(host::Run()).empty());
 }
 
 TEST(Overlay, MarksAnInlierInGreen) {

@@ -36,7 +36,7 @@ class ReportTest : public testing::Test {
   }
 
   std::string folder_, problem_;
-  Run run_;
+  host::Run run_;
 };
 
 TEST_F(ReportTest, IsOnePageThatNeedsNothingElse) {

@@ -34,7 +34,7 @@ TEST(PoseError, DoesNotSeeTheQuaternionsSign) {
 }
 
 TEST(Summary, CountsSharesOfAllFramesAndErrorsOfLocalizedOnes) {
-  Run run;
+  host::Run run;
   run.frames = {goodFrame(1, 0.01, 0.1), goodFrame(2, 0.03, 0.2), goodFrame(3, 0.20, 0.3), lostFrame(4)};
   const Summary summary = summarize(run);
   EXPECT_EQ(summary.frames, 4u);
@@ -55,7 +55,7 @@ TEST(Summary, FiveDegreesCountToo) {
 }
 
 TEST(Summary, OfAnEmptyRunHasNoErrors) {
-  const Summary summary = summarize(Run());
+  const Summary summary = summarize(host::Run());
   EXPECT_EQ(summary.frames, 0u);
   EXPECT_TRUE(std::isnan(summary.translation_m.median));
   EXPECT_DOUBLE_EQ(percent(0, 0), 0);

@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(Table, HoldsTheFiguresAPersonAsksFor) {
-  Run run;
+  host::Run run;
   run.frames = {goodFrame(1, 0.01, 0.5), goodFrame(2, 0.03, 0.5), lostFrame(3), lostFrame(4)};
   run.state_bytes = 1000;
   run.scratch_bytes = 2500000;
@@ -24,7 +24,7 @@ TEST(Table, HoldsTheFiguresAPersonAsksFor) {
 }
 
 TEST(Table, SaysHowToGetErrorsWhenThereAreNone) {
-  Run run;
+  host::Run run;
   run.frames = {goodFrame(1, 0.01, 0.5)};
   run.frames[0].has_truth = false;
   EXPECT_THAT(tableText(tableRows(run, summarize(run))), HasSubstr("--owner-note"));

@@ -21,7 +21,7 @@ TEST(TumTrajectory, KeepsNanosecondsOfAbsoluteTimes) {
 }
 
 TEST(TumTrajectory, HasLocalizedFramesOnly) {
-  Run run;
+  host::Run run;
   run.base = "world";
   run.frames = {goodFrame(1, 0, 0), lostFrame(2), goodFrame(3, 0, 0)};
   const std::string text = tumTrajectory(run);
