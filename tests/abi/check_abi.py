@@ -44,7 +44,7 @@ def exported(library, nm):
 def check_header(path):
     with open(path, encoding="utf-8") as stream:
         text = re.sub(r"/\*.*?\*/", "", stream.read(), flags=re.S)
-    functions = set(re.findall(r"SPHC_API[^;(]*?(\w+)\(", text))
+    functions = set(re.findall(r"^SPHC_API [^;(]*?(sphc_\w+)\(", text, flags=re.M))
     with open(SYMBOLS, encoding="utf-8") as stream:
         symbols = set(stream.read().split())
     structs = {m.group(2): m.group(1) for m in re.finditer(r"typedef struct \w+ \{(.*?)\} (\w+);", text, re.S)}

@@ -45,7 +45,9 @@ TEST(DoorStatus, UnknownOnesHaveANameToo) {
   std::set<int32_t> known;
   for (const Pinned &p : kPinned) known.insert(p.number);
   for (int32_t status = -200; status < 200; ++status)
-    if (!known.count(status)) EXPECT_STREQ(sphc_status_name(status), "SPHC_?");
+    if (!known.count(status)) {
+      EXPECT_STREQ(sphc_status_name(status), "SPHC_?");
+    }
 }
 
 TEST(DoorStatus, OtherPinnedValues) {

@@ -1,18 +1,12 @@
-// A heap that can be sealed: any allocation or release on this thread while it is sealed ends the program.
+// A heap that can be sealed: from then on any use of it ends the program.
+//
+// Calls of malloc and its kin are caught by the linker's --wrap (tests/memory/CMakeLists.txt), operator new and delete
+// by replacing them.
 #pragma once
-#include <cstddef>
 
 namespace sphc::test {
 
-class SealedHeap {
- public:
-  SealedHeap();
-  ~SealedHeap();
-  SealedHeap(const SealedHeap &) = delete;
-  SealedHeap &operator=(const SealedHeap &) = delete;
-};
-
-// Calls that the heap served since the program began: shows that it is this heap that is in use.
-size_t heapCalls();
+void sealHeap();
+void unsealHeap();
 
 }  // namespace sphc::test

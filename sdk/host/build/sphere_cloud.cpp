@@ -1,8 +1,8 @@
 #include "host/build/sphere_cloud.h"
 
 #include <cmath>
-#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "runtime/map/layout.h"
 

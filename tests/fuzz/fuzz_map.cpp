@@ -1,0 +1,55 @@
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "tests/fuzz/targets.h"
+#include "tests/support/map_bytes.h"
+#include "tests/support/session.h"
+
+namespace sphc::fuzz {
+namespace {
+
+void readAll(const sphc_map *map, size_t bytes) {
+  sphc_map_info info = {};
+  info.struct_size = sizeof info;
+  if (sphc_map_get_info(map, &info) != SPHC_OK || info.file_bytes != bytes) broken("an accepted map tells its size");
+  for (uint32_t i = 0; i < info.point_count; ++i) {
+    double d[3];
+    if (sphc_map_direction(map, i, d) != SPHC_OK) broken("every point has a direction");
+    if (!(std::abs(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - 1) < 1e-5)) broken("every direction has unit length");
+  }
+}
+
+void open(const std::vector<uint8_t> &file) {
+  // Exactly as many bytes as the file has, so that a sanitizer sees a step too far.
+  const std::unique_ptr<uint64_t[]> copy(new uint64_t[file.size() / 8 + 1]);
+  uint8_t *start = reinterpret_cast<uint8_t *>(copy.get());
+  if (!file.empty()) std::memcpy(start, file.data(), file.size());
+  alignas(64) uint8_t memory[1024];
+  sphc_map *map = nullptr;
+  sphc_message message = {};
+  const sphc_status status = sphc_map_init(memory, sizeof memory, start, file.size(), &map, &message);
+  if (status == SPHC_OK) {
+    readAll(map, file.size());
+    sphc_map_fini(&map);
+  } else if (status > 0 || map || !message.text[0]) {
+    broken("a refusal is a failure that explains itself");
+  }
+}
+
+}  // namespace
+
+void map(const uint8_t *data, size_t bytes) {
+  std::vector<uint8_t> file(data, data + bytes);
+  open(file);
+  // And with checksums that fit, to come past them.
+  if (file.size() < 128 || test::get32(file, 28) != 2) return;
+  for (uint32_t section = 0; section < 2; ++section) {
+    const uint64_t offset = test::get64(file, 72 + 32 * section), length = test::get64(file, 80 + 32 * section);
+    if (offset <= file.size() && length <= file.size() - offset) test::signSection(&file, section);
+  }
+  test::signHeader(&file);
+  open(file);
+}
+
+}  // namespace sphc::fuzz

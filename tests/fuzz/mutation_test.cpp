@@ -1,0 +1,70 @@
+// A bounded, deterministic walk around every target's seeds: for the ordinary run, under any sanitizer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#ifdef SPHC_FUZZ_CALIBRATION
+#include "drivers/replay/calibration.h"
+#endif
+#include "runtime/base/random.h"
+#include "tests/fuzz/targets.h"
+
+namespace sphc::fuzz {
+namespace {
+
+void mutate(std::vector<uint8_t> *bytes, Random *random) {
+  const uint32_t changes = 1 + random->below(6);
+  for (uint32_t i = 0; i < changes; ++i) {
+    if (bytes->empty()) bytes->push_back(0);
+    const uint32_t size = static_cast<uint32_t>(bytes->size());
+    // half of them near the front, where structure is
+    const uint32_t at = random->below(2) ? random->below(size) : random->below(std::min(size, 160u));
+    const auto place = bytes->begin() + at;
+    switch (random->below(6)) {
+      case 0: *place = static_cast<uint8_t>(*place ^ (1u << random->below(8))); break;
+      case 1: *place = static_cast<uint8_t>(random->below(256)); break;
+      case 2: *place = random->below(2) ? uint8_t{255} : uint8_t{0}; break;
+      case 3: bytes->erase(place, place + std::min(random->below(40), size - at)); break;
+      case 4: bytes->insert(place, 1 + random->below(8), static_cast<uint8_t>(random->below(256))); break;
+      default: {  // a piece of it to another place
+        const std::vector<uint8_t> piece(place, place + std::min(random->below(24), size - at));
+        bytes->insert(bytes->begin() + random->below(size), piece.begin(), piece.end());
+      }
+    }
+  }
+}
+
+void walk(const char *name, int runs) {
+  for (const Target &target : allTargets()) {
+    if (std::string(target.name) != name) continue;
+    Random random(2024);
+    for (const std::vector<uint8_t> &seed : target.seeds) target.run(seed.data(), seed.size());
+    for (int i = 0; i < runs; ++i) {
+      std::vector<uint8_t> bytes = target.seeds[random.below(static_cast<uint32_t>(target.seeds.size()))];
+      mutate(&bytes, &random);
+      target.run(bytes.data(), bytes.size());
+    }
+    return;
+  }
+  GTEST_SKIP() << "not built";
+}
+
+TEST(Mutations, Map) { walk("map", 20000); }
+TEST(Mutations, Frame) { walk("frame", 600); }
+TEST(Mutations, Calibration) { walk("calibration", 20000); }
+
+#ifdef SPHC_FUZZ_CALIBRATION
+TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key
+  const Target target = allTargets().back();
+  sphc_calibration parsed;
+  sphc_calibration_init(&parsed, sizeof parsed);
+  sphc_message message = {};
+  EXPECT_EQ(sphc_calibration_parse(reinterpret_cast<const char *>(target.seeds[0].data()), target.seeds[0].size(), "seed",
+                                   &parsed, &message),
+            SPHC_OK)
+      << message.text;
+}
+#endif
+
+}  // namespace
+}  // namespace sphc::fuzz

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/fuzz/targets.h"
+#include "tests/support/map_bytes.h"
+#include "tests/support/scene.h"
+
+namespace sphc::fuzz {
+namespace {
+
+std::vector<uint8_t> bytesOf(const std::string &text) { return {text.begin(), text.end()}; }
+
+std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
+  const test::SceneImages images = test::renderScene(test::pinhole(96, 72, 80), test::pinhole(48, 40, 36),
+                                                     test::sceneViewpoint(viewpoint), Rigid());
+  std::vector<uint8_t> seed(11 + 320 * 96);  // every field right, grey
+  std::copy(images.gray.begin(), images.gray.end(), seed.begin() + 11);
+  for (uint16_t mm : images.depth_mm) {
+    seed.push_back(static_cast<uint8_t>(mm));
+    seed.push_back(static_cast<uint8_t>(mm >> 8));
+  }
+  return seed;
+}
+
+#ifdef SPHC_FUZZ_CALIBRATION
+const char *const kCalibration = R"({
+  "format": "spherecloud-calibration",
+  "version": 1,
+  "pixel_center": 0.5,
+  "color_camera": {"model": "pinhole", "width": 640, "height": 480, "params": [585, 585, 320, 240]},
+  "depth_camera": {"model": "kannala_brandt4", "width": 320, "height": 288,
+                   "params": [180, 181, 161, 144, -0.01, 0.02, -0.01, 0.002]},
+  "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0.03, 0, 0]},
+  "depth_unit_m": 0.001
+}
+)";
+#endif
+
+}  // namespace
+
+void broken(const char *promise) {
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+std::vector<Target> allTargets() {
+  std::vector<Target> targets = {{"map", map, {test::randomMap(16, 1), test::randomMap(33, 2)}},
+                                 {"frame", frame, {frameSeed(0), frameSeed(2), {}}}};
+#ifdef SPHC_FUZZ_CALIBRATION
+  targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
+#endif
+  return targets;
+}
+
+}  // namespace sphc::fuzz

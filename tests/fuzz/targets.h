@@ -1,0 +1,27 @@
+// What is fuzzed: functions of bytes that must neither crash nor leave a promise unkept, whatever the bytes.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sphc::fuzz {
+
+// A map file; when it is accepted, everything is read and one frame localized in it.
+void map(const uint8_t *data, size_t bytes);
+// First a header of sizes, strides and formats, then pixels.
+void frame(const uint8_t *data, size_t bytes);
+// A calibration file.
+void calibration(const uint8_t *data, size_t bytes);
+
+struct Target {
+  const char *name;
+  void (*run)(const uint8_t *data, size_t bytes);
+  std::vector<std::vector<uint8_t>> seeds;
+};
+std::vector<Target> allTargets();
+
+// Ends the program: the target found a broken promise.
+[[noreturn]] void broken(const char *promise);
+
+}  // namespace sphc::fuzz

@@ -1,0 +1,115 @@
+// A whole session through the door while the heap is sealed: from sphc_map_init to sphc_map_fini nothing may allocate.
+// sealed_session --break CALL makes a forbidden call instead, to show that the seal holds.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "tests/memory/sealed_heap.h"
+#include "tests/support/session.h"
+
+namespace {
+
+using sphc::test::GuardedMemory;
+
+void *volatile keep = nullptr;  // hides the calls below from the optimiser
+
+int breakSeal(const char *call) {
+  void *held = std::malloc(8);
+  auto *object = new int(3);
+  keep = held;
+  sphc::test::sealHeap();
+  if (!std::strcmp(call, "malloc")) keep = std::malloc(16);
+  if (!std::strcmp(call, "calloc")) keep = std::calloc(2, 8);
+  if (!std::strcmp(call, "free")) std::free(held);
+  if (!std::strcmp(call, "new")) keep = ::operator new(16);
+  if (!std::strcmp(call, "delete")) ::operator delete(object);
+  return 0;
+}
+
+struct Everything {
+  sphc_config config = sphc::test::sceneConfig();
+  sphc::test::SceneMap map = sphc::test::makeSceneMap(config.color_camera, config.max_keypoints, 3, 0.5);
+  std::vector<std::unique_ptr<sphc::test::SceneFrame>> frames;
+  GuardedMemory map_memory, state, scratch, pairer_memory;
+  std::vector<sphc_observation> observations = std::vector<sphc_observation>(config.max_keypoints);
+
+  Everything() {
+    for (uint32_t viewpoint = 0; viewpoint < 4; ++viewpoint)
+      frames.push_back(sphc::test::sceneFrame(config, viewpoint));
+    size_t bytes = 0, alignment = 0;
+    sphc_map_memory(&bytes, &alignment);
+    map_memory = GuardedMemory(bytes, alignment);
+    sphc_pairer_memory(&bytes, &alignment);
+    pairer_memory = GuardedMemory(bytes, alignment);
+    sphc_memory need = {};
+    sphc_localizer_memory(&config, &need, nullptr);
+    state = GuardedMemory(need.state_bytes, need.alignment);
+    scratch = GuardedMemory(need.scratch_bytes, need.alignment);
+  }
+};
+
+bool runPairer(Everything *e) {
+  sphc_pairer_config config;
+  sphc_pairer *pairer = nullptr;
+  sphc_message message = {};
+  bool ok = sphc_pairer_config_init(&config, sizeof config) == SPHC_OK &&
+            sphc_pairer_init(e->pairer_memory.data(), e->pairer_memory.size(), &config, &pairer, &message) == SPHC_OK;
+  for (sphc_stream stream : {SPHC_STREAM_COLOR, SPHC_STREAM_DEPTH}) {
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
+    capture.stream = stream;
+    ok = ok && sphc_pairer_push(pairer, &capture) == SPHC_OK;
+  }
+  sphc_pair pair = {};
+  pair.struct_size = sizeof pair;
+  sphc_capture dropped = {};
+  ok = ok && sphc_pairer_pop(pairer, &pair, &dropped) == SPHC_OK;
+  sphc_pairer_flush(pairer);
+  sphc_pairer_fini(&pairer);
+  return ok;
+}
+
+// Number of frames localized, or -1.
+int runSession(Everything *e) {
+  sphc_map *map = nullptr;
+  sphc_localizer *localizer = nullptr;
+  sphc_message message = {};
+  sphc_memory need = {};
+  sphc_memory_piece piece = {};
+  if (sphc_map_init(e->map_memory.data(), e->map_memory.size(), e->map.file.data(), e->map.file.size(), &map,
+                    &message) != SPHC_OK ||
+      sphc_localizer_memory(&e->config, &need, &message) != SPHC_OK ||
+      sphc_localizer_memory_piece(&e->config, 3, &piece) != SPHC_OK ||
+      sphc_localizer_init(e->state.data(), e->state.size(), e->scratch.data(), e->scratch.size(), &e->config, map,
+                          &localizer, &message) != SPHC_OK)
+    return -1;
+  int localized = 0;
+  for (const auto &frame : e->frames) {
+    sphc_result result = {};
+    result.struct_size = sizeof result;
+    uint32_t count = 0;
+    localized += sphc_localizer_process(localizer, &frame->frame, &result) == SPHC_OK;
+    sphc_localizer_observations(localizer, e->observations.data(), e->config.max_keypoints, &count);
+    sphc_frame bad = frame->frame;  // the way of a failure, message included
+    bad.color.width = 1;
+    if (sphc_localizer_process(localizer, &bad, &result) != SPHC_E_IMAGE) return -1;
+  }
+  sphc_localizer_fini(&localizer);
+  sphc_map_fini(&map);
+  return localized;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  if (argc == 3) return breakSeal(argv[2]);
+  Everything everything;
+  sphc::test::sealHeap();
+  const int localized = runSession(&everything);
+  const bool paired = runPairer(&everything);
+  sphc::test::unsealHeap();
+  std::printf("localized %d of 4 frames, pairer %s, without the heap\n", localized, paired ? "works" : "fails");
+  const bool intact = everything.state.guardsIntact() && everything.scratch.guardsIntact();
+  return localized == 4 && paired && intact ? 0 : 1;
+}

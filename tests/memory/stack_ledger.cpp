@@ -1,0 +1,65 @@
+// Prints how deep the stack of each call goes: call,bytes.  The call runs on a thread whose stack was painted before.
+#include <pthread.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+
+#include "tests/support/session.h"
+
+namespace {
+
+constexpr size_t kStackBytes = 1 << 20;
+constexpr uint8_t kPaint = 0xD7;
+
+void *runFunction(void *function) {
+  (*static_cast<std::function<void()> *>(function))();
+  return nullptr;
+}
+
+size_t deepestOf(std::function<void()> call) {
+  uint8_t *stack = static_cast<uint8_t *>(std::aligned_alloc(4096, kStackBytes));
+  std::memset(stack, kPaint, kStackBytes);
+  pthread_attr_t attributes;
+  pthread_t thread;
+  pthread_attr_init(&attributes);
+  if (pthread_attr_setstack(&attributes, stack, kStackBytes) || pthread_create(&thread, &attributes, runFunction, &call))
+    std::abort();
+  pthread_join(thread, nullptr);
+  const size_t clean = static_cast<size_t>(std::find_if(stack, stack + kStackBytes, [](uint8_t b) { return b != kPaint; }) - stack);
+  std::free(stack);
+  return kStackBytes - clean;
+}
+
+}  // namespace
+
+int main() {
+  const sphc_config config = sphc::test::sceneConfig();
+  sphc::test::Session session(config);
+  const auto frame = sphc::test::sceneFrame(config, 1);
+  sphc_result result = {};
+  // Once on this thread, so that lazily bound symbols and the choice of SIMD instructions are behind us.
+  if (session.process(frame->frame, &result) != SPHC_OK) return 1;
+  const size_t thread_itself = deepestOf([] {});
+  const auto print = [&](const char *name, const std::function<void()> &call) {
+    std::printf("%s,%zu\n", name, deepestOf(call) - thread_itself);
+  };
+  std::printf("call,bytes\n");
+  sphc_memory need = {};
+  print("sphc_localizer_process", [&] { session.process(frame->frame, &result); });
+  print("sphc_localizer_memory", [&] { sphc_localizer_memory(&config, &need, nullptr); });
+  sphc_localizer *second = nullptr;
+  print("sphc_localizer_init", [&] {
+    sphc_localizer_init(session.state().data(), session.state().size(), session.scratch().data(),
+                        session.scratch().size(), &config, session.map(), &second, nullptr);
+  });
+  size_t bytes = 0, alignment = 0;
+  sphc_map_memory(&bytes, &alignment);
+  sphc::test::GuardedMemory memory(bytes, alignment);
+  sphc_map *map = nullptr;
+  const auto &file = session.sceneMap().file;
+  print("sphc_map_init", [&] { sphc_map_init(memory.data(), memory.size(), file.data(), file.size(), &map, nullptr); });
+  return 0;
+}
