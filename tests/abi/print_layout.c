@@ -4,8 +4,8 @@
 #include <stdio.h>
 
 #define WHOLE(type) printf("%s,,,%lu\n", #type, (unsigned long)sizeof(type))
-#define FIELD(type, field)                                                           \
-  printf("%s,%s,%lu,%lu\n", #type, #field, (unsigned long)offsetof(type, field),     \
+#define FIELD(type, field)                                                       \
+  printf("%s,%s,%lu,%lu\n", #type, #field, (unsigned long)offsetof(type, field), \
          (unsigned long)sizeof(((type *)0)->field))
 
 int main(void) {

@@ -36,8 +36,9 @@ class DoorFailure : public testing::Test {
     const std::vector<uint8_t> state = state_.copy(), scratch = scratch_.copy();
     sphc_localizer *made = nullptr;
     sphc_message message = {};
-    EXPECT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.map, &made, &message),
-              expected);
+    EXPECT_EQ(
+        sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.map, &made, &message),
+        expected);
     expectMentions(message.text, words);
     EXPECT_EQ(made, nullptr);
     EXPECT_EQ(state_.copy(), state);
@@ -78,8 +79,9 @@ TEST_F(DoorFailure, InitNulls) {
   expectRefused(i, SPHC_E_ARGUMENT, "map is null");
   i = good();
   sphc_message message = {};
-  EXPECT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.map, nullptr, &message),
-            SPHC_E_ARGUMENT);
+  EXPECT_EQ(
+      sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.map, nullptr, &message),
+      SPHC_E_ARGUMENT);
   expectMentions(message.text, "localizer is null");
 }
 
@@ -133,7 +135,8 @@ TEST_F(DoorFailure, ProcessStructSizes) {
 }
 
 TEST_F(DoorFailure, ProcessColorImage) {
-  expectFrameRefused([](sphc_frame *f) { f->color.data = nullptr; }, SPHC_E_IMAGE, "color image's data pointer is null");
+  expectFrameRefused([](sphc_frame *f) { f->color.data = nullptr; }, SPHC_E_IMAGE,
+                     "color image's data pointer is null");
   expectFrameRefused([](sphc_frame *f) { f->color.width = 319; }, SPHC_E_IMAGE, "319 x 240");
   expectFrameRefused([](sphc_frame *f) { f->color.height = 0; }, SPHC_E_IMAGE, "320 x 0");
   expectFrameRefused([](sphc_frame *f) { f->color.width = UINT32_MAX; }, SPHC_E_IMAGE, "4294967295");
@@ -147,7 +150,8 @@ TEST_F(DoorFailure, ProcessColorImage) {
 }
 
 TEST_F(DoorFailure, ProcessDepthImage) {
-  expectFrameRefused([](sphc_frame *f) { f->depth.data = nullptr; }, SPHC_E_IMAGE, "depth image's data pointer is null");
+  expectFrameRefused([](sphc_frame *f) { f->depth.data = nullptr; }, SPHC_E_IMAGE,
+                     "depth image's data pointer is null");
   expectFrameRefused([](sphc_frame *f) { f->depth.data = static_cast<const uint8_t *>(f->depth.data) + 1; },
                      SPHC_E_IMAGE, "odd");
   expectFrameRefused([](sphc_frame *f) { f->depth.stride_bytes = 401; }, SPHC_E_IMAGE, "must be even");

@@ -58,8 +58,10 @@ TEST_F(DoorMap, NullArguments) {
   EXPECT_EQ(sphc_map_memory(nullptr, &size), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_map_memory(&size, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(size, 7u);
-  expectRefused(SPHC_E_ARGUMENT, sphc_map_init(nullptr, bytes_, file_.data(), file_.size(), &map_, &message_), "null");
-  expectRefused(SPHC_E_ARGUMENT, sphc_map_init(memory_.data(), bytes_, nullptr, 100, &map_, &message_), "file is null");
+  expectRefused(SPHC_E_ARGUMENT, sphc_map_init(nullptr, bytes_, file_.data(), file_.size(), &map_, &message_),
+                "null");
+  expectRefused(SPHC_E_ARGUMENT, sphc_map_init(memory_.data(), bytes_, nullptr, 100, &map_, &message_),
+                "file is null");
   EXPECT_EQ(sphc_map_init(memory_.data(), bytes_, file_.data(), file_.size(), nullptr, &message_), SPHC_E_ARGUMENT);
   expectMentions(message_.text, "map is null");
   EXPECT_EQ(sphc_map_init(memory_.data(), bytes_, file_.data(), 10, &map_, nullptr), SPHC_E_MAP_FORMAT);
@@ -67,7 +69,8 @@ TEST_F(DoorMap, NullArguments) {
 
 TEST_F(DoorMap, MemoryTooSmallOrMisaligned) {
   expectRefused(SPHC_E_MEMORY_SIZE,
-                sphc_map_init(memory_.data(), bytes_ - 1, file_.data(), file_.size(), &map_, &message_), "are needed");
+                sphc_map_init(memory_.data(), bytes_ - 1, file_.data(), file_.size(), &map_, &message_),
+                "are needed");
   expectRefused(SPHC_E_MEMORY_SIZE, sphc_map_init(memory_.data(), 0, file_.data(), file_.size(), &map_, &message_),
                 "has 0 bytes");
   GuardedMemory larger(bytes_ + 64, 64);
@@ -77,7 +80,8 @@ TEST_F(DoorMap, MemoryTooSmallOrMisaligned) {
   std::vector<uint8_t> shifted(file_.size() + 8);
   std::memcpy(shifted.data() + 4, file_.data(), file_.size());
   expectRefused(SPHC_E_MEMORY_ALIGNMENT,
-                sphc_map_init(memory_.data(), bytes_, shifted.data() + 4, file_.size(), &map_, &message_), "aligned to 8");
+                sphc_map_init(memory_.data(), bytes_, shifted.data() + 4, file_.size(), &map_, &message_),
+                "aligned to 8");
 }
 
 TEST_F(DoorMap, EmptyFile) { expectRefused(SPHC_E_MAP_FORMAT, init(std::vector<uint8_t>(1, 0x89)), "shorter"); }

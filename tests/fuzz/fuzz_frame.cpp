@@ -84,7 +84,8 @@ void frame(const uint8_t *data, size_t bytes) {
   sphc_result result;
   const sphc_status status = session().process(f, &result);
   if (status == SPHC_OK || status == SPHC_NOT_LOCALIZED) {
-    if (!isFilled(result) || result.inliers > result.keypoints) broken("a result has finite numbers that fit together");
+    if (!isFilled(result) || result.inliers > result.keypoints)
+      broken("a result has finite numbers that fit together");
   } else if (status > 0 || !sphc_localizer_message(session().localizer())[0]) {
     broken("a refusal is a failure that explains itself");
   }

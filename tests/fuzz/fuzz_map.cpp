@@ -12,7 +12,8 @@ namespace {
 void readAll(const sphc_map *map, size_t bytes) {
   sphc_map_info info = {};
   info.struct_size = sizeof info;
-  if (sphc_map_get_info(map, &info) != SPHC_OK || info.file_bytes != bytes) broken("an accepted map tells its size");
+  if (sphc_map_get_info(map, &info) != SPHC_OK || info.file_bytes != bytes)
+    broken("an accepted map tells its size");
   for (uint32_t i = 0; i < info.point_count; ++i) {
     double d[3];
     if (sphc_map_direction(map, i, d) != SPHC_OK) broken("every point has a direction");

@@ -21,11 +21,21 @@ void mutate(std::vector<uint8_t> *bytes, Random *random) {
     const uint32_t at = random->below(2) ? random->below(size) : random->below(std::min(size, 160u));
     const auto place = bytes->begin() + at;
     switch (random->below(6)) {
-      case 0: *place = static_cast<uint8_t>(*place ^ (1u << random->below(8))); break;
-      case 1: *place = static_cast<uint8_t>(random->below(256)); break;
-      case 2: *place = random->below(2) ? uint8_t{255} : uint8_t{0}; break;
-      case 3: bytes->erase(place, place + std::min(random->below(40), size - at)); break;
-      case 4: bytes->insert(place, 1 + random->below(8), static_cast<uint8_t>(random->below(256))); break;
+      case 0:
+        *place = static_cast<uint8_t>(*place ^ (1u << random->below(8)));
+        break;
+      case 1:
+        *place = static_cast<uint8_t>(random->below(256));
+        break;
+      case 2:
+        *place = random->below(2) ? uint8_t{255} : uint8_t{0};
+        break;
+      case 3:
+        bytes->erase(place, place + std::min(random->below(40), size - at));
+        break;
+      case 4:
+        bytes->insert(place, 1 + random->below(8), static_cast<uint8_t>(random->below(256)));
+        break;
       default: {  // a piece of it to another place
         const std::vector<uint8_t> piece(place, place + std::min(random->below(24), size - at));
         bytes->insert(bytes->begin() + random->below(size), piece.begin(), piece.end());
@@ -59,8 +69,8 @@ TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end
   sphc_calibration parsed;
   sphc_calibration_init(&parsed, sizeof parsed);
   sphc_message message = {};
-  EXPECT_EQ(sphc_calibration_parse(reinterpret_cast<const char *>(target.seeds[0].data()), target.seeds[0].size(), "seed",
-                                   &parsed, &message),
+  EXPECT_EQ(sphc_calibration_parse(reinterpret_cast<const char *>(target.seeds[0].data()), target.seeds[0].size(),
+                                   "seed", &parsed, &message),
             SPHC_OK)
       << message.text;
 }

@@ -48,7 +48,9 @@ int __wrap_posix_memalign(void **memory, size_t alignment, size_t bytes) {
 void *__wrap_aligned_alloc(size_t alignment, size_t bytes) {
   return touch("aligned_alloc"), __real_aligned_alloc(alignment, bytes);
 }
-void *__wrap_memalign(size_t alignment, size_t bytes) { return touch("memalign"), __real_memalign(alignment, bytes); }
+void *__wrap_memalign(size_t alignment, size_t bytes) {
+  return touch("memalign"), __real_memalign(alignment, bytes);
+}
 char *__wrap_strdup(const char *text) { return touch("strdup"), __real_strdup(text); }
 }
 

@@ -1,5 +1,5 @@
-// A whole session through the door while the heap is sealed: from sphc_map_init to sphc_map_fini nothing may allocate.
-// sealed_session --break CALL makes a forbidden call instead, to show that the seal holds.
+// A whole session through the door while the heap is sealed: from sphc_map_init to sphc_map_fini nothing may
+// allocate. sealed_session --break CALL makes a forbidden call instead, to show that the seal holds.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -53,8 +53,9 @@ bool runPairer(Everything *e) {
   sphc_pairer_config config;
   sphc_pairer *pairer = nullptr;
   sphc_message message = {};
-  bool ok = sphc_pairer_config_init(&config, sizeof config) == SPHC_OK &&
-            sphc_pairer_init(e->pairer_memory.data(), e->pairer_memory.size(), &config, &pairer, &message) == SPHC_OK;
+  bool ok =
+      sphc_pairer_config_init(&config, sizeof config) == SPHC_OK &&
+      sphc_pairer_init(e->pairer_memory.data(), e->pairer_memory.size(), &config, &pairer, &message) == SPHC_OK;
   for (sphc_stream stream : {SPHC_STREAM_COLOR, SPHC_STREAM_DEPTH}) {
     sphc_capture capture = {};
     capture.struct_size = sizeof capture;

@@ -1,4 +1,5 @@
-// Prints how deep the stack of each call goes: call,bytes.  The call runs on a thread whose stack was painted before.
+// Prints how deep the stack of each call goes: call,bytes.  The call runs on a thread whose stack was painted
+// before.
 #include <pthread.h>
 
 #include <algorithm>
@@ -25,10 +26,12 @@ size_t deepestOf(std::function<void()> call) {
   pthread_attr_t attributes;
   pthread_t thread;
   pthread_attr_init(&attributes);
-  if (pthread_attr_setstack(&attributes, stack, kStackBytes) || pthread_create(&thread, &attributes, runFunction, &call))
+  if (pthread_attr_setstack(&attributes, stack, kStackBytes) ||
+      pthread_create(&thread, &attributes, runFunction, &call))
     std::abort();
   pthread_join(thread, nullptr);
-  const size_t clean = static_cast<size_t>(std::find_if(stack, stack + kStackBytes, [](uint8_t b) { return b != kPaint; }) - stack);
+  const size_t clean =
+      static_cast<size_t>(std::find_if(stack, stack + kStackBytes, [](uint8_t b) { return b != kPaint; }) - stack);
   std::free(stack);
   return kStackBytes - clean;
 }
@@ -60,6 +63,7 @@ int main() {
   sphc::test::GuardedMemory memory(bytes, alignment);
   sphc_map *map = nullptr;
   const auto &file = session.sceneMap().file;
-  print("sphc_map_init", [&] { sphc_map_init(memory.data(), memory.size(), file.data(), file.size(), &map, nullptr); });
+  print("sphc_map_init",
+        [&] { sphc_map_init(memory.data(), memory.size(), file.data(), file.size(), &map, nullptr); });
   return 0;
 }

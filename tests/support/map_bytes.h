@@ -1,5 +1,5 @@
-// Sphere-cloud files for tests, written byte by byte from docs/map_format.md and not by the builder's code: what both
-// the reader and this writer agree on is the format.
+// Sphere-cloud files for tests, written byte by byte from docs/map_format.md and not by the builder's code: what
+// both the reader and this writer agree on is the format.
 #pragma once
 #include <cstdint>
 #include <vector>

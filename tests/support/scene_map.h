@@ -12,8 +12,8 @@ struct SceneMap {
   Vector3 centre_in_world_m;
 };
 
-// Keypoints of viewpoints 0 to `views` - 1 with their exact directions, a share `eta` of them; the others get random
-// ones.
+// Keypoints of viewpoints 0 to `views` - 1 with their exact directions, a share `eta` of them; the others get
+// random ones.
 SceneMap makeSceneMap(const sphc_camera &camera, uint32_t keypoints, uint32_t views, double eta);
 
 }  // namespace sphc::test

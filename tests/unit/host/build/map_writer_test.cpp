@@ -29,7 +29,8 @@ SphereCloud randomCloud(size_t count) {
   return cloud;
 }
 
-constexpr MapId kId = {0xA0, 0xA1, 0xA2, 0xA3, 0xA4, 0xA5, 0xA6, 0xA7, 0xA8, 0xA9, 0xAA, 0xAB, 0xAC, 0xAD, 0xAE, 0xAF};
+constexpr MapId kId = {0xA0, 0xA1, 0xA2, 0xA3, 0xA4, 0xA5, 0xA6, 0xA7,
+                       0xA8, 0xA9, 0xAA, 0xAB, 0xAC, 0xAD, 0xAE, 0xAF};
 
 TEST(MapWriter, WritesTheBytesOfTheFormat) {  // against the tests' own writer
   for (size_t count : {16u, 17u, 333u}) {
@@ -54,7 +55,8 @@ TEST(MapWriter, TheReaderGetsBackWhatWasWritten) {
 
 // 132 bytes a point, and nothing else: no field in which a position, a colour or a count could hide.
 TEST(MapWriter, NothingElseOfAPointIsInTheFile) {
-  const size_t small = encodeMap(randomCloud(64), kId).size(), large = encodeMap(randomCloud(64 + 16 * 64), kId).size();
+  const size_t small = encodeMap(randomCloud(64), kId).size(),
+               large = encodeMap(randomCloud(64 + 16 * 64), kId).size();
   EXPECT_EQ(large - small, 16u * 64 * (4 + 128));
 }
 
@@ -90,7 +92,8 @@ TEST(OwnerNote, EachFaultIsExplained) {
        {std::string(), std::string("["), std::string("{}"), std::string(R"({"format": "other", "version": 1})"),
         "{" + std::string(good) + R"(, "map_id": "xyz", "centre_in_world_m": [1, 2, 3]})",
         "{" + std::string(good) + R"(, "map_id": "00112233445566778899aabbccddeeff", "centre_in_world_m": [1, 2]})",
-        "{" + std::string(good) + R"(, "map_id": "00112233445566778899aabbccddeeff", "centre_in_world_m": [1, 2, "x"]})"}) {
+        "{" + std::string(good) +
+            R"(, "map_id": "00112233445566778899aabbccddeeff", "centre_in_world_m": [1, 2, "x"]})"}) {
     std::ofstream(path) << text;
     try {
       readOwnerNote(path);

@@ -155,7 +155,8 @@ TEST(SphereCloud, SameKeySameBytesOtherKeyOthers) {
 
 TEST(SphereCloud, APointAtTheCentreHasNoDirection) {
   PointModel model = makeModel(50);
-  for (size_t i = 0; i < 50; ++i) model.points[i].position_m = Vector3(i % 2 ? 1 : -1, 0.1 * static_cast<double>(i / 2), 0);
+  for (size_t i = 0; i < 50; ++i)
+    model.points[i].position_m = Vector3(i % 2 ? 1 : -1, 0.1 * static_cast<double>(i / 2), 0);
   model.points.push_back(model.points[0]);
   Vector3 mean = Vector3::Zero();
   for (size_t i = 0; i < 50; ++i) mean += model.points[i].position_m / 50;

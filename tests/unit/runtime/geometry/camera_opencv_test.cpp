@@ -46,7 +46,10 @@ TEST(CameraOpenCv, Brown5) {
   compare({SPHC_CAMERA_BROWN5, 640, 480, 9, {517, 516, 318, 255, 0.26, -0.95, -0.005, 0.003, 1.16}}, 0.5);
 }
 TEST(CameraOpenCv, Brown8) {
-  compare({SPHC_CAMERA_BROWN8, 1280, 720, 12,
+  compare({SPHC_CAMERA_BROWN8,
+           1280,
+           720,
+           12,
            {614, 613, 639, 366, 0.5, -2.6, 0.0008, -0.0003, 1.49, 0.38, -2.44, 1.42}},
           0.7);
 }

@@ -66,7 +66,8 @@ TEST(Judgement, RandomOutliersAreNotAccepted) {
     options.count = 20 + 6 * seed;
     const test::PoseWorld world = test::makePoseWorld(options);
     const Estimate estimate = estimator.search(world, seed);
-    EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED) << estimate.inliers << " of " << options.count;
+    EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED)
+        << estimate.inliers << " of " << options.count;
   }
 }
 
@@ -91,9 +92,9 @@ TEST(Judgement, ChanceOfAgreement) {
   };
   EXPECT_EQ(chance(3, 3, 4 * kPi), 0);
   EXPECT_EQ(chance(0, 3, 4 * kPi), 0);
-  EXPECT_LT(chance(100, 3, 4 * kPi), chance(50, 3, 4 * kPi));      // more agreement is rarer
-  EXPECT_LT(chance(100, 3, 4 * kPi), chance(100, 3, 0.1));         // in a narrower cap it is commoner
-  EXPECT_LT(chance(100, 0, 4 * kPi), chance(100, 30, 4 * kPi));    // what the pose was made from proves nothing
+  EXPECT_LT(chance(100, 3, 4 * kPi), chance(50, 3, 4 * kPi));    // more agreement is rarer
+  EXPECT_LT(chance(100, 3, 4 * kPi), chance(100, 3, 0.1));       // in a narrower cap it is commoner
+  EXPECT_LT(chance(100, 0, 4 * kPi), chance(100, 30, 4 * kPi));  // what the pose was made from proves nothing
   EXPECT_EQ(chance(100, 3, 1e-12), 0);
   EXPECT_TRUE(isFinite(chance(300, 3, 4 * kPi)));
 }

@@ -31,8 +31,7 @@ TEST(Crc32, EveryLengthAndAlignmentAsBitByBit) {
 
 TEST(Crc32, GoesOnWhereItStopped) {
   const char *text = "The quick brown fox jumps over the lazy dog";
-  for (size_t cut = 0; cut <= 43; ++cut)
-    EXPECT_EQ(crc32(crc32(0, text, cut), text + cut, 43 - cut), 0x414FA339u);
+  for (size_t cut = 0; cut <= 43; ++cut) EXPECT_EQ(crc32(crc32(0, text, cut), text + cut, 43 - cut), 0x414FA339u);
 }
 
 }  // namespace

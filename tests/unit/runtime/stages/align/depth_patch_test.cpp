@@ -37,7 +37,8 @@ TEST(DepthPatch, SlantedPlaneIsFollowed) {  // a plane: inverse depth linear in 
   const auto depth = [](double x, double y) { return 1 / (0.5 + 0.004 * x - 0.003 * y); };
   const Image image(depth);
   for (double x = 3; x < 16; x += 0.7)
-    for (double y = 3; y < 12; y += 0.9) EXPECT_NEAR(image.patch(x, y).depth_m, depth(x, y), 0.004) << x << " " << y;
+    for (double y = 3; y < 12; y += 0.9)
+      EXPECT_NEAR(image.patch(x, y).depth_m, depth(x, y), 0.004) << x << " " << y;
 }
 
 TEST(DepthPatch, AveragesNoise) {

@@ -85,8 +85,8 @@ TEST(Sparse, OutsideTheDepthCamerasViewIsRefused) {
   EXPECT_EQ(lifted, 0);
 }
 
-// A near bar before a wall.  What colour sees of the wall close to the bar's edge, the depth camera may not see: such
-// a keypoint gets no depth or a right one, never one in between.
+// A near bar before a wall.  What colour sees of the wall close to the bar's edge, the depth camera may not see:
+// such a keypoint gets no depth or a right one, never one in between.
 TEST(Sparse, OcclusionEdgeGivesNothingInBetween) {
   Rig rig;
   rig.color_from_depth = {Matrix3::Identity(), Vector3(0.1, 0, 0)};

@@ -40,7 +40,8 @@ std::string drain(Pairer *pairer) {
       EXPECT_EQ(pair.depth.stream, SPHC_STREAM_DEPTH);
       out += "c" + std::to_string(pair.color.time_ns / kMs) + "+d" + std::to_string(pair.depth.time_ns / kMs) + " ";
     } else if (dropped.stream != SPHC_STREAM_NONE) {
-      out += std::string(dropped.stream == SPHC_STREAM_COLOR ? "-c" : "-d") + std::to_string(dropped.time_ns / kMs) + " ";
+      out += std::string(dropped.stream == SPHC_STREAM_COLOR ? "-c" : "-d") +
+             std::to_string(dropped.time_ns / kMs) + " ";
     } else {
       EXPECT_EQ(status, SPHC_AGAIN);
       return out;

@@ -46,7 +46,8 @@ class MatcherTest : public testing::Test {
     return view_;
   }
   std::vector<Match> matchAll(const std::vector<Descriptor> &queries, float ratio) {
-    const uint32_t n = matcher_.matchAll(view(), {queries.data(), queries.size()}, ratio, {matches_.data(), kQueries});
+    const uint32_t n =
+        matcher_.matchAll(view(), {queries.data(), queries.size()}, ratio, {matches_.data(), kQueries});
     return {matches_.begin(), matches_.begin() + n};
   }
   std::vector<Match> matchNear(const std::vector<Descriptor> &queries, const std::vector<Vector3> &expected,
@@ -54,9 +55,9 @@ class MatcherTest : public testing::Test {
     std::vector<Direction> directions;
     for (const Vector3 &d : expected)
       directions.push_back({static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())});
-    const uint32_t n = matcher_.matchNear(view(), {queries.data(), queries.size()}, {directions.data(), directions.size()},
-                                          static_cast<float>(std::cos(degrees * kPi / 180)), ratio,
-                                          {matches_.data(), kQueries});
+    const uint32_t n =
+        matcher_.matchNear(view(), {queries.data(), queries.size()}, {directions.data(), directions.size()},
+                           static_cast<float>(std::cos(degrees * kPi / 180)), ratio, {matches_.data(), kQueries});
     return {matches_.begin(), matches_.begin() + n};
   }
 
@@ -82,7 +83,8 @@ TEST_F(MatcherTest, FindsTheExactNearest) {
 
 TEST_F(MatcherTest, BestRatioFirst) {
   std::vector<Descriptor> queries;
-  for (uint32_t q = 0; q < 50; ++q) queries.push_back(jittered(points_[q].descriptor, 2 + static_cast<int>(q), &random_));
+  for (uint32_t q = 0; q < 50; ++q)
+    queries.push_back(jittered(points_[q].descriptor, 2 + static_cast<int>(q), &random_));
   const std::vector<Match> matches = matchAll(queries, 1.0f);
   for (size_t i = 1; i < matches.size(); ++i)
     EXPECT_LE(double{1} * matches[i - 1].distance2 / matches[i - 1].second2,

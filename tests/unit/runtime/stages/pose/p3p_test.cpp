@@ -48,8 +48,10 @@ TEST(P3p, FindsTheTruthInEveryRandomProblem) {
     solutions += static_cast<int>(poses.size());
     double best = 1e9;
     for (const Rigid &pose : poses) best = std::min(best, error(pose, p.truth));
-    if (best > 1e-3) ++missed;
-    else worst = std::max(worst, best);
+    if (best > 1e-3)
+      ++missed;
+    else
+      worst = std::max(worst, best);
   }
   EXPECT_EQ(missed, 0) << "of " << tried;
   EXPECT_LT(worst, 1e-3);

@@ -75,8 +75,8 @@ TEST(PaperClaims, ErrorFallsWithOracleDepth) {
   EXPECT_LT(noisy.translation_m, 0.03);
 }
 
-// Supplement, table of centre locations: rays from far away are nearly parallel and no longer tell where along them the
-// camera is.
+// Supplement, table of centre locations: rays from far away are nearly parallel and no longer tell where along them
+// the camera is.
 TEST(PaperClaims, ADistantCentreRuinsTranslation) {
   test::PoseWorldOptions options;
   options.true_share = 0.5;
@@ -93,8 +93,8 @@ TEST(PaperClaims, ADistantCentreRuinsTranslation) {
   EXPECT_GT(rows[3].translation_m, 20 * rows[0].translation_m);
 }
 
-// Depths that measure nothing: directions alone must not make a pose that many believe in.  The bearings are right, so
-// that here and there a depth fits; a few such poses pass for true.
+// Depths that measure nothing: directions alone must not make a pose that many believe in.  The bearings are right,
+// so that here and there a depth fits; a few such poses pass for true.
 TEST(PaperClaims, RandomDepthsSeldomGiveAPose) {
   test::TestEstimator estimator(300, 3000);
   int localized = 0;

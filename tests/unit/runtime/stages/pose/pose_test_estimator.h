@@ -28,10 +28,10 @@ class TestEstimator {
   PoseEstimator &get() { return estimator_; }
   // As the localizer judges a first pose that no second look supports.
   sphc_outcome judge(const PoseWorld &world, const Estimate &estimate) const {
-    const double log_chance = logChanceOfAgreement({world.correspondences.data(), world.correspondences.size()},
-                                                   estimate.camera_from_map, estimate.inliers, 3,
-                                                   estimator_.inlierThreshold2(), 4 * kPi) +
-                              logOf(static_cast<double>(estimate.iterations));
+    const double log_chance =
+        logChanceOfAgreement({world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map,
+                             estimate.inliers, 3, estimator_.inlierThreshold2(), 4 * kPi) +
+        logOf(static_cast<double>(estimate.iterations));
     return judgePose({estimate.inliers, log_chance, 0}, estimate, 10);
   }
 

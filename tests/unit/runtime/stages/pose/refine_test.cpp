@@ -65,8 +65,8 @@ TEST(Refine, NeverRaisesTheCost) {
   }
 }
 
-// The analytic Jacobian is hidden in the gradient of the step; at a small scale the normal matrix must be the second
-// difference of the cost.
+// The analytic Jacobian is hidden in the gradient of the step; at a small scale the normal matrix must be the
+// second difference of the cost.
 TEST(Refine, InformationIsTheCostsCurvature) {
   const test::PoseWorld world = test::makePoseWorld({});
   const auto costAt = [&](const Vector6 &step) {

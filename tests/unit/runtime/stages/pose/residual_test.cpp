@@ -23,7 +23,8 @@ TEST(Residual, IsZeroAtTheTruth) {
 TEST(Residual, NoOtherPointOfTheRayIsNearerInItsMetric) {
   Random random(2);
   for (int i = 0; i < 500; ++i) {
-    Correspondence c = {{test::normalVector(&random) + Vector3(0, 0, 3), 0.01, 0.05}, test::randomDirection(&random)};
+    Correspondence c = {{test::normalVector(&random) + Vector3(0, 0, 3), 0.01, 0.05},
+                        test::randomDirection(&random)};
     const Rigid pose = {test::randomRotation(&random), test::normalVector(&random)};
     const Residual r = residualOf(c, pose);
     const Vector3 view = c.lifted.point_m.normalized(), ray = pose.rotation * c.direction;

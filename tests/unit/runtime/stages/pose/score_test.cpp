@@ -49,7 +49,8 @@ TEST(Score, IsTheTruncatedSumOfTheResiduals) {
     Scorer s(300);
     s.scorer.load({world.correspondences.data(), count});
     for (int i = 0; i < 20; ++i) {
-      const Rigid pose = i == 0 ? world.camera_from_map : Rigid{test::randomRotation(&random), test::normalVector(&random)};
+      const Rigid pose =
+          i == 0 ? world.camera_from_map : Rigid{test::randomRotation(&random), test::normalVector(&random)};
       const double expected = slowScore(world, pose);
       EXPECT_NEAR(double{s.scorer.score(pose, kTruncation, kNoBound)}, expected, 1e-3 * expected + 1e-2);
     }
