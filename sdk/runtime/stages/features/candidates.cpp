@@ -9,6 +9,20 @@ constexpr int32_t kCellsAcross = 8, kCellsDown = 6;
 // Room for extrema over the keypoints finally wanted: enough that quotas have something to choose from.
 constexpr size_t kCandidatesPerKeypoint = 6, kFewestCandidates = 1024;
 
+// Total orders, so that no result depends on the order of insertion.
+bool isPlacedBefore(const Candidate &a, const Candidate &b) {
+  if (a.octave != b.octave) return a.octave < b.octave;
+  if (a.y != b.y) return a.y < b.y;
+  if (a.x != b.x) return a.x < b.x;
+  return a.layer < b.layer;
+}
+bool isStronger(const Candidate &a, const Candidate &b) {
+  return a.strength != b.strength ? a.strength > b.strength : isPlacedBefore(a, b);
+}
+bool hasHigherResponse(const Candidate &a, const Candidate &b) {
+  return a.response != b.response ? a.response > b.response : isPlacedBefore(a, b);
+}
+
 bool samePlace(const Candidate &a, const Candidate &b) {
   return a.octave == b.octave && a.x == b.x && a.y == b.y && a.layer == b.layer;
 }
@@ -23,14 +37,6 @@ uint32_t cellOf(const Candidate &c, const FeatureConfig &config) {
 
 }  // namespace
 
-bool isBefore(const Candidate &a, const Candidate &b) {
-  if (a.response != b.response) return a.response > b.response;
-  if (a.octave != b.octave) return a.octave < b.octave;
-  if (a.y != b.y) return a.y < b.y;
-  if (a.x != b.x) return a.x < b.x;
-  return a.layer < b.layer;
-}
-
 void CandidateList::layout(const FeatureConfig &config, Arena &scratch, CandidateList *out) {
   const size_t capacity = std::max(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
   const Span<Candidate> items = scratch.take<Candidate>("features.candidates", capacity);
@@ -41,13 +47,13 @@ void CandidateList::push(const Candidate &candidate) {
   Candidate *begin = items_.data();
   if (size_ < items_.size()) {
     begin[size_++] = candidate;
-    if (size_ == items_.size()) std::make_heap(begin, begin + size_, isBefore);
+    if (size_ == items_.size()) std::make_heap(begin, begin + size_, isStronger);
     return;
   }
-  if (!isBefore(candidate, begin[0])) return;
-  std::pop_heap(begin, begin + size_, isBefore);
+  if (!isStronger(candidate, begin[0])) return;
+  std::pop_heap(begin, begin + size_, isStronger);
   begin[size_ - 1] = candidate;
-  std::push_heap(begin, begin + size_, isBefore);
+  std::push_heap(begin, begin + size_, isStronger);
 }
 
 // Two extrema of the samples may refine to the same point; sorted, they are neighbours.
@@ -56,27 +62,28 @@ void CandidateList::removeDuplicates() {
   size_ = static_cast<size_t>(std::unique(begin, begin + size_, samePlace) - begin);
 }
 
-Span<Candidate> CandidateList::choose(uint32_t limit, const FeatureConfig &config) {
-  Candidate *begin = items_.data(), *end = begin + size_;
-  std::sort(begin, end, isBefore);
-  removeDuplicates();
-  end = begin + size_;
-  if (size_ <= limit) return items_.first(size_);
-
+// Moves the strongest that fit the cells' quotas to the front, in order; returns the end of their part.
+Candidate *CandidateList::chooseByCell(uint32_t limit, const FeatureConfig &config) {
   const float share = static_cast<float>(limit) / (kCellsAcross * kCellsDown);
   const uint32_t quota = static_cast<uint32_t>(config.cell_quota * share) + 1;
   uint32_t in_cell[kCellsAcross * kCellsDown] = {};
-  // Those within their cell's quota, and then those beyond it; each part stays in order.
-  Candidate *chosen = begin;
-  for (Candidate *c = begin; c != end && chosen != begin + limit; ++c) {
-    if (in_cell[cellOf(*c, config)]++ >= quota) continue;
-    // Not a swap: rotating would keep all in order but costs quadratic time; the passed over are sorted again
-    // below.
-    std::swap(*chosen++, *c);
+  Candidate *chosen = items_.data();
+  for (Candidate *c = items_.data(); c != items_.data() + size_ && chosen != items_.data() + limit; ++c) {
+    if (in_cell[cellOf(*c, config)]++ < quota) std::swap(*chosen++, *c);
   }
-  if (chosen != begin + limit) std::sort(chosen, end, isBefore);
-  std::sort(begin, begin + limit, isBefore);
-  return items_.first(limit);
+  return chosen;
+}
+
+Span<Candidate> CandidateList::choose(uint32_t limit, const FeatureConfig &config) {
+  Candidate *begin = items_.data();
+  std::sort(begin, begin + size_, isStronger);
+  removeDuplicates();
+  if (size_ > limit) {
+    std::sort(chooseByCell(limit, config), begin + size_, isStronger);
+    size_ = limit;
+  }
+  std::sort(begin, begin + size_, hasHigherResponse);
+  return items_.first(size_);
 }
 
 }  // namespace sphc

@@ -10,14 +10,12 @@ namespace sphc {
 // A refined extremum, in the pixels of its octave: array index coordinates, pixel 0 at 0.
 struct Candidate {
   float response;
+  float strength;  // response over the noise that white pixel noise leaves at this scale, up to a factor
   float x, y;
   float layer;  // continuous: level + offset
   int16_t octave;
   int16_t level;  // 1 .. kScales
 };
-
-// A total order, so that the result does not depend on the order of insertion: stronger first, then by place.
-bool isBefore(const Candidate &a, const Candidate &b);
 
 class CandidateList {
  public:
@@ -27,11 +25,12 @@ class CandidateList {
   // Keeps the strongest of all that were pushed.
   void push(const Candidate &candidate);
   // Sorts, removes duplicates and keeps at most `limit`: first the strongest of every grid cell up to the cell's
-  // quota, then the strongest of the rest.  Strongest first.
+  // quota, then the strongest of the rest.  Highest response first.
   Span<Candidate> choose(uint32_t limit, const FeatureConfig &config);
 
  private:
   void removeDuplicates();
+  Candidate *chooseByCell(uint32_t limit, const FeatureConfig &config);
 
   Span<Candidate> items_;  // a heap with the weakest on top while pushing
   size_t size_ = 0;

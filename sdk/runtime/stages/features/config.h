@@ -11,12 +11,12 @@ struct FeatureConfig {
   // Other libraries divide theirs by the 3 scales per octave: this 0.001 is their 0.003.
   float contrast_threshold = 0.001f;
   // Largest ratio of principal curvatures (Lowe 2004, section 4.1): discards points on straight edges.
-  float edge_ratio = 10.0f;
+  float edge_ratio = 12.0f;
   int32_t first_octave = 0;  // -1: start from the image at twice its size; four times the memory and time
   int32_t max_octaves = 8;   // fewer when the image is small
   // The image in 8 x 6 cells: at first a cell gets at most this many times its even share of the keypoints.
   float cell_quota = 3.0f;
-  int32_t max_orientations = 2;  // 1 or 2 keypoints at one place
+  int32_t max_orientations = 1;  // 1 or 2 keypoints at one place
 };
 
 constexpr int32_t kMinImageSide = 16, kMaxImageSide = 8192;

@@ -9,8 +9,8 @@ namespace sphc {
 namespace {
 
 constexpr int32_t kCells = 4, kBins = 8;
-constexpr float kCellSigmas = 3.0f;        // side of a cell in standard deviations of the keypoint
-constexpr int32_t kPerCell = 4;            // samples along the side of a cell
+constexpr float kCellSigmas = 3.5f;        // side of a cell in standard deviations of the keypoint
+constexpr int32_t kPerCell = 3;            // samples along the side of a cell
 constexpr int32_t kSide = 5 * kPerCell;    // gradient samples: the four cells and half a cell around them
 constexpr int32_t kPatchSide = kSide + 2;  // with their neighbours
 constexpr float kWindowCells = 2.0f;       // standard deviation of the window: half the descriptor's width

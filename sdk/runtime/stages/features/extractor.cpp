@@ -8,10 +8,6 @@ namespace {
 constexpr uint32_t kMostKeypoints = 65536;
 constexpr float kPixelCenter = 0.5f;  // array index 0 is the pixel centred at 0.5
 
-float sigmaOf(float layer) {
-  return static_cast<float>(kBaseSigma * expOf(static_cast<double>(layer) * (0.69314718055994530942 / kScales)));
-}
-
 }  // namespace
 
 bool FeatureExtractor::accepts(const FeatureConfig &config) {
@@ -67,7 +63,7 @@ uint32_t FeatureExtractor::describe(const Candidate &candidate, uint32_t room, K
                                     Descriptor *descriptors) {
   const Plane &level = space_.kept(candidate.octave, candidate.level);
   const int32_t width = space_.width(candidate.octave), height = space_.height(candidate.octave);
-  const float sigma = sigmaOf(candidate.layer), size = space_.pixelSize(candidate.octave);
+  const float sigma = sigmaOfLayer(candidate.layer), size = space_.pixelSize(candidate.octave);
   const int32_t limit = room > 1 ? config_.max_orientations : 1;
   float angles[2];
   const int32_t count =

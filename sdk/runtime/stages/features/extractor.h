@@ -30,7 +30,8 @@ class FeatureExtractor {
   void init();
 
   // `gray` has the configured size; `keypoints` and `descriptors` have room for max_keypoints.  Returns how many
-  // were found, strongest first.  Scratch keeps nothing from call to call; the same image gives the same bytes.
+  // were found, highest response first.  Scratch keeps nothing from call to call; the same image gives the same
+  // bytes.
   uint32_t extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors);
 
  private:

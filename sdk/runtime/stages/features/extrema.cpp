@@ -12,13 +12,6 @@ constexpr int32_t kBorder = 5;           // pixels at the image's edge without k
 constexpr int32_t kRefineSteps = 5;      // times the fit may move to a neighbouring sample
 constexpr float kEarlyThreshold = 0.8f;  // of the contrast threshold: what a sample must exceed to be refined
 
-// Value and derivatives of the difference of Gaussians at a sample, by central differences.
-struct Derivatives {
-  float value;
-  float dx, dy, ds;
-  float dxx, dyy, dss, dxy, dxs, dys;
-};
-
 float dogAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
   return space.level(l + 1).row(y)[x] - space.level(l).row(y)[x];
 }
@@ -139,13 +132,7 @@ void ExtremaFinder::examine(const ScaleSpace &space, int32_t x, int32_t y, int32
     if (!solveOffset(d, offset)) return;
     const int32_t move_x = towards(offset[0]), move_y = towards(offset[1]), move_s = towards(offset[2]);
     if (move_x == 0 && move_y == 0 && move_s == 0) {
-      const float response = absOf(d.value + 0.5f * (d.dx * offset[0] + d.dy * offset[1] + d.ds * offset[2]));
-      const float trace = d.dxx + d.dyy, determinant = d.dxx * d.dyy - d.dxy * d.dxy;
-      // not >= alone: a NaN must not pass
-      if (!(response >= threshold_) || !(trace * trace < edge_limit_ * determinant)) return;
-      found->push({response, static_cast<float>(x) + offset[0], static_cast<float>(y) + offset[1],
-                   static_cast<float>(level) + offset[2], static_cast<int16_t>(octave_),
-                   static_cast<int16_t>(level)});
+      accept(d, offset, x, y, level, found);
       return;
     }
     x += move_x;
@@ -156,6 +143,25 @@ void ExtremaFinder::examine(const ScaleSpace &space, int32_t x, int32_t y, int32
       return;
     }
   }
+}
+
+// Contrast and shape (Lowe 2004, sections 4 and 4.1).
+void ExtremaFinder::accept(const Derivatives &d, const float offset[3], int32_t x, int32_t y, int32_t level,
+                           CandidateList *found) const {
+  const float response = absOf(d.value + 0.5f * (d.dx * offset[0] + d.dy * offset[1] + d.ds * offset[2]));
+  const float trace = d.dxx + d.dyy, determinant = d.dxx * d.dyy - d.dxy * d.dxy;
+  // negated, so that a NaN does not pass
+  if (!(response >= threshold_) || !(trace * trace < edge_limit_ * determinant)) return;
+  Candidate c;
+  c.response = response;
+  c.x = static_cast<float>(x) + offset[0];
+  c.y = static_cast<float>(y) + offset[1];
+  c.layer = static_cast<float>(level) + offset[2];
+  // A blur of sigma leaves white noise with a standard deviation in proportion to 1 / sigma.
+  c.strength = response * sigmaOfLayer(c.layer) * static_cast<float>(1 << octave_);
+  c.octave = static_cast<int16_t>(octave_);
+  c.level = static_cast<int16_t>(level);
+  found->push(c);
 }
 
 }  // namespace sphc

@@ -9,6 +9,13 @@
 
 namespace sphc {
 
+// Value and derivatives of the difference of Gaussians at a sample, by central differences.
+struct Derivatives {
+  float value;
+  float dx, dy, ds;
+  float dxx, dyy, dss, dxy, dxs, dys;
+};
+
 class ExtremaFinder {
  public:
   static void layout(const FeatureConfig &config, Arena &scratch, ExtremaFinder *out);
@@ -20,6 +27,9 @@ class ExtremaFinder {
  private:
   void searchRow(const ScaleSpace &space, int32_t y, CandidateList *found);
   void examine(const ScaleSpace &space, int32_t x, int32_t y, int32_t level, CandidateList *found) const;
+
+  void accept(const Derivatives &derivatives, const float offset[3], int32_t x, int32_t y, int32_t level,
+              CandidateList *found) const;
 
   float threshold_ = 0, edge_limit_ = 0;
   Plane dog_[kDogLayers];  // rings

@@ -9,12 +9,12 @@ namespace {
 
 constexpr int32_t kBins = 36;
 constexpr float kWindowSigma = 1.5f;  // of the keypoint's
-constexpr float kWindowReach = 3.0f;  // standard deviations of the window
+constexpr float kWindowReach = 2.0f;  // standard deviations of the window
 constexpr float kSecondPeak = 0.8f;   // of the highest
-constexpr int32_t kMaxRadius = 18;    // 4.5 sigma of the coarsest level
+constexpr int32_t kMaxRadius = 8;     // three times the coarsest keypoint's 2.25 pixels, rounded up
 constexpr int32_t kMaxSide = 2 * kMaxRadius + 1;
 
-// Twice [1 1 1] / 3 and once [1 2 1] / 4 would do as well; this is [1 4 6 4 1] / 16.
+// By [1 4 6 4 1] / 16.
 void smooth(const float in[kBins], float out[kBins]) {
   for (int32_t i = 0; i < kBins; ++i) {
     const float outer = in[(i + kBins - 2) % kBins] + in[(i + 2) % kBins];

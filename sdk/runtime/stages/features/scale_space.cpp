@@ -7,8 +7,7 @@
 namespace sphc {
 namespace {
 
-constexpr double kCameraSigma = 0.5;  // blur assumed in the input (Lowe 2004, section 3.3)
-constexpr double kBlurReach = 3.0;    // standard deviations at which kernels end
+constexpr double kBlurReach = 3.0;  // standard deviations at which kernels end
 constexpr int32_t kSmallestOctave = 12;
 // More rows than any level needs from its first use to its last: all lags, refinement on both sides, one blur.
 constexpr int32_t kRingRows = 64, kSourceRows = 16;
@@ -27,9 +26,11 @@ Plane takePlane(Arena &arena, const char *name, int32_t width, int32_t rows, int
           row_mask};
 }
 
-double sigmaOfLevel(int32_t level) { return kBaseSigma * expOf(level * 0.69314718055994530942 / kScales); }
+double sigmaAt(double layer) { return kBaseSigma * expOf(layer * (0.69314718055994530942 / kScales)); }
 
 }  // namespace
+
+float sigmaOfLayer(float layer) { return static_cast<float>(sigmaAt(static_cast<double>(layer))); }
 
 ScaleSpace::Kernel ScaleSpace::gaussian(double sigma) {
   Kernel kernel = {};
@@ -77,11 +78,12 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
 }
 
 void ScaleSpace::init() {
-  const double assumed = first_octave_ < 0 ? 2 * kCameraSigma : kCameraSigma;
-  base_kernel_ = gaussian(sqrtOf(kBaseSigma * kBaseSigma - assumed * assumed));
+  // No blur is assumed in the input (Lowe 2004 assumes 0.5 pixels): sharper or not, the full blur found more
+  // matches.
+  base_kernel_ = gaussian(kBaseSigma);
   base_lags_[0] = 0;
   for (int32_t l = 1; l < kLevels; ++l) {
-    const double below = sigmaOfLevel(l - 1), here = sigmaOfLevel(l);
+    const double below = sigmaAt(l - 1), here = sigmaAt(l);
     kernels_[l] = gaussian(sqrtOf(here * here - below * below));
     base_lags_[l] = base_lags_[l - 1] + kernels_[l].radius;
   }

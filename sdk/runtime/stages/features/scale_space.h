@@ -17,8 +17,11 @@ namespace sphc {
 constexpr int32_t kScales = kSearchedLayers;  // per octave
 constexpr int32_t kLevels = kScales + 3;      // Gaussian images per octave
 constexpr int32_t kMaxOctaves = 11;           // 2 * 8192 down to 16
-constexpr double kBaseSigma = 1.6;            // of level 0, in pixels of its octave
+constexpr double kBaseSigma = 1.0;            // of level 0, in pixels of its octave
 constexpr int32_t kRefineReach = 5;           // rows an extremum may wander in refinement
+
+// Standard deviation at a level or between two, in pixels of the octave.
+float sigmaOfLayer(float layer);
 
 class ScaleSpace {
  public:
