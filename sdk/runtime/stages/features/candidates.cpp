@@ -7,7 +7,9 @@ namespace {
 
 constexpr int32_t kCellsAcross = 8, kCellsDown = 6;
 // Room for extrema over the keypoints finally wanted: enough that quotas have something to choose from.
-constexpr size_t kCandidatesPerKeypoint = 6, kFewestCandidates = 1024;
+constexpr size_t kCandidatesPerKeypoint = 4, kFewestCandidates = 1024;
+constexpr float kSamePlace = 0.5f;   // standard deviations
+constexpr float kSameScale = 1.28f;  // a little over the step from scale to scale
 
 // Total orders, so that no result depends on the order of insertion.
 bool isPlacedBefore(const Candidate &a, const Candidate &b) {
@@ -23,8 +25,22 @@ bool hasHigherResponse(const Candidate &a, const Candidate &b) {
   return a.response != b.response ? a.response > b.response : isPlacedBefore(a, b);
 }
 
-bool samePlace(const Candidate &a, const Candidate &b) {
-  return a.octave == b.octave && a.x == b.x && a.y == b.y && a.layer == b.layer;
+// Pixels of the first octave in one of the candidate's.
+float pixelSize(const Candidate &c) { return static_cast<float>(1 << c.octave); }
+float sigmaOf(const Candidate &c) { return c.strength / c.response; }
+
+bool isHigher(const Candidate &a, const Candidate &b) {
+  const float y = a.y * pixelSize(a), other_y = b.y * pixelSize(b);
+  return y != other_y ? y < other_y : isPlacedBefore(a, b);
+}
+
+// One structure found twice: by neighbouring scales, in particular on both sides of an octave's end, or by two
+// samples that refine to the same point.
+bool isSameStructure(const Candidate &a, const Candidate &b) {
+  const float smaller = std::min(sigmaOf(a), sigmaOf(b)), larger = std::max(sigmaOf(a), sigmaOf(b));
+  if (larger > kSameScale * smaller) return false;
+  const float dx = a.x * pixelSize(a) - b.x * pixelSize(b), dy = a.y * pixelSize(a) - b.y * pixelSize(b);
+  return dx * dx + dy * dy < kSamePlace * kSamePlace * smaller * smaller;
 }
 
 // Cells of the grid are counted in octave pixels, so that first_octave does not matter here.
@@ -56,10 +72,17 @@ void CandidateList::push(const Candidate &candidate) {
   std::push_heap(begin, begin + size_, isStronger);
 }
 
-// Two extrema of the samples may refine to the same point; sorted, they are neighbours.
-void CandidateList::removeDuplicates() {
-  Candidate *begin = items_.data();
-  size_ = static_cast<size_t>(std::unique(begin, begin + size_, samePlace) - begin);
+// Whoever has a stronger twin goes, whether or not that one stays: so the order of looking does not matter.
+void CandidateList::removeTwins() {
+  Candidate *begin = items_.data(), *end = begin + size_;
+  std::sort(begin, end, isHigher);
+  for (Candidate *a = begin; a != end; ++a) {
+    const float last_y = a->y * pixelSize(*a) + kSamePlace * sigmaOf(*a);
+    for (Candidate *b = a + 1; b != end && b->y * pixelSize(*b) < last_y; ++b) {
+      if (isSameStructure(*a, *b)) (isStronger(*a, *b) ? b : a)->is_twin = true;
+    }
+  }
+  size_ = static_cast<size_t>(std::remove_if(begin, end, [](const Candidate &c) { return c.is_twin; }) - begin);
 }
 
 // Moves the strongest that fit the cells' quotas to the front, in order; returns the end of their part.
@@ -76,8 +99,8 @@ Candidate *CandidateList::chooseByCell(uint32_t limit, const FeatureConfig &conf
 
 Span<Candidate> CandidateList::choose(uint32_t limit, const FeatureConfig &config) {
   Candidate *begin = items_.data();
+  removeTwins();
   std::sort(begin, begin + size_, isStronger);
-  removeDuplicates();
   if (size_ > limit) {
     std::sort(chooseByCell(limit, config), begin + size_, isStronger);
     size_ = limit;

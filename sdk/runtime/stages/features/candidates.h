@@ -10,11 +10,12 @@ namespace sphc {
 // A refined extremum, in the pixels of its octave: array index coordinates, pixel 0 at 0.
 struct Candidate {
   float response;
-  float strength;  // response over the noise that white pixel noise leaves at this scale, up to a factor
+  float strength;  // response times standard deviation in pixels of the first octave
   float x, y;
   float layer;  // continuous: level + offset
-  int16_t octave;
-  int16_t level;  // 1 .. kScales
+  int8_t octave;
+  int8_t level;  // 1 .. kScales
+  bool is_twin;  // a stronger one stands for the same structure
 };
 
 class CandidateList {
@@ -24,12 +25,12 @@ class CandidateList {
   void clear() { size_ = 0; }
   // Keeps the strongest of all that were pushed.
   void push(const Candidate &candidate);
-  // Sorts, removes duplicates and keeps at most `limit`: first the strongest of every grid cell up to the cell's
+  // Sorts, removes twins and keeps at most `limit`: first the strongest of every grid cell up to the cell's
   // quota, then the strongest of the rest.  Highest response first.
   Span<Candidate> choose(uint32_t limit, const FeatureConfig &config);
 
  private:
-  void removeDuplicates();
+  void removeTwins();
   Candidate *chooseByCell(uint32_t limit, const FeatureConfig &config);
 
   Span<Candidate> items_;  // a heap with the weakest on top while pushing

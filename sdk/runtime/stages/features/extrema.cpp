@@ -54,7 +54,15 @@ bool solveOffset(const Derivatives &d, float offset[3]) {
   return true;
 }
 
-int32_t towards(float offset) { return offset > 0.5f ? 1 : (offset < -0.5f ? -1 : 0); }
+// A little over half a sample, so that a point between two samples does not go to and fro.
+int32_t towards(float offset) { return offset > 0.6f ? 1 : (offset < -0.6f ? -1 : 0); }
+
+int32_t clampLevel(int32_t level) { return level < 1 ? 1 : (level > kScales ? kScales : level); }
+
+// The quadratic is trusted up to the neighbouring sample.
+bool isNear(const float offset[3]) {
+  return absOf(offset[0]) < 1.0f && absOf(offset[1]) < 1.0f && absOf(offset[2]) < 1.0f;
+}
 
 // Strictly beyond the neighbours that come before it and not below those after, so that one of equal samples
 // remains.
@@ -126,20 +134,22 @@ void ExtremaFinder::examine(const ScaleSpace &space, int32_t x, int32_t y, int32
                             CandidateList *found) const {
   if (!isStrictExtremum(space, x, y, level)) return;
   const int32_t start = y;
-  for (int32_t i = 0; i < kRefineSteps; ++i) {
+  for (int32_t i = 0;; ++i) {
     const Derivatives d = derivativesAt(space, x, y, level);
     float offset[3];
     if (!solveOffset(d, offset)) return;
-    const int32_t move_x = towards(offset[0]), move_y = towards(offset[1]), move_s = towards(offset[2]);
-    if (move_x == 0 && move_y == 0 && move_s == 0) {
-      accept(d, offset, x, y, level, found);
+    const int32_t move_x = towards(offset[0]), move_y = towards(offset[1]);
+    // An extremum just beyond the searched scales stays: the next octave sees it just beyond its own.
+    const int32_t move_s = clampLevel(level + towards(offset[2])) - level;
+    if (i == kRefineSteps || (move_x == 0 && move_y == 0 && move_s == 0)) {
+      if (isNear(offset)) accept(d, offset, x, y, level, found);
       return;
     }
     x += move_x;
     y += move_y;
     level += move_s;
-    if (level < 1 || level > kScales || x < kBorder || x >= width_ - kBorder || y < kBorder ||
-        y >= height_ - kBorder || absOf(y - start) > kRefineReach) {
+    if (x < kBorder || x >= width_ - kBorder || y < kBorder || y >= height_ - kBorder ||
+        absOf(y - start) > kRefineReach) {
       return;
     }
   }
@@ -159,8 +169,9 @@ void ExtremaFinder::accept(const Derivatives &d, const float offset[3], int32_t 
   c.layer = static_cast<float>(level) + offset[2];
   // A blur of sigma leaves white noise with a standard deviation in proportion to 1 / sigma.
   c.strength = response * sigmaOfLayer(c.layer) * static_cast<float>(1 << octave_);
-  c.octave = static_cast<int16_t>(octave_);
-  c.level = static_cast<int16_t>(level);
+  c.octave = static_cast<int8_t>(octave_);
+  c.level = static_cast<int8_t>(level);
+  c.is_twin = false;
   found->push(c);
 }
 

@@ -1,0 +1,54 @@
+// The same bytes again: from call to call, from memory to memory, from one instruction set to another.
+#include <gtest/gtest.h>
+
+#include "hwy/highway.h"
+#include "tests/unit/runtime/stages/features/features_fixture.h"
+
+namespace sphc {
+namespace {
+
+uint64_t fingerprint(const Features &features) {
+  uint64_t hash = 0xCBF29CE484222325ull;  // FNV-1a
+  const auto add = [&](const void *data, size_t bytes) {
+    for (size_t i = 0; i < bytes; ++i) hash = (hash ^ static_cast<const uint8_t *>(data)[i]) * 0x100000001B3ull;
+  };
+  add(features.keypoints.data(), features.keypoints.size() * sizeof(Keypoint));
+  add(features.descriptors.data(), features.descriptors.size() * sizeof(Descriptor));
+  return hash;
+}
+
+TEST(Repeatability, ScratchKeepsNothing) {
+  const TestImage a = spots(200, 150, 1), b = noise(200, 150, 2);
+  TestExtractor extractor(configFor(a)), other(configFor(a), 0xFF);
+  const Features first = extractor(a);
+  extractor(b);
+  EXPECT_TRUE(same(first, extractor(a)));
+  EXPECT_TRUE(same(first, other(a)));
+  EXPECT_TRUE(extractor.sound());
+}
+
+TEST(Repeatability, InstructionSetsAgree) {
+  const TestImage a = spots(333, 211, 1), b = noise(160, 121, 2);
+  const Features first = extractFrom(a), second = extractFrom(b);
+  const int64_t all = hwy::SupportedTargets();
+  int tried = 0;
+  for (int64_t left = all; left != 0; left &= left - 1) {
+    hwy::SetSupportedTargetsForTest(left & -left);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_TRUE(same(first, extractFrom(a))) << hwy::TargetName(left & -left);
+    EXPECT_TRUE(same(second, extractFrom(b))) << hwy::TargetName(left & -left);
+    ++tried;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  EXPECT_GE(tried, 1);
+}
+
+// Pinned: when this changes, maps built before no longer fit, so kExtractorId rises with it.
+TEST(Repeatability, BytesArePinned) {
+  EXPECT_EQ(fingerprint(extractFrom(noise(256, 200, 42))), 0ull);
+  EXPECT_EQ(kExtractorId, 1u);
+}
+
+}  // namespace
+}  // namespace sphc
