@@ -24,7 +24,8 @@ int main(int argc, char **argv) {
               sphc::crc32(0, descriptors.data(), descriptors.size() * sphc::kDescriptorBytes));
   for (uint32_t i = 0; i < view.pointCount(); ++i) {
     const sphc::Direction d = view.direction(i);
-    std::printf("direction %.9g %.9g %.9g\n", double{d.x}, double{d.y}, double{d.z});
+    std::printf("direction %.9g %.9g %.9g\n", static_cast<double>(d.x), static_cast<double>(d.y),
+                static_cast<double>(d.z));
   }
   return 0;
 }

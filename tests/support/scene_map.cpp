@@ -46,7 +46,9 @@ std::vector<WorldPoint> describeViews(const sphc_camera &camera, uint32_t keypoi
     for (uint32_t i = 0; i < count; ++i) {
       Vector3 point;
       double sigma = 0;
-      if (!aligner.lift(depth, {double{found[i].x_px}, double{found[i].y_px}}, &point, &sigma)) continue;
+      if (!aligner.lift(depth, {static_cast<double>(found[i].x_px), static_cast<double>(found[i].y_px)}, &point,
+                        &sigma))
+        continue;
       points.push_back({camera_from_world.inverse() * point, descriptors[i]});
     }
   }

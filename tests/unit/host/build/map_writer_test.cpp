@@ -48,7 +48,10 @@ TEST(MapWriter, TheReaderGetsBackWhatWasWritten) {
   ASSERT_EQ(MapView::open(file.data(), file.size(), kExtractorId, &view, nullptr), SPHC_OK);
   for (uint32_t i = 0; i < 1000; ++i) {
     const Direction d = view.direction(i);
-    EXPECT_LT((Vector3(double{d.x}, double{d.y}, double{d.z}) - cloud.points[i].direction).norm(), 7e-5);
+    EXPECT_LT((Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)) -
+               cloud.points[i].direction)
+                  .norm(),
+              7e-5);
     EXPECT_EQ(std::memcmp(&view.descriptors()[i], &cloud.points[i].descriptor, kDescriptorBytes), 0);
   }
 }

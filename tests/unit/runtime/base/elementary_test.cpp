@@ -49,7 +49,8 @@ TEST(Elementary, Atan2MatchesLibmInAllQuadrantsAndScales) {
     const double y = test::normal(&random) * scale, x = test::normal(&random) * (i % 3 ? scale : 1);
     worst = std::max(worst, std::abs(atan2Of(y, x) - std::atan2(y, x)));
     const auto fy = static_cast<float>(y), fx = static_cast<float>(x);
-    worst_fast = std::max(worst_fast, std::abs(double{atan2Fast(fy, fx)} - std::atan2(double{fy}, double{fx})));
+    worst_fast = std::max(worst_fast, std::abs(static_cast<double>(atan2Fast(fy, fx)) -
+                                               std::atan2(static_cast<double>(fy), static_cast<double>(fx))));
   }
   EXPECT_LT(worst, 1e-15);
   EXPECT_LT(worst_fast, 2e-6);
@@ -62,7 +63,7 @@ TEST(Elementary, Atan2OnTheAxes) {
   EXPECT_NEAR(atan2Of(1, 0), kPi / 2, 1e-15);
   EXPECT_NEAR(atan2Of(-1, 0), -kPi / 2, 1e-15);
   EXPECT_EQ(atan2Fast(0.0f, 0.0f), 0.0f);
-  EXPECT_NEAR(double{atan2Fast(0.0f, -1.0f)}, kPi, 2e-6);
+  EXPECT_NEAR(static_cast<double>(atan2Fast(0.0f, -1.0f)), kPi, 2e-6);
 }
 
 TEST(Elementary, ExpMatchesLibm) {

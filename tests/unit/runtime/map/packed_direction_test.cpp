@@ -16,7 +16,9 @@ TEST(PackedDirection, EveryCodeUnpacksToAUnitVector) {
   for (uint32_t u = 1; u < 65536; u += 127)
     for (uint32_t v = 1; v < 65536; v += 131) {
       const Direction d = unpackDirection({static_cast<uint16_t>(u), static_cast<uint16_t>(v)});
-      const double norm2 = double{d.x} * double{d.x} + double{d.y} * double{d.y} + double{d.z} * double{d.z};
+      const double norm2 = static_cast<double>(d.x) * static_cast<double>(d.x) +
+                           static_cast<double>(d.y) * static_cast<double>(d.y) +
+                           static_cast<double>(d.z) * static_cast<double>(d.z);
       ASSERT_NEAR(norm2, 1, 1e-6) << u << " " << v;
     }
 }
@@ -24,7 +26,7 @@ TEST(PackedDirection, EveryCodeUnpacksToAUnitVector) {
 TEST(PackedDirection, AxesAndCorners) {
   const auto unpacked = [](uint16_t u, uint16_t v) {
     const Direction d = unpackDirection({u, v});
-    return Vector3(double{d.x}, double{d.y}, double{d.z});
+    return Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z));
   };
   EXPECT_EQ(unpacked(32768, 32768), Vector3(0, 0, 1));
   EXPECT_EQ(unpacked(65535, 32768), Vector3(1, 0, 0));
@@ -48,7 +50,9 @@ TEST(PackedDirection, QuantisationLosesAtMostWhatTheFormatSays) {
   double worst = 0;
   for (uint32_t i = 0; i < view.pointCount(); ++i) {
     const Direction d = view.direction(i);
-    worst = std::max(worst, (Vector3(double{d.x}, double{d.y}, double{d.z}) - points[i].direction).norm());
+    worst = std::max(worst, (Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)) -
+                             points[i].direction)
+                                .norm());
   }
   EXPECT_LT(worst, 0.07e-3);
   EXPECT_GT(worst, 0.05e-3);  // the bound is no idle one

@@ -87,8 +87,8 @@ TEST_F(MatcherTest, BestRatioFirst) {
     queries.push_back(jittered(points_[q].descriptor, 2 + static_cast<int>(q), &random_));
   const std::vector<Match> matches = matchAll(queries, 1.0f);
   for (size_t i = 1; i < matches.size(); ++i)
-    EXPECT_LE(double{1} * matches[i - 1].distance2 / matches[i - 1].second2,
-              double{1} * matches[i].distance2 / matches[i].second2);
+    EXPECT_LE(1.0 * matches[i - 1].distance2 / matches[i - 1].second2,
+              1.0 * matches[i].distance2 / matches[i].second2);
 }
 
 TEST_F(MatcherTest, TwinsFailTheRatioTest) {

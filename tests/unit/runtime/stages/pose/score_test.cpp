@@ -52,7 +52,8 @@ TEST(Score, IsTheTruncatedSumOfTheResiduals) {
       const Rigid pose =
           i == 0 ? world.camera_from_map : Rigid{test::randomRotation(&random), test::normalVector(&random)};
       const double expected = slowScore(world, pose);
-      EXPECT_NEAR(double{s.scorer.score(pose, kTruncation, kNoBound)}, expected, 1e-3 * expected + 1e-2);
+      EXPECT_NEAR(static_cast<double>(s.scorer.score(pose, kTruncation, kNoBound)), expected,
+                  1e-3 * expected + 1e-2);
     }
   }
 }
