@@ -34,14 +34,35 @@ HWY_ATTR void doubleRow(const float *__restrict upper, const float *__restrict l
   out[2 * width - 2] = out[2 * width - 1] = 0.5f * (upper[width - 1] + lower[width - 1]);
 }
 
+// The taps of distance K .. Radius, by recursion rather than a loop, so that only the loop over pixels remains for the
+// compiler to vectorise.
+template <int32_t K, int32_t Radius>
+HWY_INLINE float addAcross(float sum, const float *weights, const float *in) {
+  if constexpr (K > Radius) {
+    return sum;
+  } else {
+    return addAcross<K + 1, Radius>(sum + weights[K] * (in[-K] + in[K]), weights, in);
+  }
+}
+template <int32_t K, int32_t Radius>
+HWY_INLINE float addDown(float sum, const float *weights, const float *const *rows, int32_t x) {
+  if constexpr (K > Radius) {
+    return sum;
+  } else {
+    return addDown<K + 1, Radius>(sum + weights[K] * (rows[Radius - K][x] + rows[Radius + K][x]), weights, rows, x);
+  }
+}
+
 template <int32_t Radius>
 HWY_ATTR void blurColumns(const BlurTaps &taps, float *__restrict out, int32_t width) {
-  const float *const *rows = taps.rows;
+  // Copies, which the compiler knows not to be written through `out`.
+  const float *rows[2 * Radius + 1];
+  float weights[Radius + 1];
+  for (int32_t k = 0; k <= 2 * Radius; ++k) rows[k] = taps.rows[k];
+  for (int32_t k = 0; k <= Radius; ++k) weights[k] = taps.weights[k];
   SPHC_INDEPENDENT
   for (int32_t x = 0; x < width; ++x) {
-    float sum = taps.weights[0] * rows[Radius][x];
-    for (int32_t k = 1; k <= Radius; ++k) sum += taps.weights[k] * (rows[Radius - k][x] + rows[Radius + k][x]);
-    out[x] = sum;
+    out[x] = addDown<1, Radius>(weights[0] * rows[Radius][x], weights, rows, x);
   }
 }
 
@@ -50,9 +71,7 @@ HWY_ATTR void blurAlong(const float *__restrict weights, const float *__restrict
                         int32_t width) {
   SPHC_INDEPENDENT
   for (int32_t x = 0; x < width; ++x) {
-    float sum = weights[0] * in[x];
-    for (int32_t k = 1; k <= Radius; ++k) sum += weights[k] * (in[x - k] + in[x + k]);
-    out[x] = sum;
+    out[x] = addAcross<1, Radius>(weights[0] * in[x], weights, in + x);
   }
 }
 
@@ -81,18 +100,8 @@ HWY_ATTR void blurRow(const BlurTaps &taps, float *padded, float *out, int32_t w
       return blurWith<5>(taps, padded, out, width);
     case 6:
       return blurWith<6>(taps, padded, out, width);
-    case 7:
-      return blurWith<7>(taps, padded, out, width);
-    case 8:
-      return blurWith<8>(taps, padded, out, width);
-    case 9:
-      return blurWith<9>(taps, padded, out, width);
-    case 10:
-      return blurWith<10>(taps, padded, out, width);
-    case 11:
-      return blurWith<11>(taps, padded, out, width);
     default:
-      return blurWith<12>(taps, padded, out, width);
+      return blurWith<7>(taps, padded, out, width);
   }
 }
 

