@@ -34,8 +34,8 @@ HWY_ATTR void doubleRow(const float *__restrict upper, const float *__restrict l
   out[2 * width - 2] = out[2 * width - 1] = 0.5f * (upper[width - 1] + lower[width - 1]);
 }
 
-// The taps of distance K .. Radius, by recursion rather than a loop, so that only the loop over pixels remains for the
-// compiler to vectorise.
+// The taps of distance K .. Radius, by recursion rather than a loop, so that only the loop over pixels remains for
+// the compiler to vectorise.
 template <int32_t K, int32_t Radius>
 HWY_INLINE float addAcross(float sum, const float *weights, const float *in) {
   if constexpr (K > Radius) {
