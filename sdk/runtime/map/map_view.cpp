@@ -18,6 +18,7 @@ class Validator {
     sphc_status status = checkHeader();
     if (status == SPHC_OK) status = checkTable();
     if (status == SPHC_OK) status = checkExtractor(extractor);
+    if (status != SPHC_OK) return status;  // the header is not to be read any further
     uint64_t end = sizeof(MapHeader) + sizeof(MapSection) * header().section_count;
     for (uint32_t i = 0; status == SPHC_OK && i < header().section_count; ++i) status = checkSection(i, &end);
     if (status == SPHC_OK && end != bytes_)
