@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "runtime/stages/pose/estimator.h"
+#include "runtime/stages/pose/paper_estimator.h"
 
 namespace sphc::host {
 namespace {
@@ -51,8 +52,22 @@ PoseVariant ours() {
   return {"ours", false, [estimator](const PoseCase &c, uint64_t seed) { return estimator->run(c, seed); }, ""};
 }
 
+// The paper's options: more certainty where there are no fakes.
+PoseVariant paper() {
+  return {"paper", false,
+          [](const PoseCase &c, uint64_t seed) {
+            PaperCostConfig config;
+            config.focal_px = c.focalPx();
+            if (c.eta_percent == 100) config.success_probability = 0.9999;
+            const double begin = clockSeconds();
+            const Estimate estimate = estimateWithPaperCost(config, rowsOf(c), seed);
+            return answerOf(estimate, clockSeconds() - begin);
+          },
+          ""};
+}
+
 }  // namespace
 
-std::vector<PoseVariant> ourVariants() { return {ours()}; }
+std::vector<PoseVariant> ourVariants() { return {ours(), paper()}; }
 
 }  // namespace sphc::host
