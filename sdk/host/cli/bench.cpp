@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "host/bench/pose_ours.h"
+#include "host/bench/pose_peers.h"
 #include "host/bench/pose_table.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
@@ -16,8 +17,21 @@ struct Options {
   std::vector<std::string> files, only;
   std::vector<DepthSource> depths = {DepthSource::kTof};
   BenchOptions bench;
-  std::string out, ledger;
+  std::string python = "python3", out, ledger;
+  bool no_peers = false;
 };
+
+std::vector<PoseVariant> allVariants(const Options &options) {
+  std::vector<PoseVariant> all = ourVariants();
+  if (options.no_peers) return all;
+  for (PoseVariant &peer : posePeers(options.python)) all.push_back(std::move(peer));
+  return all;
+}
+
+void tellAbsent(const std::vector<PoseVariant> &variants, const Console &console) {
+  for (const PoseVariant &variant : variants)
+    if (!variant.run) console.warn("note: " + variant.name + " is absent, " + variant.absent);
+}
 
 // Variants by name, when some were asked for.
 std::vector<PoseVariant> chooseVariants(const Options &options, std::vector<PoseVariant> all) {
@@ -52,7 +66,8 @@ BenchTable runFile(const std::string &path, DepthSource depth, const Options &op
 
 int runPose(const Options &options, const Console &console) {
   const int core = pinToOneCore();
-  const auto variants = chooseVariants(options, ourVariants());
+  const auto variants = chooseVariants(options, allVariants(options));
+  tellAbsent(variants, console);
   console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
                        : "Pinned to core " + std::to_string(core) + "; one thread.");
   std::vector<BenchTable> tables;
@@ -105,6 +120,10 @@ void addOptions(CLI::App *app, Options *options) {
       ->expected(1)
       ->take_all()
       ->type_name("NAME");
+  app->add_flag("--no-peers", options->no_peers, "The library's own estimators only");
+  app->add_option("--python", options->python, "Python that has poselib and numpy")
+      ->capture_default_str()
+      ->type_name("PATH");
   app->add_option("-o,--out", options->out, "Folder for pose.csv and drawings")->type_name("DIR");
   app->add_option("--ledger", options->ledger, "Write accuracy and ratios, no milliseconds")->type_name("FILE");
 }
