@@ -61,6 +61,7 @@ PoseCase makePoseCase(const PoseQuery &query, uint32_t eta_percent, DepthSource 
       c.is_true.push_back(row.is_true);
     } else {
       c.without_depth.push_back(correspondence);
+      c.without_depth_is_true.push_back(row.is_true);
     }
   }
   if (eta100 && eta100->points_map_m.size() == eta100->rows.size()) addTruePoints(*eta100, source, &c);

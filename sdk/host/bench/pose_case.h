@@ -31,6 +31,7 @@ struct PoseCase {
   std::vector<bool> is_true;                    // of them
   // Rows without depth: point_m at z = 1, sideways_m at z = 1, along_m infinite.
   std::vector<Correspondence> without_depth;
+  std::vector<bool> without_depth_is_true;
 
   // For peers that see the map's points: of the rows with depth at eta 100.  Empty when not known.
   std::vector<Vector2> true_pixels_px;

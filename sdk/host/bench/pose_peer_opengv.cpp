@@ -14,10 +14,10 @@ namespace {
 using opengv::absolute_pose::CentralAbsoluteAdapter;
 using Problem = opengv::sac_problems::absolute_pose::AbsolutePoseSacProblem;
 
-constexpr int kMaxIterations = 20000;
-constexpr double kProbability = 0.9999;
+constexpr int kMaxIterations = 10000;
+constexpr double kProbability = 0.99;
 constexpr double kTruePointGatePx = 4;
-constexpr double kLiftedGateDeg = 0.6;  // of a lifted keypoint, seen from the sphere centre
+constexpr double kLiftedGateDeg = 1;  // of a lifted keypoint, seen from the sphere centre
 
 // What OpenGV measures errors in: 1 - cos of the angle between bearings.
 double gateOf(double angle_rad) { return 1 - std::cos(angle_rad); }

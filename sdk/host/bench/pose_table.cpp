@@ -26,6 +26,12 @@ nlohmann::ordered_json tailJson(const Tail &tail) {
   return {{"median", tail.median}, {"p90", tail.p90}, {"p99", tail.p99}, {"max", tail.max}};
 }
 
+std::string caseText(const BenchTable &table) {
+  return table.file + "," + depthName(table.depth) + "," + std::to_string(table.eta_percent);
+}
+
+}  // namespace
+
 nlohmann::ordered_json summaryJson(const VariantSummary &s) {
   nlohmann::ordered_json value = {{"variant", s.name},
                                   {"runs", s.runs},
@@ -40,12 +46,6 @@ nlohmann::ordered_json summaryJson(const VariantSummary &s) {
                                   {"iterations_median", s.iterations}};
   return value;  // NaN becomes null
 }
-
-std::string caseText(const BenchTable &table) {
-  return table.file + "," + depthName(table.depth) + "," + std::to_string(table.eta_percent);
-}
-
-}  // namespace
 
 std::string alignedText(const std::vector<std::vector<std::string>> &rows) {
   std::vector<size_t> widths;

@@ -23,6 +23,7 @@ std::string benchCsv(const std::vector<BenchTable> &tables);
 // The ledger: no milliseconds, which are of one machine; time as a ratio to PoseLib's.
 std::string benchLedger(const std::vector<BenchTable> &tables);
 nlohmann::ordered_json benchJson(const std::vector<BenchTable> &tables);
+nlohmann::ordered_json summaryJson(const VariantSummary &summary);
 
 // Columns aligned, the first to the left, the others to the right; the first row is the head.
 std::string alignedText(const std::vector<std::vector<std::string>> &rows);
