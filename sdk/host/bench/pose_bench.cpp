@@ -13,6 +13,7 @@ namespace sphc::host {
 namespace {
 
 constexpr double kMissingDeg = 180, kMissingM = 100;
+constexpr double kSlowS = 0.05;  // of such a run once is enough
 
 uint64_t seedOf(size_t query, uint32_t seed) { return 1 + 1000003 * static_cast<uint64_t>(seed) + query; }
 
@@ -34,6 +35,7 @@ std::vector<PoseSample> runQuery(const PoseCase &c, uint64_t seed, size_t turn, 
   for (uint32_t repeat = 0; repeat < repeats; ++repeat) {
     for (size_t i = 0; i < variants.size(); ++i) {
       const size_t chosen = (i + turn + repeat) % variants.size();
+      if (repeat > 0 && seconds[chosen][0] > kSlowS) continue;
       const PoseAnswer answer = variants[chosen]->run(c, seed);
       seconds[chosen].push_back(answer.seconds);
       if (repeat == 0) judgePose(answer, c.truth_camera_from_map, &samples[chosen]);

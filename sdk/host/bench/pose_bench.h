@@ -10,7 +10,7 @@
 namespace sphc::host {
 
 struct BenchOptions {
-  uint32_t repeats = 5;  // of every run; the time is their median
+  uint32_t repeats = 5;  // of every run below 50 ms; the time is their median
   uint32_t seeds = 1;    // runs of a query, each with a seed of its own
 };
 

@@ -179,12 +179,12 @@ std::vector<GrowthRow> growEtas(const GrowthInput &input, const std::vector<Pose
 
 std::string growthText(const std::vector<GrowthRow> &rows) {
   std::vector<std::vector<std::string>> lines = {
-      {"file", "depth", "axis", "", "how", "variant", "ms", "p90", "p99", "x poselib", "5 cm 5 deg", "iterations"}};
+      {"file, depth", "axis", "", "how", "variant", "ms", "p90", "p99", "x poselib", "5 cm 5 deg", "iterations"}};
   for (const GrowthRow &row : rows) {
     for (const VariantSummary &s : row.summaries) {
       const std::string ratio =
           std::isnan(s.times_faster_than_poselib) ? "-" : fixed(s.times_faster_than_poselib, 2);
-      lines.push_back({row.file, depthName(row.depth), axisName(row.axis), fixed(row.x, 0), row.how, s.name,
+      lines.push_back({row.file + ", " + depthName(row.depth), axisName(row.axis), fixed(row.x, 0), row.how, s.name,
                        fixed(s.time_ms.median, 3), fixed(s.time_ms.p90, 3), fixed(s.time_ms.p99, 3), ratio,
                        fixed(s.within_5cm_5deg_percent, 1) + " %", fixed(s.iterations, 0)});
     }

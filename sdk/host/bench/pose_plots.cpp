@@ -115,7 +115,7 @@ BenchDrawing drawGrowth(const std::vector<GrowthRow> &rows, GrowthAxis axis) {
   script +=
       std::string("set logscale xy\nset ylabel 'milliseconds a query, median'\nset key outside bottom center\n") +
       (count ? "set xlabel 'correspondences'\n"
-             : "set xlabel 'eta, %'\nset xrange [100:10] reverse\nset xtics (100, 50, 33, 25, 15, 10)\n");
+             : "set xlabel 'eta, %'\nset xrange [105:9.5]\nset xtics (100, 50, 33, 25, 15, 10)\n");
   return {name, script + plots, {760, static_cast<int>(420 + 20 * lines.size())}};
 }
 
