@@ -17,5 +17,6 @@ Command buildCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
 Command infoCommand(CLI::App *root);
+Command benchCommand(CLI::App *root);
 
 }  // namespace sphc::host

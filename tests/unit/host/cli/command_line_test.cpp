@@ -37,7 +37,7 @@ TEST_P(HelpTest, TeachesByExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
-                         testing::Values("simulate", "build", "localize", "inspect", "info"));
+                         testing::Values("simulate", "build", "localize", "inspect", "info", "bench pose"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -49,7 +49,8 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachMistake, UsageTest,
-                         testing::Values("", "conquer", "info", "info a b", "simulate",
+                         testing::Values("", "conquer", "info", "info a b", "bench", "bench pose",
+                                         "bench pose f --depth radar", "bench pose f --repeat 0", "simulate",
                                          "simulate --out x --frames many", "build --recording r",
                                          "build --recording r --map m --eta 1.5",
                                          "build --recording r --map m --key a --new-key b",

@@ -1,0 +1,28 @@
+// A program of its own that answers over its standard input and output.
+#pragma once
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sphc::host {
+
+class Coprocess {
+ public:
+  // `arguments[0]` is the program, looked up in PATH.  Throws std::runtime_error when it cannot be started.
+  explicit Coprocess(const std::vector<std::string> &arguments);
+  Coprocess(const Coprocess &) = delete;
+  Coprocess &operator=(const Coprocess &) = delete;
+  ~Coprocess();
+
+  // False when the program is gone or says nothing for a minute.
+  bool write(const void *data, size_t size);
+  bool read(void *data, size_t size);
+
+ private:
+  int socket_ = -1;
+  pid_t child_ = 0;
+};
+
+}  // namespace sphc::host

@@ -1,0 +1,19 @@
+// The bench's drawings: error distributions, times, growth.
+#pragma once
+#include "host/bench/pose_growth.h"
+#include "host/bench/pose_table.h"
+#include "host/report/gnuplot.h"
+
+namespace sphc::host {
+
+struct BenchDrawing {
+  std::string name, script;
+  PlotSize size;
+};
+
+BenchDrawing drawErrors(const BenchTable &table);  // cumulative translation and rotation errors
+BenchDrawing drawTimes(const BenchTable &table);   // median and 99 % of every variant
+// Time against rows or eta, a line a variant and file; an empty script when there is nothing on that axis.
+BenchDrawing drawGrowth(const std::vector<GrowthRow> &rows, GrowthAxis axis);
+
+}  // namespace sphc::host

@@ -1,0 +1,220 @@
+// spherecloud bench: estimators side by side on the same input.
+#include <filesystem>
+#include <memory>
+
+#include "host/bench/pose_ours.h"
+#include "host/bench/pose_peers.h"
+#include "host/bench/pose_plots.h"
+#include "host/bench/pose_table.h"
+#include "host/cli/command.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/progress.h"
+#include "host/report/file.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  std::vector<std::string> files, only;
+  std::vector<DepthSource> depths = {DepthSource::kTof};
+  uint32_t every = 1;
+  BenchOptions bench;
+  std::string python = "python3", out, ledger;
+  bool no_peers = false, growth = false;
+};
+
+std::vector<PoseVariant> allVariants(const Options &options) {
+  std::vector<PoseVariant> all = ourVariants();
+  if (options.no_peers) return all;
+  for (PoseVariant &peer : posePeers(options.python)) all.push_back(std::move(peer));
+  return all;
+}
+
+void tellAbsent(const std::vector<PoseVariant> &variants, const Console &console) {
+  for (const PoseVariant &variant : variants)
+    if (!variant.run) console.warn("note: " + variant.name + " is absent, " + variant.absent);
+}
+
+// Variants by name, when some were asked for.
+std::vector<PoseVariant> chooseVariants(const Options &options, std::vector<PoseVariant> all) {
+  if (options.only.empty()) return all;
+  std::vector<PoseVariant> chosen;
+  for (const std::string &name : options.only) {
+    size_t before = chosen.size();
+    for (const PoseVariant &variant : all)
+      if (variant.name == name) chosen.push_back(variant);
+    if (chosen.size() > before) continue;
+    std::string known;
+    for (const PoseVariant &variant : all) known += (known.empty() ? "" : ", ") + variant.name;
+    throw UsageError("--only " + name + ": there is no such variant; choose from: " + known);
+  }
+  return chosen;
+}
+
+// One file, read once for all kinds of depth.
+struct Input {
+  std::string name;
+  PoseFile file, eta100;
+};
+
+Input readInput(const std::string &path, uint32_t every, const Console &console) {
+  Input input = {std::filesystem::path(path).stem().string(), readPoseFile(path), readTruePoints(path)};
+  if (input.file.queries.empty()) throw std::runtime_error(path + " holds no query; choose another file");
+  if (input.eta100.queries.empty())
+    console.warn("note: beside " + path + " lies no eta-100 file with its _xyz companion: no peers on true points");
+  std::vector<PoseQuery> kept;
+  for (size_t i = 0; i < input.file.queries.size(); i += every) kept.push_back(input.file.queries[i]);
+  input.file.queries = std::move(kept);
+  return input;
+}
+
+BenchTable runInput(const Input &input, DepthSource depth, const BenchOptions &options,
+                    const std::vector<PoseVariant> &variants) {
+  const auto cases = makePoseCases(input.file, depth, noiseFor(depth), input.eta100);
+  ProgressBar bar("measuring ");
+  BenchTable table = {input.name, input.file.eta_percent, depth, cases.size(), {}, {}};
+  table.runs =
+      runPoseBench(cases, variants, options, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
+  table.summaries = summarizePoseBench(table.runs);
+  return table;
+}
+
+std::vector<GrowthRow> growInput(const Input &input, DepthSource depth, const BenchOptions &options,
+                                 const std::vector<PoseVariant> &variants) {
+  const CaseNoise noise = noiseFor(depth);
+  const GrowthInput growth = {input.name, makePoseCases(input.file, depth, noise, input.eta100), depth, noise};
+  ProgressBar bar("growing   ");
+  const QueryDone done = [&bar](uint32_t at, uint32_t total) { bar.show(at, total); };
+  std::vector<GrowthRow> rows = growCounts(growth, variants, options, done);
+  for (GrowthRow &row : growEtas(growth, variants, options, done)) rows.push_back(std::move(row));
+  return rows;
+}
+
+struct Result {
+  std::vector<BenchTable> tables;
+  std::vector<GrowthRow> growth;
+};
+
+void append(const Options &options, const Input &input, DepthSource depth, const std::vector<PoseVariant> &variants,
+            const Console &console, Result *result) {
+  if (!options.growth) {
+    result->tables.push_back(runInput(input, depth, options.bench, variants));
+    console.say("\n" + benchTableText(result->tables.back()));
+    return;
+  }
+  const auto rows = growInput(input, depth, options.bench, variants);
+  console.say("\n" + growthText(rows));
+  result->growth.insert(result->growth.end(), rows.begin(), rows.end());
+}
+
+void writeDrawings(const Options &options, const Result &result, const Console &console) {
+  std::vector<BenchDrawing> drawings;
+  for (const BenchTable &table : result.tables) {
+    drawings.push_back(drawErrors(table));
+    drawings.push_back(drawTimes(table));
+  }
+  for (const GrowthAxis axis : {GrowthAxis::kCount, GrowthAxis::kEta})
+    drawings.push_back(drawGrowth(result.growth, axis));
+  PlotResult worst = PlotResult::kDone;
+  for (const BenchDrawing &drawing : drawings) {
+    if (drawing.script.empty()) continue;
+    const PlotResult drawn = plot(options.out, drawing.name, drawing.script, drawing.size);
+    if (drawn != PlotResult::kDone) worst = drawn;
+  }
+  if (worst == PlotResult::kNoGnuplot)
+    console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
+  if (worst == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
+}
+
+void writeResult(const Options &options, const Result &result, const Console &console) {
+  if (!options.ledger.empty()) writeText(options.ledger, benchLedger(result.tables));
+  if (options.out.empty()) return;
+  makeFolder(options.out);
+  if (!result.tables.empty()) writeText(options.out + "/pose.csv", benchCsv(result.tables));
+  if (!result.growth.empty()) writeText(options.out + "/pose_growth.csv", growthCsv(result.growth));
+  writeDrawings(options, result, console);
+  console.say("Wrote " + options.out + ".");
+}
+
+int runPose(const Options &options, const Console &console) {
+  if (options.growth && !options.ledger.empty()) throw UsageError("--ledger is of a run without --growth");
+  const int core = pinToOneCore();
+  const auto variants = chooseVariants(options, allVariants(options));
+  tellAbsent(variants, console);
+  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
+                       : "Pinned to core " + std::to_string(core) + "; one thread.");
+  Result result;
+  for (const std::string &path : options.files) {
+    const Input input = readInput(path, options.every, console);
+    for (const DepthSource depth : options.depths) append(options, input, depth, variants, console, &result);
+  }
+  writeResult(options, result, console);
+  console.give({{"core", core},
+                {"repeats", options.bench.repeats},
+                {"seeds", options.bench.seeds},
+                {"tables", benchJson(result.tables)},
+                {"growth", growthJson(result.growth)}});
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Runs pose estimators on the same correspondences in one interleaved run, on one core, and shows medians,\n"
+    "tails and the ratio of times.  docs/bench.md says what each column means and how peers are installed.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud bench pose kitchen_eta33_dev.bin\n"
+    "  spherecloud bench pose kitchen_eta*_dev.bin --depth tof --depth oracle --out bench\n"
+    "  spherecloud bench pose kitchen_eta25_dev.bin --seeds 8 --repeat 1      for the tails\n"
+    "  spherecloud bench pose kitchen_eta25_dev.bin --growth --only ours --only 'poselib p3p' --out bench\n"
+    "What comes out: a table a file and depth; with --out pose.csv and drawings.";
+
+void addOptions(CLI::App *app, Options *options) {
+  app->add_option("files", options->files, "Correspondence files")->required()->type_name("FILE");
+  const std::map<std::string, DepthSource> depths = {{"tof", DepthSource::kTof}, {"oracle", DepthSource::kOracle}};
+  app->add_option("--depth", options->depths,
+                  "tof: as the sensor measured; oracle: of the true points; repeat for both")
+      ->transform(CLI::CheckedTransformer(depths).description(""))
+      ->expected(1)
+      ->take_all()
+      ->type_name("tof|oracle");
+  app->add_option("--repeat", options->bench.repeats, "Runs of which the median time counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000u))
+      ->type_name("N");
+  app->add_option("--seeds", options->bench.seeds, "Runs with different seeds a query; 8 for tails")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000u))
+      ->type_name("N");
+  app->add_option("--only", options->only, "Only the variant of this name; repeat for more")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME");
+  app->add_option("--every", options->every, "Every N-th query only")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000000u))
+      ->type_name("N");
+  app->add_flag("--growth", options->growth, "Time against the number of rows and against eta instead");
+  app->add_flag("--no-peers", options->no_peers, "The library's own estimators only");
+  app->add_option("--python", options->python, "Python that has poselib and numpy")
+      ->capture_default_str()
+      ->type_name("PATH");
+  app->add_option("-o,--out", options->out, "Folder for pose.csv and drawings")->type_name("DIR");
+  app->add_option("--ledger", options->ledger, "Write accuracy and ratios, no milliseconds")->type_name("FILE");
+}
+
+}  // namespace
+
+Command benchCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *bench = root->add_subcommand("bench");
+  bench->description("Measure estimators beside their peers.\n\n  spherecloud bench pose FILE...");
+  bench->require_subcommand(1);
+  bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
+  CLI::App *app = bench->add_subcommand("pose");
+  app->description("Pose estimators on correspondences with known poses.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addOptions(app, options.get());
+  return {app, [options](const Console &console) { return runPose(*options, console); }};
+}
+
+}  // namespace sphc::host
