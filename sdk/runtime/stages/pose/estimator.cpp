@@ -14,9 +14,6 @@ constexpr float kLocalLimit2 = 150;        // rows that local optimisation looks
 constexpr float kFinalLimit2 = 50;         // rows that the final refinement looks at, at most
 constexpr int kLocalSteps = 2, kFinalIterations = 12;
 constexpr double kLocalScale2 = 16, kFinalScale2 = 8;  // of the Geman-McClure loss
-// The loss's covariance over that of its weighted normal matrix, for Gaussian residuals of two dimensions:
-// E|psi|^2 E w / (2 (E div psi / 2)^2) at kFinalScale2 (Huber, "Robust Statistics", 1981, section 7.6).
-constexpr double kCovarianceOfLoss = 0.80;
 // Wald's test on the gain seen so far: shares of the rows that a right pose gains at least, and slack in rows.
 constexpr float kLeastShare = 0.04f, kShareOfBest = 0.35f, kSlack = 2.0f;
 // Share of the rows that agree by chance, at least; log of the odds that make an agreement certain.
@@ -141,7 +138,7 @@ RefineTask PoseEstimator::task(const PoseQuery &query, double scale2) const {
   task.kernels = kernels_;
   task.lifted = &near_;
   task.prior = query.prior;
-  task.bias.mid_m = query.depth.mid_m;
+  task.depth.mid_m = query.depth.mid_m;
   task.scale2 = scale2;
   return task;
 }
@@ -305,14 +302,14 @@ void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate 
   const Rigid pose = improvePose(local, start, kLocalSteps);
   RefineTask last = task(query, kFinalScale2);
   last.planes = &near_planes_;
-  last.bias.covariance = query.depth.covariance;
+  last.depth.covariance = query.depth.covariance;
   keepNear(last, pose, kFinalLimit2);
   keepNearPlanes(last, pose, kFinalLimit2);
   const Refinement refined = refinePose(last, pose, kFinalIterations);
   estimate->camera_from_map = cleaned(refined.camera_from_map);
   Matrix8 information = refined.information;
   information.diagonal().array() += 1e-6;  // a direction that nothing pins down gets a large, finite variance
-  const Matrix8 covariance = kCovarianceOfLoss * information.ldlt().solve(Matrix8::Identity());
+  const Matrix8 covariance = information.ldlt().solve(Matrix8::Identity());
   estimate->covariance = covariance.topLeftCorner<6, 6>();
   estimate->depth = query.depth;
   estimate->depth.mean += refined.bias;

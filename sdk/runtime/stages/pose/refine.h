@@ -16,14 +16,14 @@ struct RefineTask {
   const PoseRows *lifted;
   const PoseRows *planes;  // rows taken for their epipolar planes; null: none
   const PosePrior *prior;  // its vertical is a soft term; null: none
-  DepthCalibration bias;   // around zero: the rows have been corrected by its mean; known: not estimated
+  DepthCalibration depth;  // around zero: the rows have been corrected by its mean; known: not estimated
   double scale2;           // squared residual at which a row has lost three quarters of its weight
 };
 
 struct Refinement {
   Rigid camera_from_map;
   Vector2 bias = Vector2::Zero();         // what is left: offset_m, slope
-  Matrix8 information = Matrix8::Zero();  // weighted normal matrix at the result, priors included
+  Matrix8 information = Matrix8::Zero();  // inverse covariance of the unknowns, priors included
   double cost = 0;                        // sum of the robust losses
 };
 
