@@ -296,16 +296,26 @@ double PoseEstimator::noiseRatio(const RefineTask &task, const Refinement &refin
   return median > 0 ? sqrtOf(median / kMedianOfSquare) : 0;
 }
 
+Estimate PoseEstimator::evaluate(const PoseQuery &query, const Rigid &camera_from_map) {
+  Estimate estimate;
+  load(query);
+  polish(query, camera_from_map, 0, &estimate);
+  return estimate;
+}
+
 void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate *estimate) {
   const RefineTask local = task(query, kLocalScale2);
   keepNear(local, start, kLocalLimit2);
-  const Rigid pose = improvePose(local, start, kLocalSteps);
+  polish(query, improvePose(local, start, kLocalSteps), kFinalIterations, estimate);
+}
+
+void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterations, Estimate *estimate) {
   RefineTask last = task(query, kFinalScale2);
   last.planes = &near_planes_;
   last.depth.covariance = query.depth.covariance;
   keepNear(last, pose, kFinalLimit2);
   keepNearPlanes(last, pose, kFinalLimit2);
-  const Refinement refined = refinePose(last, pose, kFinalIterations);
+  const Refinement refined = refinePose(last, pose, iterations);
   estimate->camera_from_map = cleaned(refined.camera_from_map);
   Matrix8 information = refined.information;
   information.diagonal().array() += 1e-6;  // a direction that nothing pins down gets a large, finite variance

@@ -32,6 +32,8 @@ class PoseEstimator {
   Estimate search(const PoseQuery &query);
   // Refines from a pose that is nearly right.
   Estimate refine(const PoseQuery &query, const Rigid &camera_from_map);
+  // Says of a pose what refine would, and leaves it where it is.
+  Estimate evaluate(const PoseQuery &query, const Rigid &camera_from_map);
   // Does the correspondence agree with the estimate?
   bool isInlier(const Correspondence &correspondence, const Estimate &estimate) const;
   double inlierThreshold2() const { return config_.inlier_threshold2; }
@@ -59,6 +61,7 @@ class PoseEstimator {
   RefineTask task(const PoseQuery &query, double scale2) const;
   double noiseRatio(const RefineTask &task, const Refinement &refined);
   void finish(const PoseQuery &query, const Rigid &start, Estimate *estimate);
+  void polish(const PoseQuery &query, const Rigid &pose, int iterations, Estimate *estimate);
 
   EstimatorConfig config_;
   const PoseKernels *kernels_ = nullptr;
