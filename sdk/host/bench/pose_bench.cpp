@@ -20,7 +20,7 @@ uint64_t seedOf(size_t query, uint32_t seed) { return 1 + 1000003 * static_cast<
 std::vector<const PoseVariant *> presentVariants(const std::vector<PoseVariant> &variants,
                                                  const std::vector<PoseCase> &cases) {
   bool true_points = true;
-  for (const PoseCase &c : cases) true_points &= !c.true_points_map_m.empty();
+  for (const PoseCase &c : cases) true_points &= c.correspondences.empty() || !c.true_points_map_m.empty();
   std::vector<const PoseVariant *> present;
   for (const PoseVariant &variant : variants)
     if (variant.run && (true_points || !variant.needs_true_points)) present.push_back(&variant);
