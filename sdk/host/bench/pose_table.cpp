@@ -102,7 +102,7 @@ std::string benchLedger(const std::vector<BenchTable> &tables) {
       "translation_cm_median,translation_cm_p99,beyond_3cm_percent,beyond_3deg_percent,iterations_median\n";
   for (const BenchTable &table : tables) {
     for (const VariantSummary &s : table.summaries) {
-      text += caseText(table) + "," + s.name + "," + csvNumber(s.times_faster_than_poselib, 1) + "," +
+      text += caseText(table) + "," + s.name + "," + csvNumber(s.times_faster_than_poselib, 2) + "," +
               fixed(s.rotation_deg.median, 3) + "," + fixed(s.rotation_deg.p99, 2) + "," +
               fixed(s.translation_cm.median, 3) + "," + fixed(s.translation_cm.p99, 2) + "," +
               fixed(s.beyond_3cm_percent, 2) + "," + fixed(s.beyond_3deg_percent, 2) + "," +

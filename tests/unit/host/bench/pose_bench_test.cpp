@@ -131,7 +131,7 @@ TEST(PoseBench, TheLedgerHasRatiosAndNoMilliseconds) {
   BenchTable table = {"room_eta33", 33, DepthSource::kOracle, 100, someRuns(), {}};
   table.summaries = summarizePoseBench(table.runs);
   const std::string ledger = benchLedger({table}), csv = benchCsv({table});
-  EXPECT_THAT(ledger, HasSubstr("\nroom_eta33,oracle,33,ours,4.0,0.100,"));
+  EXPECT_THAT(ledger, HasSubstr("\nroom_eta33,oracle,33,ours,4.00,0.100,"));
   EXPECT_THAT(ledger, testing::Not(HasSubstr("ms")));
   EXPECT_THAT(csv, HasSubstr("\nroom_eta33,oracle,33,ours,100,100.00,1.0000,"));
   EXPECT_THAT(benchTableText(table), HasSubstr("room_eta33, oracle depth, eta 33 %, 100 queries"));
