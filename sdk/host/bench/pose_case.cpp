@@ -32,7 +32,7 @@ const char *depthName(DepthSource source) { return source == DepthSource::kTof ?
 
 CaseNoise noiseFor(DepthSource source) {
   CaseNoise noise;
-  if (source == DepthSource::kOracle) noise.depth_sigma_m = 0.001, noise.depth_sigma_per_m2 = 0;
+  if (source == DepthSource::kOracle) noise.depth_sigma_m = 0.003, noise.depth_sigma_per_m2 = 0;
   return noise;
 }
 
@@ -51,6 +51,7 @@ PoseCase makePoseCase(const PoseQuery &query, uint32_t eta_percent, DepthSource 
   PoseCase c;
   c.name = query.name;
   c.eta_percent = eta_percent;
+  c.source = source;
   c.camera = query.camera;
   c.truth_camera_from_map = query.camera_from_map;
   for (const PoseRow &row : query.rows) {
@@ -73,6 +74,7 @@ std::vector<PoseCase> makePoseCases(const PoseFile &file, DepthSource source, co
   std::vector<PoseCase> cases;
   for (const PoseQuery &query : file.queries)
     cases.push_back(makePoseCase(query, file.eta_percent, source, noise, findQuery(eta100, query)));
+  for (size_t i = 0; i < cases.size(); ++i) cases[i].index = static_cast<uint32_t>(i);
   return cases;
 }
 

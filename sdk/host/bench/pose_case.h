@@ -13,23 +13,26 @@ namespace sphc::host {
 enum class DepthSource { kTof, kOracle };
 const char *depthName(DepthSource source);  // "tof", "oracle"
 
-// What the estimator is told of errors, 1 sigma; the defaults are the library's own.
+// What the estimator is told of errors, 1 sigma: keypoints and points of a structure from motion, and a structured
+// light sensor that works from 0.8 to 4 m.
 struct CaseNoise {
-  double pixel_sigma_px = 0.8;
-  double depth_sigma_m = 0.004, depth_sigma_per_m2 = 0.002;  // of z: sigma_m + sigma_per_m2 z^2
-  double map_sigma_m = 0.004;
+  double pixel_sigma_px = 0.5;
+  double depth_sigma_m = 0.006, depth_sigma_per_m2 = 0.004;  // of z: sigma_m + sigma_per_m2 z^2
+  double map_sigma_m = 0.0005;
 };
 CaseNoise noiseFor(DepthSource source);
 
 struct PoseCase {
   std::string name;
+  uint32_t index = 0;  // in its file; 0 begins a recording anew
+  DepthSource source = DepthSource::kTof;
   uint32_t eta_percent = 0;
   PinholeCamera camera;
   Rigid truth_camera_from_map;
 
   std::vector<Correspondence> correspondences;  // rows with depth, in file order
   std::vector<bool> is_true;                    // of them
-  // Rows without depth: point_m at z = 1, sideways_m at z = 1, along_m infinite.
+  // Rows without depth: on their viewing rays at z = 1, along_m infinite.
   std::vector<Correspondence> without_depth;
   std::vector<bool> without_depth_is_true;
 

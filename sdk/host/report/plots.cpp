@@ -256,7 +256,7 @@ Drawing stageTimes(const Summary &summary) {
   }
   std::string script = kLook + block("bars", bars);
   script += "set border 1\nset grid noytics\nunset key\nset ytics scale 0 (" + names +
-            ")\nset yrange [-0.6:" + fixed(kStageCount - 0.4, 1) + "]\n";
+            ")\nset yrange [-0.6:" + fixed(static_cast<double>(kStageCount) - 0.4, 1) + "]\n";
   script +=
       "set xrange [0:*]\nset offsets 0, graph 0.12, 0, 0\nset xlabel 'milliseconds a frame: bar = median, whisker "
       "= 90 % within'\nset style fill solid noborder\n";

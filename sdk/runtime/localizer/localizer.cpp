@@ -120,8 +120,10 @@ void Localizer::correspond(uint32_t match_count) {
   match_count_ = match_count;
   for (uint32_t i = 0; i < match_count; ++i) {
     const Direction d = map_.direction(matches_[i].map_index);
-    correspondences_[i] = {lifted_[matches_[i].query],
-                           Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z))};
+    const Match &match = matches_[i];
+    correspondences_[i] = {lifted_[match.query],
+                           Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)),
+                           1.0f - static_cast<float>(match.distance2) / static_cast<float>(match.second2 + 1)};
   }
 }
 
@@ -135,7 +137,10 @@ void Localizer::search(sphc_result *result) {
   if (match_count_ < kFewestMatches) {
     result->outcome = SPHC_OUTCOME_FEW_MATCHES;
   } else {
-    estimate = estimator_.search(correspondences_.first(match_count_), config_.seed);
+    PoseQuery query;
+    query.correspondences = correspondences_.first(match_count_);
+    query.seed = config_.seed;
+    estimate = estimator_.search(query);
     result->iterations = estimate.iterations;
     result->outcome = SPHC_OUTCOME_NO_CONSENSUS;
     if (estimate.inliers > kFewestMatches / 2) improve(&estimate, result);
@@ -165,13 +170,15 @@ void Localizer::improve(Estimate *estimate, sphc_result *result) {
                                   static_cast<float>(cosine), config_.max_ratio, matches_));
     solid_angle_sr = 2 * kPi * (1 - cosine);
     const uint32_t iterations = estimate->iterations;
-    *estimate = estimator_.refine(correspondences_.first(match_count_), estimate->camera_from_map);
+    PoseQuery query;
+    query.correspondences = correspondences_.first(match_count_);
+    *estimate = estimator_.refine(query, estimate->camera_from_map);
     estimate->iterations = iterations;
   }
   result->matches = match_count_;
   result->inliers = estimate->inliers;
   for (uint32_t i = 0; i < match_count_; ++i)
-    if (estimator_.isInlier(correspondences_[i], estimate->camera_from_map))
+    if (estimator_.isInlier(correspondences_[i], *estimate))
       observations_[lifted_keypoint_[matches_[i].query]].flags |= SPHC_OBSERVATION_INLIER;
   evidence.inliers = estimate->inliers;
   evidence.log_chance_second =

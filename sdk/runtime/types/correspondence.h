@@ -6,16 +6,20 @@
 
 namespace sphc {
 
-// A keypoint lifted by depth into camera coordinates, with what is known of its error.
+// A keypoint lifted by depth into camera coordinates, with what is known of its error.  Without depth it is a
+// viewing ray: point_m is its unit bearing, sideways_m the error of the angle (metres at 1 m), along_m infinite.
 struct LiftedPoint {
   Vector3 point_m;    // camera frame
   double sideways_m;  // 1 sigma across the viewing ray: pixel noise at this depth, and the map's own error
   double along_m;     // 1 sigma along the viewing ray: depth noise
+
+  bool hasDepth() const { return isFinite(along_m); }
 };
 
 struct Correspondence {
   LiftedPoint lifted;
   Vector3 direction;  // unit, map frame, from the sphere centre
+  float quality = 0;  // of the match: larger is tried first; equal ones: no order
 };
 
 }  // namespace sphc

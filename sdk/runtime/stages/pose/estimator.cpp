@@ -1,105 +1,336 @@
 #include "runtime/stages/pose/estimator.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
-#include "runtime/base/random.h"
-#include "runtime/stages/pose/p3p.h"
 #include "runtime/stages/pose/residual.h"
 
 namespace sphc {
 namespace {
 
-constexpr uint32_t kSampleSize = 3;
-constexpr int kLocalIterations = 4, kFinalIterations = 12;
-constexpr double kWideScale2 = 8, kFinalScale2 = 4;  // of the Geman-McClure loss
+constexpr uint32_t kFewestRows = 4;
+constexpr double kMinimalThreshold2 = 30;  // minimal samples carry the noise of three points
+constexpr float kLocalLimit2 = 150;        // rows that local optimisation looks at
+constexpr float kFinalLimit2 = 50;         // rows that the final refinement looks at, at most
+constexpr int kLocalSteps = 2, kFinalIterations = 12;
+constexpr double kLocalScale2 = 16, kFinalScale2 = 8;  // of the Geman-McClure loss
+// Wald's test on the gain seen so far: shares of the rows that a right pose gains at least, and slack in rows.
+constexpr float kLeastShare = 0.04f, kShareOfBest = 0.35f, kSlack = 2.0f;
+// Share of the rows that agree by chance, at least; log of the odds that make an agreement certain.
+constexpr double kLeastChance = 0.005, kCertain = 25;
+// Of the samples without an outlier, those that are exact enough to lead to the pose.
+constexpr double kUsefulSamples = 0.5;
+constexpr double kMissOnceCertain = 0.5;  // of a better sample than the one that led to a certain agreement
+constexpr double kGateSigmas = 4;         // beyond it a pose is not the expected one
+constexpr float kVerifiedGain = 10, kVerifiedShare = 0.1f;  // an expected pose with this much support is the pose
+constexpr uint32_t kSmallSearch = 8;                        // near an expected pose: this part of the iterations
+// For the noise of depth: rows that agree with their epipolar plane so well, and whose squared error along the ray
+// is this many times what pixels bring.
+constexpr float kAgreeingPlane2 = 4;
+constexpr double kMostlyDepth = 4, kMedianOfSquare = 0.4549;
+constexpr uint32_t kFewestForNoise = 16;
 
-void drawSample(Random *random, uint32_t count, uint32_t sample[kSampleSize]) {
-  sample[0] = random->below(count);
-  do sample[1] = random->below(count);
-  while (sample[1] == sample[0]);
-  do sample[2] = random->below(count);
-  while (sample[2] == sample[0] || sample[2] == sample[1]);
+Rigid rigidFrom(const PoseF &pose) {
+  Rigid out;
+  for (int i = 0; i < 3; ++i) {
+    out.translation_m[i] = static_cast<double>(pose.t[i]);
+    for (int j = 0; j < 3; ++j) out.rotation(i, j) = static_cast<double>(pose.r[3 * i + j]);
+  }
+  return out;
+}
+
+// A rotation again, after many small turns in finite precision.
+Rigid cleaned(const Rigid &pose) {
+  double q[4];
+  quaternionFromRotation(pose.rotation, q);
+  return {rotationFromQuaternion(q), pose.translation_m};
+}
+
+// Any rotation that takes `up` to z.
+void uprightFrom(const Vector3 &up, float *upright_from_frame) {
+  const Vector3 helper = absOf(up.x()) < 0.7 ? Vector3::UnitX() : Vector3::UnitY();
+  const Vector3 x = helper.cross(up).normalized(), y = up.cross(x);
+  for (int k = 0; k < 3; ++k) {
+    upright_from_frame[k] = static_cast<float>(x[k]);
+    upright_from_frame[3 + k] = static_cast<float>(y[k]);
+    upright_from_frame[6 + k] = static_cast<float>(up[k]);
+  }
+}
+
+double lengthening(const LiftedPoint &lifted, const DepthCalibration &depth) {
+  return lifted.hasDepth() ? 1 + depth.correctionAt(lifted.point_m.z()) / lifted.point_m.z() : 1;
 }
 
 }  // namespace
 
 void PoseEstimator::layout(const EstimatorConfig &config, Arena &scratch, PoseEstimator *estimator) {
-  PoseScorer::layout(config.capacity, scratch, estimator ? &estimator->scorer_ : nullptr);
-  if (estimator) estimator->config_ = config;
+  PoseEstimator discarded;
+  PoseEstimator &e = estimator ? *estimator : discarded;
+  const uint32_t padded = (config.capacity + kPoseChunk - 1) / kPoseChunk * kPoseChunk;
+  Sampler::layout(config.capacity, scratch, estimator ? &e.sampler_ : nullptr);
+  PoseRows::layout("pose.lifted", config.capacity, scratch, estimator ? &e.lifted_ : nullptr);
+  PoseRows::layout("pose.planes", config.capacity, scratch, estimator ? &e.planes_ : nullptr);
+  PoseRows::layout("pose.near", config.capacity, scratch, estimator ? &e.near_ : nullptr);
+  PoseRows::layout("pose.near", config.capacity, scratch, estimator ? &e.near_planes_ : nullptr);
+  e.squared_ = scratch.take<float>("pose.squared", padded);
+  e.plane_squared_ = scratch.take<float>("pose.squared", padded);
+  e.quality_ = scratch.take<float>("pose.order", config.capacity);
+  e.shuffled_ = scratch.take<uint32_t>("pose.order", config.capacity);
+  e.batch_ = scratch.take<MinimalBatch>("pose.samples", 1).data();
+  e.poses_ = scratch.take<PoseBatch>("pose.samples", 1).data();
+  e.config_ = config;
+  e.kernels_ = config.kernels ? config.kernels : &simdPoseKernels();
 }
 
-bool PoseEstimator::isInlier(const Correspondence &correspondence, const Rigid &camera_from_map) const {
-  const Residual r = residualOf(correspondence, camera_from_map);
-  return r.in_front && r.squared < config_.inlier_threshold2;
+// Rows in random order, so that any first part of them is a fair sample.
+void PoseEstimator::load(const PoseQuery &query) {
+  const uint32_t count = static_cast<uint32_t>(query.correspondences.size());
+  Random random(query.seed ^ 0x5EEDull);
+  lifted_.count = 0;
+  planes_.count = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t j = random.below(i + 1);
+    shuffled_[i] = shuffled_[j];
+    shuffled_[j] = i;
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    const Correspondence &c = query.correspondences[shuffled_[i]];
+    if (c.lifted.hasDepth()) quality_[lifted_.count] = c.quality;
+    (c.lifted.hasDepth() ? lifted_ : planes_).push(c);
+  }
+  const DepthCorrection correction = {
+      static_cast<float>(query.depth.mean[0]), static_cast<float>(query.depth.mean[1]),
+      static_cast<float>(query.depth.mid_m), static_cast<float>(query.depth.noise_scale)};
+  for (PoseRows *rows : {&lifted_, &planes_}) {
+    rows->pad();
+    kernels_->prepare(rows, correction);
+  }
 }
 
-uint32_t PoseEstimator::countInliers(Span<const Correspondence> correspondences,
-                                     const Rigid &camera_from_map) const {
-  uint32_t inliers = 0;
-  for (const Correspondence &c : correspondences) inliers += isInlier(c, camera_from_map);
-  return inliers;
+float PoseEstimator::gainOf(const Rigid &pose, double threshold2) const {
+  const ScoreLimits limits = {static_cast<float>(1 / threshold2), -1.0f, 0.0f, 0.0f};
+  return kernels_->score(lifted_, poseF(pose), limits).gain;
+}
+
+void PoseEstimator::keepNear(const RefineTask &task, const Rigid &pose, float limit2) {
+  kernels_->residuals(lifted_, normalTask(task, pose, Vector2::Zero()), squared_.data());
+  near_.count = 0;
+  near_.pushBelow(lifted_, squared_.data(), limit2, shuffled_.data());
+  near_.pad();
+}
+
+// Rows without depth, and those whose depth is far off (an edge between near and far, a mirror, a fake): of these
+// the epipolar plane is still worth something.
+void PoseEstimator::keepNearPlanes(const RefineTask &task, const Rigid &pose, float limit2) {
+  const NormalTask kernel = normalTask(task, pose, Vector2::Zero());
+  near_planes_.count = 0;
+  kernels_->plane_residuals(lifted_, kernel, plane_squared_.data());
+  for (uint32_t i = 0; i < lifted_.count; ++i)
+    if (squared_[i] < limit2) plane_squared_[i] = kNeverNear;  // in full already
+  near_planes_.pushBelow(lifted_, plane_squared_.data(), limit2, shuffled_.data());
+  kernels_->plane_residuals(planes_, kernel, plane_squared_.data());
+  near_planes_.pushBelow(planes_, plane_squared_.data(), limit2, shuffled_.data());
+  near_planes_.pad();
+}
+
+RefineTask PoseEstimator::task(const PoseQuery &query, double scale2) const {
+  RefineTask task = {};
+  task.kernels = kernels_;
+  task.lifted = &near_;
+  task.prior = query.prior;
+  task.depth.mid_m = query.depth.mid_m;
+  task.scale2 = scale2;
+  return task;
+}
+
+void PoseEstimator::optimise(const PoseQuery &query, const Rigid &minimal, Search *search) {
+  const RefineTask local = task(query, kLocalScale2);
+  keepNear(local, minimal, kLocalLimit2);
+  const Rigid pose = improvePose(local, minimal, kLocalSteps);
+  const float gain = gainOf(pose, kMinimalThreshold2);
+  if (gain > search->gain) {
+    search->gain = gain;
+    search->camera_from_map = pose;
+  }
+}
+
+bool PoseEstimator::isNear(const PosePrior &prior, const Rigid &pose) {
+  const Rigid off = pose * prior.camera_from_map.inverse();
+  const double turn = rotationAngle(off.rotation) / prior.rotation_sigma_rad;
+  const Vector3 centre = pose.inverse().translation_m - prior.camera_from_map.inverse().translation_m;
+  const double shift = centre.norm() / prior.translation_sigma_m;
+  return turn < kGateSigmas && shift < kGateSigmas;
+}
+
+void PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, Search *search) {
+  for (uint32_t sample = 0; sample < kMinimalBatch; ++sample)
+    for (uint32_t solution = 0; solution < kMaxSolutions; ++solution) {
+      if (poses_->valid[solution][sample] == 0.0f) continue;
+      const PoseF pose = poses_->pose(solution, sample);
+      if (gate && !isNear(*gate, rigidFrom(pose))) continue;
+      const float share = search->minimal_gain / static_cast<float>(lifted_.count) * kShareOfBest;
+      const ScoreLimits limits = {1 / static_cast<float>(kMinimalThreshold2), search->minimal_gain,
+                                  share > kLeastShare ? share : kLeastShare, kSlack};
+      const Score score = kernels_->score(lifted_, pose, limits);
+      if (score.gain > search->minimal_gain && score.seen >= static_cast<float>(lifted_.count)) {
+        search->minimal_gain = score.gain;
+        optimise(query, rigidFrom(pose), search);
+      } else {
+        search->chance_gain += static_cast<double>(score.gain);
+        search->chance_seen += static_cast<double>(score.seen);
+      }
+    }
+}
+
+// Chance cannot explain it: such an agreement is the pose, and there is no other.  Chernoff's bound, over all poses
+// tried.
+bool PoseEstimator::isBeyondChance(const Search &search, uint32_t samples) const {
+  const double chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
+  const double share = static_cast<double>(search.gain) / lifted_.count;
+  if (!(share > chance) || !(share < 1)) return share >= 1;
+  const double information = share * logOf(share / chance) + (1 - share) * logOf((1 - share) / (1 - chance));
+  return lifted_.count * information > kCertain + logOf(kMaxSolutions * samples);
 }
 
 // Samples needed to draw one without an outlier (Fischler and Bolles 1981).
-uint32_t PoseEstimator::iterationsFor(uint32_t inliers, uint32_t count) const {
-  const double share = static_cast<double>(inliers) / count, good = share * share * share;
-  if (good > 0.999) return 1;
+uint32_t PoseEstimator::samplesFor(uint32_t sample_size, const Search &search, double miss) const {
+  const double share = 1.2 * static_cast<double>(search.gain) / lifted_.count;  // an inlier gains 0.83 on average
+  double good = kUsefulSamples;
+  for (uint32_t k = 0; k < sample_size; ++k) good *= share < 1 ? share : 1;
   if (good < 1e-9) return config_.max_iterations;
-  const double needed = logOf(config_.miss_probability) / logOf(1 - good);
+  const double needed = logOf(miss) / logOf(1 - good);
   return needed < config_.max_iterations ? static_cast<uint32_t>(needed) + 1 : config_.max_iterations;
 }
 
-void PoseEstimator::tryPose(const Rigid &pose, Span<const Correspondence> correspondences, Best *best) const {
-  const float truncation = static_cast<float>(config_.inlier_threshold2);
-  const float score = scorer_.score(pose, truncation, best->score);
-  if (!(score < best->score)) return;
-  *best = {pose, score};
-  const Rigid local = refinePose(correspondences, pose, kWideScale2, kLocalIterations).camera_from_map;
-  const float local_score = scorer_.score(local, truncation, best->score);
-  if (local_score < best->score) *best = {local, local_score};
-}
-
-Estimate PoseEstimator::search(Span<const Correspondence> correspondences, uint64_t seed) {
-  Estimate none;
-  const uint32_t count = static_cast<uint32_t>(correspondences.size());
-  if (count < kSampleSize + 1) return none;
-  scorer_.load(correspondences);
-  Random random(seed);
-  Best best = {Rigid(), static_cast<float>(config_.inlier_threshold2) * static_cast<float>(count)};
-  uint32_t needed = config_.max_iterations, iterations = 0;
-  bool found = false;
-  while (iterations < needed) {
-    ++iterations;
-    uint32_t sample[kSampleSize];
-    drawSample(&random, count, sample);
-    Vector3 bearing[kSampleSize], point[kSampleSize];
-    for (uint32_t k = 0; k < kSampleSize; ++k) {
-      bearing[k] = correspondences[sample[k]].direction;
-      point[k] = correspondences[sample[k]].lifted.point_m;
-    }
-    const float before = best.score;
-    for (const Rigid &map_from_camera : solveP3p(bearing, point))
-      tryPose(map_from_camera.inverse(), correspondences, &best);
-    if (!(best.score < before)) continue;
-    found = true;
-    needed = iterationsFor(countInliers(correspondences, best.camera_from_map), count);
+void PoseEstimator::sampleAndScore(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search,
+                                   Estimate *estimate) {
+  const bool upright = query.prior && query.prior->has_up;
+  const uint32_t sample_size = upright ? 2 : 3;
+  UprightFrames frames = {};
+  if (upright) {
+    uprightFrom(query.prior->up_map, frames.upright_from_map);
+    uprightFrom(query.prior->up_camera, frames.upright_from_camera);
   }
-  none.iterations = iterations;
-  if (!found) return none;
-  Estimate estimate = refine(correspondences, best.camera_from_map);
-  estimate.iterations = iterations;
+  sampler_.start(lifted_, quality_.first(lifted_.count), sample_size, query.seed);
+  uint32_t needed = most;
+  for (uint32_t drawn = 0; drawn < needed; drawn += kMinimalBatch) {
+    if (query.deadline.passed()) {
+      estimate->cut_short = true;
+      break;
+    }
+    sampler_.draw(batch_);
+    if (upright)
+      kernels_->solve_upright(*batch_, frames, poses_);
+    else
+      kernels_->solve_p3p(*batch_, poses_);
+    estimate->iterations += kMinimalBatch;
+    scoreBatch(query, gate, search);
+    const bool beyond = isBeyondChance(*search, estimate->iterations);
+    const uint32_t enough = samplesFor(sample_size, *search, beyond ? kMissOnceCertain : config_.miss_probability);
+    needed = enough < most ? enough : most;
+  }
+}
+
+// Is the pose where it was expected?  Looked at with ever less tolerance.
+bool PoseEstimator::verifyPrior(const PoseQuery &query, Search *search) {
+  Rigid pose = query.prior->camera_from_map;
+  for (double scale2 : {400.0, 60.0, kLocalScale2}) {
+    const RefineTask step = task(query, scale2);
+    keepNear(step, pose, static_cast<float>(16 * scale2));
+    pose = improvePose(step, pose, kLocalSteps);
+  }
+  const float gain = gainOf(pose, kMinimalThreshold2);
+  if (!isNear(*query.prior, pose) || gain < kVerifiedGain ||
+      gain < kVerifiedShare * static_cast<float>(lifted_.count))
+    return false;
+  search->camera_from_map = pose;
+  search->gain = search->minimal_gain = gain;
+  return true;
+}
+
+Estimate PoseEstimator::search(const PoseQuery &query) {
+  Estimate estimate;
+  load(query);
+  if (lifted_.count < kFewestRows) {
+    estimate.ending = PoseEnding::kFewCorrespondences;
+    return estimate;
+  }
+  Search state;
+  const PosePrior *prior = query.prior && query.prior->has_pose ? query.prior : nullptr;
+  if (!prior || !verifyPrior(query, &state)) {
+    if (prior) sampleAndScore(query, prior, config_.max_iterations / kSmallSearch, &state, &estimate);
+    if (!(state.gain > kVerifiedGain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
+  }
+  if (state.gain > 0) {
+    finish(query, state.camera_from_map, &estimate);
+  } else {
+    estimate.ending = estimate.cut_short ? PoseEnding::kDeadline : PoseEnding::kNoConsensus;
+  }
   return estimate;
 }
 
-Estimate PoseEstimator::refine(Span<const Correspondence> correspondences, const Rigid &camera_from_map) const {
-  const Refinement refined = refinePose(correspondences, camera_from_map, kFinalScale2, kFinalIterations);
+Estimate PoseEstimator::refine(const PoseQuery &query, const Rigid &camera_from_map) {
   Estimate estimate;
-  estimate.camera_from_map = refined.camera_from_map;
-  estimate.inliers = countInliers(correspondences, refined.camera_from_map);
-  Matrix6 information = refined.information;
-  information.diagonal().array() += 1e-6;  // a direction that nothing pins down gets a large, finite variance
-  estimate.covariance = information.ldlt().solve(Matrix6::Identity());
+  load(query);
+  finish(query, camera_from_map, &estimate);
   return estimate;
+}
+
+// Of the rows that agree in the epipolar plane and whose error along the ray is mostly depth's: median error over
+// what was expected.  Outliers of depth (edges, multipath) count, fakes rarely pass.
+double PoseEstimator::noiseRatio(const RefineTask &task, const Refinement &refined) {
+  const NormalTask kernel = normalTask(task, refined.camera_from_map, refined.bias);
+  kernels_->residuals(lifted_, kernel, squared_.data());
+  kernels_->plane_residuals(lifted_, kernel, plane_squared_.data());
+  uint32_t seen = 0;
+  for (uint32_t i = 0; i < lifted_.count; ++i) {
+    if (!(plane_squared_[i] < kAgreeingPlane2) || !(squared_[i] < kNeverNear)) continue;
+    const double cosine = lifted_.view(i).dot(refined.camera_from_map.rotation * lifted_.direction(i));
+    const double stretch = static_cast<double>(lifted_.field[kStretch][i]);
+    if (!(1 + stretch * cosine * cosine > kMostlyDepth * (1 + stretch))) continue;
+    squared_[seen++] = squared_[i] - plane_squared_[i];
+  }
+  if (seen < kFewestForNoise) return 0;
+  std::nth_element(squared_.data(), squared_.data() + seen / 2, squared_.data() + seen);
+  const double median = static_cast<double>(squared_[seen / 2]);
+  return median > 0 ? sqrtOf(median / kMedianOfSquare) : 0;
+}
+
+void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate *estimate) {
+  const RefineTask local = task(query, kLocalScale2);
+  keepNear(local, start, kLocalLimit2);
+  const Rigid pose = improvePose(local, start, kLocalSteps);
+  RefineTask last = task(query, kFinalScale2);
+  last.planes = &near_planes_;
+  last.depth.covariance = query.depth.covariance;
+  keepNear(last, pose, kFinalLimit2);
+  keepNearPlanes(last, pose, kFinalLimit2);
+  const Refinement refined = refinePose(last, pose, kFinalIterations);
+  estimate->camera_from_map = cleaned(refined.camera_from_map);
+  Matrix8 information = refined.information;
+  information.diagonal().array() += 1e-6;  // a direction that nothing pins down gets a large, finite variance
+  const Matrix8 covariance = information.ldlt().solve(Matrix8::Identity());
+  estimate->covariance = covariance.topLeftCorner<6, 6>();
+  estimate->depth = query.depth;
+  estimate->depth.mean += refined.bias;
+  if (!query.depth.isKnown()) estimate->depth.covariance = covariance.bottomRightCorner<2, 2>();
+  kernels_->residuals(near_, normalTask(last, estimate->camera_from_map, refined.bias), squared_.data());
+  const float threshold2 = static_cast<float>(config_.inlier_threshold2);
+  for (uint32_t i = 0; i < near_.count; ++i) {
+    if (!(squared_[i] < threshold2)) continue;
+    ++estimate->inliers;
+    estimate->gain += 1 - static_cast<double>(squared_[i]) / config_.inlier_threshold2;
+  }
+  estimate->noise_ratio = noiseRatio(last, refined);
+  estimate->ending = PoseEnding::kFound;
+}
+
+bool PoseEstimator::isInlier(const Correspondence &correspondence, const Estimate &estimate) const {
+  if (!correspondence.lifted.hasDepth()) return false;
+  Correspondence corrected = correspondence;
+  corrected.lifted.point_m *= lengthening(correspondence.lifted, estimate.depth);
+  const Residual r = residualOf(corrected, estimate.camera_from_map);
+  return r.in_front && r.squared < config_.inlier_threshold2;
 }
 
 }  // namespace sphc

@@ -1,42 +1,74 @@
-// The robust loop: minimal samples, truncated scoring, local optimisation, final refinement (LO-RANSAC: Chum,
-// Matas, Kittler 2003; the paper's algorithm 2 with the whitened residual in place of its cost).
+// The robust loop: batches of minimal samples, scoring with early exit, local optimisation when it can pay, final
+// refinement (LO-RANSAC: Chum, Matas, Kittler 2003; the paper's algorithm 2 with the whitened residual in place of
+// its cost, which paper_estimator.h keeps).
 #pragma once
-#include "runtime/base/arena.h"
+#include "runtime/base/deadline.h"
 #include "runtime/stages/pose/refine.h"
-#include "runtime/stages/pose/score.h"
+#include "runtime/stages/pose/sampler.h"
 
 namespace sphc {
 
 struct EstimatorConfig {
-  uint32_t capacity = 0;           // correspondences at most
-  uint32_t max_iterations = 0;     // minimal samples at most
-  double inlier_threshold2 = 12;   // squared whitened residual; chi-squared with 2 degrees beyond it: 0.25 %
-  double miss_probability = 1e-4;  // of stopping before an all-inlier sample was drawn
+  uint32_t capacity = 0;                 // correspondences at most
+  uint32_t max_iterations = 0;           // minimal samples at most
+  double inlier_threshold2 = 12;         // squared whitened residual; chi-squared with 2 degrees beyond it: 0.25 %
+  double miss_probability = 1e-3;        // of stopping before a sample that leads to the pose was drawn
+  const PoseKernels *kernels = nullptr;  // null: the best of this machine
+};
+
+struct PoseQuery {
+  Span<const Correspondence> correspondences;
+  const PosePrior *prior = nullptr;  // may be null
+  DepthCalibration depth;            // what is known of the sensor
+  uint64_t seed = 0;
+  Deadline deadline;
 };
 
 class PoseEstimator {
  public:
   static void layout(const EstimatorConfig &config, Arena &scratch, PoseEstimator *estimator);
 
-  // Searches from scratch.  The answer's inliers is 0 when there is none.
-  Estimate search(Span<const Correspondence> correspondences, uint64_t seed);
+  // Searches, from the prior when there is one, else from scratch.  Estimate::ending says how it went.
+  Estimate search(const PoseQuery &query);
   // Refines from a pose that is nearly right.
-  Estimate refine(Span<const Correspondence> correspondences, const Rigid &camera_from_map) const;
-  // Does the correspondence agree with the pose?
-  bool isInlier(const Correspondence &correspondence, const Rigid &camera_from_map) const;
+  Estimate refine(const PoseQuery &query, const Rigid &camera_from_map);
+  // Does the correspondence agree with the estimate?
+  bool isInlier(const Correspondence &correspondence, const Estimate &estimate) const;
   double inlierThreshold2() const { return config_.inlier_threshold2; }
 
  private:
-  struct Best {
+  // Where the search stands; gains are at the wide threshold of minimal samples.
+  struct Search {
     Rigid camera_from_map;
-    float score;
+    float gain = 0;                           // after local optimisation
+    float minimal_gain = 0;                   // before it
+    double chance_gain = 0, chance_seen = 0;  // of the poses that were given up: what chance alone brings
   };
-  void tryPose(const Rigid &camera_from_map, Span<const Correspondence> correspondences, Best *best) const;
-  uint32_t countInliers(Span<const Correspondence> correspondences, const Rigid &camera_from_map) const;
-  uint32_t iterationsFor(uint32_t inliers, uint32_t count) const;
+  void load(const PoseQuery &query);
+  bool verifyPrior(const PoseQuery &query, Search *search);
+  void sampleAndScore(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search,
+                      Estimate *estimate);
+  void scoreBatch(const PoseQuery &query, const PosePrior *gate, Search *search);
+  void optimise(const PoseQuery &query, const Rigid &minimal, Search *search);
+  static bool isNear(const PosePrior &prior, const Rigid &pose);
+  void keepNear(const RefineTask &task, const Rigid &pose, float limit2);
+  void keepNearPlanes(const RefineTask &task, const Rigid &pose, float limit2);
+  bool isBeyondChance(const Search &search, uint32_t samples) const;
+  float gainOf(const Rigid &pose, double threshold2) const;
+  uint32_t samplesFor(uint32_t sample_size, const Search &search, double miss) const;
+  RefineTask task(const PoseQuery &query, double scale2) const;
+  double noiseRatio(const RefineTask &task, const Refinement &refined);
+  void finish(const PoseQuery &query, const Rigid &start, Estimate *estimate);
 
   EstimatorConfig config_;
-  PoseScorer scorer_;
+  const PoseKernels *kernels_ = nullptr;
+  Sampler sampler_;
+  PoseRows lifted_, planes_;     // with and without depth
+  PoseRows near_, near_planes_;  // those that matter to a pose
+  Span<float> squared_, plane_squared_, quality_;
+  Span<uint32_t> shuffled_;
+  MinimalBatch *batch_ = nullptr;
+  PoseBatch *poses_ = nullptr;
 };
 
 }  // namespace sphc

@@ -1,20 +1,37 @@
-// Robust least squares on the pose: Gauss-Newton with Levenberg damping and the Geman-McClure loss, which lets go
-// of outliers altogether (fake directions leak into slower-dying losses).
+// Robust least squares on the pose, the depth bias a nuisance: Gauss-Newton with Levenberg damping and the
+// Geman-McClure loss, which lets go of outliers altogether (fake directions leak into slower-dying losses).
 #pragma once
-#include "runtime/base/span.h"
-#include "runtime/types/correspondence.h"
+#include "runtime/stages/pose/kernels.h"
+#include "runtime/types/depth_calibration.h"
 #include "runtime/types/estimate.h"
+#include "runtime/types/pose_prior.h"
 
 namespace sphc {
 
-struct Refinement {
-  Rigid camera_from_map;
-  Matrix6 information;  // weighted normal matrix at the result
-  double cost;          // sum of the robust losses
+using Matrix8 = Eigen::Matrix<double, kPoseUnknowns, kPoseUnknowns>;
+using Vector8 = Eigen::Matrix<double, kPoseUnknowns, 1>;
+
+struct RefineTask {
+  const PoseKernels *kernels;
+  const PoseRows *lifted;
+  const PoseRows *planes;  // rows taken for their epipolar planes; null: none
+  const PosePrior *prior;  // its vertical is a soft term; null: none
+  DepthCalibration depth;  // around zero: the rows have been corrected by its mean; known: not estimated
+  double scale2;           // squared residual at which a row has lost three quarters of its weight
 };
 
-// `scale2`: squared residual at which a correspondence has lost three quarters of its weight.
-Refinement refinePose(Span<const Correspondence> correspondences, const Rigid &start, double scale2,
-                      int iterations);
+struct Refinement {
+  Rigid camera_from_map;
+  Vector2 bias = Vector2::Zero();         // what is left: offset_m, slope
+  Matrix8 information = Matrix8::Zero();  // inverse covariance of the unknowns, priors included
+  double cost = 0;                        // sum of the robust losses
+};
+
+// The task of the kernels at a pose and bias.
+NormalTask normalTask(const RefineTask &task, const Rigid &pose, const Vector2 &bias);
+// Gauss-Newton steps without looking back, and without the depth bias: local optimisation.
+Rigid improvePose(const RefineTask &task, const Rigid &start, int steps);
+// To convergence, at most `iterations`.
+Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations);
 
 }  // namespace sphc

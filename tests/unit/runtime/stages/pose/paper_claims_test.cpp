@@ -41,7 +41,7 @@ TEST(PaperClaims, WrongSignDirectionsAreRefusedByCheirality) {
   EXPECT_LT(test::translationErrorM(estimate.camera_from_map, world.camera_from_map), 1e-3);
   EXPECT_EQ(estimate.inliers, 200u);
   for (size_t i = 0; i < world.correspondences.size(); ++i)
-    EXPECT_EQ(estimator.get().isInlier(world.correspondences[i], estimate.camera_from_map), i % 3 != 0);
+    EXPECT_EQ(estimator.get().isInlier(world.correspondences[i], estimate), i % 3 != 0);
 }
 
 // The mirror world: with every sign wrong the lines still meet their points, the rays do not.  A few agree all the

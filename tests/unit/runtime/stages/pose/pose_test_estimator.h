@@ -23,7 +23,10 @@ class TestEstimator {
     PoseEstimator::layout(config, arena, &estimator_);
   }
   Estimate search(const PoseWorld &world, uint64_t seed = 1) {
-    return estimator_.search({world.correspondences.data(), world.correspondences.size()}, seed);
+    PoseQuery query;
+    query.correspondences = {world.correspondences.data(), world.correspondences.size()};
+    query.seed = seed;
+    return estimator_.search(query);
   }
   PoseEstimator &get() { return estimator_; }
   // As the localizer judges a first pose that no second look supports.

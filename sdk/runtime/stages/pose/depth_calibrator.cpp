@@ -1,0 +1,38 @@
+#include "runtime/stages/pose/depth_calibrator.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace sphc {
+namespace {
+
+// Frames of one scene share their errors (glossy floors, edges), so each counts as part of an independent one.
+constexpr double kTrust = 0.3;
+constexpr double kNoiseStep = 0.2;  // of the way to a frame's noise, in the logarithm
+constexpr double kLeastNoise = 0.25, kMostNoise = 4;
+constexpr double kSlopeDrift = 1e-4;  // a frame, 1 sigma: sensors warm up
+
+}  // namespace
+
+void DepthCalibrator::init(const DepthCalibration &prior) { prior_ = current_ = prior; }
+
+void DepthCalibrator::learn(const Estimate &estimate) {
+  if (estimate.noise_ratio > 0) {
+    const double scale = current_.noise_scale * expOf(kNoiseStep * logOf(estimate.noise_ratio));
+    current_.noise_scale = scale < kLeastNoise ? kLeastNoise : scale > kMostNoise ? kMostNoise : scale;
+  }
+  if (current_.isKnown()) return;
+  const Matrix2 before = current_.covariance.inverse(), after = estimate.depth.covariance.inverse();
+  const Matrix2 information = before + kTrust * (after - before);
+  const Vector2 weighted = before * current_.mean + kTrust * (after * estimate.depth.mean - before * current_.mean);
+  Matrix2 covariance = information.inverse();
+  covariance(1, 1) += kSlopeDrift * kSlopeDrift;
+  const Vector2 mean = information.ldlt().solve(weighted);
+  if (!isFinite(mean.sum()) || !(covariance(0, 0) > 0) || !(covariance(1, 1) > 0)) return;
+  current_.mean = mean;
+  // Information never makes it less certain than it was to begin with.
+  if (covariance(0, 0) <= prior_.covariance(0, 0) && covariance(1, 1) <= prior_.covariance(1, 1))
+    current_.covariance = covariance;
+}
+
+}  // namespace sphc

@@ -1,0 +1,27 @@
+// The scalar twin: the same kernels compiled for single lanes; for tests and for machines without SIMD.
+#define HWY_COMPILE_ONLY_SCALAR
+#include "runtime/stages/pose/equations-inl.h"
+#include "runtime/stages/pose/minimal-inl.h"
+#include "runtime/stages/pose/rows-inl.h"
+#include "runtime/stages/pose/score-inl.h"
+#include "runtime/stages/pose/upright-inl.h"
+
+namespace sphc {
+
+const PoseKernels &scalarPoseKernels() {
+  using namespace HWY_NAMESPACE;
+  static constexpr PoseKernels kernels = {
+      prepare, score, residuals, planeResiduals, solveP3pBatch, solveUprightBatch, liftedEquations, planeEquations};
+  return kernels;
+}
+
+PoseF poseF(const Rigid &camera_from_map) {
+  PoseF out;
+  for (int i = 0; i < 3; ++i) {
+    out.t[i] = static_cast<float>(camera_from_map.translation_m[i]);
+    for (int j = 0; j < 3; ++j) out.r[3 * i + j] = static_cast<float>(camera_from_map.rotation(i, j));
+  }
+  return out;
+}
+
+}  // namespace sphc

@@ -1,0 +1,44 @@
+#include "runtime/stages/pose/rows.h"
+
+namespace sphc {
+
+void PoseRows::layout(const char *name, uint32_t capacity, Arena &scratch, PoseRows *rows) {
+  const uint32_t padded = (capacity + kPoseChunk - 1) / kPoseChunk * kPoseChunk;
+  for (uint32_t f = 0; f < kPoseFieldCount; ++f) {
+    const Span<float> span = scratch.take<float>(name, padded);
+    if (rows) rows->field[f] = span.data();
+  }
+}
+
+void PoseRows::push(const Correspondence &c) {
+  for (int k = 0; k < 3; ++k) {
+    field[kPointX + k][count] = static_cast<float>(c.lifted.point_m[k]);
+    field[kDirectionX + k][count] = static_cast<float>(c.direction[k]);
+  }
+  field[kWeight][count] = static_cast<float>(c.lifted.sideways_m);
+  field[kStretch][count] = static_cast<float>(c.lifted.along_m);
+  ++count;
+}
+
+void PoseRows::pushBelow(const PoseRows &from, const float *value, float limit, uint32_t *index) {
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < from.count; ++i) {
+    index[kept] = i;
+    kept += value[i] < limit;
+  }
+  for (uint32_t f = 0; f < kPoseFieldCount; ++f) {
+    const float *source = from.field[f];
+    float *target = field[f] + count;
+    for (uint32_t i = 0; i < kept; ++i) target[i] = source[index[i]];
+  }
+  count += kept;
+}
+
+void PoseRows::pad() {
+  padded = (count + kPoseChunk - 1) / kPoseChunk * kPoseChunk;
+  for (uint32_t f = 0; f < kPoseFieldCount; ++f)
+    for (uint32_t i = count; i < padded; ++i)
+      field[f][i] = f == kPointZ || f == kViewZ || f == kWeight || f == kStretch ? 1.0f : 0.0f;
+}
+
+}  // namespace sphc

@@ -1,0 +1,53 @@
+// Correspondences as the SIMD kernels want them: structure of arrays, single precision, padded to whole chunks.
+#pragma once
+#include "runtime/base/arena.h"
+#include "runtime/types/correspondence.h"
+
+namespace sphc {
+
+constexpr uint32_t kPoseLanes = 16;  // order of every summation is fixed by this, not by the machine's SIMD width
+constexpr uint32_t kPoseChunk = 64;  // rows between two looks at whether a pose is worth going on with
+
+// A row without depth has its unit bearing for a point and the stretch -1: any row can be taken for one by its
+// view, direction and weight |point|^2, which is of the angle.
+enum PoseField : uint32_t {
+  kPointX,
+  kPointY,
+  kPointZ,  // m, camera frame
+  kViewX,
+  kViewY,
+  kViewZ,  // unit viewing ray
+  kDirectionX,
+  kDirectionY,
+  kDirectionZ,  // unit, map frame; zero in padding, which so is never in front
+  kWeight,      // 1 / sideways^2
+  kStretch,     // (sideways / along)^2 - 1
+  kPoseFieldCount
+};
+
+struct PoseRows {
+  float *field[kPoseFieldCount] = {};
+  uint32_t count = 0;   // rows in use
+  uint32_t padded = 0;  // the same in whole chunks
+
+  static void layout(const char *name, uint32_t capacity, Arena &scratch, PoseRows *rows);
+
+  Vector3 view(uint32_t row) const { return vector(kViewX, row); }
+  Vector3 direction(uint32_t row) const { return vector(kDirectionX, row); }
+
+  // Takes in one correspondence: point, direction, and its errors for weight and stretch, until
+  // PoseKernels::prepare makes the rest of them.
+  void push(const Correspondence &correspondence);
+  // Appends those rows of `from` whose value is below the limit.  `index`: scratch for as many as `from` has.
+  void pushBelow(const PoseRows &from, const float *value, float limit, uint32_t *index);
+  // Once all rows are in.
+  void pad();
+
+ private:
+  Vector3 vector(uint32_t first, uint32_t row) const {
+    return Vector3(static_cast<double>(field[first][row]), static_cast<double>(field[first + 1][row]),
+                   static_cast<double>(field[first + 2][row]));
+  }
+};
+
+}  // namespace sphc
