@@ -83,8 +83,8 @@ std::string growthCsv(const std::vector<GrowthRow> &rows) {
       const std::string ratio =
           std::isnan(s.times_faster_than_poselib) ? "" : fixed(s.times_faster_than_poselib, 3);
       text += row.file + "," + depthName(row.depth) + "," + axisName(row.axis) + "," + fixed(row.x, 0) + "," +
-              row.how + "," + s.name + "," + fixed(s.time_ms.median, 4) + "," + fixed(s.time_ms.p90, 4) + "," +
-              fixed(s.time_ms.p99, 4) + "," + ratio + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
+              row.how + "," + csvText(s.name) + "," + fixed(s.time_ms.median, 4) + "," + fixed(s.time_ms.p90, 4) +
+              "," + fixed(s.time_ms.p99, 4) + "," + ratio + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
               fixed(s.rotation_deg.median, 4) + "," + fixed(s.translation_cm.median, 4) + "," +
               fixed(s.iterations, 0) + "\n";
     }

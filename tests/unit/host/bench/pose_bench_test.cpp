@@ -139,5 +139,10 @@ TEST(PoseBench, TheLedgerHasRatiosAndNoMilliseconds) {
             summarizePoseBench(table.runs)[0].time_ms.median);
 }
 
+TEST(PoseBench, ACommaInANameIsQuoted) {
+  EXPECT_EQ(csvText("ours"), "ours");
+  EXPECT_EQ(csvText("ours, upright"), "\"ours, upright\"");
+}
+
 }  // namespace
 }  // namespace sphc::host
