@@ -166,6 +166,7 @@ void PoseEstimator::optimise(const PoseQuery &query, const Rigid &minimal, Searc
   const float gain = gainOf(pose, kMinimalThreshold2);
   if (gain > search->gain) {
     search->gain = gain;
+    search->tight_gain = gainOf(pose, config_.inlier_threshold2);
     search->camera_from_map = pose;
   }
 }
@@ -199,10 +200,11 @@ void PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, Se
 }
 
 // Chance cannot explain it: such an agreement is the pose, and there is no other.  Chernoff's bound, over all poses
-// tried.
+// tried, at the inlier threshold, whose region is by so much smaller than that of minimal samples.
 bool PoseEstimator::isBeyondChance(const Search &search, uint32_t samples) const {
-  const double chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
-  const double share = static_cast<double>(search.gain) / lifted_.count;
+  const double wide_chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
+  const double chance = wide_chance * config_.inlier_threshold2 / kMinimalThreshold2;
+  const double share = static_cast<double>(search.tight_gain) / lifted_.count;
   if (!(share > chance) || !(share < 1)) return share >= 1;
   const double information = share * logOf(share / chance) + (1 - share) * logOf((1 - share) / (1 - chance));
   return lifted_.count * information > kCertain + logOf(kMaxSolutions * samples);
@@ -319,22 +321,21 @@ double PoseEstimator::noiseRatio(const NormalTask &kernel, const Rigid &pose) {
 Estimate PoseEstimator::evaluate(const PoseQuery &query, const Rigid &camera_from_map) {
   Estimate estimate;
   load(query);
-  keepNear(task(query, kFinalScale2), camera_from_map, kFinalLimit2);
   polish(query, camera_from_map, 0, &estimate);
   return estimate;
 }
 
 void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate *estimate) {
   const RefineTask local = task(query, kLocalScale2);
-  keepNear(local, start, kFinalLimit2);
+  keepNear(local, start, kLocalLimit2);
   polish(query, improvePose(local, start, kLocalSteps), kFinalIterations, estimate);
 }
 
-// On the rows in near_.
 void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterations, Estimate *estimate) {
   RefineTask last = task(query, kFinalScale2);
   last.planes = &near_planes_;
   last.depth.covariance = query.depth.covariance;
+  keepNear(last, pose, kFinalLimit2);
   keepNearPlanes(last, pose, kFinalLimit2);
   const Refinement refined = refinePose(last, pose, iterations);
   estimate->camera_from_map = cleaned(refined.camera_from_map);

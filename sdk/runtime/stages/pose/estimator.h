@@ -44,6 +44,7 @@ class PoseEstimator {
     Rigid camera_from_map;
     float gain = 0;                           // after local optimisation
     float minimal_gain = 0;                   // before it
+    float tight_gain = 0;                     // after it, at the inlier threshold
     double chance_gain = 0, chance_seen = 0;  // of the poses that were given up: what chance alone brings
   };
   void load(const PoseQuery &query);
