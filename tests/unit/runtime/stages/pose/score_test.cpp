@@ -58,7 +58,7 @@ TEST(Score, GivesUpByTheSlope) {
   const test::OwnedRows owned(world.correspondences, simdPoseKernels());
   const PoseF pose = poseF(world.camera_from_map);
   EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 2}).seen, 64);
-  EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 90}).seen, 256);
+  EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 90}).seen, 192);
   EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 150}).seen, 300);
 }
 
