@@ -78,10 +78,9 @@ TEST(Nees, AllTrueWithBias) { expectConsistent({1, 0, 0.005, 0.01}); }
 TEST(Nees, AThirdTrueWithBias) { expectConsistent({0.33, 0, 0.005, 0.01}); }
 TEST(Nees, AThirdWithoutDepth) { expectConsistent({1, 0.33, 0, 0}); }
 TEST(Nees, AThirdTrueWithoutDepthAndWithBias) { expectConsistent({0.33, 0.33, 0.005, 0.01}); }
-TEST(Nees, XTruthAllTrue) { expectConsistent({1, 0, 0, 0, true}); }
-TEST(Nees, XTruthAThirdTrue) { expectConsistent({0.33, 0, 0, 0, true}); }
-TEST(Nees, XTruthAllTrueWithBias) { expectConsistent({1, 0, 0.005, 0.01, true}); }
-TEST(Nees, XTruthAThirdTrueWithBias) { expectConsistent({0.33, 0, 0.005, 0.01, true}); }
+// Errors are stated for the measured depth above, and for the true one here.
+TEST(Nees, AllTrueExactlyAsStated) { expectConsistent({1, 0, 0.005, 0.01, true}); }
+TEST(Nees, AThirdTrueExactlyAsStated) { expectConsistent({0.33, 0, 0.005, 0.01, true}); }
 
 }  // namespace
 }  // namespace sphc
