@@ -179,7 +179,9 @@ void expectUnmoved(const test::PoseWorld &wrong) {
   for (uint64_t at : {0u, 3u, 20u}) {
     const Disturbance off = disturbedAt(at, wrong);
     ::testing::Test::RecordProperty("slope_after_frame_" + std::to_string(at), std::to_string(off.at_once));
-    EXPECT_LT(off.at_once, kSlopeSigma) << "no further than knowing nothing";
+    if (at > 0) {  // the first frame has nothing to be held against
+      EXPECT_LT(off.at_once, 0.002) << at;
+    }
     EXPECT_LT(off.later, 0.004);
     EXPECT_LT(off.noise_scale_later, 0.05);
   }

@@ -20,6 +20,7 @@ struct Setting {
   double true_share = 1, depthless_share = 0;
   double offset_sigma_m = 0, slope_sigma = 0;  // of the bias, drawn for each world
   bool states_from_truth = false;
+  double up_sigma_rad = 0;  // of a known vertical; 0: none
 };
 
 // Means over worlds: of the pose, of its two halves, and of the bias.
@@ -43,6 +44,8 @@ Nees neesOf(const Setting &setting) {
     query.depth.mid_m = options.mid_m;
     query.depth.covariance.diagonal() << std::pow(setting.offset_sigma_m, 2), std::pow(setting.slope_sigma, 2);
     const test::PoseWorld world = test::makeSensorWorld(options);
+    const PosePrior vertical = test::gravityPrior(world, setting.up_sigma_rad, options.seed);
+    if (setting.up_sigma_rad > 0) query.prior = &vertical;
     const Estimate estimate = estimator.search(world, query);
     const Vector6 xi = test::poseError(estimate.camera_from_map, world.camera_from_map);
     const Matrix6 &c = estimate.covariance;
@@ -81,6 +84,7 @@ TEST(Nees, AThirdTrueWithoutDepthAndWithBias) { expectConsistent({0.33, 0.33, 0.
 // Errors are stated for the measured depth above, and for the true one here.
 TEST(Nees, AllTrueExactlyAsStated) { expectConsistent({1, 0, 0.005, 0.01, true}); }
 TEST(Nees, AThirdTrueExactlyAsStated) { expectConsistent({0.33, 0, 0.005, 0.01, true}); }
+TEST(Nees, AThirdTrueWithAVertical) { expectConsistent({0.33, 0, 0.005, 0.01, false, 2e-3}); }
 
 }  // namespace
 }  // namespace sphc
