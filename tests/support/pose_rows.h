@@ -10,10 +10,10 @@ struct OwnedRows {
   explicit OwnedRows(uint32_t capacity)
       : memory(
             [&](Arena &arena, bool real) { PoseRows::layout("rows", capacity, arena, real ? &rows : nullptr); }) {}
-  // Pushed and padded, but not prepared.
+  // Set and padded, but not prepared.
   explicit OwnedRows(const std::vector<Correspondence> &correspondences)
       : OwnedRows(static_cast<uint32_t>(correspondences.size())) {
-    for (const Correspondence &c : correspondences) rows.push(c);
+    for (const Correspondence &c : correspondences) rows.set(rows.count++, c);
     rows.pad();
   }
   // Prepared by `kernels` as they are, uncorrected.
