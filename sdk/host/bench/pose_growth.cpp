@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/bench/normal.h"
 #include "host/bench/pose_table.h"
 #include "host/report/run.h"
 
@@ -14,16 +15,6 @@ constexpr size_t kCounts[] = {100, 200, 400, 800, 1500, 2500, 4000};
 constexpr double kEtas[] = {0.15, 0.10};
 constexpr double kFreshNoise = 0.5, kFakeVariance = 0.1;
 constexpr uint64_t kGrowthSeed = 20240901;
-
-// Standard normal (Box and Muller).
-double normalOf(Random *random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random->uniform()));
-  return radius * std::cos(2 * kPi * random->uniform());
-}
-Vector3 normalVector(Random *random) {
-  const double x = normalOf(random), y = normalOf(random), z = normalOf(random);
-  return {x, y, z};
-}
 
 std::vector<size_t> shuffled(size_t count, Random *random) {
   std::vector<size_t> order(count);

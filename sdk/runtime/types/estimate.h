@@ -21,7 +21,12 @@ struct Estimate {
   double noise_ratio = 0;                // depth noise seen over expected; 0: too little to tell
   double gain = 0;                       // sum over inliers of 1 - residual^2 / threshold^2
   uint32_t inliers = 0;
+  uint32_t lifted = 0;      // correspondences with depth
   uint32_t iterations = 0;  // minimal samples drawn
+  // Of the search alone; 0 after a mere refinement.
+  double chance = 0;      // share of the lifted that agrees with a wrong pose, as seen on those that were given up
+  double log_odds = 0;    // bound on the natural log of the odds that the agreement is not chance, over all samples
+  double spread_rad = 0;  // of the inliers' viewing rays around their mean: 1 sigma where they are narrower
 };
 
 }  // namespace sphc
