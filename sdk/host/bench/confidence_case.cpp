@@ -26,12 +26,12 @@ double trueShare(const PoseCase &c) {
 }
 
 // Adds what is missing, or states more than there is.
-void misjudgeDepth(double factor, Random *random, LiftedPoint *lifted) {
+void misjudgeDepth(double factor, double noise_scale, Random *random, LiftedPoint *lifted) {
   if (factor < 1) {
     lifted->along_m /= factor;
     return;
   }
-  const double missing_m = std::sqrt(factor * factor - 1) * lifted->along_m * normalOf(random);
+  const double missing_m = std::sqrt(factor * factor - 1) * noise_scale * lifted->along_m * normalOf(random);
   lifted->point_m *= std::max(0.1, 1 + missing_m / lifted->point_m.norm());
 }
 
@@ -58,17 +58,19 @@ std::string describe(const Hardship &h) {
          " depth noise " + fixed(h.depth_noise, 1) + (h.wrong_place ? " wrong place" : "");
 }
 
-PoseCase hardCase(const PoseCase &original, const Hardship &hardship, const CaseNoise &noise, Random *random) {
-  PoseCase c = original;
+ConfidenceQuery hardQuery(const ConfidenceQuery &original, const Hardship &hardship, const CaseNoise &noise,
+                          Random *random) {
+  PoseCase c = original.pose_case;
   if (hardship.eta < trueShare(c)) c = turnedCase(c, hardship.eta, random);
   if (hardship.rows > 0 && hardship.rows < c.correspondences.size())
     c = resizedCase(c, hardship.rows, noise, random);
-  for (Correspondence &row : c.correspondences) misjudgeDepth(hardship.depth_noise, random, &row.lifted);
+  for (Correspondence &row : c.correspondences)
+    misjudgeDepth(hardship.depth_noise, original.depth.noise_scale, random, &row.lifted);
   if (hardship.wrong_place) {
     shuffleDirections(&c.correspondences, &c.is_true, random);
     shuffleDirections(&c.without_depth, &c.without_depth_is_true, random);
   }
-  return c;
+  return {c, original.depth};
 }
 
 }  // namespace sphc::host

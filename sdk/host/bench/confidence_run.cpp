@@ -3,6 +3,7 @@
 #include "host/bench/pose_bench.h"
 #include "host/bench/pose_ours.h"
 #include "host/report/statistics.h"
+#include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
 
 namespace sphc::host {
@@ -25,13 +26,14 @@ class HeldEstimator {
     Arena arena(start);
     PoseEstimator::layout(config, arena, &estimator_);
   }
-  Estimate search(const PoseCase &c, uint64_t seed) {
+  Estimate search(const ConfidenceQuery &asked, uint64_t seed) {
+    const PoseCase &c = asked.pose_case;
     rows_ = c.correspondences;
     rows_.insert(rows_.end(), c.without_depth.begin(), c.without_depth.end());
     if (rows_.size() > kCapacity) rows_.resize(kCapacity);
     sphc::PoseQuery query;
     query.correspondences = {rows_.data(), rows_.size()};
-    query.depth = sensorPrior(c.source);
+    query.depth = asked.depth;
     query.seed = seed;
     return estimator_.search(query);
   }
@@ -42,13 +44,13 @@ class HeldEstimator {
   PoseEstimator estimator_;
 };
 
-void runOne(const PoseCase &c, const Hardship &hardship, uint64_t seed, HeldEstimator *estimator,
+void runOne(const ConfidenceQuery &query, const Hardship &hardship, uint64_t seed, HeldEstimator *estimator,
             std::vector<ConfidenceRun> *runs) {
-  const Estimate estimate = estimator->search(c, seed);
+  const Estimate estimate = estimator->search(query, seed);
   if (estimate.ending != PoseEnding::kFound) return;
   PoseSample sample;
-  judgePose({estimate.camera_from_map, estimate.iterations, estimate.inliers, true, 0}, c.truth_camera_from_map,
-            &sample);
+  judgePose({estimate.camera_from_map, estimate.iterations, estimate.inliers, true, 0},
+            query.pose_case.truth_camera_from_map, &sample);
   const bool correct =
       sample.translation_error_m <= kGoodTranslationM && sample.rotation_error_deg <= kGoodRotationDeg;
   runs->push_back({describe(hardship), confidenceInputs(estimate, estimate), sample.rotation_error_deg,
@@ -57,25 +59,39 @@ void runOne(const PoseCase &c, const Hardship &hardship, uint64_t seed, HeldEsti
 
 }  // namespace
 
-void runConfidence(const std::vector<PoseCase> &cases, const CaseNoise &noise, uint32_t times, uint64_t seed,
-                   const RunDone &done, std::vector<ConfidenceRun> *runs) {
+std::vector<ConfidenceQuery> calibratedQueries(const std::vector<PoseCase> &cases) {
+  HeldEstimator estimator;
+  DepthCalibrator calibrator;
+  std::vector<ConfidenceQuery> queries;
+  for (const PoseCase &c : cases) {
+    if (queries.empty()) calibrator.init(sensorPrior(c.source));
+    queries.push_back({c, calibrator.current()});
+    const Estimate estimate = estimator.search(queries.back(), queries.size());
+    if (estimate.ending == PoseEnding::kFound) calibrator.learn(estimate);
+  }
+  return queries;
+}
+
+void runConfidence(const std::vector<ConfidenceQuery> &queries, const CaseNoise &noise, uint32_t times,
+                   uint64_t seed, const RunDone &done, std::vector<ConfidenceRun> *runs) {
   HeldEstimator estimator;
   Random random(seed);
-  for (size_t i = 0; i < cases.size(); ++i) {
+  for (size_t i = 0; i < queries.size(); ++i) {
     for (uint32_t time = 0; time < times; ++time) {
       const Hardship hardship = drawHardship(&random);
-      runOne(hardCase(cases[i], hardship, noise, &random), hardship, random.next(), &estimator, runs);
+      const ConfidenceQuery query = hardQuery(queries[i], hardship, noise, &random);
+      runOne(query, hardship, random.next(), &estimator, runs);
     }
-    if (done) done(static_cast<uint32_t>(i + 1), static_cast<uint32_t>(cases.size()));
+    if (done) done(static_cast<uint32_t>(i + 1), static_cast<uint32_t>(queries.size()));
   }
 }
 
 ConfidenceScene runMadeWorlds(MadeWorld world, uint32_t count, uint64_t seed, const RunDone &done) {
   const CaseNoise noise = noiseFor(DepthSource::kTof);
-  std::vector<PoseCase> cases;
-  for (uint32_t i = 0; i < count; ++i) cases.push_back(madeCase(world, seed + i, noise));
+  std::vector<ConfidenceQuery> queries;
+  for (uint32_t i = 0; i < count; ++i) queries.push_back(madeQuery(world, seed + i, noise));
   ConfidenceScene scene = {worldName(world), false, {}};
-  runConfidence(cases, noise, 1, seed + count, done, &scene.runs);
+  runConfidence(queries, noise, 1, seed + count, done, &scene.runs);
   return scene;
 }
 

@@ -25,10 +25,12 @@ struct ConfidenceScene {
 
 using RunDone = std::function<void(uint32_t done, uint32_t total)>;
 
-// Each of the cases `times` times, every time with other hardships, each frame alone.  Where no pose comes out
-// there is nothing to be confident of.
-void runConfidence(const std::vector<PoseCase> &cases, const CaseNoise &noise, uint32_t times, uint64_t seed,
-                   const RunDone &done, std::vector<ConfidenceRun> *runs);
+// Queries of one recording, each with what a sensor's calibration knows after those before it.
+std::vector<ConfidenceQuery> calibratedQueries(const std::vector<PoseCase> &cases);
+// Each of the queries `times` times, every time with other hardships.  Where no pose comes out there is nothing to
+// be confident of.
+void runConfidence(const std::vector<ConfidenceQuery> &queries, const CaseNoise &noise, uint32_t times,
+                   uint64_t seed, const RunDone &done, std::vector<ConfidenceRun> *runs);
 ConfidenceScene runMadeWorlds(MadeWorld world, uint32_t count, uint64_t seed, const RunDone &done);
 
 }  // namespace sphc::host

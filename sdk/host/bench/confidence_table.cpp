@@ -75,15 +75,15 @@ std::string confidenceLedger(const std::vector<ConfidenceScene> &scenes, const C
 
 std::string confidenceCsv(const std::vector<ConfidenceScene> &scenes, const ConfidenceModel &model) {
   std::string text =
-      "scene,role,hardship,log_odds,gain_share,inliers,spread_rad,rotation_sigma_deg,centre_sigma_cm,confidence,"
+      "scene,role,hardship,gain_share,inliers,gain_per_inlier,rotation_sigma_deg,centre_sigma_cm,confidence,"
       "rotation_error_deg,translation_error_cm,correct\n";
   for (const ConfidenceScene &scene : scenes) {
     const std::vector<Graded> graded = gradedRuns(scene, model);
     for (size_t i = 0; i < graded.size(); ++i) {
       const ConfidenceRun &run = scene.runs[i];
       const ConfidenceInputs &in = run.inputs;
-      text += joined({scene.name, roleOf(scene), run.hardship, fixed(in.log_odds, 3), fixed(in.gain_share, 4),
-                      fixed(in.inliers, 0), fixed(in.spread_rad, 4), fixed(in.rotation_sigma_rad * 180 / kPi, 4),
+      text += joined({scene.name, roleOf(scene), run.hardship, fixed(in.gain_share, 4), fixed(in.inliers, 0),
+                      fixed(in.gain_per_inlier, 4), fixed(in.rotation_sigma_rad * 180 / kPi, 4),
                       fixed(100 * in.centre_sigma_m, 4), fixed(graded[i].confidence, 4),
                       fixed(run.rotation_error_deg, 4), fixed(100 * run.translation_error_m, 4),
                       run.correct ? "1" : "0"});

@@ -14,7 +14,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> files, fitted;
-  uint32_t times = 8, worlds = 3000;
+  uint32_t times = 16, worlds = 6000;
   uint64_t seed = 1;
   std::string out, ledger;
   bool fit = false;
@@ -38,10 +38,10 @@ void addFile(const Options &options, const std::string &path, bool fitted_on,
              std::vector<ConfidenceScene> *scenes) {
   const PoseFile file = readPoseFile(path);
   const CaseNoise noise = noiseFor(DepthSource::kTof);
-  const auto cases = makePoseCases(file, DepthSource::kTof, noise, {});
+  const auto queries = calibratedQueries(makePoseCases(file, DepthSource::kTof, noise, {}));
   ProgressBar bar("measuring ");
   runConfidence(
-      cases, noise, options.times, options.seed + file.eta_percent,
+      queries, noise, options.times, options.seed + file.eta_percent,
       [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &sceneOf(path, fitted_on, scenes)->runs);
 }
 

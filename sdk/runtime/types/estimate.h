@@ -23,10 +23,6 @@ struct Estimate {
   uint32_t inliers = 0;
   uint32_t lifted = 0;      // correspondences with depth
   uint32_t iterations = 0;  // minimal samples drawn
-  // Of the search alone; 0 after a mere refinement.
-  double chance = 0;      // share of the lifted that agrees with a wrong pose, as seen on those that were given up
-  double log_odds = 0;    // bound on the natural log of the odds that the agreement is not chance, over all samples
-  double spread_rad = 0;  // of the inliers' viewing rays around their mean: 1 sigma where they are narrower
 };
 
 }  // namespace sphc

@@ -6,23 +6,18 @@ namespace sphc {
 namespace {
 
 constexpr double kTolerableM = 0.05, kTolerableRad = 5 * kPi / 180;
+constexpr double kPinnedDown = 3;  // so many inliers agree with any pose that was made from them
 
-// Constants printed by `spherecloud bench confidence --fit`; docs/confidence.md.
-constexpr ConfidenceModel kModel = {0, {1, 1, 1, 1, 1, 1}};
+// As `spherecloud bench confidence --fit` prints it for the files that docs/confidence.md names.
+constexpr ConfidenceModel kModel = {0, {1, 1, 1, 1}};
 
 double clamped(double value, double low, double high) { return value < low ? low : value > high ? high : value; }
-
-// Of a value that may be zero or without bound.
 double logWithin(double value, double low, double high) { return logOf(clamped(value, low, high)); }
 
-double sigmaOf(double variance) {
-  return variance >= 0 ? sqrtOf(variance) : __builtin_nan("");  // NaN stays NaN
-}
+// A variance below zero is no variance.
+double sigmaOf(double variance) { return variance >= 0 ? sqrtOf(variance) : __builtin_nan(""); }
 
 }  // namespace
-
-const char *const kConfidenceFeatureNames[kConfidenceFeatures] = {"odds",   "gain share",     "inliers",
-                                                                  "spread", "rotation sigma", "centre sigma"};
 
 const ConfidenceModel &confidenceModel() { return kModel; }
 
@@ -32,23 +27,22 @@ ConfidenceInputs confidenceInputs(const Estimate &searched, const Estimate &refi
   to_centre << crossMatrix(refined.camera_from_map.translation_m), Matrix3::Identity();
   const double noise = refined.noise_ratio > 1 ? refined.noise_ratio : 1;
   ConfidenceInputs inputs;
-  inputs.log_odds = searched.log_odds;
   inputs.gain_share = searched.lifted > 0 ? searched.gain / searched.lifted : 0;
-  inputs.inliers = refined.inliers;
-  inputs.spread_rad = refined.spread_rad;
+  inputs.inliers = searched.inliers;
+  inputs.gain_per_inlier = searched.inliers > 0 ? searched.gain / searched.inliers : 0;
   inputs.rotation_sigma_rad = noise * sigmaOf(refined.covariance.topLeftCorner<3, 3>().trace());
   inputs.centre_sigma_m = noise * sigmaOf((to_centre * refined.covariance * to_centre.transpose()).trace());
   return inputs;
 }
 
+// Each is held where more of it says nothing more.
 bool confidenceFeatures(const ConfidenceInputs &inputs, ConfidenceFeatures *features) {
-  for (double input : {inputs.log_odds, inputs.gain_share, inputs.inliers, inputs.spread_rad,
-                       inputs.rotation_sigma_rad, inputs.centre_sigma_m})
+  const double rotation = inputs.rotation_sigma_rad / kTolerableRad, centre = inputs.centre_sigma_m / kTolerableM;
+  for (double input : {inputs.gain_share, inputs.inliers, inputs.gain_per_inlier, rotation, centre})
     if (input != input) return false;
-  *features = {{logWithin(inputs.log_odds, 1, 100), logWithin(inputs.gain_share, 0.01, 1),
-                logWithin(inputs.inliers, 1, 200), logWithin(inputs.spread_rad, 0.01, 1),
-                -logWithin(inputs.rotation_sigma_rad / kTolerableRad, 0.01, 10),
-                -logWithin(inputs.centre_sigma_m / kTolerableM, 0.02, 10)}};
+  *features = {{logWithin(inputs.gain_share, 0.01, 1), logWithin(inputs.inliers - kPinnedDown, 0.3, 20),
+                clamped(inputs.gain_per_inlier, 0, 1),
+                -logWithin(rotation > centre ? rotation : centre, 0.02, 10)}};
   return true;
 }
 

@@ -61,19 +61,6 @@ double lengthening(const LiftedPoint &lifted, const DepthCalibration &depth) {
   return lifted.hasDepth() ? 1 + depth.correctionAt(lifted.point_m.z()) / lifted.point_m.z() : 1;
 }
 
-// 1 sigma of unit vectors around their mean, in the direction where they are narrower.
-double narrowSpread(const Vector3 &sum, const Matrix3 &squares, double count) {
-  if (!(count > 0)) return 0;
-  const Vector3 mean = sum / count, axis = mean.normalized();
-  const Matrix3 flat = Matrix3::Identity() - axis * axis.transpose();
-  const Matrix3 across = flat * (squares / count - mean * mean.transpose()) * flat;  // two eigenvalues, and a zero
-  const double half = 0.5 * across.trace();
-  const double product = 0.5 * (across.trace() * across.trace() - (across * across).trace());
-  const double root2 = half * half - product;
-  const double smaller = half - (root2 > 0 ? sqrtOf(root2) : 0);
-  return smaller > 0 ? sqrtOf(smaller) : 0;
-}
-
 }  // namespace
 
 void PoseEstimator::layout(const EstimatorConfig &config, Arena &scratch, PoseEstimator *estimator) {
@@ -195,19 +182,14 @@ void PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, Se
     }
 }
 
-double PoseEstimator::chanceOf(const Search &search) {
-  return search.chance_gain / (search.chance_seen + 1) + kLeastChance;
-}
-
-// Of the agreement against chance: Chernoff's bound, over all poses tried.  Beyond kCertain chance cannot explain
-// it: such an agreement is the pose, and there is no other.
-double PoseEstimator::logOdds(const Search &search, uint32_t samples) const {
-  const double chance = chanceOf(search);
+// Chance cannot explain it: such an agreement is the pose, and there is no other.  Chernoff's bound, over all poses
+// tried.
+bool PoseEstimator::isBeyondChance(const Search &search, uint32_t samples) const {
+  const double chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
   const double share = static_cast<double>(search.gain) / lifted_.count;
-  const double tried = logOf(kMaxSolutions * (samples > 0 ? samples : 1));
-  if (!(share > chance) || !(chance < 1)) return -tried;
-  const double rest = share < 1 ? (1 - share) * logOf((1 - share) / (1 - chance)) : 0;
-  return lifted_.count * (share * logOf(share / chance) + rest) - tried;
+  if (!(share > chance) || !(share < 1)) return share >= 1;
+  const double information = share * logOf(share / chance) + (1 - share) * logOf((1 - share) / (1 - chance));
+  return lifted_.count * information > kCertain + logOf(kMaxSolutions * samples);
 }
 
 // Samples needed to draw one without an outlier (Fischler and Bolles 1981).
@@ -243,7 +225,7 @@ void PoseEstimator::sampleAndScore(const PoseQuery &query, const PosePrior *gate
       kernels_->solve_p3p(*batch_, poses_);
     estimate->iterations += kMinimalBatch;
     scoreBatch(query, gate, search);
-    const bool beyond = logOdds(*search, estimate->iterations) > kCertain;
+    const bool beyond = isBeyondChance(*search, estimate->iterations);
     const uint32_t enough = samplesFor(sample_size, *search, beyond ? kMissOnceCertain : config_.miss_probability);
     needed = enough < most ? enough : most;
   }
@@ -280,8 +262,6 @@ Estimate PoseEstimator::search(const PoseQuery &query) {
     if (!(state.gain > kVerifiedGain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
   }
   if (state.gain > 0) {
-    estimate.chance = chanceOf(state);
-    estimate.log_odds = logOdds(state, estimate.iterations);
     finish(query, state.camera_from_map, &estimate);
   } else {
     estimate.ending = estimate.cut_short ? PoseEnding::kDeadline : PoseEnding::kNoConsensus;
@@ -316,23 +296,6 @@ double PoseEstimator::noiseRatio(const RefineTask &task, const Refinement &refin
   return median > 0 ? sqrtOf(median / kMedianOfSquare) : 0;
 }
 
-void PoseEstimator::countInliers(const NormalTask &kernel, Estimate *estimate) {
-  kernels_->residuals(near_, kernel, squared_.data());
-  const float threshold2 = static_cast<float>(config_.inlier_threshold2);
-  Vector3 sum = Vector3::Zero();
-  Matrix3 squares = Matrix3::Zero();
-  for (uint32_t i = 0; i < near_.count; ++i) {
-    if (!(squared_[i] < threshold2)) continue;
-    ++estimate->inliers;
-    estimate->gain += 1 - static_cast<double>(squared_[i]) / config_.inlier_threshold2;
-    const Vector3 view = near_.view(i);
-    sum += view;
-    squares += view * view.transpose();
-  }
-  estimate->lifted = lifted_.count;
-  estimate->spread_rad = narrowSpread(sum, squares, estimate->inliers);
-}
-
 void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate *estimate) {
   const RefineTask local = task(query, kLocalScale2);
   keepNear(local, start, kLocalLimit2);
@@ -351,7 +314,14 @@ void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate 
   estimate->depth = query.depth;
   estimate->depth.mean += refined.bias;
   if (!query.depth.isKnown()) estimate->depth.covariance = covariance.bottomRightCorner<2, 2>();
-  countInliers(normalTask(last, estimate->camera_from_map, refined.bias), estimate);
+  kernels_->residuals(near_, normalTask(last, estimate->camera_from_map, refined.bias), squared_.data());
+  const float threshold2 = static_cast<float>(config_.inlier_threshold2);
+  for (uint32_t i = 0; i < near_.count; ++i) {
+    if (!(squared_[i] < threshold2)) continue;
+    ++estimate->inliers;
+    estimate->gain += 1 - static_cast<double>(squared_[i]) / config_.inlier_threshold2;
+  }
+  estimate->lifted = lifted_.count;
   estimate->noise_ratio = noiseRatio(last, refined);
   estimate->ending = PoseEnding::kFound;
 }

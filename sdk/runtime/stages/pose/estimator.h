@@ -53,13 +53,11 @@ class PoseEstimator {
   static bool isNear(const PosePrior &prior, const Rigid &pose);
   void keepNear(const RefineTask &task, const Rigid &pose, float limit2);
   void keepNearPlanes(const RefineTask &task, const Rigid &pose, float limit2);
-  static double chanceOf(const Search &search);
-  double logOdds(const Search &search, uint32_t samples) const;
+  bool isBeyondChance(const Search &search, uint32_t samples) const;
   float gainOf(const Rigid &pose, double threshold2) const;
   uint32_t samplesFor(uint32_t sample_size, const Search &search, double miss) const;
   RefineTask task(const PoseQuery &query, double scale2) const;
   double noiseRatio(const RefineTask &task, const Refinement &refined);
-  void countInliers(const NormalTask &kernel, Estimate *estimate);
   void finish(const PoseQuery &query, const Rigid &start, Estimate *estimate);
 
   EstimatorConfig config_;
