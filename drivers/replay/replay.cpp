@@ -164,7 +164,7 @@ sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_fra
     replay->depth_pixels.resize(replay->reader.depthBytes());
     const sphc_image color_image = replay->reader.read(SPHC_STREAM_COLOR, color, replay->color_pixels.data());
     const sphc_image depth_image = replay->reader.read(SPHC_STREAM_DEPTH, depth, replay->depth_pixels.data());
-    *frame = {sizeof *frame, color.sequence, color.time_ns, depth.time_ns, color_image, depth_image};
+    *frame = {sizeof *frame, color.sequence, color.time_ns, depth.time_ns, color_image, depth_image, nullptr};
     return SPHC_OK;
   });
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/bench/grown_case.h"
 #include "host/bench/normal.h"
-#include "host/bench/pose_growth.h"
 #include "host/report/run.h"
 
 namespace sphc::host {

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "host/report/statistics.h"
+#include "runtime/base/random.h"
 
 namespace sphc::host {
 namespace {
@@ -20,21 +22,29 @@ uint64_t seedOf(size_t query, uint32_t seed) { return 1 + 1000003 * static_cast<
 std::vector<const PoseVariant *> presentVariants(const std::vector<PoseVariant> &variants,
                                                  const std::vector<PoseCase> &cases) {
   bool true_points = true;
-  for (const PoseCase &c : cases) true_points &= !c.true_points_map_m.empty();
+  for (const PoseCase &c : cases) true_points &= c.correspondences.empty() || !c.true_points_map_m.empty();
   std::vector<const PoseVariant *> present;
   for (const PoseVariant &variant : variants)
     if (variant.run && (true_points || !variant.needs_true_points)) present.push_back(&variant);
   return present;
 }
 
-// All variants on one query with one seed; their order rotates from repeat to repeat.
-std::vector<PoseSample> runQuery(const PoseCase &c, uint64_t seed, size_t turn, uint32_t repeats,
+// A random order, so that no variant always follows the same other one and finds the caches as that left them.
+std::vector<size_t> shuffledOrder(size_t count, Random *random) {
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), size_t{0});
+  for (size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random->below(static_cast<uint32_t>(i))]);
+  return order;
+}
+
+// All variants on one query with one seed.
+std::vector<PoseSample> runQuery(const PoseCase &c, uint64_t seed, uint32_t repeats,
                                  const std::vector<const PoseVariant *> &variants) {
+  Random random(seed);
   std::vector<PoseSample> samples(variants.size());
   std::vector<std::vector<double>> seconds(variants.size());
   for (uint32_t repeat = 0; repeat < repeats; ++repeat) {
-    for (size_t i = 0; i < variants.size(); ++i) {
-      const size_t chosen = (i + turn + repeat) % variants.size();
+    for (const size_t chosen : shuffledOrder(variants.size(), &random)) {
       if (repeat > 0 && seconds[chosen][0] > kSlowS) continue;
       const PoseAnswer answer = variants[chosen]->run(c, seed);
       seconds[chosen].push_back(answer.seconds);
@@ -103,7 +113,7 @@ std::vector<VariantRuns> runPoseBench(const std::vector<PoseCase> &cases, const 
   for (const PoseVariant *variant : present) runs.push_back({variant->name, {}});
   for (size_t query = 0; query < cases.size(); ++query) {
     for (uint32_t seed = 0; seed < options.seeds; ++seed) {
-      const auto samples = runQuery(cases[query], seedOf(query, seed), query + seed, options.repeats, present);
+      const auto samples = runQuery(cases[query], seedOf(query, seed), options.repeats, present);
       for (size_t i = 0; i < runs.size(); ++i) runs[i].samples.push_back(samples[i]);
     }
     if (query_done) query_done(static_cast<uint32_t>(query + 1), static_cast<uint32_t>(cases.size()));

@@ -1,22 +1,10 @@
-// How the cost grows: with the number of correspondences and with the share of fakes, on cases made from real ones.
+// How the cost grows: with the number of correspondences and with the share of fakes.
 #pragma once
 #include <nlohmann/json.hpp>
 
 #include "host/bench/pose_bench.h"
-#include "runtime/base/random.h"
 
 namespace sphc::host {
-
-// `count` rows with depth and none without: a random choice, or all and copies of random ones with half of the
-// stated noise anew (copies of a fake row get the direction of another).  True points grow alike.
-PoseCase resizedCase(const PoseCase &original, size_t count, const CaseNoise &noise, Random *random);
-
-// Fewer true rows, as many rows: true ones get a fake direction (the paper's: normal noise of variance 0.1 added,
-// then normalised) until `eta` is left.
-PoseCase turnedCase(const PoseCase &original, double eta, Random *random);
-
-// As many true rows, more rows: copies of random rows with a fake direction.
-PoseCase dilutedCase(const PoseCase &original, double eta, Random *random);
 
 enum class GrowthAxis { kCount, kEta };
 
@@ -39,7 +27,7 @@ struct GrowthInput {
 // 100 to 4000 rows at the file's eta.
 std::vector<GrowthRow> growCounts(const GrowthInput &input, const std::vector<PoseVariant> &variants,
                                   const BenchOptions &options, const QueryDone &done);
-// The file's eta, and, when it is 25 % or 33 %, 15 and 10 % made from it in both ways.
+// The file's eta, and, when it is at most 33 %, 15 and 10 % made from it in both ways.
 std::vector<GrowthRow> growEtas(const GrowthInput &input, const std::vector<PoseVariant> &variants,
                                 const BenchOptions &options, const QueryDone &done);
 

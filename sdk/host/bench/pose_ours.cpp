@@ -76,7 +76,7 @@ class Ours {
   }
 
   void reserve(uint32_t count) {
-    if (count <= config_.capacity) return;
+    if (count <= config_.capacity && !memory_.empty()) return;
     config_.capacity = count;
     config_.max_iterations = kMaxIterations;
     Arena measure;

@@ -7,6 +7,7 @@ namespace sphc::host {
 namespace {
 
 constexpr int kMaxIterations = 10000;
+constexpr size_t kFewestPoints = 6;
 constexpr float kGatePx = 4;
 constexpr double kConfidence = 0.9999;
 
@@ -19,6 +20,7 @@ PoseAnswer solve(const PoseCase &c) {
   cv::Vec3d turn, shift;
   std::vector<int> inliers;
   PoseAnswer answer;
+  if (points.size() < kFewestPoints) return answer;  // which OpenCV throws at
   const double begin = clockSeconds();
   answer.found = cv::solvePnPRansac(points, pixels, camera, cv::noArray(), turn, shift, false, kMaxIterations,
                                     kGatePx, kConfidence, inliers, cv::SOLVEPNP_ITERATIVE);

@@ -10,6 +10,8 @@
 namespace sphc::host {
 namespace {
 
+constexpr size_t kFewestPoints = 4;
+
 struct Request {
   uint32_t points, width_px, height_px, zero;
   uint64_t seed;
@@ -47,6 +49,7 @@ bool send(Coprocess *process, const PoseCase &c, uint64_t seed) {
 }
 
 PoseAnswer ask(Coprocess *process, const PoseCase &c, uint64_t seed) {
+  if (c.true_points_map_m.size() < kFewestPoints) return {};
   Reply reply;
   if (!send(process, c, seed) || !process->read(&reply, sizeof reply))
     throw std::runtime_error("PoseLib's Python process stopped answering; run again, or without it by --no-peers");

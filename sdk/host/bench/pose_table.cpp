@@ -47,6 +47,10 @@ nlohmann::ordered_json summaryJson(const VariantSummary &s) {
   return value;  // NaN becomes null
 }
 
+std::string csvText(const std::string &text) {
+  return text.find(',') == std::string::npos ? text : '"' + text + '"';
+}
+
 std::string alignedText(const std::vector<std::vector<std::string>> &rows) {
   std::vector<size_t> widths;
   for (const auto &row : rows) {
@@ -86,10 +90,10 @@ std::string benchCsv(const std::vector<BenchTable> &tables) {
                      ",beyond_3cm_percent,beyond_3deg_percent,within_5cm_5deg_percent,iterations_median\n";
   for (const BenchTable &table : tables) {
     for (const VariantSummary &s : table.summaries) {
-      text += caseText(table) + "," + s.name + "," + std::to_string(s.runs) + "," + fixed(s.found_percent, 2) +
-              csvTail(s.time_ms, 4) + "," + csvNumber(s.times_faster_than_poselib, 2) + csvTail(s.rotation_deg, 4) +
-              csvTail(s.translation_cm, 4) + "," + fixed(s.beyond_3cm_percent, 3) + "," +
-              fixed(s.beyond_3deg_percent, 3) + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
+      text += caseText(table) + "," + csvText(s.name) + "," + std::to_string(s.runs) + "," +
+              fixed(s.found_percent, 2) + csvTail(s.time_ms, 4) + "," + csvNumber(s.times_faster_than_poselib, 2) +
+              csvTail(s.rotation_deg, 4) + csvTail(s.translation_cm, 4) + "," + fixed(s.beyond_3cm_percent, 3) +
+              "," + fixed(s.beyond_3deg_percent, 3) + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
               fixed(s.iterations, 0) + "\n";
     }
   }
@@ -102,7 +106,7 @@ std::string benchLedger(const std::vector<BenchTable> &tables) {
       "translation_cm_median,translation_cm_p99,beyond_3cm_percent,beyond_3deg_percent,iterations_median\n";
   for (const BenchTable &table : tables) {
     for (const VariantSummary &s : table.summaries) {
-      text += caseText(table) + "," + s.name + "," + csvNumber(s.times_faster_than_poselib, 1) + "," +
+      text += caseText(table) + "," + csvText(s.name) + "," + csvNumber(s.times_faster_than_poselib, 2) + "," +
               fixed(s.rotation_deg.median, 3) + "," + fixed(s.rotation_deg.p99, 2) + "," +
               fixed(s.translation_cm.median, 3) + "," + fixed(s.translation_cm.p99, 2) + "," +
               fixed(s.beyond_3cm_percent, 2) + "," + fixed(s.beyond_3deg_percent, 2) + "," +

@@ -25,6 +25,9 @@ std::string benchLedger(const std::vector<BenchTable> &tables);
 nlohmann::ordered_json benchJson(const std::vector<BenchTable> &tables);
 nlohmann::ordered_json summaryJson(const VariantSummary &summary);
 
+// A field of a csv line, quoted where it must be.
+std::string csvText(const std::string &text);
+
 // Columns aligned, the first to the left, the others to the right; the first row is the head.
 std::string alignedText(const std::vector<std::vector<std::string>> &rows);
 

@@ -108,32 +108,16 @@ void append(const Options &options, const Input &input, DepthSource depth, const
   result->growth.insert(result->growth.end(), rows.begin(), rows.end());
 }
 
-void writeDrawings(const Options &options, const Result &result, const Console &console) {
-  std::vector<BenchDrawing> drawings;
-  for (const BenchTable &table : result.tables) {
-    drawings.push_back(drawErrors(table));
-    drawings.push_back(drawTimes(table));
-  }
-  for (const GrowthAxis axis : {GrowthAxis::kCount, GrowthAxis::kEta})
-    drawings.push_back(drawGrowth(result.growth, axis));
-  PlotResult worst = PlotResult::kDone;
-  for (const BenchDrawing &drawing : drawings) {
-    if (drawing.script.empty()) continue;
-    const PlotResult drawn = plot(options.out, drawing.name, drawing.script, drawing.size);
-    if (drawn != PlotResult::kDone) worst = drawn;
-  }
-  if (worst == PlotResult::kNoGnuplot)
-    console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
-  if (worst == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
-}
-
 void writeResult(const Options &options, const Result &result, const Console &console) {
   if (!options.ledger.empty()) writeText(options.ledger, benchLedger(result.tables));
   if (options.out.empty()) return;
   makeFolder(options.out);
   if (!result.tables.empty()) writeText(options.out + "/pose.csv", benchCsv(result.tables));
   if (!result.growth.empty()) writeText(options.out + "/pose_growth.csv", growthCsv(result.growth));
-  writeDrawings(options, result, console);
+  const PlotResult drawn = writeDrawings(options.out, result.tables, result.growth);
+  if (drawn == PlotResult::kNoGnuplot)
+    console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
+  if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
   console.say("Wrote " + options.out + ".");
 }
 

@@ -166,6 +166,20 @@ SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], 
 
 /* ---- frame ---- */
 
+/* What is known of a pose before its frame is looked at. */
+enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u };
+typedef struct sphc_prior {
+  uint32_t struct_size;
+  uint32_t flags; /* which of the parts below count */
+  /* POSE: from odometry.  It is verified first; if it does not hold, poses near it are tried, then all. */
+  sphc_rigid camera_from_map;
+  double rotation_sigma_rad;  /* 1 sigma an axis; above 0 to 3.2 */
+  double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; above 0 to 1000 */
+  /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
+  double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
+  double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
+} sphc_prior;
+
 /* A colour and a depth image taken at about the same time; everything is borrowed. */
 typedef struct sphc_frame {
   uint32_t struct_size;
@@ -174,6 +188,7 @@ typedef struct sphc_frame {
   int64_t depth_time_ns;
   sphc_image color; /* GRAY8, RGB8 or BGR8; the size in config.color_camera */
   sphc_image depth; /* DEPTH16; the size in config.depth_camera */
+  const sphc_prior *prior; /* null: nothing is known */
 } sphc_frame;
 
 /* ---- map: an immutable view of borrowed bytes ---- */
@@ -214,6 +229,13 @@ typedef void (*sphc_log_fn)(void *user, sphc_log_level level, const char *text, 
 /* Monotonic clock in nanoseconds, from the caller: the library makes no OS call. */
 typedef int64_t (*sphc_clock_fn)(void *user);
 
+/* What the pose stage minimises. */
+typedef int32_t sphc_cost;
+enum {
+  SPHC_COST_WHITENED = 0, /* distance of each lifted keypoint from its map ray, over its standard deviation */
+  SPHC_COST_PAPER = 1     /* epipolar error and relative depth error, lambda 1e-4; to compare with, and slow */
+};
+
 typedef struct sphc_config {
   uint32_t struct_size;
   uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
@@ -232,7 +254,16 @@ typedef struct sphc_config {
   double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
   double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
 
+  /* Bias of the depth sensor, which the localizer learns from frame to frame: true z = z + offset + slope (z - mid).
+   * 1 sigma of what is unknown of it before the first frame; offset sigma 0: no bias, and nothing is learnt.  A
+   * common scale of depths cannot be observed, so the offset's sigma at mid range should be small. */
+  double depth_mid_m; /* 0: the geometric mean of depth_min_m and depth_max_m */
+  double depth_offset_sigma_m, depth_slope_sigma;
+
   uint32_t min_inliers; /* a pose with fewer is not given out */
+  sphc_cost cost;
+  uint32_t deadline_us; /* search ends this long after the call began, with the best pose so far; 0: no deadline.
+                           Needs `clock` */
   uint32_t reserved;
 
   sphc_log_fn log; /* may be null */
@@ -248,8 +279,17 @@ enum {
   SPHC_OUTCOME_FEW_DEPTHS = 2,    /* too few keypoints with depth: sensor blind, or calibration wrong */
   SPHC_OUTCOME_FEW_MATCHES = 3,   /* too few look like anything in the map: another place, or much changed */
   SPHC_OUTCOME_NO_CONSENSUS = 4,  /* no pose agrees with clearly more matches than chance would */
-  SPHC_OUTCOME_UNCERTAIN = 5      /* a pose was found but the matches pin it down too weakly */
+  SPHC_OUTCOME_UNCERTAIN = 5,     /* a pose was found but the matches pin it down too weakly: degenerate geometry */
+  SPHC_OUTCOME_DEADLINE = 6       /* no pose before config.deadline_us */
 };
+
+/* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise is
+ * noise_scale times the one in the config. */
+typedef struct sphc_depth_bias {
+  double mid_m, offset_m, slope;
+  double offset_sigma_m, slope_sigma; /* 1 sigma */
+  double noise_scale;
+} sphc_depth_bias;
 
 typedef struct sphc_result {
   uint32_t struct_size;
@@ -258,14 +298,18 @@ typedef struct sphc_result {
   sphc_outcome outcome;
   uint32_t keypoints;         /* found in the colour image */
   uint32_t lifted;            /* of these, with depth */
-  uint32_t matches;           /* of these, with a map point that passed the ratio test */
-  uint32_t inliers;           /* of these, agreeing with the pose */
+  uint32_t matches;           /* keypoints with a map point that passed the ratio test, lifted or not */
+  uint32_t inliers;           /* of these, lifted and agreeing with the pose */
   uint32_t iterations;        /* minimal samples drawn */
   sphc_rigid camera_from_map; /* valid when outcome is LOCALIZED, else identity */
   /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
+  double confidence;        /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED */
+  uint32_t cut_short;       /* 1: the deadline ended the search; more time might have found better */
+  uint32_t reserved;
+  sphc_depth_bias depth;    /* what the frame was looked at with */
 } sphc_result;
 
 /* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero and must

@@ -25,7 +25,70 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
          inRange("depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1, message) &&
          inRange("pixel_sigma_px", c.pixel_sigma_px, 0.01, 20, message) &&
          inRange("map_sigma_m", c.map_sigma_m, 0, 1, message) &&
-         inRange("min_inliers", c.min_inliers, 4, 4096, message);
+         inRange("depth_mid_m", c.depth_mid_m, 0, 200, message) &&
+         inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
+         inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
+         inRange("min_inliers", c.min_inliers, 4, 4096, message) &&
+         inRange("cost", c.cost, SPHC_COST_WHITENED, SPHC_COST_PAPER, message);
+}
+
+bool checkTogether(const sphc_config &c, sphc_message *message) {
+  if (c.deadline_us && !c.clock) {
+    MessageWriter(message) << "config.deadline_us is " << c.deadline_us
+                           << " but config.clock is null; give a clock or no deadline";
+    return false;
+  }
+  if ((c.depth_offset_sigma_m > 0) != (c.depth_slope_sigma > 0)) {
+    MessageWriter(message)
+        << "config.depth_offset_sigma_m and config.depth_slope_sigma must both be above 0, or both "
+           "0 for a sensor without bias";
+    return false;
+  }
+  return true;
+}
+
+// A field of a prior that has to lie in [low, high].
+bool priorInRange(const char *name, double value, double low, double high, sphc_message *message) {
+  if (value >= low && value <= high) return true;
+  MessageWriter(message) << "prior." << name << " is " << value << "; it must lie in " << low << " to " << high;
+  return false;
+}
+
+bool checkDirection(const char *name, const double *v, sphc_message *message) {
+  const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (square > 1e-12 && square < 1e12) return true;
+  MessageWriter(message) << "prior." << name << " must be finite and not zero";
+  return false;
+}
+
+sphc_status checkPrior(const sphc_prior &prior, sphc_message *message) {
+  if (prior.struct_size != sizeof(sphc_prior)) {
+    MessageWriter(message) << "prior.struct_size is " << prior.struct_size << ", this library knows "
+                           << static_cast<uint64_t>(sizeof(sphc_prior));
+    return SPHC_E_STRUCT_SIZE;
+  }
+  if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP)) {
+    MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags;
+    return SPHC_E_ARGUMENT;
+  }
+  if (prior.flags & SPHC_PRIOR_POSE) {
+    if (!isValidRigid(prior.camera_from_map)) {
+      MessageWriter(message)
+          << "prior.camera_from_map is not a rigid transform: its quaternion must have unit length "
+             "and all numbers must be finite";
+      return SPHC_E_ARGUMENT;
+    }
+    if (!priorInRange("rotation_sigma_rad", prior.rotation_sigma_rad, 1e-6, 3.2, message) ||
+        !priorInRange("translation_sigma_m", prior.translation_sigma_m, 1e-6, 1000, message))
+      return SPHC_E_ARGUMENT;
+  }
+  if (prior.flags & SPHC_PRIOR_UP) {
+    if (!checkDirection("up_camera", prior.up_camera, message) ||
+        !checkDirection("up_map", prior.up_map, message) ||
+        !priorInRange("up_sigma_rad", prior.up_sigma_rad, 1e-4, 0.5, message))
+      return SPHC_E_ARGUMENT;
+  }
+  return SPHC_OK;
 }
 
 uint32_t bytesPerPixel(sphc_format format) {
@@ -98,7 +161,7 @@ sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_messag
            "and all numbers must be finite";
     return SPHC_E_ARGUMENT;
   }
-  return checkNumbers(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;
+  return checkNumbers(*copy, message) && checkTogether(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
 sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, sphc_message *message) {
@@ -111,8 +174,10 @@ sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, sphc_
                            << static_cast<uint64_t>(sizeof(sphc_frame));
     return SPHC_E_STRUCT_SIZE;
   }
-  const sphc_status status = checkImage("color", frame->color, config.color_camera, false, message);
-  return status != SPHC_OK ? status : checkImage("depth", frame->depth, config.depth_camera, true, message);
+  sphc_status status = checkImage("color", frame->color, config.color_camera, false, message);
+  if (status == SPHC_OK) status = checkImage("depth", frame->depth, config.depth_camera, true, message);
+  if (status == SPHC_OK && frame->prior) status = checkPrior(*frame->prior, message);
+  return status;
 }
 
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,

@@ -59,6 +59,8 @@ sphc_status sphc_config_init(sphc_config *config, size_t struct_size) {
   config->depth_sigma_per_m2 = 0.002;
   config->pixel_sigma_px = 0.8;
   config->map_sigma_m = 0.004;
+  config->depth_offset_sigma_m = 0.003;
+  config->depth_slope_sigma = 0.02;
   config->min_inliers = 10;
   return SPHC_OK;
 }

@@ -35,10 +35,12 @@ double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
                             uint32_t inliers, uint32_t free, double inlier_threshold2, double solid_angle_sr) {
   if (inliers <= free) return 0;
-  double sum = 0;
-  for (const Correspondence &c : correspondences)
+  double sum = 0, count = 0;
+  for (const Correspondence &c : correspondences) {
+    if (!c.lifted.hasDepth()) continue;
     sum += inlierShare(c, camera_from_map, inlier_threshold2, solid_angle_sr);
-  const double count = static_cast<double>(correspondences.size());
+    ++count;
+  }
   return logTail(inliers - free, count - free, sum / count);
 }
 

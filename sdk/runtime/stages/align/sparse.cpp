@@ -72,4 +72,11 @@ bool SparseAligner::lift(ImageView<uint16_t> depth, const Vector2 &color_pixel_p
   return true;
 }
 
+bool SparseAligner::bearing(const Vector2 &color_pixel_px, Vector3 *bearing) const {
+  Vector2 ray;
+  if (!color_.unproject(color_pixel_px, &ray)) return false;
+  *bearing = Vector3(ray.x(), ray.y(), 1).normalized();
+  return true;
+}
+
 }  // namespace sphc

@@ -17,11 +17,11 @@ constexpr double kSlopeDrift = 1e-4;  // a frame, 1 sigma: sensors warm up
 void DepthCalibrator::init(const DepthCalibration &prior) { prior_ = current_ = prior; }
 
 void DepthCalibrator::learn(const Estimate &estimate) {
+  if (current_.isKnown()) return;
   if (estimate.noise_ratio > 0) {
     const double scale = current_.noise_scale * expOf(kNoiseStep * logOf(estimate.noise_ratio));
     current_.noise_scale = scale < kLeastNoise ? kLeastNoise : scale > kMostNoise ? kMostNoise : scale;
   }
-  if (current_.isKnown()) return;
   const Matrix2 before = current_.covariance.inverse(), after = estimate.depth.covariance.inverse();
   const Matrix2 information = before + kTrust * (after - before);
   const Vector2 weighted = before * current_.mean + kTrust * (after * estimate.depth.mean - before * current_.mean);

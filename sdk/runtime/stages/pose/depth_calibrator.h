@@ -11,7 +11,8 @@ class DepthCalibrator {
   // What is believed before the first frame.
   void init(const DepthCalibration &prior);
   const DepthCalibration &current() const { return current_; }
-  // Takes in what a frame's trusted pose was found with; its query had current() for depth.
+  // Takes in what a frame's trusted pose was found with; its query had current() for depth.  Nothing is learnt of a
+  // sensor that is known.
   void learn(const Estimate &estimate);
 
  private:

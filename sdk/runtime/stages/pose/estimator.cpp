@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kFewestRows = 4;
 constexpr double kMinimalThreshold2 = 30;  // minimal samples carry the noise of three points
 constexpr float kLocalLimit2 = 150;        // rows that local optimisation looks at
-constexpr float kFinalLimit2 = 50;         // rows that the final refinement looks at, at most
+constexpr float kFinalLimit2 = 60;         // rows that the final refinement looks at
 constexpr int kLocalSteps = 2, kFinalIterations = 12;
 constexpr double kLocalScale2 = 16, kFinalScale2 = 8;  // of the Geman-McClure loss
 // Wald's test on the gain seen so far: shares of the rows that a right pose gains at least, and slack in rows.
@@ -57,6 +57,21 @@ void uprightFrom(const Vector3 &up, float *upright_from_frame) {
   }
 }
 
+uint32_t stepThrough(uint32_t count) {
+  uint32_t step = static_cast<uint32_t>(0.6180339887 * count) | 1u;
+  const auto coprime = [count](uint32_t a) {
+    uint32_t b = count;
+    while (b) {
+      const uint32_t rest = a % b;
+      a = b;
+      b = rest;
+    }
+    return a == 1;
+  };
+  while (count > 1 && !coprime(step)) ++step;
+  return count > 1 ? step % count : 0;
+}
+
 double lengthening(const LiftedPoint &lifted, const DepthCalibration &depth) {
   return lifted.hasDepth() ? 1 + depth.correctionAt(lifted.point_m.z()) / lifted.point_m.z() : 1;
 }
@@ -75,28 +90,29 @@ void PoseEstimator::layout(const EstimatorConfig &config, Arena &scratch, PoseEs
   e.squared_ = scratch.take<float>("pose.squared", padded);
   e.plane_squared_ = scratch.take<float>("pose.squared", padded);
   e.quality_ = scratch.take<float>("pose.order", config.capacity);
-  e.shuffled_ = scratch.take<uint32_t>("pose.order", config.capacity);
+  e.kept_ = scratch.take<uint32_t>("pose.order", config.capacity);
   e.batch_ = scratch.take<MinimalBatch>("pose.samples", 1).data();
   e.poses_ = scratch.take<PoseBatch>("pose.samples", 1).data();
   e.config_ = config;
   e.kernels_ = config.kernels ? config.kernels : &simdPoseKernels();
 }
 
-// Rows in random order, so that any first part of them is a fair sample.
+// Lifted rows far from where they were: any first part of them is then a fair sample, whatever their order meant.
+// Steps of the golden ratio, made coprime to the count, visit every place once.
 void PoseEstimator::load(const PoseQuery &query) {
-  const uint32_t count = static_cast<uint32_t>(query.correspondences.size());
-  Random random(query.seed ^ 0x5EEDull);
-  lifted_.count = 0;
-  planes_.count = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t j = random.below(i + 1);
-    shuffled_[i] = shuffled_[j];
-    shuffled_[j] = i;
-  }
-  for (uint32_t i = 0; i < count; ++i) {
-    const Correspondence &c = query.correspondences[shuffled_[i]];
-    if (c.lifted.hasDepth()) quality_[lifted_.count] = c.quality;
-    (c.lifted.hasDepth() ? lifted_ : planes_).push(c);
+  lifted_.count = planes_.count = 0;
+  for (const Correspondence &c : query.correspondences) ++(c.lifted.hasDepth() ? lifted_ : planes_).count;
+  const uint32_t count = lifted_.count, step = stepThrough(count);
+  uint32_t place = count ? static_cast<uint32_t>(query.seed % count) : 0, plane = 0;
+  for (const Correspondence &c : query.correspondences) {
+    if (!c.lifted.hasDepth()) {
+      planes_.set(plane++, c);
+      continue;
+    }
+    lifted_.set(place, c);
+    quality_[place] = c.quality;
+    place += step;
+    if (place >= count) place -= count;
   }
   const DepthCorrection correction = {
       static_cast<float>(query.depth.mean[0]), static_cast<float>(query.depth.mean[1]),
@@ -115,7 +131,7 @@ float PoseEstimator::gainOf(const Rigid &pose, double threshold2) const {
 void PoseEstimator::keepNear(const RefineTask &task, const Rigid &pose, float limit2) {
   kernels_->residuals(lifted_, normalTask(task, pose, Vector2::Zero()), squared_.data());
   near_.count = 0;
-  near_.pushBelow(lifted_, squared_.data(), limit2, shuffled_.data());
+  near_.pushBelow(lifted_, squared_.data(), limit2, kept_.data());
   near_.pad();
 }
 
@@ -127,9 +143,9 @@ void PoseEstimator::keepNearPlanes(const RefineTask &task, const Rigid &pose, fl
   kernels_->plane_residuals(lifted_, kernel, plane_squared_.data());
   for (uint32_t i = 0; i < lifted_.count; ++i)
     if (squared_[i] < limit2) plane_squared_[i] = kNeverNear;  // in full already
-  near_planes_.pushBelow(lifted_, plane_squared_.data(), limit2, shuffled_.data());
+  near_planes_.pushBelow(lifted_, plane_squared_.data(), limit2, kept_.data());
   kernels_->plane_residuals(planes_, kernel, plane_squared_.data());
-  near_planes_.pushBelow(planes_, plane_squared_.data(), limit2, shuffled_.data());
+  near_planes_.pushBelow(planes_, plane_squared_.data(), limit2, kept_.data());
   near_planes_.pad();
 }
 
@@ -276,36 +292,51 @@ Estimate PoseEstimator::refine(const PoseQuery &query, const Rigid &camera_from_
   return estimate;
 }
 
-// Of the rows that agree in the epipolar plane and whose error along the ray is mostly depth's: median error over
-// what was expected.  Outliers of depth (edges, multipath) count, fakes rarely pass.
-double PoseEstimator::noiseRatio(const RefineTask &task, const Refinement &refined) {
-  const NormalTask kernel = normalTask(task, refined.camera_from_map, refined.bias);
-  kernels_->residuals(lifted_, kernel, squared_.data());
-  kernels_->plane_residuals(lifted_, kernel, plane_squared_.data());
+// Is the row's error along its ray mostly depth's?
+bool PoseEstimator::tellsOfDepth(const PoseRows &rows, uint32_t row, const Rigid &pose) const {
+  const double stretch = static_cast<double>(rows.field[kStretch][row]);
+  const double cosine = rows.view(row).dot(pose.rotation * rows.direction(row));
+  return stretch > -1 && 1 + stretch * cosine * cosine > kMostlyDepth * (1 + stretch);
+}
+
+// Of the rows that agree with their epipolar plane: median error along the ray over what was expected.  Outliers of
+// depth (edges, multipath) count, fakes rarely pass.  squared_ holds the residuals of near_.
+double PoseEstimator::noiseRatio(const NormalTask &kernel, const Rigid &pose) {
+  kernels_->plane_residuals(near_, kernel, plane_squared_.data());
   uint32_t seen = 0;
-  for (uint32_t i = 0; i < lifted_.count; ++i) {
-    if (!(plane_squared_[i] < kAgreeingPlane2) || !(squared_[i] < kNeverNear)) continue;
-    const double cosine = lifted_.view(i).dot(refined.camera_from_map.rotation * lifted_.direction(i));
-    const double stretch = static_cast<double>(lifted_.field[kStretch][i]);
-    if (!(1 + stretch * cosine * cosine > kMostlyDepth * (1 + stretch))) continue;
-    squared_[seen++] = squared_[i] - plane_squared_[i];
-  }
+  for (uint32_t i = 0; i < near_.count; ++i)
+    if (plane_squared_[i] < kAgreeingPlane2 && squared_[i] < kNeverNear && tellsOfDepth(near_, i, pose))
+      squared_[seen++] = squared_[i] - plane_squared_[i];
+  kernels_->plane_residuals(near_planes_, kernel, plane_squared_.data());
+  for (uint32_t i = 0; i < near_planes_.count; ++i)
+    if (plane_squared_[i] < kAgreeingPlane2 && tellsOfDepth(near_planes_, i, pose)) squared_[seen++] = kNeverNear;
   if (seen < kFewestForNoise) return 0;
   std::nth_element(squared_.data(), squared_.data() + seen / 2, squared_.data() + seen);
   const double median = static_cast<double>(squared_[seen / 2]);
-  return median > 0 ? sqrtOf(median / kMedianOfSquare) : 0;
+  return median > 0 && median < static_cast<double>(kFinalLimit2) ? sqrtOf(median / kMedianOfSquare) : 0;
+}
+
+Estimate PoseEstimator::evaluate(const PoseQuery &query, const Rigid &camera_from_map) {
+  Estimate estimate;
+  load(query);
+  keepNear(task(query, kFinalScale2), camera_from_map, kFinalLimit2);
+  polish(query, camera_from_map, 0, &estimate);
+  return estimate;
 }
 
 void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate *estimate) {
   const RefineTask local = task(query, kLocalScale2);
-  keepNear(local, start, kLocalLimit2);
-  const Rigid pose = improvePose(local, start, kLocalSteps);
+  keepNear(local, start, kFinalLimit2);
+  polish(query, improvePose(local, start, kLocalSteps), kFinalIterations, estimate);
+}
+
+// On the rows in near_.
+void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterations, Estimate *estimate) {
   RefineTask last = task(query, kFinalScale2);
   last.planes = &near_planes_;
   last.depth.covariance = query.depth.covariance;
-  keepNear(last, pose, kFinalLimit2);
   keepNearPlanes(last, pose, kFinalLimit2);
-  const Refinement refined = refinePose(last, pose, kFinalIterations);
+  const Refinement refined = refinePose(last, pose, iterations);
   estimate->camera_from_map = cleaned(refined.camera_from_map);
   Matrix8 information = refined.information;
   information.diagonal().array() += 1e-6;  // a direction that nothing pins down gets a large, finite variance
@@ -314,7 +345,8 @@ void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate 
   estimate->depth = query.depth;
   estimate->depth.mean += refined.bias;
   if (!query.depth.isKnown()) estimate->depth.covariance = covariance.bottomRightCorner<2, 2>();
-  kernels_->residuals(near_, normalTask(last, estimate->camera_from_map, refined.bias), squared_.data());
+  const NormalTask kernel = normalTask(last, estimate->camera_from_map, refined.bias);
+  kernels_->residuals(near_, kernel, squared_.data());
   const float threshold2 = static_cast<float>(config_.inlier_threshold2);
   for (uint32_t i = 0; i < near_.count; ++i) {
     if (!(squared_[i] < threshold2)) continue;
@@ -322,7 +354,7 @@ void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate 
     estimate->gain += 1 - static_cast<double>(squared_[i]) / config_.inlier_threshold2;
   }
   estimate->lifted = lifted_.count;
-  estimate->noise_ratio = noiseRatio(last, refined);
+  estimate->noise_ratio = noiseRatio(kernel, estimate->camera_from_map);
   estimate->ending = PoseEnding::kFound;
 }
 

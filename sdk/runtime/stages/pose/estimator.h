@@ -32,6 +32,8 @@ class PoseEstimator {
   Estimate search(const PoseQuery &query);
   // Refines from a pose that is nearly right.
   Estimate refine(const PoseQuery &query, const Rigid &camera_from_map);
+  // Says of a pose what refine would, and leaves it where it is.
+  Estimate evaluate(const PoseQuery &query, const Rigid &camera_from_map);
   // Does the correspondence agree with the estimate?
   bool isInlier(const Correspondence &correspondence, const Estimate &estimate) const;
   double inlierThreshold2() const { return config_.inlier_threshold2; }
@@ -57,8 +59,10 @@ class PoseEstimator {
   float gainOf(const Rigid &pose, double threshold2) const;
   uint32_t samplesFor(uint32_t sample_size, const Search &search, double miss) const;
   RefineTask task(const PoseQuery &query, double scale2) const;
-  double noiseRatio(const RefineTask &task, const Refinement &refined);
+  bool tellsOfDepth(const PoseRows &rows, uint32_t row, const Rigid &pose) const;
+  double noiseRatio(const NormalTask &kernel, const Rigid &pose);
   void finish(const PoseQuery &query, const Rigid &start, Estimate *estimate);
+  void polish(const PoseQuery &query, const Rigid &pose, int iterations, Estimate *estimate);
 
   EstimatorConfig config_;
   const PoseKernels *kernels_ = nullptr;
@@ -66,7 +70,7 @@ class PoseEstimator {
   PoseRows lifted_, planes_;     // with and without depth
   PoseRows near_, near_planes_;  // those that matter to a pose
   Span<float> squared_, plane_squared_, quality_;
-  Span<uint32_t> shuffled_;
+  Span<uint32_t> kept_;
   MinimalBatch *batch_ = nullptr;
   PoseBatch *poses_ = nullptr;
 };

@@ -12,7 +12,8 @@ constexpr double kLongerStep = 1.3;
 // Covariance of the estimate over the inverse of the weighted normal matrix: E|psi|^2 E w / (2 (E div psi / 2)^2)
 // at the final scale, 8, again for Gaussian residuals (Huber, "Robust Statistics", 1981, section 7.6).
 constexpr double kCovarianceOfLoss = 0.80;
-constexpr double kConverged2 = 1e-8;  // squared step: 30 micrometres, 30 microradians
+constexpr double kLeastDamping = 1e-6;
+constexpr double kConverged = 1e-3;  // of the squared step in units of its own standard deviation
 
 struct State {
   Rigid pose;
@@ -88,6 +89,11 @@ Vector8 solved(const NormalEquations &equations, double damping) {
   return -kLongerStep * damped.ldlt().solve(equations.gradient);
 }
 
+// The Newton decrement: step^T H step.
+bool isSmall(const Vector8 &step, const NormalEquations &equations) {
+  return -step.dot(equations.gradient) < kConverged;
+}
+
 }  // namespace
 
 NormalTask normalTask(const RefineTask &task, const Rigid &pose, const Vector2 &bias) {
@@ -107,10 +113,11 @@ Rigid improvePose(const RefineTask &task, const Rigid &start, int steps) {
   State state;
   state.pose = start;
   for (int i = 0; i < steps; ++i) {
-    const Vector8 step = solved(linearise(plain, state), 1e-6);
+    const NormalEquations now = linearise(plain, state);
+    const Vector8 step = solved(now, kLeastDamping);
     if (!isFinite(step.sum())) break;
     state = moved(state, step);
-    if (step.squaredNorm() < kConverged2) break;
+    if (isSmall(step, now)) break;
   }
   return state.pose;
 }
@@ -119,13 +126,16 @@ Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations
   State state;
   state.pose = start;
   NormalEquations now = linearise(task, state);
-  double damping = 1e-6;
+  double damping = kLeastDamping;
   for (int i = 0; i < iterations; ++i) {
     const Vector8 step = solved(now, damping);
     if (!isFinite(step.sum())) break;
     const State next = moved(state, step);
+    if (isSmall(step, now)) {  // too small to be worth another look
+      state = next;
+      break;
+    }
     const NormalEquations there = linearise(task, next);
-    const bool small = step.squaredNorm() < kConverged2;
     if (there.cost < now.cost) {
       state = next;
       now = there;
@@ -133,7 +143,6 @@ Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations
     } else {
       damping = damping * 100 + 1e-3;
     }
-    if (small) break;
   }
   const Matrix8 prior = priorEquations(task, state).matrix;
   return {state.pose, state.bias, (now.matrix - prior) / kCovarianceOfLoss + prior, now.cost};

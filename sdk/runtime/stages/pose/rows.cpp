@@ -10,16 +10,6 @@ void PoseRows::layout(const char *name, uint32_t capacity, Arena &scratch, PoseR
   }
 }
 
-void PoseRows::push(const Correspondence &c) {
-  for (int k = 0; k < 3; ++k) {
-    field[kPointX + k][count] = static_cast<float>(c.lifted.point_m[k]);
-    field[kDirectionX + k][count] = static_cast<float>(c.direction[k]);
-  }
-  field[kWeight][count] = static_cast<float>(c.lifted.sideways_m);
-  field[kStretch][count] = static_cast<float>(c.lifted.along_m);
-  ++count;
-}
-
 void PoseRows::pushBelow(const PoseRows &from, const float *value, float limit, uint32_t *index) {
   uint32_t kept = 0;
   for (uint32_t i = 0; i < from.count; ++i) {

@@ -35,9 +35,16 @@ struct PoseRows {
   Vector3 view(uint32_t row) const { return vector(kViewX, row); }
   Vector3 direction(uint32_t row) const { return vector(kDirectionX, row); }
 
-  // Takes in one correspondence: point, direction, and its errors for weight and stretch, until
-  // PoseKernels::prepare makes the rest of them.
-  void push(const Correspondence &correspondence);
+  // Puts a correspondence into a row: point, direction, and its errors in place of weight and stretch, until
+  // PoseKernels::prepare makes the rest.
+  void set(uint32_t row, const Correspondence &correspondence) {
+    for (int k = 0; k < 3; ++k) {
+      field[kPointX + k][row] = static_cast<float>(correspondence.lifted.point_m[k]);
+      field[kDirectionX + k][row] = static_cast<float>(correspondence.direction[k]);
+    }
+    field[kWeight][row] = static_cast<float>(correspondence.lifted.sideways_m);
+    field[kStretch][row] = static_cast<float>(correspondence.lifted.along_m);
+  }
   // Appends those rows of `from` whose value is below the limit.  `index`: scratch for as many as `from` has.
   void pushBelow(const PoseRows &from, const float *value, float limit, uint32_t *index);
   // Once all rows are in.

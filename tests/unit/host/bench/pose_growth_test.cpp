@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/bench/grown_case.h"
 #include "tests/unit/host/bench/simulated_case.h"
 
 namespace sphc::host {
