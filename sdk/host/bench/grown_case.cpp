@@ -4,20 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/bench/normal.h"
+
 namespace sphc::host {
 namespace {
 
 constexpr double kFreshNoise = 0.5, kFakeVariance = 0.1;
-
-// Standard normal (Box and Muller).
-double normalOf(Random *random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random->uniform()));
-  return radius * std::cos(2 * kPi * random->uniform());
-}
-Vector3 normalVector(Random *random) {
-  const double x = normalOf(random), y = normalOf(random), z = normalOf(random);
-  return {x, y, z};
-}
 
 std::vector<size_t> shuffled(size_t count, Random *random) {
   std::vector<size_t> order(count);

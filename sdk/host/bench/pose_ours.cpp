@@ -22,16 +22,6 @@ PoseAnswer answerOf(const Estimate &estimate, double seconds) {
           estimate.inliers,         estimate.inliers > 0, seconds};
 }
 
-DepthCalibration priorFor(DepthSource source) {
-  DepthCalibration prior;
-  prior.mid_m = kMiddleM;
-  if (source == DepthSource::kTof) {
-    prior.covariance(0, 0) = kOffsetSigmaM * kOffsetSigmaM;
-    prior.covariance(1, 1) = kSlopeSigma * kSlopeSigma;
-  }
-  return prior;
-}
-
 struct OursOptions {
   const PoseKernels *kernels = nullptr;
   bool calibrate = true;  // learn the sensor's bias from query to query, as the localizer does from frame to frame
@@ -63,7 +53,7 @@ class Ours {
   // A new query: the one before it is over, and can be learnt from.
   void begin(const PoseCase &c) {
     if (c.index == 0 || name_.empty())
-      calibrator_.init(priorFor(c.source));
+      calibrator_.init(sensorPrior(c.source));
     else if (options_.calibrate && last_.ending == PoseEnding::kFound)
       calibrator_.learn(last_);
     index_ = c.index;
@@ -143,6 +133,16 @@ PoseVariant paper() {
 }
 
 }  // namespace
+
+DepthCalibration sensorPrior(DepthSource source) {
+  DepthCalibration prior;
+  prior.mid_m = kMiddleM;
+  if (source == DepthSource::kTof) {
+    prior.covariance(0, 0) = kOffsetSigmaM * kOffsetSigmaM;
+    prior.covariance(1, 1) = kSlopeSigma * kSlopeSigma;
+  }
+  return prior;
+}
 
 std::vector<PoseVariant> ourVariants() {
   std::vector<PoseVariant> variants = {ours("ours", {nullptr, true, false}),

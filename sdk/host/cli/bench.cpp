@@ -6,6 +6,7 @@
 #include "host/bench/pose_peers.h"
 #include "host/bench/pose_plots.h"
 #include "host/bench/pose_table.h"
+#include "host/cli/bench_confidence.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -188,17 +189,20 @@ void addOptions(CLI::App *app, Options *options) {
 
 }  // namespace
 
-Command benchCommand(CLI::App *root) {
+std::vector<Command> benchCommands(CLI::App *root) {
   auto options = std::make_shared<Options>();
   CLI::App *bench = root->add_subcommand("bench");
-  bench->description("Measure estimators beside their peers.\n\n  spherecloud bench pose FILE...");
+  bench->description(
+      "Measure estimators beside their peers.\n\n  spherecloud bench pose FILE...\n  spherecloud bench confidence "
+      "FILE...");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
   CLI::App *app = bench->add_subcommand("pose");
   app->description("Pose estimators on correspondences with known poses.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
-  return {app, [options](const Console &console) { return runPose(*options, console); }};
+  return {{app, [options](const Console &console) { return runPose(*options, console); }},
+          benchConfidenceCommand(bench)};
 }
 
 }  // namespace sphc::host

@@ -2,6 +2,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <vector>
 
 #include "host/cli/console.h"
 
@@ -17,6 +18,6 @@ Command buildCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
 Command infoCommand(CLI::App *root);
-Command benchCommand(CLI::App *root);
+std::vector<Command> benchCommands(CLI::App *root);
 
 }  // namespace sphc::host

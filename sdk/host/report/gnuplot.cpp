@@ -45,6 +45,14 @@ bool runGnuplot(const std::string &folder, const std::string &script_name, int *
 
 }  // namespace
 
+const char kPlotLook[] =
+    "set border 3 linecolor rgb '#94a3b8'\n"
+    "set tics nomirror textcolor rgb '#475569'\n"
+    "set xlabel textcolor rgb '#334155'\n"
+    "set ylabel textcolor rgb '#334155'\n"
+    "set grid linecolor rgb '#e2e8f0' linewidth 1\n"
+    "set key textcolor rgb '#334155'\n";
+
 PlotResult plot(const std::string &folder, const std::string &name, const std::string &script, PlotSize size) {
   writeText(folder + "/" + name + ".gp", terminals(name, script, size));
   for (const char *ending : {".svg", ".png"})

@@ -4,6 +4,8 @@
 
 namespace sphc::host {
 
+extern const char kPlotLook[];  // one look for all: borders, tics, grid, key
+
 enum class PlotResult { kDone, kNoGnuplot, kFailed };
 
 struct PlotSize {

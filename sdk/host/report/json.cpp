@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "host/report/reliability.h"
+
 namespace sphc::host {
 namespace {
 
@@ -27,6 +29,7 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
     json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
     json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
                      {"translation_m", number(frame.sigma_translation_m)}};
+    if (frame.confidence) json["confidence"] = number(*frame.confidence);
   }
   if (frame.has_truth) json["truth_" + base + "_from_camera"] = rigidJson(frame.truth_base_from_camera);
   if (frame.localized && frame.has_truth) {
@@ -60,6 +63,9 @@ Json summaryJson(const Run &run, const Summary &s) {
   json["within_5cm_5deg_percent"] = s.with_truth ? Json(percent(s.good, s.with_truth)) : Json(nullptr);
   json["rotation_error_deg"] = spreadJson(s.rotation_deg);
   json["translation_error_m"] = spreadJson(s.translation_m);
+  if (const auto graded = gradedFrames(run); !graded.empty())
+    json["calibration_error"] = {{"equal_width", number(calibrationError(equalWidthBins(graded)))},
+                                 {"equal_count", number(calibrationError(equalCountBins(graded)))}};
   for (size_t i = 0; i < kStageCount; ++i) {
     json["time_ms"][kStageNames[i]] = {{"median", number(s.stage_median_ms[i])},
                                        {"p90", number(s.stage_p90_ms[i])}};

@@ -9,14 +9,6 @@
 namespace sphc::host {
 namespace {
 
-// One look for all.
-const char kLook[] =
-    "set border 3 linecolor rgb '#94a3b8'\n"
-    "set tics nomirror textcolor rgb '#475569'\n"
-    "set xlabel textcolor rgb '#334155'\n"
-    "set ylabel textcolor rgb '#334155'\n"
-    "set grid linecolor rgb '#e2e8f0' linewidth 1\n"
-    "set key textcolor rgb '#334155'\n";
 const char kBlue[] = "#2563eb", kGreen[] = "#16a34a", kRed[] = "#dc2626", kAmber[] = "#d97706",
            kViolet[] = "#7c3aed";
 
@@ -114,7 +106,7 @@ const char kErrorColors[] =
 
 std::string pathScript(const Path &path, const Extent &extent, bool with_centre) {
   const bool truth = !path.truth.empty();
-  std::string script = kLook + block("truth", path.truth) + block("estimate", path.estimate) +
+  std::string script = kPlotLook + block("truth", path.truth) + block("estimate", path.estimate) +
                        block("lost", path.lost) + block("centre", {{path.centre[0], path.centre[1], 0}});
   script += "set size ratio -1\nset xlabel 'metres'\nset ylabel 'metres'\n";
   script += range("xrange", extent.low[0], extent.high[0]) + range("yrange", extent.low[1], extent.high[1]);
@@ -168,7 +160,7 @@ std::string cdfScript(const Points &points, const std::string &unit, double mark
   const bool marked = worst > mark / 3;  // else the mark would squeeze the curve to the left edge
   const double right = marked ? std::max(1.3 * mark, 1.1 * worst) : 1.15 * worst;
   const bool logarithmic = right > 4 * mark;  // and so would a long tail
-  std::string script = kLook + block("cdf", points);
+  std::string script = kPlotLook + block("cdf", points);
   script += "set yrange [0:100]\nset ylabel 'share of frames, %'\nset xlabel 'error, " + unit + "'\n";
   if (logarithmic) script += "set logscale x\n";
   script += range("xrange", logarithmic ? std::max(1e-3, 0.8 * points.front()[0]) : 0, right);
@@ -226,7 +218,7 @@ Drawing timeline(const Run &run) {
     else
       lost.push_back({x, static_cast<double>(frame.inliers), 0});
   }
-  std::string script = kLook + block("matches", matches) + block("inliers", inliers) + block("lost", lost);
+  std::string script = kPlotLook + block("matches", matches) + block("inliers", inliers) + block("lost", lost);
   script +=
       "set yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\nset key outside top center horizontal reverse "
       "Left samplen 2\n";
@@ -254,7 +246,7 @@ Drawing stageTimes(const Summary &summary) {
     bars.push_back({summary.stage_median_ms[i], row, summary.stage_p90_ms[i]});
     names += (i ? ", '" : "'") + std::string(kStageNames[i]) + "' " + fixed(row, 0);
   }
-  std::string script = kLook + block("bars", bars);
+  std::string script = kPlotLook + block("bars", bars);
   script += "set border 1\nset grid noytics\nunset key\nset ytics scale 0 (" + names +
             ")\nset yrange [-0.6:" + fixed(static_cast<double>(kStageCount) - 0.4, 1) + "]\n";
   script +=

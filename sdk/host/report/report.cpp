@@ -12,6 +12,7 @@
 #include "host/report/overlay.h"
 #include "host/report/page.h"
 #include "host/report/plots.h"
+#include "host/report/reliability_plot.h"
 #include "host/report/trajectory.h"
 
 namespace sphc::host {
@@ -56,8 +57,8 @@ void addPlots(const std::string &folder, const Run &run, const Summary &summary,
   const std::string plots = folder + "/plots";
   makeFolder(plots);
   std::filesystem::remove(plots + "/gnuplot.log");
-  for (const Drawing &drawing :
-       {pathFromAbove(run), stageTimes(summary), translationCdf(run), rotationCdf(run), timeline(run)}) {
+  for (const Drawing &drawing : {pathFromAbove(run), stageTimes(summary), translationCdf(run), rotationCdf(run),
+                                 reliability(run), timeline(run)}) {
     if (drawing.script.empty()) continue;
     const PlotResult result = plot(plots, drawing.name, drawing.script, drawing.size);
     if (result == PlotResult::kNoGnuplot) {

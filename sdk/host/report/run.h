@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct FrameRecord {
   bool localized = false;
   sphc_rigid base_from_camera = {{1, 0, 0, 0}, {0, 0, 0}};
   double sigma_rotation_deg = 0, sigma_translation_m = 0;  // what the localizer itself believes
+  std::optional<double> confidence;  // probability of being within 5 cm and 5 deg; when the localizer tells
 
   bool has_truth = false;
   sphc_rigid truth_base_from_camera = {{1, 0, 0, 0}, {0, 0, 0}};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/report/reliability.h"
+
 namespace sphc::host {
 namespace {
 
@@ -28,6 +30,13 @@ void addErrors(const Summary &s, std::vector<Row> *rows) {
   add("translation", s.translation_m, 100, "cm");
 }
 
+void addCalibration(const Run &run, std::vector<Row> *rows) {
+  const std::vector<Graded> graded = gradedFrames(run);
+  if (graded.empty()) return;
+  rows->push_back({"calibration error of confidence", fixed(calibrationError(equalWidthBins(graded)), 3),
+                   "expected over 10 bins of equal width, " + std::to_string(graded.size()) + " poses"});
+}
+
 std::string stageNote(const Summary &s) {
   std::string note;
   for (size_t i = 0; i < kTotal; ++i) {
@@ -44,6 +53,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
                   run.unreadable ? std::to_string(run.unreadable) + " more could not be read" : ""});
   rows.push_back({"localized", share(s.localized, s.frames), ofTotal(s.localized, s.frames)});
   addErrors(s, &rows);
+  addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});
   const double device = static_cast<double>(run.state_bytes + run.scratch_bytes + run.map.file_bytes);
   rows.push_back({"device memory", humanBytes(device),

@@ -21,6 +21,7 @@ struct Estimate {
   double noise_ratio = 0;                // depth noise seen over expected; 0: too little to tell
   double gain = 0;                       // sum over inliers of 1 - residual^2 / threshold^2
   uint32_t inliers = 0;
+  uint32_t lifted = 0;      // correspondences with depth
   uint32_t iterations = 0;  // minimal samples drawn
   uint32_t hypotheses = 0;  // poses they had
 };

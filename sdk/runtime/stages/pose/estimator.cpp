@@ -362,6 +362,7 @@ void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterat
     ++estimate->inliers;
     estimate->gain += 1 - static_cast<double>(squared_[i]) / config_.inlier_threshold2;
   }
+  estimate->lifted = lifted_.count;
   estimate->noise_ratio = noiseRatio(kernel, estimate->camera_from_map);
   estimate->ending = PoseEnding::kFound;
 }

@@ -110,7 +110,7 @@ TEST(PoseBench, MissingAndBrokenAnswersAreFarOff) {
 std::vector<VariantRuns> someRuns() {
   std::vector<VariantRuns> runs = {{"ours", {}}, {kPoseLibName, {}}};
   for (int i = 0; i < 100; ++i) {
-    PoseSample sample = {1e-3, 0.1, 0.001 * i, 7, 20, true};
+    PoseSample sample = {1e-3, 0.1, 0.001 * i, 7, 12, 20, true};
     runs[0].samples.push_back(sample);
     sample.seconds = 4e-3;
     runs[1].samples.push_back(sample);

@@ -37,7 +37,8 @@ TEST_P(HelpTest, TeachesByExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
-                         testing::Values("simulate", "build", "localize", "inspect", "info", "bench pose"));
+                         testing::Values("simulate", "build", "localize", "inspect", "info", "bench pose",
+                                         "bench confidence"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
