@@ -7,12 +7,6 @@ namespace {
 
 constexpr double kFocalPx = 525, kHalfWidth = 0.6, kHalfHeight = 0.45, kNearM = 0.6, kFarM = 4;
 
-Vector3 pointInView(Random *random) {
-  const double z = uniformIn(random, kNearM, kFarM);
-  const double x = uniformIn(random, -kHalfWidth, kHalfWidth), y = uniformIn(random, -kHalfHeight, kHalfHeight);
-  return {x * z, y * z, z};
-}
-
 Vector3 measured(const Vector3 &point, const PoseWorldOptions &options, Random *random) {
   const double across = options.pixel_sigma_px * point.z() / kFocalPx;
   const double dx = normal(random), dy = normal(random), along = normal(random);
@@ -21,6 +15,12 @@ Vector3 measured(const Vector3 &point, const PoseWorldOptions &options, Random *
 }
 
 }  // namespace
+
+Vector3 pointInView(Random *random) {
+  const double z = uniformIn(random, kNearM, kFarM);
+  const double x = uniformIn(random, -kHalfWidth, kHalfWidth), y = uniformIn(random, -kHalfHeight, kHalfHeight);
+  return {x * z, y * z, z};
+}
 
 PoseWorld makePoseWorld(const PoseWorldOptions &options) {
   Random random(options.seed);

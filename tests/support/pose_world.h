@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "runtime/base/random.h"
 #include "runtime/types/correspondence.h"
 #include "runtime/types/estimate.h"
 
@@ -24,6 +25,8 @@ struct PoseWorld {
 };
 
 PoseWorld makePoseWorld(const PoseWorldOptions &options);
+// Some point that the camera sees, camera frame.
+Vector3 pointInView(Random *random);
 
 // Rotation angle, and distance of the camera centres.
 double rotationErrorRad(const Rigid &estimate, const Rigid &truth);

@@ -77,6 +77,8 @@ VariantSummary summarizeVariant(const VariantRuns &runs) {
   s.rotation_deg = tailOf(runs.samples, [](Sample a) { return a.rotation_error_deg; });
   s.translation_cm = tailOf(runs.samples, [](Sample a) { return 100 * a.translation_error_m; });
   s.iterations = tailOf(runs.samples, [](Sample a) { return static_cast<double>(a.iterations); }).median;
+  for (const PoseSample &sample : runs.samples) s.hypotheses += sample.hypotheses;
+  if (s.runs > 0) s.hypotheses /= static_cast<double>(s.runs);
   s.found_percent = shareOf(runs.samples, [](Sample a) { return a.found; });
   s.beyond_3cm_percent = shareOf(runs.samples, [](Sample a) { return a.translation_error_m > 0.03; });
   s.beyond_3deg_percent = shareOf(runs.samples, [](Sample a) { return a.rotation_error_deg > 3; });
@@ -98,6 +100,7 @@ void judgePose(const PoseAnswer &answer, const Rigid &truth, PoseSample *sample)
   const Rigid &pose = answer.camera_from_map;
   const bool sound = answer.found && std::isfinite(pose.rotation.sum() + pose.translation_m.sum());
   sample->iterations = answer.iterations;
+  sample->hypotheses = answer.hypotheses;
   sample->inliers = answer.inliers;
   sample->found = sound;
   sample->rotation_error_deg =

@@ -18,7 +18,7 @@ struct BenchOptions {
 struct PoseSample {
   double seconds = 0;
   double rotation_error_deg = 0, translation_error_m = 0;
-  uint32_t iterations = 0, inliers = 0;
+  uint32_t iterations = 0, hypotheses = 0, inliers = 0;
   bool found = false;
 };
 
@@ -46,6 +46,7 @@ struct VariantSummary {
   Tail time_ms, rotation_deg, translation_cm;
   double found_percent = 0, beyond_3cm_percent = 0, beyond_3deg_percent = 0, within_5cm_5deg_percent = 0;
   double iterations = 0;                 // median
+  double hypotheses = 0;                 // mean
   double times_faster_than_poselib = 0;  // ratio of the medians; NaN without PoseLib
 };
 

@@ -40,7 +40,8 @@ LiftedPoint liftPixel(const PinholeCamera &camera, const Vector2 &pixel_px, doub
   const bool known = isDepth(z_m);
   const double z = known ? z_m : 1;
   const Vector3 ray((pixel_px.x() - camera.cx_px) / camera.fx_px, (pixel_px.y() - camera.cy_px) / camera.fy_px, 1);
-  const double across = noise.pixel_sigma_px * z / (0.5 * (camera.fx_px + camera.fy_px));
+  const double across =
+      (known ? noise.pixel_sigma_px : noise.ray_sigma_px) * z / (0.5 * (camera.fx_px + camera.fy_px));
   const double along = (noise.depth_sigma_m + noise.depth_sigma_per_m2 * z * z) * ray.norm();
   return {z * ray, std::hypot(across, noise.map_sigma_m),
           known ? std::hypot(along, noise.map_sigma_m) : std::numeric_limits<double>::infinity()};

@@ -16,7 +16,7 @@ const char *depthName(DepthSource source);  // "tof", "oracle"
 // What the estimator is told of errors, 1 sigma: keypoints and points of a structure from motion, and a structured
 // light sensor that works from 0.8 to 4 m.
 struct CaseNoise {
-  double pixel_sigma_px = 0.5;
+  double pixel_sigma_px = 0.5, ray_sigma_px = 0.7;           // of a keypoint with depth, and of one without
   double depth_sigma_m = 0.006, depth_sigma_per_m2 = 0.004;  // of z: sigma_m + sigma_per_m2 z^2
   double map_sigma_m = 0.0005;
 };

@@ -18,7 +18,8 @@ constexpr double kOffsetSigmaM = 0.003, kSlopeSigma = 0.02;  // of its bias
 constexpr double kUpSigmaRad = 0.5 * kPi / 180;
 
 PoseAnswer answerOf(const Estimate &estimate, double seconds) {
-  return {estimate.camera_from_map, estimate.iterations, estimate.inliers, estimate.inliers > 0, seconds};
+  return {estimate.camera_from_map, estimate.iterations,  estimate.hypotheses,
+          estimate.inliers,         estimate.inliers > 0, seconds};
 }
 
 struct OursOptions {

@@ -43,7 +43,8 @@ nlohmann::ordered_json summaryJson(const VariantSummary &s) {
                                   {"beyond_3cm_percent", s.beyond_3cm_percent},
                                   {"beyond_3deg_percent", s.beyond_3deg_percent},
                                   {"within_5cm_5deg_percent", s.within_5cm_5deg_percent},
-                                  {"iterations_median", s.iterations}};
+                                  {"iterations_median", s.iterations},
+                                  {"hypotheses_mean", s.hypotheses}};
   return value;  // NaN becomes null
 }
 
@@ -71,30 +72,32 @@ std::string alignedText(const std::vector<std::vector<std::string>> &rows) {
 
 std::string benchTableText(const BenchTable &table) {
   std::vector<std::vector<std::string>> rows = {{"variant", "ms", "p99", "x poselib", "deg", "p99", "cm", "p90",
-                                                 "p99", "max", ">3 cm", ">3 deg", "5 cm 5 deg", "iterations"}};
+                                                 "p99", "max", ">3 cm", ">3 deg", "5 cm 5 deg", "iterations",
+                                                 "hypotheses"}};
   for (const VariantSummary &s : table.summaries) {
     rows.push_back(
         {s.name, number(s.time_ms.median, 3), number(s.time_ms.p99, 3), number(s.times_faster_than_poselib, 2),
          number(s.rotation_deg.median, 3), number(s.rotation_deg.p99, 2), number(s.translation_cm.median, 3),
          number(s.translation_cm.p90, 2), number(s.translation_cm.p99, 2), number(s.translation_cm.max, 2),
          number(s.beyond_3cm_percent, 2) + " %", number(s.beyond_3deg_percent, 2) + " %",
-         number(s.within_5cm_5deg_percent, 1) + " %", number(s.iterations, 0)});
+         number(s.within_5cm_5deg_percent, 1) + " %", number(s.iterations, 0), number(s.hypotheses, 0)});
   }
   return table.file + ", " + depthName(table.depth) + " depth, eta " + std::to_string(table.eta_percent) + " %, " +
          std::to_string(table.queries) + " queries\n" + alignedText(rows);
 }
 
 std::string benchCsv(const std::vector<BenchTable> &tables) {
-  std::string text = "file,depth,eta_percent,variant,runs,found_percent" + tailHead("time_ms") +
-                     ",times_faster_than_poselib" + tailHead("rotation_deg") + tailHead("translation_cm") +
-                     ",beyond_3cm_percent,beyond_3deg_percent,within_5cm_5deg_percent,iterations_median\n";
+  std::string text =
+      "file,depth,eta_percent,variant,runs,found_percent" + tailHead("time_ms") + ",times_faster_than_poselib" +
+      tailHead("rotation_deg") + tailHead("translation_cm") +
+      ",beyond_3cm_percent,beyond_3deg_percent,within_5cm_5deg_percent,iterations_median,hypotheses_mean\n";
   for (const BenchTable &table : tables) {
     for (const VariantSummary &s : table.summaries) {
       text += caseText(table) + "," + csvText(s.name) + "," + std::to_string(s.runs) + "," +
               fixed(s.found_percent, 2) + csvTail(s.time_ms, 4) + "," + csvNumber(s.times_faster_than_poselib, 2) +
               csvTail(s.rotation_deg, 4) + csvTail(s.translation_cm, 4) + "," + fixed(s.beyond_3cm_percent, 3) +
               "," + fixed(s.beyond_3deg_percent, 3) + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
-              fixed(s.iterations, 0) + "\n";
+              fixed(s.iterations, 0) + "," + fixed(s.hypotheses, 0) + "\n";
     }
   }
   return text;
@@ -103,14 +106,15 @@ std::string benchCsv(const std::vector<BenchTable> &tables) {
 std::string benchLedger(const std::vector<BenchTable> &tables) {
   std::string text =
       "file,depth,eta_percent,variant,times_faster_than_poselib,rotation_deg_median,rotation_deg_p99,"
-      "translation_cm_median,translation_cm_p99,beyond_3cm_percent,beyond_3deg_percent,iterations_median\n";
+      "translation_cm_median,translation_cm_p99,beyond_3cm_percent,beyond_3deg_percent,iterations_median,"
+      "hypotheses_mean\n";
   for (const BenchTable &table : tables) {
     for (const VariantSummary &s : table.summaries) {
       text += caseText(table) + "," + csvText(s.name) + "," + csvNumber(s.times_faster_than_poselib, 2) + "," +
               fixed(s.rotation_deg.median, 3) + "," + fixed(s.rotation_deg.p99, 2) + "," +
               fixed(s.translation_cm.median, 3) + "," + fixed(s.translation_cm.p99, 2) + "," +
               fixed(s.beyond_3cm_percent, 2) + "," + fixed(s.beyond_3deg_percent, 2) + "," +
-              fixed(s.iterations, 0) + "\n";
+              fixed(s.iterations, 0) + "," + fixed(s.hypotheses, 0) + "\n";
     }
   }
   return text;

@@ -10,7 +10,7 @@ namespace sphc::host {
 
 struct PoseAnswer {
   Rigid camera_from_map;
-  uint32_t iterations = 0, inliers = 0;  // 0 when the estimator does not tell
+  uint32_t iterations = 0, hypotheses = 0, inliers = 0;  // 0 when the estimator does not tell
   bool found = false;
   double seconds = 0;  // of the estimator alone; what it needs prepared is ready
 };

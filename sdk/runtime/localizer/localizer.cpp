@@ -6,6 +6,7 @@
 #include "runtime/base/message.h"
 #include "runtime/localizer/judgement.h"
 #include "runtime/stages/features/gray.h"
+#include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 namespace {
@@ -190,10 +191,10 @@ void Localizer::search(const sphc_prior *given, const Deadline &deadline, sphc_r
   query.depth = calibrator_.current();
   query.seed = config_.seed;
   if (config_.deadline_us) query.deadline = deadline;
-  Estimate estimate;
+  Estimate searched, estimate;
   result->outcome = SPHC_OUTCOME_FEW_MATCHES;
   if (match_count_ >= kFewestMatches) {
-    estimate = firstPose(query);
+    estimate = searched = firstPose(query);
     result->iterations = estimate.iterations;
     result->cut_short = estimate.cut_short;
     result->outcome = outcomeOf(estimate.ending);
@@ -202,6 +203,7 @@ void Localizer::search(const sphc_prior *given, const Deadline &deadline, sphc_r
   recordMatches();
   if (result->outcome == SPHC_OUTCOME_LOCALIZED) {
     fill(estimate, result);
+    result->confidence = confidenceOf(confidenceInputs(searched, estimate));
     calibrator_.learn(estimate);
   }
   result->pose_us = static_cast<uint32_t>((now() - matched) / 1000);

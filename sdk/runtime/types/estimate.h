@@ -10,11 +10,11 @@ namespace sphc {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-enum class PoseEnding : uint8_t { kFound, kFewCorrespondences, kNoConsensus, kDegenerate, kDeadline };
+enum class PoseEnding : uint8_t { kFound, kFewCorrespondences, kNoConsensus, kDeadline };
 
 struct Estimate {
   PoseEnding ending = PoseEnding::kNoConsensus;
-  bool cut_short = false;  // by the deadline, or by the bound on iterations: more time might find better
+  bool cut_short = false;  // by the deadline: more time might find better
   Rigid camera_from_map;
   Matrix6 covariance = Matrix6::Zero();  // of (rotation rad, translation m), camera frame, T = exp(xi) T_estimate
   DepthCalibration depth;                // the query's, after this frame
@@ -23,6 +23,7 @@ struct Estimate {
   uint32_t inliers = 0;
   uint32_t lifted = 0;      // correspondences with depth
   uint32_t iterations = 0;  // minimal samples drawn
+  uint32_t hypotheses = 0;  // poses they had
 };
 
 }  // namespace sphc

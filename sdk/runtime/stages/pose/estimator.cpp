@@ -72,6 +72,8 @@ uint32_t stepThrough(uint32_t count) {
   return count > 1 ? step % count : 0;
 }
 
+uint32_t sampleSize(const PoseQuery &query) { return query.prior && query.prior->has_up ? 2 : 3; }
+
 double lengthening(const LiftedPoint &lifted, const DepthCalibration &depth) {
   return lifted.hasDepth() ? 1 + depth.correctionAt(lifted.point_m.z()) / lifted.point_m.z() : 1;
 }
@@ -166,6 +168,7 @@ void PoseEstimator::optimise(const PoseQuery &query, const Rigid &minimal, Searc
   const float gain = gainOf(pose, kMinimalThreshold2);
   if (gain > search->gain) {
     search->gain = gain;
+    search->tight_gain = gainOf(pose, config_.inlier_threshold2);
     search->camera_from_map = pose;
   }
 }
@@ -178,58 +181,67 @@ bool PoseEstimator::isNear(const PosePrior &prior, const Rigid &pose) {
   return turn < kGateSigmas && shift < kGateSigmas;
 }
 
-void PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, Search *search) {
-  for (uint32_t sample = 0; sample < kMinimalBatch; ++sample)
+// Returns how many of the samples were looked at, before `most` or before there was enough.
+uint32_t PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search) {
+  const float count = static_cast<float>(lifted_.count);
+  for (uint32_t sample = 0; sample < kMinimalBatch; ++sample) {
+    if (search->samples >= most || search->samples >= search->needed) return sample;
+    ++search->samples;
     for (uint32_t solution = 0; solution < kMaxSolutions; ++solution) {
       if (poses_->valid[solution][sample] == 0.0f) continue;
       const PoseF pose = poses_->pose(solution, sample);
       if (gate && !isNear(*gate, rigidFrom(pose))) continue;
-      const float share = search->minimal_gain / static_cast<float>(lifted_.count) * kShareOfBest;
+      ++search->hypotheses;
+      const float share = search->minimal_gain / count * kShareOfBest;
       const ScoreLimits limits = {1 / static_cast<float>(kMinimalThreshold2), search->minimal_gain,
                                   share > kLeastShare ? share : kLeastShare, kSlack};
       const Score score = kernels_->score(lifted_, pose, limits);
-      if (score.gain > search->minimal_gain && score.seen >= static_cast<float>(lifted_.count)) {
+      if (score.gain > search->minimal_gain && score.seen >= count) {
         search->minimal_gain = score.gain;
         optimise(query, rigidFrom(pose), search);
+        search->needed = samplesFor(query, *search);
       } else {
         search->chance_gain += static_cast<double>(score.gain);
         search->chance_seen += static_cast<double>(score.seen);
       }
     }
+  }
+  return kMinimalBatch;
 }
 
 // Chance cannot explain it: such an agreement is the pose, and there is no other.  Chernoff's bound, over all poses
-// tried.
-bool PoseEstimator::isBeyondChance(const Search &search, uint32_t samples) const {
-  const double chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
-  const double share = static_cast<double>(search.gain) / lifted_.count;
+// tried, at the inlier threshold, whose region is by so much smaller than that of minimal samples.
+bool PoseEstimator::isBeyondChance(const Search &search) const {
+  const double wide_chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
+  const double chance = wide_chance * config_.inlier_threshold2 / kMinimalThreshold2;
+  const double share = static_cast<double>(search.tight_gain) / lifted_.count;
   if (!(share > chance) || !(share < 1)) return share >= 1;
   const double information = share * logOf(share / chance) + (1 - share) * logOf((1 - share) / (1 - chance));
-  return lifted_.count * information > kCertain + logOf(kMaxSolutions * samples);
+  return lifted_.count * information > kCertain + logOf(kMaxSolutions * search.samples);
 }
 
-// Samples needed to draw one without an outlier (Fischler and Bolles 1981).
-uint32_t PoseEstimator::samplesFor(uint32_t sample_size, const Search &search, double miss) const {
+// Samples needed to draw one without an outlier (Fischler and Bolles 1981); fewer once the pose is certain.
+uint32_t PoseEstimator::samplesFor(const PoseQuery &query, const Search &search) const {
   const double share = 1.2 * static_cast<double>(search.gain) / lifted_.count;  // an inlier gains 0.83 on average
   double good = kUsefulSamples;
-  for (uint32_t k = 0; k < sample_size; ++k) good *= share < 1 ? share : 1;
+  for (uint32_t k = 0; k < sampleSize(query); ++k) good *= share < 1 ? share : 1;
   if (good < 1e-9) return config_.max_iterations;
+  const double miss = isBeyondChance(search) ? kMissOnceCertain : config_.miss_probability;
   const double needed = logOf(miss) / logOf(1 - good);
   return needed < config_.max_iterations ? static_cast<uint32_t>(needed) + 1 : config_.max_iterations;
 }
 
 void PoseEstimator::sampleAndScore(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search,
                                    Estimate *estimate) {
-  const bool upright = query.prior && query.prior->has_up;
-  const uint32_t sample_size = upright ? 2 : 3;
+  const bool upright = sampleSize(query) == 2;
   UprightFrames frames = {};
   if (upright) {
     uprightFrom(query.prior->up_map, frames.upright_from_map);
     uprightFrom(query.prior->up_camera, frames.upright_from_camera);
   }
-  sampler_.start(lifted_, quality_.first(lifted_.count), sample_size, query.seed);
-  uint32_t needed = most;
-  for (uint32_t drawn = 0; drawn < needed; drawn += kMinimalBatch) {
+  sampler_.start(lifted_, quality_.first(lifted_.count), sampleSize(query), query.seed);
+  const uint32_t end = search->samples + most;
+  do {
     if (query.deadline.passed()) {
       estimate->cut_short = true;
       break;
@@ -239,12 +251,7 @@ void PoseEstimator::sampleAndScore(const PoseQuery &query, const PosePrior *gate
       kernels_->solve_upright(*batch_, frames, poses_);
     else
       kernels_->solve_p3p(*batch_, poses_);
-    estimate->iterations += kMinimalBatch;
-    scoreBatch(query, gate, search);
-    const bool beyond = isBeyondChance(*search, estimate->iterations);
-    const uint32_t enough = samplesFor(sample_size, *search, beyond ? kMissOnceCertain : config_.miss_probability);
-    needed = enough < most ? enough : most;
-  }
+  } while (scoreBatch(query, gate, end, search) == kMinimalBatch);
 }
 
 // Is the pose where it was expected?  Looked at with ever less tolerance.
@@ -272,11 +279,14 @@ Estimate PoseEstimator::search(const PoseQuery &query) {
     return estimate;
   }
   Search state;
+  state.needed = config_.max_iterations;
   const PosePrior *prior = query.prior && query.prior->has_pose ? query.prior : nullptr;
   if (!prior || !verifyPrior(query, &state)) {
     if (prior) sampleAndScore(query, prior, config_.max_iterations / kSmallSearch, &state, &estimate);
     if (!(state.gain > kVerifiedGain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
   }
+  estimate.iterations = state.samples;
+  estimate.hypotheses = state.hypotheses;
   if (state.gain > 0) {
     finish(query, state.camera_from_map, &estimate);
   } else {
@@ -319,22 +329,21 @@ double PoseEstimator::noiseRatio(const NormalTask &kernel, const Rigid &pose) {
 Estimate PoseEstimator::evaluate(const PoseQuery &query, const Rigid &camera_from_map) {
   Estimate estimate;
   load(query);
-  keepNear(task(query, kFinalScale2), camera_from_map, kFinalLimit2);
   polish(query, camera_from_map, 0, &estimate);
   return estimate;
 }
 
 void PoseEstimator::finish(const PoseQuery &query, const Rigid &start, Estimate *estimate) {
   const RefineTask local = task(query, kLocalScale2);
-  keepNear(local, start, kFinalLimit2);
+  keepNear(local, start, kLocalLimit2);
   polish(query, improvePose(local, start, kLocalSteps), kFinalIterations, estimate);
 }
 
-// On the rows in near_.
 void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterations, Estimate *estimate) {
   RefineTask last = task(query, kFinalScale2);
   last.planes = &near_planes_;
   last.depth.covariance = query.depth.covariance;
+  keepNear(last, pose, kFinalLimit2);
   keepNearPlanes(last, pose, kFinalLimit2);
   const Refinement refined = refinePose(last, pose, iterations);
   estimate->camera_from_map = cleaned(refined.camera_from_map);

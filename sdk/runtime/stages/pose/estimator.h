@@ -42,22 +42,24 @@ class PoseEstimator {
   // Where the search stands; gains are at the wide threshold of minimal samples.
   struct Search {
     Rigid camera_from_map;
-    float gain = 0;                           // after local optimisation
-    float minimal_gain = 0;                   // before it
+    float gain = 0;          // after local optimisation
+    float minimal_gain = 0;  // before it
+    float tight_gain = 0;    // after it, at the inlier threshold
+    uint32_t samples = 0, needed = 0, hypotheses = 0;
     double chance_gain = 0, chance_seen = 0;  // of the poses that were given up: what chance alone brings
   };
   void load(const PoseQuery &query);
   bool verifyPrior(const PoseQuery &query, Search *search);
   void sampleAndScore(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search,
                       Estimate *estimate);
-  void scoreBatch(const PoseQuery &query, const PosePrior *gate, Search *search);
+  uint32_t scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search);
   void optimise(const PoseQuery &query, const Rigid &minimal, Search *search);
   static bool isNear(const PosePrior &prior, const Rigid &pose);
   void keepNear(const RefineTask &task, const Rigid &pose, float limit2);
   void keepNearPlanes(const RefineTask &task, const Rigid &pose, float limit2);
-  bool isBeyondChance(const Search &search, uint32_t samples) const;
+  bool isBeyondChance(const Search &search) const;
   float gainOf(const Rigid &pose, double threshold2) const;
-  uint32_t samplesFor(uint32_t sample_size, const Search &search, double miss) const;
+  uint32_t samplesFor(const PoseQuery &query, const Search &search) const;
   RefineTask task(const PoseQuery &query, double scale2) const;
   bool tellsOfDepth(const PoseRows &rows, uint32_t row, const Rigid &pose) const;
   double noiseRatio(const NormalTask &kernel, const Rigid &pose);

@@ -200,13 +200,16 @@ void solveP3pBatch(const MinimalBatch &batch, PoseBatch *poses) {
       depth.x = hn::Add(hn::Mul(w1, depth.y), hn::Mul(w2, depth.z));
       const V worst = polishDepths(t, &depth);
       const auto positive = hn::Gt(hn::Min(depth.x, hn::Min(depth.y, depth.z)), hn::Zero(d));
-      const auto valid = hn::And(hn::And(positive, hn::Lt(worst, set(1e-3f))),
-                                 hn::Ge(discriminant, hn::Mul(set(-1e-4f), square(half_b))));
+      const auto solved = hn::And(hn::And(positive, hn::Lt(worst, set(1e-3f))),
+                                  hn::Ge(discriminant, hn::Mul(set(-1e-4f), square(half_b))));
       const V3 x0 = hn::Mul(metres, depth.x) * direction[0];
       const Axes map =
           axesOf(hn::Mul(metres, depth.y) * direction[1] - x0, hn::Mul(metres, depth.z) * direction[2] - x0);
       V r[9];
       rotationBetween(camera, map, r);
+      // points on a line have no axes
+      const V trace = hn::Add(hn::Add(r[0], r[4]), r[8]);
+      const auto valid = hn::And(solved, hn::Lt(hn::Abs(trace), set(4.0f)));
       const V3 rotated = {dot({r[0], r[1], r[2]}, x0), dot({r[3], r[4], r[5]}, x0), dot({r[6], r[7], r[8]}, x0)};
       storePose(poses, s, lane, r, point[0] - rotated, valid);
     }

@@ -12,6 +12,8 @@ constexpr double kLongerStep = 1.3;
 // Covariance of the estimate over the inverse of the weighted normal matrix: E|psi|^2 E w / (2 (E div psi / 2)^2)
 // at the final scale, 8, again for Gaussian residuals (Huber, "Robust Statistics", 1981, section 7.6).
 constexpr double kCovarianceOfLoss = 0.80;
+// Residuals of epipolar planes have one dimension: E psi^2 E w / (E psi')^2.
+constexpr double kCovarianceOfPlaneLoss = 0.93;
 constexpr double kLeastDamping = 1e-6;
 constexpr double kConverged = 1e-3;  // of the squared step in units of its own standard deviation
 
@@ -61,17 +63,33 @@ NormalEquations priorEquations(const RefineTask &task, const State &at) {
   return equations;
 }
 
+NormalEquations planeEquations(const RefineTask &task, const NormalTask &kernel) {
+  NormalEquations equations;
+  if (!task.planes || task.planes->count == 0) return equations;
+  NormalSums sums;
+  task.kernels->plane_equations(*task.planes, kernel, &sums);
+  equations.add(sums);
+  return equations;
+}
+
 NormalEquations linearise(const RefineTask &task, const State &at) {
   const NormalTask kernel = normalTask(task, at.pose, at.bias);
   NormalEquations equations = priorEquations(task, at);
   NormalSums sums;
   task.kernels->lifted_equations(*task.lifted, kernel, &sums);
   equations.add(sums);
-  if (task.planes && task.planes->count > 0) {
-    task.kernels->plane_equations(*task.planes, kernel, &sums);
-    equations.add(sums);
-  }
+  const NormalEquations planes = planeEquations(task, kernel);
+  equations.matrix += planes.matrix;
+  equations.gradient += planes.gradient;
+  equations.cost += planes.cost;
   return equations;
+}
+
+// Of the state at which everything together has the normal matrix `all`.
+Matrix8 informationAt(const RefineTask &task, const State &at, const Matrix8 &all) {
+  const Matrix8 prior = priorEquations(task, at).matrix;
+  const Matrix8 planes = planeEquations(task, normalTask(task, at.pose, at.bias)).matrix;
+  return prior + (all - prior - planes) / kCovarianceOfLoss + planes / kCovarianceOfPlaneLoss;
 }
 
 State moved(const State &state, const Vector8 &step) {
@@ -144,8 +162,7 @@ Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations
       damping = damping * 100 + 1e-3;
     }
   }
-  const Matrix8 prior = priorEquations(task, state).matrix;
-  return {state.pose, state.bias, (now.matrix - prior) / kCovarianceOfLoss + prior, now.cost};
+  return {state.pose, state.bias, informationAt(task, state, now.matrix), now.cost};
 }
 
 }  // namespace sphc

@@ -21,7 +21,7 @@ PoseVariant scripted(const std::string &name, std::vector<double> seconds, std::
   return {name, false,
           [=](const PoseCase &c, uint64_t) {
             *calls += name;
-            PoseAnswer answer = {c.truth_camera_from_map, 5, 10, true, seconds[*at % seconds.size()]};
+            PoseAnswer answer = {c.truth_camera_from_map, 5, 9, 10, true, seconds[*at % seconds.size()]};
             ++*at;
             return answer;
           },
@@ -82,7 +82,7 @@ TEST(PoseBench, EverySeedIsARun) {
 
 TEST(PoseBench, ErrorsAreTheAngleAndTheDistanceOfCentres) {
   const Rigid truth = test::simulatedCase(1, 1).truth_camera_from_map;
-  PoseAnswer answer = {truth, 0, 4, true, 0};
+  PoseAnswer answer = {truth, 0, 0, 4, true, 0};
   // The camera turns by a degree where it stands: R' = D R, t' = D t.
   answer.camera_from_map = Rigid{rotationFromVector({0, kPi / 180, 0}), Vector3::Zero()} * truth;
   PoseSample sample;
@@ -110,7 +110,7 @@ TEST(PoseBench, MissingAndBrokenAnswersAreFarOff) {
 std::vector<VariantRuns> someRuns() {
   std::vector<VariantRuns> runs = {{"ours", {}}, {kPoseLibName, {}}};
   for (int i = 0; i < 100; ++i) {
-    PoseSample sample = {1e-3, 0.1, 0.001 * i, 7, 20, true};
+    PoseSample sample = {1e-3, 0.1, 0.001 * i, 7, 12, 20, true};
     runs[0].samples.push_back(sample);
     sample.seconds = 4e-3;
     runs[1].samples.push_back(sample);

@@ -2,17 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <vector>
 
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/sensor_world.h"
 #include "tests/unit/runtime/stages/pose/pose_test_estimator.h"
 
 namespace sphc {
 namespace {
 
-void expectExactAt(double eta, uint32_t worlds) {
+// `most_m`: fakes that agree by chance pull, the more the fewer are true.
+void expectExactAt(double eta, uint32_t worlds, double most_m = 2e-3) {
   test::TestEstimator estimator;
   for (uint64_t seed = 1; seed <= worlds; ++seed) {
     test::PoseWorldOptions options;
@@ -20,8 +23,10 @@ void expectExactAt(double eta, uint32_t worlds) {
     options.true_share = eta;
     const test::PoseWorld world = test::makePoseWorld(options);
     const Estimate estimate = estimator.search(world, seed);
+    EXPECT_EQ(estimate.ending, PoseEnding::kFound);
+    EXPECT_FALSE(estimate.cut_short);
     EXPECT_LT(test::rotationErrorRad(estimate.camera_from_map, world.camera_from_map), 1e-3) << seed;
-    EXPECT_LT(test::translationErrorM(estimate.camera_from_map, world.camera_from_map), 2e-3) << seed;
+    EXPECT_LT(test::translationErrorM(estimate.camera_from_map, world.camera_from_map), most_m) << seed;
     EXPECT_GE(estimate.inliers, static_cast<uint32_t>(eta * 300) - 1) << seed;
     EXPECT_LE(estimate.inliers, static_cast<uint32_t>(eta * 300) + 25) << seed;
   }
@@ -30,6 +35,59 @@ void expectExactAt(double eta, uint32_t worlds) {
 TEST(Estimator, FindsTheExactPoseAtEta100) { expectExactAt(1, 20); }
 TEST(Estimator, FindsTheExactPoseAtEta33) { expectExactAt(0.33, 20); }
 TEST(Estimator, FindsTheExactPoseAtEta25) { expectExactAt(0.25, 20); }
+TEST(Estimator, FindsTheExactPoseAtEta10) { expectExactAt(0.10, 20, 5e-3); }
+
+test::SensorWorldOptions sensorAt(double eta, uint64_t seed) {
+  test::SensorWorldOptions options;
+  options.seed = seed;
+  options.true_share = eta;
+  return options;
+}
+
+bool isFound(const Estimate &estimate, const test::PoseWorld &world) {
+  return test::rotationErrorRad(estimate.camera_from_map, world.camera_from_map) < 1.0 * kPi / 180 &&
+         test::translationErrorM(estimate.camera_from_map, world.camera_from_map) < 0.02;
+}
+
+void expectFoundAt(double eta, int worlds, int at_least) {
+  test::TestEstimator estimator;
+  int found = 0;
+  for (int seed = 1; seed <= worlds; ++seed) {
+    const test::PoseWorld world = test::makeSensorWorld(sensorAt(eta, static_cast<uint64_t>(seed)));
+    found += isFound(estimator.search(world, static_cast<uint64_t>(seed)), world);
+  }
+  ::testing::Test::RecordProperty("missed", worlds - found);
+  EXPECT_GE(found, at_least) << "of " << worlds;
+}
+
+TEST(Estimator, FindsNoisyWorldsAtEta33) { expectFoundAt(0.33, 500, 499); }
+TEST(Estimator, FindsNoisyWorldsAtEta25) { expectFoundAt(0.25, 500, 498); }
+TEST(Estimator, FindsNoisyWorldsAtEta10) { expectFoundAt(0.10, 100, 98); }
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+// The same rows with depth, and beside them some without, or not.
+TEST(Estimator, RowsWithoutDepthHelp) {
+  test::TestEstimator estimator;
+  std::vector<double> with, without;
+  for (uint64_t seed = 1; seed <= 200; ++seed) {
+    test::SensorWorldOptions options = sensorAt(0.5, seed);
+    options.depthless_share = 0.6;
+    test::PoseWorld world = test::makeSensorWorld(options);
+    with.push_back(test::translationErrorM(estimator.search(world, seed).camera_from_map, world.camera_from_map));
+    std::vector<Correspondence> &all = world.correspondences;
+    all.erase(std::remove_if(all.begin(), all.end(), [](const auto &c) { return !c.lifted.hasDepth(); }),
+              all.end());
+    without.push_back(
+        test::translationErrorM(estimator.search(world, seed).camera_from_map, world.camera_from_map));
+  }
+  RecordProperty("median_mm_with", std::to_string(1000 * median(with)));
+  RecordProperty("median_mm_without", std::to_string(1000 * median(without)));
+  EXPECT_LT(median(with), 0.9 * median(without));
+}
 
 TEST(Estimator, WithNoiseTheErrorIsThatOfTheNoise) {
   test::TestEstimator estimator;
@@ -46,55 +104,116 @@ TEST(Estimator, WithNoiseTheErrorIsThatOfTheNoise) {
   }
 }
 
-// The covariance is in the camera frame for a perturbation on the left: the normalised squared error of many worlds
-// averages to the six degrees of freedom.
-TEST(Estimator, CovarianceTellsTheErrorThatIsMade) {
-  test::TestEstimator estimator;
-  double sum = 0;
-  constexpr int kWorlds = 60;
-  for (uint64_t seed = 1; seed <= kWorlds; ++seed) {
-    test::PoseWorldOptions options;
-    options.seed = seed;
-    options.depth_sigma_m = options.stated_depth_sigma_m = 0.01;
-    options.pixel_sigma_px = 0;
-    const test::PoseWorld clean = test::makePoseWorld(options);
-    test::PoseWorld world = clean;
-    Random random(seed + 1000);
-    for (Correspondence &c : world.correspondences)  // across as stated, too
-      c.lifted.point_m += c.lifted.sideways_m * Vector3(test::normal(&random), test::normal(&random), 0);
-    const Estimate estimate = estimator.search(world);
-    const Rigid error = world.camera_from_map * estimate.camera_from_map.inverse();  // T_true = exp(xi) T_estimate
-    Vector6 xi;
-    const Eigen::AngleAxisd turn(error.rotation);
-    xi << turn.angle() * turn.axis(), error.translation_m;
-    sum += xi.dot(estimate.covariance.inverse() * xi);
-  }
-  EXPECT_GT(sum / kWorlds, 3);
-  EXPECT_LT(sum / kWorlds, 12);
-}
-
-TEST(Estimator, SameSeedSameBytes) {
-  test::PoseWorldOptions options;
-  options.true_share = 0.3;
-  options.depth_sigma_m = 0.01;
-  const test::PoseWorld world = test::makePoseWorld(options);
-  test::TestEstimator first, second;
-  const Estimate a = first.search(world, 9);
-  second.search(world, 3);  // what came before must not matter
-  const Estimate b = second.search(world, 9);
+void expectSameBytes(const Estimate &a, const Estimate &b) {
   EXPECT_EQ(a.camera_from_map.rotation, b.camera_from_map.rotation);
   EXPECT_EQ(a.camera_from_map.translation_m, b.camera_from_map.translation_m);
   EXPECT_EQ(a.covariance, b.covariance);
+  EXPECT_EQ(a.depth.mean, b.depth.mean);
+  EXPECT_EQ(a.noise_ratio, b.noise_ratio);
+  EXPECT_EQ(a.gain, b.gain);
+  EXPECT_EQ(a.inliers, b.inliers);
   EXPECT_EQ(a.iterations, b.iterations);
 }
 
-TEST(Estimator, TooFewCorrespondences) {
+PoseQuery queryWithBias(uint64_t seed) {
+  PoseQuery query;
+  query.seed = seed;
+  query.depth.mid_m = 2;
+  query.depth.covariance.diagonal() << 1e-4, 1e-4;
+  return query;
+}
+
+TEST(Estimator, SameSeedSameBytes) {
+  test::SensorWorldOptions options = sensorAt(0.3, 1);
+  options.depthless_share = 0.2;
+  const test::PoseWorld world = test::makeSensorWorld(options);
+  test::TestEstimator first, second;
+  const Estimate a = first.search(world, queryWithBias(9));
+  second.search(world, 3);  // what came before must not matter
+  expectSameBytes(a, second.search(world, queryWithBias(9)));
+}
+
+TEST(Estimator, TheScalarTwinFindsTheSameBytes) {
+  test::TestEstimator ours, twin(4096, 20000, &scalarPoseKernels());
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    test::SensorWorldOptions options = sensorAt(0.25, seed);
+    options.depthless_share = 0.2;
+    const test::PoseWorld world = test::makeSensorWorld(options);
+    expectSameBytes(ours.search(world, queryWithBias(seed)), twin.search(world, queryWithBias(seed)));
+  }
+}
+
+TEST(Estimator, AnyOrderOfCorrespondencesWillDo) {
+  test::TestEstimator estimator;
+  for (uint64_t seed = 1; seed <= 30; ++seed) {
+    test::PoseWorld world = test::makeSensorWorld(sensorAt(0.33, seed));
+    const Estimate one = estimator.search(world, seed);
+    std::reverse(world.correspondences.begin(), world.correspondences.end());
+    const Estimate other = estimator.search(world, seed);
+    EXPECT_TRUE(isFound(one, world));
+    EXPECT_TRUE(isFound(other, world));
+    const double sigma = std::sqrt(one.covariance.trace());  // of the errors together
+    EXPECT_LT(test::poseError(one.camera_from_map, other.camera_from_map).norm(), 0.5 * sigma) << seed;
+  }
+}
+
+// All true ones first, so that any first part of the rows is no fair sample.
+TEST(Estimator, SortedCorrespondencesAreFound) {
+  test::TestEstimator estimator;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    test::PoseWorldOptions options;
+    options.seed = seed;
+    options.true_share = 0.2;
+    test::PoseWorld world = test::makePoseWorld(options);  // comes so
+    EXPECT_TRUE(isFound(estimator.search(world, seed), world));
+    std::reverse(world.correspondences.begin(), world.correspondences.end());
+    EXPECT_TRUE(isFound(estimator.search(world, seed), world));
+  }
+}
+
+struct Effort {
+  double iterations = 0;
+  int found = 0;
+};
+Effort effortAt(double eta, bool informative, int worlds) {
+  test::TestEstimator estimator;
+  Effort effort;
+  for (int seed = 1; seed <= worlds; ++seed) {
+    test::SensorWorldOptions options = sensorAt(eta, static_cast<uint64_t>(seed));
+    options.informative_quality = informative;
+    const test::PoseWorld world = test::makeSensorWorld(options);
+    const Estimate estimate = estimator.search(world, static_cast<uint64_t>(seed));
+    effort.iterations += static_cast<double>(estimate.iterations) / worlds;
+    effort.found += isFound(estimate, world);
+  }
+  return effort;
+}
+
+TEST(Estimator, QualityOfMatchesSavesIterations) {
+  const Effort plain = effortAt(0.15, false, 200), ordered = effortAt(0.15, true, 200);
+  RecordProperty("iterations_plain", std::to_string(plain.iterations));
+  RecordProperty("iterations_ordered", std::to_string(ordered.iterations));
+  EXPECT_LT(ordered.iterations, 0.8 * plain.iterations);
+  EXPECT_GE(ordered.found, plain.found - 1);
+}
+
+TEST(Estimator, FewCorrespondences) {
   test::TestEstimator estimator;
   for (size_t count : {0u, 1u, 2u, 3u}) {
     test::PoseWorld world = test::makePoseWorld({});
     world.correspondences.resize(count);
-    EXPECT_EQ(estimator.search(world).inliers, 0u);
+    const Estimate estimate = estimator.search(world);
+    EXPECT_EQ(estimate.ending, PoseEnding::kFewCorrespondences);
+    EXPECT_EQ(estimate.inliers, 0u);
+    EXPECT_EQ(estimate.iterations, 0u);
   }
+}
+
+TEST(Estimator, BearingsAloneAreTooFew) {
+  test::TestEstimator estimator;
+  test::SensorWorldOptions options;
+  options.depthless_share = 1;
+  EXPECT_EQ(estimator.search(test::makeSensorWorld(options)).ending, PoseEnding::kFewCorrespondences);
 }
 
 TEST(Estimator, OneCorrespondenceManyTimesIsHarmless) {
@@ -102,14 +221,93 @@ TEST(Estimator, OneCorrespondenceManyTimesIsHarmless) {
   test::PoseWorld world = test::makePoseWorld({});
   world.correspondences.assign(100, world.correspondences[0]);
   const Estimate estimate = estimator.search(world);
-  EXPECT_LE(estimate.iterations, 500u);
+  EXPECT_LE(estimate.iterations, 512u);
+  EXPECT_TRUE(estimate.ending != PoseEnding::kFound || isFinite(estimate.camera_from_map.rotation.sum()));
+  EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED);
 }
 
-TEST(Estimator, IterationsAreBounded) {
-  test::TestEstimator estimator(300, 137);
-  test::PoseWorldOptions options;
-  options.true_share = 0;
-  EXPECT_LE(estimator.search(test::makePoseWorld(options)).iterations, 137u);
+TEST(Estimator, IterationsAreBoundedToABatch) {
+  for (uint32_t bound : {1u, 16u, 137u, 1000u}) {
+    test::TestEstimator estimator(300, bound);
+    test::PoseWorldOptions options;
+    options.true_share = 0;
+    const uint32_t batches = (bound + kMinimalBatch - 1) / kMinimalBatch;
+    const Estimate estimate = estimator.search(test::makePoseWorld(options));
+    EXPECT_LE(estimate.iterations, batches * kMinimalBatch);
+  }
+}
+
+TEST(Estimator, NoiseAloneIsNotLocalized) {
+  test::TestEstimator estimator(400, 3000);
+  for (uint64_t seed = 1; seed <= 100; ++seed) {
+    const test::PoseWorld world = test::makeSensorWorld(sensorAt(0, seed));
+    const Estimate estimate = estimator.search(world, seed);
+    EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED) << estimate.inliers;
+  }
+}
+
+// A clock that goes on by a microsecond whenever it is looked at.
+struct FakeClock {
+  int64_t now_ns = 0;
+  static int64_t read(void *user) { return static_cast<FakeClock *>(user)->now_ns += 1000; }
+  Deadline deadline(int64_t at_ns) { return {&read, this, at_ns}; }
+};
+
+TEST(Estimator, ADeadlineThatHasPassedGivesNothing) {
+  test::TestEstimator estimator;
+  const test::PoseWorld world = test::makeSensorWorld(sensorAt(0.33, 1));
+  FakeClock clock;
+  PoseQuery query;
+  query.deadline = clock.deadline(0);
+  const Estimate estimate = estimator.search(world, query);
+  EXPECT_EQ(estimate.ending, PoseEnding::kDeadline);
+  EXPECT_TRUE(estimate.cut_short);
+  EXPECT_EQ(estimate.iterations, 0u);
+}
+
+TEST(Estimator, ADeadlineGivesTheBestSoFar) {
+  test::TestEstimator estimator;
+  int found = 0, cut = 0;
+  for (uint64_t seed = 1; seed <= 50; ++seed) {
+    const test::PoseWorld world = test::makeSensorWorld(sensorAt(0.15, seed));
+    FakeClock clock;
+    PoseQuery query;
+    query.seed = seed;
+    query.deadline = clock.deadline(10 * 1000);
+    const Estimate estimate = estimator.search(world, query);
+    EXPECT_LE(estimate.iterations, 10 * kMinimalBatch);
+    EXPECT_TRUE(estimate.ending == PoseEnding::kFound || estimate.ending == PoseEnding::kDeadline);
+    cut += estimate.cut_short;
+    found += isFound(estimate, world);
+  }
+  RecordProperty("cut_short_of_50", cut);
+  RecordProperty("right_of_50", found);
+  EXPECT_GT(cut, 25);
+  EXPECT_GT(found, 5) << "right before its time";
+  EXPECT_LT(found, 50);
+}
+
+TEST(Estimator, ALateDeadlineChangesNothing) {
+  test::TestEstimator estimator;
+  const test::PoseWorld world = test::makeSensorWorld(sensorAt(0.33, 2));
+  FakeClock clock;
+  PoseQuery query, with;
+  with.deadline = clock.deadline(int64_t{1} << 60);
+  expectSameBytes(estimator.search(world, query), estimator.search(world, with));
+}
+
+TEST(Estimator, InliersAreThoseOfItsOwnCount) {
+  test::TestEstimator estimator;
+  test::SensorWorldOptions options = sensorAt(0.33, 4);
+  options.bias = {0.01, 0.02};
+  const test::PoseWorld world = test::makeSensorWorld(options);
+  PoseQuery query = queryWithBias(1);
+  query.depth.mean = options.bias;
+  const Estimate estimate = estimator.search(world, query);
+  uint32_t agreeing = 0;
+  for (const Correspondence &c : world.correspondences) agreeing += estimator.get().isInlier(c, estimate);
+  EXPECT_NEAR(agreeing, estimate.inliers, 1);
+  EXPECT_GT(agreeing, 70u);
 }
 
 }  // namespace

@@ -1,31 +1,31 @@
 // An estimator in memory of its own.
 #pragma once
-#include <vector>
-
 #include "runtime/localizer/judgement.h"
 #include "runtime/stages/pose/estimator.h"
+#include "tests/support/arena_memory.h"
 #include "tests/support/pose_world.h"
 
 namespace sphc::test {
 
 class TestEstimator {
  public:
-  explicit TestEstimator(uint32_t capacity = 4096, uint32_t max_iterations = 20000) {
-    EstimatorConfig config;
-    config.capacity = capacity;
-    config.max_iterations = max_iterations;
-    Arena measure;
-    PoseEstimator::layout(config, measure, nullptr);
-    memory_.resize(measure.used() + kArenaAlignment);
-    uint8_t *start = memory_.data();
-    while (reinterpret_cast<uintptr_t>(start) % kArenaAlignment) ++start;
-    Arena arena(start);
-    PoseEstimator::layout(config, arena, &estimator_);
-  }
+  explicit TestEstimator(uint32_t capacity = 4096, uint32_t max_iterations = 20000,
+                         const PoseKernels *kernels = nullptr)
+      : memory_([&](Arena &arena, bool real) {
+          EstimatorConfig config;
+          config.capacity = capacity;
+          config.max_iterations = max_iterations;
+          config.kernels = kernels;
+          PoseEstimator::layout(config, arena, real ? &estimator_ : nullptr);
+        }) {}
   Estimate search(const PoseWorld &world, uint64_t seed = 1) {
     PoseQuery query;
-    query.correspondences = {world.correspondences.data(), world.correspondences.size()};
     query.seed = seed;
+    return search(world, query);
+  }
+  // The query's correspondences are the world's.
+  Estimate search(const PoseWorld &world, PoseQuery query) {
+    query.correspondences = {world.correspondences.data(), world.correspondences.size()};
     return estimator_.search(query);
   }
   PoseEstimator &get() { return estimator_; }
@@ -39,8 +39,8 @@ class TestEstimator {
   }
 
  private:
-  std::vector<uint8_t> memory_;
   PoseEstimator estimator_;
+  ArenaMemory memory_;
 };
 
 }  // namespace sphc::test

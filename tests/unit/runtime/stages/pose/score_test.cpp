@@ -1,83 +1,75 @@
-#include "runtime/stages/pose/score.h"
-
+// Scores and residuals of rows, against residual.h in double precision.
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <vector>
-
 #include "runtime/stages/pose/residual.h"
-#include "tests/support/pose_world.h"
+#include "tests/support/pose_rows.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc {
 namespace {
 
-constexpr float kTruncation = 12, kNoBound = std::numeric_limits<float>::max();
+constexpr double kThreshold2 = 12;
+constexpr ScoreLimits kToTheEnd = {1 / 12.0f, -1, 0, 0};
 
-struct Scorer {
-  explicit Scorer(uint32_t capacity) {
-    Arena measure;
-    PoseScorer::layout(capacity, measure, nullptr);
-    memory.resize(measure.used() + kArenaAlignment);
-    uint8_t *start = memory.data();
-    while (reinterpret_cast<uintptr_t>(start) % kArenaAlignment) ++start;
-    Arena arena(start);
-    PoseScorer::layout(capacity, arena, &scorer);
-  }
-  std::vector<uint8_t> memory;
-  PoseScorer scorer;
-};
-
-double slowScore(const test::PoseWorld &world, const Rigid &pose) {
+double slowGain(const test::PoseWorld &world, const Rigid &pose) {
   double sum = 0;
   for (const Correspondence &c : world.correspondences) {
     const Residual r = residualOf(c, pose);
-    sum += r.in_front && r.squared < 12 ? r.squared : 12;
+    if (r.in_front && r.squared < kThreshold2) sum += 1 - r.squared / kThreshold2;
   }
   return sum;
 }
 
-TEST(Score, IsTheTruncatedSumOfTheResiduals) {
+test::PoseWorld noisyWorld(size_t count, double true_share = 0.5) {
+  test::PoseWorldOptions options;
+  options.count = count;
+  options.true_share = true_share;
+  options.depth_sigma_m = 0.01;
+  options.pixel_sigma_px = 0.8;
+  return test::makePoseWorld(options);
+}
+
+TEST(Score, IsTheSumOfWhatRowsGain) {
   Random random(1);
-  for (size_t count : {4u, 31u, 32u, 33u, 300u}) {
-    test::PoseWorldOptions options;
-    options.count = count;
-    options.true_share = 0.5;
-    options.depth_sigma_m = 0.01;
-    options.pixel_sigma_px = 0.8;
-    const test::PoseWorld world = test::makePoseWorld(options);
-    Scorer s(300);
-    s.scorer.load({world.correspondences.data(), count});
-    for (int i = 0; i < 20; ++i) {
+  for (size_t count : {1u, 15u, 16u, 63u, 64u, 65u, 300u}) {
+    const test::PoseWorld world = noisyWorld(count);
+    const test::OwnedRows owned(world.correspondences, simdPoseKernels());
+    for (int i = 0; i < 50; ++i) {
       const Rigid pose =
           i == 0 ? world.camera_from_map : Rigid{test::randomRotation(&random), test::normalVector(&random)};
-      const double expected = slowScore(world, pose);
-      EXPECT_NEAR(static_cast<double>(s.scorer.score(pose, kTruncation, kNoBound)), expected,
-                  1e-3 * expected + 1e-2);
+      const Score score = simdPoseKernels().score(owned.rows, poseF(pose), kToTheEnd);
+      const double expected = slowGain(world, pose);
+      EXPECT_NEAR(static_cast<double>(score.gain), expected, 1e-3 * expected + 1e-3);
+      EXPECT_EQ(score.seen, static_cast<float>(count));
     }
   }
 }
 
-TEST(Score, GivesUpAtTheBound) {
-  const test::PoseWorld world = test::makePoseWorld({});
-  Scorer s(300);
-  s.scorer.load({world.correspondences.data(), world.correspondences.size()});
-  const float score = s.scorer.score(Rigid(), kTruncation, 50.0f);
-  EXPECT_GE(score, 50.0f);
-  EXPECT_LE(score, 50.0f + 33 * kTruncation);
+TEST(Score, GivesUpWhatCannotBeBest) {
+  const test::PoseWorld world = noisyWorld(300, 0);
+  const test::OwnedRows owned(world.correspondences, simdPoseKernels());
+  const Score score = simdPoseKernels().score(owned.rows, poseF(world.camera_from_map), {1 / 12.0f, 200, 0, 0});
+  EXPECT_EQ(score.seen, 128) << "44 are left after 256, but 172 after 128";
+  EXPECT_LT(score.gain, 28);
+}
+
+TEST(Score, GivesUpByTheSlope) {
+  const test::PoseWorld world = noisyWorld(300, 0);
+  const test::OwnedRows owned(world.correspondences, simdPoseKernels());
+  const PoseF pose = poseF(world.camera_from_map);
+  EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 2}).seen, 64);
+  EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 90}).seen, 192);
+  EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 150}).seen, 300);
 }
 
 TEST(Score, TheTruthScoresBest) {
   Random random(2);
-  test::PoseWorldOptions options;
-  options.true_share = 0.33;
-  const test::PoseWorld world = test::makePoseWorld(options);
-  Scorer s(300);
-  s.scorer.load({world.correspondences.data(), world.correspondences.size()});
-  const float truth = s.scorer.score(world.camera_from_map, kTruncation, kNoBound);
+  const test::PoseWorld world = noisyWorld(300, 0.33);
+  const test::OwnedRows owned(world.correspondences, simdPoseKernels());
+  const float truth = simdPoseKernels().score(owned.rows, poseF(world.camera_from_map), kToTheEnd).gain;
   for (int i = 0; i < 2000; ++i) {
     const Rigid other = {test::randomRotation(&random), 2 * test::normalVector(&random)};
-    EXPECT_LT(truth, s.scorer.score(other, kTruncation, kNoBound));
+    EXPECT_GT(truth, simdPoseKernels().score(owned.rows, poseF(other), kToTheEnd).gain);
   }
 }
 
