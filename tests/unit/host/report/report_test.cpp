@@ -62,6 +62,14 @@ TEST_F(ReportTest, SaysSoWithoutGnuplot) {
   EXPECT_THAT(page, Not(HasSubstr("<svg")));
 }
 
+TEST_F(ReportTest, DrawsReliabilityWhereThereIsAConfidence) {
+  EXPECT_THAT(write(), Not(HasSubstr("Is it as sure as it may be?")));
+  for (FrameRecord &frame : run_.frames) frame.confidence = 0.9;
+  EXPECT_THAT(write(), HasSubstr("Is it as sure as it may be?"));
+  EXPECT_EQ(problem_, "");
+  EXPECT_TRUE(std::filesystem::exists(folder_ + "/plots/reliability.png"));
+}
+
 TEST_F(ReportTest, WorksWithoutTruth) {
   for (FrameRecord &frame : run_.frames) frame.has_truth = false;
   const std::string page = write();
