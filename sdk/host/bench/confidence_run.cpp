@@ -49,7 +49,7 @@ void runOne(const ConfidenceQuery &query, const Hardship &hardship, uint64_t see
   const Estimate estimate = estimator->search(query, seed);
   if (estimate.ending != PoseEnding::kFound) return;
   PoseSample sample;
-  judgePose({estimate.camera_from_map, estimate.iterations, estimate.inliers, true, 0},
+  judgePose({estimate.camera_from_map, estimate.iterations, estimate.hypotheses, estimate.inliers, true, 0},
             query.pose_case.truth_camera_from_map, &sample);
   const bool correct =
       sample.translation_error_m <= kGoodTranslationM && sample.rotation_error_deg <= kGoodRotationDeg;
