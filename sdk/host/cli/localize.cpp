@@ -1,5 +1,6 @@
 // spherecloud localize: where was the camera, frame by frame?
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "host/build/map_writer.h"
@@ -136,6 +137,18 @@ void addLocalizerOptions(CLI::App *app, sphc_config *config) {
   add("--depth-sigma-per-m2", config->depth_sigma_per_m2, "See --depth-sigma");
   add("--pixel-sigma", config->pixel_sigma_px, "Noise of a keypoint's position, pixels");
   add("--map-sigma", config->map_sigma_m, "Error of a map point across its direction, metres");
+  add("--depth-mid", config->depth_mid_m,
+      "Where the depth sensor's offset is stated, metres; 0: middle of its range");
+  add("--depth-offset-sigma", config->depth_offset_sigma_m,
+      "Unknown offset of the depth sensor there, metres; 0 with the next 0: a sensor without bias");
+  add("--depth-slope-sigma", config->depth_slope_sigma, "Unknown slope of its error over depth");
+  add("--deadline-us", config->deadline_us, "A frame's search ends so long after it began; 0: no deadline");
+  const std::map<std::string, sphc_cost> costs = {{"whitened", SPHC_COST_WHITENED}, {"paper", SPHC_COST_PAPER}};
+  app->add_option("--cost", config->cost, "What poses minimise; paper is there to compare with")
+      ->transform(CLI::CheckedTransformer(costs).description(""))
+      ->default_str("whitened")
+      ->type_name("whitened|paper")
+      ->group("Localizer");
 }
 
 }  // namespace

@@ -70,7 +70,9 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->align_us = result.align_us;
   frame->match_us = result.match_us;
   frame->pose_us = result.pose_us;
+  frame->depth = result.depth;
   if (!frame->localized) return;
+  frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);
   if (input.centre_in_world_m) {  // world_from_map is a translation
     for (size_t i = 0; i < 3; ++i) frame->base_from_camera.t_m[i] += (*input.centre_in_world_m)[i];
@@ -134,7 +136,11 @@ std::vector<Setting> describeConfig(const sphc_config &config) {
           {"depth_sigma_m", fixed(config.depth_sigma_m, 4)},
           {"depth_sigma_per_m2", fixed(config.depth_sigma_per_m2, 4)},
           {"pixel_sigma_px", fixed(config.pixel_sigma_px, 2)},
-          {"map_sigma_m", fixed(config.map_sigma_m, 4)}};
+          {"map_sigma_m", fixed(config.map_sigma_m, 4)},
+          {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},
+          {"depth_slope_sigma", fixed(config.depth_slope_sigma, 4)},
+          {"cost", config.cost == SPHC_COST_PAPER ? "paper" : "whitened"},
+          {"deadline_us", std::to_string(config.deadline_us)}};
 }
 
 void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,

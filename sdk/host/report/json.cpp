@@ -36,6 +36,12 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
     json["error"] = {{"rotation_deg", number(frame.rotation_error_deg)},
                      {"translation_m", number(frame.translation_error_m)}};
   }
+  json["depth_bias"] = {{"mid_m", number(frame.depth.mid_m)},
+                        {"offset_m", number(frame.depth.offset_m)},
+                        {"slope", number(frame.depth.slope)},
+                        {"offset_sigma_m", number(frame.depth.offset_sigma_m)},
+                        {"slope_sigma", number(frame.depth.slope_sigma)},
+                        {"noise_scale", number(frame.depth.noise_scale)}};
   json["time_us"] = {{"features", frame.features_us},
                      {"align", frame.align_us},
                      {"match", frame.match_us},

@@ -18,6 +18,8 @@ const char *outcomeName(sphc_outcome outcome) {
       return "no consensus";
     case SPHC_OUTCOME_UNCERTAIN:
       return "uncertain";
+    case SPHC_OUTCOME_DEADLINE:
+      return "deadline";
     default:
       return "unknown";
   }
@@ -37,6 +39,8 @@ const char *outcomeAdvice(sphc_outcome outcome) {
       return "no pose agrees with clearly more matches than chance would";
     case SPHC_OUTCOME_UNCERTAIN:
       return "a pose was found, but the matches pin it down too weakly";
+    case SPHC_OUTCOME_DEADLINE:
+      return "no pose before the deadline";
     default:
       return "an outcome this report does not know";
   }

@@ -20,6 +20,8 @@ struct FrameRecord {
   uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0, iterations = 0;
   uint32_t features_us = 0, align_us = 0, match_us = 0, pose_us = 0, total_us = 0;
 
+  sphc_depth_bias depth = {};  // what the localizer took the depth sensor for
+
   bool localized = false;
   sphc_rigid base_from_camera = {{1, 0, 0, 0}, {0, 0, 0}};
   double sigma_rotation_deg = 0, sigma_translation_m = 0;  // what the localizer itself believes
