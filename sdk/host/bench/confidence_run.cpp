@@ -48,9 +48,11 @@ void runOne(const ConfidenceQuery &query, const Hardship &hardship, uint64_t see
             std::vector<ConfidenceRun> *runs) {
   const Estimate estimate = estimator->search(query, seed);
   if (estimate.ending != PoseEnding::kFound) return;
+  PoseAnswer answer;
+  answer.camera_from_map = estimate.camera_from_map;
+  answer.found = true;
   PoseSample sample;
-  judgePose({estimate.camera_from_map, estimate.iterations, estimate.hypotheses, estimate.inliers, true, 0},
-            query.pose_case.truth_camera_from_map, &sample);
+  judgePose(answer, query.pose_case.truth_camera_from_map, &sample);
   const bool correct =
       sample.translation_error_m <= kGoodTranslationM && sample.rotation_error_deg <= kGoodRotationDeg;
   runs->push_back({describe(hardship), confidenceInputs(estimate, estimate), sample.rotation_error_deg,
