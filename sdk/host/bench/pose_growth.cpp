@@ -26,6 +26,17 @@ GrowthRow measure(const GrowthInput &input, GrowthAxis axis, const std::string &
 
 const char *axisName(GrowthAxis axis) { return axis == GrowthAxis::kCount ? "correspondences" : "eta_percent"; }
 
+std::string rowStart(const GrowthRow &row, const VariantSummary &s) {
+  return row.file + "," + depthName(row.depth) + "," + axisName(row.axis) + "," + fixed(row.x, 0) + "," + row.how +
+         "," + csvText(s.name) + ",";
+}
+
+std::string rowEnd(const VariantSummary &s) {
+  const std::string ratio = std::isnan(s.times_faster_than_poselib) ? "" : fixed(s.times_faster_than_poselib, 2);
+  return ratio + "," + fixed(s.within_5cm_5deg_percent, 2) + "," + fixed(s.rotation_deg.median, 4) + "," +
+         fixed(s.translation_cm.median, 4) + "," + fixed(s.iterations, 0) + "\n";
+}
+
 }  // namespace
 
 std::vector<GrowthRow> growCounts(const GrowthInput &input, const std::vector<PoseVariant> &variants,
@@ -79,16 +90,19 @@ std::string growthCsv(const std::vector<GrowthRow> &rows) {
       "file,depth,axis,x,how,variant,time_ms_median,time_ms_p90,time_ms_p99,times_faster_than_poselib,"
       "within_5cm_5deg_percent,rotation_deg_median,translation_cm_median,iterations_median\n";
   for (const GrowthRow &row : rows) {
-    for (const VariantSummary &s : row.summaries) {
-      const std::string ratio =
-          std::isnan(s.times_faster_than_poselib) ? "" : fixed(s.times_faster_than_poselib, 3);
-      text += row.file + "," + depthName(row.depth) + "," + axisName(row.axis) + "," + fixed(row.x, 0) + "," +
-              row.how + "," + csvText(s.name) + "," + fixed(s.time_ms.median, 4) + "," + fixed(s.time_ms.p90, 4) +
-              "," + fixed(s.time_ms.p99, 4) + "," + ratio + "," + fixed(s.within_5cm_5deg_percent, 2) + "," +
-              fixed(s.rotation_deg.median, 4) + "," + fixed(s.translation_cm.median, 4) + "," +
-              fixed(s.iterations, 0) + "\n";
-    }
+    for (const VariantSummary &s : row.summaries)
+      text += rowStart(row, s) + fixed(s.time_ms.median, 4) + "," + fixed(s.time_ms.p90, 4) + "," +
+              fixed(s.time_ms.p99, 4) + "," + rowEnd(s);
   }
+  return text;
+}
+
+std::string growthLedger(const std::vector<GrowthRow> &rows) {
+  std::string text =
+      "file,depth,axis,x,how,variant,times_faster_than_poselib,within_5cm_5deg_percent,rotation_deg_median,"
+      "translation_cm_median,iterations_median\n";
+  for (const GrowthRow &row : rows)
+    for (const VariantSummary &s : row.summaries) text += rowStart(row, s) + rowEnd(s);
   return text;
 }
 

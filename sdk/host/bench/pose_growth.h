@@ -33,6 +33,7 @@ std::vector<GrowthRow> growEtas(const GrowthInput &input, const std::vector<Pose
 
 std::string growthText(const std::vector<GrowthRow> &rows);
 std::string growthCsv(const std::vector<GrowthRow> &rows);
+std::string growthLedger(const std::vector<GrowthRow> &rows);  // ratios, no milliseconds
 nlohmann::ordered_json growthJson(const std::vector<GrowthRow> &rows);
 
 }  // namespace sphc::host

@@ -109,7 +109,8 @@ void append(const Options &options, const Input &input, DepthSource depth, const
 }
 
 void writeResult(const Options &options, const Result &result, const Console &console) {
-  if (!options.ledger.empty()) writeText(options.ledger, benchLedger(result.tables));
+  if (!options.ledger.empty())
+    writeText(options.ledger, options.growth ? growthLedger(result.growth) : benchLedger(result.tables));
   if (options.out.empty()) return;
   makeFolder(options.out);
   if (!result.tables.empty()) writeText(options.out + "/pose.csv", benchCsv(result.tables));
@@ -122,7 +123,6 @@ void writeResult(const Options &options, const Result &result, const Console &co
 }
 
 int runPose(const Options &options, const Console &console) {
-  if (options.growth && !options.ledger.empty()) throw UsageError("--ledger is of a run without --growth");
   const int core = pinToOneCore();
   const auto variants = chooseVariants(options, allVariants(options));
   tellAbsent(variants, console);

@@ -139,7 +139,7 @@ void addOptions(CLI::App *app, Options *options) {
       ->type_name("X");
   app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes fake directions")
       ->capture_default_str()
-      ->check(CLI::Range(1e-9, 1e3))
+      ->check(CLI::Range(1e-9, 100.0))
       ->type_name("X");
   auto *key =
       app->add_option("--key", options->key, "Secret key to use (64 hexadecimal digits)")->type_name("FILE");

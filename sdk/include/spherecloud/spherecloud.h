@@ -186,8 +186,8 @@ typedef struct sphc_frame {
   uint32_t sequence;     /* the caller's own number; comes back in the result */
   int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
   int64_t depth_time_ns;
-  sphc_image color; /* GRAY8, RGB8 or BGR8; the size in config.color_camera */
-  sphc_image depth; /* DEPTH16; the size in config.depth_camera */
+  sphc_image color;        /* GRAY8, RGB8 or BGR8; the size in config.color_camera */
+  sphc_image depth;        /* DEPTH16; the size in config.depth_camera */
   const sphc_prior *prior; /* null: nothing is known */
 } sphc_frame;
 
@@ -241,7 +241,7 @@ typedef struct sphc_config {
   uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
   uint32_t max_iterations; /* upper bound on minimal samples drawn; bounds the time of a call; 1 to 1000000 */
   float max_ratio;         /* Lowe's ratio test, on distances; 0.1 to 1 */
-  uint64_t seed;           /* same seed, map, config and frame: same bytes in the result */
+  uint64_t seed;           /* same seed, map, config and frames: same bytes in the results */
 
   sphc_camera color_camera;
   sphc_camera depth_camera;
@@ -254,9 +254,9 @@ typedef struct sphc_config {
   double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
   double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
 
-  /* Bias of the depth sensor, which the localizer learns from frame to frame: true z = z + offset + slope (z - mid).
-   * 1 sigma of what is unknown of it before the first frame; offset sigma 0: no bias, and nothing is learnt.  A
-   * common scale of depths cannot be observed, so the offset's sigma at mid range should be small. */
+  /* Bias of the depth sensor, which the localizer learns from frame to frame: true z = z + offset + slope (z -
+   * mid). 1 sigma of what is unknown of it before the first frame; offset sigma 0: no bias, and nothing is learnt.
+   * A common scale of depths cannot be observed, so the offset's sigma at mid range should be small. */
   double depth_mid_m; /* 0: the geometric mean of depth_min_m and depth_max_m */
   double depth_offset_sigma_m, depth_slope_sigma;
 
@@ -283,8 +283,8 @@ enum {
   SPHC_OUTCOME_DEADLINE = 6       /* no pose before config.deadline_us */
 };
 
-/* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise is
- * noise_scale times the one in the config. */
+/* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
+ * is noise_scale times the one in the config. */
 typedef struct sphc_depth_bias {
   double mid_m, offset_m, slope;
   double offset_sigma_m, slope_sigma; /* 1 sigma */
@@ -306,10 +306,10 @@ typedef struct sphc_result {
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
-  double confidence;        /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED */
-  uint32_t cut_short;       /* 1: the deadline ended the search; more time might have found better */
+  double confidence;  /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED */
+  uint32_t cut_short; /* 1: the deadline ended the search; more time might have found better */
   uint32_t reserved;
-  sphc_depth_bias depth;    /* what the frame was looked at with */
+  sphc_depth_bias depth; /* what the frame was looked at with */
 } sphc_result;
 
 /* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero and must
