@@ -41,7 +41,8 @@ sphc_config sceneConfig() {
   config.max_keypoints = 400;
   config.max_iterations = 5000;
   config.depth_sigma_m = 0.002;
-  config.depth_offset_sigma_m = config.depth_slope_sigma = 0;  // the scene's sensor is known: frames have no history
+  config.depth_offset_sigma_m = config.depth_slope_sigma =
+      0;  // the scene's sensor is known: frames have no history
   return config;
 }
 
