@@ -14,19 +14,25 @@
  *     sphc_localizer_process ...                  a frame in, a pose out; never allocates
  *     sphc_localizer_fini, sphc_map_fini
  *
- * Conventions.
- *   Frames     `target_from_source` everywhere: x_target = R(q) x_source + t.  Camera axes are OpenCV's: x right,
- *              y down, z forward.  The map frame has its origin at the sphere centre.
- *   Units      metres, nanoseconds, radians and pixels; the name says which (`_m`, `_ns`, `_rad`, `_px`).
- *   Pixels     the centre of the top-left pixel is (0.5, 0.5), as in COLMAP.  OpenCV calls the same point (0, 0):
- * add 0.5 to an OpenCV principal point. Memory     "borrows": reads only until the call returns unless a longer
- * time is stated.  "caller memory": the library never resizes, frees or copies it away.  No function of this header
- * allocates. Failure    status < 0: outputs are untouched, except a message that explains. Structs    those that
- * begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do). Atoms (sphc_rigid,
- * sphc_camera, sphc_image) never change. Threads    the class stands in brackets behind every function: [pure]
- * touches no instance but those being made; any thread, any time [shared]    may run at the same time on one
- * instance [exclusive] one call at a time per instance The library starts no thread, takes no lock, and has no
- * mutable global of its own.
+ * Frames.  `target_from_source` everywhere: x_target = R(q) x_source + t.  Camera axes are OpenCV's: x right, y
+ * down, z forward.  The map frame has its origin at the sphere centre.
+ *
+ * Units.  Metres, nanoseconds, radians and pixels; the name says which (`_m`, `_ns`, `_rad`, `_px`).
+ *
+ * Pixels.  The centre of the top-left pixel is (0.5, 0.5), as in COLMAP.  OpenCV calls the same point (0, 0): add
+ * 0.5 to an OpenCV principal point.
+ *
+ * Memory.  "Borrows": reads only until the call returns unless a longer time is stated.  "Caller memory": the
+ * library never resizes, frees or copies it away.  No function of this header allocates.
+ *
+ * Failure.  status < 0: outputs are untouched, except a message that explains.
+ *
+ * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do).
+ * Atoms (sphc_rigid, sphc_camera, sphc_image) never change.
+ *
+ * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
+ * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
+ * instance. The library starts no thread, takes no lock, and has no mutable global of its own.
  */
 #ifndef SPHERECLOUD_SPHERECLOUD_H
 #define SPHERECLOUD_SPHERECLOUD_H
@@ -173,8 +179,8 @@ typedef struct sphc_prior {
   uint32_t flags; /* which of the parts below count */
   /* POSE: from odometry.  It is verified first; if it does not hold, poses near it are tried, then all. */
   sphc_rigid camera_from_map;
-  double rotation_sigma_rad;  /* 1 sigma an axis; above 0 to 3.2 */
-  double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; above 0 to 1000 */
+  double rotation_sigma_rad;  /* 1 sigma an axis; 1e-6 to 3.2 */
+  double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; 1e-6 to 1000 */
   /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
   double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
   double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
@@ -233,7 +239,8 @@ typedef int64_t (*sphc_clock_fn)(void *user);
 typedef int32_t sphc_cost;
 enum {
   SPHC_COST_WHITENED = 0, /* distance of each lifted keypoint from its map ray, over its standard deviation */
-  SPHC_COST_PAPER = 1     /* epipolar error and relative depth error, lambda 1e-4; to compare with, and slow */
+  SPHC_COST_PAPER = 1 /* epipolar error and relative depth error, lambda 1e-4; to compare with: slow, and without
+                         prior, deadline or learning */
 };
 
 typedef struct sphc_config {

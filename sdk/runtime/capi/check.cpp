@@ -38,9 +38,11 @@ bool checkTogether(const sphc_config &c, sphc_message *message) {
                            << " but config.clock is null; give a clock or no deadline";
     return false;
   }
-  if ((c.depth_offset_sigma_m > 0) != (c.depth_slope_sigma > 0)) {
+  constexpr double kLeast = 1e-6;  // smaller ones would square to nothing
+  const bool known = c.depth_offset_sigma_m == 0 && c.depth_slope_sigma == 0;
+  if (!known && (c.depth_offset_sigma_m < kLeast || c.depth_slope_sigma < kLeast)) {
     MessageWriter(message)
-        << "config.depth_offset_sigma_m and config.depth_slope_sigma must both be above 0, or both "
+        << "config.depth_offset_sigma_m and config.depth_slope_sigma must both be 1e-6 or more, or both "
            "0 for a sensor without bias";
     return false;
   }
@@ -78,6 +80,8 @@ sphc_status checkPrior(const sphc_prior &prior, sphc_message *message) {
              "and all numbers must be finite";
       return SPHC_E_ARGUMENT;
     }
+    for (double t : prior.camera_from_map.t_m)
+      if (!priorInRange("camera_from_map.t_m", t, -1e4, 1e4, message)) return SPHC_E_ARGUMENT;
     if (!priorInRange("rotation_sigma_rad", prior.rotation_sigma_rad, 1e-6, 3.2, message) ||
         !priorInRange("translation_sigma_m", prior.translation_sigma_m, 1e-6, 1000, message))
       return SPHC_E_ARGUMENT;

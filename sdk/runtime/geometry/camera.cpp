@@ -5,6 +5,8 @@
 namespace sphc {
 namespace {
 
+constexpr double kMostParameter = 1e6;  // pixels and coefficients of real cameras are far below
+
 constexpr double kWidestRay2 = 57.0 * 57.0;  // tan(89 deg)^2
 constexpr int kDomainSteps = 512;
 
@@ -66,8 +68,8 @@ bool checkCamera(const sphc_camera &camera, sphc_message *message) {
     return false;
   }
   for (uint32_t i = 0; i < 12; ++i) {
-    if (isFinite(camera.params[i])) continue;
-    MessageWriter(message) << "camera parameter " << i << " is not finite; check the calibration";
+    if (absOf(camera.params[i]) <= kMostParameter) continue;
+    MessageWriter(message) << "camera parameter " << i << " is not finite, or beyond 1e6; check the calibration";
     return false;
   }
   if (!(camera.params[0] > 0) || !(camera.params[1] > 0)) {
@@ -177,6 +179,13 @@ bool Camera::unproject(const Vector2 &pixel_px, Vector2 *ray) const {
   if (!(distorted.squaredNorm() <= kWidestRay2)) return false;
   *ray = distorted;
   return true;
+}
+
+bool Camera::operator==(const Camera &other) const {
+  const sphc_camera &a = door_, &b = other.door_;
+  bool same = a.model == b.model && a.width == b.width && a.height == b.height && a.param_count == b.param_count;
+  for (uint32_t i = 0; same && i < a.param_count; ++i) same = a.params[i] == b.params[i];
+  return same;
 }
 
 }  // namespace sphc

@@ -19,6 +19,9 @@ class Camera {
   // Ray (x, y, 1) through a pixel; false where none projects there, or only at 89 degrees and more off the axis.
   bool unproject(const Vector2 &pixel_px, Vector2 *ray) const;
 
+  // The same pixels for the same points.
+  bool operator==(const Camera &other) const;
+
   double fx() const { return door_.params[0]; }
   double fy() const { return door_.params[1]; }
   double focal() const { return 0.5 * (fx() + fy()); }

@@ -18,13 +18,13 @@ double logTail(double successes, double trials, double mean_chance) {
 }
 
 // Share of the solid angle that the inlier region covers, seen from the sphere centre.
-double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double threshold2,
+double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double noise_scale, double threshold2,
                    double solid_angle_sr) {
   const Vector3 offset = c.lifted.point_m - camera_from_map.translation_m;
   const double distance2 = offset.squaredNorm();
   const double along_view = offset.dot(c.lifted.point_m.normalized());
   const double cosine2 = along_view * along_view / distance2;  // between the map ray and the viewing ray
-  const double s = c.lifted.sideways_m, a = c.lifted.along_m;
+  const double s = c.lifted.sideways_m, a = noise_scale * c.lifted.along_m;
   const double area = kPi * threshold2 * s * sqrtOf(s * s * cosine2 + a * a * (1 - cosine2));
   const double share = area / (distance2 * solid_angle_sr);
   return share < 1 ? share : 1;
@@ -33,12 +33,13 @@ double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double
 }  // namespace
 
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
-                            uint32_t inliers, uint32_t free, double inlier_threshold2, double solid_angle_sr) {
+                            uint32_t inliers, uint32_t free, double noise_scale, double inlier_threshold2,
+                            double solid_angle_sr) {
   if (inliers <= free) return 0;
   double sum = 0, count = 0;
   for (const Correspondence &c : correspondences) {
     if (!c.lifted.hasDepth()) continue;
-    sum += inlierShare(c, camera_from_map, inlier_threshold2, solid_angle_sr);
+    sum += inlierShare(c, camera_from_map, noise_scale, inlier_threshold2, solid_angle_sr);
     ++count;
   }
   return logTail(inliers - free, count - free, sum / count);
@@ -48,11 +49,8 @@ sphc_outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint3
   if (evidence.inliers < min_inliers || evidence.log_chance_first + evidence.log_chance_second > kMostLogChance)
     return SPHC_OUTCOME_NO_CONSENSUS;
   const double rotation2 = estimate.covariance.topLeftCorner<3, 3>().trace();
-  // Of the camera's place in the map: rotation and translation errors compensate, so the raw block would mislead.
-  const Matrix3 skew = crossMatrix(estimate.camera_from_map.translation_m);
-  Eigen::Matrix<double, 3, 6> to_centre;
-  to_centre << skew, Matrix3::Identity();
-  const double centre2 = (to_centre * estimate.covariance * to_centre.transpose()).trace();
+  // T = exp(xi) T_estimate moves the camera's place in the map by the translation part of xi alone.
+  const double centre2 = estimate.covariance.bottomRightCorner<3, 3>().trace();
   if (!(rotation2 < kMostRotationSigma * kMostRotationSigma) ||
       !(centre2 < kMostTranslationSigma * kMostTranslationSigma))
     return SPHC_OUTCOME_UNCERTAIN;

@@ -10,10 +10,12 @@ namespace sphc {
 // Bound on the natural logarithm of the probability that as many as `inliers` of these correspondences would agree
 // with the pose by chance, their directions being spread evenly over `solid_angle_sr` (4 pi: the sphere) around the
 // predicted ones.  `free`: of the inliers, how many agree because the pose was made from them.
+// `noise_scale`: of depth, over the stated one.
 // An a-contrario test, as in Moisan and Stival, "A probabilistic criterion to detect rigid point matches" (IJCV
 // 2004).
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
-                            uint32_t inliers, uint32_t free, double inlier_threshold2, double solid_angle_sr);
+                            uint32_t inliers, uint32_t free, double noise_scale, double inlier_threshold2,
+                            double solid_angle_sr);
 
 // What speaks for a pose.
 struct Evidence {

@@ -180,13 +180,15 @@ Span<const Correspondence> Localizer::correspond(uint32_t match_count) {
 
 void Localizer::search(const sphc_prior *given, const Deadline &deadline, sphc_result *result) {
   const int64_t begin = now();
+  const bool paper = config_.cost == SPHC_COST_PAPER;  // it knows neither keypoints without depth nor priors
+  const uint32_t asked = paper ? lifted_count_ : keypoint_count_;
   PoseQuery query;
   query.correspondences =
-      correspond(matcher_.matchAll(map_, descriptors_.first(keypoint_count_), config_.max_ratio, matches_));
+      correspond(matcher_.matchAll(map_, descriptors_.first(asked), config_.max_ratio, matches_));
   const int64_t matched = now();
   result->match_us = static_cast<uint32_t>((matched - begin) / 1000);
   result->matches = match_count_;
-  const PosePrior prior = priorFromDoor(given);
+  const PosePrior prior = priorFromDoor(paper ? nullptr : given);
   query.prior = &prior;
   query.depth = calibrator_.current();
   query.seed = config_.seed;
@@ -204,7 +206,7 @@ void Localizer::search(const sphc_prior *given, const Deadline &deadline, sphc_r
   if (result->outcome == SPHC_OUTCOME_LOCALIZED) {
     fill(estimate, result);
     result->confidence = confidenceOf(confidenceInputs(searched, estimate));
-    calibrator_.learn(estimate);
+    if (!paper) calibrator_.learn(estimate);
   }
   result->pose_us = static_cast<uint32_t>((now() - matched) / 1000);
 }
@@ -258,9 +260,10 @@ uint32_t Localizer::matchAgain(const Rigid &camera_from_map, double cap_rad) {
 void Localizer::improve(const PoseQuery &first, Estimate *estimate, sphc_result *result) {
   Evidence evidence = {};
   const double threshold2 = estimator_.inlierThreshold2();
-  evidence.log_chance_first = logChanceOfAgreement(first.correspondences, estimate->camera_from_map,
-                                                   estimate->inliers, 3, threshold2, 4 * kPi) +
-                              logOf(static_cast<double>(estimate->iterations) + 1);
+  evidence.log_chance_first =
+      logChanceOfAgreement(first.correspondences, estimate->camera_from_map, estimate->inliers, 3,
+                           first.depth.noise_scale, threshold2, 4 * kPi) +
+      logOf(static_cast<double>(estimate->iterations) + 1);
   keepRays();
   PoseQuery query = first;
   for (double cap_degrees : kCapDegrees) {
@@ -278,8 +281,9 @@ void Localizer::improve(const PoseQuery &first, Estimate *estimate, sphc_result 
   evidence.inliers = estimate->inliers;
   double sine, cosine;
   sinCos(kCapDegrees[kCaps - 1] * kPi / 180, &sine, &cosine);
-  evidence.log_chance_second = logChanceOfAgreement(query.correspondences, estimate->camera_from_map,
-                                                    estimate->inliers, 3, threshold2, 2 * kPi * (1 - cosine));
+  evidence.log_chance_second =
+      logChanceOfAgreement(query.correspondences, estimate->camera_from_map, estimate->inliers, 3,
+                           first.depth.noise_scale, threshold2, 2 * kPi * (1 - cosine));
   result->outcome = judgePose(evidence, *estimate, config_.min_inliers);
 }
 

@@ -11,7 +11,8 @@ constexpr double kJump = 0.03;  // relative depth step between neighbours that i
 SparseAligner::SparseAligner(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
                              const DepthSensor &sensor)
     : color_(color), depth_(depth), depth_from_color_(color_from_depth.inverse()), sensor_(sensor) {
-  registered_ = rotationAngle(color_from_depth.rotation) < 1e-9 && color_from_depth.translation_m.norm() < 1e-9;
+  registered_ = color == depth && rotationAngle(color_from_depth.rotation) < 1e-9 &&
+                color_from_depth.translation_m.norm() < 1e-9;
 }
 
 // A colour ray is a curve in the depth image.  Walk along it from near to far, about a pixel a step, until the ray

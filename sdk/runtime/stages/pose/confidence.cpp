@@ -22,16 +22,13 @@ double sigmaOf(double variance) { return variance >= 0 ? sqrtOf(variance) : __bu
 const ConfidenceModel &confidenceModel() { return kModel; }
 
 ConfidenceInputs confidenceInputs(const Estimate &searched, const Estimate &refined) {
-  // Rotation and translation errors compensate; of interest is the camera's place in the map.
-  Eigen::Matrix<double, 3, 6> to_centre;
-  to_centre << crossMatrix(refined.camera_from_map.translation_m), Matrix3::Identity();
   const double noise = refined.noise_ratio > 1 ? refined.noise_ratio : 1;
   ConfidenceInputs inputs;
   inputs.gain_share = searched.lifted > 0 ? searched.gain / searched.lifted : 0;
   inputs.inliers = searched.inliers;
   inputs.gain_per_inlier = searched.inliers > 0 ? searched.gain / searched.inliers : 0;
   inputs.rotation_sigma_rad = noise * sigmaOf(refined.covariance.topLeftCorner<3, 3>().trace());
-  inputs.centre_sigma_m = noise * sigmaOf((to_centre * refined.covariance * to_centre.transpose()).trace());
+  inputs.centre_sigma_m = noise * sigmaOf(refined.covariance.bottomRightCorner<3, 3>().trace());
   return inputs;
 }
 

@@ -11,7 +11,8 @@ struct ConfidenceInputs {
   double inliers = 0;             // correspondences
   double gain_per_inlier = 0;     // 0.83 on average where the noise is as stated, less where agreement is chance
   double rotation_sigma_rad = 0;  // root of the covariance's trace
-  double centre_sigma_m = 0;      // the same of the camera's place in the map
+  double centre_sigma_m =
+      0;  // the same: of the camera's place in the map, which the translation part of xi moves alone
 };
 
 // `searched` gave the pose, and `refined` then made it better: the same when there was no second look.  Agreement

@@ -116,7 +116,8 @@ HWY_INLINE void addLifted(const PoseRows &rows, const PoseV &pose, const NormalT
   addTo(sums->gradient[5] + lane, hn::Neg(pull.z));
   if (!kWithBias) return;
   // The correction as a shift of the foot; taken at the foot, whose error does not go with the residual's.
-  const V3 longer = hn::Div(set(-1.0f), foot.z) * foot;
+  const V foot_z = hn::IfThenElse(hn::Eq(foot.z, zero), set(1.0f), foot.z);  // zero in padding alone
+  const V3 longer = hn::Div(set(-1.0f), foot_z) * foot;
   const V beyond = hn::Sub(foot.z, set(task.correction.mid_m));
   const V3 across = times(n, longer);
   const V self = dot(across, longer), slope_self = hn::Mul(beyond, self), bias_pull = dot(longer, pull);

@@ -181,11 +181,11 @@ bool PoseEstimator::isNear(const PosePrior &prior, const Rigid &pose) {
   return turn < kGateSigmas && shift < kGateSigmas;
 }
 
-// Returns how many of the samples were looked at, before `most` or before there was enough.
+// Returns how many of the samples were looked at, before there were `most` in all or enough in this round.
 uint32_t PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search) {
   const float count = static_cast<float>(lifted_.count);
   for (uint32_t sample = 0; sample < kMinimalBatch; ++sample) {
-    if (search->samples >= most || search->samples >= search->needed) return sample;
+    if (search->samples >= most || search->samples - search->begin >= search->needed) return sample;
     ++search->samples;
     for (uint32_t solution = 0; solution < kMaxSolutions; ++solution) {
       if (poses_->valid[solution][sample] == 0.0f) continue;
@@ -239,8 +239,9 @@ void PoseEstimator::sampleAndScore(const PoseQuery &query, const PosePrior *gate
     uprightFrom(query.prior->up_map, frames.upright_from_map);
     uprightFrom(query.prior->up_camera, frames.upright_from_camera);
   }
-  sampler_.start(lifted_, quality_.first(lifted_.count), sampleSize(query), query.seed);
-  const uint32_t end = search->samples + most;
+  sampler_.start(lifted_, quality_.first(lifted_.count), sampleSize(query), query.seed + (gate ? 1 : 0));
+  search->begin = search->samples;
+  search->needed = config_.max_iterations;
   do {
     if (query.deadline.passed()) {
       estimate->cut_short = true;
@@ -251,7 +252,11 @@ void PoseEstimator::sampleAndScore(const PoseQuery &query, const PosePrior *gate
       kernels_->solve_upright(*batch_, frames, poses_);
     else
       kernels_->solve_p3p(*batch_, poses_);
-  } while (scoreBatch(query, gate, end, search) == kMinimalBatch);
+  } while (scoreBatch(query, gate, most, search) == kMinimalBatch);
+}
+
+bool PoseEstimator::isSupported(float gain) const {
+  return gain > kVerifiedGain && gain > kVerifiedShare * static_cast<float>(lifted_.count);
 }
 
 // Is the pose where it was expected?  Looked at with ever less tolerance.
@@ -263,9 +268,7 @@ bool PoseEstimator::verifyPrior(const PoseQuery &query, Search *search) {
     pose = improvePose(step, pose, kLocalSteps);
   }
   const float gain = gainOf(pose, kMinimalThreshold2);
-  if (!isNear(*query.prior, pose) || gain < kVerifiedGain ||
-      gain < kVerifiedShare * static_cast<float>(lifted_.count))
-    return false;
+  if (!isNear(*query.prior, pose) || !isSupported(gain)) return false;
   search->camera_from_map = pose;
   search->gain = search->minimal_gain = gain;
   return true;
@@ -279,11 +282,10 @@ Estimate PoseEstimator::search(const PoseQuery &query) {
     return estimate;
   }
   Search state;
-  state.needed = config_.max_iterations;
   const PosePrior *prior = query.prior && query.prior->has_pose ? query.prior : nullptr;
   if (!prior || !verifyPrior(query, &state)) {
     if (prior) sampleAndScore(query, prior, config_.max_iterations / kSmallSearch, &state, &estimate);
-    if (!(state.gain > kVerifiedGain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
+    if (!isSupported(state.gain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
   }
   estimate.iterations = state.samples;
   estimate.hypotheses = state.hypotheses;
@@ -371,6 +373,7 @@ bool PoseEstimator::isInlier(const Correspondence &correspondence, const Estimat
   if (!correspondence.lifted.hasDepth()) return false;
   Correspondence corrected = correspondence;
   corrected.lifted.point_m *= lengthening(correspondence.lifted, estimate.depth);
+  corrected.lifted.along_m *= estimate.depth.noise_scale;
   const Residual r = residualOf(corrected, estimate.camera_from_map);
   return r.in_front && r.squared < config_.inlier_threshold2;
 }

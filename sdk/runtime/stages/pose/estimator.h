@@ -45,10 +45,12 @@ class PoseEstimator {
     float gain = 0;          // after local optimisation
     float minimal_gain = 0;  // before it
     float tight_gain = 0;    // after it, at the inlier threshold
-    uint32_t samples = 0, needed = 0, hypotheses = 0;
+    uint32_t samples = 0, hypotheses = 0;
+    uint32_t begin = 0, needed = 0;           // of this round: samples before it, and those that are enough
     double chance_gain = 0, chance_seen = 0;  // of the poses that were given up: what chance alone brings
   };
   void load(const PoseQuery &query);
+  bool isSupported(float gain) const;
   bool verifyPrior(const PoseQuery &query, Search *search);
   void sampleAndScore(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search,
                       Estimate *estimate);

@@ -21,7 +21,9 @@ void prepare(PoseRows *rows, const DepthCorrection &correction) {
     V3 point = load3(*rows, kPointX, at);
     const V sideways = hn::Load(d, rows->field[kWeight] + at),
             along = hn::Mul(noise, hn::Load(d, rows->field[kStretch] + at));
-    const V ratio = hn::Div(sideways, along);  // 0 without depth, and then there is nothing to correct
+    // 0 without depth, and then there is nothing to correct; else not so small that the stretch rounds to -1
+    const V known = hn::Div(sideways, along);
+    const V ratio = hn::IfThenElseZero(hn::Gt(known, hn::Zero(d)), hn::Max(known, hn::Set(d, 1e-3f)));
     const V bias = hn::Add(offset, hn::Mul(slope, hn::Sub(point.z, hn::Set(d, correction.mid_m))));
     const V longer = hn::Add(one, hn::IfThenElseZero(hn::Gt(ratio, hn::Zero(d)), hn::Div(bias, point.z)));
     point = longer * point;

@@ -37,7 +37,7 @@ void Sampler::start(const PoseRows &rows, Span<const float> quality, uint32_t si
     }
     square += mean_square - mean * mean;
   }
-  least_side2_ = kLeastSide * kLeastSide * square;
+  least_side2_ = square > 0 ? kLeastSide * kLeastSide * square : 0.0f;
 }
 
 // Counting sort into classes of quality: the order within a class does not matter.

@@ -88,8 +88,8 @@ HWY_INLINE ResidualV residualOf(const PoseV &pose, const V3 &point, const V3 &vi
   o.offset = e - o.along * o.ray;
   o.view_ray = vn;
   o.view_offset = hn::Sub(ve, hn::Mul(o.along, vn));
-  o.squared =
-      hn::Mul(weight, hn::Add(dot(o.offset, o.offset), hn::Mul(stretch, hn::Mul(o.view_offset, o.view_offset))));
+  const V sum = hn::Add(dot(o.offset, o.offset), hn::Mul(stretch, hn::Mul(o.view_offset, o.view_offset)));
+  o.squared = hn::Mul(weight, hn::Max(hn::Zero(PoseTag()), sum));
   return o;
 }
 HWY_INLINE ResidualV residualAt(const PoseRows &rows, const PoseV &pose, size_t at) {

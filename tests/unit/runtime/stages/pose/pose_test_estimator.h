@@ -33,7 +33,7 @@ class TestEstimator {
   sphc_outcome judge(const PoseWorld &world, const Estimate &estimate) const {
     const double log_chance =
         logChanceOfAgreement({world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map,
-                             estimate.inliers, 3, estimator_.inlierThreshold2(), 4 * kPi) +
+                             estimate.inliers, 3, 1, estimator_.inlierThreshold2(), 4 * kPi) +
         logOf(static_cast<double>(estimate.iterations));
     return judgePose({estimate.inliers, log_chance, 0}, estimate, 10);
   }
