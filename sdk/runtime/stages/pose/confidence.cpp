@@ -9,7 +9,7 @@ constexpr double kTolerableM = 0.05, kTolerableRad = 5 * kPi / 180;
 constexpr double kPinnedDown = 3;  // so many inliers agree with any pose that was made from them
 
 // As `spherecloud bench confidence --fit` prints it for the files that docs/confidence.md names.
-constexpr ConfidenceModel kModel = {-4.4672, {1.5044, 2.4651, 4.1493, 1.9265}};
+constexpr ConfidenceModel kModel = {-5.8707, {1.5177, 2.7420, 4.5797, 1.9555}};
 
 double clamped(double value, double low, double high) { return value < low ? low : value > high ? high : value; }
 double logWithin(double value, double low, double high) { return logOf(clamped(value, low, high)); }
