@@ -8,6 +8,7 @@ exec </dev/null
 jobs=$(nproc)
 passed=0 failed=0 begin=$SECONDS
 mkdir -p build
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 # a compiler cache serves every checkout
 
 # check NAME COMMAND...: one step; its output is shown when it fails
 check() {
