@@ -39,7 +39,7 @@ TEST(SummaryJson, SaysNullForWhatIsNotKnown) {
   EXPECT_TRUE(json["within_5cm_5deg_percent"].is_null());
   EXPECT_TRUE(json["translation_error_m"]["median"].is_null());
   EXPECT_EQ(json["outcomes"]["no consensus"], 1);
-  EXPECT_NO_THROW(nlohmann::json::parse(json.dump()));
+  EXPECT_TRUE(nlohmann::json::accept(json.dump()));
 }
 
 }  // namespace
