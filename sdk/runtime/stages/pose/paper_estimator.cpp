@@ -127,15 +127,14 @@ FixedVector<Rigid, 4> solveSample(Span<const Correspondence> correspondences, co
 }
 
 uint32_t iterationsFor(const PaperCostConfig &config, uint32_t inliers, uint32_t count) {
+  const uint32_t most = config.max_iterations;
+  const uint32_t least = config.min_iterations < most ? config.min_iterations : most;
   const double share = static_cast<double>(inliers) / count, good = share * share * share;
-  if (good > 0.9999)
-    return config.min_iterations < config.max_iterations ? config.min_iterations : config.max_iterations;
-  if (good < 1e-9) return config.max_iterations;
+  if (good > 0.9999) return least;
+  if (good < 1e-9) return most;
   const double needed = config.trial_multiplier * logOf(1 - config.success_probability) / logOf(1 - good);
-  if (!(needed < config.max_iterations)) return config.max_iterations;
+  if (!(needed < most)) return most;
   const uint32_t whole = static_cast<uint32_t>(needed) + 1;
-  const uint32_t least =
-      config.min_iterations < config.max_iterations ? config.min_iterations : config.max_iterations;
   return whole > least ? whole : least;
 }
 
