@@ -22,12 +22,16 @@ Vector3 pointInView(Random *random) {
   return {x * z, y * z, z};
 }
 
+ViewedPoints pointsInView(size_t count, Random *random) {
+  ViewedPoints viewed;
+  for (size_t i = 0; i < count; ++i) viewed.points_m.push_back(pointInView(random));
+  for (const Vector3 &point : viewed.points_m) viewed.centroid_m += point / static_cast<double>(count);
+  return viewed;
+}
+
 PoseWorld makePoseWorld(const PoseWorldOptions &options) {
   Random random(options.seed);
-  std::vector<Vector3> points;
-  Vector3 centroid = Vector3::Zero();
-  for (size_t i = 0; i < options.count; ++i) points.push_back(pointInView(&random));
-  for (const Vector3 &point : points) centroid += point / static_cast<double>(points.size());
+  const auto [points, centroid] = pointsInView(options.count, &random);
 
   PoseWorld world;
   world.camera_from_map.rotation = randomRotation(&random);

@@ -27,6 +27,11 @@ struct PoseWorld {
 PoseWorld makePoseWorld(const PoseWorldOptions &options);
 // Some point that the camera sees, camera frame.
 Vector3 pointInView(Random *random);
+struct ViewedPoints {
+  std::vector<Vector3> points_m;  // camera frame
+  Vector3 centroid_m = Vector3::Zero();
+};
+ViewedPoints pointsInView(size_t count, Random *random);
 
 // Rotation angle, and distance of the camera centres.
 double rotationErrorRad(const Rigid &estimate, const Rigid &truth);

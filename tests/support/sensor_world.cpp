@@ -43,10 +43,7 @@ LiftedPoint lifted(const SensorWorldOptions &options, const Vector3 &point, bool
 
 PoseWorld makeSensorWorld(const SensorWorldOptions &options) {
   Random random(options.seed);
-  std::vector<Vector3> points;
-  Vector3 centroid = Vector3::Zero();
-  for (size_t i = 0; i < options.count; ++i) points.push_back(pointInView(&random));
-  for (const Vector3 &point : points) centroid += point / static_cast<double>(points.size());
+  const auto [points, centroid] = pointsInView(options.count, &random);
 
   PoseWorld world;
   world.camera_from_map = {randomRotation(&random), centroid};

@@ -30,15 +30,6 @@ constexpr float kAgreeingPlane2 = 4;
 constexpr double kMostlyDepth = 4, kMedianOfSquare = 0.4549;
 constexpr uint32_t kFewestForNoise = 16;
 
-Rigid rigidFrom(const PoseF &pose) {
-  Rigid out;
-  for (int i = 0; i < 3; ++i) {
-    out.translation_m[i] = static_cast<double>(pose.t[i]);
-    for (int j = 0; j < 3; ++j) out.rotation(i, j) = static_cast<double>(pose.r[3 * i + j]);
-  }
-  return out;
-}
-
 // A rotation again, after many small turns in finite precision.
 Rigid cleaned(const Rigid &pose) {
   double q[4];

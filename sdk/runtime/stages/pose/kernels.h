@@ -13,6 +13,7 @@ struct PoseF {
   float t[3];  // m
 };
 PoseF poseF(const Rigid &camera_from_map);
+Rigid rigidFrom(const PoseF &camera_from_map);
 
 // When a pose under scoring may be given up.
 struct Score {
