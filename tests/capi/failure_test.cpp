@@ -65,6 +65,7 @@ class DoorFailure : public testing::Test {
   sphc_config config_ = sphc::test::sceneConfig();
   Session session_{config_};
   std::unique_ptr<sphc::test::SceneFrame> frame_;
+  const sphc_map *map_ = session_.map();
   sphc_memory need_ = {};
   GuardedMemory state_, scratch_;
 };
