@@ -18,6 +18,7 @@ constexpr double kCapDegrees[kCaps] = {4, 2.5};
 constexpr double kRayM = 1;  // where a keypoint without depth is taken to lie, as far as the map's error goes
 constexpr double kUselessSigma = 1e3;  // of a keypoint where the camera model has no bearing
 constexpr int kPaperIterations = 25;
+constexpr uint32_t kProbes = 16;  // cells of the map's index; docs/matching.md
 
 FeatureConfig featureConfig(const sphc_config &config) {
   FeatureConfig features;
@@ -184,7 +185,7 @@ void Localizer::search(const sphc_prior *given, const Deadline &deadline, sphc_r
   const uint32_t asked = paper ? lifted_count_ : keypoint_count_;
   PoseQuery query;
   query.correspondences =
-      correspond(matcher_.matchAll(map_, descriptors_.first(asked), config_.max_ratio, matches_));
+      correspond(matcher_.matchAll(map_, descriptors_.first(asked), config_.max_ratio, kProbes, matches_));
   const int64_t matched = now();
   result->match_us = static_cast<uint32_t>((matched - begin) / 1000);
   result->matches = match_count_;
