@@ -296,8 +296,8 @@ typedef struct sphc_config {
   uint32_t deadline_us; /* search ends this long after the call began, with the best pose so far; 0: no deadline.
                            Needs `clock` */
   sphc_mode mode;
-  uint32_t probes; /* cells of the map's index searched for each keypoint, 1 to 65536: more cost time and find
-                      more; the number of cells or more: exact search */
+  uint32_t probes; /* cells of the map's index searched for each keypoint, 1 to 32: more cost time and find more;
+                      0: all of the map */
   uint32_t reserved;
 
   sphc_log_fn log; /* may be null */

@@ -3,6 +3,7 @@
 #include "runtime/base/message.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
+#include "runtime/localizer/localizer.h"
 
 namespace sphc {
 namespace {
@@ -31,7 +32,7 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
          inRange("min_inliers", c.min_inliers, 4, 4096, message) &&
          inRange("cost", c.cost, SPHC_COST_WHITENED, SPHC_COST_PAPER, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
-         inRange("probes", c.probes, 1, 65536, message);
+         inRange("probes", c.probes, 0, Localizer::kMostProbes, message);
 }
 
 bool checkTogether(const sphc_config &c, sphc_message *message) {

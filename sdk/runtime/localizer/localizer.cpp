@@ -291,9 +291,9 @@ Estimate Localizer::refined(const PoseQuery &query, const Rigid &camera_from_map
 
 uint32_t Localizer::matchEverywhere(uint32_t map, uint32_t queries, uint32_t probes) {
   const int64_t begin = now();
-  (void)probes;
-  const uint32_t count = matcher_.matchAll(maps_[map], front_.descriptors().first(queries), config_.max_ratio,
-                                           matches_);
+  const Span<const Descriptor> asked = front_.descriptors().first(queries);
+  const uint32_t count = probes ? matcher_.matchAll(maps_[map], asked, config_.max_ratio, probes, matches_)
+                                : matcher_.matchExact(maps_[map], asked, config_.max_ratio, matches_);
   match_ns_ += now() - begin;
   return count;
 }

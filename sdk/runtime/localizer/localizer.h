@@ -16,6 +16,8 @@ namespace sphc {
 
 class Localizer {
  public:
+  static constexpr uint32_t kMostProbes = Matcher::kMaxProbes;
+
   // One walk for both memories; `localizer` is null while measuring.
   static void layout(const sphc_config &config, Arena &state, Arena &scratch, Localizer *localizer);
 
