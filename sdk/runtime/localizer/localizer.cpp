@@ -76,6 +76,9 @@ void Localizer::layout(const sphc_config &config, Arena &state, Arena &scratch, 
   l.matches_ = scratch.take<Match>("localizer.matches", n);
   l.ray_matches_ = scratch.take<Match>("localizer.matches", n);
   l.correspondences_ = scratch.take<Correspondence>("localizer.correspondences", n);
+  SparseAligner::layout(static_cast<int32_t>(config.depth_camera.width),
+                        static_cast<int32_t>(config.depth_camera.height), scratch,
+                        localizer ? &l.aligner_ : nullptr);
   FeatureExtractor::layout(featureConfig(config), state, scratch, localizer ? &l.extractor_ : nullptr);
   Matcher::layout(n, scratch, localizer ? &l.matcher_ : nullptr);
   PoseEstimator::layout(estimator, scratch, localizer ? &l.estimator_ : nullptr);
@@ -86,8 +89,8 @@ void Localizer::init(const sphc_config &config, const MapView &map) {
   map_ = map;
   const DepthSensor sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                               config.depth_sigma_per_m2};
-  aligner_ = SparseAligner(Camera(config.color_camera), Camera(config.depth_camera),
-                           rigidFromDoor(config.color_from_depth), sensor);
+  aligner_.init(Camera(config.color_camera), Camera(config.depth_camera), rigidFromDoor(config.color_from_depth),
+                sensor);
   extractor_.init();
   DepthCalibration prior;
   prior.mid_m = config.depth_mid_m > 0 ? config.depth_mid_m : sqrtOf(config.depth_min_m * config.depth_max_m);
@@ -134,6 +137,7 @@ void Localizer::lift(const sphc_image &depth) {
                                     static_cast<int32_t>(depth.height),
                                     static_cast<int32_t>(depth.stride_bytes / 2)};
   const double focal = 0.5 * (config_.color_camera.params[0] + config_.color_camera.params[1]);
+  aligner_.prepare(view);
   lifted_count_ = 0;
   observation_count_ = keypoint_count_;
   for (uint32_t k = 0; k < keypoint_count_; ++k) {

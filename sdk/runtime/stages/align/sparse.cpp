@@ -5,18 +5,73 @@ namespace {
 
 constexpr int kMostSteps = 128;
 constexpr double kJump = 0.03;  // relative depth step between neighbours that is an edge, not a slope
+constexpr double kStridePx = DepthBlocks::kReachPx - 4;  // a margin, as steps are not quite even
+
+struct Cell {
+  int u, v;
+};
+Cell cellOf(const Vector2 &px) {
+  return {floorToInt(static_cast<float>(px.x())), floorToInt(static_cast<float>(px.y()))};
+}
 
 }  // namespace
 
-SparseAligner::SparseAligner(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
-                             const DepthSensor &sensor)
-    : color_(color), depth_(depth), depth_from_color_(color_from_depth.inverse()), sensor_(sensor) {
+// A colour ray as a curve in the depth image, in `steps` steps from near to far of about a pixel each: even ones in
+// inverse depth are nearly even in pixels.
+struct SparseAligner::Walk {
+  enum Place { kNowhere, kOutside, kHole, kAbove, kUnder };
+
+  const SparseAligner &aligner;
+  ImageView<uint16_t> depth;
+  Vector3 direction;
+  const Vector3 &origin;
+  double near_inverse, slope;  // inverse z along `direction` at step 0; its change a step
+  double px_per_step;
+  int steps;
+
+  // Where a step lies, against the surface measured there.  `gap`: how far below it.
+  Place look(int step, Vector2 *px, double *measured, double *gap) const {
+    const Vector3 point = origin + direction / (near_inverse + slope * step);
+    if (!aligner.depth_.project(point, px)) return kNowhere;
+    const Cell cell = cellOf(*px);
+    if (cell.u < 0 || cell.v < 0 || cell.u >= depth.width || cell.v >= depth.height) return kOutside;
+    *measured = depth.row(cell.v)[cell.u] * aligner.sensor_.unit_m;
+    if (!(*measured >= aligner.sensor_.min_m && *measured <= aligner.sensor_.max_m)) return kHole;
+    *gap = point.z() - *measured;
+    return *gap >= 0 ? kUnder : kAbove;
+  }
+};
+
+void SparseAligner::init(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
+                         const DepthSensor &sensor) {
+  color_ = color;
+  depth_ = depth;
+  depth_from_color_ = color_from_depth.inverse();
+  sensor_ = sensor;
   registered_ = color == depth && rotationAngle(color_from_depth.rotation) < 1e-9 &&
                 color_from_depth.translation_m.norm() < 1e-9;
 }
 
-// A colour ray is a curve in the depth image.  Walk along it from near to far, about a pixel a step, until the ray
-// goes under the measured surface.
+void SparseAligner::prepare(ImageView<uint16_t> depth) {
+  if (blocks_.hasMemory() && !registered_) blocks_.build(depth, sensor_);
+}
+
+// How many steps on from `step`, which lies in the image, the ray may yet go under a surface.
+int SparseAligner::stride(const Walk &walk, int step, const Vector2 &px) const {
+  if (!blocks_.hasMemory()) return 1;
+  const Cell cell = cellOf(px);
+  double most = kStridePx / walk.px_per_step;
+  const uint16_t nearest = blocks_.nearest(cell.u, cell.v);
+  if (nearest != DepthBlocks::kNone) {
+    const double below_m = nearest * sensor_.unit_m - walk.origin.z();
+    if (!(below_m > 0)) return 1;
+    const double until = (walk.direction.z() / below_m - walk.near_inverse) / walk.slope - step;
+    if (until < most) most = until;
+  }
+  return most > 1 ? static_cast<int>(most) : 1;
+}
+
+// Walks along the ray until it goes under the measured surface.
 bool SparseAligner::findSurface(ImageView<uint16_t> depth, const Vector2 &ray, Vector2 *depth_pixel_px) const {
   const Vector3 direction = depth_from_color_.rotation * Vector3(ray.x(), ray.y(), 1);
   const Vector3 &origin = depth_from_color_.translation_m;
@@ -26,31 +81,34 @@ bool SparseAligner::findSurface(ImageView<uint16_t> depth, const Vector2 &ray, V
     return false;
   const double length = (far_px - near_px).norm();
   const int steps = length < kMostSteps - 1 ? static_cast<int>(length) + 1 : kMostSteps;
-  double last_gap = 0, last_measured = 0;
-  Vector2 last_px = near_px;
-  bool has_last = false;
-  for (int i = 0; i <= steps; ++i) {
-    // even steps in inverse depth are nearly even in pixels
-    const double inverse = (1 / sensor_.min_m) + (1 / sensor_.max_m - 1 / sensor_.min_m) * i / steps;
-    const Vector3 point = origin + direction / inverse;
-    Vector2 px;
-    if (!depth_.project(point, &px)) return false;
-    const int u = floorToInt(static_cast<float>(px.x())), v = floorToInt(static_cast<float>(px.y()));
-    if (u < 0 || v < 0 || u >= depth.width || v >= depth.height) {
-      has_last = false;
+  const double near_inverse = 1 / sensor_.min_m;
+  const Walk walk = {*this,
+                     depth,
+                     direction,
+                     origin,
+                     near_inverse,
+                     (1 / sensor_.max_m - near_inverse) / steps,
+                     length / steps + 1e-3,
+                     steps};
+
+  Vector2 px = near_px, last_px;
+  double measured = 0, gap = 0, last_measured = 0, last_gap = 0;
+  for (int step = 0; step <= steps;) {
+    Walk::Place place = walk.look(step, &px, &measured, &gap);
+    if (place == Walk::kNowhere) return false;
+    if (place != Walk::kUnder) {
+      step += place == Walk::kOutside ? 1 : stride(walk, step, px);
       continue;
     }
-    const double measured = depth.row(v)[u] * sensor_.unit_m;
-    if (!(measured >= sensor_.min_m && measured <= sensor_.max_m)) continue;
-    const double gap = point.z() - measured;  // > 0: under the surface
-    if (gap >= 0) {
-      if (!has_last) return *depth_pixel_px = px, steps <= 2;
-      if (absOf(measured - last_measured) > kJump * measured) return false;  // slipped behind an edge
-      const double share = last_gap / (last_gap - gap);
-      *depth_pixel_px = last_px + share * (px - last_px);
-      return true;
-    }
-    last_gap = gap, last_measured = measured, last_px = px, has_last = true;
+    // The last measurement that it was above; a step outside the image forgets those before.
+    place = Walk::kHole;
+    for (int back = step; back > 0 && place == Walk::kHole;)
+      place = walk.look(--back, &last_px, &last_measured, &last_gap);
+    if (place != Walk::kAbove) return *depth_pixel_px = px, steps <= 2;
+    if (absOf(measured - last_measured) > kJump * measured) return false;  // slipped behind an edge
+    const double share = last_gap / (last_gap - gap);
+    *depth_pixel_px = last_px + share * (px - last_px);
+    return true;
   }
   return false;
 }
