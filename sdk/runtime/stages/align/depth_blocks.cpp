@@ -1,5 +1,7 @@
 #include "runtime/stages/align/depth_blocks.h"
 
+#include "runtime/stages/align/kernels.h"
+
 namespace sphc {
 namespace {
 
@@ -37,26 +39,26 @@ void DepthBlocks::layout(int32_t width, int32_t height, Arena &scratch, DepthBlo
 
 void DepthBlocks::build(ImageView<uint16_t> depth, const DepthSensor &sensor) {
   const RawRange range = rangeOf(sensor);
-  uint16_t *line = line_.data();
+  const AlignKernels &kernels = simdAlignKernels();
   for (int32_t row = 0; row < rows_; ++row) {
     for (uint16_t &nearest : line_) nearest = kNone;
     const int32_t end = (row + 1) * kReachPx < depth.height ? (row + 1) * kReachPx : depth.height;
-    for (int32_t v = row * kReachPx; v < end; ++v) {
-      const uint16_t *raw = depth.row(v);
-      // From the first in range on; what is out of range, 0 too, wraps around to beyond the last.
-      for (int32_t u = 0; u < depth.width; ++u)
-        line[u] = smaller(line[u], static_cast<uint16_t>(raw[u] - range.first));
-    }
+    // From the first in range on; what is out of range, 0 too, wraps around to beyond the last.
+    for (int32_t v = row * kReachPx; v < end; ++v)
+      kernels.nearest_row(depth.row(v), range.first, depth.width, line_.data());
     for (int32_t column = 0; column < columns_; ++column) {
       uint16_t nearest = kNone;
-      for (int32_t k = 0; k < kReachPx; ++k) nearest = smaller(nearest, line[column * kReachPx + k]);
+      for (int32_t k = 0; k < kReachPx; ++k)
+        nearest = smaller(nearest, line_[static_cast<size_t>(column * kReachPx + k)]);
       const bool any = nearest <= range.last - range.first;
       block_[static_cast<size_t>(row * columns_ + column)] =
           any ? static_cast<uint16_t>(nearest + range.first) : kNone;
     }
   }
+  nearest_of_all_ = kNone;
   for (int32_t row = 0; row < rows_; ++row) {
     for (int32_t column = 0; column < columns_; ++column) {
+      nearest_of_all_ = smaller(nearest_of_all_, block_[static_cast<size_t>(row * columns_ + column)]);
       uint16_t nearest = kNone;
       for (int32_t v = row > 0 ? row - 1 : 0; v <= row + 1 && v < rows_; ++v)
         for (int32_t u = column > 0 ? column - 1 : 0; u <= column + 1 && u < columns_; ++u)

@@ -22,9 +22,12 @@ class DepthBlocks {
   uint16_t nearest(int32_t u, int32_t v) const {
     return nearest_[static_cast<size_t>((v / kReachPx) * columns_ + u / kReachPx)];
   }
+  // In the whole image.
+  uint16_t nearest() const { return nearest_of_all_; }
 
  private:
   int32_t columns_ = 0, rows_ = 0;
+  uint16_t nearest_of_all_ = kNone;
   Span<uint16_t> line_;     // smallest of each image column within a row of blocks
   Span<uint16_t> block_;    // of each block alone
   Span<uint16_t> nearest_;  // of each block and the eight around it

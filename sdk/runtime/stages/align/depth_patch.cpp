@@ -1,94 +1,51 @@
 #include "runtime/stages/align/depth_patch.h"
 
-#include <cstring>
-
 #include "runtime/base/elementary.h"
+#include "runtime/stages/align/kernels.h"
 
 namespace sphc {
 namespace {
 
-constexpr int kRadius = 2, kSide = 2 * kRadius + 1;
-constexpr int kLanes = 8;               // a row of the patch, padded; sums run down the lanes, then across
-constexpr float kSameSurface = 0.025f;  // relative depth difference a pixel away that still is one surface
 constexpr float kFewest = 5;
 constexpr float kFarthestAnchor2 = 2.3f;  // squared pixels
+constexpr float kFarthestFit = 0.05f;     // of the plane from the anchor, relative
 // A little pull towards a frontal plane keeps thin sets of samples from tilting wildly.
 constexpr float kPull = 2;
 
-// Measurements in sensor units; 0: none.
-struct Patch {
-  alignas(32) float raw[kSide][kLanes];
-};
+using PatchCopy = uint16_t[kPatchSide][kPatchLanes];
 
-// Lanes beyond the patch only fill the vector.
-bool isInside(int lane) { return lane < kSide; }
-
-Patch loadPatch(ImageView<uint16_t> depth, const DepthSensor &sensor, int left, int top) {
-  const float low = static_cast<float>(sensor.min_m / sensor.unit_m);
-  const float high = static_cast<float>(sensor.max_m / sensor.unit_m);
-  Patch patch;
-  for (int r = 0; r < kSide; ++r) {
-    uint16_t row[kLanes] = {};
-    const int v = top + r;
-    if (v >= 0 && v < depth.height) {
-      if (left >= 0 && left + kLanes <= depth.width) {
-        std::memcpy(row, depth.row(v) + left, sizeof row);
-      } else {
-        for (int l = 0; l < kSide; ++l)
-          if (left + l >= 0 && left + l < depth.width) row[l] = depth.row(v)[left + l];
-      }
-    }
-    for (int l = 0; l < kLanes; ++l) {
-      const float raw = static_cast<float>(row[l]);
-      patch.raw[r][l] = (raw >= low) & (raw <= high) & isInside(l) ? raw : 0.0f;
+// Points `patch` at the measurements around pixel (cx, cy): in the image, or at a copy where some lie outside.
+void aim(ImageView<uint16_t> depth, int cx, int cy, PatchView *patch, PatchCopy copy) {
+  const int left = cx - kPatchRadius, top = cy - kPatchRadius;
+  if (left >= 0 && top >= 0 && left + kPatchLanes <= depth.width && top + kPatchSide <= depth.height) {
+    for (int r = 0; r < kPatchSide; ++r) patch->rows[r] = depth.row(top + r) + left;
+    return;
+  }
+  for (int r = 0; r < kPatchSide; ++r) {
+    patch->rows[r] = copy[r];
+    for (int l = 0; l < kPatchLanes; ++l) {
+      const int u = left + l, v = top + r;
+      const bool inside = u >= 0 && v >= 0 && u < depth.width && v < depth.height;
+      copy[r][l] = inside ? depth.row(v)[u] : uint16_t{0};
     }
   }
-  return patch;
 }
 
-// The valid measurement nearest to (dx, dy), given from the middle of the patch; 0: none near enough.
-float findAnchor(const Patch &patch, float dx, float dy) {
-  if (patch.raw[kRadius][kRadius] > 0) return patch.raw[kRadius][kRadius];
+// The valid measurement nearest to the point asked for; 0: none near enough.
+float findAnchor(const PatchView &patch) {
+  const auto valid = [&patch](float raw) { return raw >= patch.low && raw <= patch.high; };
+  const float middle = static_cast<float>(patch.rows[kPatchRadius][kPatchRadius]);
+  if (valid(middle)) return middle;
   float nearest2 = kFarthestAnchor2, anchor = 0;
-  for (int r = 0; r < kSide; ++r) {
-    for (int l = 0; l < kSide; ++l) {
-      const float x = static_cast<float>(l - kRadius) - dx, y = static_cast<float>(r - kRadius) - dy;
-      const float distance2 = x * x + y * y;
-      if (patch.raw[r][l] > 0 && distance2 < nearest2) nearest2 = distance2, anchor = patch.raw[r][l];
+  for (int r = 0; r < kPatchSide; ++r) {
+    for (int l = 0; l < kPatchSide; ++l) {
+      const float x = static_cast<float>(l - kPatchRadius) - patch.dx;
+      const float y = static_cast<float>(r - kPatchRadius) - patch.dy;
+      const float distance2 = x * x + y * y, raw = static_cast<float>(patch.rows[r][l]);
+      if (valid(raw) && distance2 < nearest2) nearest2 = distance2, anchor = raw;
     }
   }
   return anchor;
-}
-
-// Sums over the samples of the anchor's surface; q: inverse depth relative to the anchor's, less 1.
-struct Sums {
-  float n, u, v, uu, uv, vv, q, qu, qv, qq;
-};
-
-Sums addUp(const Patch &patch, float anchor, float dx, float dy) {
-  alignas(32) float n[kLanes] = {}, v1[kLanes] = {}, v2[kLanes] = {};
-  alignas(32) float q1[kLanes] = {}, qv[kLanes] = {}, q2[kLanes] = {};
-  for (int r = 0; r < kSide; ++r) {
-    const float v = static_cast<float>(r - kRadius), away_v = absOf(v - dy);
-    for (int l = 0; l < kLanes; ++l) {
-      const float away_u = absOf(static_cast<float>(l - kRadius) - dx);
-      const float limit = kSameSurface * (1 + (away_u > away_v ? away_u : away_v));
-      const float raw = patch.raw[r][l];
-      const float q = anchor / (raw > 0 ? raw : 1.0f) - 1;
-      const float weight = (raw > 0) & (absOf(q) <= limit) ? 1.0f : 0.0f;
-      const float weighted = weight * q;
-      n[l] += weight, v1[l] += weight * v, v2[l] += weight * v * v;
-      q1[l] += weighted, qv[l] += weighted * v, q2[l] += weighted * q;
-    }
-  }
-  Sums sums = {};
-  for (int l = 0; l < kSide; ++l) {
-    const float u = static_cast<float>(l - kRadius);
-    sums.n += n[l], sums.v += v1[l], sums.vv += v2[l];
-    sums.u += u * n[l], sums.uu += u * u * n[l], sums.uv += u * v1[l];
-    sums.q += q1[l], sums.qu += u * q1[l], sums.qv += qv[l], sums.qq += q2[l];
-  }
-  return sums;
 }
 
 struct Plane {  // q = a + b u + c v
@@ -96,7 +53,7 @@ struct Plane {  // q = a + b u + c v
 };
 
 // Least squares with the pull on b and c: the mean out first, then two equations.
-Plane fit(const Sums &s) {
+Plane fit(const PatchSums &s) {
   const float inverse_n = 1 / s.n;
   const float uu = s.uu + kPull - s.u * s.u * inverse_n, vv = s.vv + kPull - s.v * s.v * inverse_n;
   const float uv = s.uv - s.u * s.v * inverse_n;
@@ -109,7 +66,7 @@ Plane fit(const Sums &s) {
   return plane;
 }
 
-float meanSquare(const Sums &s, const Plane &p) {
+float meanSquare(const PatchSums &s, const Plane &p) {
   const float linear = p.a * s.q + p.b * s.qu + p.c * s.qv;
   const float square = p.a * p.a * s.n + p.b * p.b * s.uu + p.c * p.c * s.vv +
                        2 * (p.a * p.b * s.u + p.a * p.c * s.v + p.b * p.c * s.uv);
@@ -121,21 +78,28 @@ float meanSquare(const Sums &s, const Plane &p) {
 
 PatchDepth patchDepth(ImageView<uint16_t> depth, const DepthSensor &sensor, double x, double y) {
   const int cx = static_cast<int>(floorOf(x + 0.5)), cy = static_cast<int>(floorOf(y + 0.5));
-  const float dx = static_cast<float>(x - cx), dy = static_cast<float>(y - cy);
-  const Patch patch = loadPatch(depth, sensor, cx - kRadius, cy - kRadius);
-  const float anchor = findAnchor(patch, dx, dy);
-  if (!(anchor > 0)) return {};
-  const Sums sums = addUp(patch, anchor, dx, dy);
+  PatchView patch;
+  PatchCopy copy;
+  aim(depth, cx, cy, &patch, copy);
+  patch.low = static_cast<float>(sensor.min_m / sensor.unit_m);
+  if (!(patch.low >= 1)) patch.low = 1;  // 0 is no measurement
+  patch.high = static_cast<float>(sensor.max_m / sensor.unit_m);
+  patch.dx = static_cast<float>(x - cx);
+  patch.dy = static_cast<float>(y - cy);
+  patch.anchor = findAnchor(patch);
+  if (!(patch.anchor > 0)) return {};
+  PatchSums sums;
+  simdAlignKernels().patch_sums(patch, &sums);
   if (sums.n < kFewest) return {};
   const Plane plane = fit(sums);
-  const float here = plane.a + plane.b * dx + plane.c * dy;
-  if (!(absOf(here) <= 2 * kSameSurface)) return {};
+  const float here = plane.a + plane.b * patch.dx + plane.c * patch.dy;
+  if (!(absOf(here) <= kFarthestFit)) return {};
 
-  const double anchor_m = static_cast<double>(anchor) * sensor.unit_m;
+  const double anchor_m = static_cast<double>(patch.anchor) * sensor.unit_m;
   const double z = anchor_m / (1 + static_cast<double>(here));
   const double scatter = static_cast<double>(sqrtOf(meanSquare(sums, plane))) * z * z / anchor_m;
   // Few pixels of one surface: an edge runs through, and the keypoint may belong to either side.
-  const double edge = 1 + 2 * (1 - static_cast<double>(sums.n) / (kSide * kSide));
+  const double edge = 1 + 2 * (1 - static_cast<double>(sums.n) / (kPatchSide * kPatchSide));
   const double model = sensor.sigmaAt(z);
   return {z, edge * (scatter > model ? scatter : model)};
 }

@@ -17,27 +17,39 @@ Cell cellOf(const Vector2 &px) {
 }  // namespace
 
 // A colour ray as a curve in the depth image, in `steps` steps from near to far of about a pixel each: even ones in
-// inverse depth are nearly even in pixels.
+// inverse depth, which are nearly even in pixels.  Points are homogeneous, (x, y, z) times the inverse depth, and
+// so linear in the step.
 struct SparseAligner::Walk {
   enum Place { kNowhere, kOutside, kHole, kAbove, kUnder };
 
-  const SparseAligner &aligner;
+  const Camera &camera;
+  const DepthSensor &sensor;
   ImageView<uint16_t> depth;
-  Vector3 direction;
-  const Vector3 &origin;
-  double near_inverse, slope;  // inverse z along `direction` at step 0; its change a step
+  Vector3 near, change;                 // of the point: at step 0, and a step
+  double near_inverse, inverse_change;  // of the depth along the colour ray
   double px_per_step;
   int steps;
 
-  // Where a step lies, against the surface measured there.  `gap`: how far below it.
+  double inverseAt(int step) const { return near_inverse + inverse_change * step; }
+
+  bool project(const Vector3 &point, Vector2 *px) const {
+    const double *k = camera.parameters().params;
+    if (!camera.isPinhole()) return camera.project(point, px);
+    if (!(point.z() > 0)) return false;
+    const double inverse = 1 / point.z();
+    *px = Vector2(k[0] * (point.x() * inverse) + k[2], k[1] * (point.y() * inverse) + k[3]);
+    return true;
+  }
+
+  // Where a step lies, against the surface measured there.  `gap`: how far below it, times the inverse depth.
   Place look(int step, Vector2 *px, double *measured, double *gap) const {
-    const Vector3 point = origin + direction / (near_inverse + slope * step);
-    if (!aligner.depth_.project(point, px)) return kNowhere;
+    const Vector3 point = near + change * step;
+    if (!project(point, px)) return kNowhere;
     const Cell cell = cellOf(*px);
     if (cell.u < 0 || cell.v < 0 || cell.u >= depth.width || cell.v >= depth.height) return kOutside;
-    *measured = depth.row(cell.v)[cell.u] * aligner.sensor_.unit_m;
-    if (!(*measured >= aligner.sensor_.min_m && *measured <= aligner.sensor_.max_m)) return kHole;
-    *gap = point.z() - *measured;
+    *measured = depth.row(cell.v)[cell.u] * sensor.unit_m;
+    if (!(*measured >= sensor.min_m && *measured <= sensor.max_m)) return kHole;
+    *gap = point.z() - *measured * inverseAt(step);
     return *gap >= 0 ? kUnder : kAbove;
   }
 };
@@ -56,19 +68,31 @@ void SparseAligner::prepare(ImageView<uint16_t> depth) {
   if (blocks_.hasMemory() && !registered_) blocks_.build(depth, sensor_);
 }
 
-// How many steps on from `step`, which lies in the image, the ray may yet go under a surface.
-int SparseAligner::stride(const Walk &walk, int step, const Vector2 &px) const {
-  if (!blocks_.hasMemory()) return 1;
+// The first step at which the ray is as deep as `nearest`, a measurement; `never` where it does not get deeper.
+double SparseAligner::stepOfDepth(const Walk &walk, uint16_t nearest, double never) const {
+  const double nearest_m = nearest * sensor_.unit_m;
+  const double approach = walk.change.z() - nearest_m * walk.inverse_change;
+  return approach > 0 ? (nearest_m * walk.near_inverse - walk.near.z()) / approach : never;
+}
+
+// The first step that may be under anything in the image.
+int SparseAligner::first(const Walk &walk) const {
+  if (!blocks_.hasMemory() || blocks_.nearest() == DepthBlocks::kNone) return 0;
+  const double at = stepOfDepth(walk, blocks_.nearest(), 0);
+  return at > 0 ? static_cast<int>(at < walk.steps ? at : walk.steps) : 0;
+}
+
+// The step after `step`, which lies in the image, at which the ray may go under a surface.
+int SparseAligner::next(const Walk &walk, int step, const Vector2 &px) const {
+  if (!blocks_.hasMemory()) return step + 1;
   const Cell cell = cellOf(px);
-  double most = kStridePx / walk.px_per_step;
   const uint16_t nearest = blocks_.nearest(cell.u, cell.v);
+  double at = step + kStridePx / walk.px_per_step;
   if (nearest != DepthBlocks::kNone) {
-    const double below_m = nearest * sensor_.unit_m - walk.origin.z();
-    if (!(below_m > 0)) return 1;
-    const double until = (walk.direction.z() / below_m - walk.near_inverse) / walk.slope - step;
-    if (until < most) most = until;
+    const double under = stepOfDepth(walk, nearest, step);
+    if (under < at) at = under;
   }
-  return most > 1 ? static_cast<int>(most) : 1;
+  return at > step + 1 ? static_cast<int>(at) : step + 1;
 }
 
 // Walks along the ray until it goes under the measured surface.
@@ -81,31 +105,35 @@ bool SparseAligner::findSurface(ImageView<uint16_t> depth, const Vector2 &ray, V
     return false;
   const double length = (far_px - near_px).norm();
   const int steps = length < kMostSteps - 1 ? static_cast<int>(length) + 1 : kMostSteps;
-  const double near_inverse = 1 / sensor_.min_m;
-  const Walk walk = {*this,
+  const double near_inverse = 1 / sensor_.min_m, inverse_change = (1 / sensor_.max_m - near_inverse) / steps;
+  const Walk walk = {depth_,
+                     sensor_,
                      depth,
-                     direction,
-                     origin,
+                     direction + near_inverse * origin,
+                     inverse_change * origin,
                      near_inverse,
-                     (1 / sensor_.max_m - near_inverse) / steps,
+                     inverse_change,
                      length / steps + 1e-3,
                      steps};
 
   Vector2 px = near_px, last_px;
   double measured = 0, gap = 0, last_measured = 0, last_gap = 0;
-  for (int step = 0; step <= steps;) {
+  for (int step = first(walk); step <= steps;) {
     Walk::Place place = walk.look(step, &px, &measured, &gap);
     if (place == Walk::kNowhere) return false;
     if (place != Walk::kUnder) {
-      step += place == Walk::kOutside ? 1 : stride(walk, step, px);
+      step = place == Walk::kOutside ? step + 1 : next(walk, step, px);
       continue;
     }
     // The last measurement that it was above; a step outside the image forgets those before.
     place = Walk::kHole;
-    for (int back = step; back > 0 && place == Walk::kHole;)
-      place = walk.look(--back, &last_px, &last_measured, &last_gap);
+    int last_step = step;
+    while (last_step > 0 && place == Walk::kHole)
+      place = walk.look(--last_step, &last_px, &last_measured, &last_gap);
     if (place != Walk::kAbove) return *depth_pixel_px = px, steps <= 2;
     if (absOf(measured - last_measured) > kJump * measured) return false;  // slipped behind an edge
+    last_gap *= walk.inverseAt(step);                                      // both by the product of the two
+    gap *= walk.inverseAt(last_step);
     const double share = last_gap / (last_gap - gap);
     *depth_pixel_px = last_px + share * (px - last_px);
     return true;

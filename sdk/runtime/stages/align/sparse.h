@@ -42,7 +42,9 @@ class SparseAligner {
  private:
   struct Walk;
   bool findSurface(ImageView<uint16_t> depth, const Vector2 &ray, Vector2 *depth_pixel_px) const;
-  int stride(const Walk &walk, int step, const Vector2 &pixel_px) const;
+  int first(const Walk &walk) const;
+  int next(const Walk &walk, int step, const Vector2 &pixel_px) const;
+  double stepOfDepth(const Walk &walk, uint16_t nearest, double never) const;
 
   Camera color_, depth_;
   Rigid depth_from_color_;
