@@ -34,6 +34,8 @@ void FrontEnd::layout(const sphc_config &config, Arena &state, Arena &scratch, F
   f.descriptors_ = scratch.take<Descriptor>("localizer.descriptors", n);
   f.lifted_ = scratch.take<LiftedPoint>("localizer.lifted", n);
   f.keypoint_of_ = scratch.take<uint32_t>("localizer.lifted", n);
+  SparseAligner::layout(static_cast<int32_t>(config.depth_camera.width),
+                        static_cast<int32_t>(config.depth_camera.height), scratch, front ? &f.aligner_ : nullptr);
   FeatureExtractor::layout(featureConfig(config), state, scratch, front ? &f.extractor_ : nullptr);
 }
 
@@ -43,8 +45,8 @@ void FrontEnd::init(const sphc_config &config) {
   map_sigma_m_ = config.map_sigma_m;
   const DepthSensor sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                               config.depth_sigma_per_m2};
-  aligner_ = SparseAligner(Camera(config.color_camera), Camera(config.depth_camera),
-                           rigidFromDoor(config.color_from_depth), sensor);
+  aligner_.init(Camera(config.color_camera), Camera(config.depth_camera), rigidFromDoor(config.color_from_depth),
+                sensor);
   extractor_.init();
 }
 
@@ -66,6 +68,7 @@ void FrontEnd::lift(const sphc_image &depth) {
   const ImageView<uint16_t> view = {static_cast<const uint16_t *>(depth.data), static_cast<int32_t>(depth.width),
                                     static_cast<int32_t>(depth.height),
                                     static_cast<int32_t>(depth.stride_bytes / 2)};
+  aligner_.prepare(view);
   lifted_count_ = 0;
   for (uint32_t k = 0; k < keypoint_count_; ++k) {
     observations_[k] = {keypoints_[k].x_px, keypoints_[k].y_px, keypoints_[k].scale_px, 0, 0, 0};
