@@ -39,52 +39,62 @@ HWY_ATTR void halveRow(const int16_t *HWY_RESTRICT in, int16_t *HWY_RESTRICT out
   for (int32_t x = 0; x < width; ++x) out[x] = in[2 * x];
 }
 
-template <int32_t Radius>
-HWY_ATTR void blurDown(const BlurTask &task, int16_t *HWY_RESTRICT out) {
+// Two rows at once read hardly more than one.
+template <int32_t Radius, int32_t Count>
+HWY_ATTR void blurDown(const BlurTask &task, int16_t *const (&out)[kRowsAtOnce]) {
   const Samples d;
   hn::Vec<Samples> weights[Radius + 1];
-  const int16_t *rows[2 * Radius + 1];
+  const int16_t *rows[2 * Radius + Count];
   for (int32_t k = 0; k <= Radius; ++k) weights[k] = hn::Set(d, task.weights[k]);
-  for (int32_t k = 0; k <= 2 * Radius; ++k) rows[k] = task.rows[k];
+  for (int32_t k = 0; k < 2 * Radius + Count; ++k) rows[k] = task.rows[k];
   for (int32_t x = 0; x < task.width; x += static_cast<int32_t>(hn::Lanes(d))) {
-    auto sum = hn::MulFixedPoint15(hn::Load(d, rows[Radius] + x), weights[0]);
-    for (int32_t k = 1; k <= Radius; ++k) {
-      const auto pair = hn::Add(hn::Load(d, rows[Radius - k] + x), hn::Load(d, rows[Radius + k] + x));
-      sum = hn::Add(sum, hn::MulFixedPoint15(pair, weights[k]));
+    for (int32_t i = 0; i < Count; ++i) {
+      auto sum = hn::MulFixedPoint15(hn::Load(d, rows[Radius + i] + x), weights[0]);
+      for (int32_t k = 1; k <= Radius; ++k) {
+        const auto pair = hn::Add(hn::Load(d, rows[Radius + i - k] + x), hn::Load(d, rows[Radius + i + k] + x));
+        sum = hn::Add(sum, hn::MulFixedPoint15(pair, weights[k]));
+      }
+      hn::Store(sum, d, out[i] + x);
     }
-    hn::Store(sum, d, out + x);
   }
 }
 
 template <int32_t Radius>
-HWY_ATTR void blurAcross(const BlurTask &task, const int16_t *HWY_RESTRICT in) {
+HWY_ATTR void blurAcross(const BlurTask &task, int32_t i, const int16_t *HWY_RESTRICT in) {
   const Samples d;
   hn::Vec<Samples> weights[Radius + 1];
   for (int32_t k = 0; k <= Radius; ++k) weights[k] = hn::Set(d, task.weights[k]);
-  const int16_t *below = task.rows[Radius];
+  const int16_t *below = task.rows[Radius + i];
+  int16_t *out = task.out[i], *difference = task.difference[i];
   for (int32_t x = 0; x < task.width; x += static_cast<int32_t>(hn::Lanes(d))) {
     auto sum = hn::MulFixedPoint15(hn::Load(d, in + x), weights[0]);
     for (int32_t k = 1; k <= Radius; ++k) {
       const auto pair = hn::Add(hn::LoadU(d, in + x - k), hn::LoadU(d, in + x + k));
       sum = hn::Add(sum, hn::MulFixedPoint15(pair, weights[k]));
     }
-    hn::Store(sum, d, task.out + x);
-    if (task.difference) hn::Store(hn::Sub(sum, hn::Load(d, below + x)), d, task.difference + x);
+    hn::Store(sum, d, out + x);
+    if (difference) hn::Store(hn::Sub(sum, hn::Load(d, below + x)), d, difference + x);
   }
 }
 
 template <int32_t Radius>
 HWY_ATTR void blurWith(const BlurTask &task) {
-  int16_t *middle = task.padded + kRowStep;
-  blurDown<Radius>(task, middle);
-  for (int32_t k = 1; k <= Radius; ++k) {
-    middle[-k] = middle[0];
-    middle[task.width - 1 + k] = middle[task.width - 1];
+  int16_t *middle[kRowsAtOnce];
+  for (int32_t i = 0; i < kRowsAtOnce; ++i) {
+    middle[i] = task.padded + kRowStep + i * (paddedWidth(task.width) + 2 * kRowStep);
   }
-  blurAcross<Radius>(task, middle);
+  task.count == 2 ? blurDown<Radius, 2>(task, middle) : blurDown<Radius, 1>(task, middle);
+  for (int32_t i = 0; i < task.count; ++i) {
+    int16_t *row = middle[i];
+    for (int32_t k = 1; k <= Radius; ++k) {
+      row[-k] = row[0];
+      row[task.width - 1 + k] = row[task.width - 1];
+    }
+    blurAcross<Radius>(task, i, row);
+  }
 }
 
-HWY_ATTR void blurRow(const BlurTask &task) {
+HWY_ATTR void blurRows(const BlurTask &task) {
   switch (task.radius) {
     case 1:
       return blurWith<1>(task);

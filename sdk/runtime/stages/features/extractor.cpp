@@ -39,7 +39,7 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
   SPHC_ASSERT(gray.width == config_.width && gray.height == config_.height);
   candidates_.clear();
   for (int32_t o = 0; o < space_.octaves(); ++o) sweepOctave(o, gray);
-  const Span<Candidate> chosen = candidates_.choose(config_.max_keypoints, config_);
+  const Span<Candidate> chosen = candidates_.choose(config_);
   uint32_t count = 0;
   for (const Candidate &candidate : chosen) {
     if (count == config_.max_keypoints) break;
@@ -53,9 +53,9 @@ void FeatureExtractor::sweepOctave(int32_t octave, GrayView gray) {
   space_.beginOctave(octave, gray);
   finder_.beginOctave(octave, space_.width(octave), space_.height(octave));
   const int32_t steps = space_.stepCount();
-  for (int32_t y = 0; y < steps; ++y) {
+  for (int32_t y = 0; y < steps; y += kRowsAtOnce) {
     space_.step(y);
-    finder_.step(*kernels_, space_, y, &candidates_);
+    for (int32_t i = 0; i < kRowsAtOnce; ++i) finder_.step(*kernels_, space_, y + i, &candidates_);
   }
 }
 

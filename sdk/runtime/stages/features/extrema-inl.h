@@ -11,6 +11,7 @@
 
 #include <initializer_list>
 
+#include "runtime/stages/features/config.h"
 #include "runtime/stages/features/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,69 +20,63 @@ namespace HWY_NAMESPACE {
 namespace {  // every file that includes this has its own
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What a vector of samples is held against: the largest and smallest of the neighbours before it and after it.
-struct Bounds {
-  using D = hn::ScalableTag<int16_t>;
-  using V = hn::Vec<D>;
-  V before_high, before_low, after_high, after_low;
+using ExtremaTag = hn::ScalableTag<int16_t>;
 
-  HWY_INLINE void before(V v) { before_high = hn::Max(before_high, v), before_low = hn::Min(before_low, v); }
-  HWY_INLINE void after(V v) { after_high = hn::Max(after_high, v), after_low = hn::Min(after_low, v); }
-
-  // Those of `high` above all and those of `low` below all.
-  HWY_INLINE hn::Mask<D> beyond(V v, hn::Mask<D> high, hn::Mask<D> low) const {
-    const auto peak = hn::AndNot(hn::Gt(after_high, v), hn::And(high, hn::Gt(v, before_high)));
-    const auto pit = hn::AndNot(hn::Gt(v, after_low), hn::And(low, hn::Gt(before_low, v)));
-    return hn::Or(peak, pit);
-  }
-};
-
-HWY_INLINE Bounds::V at(const int16_t *row, int32_t x) { return hn::LoadU(Bounds::D(), row + x); }
-
-// Row and column neighbours, then those in the layers beside, then the corners: most samples fail early.
-HWY_INLINE hn::Mask<Bounds::D> extremaAt(const DogRows &dog, int16_t threshold, int32_t x) {
-  const Bounds::D d;
+// Samples beyond the threshold and their six nearest neighbours.  No branches: whether a vector holds one cannot be
+// foretold.
+HWY_INLINE hn::Mask<ExtremaTag> beyondNearest(const DogRows &dog, int16_t threshold, int32_t x) {
+  const ExtremaTag d;
   const int16_t *const *rows = dog.rows[1];
-  const auto v = at(rows[1], x);
-  const auto high = hn::Gt(v, hn::Set(d, threshold));
-  const auto low = hn::Gt(hn::Set(d, static_cast<int16_t>(-threshold)), v);
-  const auto up = at(rows[0], x), down = at(rows[2], x);
-  Bounds bounds = {up, up, down, down};
-  bounds.before(at(rows[1], x - 1));
-  bounds.after(at(rows[1], x + 1));
-  auto found = bounds.beyond(v, high, low);
-  if (hn::AllFalse(d, found)) return found;
-  bounds.before(at(dog.rows[0][1], x));
-  bounds.after(at(dog.rows[2][1], x));
-  found = bounds.beyond(v, high, low);
-  if (hn::AllFalse(d, found)) return found;
-  for (const int32_t side : {-1, 1}) {
-    bounds.before(at(rows[0], x + side));
-    bounds.after(at(rows[2], x + side));
-    for (int32_t j = 0; j < 3; ++j) {
-      bounds.before(at(dog.rows[0][j], x + side));
-      bounds.after(at(dog.rows[2][j], x + side));
-    }
+  const auto v = hn::LoadU(d, rows[1] + x);
+  const auto left = hn::LoadU(d, rows[1] + x - 1), right = hn::LoadU(d, rows[1] + x + 1);
+  const auto up = hn::LoadU(d, rows[0] + x), down = hn::LoadU(d, rows[2] + x);
+  const auto finer = hn::LoadU(d, dog.rows[0][1] + x), coarser = hn::LoadU(d, dog.rows[2][1] + x);
+  const auto high_before = hn::Max(hn::Max(left, up), hn::Max(finer, hn::Set(d, threshold)));
+  const auto high_after = hn::Max(hn::Max(right, down), coarser);
+  const auto low_before = hn::Min(hn::Min(left, up), hn::Min(finer, hn::Set(d, static_cast<int16_t>(-threshold))));
+  const auto low_after = hn::Min(hn::Min(right, down), coarser);
+  return hn::Or(hn::AndNot(hn::Gt(high_after, v), hn::Gt(v, high_before)),
+                hn::AndNot(hn::Gt(v, low_after), hn::Gt(low_before, v)));
+}
+
+// The other twenty neighbours.
+HWY_INLINE bool isBeyondAll(const DogRows &dog, int32_t x) {
+  const int32_t v = dog.rows[1][1][x], sign = v < 0 ? -1 : 1, high = v * sign;
+  const auto before = [&](int32_t k, int32_t j, int32_t i) { return high > sign * dog.rows[k][j][x + i]; };
+  const auto after = [&](int32_t k, int32_t j, int32_t i) { return high >= sign * dog.rows[k][j][x + i]; };
+  bool beyond = before(1, 0, -1) & before(1, 0, 1) & after(1, 2, -1) & after(1, 2, 1);
+  for (const int32_t j : {0, 2}) beyond &= before(0, j, 0) & after(2, j, 0);
+  if (!beyond) return false;
+  for (int32_t j = 0; j < 3; ++j) {
+    for (const int32_t i : {-1, 1}) beyond &= before(0, j, i) & after(2, j, i);
   }
-  for (const int32_t j : {0, 2}) {
-    bounds.before(at(dog.rows[0][j], x));
-    bounds.after(at(dog.rows[2][j], x));
-  }
-  return bounds.beyond(v, high, low);
+  return beyond;
 }
 
 HWY_ATTR uint32_t findExtrema(const DogRows &dog, int16_t threshold, int32_t first, int32_t end,
                               uint16_t *HWY_RESTRICT found) {
-  const Bounds::D d;
-  const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
+  const ExtremaTag d;
+  // A bit a column, first all of them: what has just been written in pieces is slow to read as a whole.
+  alignas(64) uint8_t bits[(2 * kMaxImageSide + 512) / 8];
+#if HWY_TARGET == HWY_SCALAR
+  __builtin_memset(bits, 0, sizeof bits);
+  for (int32_t x = first; x < end; ++x) {
+    const bool beyond = hn::GetLane(hn::VecFromMask(d, beyondNearest(dog, threshold, x))) != 0;
+    bits[(x - first) / 8] |= static_cast<uint8_t>(beyond << ((x - first) % 8));
+  }
+#else
+  for (int32_t x = first; x < end; x += static_cast<int32_t>(hn::Lanes(d))) {
+    hn::StoreMaskBits(d, beyondNearest(dog, threshold, x), bits + (x - first) / 8);
+  }
+#endif
   uint32_t count = 0;
-  for (int32_t x = first; x < end; x += lanes) {
-    const auto mask = extremaAt(dog, threshold, x);
-    if (HWY_LIKELY(hn::AllFalse(d, mask))) continue;
-    uint8_t bits[hn::MaxLanes(d) / 8 + 8];
-    hn::StoreMaskBits(d, mask, bits);
-    for (int32_t i = 0; i < lanes && x + i < end; ++i) {
-      if (bits[i / 8] >> (i % 8) & 1) found[count++] = static_cast<uint16_t>(x + i);
+  for (int32_t x = first; x < end; x += 64) {
+    uint64_t word;
+    __builtin_memcpy(&word, bits + (x - first) / 8, sizeof word);
+    if (end - x < 64) word &= (uint64_t{1} << (end - x)) - 1;
+    for (; word != 0; word &= word - 1) {
+      const int32_t at = x + __builtin_ctzll(word);
+      if (isBeyondAll(dog, at)) found[count++] = static_cast<uint16_t>(at);
     }
   }
   return count;

@@ -13,15 +13,16 @@ constexpr int32_t kMaxBlurRadius = 7;
 constexpr int32_t kDogLayers = 5, kSearchedLayers = 3;
 constexpr int32_t kOneQ15 = 32768;
 
-// One row of a level: rows y - radius .. y + radius of the level below, the middle one at [radius]; weights of
-// distance 0 .. radius, which with those of the other side sum to kOneQ15.
+// One or two rows of a level: `rows` of the level below, from radius above the first to radius below the last;
+// weights of distance 0 .. radius, which with those of the other side sum to kOneQ15.
+constexpr int32_t kRowsAtOnce = 2;
 struct BlurTask {
-  const int16_t *rows[2 * kMaxBlurRadius + 1];
+  const int16_t *rows[2 * kMaxBlurRadius + kRowsAtOnce];
   int16_t weights[kMaxBlurRadius + 1];
-  int32_t radius, width;
-  int16_t *padded;      // room for paddedWidth(width) + 2 * kRowStep
-  int16_t *out;         // of paddedWidth(width), as are all rows
-  int16_t *difference;  // out - rows[radius]; may be null
+  int32_t radius, width, count;
+  int16_t *padded;                   // room for kRowsAtOnce times paddedWidth(width) + 2 * kRowStep
+  int16_t *out[kRowsAtOnce];         // of paddedWidth(width), as are all rows
+  int16_t *difference[kRowsAtOnce];  // out less the same row of the level below; may be null
 };
 
 // Three consecutive rows of three neighbouring layers of differences of Gaussians: rows[layer][y - 1, y, y + 1].
@@ -59,7 +60,7 @@ struct FeatureKernels {
   // out[x] = in[2 x]
   void (*halve_row)(const int16_t *in, int16_t *out, int32_t width);
   // Separable; borders repeat the edge pixel; every product is rounded to a sample.
-  void (*blur_row)(const BlurTask &);
+  void (*blur_rows)(const BlurTask &);
   // Columns in [first, end) of the middle layer beyond the threshold and its 26 neighbours: strictly beyond those
   // that come before it, not below those after, so that one of equal samples remains.  Reads whole vectors past
   // `end`. `found` has room for end - first; returns how many.

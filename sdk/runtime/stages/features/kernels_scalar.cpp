@@ -11,7 +11,7 @@ namespace sphc {
 const FeatureKernels &scalarFeatureKernels() {
   using namespace HWY_NAMESPACE;
   static constexpr FeatureKernels kernels = {
-      scaleRow, doubleRow, halveRow, blurRow, findExtrema, orientationHistogram, describePatch, grayRow};
+      scaleRow, doubleRow, halveRow, blurRows, findExtrema, orientationHistogram, describePatch, grayRow};
   return kernels;
 }
 

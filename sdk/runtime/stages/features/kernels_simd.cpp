@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 const FeatureKernels *featureKernels() {
   static constexpr FeatureKernels kernels = {
-      scaleRow, doubleRow, halveRow, blurRow, findExtrema, orientationHistogram, describePatch, grayRow};
+      scaleRow, doubleRow, halveRow, blurRows, findExtrema, orientationHistogram, describePatch, grayRow};
   return &kernels;
 }
 

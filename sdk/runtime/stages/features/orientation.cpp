@@ -9,29 +9,42 @@ constexpr float kWindowReach = 2.0f;  // standard deviations of the window
 constexpr float kSecondPeak = 0.8f;   // of the highest
 constexpr int32_t kMaxRadius = kWindowSide / 2;
 
-// By [1 4 6 4 1] / 16.
-void smooth(const float in[kBins], float out[kBins]) {
-  for (int32_t i = 0; i < kBins; ++i) {
-    const float outer = in[(i + kBins - 2) % kBins] + in[(i + 2) % kBins];
-    const float inner = in[(i + kBins - 1) % kBins] + in[(i + 1) % kBins];
-    out[i] = (outer + 4.0f * inner + 6.0f * in[i]) * 0.0625f;
+// A histogram with its ends repeated at the other side, so that no index has to turn round.
+struct Circle {
+  static constexpr int32_t kMargin = 2;
+  float values[kBins + 2 * kMargin];
+
+  float &operator[](int32_t i) { return values[i + kMargin]; }
+  float operator[](int32_t i) const { return values[i + kMargin]; }
+  void close() {
+    for (int32_t i = 0; i < kMargin; ++i) {
+      values[i] = values[i + kBins];
+      values[kMargin + kBins + i] = values[kMargin + i];
+    }
   }
+};
+
+// By [1 4 6 4 1] / 16.
+void smooth(const Circle &in, Circle *out) {
+  for (int32_t i = 0; i < kBins; ++i) {
+    (*out)[i] = ((in[i - 2] + in[i + 2]) + 4.0f * (in[i - 1] + in[i + 1]) + 6.0f * in[i]) * 0.0625f;
+  }
+  out->close();
 }
 
 // Peak of the parabola through a bin and its neighbours, as an angle.
-float peakAngle(const float h[kBins], int32_t i) {
-  const float left = h[(i + kBins - 1) % kBins], right = h[(i + 1) % kBins];
-  const float shift = 0.5f * (left - right) / (left + right - 2.0f * h[i]);
+float peakAngle(const Circle &h, int32_t i) {
+  const float shift = 0.5f * (h[i - 1] - h[i + 1]) / (h[i - 1] + h[i + 1] - 2.0f * h[i]);
   const float angle = (static_cast<float>(i) + shift) * static_cast<float>(2.0 * kPi / kBins);
   return angle > static_cast<float>(kPi) ? angle - static_cast<float>(2.0 * kPi) : angle;
 }
 
-int32_t highestPeak(const float h[kBins], int32_t besides) {
+// The first of the highest that are peaks, or -1.
+int32_t highestPeak(const Circle &h, int32_t besides) {
   int32_t best = -1;
+  float highest = 0.0f;
   for (int32_t i = 0; i < kBins; ++i) {
-    const float left = h[(i + kBins - 1) % kBins], right = h[(i + 1) % kBins];
-    if (i == besides || !(h[i] > left) || !(h[i] >= right)) continue;
-    if (best < 0 || h[i] > h[best]) best = i;
+    if (h[i] > highest && h[i] > h[i - 1] && h[i] >= h[i + 1] && i != besides) best = i, highest = h[i];
   }
   return best;
 }
@@ -64,9 +77,10 @@ OrientationWindow windowAt(const Plane &level, int32_t width, int32_t height, fl
 
 int32_t findOrientations(const FeatureKernels &kernels, const Plane &level, int32_t width, int32_t height, float x,
                          float y, float sigma, const GaussianTable &gaussian, int32_t limit, float angles[2]) {
-  float raw[kBins], histogram[kBins];
-  kernels.orientation_histogram(windowAt(level, width, height, x, y, sigma, gaussian), raw);
-  smooth(raw, histogram);
+  Circle raw, histogram;
+  kernels.orientation_histogram(windowAt(level, width, height, x, y, sigma, gaussian), &raw[0]);
+  raw.close();
+  smooth(raw, &histogram);
 
   const int32_t first = highestPeak(histogram, -1);
   if (first < 0) return 0;

@@ -31,7 +31,15 @@ double sigmaAt(double layer) { return kBaseSigma * expOf(layer * (0.693147180559
 
 }  // namespace
 
-float sigmaOfLayer(float layer) { return static_cast<float>(sigmaAt(static_cast<double>(layer))); }
+// 2^(layer / 3): the whole octaves and scales from a table, the rest by the series of e^u to 1e-7.
+float sigmaOfLayer(float layer) {
+  constexpr float kWhole[kLevels + 1] = {1.0f, 1.25992105f, 1.58740105f, 2.0f, 2.51984210f, 3.17480210f, 4.0f};
+  static_assert(kScales == 3 && kBaseSigma == 1.0);
+  const int32_t nearest = static_cast<int32_t>(layer + 0.5f);
+  const float u = (layer - static_cast<float>(nearest)) * 0.23104906f;  // ln 2 / 3
+  const float series = 1.0f + u * (1.0f + u * (0.5f + u * (0.16666667f + u * (0.041666667f + u * 0.0083333333f))));
+  return kWhole[nearest] * series;
+}
 
 ScaleSpace::Kernel ScaleSpace::gaussian(double sigma) {
   Kernel kernel = {};
@@ -81,7 +89,8 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
   for (Plane &plane : self.differences_) plane = ring("features.differences", kDogRows);
   // Kernels read whole vectors beyond a row's end, here beyond the last plane's.
   scratch.take<int16_t>("features.margin", 2 * kRowStep);
-  self.padded_ = scratch.take<int16_t>("features.blur_row", static_cast<size_t>(paddedWidth(width) + 2 * kRowStep));
+  self.padded_ = scratch.take<int16_t>("features.blur_row",
+                                       kRowsAtOnce * static_cast<size_t>(paddedWidth(width) + 2 * kRowStep));
 }
 
 void ScaleSpace::init(const FeatureKernels &kernels) {
@@ -95,7 +104,7 @@ void ScaleSpace::init(const FeatureKernels &kernels) {
     kernels_[l] = gaussian(sqrtOf(here * here - below * below));
     base_lags_[l] = base_lags_[l - 1] + kernels_[l].radius;
   }
-  SPHC_ASSERT(base_lags_[kLevels - 1] - base_lags_[1] + 2 * kRefineReach + 3 <= kDogRows);
+  SPHC_ASSERT(base_lags_[kLevels - 1] - base_lags_[1] + 2 * kRefineReach + 2 + kRowsAtOnce <= kDogRows);
 }
 
 float ScaleSpace::pixelSize(int32_t octave) const {
@@ -116,42 +125,44 @@ void ScaleSpace::beginOctave(int32_t octave, GrayView gray) {
 }
 
 void ScaleSpace::step(int32_t y) {
-  if (octave_ == 0) {
-    if (y < height_) sourceRow(y);
-    blurInto(base_kernel_, source_, level_[0], nullptr, y - lags_[0]);
-  } else if (y < height_) {
-    decimateRow(y);
-  }
+  for (int32_t i = 0; i < kRowsAtOnce && y + i < height_; ++i) firstRow(y + i);
+  if (octave_ == 0) blurInto(base_kernel_, source_, level_[0], nullptr, y - lags_[0]);
   for (int32_t l = 1; l < kLevels; ++l) {
     blurInto(kernels_[l], level_[l - 1], level_[l], &differences_[l - 1], y - lags_[l]);
   }
 }
 
-void ScaleSpace::sourceRow(int32_t y) {
-  if (first_octave_ == 0) return rows_->scale_row(gray_.row(y), source_.row(y), width_);
-  const uint8_t *lower = gray_.row(clampRow((y + 1) / 2, gray_.height));
-  rows_->double_row(gray_.row(y / 2), lower, source_.row(y), gray_.width);
+// Of the image; or every second pixel of the level with twice the base's blur: pixel i here is pixel 2 i there.
+void ScaleSpace::firstRow(int32_t y) {
+  if (octave_ > 0) {
+    rows_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * y), level_[0].row(y), width_);
+  } else if (first_octave_ == 0) {
+    rows_->scale_row(gray_.row(y), source_.row(y), width_);
+  } else {
+    const uint8_t *lower = gray_.row(clampRow((y + 1) / 2, gray_.height));
+    rows_->double_row(gray_.row(y / 2), lower, source_.row(y), gray_.width);
+  }
 }
 
-// Every second pixel of the level with twice the base's blur: pixel i here is pixel 2 i there.
-void ScaleSpace::decimateRow(int32_t y) {
-  rows_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * y), level_[0].row(y), width_);
-}
-
+// Rows y and the next.
 void ScaleSpace::blurInto(const Kernel &kernel, const Plane &from, const Plane &to, const Plane *difference,
                           int32_t y) {
-  if (y < 0 || y >= height_) return;
+  const int32_t first = y < 0 ? 0 : y, end = y + kRowsAtOnce < height_ ? y + kRowsAtOnce : height_;
+  if (end <= first) return;
   BlurTask task;
   task.radius = kernel.radius;
   task.width = width_;
-  for (int32_t k = -kernel.radius; k <= kernel.radius; ++k) {
-    task.rows[kernel.radius + k] = from.row(clampRow(y + k, height_));
+  task.count = end - first;
+  for (int32_t k = 0; k < 2 * kernel.radius + task.count; ++k) {
+    task.rows[k] = from.row(clampRow(first + k - kernel.radius, height_));
   }
   for (int32_t k = 0; k <= kernel.radius; ++k) task.weights[k] = kernel.weights[k];
   task.padded = padded_.data();
-  task.out = to.row(y);
-  task.difference = difference ? difference->row(y) : nullptr;
-  rows_->blur_row(task);
+  for (int32_t i = 0; i < task.count; ++i) {
+    task.out[i] = to.row(first + i);
+    task.difference[i] = difference ? difference->row(first + i) : nullptr;
+  }
+  rows_->blur_rows(task);
 }
 
 }  // namespace sphc

@@ -21,7 +21,7 @@ constexpr int32_t kMaxOctaves = 11;           // 2 * 8192 down to 16
 constexpr double kBaseSigma = 1.0;            // of level 0, in pixels of its octave
 constexpr int32_t kRefineReach = 5;           // rows an extremum may wander in refinement
 
-// Standard deviation at a level or between two, in pixels of the octave.
+// Standard deviation at a level or between two, 0 <= layer <= kLevels, in pixels of the octave.
 float sigmaOfLayer(float layer);
 
 class ScaleSpace {
@@ -36,8 +36,8 @@ class ScaleSpace {
   float pixelSize(int32_t octave) const;
 
   void beginOctave(int32_t octave, GrayView gray);
-  // Sweep step y = 0, 1, ... stepCount() - 1 computes row y - lag(level) of every level, where there is one, and of
-  // the difference between it and the level below.
+  // Sweep step y = 0, kRowsAtOnce, ... below stepCount() computes rows y - lag(level) and the next of every level,
+  // where there are any, and of the difference between it and the level below.
   void step(int32_t y);
   int32_t stepCount() const { return height_ + lag(kLevels - 1) + kRefineReach + 2; }
   int32_t lag(int32_t level) const { return lags_[level]; }
@@ -55,8 +55,7 @@ class ScaleSpace {
   static Kernel gaussian(double sigma);
   static int32_t octaveCount(const FeatureConfig &config);
 
-  void sourceRow(int32_t y);
-  void decimateRow(int32_t y);
+  void firstRow(int32_t y);
   void blurInto(const Kernel &kernel, const Plane &from, const Plane &to, const Plane *difference, int32_t y);
 
   int32_t first_octave_ = 0, octaves_ = 0;
