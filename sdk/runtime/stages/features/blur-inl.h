@@ -48,14 +48,15 @@ HWY_ATTR void blurDown(const BlurTask &task, int16_t *const (&out)[kRowsAtOnce])
   for (int32_t k = 0; k <= Radius; ++k) weights[k] = hn::Set(d, task.weights[k]);
   for (int32_t k = 0; k < 2 * Radius + Count; ++k) rows[k] = task.rows[k];
   for (int32_t x = 0; x < task.width; x += static_cast<int32_t>(hn::Lanes(d))) {
+    hn::Vec<Samples> sums[Count];
     for (int32_t i = 0; i < Count; ++i) {
-      auto sum = hn::MulFixedPoint15(hn::Load(d, rows[Radius + i] + x), weights[0]);
+      sums[i] = hn::MulFixedPoint15(hn::Load(d, rows[Radius + i] + x), weights[0]);
       for (int32_t k = 1; k <= Radius; ++k) {
         const auto pair = hn::Add(hn::Load(d, rows[Radius + i - k] + x), hn::Load(d, rows[Radius + i + k] + x));
-        sum = hn::Add(sum, hn::MulFixedPoint15(pair, weights[k]));
+        sums[i] = hn::Add(sums[i], hn::MulFixedPoint15(pair, weights[k]));
       }
-      hn::Store(sum, d, out[i] + x);
     }
+    for (int32_t i = 0; i < Count; ++i) hn::Store(sums[i], d, out[i] + x);
   }
 }
 

@@ -39,16 +39,20 @@ HWY_INLINE hn::Mask<ExtremaTag> beyondNearest(const DogRows &dog, int16_t thresh
                 hn::AndNot(hn::Gt(v, low_after), hn::Gt(low_before, v)));
 }
 
-// The other twenty neighbours.
+// The other neighbours: above, below and in the layers beside.
 HWY_INLINE bool isBeyondAll(const DogRows &dog, int32_t x) {
-  const int32_t v = dog.rows[1][1][x], sign = v < 0 ? -1 : 1, high = v * sign;
-  const auto before = [&](int32_t k, int32_t j, int32_t i) { return high > sign * dog.rows[k][j][x + i]; };
-  const auto after = [&](int32_t k, int32_t j, int32_t i) { return high >= sign * dog.rows[k][j][x + i]; };
-  bool beyond = before(1, 0, -1) & before(1, 0, 1) & after(1, 2, -1) & after(1, 2, 1);
-  for (const int32_t j : {0, 2}) beyond &= before(0, j, 0) & after(2, j, 0);
-  if (!beyond) return false;
-  for (int32_t j = 0; j < 3; ++j) {
-    for (const int32_t i : {-1, 1}) beyond &= before(0, j, i) & after(2, j, i);
+  const hn::CappedTag<int16_t, 4> d;
+  const int16_t value = dog.rows[1][1][x];
+  // ~a orders the other way round: pits become peaks.
+  const auto turn = hn::Set(d, static_cast<int16_t>(value < 0 ? -1 : 0));
+  const auto v = hn::Xor(hn::Set(d, value), turn);
+  bool beyond = true;
+  for (int32_t i = 0; i < 3; i += static_cast<int32_t>(hn::Lanes(d))) {
+    const auto at = [&](int32_t k, int32_t j) { return hn::Xor(hn::LoadU(d, dog.rows[k][j] + x - 1 + i), turn); };
+    const auto before = hn::Max(hn::Max(at(0, 0), at(0, 1)), hn::Max(at(0, 2), at(1, 0)));
+    const auto after = hn::Max(hn::Max(at(2, 0), at(2, 1)), hn::Max(at(2, 2), at(1, 2)));
+    const auto passes = hn::AndNot(hn::Gt(after, v), hn::Gt(v, before));
+    beyond &= hn::AllTrue(d, hn::Or(passes, hn::Not(hn::FirstN(d, static_cast<size_t>(3 - i)))));
   }
   return beyond;
 }
