@@ -42,8 +42,8 @@ void CandidateList::layout(const FeatureConfig &config, Arena &scratch, Candidat
   CandidateList &self = out ? *out : measured;
   self.kept_ = std::max(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
   self.items_ = scratch.take<Candidate>("features.candidates", 2 * self.kept_);
-  self.ranks_ = scratch.take<Ranked>("features.candidate_ranks", 2 * self.kept_);
-  self.spare_ = scratch.take<Ranked>("features.candidate_ranks", 2 * self.kept_);
+  self.ranks_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
+  self.spare_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
   self.chosen_ = scratch.take<Candidate>("features.chosen", std::max<size_t>(config.max_keypoints, self.kept_));
 }
 
@@ -85,7 +85,7 @@ size_t CandidateList::chooseByCell(size_t ranked, const FeatureConfig &config) {
   uint32_t in_cell[kCellsAcross * kCellsDown] = {};
   size_t chosen = 0, others = 0;
   for (size_t i = 0; i < ranked && chosen < limit; ++i) {
-    const Ranked candidate = ranks_[i];
+    const SortKey candidate = ranks_[i];
     if (in_cell[cellOf(items_[candidate.index], config)]++ < quota) {
       ranks_[chosen++] = candidate;
     } else {

@@ -41,7 +41,7 @@ class CandidateList {
   size_t chooseByCell(size_t ranked, const FeatureConfig &config);
 
   Span<Candidate> items_, chosen_;
-  Span<Ranked> ranks_, spare_;
+  Span<SortKey> ranks_, spare_;
   size_t size_ = 0, kept_ = 0;
 };
 

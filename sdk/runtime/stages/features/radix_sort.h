@@ -7,7 +7,7 @@
 
 namespace sphc {
 
-struct Ranked {
+struct SortKey {
   uint32_t key, index;
 };
 
@@ -19,7 +19,7 @@ inline uint32_t keyOf(float value) {
 }
 
 // By key, smallest first; equal keys stay in order.  `spare` has room for `count`.
-inline void radixSort(Ranked *values, Ranked *spare, size_t count) {
+inline void radixSort(SortKey *values, SortKey *spare, size_t count) {
   uint32_t begin[4][256] = {};
   for (size_t i = 0; i < count; ++i) {
     for (int32_t pass = 0; pass < 4; ++pass) ++begin[pass][values[i].key >> (8 * pass) & 255];
