@@ -7,6 +7,7 @@
 #include "host/bench/pose_plots.h"
 #include "host/bench/pose_table.h"
 #include "host/cli/bench_confidence.h"
+#include "host/cli/bench_features.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -194,7 +195,7 @@ std::vector<Command> benchCommands(CLI::App *root) {
   CLI::App *bench = root->add_subcommand("bench");
   bench->description(
       "Measure estimators beside their peers.\n\n  spherecloud bench pose FILE...\n  spherecloud bench confidence "
-      "FILE...");
+      "FILE...\n  spherecloud bench features --recording DIR");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
   CLI::App *app = bench->add_subcommand("pose");
@@ -202,7 +203,8 @@ std::vector<Command> benchCommands(CLI::App *root) {
   app->footer(kExample);
   addOptions(app, options.get());
   return {{app, [options](const Console &console) { return runPose(*options, console); }},
-          benchConfidenceCommand(bench)};
+          benchConfidenceCommand(bench),
+          benchFeaturesCommand(bench)};
 }
 
 }  // namespace sphc::host
