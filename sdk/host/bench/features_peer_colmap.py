@@ -7,8 +7,11 @@ import os
 import struct
 import sys
 import time
+import warnings
 
 os.environ["OMP_NUM_THREADS"] = "1"
+os.environ["GLOG_minloglevel"] = "2"
+warnings.simplefilter("ignore")
 ABSENT = 3
 try:
     import numpy

@@ -16,7 +16,8 @@ namespace {
 
 struct Options {
   std::vector<std::string> recordings, calibrations, only;
-  uint32_t first = 0, last = UINT32_MAX, step = 1;
+  std::vector<uint32_t> first, last;
+  uint32_t step = 1;
   FeaturesOptions bench;
   std::string python = "python3", ledger;
   bool no_peers = false;
@@ -47,8 +48,8 @@ FeaturesTable measure(const Options &options, size_t which, const Console &conso
   RecordingOptions source;
   source.folder = options.recordings[which];
   if (!options.calibrations.empty()) source.calibration = options.calibrations[which];
-  source.first = options.first;
-  source.last = options.last;
+  if (!options.first.empty()) source.first = options.first[which];
+  if (!options.last.empty()) source.last = options.last[which];
   source.step = options.step;
   const GrayRecording recording = readGray(openRecording(source).get());
   const auto variants = chooseVariants(options, recording, console);
@@ -61,8 +62,10 @@ FeaturesTable measure(const Options &options, size_t which, const Console &conso
 }
 
 int run(const Options &options, const Console &console) {
-  if (!options.calibrations.empty() && options.calibrations.size() != options.recordings.size())
-    throw UsageError("--calibration: name one for each --recording, in the same order");
+  const auto fits = [&](size_t given) { return given == 0 || given == options.recordings.size(); };
+  if (!fits(options.calibrations.size()) || !fits(options.first.size()) || !fits(options.last.size()))
+    throw UsageError(
+        "give --calibration, --first and --last once for each --recording, in the same order, or never");
   const int core = pinToOneCore();
   console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
                        : "Pinned to core " + std::to_string(core) + "; one thread; CPU time.");
@@ -96,8 +99,14 @@ void addOptions(CLI::App *app, Options *options) {
       ->expected(1)
       ->take_all()
       ->type_name("FILE");
-  app->add_option("--first", options->first, "Number of the first frame [0]")->type_name("N");
-  app->add_option("--last", options->last, "Number of the last frame [all]")->type_name("N");
+  app->add_option("--first", options->first, "Number of its first frame [0]")
+      ->expected(1)
+      ->take_all()
+      ->type_name("N");
+  app->add_option("--last", options->last, "Number of its last frame [all]")
+      ->expected(1)
+      ->take_all()
+      ->type_name("N");
   app->add_option("--step", options->step, "Take every N-th frame [1]")->type_name("N")->check(CLI::PositiveNumber);
   app->add_option("--repeat", options->bench.repeats, "Extractions of which the median time counts")
       ->capture_default_str()
