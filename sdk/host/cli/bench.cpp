@@ -7,6 +7,7 @@
 #include "host/bench/pose_plots.h"
 #include "host/bench/pose_table.h"
 #include "host/cli/bench_confidence.h"
+#include "host/cli/bench_features.h"
 #include "host/cli/bench_match.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
@@ -195,7 +196,8 @@ std::vector<Command> benchCommands(CLI::App *root) {
   CLI::App *bench = root->add_subcommand("bench");
   bench->description(
       "Measure estimators beside their peers.\n\n  spherecloud bench pose FILE...\n  spherecloud bench confidence "
-      "FILE...\n  spherecloud bench match --recording DIR --query-first N");
+      "FILE...\n  spherecloud bench features --recording DIR\n  spherecloud bench match --recording DIR "
+      "--query-first N");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
   CLI::App *app = bench->add_subcommand("pose");
@@ -204,6 +206,7 @@ std::vector<Command> benchCommands(CLI::App *root) {
   addOptions(app, options.get());
   return {{app, [options](const Console &console) { return runPose(*options, console); }},
           benchConfidenceCommand(bench),
+          benchFeaturesCommand(bench),
           benchMatchCommand(bench)};
 }
 

@@ -1,0 +1,22 @@
+// Several variants of the same work in turn, so that whatever slows the machine slows all alike.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "runtime/base/random.h"
+
+namespace sphc::host {
+
+// Runs variant 0 .. count - 1 once in `repeat`; gives the seconds it took.
+using TimedRun = std::function<double(size_t variant, uint32_t repeat)>;
+
+// The median seconds of each variant over `repeats` rounds, each in a random order, so that no variant always
+// follows the same other one and finds the caches as that left them.  What takes more than 50 ms runs once.
+std::vector<double> interleave(size_t count, uint32_t repeats, Random *random, const TimedRun &run);
+
+// Seconds of this thread on its core.
+double threadCpuSeconds();
+
+}  // namespace sphc::host
