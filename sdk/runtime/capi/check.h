@@ -8,6 +8,11 @@ namespace sphc {
 sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message);
 // Do a frame's images fit the config?
 sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, sphc_message *message);
+// Can an aligner be made of it?
+sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *message);
+// Does an image fit its camera?  `name` is that of the image; `depth`: it must be DEPTH16, else colour or grey.
+sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
+                       sphc_message *message);
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);
