@@ -198,9 +198,9 @@ sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *
                     (c.aligned_unit_m == 0 || inRange("aligned_unit_m", c.aligned_unit_m, 1e-6, 0.1, message));
   if (!good) return SPHC_E_ARGUMENT;
   const double unit_m = c.aligned_unit_m > 0 ? c.aligned_unit_m : c.depth_unit_m;
-  if (c.depth_max_m <= 65000 * unit_m) return SPHC_OK;
+  if (c.depth_max_m <= 62000 * unit_m) return SPHC_OK;
   MessageWriter(message) << "config.depth_max_m is " << c.depth_max_m << ", but 16 bits of aligned_unit_m reach "
-                         << 65000 * unit_m << " m; raise the unit or lower the range";
+                         << 62000 * unit_m << " m; raise the unit or lower the range";
   return SPHC_E_ARGUMENT;
 }
 

@@ -13,7 +13,6 @@ constexpr double kStretch = 1.05;  // footprints grow on slanted surfaces
 constexpr double kMostHalfPx = 255 / static_cast<double>(kFootprintsPerPixel);
 constexpr int32_t kShadowReachPx = 48;  // how wide a hole beside an edge may be
 constexpr double kShadowJump = 0.03;    // relative depth step that casts one
-constexpr float kObliquest = 0.25f;     // gaps open along an axis from this share of the other on
 constexpr double kFarPx = 1e6;
 constexpr double kLeastShadowPx = 0.5, kMostShadowPx = 256;
 
@@ -40,11 +39,19 @@ ProjectTask taskOf(const DenseConfig &config) {
   }
   task.color = lensF(config.color);
   task.subunits_per_m = static_cast<float>(kSubUnits / config.out_unit_m);
-  task.most_subunits = 65534.0f * kSubUnits;
+  task.most_subunits = 63000.0f * kSubUnits;  // an empty pixel reads as much more
   task.sigma_m = static_cast<float>(config.sensor.sigma_m);
   task.sigma_per_m2 = static_cast<float>(config.sensor.sigma_per_m2);
   task.depth_focal_px = static_cast<float>(config.depth.focal());
   return task;
+}
+
+// The nearest sample of each pixel stays.
+void lowerPixels(const ProjectedRow &row, int32_t count, int32_t *__restrict pixels) {
+  const int32_t *__restrict index = row.index;
+  const int32_t *__restrict key = row.key;
+  for (int32_t u = 0; u < count; ++u)
+    if (key[u] < pixels[index[u]]) pixels[index[u]] = key[u];
 }
 
 }  // namespace
@@ -59,8 +66,9 @@ void DenseAligner::layout(const DenseConfig &config, Arena &arena, DenseAligner 
   const size_t depth_pixels = static_cast<size_t>(a.ray_stride_) * static_cast<size_t>(a.depth_height_);
   const size_t stride = static_cast<size_t>(a.plane_stride_), plane = stride * static_cast<size_t>(a.height_ + 2);
   const size_t ray_stride = static_cast<size_t>(a.ray_stride_);
-  a.rays_x_ = arena.take<float>("align.rays", depth_pixels);
-  a.rays_y_ = arena.take<float>("align.rays", depth_pixels);
+  a.row_of_rays_ = config.depth.isPinhole() ? 0 : a.ray_stride_;
+  a.rays_x_ = arena.take<float>("align.rays", config.depth.isPinhole() ? ray_stride : depth_pixels);
+  a.rays_y_ = arena.take<float>("align.rays", config.depth.isPinhole() ? ray_stride : depth_pixels);
   a.half_x_ = arena.take<uint8_t>("align.footprints", depth_pixels);
   a.half_y_ = arena.take<uint8_t>("align.footprints", depth_pixels);
   a.measured_.keys = arena.take<int32_t>("align.z_buffer", plane);
@@ -77,6 +85,9 @@ void DenseAligner::layout(const DenseConfig &config, Arena &arena, DenseAligner 
 void DenseAligner::init(const DenseConfig &config, const AlignKernels &kernels) {
   config_ = config;
   kernels_ = &kernels;
+  const double low = config.sensor.min_m / config.sensor.unit_m, high = config.sensor.max_m / config.sensor.unit_m;
+  low_ = low > 1 ? (low < 65535 ? static_cast<uint16_t>(-floorOf(-low)) : uint16_t{65535}) : uint16_t{1};
+  high_ = high < 65535 ? static_cast<uint16_t>(high) : uint16_t{65535};
   task_ = taskOf(config);
   task_.plane_stride = plane_stride_;
   task_.plane_origin = plane_stride_ + kRowPadding;
@@ -93,12 +104,14 @@ void DenseAligner::makeRays() {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   for (float &x : rays_x_) x = kNone;
   for (float &y : rays_y_) y = kNone;
-  for (int32_t v = 0; v < depth_height_; ++v) {
+  const double *k = config_.depth.parameters().params;
+  for (int32_t u = 0; u < depth_width_ && !row_of_rays_; ++u)
+    rays_x_[static_cast<size_t>(kRowPadding + u)] = static_cast<float>((u + 0.5 - k[2]) / k[0]);
+  for (int32_t v = 0; v < depth_height_ && row_of_rays_; ++v) {
     for (int32_t u = 0; u < depth_width_; ++u) {
       Vector2 ray;
       if (!config_.depth.unproject({u + 0.5, v + 0.5}, &ray)) continue;
-      const size_t at =
-          static_cast<size_t>(v) * static_cast<size_t>(ray_stride_) + kRowPadding + static_cast<size_t>(u);
+      const size_t at = static_cast<size_t>(v * int64_t{row_of_rays_} + kRowPadding + u);
       rays_x_[at] = static_cast<float>(ray.x());
       rays_y_[at] = static_cast<float>(ray.y());
     }
@@ -158,9 +171,8 @@ void DenseAligner::process(ImageView<uint16_t> depth, const AlignedImages &out) 
 void DenseAligner::sense(ImageView<uint16_t> depth, int32_t y) {
   float *row = sensedRow(y);
   if (y < depth_height_) {
-    const DepthSensor &sensor = config_.sensor;
-    kernels_->sense_row(depth.row(y), static_cast<float>(sensor.unit_m), static_cast<float>(sensor.min_m),
-                        static_cast<float>(sensor.max_m), depth_width_, row);
+    kernels_->sense_row(depth.row(y), static_cast<float>(config_.sensor.unit_m), static_cast<float>(low_),
+                        static_cast<float>(high_), depth_width_, row);
   } else {
     for (int32_t u = 0; u < depth_width_; ++u) row[u] = 0;
   }
@@ -169,58 +181,50 @@ void DenseAligner::sense(ImageView<uint16_t> depth, int32_t y) {
 // Every sample into its pixel, and over its footprint.
 void DenseAligner::project(ImageView<uint16_t> depth, int32_t y) {
   const int64_t start = int64_t{y} * ray_stride_ + kRowPadding;
-  const SensedRows rows = {
-      sensedRow(y + 2),       sensedRow(y),           sensedRow(y + 1),       rays_x_.data() + start,
-      rays_y_.data() + start, half_x_.data() + start, half_y_.data() + start, depth_width_};
-  kernels_->project_row(task_, rows, &projected_);
-  int32_t *keys = measured_.keys.data();
-  for (int32_t u = 0; u < depth_width_; ++u) {
-    int32_t &pixel = keys[projected_.index[u]];
-    pixel = projected_.key[u] < pixel ? projected_.key[u] : pixel;
+  if (!row_of_rays_) {
+    const double *k = config_.depth.parameters().params;
+    const float ray_y = static_cast<float>((y + 0.5 - k[3]) / k[1]);
+    for (float &every : rays_y_) every = ray_y;
   }
+  const SensedRows rows = {sensedRow(y + 2),   sensedRow(y),           sensedRow(y + 1),       rayRow(rays_x_, y),
+                           rayRow(rays_y_, y), half_x_.data() + start, half_y_.data() + start, depth_width_};
+  kernels_->project_row(task_, rows, &projected_);
+  lowerPixels(projected_, depth_width_, measured_.keys.data());
   if (task_.with_footprints)
     kernels_->spread_row(projected_, depth_width_, plane_stride_, spread_.row(0, plane_stride_));
   for (int32_t i = 0; i < projected_.edge_count; ++i) castShadows(depth, projected_.edges[i], y);
 }
 
-// The depth of a measurement, m; 0: none in range.
-double DenseAligner::depthAt(ImageView<uint16_t> depth, int32_t x, int32_t y) const {
-  const double z = depth.row(y)[x] * config_.sensor.unit_m;
-  return z >= config_.sensor.min_m && z <= config_.sensor.max_m ? z : 0;
-}
-
-// The next surface from pixel (x, y) in a direction, beyond a hole if need be; 0: none.
-double DenseAligner::depthBeside(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const {
+// The next measurement from pixel (x, y) in a direction, beyond a hole if need be; 0: none.
+uint16_t DenseAligner::beside(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const {
   for (int32_t i = 1; i <= kShadowReachPx; ++i) {
     const int32_t u = x + i * dx, v = y + i * dy;
     if (u < 0 || v < 0 || u >= depth.width || v >= depth.height) return 0;
-    const double z = depthAt(depth, u, v);
-    if (z > 0) return z;
+    const uint16_t raw = depth.row(v)[u];
+    if (raw >= low_ && raw <= high_) return raw;
   }
   return 0;
 }
 
 // From the last pixel of something near, towards the colour camera's side.
 void DenseAligner::castShadows(ImageView<uint16_t> depth, int32_t x, int32_t y) {
-  const size_t at =
-      static_cast<size_t>(y) * static_cast<size_t>(ray_stride_) + kRowPadding + static_cast<size_t>(x);
-  const float toward_x = task_.center_m[0] - task_.center_m[2] * rays_x_[at];
-  const float toward_y = task_.center_m[1] - task_.center_m[2] * rays_y_[at];
-  const double near_m = depthAt(depth, x, y);
-  const double beside_m[] = {depthBeside(depth, x, y, toward_x > 0 ? 1 : -1, 0),
-                             depthBeside(depth, x, y, 0, toward_y > 0 ? 1 : -1)};
+  const float toward_x = task_.center_m[0] - task_.center_m[2] * rayRow(rays_x_, y)[x];
+  const float toward_y = task_.center_m[1] - task_.center_m[2] * rayRow(rays_y_, y)[x];
   // Of both sides the farther, where the gap opens that way.
-  const bool opens[] = {absOf(toward_x) > kObliquest * absOf(toward_y),
-                        absOf(toward_y) > kObliquest * absOf(toward_x)};
-  double far_m = 0;
-  for (int side = 0; side < 2; ++side)
-    if (opens[side] && beside_m[side] > far_m) far_m = beside_m[side];
-  if (far_m > near_m * (1 + kShadowJump)) castShadow(at, near_m, far_m);
+  uint16_t across = 0, down = 0;
+  if (absOf(toward_x) > kObliquest * absOf(toward_y)) across = beside(depth, x, y, toward_x > 0 ? 1 : -1, 0);
+  if (absOf(toward_y) > kObliquest * absOf(toward_x)) down = beside(depth, x, y, 0, toward_y > 0 ? 1 : -1);
+  const double near_m = depth.row(y)[x] * config_.sensor.unit_m;
+  const double far_m = (across > down ? across : down) * config_.sensor.unit_m;
+  if (!(far_m > near_m * (1 + kShadowJump))) return;
+  const float toward = absOf(toward_x) > absOf(toward_y) ? absOf(toward_x) : absOf(toward_y);
+  const double gap_px = config_.depth.focal() * static_cast<double>(toward) * (far_m - near_m) / (far_m * near_m);
+  if (gap_px > kLeastShadowPx) castShadow(x, y, near_m, far_m);
 }
 
 // What lies behind the sample, from its depth to that of the surface behind, along the ray of the depth camera.
-void DenseAligner::castShadow(size_t at, double near_m, double far_m) {
-  const Vector3 ray(static_cast<double>(rays_x_[at]), static_cast<double>(rays_y_[at]), 1);
+void DenseAligner::castShadow(int32_t x, int32_t y, double near_m, double far_m) {
+  const Vector3 ray(static_cast<double>(rayRow(rays_x_, y)[x]), static_cast<double>(rayRow(rays_y_, y)[x]), 1);
   const Vector3 turned = config_.color_from_depth.rotation * ray;
   const Vector3 &origin = config_.color_from_depth.translation_m;
   Vector2 near_px, far_px;
@@ -231,6 +235,7 @@ void DenseAligner::castShadow(size_t at, double near_m, double far_m) {
   const double length = absOf(way.x()) > absOf(way.y()) ? absOf(way.x()) : absOf(way.y());
   if (!(length >= kLeastShadowPx && length <= kMostShadowPx)) return;
   const int32_t steps = static_cast<int32_t>(length) + 1;
+  const size_t at = static_cast<size_t>(y * int64_t{ray_stride_} + kRowPadding + x);
   const double least = 0.5;
   const double half_x = half_x_[at] / static_cast<double>(kFootprintsPerPixel);
   const double half_y = half_y_[at] / static_cast<double>(kFootprintsPerPixel);

@@ -44,14 +44,16 @@ class DenseAligner {
   void makeFootprints();
   void sense(ImageView<uint16_t> depth, int32_t y);
   void project(ImageView<uint16_t> depth, int32_t y);
-  double depthAt(ImageView<uint16_t> depth, int32_t x, int32_t y) const;
-  double depthBeside(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const;
+  uint16_t beside(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const;
   void castShadows(ImageView<uint16_t> depth, int32_t x, int32_t y);
-  void castShadow(size_t at, double near_m, double far_m);
+  void castShadow(int32_t x, int32_t y, double near_m, double far_m);
   void markShadow(const Vector2 &px, double half_x, double half_y);
   void combine(int32_t y);
   void resolve(int32_t y, const AlignedImages &out);
 
+  const float *rayRow(Span<float> rays, int32_t y) const {
+    return rays.data() + y * int64_t{row_of_rays_} + kRowPadding;
+  }
   float *sensedRow(int32_t y) { return sensed_.data() + (y % 3) * int64_t{ray_stride_} + kRowPadding; }
   int32_t *combinedRow(int32_t y) {
     return combined_.data() + ((y + 3) % 3) * int64_t{plane_stride_} + kRowPadding;
@@ -60,9 +62,11 @@ class DenseAligner {
   DenseConfig config_;
   const AlignKernels *kernels_ = nullptr;
   ProjectTask task_ = {};
+  uint16_t low_ = 1, high_ = 65535;  // measurements in range
   int32_t depth_width_ = 0, depth_height_ = 0, width_ = 0, height_ = 0;
   int32_t ray_stride_ = 0, plane_stride_ = 0;
 
+  int32_t row_of_rays_ = 0;  // stride of the rays; 0: without distortion x is the same in every row, y in a row
   Span<float> rays_x_, rays_y_;
   Span<uint8_t> half_x_, half_y_;
   Plane measured_, spread_;

@@ -31,6 +31,7 @@ constexpr int32_t kFilledBit = 1 << 30;       // its depth comes from a sample b
 constexpr int32_t kEmpty = 0x7FFFFFFF;        // no sample
 constexpr int32_t kShadowed = 0x7FFFFFFE;     // none, and the depth camera cannot see what is there
 constexpr int32_t kRowPadding = 16;           // pixels before and after the rows of tables and buffers
+constexpr float kObliquest = 0.25f;           // gaps open along an axis from this share of the other on
 constexpr float kFootprintsPerPixel = 16.0f;  // half widths of footprints are bytes in 1/16 px
 
 // How a colour pixel comes from a ray (x, y, 1).
@@ -84,8 +85,8 @@ struct AlignKernels {
   void (*patch_sums)(const PatchView &, PatchSums *);
   // nearest[i] = min(nearest[i], raw[i] - first), wrapping around; `count` is any.
   void (*nearest_row)(const uint16_t *raw, uint16_t first, int32_t count, uint16_t *nearest);
-  // m[i] = raw[i] * unit_m where that is in range, else 0.
-  void (*sense_row)(const uint16_t *raw, float unit_m, float low_m, float high_m, int32_t count, float *m);
+  // m[i] = raw[i] * unit_m where raw[i] is in [low, high], else 0.
+  void (*sense_row)(const uint16_t *raw, float unit_m, float low, float high, int32_t count, float *m);
   void (*project_row)(const ProjectTask &, const SensedRows &, ProjectedRow *);
   // Lowers the pixels of every footprint to its key.
   void (*spread_row)(const ProjectedRow &, int32_t count, int32_t stride, int32_t *top_left);

@@ -26,6 +26,7 @@ constexpr float kSteepest = 0.1f;       // relative depth step beyond which a ne
 constexpr float kGoodError = 0.01f;     // relative depth error of confidence 127
 constexpr float kPlacedPx = 0.3f;       // 1 sigma of where in its pixel a sample was measured
 constexpr float kSpreadPx = 0.8f;       // the same beside its pixel
+constexpr float kFarPx = 1e6f;          // a pixel of numbers that are too large, or not numbers
 constexpr float kLeastShadowPx = 0.5f;  // narrower ones are within the error of the edge
 
 // a + s * b, rounded twice.
@@ -85,9 +86,11 @@ HWY_ATTR HWY_INLINE Point2 colorPixel(const LensF &lens, Point2 p, VF r2) {
   return {madd(hn::Set(d, lens.cx), lens.fx, p.x), madd(hn::Set(d, lens.cy), lens.fy, p.y)};
 }
 
-// Depth difference from a neighbour; of no measurement and of another surface the steepest.
-HWY_ATTR HWY_INLINE VF rise(VF z, VF neighbour) {
-  return hn::Min(hn::Abs(hn::Sub(z, neighbour)), hn::Mul(hn::Set(F32(), kSteepest), z));
+// Largest depth difference from a neighbour; of no measurement and of another surface the steepest.
+HWY_ATTR HWY_INLINE VF slopeOf(VF z, VF left, VF right, VF above, VF below) {
+  const VF across = hn::Max(hn::Abs(hn::Sub(z, left)), hn::Abs(hn::Sub(z, right)));
+  const VF down = hn::Max(hn::Abs(hn::Sub(z, above)), hn::Abs(hn::Sub(z, below)));
+  return hn::Min(hn::Max(across, down), hn::Mul(hn::Set(F32(), kSteepest), z));
 }
 
 // 255 for an exact depth, 127 for a relative error of kGoodError: 255 / (1 + (error / good)^2).
@@ -117,13 +120,27 @@ HWY_ATTR HWY_INLINE hn::Vec<I32> firstFrom(VF edge, float most) {
   return hn::ConvertTo(I32(), hn::Min(hn::Max(first, hn::Zero(d)), hn::Set(d, most)));
 }
 
-// Is the neighbour on the colour camera's side missing, or clearly farther, and would the gap show?
-HWY_ATTR HWY_INLINE hn::Mask<F32> opensGap(const ProjectTask &task, VF z, VF toward, VF before, VF after) {
+// `toward`: how far to the colour camera along one axis of the image; `other`: along the other.  Is the neighbour
+// on that side missing, or clearly farther, and would the gap show?
+HWY_ATTR HWY_INLINE hn::Mask<F32> opensGap(const ProjectTask &task, VF z, VF toward, VF other, VF before,
+                                           VF after) {
   const F32 d;
   const VF zero = hn::Zero(d), neighbour = hn::IfThenElse(hn::Gt(toward, zero), after, before);
   const auto edge = hn::Or(hn::Eq(neighbour, zero), hn::Gt(neighbour, hn::Mul(z, hn::Set(d, 1 + kEdgeJump))));
-  const VF parallax = hn::Mul(hn::Set(d, task.depth_focal_px), hn::Abs(toward));
-  return hn::And(edge, hn::Gt(parallax, hn::Mul(hn::Set(d, kLeastShadowPx), z)));
+  const VF reach = hn::Abs(toward), parallax = hn::Mul(hn::Set(d, task.depth_focal_px), reach);
+  const VF least = hn::Max(hn::Mul(hn::Set(d, kLeastShadowPx), z),
+                           hn::Mul(hn::Set(d, kObliquest * task.depth_focal_px), hn::Abs(other)));
+  return hn::And(edge, hn::Gt(parallax, least));
+}
+
+// What a vector of pixels without measurements gives.
+HWY_ATTR HWY_INLINE void storeNothing(const ProjectTask &task, const ProjectedRow &out, int32_t u) {
+  const I32 d;
+  hn::StoreU(hn::Zero(d), d, out.index + u);
+  hn::StoreU(hn::Set(d, kEmpty), d, out.key + u);
+  if (!task.with_footprints) return;
+  hn::StoreU(hn::Zero(d), d, out.right + u);
+  hn::StoreU(hn::Zero(d), d, out.left + u);
 }
 
 template <sphc_camera_model kModel>
@@ -136,6 +153,10 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, Projec
   out->edge_count = 0;
   for (int32_t u = 0; u < in.count; u += lanes) {
     const VF z = hn::LoadU(d, in.here + u);
+    if (hn::AllFalse(d, hn::Gt(z, zero))) {
+      storeNothing(task, *out, u);
+      continue;
+    }
     const VF left = hn::LoadU(d, in.here + u - 1), right = hn::LoadU(d, in.here + u + 1);
     const VF above = hn::LoadU(d, in.above + u), below = hn::LoadU(d, in.below + u);
     const VF x = hn::LoadU(d, in.ray_x + u), y = hn::LoadU(d, in.ray_y + u);
@@ -151,11 +172,13 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, Projec
     const VF r2 = hn::Add(hn::Mul(ray.x, ray.x), hn::Mul(ray.y, ray.y));
     const Point2 px = colorPixel<kModel>(task.color, ray, r2);
     const VF subunits = hn::Mul(color_z, hn::Set(d, task.subunits_per_m));
-    const auto seen = hn::And(
-        hn::And(hn::Gt(z, zero), hn::Ge(subunits, hn::Set(d, 1.0f * kSubUnits))),
-        hn::And(hn::Le(subunits, hn::Set(d, task.most_subunits)), hn::Le(r2, hn::Set(d, task.color.max_radius2))));
+    const VF far = hn::Set(d, kFarPx);
+    const auto seen = hn::And(hn::And(hn::And(hn::Gt(z, zero), hn::Le(r2, hn::Set(d, task.color.max_radius2))),
+                                      hn::And(hn::Ge(subunits, hn::Set(d, 1.0f * kSubUnits)),
+                                              hn::Le(subunits, hn::Set(d, task.most_subunits)))),
+                              hn::And(hn::Lt(hn::Abs(px.x), far), hn::Lt(hn::Abs(px.y), far)));
 
-    const VF slope = hn::Max(hn::Max(rise(z, left), rise(z, right)), hn::Max(rise(z, above), rise(z, below)));
+    const VF slope = slopeOf(z, left, right, above, below);
     const VF sigma = madd(hn::Set(d, task.sigma_m), task.sigma_per_m2, hn::Mul(z, z)),
              sigma2 = hn::Mul(sigma, sigma);
     const VF good = hn::Mul(hn::Set(d, kGoodError), z), good2 = hn::Mul(good, good);
@@ -187,8 +210,8 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, Projec
 
     const VF toward_x = hn::Sub(hn::Set(d, task.center_m[0]), hn::Mul(hn::Set(d, task.center_m[2]), x));
     const VF toward_y = hn::Sub(hn::Set(d, task.center_m[1]), hn::Mul(hn::Set(d, task.center_m[2]), y));
-    const auto edge =
-        hn::And(seen, hn::Or(opensGap(task, z, toward_x, left, right), opensGap(task, z, toward_y, above, below)));
+    const auto edge = hn::And(seen, hn::Or(opensGap(task, z, toward_x, toward_y, left, right),
+                                           opensGap(task, z, toward_y, toward_x, above, below)));
     if (!hn::AllFalse(d, edge)) {
       const auto columns = hn::Iota(di, u);
       out->edge_count += static_cast<int32_t>(
@@ -208,13 +231,14 @@ HWY_ATTR void projectRow(const ProjectTask &task, const SensedRows &in, Projecte
   }
 }
 
-HWY_ATTR void senseRow(const uint16_t *raw, float unit_m, float low_m, float high_m, int32_t count, float *m) {
+HWY_ATTR void senseRow(const uint16_t *raw, float unit_m, float low, float high, int32_t count, float *m) {
   const F32 d;
   const hn::Rebind<uint16_t, F32> d16;
   const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
   const auto sense = [&](hn::Vec<hn::Rebind<uint16_t, F32>> row) HWY_ATTR {
-    const VF z = hn::Mul(hn::ConvertTo(d, hn::PromoteTo(I32(), row)), hn::Set(d, unit_m));
-    return hn::IfThenElseZero(hn::And(hn::Ge(z, hn::Set(d, low_m)), hn::Le(z, hn::Set(d, high_m))), z);
+    const VF units = hn::ConvertTo(d, hn::PromoteTo(I32(), row));
+    const auto good = hn::And(hn::Ge(units, hn::Set(d, low)), hn::Le(units, hn::Set(d, high)));
+    return hn::IfThenElseZero(good, hn::Mul(units, hn::Set(d, unit_m)));
   };
   int32_t u = 0;
   for (; u + lanes <= count; u += lanes) hn::StoreU(sense(hn::LoadU(d16, raw + u)), d, m + u);

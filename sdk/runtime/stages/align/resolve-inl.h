@@ -56,10 +56,10 @@ HWY_ATTR void combineRow(const int32_t *measured, const int32_t *spread, int32_t
   }
 }
 
-HWY_ATTR HWY_INLINE MK isSameSurface(VK a, VK b) {
-  const VK za = depthOf(a), zb = depthOf(b);
-  return hn::And(hn::And(isThere(a), isThere(b)),
-                 hn::Not(hn::Gt(hn::Abs(hn::Sub(za, zb)), hn::ShiftRight<kSameShift>(hn::Min(za, zb)))));
+// Is `other` on the surface of depth `depth`?  Never where it is empty, whose depth is beyond all others.
+HWY_ATTR HWY_INLINE MK isSameSurface(VK depth, VK other) {
+  const VK apart = hn::Abs(hn::Sub(depth, depthOf(other)));
+  return hn::Not(hn::Gt(apart, hn::ShiftRight<kSameShift>(depth)));
 }
 
 // Mean depth, the lower confidence, filled.
@@ -70,31 +70,29 @@ HWY_ATTR HWY_INLINE VK between(VK a, VK b) {
   return hn::Or(hn::Or(hn::ShiftLeft<kDepthShift>(depth), doubt), hn::Set(d, kFilledBit));
 }
 
+// The pixels beside one.
+struct Around {
+  VK left, right, above, below;
+};
+
 // A crack one pixel wide in one surface.
-HWY_ATTR HWY_INLINE VK closeCracks(const ResolvedRow &in, int32_t x, VK here) {
-  const Key d;
-  const VK left = hn::LoadU(d, in.here + x - 1), right = hn::LoadU(d, in.here + x + 1);
-  const VK above = hn::LoadU(d, in.above + x), below = hn::LoadU(d, in.below + x);
-  const MK open = hn::Not(isThere(here)), across = hn::And(open, isSameSurface(left, right));
-  const MK down = hn::And(open, isSameSurface(above, below));
-  return hn::IfThenElse(across, between(left, right), hn::IfThenElse(down, between(above, below), here));
+HWY_ATTR HWY_INLINE VK closeCrack(VK here, const Around &a) {
+  const MK open = hn::Not(isThere(here));
+  const MK across = hn::And(open, hn::And(isThere(a.left), isSameSurface(depthOf(a.left), a.right)));
+  const MK down = hn::And(open, hn::And(isThere(a.above), isSameSurface(depthOf(a.above), a.below)));
+  return hn::IfThenElse(across, between(a.left, a.right), hn::IfThenElse(down, between(a.above, a.below), here));
 }
 
-// Footprints are flat; the mean of those around, of one surface, is nearly their linear interpolation.
-HWY_ATTR HWY_INLINE VK smoothDepth(const ResolvedRow &in, int32_t x, VK here) {
+// Footprints are flat; the mean with those beside, of one surface, is nearer to their interpolation.
+HWY_ATTR HWY_INLINE VK smoothDepth(VK here, const Around &a) {
   const Key d;
   const hn::Rebind<float, Key> df;
-  const VK one = hn::Set(d, 1);
-  VK sum = depthOf(here), count = one;
-  const int32_t *const rows[] = {in.above, in.here, in.below};
-  for (const int32_t *row : rows) {
-    for (int32_t dx = -1; dx <= 1; ++dx) {
-      if (row == in.here && dx == 0) continue;
-      const VK beside = hn::LoadU(d, row + x + dx);
-      const MK same = isSameSurface(here, beside);
-      sum = hn::Add(sum, hn::IfThenElseZero(same, depthOf(beside)));
-      count = hn::Add(count, hn::IfThenElseZero(same, one));
-    }
+  const VK depth = depthOf(here), others[] = {a.left, a.right, a.above, a.below};
+  VK sum = depth, count = hn::Set(d, 1);
+  for (const VK &other : others) {
+    const MK same = isSameSurface(depth, other);
+    sum = hn::Add(sum, hn::IfThenElseZero(same, depthOf(other)));
+    count = hn::Sub(count, hn::VecFromMask(d, same));  // a lane that is true is -1
   }
   return hn::ConvertTo(d, hn::Div(hn::ConvertTo(df, sum), hn::ConvertTo(df, count)));
 }
@@ -106,10 +104,16 @@ HWY_ATTR void resolveRow(const ResolvedRow &in) {
   const VK zero = hn::Zero(d), low = hn::Set(d, 255);
   for (int32_t x = 0; x < in.count; x += static_cast<int32_t>(hn::Lanes(d))) {
     VK here = hn::LoadU(d, in.here + x);
-    if (!hn::AllTrue(d, isThere(here))) here = closeCracks(in, x, here);
-    const MK there = isThere(here), filled = hn::And(there, hn::Gt(here, hn::Set(d, kFilledBit - 1)));
     VK depth = depthOf(here);
-    if (!hn::AllFalse(d, filled)) depth = hn::IfThenElse(filled, smoothDepth(in, x, here), depth);
+    MK filled = hn::Gt(here, hn::Set(d, kFilledBit - 1));
+    if (!hn::AllFalse(d, filled)) {  // empty ones too
+      const Around around = {hn::LoadU(d, in.here + x - 1), hn::LoadU(d, in.here + x + 1),
+                             hn::LoadU(d, in.above + x), hn::LoadU(d, in.below + x)};
+      here = closeCrack(here, around);
+      filled = hn::And(filled, isThere(here));
+      depth = hn::IfThenElse(filled, smoothDepth(here, around), depthOf(here));
+    }
+    const MK there = isThere(here);
     depth = hn::ShiftRight<6>(hn::Add(depth, hn::Set(d, kSubUnits / 2)));
     const MK shadowed = hn::Eq(here, hn::Set(d, kShadowed));
     const VK kind = hn::IfThenElse(
