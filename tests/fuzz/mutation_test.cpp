@@ -61,6 +61,7 @@ void walk(const char *name, int runs) {
 
 TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Frame) { walk("frame", 600); }
+TEST(Mutations, Align) { walk("align", 3000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 
 #ifdef SPHC_FUZZ_CALIBRATION

@@ -23,6 +23,28 @@ std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
   return seed;
 }
 
+// Two cameras of a model, and a depth image with a step and a hole.
+std::vector<uint8_t> alignSeed(sphc_camera_model model, const std::vector<double> &distortion) {
+  sphc_aligner_config config;
+  sphc_aligner_config_init(&config, sizeof config);
+  config.color_camera = test::pinhole(24, 20, 20);  // of the fuzzed sizes, 16 + these, folded
+  config.depth_camera = test::pinhole(17, 16, 15);
+  for (sphc_camera *camera : {&config.color_camera, &config.depth_camera}) {
+    camera->model = model;
+    camera->param_count = static_cast<uint32_t>(4 + distortion.size());
+    std::copy(distortion.begin(), distortion.end(), camera->params + 4);
+  }
+  config.color_from_depth.t_m[0] = -0.05;
+  const auto *start = reinterpret_cast<const uint8_t *>(&config);
+  std::vector<uint8_t> seed(start, start + sizeof config);
+  for (uint32_t i = 0; i < 200; ++i) {
+    const uint16_t mm = static_cast<uint16_t>(i % 33 < 12 ? 900 + i : i % 33 < 15 ? 0 : 3000);
+    seed.push_back(static_cast<uint8_t>(mm));
+    seed.push_back(static_cast<uint8_t>(mm >> 8));
+  }
+  return seed;
+}
+
 #ifdef SPHC_FUZZ_CALIBRATION
 const char *const kCalibration = R"({
   "format": "spherecloud-calibration",
@@ -45,8 +67,14 @@ void broken(const char *promise) {
 }
 
 std::vector<Target> allTargets() {
-  std::vector<Target> targets = {{"map", map, {test::randomMap(16, 1), test::randomMap(33, 2)}},
-                                 {"frame", frame, {frameSeed(0), frameSeed(2), {}}}};
+  std::vector<Target> targets = {
+      {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2)}},
+      {"frame", frame, {frameSeed(0), frameSeed(2), {}}},
+      {"align",
+       align,
+       {alignSeed(SPHC_CAMERA_PINHOLE, {}), alignSeed(SPHC_CAMERA_BROWN5, {0.1, -0.05, 0.001, 0, 0}),
+        alignSeed(SPHC_CAMERA_BROWN8, {0.1, 0, 0, 0, 0, 0.1, 0, 0}),
+        alignSeed(SPHC_CAMERA_KANNALA_BRANDT4, {0.02, -0.01, 0, 0})}}};
 #ifdef SPHC_FUZZ_CALIBRATION
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
 #endif

@@ -11,6 +11,8 @@ namespace sphc::fuzz {
 void map(const uint8_t *data, size_t bytes);
 // First a header of sizes, strides and formats, then pixels.
 void frame(const uint8_t *data, size_t bytes);
+// An aligner's config, then pixels of a depth image.
+void align(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
 

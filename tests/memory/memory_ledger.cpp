@@ -41,6 +41,14 @@ int main() {
   std::printf("any,map view,all,%zu\n", bytes);
   sphc_pairer_memory(&bytes, &alignment);
   std::printf("any,pairer,all,%zu\n", bytes);
+  sphc_aligner_config aligner;
+  sphc_aligner_config_init(&aligner, sizeof aligner);
+  aligner.color_camera = aligner.depth_camera = sphc::test::pinhole(640, 480, 500);
+  sphc_aligner_memory(&aligner, &bytes, &alignment, nullptr);
+  std::printf("640x480 from 640x480,aligner,all,%zu\n", bytes);
+  aligner.depth_camera = sphc::test::pinhole(320, 288, 220);
+  sphc_aligner_memory(&aligner, &bytes, &alignment, nullptr);
+  std::printf("640x480 from 320x288,aligner,all,%zu\n", bytes);
   const size_t of_64 = sphc::test::randomMap(64, 1).size(), of_1088 = sphc::test::randomMap(1088, 1).size();
   std::printf("any,map file,each point,%zu\n", (of_1088 - of_64) / 1024);
   std::printf("any,map file,header,%zu\n", of_64 - 64 * ((of_1088 - of_64) / 1024));

@@ -31,7 +31,8 @@ struct Everything {
   sphc_config config = sphc::test::sceneConfig();
   sphc::test::SceneMap map = sphc::test::makeSceneMap(config.color_camera, config.max_keypoints, 3, 0.5);
   std::vector<std::unique_ptr<sphc::test::SceneFrame>> frames;
-  GuardedMemory map_memory, state, scratch, pairer_memory;
+  sphc_aligner_config rig = {};
+  GuardedMemory map_memory, state, scratch, pairer_memory, aligner_memory;
   std::vector<sphc_observation> observations = std::vector<sphc_observation>(config.max_keypoints);
 
   Everything() {
@@ -42,6 +43,12 @@ struct Everything {
     map_memory = GuardedMemory(bytes, alignment);
     sphc_pairer_memory(&bytes, &alignment);
     pairer_memory = GuardedMemory(bytes, alignment);
+    sphc_aligner_config_init(&rig, sizeof rig);
+    rig.color_camera = config.color_camera;
+    rig.depth_camera = config.depth_camera;
+    rig.color_from_depth = config.color_from_depth;
+    sphc_aligner_memory(&rig, &bytes, &alignment, nullptr);
+    aligner_memory = GuardedMemory(bytes, alignment);
     sphc_memory need = {};
     sphc_localizer_memory(&config, &need, nullptr);
     state = GuardedMemory(need.state_bytes, need.alignment);
@@ -68,6 +75,20 @@ bool runPairer(Everything *e) {
   ok = ok && sphc_pairer_pop(pairer, &pair, &dropped) == SPHC_OK;
   sphc_pairer_flush(pairer);
   sphc_pairer_fini(&pairer);
+  return ok;
+}
+
+bool runAligner(Everything *e) {
+  sphc_aligner *aligner = nullptr;
+  sphc_message message = {};
+  size_t bytes = 0, alignment = 0;
+  const sphc_aligned nowhere = {sizeof nowhere, 0, 0, 0, nullptr, nullptr, nullptr};
+  const bool ok = sphc_aligner_memory(&e->rig, &bytes, &alignment, &message) == SPHC_OK &&
+                  sphc_aligner_init(e->aligner_memory.data(), e->aligner_memory.size(), &e->rig, &aligner,
+                                    &message) == SPHC_OK &&
+                  sphc_aligner_process(aligner, &e->frames[0]->frame.depth, &nowhere) == SPHC_OK &&
+                  sphc_aligner_process(aligner, &e->frames[0]->frame.color, &nowhere) == SPHC_E_IMAGE;
+  sphc_aligner_fini(&aligner);
   return ok;
 }
 
@@ -109,8 +130,11 @@ int main(int argc, char **argv) {
   sphc::test::sealHeap();
   const int localized = runSession(&everything);
   const bool paired = runPairer(&everything);
+  const bool aligned = runAligner(&everything);
   sphc::test::unsealHeap();
-  std::printf("localized %d of 4 frames, pairer %s, without the heap\n", localized, paired ? "works" : "fails");
-  const bool intact = everything.state.guardsIntact() && everything.scratch.guardsIntact();
-  return localized == 4 && paired && intact ? 0 : 1;
+  std::printf("localized %d of 4 frames, pairer %s, aligner %s, without the heap\n", localized,
+              paired ? "works" : "fails", aligned ? "works" : "fails");
+  const bool intact = everything.state.guardsIntact() && everything.scratch.guardsIntact() &&
+                      everything.aligner_memory.guardsIntact();
+  return localized == 4 && paired && aligned && intact ? 0 : 1;
 }

@@ -6,6 +6,7 @@
 #include "host/bench/pose_peers.h"
 #include "host/bench/pose_plots.h"
 #include "host/bench/pose_table.h"
+#include "host/cli/bench_align.h"
 #include "host/cli/bench_confidence.h"
 #include "host/cli/bench_features.h"
 #include "host/cli/bench_match.h"
@@ -205,6 +206,7 @@ std::vector<Command> benchCommands(CLI::App *root) {
   app->footer(kExample);
   addOptions(app, options.get());
   return {{app, [options](const Console &console) { return runPose(*options, console); }},
+          benchAlignCommand(bench),
           benchConfidenceCommand(bench),
           benchFeaturesCommand(bench),
           benchMatchCommand(bench)};

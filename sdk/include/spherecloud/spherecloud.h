@@ -235,6 +235,66 @@ SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, dou
 /* Ends the view; accepts null and pointer to null; sets *map to null; frees nothing. [exclusive] */
 SPHC_API void sphc_map_fini(sphc_map **map);
 
+/* ---- depth alignment: a whole depth image, seen from the colour camera ---- */
+
+/* What a pixel of an aligned image is. */
+enum {
+  SPHC_ALIGNED_HOLE = 0,     /* no depth: not measured, out of range, or out of the depth camera's view */
+  SPHC_ALIGNED_MEASURED = 1, /* a measurement falls into this pixel */
+  SPHC_ALIGNED_FILLED = 2,   /* between measurements of one surface: interpolated */
+  SPHC_ALIGNED_OCCLUDED = 3  /* no depth: something nearer hides this place from the depth camera */
+};
+
+typedef struct sphc_aligner_config {
+  uint32_t struct_size;
+  uint32_t reserved;
+  sphc_camera color_camera, depth_camera; /* any of the models, distortion included */
+  sphc_rigid color_from_depth;
+  double depth_unit_m;             /* metres per unit of the depth image */
+  double depth_min_m, depth_max_m; /* measurements outside are ignored */
+  /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; for the confidence. */
+  double depth_sigma_m, depth_sigma_per_m2;
+  double aligned_unit_m; /* metres per unit of the aligned image; 0: depth_unit_m */
+} sphc_aligner_config;
+
+/* Where an aligned image goes: caller memory, of the colour camera's size.  Each pointer may be null. */
+typedef struct sphc_aligned {
+  uint32_t struct_size;
+  uint32_t depth_stride_bytes, mask_stride_bytes, confidence_stride_bytes; /* from a row to the next */
+  uint16_t *depth; /* z in the colour camera's frame, in aligned_unit_m; 0: none */
+  uint8_t *mask;   /* SPHC_ALIGNED_ values */
+  /* 255 / (1 + (e / 0.01)^2), rounded, for a depth of relative error e, 1 sigma: 255 exact, 128 an error of 1 %, 51
+   * of 2 %; 0 where there is no depth.  e has the noise of the sensor, and the slope of the surface times how far
+   * beside it was measured: 0.3 px of the depth image if MEASURED, 0.8 px if FILLED; a neighbour that is missing
+   * or on another surface counts as a slope of 10 % a pixel. */
+  uint8_t *confidence;
+} sphc_aligned;
+
+typedef struct sphc_aligner sphc_aligner;
+/* Defaults: those of sphc_config_init; the cameras stay zero and must be set.  SPHC_E_STRUCT_SIZE when the size is
+ * none this library knows. [pure] */
+SPHC_API sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size);
+/* What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel of the
+ * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, size_t *bytes, size_t *alignment,
+                                         sphc_message *message);
+/* Makes an aligner in caller memory, borrowed until sphc_aligner_fini; `config` is copied.  Computes a ray for
+ * every pixel, which takes as long as some dozen frames.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
+ * MEMORY_ALIGNMENT. [pure] */
+SPHC_API sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_aligner_config *config,
+                                       sphc_aligner **aligner, sphc_message *message);
+/* Aligns one depth image (DEPTH16, the size in config.depth_camera; borrowed).  Set aligned->struct_size first.
+ * The same image gives the same bytes on every machine.  Failures: ARGUMENT, STRUCT_SIZE, IMAGE
+ * (sphc_aligner_message explains); the aligner can go on with the next image.  Bounded time, no allocation, no OS
+ * call. [exclusive] */
+SPHC_API sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth,
+                                          const sphc_aligned *aligned);
+/* Text about the last failure of sphc_aligner_process on this instance, "" if it did not fail; owned by the
+ * instance, valid until its next call. [exclusive] */
+SPHC_API const char *sphc_aligner_message(const sphc_aligner *aligner);
+/* Accepts null and pointer to null; sets *aligner to null; frees nothing. [exclusive] */
+SPHC_API void sphc_aligner_fini(sphc_aligner **aligner);
+
 /* ---- localizer ---- */
 
 typedef int32_t sphc_log_level;

@@ -205,6 +205,64 @@ class Map {
   sphc_map *map_ = nullptr;
 };
 
+// ---- depth alignment
+// ---------------------------------------------------------------------------------------------
+
+inline sphc_aligner_config defaultAlignerConfig() {
+  sphc_aligner_config config = {};
+  sphc_aligner_config_init(&config, sizeof config);
+  return config;
+}
+
+// Tightly packed images of the colour camera's width; each pointer may be null.
+inline sphc_aligned aligned(std::uint32_t width, std::uint16_t *depth, std::uint8_t *mask = nullptr,
+                            std::uint8_t *confidence = nullptr) {
+  return {sizeof(sphc_aligned), 2 * width, width, width, depth, mask, confidence};
+}
+
+class Aligner {
+ public:
+  Aligner() = default;
+  Aligner(Aligner &&other) noexcept { swap(other); }
+  Aligner &operator=(Aligner &&other) noexcept {
+    Aligner moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  Aligner(const Aligner &) = delete;
+  Aligner &operator=(const Aligner &) = delete;
+  ~Aligner() { sphc_aligner_fini(&aligner_); }
+
+  // Takes its memory from the heap, once, here.
+  static Status make(const sphc_aligner_config &config, Aligner *aligner) {
+    Status status;
+    std::size_t bytes = 0, alignment = 0;
+    if (status.set(sphc_aligner_memory(&config, &bytes, &alignment, status.message())).failed()) return status;
+    Aligner made;
+    made.memory_ = AlignedBuffer(bytes, alignment);
+    if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the aligner");
+    status.set(sphc_aligner_init(made.memory_.data(), bytes, &config, &made.aligner_, status.message()));
+    if (status.ok()) *aligner = std::move(made);
+    return status;
+  }
+
+  Status process(const sphc_image &depth, const sphc_aligned &aligned) {
+    const sphc_status code = sphc_aligner_process(aligner_, &depth, &aligned);
+    return code < 0 && aligner_ ? Status(code, sphc_aligner_message(aligner_)) : Status(code);
+  }
+  sphc_aligner *get() const { return aligner_; }
+  explicit operator bool() const { return aligner_ != nullptr; }
+
+ private:
+  void swap(Aligner &other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(aligner_, other.aligner_);
+  }
+
+  AlignedBuffer memory_;
+  sphc_aligner *aligner_ = nullptr;
+};
+
 // ---- localizer
 // ---------------------------------------------------------------------------------------------------
 

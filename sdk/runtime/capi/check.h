@@ -11,6 +11,11 @@ sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, uint3
                        sphc_message *message);
 // Is every map of the list there, and are there not too many?
 sphc_status checkMaps(const sphc_map *const *maps, uint32_t map_count, sphc_message *message);
+// Can an aligner be made of it?
+sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *message);
+// Does an image fit its camera?  `name` is that of the image; `depth`: it must be DEPTH16, else colour or grey.
+sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
+                       sphc_message *message);
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);

@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/localizer/localizer.h"
 #include "runtime/map/map_view.h"
+#include "runtime/stages/align/dense.h"
 #include "runtime/stages/capture/pairer.h"
 
 struct sphc_map {
@@ -10,6 +11,12 @@ struct sphc_map {
 
 struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
+  sphc_message message;
+};
+
+struct alignas(sphc::kArenaAlignment) sphc_aligner {
+  sphc::DenseAligner aligner;
+  sphc_camera color, depth;
   sphc_message message;
 };
 

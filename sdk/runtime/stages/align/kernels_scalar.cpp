@@ -1,12 +1,15 @@
 // The scalar twin: the same kernels compiled for single lanes; for tests and for machines without SIMD.
 #define HWY_COMPILE_ONLY_SCALAR
 #include "runtime/stages/align/patch-inl.h"
+#include "runtime/stages/align/project-inl.h"
+#include "runtime/stages/align/resolve-inl.h"
 
 namespace sphc {
 
 const AlignKernels &scalarAlignKernels() {
   using namespace HWY_NAMESPACE;
-  static constexpr AlignKernels kernels = {patchSums, nearestRow};
+  static constexpr AlignKernels kernels = {patchSums, nearestRow, senseRow,  projectRow,
+                                           spreadRow, combineRow, resolveRow};
   return kernels;
 }
 

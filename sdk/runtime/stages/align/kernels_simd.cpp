@@ -6,13 +6,16 @@
 #include <hwy/highway.h>
 
 #include "runtime/stages/align/patch-inl.h"
+#include "runtime/stages/align/project-inl.h"
+#include "runtime/stages/align/resolve-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sphc {
 namespace HWY_NAMESPACE {
 
 const AlignKernels *alignKernels() {
-  static constexpr AlignKernels kernels = {patchSums, nearestRow};
+  static constexpr AlignKernels kernels = {patchSums, nearestRow, senseRow,  projectRow,
+                                           spreadRow, combineRow, resolveRow};
   return &kernels;
 }
 

@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "tests/support/arena_memory.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/scene.h"
 
 namespace sphc {
@@ -125,6 +127,36 @@ TEST(Sparse, RegisteredImagesAreReadAtThePixel) {
     ASSERT_TRUE(rig.lift({x, 100.2}, &point, &sigma));
     EXPECT_NEAR(Vector3(0.2, 0.1, 1).dot(point), 1.5, 0.004);
   }
+}
+
+// Strides over what is known to be far do not change an answer.
+TEST(Sparse, MemoryDoesNotChangeAnswers) {
+  Rig rig;
+  Random random(3);
+  rig.measure([&](const Vector2 &ray) {
+    const double wall = 3 + 0.4 * ray.x() + 0.1 * std::sin(20 * ray.y());
+    const bool bar = std::abs(std::fmod(ray.x() + 5, 0.35)) < 0.08, hole = random.below(9) == 0;
+    return hole ? 0.0 : bar ? 0.9 + 0.3 * ray.y() : wall;
+  });
+  const ImageView<uint16_t> view = {rig.mm.data(), 320, 288, 320};
+  const SparseAligner plain(rig.color, rig.depth, rig.color_from_depth, kSensor);
+  SparseAligner prepared;
+  const test::ArenaMemory memory([&](Arena &arena, bool has_memory) {
+    SparseAligner::layout(320, 288, arena, has_memory ? &prepared : nullptr);
+  });
+  prepared.init(rig.color, rig.depth, rig.color_from_depth, kSensor);
+  prepared.prepare(view);
+  int lifted = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector2 pixel(0.01 * random.below(64000), 0.01 * random.below(48000));
+    Vector3 a(0, 0, 0), b(0, 0, 0);
+    double sigma_a = 0, sigma_b = 0;
+    lifted += plain.lift(view, pixel, &a, &sigma_a);
+    prepared.lift(view, pixel, &b, &sigma_b);
+    EXPECT_EQ(a, b) << pixel.transpose();
+    EXPECT_EQ(sigma_a, sigma_b);
+  }
+  EXPECT_GT(lifted, 1000);
 }
 
 TEST(Sparse, NonsensePixels) {

@@ -1,0 +1,142 @@
+#include <new>
+
+#include "runtime/base/message.h"
+#include "runtime/capi/check.h"
+#include "runtime/capi/objects.h"
+
+namespace {
+
+using sphc::Arena;
+using sphc::DenseAligner;
+using sphc::DenseConfig;
+using sphc::MessageWriter;
+
+constexpr size_t kObjectBytes = sizeof(sphc_aligner);  // a multiple of the arena's alignment
+
+DenseConfig denseConfig(const sphc_aligner_config &config) {
+  DenseConfig dense;
+  dense.color = sphc::Camera(config.color_camera);
+  dense.depth = sphc::Camera(config.depth_camera);
+  dense.color_from_depth = sphc::rigidFromDoor(config.color_from_depth);
+  dense.sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
+                  config.depth_sigma_per_m2};
+  dense.out_unit_m = config.aligned_unit_m > 0 ? config.aligned_unit_m : config.depth_unit_m;
+  return dense;
+}
+
+size_t bytesOf(const DenseConfig &config) {
+  Arena arena;
+  DenseAligner::layout(config, arena, nullptr);
+  return kObjectBytes + arena.used();
+}
+
+// One of the images to write: is its stride sound?
+sphc_status checkPlane(const char *name, const void *data, uint32_t stride, uint32_t row, uint32_t pixel,
+                       sphc_message *message) {
+  if (!data) return SPHC_OK;
+  if (stride < row || stride > (1u << 20) || stride % pixel) {
+    MessageWriter(message) << "aligned." << name << "_stride_bytes is " << stride << "; a row has " << row
+                           << " bytes" << (pixel > 1 ? " and the stride must be even" : "");
+    return SPHC_E_IMAGE;
+  }
+  if (reinterpret_cast<uintptr_t>(data) % pixel) {
+    MessageWriter(message) << "aligned." << name << " is odd; align it to " << pixel << " bytes";
+    return SPHC_E_IMAGE;
+  }
+  return SPHC_OK;
+}
+
+sphc_status checkAligned(const sphc_aligned *aligned, uint32_t width, sphc_message *message) {
+  if (!aligned) {
+    MessageWriter(message) << "aligned is null; give a struct, its pointers may be null";
+    return SPHC_E_ARGUMENT;
+  }
+  if (aligned->struct_size != sizeof(sphc_aligned)) {
+    MessageWriter(message) << "aligned.struct_size is " << aligned->struct_size
+                           << "; set it to sizeof(sphc_aligned), here "
+                           << static_cast<uint64_t>(sizeof(sphc_aligned));
+    return SPHC_E_STRUCT_SIZE;
+  }
+  sphc_status status = checkPlane("depth", aligned->depth, aligned->depth_stride_bytes, 2 * width, 2, message);
+  if (status == SPHC_OK) status = checkPlane("mask", aligned->mask, aligned->mask_stride_bytes, width, 1, message);
+  if (status == SPHC_OK)
+    status = checkPlane("confidence", aligned->confidence, aligned->confidence_stride_bytes, width, 1, message);
+  return status;
+}
+
+}  // namespace
+
+sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size) {
+  if (!config) return SPHC_E_ARGUMENT;
+  if (struct_size != sizeof(sphc_aligner_config)) return SPHC_E_STRUCT_SIZE;
+  sphc_config defaults;
+  sphc_config_init(&defaults, sizeof defaults);
+  *config = {};
+  config->struct_size = static_cast<uint32_t>(struct_size);
+  config->color_from_depth = defaults.color_from_depth;
+  config->depth_unit_m = defaults.depth_unit_m;
+  config->depth_min_m = defaults.depth_min_m;
+  config->depth_max_m = defaults.depth_max_m;
+  config->depth_sigma_m = defaults.depth_sigma_m;
+  config->depth_sigma_per_m2 = defaults.depth_sigma_per_m2;
+  return SPHC_OK;
+}
+
+sphc_status sphc_aligner_memory(const sphc_aligner_config *config, size_t *bytes, size_t *alignment,
+                                sphc_message *message) {
+  const sphc_status status = sphc::checkAlignerConfig(config, message);
+  if (status != SPHC_OK) return status;
+  if (!bytes || !alignment) {
+    MessageWriter(message) << (bytes ? "alignment" : "bytes") << " is null";
+    return SPHC_E_ARGUMENT;
+  }
+  *bytes = bytesOf(denseConfig(*config));
+  *alignment = sphc::kArenaAlignment;
+  return SPHC_OK;
+}
+
+sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_aligner_config *config,
+                              sphc_aligner **aligner, sphc_message *message) {
+  sphc_status status = sphc::checkAlignerConfig(config, message);
+  if (status != SPHC_OK) return status;
+  if (!aligner) {
+    MessageWriter(message) << "aligner is null";
+    return SPHC_E_ARGUMENT;
+  }
+  const DenseConfig dense = denseConfig(*config);
+  status = sphc::checkMemory(memory, memory_bytes, bytesOf(dense), sphc::kArenaAlignment, "aligner", message);
+  if (status != SPHC_OK) return status;
+  auto *made = new (memory) sphc_aligner();
+  Arena arena(static_cast<unsigned char *>(memory) + kObjectBytes);
+  DenseAligner::layout(dense, arena, &made->aligner);
+  made->aligner.init(dense);
+  made->color = config->color_camera;
+  made->depth = config->depth_camera;
+  *aligner = made;
+  return SPHC_OK;
+}
+
+sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth, const sphc_aligned *aligned) {
+  if (!aligner) return SPHC_E_ARGUMENT;
+  aligner->message.text[0] = '\0';
+  if (!depth) {
+    MessageWriter(&aligner->message) << "depth is null; give an image";
+    return SPHC_E_ARGUMENT;
+  }
+  sphc_status status = sphc::checkImage("depth", *depth, aligner->depth, true, &aligner->message);
+  if (status == SPHC_OK) status = checkAligned(aligned, aligner->color.width, &aligner->message);
+  if (status != SPHC_OK) return status;
+  aligner->aligner.process({static_cast<const uint16_t *>(depth->data), static_cast<int32_t>(depth->width),
+                            static_cast<int32_t>(depth->height), static_cast<int32_t>(depth->stride_bytes / 2)},
+                           {aligned->depth, aligned->mask, aligned->confidence, aligned->depth_stride_bytes / 2,
+                            aligned->mask_stride_bytes, aligned->confidence_stride_bytes});
+  return SPHC_OK;
+}
+
+const char *sphc_aligner_message(const sphc_aligner *aligner) {
+  return aligner ? aligner->message.text : "aligner is null";
+}
+
+void sphc_aligner_fini(sphc_aligner **aligner) {
+  if (aligner) *aligner = nullptr;
+}

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "spherecloud/spherecloud.hpp"
+#include "tests/capi/bytes.h"
+#include "tests/support/session.h"
+
+namespace {
+
+using sphc::test::expectMentions;
+using sphc::test::GuardedMemory;
+using sphc::test::Output;
+
+constexpr uint32_t kWidth = 64, kHeight = 48;
+
+class DoorAligner : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(sphc_aligner_config_init(&config_, sizeof config_), SPHC_OK);
+    config_.color_camera = sphc::test::pinhole(kWidth, kHeight, 50);
+    config_.depth_camera = sphc::test::pinhole(40, 30, 30);
+    config_.color_from_depth.t_m[0] = -0.05;
+    ASSERT_EQ(sphc_aligner_memory(&config_, &bytes_, &alignment_, &message_), SPHC_OK);
+    memory_ = GuardedMemory(bytes_, alignment_);
+    raw_.assign(40 * 30, 1500);
+  }
+  sphc_status init() { return sphc_aligner_init(memory_.data(), bytes_, &config_, &aligner_, &message_); }
+  sphc_image image() const { return {raw_.data(), 40, 30, 80, SPHC_FORMAT_DEPTH16}; }
+
+  sphc_aligner_config config_ = {};
+  size_t bytes_ = 0, alignment_ = 0;
+  GuardedMemory memory_;
+  std::vector<uint16_t> raw_;
+  sphc_aligner *aligner_ = nullptr;
+  sphc_message message_ = {};
+};
+
+TEST_F(DoorAligner, AlignsIntoStridedImages) {
+  ASSERT_EQ(init(), SPHC_OK);
+  constexpr uint32_t kPad = 3;
+  std::vector<uint16_t> depth((kWidth + kPad) * kHeight, 7);
+  std::vector<uint8_t> mask((kWidth + kPad) * kHeight, 7), confidence = mask;
+  const sphc_aligned aligned = {sizeof aligned, 2 * (kWidth + kPad), kWidth + kPad,    kWidth + kPad,
+                                depth.data(),   mask.data(),         confidence.data()};
+  const sphc_image raw = image();
+  ASSERT_EQ(sphc_aligner_process(aligner_, &raw, &aligned), SPHC_OK);
+  EXPECT_STREQ(sphc_aligner_message(aligner_), "");
+  int with_depth = 0;
+  for (uint32_t y = 0; y < kHeight; ++y) {
+    for (uint32_t x = 0; x < kWidth + kPad; ++x) {
+      const size_t at = y * (kWidth + kPad) + x;
+      if (x >= kWidth) {  // between the rows: not ours
+        EXPECT_EQ(depth[at], 7);
+        EXPECT_EQ(mask[at], 7);
+        EXPECT_EQ(confidence[at], 7);
+        continue;
+      }
+      const bool has = mask[at] == SPHC_ALIGNED_MEASURED || mask[at] == SPHC_ALIGNED_FILLED;
+      EXPECT_EQ(depth[at], has ? 1500 : 0);
+      EXPECT_EQ(confidence[at] > 0, has);
+      with_depth += has;
+    }
+  }
+  EXPECT_GT(with_depth, static_cast<int>(kWidth * kHeight) / 2);
+  EXPECT_TRUE(memory_.guardsIntact());
+  sphc_aligner_fini(&aligner_);
+  EXPECT_EQ(aligner_, nullptr);
+}
+
+TEST_F(DoorAligner, EachOutputMayBeNull) {
+  ASSERT_EQ(init(), SPHC_OK);
+  const sphc_image raw = image();
+  std::vector<uint16_t> depth(kWidth * kHeight), again(kWidth * kHeight);
+  std::vector<uint8_t> mask(kWidth * kHeight), alone(kWidth * kHeight);
+  const sphc_aligned all = spherecloud::aligned(kWidth, depth.data(), mask.data());
+  const sphc_aligned depth_alone = spherecloud::aligned(kWidth, again.data());
+  const sphc_aligned mask_alone = spherecloud::aligned(kWidth, nullptr, alone.data());
+  const sphc_aligned nothing = spherecloud::aligned(kWidth, nullptr);
+  EXPECT_EQ(sphc_aligner_process(aligner_, &raw, &all), SPHC_OK);
+  EXPECT_EQ(sphc_aligner_process(aligner_, &raw, &depth_alone), SPHC_OK);
+  EXPECT_EQ(sphc_aligner_process(aligner_, &raw, &mask_alone), SPHC_OK);
+  EXPECT_EQ(sphc_aligner_process(aligner_, &raw, &nothing), SPHC_OK);
+  EXPECT_EQ(depth, again);
+  EXPECT_EQ(mask, alone);
+}
+
+TEST_F(DoorAligner, ForbiddenConfigs) {
+  struct Spoiled {
+    const char *words;
+    void (*spoil)(sphc_aligner_config *);
+  };
+  const Spoiled all[] = {
+      {"color_camera", [](sphc_aligner_config *c) { c->color_camera.model = 9; }},
+      {"depth_camera", [](sphc_aligner_config *c) { c->depth_camera.params[0] = std::nan(""); }},
+      {"color_from_depth", [](sphc_aligner_config *c) { c->color_from_depth.q_wxyz[0] = 2; }},
+      {"color_from_depth", [](sphc_aligner_config *c) { c->color_from_depth.t_m[1] = std::nan(""); }},
+      {"color_from_depth.t_m", [](sphc_aligner_config *c) { c->color_from_depth.t_m[1] = 1e9; }},
+      {"depth_unit_m", [](sphc_aligner_config *c) { c->depth_unit_m = 0; }},
+      {"depth_max_m", [](sphc_aligner_config *c) { c->depth_max_m = c->depth_min_m; }},
+      {"depth_sigma_m", [](sphc_aligner_config *c) { c->depth_sigma_m = std::nan(""); }},
+      {"aligned_unit_m", [](sphc_aligner_config *c) { c->aligned_unit_m = std::nan(""); }},
+      {"raise the unit", [](sphc_aligner_config *c) { c->aligned_unit_m = 1e-5; }},
+  };
+  for (const Spoiled &spoiled : all) {
+    sphc_aligner_config config = config_;
+    spoiled.spoil(&config);
+    size_t bytes = 3, alignment = 3;
+    EXPECT_EQ(sphc_aligner_memory(&config, &bytes, &alignment, &message_), SPHC_E_ARGUMENT) << spoiled.words;
+    expectMentions(message_.text, spoiled.words);
+    EXPECT_EQ(bytes, 3u);
+    EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, &config, &aligner_, &message_), SPHC_E_ARGUMENT);
+    EXPECT_EQ(aligner_, nullptr);
+  }
+  config_.struct_size = 3;
+  EXPECT_EQ(init(), SPHC_E_STRUCT_SIZE);
+  expectMentions(message_.text, "sphc_aligner_config_init");
+  EXPECT_EQ(sphc_aligner_config_init(nullptr, sizeof config_), SPHC_E_ARGUMENT);
+  Output<sphc_aligner_config> untouched;
+  EXPECT_EQ(sphc_aligner_config_init(untouched.get(), sizeof config_ - 1), SPHC_E_STRUCT_SIZE);
+  EXPECT_TRUE(untouched.untouched());
+}
+
+TEST_F(DoorAligner, ForbiddenMemory) {
+  EXPECT_EQ(sphc_aligner_memory(nullptr, &bytes_, &alignment_, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_aligner_memory(&config_, nullptr, &alignment_, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_aligner_init(nullptr, bytes_, &config_, &aligner_, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, nullptr, &aligner_, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, &config_, nullptr, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_ - 1, &config_, &aligner_, &message_), SPHC_E_MEMORY_SIZE);
+  EXPECT_EQ(sphc_aligner_init(static_cast<uint8_t *>(memory_.data()) + 1, bytes_, &config_, &aligner_, &message_),
+            SPHC_E_MEMORY_ALIGNMENT);
+  EXPECT_EQ(aligner_, nullptr);
+  sphc_aligner_fini(nullptr);
+}
+
+TEST_F(DoorAligner, ForbiddenImages) {
+  ASSERT_EQ(init(), SPHC_OK);
+  std::vector<uint16_t> depth(kWidth * kHeight, 7);
+  std::vector<uint8_t> mask(kWidth * kHeight, 7);
+  const sphc_aligned good = spherecloud::aligned(kWidth, depth.data(), mask.data());
+  const sphc_image raw = image();
+  const auto refuses = [&](const sphc_image *in, const sphc_aligned *out, sphc_status status, const char *words) {
+    EXPECT_EQ(sphc_aligner_process(aligner_, in, out), status) << words;
+    expectMentions(sphc_aligner_message(aligner_), words);
+  };
+  refuses(nullptr, &good, SPHC_E_ARGUMENT, "depth is null");
+  refuses(&raw, nullptr, SPHC_E_ARGUMENT, "aligned is null");
+  sphc_image image = raw;
+  image.width = 41;
+  refuses(&image, &good, SPHC_E_IMAGE, "41 x 30");
+  image = raw;
+  image.format = SPHC_FORMAT_GRAY8;
+  refuses(&image, &good, SPHC_E_IMAGE, "DEPTH16");
+  image = raw;
+  image.stride_bytes = 79;
+  refuses(&image, &good, SPHC_E_IMAGE, "stride");
+  image = raw;
+  image.data = nullptr;
+  refuses(&image, &good, SPHC_E_IMAGE, "null");
+  sphc_aligned aligned = good;
+  aligned.struct_size = 8;
+  refuses(&raw, &aligned, SPHC_E_STRUCT_SIZE, "sizeof(sphc_aligned)");
+  aligned = good;
+  aligned.depth_stride_bytes = 2 * kWidth - 2;
+  refuses(&raw, &aligned, SPHC_E_IMAGE, "depth_stride_bytes");
+  aligned = good;
+  aligned.depth_stride_bytes = 2 * kWidth + 1;
+  refuses(&raw, &aligned, SPHC_E_IMAGE, "even");
+  aligned = good;
+  aligned.mask_stride_bytes = kWidth - 1;
+  refuses(&raw, &aligned, SPHC_E_IMAGE, "mask_stride_bytes");
+  EXPECT_EQ(sphc_aligner_process(nullptr, &raw, &good), SPHC_E_ARGUMENT);
+  for (uint16_t d : depth) EXPECT_EQ(d, 7);  // untouched by all that
+  for (uint8_t m : mask) EXPECT_EQ(m, 7);
+  EXPECT_EQ(sphc_aligner_process(aligner_, &raw, &good), SPHC_OK);  // and it goes on
+}
+
+TEST_F(DoorAligner, FromCpp) {
+  spherecloud::Aligner aligner;
+  ASSERT_TRUE(spherecloud::Aligner::make(config_, &aligner).ok());
+  std::vector<uint16_t> depth(kWidth * kHeight);
+  const sphc_aligned aligned = spherecloud::aligned(kWidth, depth.data());
+  const spherecloud::Aligner moved = std::move(aligner);
+  EXPECT_FALSE(aligner);
+  spherecloud::Aligner used;
+  ASSERT_TRUE(spherecloud::Aligner::make(config_, &used).ok());
+  EXPECT_TRUE(used.process(image(), aligned).ok());
+  EXPECT_EQ(depth[kWidth * kHeight / 2 + kWidth / 2], 1500);
+  const spherecloud::Status refused = used.process({}, aligned);
+  EXPECT_TRUE(refused.failed());
+  expectMentions(refused.text(), "format");
+}
+
+}  // namespace
