@@ -165,11 +165,12 @@ std::vector<uint8_t> encodeIndexedMap(const std::vector<MapPoint> &points, uint3
     index.groups.push_back(std::min(c + 3, cells));
     index.group_centroids.push_back(index.centroids[c]);
   }
+  std::vector<std::vector<MapPoint>> lists(16 * cells);
+  for (const MapPoint &point : points)
+    lists[16 * nearestOf(index.centroids, point.descriptor) + sectorOf(point.direction, 4)].push_back(point);
   std::vector<MapPoint> ordered;
-  for (uint32_t run = 0; run < 16 * cells; ++run) {
-    for (const MapPoint &point : points)
-      if (nearestOf(index.centroids, point.descriptor) == run / 16 && sectorOf(point.direction, 4) == run % 16)
-        ordered.push_back(point);
+  for (const std::vector<MapPoint> &list : lists) {
+    ordered.insert(ordered.end(), list.begin(), list.end());
     index.runs.push_back(static_cast<uint32_t>(ordered.size()));
   }
   return encodeMap(ordered, index, extractor);

@@ -28,6 +28,7 @@ class OpenCvSearch : public MatchSearch {
     matcher_->train();
   }
   double seconds() override {
+    found_.clear();  // FLANN's appends
     const double begin = cpuSeconds();
     matcher_->knnMatch(queries_, found_, 2);
     return cpuSeconds() - begin;

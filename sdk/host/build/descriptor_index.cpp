@@ -12,8 +12,8 @@ namespace {
 
 constexpr size_t kSampleOfCell = 64;  // descriptors that train a centroid
 constexpr int kRounds = 10;
-constexpr double kCellsOfRoot =
-    2.3;  // of the square root of the number of points: as many centroids as points to compare
+// Cells for the square root of the number of points: about as many centroids as points to compare with.
+constexpr double kCellsOfRoot = 2.3;
 
 uint32_t cellsFor(size_t points) {
   const double cells = kCellsOfRoot * std::sqrt(static_cast<double>(points));

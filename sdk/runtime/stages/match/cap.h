@@ -18,11 +18,13 @@ struct DirectionRun {
 
 constexpr uint32_t kCapOverread = 8;  // directions that may be read behind a run, so that many fit a vector
 
-// Appends to `inside` the indices of the run's directions that lie in the cap, in their order; returns how many.
-// `inside` has room for all of the run; kCapOverread directions behind the run can be read.
-uint32_t findInside(const PackedDirection *directions, DirectionRun run, const Cap &cap, uint32_t *inside);
+// Writes to `inside` the indices of the runs' directions that lie in the cap, in their order; returns how many.
+// `inside` has room for all of them; kCapOverread directions behind each run can be read.
+uint32_t findInside(const PackedDirection *directions, Span<const DirectionRun> runs, const Cap &cap,
+                    uint32_t *inside);
 
 // The scalar twin.
-uint32_t findInsideScalar(const PackedDirection *directions, DirectionRun run, const Cap &cap, uint32_t *inside);
+uint32_t findInsideScalar(const PackedDirection *directions, Span<const DirectionRun> runs, const Cap &cap,
+                          uint32_t *inside);
 
 }  // namespace sphc

@@ -229,22 +229,36 @@ struct Asker {
   int32_t length2;
 };
 
+HWY_INLINE void rankFour(const uint8_t *const rows[kGroup], const int32_t *length2, uint32_t first, uint32_t count,
+                         const Asker &asker, Span<Ranked> best) {
+  const auto query2 = hn::Set(D4(), asker.length2);
+  const auto distances2 =
+      hn::Sub(hn::Add(hn::LoadU(D4(), length2), query2), hn::ShiftLeft<1>(productsWith(rows, asker.lanes)));
+  const auto last = hn::Set(D4(), asLane(best[best.size() - 1].distance2));
+  if (hn::AllFalse(D4(), hn::Lt(distances2, last))) return;
+  HWY_ALIGN int32_t each[kGroup];
+  hn::Store(distances2, D4(), each);
+  for (uint32_t k = 0; k < count; ++k) rank({static_cast<uint32_t>(each[k]), first + k}, best);
+}
+
 HWY_INLINE void rankRows(Span<const Descriptor> rows, Span<const uint32_t> length2, uint32_t begin, uint32_t end,
                          const Asker &asker, Span<Ranked> best) {
-  HWY_ALIGN int32_t each[kGroup];
-  for (uint32_t i = begin; i < end; i += kGroup) {
-    const uint8_t *four[kGroup];
-    for (uint32_t k = 0; k < kGroup; ++k) {
-      const uint32_t row = std::min(i + k, end - 1);
-      four[k] = rows[row].bytes;
-      each[k] = static_cast<int32_t>(length2[row]);
-    }
-    const auto distances2 = fromProducts(hn::Load(D4(), each), asker.length2, productsWith(four, asker.lanes));
-    const auto last = hn::Set(D4(), asLane(best[best.size() - 1].distance2));
-    if (hn::AllFalse(D4(), hn::Lt(distances2, last))) continue;
-    hn::Store(distances2, D4(), each);
-    for (uint32_t k = 0; k < kGroup && i + k < end; ++k) rank({static_cast<uint32_t>(each[k]), i + k}, best);
+  uint32_t i = begin;
+  for (; i + kGroup <= end; i += kGroup) {
+    const uint8_t *first = rows[i].bytes;
+    const uint8_t *four[kGroup] = {first, first + kDescriptorBytes, first + 2 * kDescriptorBytes,
+                                   first + 3 * kDescriptorBytes};
+    rankFour(four, reinterpret_cast<const int32_t *>(&length2[i]), i, kGroup, asker, best);
   }
+  if (i == end) return;
+  const uint8_t *four[kGroup];
+  int32_t rest[kGroup];
+  for (uint32_t k = 0; k < kGroup; ++k) {
+    const uint32_t row = std::min(i + k, end - 1);
+    four[k] = rows[row].bytes;
+    rest[k] = static_cast<int32_t>(length2[row]);
+  }
+  rankFour(four, rest, i, end - i, asker, best);
 }
 
 void rankCellsSimd(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {

@@ -6,8 +6,8 @@ namespace sphc {
 namespace {
 
 constexpr uint32_t kTile = 128;  // map descriptors that stay in the nearest cache while all queries pass over them
-constexpr uint32_t kGuidedProbes = 16;
-constexpr uint32_t kCandidates = 64;  // gathered before they are compared
+constexpr uint32_t kGuidedProbes = 8;  // as good as more, since the cap has left out most that mislead
+constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in them, before they are compared
 
 constexpr uint32_t kNobody = UINT32_MAX;
 // Two unrelated descriptors are seldom nearer than this; a lone candidate has to beat it by the ratio.
@@ -22,7 +22,7 @@ bool passesRatio(const NearestTwo &nearest, float max_ratio) {
 }
 
 // Of the groups of cells, those whose cells are looked at.
-uint32_t groupsVisited(uint32_t groups) { return std::min(groups, groups / 3 + 4); }
+uint32_t groupsVisited(uint32_t groups, uint32_t probes) { return std::min(groups, groups / 4 + probes / 4 + 2); }
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void Matcher::begin(const MapView &map, size_t queries) {
 // The cells nearest to a query, nearest first, by way of the groups that they are in; returns how many.
 uint32_t Matcher::chooseCells(const Descriptor &query, uint32_t probes, Span<Ranked> cells) const {
   Ranked near_groups[kMapMaxGroups];
-  const Span<Ranked> groups(near_groups, groupsVisited(static_cast<uint32_t>(table_.groups.size())));
+  const Span<Ranked> groups(near_groups, groupsVisited(static_cast<uint32_t>(table_.groups.size()), probes));
   std::fill(groups.begin(), groups.end(), kFar);
   std::fill(cells.begin(), cells.begin() + probes, kFar);
   rankCells(table_, query, groups, cells.first(probes));
@@ -106,7 +106,7 @@ uint32_t Matcher::matchExact(const MapView &map, Span<const Descriptor> queries,
 uint32_t Matcher::matchNear(const MapView &map, Span<const Descriptor> queries, Span<const Direction> expected,
                             float cap_cosine, float max_ratio, Span<Match> matches) {
   begin(map, queries.size());
-  cones_.prepare(map.sectorSide());
+  cones_.prepare(map.sectorSide(), cap_cosine);
   for (size_t q = 0; q < queries.size(); ++q) searchNear(map, queries[q], {expected[q], cap_cosine}, &nearest_[q]);
   return select(queries.size(), max_ratio, matches);
 }
@@ -114,21 +114,26 @@ uint32_t Matcher::matchNear(const MapView &map, Span<const Descriptor> queries, 
 void Matcher::searchNear(const MapView &map, const Descriptor &query, const Cap &cap, NearestTwo *nearest) const {
   Ranked cells[kMaxProbes];
   SectorRun runs[SectorCones::kMaxRuns];
-  const uint32_t run_count = cones_.touched(cap, {runs, SectorCones::kMaxRuns});
+  const uint32_t run_count = cones_.touched(cap.axis, {runs, SectorCones::kMaxRuns});
   const uint32_t cell_count = chooseCells(query, std::min(kGuidedProbes, map.cellCount()), {cells, kMaxProbes});
-  uint32_t candidates[2 * kCandidates], count = 0;
+  DirectionRun gathered[kGathered];
+  uint32_t candidates[kCandidates], gathered_count = 0, room = kCandidates;
   const auto compare = [&] {
+    // behind the directions lie the descriptors, so reading a few more is safe
+    const uint32_t count = findInside(map.directions().data(), {gathered, gathered_count}, cap, candidates);
     searchCandidates(map.descriptors(), {candidates, count}, query, nearest);
-    count = 0;
+    gathered_count = 0;
+    room = kCandidates;
   };
   for (uint32_t c = 0; c < cell_count; ++c)
     for (uint32_t r = 0; r < run_count; ++r) {
       const IndexRange points = map.sectors(cells[c].index, runs[r].first, runs[r].last);
-      for (uint32_t at = points.begin; at < points.end; at += kCandidates) {
-        // behind the directions lie the descriptors, so reading a few more is safe
-        const DirectionRun run = {at, std::min(at + kCandidates, points.end)};
-        count += findInside(map.directions().data(), run, cap, candidates + count);
-        if (count >= kCandidates) compare();
+      for (uint32_t at = points.begin; at < points.end;) {
+        const uint32_t end = std::min(at + room, points.end);
+        gathered[gathered_count++] = {at, end};
+        room -= end - at;
+        at = end;
+        if (room == 0 || gathered_count == kGathered) compare();
       }
     }
   compare();

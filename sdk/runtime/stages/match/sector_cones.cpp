@@ -21,43 +21,38 @@ float dot(const Direction &a, const Direction &b) { return a.x * b.x + a.y * b.y
 void SectorCones::layout(Arena &scratch, SectorCones *cones) {
   SectorCones discarded;
   SectorCones &c = cones ? *cones : discarded;
-  for (Span<float> *part : {&c.x_, &c.y_, &c.z_, &c.cosine_, &c.sine_})
+  for (Span<float> *part : {&c.x_, &c.y_, &c.z_, &c.least_})
     *part = scratch.take<float>("match.sectors", kMaxSectors);
 }
 
-void SectorCones::prepare(uint32_t side) {
+void SectorCones::prepare(uint32_t side, float cap_cosine) {
   count_ = side * side;
+  const float cap_sine = sineOf(cap_cosine);
   for (uint32_t s = 0; s < count_; ++s) {
     const uint32_t row = s / side, column = s % side;
     const Direction middle = cornerOf(2 * row + 1, 2 * column + 1, 2 * side);
     x_[s] = middle.x;
     y_[s] = middle.y;
     z_[s] = middle.z;
-    cosine_[s] = -1.0f;  // of one sector, the whole sphere
-    sine_[s] = 0.0f;
-    if (side == 1) continue;
     // A sector is one or two spherical triangles between its corners, so its farthest point is a corner.
-    float cosine = 1.0f;
-    for (uint32_t corner = 0; corner < 4; ++corner)
+    float cosine = side == 1 ? -1.0f : 1.0f;
+    for (uint32_t corner = 0; side > 1 && corner < 4; ++corner)
       cosine = std::min(cosine, dot(middle, cornerOf(row + corner / 2, column + corner % 2, side)));
-    const float sine = sineOf(cosine);
-    cosine_[s] = cosine - kMargin * sine - kMargin * kMargin;
-    sine_[s] = sineOf(cosine_[s]);
+    cosine -= kMargin * (sineOf(cosine) + kMargin);
+    // cos(a + b); beyond 180 degrees the two meet wherever they are
+    least_[s] = cosine <= -cap_cosine ? -2.0f : cosine * cap_cosine - sineOf(cosine) * cap_sine - 1e-6f;
   }
 }
 
-uint32_t SectorCones::touched(const Cap &cap, Span<SectorRun> runs) const {
-  const float cap_sine = sineOf(cap.cosine);
+uint32_t SectorCones::touched(const Direction &axis, Span<SectorRun> runs) const {
+  const float *x = x_.data(), *y = y_.data(), *z = z_.data(), *least = least_.data();
+  uint8_t touches[kMaxSectors];
+  for (uint32_t s = 0; s < count_; ++s) touches[s] = x[s] * axis.x + y[s] * axis.y + z[s] * axis.z >= least[s];
   uint32_t count = 0;
-  bool open = false;
   for (uint32_t s = 0; s < count_; ++s) {
-    const float between = x_[s] * cap.axis.x + y_[s] * cap.axis.y + z_[s] * cap.axis.z;
-    // cos(a + b); beyond 180 degrees the two meet wherever they are
-    const bool touches =
-        cosine_[s] <= -cap.cosine || between >= cosine_[s] * cap.cosine - sine_[s] * cap_sine - 1e-6f;
-    if (touches && !open) runs[count++] = {s, s};
-    if (touches) runs[count - 1].last = s;
-    open = touches;
+    if (!touches[s]) continue;
+    if (s == 0 || !touches[s - 1]) runs[count++] = {s, s};
+    runs[count - 1].last = s;
   }
   return count;
 }

@@ -16,14 +16,15 @@ class SectorCones {
   static constexpr uint32_t kMaxRuns = kMaxSectors / 2;
 
   static void layout(Arena &scratch, SectorCones *cones);
-  // For a grid of side x side sectors (runtime/map/sector.h).
-  void prepare(uint32_t side);
-  // The sectors that the cap may touch, none that it touches left out; returns how many runs, at most kMaxRuns.
-  uint32_t touched(const Cap &cap, Span<SectorRun> runs) const;
+  // For a grid of side x side sectors (runtime/map/sector.h) and caps of one size.
+  void prepare(uint32_t side, float cap_cosine);
+  // The sectors that the cap around a unit direction may touch, none that it touches left out; returns how many
+  // runs, at most kMaxRuns.
+  uint32_t touched(const Direction &axis, Span<SectorRun> runs) const;
 
  private:
-  // A cone around each sector: its axis, and cosine and sine of its half angle.
-  Span<float> x_, y_, z_, cosine_, sine_;
+  // A cone around each sector: its axis, and the cosine from which a cap around a direction touches it.
+  Span<float> x_, y_, z_, least_;
   uint32_t count_ = 0;
 };
 

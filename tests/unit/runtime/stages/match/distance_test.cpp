@@ -91,23 +91,62 @@ TEST(Distance, CandidateSearchEqualsScalar) {
   }
 }
 
-TEST(Distance, RankingEqualsScalarAndIsInOrder) {
+// Cells in groups: of none, one and several rows.
+class Cells {
+ public:
+  explicit Cells(const Tables &tables) {
+    const size_t sizes[] = {1, 4, 0, 7, 3, 30, 2, 5};
+    uint32_t begin = 0;
+    for (size_t g = 0; g < 8; ++g) {
+      groups_.push_back(tables.map[100 + g]);
+      begins_.push_back(begin);
+      begin += static_cast<uint32_t>(sizes[g]);
+    }
+    begins_.push_back(begin);
+    cells_.assign(tables.map.begin() + 10, tables.map.begin() + 10 + begin);
+    group_length2_.resize(groups_.size());
+    cell_length2_.resize(cells_.size());
+    squareLengths({groups_.data(), groups_.size()}, {group_length2_.data(), group_length2_.size()});
+    squareLengths({cells_.data(), cells_.size()}, {cell_length2_.data(), cell_length2_.size()});
+  }
+  CellTable table() const {
+    return {{groups_.data(), groups_.size()},
+            {cells_.data(), cells_.size()},
+            {begins_.data(), begins_.size()},
+            {group_length2_.data(), group_length2_.size()},
+            {cell_length2_.data(), cell_length2_.size()}};
+  }
+
+ private:
+  std::vector<Descriptor> groups_, cells_;
+  std::vector<uint32_t> begins_, group_length2_, cell_length2_;
+};
+
+TEST(Distance, RankingCellsEqualsScalarAndIsInOrder) {
   const Tables tables(5);
-  const uint32_t ranges[][2] = {{0, 517}, {5, 6}, {9, 9}, {3, 132}, {299, 301}};
-  for (const size_t kept : {1u, 2u, 8u, 32u})
-    for (const auto &range : ranges)
+  const Cells cells(tables);
+  for (const size_t visited : {1u, 3u, 8u})
+    for (const size_t kept : {1u, 2u, 8u, 32u})
       for (const Descriptor &query : tables.queries) {
-        std::vector<Ranked> simd(kept, {UINT32_MAX, UINT32_MAX}), scalar = simd;
-        rankRange(tables.mapSpan(), range[0], range[1], query, {simd.data(), kept});
-        rankRangeScalar(tables.mapSpan(), range[0], range[1], query, {scalar.data(), kept});
+        const Ranked far = {UINT32_MAX, UINT32_MAX};
+        std::vector<Ranked> groups(visited, far), scalar_groups = groups, simd(kept, far), scalar = simd;
+        rankCells(cells.table(), query, {groups.data(), visited}, {simd.data(), kept});
+        rankCellsScalar(cells.table(), query, {scalar_groups.data(), visited}, {scalar.data(), kept});
         for (size_t k = 0; k < kept; ++k) {
           ASSERT_EQ(simd[k].distance2, scalar[k].distance2);
           ASSERT_EQ(simd[k].index, scalar[k].index);
           ASSERT_LE(simd[k > 0 ? k - 1 : 0].distance2, simd[k].distance2);
         }
-        const uint32_t length = range[1] - range[0];
-        for (size_t k = 0; k < kept; ++k) ASSERT_EQ(simd[k].index == UINT32_MAX, k >= length);
       }
+}
+
+TEST(Distance, SquaredLengthsEqualScalar) {
+  const Tables tables(6);
+  std::vector<uint32_t> simd(tables.map.size()), scalar(tables.map.size());
+  squareLengths(tables.mapSpan(), {simd.data(), simd.size()});
+  squareLengthsScalar(tables.mapSpan(), {scalar.data(), scalar.size()});
+  EXPECT_EQ(simd, scalar);
+  EXPECT_EQ(simd[41], 128u * 255 * 255);
 }
 
 }  // namespace

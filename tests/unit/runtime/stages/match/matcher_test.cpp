@@ -186,10 +186,10 @@ bool same(const std::vector<Match> &a, const std::vector<Match> &b) {
 }
 
 TEST_F(IndexedMatcherTest, AllCellsProbedIsExact) {
-  useCells(15);  // few enough that every group of them is looked at
+  useCells(8);  // few enough that every group of them is looked at
   const auto exact = taken(matcher_.matchExact(view_, queries(), 0.9f, room()));
   EXPECT_EQ(exact.size(), kQueries);
-  for (const uint32_t probes : {15u, 32u, 1000u})
+  for (const uint32_t probes : {8u, 32u, 1000u})
     EXPECT_TRUE(same(exact, taken(matcher_.matchAll(view_, queries(), 0.9f, probes, room())))) << probes;
 }
 
@@ -227,7 +227,7 @@ TEST_F(IndexedMatcherTest, AQueryAloneFindsWhatItFindsAmongOthers) {
 }
 
 TEST_F(IndexedMatcherTest, GuidedIsExactInTheCapWhateverItsSectors) {
-  useCells(15);
+  useCells(8);
   std::vector<Direction> expected;
   queries_.clear();
   for (uint32_t i = 0; i < kMap; i += 5) {
