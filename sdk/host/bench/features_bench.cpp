@@ -13,27 +13,42 @@ constexpr double kRatio = 0.8, kVerifiedPx = 2;
 
 struct VariantFrames {
   const FeaturesVariant *variant;
-  std::vector<FoundFeatures> frames;
-  std::vector<double> seconds;  // a frame
+  std::vector<FoundFeatures> frames;  // of the recording; empty where no pair needs them
+  std::vector<double> seconds;        // of those needed
 };
 
+// Those of any pair.
+std::vector<size_t> framesOfPairs(size_t count, uint32_t every) {
+  std::vector<bool> needed(count);
+  for (size_t i = 0; i < count; i += every) {
+    needed[i] = true;
+    for (const uint32_t gap : kFeatureGaps)
+      if (i + gap < count) needed[i + gap] = true;
+  }
+  std::vector<size_t> frames;
+  for (size_t i = 0; i < count; ++i)
+    if (needed[i]) frames.push_back(i);
+  return frames;
+}
+
 std::vector<VariantFrames> extractAll(const GrayRecording &recording, const std::vector<FeaturesVariant> &variants,
-                                      uint32_t repeats, const FramesDone &frame_done) {
+                                      const FeaturesOptions &options, const FramesDone &frame_done) {
+  const std::vector<size_t> needed = framesOfPairs(recording.frames.size(), options.every);
   std::vector<VariantFrames> all;
   for (const FeaturesVariant &variant : variants)
-    if (variant.run) all.push_back({&variant, {}, {}});
+    if (variant.run) all.push_back({&variant, std::vector<FoundFeatures>(recording.frames.size()), {}});
   Random random(1);
-  const size_t count = recording.frames.size();
-  for (size_t frame = 0; frame < count; ++frame) {
+  uint32_t done = 0;
+  for (const size_t frame : needed) {
     const GrayView image = recording.view(frame);
-    const auto seconds = interleave(all.size(), repeats, &random, [&](size_t chosen, uint32_t repeat) {
+    const auto seconds = interleave(all.size(), options.repeats, &random, [&](size_t chosen, uint32_t repeat) {
       FoundFeatures found = all[chosen].variant->run(image);
       const double taken = found.seconds;
-      if (repeat == 0) all[chosen].frames.push_back(std::move(found));
+      if (repeat == 0) all[chosen].frames[frame] = std::move(found);
       return taken;
     });
     for (size_t i = 0; i < all.size(); ++i) all[i].seconds.push_back(seconds[i]);
-    if (frame_done) frame_done(static_cast<uint32_t>(frame + 1), static_cast<uint32_t>(count));
+    if (frame_done) frame_done(++done, static_cast<uint32_t>(needed.size()));
   }
   return all;
 }
@@ -63,7 +78,7 @@ FeaturesSummary summarize(const GrayRecording &recording, const VariantFrames &o
   FeaturesSummary s;
   s.name = of.variant->name;
   for (const FoundFeatures &found : of.frames) s.keypoints += static_cast<double>(found.pixels_px.size());
-  s.keypoints /= static_cast<double>(of.frames.size());
+  s.keypoints /= static_cast<double>(of.seconds.size());
   s.median_ms = 1e3 * percentile(of.seconds, 0.5);
   s.p99_ms = 1e3 * percentile(of.seconds, 0.99);
   for (size_t g = 0; g < kFeatureGaps.size(); ++g) s.gaps[g] = matchPairs(recording, of, kFeatureGaps[g], every);
@@ -77,7 +92,7 @@ std::vector<FeaturesSummary> runFeaturesBench(const GrayRecording &recording,
                                               const FeaturesOptions &options, const FramesDone &frame_done) {
   std::vector<FeaturesSummary> summaries;
   double opencv_ms = std::numeric_limits<double>::quiet_NaN();
-  for (const VariantFrames &of : extractAll(recording, variants, options.repeats, frame_done)) {
+  for (const VariantFrames &of : extractAll(recording, variants, options, frame_done)) {
     summaries.push_back(summarize(recording, of, options.every));
     if (summaries.back().name == kOpenCvSiftName) opencv_ms = summaries.back().median_ms;
   }

@@ -32,7 +32,7 @@ struct FeaturesSummary {
 
 using FramesDone = std::function<void(uint32_t done, uint32_t total)>;
 
-// Every frame through every variant in turn; then pairs of frames.  Absent variants are left out.
+// Every frame of a pair through every variant in turn; then the pairs.  Absent variants are left out.
 std::vector<FeaturesSummary> runFeaturesBench(const GrayRecording &recording,
                                               const std::vector<FeaturesVariant> &variants,
                                               const FeaturesOptions &options, const FramesDone &frame_done);

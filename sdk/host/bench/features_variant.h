@@ -30,7 +30,7 @@ std::vector<FeaturesVariant> ourFeatures(int32_t width, int32_t height);
 std::vector<FeaturesVariant> openCvFeatures();
 FeaturesVariant colmapFeatures(const std::string &python);
 
-// Other libraries' histograms as the bytes of RootSIFT, which finds more matches than they do as they are.
+// Other libraries' histograms as the bytes of RootSIFT, so that all are compared alike.
 void appendRootSift(const float *histogram, std::vector<uint8_t> *descriptors);
 
 extern const char kOpenCvSiftName[];

@@ -153,4 +153,4 @@ HWY_ATTR void blurRows(const BlurTask &task) {
 }  // namespace sphc
 HWY_AFTER_NAMESPACE();
 
-#endif  // include guard
+#endif

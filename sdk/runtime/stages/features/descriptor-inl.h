@@ -9,8 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <initializer_list>
-
 #include "runtime/stages/features/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -246,4 +244,4 @@ HWY_ATTR void describePatch(const PatchTask &task, const PatchWindow &window, De
 }  // namespace sphc
 HWY_AFTER_NAMESPACE();
 
-#endif  // include guard
+#endif

@@ -9,8 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <initializer_list>
-
 #include "runtime/stages/features/config.h"
 #include "runtime/stages/features/kernels.h"
 
@@ -91,4 +89,4 @@ HWY_ATTR uint32_t findExtrema(const DogRows &dog, int16_t threshold, int32_t fir
 }  // namespace sphc
 HWY_AFTER_NAMESPACE();
 
-#endif  // include guard
+#endif

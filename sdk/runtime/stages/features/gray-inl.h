@@ -45,4 +45,4 @@ HWY_ATTR void grayRow(const uint8_t *HWY_RESTRICT rgb, bool red_first, uint8_t *
 }  // namespace sphc
 HWY_AFTER_NAMESPACE();
 
-#endif  // include guard
+#endif

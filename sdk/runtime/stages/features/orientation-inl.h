@@ -83,4 +83,4 @@ HWY_ATTR void orientationHistogram(const OrientationWindow &window, float histog
 }  // namespace sphc
 HWY_AFTER_NAMESPACE();
 
-#endif  // include guard
+#endif

@@ -94,7 +94,7 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
 }
 
 void ScaleSpace::init(const FeatureKernels &kernels) {
-  rows_ = &kernels;
+  row_kernels_ = &kernels;
   // No blur is assumed in the input (Lowe 2004 assumes 0.5 pixels): sharper or not, the full blur found more
   // matches.
   base_kernel_ = gaussian(kBaseSigma);
@@ -135,12 +135,12 @@ void ScaleSpace::step(int32_t y) {
 // Of the image; or every second pixel of the level with twice the base's blur: pixel i here is pixel 2 i there.
 void ScaleSpace::firstRow(int32_t y) {
   if (octave_ > 0) {
-    rows_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * y), level_[0].row(y), width_);
+    row_kernels_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * y), level_[0].row(y), width_);
   } else if (first_octave_ == 0) {
-    rows_->scale_row(gray_.row(y), source_.row(y), width_);
+    row_kernels_->scale_row(gray_.row(y), source_.row(y), width_);
   } else {
     const uint8_t *lower = gray_.row(clampRow((y + 1) / 2, gray_.height));
-    rows_->double_row(gray_.row(y / 2), lower, source_.row(y), gray_.width);
+    row_kernels_->double_row(gray_.row(y / 2), lower, source_.row(y), gray_.width);
   }
 }
 
@@ -162,7 +162,7 @@ void ScaleSpace::blurInto(const Kernel &kernel, const Plane &from, const Plane &
     task.out[i] = to.row(first + i);
     task.difference[i] = difference ? difference->row(first + i) : nullptr;
   }
-  rows_->blur_rows(task);
+  row_kernels_->blur_rows(task);
 }
 
 }  // namespace sphc

@@ -42,7 +42,7 @@ class ScaleSpace {
   int32_t stepCount() const { return height_ + lag(kLevels - 1) + kRefineReach + 2; }
   int32_t lag(int32_t level) const { return lags_[level]; }
 
-  // Level layer + 1 less level layer, in the octave of the sweep: its latest kDogRows rows.
+  // Level layer + 1 less level layer, in the octave of the sweep: the rows around the one searched.
   const Plane &difference(int32_t layer) const { return differences_[layer]; }
   // Levels 1 .. kScales of any octave done.
   const Plane &kept(int32_t octave, int32_t level) const { return kept_[octave][level - 1]; }
@@ -66,7 +66,7 @@ class ScaleSpace {
   Plane kept_[kMaxOctaves][kScales];
   Plane source_, ring_[kLevels], differences_[kDogLayers];
   Span<int16_t> padded_;
-  const FeatureKernels *rows_ = nullptr;
+  const FeatureKernels *row_kernels_ = nullptr;
 
   // the sweep
   int32_t octave_ = 0, width_ = 0, height_ = 0;
