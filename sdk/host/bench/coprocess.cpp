@@ -16,8 +16,6 @@ extern char **environ;
 namespace sphc::host {
 namespace {
 
-constexpr int kPatienceS = 60;
-
 int spawn(const std::vector<std::string> &arguments, int its_end, int our_end, pid_t *child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -35,7 +33,7 @@ int spawn(const std::vector<std::string> &arguments, int its_end, int our_end, p
 
 }  // namespace
 
-Coprocess::Coprocess(const std::vector<std::string> &arguments) {
+Coprocess::Coprocess(const std::vector<std::string> &arguments, int patience_s) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw std::runtime_error(std::string("no socket pair: ") + std::strerror(errno) + "; close other programs");
@@ -46,7 +44,7 @@ Coprocess::Coprocess(const std::vector<std::string> &arguments) {
     throw std::runtime_error("cannot start " + arguments[0] + ": " + std::strerror(failure) + "; is it installed?");
   }
   socket_ = ends[0];
-  const timeval patience = {kPatienceS, 0};
+  const timeval patience = {patience_s, 0};
   setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
 }

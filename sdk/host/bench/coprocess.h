@@ -11,12 +11,12 @@ namespace sphc::host {
 class Coprocess {
  public:
   // `arguments[0]` is the program, looked up in PATH.  Throws std::runtime_error when it cannot be started.
-  explicit Coprocess(const std::vector<std::string> &arguments);
+  explicit Coprocess(const std::vector<std::string> &arguments, int patience_s = 60);
   Coprocess(const Coprocess &) = delete;
   Coprocess &operator=(const Coprocess &) = delete;
   ~Coprocess();
 
-  // False when the program is gone or says nothing for a minute.
+  // False when the program is gone or says nothing for so long.
   bool write(const void *data, size_t size);
   bool read(void *data, size_t size);
 

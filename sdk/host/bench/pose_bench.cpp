@@ -9,13 +9,11 @@
 #include <numeric>
 
 #include "host/report/statistics.h"
-#include "runtime/base/random.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr double kMissingDeg = 180, kMissingM = 100;
-constexpr double kSlowS = 0.05;  // of such a run once is enough
 
 uint64_t seedOf(size_t query, uint32_t seed) { return 1 + 1000003 * static_cast<uint64_t>(seed) + query; }
 
@@ -27,14 +25,6 @@ std::vector<const PoseVariant *> presentVariants(const std::vector<PoseVariant> 
   for (const PoseVariant &variant : variants)
     if (variant.run && (true_points || !variant.needs_true_points)) present.push_back(&variant);
   return present;
-}
-
-// A random order, so that no variant always follows the same other one and finds the caches as that left them.
-std::vector<size_t> shuffledOrder(size_t count, Random *random) {
-  std::vector<size_t> order(count);
-  std::iota(order.begin(), order.end(), size_t{0});
-  for (size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random->below(static_cast<uint32_t>(i))]);
-  return order;
 }
 
 // All variants on one query with one seed.
@@ -68,6 +58,17 @@ double shareOf(const std::vector<PoseSample> &samples, Is is) {
   return percent(static_cast<uint32_t>(count), static_cast<uint32_t>(samples.size()));
 }
 
+}  // namespace
+
+const char kPoseLibName[] = "poselib p3p";
+
+std::vector<size_t> shuffledOrder(size_t count, Random *random) {
+  std::vector<size_t> order(count);
+  std::iota(order.begin(), order.end(), size_t{0});
+  for (size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random->below(static_cast<uint32_t>(i))]);
+  return order;
+}
+
 VariantSummary summarizeVariant(const VariantRuns &runs) {
   using Sample = const PoseSample &;
   VariantSummary s;
@@ -87,10 +88,6 @@ VariantSummary summarizeVariant(const VariantRuns &runs) {
   });
   return s;
 }
-
-}  // namespace
-
-const char kPoseLibName[] = "poselib p3p";
 
 double clockSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/bench/pose_variant.h"
+#include "runtime/base/random.h"
 
 namespace sphc::host {
 
@@ -26,6 +27,11 @@ struct VariantRuns {
   std::string name;
   std::vector<PoseSample> samples;  // by query, then by seed
 };
+
+constexpr double kSlowS = 0.05;  // of such a run once is enough
+
+// A random order, so that no variant always follows the same other one and finds the caches as that left them.
+std::vector<size_t> shuffledOrder(size_t count, Random *random);
 
 using QueryDone = std::function<void(uint32_t done, uint32_t total)>;
 
@@ -49,6 +55,9 @@ struct VariantSummary {
   double hypotheses = 0;                 // mean
   double times_faster_than_poselib = 0;  // ratio of the medians; NaN without PoseLib
 };
+
+// Of one variant alone: without the ratio to another.
+VariantSummary summarizeVariant(const VariantRuns &runs);
 
 extern const char kPoseLibName[];
 std::vector<VariantSummary> summarizePoseBench(const std::vector<VariantRuns> &runs);

@@ -5,7 +5,7 @@
 #include "host/bench/coprocess.h"
 #include "host/bench/pose_bench.h"
 #include "host/bench/pose_peers.h"
-#include "pose_script.h"
+#include "script_pose_peer_poselib.h"
 
 namespace sphc::host {
 namespace {

@@ -7,6 +7,8 @@
 #include "host/bench/pose_plots.h"
 #include "host/bench/pose_table.h"
 #include "host/cli/bench_confidence.h"
+#include "host/cli/bench_frame.h"
+#include "host/cli/bench_map.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -115,7 +117,7 @@ void writeResult(const Options &options, const Result &result, const Console &co
   makeFolder(options.out);
   if (!result.tables.empty()) writeText(options.out + "/pose.csv", benchCsv(result.tables));
   if (!result.growth.empty()) writeText(options.out + "/pose_growth.csv", growthCsv(result.growth));
-  const PlotResult drawn = writeDrawings(options.out, result.tables, result.growth);
+  const PlotResult drawn = writeDrawings(options.out, poseDrawings(result.tables, result.growth));
   if (drawn == PlotResult::kNoGnuplot)
     console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
   if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
@@ -193,8 +195,9 @@ std::vector<Command> benchCommands(CLI::App *root) {
   auto options = std::make_shared<Options>();
   CLI::App *bench = root->add_subcommand("bench");
   bench->description(
-      "Measure estimators beside their peers.\n\n  spherecloud bench pose FILE...\n  spherecloud bench confidence "
-      "FILE...");
+      "Measure estimators and whole frames beside their peers.\n\n  spherecloud bench pose FILE...\n"
+      "  spherecloud bench confidence FILE...\n  spherecloud bench frame --recording DIR --map FILE...\n"
+      "  spherecloud bench map --recording DIR --points N... --out DIR");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
   CLI::App *app = bench->add_subcommand("pose");
@@ -202,7 +205,9 @@ std::vector<Command> benchCommands(CLI::App *root) {
   app->footer(kExample);
   addOptions(app, options.get());
   return {{app, [options](const Console &console) { return runPose(*options, console); }},
-          benchConfidenceCommand(bench)};
+          benchConfidenceCommand(bench),
+          benchFrameCommand(bench),
+          benchMapCommand(bench)};
 }
 
 }  // namespace sphc::host
