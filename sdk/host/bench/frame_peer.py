@@ -112,6 +112,26 @@ def negative(descriptors):
     return descriptors.reshape(-1, 4, 4, 8)[:, ::-1, ::-1, :].reshape(-1, 128)
 
 
+def foreign_sift(descriptors, count, random):
+    """Mirrored, negative, both; once these are used up, noisy copies of them."""
+    turned = mirrored(descriptors)
+    pool = np.concatenate([turned, negative(descriptors), negative(turned)])
+    pool = pool[random.permutation(len(pool))]
+    foreign = [pool[:count]]
+    while sum(map(len, foreign)) < count:
+        copies = pool[: count - sum(map(len, foreign))]
+        noisy = np.maximum(copies * (1 + 0.45 * random.standard_normal(copies.shape)), 0)
+        noisy *= 512 / np.linalg.norm(noisy, axis=1, keepdims=True)
+        foreign.append(np.minimum(np.rint(noisy), 255).astype(np.float32))
+    return np.concatenate(foreign)
+
+
+def foreign_orb(descriptors, count, random):
+    """Copies with a quarter of their bits turned."""
+    copies = descriptors[random.integers(0, len(descriptors), count)]
+    return copies ^ np.packbits(random.random((count, 8 * copies.shape[1]), np.float32) < 0.25, axis=1)
+
+
 class Features:
     """A detector, and the map of points that it described."""
 
@@ -175,24 +195,15 @@ class Features:
         return zip(keypoint[alike], point[alike])
 
     def resize(self, count):
-        """Exactly so many points: those seen most often, then foreign ones: mirrored, negative, both, then noisy copies."""
+        """Exactly so many points: those seen most often, then foreign ones that lie about where own ones do."""
         self.indexes = {}
         best = np.argsort(-self.seen, kind="stable")[:count]
-        self.map_points, self.map_descriptors = self.points[best], self.descriptors[best]
-        missing, own, random = count - len(best), len(best), np.random.default_rng(1)
-        if missing <= 0 or self.binary:
-            return
-        turned = mirrored(self.map_descriptors)
-        pool = np.concatenate([turned, negative(self.map_descriptors), negative(turned)])
-        foreign = [pool[random.permutation(len(pool))[:missing]]]
-        while sum(map(len, foreign)) < missing:
-            extra = pool[random.permutation(len(pool))[: missing - sum(map(len, foreign))]]
-            noisy = np.maximum(extra * (1 + 0.45 * random.standard_normal(extra.shape)), 0)
-            noisy *= 512 / np.linalg.norm(noisy, axis=1, keepdims=True)
-            foreign.append(np.minimum(np.rint(noisy), 255).astype(np.float32))
-        self.map_descriptors = np.concatenate([self.map_descriptors] + foreign)
-        places = self.map_points[random.integers(0, own, missing)]
-        self.map_points = np.concatenate([self.map_points, places + 0.1 * random.standard_normal(places.shape)])
+        points, descriptors = self.points[best], self.descriptors[best]
+        missing, random = count - len(best), np.random.default_rng(1)
+        foreign = (foreign_orb if self.binary else foreign_sift)(descriptors, missing, random)
+        places = points[random.integers(0, len(points), missing)]
+        self.map_points = np.concatenate([points, places + 0.1 * random.standard_normal(places.shape)])
+        self.map_descriptors = np.concatenate([descriptors, foreign])
 
 
 # ---- nearest two ---------------------------------------------------------------------------------------------------
@@ -207,7 +218,7 @@ def faiss_ivf(probes):
     def build(descriptors):
         cells = cells_for(len(descriptors))
         index = faiss.IndexIVFFlat(faiss.IndexFlatL2(128), 128, cells)
-        index.cp.max_points_per_centroid = 64
+        index.cp.max_points_per_centroid = 48
         index.train(descriptors)
         index.add(descriptors)
         return index

@@ -53,7 +53,7 @@ BenchDrawing drawFrameStages(const FrameTable &table, bool ours) {
       look(table) + rows + "set border 1\nset grid noytics\nset ytics noenhanced scale 0 (" + names +
       ")\nset yrange [-0.6:" + fixed(static_cast<double>(shown.size()) - 0.4, 1) +
       "]\nset xrange [0:*]\nset offsets 0, graph 0.1, 0, 0\nset xlabel 'milliseconds a frame, medians'\n"
-      "set key outside bottom center horizontal\nset style fill solid noborder\n" +
+      "set key outside top center horizontal\nset style fill solid noborder\n" +
       plots;
   const std::string name = "frame_" + table.recording + "_" + std::to_string(table.points) + "_stages";
   return {name + (ours ? "_ours" : ""), script, {760, static_cast<int>(170 + 38 * shown.size())}};
