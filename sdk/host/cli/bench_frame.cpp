@@ -193,11 +193,11 @@ const char kHelp[] =
     "time grows with the map.  docs/bench.md says what each column means and how peers are installed.";
 const char kExample[] =
     "Example:\n"
-    "  spherecloud bench map --recording kitchen --last 597 --step 3 --points 50000 --out maps\n"
+    "  spherecloud bench frame --recording kitchen --first 620 --map maps/map_50000.sphc --no-peers\n"
     "  spherecloud bench frame --recording kitchen --first 620 --map maps/map_50000.sphc \\\n"
     "      --mapping-last 597 --mapping-step 3 --out bench\n"
-    "What comes out: a table a map; with --out frame.csv and drawings.  Beside every map its owner's note must "
-    "lie.";
+    "What comes out: a table a map; with --out frame.csv and drawings.  Beside every map its owner's note must lie;\n"
+    "spherecloud bench map makes maps of wanted sizes.";
 
 void addOptions(CLI::App *app, Options *options) {
   addRecordingOptions(app, &options->recording);
