@@ -44,7 +44,7 @@ static sphc_localizer *make_localizer(const sphc_map *map, const sphc_replay *re
   config.color_from_depth = cameras.color_from_depth;
   config.depth_unit_m = cameras.depth_unit_m;
   sphc_localizer *localizer = NULL;
-  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, map, &localizer, &message),
+  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &map, 1, &localizer, &message),
         "init");
   return localizer;
 }

@@ -27,17 +27,19 @@ class DoorFailure : public testing::Test {
     void *state, *scratch;
     size_t state_bytes, scratch_bytes;
     const sphc_config *config;
-    const sphc_map *map;
+    const sphc_map *const *maps;
+    uint32_t map_count;
   };
   Init good() {
-    return {state_.data(), scratch_.data(), need_.state_bytes, need_.scratch_bytes, &config_, session_.map()};
+    return {state_.data(), scratch_.data(), need_.state_bytes, need_.scratch_bytes, &config_, &map_, 1};
   }
   void expectRefused(const Init &i, sphc_status expected, const char *words) {
     const std::vector<uint8_t> state = state_.copy(), scratch = scratch_.copy();
     sphc_localizer *made = nullptr;
     sphc_message message = {};
     EXPECT_EQ(
-        sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.map, &made, &message),
+        sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count, &made,
+                            &message),
         expected);
     expectMentions(message.text, words);
     EXPECT_EQ(made, nullptr);
@@ -63,6 +65,7 @@ class DoorFailure : public testing::Test {
   sphc_config config_ = sphc::test::sceneConfig();
   Session session_{config_};
   std::unique_ptr<sphc::test::SceneFrame> frame_;
+  const sphc_map *map_ = session_.map();
   sphc_memory need_ = {};
   GuardedMemory state_, scratch_;
 };
@@ -75,12 +78,20 @@ TEST_F(DoorFailure, InitNulls) {
   expectRefused(i, SPHC_E_ARGUMENT, "scratch memory is null");
   i = good(), i.config = nullptr;
   expectRefused(i, SPHC_E_ARGUMENT, "config is null");
-  i = good(), i.map = nullptr;
-  expectRefused(i, SPHC_E_ARGUMENT, "map is null");
+  i = good(), i.maps = nullptr;
+  expectRefused(i, SPHC_E_ARGUMENT, "list of maps is empty");
+  i = good(), i.map_count = 0;
+  expectRefused(i, SPHC_E_ARGUMENT, "list of maps is empty");
+  const sphc_map *with_null[] = {map_, nullptr};
+  i = good(), i.maps = with_null, i.map_count = 2;
+  expectRefused(i, SPHC_E_ARGUMENT, "has a null in it");
+  i = good(), i.map_count = SPHC_MAPS_MAX + 1;
+  expectRefused(i, SPHC_E_CAPACITY, "17 maps were given; a localizer holds at most 16");
   i = good();
   sphc_message message = {};
   EXPECT_EQ(
-      sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.map, nullptr, &message),
+      sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count, nullptr,
+                          &message),
       SPHC_E_ARGUMENT);
   expectMentions(message.text, "localizer is null");
 }

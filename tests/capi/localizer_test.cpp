@@ -42,8 +42,9 @@ TEST_F(DoorLocalizer, ScratchMayBeSharedByLocalizersOfOneThread) {
   sphc_message message;
   GuardedMemory state(session_.state().size(), 64);
   sphc_localizer *second = nullptr;
+  const sphc_map *maps[] = {session_.map()};
   ASSERT_EQ(sphc_localizer_init(state.data(), state.size(), session_.scratch().data(), session_.scratch().size(),
-                                &config_, session_.map(), &second, &message),
+                                &config_, maps, 1, &second, &message),
             SPHC_OK);
   const auto frame = sphc::test::sceneFrame(config_, 1);
   sphc_result a = clean(), b = clean();

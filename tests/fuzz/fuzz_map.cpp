@@ -44,8 +44,9 @@ void map(const uint8_t *data, size_t bytes) {
   std::vector<uint8_t> file(data, data + bytes);
   open(file);
   // And with checksums that fit, to come past them.
-  if (file.size() < 128 || test::get32(file, 28) != 2) return;
-  for (uint32_t section = 0; section < 2; ++section) {
+  constexpr uint32_t kSections = 6;
+  if (file.size() < 64 + 32 * kSections || test::get32(file, 28) != kSections) return;
+  for (uint32_t section = 0; section < kSections; ++section) {
     const uint64_t offset = test::get64(file, 72 + 32 * section), length = test::get64(file, 80 + 32 * section);
     if (offset <= file.size() && length <= file.size() - offset) test::signSection(&file, section);
   }

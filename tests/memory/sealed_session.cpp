@@ -82,8 +82,8 @@ int runSession(Everything *e) {
                     &message) != SPHC_OK ||
       sphc_localizer_memory(&e->config, &need, &message) != SPHC_OK ||
       sphc_localizer_memory_piece(&e->config, 3, &piece) != SPHC_OK ||
-      sphc_localizer_init(e->state.data(), e->state.size(), e->scratch.data(), e->scratch.size(), &e->config, map,
-                          &localizer, &message) != SPHC_OK)
+      sphc_localizer_init(e->state.data(), e->state.size(), e->scratch.data(), e->scratch.size(), &e->config, &map,
+                          1, &localizer, &message) != SPHC_OK)
     return -1;
   int localized = 0;
   for (const auto &frame : e->frames) {

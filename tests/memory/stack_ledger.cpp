@@ -54,9 +54,10 @@ int main() {
   print("sphc_localizer_process", [&] { session.process(frame->frame, &result); });
   print("sphc_localizer_memory", [&] { sphc_localizer_memory(&config, &need, nullptr); });
   sphc_localizer *second = nullptr;
+  const sphc_map *maps[] = {session.map()};
   print("sphc_localizer_init", [&] {
     sphc_localizer_init(session.state().data(), session.state().size(), session.scratch().data(),
-                        session.scratch().size(), &config, session.map(), &second, nullptr);
+                        session.scratch().size(), &config, maps, 1, &second, nullptr);
   });
   size_t bytes = 0, alignment = 0;
   sphc_map_memory(&bytes, &alignment);

@@ -22,6 +22,13 @@ int main(int argc, char **argv) {
   const sphc::Span<const sphc::Descriptor> descriptors = view.descriptors();
   std::printf("descriptor_crc %08" PRIx32 "\n",
               sphc::crc32(0, descriptors.data(), descriptors.size() * sphc::kDescriptorBytes));
+  uint32_t crc = sphc::crc32(0, view.centroids().data(), view.centroids().size() * sphc::kDescriptorBytes);
+  crc = sphc::crc32(crc, view.groupCentroids().data(), view.groupCentroids().size() * sphc::kDescriptorBytes);
+  std::printf("centroid_crc %08" PRIx32 "\nsector_side %u\ncell_begins ", crc, view.sectorSide());
+  for (uint32_t c = 0; c < view.cellCount(); ++c) std::printf(" %u", view.cell(c).begin);
+  std::printf("\ngroup_begins ");
+  for (uint32_t g = 0; g < view.groupCount(); ++g) std::printf(" %u", view.group(g).begin);
+  std::printf("\n");
   for (uint32_t i = 0; i < view.pointCount(); ++i) {
     const sphc::Direction d = view.direction(i);
     std::printf("direction %.9g %.9g %.9g\n", static_cast<double>(d.x), static_cast<double>(d.y),

@@ -1,6 +1,8 @@
 #include "tests/support/map_bytes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "runtime/stages/features/extractor.h"
 #include "tests/support/random_numbers.h"
@@ -31,12 +33,49 @@ void appendDirection(std::vector<uint8_t> *out, const Vector3 &d) {
 
 void padTo64(std::vector<uint8_t> *out) { out->resize((out->size() + 63) / 64 * 64); }
 
-void putEntry(std::vector<uint8_t> *file, uint32_t index, uint32_t element_bytes, size_t offset, size_t bytes) {
+void append32(std::vector<uint8_t> *out, uint32_t value) {
+  append16(out, static_cast<uint16_t>(value));
+  append16(out, static_cast<uint16_t>(value >> 16));
+}
+
+void append(std::vector<uint8_t> *out, const Descriptor &descriptor) {
+  out->insert(out->end(), descriptor.bytes, descriptor.bytes + kDescriptorBytes);
+}
+
+// A section of what `write` appends, and its entry in the table.
+template <typename Write>
+void addSection(std::vector<uint8_t> *file, uint32_t index, uint32_t element_bytes, const Write &write) {
+  padTo64(file);
+  const size_t offset = file->size();
+  write();
   const size_t at = kHeader + kEntry * index;
   put32(file, at, index + 1);
   put32(file, at + 4, element_bytes);
   put64(file, at + 8, offset);
-  put64(file, at + 16, bytes);
+  put64(file, at + 16, file->size() - offset);
+}
+
+uint64_t squaredDistance(const Descriptor &a, const Descriptor &b) {
+  uint64_t sum = 0;
+  for (size_t i = 0; i < kDescriptorBytes; ++i) {
+    const int difference = a.bytes[i] - b.bytes[i];
+    sum += static_cast<uint64_t>(difference * difference);
+  }
+  return sum;
+}
+
+uint32_t nearestOf(const std::vector<Descriptor> &centroids, const Descriptor &descriptor) {
+  uint32_t best = 0;
+  for (uint32_t c = 1; c < centroids.size(); ++c)
+    if (squaredDistance(centroids[c], descriptor) < squaredDistance(centroids[best], descriptor)) best = c;
+  return best;
+}
+
+uint32_t sectorOf(const Vector3 &direction, uint32_t side) {
+  std::vector<uint8_t> packed;
+  appendDirection(&packed, direction);
+  const uint32_t u = packed[0] + 256u * packed[1], v = packed[2] + 256u * packed[3];
+  return (v - 1) * side / 65536 * side + (u - 1) * side / 65536;
 }
 
 }  // namespace
@@ -77,29 +116,63 @@ void signSection(std::vector<uint8_t> *file, uint32_t section) {
   signHeader(file);
 }
 
-std::vector<uint8_t> encodeMap(const std::vector<MapPoint> &points, uint32_t extractor) {
-  std::vector<uint8_t> file(kHeader + 2 * kEntry);
-  padTo64(&file);
-  const size_t directions = file.size();
-  for (const MapPoint &point : points) appendDirection(&file, point.direction);
-  padTo64(&file);
-  const size_t descriptors = file.size();
-  for (const MapPoint &point : points)
-    file.insert(file.end(), point.descriptor.bytes, point.descriptor.bytes + kDescriptorBytes);
+std::vector<uint8_t> encodeMap(const std::vector<MapPoint> &points, const MapIndex &index, uint32_t extractor) {
+  constexpr uint32_t kSections = 6;
+  std::vector<uint8_t> file(kHeader + kSections * kEntry);
+  addSection(&file, 0, 4, [&] {
+    for (const MapPoint &point : points) appendDirection(&file, point.direction);
+  });
+  addSection(&file, 1, 128, [&] {
+    for (const MapPoint &point : points) append(&file, point.descriptor);
+  });
+  addSection(&file, 2, 4, [&] {
+    for (uint32_t run : index.runs) append32(&file, run);
+  });
+  addSection(&file, 3, 128, [&] {
+    for (const Descriptor &centroid : index.centroids) append(&file, centroid);
+  });
+  addSection(&file, 4, 4, [&] {
+    for (uint32_t group : index.groups) append32(&file, group);
+  });
+  addSection(&file, 5, 128, [&] {
+    for (const Descriptor &centroid : index.group_centroids) append(&file, centroid);
+  });
 
   const uint8_t magic[8] = {0x89, 'S', 'P', 'H', 'C', '\r', '\n', 0x1A};
   for (size_t i = 0; i < 8; ++i) file[i] = magic[i];
-  put32(&file, 8, 1);
+  put32(&file, 8, 2);
   put32(&file, 12, extractor);
   put64(&file, 16, file.size());
   put32(&file, 24, static_cast<uint32_t>(points.size()));
-  put32(&file, 28, 2);
+  put32(&file, 28, kSections);
   for (size_t i = 0; i < 16; ++i) file[32 + i] = static_cast<uint8_t>(0xA0 + i);
-  putEntry(&file, 0, 4, directions, 4 * points.size());
-  putEntry(&file, 1, 128, descriptors, 128 * points.size());
-  signSection(&file, 0);
-  signSection(&file, 1);
+  put32(&file, 48, static_cast<uint32_t>(index.centroids.size()));
+  put32(&file, 52, static_cast<uint32_t>(index.group_centroids.size()));
+  put32(&file, 56, index.sector_side);
+  for (uint32_t i = 0; i < kSections; ++i) signSection(&file, i);
   return file;
+}
+
+std::vector<uint8_t> encodeMap(const std::vector<MapPoint> &points, uint32_t extractor) {
+  const Descriptor middle = points[0].descriptor;
+  return encodeMap(points, {1, {0, static_cast<uint32_t>(points.size())}, {middle}, {0, 1}, {middle}}, extractor);
+}
+
+std::vector<uint8_t> encodeIndexedMap(const std::vector<MapPoint> &points, uint32_t cells, uint32_t extractor) {
+  MapIndex index = {4, {0}, {}, {0}, {}};
+  for (uint32_t c = 0; c < cells; ++c) index.centroids.push_back(points[c].descriptor);
+  for (uint32_t c = 0; c < cells; c += 3) {
+    index.groups.push_back(std::min(c + 3, cells));
+    index.group_centroids.push_back(index.centroids[c]);
+  }
+  std::vector<MapPoint> ordered;
+  for (uint32_t run = 0; run < 16 * cells; ++run) {
+    for (const MapPoint &point : points)
+      if (nearestOf(index.centroids, point.descriptor) == run / 16 && sectorOf(point.direction, 4) == run % 16)
+        ordered.push_back(point);
+    index.runs.push_back(static_cast<uint32_t>(ordered.size()));
+  }
+  return encodeMap(ordered, index, extractor);
 }
 
 std::vector<uint8_t> randomMap(uint32_t count, uint64_t seed) {
@@ -109,7 +182,7 @@ std::vector<uint8_t> randomMap(uint32_t count, uint64_t seed) {
     const Vector3 direction = randomDirection(&random);
     points.push_back({direction, randomDescriptor(&random)});
   }
-  return encodeMap(points, kExtractorId);
+  return encodeIndexedMap(points, 5, kExtractorId);
 }
 
 }  // namespace sphc::test

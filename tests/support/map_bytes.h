@@ -14,8 +14,22 @@ struct MapPoint {
   Descriptor descriptor;
 };
 
+// The index of a map, as docs/map_format.md names its parts.
+struct MapIndex {
+  uint32_t sector_side;
+  std::vector<uint32_t> runs;
+  std::vector<Descriptor> centroids;
+  std::vector<uint32_t> groups;
+  std::vector<Descriptor> group_centroids;
+};
+
+// `points` in the order of the index.
+std::vector<uint8_t> encodeMap(const std::vector<MapPoint> &points, const MapIndex &index, uint32_t extractor);
+// With the least index: one cell, so that points keep any order.
 std::vector<uint8_t> encodeMap(const std::vector<MapPoint> &points, uint32_t extractor);
-// `count` points of random direction and descriptor.
+// With an index of `cells` cells around the first descriptors, in groups of three, and 4 x 4 sectors.
+std::vector<uint8_t> encodeIndexedMap(const std::vector<MapPoint> &points, uint32_t cells, uint32_t extractor);
+// `count` points of random direction and descriptor, in 5 cells.
 std::vector<uint8_t> randomMap(uint32_t count, uint64_t seed);
 
 // Make the checksums right again after a change, so that the check behind them is reached.

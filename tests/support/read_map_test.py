@@ -32,6 +32,11 @@ def agree(path, file):
     assert fields["status"] == "SPHC_OK", f"C++ {fields['status']}, Python accepts"
     assert int(fields["points"]) == len(cloud.directions)
     assert int(fields["descriptor_crc"], 16) == zlib.crc32(cloud.descriptors)
+    assert int(fields["centroid_crc"], 16) == zlib.crc32(cloud.centroids + cloud.group_centroids)
+    assert int(fields["sector_side"]) == cloud.sector_side
+    starts = cloud.runs[::cloud.sector_side ** 2]
+    assert list(map(int, fields["cell_begins"].split())) == list(starts[:-1])
+    assert list(map(int, fields["group_begins"].split())) == list(cloud.groups[:-1])
     for ours, theirs in zip(cloud.directions, directions):
         assert math.dist(ours, theirs) < 1e-6, (ours, theirs)
         assert abs(math.hypot(*theirs) - 1) < 1e-6

@@ -38,6 +38,7 @@ sphc_config sceneConfig() {
   config.color_camera = pinhole(320, 240, 250);
   config.depth_camera = pinhole(200, 160, 140);
   config.color_from_depth.t_m[0] = 0.04;
+  config.mode = SPHC_MODE_SINGLE;
   config.max_keypoints = 400;
   config.max_iterations = 5000;
   config.depth_sigma_m = 0.002;
@@ -73,8 +74,8 @@ Session::Session(const sphc_config &config, double eta)
   require(sphc_localizer_memory(&config, &need, &message), message);
   state_ = GuardedMemory(need.state_bytes, need.alignment);
   scratch_ = GuardedMemory(need.scratch_bytes, need.alignment);
-  require(sphc_localizer_init(state_.data(), state_.size(), scratch_.data(), scratch_.size(), &config, map_,
-                              &localizer_, &message),
+  require(sphc_localizer_init(state_.data(), state_.size(), scratch_.data(), scratch_.size(), &config, &map_,
+                              1, &localizer_, &message),
           message);
 }
 

@@ -1,6 +1,8 @@
 #include "host/bench/frame_plots.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/report/run.h"
 
@@ -34,6 +36,25 @@ std::string stageRows(const std::vector<const FrameSummary *> &shown, std::strin
   return rows + "EOD\n";
 }
 
+std::string scalingRows(const std::vector<FrameTable> &tables, size_t variant) {
+  std::string rows;
+  for (const FrameTable &table : tables)
+    rows += std::to_string(table.points) + " " + fixed(table.summaries[variant].pose.time_ms.median, 4) + "\n";
+  return rows;
+}
+
+// Room around what was measured, whatever becomes of the dashed line.
+std::string scalingRange(const std::vector<FrameTable> &tables) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const FrameTable &table : tables) {
+    for (const FrameSummary &s : table.summaries) {
+      least = std::min(least, s.pose.time_ms.median);
+      most = std::max(most, s.pose.time_ms.median);
+    }
+  }
+  return "set yrange [" + fixed(0.5 * least, 4) + ":" + fixed(2 * most, 4) + "]\n";
+}
+
 }  // namespace
 
 BenchDrawing drawFrameStages(const FrameTable &table, bool ours) {
@@ -63,22 +84,22 @@ BenchDrawing drawFrameScaling(const std::vector<FrameTable> &tables) {
   if (tables.size() < 2) return {"frame_scaling", "", {}};
   std::string script = std::string(kPlotLook) + "set key noenhanced\n", plots;
   for (size_t i = 0; i < tables[0].summaries.size(); ++i) {
-    const std::string block = "$d" + std::to_string(i);
-    script += block + " << EOD\n";
-    for (const FrameTable &table : tables)
-      script += std::to_string(table.points) + " " + fixed(table.summaries[i].pose.time_ms.median, 4) + "\n";
-    script += "EOD\n";
+    const std::string block = "$d" + std::to_string(i), color = kLineColors[i % std::size(kLineColors)];
+    script += block + " << EOD\n" + scalingRows(tables, i) + "EOD\n";
     plots += (i ? ", " : "plot ") + block + " using 1:2 with linespoints linewidth 2 pointtype 7 linecolor rgb '" +
-             kLineColors[i % std::size(kLineColors)] + "' title '" + tables[0].summaries[i].pose.name + "', " +
-             block + " using 1:2:(sprintf('%.1f', $2)) with labels offset 0,0.8 textcolor rgb '#475569' notitle";
+             color + "' title '" + tables[0].summaries[i].pose.name + "', " + block +
+             " using 1:2:(sprintf('%.1f', $2)) with labels offset 0," + (i == 1 ? "-0.9" : "0.9") +
+             " textcolor rgb '" + color + "' notitle";
   }
-  // A dashed line as steep as proportional growth, from our first point.
-  const FrameTable &first = tables[0];
-  plots += ", " + fixed(first.summaries[0].pose.time_ms.median, 4) + " * x / " + std::to_string(first.points) +
+  // How steep growth in proportion to the map would be, from our first point.
+  plots += ", " + fixed(tables[0].summaries[0].pose.time_ms.median, 4) + " * x / " +
+           std::to_string(tables[0].points) +
            " with lines dashtype 2 linecolor rgb '#94a3b8' title 'proportional to the map'";
   script +=
       "set logscale xy\nset xlabel 'points of the map'\nset ylabel 'milliseconds a frame, median'\n"
-      "set format x '%.0s %c'\nset offsets graph 0.05, graph 0.05, graph 0.08, 0\nset key outside bottom center\n";
+      "set format x '%.0s %c'\nset xrange [" +
+      fixed(0.7 * tables.front().points, 0) + ":" + fixed(1.4 * tables.back().points, 0) +
+      "]\nset key outside top center\n" + scalingRange(tables);
   return {"frame_scaling", script + plots, {760, static_cast<int>(440 + 20 * tables[0].summaries.size())}};
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "host/build/descriptor_index.h"
 #include "runtime/map/crc32.h"
 #include "runtime/map/layout.h"
 #include "runtime/stages/features/extractor.h"
@@ -28,12 +29,33 @@ PackedDirection packDirection(const Vector3 &direction) {
 
 size_t alignUp(size_t offset) { return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment; }
 
-void addSection(SectionType type, const void *data, uint32_t element_bytes, size_t count,
-                std::vector<uint8_t> *file, MapSection *section) {
-  const size_t offset = alignUp(file->size()), bytes = element_bytes * count;
-  file->resize(offset + bytes);
-  std::memcpy(file->data() + offset, data, bytes);
-  *section = {type, element_bytes, offset, bytes, crc32(0, data, bytes), 0};
+// Appends sections to a file, in ascending order of type.
+class Sections {
+ public:
+  explicit Sections(std::vector<uint8_t> *file) : file_(file) {
+    file_->resize(sizeof(MapHeader) + kMapSections * sizeof(MapSection));
+  }
+
+  template <typename T>
+  void add(SectionType type, const std::vector<T> &elements) {
+    const size_t offset = alignUp(file_->size()), bytes = sizeof(T) * elements.size();
+    file_->resize(offset + bytes);
+    std::memcpy(file_->data() + offset, elements.data(), bytes);
+    table_.push_back({type, sizeof(T), offset, bytes, crc32(0, elements.data(), bytes), 0});
+  }
+  const std::vector<MapSection> &table() const { return table_; }
+
+ private:
+  std::vector<uint8_t> *file_;
+  std::vector<MapSection> table_;
+};
+
+template <typename T>
+std::vector<T> inOrder(const std::vector<T> &items, const std::vector<uint32_t> &order) {
+  std::vector<T> sorted;
+  sorted.reserve(items.size());
+  for (uint32_t from : order) sorted.push_back(items[from]);
+  return sorted;
 }
 
 std::string hex(const MapId &id) {
@@ -67,11 +89,15 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
     descriptors.push_back(point.descriptor);
   }
 
-  MapSection sections[2];
-  std::vector<uint8_t> file(sizeof(MapHeader) + sizeof sections);
-  addSection(kSectionDirections, directions.data(), sizeof(PackedDirection), directions.size(), &file,
-             &sections[0]);
-  addSection(kSectionDescriptors, descriptors.data(), sizeof(Descriptor), descriptors.size(), &file, &sections[1]);
+  const DescriptorIndex index = makeIndex(descriptors, directions);
+  std::vector<uint8_t> file;
+  Sections sections(&file);
+  sections.add(kSectionDirections, inOrder(directions, index.order));
+  sections.add(kSectionDescriptors, inOrder(descriptors, index.order));
+  sections.add(kSectionRuns, index.runs);
+  sections.add(kSectionCentroids, index.centroids);
+  sections.add(kSectionGroups, index.groups);
+  sections.add(kSectionGroupCentroids, index.group_centroids);
 
   MapHeader header = {};
   std::memcpy(header.magic, kMapMagic, sizeof kMapMagic);
@@ -79,11 +105,15 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
   header.extractor = kExtractorId;
   header.file_bytes = file.size();
   header.point_count = static_cast<uint32_t>(cloud.points.size());
-  header.section_count = 2;
+  header.section_count = kMapSections;
   std::memcpy(header.map_id, map_id.data(), map_id.size());
-  header.crc32 = crc32(crc32(0, &header, sizeof header), sections, sizeof sections);
+  header.cell_count = static_cast<uint32_t>(index.centroids.size());
+  header.group_count = static_cast<uint32_t>(index.group_centroids.size());
+  header.sector_side = index.sector_side;
+  const size_t table_bytes = kMapSections * sizeof(MapSection);
+  header.crc32 = crc32(crc32(0, &header, sizeof header), sections.table().data(), table_bytes);
   std::memcpy(file.data(), &header, sizeof header);
-  std::memcpy(file.data() + sizeof header, sections, sizeof sections);
+  std::memcpy(file.data() + sizeof header, sections.table().data(), table_bytes);
   return file;
 }
 

@@ -13,9 +13,22 @@ namespace sphc::host {
 namespace {
 
 std::string sectionName(uint32_t type) {
-  if (type == kSectionDirections) return "directions";
-  if (type == kSectionDescriptors) return "descriptors";
-  return "section " + std::to_string(type);
+  switch (type) {
+    case kSectionDirections:
+      return "directions";
+    case kSectionDescriptors:
+      return "descriptors";
+    case kSectionRuns:
+      return "index: runs";
+    case kSectionCentroids:
+      return "index: cell centroids";
+    case kSectionGroups:
+      return "index: groups";
+    case kSectionGroupCentroids:
+      return "index: group centroids";
+    default:
+      return "section " + std::to_string(type);
+  }
 }
 
 std::vector<MapSection> sectionsOf(const MapFile &file) {

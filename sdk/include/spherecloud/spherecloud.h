@@ -8,7 +8,7 @@
  *
  * A session, in the order of the calls:
  *
- *     sphc_map_memory, sphc_map_init              view a map file that you loaded or mapped
+ *     sphc_map_memory, sphc_map_init              view a map file that you loaded or mapped, one for each room
  *     sphc_config_init, set the cameras           describe the headset
  *     sphc_localizer_memory, sphc_localizer_init  hand over memory once
  *     sphc_localizer_process ...                  a frame in, a pose out; never allocates
@@ -173,17 +173,26 @@ SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], 
 /* ---- frame ---- */
 
 /* What is known of a pose before its frame is looked at. */
-enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u };
+enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u, SPHC_PRIOR_ODOMETRY = 4u };
 typedef struct sphc_prior {
   uint32_t struct_size;
-  uint32_t flags; /* which of the parts below count */
-  /* POSE: from odometry.  It is verified first; if it does not hold, poses near it are tried, then all. */
+  uint32_t flags;     /* which of the parts below count */
+  uint32_t map_index; /* the map, of those given to sphc_localizer_init, whose frame POSE and UP are in */
+  uint32_t reserved;
+  /* POSE: where the camera should be.  Only the map points that should be in view are looked at first; where that
+   * fails, or the sigmas say too little, the whole of the maps. */
   sphc_rigid camera_from_map;
   double rotation_sigma_rad;  /* 1 sigma an axis; 1e-6 to 3.2 */
   double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; 1e-6 to 1000 */
   /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
   double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
   double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
+  /* ODOMETRY: the device's own dead reckoning, in a frame of its own that may drift.  Used in SPHC_MODE_TRACKING,
+   * from frame to frame: it predicts better than constant velocity, and lets frames that show too little be put
+   * together. */
+  sphc_rigid odometry_from_camera;
+  double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
+  double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */
 } sphc_prior;
 
 /* A colour and a depth image taken at about the same time; everything is borrowed. */
@@ -194,7 +203,7 @@ typedef struct sphc_frame {
   int64_t depth_time_ns;
   sphc_image color;        /* GRAY8, RGB8 or BGR8; the size in config.color_camera */
   sphc_image depth;        /* DEPTH16; the size in config.depth_camera */
-  const sphc_prior *prior; /* null: nothing is known */
+  const sphc_prior *prior; /* null: nothing is known but what earlier frames told */
 } sphc_frame;
 
 /* ---- map: an immutable view of borrowed bytes ---- */
@@ -243,6 +252,21 @@ enum {
                          prior, deadline or learning */
 };
 
+/* Whether frames belong together. */
+typedef int32_t sphc_mode;
+enum {
+  SPHC_MODE_TRACKING = 0, /* frames follow each other: the last pose says where to look; see sphc_state */
+  SPHC_MODE_SINGLE = 1    /* each frame is looked at alone (what is learnt of the depth sensor stays) */
+};
+
+/* How far the last pose is to be trusted, after a frame; docs/localizer.md draws the transitions. */
+typedef int32_t sphc_state;
+enum {
+  SPHC_STATE_RELOCALIZING = 0, /* no pose is trusted; always so in SPHC_MODE_SINGLE */
+  SPHC_STATE_TRACKING = 1,     /* a second frame agreed with the pose */
+  SPHC_STATE_LOST = 2          /* was tracking until a frame brought no pose, or another; for 1 s at most */
+};
+
 typedef struct sphc_config {
   uint32_t struct_size;
   uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
@@ -271,6 +295,9 @@ typedef struct sphc_config {
   sphc_cost cost;
   uint32_t deadline_us; /* search ends this long after the call began, with the best pose so far; 0: no deadline.
                            Needs `clock` */
+  sphc_mode mode;
+  uint32_t probes; /* cells of the map's index searched for each keypoint, 1 to 32: more cost time and find more;
+                      0: all of the map */
   uint32_t reserved;
 
   sphc_log_fn log; /* may be null */
@@ -315,6 +342,10 @@ typedef struct sphc_result {
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
   double confidence;  /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED */
   uint32_t cut_short; /* 1: the deadline ended the search; more time might have found better */
+  sphc_state state;   /* after this frame */
+  uint32_t map_index; /* of the map that camera_from_map is in; where there is no pose, the likeliest */
+  uint32_t frames;    /* whose matches the pose was found from: 1, or more where odometry put some together */
+  uint32_t guided;    /* 1: found where it was expected, without a search of the whole map */
   uint32_t reserved;
   sphc_depth_bias depth; /* what the frame was looked at with */
 } sphc_result;
@@ -345,15 +376,22 @@ SPHC_API sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint
 
 typedef struct sphc_localizer sphc_localizer;
 
-/* Makes a localizer in caller memory.  `config` is copied; `state`, `scratch` and `map` are borrowed until
- * sphc_localizer_fini.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
+#define SPHC_MAPS_MAX 16u /* maps of one localizer */
+
+/* Makes a localizer in caller memory, for one map or a set of them (rooms), each with a frame of its own: it finds
+ * out which one a frame shows.  `config` and the list are copied; `state`, `scratch` and the maps are borrowed until
+ * sphc_localizer_fini.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT, CAPACITY. [pure] */
 SPHC_API sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
-                                         const sphc_config *config, const sphc_map *map, sphc_localizer **localizer,
-                                         sphc_message *message);
+                                         const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
+                                         sphc_localizer **localizer, sphc_message *message);
 /* Accepts null and pointer to null; sets *localizer to null; frees nothing. [exclusive] */
 SPHC_API void sphc_localizer_fini(sphc_localizer **localizer);
 
-/* Where was the colour camera?  Set result->struct_size first.  SPHC_OK: localized, *result filled.
+/* Forgets where the camera was, as after a long pause; what was learnt of the depth sensor stays. [exclusive] */
+SPHC_API void sphc_localizer_reset(sphc_localizer *localizer);
+
+/* Where was the colour camera?  In SPHC_MODE_TRACKING frames come in the order of color_time_ns; a time that does
+ * not grow, or a gap of more than 1 s, starts anew.  Set result->struct_size first.  SPHC_OK: localized, *result filled.
  * SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT, STRUCT_SIZE,
  * IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame.
  * Bounded time, no allocation, no OS call. [exclusive] */

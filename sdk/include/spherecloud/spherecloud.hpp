@@ -234,8 +234,9 @@ class Localizer {
   Localizer &operator=(const Localizer &) = delete;
   ~Localizer() { sphc_localizer_fini(&localizer_); }
 
-  // Takes its memory from the heap, once, here.  The map is borrowed.
-  static Status make(const sphc_config &config, const Map &map, Localizer *localizer) {
+  // Takes its memory from the heap, once, here.  The maps are borrowed.
+  static Status make(const sphc_config &config, const sphc_map *const *maps, std::uint32_t map_count,
+                     Localizer *localizer) {
     Status status;
     sphc_memory need = {};
     if (status.set(sphc_localizer_memory(&config, &need, status.message())).failed()) return status;
@@ -244,14 +245,19 @@ class Localizer {
     made.scratch_ = AlignedBuffer(need.scratch_bytes, need.alignment);
     if (!made.state_.data() || !made.scratch_.data())
       return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the localizer; lower config.max_keypoints");
-    return make(config, map, made.state_.data(), need.state_bytes, made.scratch_.data(), need.scratch_bytes, &made,
-                localizer);
+    return make(config, maps, map_count, made.state_.data(), need.state_bytes, made.scratch_.data(),
+                need.scratch_bytes, &made, localizer);
+  }
+  static Status make(const sphc_config &config, const Map &map, Localizer *localizer) {
+    const sphc_map *maps[] = {map.get()};
+    return make(config, maps, 1, localizer);
   }
   // In the caller's memory (sphc_localizer_memory), borrowed until the localizer ends; takes none of its own.
   static Status make(const sphc_config &config, const Map &map, void *state, std::size_t state_bytes, void *scratch,
                      std::size_t scratch_bytes, Localizer *localizer) {
     Localizer made;
-    return make(config, map, state, state_bytes, scratch, scratch_bytes, &made, localizer);
+    const sphc_map *maps[] = {map.get()};
+    return make(config, maps, 1, state, state_bytes, scratch, scratch_bytes, &made, localizer);
   }
 
   // ok(): localized.  code() SPHC_NOT_LOCALIZED: result->outcome says why.  failed(): the frame does not fit.
@@ -265,14 +271,17 @@ class Localizer {
     if (localizer_) sphc_localizer_observations(localizer_, observations, capacity, &count);
     return count;
   }
+  // Forgets where the camera was.
+  void reset() { sphc_localizer_reset(localizer_); }
   sphc_localizer *get() const { return localizer_; }
   explicit operator bool() const { return localizer_ != nullptr; }
 
  private:
-  static Status make(const sphc_config &config, const Map &map, void *state, std::size_t state_bytes, void *scratch,
-                     std::size_t scratch_bytes, Localizer *made, Localizer *localizer) {
+  static Status make(const sphc_config &config, const sphc_map *const *maps, std::uint32_t map_count, void *state,
+                     std::size_t state_bytes, void *scratch, std::size_t scratch_bytes, Localizer *made,
+                     Localizer *localizer) {
     Status status;
-    status.set(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config, map.get(),
+    status.set(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config, maps, map_count,
                                    &made->localizer_, status.message()));
     if (status.ok()) *localizer = std::move(*made);
     return status;

@@ -3,6 +3,7 @@
 #include "runtime/base/message.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
+#include "runtime/localizer/localizer.h"
 
 namespace sphc {
 namespace {
@@ -29,7 +30,9 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
          inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
          inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
          inRange("min_inliers", c.min_inliers, 4, 4096, message) &&
-         inRange("cost", c.cost, SPHC_COST_WHITENED, SPHC_COST_PAPER, message);
+         inRange("cost", c.cost, SPHC_COST_WHITENED, SPHC_COST_PAPER, message) &&
+         inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
+         inRange("probes", c.probes, 0, Localizer::kMostProbes, message);
 }
 
 bool checkTogether(const sphc_config &c, sphc_message *message) {
@@ -63,36 +66,53 @@ bool checkDirection(const char *name, const double *v, sphc_message *message) {
   return false;
 }
 
-sphc_status checkPrior(const sphc_prior &prior, sphc_message *message) {
+bool checkPose(const char *name, const sphc_rigid &pose, sphc_message *message) {
+  bool near = isValidRigid(pose);
+  for (double t : pose.t_m) near = near && t >= -1e4 && t <= 1e4;
+  if (near) return true;
+  MessageWriter(message) << "prior." << name
+                         << " is not a pose: its quaternion must have unit length, and its translation must lie "
+                            "within 10 km";
+  return false;
+}
+
+bool checkPriorPose(const sphc_prior &prior, sphc_message *message) {
+  return checkPose("camera_from_map", prior.camera_from_map, message) &&
+         priorInRange("rotation_sigma_rad", prior.rotation_sigma_rad, 1e-6, 3.2, message) &&
+         priorInRange("translation_sigma_m", prior.translation_sigma_m, 1e-6, 1000, message);
+}
+
+bool checkPriorUp(const sphc_prior &prior, sphc_message *message) {
+  return checkDirection("up_camera", prior.up_camera, message) &&
+         checkDirection("up_map", prior.up_map, message) &&
+         priorInRange("up_sigma_rad", prior.up_sigma_rad, 1e-4, 0.5, message);
+}
+
+bool checkPriorOdometry(const sphc_prior &prior, sphc_message *message) {
+  return checkPose("odometry_from_camera", prior.odometry_from_camera, message) &&
+         priorInRange("odometry_rotation_sigma_rad", prior.odometry_rotation_sigma_rad, 1e-6, 1, message) &&
+         priorInRange("odometry_translation_sigma_m", prior.odometry_translation_sigma_m, 1e-6, 10, message);
+}
+
+sphc_status checkPrior(const sphc_prior &prior, uint32_t map_count, sphc_message *message) {
   if (prior.struct_size != sizeof(sphc_prior)) {
     MessageWriter(message) << "prior.struct_size is " << prior.struct_size << ", this library knows "
                            << static_cast<uint64_t>(sizeof(sphc_prior));
     return SPHC_E_STRUCT_SIZE;
   }
-  if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP)) {
+  if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP | SPHC_PRIOR_ODOMETRY)) {
     MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags;
     return SPHC_E_ARGUMENT;
   }
-  if (prior.flags & SPHC_PRIOR_POSE) {
-    if (!isValidRigid(prior.camera_from_map)) {
-      MessageWriter(message)
-          << "prior.camera_from_map is not a rigid transform: its quaternion must have unit length "
-             "and all numbers must be finite";
-      return SPHC_E_ARGUMENT;
-    }
-    for (double t : prior.camera_from_map.t_m)
-      if (!priorInRange("camera_from_map.t_m", t, -1e4, 1e4, message)) return SPHC_E_ARGUMENT;
-    if (!priorInRange("rotation_sigma_rad", prior.rotation_sigma_rad, 1e-6, 3.2, message) ||
-        !priorInRange("translation_sigma_m", prior.translation_sigma_m, 1e-6, 1000, message))
-      return SPHC_E_ARGUMENT;
+  if (prior.flags & (SPHC_PRIOR_POSE | SPHC_PRIOR_UP) && prior.map_index >= map_count) {
+    MessageWriter(message) << "prior.map_index is " << prior.map_index << ", but the localizer has " << map_count
+                           << " maps, counted from 0";
+    return SPHC_E_ARGUMENT;
   }
-  if (prior.flags & SPHC_PRIOR_UP) {
-    if (!checkDirection("up_camera", prior.up_camera, message) ||
-        !checkDirection("up_map", prior.up_map, message) ||
-        !priorInRange("up_sigma_rad", prior.up_sigma_rad, 1e-4, 0.5, message))
-      return SPHC_E_ARGUMENT;
-  }
-  return SPHC_OK;
+  const bool fine = (!(prior.flags & SPHC_PRIOR_POSE) || checkPriorPose(prior, message)) &&
+                    (!(prior.flags & SPHC_PRIOR_UP) || checkPriorUp(prior, message)) &&
+                    (!(prior.flags & SPHC_PRIOR_ODOMETRY) || checkPriorOdometry(prior, message));
+  return fine ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
 uint32_t bytesPerPixel(sphc_format format) {
@@ -168,7 +188,8 @@ sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_messag
   return checkNumbers(*copy, message) && checkTogether(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
-sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, sphc_message *message) {
+sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, uint32_t map_count,
+                       sphc_message *message) {
   if (!frame) {
     MessageWriter(message) << "frame is null";
     return SPHC_E_ARGUMENT;
@@ -180,8 +201,20 @@ sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, sphc_
   }
   sphc_status status = checkImage("color", frame->color, config.color_camera, false, message);
   if (status == SPHC_OK) status = checkImage("depth", frame->depth, config.depth_camera, true, message);
-  if (status == SPHC_OK && frame->prior) status = checkPrior(*frame->prior, message);
+  if (status == SPHC_OK && frame->prior) status = checkPrior(*frame->prior, map_count, message);
   return status;
+}
+
+sphc_status checkMaps(const sphc_map *const *maps, uint32_t map_count, sphc_message *message) {
+  if (map_count > SPHC_MAPS_MAX) {
+    MessageWriter(message) << map_count << " maps were given; a localizer holds at most " << SPHC_MAPS_MAX;
+    return SPHC_E_CAPACITY;
+  }
+  bool whole = maps && map_count > 0;
+  for (uint32_t i = 0; whole && i < map_count; ++i) whole = maps[i];
+  if (whole) return SPHC_OK;
+  MessageWriter(message) << "the list of maps is empty or has a null in it; open each with sphc_map_init";
+  return SPHC_E_ARGUMENT;
 }
 
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,

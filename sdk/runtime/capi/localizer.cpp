@@ -62,6 +62,7 @@ sphc_status sphc_config_init(sphc_config *config, size_t struct_size) {
   config->depth_offset_sigma_m = 0.003;
   config->depth_slope_sigma = 0.02;
   config->min_inliers = 10;
+  config->probes = 16;
   return SPHC_OK;
 }
 
@@ -97,13 +98,15 @@ sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t inde
 }
 
 sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
-                                const sphc_config *config, const sphc_map *map, sphc_localizer **localizer,
-                                sphc_message *message) {
+                                const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
+                                sphc_localizer **localizer, sphc_message *message) {
   sphc_config checked;
   sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
-  if (!map || !localizer) {
-    sphc::MessageWriter(message) << (map ? "localizer" : "map") << " is null";
+  status = sphc::checkMaps(maps, map_count, message);
+  if (status != SPHC_OK) return status;
+  if (!localizer) {
+    sphc::MessageWriter(message) << "localizer is null";
     return SPHC_E_ARGUMENT;
   }
   const sphc_memory need = measure(checked);
@@ -115,7 +118,8 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   auto *made = new (state) sphc_localizer();
   Arena state_arena(static_cast<unsigned char *>(state) + kObjectBytes), scratch_arena(scratch);
   Localizer::layout(checked, state_arena, scratch_arena, &made->localizer);
-  made->localizer.init(checked, map->view);
+  made->localizer.init(checked);
+  for (uint32_t i = 0; i < map_count; ++i) made->localizer.addMap(maps[i]->view);
   *localizer = made;
   return SPHC_OK;
 }
@@ -124,10 +128,15 @@ void sphc_localizer_fini(sphc_localizer **localizer) {
   if (localizer) *localizer = nullptr;
 }
 
+void sphc_localizer_reset(sphc_localizer *localizer) {
+  if (localizer) localizer->localizer.reset();
+}
+
 sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame, sphc_result *result) {
   if (!localizer) return SPHC_E_ARGUMENT;
   localizer->message.text[0] = '\0';
-  const sphc_status status = sphc::checkFrame(frame, localizer->localizer.config(), &localizer->message);
+  const sphc::Localizer &known = localizer->localizer;
+  const sphc_status status = sphc::checkFrame(frame, known.config(), known.mapCount(), &localizer->message);
   if (status != SPHC_OK) return status;
   if (!result || result->struct_size != sizeof(sphc_result)) {
     sphc::MessageWriter(&localizer->message)

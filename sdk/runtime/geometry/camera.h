@@ -27,6 +27,11 @@ class Camera {
   double focal() const { return 0.5 * (fx() + fy()); }
   int32_t width() const { return static_cast<int32_t>(door_.width); }
   int32_t height() const { return static_cast<int32_t>(door_.height); }
+  bool isPinhole() const { return door_.model == SPHC_CAMERA_PINHOLE; }
+  // As given, unused parameters 0.
+  const sphc_camera &parameters() const { return door_; }
+  // Largest x^2 + y^2 of a ray (x, y, 1) that has a pixel.
+  double maxRadius2() const { return max_radius2_; }
 
  private:
   // Distorted normalised coordinates of (x, y, 1), and their derivative when asked for.

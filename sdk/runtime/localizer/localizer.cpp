@@ -1,94 +1,64 @@
 #include "runtime/localizer/localizer.h"
 
-#include <limits>
-#include <utility>
+#include <algorithm>
 
 #include "runtime/base/message.h"
-#include "runtime/localizer/judgement.h"
-#include "runtime/stages/features/gray.h"
 #include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 namespace {
 
+constexpr double degrees(double value) { return value * kPi / 180; }
+
 constexpr uint32_t kFewestKeypoints = 32, kFewestLifted = 16, kFewestMatches = 6;
 // Half angles of the caps in which a second look is taken, once there is a pose; the first is generous towards it.
-constexpr int kCaps = 2;
-constexpr double kCapDegrees[kCaps] = {4, 2.5};
-constexpr double kRayM = 1;  // where a keypoint without depth is taken to lie, as far as the map's error goes
-constexpr double kUselessSigma = 1e3;  // of a keypoint where the camera model has no bearing
+constexpr double kCapsOfFirstPose[] = {degrees(4), degrees(2.5)}, kCapsOfExpectedPose[] = {degrees(2.5)};
+// Of the first look where a pose is expected: this, and so many sigmas; beyond the last the whole map is as good.
+constexpr double kLeastCap = degrees(1), kCapSigmas = 2.5, kMostCap = degrees(10);
+constexpr double kTypicalDepth_m = 2;
 constexpr int kPaperIterations = 25;
+// Which map?  Of so many keypoints, how many find their like in each; the best maps are then looked into.
+constexpr uint32_t kVoters = 200, kVoteProbes = 4, kMapsTried = 3;
 
-FeatureConfig featureConfig(const sphc_config &config) {
-  FeatureConfig features;
-  features.width = static_cast<int32_t>(config.color_camera.width);
-  features.height = static_cast<int32_t>(config.color_camera.height);
-  features.max_keypoints = config.max_keypoints;
-  return features;
+double solidAngle(double cap_rad) {
+  double sine, cosine;
+  sinCos(cap_rad, &sine, &cosine);
+  return 2 * kPi * (1 - cosine);
 }
 
-double hypotOf(double a, double b) { return sqrtOf(a * a + b * b); }
-
-Vector3 vectorOf(const double v[3]) { return Vector3(v[0], v[1], v[2]); }
-
-PosePrior priorFromDoor(const sphc_prior *given) {
-  PosePrior prior;
-  if (!given) return prior;
-  prior.has_pose = given->flags & SPHC_PRIOR_POSE;
-  if (prior.has_pose) {
-    prior.camera_from_map = rigidFromDoor(given->camera_from_map);
-    prior.rotation_sigma_rad = given->rotation_sigma_rad;
-    prior.translation_sigma_m = given->translation_sigma_m;
-  }
-  prior.has_up = given->flags & SPHC_PRIOR_UP;
-  if (prior.has_up) {
-    prior.up_camera = vectorOf(given->up_camera).normalized();
-    prior.up_map = vectorOf(given->up_map).normalized();
-    prior.up_sigma_rad = given->up_sigma_rad;
-  }
-  return prior;
-}
-
-// Until the second look has judged a pose that was found.
+// Until a second look has judged a pose that was found.
 sphc_outcome outcomeOf(PoseEnding ending) {
   if (ending == PoseEnding::kFewCorrespondences) return SPHC_OUTCOME_FEW_MATCHES;
   return ending == PoseEnding::kDeadline ? SPHC_OUTCOME_DEADLINE : SPHC_OUTCOME_NO_CONSENSUS;
+}
+
+double capFor(const Prediction &expected) {
+  return kLeastCap + kCapSigmas * (expected.rotation_sigma_rad + expected.translation_sigma_m / kTypicalDepth_m);
 }
 
 }  // namespace
 
 void Localizer::layout(const sphc_config &config, Arena &state, Arena &scratch, Localizer *localizer) {
   const uint32_t n = config.max_keypoints;
-  const size_t pixels = size_t{config.color_camera.width} * config.color_camera.height;
   EstimatorConfig estimator;
-  estimator.capacity = n;
+  estimator.capacity = 2 * n;  // this frame's and those of the history
   estimator.max_iterations = config.max_iterations;
 
   Localizer discarded;  // receives empty spans while measuring
   Localizer &l = localizer ? *localizer : discarded;
-  l.observations_ = state.take<sphc_observation>("localizer.observations", n);
-  l.gray_ = scratch.take<uint8_t>("localizer.gray", pixels);
-  l.keypoints_ = scratch.take<Keypoint>("localizer.keypoints", n);
-  l.descriptors_ = scratch.take<Descriptor>("localizer.descriptors", n);
-  l.lifted_ = scratch.take<LiftedPoint>("localizer.lifted", n);
-  l.keypoint_of_ = scratch.take<uint32_t>("localizer.lifted", n);
+  FrontEnd::layout(config, state, scratch, localizer ? &l.front_ : nullptr);
+  History::layout(n, state, localizer ? &l.history_ : nullptr);
   l.expected_ = scratch.take<Direction>("localizer.expected", n);
   l.matches_ = scratch.take<Match>("localizer.matches", n);
   l.ray_matches_ = scratch.take<Match>("localizer.matches", n);
-  l.correspondences_ = scratch.take<Correspondence>("localizer.correspondences", n);
-  FeatureExtractor::layout(featureConfig(config), state, scratch, localizer ? &l.extractor_ : nullptr);
+  l.correspondences_ = scratch.take<Correspondence>("localizer.correspondences", estimator.capacity);
   Matcher::layout(n, scratch, localizer ? &l.matcher_ : nullptr);
   PoseEstimator::layout(estimator, scratch, localizer ? &l.estimator_ : nullptr);
 }
 
-void Localizer::init(const sphc_config &config, const MapView &map) {
+void Localizer::init(const sphc_config &config) {
   config_ = config;
-  map_ = map;
-  const DepthSensor sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
-                              config.depth_sigma_per_m2};
-  aligner_ = SparseAligner(Camera(config.color_camera), Camera(config.depth_camera),
-                           rigidFromDoor(config.color_from_depth), sensor);
-  extractor_.init();
+  front_.init(config);
   DepthCalibration prior;
   prior.mid_m = config.depth_mid_m > 0 ? config.depth_mid_m : sqrtOf(config.depth_min_m * config.depth_max_m);
   prior.covariance(0, 0) = config.depth_offset_sigma_m * config.depth_offset_sigma_m;
@@ -96,119 +66,205 @@ void Localizer::init(const sphc_config &config, const MapView &map) {
   calibrator_.init(prior);
 }
 
+void Localizer::reset() {
+  tracker_.reset();
+  history_.clear();
+}
+
 void Localizer::process(const sphc_frame &frame, sphc_result *result) {
   const int64_t begin = now();
   recordDepth(result);
-  extract(frame.color);
+  front_.extract(frame.color);
   const int64_t extracted = now();
-  lift(frame.depth);
+  front_.lift(frame.depth);
   const int64_t aligned = now();
-  result->keypoints = keypoint_count_;
-  result->lifted = lifted_count_;
+
+  match_ns_ = 0;
+  match_count_ = ray_match_count_ = 0;
+  const Known known = knownFromDoor(isPaper() ? nullptr : frame.prior);
+  if (tracks()) advance(frame, known);
+  Look look;
+  if (front_.keypointCount() < kFewestKeypoints) {
+    look.outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
+  } else if (front_.liftedCount() < kFewestLifted) {
+    look.outcome = SPHC_OUTCOME_FEW_DEPTHS;
+  } else {
+    Deadline deadline;
+    if (config_.deadline_us)
+      deadline = {config_.clock, config_.clock_user, begin + int64_t{config_.deadline_us} * 1000};
+    look = locate(known, deadline);
+  }
+  conclude(look, result);
+  const int64_t end = now();
   result->features_us = static_cast<uint32_t>((extracted - begin) / 1000);
   result->align_us = static_cast<uint32_t>((aligned - extracted) / 1000);
-  if (keypoint_count_ < kFewestKeypoints)
-    result->outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
-  else if (lifted_count_ < kFewestLifted)
-    result->outcome = SPHC_OUTCOME_FEW_DEPTHS;
-  else
-    search(frame.prior, {config_.clock, config_.clock_user, begin + int64_t{config_.deadline_us} * 1000}, result);
+  result->match_us = static_cast<uint32_t>(match_ns_ / 1000);
+  result->pose_us = static_cast<uint32_t>((end - aligned - match_ns_) / 1000);
   log(*result);
 }
 
-void Localizer::extract(const sphc_image &color) {
-  const auto *pixels = static_cast<const uint8_t *>(color.data);
-  GrayView gray = {pixels, static_cast<int32_t>(color.width), static_cast<int32_t>(color.height),
-                   static_cast<int32_t>(color.stride_bytes)};
-  if (color.format != SPHC_FORMAT_GRAY8) {
-    const auto convert = color.format == SPHC_FORMAT_RGB8 ? rgbToGray : bgrToGray;
-    convert(pixels, gray.stride, gray.width, gray.height, gray_.data(), gray.width);
-    gray.data = gray_.data();
-    gray.stride = gray.width;
+void Localizer::advance(const sphc_frame &frame, const Known &known) {
+  tracker_.advance(frame.color_time_ns, known.has_odometry ? &known.odometry : nullptr);
+  Rigid step;
+  double rotation_sigma_rad = 0, translation_sigma_m = 0;
+  if (tracker_.step(&step, &rotation_sigma_rad, &translation_sigma_m))
+    history_.advance(step, rotation_sigma_rad, translation_sigma_m);
+  else
+    history_.clear();
+}
+
+Localizer::Look Localizer::locate(const Known &known, const Deadline &deadline) {
+  Prediction expected;
+  const bool expects = expect(known, &expected);
+  if (expects) {
+    const Look look = lookNear(known, deadline, expected);
+    if (look.outcome == SPHC_OUTCOME_LOCALIZED) return look;
   }
-  keypoint_count_ = extractor_.extract(gray, keypoints_, descriptors_);
+  return lookEverywhere(known, deadline, expects);
 }
 
-void Localizer::lift(const sphc_image &depth) {
-  const ImageView<uint16_t> view = {static_cast<const uint16_t *>(depth.data), static_cast<int32_t>(depth.width),
-                                    static_cast<int32_t>(depth.height),
-                                    static_cast<int32_t>(depth.stride_bytes / 2)};
-  const double focal = 0.5 * (config_.color_camera.params[0] + config_.color_camera.params[1]);
-  lifted_count_ = 0;
-  observation_count_ = keypoint_count_;
-  for (uint32_t k = 0; k < keypoint_count_; ++k) {
-    const Keypoint &keypoint = keypoints_[k];
-    observations_[k] = {keypoint.x_px, keypoint.y_px, keypoint.scale_px, 0, 0, 0};
-    // coarser keypoints are placed less exactly
-    const double pixel =
-        config_.pixel_sigma_px * (keypoint.scale_px > 2 ? 0.5 * static_cast<double>(keypoint.scale_px) : 1.0);
-    keypoint_of_[k] = k;
-    lifted_[k] = {Vector3::UnitZ(), kUselessSigma, std::numeric_limits<double>::infinity()};
-    if (aligner_.bearing({keypoint.x_px, keypoint.y_px}, &lifted_[k].point_m))
-      lifted_[k].sideways_m = hypotOf(pixel / focal, config_.map_sigma_m / kRayM);
-    double sigma_z = 0;
-    Vector3 point_m;
-    if (!aligner_.lift(view, {keypoint.x_px, keypoint.y_px}, &point_m, &sigma_z)) continue;
-    const double z = point_m.z();
-    lifted_[k] = {point_m, hypotOf(pixel * z / focal, config_.map_sigma_m),
-                  hypotOf(sigma_z * point_m.norm() / z, config_.map_sigma_m)};
-    observations_[k].depth_m = static_cast<float>(z);
-    observations_[k].flags = SPHC_OBSERVATION_LIFTED;
-    toFront(k);
+// From the caller, else from the frames before; false where it says too little to narrow the search.
+bool Localizer::expect(const Known &known, Prediction *expected) const {
+  if (known.prior.has_pose)
+    *expected = {known.map, known.prior.camera_from_map, known.prior.rotation_sigma_rad,
+                 known.prior.translation_sigma_m};
+  else if (!tracks() || !tracker_.predict(expected))
+    return false;
+  return capFor(*expected) < kMostCap;
+}
+
+Localizer::Look Localizer::lookNear(const Known &known, const Deadline &deadline, const Prediction &expected) {
+  Look look;
+  look.map = expected.map;
+  look.guided = true;
+  const double cap_rad = capFor(expected);
+  PosePrior prior = priorFor(known, expected.map);
+  prior.has_pose = true;
+  prior.camera_from_map = expected.camera_from_map;
+  prior.rotation_sigma_rad = expected.rotation_sigma_rad;
+  prior.translation_sigma_m = expected.translation_sigma_m;
+  PoseQuery query = queryFor(prior, deadline);
+  ray_match_count_ = 0;
+  query.correspondences = correspond(look.map, matchAround(look.map, expected.camera_from_map, cap_rad));
+  findPose(query, solidAngle(cap_rad), {kCapsOfExpectedPose, 1}, &look);
+  return look;
+}
+
+// `expected`: a look where the camera was expected has failed, so the expected pose is not worth another.
+Localizer::Look Localizer::lookEverywhere(const Known &known, const Deadline &deadline, bool expected) {
+  Look best;
+  const MapOrder order = rankMaps();
+  for (uint32_t map : order) {
+    PosePrior prior = priorFor(known, map);
+    if (expected) prior.has_pose = false;
+    const Look look = lookInto(map, queryFor(prior, deadline));
+    if (map == order[0] || look.outcome == SPHC_OUTCOME_LOCALIZED) best = look;
+    if (look.outcome == SPHC_OUTCOME_LOCALIZED || deadline.passed()) break;
   }
+  return best;
 }
 
-// Makes keypoint k, the last so far, one of those with depth, which come first.
-void Localizer::toFront(uint32_t k) {
-  std::swap(lifted_[lifted_count_], lifted_[k]);
-  std::swap(keypoint_of_[lifted_count_], keypoint_of_[k]);
-  std::swap(descriptors_[lifted_count_], descriptors_[k]);
-  ++lifted_count_;
+Localizer::Look Localizer::lookInto(uint32_t map, PoseQuery query) {
+  Look look;
+  look.map = map;
+  // The paper's cost knows no keypoints without depth.
+  const uint32_t queries = isPaper() ? front_.liftedCount() : front_.keypointCount();
+  query.correspondences = correspond(map, matchEverywhere(map, queries, config_.probes));
+  keepRays();
+  const bool together = remember(map);
+  findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &look);
+  if (look.outcome == SPHC_OUTCOME_LOCALIZED || !together) return look;
+  const Look more = lookTogether(map, query);
+  return more.outcome == SPHC_OUTCOME_LOCALIZED ? more : look;
 }
 
-Span<const Correspondence> Localizer::correspond(uint32_t match_count) {
-  match_count_ = match_count;
-  for (uint32_t i = 0; i < match_count; ++i) {
-    const Match &match = matches_[i];
-    const Direction d = map_.direction(match.map_index);
-    correspondences_[i] = {lifted_[match.query],
-                           Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)),
-                           1.0f - static_cast<float>(match.distance2) / static_cast<float>(match.second2 + 1)};
+// The global matches of this frame and of those before it, as odometry moves them.
+Localizer::Look Localizer::lookTogether(uint32_t map, PoseQuery query) {
+  Look look;
+  look.map = map;
+  look.frames = history_.frames();
+  match_count_ = 0;  // they are in the history too
+  query.correspondences = withHistory(map);
+  findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &look);
+  return look;
+}
+
+// `solid_angle_sr`: in which map points were candidates.
+void Localizer::findPose(const PoseQuery &query, double solid_angle_sr, Caps caps_rad, Look *look) {
+  if (query.correspondences.size() < kFewestMatches) return;
+  const Estimate &found = look->searched = look->estimate = firstPose(query);
+  look->outcome = outcomeOf(found.ending);
+  if (found.inliers <= kFewestMatches / 2) return;
+  look->evidence.log_chance_first =
+      logChanceOfAgreement(query.correspondences, found.camera_from_map, found.inliers, 3, query.depth.noise_scale,
+                           estimator_.inlierThreshold2(), solid_angle_sr) +
+      logOf(static_cast<double>(found.iterations) + 1);
+  improve(query, caps_rad, look);
+}
+
+// A pose says where in the map each keypoint lies: look there again.  True points that lost the ratio test against
+// some distant twin come back, and fakes, which lie anywhere, drop out.
+void Localizer::improve(PoseQuery query, Caps caps_rad, Look *look) {
+  double last_cap_rad = 0;
+  for (double cap_rad : caps_rad) {
+    query.correspondences = correspond(look->map, matchAround(look->map, look->estimate.camera_from_map, cap_rad));
+    if (look->frames > 1) query.correspondences = withHistory(look->map);
+    look->estimate = refined(query, look->estimate.camera_from_map);
+    last_cap_rad = cap_rad;
   }
-  return correspondences_.first(match_count);
+  uint32_t seen_now = 0;
+  for (const Correspondence &c : correspondences_.first(match_count_))
+    if (estimator_.isInlier(c, look->estimate)) ++seen_now;
+  look->evidence.inliers = look->estimate.inliers;
+  look->evidence.log_chance_second =
+      logChanceOfAgreement(correspondences_.first(match_count_), look->estimate.camera_from_map, seen_now, 3,
+                           query.depth.noise_scale, estimator_.inlierThreshold2(), solidAngle(last_cap_rad));
+  look->outcome = judgePose(look->evidence, look->estimate, config_.min_inliers);
 }
 
-void Localizer::search(const sphc_prior *given, const Deadline &deadline, sphc_result *result) {
-  const int64_t begin = now();
-  const bool paper = config_.cost == SPHC_COST_PAPER;  // it knows neither keypoints without depth nor priors
-  const uint32_t asked = paper ? lifted_count_ : keypoint_count_;
+// Which maps to look into, the likeliest first.
+Localizer::MapOrder Localizer::rankMaps() {
+  MapOrder order;
+  uint32_t votes[SPHC_MAPS_MAX] = {}, most = 0;
+  for (uint32_t map = 0; map < mapCount() && mapCount() > 1; ++map) {
+    votes[map] = matchEverywhere(map, std::min(kVoters, front_.liftedCount()), kVoteProbes);
+    most = std::max(most, votes[map]);
+  }
+  for (uint32_t rank = 0; rank < kMapsTried && rank < mapCount(); ++rank) {
+    uint32_t best = mapCount();
+    for (uint32_t map = 0; map < mapCount(); ++map) {
+      const bool taken = std::find(order.begin(), order.end(), map) != order.end();
+      if (!taken && (best == mapCount() || votes[map] > votes[best])) best = map;
+    }
+    if (rank > 0 && 2 * votes[best] < most) break;
+    order.push(best);
+  }
+  return order;
+}
+
+// Keeps the global matches of this frame for later ones; true when there are some of earlier frames too.
+bool Localizer::remember(uint32_t map) {
+  if (!tracks() || !tracker_.hasOdometry()) return false;
+  if (map != history_map_) history_.clear();
+  history_map_ = map;
+  for (uint32_t i = 0; i < match_count_; ++i)
+    if (correspondences_[i].lifted.hasDepth())
+      history_.add(correspondences_[i].lifted, matches_[i].map_index, correspondences_[i].quality);
+  return history_.frames() > 1;
+}
+
+PosePrior Localizer::priorFor(const Known &known, uint32_t map) const {
+  return known.map == map ? known.prior : PosePrior();
+}
+
+// `prior` is borrowed.
+PoseQuery Localizer::queryFor(const PosePrior &prior, const Deadline &deadline) const {
   PoseQuery query;
-  query.correspondences =
-      correspond(matcher_.matchAll(map_, descriptors_.first(asked), config_.max_ratio, matches_));
-  const int64_t matched = now();
-  result->match_us = static_cast<uint32_t>((matched - begin) / 1000);
-  result->matches = match_count_;
-  const PosePrior prior = priorFromDoor(paper ? nullptr : given);
   query.prior = &prior;
   query.depth = calibrator_.current();
   query.seed = config_.seed;
-  if (config_.deadline_us) query.deadline = deadline;
-  Estimate searched, estimate;
-  result->outcome = SPHC_OUTCOME_FEW_MATCHES;
-  if (match_count_ >= kFewestMatches) {
-    estimate = searched = firstPose(query);
-    result->iterations = estimate.iterations;
-    result->cut_short = estimate.cut_short;
-    result->outcome = outcomeOf(estimate.ending);
-    if (estimate.inliers > kFewestMatches / 2) improve(query, &estimate, result);
-  }
-  recordMatches();
-  if (result->outcome == SPHC_OUTCOME_LOCALIZED) {
-    fill(estimate, result);
-    result->confidence = confidenceOf(confidenceInputs(searched, estimate));
-    if (!paper) calibrator_.learn(estimate);
-  }
-  result->pose_us = static_cast<uint32_t>((now() - matched) / 1000);
+  query.deadline = deadline;
+  return query;
 }
 
 PaperCostConfig Localizer::paperConfig() const {
@@ -219,7 +275,7 @@ PaperCostConfig Localizer::paperConfig() const {
 }
 
 Estimate Localizer::firstPose(const PoseQuery &query) {
-  if (config_.cost == SPHC_COST_WHITENED) return estimator_.search(query);
+  if (!isPaper()) return estimator_.search(query);
   const Estimate found = estimateWithPaperCost(paperConfig(), query.correspondences, query.seed);
   if (found.inliers == 0) return found;
   Estimate estimate = estimator_.evaluate(query, found.camera_from_map);
@@ -228,74 +284,107 @@ Estimate Localizer::firstPose(const PoseQuery &query) {
 }
 
 Estimate Localizer::refined(const PoseQuery &query, const Rigid &camera_from_map) {
-  if (config_.cost == SPHC_COST_WHITENED) return estimator_.refine(query, camera_from_map);
+  if (!isPaper()) return estimator_.refine(query, camera_from_map);
   const Rigid pose = refineWithPaperCost(paperConfig(), query.correspondences, camera_from_map, kPaperIterations);
   return estimator_.evaluate(query, pose);
+}
+
+uint32_t Localizer::matchEverywhere(uint32_t map, uint32_t queries, uint32_t probes) {
+  const int64_t begin = now();
+  const Span<const Descriptor> asked = front_.descriptors().first(queries);
+  const uint32_t count = probes ? matcher_.matchAll(maps_[map], asked, config_.max_ratio, probes, matches_)
+                                : matcher_.matchExact(maps_[map], asked, config_.max_ratio, matches_);
+  match_ns_ += now() - begin;
+  return count;
+}
+
+// Matches each lifted keypoint near where the pose says it lies.
+uint32_t Localizer::matchAround(uint32_t map, const Rigid &camera_from_map, double cap_rad) {
+  const int64_t begin = now();
+  const uint32_t lifted = front_.liftedCount();
+  const Rigid map_from_camera = camera_from_map.inverse();
+  for (uint32_t i = 0; i < lifted; ++i) {
+    const Vector3 d = (map_from_camera * front_.lifted()[i].point_m).normalized();
+    expected_[i] = {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())};
+  }
+  double sine, cosine;
+  sinCos(cap_rad, &sine, &cosine);
+  uint32_t count = matcher_.matchNear(maps_[map], front_.descriptors().first(lifted), expected_.first(lifted),
+                                      static_cast<float>(cosine), config_.max_ratio, matches_);
+  for (uint32_t i = 0; i < ray_match_count_; ++i) matches_[count++] = ray_matches_[i];
+  match_ns_ += now() - begin;
+  return count;
 }
 
 // Matches of keypoints without depth are those of the first look: without depth a pose does not say where to look.
 void Localizer::keepRays() {
   ray_match_count_ = 0;
   for (uint32_t i = 0; i < match_count_; ++i)
-    if (matches_[i].query >= lifted_count_) ray_matches_[ray_match_count_++] = matches_[i];
+    if (matches_[i].query >= front_.liftedCount()) ray_matches_[ray_match_count_++] = matches_[i];
 }
 
-// Matches each lifted keypoint near where the pose says it lies.
-uint32_t Localizer::matchAgain(const Rigid &camera_from_map, double cap_rad) {
-  const Rigid map_from_camera = camera_from_map.inverse();
-  for (uint32_t i = 0; i < lifted_count_; ++i) {
-    const Vector3 d = (map_from_camera * lifted_[i].point_m).normalized();
-    expected_[i] = {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())};
+Span<const Correspondence> Localizer::correspond(uint32_t map, uint32_t match_count) {
+  match_count_ = match_count;
+  for (uint32_t i = 0; i < match_count; ++i) {
+    const Match &match = matches_[i];
+    correspondences_[i] = {front_.lifted()[match.query], directionOf(map, match.map_index),
+                           1.0f - static_cast<float>(match.distance2) / static_cast<float>(match.second2 + 1)};
   }
-  double sine, cosine;
-  sinCos(cap_rad, &sine, &cosine);
-  uint32_t count = matcher_.matchNear(map_, descriptors_.first(lifted_count_), expected_.first(lifted_count_),
-                                      static_cast<float>(cosine), config_.max_ratio, matches_);
-  for (uint32_t i = 0; i < ray_match_count_; ++i) matches_[count++] = ray_matches_[i];
-  return count;
+  return correspondences_.first(match_count);
 }
 
-// A pose says where in the map each keypoint lies: look there again.  True points that lost the ratio test against
-// some distant twin come back, and fakes, which lie anywhere, drop out.
-void Localizer::improve(const PoseQuery &first, Estimate *estimate, sphc_result *result) {
-  Evidence evidence = {};
-  const double threshold2 = estimator_.inlierThreshold2();
-  evidence.log_chance_first =
-      logChanceOfAgreement(first.correspondences, estimate->camera_from_map, estimate->inliers, 3,
-                           first.depth.noise_scale, threshold2, 4 * kPi) +
-      logOf(static_cast<double>(estimate->iterations) + 1);
-  keepRays();
-  PoseQuery query = first;
-  for (double cap_degrees : kCapDegrees) {
-    query.correspondences = correspond(matchAgain(estimate->camera_from_map, cap_degrees * kPi / 180));
-    const Estimate before = *estimate;
-    *estimate = refined(query, before.camera_from_map);
-    estimate->iterations = before.iterations;
-    estimate->cut_short = before.cut_short;
+// Behind the correspondences of this frame those of the history, each map point once: the same wrong match, seen
+// twice, is no evidence.
+Span<const Correspondence> Localizer::withHistory(uint32_t map) {
+  uint32_t count = match_count_;
+  for (const OldMatch &old : history_.matches()) {
+    if (match_count_ > 0 && old.age == 0) continue;
+    bool seen = false;
+    for (uint32_t i = 0; i < match_count_ && !seen; ++i) seen = matches_[i].map_index == old.map_index;
+    if (!seen) correspondences_[count++] = {old.lifted, directionOf(map, old.map_index), old.quality};
   }
+  return correspondences_.first(count);
+}
+
+Vector3 Localizer::directionOf(uint32_t map, uint32_t point) const {
+  const Direction d = maps_[map].direction(point);
+  return Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z));
+}
+
+void Localizer::conclude(const Look &look, sphc_result *result) {
+  const bool localized = look.outcome == SPHC_OUTCOME_LOCALIZED;
+  result->outcome = look.outcome;
+  result->keypoints = front_.keypointCount();
+  result->lifted = front_.liftedCount();
   result->matches = match_count_;
-  result->inliers = estimate->inliers;
-  for (uint32_t i = 0; i < match_count_; ++i)
-    if (estimator_.isInlier(correspondences_[i], *estimate))
-      observations_[keypoint_of_[matches_[i].query]].flags |= SPHC_OBSERVATION_INLIER;
-  evidence.inliers = estimate->inliers;
-  double sine, cosine;
-  sinCos(kCapDegrees[kCaps - 1] * kPi / 180, &sine, &cosine);
-  evidence.log_chance_second =
-      logChanceOfAgreement(query.correspondences, estimate->camera_from_map, estimate->inliers, 3,
-                           first.depth.noise_scale, threshold2, 2 * kPi * (1 - cosine));
-  result->outcome = judgePose(evidence, *estimate, config_.min_inliers);
-}
-
-void Localizer::recordMatches() {
+  result->inliers = look.estimate.inliers;
+  result->iterations = look.searched.iterations;
+  result->cut_short = look.searched.cut_short;
+  result->map_index = look.map;
+  result->frames = look.frames;
+  result->guided = look.guided;
   for (uint32_t i = 0; i < match_count_; ++i) {
-    sphc_observation &observation = observations_[keypoint_of_[matches_[i].query]];
+    sphc_observation &observation = front_.observationOf(matches_[i].query);
     observation.map_index = matches_[i].map_index;
     observation.flags |= SPHC_OBSERVATION_MATCHED;
+    if (localized && estimator_.isInlier(correspondences_[i], look.estimate))
+      observation.flags |= SPHC_OBSERVATION_INLIER;
   }
+  if (localized) {
+    fillPose(look.estimate, result);
+    result->confidence = confidenceOf(confidenceInputs(look.searched, look.estimate));
+    if (!isPaper()) calibrator_.learn(look.estimate);
+    history_.clear();
+  }
+  if (!tracks()) return;
+  if (localized)
+    tracker_.accept(look.map, look.estimate);
+  else
+    tracker_.miss();
+  result->state = tracker_.state();
 }
 
-void Localizer::fill(const Estimate &estimate, sphc_result *result) const {
+void Localizer::fillPose(const Estimate &estimate, sphc_result *result) const {
   result->camera_from_map = doorFromRigid(estimate.camera_from_map);
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column)
@@ -318,7 +407,8 @@ void Localizer::log(const sphc_result &result) const {
   MessageWriter(&text) << "frame " << result.sequence << ": "
                        << (result.outcome == SPHC_OUTCOME_LOCALIZED ? "localized" : "not localized") << ", outcome "
                        << result.outcome << ", keypoints " << result.keypoints << ", lifted " << result.lifted
-                       << ", matches " << result.matches << ", inliers " << result.inliers;
+                       << ", matches " << result.matches << ", inliers " << result.inliers << ", state "
+                       << result.state << ", map " << result.map_index;
   size_t length = 0;
   while (text.text[length]) ++length;
   config_.log(config_.log_user, SPHC_LOG_DEBUG, text.text, length);

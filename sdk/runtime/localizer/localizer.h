@@ -1,9 +1,12 @@
 // The only composer of the stages: features > align > match > pose, then once more with what the first pose tells.
+// Frame after frame: a predicted pose says where in the map to look, and the whole maps are searched where it fails.
 #pragma once
-#include "runtime/base/arena.h"
+#include "runtime/base/fixed_vector.h"
+#include "runtime/localizer/front_end.h"
+#include "runtime/localizer/history.h"
+#include "runtime/localizer/judgement.h"
+#include "runtime/localizer/tracker.h"
 #include "runtime/map/map_view.h"
-#include "runtime/stages/align/sparse.h"
-#include "runtime/stages/features/extractor.h"
 #include "runtime/stages/match/matcher.h"
 #include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
@@ -13,56 +16,86 @@ namespace sphc {
 
 class Localizer {
  public:
+  static constexpr uint32_t kMostProbes = Matcher::kMaxProbes;
+
   // One walk for both memories; `localizer` is null while measuring.
   static void layout(const sphc_config &config, Arena &state, Arena &scratch, Localizer *localizer);
 
-  // Once, after layout with memory.
-  void init(const sphc_config &config, const MapView &map);
+  // Once, after layout with memory; then each map, at most SPHC_MAPS_MAX.
+  void init(const sphc_config &config);
+  void addMap(const MapView &map) { maps_.push(map); }
   // `frame` has been validated against the config.
   void process(const sphc_frame &frame, sphc_result *result);
+  // Forgets where the camera was; what was learnt of the depth sensor stays.
+  void reset();
 
   const sphc_config &config() const { return config_; }
-  Span<const sphc_observation> observations() const { return observations_.first(observation_count_); }
+  uint32_t mapCount() const { return static_cast<uint32_t>(maps_.size()); }
+  Span<const sphc_observation> observations() const { return front_.observations(); }
 
  private:
-  void extract(const sphc_image &color);
-  void lift(const sphc_image &depth);
-  void toFront(uint32_t keypoint);
-  void search(const sphc_prior *prior, const Deadline &deadline, sphc_result *result);
-  void improve(const PoseQuery &query, Estimate *estimate, sphc_result *result);
-  uint32_t matchAgain(const Rigid &camera_from_map, double cap_rad);
-  void keepRays();
-  Span<const Correspondence> correspond(uint32_t match_count);
+  using MapOrder = FixedVector<uint32_t, SPHC_MAPS_MAX>;
+
+  // What one look at one map brought.
+  struct Look {
+    uint32_t map = 0;
+    bool guided = false;
+    uint32_t frames = 1;  // whose matches were put together
+    sphc_outcome outcome = SPHC_OUTCOME_FEW_MATCHES;
+    Estimate searched, estimate;
+    Evidence evidence = {};
+  };
+
+  using Caps = Span<const double>;
+
+  void advance(const sphc_frame &frame, const Known &known);
+  Look locate(const Known &known, const Deadline &deadline);
+  bool expect(const Known &known, Prediction *expected) const;
+  Look lookNear(const Known &known, const Deadline &deadline, const Prediction &expected);
+  Look lookEverywhere(const Known &known, const Deadline &deadline, bool expected);
+  Look lookInto(uint32_t map, PoseQuery query);
+  Look lookTogether(uint32_t map, PoseQuery query);
+  void findPose(const PoseQuery &query, double solid_angle_sr, Caps caps_rad, Look *look);
+  void improve(PoseQuery query, Caps caps_rad, Look *look);
+  MapOrder rankMaps();
+  bool remember(uint32_t map);
+
+  PosePrior priorFor(const Known &known, uint32_t map) const;
+  PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   Estimate firstPose(const PoseQuery &query);
   Estimate refined(const PoseQuery &query, const Rigid &camera_from_map);
   PaperCostConfig paperConfig() const;
-  void recordMatches();
+  uint32_t matchEverywhere(uint32_t map, uint32_t queries, uint32_t probes);
+  uint32_t matchAround(uint32_t map, const Rigid &camera_from_map, double cap_rad);
+  void keepRays();
+  Span<const Correspondence> correspond(uint32_t map, uint32_t match_count);
+  Span<const Correspondence> withHistory(uint32_t map);
+  Vector3 directionOf(uint32_t map, uint32_t point) const;
+
+  void conclude(const Look &look, sphc_result *result);
+  void fillPose(const Estimate &estimate, sphc_result *result) const;
   void recordDepth(sphc_result *result) const;
-  void fill(const Estimate &estimate, sphc_result *result) const;
   void log(const sphc_result &result) const;
+  bool isPaper() const { return config_.cost == SPHC_COST_PAPER; }
+  bool tracks() const { return config_.mode == SPHC_MODE_TRACKING && !isPaper(); }
   int64_t now() const { return config_.clock ? config_.clock(config_.clock_user) : 0; }
 
   sphc_config config_ = {};
-  MapView map_;
-  SparseAligner aligner_;
-  FeatureExtractor extractor_;
+  FixedVector<MapView, SPHC_MAPS_MAX> maps_;
+  FrontEnd front_;
   Matcher matcher_;
   PoseEstimator estimator_;
   DepthCalibrator calibrator_;
-
-  Span<sphc_observation> observations_;  // in state: readable until the next frame
-  uint32_t observation_count_ = 0;
+  Tracker tracker_;
+  History history_;
+  uint32_t history_map_ = 0;
 
   // In scratch.
-  Span<uint8_t> gray_;
-  Span<Keypoint> keypoints_;
-  Span<Descriptor> descriptors_;
-  Span<LiftedPoint> lifted_;    // those with depth first, then those without
-  Span<uint32_t> keypoint_of_;  // which keypoint each of them is
   Span<Direction> expected_;
   Span<Match> matches_, ray_matches_;  // ray_matches_: of keypoints without depth, from the first look
   Span<Correspondence> correspondences_;
-  uint32_t keypoint_count_ = 0, lifted_count_ = 0, match_count_ = 0, ray_match_count_ = 0;
+  uint32_t match_count_ = 0, ray_match_count_ = 0;
+  int64_t match_ns_ = 0;  // of this frame
 };
 
 }  // namespace sphc

@@ -7,10 +7,12 @@ namespace sphc {
 
 constexpr uint8_t kMapMagic[8] = {0x89, 'S',  'P',  'H',
                                   'C',  '\r', '\n', 0x1A};  // as PNG: text modes break it visibly
-constexpr uint32_t kMapVersion = 1;
+constexpr uint32_t kMapVersion = 2;
 constexpr uint32_t kMapMinPoints = 16, kMapMaxPoints = 1u << 24;
 constexpr size_t kSectionAlignment = 64;
-constexpr uint32_t kMaxSections = 16;
+constexpr uint32_t kMapSections = 6;
+// Of the index: cells of alike descriptors, groups of alike cells, and sectors of the sphere, side x side of them.
+constexpr uint32_t kMapMaxCells = 4096, kMapMaxGroups = 256, kMapMaxSectorSide = 32;
 
 struct MapHeader {
   uint8_t magic[8];
@@ -20,12 +22,21 @@ struct MapHeader {
   uint32_t point_count;
   uint32_t section_count;
   uint8_t map_id[16];
-  uint8_t reserved[12];  // zero
+  uint32_t cell_count;
+  uint32_t group_count;
+  uint32_t sector_side;  // a power of two
   uint32_t crc32;        // of the header with this field zero, then of the section table
 };
 static_assert(sizeof(MapHeader) == 64 && offsetof(MapHeader, crc32) == 60);
 
-enum SectionType : uint32_t { kSectionDirections = 1, kSectionDescriptors = 2 };
+enum SectionType : uint32_t {
+  kSectionDirections = 1,
+  kSectionDescriptors = 2,
+  kSectionRuns = 3,       // where each sector of each cell begins
+  kSectionCentroids = 4,  // of the cells
+  kSectionGroups = 5,     // where each group of cells begins
+  kSectionGroupCentroids = 6,
+};
 
 struct MapSection {
   uint32_t type;

@@ -4,6 +4,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/map/crc32.h"
+#include "runtime/map/sector.h"
 
 namespace sphc {
 namespace {
@@ -31,9 +32,12 @@ class Validator {
   const MapSection &section(uint32_t i) const {
     return reinterpret_cast<const MapSection *>(file_ + sizeof(MapHeader))[i];
   }
-  // Sections come in ascending order of type, so those every map has are the first ones.
-  const void *directions() const { return file_ + section(0).offset; }
-  const void *descriptors() const { return file_ + section(1).offset; }
+  // The elements of a section that has passed its check.
+  template <typename T>
+  Span<const T> elements(SectionType type) const {
+    const MapSection &s = section(type - 1);  // they come in ascending order of type
+    return {reinterpret_cast<const T *>(file_ + s.offset), s.bytes / sizeof(T)};
+  }
 
  private:
   static constexpr const char *kRebuild = "; copy the file again or rebuild the map";
@@ -63,8 +67,7 @@ class Validator {
     if (header().file_bytes != bytes_)
       return fail(SPHC_E_MAP_FORMAT) << "map says it has " << header().file_bytes << " bytes but "
                                      << static_cast<uint64_t>(bytes_) << " were given" << kRebuild;
-    if (header().section_count < 2 || header().section_count > kMaxSections ||
-        sizeof(MapHeader) + sizeof(MapSection) * header().section_count > bytes_)
+    if (header().section_count != kMapSections || sizeof(MapHeader) + sizeof(MapSection) * kMapSections > bytes_)
       return fail(SPHC_E_MAP_FORMAT) << "map has an impossible section count " << header().section_count
                                      << kRebuild;
     return SPHC_OK;
@@ -77,11 +80,15 @@ class Validator {
     crc = crc32(crc, file_ + sizeof copy, sizeof(MapSection) * header().section_count);
     if (crc != header().crc32)
       return fail(SPHC_E_MAP_CHECKSUM) << "the map's header or section table was changed after writing" << kRebuild;
-    for (uint8_t byte : header().reserved)
-      if (byte) return fail(SPHC_E_MAP_FORMAT) << "the map's reserved header bytes are not zero" << kRebuild;
     if (header().point_count < kMapMinPoints || header().point_count > kMapMaxPoints)
       return fail(SPHC_E_MAP_FORMAT) << "map has " << header().point_count << " points; allowed are "
                                      << kMapMinPoints << " to " << kMapMaxPoints;
+    const uint32_t cells = header().cell_count, groups = header().group_count, side = header().sector_side;
+    if (cells == 0 || cells > kMapMaxCells || groups == 0 || groups > kMapMaxGroups || groups > cells)
+      return fail(SPHC_E_MAP_FORMAT) << "map has an impossible index of " << cells << " cells in " << groups
+                                     << " groups" << kRebuild;
+    if (side == 0 || side > kMapMaxSectorSide || (side & (side - 1)))
+      return fail(SPHC_E_MAP_FORMAT) << "map has an impossible sector grid of side " << side << kRebuild;
     return SPHC_OK;
   }
 
@@ -93,16 +100,37 @@ class Validator {
     return SPHC_OK;
   }
 
+  struct SectionShape {
+    uint32_t element_bytes;
+    uint64_t count;
+  };
+  SectionShape shapeOf(uint32_t type) const {
+    const uint64_t side = header().sector_side;
+    switch (type) {
+      case kSectionDirections:
+        return {sizeof(PackedDirection), header().point_count};
+      case kSectionDescriptors:
+        return {sizeof(Descriptor), header().point_count};
+      case kSectionRuns:
+        return {sizeof(uint32_t), header().cell_count * side * side + 1};
+      case kSectionCentroids:
+        return {sizeof(Descriptor), header().cell_count};
+      case kSectionGroups:
+        return {sizeof(uint32_t), uint64_t{header().group_count} + 1};
+      default:
+        return {sizeof(Descriptor), header().group_count};
+    }
+  }
+
   // Sections: known types in ascending order, aligned, gapless but for zero padding, of the right size, intact.
   sphc_status checkSection(uint32_t i, uint64_t *end) const {
     const MapSection &s = section(i);
-    const uint32_t expected_type = i + 1;
-    if (s.type != expected_type || i > 1)
-      return fail(SPHC_E_MAP_FORMAT) << "map section " << i << " has the unknown type " << s.type << kRebuild;
-    const uint32_t element = s.type == kSectionDirections ? sizeof(PackedDirection) : sizeof(Descriptor);
+    if (s.type != i + 1)
+      return fail(SPHC_E_MAP_FORMAT) << "map section " << i << " has the unexpected type " << s.type << kRebuild;
+    const SectionShape shape = shapeOf(s.type);
     const uint64_t offset = (*end + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
-    if (s.element_bytes != element || s.bytes != uint64_t{element} * header().point_count || s.offset != offset ||
-        s.reserved)
+    if (s.element_bytes != shape.element_bytes || s.bytes != shape.element_bytes * shape.count ||
+        s.offset != offset || s.reserved)
       return fail(SPHC_E_MAP_FORMAT) << "map section " << i << " does not fit " << header().point_count << " points"
                                      << kRebuild;
     if (s.offset > bytes_ || s.bytes > bytes_ - s.offset)
@@ -116,10 +144,39 @@ class Validator {
   }
 
   sphc_status checkContents() const {
-    const auto *packed = static_cast<const PackedDirection *>(directions());
+    const auto packed = elements<PackedDirection>(kSectionDirections);
     for (uint32_t i = 0; i < header().point_count; ++i)
       if (!packed[i].u || !packed[i].v)
         return fail(SPHC_E_MAP_FORMAT) << "direction " << i << " of the map is not a direction" << kRebuild;
+    sphc_status status = checkOffsets(kSectionGroups, "group", header().cell_count);
+    if (status == SPHC_OK) status = checkOffsets(kSectionRuns, "run", header().point_count);
+    return status == SPHC_OK ? checkSectors() : status;
+  }
+
+  // Offsets begin with 0, never fall, and end with `total`.
+  sphc_status checkOffsets(SectionType type, const char *name, uint32_t total) const {
+    const auto offsets = elements<uint32_t>(type);
+    uint32_t last = 0;
+    for (size_t i = 0; i < offsets.size(); ++i) {
+      const bool right = i == 0 ? offsets[i] == 0 : offsets[i] >= last && offsets[i] <= total;
+      if (!right || (i + 1 == offsets.size() && offsets[i] != total))
+        return fail(SPHC_E_MAP_FORMAT) << name << " " << static_cast<uint64_t>(i)
+                                       << " of the map's index begins at an impossible place" << kRebuild;
+      last = offsets[i];
+    }
+    return SPHC_OK;
+  }
+
+  // Every point lies in the sector under which the index lists it.
+  sphc_status checkSectors() const {
+    const auto runs = elements<uint32_t>(kSectionRuns);
+    const auto packed = elements<PackedDirection>(kSectionDirections);
+    const uint32_t side = header().sector_side;
+    for (size_t run = 0; run + 1 < runs.size(); ++run)
+      for (uint32_t i = runs[run]; i < runs[run + 1]; ++i)
+        if (sectorOf(packed[i], side) != run % (side * side))
+          return fail(SPHC_E_MAP_FORMAT)
+                 << "point " << i << " of the map is not in the sector that lists it" << kRebuild;
     return SPHC_OK;
   }
 
@@ -135,10 +192,13 @@ sphc_status MapView::open(const void *file, size_t file_bytes, uint32_t extracto
   Validator validator(file, file_bytes, message);
   const sphc_status status = validator.check(extractor);
   if (status != SPHC_OK) return status;
-  const uint32_t n = validator.header().point_count;
   view->header_ = &validator.header();
-  view->directions_ = {static_cast<const PackedDirection *>(validator.directions()), n};
-  view->descriptors_ = {static_cast<const Descriptor *>(validator.descriptors()), n};
+  view->directions_ = validator.elements<PackedDirection>(kSectionDirections);
+  view->descriptors_ = validator.elements<Descriptor>(kSectionDescriptors);
+  view->runs_ = validator.elements<uint32_t>(kSectionRuns);
+  view->centroids_ = validator.elements<Descriptor>(kSectionCentroids);
+  view->groups_ = validator.elements<uint32_t>(kSectionGroups);
+  view->group_centroids_ = validator.elements<Descriptor>(kSectionGroupCentroids);
   return SPHC_OK;
 }
 

@@ -1,68 +1,105 @@
 #include "runtime/stages/align/depth_patch.h"
 
-#include <Eigen/Cholesky>
-
-#include "runtime/base/fixed_vector.h"
-#include "runtime/geometry/rotation.h"
+#include "runtime/base/elementary.h"
+#include "runtime/stages/align/kernels.h"
 
 namespace sphc {
 namespace {
 
-constexpr int kRadius = 2, kSide = 2 * kRadius + 1;
-constexpr double kSameSurface = 0.025;  // relative depth difference a pixel away that still is one surface
-constexpr size_t kFewest = 5;
+constexpr float kFewest = 5;
+constexpr float kFarthestAnchor2 = 2.3f;  // squared pixels
+constexpr float kFarthestFit = 0.05f;     // of the plane from the anchor, relative
+// A little pull towards a frontal plane keeps thin sets of samples from tilting wildly.
+constexpr float kPull = 2;
 
-struct Sample {
-  double dx, dy;     // from the pixel asked for
-  double inverse_m;  // 1 / depth
+using PatchCopy = uint16_t[kPatchSide][kPatchLanes];
+
+// Points `patch` at the measurements around pixel (cx, cy): in the image, or at a copy where some lie outside.
+void aim(ImageView<uint16_t> depth, int cx, int cy, PatchView *patch, PatchCopy copy) {
+  const int left = cx - kPatchRadius, top = cy - kPatchRadius;
+  if (left >= 0 && top >= 0 && left + kPatchLanes <= depth.width && top + kPatchSide <= depth.height) {
+    for (int r = 0; r < kPatchSide; ++r) patch->rows[r] = depth.row(top + r) + left;
+    return;
+  }
+  for (int r = 0; r < kPatchSide; ++r) {
+    patch->rows[r] = copy[r];
+    for (int l = 0; l < kPatchLanes; ++l) {
+      const int u = left + l, v = top + r;
+      const bool inside = u >= 0 && v >= 0 && u < depth.width && v < depth.height;
+      copy[r][l] = inside ? depth.row(v)[u] : uint16_t{0};
+    }
+  }
+}
+
+// The valid measurement nearest to the point asked for; 0: none near enough.
+float findAnchor(const PatchView &patch) {
+  const auto valid = [&patch](float raw) { return raw >= patch.low && raw <= patch.high; };
+  const float middle = static_cast<float>(patch.rows[kPatchRadius][kPatchRadius]);
+  if (valid(middle)) return middle;
+  float nearest2 = kFarthestAnchor2, anchor = 0;
+  for (int r = 0; r < kPatchSide; ++r) {
+    for (int l = 0; l < kPatchSide; ++l) {
+      const float x = static_cast<float>(l - kPatchRadius) - patch.dx;
+      const float y = static_cast<float>(r - kPatchRadius) - patch.dy;
+      const float distance2 = x * x + y * y, raw = static_cast<float>(patch.rows[r][l]);
+      if (valid(raw) && distance2 < nearest2) nearest2 = distance2, anchor = raw;
+    }
+  }
+  return anchor;
+}
+
+struct Plane {  // q = a + b u + c v
+  float a, b, c;
 };
+
+// Least squares with the pull on b and c: the mean out first, then two equations.
+Plane fit(const PatchSums &s) {
+  const float inverse_n = 1 / s.n;
+  const float uu = s.uu + kPull - s.u * s.u * inverse_n, vv = s.vv + kPull - s.v * s.v * inverse_n;
+  const float uv = s.uv - s.u * s.v * inverse_n;
+  const float qu = s.qu - s.q * s.u * inverse_n, qv = s.qv - s.q * s.v * inverse_n;
+  const float scale = 1 / (uu * vv - uv * uv);  // the pull keeps it from zero
+  Plane plane;
+  plane.b = (vv * qu - uv * qv) * scale;
+  plane.c = (uu * qv - uv * qu) * scale;
+  plane.a = (s.q - plane.b * s.u - plane.c * s.v) * inverse_n;
+  return plane;
+}
+
+float meanSquare(const PatchSums &s, const Plane &p) {
+  const float linear = p.a * s.q + p.b * s.qu + p.c * s.qv;
+  const float square = p.a * p.a * s.n + p.b * p.b * s.uu + p.c * p.c * s.vv +
+                       2 * (p.a * p.b * s.u + p.a * p.c * s.v + p.b * p.c * s.uv);
+  const float sum = s.qq - 2 * linear + square;
+  return sum > 0 ? sum / s.n : 0;
+}
 
 }  // namespace
 
 PatchDepth patchDepth(ImageView<uint16_t> depth, const DepthSensor &sensor, double x, double y) {
-  FixedVector<Sample, kSide * kSide> valid;
   const int cx = static_cast<int>(floorOf(x + 0.5)), cy = static_cast<int>(floorOf(y + 0.5));
-  double nearest2 = 1e9, anchor = 0;
-  for (int v = cy - kRadius; v <= cy + kRadius; ++v) {
-    for (int u = cx - kRadius; u <= cx + kRadius; ++u) {
-      if (u < 0 || v < 0 || u >= depth.width || v >= depth.height) continue;
-      const double z = depth.row(v)[u] * sensor.unit_m;
-      if (!(z >= sensor.min_m && z <= sensor.max_m)) continue;
-      const Sample s = {u - x, v - y, 1 / z};
-      valid.push(s);
-      const double distance2 = s.dx * s.dx + s.dy * s.dy;
-      if (distance2 < nearest2) nearest2 = distance2, anchor = s.inverse_m;
-    }
-  }
-  if (valid.size() < kFewest || nearest2 > 2.3) return {};
+  PatchView patch;
+  PatchCopy copy;
+  aim(depth, cx, cy, &patch, copy);
+  patch.low = static_cast<float>(sensor.min_m / sensor.unit_m);
+  if (!(patch.low >= 1)) patch.low = 1;  // 0 is no measurement
+  patch.high = static_cast<float>(sensor.max_m / sensor.unit_m);
+  patch.dx = static_cast<float>(x - cx);
+  patch.dy = static_cast<float>(y - cy);
+  patch.anchor = findAnchor(patch);
+  if (!(patch.anchor > 0)) return {};
+  PatchSums sums;
+  simdAlignKernels().patch_sums(patch, &sums);
+  if (sums.n < kFewest) return {};
+  const Plane plane = fit(sums);
+  const float here = plane.a + plane.b * patch.dx + plane.c * patch.dy;
+  if (!(absOf(here) <= kFarthestFit)) return {};
 
-  Matrix3 normal = Matrix3::Zero();
-  Vector3 right = Vector3::Zero();
-  FixedVector<Sample, kSide * kSide> surface;
-  for (const Sample &s : valid) {
-    const double pixels = 1 + (absOf(s.dx) > absOf(s.dy) ? absOf(s.dx) : absOf(s.dy));
-    if (absOf(s.inverse_m / anchor - 1) > kSameSurface * pixels) continue;
-    surface.push(s);
-    const Vector3 row(1, s.dx, s.dy);
-    normal += row * row.transpose();
-    right += s.inverse_m * row;
-  }
-  if (surface.size() < kFewest) return {};
-  // A little pull towards a frontal plane keeps thin sets of samples from tilting wildly.
-  normal(1, 1) += 2;
-  normal(2, 2) += 2;
-  const Vector3 plane = normal.ldlt().solve(right);
-  if (!(plane[0] > 0) || absOf(plane[0] / anchor - 1) > 2 * kSameSurface) return {};
-
-  double squares = 0;
-  for (const Sample &s : surface) {
-    const double error = s.inverse_m - plane.dot(Vector3(1, s.dx, s.dy));
-    squares += error * error;
-  }
-  const double z = 1 / plane[0];
-  const double scatter = sqrtOf(squares / static_cast<double>(surface.size())) * z * z;
+  const double anchor_m = static_cast<double>(patch.anchor) * sensor.unit_m;
+  const double z = anchor_m / (1 + static_cast<double>(here));
+  const double scatter = static_cast<double>(sqrtOf(meanSquare(sums, plane))) * z * z / anchor_m;
   // Few pixels of one surface: an edge runs through, and the keypoint may belong to either side.
-  const double edge = 1 + 2 * (1 - static_cast<double>(surface.size()) / static_cast<double>(kSide * kSide));
+  const double edge = 1 + 2 * (1 - static_cast<double>(sums.n) / (kPatchSide * kPatchSide));
   const double model = sensor.sigmaAt(z);
   return {z, edge * (scatter > model ? scatter : model)};
 }

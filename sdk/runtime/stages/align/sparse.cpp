@@ -5,18 +5,97 @@ namespace {
 
 constexpr int kMostSteps = 128;
 constexpr double kJump = 0.03;  // relative depth step between neighbours that is an edge, not a slope
+constexpr double kStridePx = DepthBlocks::kReachPx - 4;  // a margin, as steps are not quite even
+
+struct Cell {
+  int u, v;
+};
+Cell cellOf(const Vector2 &px) {
+  return {floorToInt(static_cast<float>(px.x())), floorToInt(static_cast<float>(px.y()))};
+}
 
 }  // namespace
 
-SparseAligner::SparseAligner(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
-                             const DepthSensor &sensor)
-    : color_(color), depth_(depth), depth_from_color_(color_from_depth.inverse()), sensor_(sensor) {
+// A colour ray as a curve in the depth image, in `steps` steps from near to far of about a pixel each: even ones in
+// inverse depth, which are nearly even in pixels.  Points are homogeneous, (x, y, z) times the inverse depth, and
+// so linear in the step.
+struct SparseAligner::Walk {
+  enum Place { kNowhere, kOutside, kHole, kAbove, kUnder };
+
+  const Camera &camera;
+  const DepthSensor &sensor;
+  ImageView<uint16_t> depth;
+  Vector3 near, change;                 // of the point: at step 0, and a step
+  double near_inverse, inverse_change;  // of the depth along the colour ray
+  double px_per_step;
+  int steps;
+
+  double inverseAt(int step) const { return near_inverse + inverse_change * step; }
+
+  bool project(const Vector3 &point, Vector2 *px) const {
+    const double *k = camera.parameters().params;
+    if (!camera.isPinhole()) return camera.project(point, px);
+    if (!(point.z() > 0)) return false;
+    const double inverse = 1 / point.z();
+    *px = Vector2(k[0] * (point.x() * inverse) + k[2], k[1] * (point.y() * inverse) + k[3]);
+    return true;
+  }
+
+  // Where a step lies, against the surface measured there.  `gap`: how far below it, times the inverse depth.
+  Place look(int step, Vector2 *px, double *measured, double *gap) const {
+    const Vector3 point = near + change * step;
+    if (!project(point, px)) return kNowhere;
+    const Cell cell = cellOf(*px);
+    if (cell.u < 0 || cell.v < 0 || cell.u >= depth.width || cell.v >= depth.height) return kOutside;
+    *measured = depth.row(cell.v)[cell.u] * sensor.unit_m;
+    if (!(*measured >= sensor.min_m && *measured <= sensor.max_m)) return kHole;
+    *gap = point.z() - *measured * inverseAt(step);
+    return *gap >= 0 ? kUnder : kAbove;
+  }
+};
+
+void SparseAligner::init(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
+                         const DepthSensor &sensor) {
+  color_ = color;
+  depth_ = depth;
+  depth_from_color_ = color_from_depth.inverse();
+  sensor_ = sensor;
   registered_ = color == depth && rotationAngle(color_from_depth.rotation) < 1e-9 &&
                 color_from_depth.translation_m.norm() < 1e-9;
 }
 
-// A colour ray is a curve in the depth image.  Walk along it from near to far, about a pixel a step, until the ray
-// goes under the measured surface.
+void SparseAligner::prepare(ImageView<uint16_t> depth) {
+  if (blocks_.hasMemory() && !registered_) blocks_.build(depth, sensor_);
+}
+
+// The first step at which the ray is as deep as `nearest`, a measurement; `never` where it does not get deeper.
+double SparseAligner::stepOfDepth(const Walk &walk, uint16_t nearest, double never) const {
+  const double nearest_m = nearest * sensor_.unit_m;
+  const double approach = walk.change.z() - nearest_m * walk.inverse_change;
+  return approach > 0 ? (nearest_m * walk.near_inverse - walk.near.z()) / approach : never;
+}
+
+// The first step that may be under anything in the image.
+int SparseAligner::first(const Walk &walk) const {
+  if (!blocks_.hasMemory() || blocks_.nearest() == DepthBlocks::kNone) return 0;
+  const double at = stepOfDepth(walk, blocks_.nearest(), 0);
+  return at > 0 ? static_cast<int>(at < walk.steps ? at : walk.steps) : 0;
+}
+
+// The step after `step`, which lies in the image, at which the ray may go under a surface.
+int SparseAligner::next(const Walk &walk, int step, const Vector2 &px) const {
+  if (!blocks_.hasMemory()) return step + 1;
+  const Cell cell = cellOf(px);
+  const uint16_t nearest = blocks_.nearest(cell.u, cell.v);
+  double at = step + kStridePx / walk.px_per_step;
+  if (nearest != DepthBlocks::kNone) {
+    const double under = stepOfDepth(walk, nearest, step);
+    if (under < at) at = under;
+  }
+  return at > step + 1 ? static_cast<int>(at) : step + 1;
+}
+
+// Walks along the ray until it goes under the measured surface.
 bool SparseAligner::findSurface(ImageView<uint16_t> depth, const Vector2 &ray, Vector2 *depth_pixel_px) const {
   const Vector3 direction = depth_from_color_.rotation * Vector3(ray.x(), ray.y(), 1);
   const Vector3 &origin = depth_from_color_.translation_m;
@@ -26,31 +105,38 @@ bool SparseAligner::findSurface(ImageView<uint16_t> depth, const Vector2 &ray, V
     return false;
   const double length = (far_px - near_px).norm();
   const int steps = length < kMostSteps - 1 ? static_cast<int>(length) + 1 : kMostSteps;
-  double last_gap = 0, last_measured = 0;
-  Vector2 last_px = near_px;
-  bool has_last = false;
-  for (int i = 0; i <= steps; ++i) {
-    // even steps in inverse depth are nearly even in pixels
-    const double inverse = (1 / sensor_.min_m) + (1 / sensor_.max_m - 1 / sensor_.min_m) * i / steps;
-    const Vector3 point = origin + direction / inverse;
-    Vector2 px;
-    if (!depth_.project(point, &px)) return false;
-    const int u = floorToInt(static_cast<float>(px.x())), v = floorToInt(static_cast<float>(px.y()));
-    if (u < 0 || v < 0 || u >= depth.width || v >= depth.height) {
-      has_last = false;
+  const double near_inverse = 1 / sensor_.min_m, inverse_change = (1 / sensor_.max_m - near_inverse) / steps;
+  const Walk walk = {depth_,
+                     sensor_,
+                     depth,
+                     direction + near_inverse * origin,
+                     inverse_change * origin,
+                     near_inverse,
+                     inverse_change,
+                     length / steps + 1e-3,
+                     steps};
+
+  Vector2 px = near_px, last_px;
+  double measured = 0, gap = 0, last_measured = 0, last_gap = 0;
+  for (int step = first(walk); step <= steps;) {
+    Walk::Place place = walk.look(step, &px, &measured, &gap);
+    if (place == Walk::kNowhere) return false;
+    if (place != Walk::kUnder) {
+      step = place == Walk::kOutside ? step + 1 : next(walk, step, px);
       continue;
     }
-    const double measured = depth.row(v)[u] * sensor_.unit_m;
-    if (!(measured >= sensor_.min_m && measured <= sensor_.max_m)) continue;
-    const double gap = point.z() - measured;  // > 0: under the surface
-    if (gap >= 0) {
-      if (!has_last) return *depth_pixel_px = px, steps <= 2;
-      if (absOf(measured - last_measured) > kJump * measured) return false;  // slipped behind an edge
-      const double share = last_gap / (last_gap - gap);
-      *depth_pixel_px = last_px + share * (px - last_px);
-      return true;
-    }
-    last_gap = gap, last_measured = measured, last_px = px, has_last = true;
+    // The last measurement that it was above; a step outside the image forgets those before.
+    place = Walk::kHole;
+    int last_step = step;
+    while (last_step > 0 && place == Walk::kHole)
+      place = walk.look(--last_step, &last_px, &last_measured, &last_gap);
+    if (place != Walk::kAbove) return *depth_pixel_px = px, steps <= 2;
+    if (absOf(measured - last_measured) > kJump * measured) return false;  // slipped behind an edge
+    last_gap *= walk.inverseAt(step);                                      // both by the product of the two
+    gap *= walk.inverseAt(last_step);
+    const double share = last_gap / (last_gap - gap);
+    *depth_pixel_px = last_px + share * (px - last_px);
+    return true;
   }
   return false;
 }

@@ -1,7 +1,15 @@
 // Depth of single colour pixels, from a depth image of another camera.
+//
+//     SparseAligner::layout(width, height, scratch, &aligner);   as every module's
+//     aligner.init(color, depth, color_from_depth, sensor);      once
+//     aligner.prepare(image);                                    once a frame
+//     aligner.lift(image, pixel, ...);                           for every keypoint
+//
+// Without memory from layout, prepare does nothing and lift gives the same answers, only slower.
 #pragma once
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
+#include "runtime/stages/align/depth_blocks.h"
 #include "runtime/stages/align/depth_patch.h"
 #include "runtime/types/depth_sensor.h"
 #include "runtime/types/image_view.h"
@@ -11,7 +19,19 @@ namespace sphc {
 class SparseAligner {
  public:
   SparseAligner() = default;
-  SparseAligner(const Camera &color, const Camera &depth, const Rigid &color_from_depth, const DepthSensor &sensor);
+  // Without memory.
+  SparseAligner(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
+                const DepthSensor &sensor) {
+    init(color, depth, color_from_depth, sensor);
+  }
+
+  // For depth images of this size; `aligner` is null while measuring.
+  static void layout(int32_t depth_width, int32_t depth_height, Arena &scratch, SparseAligner *aligner) {
+    DepthBlocks::layout(depth_width, depth_height, scratch, aligner ? &aligner->blocks_ : nullptr);
+  }
+  void init(const Camera &color, const Camera &depth, const Rigid &color_from_depth, const DepthSensor &sensor);
+  // Looks through a depth image, so that rays can be followed in strides.  Call before lift for every new image.
+  void prepare(ImageView<uint16_t> depth);
 
   // Point seen at a colour pixel, in the colour camera's frame, and 1 sigma of its z; false where the depth camera
   // has no answer: a hole, out of its view, or hidden from it behind something nearer.
@@ -20,12 +40,17 @@ class SparseAligner {
   bool bearing(const Vector2 &color_pixel_px, Vector3 *bearing) const;
 
  private:
+  struct Walk;
   bool findSurface(ImageView<uint16_t> depth, const Vector2 &ray, Vector2 *depth_pixel_px) const;
+  int first(const Walk &walk) const;
+  int next(const Walk &walk, int step, const Vector2 &pixel_px) const;
+  double stepOfDepth(const Walk &walk, uint16_t nearest, double never) const;
 
   Camera color_, depth_;
   Rigid depth_from_color_;
   DepthSensor sensor_ = {};
   bool registered_ = false;  // the two images share one pixel grid
+  DepthBlocks blocks_;
 };
 
 }  // namespace sphc

@@ -6,33 +6,17 @@ namespace sphc {
 namespace {
 
 constexpr int32_t kCellsAcross = 8, kCellsDown = 6;
-// Room for extrema over the keypoints finally wanted: enough that quotas have something to choose from.
-constexpr size_t kCandidatesPerKeypoint = 4, kFewestCandidates = 1024;
+// Extrema kept for each keypoint finally wanted: enough that quotas have something to choose from.  Twice as many
+// have room, so that a cut is rare.
+constexpr size_t kCandidatesPerKeypoint = 3, kFewestCandidates = 768;
 constexpr float kSamePlace = 0.5f;   // standard deviations
 constexpr float kSameScale = 1.28f;  // a little over the step from scale to scale
-
-// Total orders, so that no result depends on the order of insertion.
-bool isPlacedBefore(const Candidate &a, const Candidate &b) {
-  if (a.octave != b.octave) return a.octave < b.octave;
-  if (a.y != b.y) return a.y < b.y;
-  if (a.x != b.x) return a.x < b.x;
-  return a.layer < b.layer;
-}
-bool isStronger(const Candidate &a, const Candidate &b) {
-  return a.strength != b.strength ? a.strength > b.strength : isPlacedBefore(a, b);
-}
-bool hasHigherResponse(const Candidate &a, const Candidate &b) {
-  return a.response != b.response ? a.response > b.response : isPlacedBefore(a, b);
-}
 
 // Pixels of the first octave in one of the candidate's.
 float pixelSize(const Candidate &c) { return static_cast<float>(1 << c.octave); }
 float sigmaOf(const Candidate &c) { return c.strength / c.response; }
 
-bool isHigher(const Candidate &a, const Candidate &b) {
-  const float y = a.y * pixelSize(a), other_y = b.y * pixelSize(b);
-  return y != other_y ? y < other_y : isPlacedBefore(a, b);
-}
+float placeOf(const Candidate &c) { return c.y * pixelSize(c); }
 
 // One structure found twice: by neighbouring scales, in particular on both sides of an octave's end, or by two
 // samples that refine to the same point.
@@ -54,59 +38,71 @@ uint32_t cellOf(const Candidate &c, const FeatureConfig &config) {
 }  // namespace
 
 void CandidateList::layout(const FeatureConfig &config, Arena &scratch, CandidateList *out) {
-  const size_t capacity = std::max(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
-  const Span<Candidate> items = scratch.take<Candidate>("features.candidates", capacity);
-  if (out) out->items_ = items;
+  CandidateList measured;
+  CandidateList &self = out ? *out : measured;
+  self.kept_ = std::max(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
+  self.items_ = scratch.take<Candidate>("features.candidates", 2 * self.kept_);
+  self.ranks_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
+  self.spare_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
+  self.chosen_ = scratch.take<Candidate>("features.chosen", std::max<size_t>(config.max_keypoints, self.kept_));
 }
 
-void CandidateList::push(const Candidate &candidate) {
-  Candidate *begin = items_.data();
-  if (size_ < items_.size()) {
-    begin[size_++] = candidate;
-    if (size_ == items_.size()) std::make_heap(begin, begin + size_, isStronger);
-    return;
-  }
-  if (!isStronger(candidate, begin[0])) return;
-  std::pop_heap(begin, begin + size_, isStronger);
-  begin[size_ - 1] = candidate;
-  std::push_heap(begin, begin + size_, isStronger);
+void CandidateList::cut() {
+  rankByStrength();
+  for (size_t i = 0; i < kept_; ++i) chosen_[i] = items_[ranks_[i].index];
+  std::copy(chosen_.data(), chosen_.data() + kept_, items_.data());
+  size_ = kept_;
 }
 
-// Whoever has a stronger twin goes, whether or not that one stays: so the order of looking does not matter.
-void CandidateList::removeTwins() {
-  Candidate *begin = items_.data(), *end = begin + size_;
-  std::sort(begin, end, isHigher);
-  for (Candidate *a = begin; a != end; ++a) {
-    const float last_y = a->y * pixelSize(*a) + kSamePlace * sigmaOf(*a);
-    for (Candidate *b = a + 1; b != end && b->y * pixelSize(*b) < last_y; ++b) {
-      if (isSameStructure(*a, *b)) (isStronger(*a, *b) ? b : a)->is_twin = true;
+// Whoever has a stronger twin is one, whether or not that one stays: so the order of looking does not matter.
+void CandidateList::markTwins() {
+  for (size_t i = 0; i < size_; ++i) ranks_[i] = {keyOf(placeOf(items_[i])), static_cast<uint32_t>(i)};
+  radixSort(ranks_.data(), spare_.data(), size_);
+  for (size_t i = 0; i < size_; ++i) {
+    Candidate &a = items_[ranks_[i].index];
+    const uint32_t last = keyOf(placeOf(a) + kSamePlace * sigmaOf(a));
+    for (size_t j = i + 1; j < size_ && ranks_[j].key < last; ++j) {
+      Candidate &b = items_[ranks_[j].index];
+      if (isSameStructure(a, b)) (a.strength >= b.strength ? b : a).is_twin = true;
     }
   }
-  size_ = static_cast<size_t>(std::remove_if(begin, end, [](const Candidate &c) { return c.is_twin; }) - begin);
 }
 
-// Moves the strongest that fit the cells' quotas to the front, in order; returns the end of their part.
-Candidate *CandidateList::chooseByCell(uint32_t limit, const FeatureConfig &config) {
+size_t CandidateList::rankByStrength() {
+  size_t count = 0;
+  for (size_t i = 0; i < size_; ++i) {
+    if (!items_[i].is_twin) ranks_[count++] = {~keyOf(items_[i].strength), static_cast<uint32_t>(i)};
+  }
+  radixSort(ranks_.data(), spare_.data(), count);
+  return count;
+}
+
+// Of the ranked, moves those that are chosen to the front; returns how many.
+size_t CandidateList::chooseByCell(size_t ranked, const FeatureConfig &config) {
+  const size_t limit = config.max_keypoints;
   const float share = static_cast<float>(limit) / (kCellsAcross * kCellsDown);
   const uint32_t quota = static_cast<uint32_t>(config.cell_quota * share) + 1;
   uint32_t in_cell[kCellsAcross * kCellsDown] = {};
-  Candidate *chosen = items_.data();
-  for (Candidate *c = items_.data(); c != items_.data() + size_ && chosen != items_.data() + limit; ++c) {
-    if (in_cell[cellOf(*c, config)]++ < quota) std::swap(*chosen++, *c);
+  size_t chosen = 0, others = 0;
+  for (size_t i = 0; i < ranked && chosen < limit; ++i) {
+    const SortKey candidate = ranks_[i];
+    if (in_cell[cellOf(items_[candidate.index], config)]++ < quota) {
+      ranks_[chosen++] = candidate;
+    } else {
+      spare_[others++] = candidate;
+    }
   }
+  for (size_t i = 0; i < others && chosen < limit; ++i) ranks_[chosen++] = spare_[i];
   return chosen;
 }
 
-Span<Candidate> CandidateList::choose(uint32_t limit, const FeatureConfig &config) {
-  Candidate *begin = items_.data();
-  removeTwins();
-  std::sort(begin, begin + size_, isStronger);
-  if (size_ > limit) {
-    std::sort(chooseByCell(limit, config), begin + size_, isStronger);
-    size_ = limit;
-  }
-  std::sort(begin, begin + size_, hasHigherResponse);
-  return items_.first(size_);
+Span<Candidate> CandidateList::choose(const FeatureConfig &config) {
+  markTwins();
+  const size_t count = chooseByCell(rankByStrength(), config);
+  for (size_t i = 0; i < count; ++i) ranks_[i].key = ~keyOf(items_[ranks_[i].index].response);
+  radixSort(ranks_.data(), spare_.data(), count);
+  for (size_t i = 0; i < count; ++i) chosen_[i] = items_[ranks_[i].index];
+  return chosen_.first(count);
 }
 
 }  // namespace sphc

@@ -4,6 +4,7 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/stages/features/config.h"
+#include "runtime/stages/features/radix_sort.h"
 
 namespace sphc {
 
@@ -23,18 +24,25 @@ class CandidateList {
   static void layout(const FeatureConfig &config, Arena &scratch, CandidateList *out);
 
   void clear() { size_ = 0; }
-  // Keeps the strongest of all that were pushed.
-  void push(const Candidate &candidate);
-  // Sorts, removes twins and keeps at most `limit`: first the strongest of every grid cell up to the cell's
-  // quota, then the strongest of the rest.  Highest response first.
-  Span<Candidate> choose(uint32_t limit, const FeatureConfig &config);
+  // Keeps the strongest of all that were pushed, several for each keypoint wanted.
+  void push(const Candidate &candidate) {
+    items_[size_++] = candidate;
+    if (size_ == items_.size()) cut();
+  }
+  // Removes twins and keeps at most max_keypoints: first the strongest of every grid cell up to the cell's quota,
+  // then the strongest of the rest.  Highest response first.
+  Span<Candidate> choose(const FeatureConfig &config);
 
  private:
-  void removeTwins();
-  Candidate *chooseByCell(uint32_t limit, const FeatureConfig &config);
+  void cut();
+  void markTwins();
+  // Of those that are no twins: by strength, highest first, into ranks_.  Returns how many.
+  size_t rankByStrength();
+  size_t chooseByCell(size_t ranked, const FeatureConfig &config);
 
-  Span<Candidate> items_;  // a heap with the weakest on top while pushing
-  size_t size_ = 0;
+  Span<Candidate> items_, chosen_;
+  Span<SortKey> ranks_, spare_;
+  size_t size_ = 0, kept_ = 0;
 };
 
 }  // namespace sphc

@@ -7,32 +7,21 @@
 #include <cstdint>
 
 #include "runtime/base/arena.h"
-#include "runtime/stages/features/gaussian_table.h"
-#include "runtime/stages/features/plane.h"
-#include "runtime/types/keypoint.h"
+#include "runtime/stages/features/kernels.h"
 
 namespace sphc {
 
 class Describer {
  public:
-  static void layout(Arena &state, Arena &scratch, Describer *out);
+  static void layout(Arena &state, Describer *out);
   void init();
 
   // At (x, y) of a level of size width x height, standard deviation and direction given, in the octave's pixels.
-  void describe(const Plane &level, int32_t width, int32_t height, float x, float y, float sigma, float orientation,
-                Descriptor *out);
+  void describe(const FeatureKernels &kernels, const Plane &level, int32_t width, int32_t height, float x, float y,
+                float sigma, float orientation, Descriptor *out) const;
 
  private:
-  void samplePatch(const Plane &level, int32_t width, int32_t height, float x, float y, float sigma,
-                   float orientation);
-  void differentiate();
-  void pool(float histogram[kDescriptorBytes]) const;
-
-  // state
-  Span<float> window_;  // weight of each gradient sample
-  Span<float> shares_;  // of each sample position along a side: to the cell before it and the cell after it
-  // scratch
-  Span<float> patch_, dx_, dy_, magnitude_, angle_;
+  Span<PatchWindow> window_;
 };
 
 }  // namespace sphc

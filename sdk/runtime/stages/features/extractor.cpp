@@ -1,6 +1,6 @@
 #include "runtime/stages/features/extractor.h"
 
-#include "runtime/base/elementary.h"
+#include "runtime/stages/features/orientation.h"
 
 namespace sphc {
 namespace {
@@ -24,13 +24,13 @@ void FeatureExtractor::layout(const FeatureConfig &config, Arena &state, Arena &
   ExtremaFinder::layout(config, scratch, out ? &out->finder_ : nullptr);
   CandidateList::layout(config, scratch, out ? &out->candidates_ : nullptr);
   GaussianTable::layout(state, out ? &out->gaussian_ : nullptr);
-  OrientationFinder::layout(scratch, out ? &out->orientation_ : nullptr);
-  Describer::layout(state, scratch, out ? &out->describer_ : nullptr);
+  Describer::layout(state, out ? &out->describer_ : nullptr);
   if (out) out->config_ = config;
 }
 
-void FeatureExtractor::init() {
-  space_.init();
+void FeatureExtractor::init(const FeatureKernels &kernels) {
+  kernels_ = &kernels;
+  space_.init(kernels);
   gaussian_.init();
   describer_.init();
 }
@@ -39,7 +39,7 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
   SPHC_ASSERT(gray.width == config_.width && gray.height == config_.height);
   candidates_.clear();
   for (int32_t o = 0; o < space_.octaves(); ++o) sweepOctave(o, gray);
-  const Span<Candidate> chosen = candidates_.choose(config_.max_keypoints, config_);
+  const Span<Candidate> chosen = candidates_.choose(config_);
   uint32_t count = 0;
   for (const Candidate &candidate : chosen) {
     if (count == config_.max_keypoints) break;
@@ -53,9 +53,9 @@ void FeatureExtractor::sweepOctave(int32_t octave, GrayView gray) {
   space_.beginOctave(octave, gray);
   finder_.beginOctave(octave, space_.width(octave), space_.height(octave));
   const int32_t steps = space_.stepCount();
-  for (int32_t y = 0; y < steps; ++y) {
+  for (int32_t y = 0; y < steps; y += kRowsAtOnce) {
     space_.step(y);
-    finder_.step(space_, y, &candidates_);
+    for (int32_t i = 0; i < kRowsAtOnce; ++i) finder_.step(*kernels_, space_, y + i, &candidates_);
   }
 }
 
@@ -67,9 +67,10 @@ uint32_t FeatureExtractor::describe(const Candidate &candidate, uint32_t room, K
   const int32_t limit = room > 1 ? config_.max_orientations : 1;
   float angles[2];
   const int32_t count =
-      orientation_.find(level, width, height, candidate.x, candidate.y, sigma, gaussian_, limit, angles);
+      findOrientations(*kernels_, level, width, height, candidate.x, candidate.y, sigma, gaussian_, limit, angles);
   for (int32_t i = 0; i < count; ++i) {
-    describer_.describe(level, width, height, candidate.x, candidate.y, sigma, angles[i], &descriptors[i]);
+    describer_.describe(*kernels_, level, width, height, candidate.x, candidate.y, sigma, angles[i],
+                        &descriptors[i]);
     keypoints[i] = {candidate.x * size + kPixelCenter, candidate.y * size + kPixelCenter, sigma * size, angles[i],
                     candidate.response};
   }

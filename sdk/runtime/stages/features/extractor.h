@@ -9,7 +9,7 @@
 #include "runtime/stages/features/descriptor.h"
 #include "runtime/stages/features/extrema.h"
 #include "runtime/stages/features/gaussian_table.h"
-#include "runtime/stages/features/orientation.h"
+#include "runtime/stages/features/kernels.h"
 #include "runtime/stages/features/scale_space.h"
 #include "runtime/types/image_view.h"
 #include "runtime/types/keypoint.h"
@@ -17,7 +17,7 @@
 namespace sphc {
 
 // Written to maps; raise it whenever the same image would give other descriptors.
-constexpr uint32_t kExtractorId = 1;
+constexpr uint32_t kExtractorId = 2;
 
 class FeatureExtractor {
  public:
@@ -26,8 +26,8 @@ class FeatureExtractor {
 
   // One layout walk: tables into `state`, pyramids and lists into `scratch`.  `out` is null while measuring.
   static void layout(const FeatureConfig &config, Arena &state, Arena &scratch, FeatureExtractor *out);
-  // Computes the tables; once, after a layout over memory.
-  void init();
+  // Computes the tables; once, after a layout over memory.  All kernels give the same bytes.
+  void init(const FeatureKernels &kernels = simdFeatureKernels());
 
   // `gray` has the configured size; `keypoints` and `descriptors` have room for max_keypoints.  Returns how many
   // were found, highest response first.  Scratch keeps nothing from call to call; the same image gives the same
@@ -39,11 +39,11 @@ class FeatureExtractor {
   uint32_t describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints, Descriptor *descriptors);
 
   FeatureConfig config_;
+  const FeatureKernels *kernels_ = nullptr;
   ScaleSpace space_;
   ExtremaFinder finder_;
   CandidateList candidates_;
   GaussianTable gaussian_;
-  OrientationFinder orientation_;
   Describer describer_;
 };
 

@@ -1,28 +1,20 @@
 #include "runtime/stages/features/extrema.h"
 
-#include <cstring>
-
 #include "runtime/base/elementary.h"
 
 namespace sphc {
 namespace {
 
-constexpr int32_t kDogRingRows = 4;
 constexpr int32_t kBorder = 5;           // pixels at the image's edge without keypoints
 constexpr int32_t kRefineSteps = 5;      // times the fit may move to a neighbouring sample
 constexpr float kEarlyThreshold = 0.8f;  // of the contrast threshold: what a sample must exceed to be refined
-
-float dogAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
-  return space.level(l + 1).row(y)[x] - space.level(l).row(y)[x];
-}
 
 Derivatives derivativesAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
   float d[3][3][3];
   for (int32_t k = 0; k < 3; ++k) {
     for (int32_t j = 0; j < 3; ++j) {
-      const float *upper = space.level(l + k).row(y + j - 1) + x,
-                  *lower = space.level(l + k - 1).row(y + j - 1) + x;
-      for (int32_t i = 0; i < 3; ++i) d[k][j][i] = upper[i - 1] - lower[i - 1];
+      const int16_t *row = space.difference(l + k - 1).row(y + j - 1) + x;
+      for (int32_t i = 0; i < 3; ++i) d[k][j][i] = row[i - 1];
     }
   }
   Derivatives r;
@@ -45,12 +37,13 @@ bool solveOffset(const Derivatives &d, float offset[3]) {
   const float a = d.dyy * d.dss - d.dys * d.dys, b = d.dxs * d.dys - d.dxy * d.dss,
               c = d.dxy * d.dys - d.dxs * d.dyy;
   const float determinant = d.dxx * a + d.dxy * b + d.dxs * c;
-  if (absOf(determinant) < 1e-20f) return false;
+  if (absOf(determinant) < 1e-6f) return false;
+  const float inverse = -1.0f / determinant;
   const float e = d.dxx * d.dss - d.dxs * d.dxs, f = d.dxy * d.dxs - d.dxx * d.dys,
               g = d.dxx * d.dyy - d.dxy * d.dxy;
-  offset[0] = -(a * d.dx + b * d.dy + c * d.ds) / determinant;
-  offset[1] = -(b * d.dx + e * d.dy + f * d.ds) / determinant;
-  offset[2] = -(c * d.dx + f * d.dy + g * d.ds) / determinant;
+  offset[0] = (a * d.dx + b * d.dy + c * d.ds) * inverse;
+  offset[1] = (b * d.dx + e * d.dy + f * d.ds) * inverse;
+  offset[2] = (c * d.dx + f * d.dy + g * d.ds) * inverse;
   return true;
 }
 
@@ -64,31 +57,16 @@ bool isNear(const float offset[3]) {
   return absOf(offset[0]) < 1.0f && absOf(offset[1]) < 1.0f && absOf(offset[2]) < 1.0f;
 }
 
-// Strictly beyond the neighbours that come before it and not below those after, so that one of equal samples
-// remains.
-bool isStrictExtremum(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
-  const float value = dogAt(space, x, y, l);
-  for (int32_t i = 0; i < 13; ++i) {
-    const int32_t k = i / 9, j = i / 3 % 3, h = i % 3;
-    const float other = dogAt(space, x + h - 1, y + j - 1, l + k - 1);
-    if (value > 0.0f ? other >= value : other <= value) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 void ExtremaFinder::layout(const FeatureConfig &config, Arena &scratch, ExtremaFinder *out) {
   ExtremaFinder measured;
   ExtremaFinder &self = out ? *out : measured;
-  const int32_t stride = paddedWidth(config.first_octave < 0 ? 2 * config.width : config.width);
-  const size_t row = static_cast<size_t>(stride);
-  for (Plane &plane : self.dog_) {
-    plane = {scratch.take<float>("features.differences", kDogRingRows * row).data(), stride, kDogRingRows - 1};
-  }
-  self.bounds_ = scratch.take<float>("features.extrema_bounds", 2 * kSearchedLayers * row);
-  self.flags_ = scratch.take<uint8_t>("features.extrema_flags", row + 8);
-  self.threshold_ = config.contrast_threshold;
+  const int32_t width = config.first_octave < 0 ? 2 * config.width : config.width;
+  self.columns_ = scratch.take<uint16_t>("features.extrema_columns", static_cast<size_t>(width));
+  self.threshold_ = config.contrast_threshold * kSamplesPerUnit;
+  const float early = kEarlyThreshold * self.threshold_;
+  self.early_threshold_ = static_cast<int16_t>(early < 32767.0f ? early : 32767.0f);
   self.edge_limit_ = (config.edge_ratio + 1.0f) * (config.edge_ratio + 1.0f) / config.edge_ratio;
 }
 
@@ -98,41 +76,21 @@ void ExtremaFinder::beginOctave(int32_t octave, int32_t width, int32_t height) {
   height_ = height;
 }
 
-void ExtremaFinder::step(const ScaleSpace &space, int32_t y, CandidateList *found) {
-  const int32_t newest = y - space.lag(kLevels - 1) - kRefineReach;
-  if (newest < 0) return;
-  if (newest < height_) {
-    for (int32_t l = 0; l < kDogLayers; ++l) {
-      subtractRow(space.level(l + 1).row(newest), space.level(l).row(newest), dog_[l].row(newest), width_);
+void ExtremaFinder::step(const FeatureKernels &kernels, const ScaleSpace &space, int32_t y, CandidateList *found) {
+  const int32_t searched = y - space.lag(kLevels - 1) - kRefineReach - 1;
+  if (searched < kBorder || searched >= height_ - kBorder) return;
+  for (int32_t l = 1; l <= kScales; ++l) {
+    DogRows rows;
+    for (int32_t k = 0; k < 3; ++k) {
+      for (int32_t j = 0; j < 3; ++j) rows.rows[k][j] = space.difference(l + k - 1).row(searched + j - 1);
     }
-  }
-  const int32_t searched = newest - 1;
-  if (searched >= kBorder && searched < height_ - kBorder) searchRow(space, searched, found);
-}
-
-void ExtremaFinder::searchRow(const ScaleSpace &space, int32_t y, CandidateList *found) {
-  DogRows rows;
-  for (int32_t l = 0; l < kDogLayers; ++l) {
-    for (int32_t j = 0; j < 3; ++j) rows.rows[l][j] = dog_[l].row(y + j - 1);
-  }
-  flagExtrema(rows, kEarlyThreshold * threshold_, bounds_.data(), dog_[0].stride, flags_.data(), width_);
-  for (int32_t x = kBorder; x < width_ - kBorder;) {
-    uint64_t eight;  // most pixels are none: eight at a time; the row has room for reading past its end
-    std::memcpy(&eight, flags_.data() + x, sizeof eight);
-    if (eight == 0) {
-      x += 8;
-      continue;
-    }
-    for (int32_t l = 0; l < kScales; ++l) {
-      if (flags_[static_cast<size_t>(x)] >> l & 1) examine(space, x, y, l + 1, found);
-    }
-    ++x;
+    const uint32_t count = kernels.find_extrema(rows, early_threshold_, kBorder, width_ - kBorder, columns_.data());
+    for (uint32_t i = 0; i < count; ++i) examine(space, columns_[i], searched, l, found);
   }
 }
 
 void ExtremaFinder::examine(const ScaleSpace &space, int32_t x, int32_t y, int32_t level,
                             CandidateList *found) const {
-  if (!isStrictExtremum(space, x, y, level)) return;
   const int32_t start = y;
   for (int32_t i = 0;; ++i) {
     const Derivatives d = derivativesAt(space, x, y, level);
@@ -163,12 +121,12 @@ void ExtremaFinder::accept(const Derivatives &d, const float offset[3], int32_t 
   // negated, so that a NaN does not pass
   if (!(response >= threshold_) || !(trace * trace < edge_limit_ * determinant)) return;
   Candidate c;
-  c.response = response;
+  c.response = response * (1.0f / kSamplesPerUnit);
   c.x = static_cast<float>(x) + offset[0];
   c.y = static_cast<float>(y) + offset[1];
   c.layer = static_cast<float>(level) + offset[2];
   // A blur of sigma leaves white noise with a standard deviation in proportion to 1 / sigma.
-  c.strength = response * sigmaOfLayer(c.layer) * static_cast<float>(1 << octave_);
+  c.strength = c.response * sigmaOfLayer(c.layer) * static_cast<float>(1 << octave_);
   c.octave = static_cast<int8_t>(octave_);
   c.level = static_cast<int8_t>(level);
   c.is_twin = false;

@@ -9,7 +9,7 @@
 
 namespace sphc {
 
-// Value and derivatives of the difference of Gaussians at a sample, by central differences.
+// Value and derivatives of the difference of Gaussians at a sample, by central differences, in samples.
 struct Derivatives {
   float value;
   float dx, dy, ds;
@@ -22,19 +22,17 @@ class ExtremaFinder {
 
   void beginOctave(int32_t octave, int32_t width, int32_t height);
   // After step y of the sweep: finds the extrema of the row that the sweep has made complete.
-  void step(const ScaleSpace &space, int32_t y, CandidateList *found);
+  void step(const FeatureKernels &kernels, const ScaleSpace &space, int32_t y, CandidateList *found);
 
  private:
-  void searchRow(const ScaleSpace &space, int32_t y, CandidateList *found);
   void examine(const ScaleSpace &space, int32_t x, int32_t y, int32_t level, CandidateList *found) const;
 
   void accept(const Derivatives &derivatives, const float offset[3], int32_t x, int32_t y, int32_t level,
               CandidateList *found) const;
 
-  float threshold_ = 0, edge_limit_ = 0;
-  Plane dog_[kDogLayers];  // rings
-  Span<float> bounds_;
-  Span<uint8_t> flags_;
+  float threshold_ = 0, edge_limit_ = 0;  // threshold in samples
+  int16_t early_threshold_ = 0;
+  Span<uint16_t> columns_;
   int32_t octave_ = 0, width_ = 0, height_ = 0;
 };
 

@@ -1,13 +1,14 @@
 #include "runtime/stages/features/gray.h"
 
-#include "runtime/stages/features/row_kernels.h"
+#include "runtime/stages/features/kernels.h"
 
 namespace sphc {
 namespace {
 
 void toGray(const uint8_t *color, bool red_first, int32_t stride, int32_t width, int32_t height, uint8_t *gray,
             int32_t gray_stride) {
-  for (int64_t y = 0; y < height; ++y) grayRow(color + y * stride, red_first, gray + y * gray_stride, width);
+  const auto gray_row = simdFeatureKernels().gray_row;
+  for (int64_t y = 0; y < height; ++y) gray_row(color + y * stride, red_first, gray + y * gray_stride, width);
 }
 
 }  // namespace

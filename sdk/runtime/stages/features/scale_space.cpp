@@ -9,8 +9,9 @@ namespace {
 
 constexpr double kBlurReach = 3.0;  // standard deviations at which kernels end
 constexpr int32_t kSmallestOctave = 12;
-// More rows than any level needs from its first use to its last: all lags, refinement on both sides, one blur.
-constexpr int32_t kRingRows = 64, kSourceRows = 16;
+// As many rows as the widest blur reads; and of the differences, what lies between the first and the last one's
+// lag, with the rows that refinement may visit on both sides.
+constexpr int32_t kRingRows = 16, kDogRows = 32;
 
 int32_t clampRow(int32_t y, int32_t height) { return y < 0 ? 0 : (y < height ? y : height - 1); }
 
@@ -22,7 +23,7 @@ int32_t sideOfOctave(int32_t side, int32_t first_octave, int32_t octave) {
 
 Plane takePlane(Arena &arena, const char *name, int32_t width, int32_t rows, int32_t row_mask) {
   const int32_t stride = paddedWidth(width);
-  return {arena.take<float>(name, static_cast<size_t>(stride) * static_cast<size_t>(rows)).data(), stride,
+  return {arena.take<int16_t>(name, static_cast<size_t>(stride) * static_cast<size_t>(rows)).data(), stride,
           row_mask};
 }
 
@@ -30,7 +31,15 @@ double sigmaAt(double layer) { return kBaseSigma * expOf(layer * (0.693147180559
 
 }  // namespace
 
-float sigmaOfLayer(float layer) { return static_cast<float>(sigmaAt(static_cast<double>(layer))); }
+// 2^(layer / 3): the whole octaves and scales from a table, the rest by the series of e^u to 1e-7.
+float sigmaOfLayer(float layer) {
+  constexpr float kWhole[kLevels + 1] = {1.0f, 1.25992105f, 1.58740105f, 2.0f, 2.51984210f, 3.17480210f, 4.0f};
+  static_assert(kScales == 3 && kBaseSigma == 1.0);
+  const int32_t nearest = static_cast<int32_t>(layer + 0.5f);
+  const float u = (layer - static_cast<float>(nearest)) * 0.23104906f;  // ln 2 / 3
+  const float series = 1.0f + u * (1.0f + u * (0.5f + u * (0.16666667f + u * (0.041666667f + u * 0.0083333333f))));
+  return kWhole[nearest] * series;
+}
 
 ScaleSpace::Kernel ScaleSpace::gaussian(double sigma) {
   Kernel kernel = {};
@@ -41,7 +50,12 @@ ScaleSpace::Kernel ScaleSpace::gaussian(double sigma) {
     values[k] = expOf(-0.5 * k * k / (sigma * sigma));
     sum += (k ? 2 : 1) * values[k];
   }
-  for (int32_t k = 0; k <= kernel.radius; ++k) kernel.weights[k] = static_cast<float>(values[k] / sum);
+  int32_t middle = kOneQ15;
+  for (int32_t k = 1; k <= kernel.radius; ++k) {
+    kernel.weights[k] = static_cast<int16_t>(floorOf(kOneQ15 * values[k] / sum + 0.5));
+    middle -= 2 * kernel.weights[k];
+  }
+  kernel.weights[0] = static_cast<int16_t>(middle);
   return kernel;
 }
 
@@ -68,16 +82,19 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
     }
   }
   const int32_t width = self.widths_[0];
-  for (int32_t l : {0, kLevels - 2, kLevels - 1}) {
-    self.ring_[l] = takePlane(scratch, "features.level_rings", width, kRingRows, kRingRows - 1);
-  }
-  self.source_ = takePlane(scratch, "features.source_ring", width, kSourceRows, kSourceRows - 1);
-  const size_t padded = static_cast<size_t>(paddedWidth(width + 2 * kMaxBlurRadius));
-  self.padded_ = scratch.take<float>("features.blur_row", padded);
-  self.doubled_ = scratch.take<float>("features.doubling_rows", self.first_octave_ < 0 ? 2 * padded : 0);
+  const auto ring = [&](const char *name, int32_t rows) { return takePlane(scratch, name, width, rows, rows - 1); };
+  for (int32_t l : {0, kLevels - 2}) self.ring_[l] = ring("features.level_rings", kRingRows);
+  self.ring_[kLevels - 1] = ring("features.level_rings", 1);  // for its difference alone
+  self.source_ = ring("features.source_ring", kRingRows);
+  for (Plane &plane : self.differences_) plane = ring("features.differences", kDogRows);
+  // Kernels read whole vectors beyond a row's end, here beyond the last plane's.
+  scratch.take<int16_t>("features.margin", 2 * kRowStep);
+  self.padded_ = scratch.take<int16_t>("features.blur_row",
+                                       kRowsAtOnce * static_cast<size_t>(paddedWidth(width) + 2 * kRowStep));
 }
 
-void ScaleSpace::init() {
+void ScaleSpace::init(const FeatureKernels &kernels) {
+  rows_ = &kernels;
   // No blur is assumed in the input (Lowe 2004 assumes 0.5 pixels): sharper or not, the full blur found more
   // matches.
   base_kernel_ = gaussian(kBaseSigma);
@@ -87,7 +104,7 @@ void ScaleSpace::init() {
     kernels_[l] = gaussian(sqrtOf(here * here - below * below));
     base_lags_[l] = base_lags_[l - 1] + kernels_[l].radius;
   }
-  SPHC_ASSERT(base_lags_[kLevels - 1] + 2 * kRefineReach + 4 + base_kernel_.radius < kRingRows);
+  SPHC_ASSERT(base_lags_[kLevels - 1] - base_lags_[1] + 2 * kRefineReach + 2 + kRowsAtOnce <= kDogRows);
 }
 
 float ScaleSpace::pixelSize(int32_t octave) const {
@@ -108,42 +125,44 @@ void ScaleSpace::beginOctave(int32_t octave, GrayView gray) {
 }
 
 void ScaleSpace::step(int32_t y) {
-  if (octave_ == 0) {
-    if (y < height_) sourceRow(y);
-    blurInto(base_kernel_, source_, level_[0], y - lags_[0]);
-  } else if (y < height_) {
-    decimateRow(y);
+  for (int32_t i = 0; i < kRowsAtOnce && y + i < height_; ++i) firstRow(y + i);
+  if (octave_ == 0) blurInto(base_kernel_, source_, level_[0], nullptr, y - lags_[0]);
+  for (int32_t l = 1; l < kLevels; ++l) {
+    blurInto(kernels_[l], level_[l - 1], level_[l], &differences_[l - 1], y - lags_[l]);
   }
-  for (int32_t l = 1; l < kLevels; ++l) blurInto(kernels_[l], level_[l - 1], level_[l], y - lags_[l]);
 }
 
-void ScaleSpace::sourceRow(int32_t y) {
-  if (first_octave_ == 0) {
-    bytesToUnit(gray_.row(y), source_.row(y), width_);
-    return;
+// Of the image; or every second pixel of the level with twice the base's blur: pixel i here is pixel 2 i there.
+void ScaleSpace::firstRow(int32_t y) {
+  if (octave_ > 0) {
+    rows_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * y), level_[0].row(y), width_);
+  } else if (first_octave_ == 0) {
+    rows_->scale_row(gray_.row(y), source_.row(y), width_);
+  } else {
+    const uint8_t *lower = gray_.row(clampRow((y + 1) / 2, gray_.height));
+    rows_->double_row(gray_.row(y / 2), lower, source_.row(y), gray_.width);
   }
-  float *upper = doubled_.data(), *lower = upper + doubled_.size() / 2;
-  bytesToUnit(gray_.row(y / 2), upper, gray_.width);
-  bytesToUnit(gray_.row(clampRow((y + 1) / 2, gray_.height)), lower, gray_.width);
-  doubleRow(upper, lower, source_.row(y), gray_.width);
 }
 
-// Every second pixel of the level with twice the base's blur: pixel i here is pixel 2 i there.
-void ScaleSpace::decimateRow(int32_t y) {
-  const float *from = kept_[octave_ - 1][kScales - 1].row(2 * y);
-  float *to = level_[0].row(y);
-  for (int32_t x = 0; x < width_; ++x) to[x] = from[2 * x];
-}
-
-void ScaleSpace::blurInto(const Kernel &kernel, const Plane &from, const Plane &to, int32_t y) {
-  if (y < 0 || y >= height_) return;
-  BlurTaps taps;
-  taps.radius = kernel.radius;
-  for (int32_t k = -kernel.radius; k <= kernel.radius; ++k) {
-    taps.rows[kernel.radius + k] = from.row(clampRow(y + k, height_));
+// Rows y and the next.
+void ScaleSpace::blurInto(const Kernel &kernel, const Plane &from, const Plane &to, const Plane *difference,
+                          int32_t y) {
+  const int32_t first = y < 0 ? 0 : y, end = y + kRowsAtOnce < height_ ? y + kRowsAtOnce : height_;
+  if (end <= first) return;
+  BlurTask task;
+  task.radius = kernel.radius;
+  task.width = width_;
+  task.count = end - first;
+  for (int32_t k = 0; k < 2 * kernel.radius + task.count; ++k) {
+    task.rows[k] = from.row(clampRow(first + k - kernel.radius, height_));
   }
-  for (int32_t k = 0; k <= kernel.radius; ++k) taps.weights[k] = kernel.weights[k];
-  blurRow(taps, padded_.data(), to.row(y), width_);
+  for (int32_t k = 0; k <= kernel.radius; ++k) task.weights[k] = kernel.weights[k];
+  task.padded = padded_.data();
+  for (int32_t i = 0; i < task.count; ++i) {
+    task.out[i] = to.row(first + i);
+    task.difference[i] = difference ? difference->row(first + i) : nullptr;
+  }
+  rows_->blur_rows(task);
 }
 
 }  // namespace sphc

@@ -1,15 +1,16 @@
 // The Gaussian scale space, octave by octave (Lowe 2004, section 3).
 //
 // An octave is swept once from top to bottom, every level following the one below it by the radius of its blur, so
-// the rows in work stay in the cache.  The levels from which descriptors are read are kept whole; the others live
-// in rings of rows that exist just long enough for the extrema search.
+// the rows in work stay in the cache; the differences are taken while a row is there.  The levels from which
+// descriptors are read are kept whole; the others and the differences live in rings of rows that exist just long
+// enough for the next blur and the extrema search.
 #pragma once
 #include <cstdint>
 
 #include "runtime/base/arena.h"
 #include "runtime/stages/features/config.h"
+#include "runtime/stages/features/kernels.h"
 #include "runtime/stages/features/plane.h"
-#include "runtime/stages/features/row_kernels.h"
 #include "runtime/types/image_view.h"
 
 namespace sphc {
@@ -20,13 +21,13 @@ constexpr int32_t kMaxOctaves = 11;           // 2 * 8192 down to 16
 constexpr double kBaseSigma = 1.0;            // of level 0, in pixels of its octave
 constexpr int32_t kRefineReach = 5;           // rows an extremum may wander in refinement
 
-// Standard deviation at a level or between two, in pixels of the octave.
+// Standard deviation at a level or between two, 0 <= layer <= kLevels, in pixels of the octave.
 float sigmaOfLayer(float layer);
 
 class ScaleSpace {
  public:
   static void layout(const FeatureConfig &config, Arena &state, Arena &scratch, ScaleSpace *out);
-  void init();
+  void init(const FeatureKernels &kernels);
 
   int32_t octaves() const { return octaves_; }
   int32_t width(int32_t octave) const { return widths_[octave]; }
@@ -35,27 +36,27 @@ class ScaleSpace {
   float pixelSize(int32_t octave) const;
 
   void beginOctave(int32_t octave, GrayView gray);
-  // Sweep step y = 0, 1, ... stepCount() - 1 computes row y - lag(level) of every level, where there is one.
+  // Sweep step y = 0, kRowsAtOnce, ... below stepCount() computes rows y - lag(level) and the next of every level,
+  // where there are any, and of the difference between it and the level below.
   void step(int32_t y);
   int32_t stepCount() const { return height_ + lag(kLevels - 1) + kRefineReach + 2; }
   int32_t lag(int32_t level) const { return lags_[level]; }
 
-  // In the octave of the sweep; rows around the sweep's only, for levels outside 1 .. kScales.
-  const Plane &level(int32_t level) const { return level_[level]; }
+  // Level layer + 1 less level layer, in the octave of the sweep: its latest kDogRows rows.
+  const Plane &difference(int32_t layer) const { return differences_[layer]; }
   // Levels 1 .. kScales of any octave done.
   const Plane &kept(int32_t octave, int32_t level) const { return kept_[octave][level - 1]; }
 
  private:
   struct Kernel {
-    float weights[kMaxBlurRadius + 1];
+    int16_t weights[kMaxBlurRadius + 1];  // of kOneQ15
     int32_t radius;
   };
   static Kernel gaussian(double sigma);
   static int32_t octaveCount(const FeatureConfig &config);
 
-  void sourceRow(int32_t y);
-  void decimateRow(int32_t y);
-  void blurInto(const Kernel &kernel, const Plane &from, const Plane &to, int32_t y);
+  void firstRow(int32_t y);
+  void blurInto(const Kernel &kernel, const Plane &from, const Plane &to, const Plane *difference, int32_t y);
 
   int32_t first_octave_ = 0, octaves_ = 0;
   int32_t widths_[kMaxOctaves] = {}, heights_[kMaxOctaves] = {};
@@ -63,8 +64,9 @@ class ScaleSpace {
   int32_t base_lags_[kLevels] = {}, lags_[kLevels] = {};
 
   Plane kept_[kMaxOctaves][kScales];
-  Plane source_, ring_[kLevels];
-  Span<float> padded_, doubled_;
+  Plane source_, ring_[kLevels], differences_[kDogLayers];
+  Span<int16_t> padded_;
+  const FeatureKernels *rows_ = nullptr;
 
   // the sweep
   int32_t octave_ = 0, width_ = 0, height_ = 0;

@@ -12,9 +12,19 @@ uint32_t distance2Scalar(const Descriptor &a, const Descriptor &b) {
 }
 
 void searchRangeScalar(Span<const Descriptor> map, uint32_t begin, uint32_t end, Span<const Descriptor> queries,
-                       Span<NearestTwo> nearest) {
+                       Span<const uint32_t> chosen, Span<NearestTwo> nearest) {
   for (uint32_t i = begin; i < end; ++i)
-    for (size_t q = 0; q < queries.size(); ++q) nearest[q].see(distance2Scalar(map[i], queries[q]), i);
+    for (uint32_t q : chosen) nearest[q].see(distance2Scalar(map[i], queries[q]), i);
+}
+
+void searchCandidatesScalar(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
+                            NearestTwo *nearest) {
+  for (uint32_t i : candidates) nearest->see(distance2Scalar(map[i], query), i);
+}
+
+void rankRangeScalar(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
+                     Span<Ranked> best) {
+  for (uint32_t i = begin; i < end; ++i) rank({distance2Scalar(table[i], query), i}, best);
 }
 
 }  // namespace sphc

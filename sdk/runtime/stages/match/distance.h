@@ -23,14 +23,41 @@ struct NearestTwo {
   }
 };
 
+// One of the nearest rows of a table.
+struct Ranked {
+  uint32_t distance2, index;
+};
+
+// Puts a row into a list of the nearest, nearest first; of equals the one seen first stays in front.
+inline void rank(Ranked row, Span<Ranked> best) {
+  size_t at = best.size();
+  if (row.distance2 >= best[at - 1].distance2) return;
+  for (--at; at > 0 && row.distance2 < best[at - 1].distance2; --at) best[at] = best[at - 1];
+  best[at] = row;
+}
+
 uint32_t distance2(const Descriptor &a, const Descriptor &b);
-// Shows `nearest[q]` the map descriptors [begin, end) for every query q.
+
+// Shows `nearest[q]` the map descriptors [begin, end), in their order, for every q in `chosen`.
 void searchRange(Span<const Descriptor> map, uint32_t begin, uint32_t end, Span<const Descriptor> queries,
-                 Span<NearestTwo> nearest);
+                 Span<const uint32_t> chosen, Span<NearestTwo> nearest);
+
+// Shows `nearest` the map descriptors in `candidates`, in their order.
+void searchCandidates(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
+                      NearestTwo *nearest);
+
+// Ranks the rows [begin, end) of `table` by their distance from `query` into `best`, which begins with rows
+// infinitely far.
+void rankRange(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
+               Span<Ranked> best);
 
 // The scalar twins, for tests and for machines without SIMD.
 uint32_t distance2Scalar(const Descriptor &a, const Descriptor &b);
 void searchRangeScalar(Span<const Descriptor> map, uint32_t begin, uint32_t end, Span<const Descriptor> queries,
-                       Span<NearestTwo> nearest);
+                       Span<const uint32_t> chosen, Span<NearestTwo> nearest);
+void searchCandidatesScalar(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
+                            NearestTwo *nearest);
+void rankRangeScalar(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
+                     Span<Ranked> best);
 
 }  // namespace sphc

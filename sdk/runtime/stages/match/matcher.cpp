@@ -5,12 +5,15 @@
 namespace sphc {
 namespace {
 
-constexpr uint32_t kTile = 256;  // map descriptors that stay in the nearest cache while all queries pass over them
+constexpr uint32_t kTile = 128;  // map descriptors that stay in the nearest cache while all queries pass over them
+constexpr uint32_t kGuidedProbes = 16;
+constexpr uint32_t kCandidates = 64;  // gathered before they are compared
 
 constexpr uint32_t kNobody = UINT32_MAX;
 // Two unrelated descriptors are seldom nearer than this; a lone candidate has to beat it by the ratio.
 constexpr uint32_t kUnrelated2 = 300 * 300;
 constexpr NearestTwo kStart = {kUnrelated2, kUnrelated2, kNobody};
+constexpr Ranked kFar = {UINT32_MAX, kNobody};
 
 bool passesRatio(const NearestTwo &nearest, float max_ratio) {
   if (nearest.best_index == kNobody) return false;
@@ -18,74 +21,124 @@ bool passesRatio(const NearestTwo &nearest, float max_ratio) {
          static_cast<double>(max_ratio) * static_cast<double>(max_ratio) * static_cast<double>(nearest.second2);
 }
 
-// A cone around all expected directions, widened by the cap: map points outside it are nobody's candidates.
-struct Cone {
-  Direction axis;
-  float cosine;
-};
+// Of the groups of cells, those whose cells are looked at.
+uint32_t groupsVisited(uint32_t groups) { return std::min(groups, groups / 3 + 4); }
 
-Cone coneAround(Span<const Direction> directions, float cap_cosine) {
-  Direction sum = {0.0f, 0.0f, 0.0f};
-  for (const Direction &d : directions) sum = {sum.x + d.x, sum.y + d.y, sum.z + d.z};
-  const float length = sqrtOf(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
-  if (!(length > 0.0f)) return {{0.0f, 0.0f, 1.0f}, -2.0f};
-  const Direction axis = {sum.x / length, sum.y / length, sum.z / length};
-  float widest = 1.0f;
-  for (const Direction &d : directions) widest = std::min(widest, axis.x * d.x + axis.y * d.y + axis.z * d.z);
-  // cos(a + b); a sum beyond 180 degrees takes everything in
-  const float sines = sqrtOf(std::max(0.0f, (1.0f - widest * widest) * (1.0f - cap_cosine * cap_cosine)));
-  const float cosine = widest <= -cap_cosine ? -2.0f : widest * cap_cosine - sines;
-  return {axis, cosine - 1e-5f};
+bool inside(const Direction &d, const Cap &cap) {
+  return d.x * cap.axis.x + d.y * cap.axis.y + d.z * cap.axis.z > cap.cosine;
 }
 
 }  // namespace
 
 void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
-  const Span<NearestTwo> nearest = scratch.take<NearestTwo>("match.nearest", max_queries);
-  const Span<float> x = scratch.take<float>("match.expected", max_queries);
-  const Span<float> y = scratch.take<float>("match.expected", max_queries);
-  const Span<float> z = scratch.take<float>("match.expected", max_queries);
-  if (!matcher) return;
-  matcher->nearest_ = nearest;
-  matcher->expected_x_ = x;
-  matcher->expected_y_ = y;
-  matcher->expected_z_ = z;
+  Matcher discarded;  // receives empty spans while measuring
+  Matcher &m = matcher ? *matcher : discarded;
+  m.nearest_ = scratch.take<NearestTwo>("match.nearest", max_queries);
+  m.probed_ = scratch.take<uint16_t>("match.probed", size_t{max_queries} * kMaxProbes);
+  m.starts_ = scratch.take<uint32_t>("match.askers", kMapMaxCells + 1);
+  m.askers_ = scratch.take<uint32_t>("match.askers", size_t{max_queries} * kMaxProbes);
+  SectorCones::layout(scratch, &m.cones_);
 }
 
-uint32_t Matcher::matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio,
+void Matcher::begin(size_t queries) {
+  for (NearestTwo &n : nearest_.first(queries)) n = kStart;
+}
+
+// The cells nearest to a query, nearest first, by way of the groups that they are in.
+uint32_t Matcher::chooseCells(const MapView &map, const Descriptor &query, uint32_t probes,
+                              Span<Ranked> cells) const {
+  Ranked near_groups[kMapMaxGroups];
+  const Span<Ranked> groups(near_groups, groupsVisited(map.groupCount()));
+  std::fill(groups.begin(), groups.end(), kFar);
+  rankRange(map.groupCentroids(), 0, map.groupCount(), query, groups);
+  std::fill(cells.begin(), cells.begin() + probes, kFar);
+  for (const Ranked &group : groups) {
+    const IndexRange range = map.group(group.index);
+    rankRange(map.centroids(), range.begin, range.end, query, cells.first(probes));
+  }
+  while (probes > 0 && cells[probes - 1].index == kNobody) --probes;
+  return probes;
+}
+
+// Turns "cells of a query" into "queries of a cell", in the order of the queries.
+void Matcher::listByCell(const MapView &map, Span<const Descriptor> queries, uint32_t probes) {
+  constexpr uint16_t kNone = UINT16_MAX;
+  const Span<uint32_t> starts = starts_.first(map.cellCount() + 1);
+  std::fill(starts.begin(), starts.end(), 0u);
+  for (size_t q = 0; q < queries.size(); ++q) {
+    Ranked cells[kMaxProbes];
+    const uint32_t count = chooseCells(map, queries[q], probes, {cells, kMaxProbes});
+    for (uint32_t k = 0; k < probes; ++k) {
+      probed_[q * probes + k] = k < count ? static_cast<uint16_t>(cells[k].index) : kNone;
+      if (k < count) ++starts[cells[k].index];
+    }
+  }
+  uint32_t sum = 0;
+  for (uint32_t &start : starts) {
+    sum += start;
+    start = sum;
+  }
+  for (size_t at = queries.size() * probes; at > 0; --at)  // backwards, so that the starts end where they should
+    if (probed_[at - 1] != kNone) askers_[--starts[probed_[at - 1]]] = static_cast<uint32_t>((at - 1) / probes);
+}
+
+uint32_t Matcher::matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio, uint32_t probes,
                            Span<Match> matches) {
-  const uint32_t count = static_cast<uint32_t>(queries.size());
-  const Span<NearestTwo> nearest = nearest_.first(count);
-  for (NearestTwo &n : nearest) n = kStart;
-  for (uint32_t begin = 0; begin < map.pointCount(); begin += kTile)
-    searchRange(map.descriptors(), begin, std::min(begin + kTile, map.pointCount()), queries, nearest);
-  return select(count, max_ratio, matches);
+  begin(queries.size());
+  listByCell(map, queries, std::min(std::max(probes, 1u), std::min(kMaxProbes, map.cellCount())));
+  for (uint32_t c = 0; c < map.cellCount(); ++c) {
+    const Span<const uint32_t> askers(askers_.data() + starts_[c], starts_[c + 1] - starts_[c]);
+    if (askers.empty()) continue;
+    const IndexRange points = map.cell(c);
+    searchRange(map.descriptors(), points.begin, points.end, queries, askers, nearest_);
+  }
+  return select(queries.size(), max_ratio, matches);
+}
+
+uint32_t Matcher::matchExact(const MapView &map, Span<const Descriptor> queries, float max_ratio,
+                             Span<Match> matches) {
+  begin(queries.size());
+  const Span<uint32_t> all = askers_.first(queries.size());
+  for (size_t q = 0; q < queries.size(); ++q) all[q] = static_cast<uint32_t>(q);
+  for (uint32_t first = 0; first < map.pointCount(); first += kTile)
+    searchRange(map.descriptors(), first, std::min(first + kTile, map.pointCount()), queries, all, nearest_);
+  return select(queries.size(), max_ratio, matches);
 }
 
 uint32_t Matcher::matchNear(const MapView &map, Span<const Descriptor> queries, Span<const Direction> expected,
-                            float max_angle_cosine, float max_ratio, Span<Match> matches) {
-  const uint32_t count = static_cast<uint32_t>(queries.size());
-  for (uint32_t q = 0; q < count; ++q) {
-    nearest_[q] = kStart;
-    expected_x_[q] = expected[q].x;
-    expected_y_[q] = expected[q].y;
-    expected_z_[q] = expected[q].z;
-  }
-  const float *ex = expected_x_.data(), *ey = expected_y_.data(), *ez = expected_z_.data();
-  const Cone cone = coneAround(expected, max_angle_cosine);
-  for (uint32_t i = 0; i < map.pointCount(); ++i) {
-    const Direction d = map.direction(i);
-    if (d.x * cone.axis.x + d.y * cone.axis.y + d.z * cone.axis.z < cone.cosine) continue;
-    for (uint32_t q = 0; q < count; ++q)
-      if (d.x * ex[q] + d.y * ey[q] + d.z * ez[q] > max_angle_cosine)
-        nearest_[q].see(distance2(map.descriptors()[i], queries[q]), i);
-  }
-  return select(count, max_ratio, matches);
+                            float cap_cosine, float max_ratio, Span<Match> matches) {
+  begin(queries.size());
+  cones_.prepare(map.sectorSide());
+  for (size_t q = 0; q < queries.size(); ++q) searchNear(map, queries[q], {expected[q], cap_cosine}, &nearest_[q]);
+  return select(queries.size(), max_ratio, matches);
 }
 
-uint32_t Matcher::select(uint32_t count, float max_ratio, Span<Match> matches) {
+void Matcher::searchNear(const MapView &map, const Descriptor &query, const Cap &cap, NearestTwo *nearest) const {
+  Ranked cells[kMaxProbes];
+  SectorRun runs[SectorCones::kMaxRuns];
+  const uint32_t run_count = cones_.touched(cap, {runs, SectorCones::kMaxRuns});
+  const uint32_t cell_count =
+      chooseCells(map, query, std::min(kGuidedProbes, map.cellCount()), {cells, kMaxProbes});
+  uint32_t candidates[kCandidates], count = 0;
+  const auto compare = [&] {
+    searchCandidates(map.descriptors(), {candidates, count}, query, nearest);
+    count = 0;
+  };
+  for (uint32_t c = 0; c < cell_count; ++c)
+    for (uint32_t r = 0; r < run_count; ++r) {
+      const IndexRange points = map.sectors(cells[c].index, runs[r].first, runs[r].last);
+      for (uint32_t i = points.begin; i < points.end; ++i) {
+        if (!inside(map.direction(i), cap)) continue;
+        candidates[count++] = i;
+        if (count == kCandidates) compare();
+      }
+    }
+  compare();
+}
+
+uint32_t Matcher::select(size_t queries, float max_ratio, Span<Match> matches) {
   uint32_t n = 0;
-  for (uint32_t q = 0; q < count; ++q)
+  for (uint32_t q = 0; q < queries; ++q)
     if (passesRatio(nearest_[q], max_ratio))
       matches[n++] = {q, nearest_[q].best_index, nearest_[q].best2, nearest_[q].second2};
   // One query for each map point: the nearest.

@@ -1,30 +1,48 @@
-// Matches query descriptors to map points: over the whole map, or, once a pose is roughly known, only to points in
-// the direction where the pose expects them.
+// Matches query descriptors to map points: over the whole map through its index, or, once a pose is roughly known,
+// only to points in the direction where the pose expects them.
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/match/distance.h"
+#include "runtime/stages/match/sector_cones.h"
 #include "runtime/types/match.h"
 
 namespace sphc {
 
+// All calls write to `matches`, which has room for every query: at most one query for each map point, best ratio
+// first; they return how many.  `max_ratio` is of Lowe's test, on distances.  One matcher serves any number of
+// maps, one after another.
 class Matcher {
  public:
+  static constexpr uint32_t kMaxProbes = 32;
+
+  // Depends on no map.
   static void layout(uint32_t max_queries, Arena &scratch, Matcher *matcher);
 
-  // Exact nearest neighbours over the whole map, Lowe's ratio test (on distances), and at most one query for each
-  // map point.  Writes to `matches` (room for every query), best ratio first; returns how many.
-  uint32_t matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio, Span<Match> matches);
+  // Nearest neighbours in the `probes` cells (1 to kMaxProbes) of the map's index nearest to each query;
+  // docs/matching.md says what share of the exact matches that finds.
+  uint32_t matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio, uint32_t probes,
+                    Span<Match> matches);
 
-  // The same among map points within `max_angle_cosine` of each query's expected direction (unit, map frame).
+  // Nearest neighbours over the whole map: what matchAll approaches.
+  uint32_t matchExact(const MapView &map, Span<const Descriptor> queries, float max_ratio, Span<Match> matches);
+
+  // Nearest neighbours among the map points within a cap around each query's expected direction (unit, map frame).
   uint32_t matchNear(const MapView &map, Span<const Descriptor> queries, Span<const Direction> expected,
-                     float max_angle_cosine, float max_ratio, Span<Match> matches);
+                     float cap_cosine, float max_ratio, Span<Match> matches);
 
  private:
-  uint32_t select(uint32_t count, float max_ratio, Span<Match> matches);
+  void begin(size_t queries);
+  uint32_t chooseCells(const MapView &map, const Descriptor &query, uint32_t probes, Span<Ranked> cells) const;
+  void listByCell(const MapView &map, Span<const Descriptor> queries, uint32_t probes);
+  void searchNear(const MapView &map, const Descriptor &query, const Cap &cap, NearestTwo *nearest) const;
+  uint32_t select(size_t queries, float max_ratio, Span<Match> matches);
 
   Span<NearestTwo> nearest_;
-  Span<float> expected_x_, expected_y_, expected_z_;
+  Span<uint16_t> probed_;  // cells of each query
+  Span<uint32_t> starts_;  // of each cell's queries in `askers_`
+  Span<uint32_t> askers_;
+  SectorCones cones_;
 };
 
 }  // namespace sphc

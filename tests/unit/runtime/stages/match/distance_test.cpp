@@ -32,24 +32,82 @@ TEST(Distance, Extremes) {
   }
 }
 
-TEST(Distance, RangeSearchEqualsScalar) {
-  Random random(2);
+// A table with ties, and queries taken from it.
+struct Tables {
   std::vector<Descriptor> map, queries;
-  for (int i = 0; i < 517; ++i) map.push_back(test::randomDescriptor(&random));
-  for (int i = 0; i < 33; ++i) queries.push_back(map[random.below(517)]);
-  map[300] = map[299];  // a tie: the first one wins
-  queries[0] = map[299];
-  const uint32_t ranges[][2] = {{0, 517}, {5, 6}, {9, 9}};
-  for (const auto &range : ranges) {
-    std::vector<NearestTwo> simd(33, {UINT32_MAX, UINT32_MAX, UINT32_MAX}), scalar = simd;
-    searchRange({map.data(), map.size()}, range[0], range[1], {queries.data(), 33}, {simd.data(), 33});
-    searchRangeScalar({map.data(), map.size()}, range[0], range[1], {queries.data(), 33}, {scalar.data(), 33});
-    for (size_t q = 0; q < 33; ++q) {
-      EXPECT_EQ(simd[q].best2, scalar[q].best2);
-      EXPECT_EQ(simd[q].second2, scalar[q].second2);
-      EXPECT_EQ(simd[q].best_index, scalar[q].best_index);
+
+  explicit Tables(uint64_t seed) {
+    Random random(seed);
+    for (int i = 0; i < 517; ++i) map.push_back(test::randomDescriptor(&random));
+    std::memset(&map[40], 0, sizeof map[40]);
+    std::memset(&map[41], 255, sizeof map[41]);
+    map[300] = map[299];  // a tie: the first one wins
+    for (int i = 0; i < 33; ++i) queries.push_back(map[random.below(517)]);
+    queries[0] = map[299];
+    queries[1] = map[40];
+    queries[2] = map[41];
+    for (int i = 4; i < 33; i += 2) queries[static_cast<size_t>(i)].bytes[i] ^= 63;
+  }
+  Span<const Descriptor> mapSpan() const { return {map.data(), map.size()}; }
+  Span<const Descriptor> querySpan() const { return {queries.data(), queries.size()}; }
+};
+
+void expectSame(const NearestTwo &a, const NearestTwo &b) {
+  EXPECT_EQ(a.best2, b.best2);
+  EXPECT_EQ(a.second2, b.second2);
+  EXPECT_EQ(a.best_index, b.best_index);
+}
+
+TEST(Distance, RangeSearchEqualsScalar) {
+  const Tables tables(2);
+  const uint32_t ranges[][2] = {{0, 517}, {5, 6}, {9, 9}, {3, 131}, {3, 132}, {299, 301}};
+  for (const size_t asked : {1u, 2u, 3u, 4u, 5u, 33u}) {
+    std::vector<uint32_t> chosen;
+    for (size_t k = 0; k < asked; ++k) chosen.push_back(static_cast<uint32_t>(k * 7 % 33));
+    for (const auto &range : ranges) {
+      for (const uint32_t start : {UINT32_MAX, 90000u}) {
+        std::vector<NearestTwo> simd(33, {start, start, UINT32_MAX}), scalar = simd;
+        const Span<const uint32_t> these(chosen.data(), chosen.size());
+        searchRange(tables.mapSpan(), range[0], range[1], tables.querySpan(), these, {simd.data(), 33});
+        searchRangeScalar(tables.mapSpan(), range[0], range[1], tables.querySpan(), these, {scalar.data(), 33});
+        for (size_t q = 0; q < 33; ++q) expectSame(simd[q], scalar[q]);
+      }
     }
   }
+}
+
+TEST(Distance, CandidateSearchEqualsScalar) {
+  const Tables tables(3);
+  Random random(4);
+  for (uint32_t count = 0; count < 20; ++count) {
+    std::vector<uint32_t> candidates;
+    for (uint32_t i = 0; i < count; ++i) candidates.push_back(random.below(517));
+    for (const Descriptor &query : tables.queries) {
+      NearestTwo simd = {UINT32_MAX, UINT32_MAX, UINT32_MAX}, scalar = simd;
+      searchCandidates(tables.mapSpan(), {candidates.data(), count}, query, &simd);
+      searchCandidatesScalar(tables.mapSpan(), {candidates.data(), count}, query, &scalar);
+      expectSame(simd, scalar);
+    }
+  }
+}
+
+TEST(Distance, RankingEqualsScalarAndIsInOrder) {
+  const Tables tables(5);
+  const uint32_t ranges[][2] = {{0, 517}, {5, 6}, {9, 9}, {3, 132}, {299, 301}};
+  for (const size_t kept : {1u, 2u, 8u, 32u})
+    for (const auto &range : ranges)
+      for (const Descriptor &query : tables.queries) {
+        std::vector<Ranked> simd(kept, {UINT32_MAX, UINT32_MAX}), scalar = simd;
+        rankRange(tables.mapSpan(), range[0], range[1], query, {simd.data(), kept});
+        rankRangeScalar(tables.mapSpan(), range[0], range[1], query, {scalar.data(), kept});
+        for (size_t k = 0; k < kept; ++k) {
+          ASSERT_EQ(simd[k].distance2, scalar[k].distance2);
+          ASSERT_EQ(simd[k].index, scalar[k].index);
+          ASSERT_LE(simd[k > 0 ? k - 1 : 0].distance2, simd[k].distance2);
+        }
+        const uint32_t length = range[1] - range[0];
+        for (size_t k = 0; k < kept; ++k) ASSERT_EQ(simd[k].index == UINT32_MAX, k >= length);
+      }
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 #include <vector>
 
 #include "runtime/stages/features/extractor.h"
@@ -45,9 +45,9 @@ class MatcherTest : public testing::Test {
     EXPECT_EQ(MapView::open(file_.data(), file_.size(), kExtractorId, &view_, nullptr), SPHC_OK);
     return view_;
   }
-  std::vector<Match> matchAll(const std::vector<Descriptor> &queries, float ratio) {
+  std::vector<Match> matchExact(const std::vector<Descriptor> &queries, float ratio) {
     const uint32_t n =
-        matcher_.matchAll(view(), {queries.data(), queries.size()}, ratio, {matches_.data(), kQueries});
+        matcher_.matchExact(view(), {queries.data(), queries.size()}, ratio, {matches_.data(), kQueries});
     return {matches_.begin(), matches_.begin() + n};
   }
   std::vector<Match> matchNear(const std::vector<Descriptor> &queries, const std::vector<Vector3> &expected,
@@ -72,7 +72,7 @@ class MatcherTest : public testing::Test {
 TEST_F(MatcherTest, FindsTheExactNearest) {
   std::vector<Descriptor> queries;
   for (uint32_t q = 0; q < kQueries; ++q) queries.push_back(jittered(points_[3 * q].descriptor, 12, &random_));
-  const std::vector<Match> matches = matchAll(queries, 0.8f);
+  const std::vector<Match> matches = matchExact(queries, 0.8f);
   ASSERT_EQ(matches.size(), kQueries);
   for (const Match &m : matches) {
     EXPECT_EQ(m.map_index, 3 * m.query);
@@ -85,7 +85,7 @@ TEST_F(MatcherTest, BestRatioFirst) {
   std::vector<Descriptor> queries;
   for (uint32_t q = 0; q < 50; ++q)
     queries.push_back(jittered(points_[q].descriptor, 2 + static_cast<int>(q), &random_));
-  const std::vector<Match> matches = matchAll(queries, 1.0f);
+  const std::vector<Match> matches = matchExact(queries, 1.0f);
   for (size_t i = 1; i < matches.size(); ++i)
     EXPECT_LE(1.0 * matches[i - 1].distance2 / matches[i - 1].second2,
               1.0 * matches[i].distance2 / matches[i].second2);
@@ -94,7 +94,7 @@ TEST_F(MatcherTest, BestRatioFirst) {
 TEST_F(MatcherTest, TwinsFailTheRatioTest) {
   points_[1].descriptor = points_[0].descriptor;
   const std::vector<Descriptor> queries = {jittered(points_[0].descriptor, 3, &random_)};
-  EXPECT_EQ(matchAll(queries, 0.8f).size(), 0u);
+  EXPECT_EQ(matchExact(queries, 0.8f).size(), 0u);
 }
 
 TEST_F(MatcherTest, TheRatioIsOfDistancesNotOfSquares) {
@@ -104,15 +104,15 @@ TEST_F(MatcherTest, TheRatioIsOfDistancesNotOfSquares) {
   points_[0].descriptor.bytes[0] = 100 + 7;   // 7 away
   points_[1].descriptor.bytes[0] = 100 + 10;  // 10 away
   const std::vector<Descriptor> queries = {base};
-  EXPECT_EQ(matchAll(queries, 0.71f).size(), 1u);
-  EXPECT_EQ(matchAll(queries, 0.69f).size(), 0u);
+  EXPECT_EQ(matchExact(queries, 0.71f).size(), 1u);
+  EXPECT_EQ(matchExact(queries, 0.69f).size(), 0u);
 }
 
 TEST_F(MatcherTest, OneQueryForEachMapPointTheNearest) {
   const std::vector<Descriptor> queries = {jittered(points_[5].descriptor, 20, &random_),
                                            jittered(points_[5].descriptor, 4, &random_),
                                            jittered(points_[5].descriptor, 12, &random_)};
-  const std::vector<Match> matches = matchAll(queries, 0.8f);
+  const std::vector<Match> matches = matchExact(queries, 0.8f);
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].query, 1u);
   EXPECT_EQ(matches[0].map_index, 5u);
@@ -121,17 +121,17 @@ TEST_F(MatcherTest, OneQueryForEachMapPointTheNearest) {
 TEST_F(MatcherTest, StrangersDoNotMatch) {
   std::vector<Descriptor> queries;
   for (uint32_t q = 0; q < kQueries; ++q) queries.push_back(test::randomDescriptor(&random_));
-  EXPECT_EQ(matchAll(queries, 0.95f).size(), 0u);
+  EXPECT_EQ(matchExact(queries, 0.95f).size(), 0u);
 }
 
-TEST_F(MatcherTest, NoQueries) { EXPECT_EQ(matchAll({}, 0.8f).size(), 0u); }
+TEST_F(MatcherTest, NoQueries) { EXPECT_EQ(matchExact({}, 0.8f).size(), 0u); }
 
 TEST_F(MatcherTest, GuidedLooksInsideTheCapAlone) {
   // A distant twin spoils the ratio test of the whole map; the cap of 3 degrees leaves it out.
   points_[0].direction = Vector3(0, 0, 1);
   points_[1] = {Vector3(1, 0, 0), points_[0].descriptor};
   const std::vector<Descriptor> queries = {jittered(points_[0].descriptor, 3, &random_)};
-  EXPECT_EQ(matchAll(queries, 0.8f).size(), 0u);
+  EXPECT_EQ(matchExact(queries, 0.8f).size(), 0u);
   const std::vector<Match> near = matchNear(queries, {Vector3(0.02, 0, 1).normalized()}, 3, 0.8f);
   ASSERT_EQ(near.size(), 1u);
   EXPECT_EQ(near[0].map_index, 0u);
@@ -155,6 +155,124 @@ TEST_F(MatcherTest, GuidedEqualsExhaustiveWithinTheCap) {
       if (points_[i].direction.dot(expected[m.query]) < std::cos(6.01 * kPi / 180)) continue;
       EXPECT_GE(distance2Scalar(points_[i].descriptor, queries[m.query]) + 1, m.distance2);
     }
+}
+
+// The same points behind an index of many cells.
+class IndexedMatcherTest : public MatcherTest {
+ protected:
+  static constexpr uint32_t kCells = 40;
+
+  void SetUp() override {
+    MatcherTest::SetUp();
+    file_ = test::encodeIndexedMap(points_, kCells, kExtractorId);
+    ASSERT_EQ(MapView::open(file_.data(), file_.size(), kExtractorId, &view_, nullptr), SPHC_OK);
+    for (uint32_t q = 0; q < kQueries; ++q) queries_.push_back(jittered(points_[3 * q].descriptor, 25, &random_));
+  }
+  Span<const Descriptor> queries() const { return {queries_.data(), queries_.size()}; }
+  Span<Match> room() { return {matches_.data(), kQueries}; }
+  std::vector<Match> taken(uint32_t count) const { return {matches_.begin(), matches_.begin() + count}; }
+
+  std::vector<Descriptor> queries_;
+};
+
+bool same(const Match &a, const Match &b) {
+  return a.query == b.query && a.map_index == b.map_index && a.distance2 == b.distance2 && a.second2 == b.second2;
+}
+
+bool same(const std::vector<Match> &a, const std::vector<Match> &b) {
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [](const Match &x, const Match &y) { return same(x, y); });
+}
+
+// The cell of a map point.
+uint32_t cellOf(const MapView &view, uint32_t point) {
+  uint32_t c = 0;
+  while (view.cell(c).end <= point) ++c;
+  return c;
+}
+
+// The cells nearest to a query.
+std::vector<uint32_t> nearestCells(const MapView &view, const Descriptor &query, size_t count) {
+  std::vector<uint32_t> cells(view.cellCount());
+  for (uint32_t c = 0; c < cells.size(); ++c) cells[c] = c;
+  std::stable_sort(cells.begin(), cells.end(), [&](uint32_t a, uint32_t b) {
+    return distance2Scalar(view.centroids()[a], query) < distance2Scalar(view.centroids()[b], query);
+  });
+  cells.resize(count);
+  return cells;
+}
+
+TEST_F(IndexedMatcherTest, AllCellsProbedIsExact) {
+  // 27 cells are in 9 groups, all of which are visited
+  file_ = test::encodeIndexedMap(points_, 27, kExtractorId);
+  ASSERT_EQ(MapView::open(file_.data(), file_.size(), kExtractorId, &view_, nullptr), SPHC_OK);
+  const auto exact = taken(matcher_.matchExact(view_, queries(), 0.9f, room()));
+  EXPECT_EQ(exact.size(), kQueries);
+  // a 28th cell would be one too many: asked for more probes than there are cells
+  for (const uint32_t probes : {27u, 32u, 1000u}) {
+    const auto indexed = taken(matcher_.matchAll(view_, queries(), 0.9f, probes, room()));
+    size_t agree = 0;
+    for (const Match &m : exact)
+      for (const Match &other : indexed) agree += same(m, other);
+    EXPECT_GE(agree, kQueries * 8 / 10) << probes;
+  }
+}
+
+TEST_F(IndexedMatcherTest, MoreProbesFindMoreOfTheExactMatches) {
+  const auto exact = taken(matcher_.matchExact(view_, queries(), 0.9f, room()));
+  size_t before = 0;
+  for (const uint32_t probes : {0u, 1u, 4u, 16u, 32u}) {
+    size_t found = 0;
+    for (const Match &m : taken(matcher_.matchAll(view_, queries(), 0.9f, probes, room())))
+      for (const Match &other : exact) found += m.query == other.query && m.map_index == other.map_index;
+    EXPECT_GE(found, before) << probes;
+    before = found;
+  }
+  EXPECT_GT(before, exact.size() / 2);
+}
+
+TEST_F(IndexedMatcherTest, OneMatcherServesSeveralMaps) {
+  const auto first = taken(matcher_.matchAll(view_, queries(), 0.9f, 8, room()));
+  ASSERT_FALSE(first.empty());
+  const std::vector<uint8_t> other_file = test::randomMap(500, 99);
+  MapView other;
+  ASSERT_EQ(MapView::open(other_file.data(), other_file.size(), kExtractorId, &other, nullptr), SPHC_OK);
+  EXPECT_EQ(matcher_.matchAll(other, queries(), 0.8f, 8, room()), 0u);
+  EXPECT_TRUE(same(first, taken(matcher_.matchAll(view_, queries(), 0.9f, 8, room()))));
+}
+
+TEST_F(IndexedMatcherTest, AQueryAloneFindsWhatItFindsAmongOthers) {
+  const auto together = taken(matcher_.matchAll(view_, queries(), 1.0f, 4, room()));
+  ASSERT_GT(together.size(), kQueries / 4);
+  for (const Match &m : together) {
+    ASSERT_EQ(matcher_.matchAll(view_, {&queries_[m.query], 1}, 1.0f, 4, room()), 1u);
+    EXPECT_EQ(matches_[0].map_index, m.map_index);
+    EXPECT_EQ(matches_[0].second2, m.second2);
+  }
+}
+
+TEST_F(IndexedMatcherTest, GuidedFindsTheNearestInTheCapWhateverItsSector) {
+  std::vector<Direction> expected;
+  std::vector<uint32_t> targets;
+  queries_.clear();
+  for (uint32_t i = 0; i < kMap && queries_.size() < kQueries; i += 5) {
+    queries_.push_back(view_.descriptor(i));  // exactly a point: its own cell is the nearest
+    if (nearestCells(view_, queries_.back(), 1)[0] != cellOf(view_, i)) {
+      queries_.pop_back();
+      continue;
+    }
+    const Direction d = view_.direction(i);
+    expected.push_back({d.x, d.y, d.z});
+    targets.push_back(i);
+  }
+  ASSERT_GT(targets.size(), kQueries / 2);
+  for (const double degrees : {0.5, 3.0, 30.0, 90.0, 120.0, 179.0}) {
+    const uint32_t n = matcher_.matchNear(view_, queries(), {expected.data(), expected.size()},
+                                          static_cast<float>(std::cos(degrees * kPi / 180)), 0.8f, room());
+    size_t found = 0;
+    for (const Match &m : taken(n)) found += m.map_index == targets[m.query] && m.distance2 == 0;
+    EXPECT_GE(found, targets.size() * 9 / 10) << degrees;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// What a frame shows: its keypoints, how they look, and where in front of the camera they lie.
+#pragma once
+#include "runtime/base/arena.h"
+#include "runtime/stages/align/sparse.h"
+#include "runtime/stages/features/extractor.h"
+#include "runtime/types/correspondence.h"
+
+namespace sphc {
+
+class FrontEnd {
+ public:
+  static void layout(const sphc_config &config, Arena &state, Arena &scratch, FrontEnd *front);
+  void init(const sphc_config &config);
+
+  void extract(const sphc_image &color);
+  // After extract.  Those with depth come first from then on, then those without.
+  void lift(const sphc_image &depth);
+
+  uint32_t keypointCount() const { return keypoint_count_; }
+  uint32_t liftedCount() const { return lifted_count_; }
+  Span<const Descriptor> descriptors() const { return descriptors_.first(keypoint_count_); }
+  Span<const LiftedPoint> lifted() const { return lifted_.first(keypoint_count_); }
+  // What is told of the keypoint behind a descriptor.
+  sphc_observation &observationOf(uint32_t query) { return observations_[keypoint_of_[query]]; }
+  Span<const sphc_observation> observations() const { return observations_.first(keypoint_count_); }
+
+ private:
+  bool liftOne(ImageView<uint16_t> depth, uint32_t keypoint, double *z_m);
+  void toFront(uint32_t keypoint);
+
+  double focal_px_ = 0, pixel_sigma_px_ = 0, map_sigma_m_ = 0;
+  FeatureExtractor extractor_;
+  SparseAligner aligner_;
+
+  Span<sphc_observation> observations_;  // in state: readable until the next frame; in the order of keypoints
+  // In scratch.
+  Span<uint8_t> gray_;
+  Span<Keypoint> keypoints_;
+  Span<Descriptor> descriptors_;
+  Span<LiftedPoint> lifted_;
+  Span<uint32_t> keypoint_of_;
+  uint32_t keypoint_count_ = 0, lifted_count_ = 0;
+};
+
+}  // namespace sphc

@@ -1,0 +1,37 @@
+// Matches of recent frames, carried along by odometry: where one frame shows too little, a few together show enough.
+#pragma once
+#include "runtime/base/arena.h"
+#include "runtime/types/correspondence.h"
+#include "runtime/geometry/rigid.h"
+
+namespace sphc {
+
+struct OldMatch {
+  LiftedPoint lifted;  // in the camera of the latest frame
+  uint32_t map_index;
+  float quality;
+  uint16_t age;  // frames ago
+};
+
+class History {
+ public:
+  static void layout(uint32_t capacity, Arena &state, History *history);
+
+  void clear() { count_ = 0; }
+  // The camera has moved since the frame before: takes all matches along, with their growing error, and drops those
+  // that have become too old or too vague.
+  void advance(const Rigid &now_from_before, double rotation_sigma_rad, double translation_sigma_m);
+  // A match of the latest frame.  It stands for its map point from now on: the same wrong match seen in many frames
+  // is no evidence.  The oldest one makes room where there is none.
+  void add(const LiftedPoint &lifted, uint32_t map_index, float quality);
+
+  Span<const OldMatch> matches() const { return matches_.first(count_); }
+  // Frames that the matches come from.
+  uint32_t frames() const;
+
+ private:
+  Span<OldMatch> matches_;  // in state
+  uint32_t count_ = 0;
+};
+
+}  // namespace sphc

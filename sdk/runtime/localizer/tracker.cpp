@@ -1,0 +1,117 @@
+#include "runtime/localizer/tracker.h"
+
+namespace sphc {
+namespace {
+
+// How a head moves, 1 sigma: with the velocity known, and without.
+constexpr double kTurnAcceleration = 6, kAcceleration = 4;  // rad / s^2, m / s^2
+constexpr double kTurnRate = 1, kSpeed = 0.7;               // rad / s, m / s
+constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: a pose is never better known
+constexpr double kSteadySeconds = 0.25;  // poses further apart tell no velocity
+constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
+constexpr double kGateSigmas = 5;
+
+double seconds(int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
+double hypotOf(double a, double b) { return sqrtOf(a * a + b * b); }
+
+double sigmaAnAxis(const Estimate &estimate, int first) {
+  return sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
+}
+
+// Rotation vector of a rotation of less than half a turn.
+Vector3 vectorFromRotation(const Matrix3 &rotation) {
+  double q[4];
+  quaternionFromRotation(rotation, q);
+  const Vector3 axis(q[1], q[2], q[3]);
+  const double sine = axis.norm();
+  return sine > 1e-12 ? Vector3(2 * atan2Of(sine, q[0]) / sine * axis) : Vector3(2 * axis);
+}
+
+}  // namespace
+
+void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
+  const bool follows = begun_ && time_ns > time_ns_ && time_ns - time_ns_ <= kForgetNs;
+  if (!follows) reset();
+  has_step_ = follows && has_odometry_ && odometry;
+  if (has_step_) {
+    step_ = odometry->odometry_from_camera.inverse() * odometry_.odometry_from_camera;
+    moved_ = step_ * moved_;
+    moved_rotation2_ += odometry->rotation_sigma_rad * odometry->rotation_sigma_rad;
+    moved_translation2_ += odometry->translation_sigma_m * odometry->translation_sigma_m;
+  }
+  moved_known_ = moved_known_ && has_step_;
+  has_odometry_ = odometry != nullptr;
+  if (odometry) odometry_ = *odometry;
+  time_ns_ = time_ns;
+  begun_ = true;
+  if (time_ns - pose_time_ns_ > kForgetNs) has_pose_ = has_velocity_ = false;
+  if (time_ns - trusted_time_ns_ > kForgetNs) state_ = SPHC_STATE_RELOCALIZING;
+}
+
+bool Tracker::step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const {
+  *now_from_before = step_;
+  *rotation_sigma_rad = odometry_.rotation_sigma_rad;
+  *translation_sigma_m = odometry_.translation_sigma_m;
+  return has_step_;
+}
+
+bool Tracker::predict(Prediction *prediction) const {
+  if (!has_pose_) return false;
+  prediction->map = map_;
+  double turn = 0, shift = 0, poses = 1;  // standard deviations; those of poses count so many times
+  Rigid moved;
+  if (moved_known_) {
+    moved = moved_;
+    turn = sqrtOf(moved_rotation2_);
+    shift = sqrtOf(moved_translation2_);
+  } else {
+    const double dt = seconds(time_ns_ - pose_time_ns_);
+    if (has_velocity_) moved = {rotationFromVector(dt * turn_rad_s_), dt * velocity_m_s_};
+    if (has_velocity_) poses = kTwoPoses;
+    turn = has_velocity_ ? 0.5 * kTurnAcceleration * dt * dt : kTurnRate * dt;
+    shift = has_velocity_ ? 0.5 * kAcceleration * dt * dt : kSpeed * dt;
+  }
+  prediction->camera_from_map = moved * camera_from_map_;
+  prediction->rotation_sigma_rad = hypotOf(turn, poses * rotation_sigma_rad_);
+  prediction->translation_sigma_m = hypotOf(shift, poses * translation_sigma_m_);
+  return true;
+}
+
+bool Tracker::agrees(uint32_t map, const Rigid &camera_from_map) const {
+  Prediction expected;
+  if (!predict(&expected) || expected.map != map) return false;
+  const Matrix3 off = camera_from_map.rotation * expected.camera_from_map.rotation.transpose();
+  const Vector3 shift = camera_from_map.inverse().translation_m - expected.camera_from_map.inverse().translation_m;
+  return rotationAngle(off) < kGateSigmas * expected.rotation_sigma_rad &&
+         shift.norm() < kGateSigmas * expected.translation_sigma_m;
+}
+
+void Tracker::accept(uint32_t map, const Estimate &estimate) {
+  if (agrees(map, estimate.camera_from_map))
+    state_ = SPHC_STATE_TRACKING;
+  else if (state_ == SPHC_STATE_TRACKING)
+    state_ = SPHC_STATE_LOST;
+  const double dt = seconds(time_ns_ - pose_time_ns_);
+  has_velocity_ = state_ == SPHC_STATE_TRACKING && dt <= kSteadySeconds;
+  if (has_velocity_) {
+    const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();
+    turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
+    velocity_m_s_ = moved.translation_m / dt;
+  }
+  if (state_ == SPHC_STATE_TRACKING) trusted_time_ns_ = time_ns_;
+  has_pose_ = moved_known_ = true;
+  map_ = map;
+  pose_time_ns_ = time_ns_;
+  camera_from_map_ = estimate.camera_from_map;
+  rotation_sigma_rad_ = hypotOf(sigmaAnAxis(estimate, 0), kLeastTurnSigma);
+  translation_sigma_m_ = hypotOf(sigmaAnAxis(estimate, 3), kLeastShiftSigma);
+  moved_ = {};
+  moved_rotation2_ = moved_translation2_ = 0;
+}
+
+void Tracker::miss() {
+  if (state_ == SPHC_STATE_TRACKING) state_ = SPHC_STATE_LOST;
+}
+
+}  // namespace sphc

@@ -1,0 +1,72 @@
+// The tracking states, and where the camera should be next: from the caller's odometry, or else at constant velocity.
+//
+//   RELOCALIZING  no pose is trusted
+//   TRACKING      the last pose is: a second frame agreed with it
+//   LOST          it was, until the last frame brought none or another
+//
+//   from           a frame brings                            to
+//   RELOCALIZING   a pose that agrees with the one before    TRACKING
+//                  another pose, or none                     RELOCALIZING
+//   TRACKING       a pose where it was expected              TRACKING
+//                  another pose, or none                     LOST
+//   LOST           a pose where it was expected              TRACKING
+//                  nothing trusted for kForgetNs                RELOCALIZING
+//   any            a time that does not grow, or a gap of    RELOCALIZING
+//                  more than kForgetNs
+#pragma once
+#include "runtime/localizer/known.h"
+#include "runtime/types/estimate.h"
+
+namespace sphc {
+
+// Where the camera should be; 1 sigma an axis, the translation's of the camera's centre.
+struct Prediction {
+  uint32_t map = 0;
+  Rigid camera_from_map;
+  double rotation_sigma_rad = 0, translation_sigma_m = 0;
+};
+
+class Tracker {
+ public:
+  static constexpr int64_t kForgetNs = 1000000000;
+
+  // Before each frame is looked at.  `odometry` may be null.
+  void advance(int64_t time_ns, const Odometry *odometry);
+  // After advance: false where nothing can be said.
+  bool predict(Prediction *prediction) const;
+  // After a look: what it brought.
+  void accept(uint32_t map, const Estimate &estimate);
+  void miss();
+
+  sphc_state state() const { return state_; }
+  bool hasOdometry() const { return has_odometry_; }
+  // Motion of the camera since the frame before, by odometry; false where it is not known.
+  bool step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const;
+  void reset() { *this = {}; }
+
+ private:
+  bool agrees(uint32_t map, const Rigid &camera_from_map) const;
+
+  sphc_state state_ = SPHC_STATE_RELOCALIZING;
+  int64_t time_ns_ = 0;
+  bool begun_ = false;
+
+  bool has_odometry_ = false, has_step_ = false;
+  Odometry odometry_;
+  Rigid step_;  // camera now from camera at the frame before
+
+  // The last pose that was found, and the motion since.
+  bool has_pose_ = false;
+  uint32_t map_ = 0;
+  int64_t pose_time_ns_ = 0, trusted_time_ns_ = 0;
+  Rigid camera_from_map_;
+  double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
+  bool moved_known_ = false;  // by odometry, at every frame since
+  Rigid moved_;               // camera now from camera at the last pose
+  double moved_rotation2_ = 0, moved_translation2_ = 0;  // variances of it
+
+  bool has_velocity_ = false;
+  Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame
+};
+
+}  // namespace sphc

@@ -1,0 +1,13 @@
+// The scalar twin: the same kernels compiled for single lanes; for tests and for machines without SIMD.
+#define HWY_COMPILE_ONLY_SCALAR
+#include "runtime/stages/align/patch-inl.h"
+
+namespace sphc {
+
+const AlignKernels &scalarAlignKernels() {
+  using namespace HWY_NAMESPACE;
+  static constexpr AlignKernels kernels = {patchSums, nearestRow};
+  return kernels;
+}
+
+}  // namespace sphc
