@@ -112,6 +112,8 @@ FramePeers::FramePeers(const std::string &python) {
     for (const Json &variant : greeting.at("variants"))
       variants_.push_back(
           {variant.at("name").get<std::string>(), nullptr, variant.at("absent").get<std::string>(), {}});
+    for (const auto &[package, version] : greeting.at("versions").items())
+      packages_ += (packages_.empty() ? "" : ", ") + package + " " + version.get<std::string>();
   } catch (const std::exception &) {
     conversation_ = nullptr;
     variants_ = {{"package peers", nullptr, python + " does not run; name a Python 3 with --python", {}}};

@@ -17,6 +17,9 @@ class FramePeers {
   // All that there are, absent ones too; those present run once `index` was called.
   const std::vector<FrameVariant> &variants() const { return variants_; }
 
+  // Names and versions of the packages that are there.
+  const std::string &packages() const { return packages_; }
+
   // Cameras and depth range of `config`; `chosen` are the names of the variants to prepare.
   // The following throw std::runtime_error with cause and cure.
   void begin(const sphc_config &config, const std::vector<std::string> &chosen);
@@ -30,6 +33,7 @@ class FramePeers {
   struct Conversation;
 
   std::vector<FrameVariant> variants_;
+  std::string packages_;
   std::shared_ptr<Conversation> conversation_;
   std::vector<uint32_t> chosen_;
 };

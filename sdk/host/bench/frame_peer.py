@@ -13,6 +13,7 @@ import time
 
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
+os.environ["GLOG_minloglevel"] = "2"
 
 MERGE_PX = 3.0  # a keypoint joins a point that reprojects so near ...
 MERGE_DEPTH = 0.03  # ... at a depth that differs by at most this share ...
@@ -29,7 +30,7 @@ def optional(name):
         return None
 
 
-np, cv2, faiss, hnswlib = (optional(name) for name in ("numpy", "cv2", "faiss", "hnswlib"))
+np, cv2, faiss, hnswlib, pycolmap = (optional(name) for name in ("numpy", "cv2", "faiss", "hnswlib", "pycolmap"))
 
 
 def cpu_seconds():
@@ -132,23 +133,52 @@ def foreign_orb(descriptors, count, random):
     return copies ^ np.packbits(random.random((count, 8 * copies.shape[1]), np.float32) < 0.25, axis=1)
 
 
+def opencv_detector(create):
+    def make(count):
+        detector = create(count)
+
+        def describe(image):
+            keypoints, descriptors = detector.detectAndCompute(image, None)
+            return np.array([k.pt for k in keypoints]).reshape(-1, 2), descriptors
+
+        return describe
+
+    return make
+
+
+def colmap_detector(count):
+    options = pycolmap.FeatureExtractionOptions()
+    options.use_gpu, options.num_threads, options.sift.max_num_features = False, 1, count
+    sift = pycolmap.Sift(options, pycolmap.Device.cpu)
+
+    def describe(image):
+        keypoints, descriptors = sift.extract(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY))
+        return keypoints[:, :2].astype(np.float64) - 0.5, 512 * descriptors
+
+    return describe
+
+
+DETECTORS = {
+    "sift": opencv_detector(lambda count: cv2.SIFT_create(count)),
+    "orb": opencv_detector(lambda count: cv2.ORB_create(count)),
+    "colmap": colmap_detector,
+}
+
+
 class Features:
     """A detector, and the map of points that it described."""
 
     def __init__(self, name, keypoints, mapping_keypoints):
-        create = cv2.SIFT_create if name == "sift" else cv2.ORB_create
         self.binary = name == "orb"
-        self.query, self.mapping = create(keypoints), create(mapping_keypoints)
+        self.query, self.mapping = DETECTORS[name](keypoints), DETECTORS[name](mapping_keypoints)
         self.points = np.zeros((0, 3))
         self.descriptors = np.zeros((0, 32 if self.binary else 128), np.uint8 if self.binary else np.float32)
         self.seen = np.zeros(0, np.int64)
         self.indexes = {}
 
     def describe(self, detector, image):
-        keypoints, descriptors = detector.detectAndCompute(image, None)
-        if descriptors is None:
-            return np.zeros((0, 2)), self.descriptors[:0]
-        return np.array([k.pt for k in keypoints]), descriptors
+        pixels, descriptors = detector(image)
+        return pixels, self.descriptors[:0] if descriptors is None else descriptors
 
     def distances(self, a, b):
         if self.binary:
@@ -285,23 +315,25 @@ def flann():
 
 
 class Variant:
-    def __init__(self, name, features, package, cure, match, index):
+    def __init__(self, name, features, match, index, packages=()):
         self.name, self.features, self.match, self.index = name, features, match, index
-        missing = [p for p, module in (("numpy", np), ("cv2", cv2), package) if module is None]
-        self.absent = "%s not found: pip install numpy opencv-python-headless %s" % (", ".join(missing), cure) if missing else ""
+        needed = (("numpy", np), ("opencv-python-headless", cv2)) + packages
+        missing = [package for package, module in needed if module is None]
+        self.absent = "this Python lacks it: pip install " + " ".join(missing) if missing else ""
 
 
 def variants():
-    have_faiss, have_hnsw, have_cv = ("faiss", faiss), ("hnswlib", hnswlib), ("cv2", cv2)
-    made = [
-        Variant("opencv sift, faiss ivf 16", "sift", have_faiss, "faiss-cpu", faiss_ivf(16), "ivf"),
-        Variant("opencv sift, faiss ivf 8", "sift", have_faiss, "faiss-cpu", faiss_ivf(8), "ivf"),
-        Variant("opencv sift, faiss flat", "sift", have_faiss, "faiss-cpu", faiss_flat(), "flat"),
-        Variant("opencv sift, hnswlib", "sift", have_hnsw, "hnswlib", hnsw(), "hnsw"),
-        Variant("opencv sift, opencv flann", "sift", have_cv, "", opencv(flann), "flann"),
-        Variant("opencv orb, opencv bf", "orb", have_cv, "", opencv(lambda: cv2.BFMatcher(cv2.NORM_HAMMING)), "bf"),
+    with_faiss = (("faiss-cpu", faiss),)
+    return [
+        Variant("opencv sift, faiss ivf 16", "sift", faiss_ivf(16), "ivf", with_faiss),
+        Variant("opencv sift, faiss ivf 8", "sift", faiss_ivf(8), "ivf", with_faiss),
+        Variant("opencv sift, faiss flat", "sift", faiss_flat(), "flat", with_faiss),
+        Variant("opencv sift, hnswlib", "sift", hnsw(), "hnsw", (("hnswlib", hnswlib),)),
+        Variant("opencv sift, opencv flann", "sift", opencv(flann), "flann"),
+        Variant("opencv sift, opencv bf", "sift", opencv(lambda: cv2.BFMatcher(cv2.NORM_L2)), "bf"),
+        Variant("opencv orb, opencv bf", "orb", opencv(lambda: cv2.BFMatcher(cv2.NORM_HAMMING)), "bf"),
+        Variant("pycolmap sift, faiss ivf 16", "colmap", faiss_ivf(16), "ivf", with_faiss + (("pycolmap", pycolmap),)),
     ]
-    return made
 
 
 # ---- a frame -------------------------------------------------------------------------------------------------------
@@ -327,7 +359,7 @@ class Peers:
         self.features, self.last = {}, (None, None)
 
     def greet(self, _, __):
-        versions = {m.__name__: m.__version__ for m in (np, cv2, faiss, hnswlib) if hasattr(m, "__version__")}
+        versions = {m.__name__: m.__version__ for m in (np, cv2, faiss, hnswlib, pycolmap) if hasattr(m, "__version__")}
         return {"peer": "SPHC", "versions": versions, "variants": [{"name": v.name, "absent": v.absent} for v in self.variants]}
 
     def begin(self, message, _):

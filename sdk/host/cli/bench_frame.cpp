@@ -81,6 +81,7 @@ class FrameCommand {
       if (peer.run) chosen.push_back(peer.name);
     }
     if (chosen.empty()) return;
+    console_.say("Peers: " + peers->packages() + ".");
     peers->begin(config_, chosen);
     peers_ = std::move(peers);
     mapPeers();
@@ -116,7 +117,7 @@ class FrameCommand {
     std::vector<FrameVariant> all = ourFrameVariants(ours);
     if (peers_) {
       const uint32_t points = map.file.map.info().point_count, own = peers_->index(points);
-      console_.say("Peers: " + std::to_string(own) + " points of the place, " + std::to_string(points - own) +
+      console_.say("Peers' map: " + std::to_string(own) + " points of the place, " + std::to_string(points - own) +
                    " foreign.");
       all.insert(all.end(), peers_->variants().begin(), peers_->variants().end());
     }
