@@ -356,7 +356,7 @@ def find_pose(cameras, points, pixels):
 class Peers:
     def __init__(self):
         self.variants = variants()
-        self.features, self.last = {}, (None, None)
+        self.features, self.last = {}, {}
 
     def greet(self, _, __):
         versions = {m.__name__: m.__version__ for m in (np, cv2, faiss, hnswlib, pycolmap) if hasattr(m, "__version__")}
@@ -391,7 +391,7 @@ class Peers:
         """A map of so many points, for the variants that were named at the beginning."""
         for features in self.features.values():
             features.resize(message["points"])
-        self.last = (None, None)
+        self.last = {}
         for i in message["variants"]:
             v = self.variants[i]
             features = self.features[v.features]
@@ -399,20 +399,20 @@ class Peers:
                 features.indexes[v.index] = v.match[0](features.map_descriptors)
         return {"own": {name: min(len(f.points), message["points"]) for name, f in self.features.items()}}
 
-    def described(self, features, frame, color):
-        """Keypoints, and the seconds they took; once a frame for all variants with these features."""
-        if self.last[0] != (features, frame):
+    def described(self, name, frame, color):
+        """Keypoints, and the seconds they took; once a frame for all variants with this detector."""
+        if self.last.get(name, (None,))[0] != frame:
             begin = cpu_seconds()
-            found = features.describe(features.query, color)
-            self.last = ((features, frame), (found, cpu_seconds() - begin))
-        return self.last[1]
+            found = self.features[name].describe(self.features[name].query, color)
+            self.last[name] = frame, found, cpu_seconds() - begin
+        return self.last[name][1:]
 
     def query(self, message, payload):
         variant = self.variants[message["variant"]]
         features = self.features[variant.features]
         color, _ = self.images(message, payload)
         cv2.setRNGSeed(message["seed"])
-        (pixels, descriptors), features_s = self.described(features, message["frame"], color)
+        (pixels, descriptors), features_s = self.described(variant.features, message["frame"], color)
         begin = cpu_seconds()
         apart, at = variant.match[1](features.indexes[variant.index], descriptors) if len(descriptors) > 1 else pairs_of([])
         good = np.nonzero((at[:, 1] >= 0) & (apart[:, 0] < RATIO * apart[:, 1]))[0]

@@ -197,7 +197,7 @@ const char kExample[] =
     "  spherecloud bench frame --recording kitchen --first 620 --map maps/map_50000.sphc --no-peers\n"
     "  spherecloud bench frame --recording kitchen --first 620 --map maps/map_50000.sphc \\\n"
     "      --mapping-last 597 --mapping-step 3 --out bench\n"
-    "What comes out: a table a map; with --out frame.csv and drawings.  Beside every map its owner's note must lie;\n"
+    "What comes out: a table a map; with --out frame.csv and drawings.  The owner's note must lie beside a map;\n"
     "spherecloud bench map makes maps of wanted sizes.";
 
 void addOptions(CLI::App *app, Options *options) {
