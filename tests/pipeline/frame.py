@@ -11,6 +11,7 @@ import pathlib
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True
 from accuracy import HERE, RECORDINGS, Recording, frames
 
 LEDGER = HERE / "frame.csv"
@@ -21,7 +22,7 @@ PEERS = ("opencv sift, faiss ivf 16", "opencv sift, faiss ivf 8", "opencv sift, 
 OURS = ("ours, cold", "ours, tracking")
 # What is localized: of the first recording consecutive frames, as a headset sees them; the other has none to spare.
 RUNS = {
-    "redkitchen": dict(recording="redkitchen", foreign="hololens", query=(620, 799, 1), points=[POINTS], peers=PEERS),
+    "redkitchen": dict(recording="redkitchen", foreign="hololens", query=(620, 739, 1), points=[POINTS], peers=PEERS),
     "hololens": dict(recording="hololens", foreign="redkitchen", query=(1, 199, 2), points=[POINTS], peers=PEERS),
     "scaling": dict(recording="redkitchen", foreign="hololens", query=(620, 679, 1), points=SCALING, peers=PEERS[:1]),
 }

@@ -37,7 +37,7 @@ def cpu_seconds():
     return 1e-9 * time.process_time_ns()
 
 
-# ---- cameras -------------------------------------------------------------------------------------------------------
+# ---- cameras
 
 
 class Cameras:
@@ -100,7 +100,7 @@ class Cameras:
         return np.concatenate([plane * z[:, None], z[:, None]], 1), there
 
 
-# ---- point maps ----------------------------------------------------------------------------------------------------
+# ---- point maps
 
 
 def mirrored(descriptors):
@@ -236,7 +236,7 @@ class Features:
         self.map_descriptors = np.concatenate([descriptors, foreign])
 
 
-# ---- nearest two ---------------------------------------------------------------------------------------------------
+# ---- nearest two
 
 
 def cells_for(count):
@@ -336,7 +336,7 @@ def variants():
     ]
 
 
-# ---- a frame -------------------------------------------------------------------------------------------------------
+# ---- a frame
 
 
 def find_pose(cameras, points, pixels):
@@ -427,7 +427,7 @@ class Peers:
         return answer
 
 
-# ---- the other end -------------------------------------------------------------------------------------------------
+# ---- the other end
 
 
 def read(stream, size):

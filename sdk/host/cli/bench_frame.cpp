@@ -187,11 +187,10 @@ int run(Options options, const Console &console) {
 }
 
 const char kHelp[] =
-    "Localizes every frame of a recording by every variant in turn, on one core: the library, cold and tracking, "
-    "and\n"
-    "package peers (OpenCV, faiss, hnswlib) on an open point map of the same place and size.  Several maps show "
-    "how\n"
-    "time grows with the map.  docs/bench.md says what each column means and how peers are installed.";
+    "Localizes every frame of a recording by every variant in turn, on one core: the library, cold and\n"
+    "tracking, and package peers (OpenCV, faiss, hnswlib) on an open point map of the same place and size.\n"
+    "Several maps show how time grows with the map.  docs/bench.md says what each column means and how peers\n"
+    "are installed.";
 const char kExample[] =
     "Example:\n"
     "  spherecloud bench frame --recording kitchen --first 620 --map maps/map_50000.sphc --no-peers\n"
