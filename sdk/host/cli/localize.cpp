@@ -23,37 +23,48 @@ namespace {
 
 struct Options {
   RecordingOptions recording;
-  std::string map, owner_note, trajectory, frames_json, report;
+  std::vector<std::string> maps, owner_notes;
+  std::string trajectory, frames_json, report;
+  bool odometry = false;
   sphc_config config = spherecloud::defaultConfig();
 };
 
-// The note is the owner's; it must belong to this very map.
-void readNote(const Options &options, const MapFile &map, LocalizeInput *input, Run *run) {
-  if (options.owner_note.empty()) return;
-  const OwnerNote note = readOwnerNote(options.owner_note);
-  const sphc_map_info info = map.map.info();
+// A note is the owner's; it must belong to this very map.
+std::array<double, 3> readCentre(const std::string &path, const MapFile &file, const std::string &map) {
+  const OwnerNote note = readOwnerNote(path);
+  const sphc_map_info info = file.map.info();
   if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id)) {
-    throw std::runtime_error(options.owner_note + " belongs to another map than " + options.map +
+    throw std::runtime_error(path + " belongs to another map than " + map +
                              " (their map ids differ); give the note that was written beside this map");
   }
   const Vector3 &centre = note.centre_in_world_m;
-  input->centre_in_world_m = {centre.x(), centre.y(), centre.z()};
-  run->centre_m = *input->centre_in_world_m;
+  return {centre.x(), centre.y(), centre.z()};
+}
+
+void readNotes(const Options &options, LocalizeInput *input, Run *run) {
+  if (options.owner_notes.empty()) return;
+  if (options.owner_notes.size() != options.maps.size())
+    throw UsageError("--owner-note: give one for each --map, in the same order, or none");
+  for (size_t i = 0; i < options.maps.size(); ++i)
+    input->centres_in_world_m.push_back(readCentre(options.owner_notes[i], input->maps[i], options.maps[i]));
+  run->centre_m = input->centres_in_world_m.front();
   run->base = "world";
 }
 
 Run localize(const Options &options, sphc_replay *replay, const Console &console) {
-  const MapFile map = openMapFile(options.map);
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
-  run.map = mapFacts(map, options.map);
   LocalizeInput input;
+  for (const std::string &path : options.maps) {
+    input.maps.push_back(openMapFile(path));
+    run.maps.push_back(mapFacts(input.maps.back(), path));
+  }
   input.replay = replay;
-  input.map = &map;
+  input.play_odometry = options.odometry;
   input.config = options.config;
   input.keep_observations = !options.report.empty();
   setCameras(replay, &input.config);
-  readNote(options, map, &input, &run);
+  readNotes(options, &input, &run);
   run.settings = describeConfig(input.config);
   ProgressBar bar("localizing");
   localizeFrames(
@@ -107,7 +118,8 @@ const char kExample[] =
     "  spherecloud localize --recording walk --first 100 --map room.sphc\n"
     "  spherecloud localize --recording walk --first 100 --map room.sphc \\\n"
     "      --owner-note room.sphc.owner.json --report report --trajectory path.tum\n"
-    "  spherecloud localize -r kitchen -c kinect.json --first 620 --last 799 --step 5 -m kitchen.sphc --json\n"
+    "  spherecloud localize -r kitchen -c kinect.json --first 620 --last 799 --mode single -m kitchen.sphc --json\n"
+    "  spherecloud localize -r flat -m kitchen.sphc -m hall.sphc      which room, and where in it\n"
     "What comes out: one table; with --report a folder with report.html and pictures; with --trajectory a path\n"
     "that evo reads (evo_traj tum path.tum).  Exit status 3: it ran, but not one frame was localized.";
 
@@ -142,6 +154,13 @@ void addLocalizerOptions(CLI::App *app, sphc_config *config) {
   add("--depth-offset-sigma", config->depth_offset_sigma_m,
       "Unknown offset of the depth sensor there, metres; 0 with the next 0: a sensor without bias");
   add("--depth-slope-sigma", config->depth_slope_sigma, "Unknown slope of its error over depth");
+  add("--probes", config->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
+  const std::map<std::string, sphc_mode> modes = {{"tracking", SPHC_MODE_TRACKING}, {"single", SPHC_MODE_SINGLE}};
+  app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")
+      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->default_str("tracking")
+      ->type_name("tracking|single")
+      ->group("Localizer");
   add("--deadline-us", config->deadline_us, "A frame's search ends so long after it began; 0: no deadline");
   const std::map<std::string, sphc_cost> costs = {{"whitened", SPHC_COST_WHITENED}, {"paper", SPHC_COST_PAPER}};
   app->add_option("--cost", config->cost, "What poses minimise; paper is there to compare with")
@@ -159,9 +178,18 @@ Command localizeCommand(CLI::App *root) {
   app->description("Find where the camera was, in a map.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addRecordingOptions(app, &options->recording);
-  app->add_option("-m,--map", options->map, "Map file")->required()->type_name("FILE");
-  app->add_option("--owner-note", options->owner_note, "Note that build wrote beside the map (FILE.owner.json)")
+  app->add_option("-m,--map", options->maps, "Map file; repeat for more rooms")
+      ->required()
+      ->expected(1)
+      ->take_all()
       ->type_name("FILE");
+  app->add_option("--owner-note", options->owner_notes,
+                  "Note that build wrote beside the map (FILE.owner.json); one for each map")
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
+  app->add_flag("--odometry", options->odometry,
+                "Give the localizer the recording's poses as odometry, each step disturbed by 0.1 deg and 2 mm");
   addOutputs(app, options.get());
   addLocalizerOptions(app, &options->config);
   return {app, [options](const Console &console) { return run(*options, console); }};

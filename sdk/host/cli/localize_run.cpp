@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/cli/door.h"
+#include "host/cli/played_odometry.h"
 #include "host/report/statistics.h"
 
 namespace sphc::host {
@@ -70,19 +71,24 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->align_us = result.align_us;
   frame->match_us = result.match_us;
   frame->pose_us = result.pose_us;
+  frame->state = result.state;
+  frame->map = result.map_index;
+  frame->frames_together = result.frames;
+  frame->guided = result.guided != 0;
   frame->depth = result.depth;
   if (!frame->localized) return;
   frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);
-  if (input.centre_in_world_m) {  // world_from_map is a translation
-    for (size_t i = 0; i < 3; ++i) frame->base_from_camera.t_m[i] += (*input.centre_in_world_m)[i];
+  if (!input.centres_in_world_m.empty()) {  // world_from_map is a translation
+    const auto &centre = input.centres_in_world_m[result.map_index];
+    for (size_t i = 0; i < 3; ++i) frame->base_from_camera.t_m[i] += centre[i];
   }
   frame->sigma_rotation_deg = sigmaOf(result.covariance, 0) * 180 / M_PI;
   frame->sigma_translation_m = sigmaOf(result.covariance, 3);
 }
 
 void fillTruth(const LocalizeInput &input, FrameRecord *frame) {
-  if (!input.centre_in_world_m) return;
+  if (input.centres_in_world_m.empty()) return;
   frame->has_truth = sphc_replay_pose(input.replay, frame->index, &frame->truth_base_from_camera) == SPHC_OK;
   judge(frame);
 }
@@ -140,14 +146,20 @@ std::vector<Setting> describeConfig(const sphc_config &config) {
           {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},
           {"depth_slope_sigma", fixed(config.depth_slope_sigma, 4)},
           {"cost", config.cost == SPHC_COST_PAPER ? "paper" : "whitened"},
-          {"deadline_us", std::to_string(config.deadline_us)}};
+          {"deadline_us", std::to_string(config.deadline_us)},
+          {"mode", config.mode == SPHC_MODE_TRACKING ? "tracking" : "single"},
+          {"probes", std::to_string(config.probes)}};
 }
 
 void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
                     const std::function<void(const std::string &)> &unreadable, Run *run) {
   measureMemory(input.config, run);
   spherecloud::Localizer localizer;
-  check("cannot make the localizer", spherecloud::Localizer::make(input.config, input.map->map, &localizer));
+  std::vector<const sphc_map *> maps;
+  for (const MapFile &file : input.maps) maps.push_back(file.map.get());
+  check("cannot make the localizer",
+        spherecloud::Localizer::make(input.config, maps.data(), static_cast<uint32_t>(maps.size()), &localizer));
+  PlayedOdometry odometry(input.replay);
   std::vector<sphc_observation> room(input.config.max_keypoints);
   const uint32_t count = sphc_replay_frame_count(input.replay);
   for (uint32_t i = 0; i < count; ++i) {
@@ -157,6 +169,7 @@ void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
       unreadable(message.text);
       ++run->unreadable;
     } else {
+      if (input.play_odometry) image.prior = odometry.at(i);
       run->frames.push_back(processFrame(input, image, i, &localizer, &room));
     }
     frame_done(i + 1, count);

@@ -1,7 +1,7 @@
 // A recording through the localizer, by the C door alone, as a device would do it.
 #pragma once
 #include <functional>
-#include <optional>
+#include <vector>
 
 #include "drivers/replay/replay.h"
 #include "host/cli/map_file.h"
@@ -13,10 +13,11 @@ using FrameDone = std::function<void(uint32_t done, uint32_t total)>;
 
 struct LocalizeInput {
   sphc_replay *replay = nullptr;
-  const MapFile *map = nullptr;
+  std::vector<MapFile> maps;
   sphc_config config = {};  // cameras already set
-  // Where the map's origin lies in the recording's world; without it poses stay in the map's frame, without truth.
-  std::optional<std::array<double, 3>> centre_in_world_m;
+  // Where each map's origin lies in the recording's world; empty: poses stay in their map's frame, without truth.
+  std::vector<std::array<double, 3>> centres_in_world_m;
+  bool play_odometry = false;  // the recording's own poses, each step disturbed
   bool keep_observations = false;
 };
 

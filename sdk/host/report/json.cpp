@@ -21,10 +21,19 @@ Json spreadJson(const Spread &spread) {
 }  // namespace
 
 Json frameJson(const FrameRecord &frame, const std::string &base) {
-  Json json = {
-      {"sequence", frame.sequence},   {"time_ns", frame.time_ns},     {"outcome", outcomeName(frame.outcome)},
-      {"localized", frame.localized}, {"keypoints", frame.keypoints}, {"lifted", frame.lifted},
-      {"matches", frame.matches},     {"inliers", frame.inliers},     {"iterations", frame.iterations}};
+  Json json = {{"sequence", frame.sequence},
+               {"time_ns", frame.time_ns},
+               {"outcome", outcomeName(frame.outcome)},
+               {"localized", frame.localized},
+               {"keypoints", frame.keypoints},
+               {"lifted", frame.lifted},
+               {"matches", frame.matches},
+               {"inliers", frame.inliers},
+               {"iterations", frame.iterations},
+               {"state", stateName(frame.state)},
+               {"map", frame.map},
+               {"guided", frame.guided},
+               {"frames_together", frame.frames_together}};
   if (frame.localized) {
     json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
     json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
@@ -57,10 +66,17 @@ std::string framesJsonLines(const Run &run) {
 }
 
 Json summaryJson(const Run &run, const Summary &s) {
-  Json json = {{"recording", run.recording}, {"map", run.map.path},
-               {"map_id", run.map.id},       {"base", run.base},
-               {"frames", s.frames},         {"unreadable", run.unreadable},
-               {"localized", s.localized},   {"localized_percent", percent(s.localized, s.frames)}};
+  Json json = {{"recording", run.recording},
+               {"maps", Json::array()},
+               {"base", run.base},
+               {"frames", s.frames},
+               {"unreadable", run.unreadable},
+               {"localized", s.localized},
+               {"localized_percent", percent(s.localized, s.frames)}};
+  for (const MapFacts &map : run.maps)
+    json["maps"].push_back({{"path", map.path}, {"map_id", map.id}, {"points", map.points}});
+  json["tracking"] = s.tracking;
+  json["guided"] = s.guided;
   for (size_t i = 0; i < s.outcomes.size(); ++i) {
     json["outcomes"][outcomeName(static_cast<sphc_outcome>(i))] = s.outcomes[i];
   }
@@ -76,7 +92,7 @@ Json summaryJson(const Run &run, const Summary &s) {
     json["time_ms"][kStageNames[i]] = {{"median", number(s.stage_median_ms[i])},
                                        {"p90", number(s.stage_p90_ms[i])}};
   }
-  json["memory_bytes"] = {{"state", run.state_bytes}, {"scratch", run.scratch_bytes}, {"map", run.map.file_bytes}};
+  json["memory_bytes"] = {{"state", run.state_bytes}, {"scratch", run.scratch_bytes}, {"map", mapBytes(run)}};
   json["median"] = {{"keypoints", number(s.median_keypoints)},
                     {"matches", number(s.median_matches)},
                     {"inliers", number(s.median_inliers)}};

@@ -37,7 +37,7 @@ std::string cards(const Run &run, const Summary &s) {
   }
   if (!std::isnan(s.stage_median_ms[kTotal]))
     html += card(fixed(s.stage_median_ms[kTotal], 1) + " ms", "a frame, median");
-  const double memory = static_cast<double>(run.state_bytes + run.scratch_bytes + run.map.file_bytes);
+  const double memory = static_cast<double>(run.state_bytes + run.scratch_bytes + mapBytes(run));
   return html + card(humanBytes(memory), "of device memory, map included") + "</div>\n";
 }
 
@@ -120,8 +120,8 @@ std::vector<std::pair<MemoryPiece, size_t>> gatherPieces(const Run &run) {
 
 std::string memoryTable(const Run &run) {
   constexpr size_t kShown = 9;
-  std::vector<Row> rows = {
-      {"map file", humanBytes(static_cast<double>(run.map.file_bytes)), "read-only, used in place"}};
+  std::vector<Row> rows = {{run.maps.size() > 1 ? "map files" : "map file",
+                            humanBytes(static_cast<double>(mapBytes(run))), "read-only, used in place"}};
   const auto pieces = gatherPieces(run);
   size_t rest = 0;
   for (size_t i = 0; i < pieces.size(); ++i) {
@@ -144,12 +144,15 @@ std::string settingsTable(const Run &run) {
 }
 
 std::string mapSection(const Run &run, const PageContent &content) {
-  const std::vector<Row> rows = {
-      {"points, real and fake", std::to_string(run.map.points), "the file does not tell them apart"},
-      {"bytes", humanBytes(static_cast<double>(run.map.file_bytes)), ""},
-      {"map id", run.map.id.substr(0, 12) + "…", "random name of this build"},
-      {"format version", std::to_string(run.map.format_version), ""},
-      {"extractor", std::to_string(run.map.extractor), "what described the points"}};
+  std::vector<Row> rows;
+  for (const MapFacts &map : run.maps) {
+    if (run.maps.size() > 1) rows.push_back({"map", escapeHtml(map.path), ""});
+    rows.push_back({"points, real and fake", std::to_string(map.points), "the file does not tell them apart"});
+    rows.push_back({"bytes", humanBytes(static_cast<double>(map.file_bytes)), ""});
+    rows.push_back({"map id", map.id.substr(0, 12) + "…", "random name of this build"});
+    rows.push_back({"format version", std::to_string(map.format_version), ""});
+    rows.push_back({"extractor", std::to_string(map.extractor), "what described the points"});
+  }
   PagePicture picture = content.directions;
   picture.caption =
       "All directions in the map, seen from its centre, as a map of the sky: longitude to the right, up is up. "
@@ -174,7 +177,9 @@ std::string reportPage(const Run &run, const Summary &s, const PageContent &cont
       "<style>" +
       std::string(kPageStyle) + "</style></head>\n<body>\n";
   html += "<header><div><h1>Where was the camera?</h1><p>" + escapeHtml(run.recording) + " in the sphere cloud " +
-          escapeHtml(run.map.path) + "</p></div></header>\n<main>\n";
+          escapeHtml(run.maps.front().path) +
+          (run.maps.size() > 1 ? " and " + std::to_string(run.maps.size() - 1) + " more" : "") +
+          "</p></div></header>\n<main>\n";
   html += cards(run, s);
   html += section("What you are looking at", howToRead(s));
   html += section("In pictures", plotSection(content));

@@ -90,7 +90,7 @@ std::vector<std::array<double, 3>> uprightDirections(const Run &run) {
   const auto &r = view.right, &u = view.up;
   const double sky[3] = {r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]};
   std::vector<std::array<double, 3>> upright;
-  for (const auto &d : run.map.directions) {
+  for (const auto &d : run.maps.front().directions) {
     const auto flat = view.project(d.data());
     upright.push_back({flat[0], flat[1], sky[0] * d[0] + sky[1] * d[1] + sky[2] * d[2]});
   }

@@ -46,6 +46,25 @@ const char *outcomeAdvice(sphc_outcome outcome) {
   }
 }
 
+const char *stateName(sphc_state state) {
+  switch (state) {
+    case SPHC_STATE_RELOCALIZING:
+      return "relocalizing";
+    case SPHC_STATE_TRACKING:
+      return "tracking";
+    case SPHC_STATE_LOST:
+      return "lost";
+    default:
+      return "unknown";
+  }
+}
+
+uint64_t mapBytes(const Run &run) {
+  uint64_t bytes = 0;
+  for (const MapFacts &map : run.maps) bytes += map.file_bytes;
+  return bytes;
+}
+
 std::string fixed(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", digits, value);

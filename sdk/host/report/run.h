@@ -20,6 +20,11 @@ struct FrameRecord {
   uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0, iterations = 0;
   uint32_t features_us = 0, align_us = 0, match_us = 0, pose_us = 0, total_us = 0;
 
+  sphc_state state = SPHC_STATE_RELOCALIZING;  // after this frame
+  uint32_t map = 0;                            // of the run's maps
+  uint32_t frames_together = 1;                // whose matches the pose was found from
+  bool guided = false;                         // found where it was expected
+
   sphc_depth_bias depth = {};  // what the localizer took the depth sensor for
 
   bool localized = false;
@@ -54,8 +59,8 @@ struct MapFacts {
 struct Run {
   std::string recording;
   std::string base = "map";             // "world" or "map"
-  std::array<double, 3> centre_m = {};  // the sphere's centre in the base
-  MapFacts map;
+  std::array<double, 3> centre_m = {};  // the first sphere's centre in the base
+  std::vector<MapFacts> maps;           // one at least
   size_t state_bytes = 0, scratch_bytes = 0;
   std::vector<MemoryPiece> memory;
   std::vector<Setting> settings;
@@ -63,9 +68,12 @@ struct Run {
   uint32_t unreadable = 0;  // frames that could not be decoded; not part of `frames`
 };
 
+uint64_t mapBytes(const Run &run);
+
 // "few matches" and so on: a word or two for tables, and a sentence with the likely cause.
 const char *outcomeName(sphc_outcome outcome);
 const char *outcomeAdvice(sphc_outcome outcome);
+const char *stateName(sphc_state state);
 
 // "12345" as "12.3 kB"; powers of 1000.
 std::string humanBytes(double bytes);

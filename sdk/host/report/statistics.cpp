@@ -83,6 +83,8 @@ Summary summarize(const Run &run) {
   summary.frames = static_cast<uint32_t>(run.frames.size());
   for (const FrameRecord &frame : run.frames) {
     if (frame.localized) ++summary.localized;
+    if (frame.state == SPHC_STATE_TRACKING) ++summary.tracking;
+    if (frame.localized && frame.guided) ++summary.guided;
     const size_t outcome = static_cast<size_t>(frame.outcome);
     if (outcome < summary.outcomes.size()) ++summary.outcomes[outcome];
   }

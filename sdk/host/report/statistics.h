@@ -31,6 +31,7 @@ double stageMs(const FrameRecord &frame, Stage stage);
 
 struct Summary {
   uint32_t frames = 0, localized = 0;
+  uint32_t tracking = 0, guided = 0;  // frames after which the pose was trusted; found where it was expected
   uint32_t with_truth = 0, good = 0;  // good: within 5 cm and 5 deg, of the frames with truth
   std::array<uint32_t, SPHC_OUTCOME_DEADLINE + 1> outcomes = {};
   Spread rotation_deg, translation_m;  // of the localized frames with truth

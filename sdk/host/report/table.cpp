@@ -52,14 +52,17 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   rows.push_back({"frames", std::to_string(s.frames),
                   run.unreadable ? std::to_string(run.unreadable) + " more could not be read" : ""});
   rows.push_back({"localized", share(s.localized, s.frames), ofTotal(s.localized, s.frames)});
+  if (s.tracking > 0)
+    rows.push_back({"tracking", share(s.tracking, s.frames),
+                    ofTotal(s.guided, s.frames) + " were found where they were expected"});
   addErrors(s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});
-  const double device = static_cast<double>(run.state_bytes + run.scratch_bytes + run.map.file_bytes);
+  const double device = static_cast<double>(run.state_bytes + run.scratch_bytes + mapBytes(run));
   rows.push_back({"device memory", humanBytes(device),
                   "state " + humanBytes(static_cast<double>(run.state_bytes)) + ", scratch " +
                       humanBytes(static_cast<double>(run.scratch_bytes)) + ", map " +
-                      humanBytes(static_cast<double>(run.map.file_bytes))});
+                      humanBytes(static_cast<double>(mapBytes(run)))});
   return rows;
 }
 

@@ -22,7 +22,8 @@ class ReportTest : public testing::Test {
     ASSERT_NE(mkdtemp(folder), nullptr);
     folder_ = folder;
     run_.recording = "walk <one>";
-    run_.map.directions = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+    run_.maps.resize(1);
+    run_.maps[0].directions = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
     for (uint32_t i = 0; i < 8; ++i) run_.frames.push_back(goodFrame(i, 0.004 * i, 0.1 * i));
     run_.frames.push_back(lostFrame(8));
   }

@@ -15,7 +15,8 @@ TEST(Table, HoldsTheFiguresAPersonAsksFor) {
   run.frames = {goodFrame(1, 0.01, 0.5), goodFrame(2, 0.03, 0.5), lostFrame(3), lostFrame(4)};
   run.state_bytes = 1000;
   run.scratch_bytes = 2500000;
-  run.map.file_bytes = 500000;
+  run.maps.resize(1);
+  run.maps[0].file_bytes = 500000;
   const std::string text = tableText(tableRows(run, summarize(run)));
   EXPECT_THAT(text, HasSubstr("50.0 %   2 of 4"));
   EXPECT_THAT(text, HasSubstr("2.00 cm"));

@@ -1,0 +1,28 @@
+// Odometry for a replay, made from the recording's poses: what a headset's dead reckoning would say.
+#pragma once
+#include <cstdint>
+#include <random>
+
+#include "drivers/replay/replay.h"
+
+namespace sphc::host {
+
+// Each step is the true one times a normal error; the errors add up to a drift.  The same numbers in every run.
+class PlayedOdometry {
+ public:
+  static constexpr double kRotationSigmaRad = 0.1 * 3.14159265358979323846 / 180, kTranslationSigmaM = 0.002;
+
+  explicit PlayedOdometry(const sphc_replay *replay) : replay_(replay) {}
+
+  // Of frame `index`, in ascending order; null where the recording has no pose.  Valid until the next call.
+  const sphc_prior *at(uint32_t index);
+
+ private:
+  const sphc_replay *replay_;
+  std::mt19937_64 random_{1};
+  bool begun_ = false;
+  sphc_rigid world_from_camera_ = {{1, 0, 0, 0}, {0, 0, 0}};
+  sphc_prior prior_ = {};
+};
+
+}  // namespace sphc::host
