@@ -19,7 +19,7 @@ ETA, POINTS = 0.33, 50000
 SCALING = (10000, 50000, 200000, 1000000)
 PEERS = ("opencv sift, faiss ivf 16", "opencv sift, faiss ivf 8", "opencv sift, hnswlib", "opencv sift, opencv flann",
          "opencv orb, opencv bf")
-OURS = ("ours, cold", "ours, tracking")
+OURS = ("ours, cold", "ours, tracking", "ours, tracking with odometry")
 # What is localized: of the first recording consecutive frames, as a headset sees them; the other has none to spare.
 RUNS = {
     "redkitchen": dict(recording="redkitchen", foreign="hololens", query=(620, 739, 1), points=[POINTS], peers=PEERS),

@@ -1,13 +1,10 @@
 #include "host/bench/frame_ours.h"
 
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
 namespace sphc::host {
 namespace {
-
-constexpr double kPriorRad = 0.05, kPriorM = 0.05;  // a headset's motion from frame to frame
 
 int64_t threadNanoseconds(void *) { return static_cast<int64_t>(1e9 * threadSeconds()); }
 
@@ -37,13 +34,13 @@ class Bench {
                                        scratch_.size(), &localizer_));
   }
 
-  FrameAnswer process(const sphc_frame &frame, sphc_result *result) {
-    *result = spherecloud::emptyResult();
+  FrameAnswer process(const sphc_frame &frame) {
+    sphc_result result = spherecloud::emptyResult();
     const double begin = threadSeconds();
-    const spherecloud::Status status = localizer_.process(frame, result);
+    const spherecloud::Status status = localizer_.process(frame, &result);
     const double end = threadSeconds();
     check(status);
-    return answerOf(*result, end - begin);
+    return answerOf(result, end - begin);
   }
 
  private:
@@ -71,49 +68,36 @@ class Bench {
   spherecloud::Localizer localizer_;
 };
 
-FrameVariant coldVariant(const OurFrames &ours) {
+FrameVariant coldVariant(OurFrames ours) {
+  ours.config.mode = SPHC_MODE_SINGLE;
   const auto bench = std::make_shared<Bench>(ours);
   const auto run = [bench](const FrameCase &frame, uint32_t) {
     bench->restart();
-    sphc_result result;
-    return bench->process(frame.image, &result);
+    return bench->process(frame.image);
   };
   return {"ours, cold", run, "", bench->memory()};
 }
 
-// One walk through the recording.
-struct Walk {
-  explicit Walk(const OurFrames &ours) : bench(ours) { bench.restart(); }
-  Bench bench;
-  sphc_result last = spherecloud::emptyResult();
-};
-
-// The last answer, as odometry would carry it to this frame.
-FrameAnswer track(Walk *walk, sphc_frame frame) {
-  sphc_prior prior = {};
-  prior.struct_size = sizeof prior;
-  prior.flags = SPHC_PRIOR_POSE;
-  prior.camera_from_map = walk->last.camera_from_map;
-  prior.rotation_sigma_rad = kPriorRad;
-  prior.translation_sigma_m = kPriorM;
-  if (walk->last.time_ns != 0 && walk->last.outcome == SPHC_OUTCOME_LOCALIZED) frame.prior = &prior;
-  return walk->bench.process(frame, &walk->last);
-}
-
-FrameVariant trackingVariant(const OurFrames &ours) {
-  std::vector<std::shared_ptr<Walk>> walks;
-  for (uint32_t i = 0; i < ours.repeats; ++i) walks.push_back(std::make_shared<Walk>(ours));
-  const FrameMemory memory = walks[0]->bench.memory();
-  const auto run = [walks](const FrameCase &frame, uint32_t repeat) {
-    return track(walks[repeat].get(), frame.image);
+FrameVariant trackingVariant(const std::string &name, bool odometry, OurFrames ours) {
+  ours.config.mode = SPHC_MODE_TRACKING;
+  std::vector<std::shared_ptr<Bench>> walks;  // one through the recording for each repeat
+  for (uint32_t i = 0; i < ours.repeats; ++i) {
+    walks.push_back(std::make_shared<Bench>(ours));
+    walks.back()->restart();
+  }
+  const auto run = [walks, odometry](const FrameCase &frame, uint32_t repeat) {
+    sphc_frame image = frame.image;
+    if (odometry) image.prior = frame.odometry;
+    return walks[repeat]->process(image);
   };
-  return {"ours, tracking", run, "", memory};
+  return {name, run, "", walks[0]->memory()};
 }
 
 }  // namespace
 
 std::vector<FrameVariant> ourFrameVariants(const OurFrames &ours) {
-  return {coldVariant(ours), trackingVariant(ours)};
+  return {coldVariant(ours), trackingVariant("ours, tracking", false, ours),
+          trackingVariant("ours, tracking with odometry", true, ours)};
 }
 
 }  // namespace sphc::host

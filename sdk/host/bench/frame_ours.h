@@ -14,7 +14,8 @@ struct OurFrames {
 };
 
 // "ours, cold": every frame by a localizer that has seen nothing before.  "ours, tracking": frames in order of time
-// by one localizer.  Memory is made here; the map is borrowed.  Throws std::runtime_error with cause and cure.
+// by one localizer; "with odometry": it is told the odometry too.  Memory is made here; the map is borrowed. Throws
+// std::runtime_error with cause and cure.
 std::vector<FrameVariant> ourFrameVariants(const OurFrames &ours);
 
 }  // namespace sphc::host

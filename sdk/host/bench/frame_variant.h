@@ -15,6 +15,7 @@ struct FrameCase {
   uint32_t index = 0;  // frames come in order of time
   sphc_frame image = {};
   Rigid truth_camera_from_world;
+  const sphc_prior *odometry = nullptr;  // as a headset's dead reckoning would tell it; null: nothing
 };
 
 using StageSeconds = std::array<double, kStageCount>;  // by Stage; NaN: the variant has no such stage

@@ -11,6 +11,7 @@
 #include "host/cli/exit_code.h"
 #include "host/cli/localize_run.h"
 #include "host/cli/map_file.h"
+#include "host/cli/played_odometry.h"
 #include "host/cli/progress.h"
 #include "host/cli/recording.h"
 #include "host/report/file.h"
@@ -140,8 +141,12 @@ class FrameCommand {
     const OwnedMap map = openOwnedMap(path);
     const std::vector<FrameVariant> variants = variantsFor(map);
     sphc_replay *replay = replay_.get();
+    PlayedOdometry odometry(replay);
     const FrameBenchInput input = {sphc_replay_frame_count(replay), options_.repeats,
-                                   [replay](uint32_t i, FrameCase *frame) { return readFrame(replay, i, frame); }};
+                                   [replay, &odometry](uint32_t i, FrameCase *frame) {
+                                     frame->odometry = odometry.at(i);
+                                     return readFrame(replay, i, frame);
+                                   }};
     ProgressBar bar("measuring ");
     FrameTable table = {
         options_.name, std::filesystem::path(path).filename().string(), map.file.map.info().point_count, 0, {}, {}};
