@@ -43,7 +43,7 @@ TEST_F(DoorMap, OpensAndTellsWhatIsInIt) {
   EXPECT_EQ(info.struct_size, sizeof info);
   EXPECT_EQ(info.point_count, 50u);
   EXPECT_EQ(info.file_bytes, file_.size());
-  EXPECT_EQ(info.format_version, 1u);
+  EXPECT_EQ(info.format_version, 2u);
   EXPECT_EQ(info.map_id[15], 0xAF);
   double direction[3];
   ASSERT_EQ(sphc_map_direction(map_, 49, direction), SPHC_OK);

@@ -24,7 +24,8 @@ OURS = ("ours, cold", "ours, tracking", "ours, tracking with odometry")
 RUNS = {
     "redkitchen": dict(recording="redkitchen", foreign="hololens", query=(620, 739, 1), points=[POINTS], peers=PEERS),
     "hololens": dict(recording="hololens", foreign="redkitchen", query=(1, 199, 2), points=[POINTS], peers=PEERS),
-    "scaling": dict(recording="redkitchen", foreign="hololens", query=(620, 679, 1), points=SCALING, peers=PEERS[:1]),
+    "scaling": dict(recording="redkitchen", foreign="hololens", query=(620, 679, 1), points=SCALING, ours=OURS[:2],
+                    peers=PEERS[:1]),
 }
 
 
@@ -48,7 +49,7 @@ def measure(tool, python, name, out):
     recording = Recording(run["recording"], tool, out)
     mapped = [option.replace("--", "--mapping-") if isinstance(option, str) else option
               for option in frames(RECORDINGS[run["recording"]]["map"])]
-    only = [option for variant in OURS + run["peers"] for option in ("--only", variant)]
+    only = [option for variant in run.get("ours", OURS) + run["peers"] for option in ("--only", variant)]
     part = out / "ledger.csv"
     call(tool, "frame", *recording.source, *frames(run["query"]), *maps(tool, run, out), *mapped, *only, "--name", name,
          "--python", python, "--out", out, "--ledger", part)

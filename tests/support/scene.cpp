@@ -28,10 +28,10 @@ double noise(double x, double y, uint32_t salt) {
   return (at(0, 0) * (1 - sx) + at(1, 0) * sx) * (1 - sy) + (at(0, 1) * (1 - sx) + at(1, 1) * sx) * sy;
 }
 
-double shade(double u, double v, uint32_t wall) {
+double shade(double u, double v, uint32_t wall, uint32_t room) {
   double sum = 0;
   const double cells[] = {0.31, 0.13, 0.055, 0.028}, weights[] = {0.25, 0.3, 0.3, 0.15};
-  for (uint32_t k = 0; k < 4; ++k) sum += weights[k] * noise(u / cells[k], v / cells[k], wall * 8 + k);
+  for (uint32_t k = 0; k < 4; ++k) sum += weights[k] * noise(u / cells[k], v / cells[k], (room * 6 + wall) * 8 + k);
   return sum;
 }
 
@@ -54,7 +54,7 @@ Vector3 rayOf(const sphc_camera &camera, uint32_t x, uint32_t y) {
 }  // namespace
 
 SceneImages renderScene(const sphc_camera &color, const sphc_camera &depth, const Rigid &color_from_world,
-                        const Rigid &color_from_depth) {
+                        const Rigid &color_from_depth, uint32_t room) {
   SceneImages images;
   const Rigid world_from_color = color_from_world.inverse(), world_from_depth = world_from_color * color_from_depth;
   for (uint32_t y = 0; y < color.height; ++y) {
@@ -64,7 +64,7 @@ SceneImages renderScene(const sphc_camera &color, const sphc_camera &depth, cons
       const double t = leave(world_from_color.translation_m, direction, &wall);
       const Vector3 hit = world_from_color.translation_m + t * direction;
       const int axis = static_cast<int>(wall / 2);
-      const double value = shade(hit[(axis + 1) % 3], hit[(axis + 2) % 3], wall);
+      const double value = shade(hit[(axis + 1) % 3], hit[(axis + 2) % 3], wall, room);
       images.gray.push_back(static_cast<uint8_t>(20 + 215 * value));
     }
   }

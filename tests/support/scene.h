@@ -12,9 +12,10 @@ struct SceneImages {
   std::vector<uint16_t> depth_mm;  // of the depth camera
 };
 
-// x right, y down, z forward; the room reaches from -1.8 to 1.8, -1.5 to 1.2, -1 to 3 metres.
+// x right, y down, z forward; the room reaches from -1.8 to 1.8, -1.5 to 1.2, -1 to 3 metres.  Rooms of different
+// numbers have other walls.
 SceneImages renderScene(const sphc_camera &color, const sphc_camera &depth, const Rigid &color_from_world,
-                        const Rigid &color_from_depth);
+                        const Rigid &color_from_depth, uint32_t room = 0);
 
 sphc_camera pinhole(uint32_t width, uint32_t height, double focal_px);
 // The i-th of a row of nearby viewpoints.

@@ -19,7 +19,8 @@ struct WorldPoint {
   Descriptor descriptor;
 };
 
-std::vector<WorldPoint> describeViews(const sphc_camera &camera, uint32_t keypoints, uint32_t views) {
+std::vector<WorldPoint> describeViews(const sphc_camera &camera, uint32_t keypoints, uint32_t views,
+                                      uint32_t room) {
   FeatureConfig config;
   config.width = static_cast<int32_t>(camera.width);
   config.height = static_cast<int32_t>(camera.height);
@@ -39,7 +40,7 @@ std::vector<WorldPoint> describeViews(const sphc_camera &camera, uint32_t keypoi
   std::vector<WorldPoint> points;
   for (uint32_t view = 0; view < views; ++view) {
     const Rigid camera_from_world = sceneViewpoint(view);
-    const SceneImages images = renderScene(camera, camera, camera_from_world, Rigid());
+    const SceneImages images = renderScene(camera, camera, camera_from_world, Rigid(), room);
     const GrayView gray = {images.gray.data(), config.width, config.height, config.width};
     const ImageView<uint16_t> depth = {images.depth_mm.data(), config.width, config.height, config.width};
     const uint32_t count = extractor.extract(gray, {found.data(), keypoints}, {descriptors.data(), keypoints});
@@ -57,8 +58,8 @@ std::vector<WorldPoint> describeViews(const sphc_camera &camera, uint32_t keypoi
 
 }  // namespace
 
-SceneMap makeSceneMap(const sphc_camera &camera, uint32_t keypoints, uint32_t views, double eta) {
-  const std::vector<WorldPoint> points = describeViews(camera, keypoints, views);
+SceneMap makeSceneMap(const sphc_camera &camera, uint32_t keypoints, uint32_t views, double eta, uint32_t room) {
+  const std::vector<WorldPoint> points = describeViews(camera, keypoints, views, room);
   SceneMap map;
   map.centre_in_world_m = Vector3::Zero();
   for (const WorldPoint &p : points) map.centre_in_world_m += p.position_m / static_cast<double>(points.size());

@@ -14,6 +14,6 @@ struct SceneMap {
 
 // Keypoints of viewpoints 0 to `views` - 1 with their exact directions, a share `eta` of them; the others get
 // random ones.
-SceneMap makeSceneMap(const sphc_camera &camera, uint32_t keypoints, uint32_t views, double eta);
+SceneMap makeSceneMap(const sphc_camera &camera, uint32_t keypoints, uint32_t views, double eta, uint32_t room = 0);
 
 }  // namespace sphc::test

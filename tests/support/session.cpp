@@ -47,10 +47,10 @@ sphc_config sceneConfig() {
   return config;
 }
 
-std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint) {
+std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint, uint32_t room) {
   auto made = std::make_unique<SceneFrame>();
   made->images = renderScene(config.color_camera, config.depth_camera, sceneViewpoint(viewpoint),
-                             rigidFromDoor(config.color_from_depth));
+                             rigidFromDoor(config.color_from_depth), room);
   const sphc_camera &c = config.color_camera, &d = config.depth_camera;
   made->frame = {};
   made->frame.struct_size = sizeof(sphc_frame);
@@ -62,26 +62,34 @@ std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewp
   return made;
 }
 
-Session::Session(const sphc_config &config, double eta)
-    : scene_map_(makeSceneMap(config.color_camera, config.max_keypoints, 3, eta)) {
+void Session::openMap(const sphc_config &config, double eta, uint32_t room) {
   sphc_message message = {};
   size_t bytes = 0, alignment = 0;
   require(sphc_map_memory(&bytes, &alignment), message);
-  map_memory_ = GuardedMemory(bytes, alignment);
-  require(sphc_map_init(map_memory_.data(), bytes, scene_map_.file.data(), scene_map_.file.size(), &map_, &message),
+  rooms_.push_back(
+      {makeSceneMap(config.color_camera, config.max_keypoints, 3, eta, room), GuardedMemory(bytes, alignment)});
+  Room &made = rooms_.back();
+  sphc_map *map = nullptr;
+  require(sphc_map_init(made.memory.data(), bytes, made.scene.file.data(), made.scene.file.size(), &map, &message),
           message);
+  maps_.push_back(map);
+}
+
+Session::Session(const sphc_config &config, double eta, uint32_t rooms) {
+  for (uint32_t room = 0; room < rooms; ++room) openMap(config, eta, room);
+  sphc_message message = {};
   sphc_memory need;
   require(sphc_localizer_memory(&config, &need, &message), message);
   state_ = GuardedMemory(need.state_bytes, need.alignment);
   scratch_ = GuardedMemory(need.scratch_bytes, need.alignment);
-  require(sphc_localizer_init(state_.data(), state_.size(), scratch_.data(), scratch_.size(), &config, &map_,
-                              1, &localizer_, &message),
+  require(sphc_localizer_init(state_.data(), state_.size(), scratch_.data(), scratch_.size(), &config, maps_.data(),
+                              rooms, &localizer_, &message),
           message);
 }
 
 Session::~Session() {
   sphc_localizer_fini(&localizer_);
-  sphc_map_fini(&map_);
+  for (sphc_map *&map : maps_) sphc_map_fini(&map);
 }
 
 sphc_status Session::process(const sphc_frame &frame, sphc_result *result) {
@@ -91,7 +99,7 @@ sphc_status Session::process(const sphc_frame &frame, sphc_result *result) {
 
 double Session::errorM(const sphc_result &result, uint32_t viewpoint) const {
   const Rigid map_from_camera = rigidFromDoor(result.camera_from_map).inverse();
-  const Vector3 centre = map_from_camera.translation_m + scene_map_.centre_in_world_m;
+  const Vector3 centre = map_from_camera.translation_m + rooms_[result.map_index].scene.centre_in_world_m;
   return (centre - sceneViewpoint(viewpoint).inverse().translation_m).norm();
 }
 

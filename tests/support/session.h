@@ -35,18 +35,18 @@ struct SceneFrame {
   SceneImages images;
   sphc_frame frame;
 };
-std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint);
+std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint, uint32_t room = 0);
 
 class Session {
  public:
   // Asserts, by aborting, that every step works.
-  explicit Session(const sphc_config &config, double eta = 0.5);
+  explicit Session(const sphc_config &config, double eta = 0.5, uint32_t rooms = 1);
   ~Session();
   Session(const Session &) = delete;
   Session &operator=(const Session &) = delete;
 
-  const SceneMap &sceneMap() const { return scene_map_; }
-  sphc_map *map() { return map_; }
+  const SceneMap &sceneMap() const { return rooms_[0].scene; }
+  sphc_map *map() { return maps_[0]; }
   sphc_localizer *localizer() { return localizer_; }
   GuardedMemory &state() { return state_; }
   GuardedMemory &scratch() { return scratch_; }
@@ -55,9 +55,15 @@ class Session {
   double errorM(const sphc_result &result, uint32_t viewpoint) const;
 
  private:
-  SceneMap scene_map_;
-  GuardedMemory map_memory_, state_, scratch_;
-  sphc_map *map_ = nullptr;
+  struct Room {
+    SceneMap scene;
+    GuardedMemory memory;
+  };
+  void openMap(const sphc_config &config, double eta, uint32_t room);
+
+  std::vector<Room> rooms_;
+  std::vector<sphc_map *> maps_;
+  GuardedMemory state_, scratch_;
   sphc_localizer *localizer_ = nullptr;
 };
 

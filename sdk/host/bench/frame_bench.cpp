@@ -1,8 +1,8 @@
 #include "host/bench/frame_bench.h"
 
-#include <time.h>
-
 #include <limits>
+
+#include "host/bench/interleave.h"
 
 namespace sphc::host {
 namespace {
@@ -58,12 +58,6 @@ double stageMedianMs(const FrameRuns &runs, size_t stage) {
 }  // namespace
 
 const char kFramePeerName[] = "opencv sift, faiss ivf 16";
-
-double threadSeconds() {
-  timespec now = {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<FrameRuns> runFrameBench(const FrameBenchInput &input, const std::vector<FrameVariant> &variants,
                                      const QueryDone &frame_done) {

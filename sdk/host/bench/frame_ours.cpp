@@ -3,10 +3,12 @@
 #include <memory>
 #include <stdexcept>
 
+#include "host/bench/interleave.h"
+
 namespace sphc::host {
 namespace {
 
-int64_t threadNanoseconds(void *) { return static_cast<int64_t>(1e9 * threadSeconds()); }
+int64_t threadNanoseconds(void *) { return static_cast<int64_t>(1e9 * threadCpuSeconds()); }
 
 void check(const spherecloud::Status &status) {
   if (status.failed()) throw std::runtime_error(std::string(status.text()) + " [" + status.name() + "]");
@@ -36,9 +38,9 @@ class Bench {
 
   FrameAnswer process(const sphc_frame &frame) {
     sphc_result result = spherecloud::emptyResult();
-    const double begin = threadSeconds();
+    const double begin = threadCpuSeconds();
     const spherecloud::Status status = localizer_.process(frame, &result);
-    const double end = threadSeconds();
+    const double end = threadCpuSeconds();
     check(status);
     return answerOf(result, end - begin);
   }

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "frame_peer_script.h"
 #include "host/bench/coprocess.h"
-#include "script_frame_peer.h"
 
 namespace sphc::host {
 namespace {

@@ -40,7 +40,4 @@ struct FrameVariant {
   FrameMemory memory;
 };
 
-// Seconds of this thread on its core: the clock of all variants in this process.
-double threadSeconds();
-
 }  // namespace sphc::host

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "host/bench/interleave.h"
 #include "host/report/statistics.h"
 
 namespace sphc::host {
@@ -32,16 +32,12 @@ std::vector<PoseSample> runQuery(const PoseCase &c, uint64_t seed, uint32_t repe
                                  const std::vector<const PoseVariant *> &variants) {
   Random random(seed);
   std::vector<PoseSample> samples(variants.size());
-  std::vector<std::vector<double>> seconds(variants.size());
-  for (uint32_t repeat = 0; repeat < repeats; ++repeat) {
-    for (const size_t chosen : shuffledOrder(variants.size(), &random)) {
-      if (repeat > 0 && seconds[chosen][0] > kSlowS) continue;
-      const PoseAnswer answer = variants[chosen]->run(c, seed);
-      seconds[chosen].push_back(answer.seconds);
-      if (repeat == 0) judgePose(answer, c.truth_camera_from_map, &samples[chosen]);
-    }
-  }
-  for (size_t i = 0; i < variants.size(); ++i) samples[i].seconds = percentile(seconds[i], 0.5);
+  const auto seconds = interleave(variants.size(), repeats, &random, [&](size_t chosen, uint32_t repeat) {
+    const PoseAnswer answer = variants[chosen]->run(c, seed);
+    if (repeat == 0) judgePose(answer, c.truth_camera_from_map, &samples[chosen]);
+    return answer.seconds;
+  });
+  for (size_t i = 0; i < variants.size(); ++i) samples[i].seconds = seconds[i];
   return samples;
 }
 
@@ -61,13 +57,6 @@ double shareOf(const std::vector<PoseSample> &samples, Is is) {
 }  // namespace
 
 const char kPoseLibName[] = "poselib p3p";
-
-std::vector<size_t> shuffledOrder(size_t count, Random *random) {
-  std::vector<size_t> order(count);
-  std::iota(order.begin(), order.end(), size_t{0});
-  for (size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random->below(static_cast<uint32_t>(i))]);
-  return order;
-}
 
 VariantSummary summarizeVariant(const VariantRuns &runs) {
   using Sample = const PoseSample &;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "host/bench/pose_variant.h"
-#include "runtime/base/random.h"
 
 namespace sphc::host {
 
@@ -27,11 +26,6 @@ struct VariantRuns {
   std::string name;
   std::vector<PoseSample> samples;  // by query, then by seed
 };
-
-constexpr double kSlowS = 0.05;  // of such a run once is enough
-
-// A random order, so that no variant always follows the same other one and finds the caches as that left them.
-std::vector<size_t> shuffledOrder(size_t count, Random *random);
 
 using QueryDone = std::function<void(uint32_t done, uint32_t total)>;
 

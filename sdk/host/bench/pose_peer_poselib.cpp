@@ -5,7 +5,7 @@
 #include "host/bench/coprocess.h"
 #include "host/bench/pose_bench.h"
 #include "host/bench/pose_peers.h"
-#include "script_pose_peer_poselib.h"
+#include "pose_peer_poselib_script.h"
 
 namespace sphc::host {
 namespace {

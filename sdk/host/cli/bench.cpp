@@ -7,8 +7,10 @@
 #include "host/bench/pose_plots.h"
 #include "host/bench/pose_table.h"
 #include "host/cli/bench_confidence.h"
+#include "host/cli/bench_features.h"
 #include "host/cli/bench_frame.h"
 #include "host/cli/bench_map.h"
+#include "host/cli/bench_match.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -195,8 +197,10 @@ std::vector<Command> benchCommands(CLI::App *root) {
   auto options = std::make_shared<Options>();
   CLI::App *bench = root->add_subcommand("bench");
   bench->description(
-      "Measure estimators and whole frames beside their peers.\n\n  spherecloud bench pose FILE...\n"
-      "  spherecloud bench confidence FILE...\n  spherecloud bench frame --recording DIR --map FILE...\n"
+      "Measure stages, estimators and whole frames beside their peers.\n\n  spherecloud bench pose FILE...\n"
+      "  spherecloud bench confidence FILE...\n  spherecloud bench features --recording DIR\n"
+      "  spherecloud bench match --recording DIR --query-first N\n"
+      "  spherecloud bench frame --recording DIR --map FILE...\n"
       "  spherecloud bench map --recording DIR --points N... --out DIR");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
@@ -206,6 +210,8 @@ std::vector<Command> benchCommands(CLI::App *root) {
   addOptions(app, options.get());
   return {{app, [options](const Console &console) { return runPose(*options, console); }},
           benchConfidenceCommand(bench),
+          benchFeaturesCommand(bench),
+          benchMatchCommand(bench),
           benchFrameCommand(bench),
           benchMapCommand(bench)};
 }

@@ -34,6 +34,8 @@ class MapView {
   Span<const Descriptor> groupCentroids() const { return group_centroids_; }
   // Cells of a group.
   IndexRange group(uint32_t g) const { return {groups_[g], groups_[g + 1]}; }
+  // First cell of each group, and the number of cells.
+  Span<const uint32_t> groupBegins() const { return groups_; }
   // Points of a cell; and those of its sectors [first, last].
   IndexRange cell(uint32_t c) const { return sectors(c, 0, sectorCount() - 1); }
   IndexRange sectors(uint32_t c, uint32_t first, uint32_t last) const {

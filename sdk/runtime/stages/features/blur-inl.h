@@ -60,19 +60,53 @@ HWY_ATTR void blurDown(const BlurTask &task, int16_t *const (&out)[kRowsAtOnce])
   }
 }
 
+// Sums of products with a weight, of 32 bits, of the even samples of a vector and of the odd ones.
+struct Sums {
+#if HWY_TARGET == HWY_SCALAR
+  int32_t sum;
+
+  static HWY_INLINE Sums start() { return {kOneQ15 / 2}; }
+  HWY_INLINE void add(hn::Vec<Samples> v, int16_t weight) { sum += hn::GetLane(v) * weight; }
+  HWY_INLINE hn::Vec<Samples> rounded() const { return hn::Set(Samples(), static_cast<int16_t>(sum >> 15)); }
+#else
+  using Wide = hn::RepartitionToWide<Samples>;
+  hn::Vec<Wide> even, odd;
+
+  static HWY_INLINE Sums start() { return {hn::Set(Wide(), kOneQ15 / 2), hn::Set(Wide(), kOneQ15 / 2)}; }
+  HWY_INLINE void add(hn::Vec<Samples> v, int16_t weight) {
+    const auto low = hn::BitCast(Samples(), hn::Set(Wide(), weight));  // and zero in the high half
+    const auto high = hn::BitCast(Samples(), hn::Set(Wide(), weight * 65536));
+    even = hn::Add(even, dotOfHalves(v, low));
+    odd = hn::Add(odd, dotOfHalves(v, high));
+  }
+  HWY_INLINE hn::Vec<Samples> rounded() const {
+    return hn::OddEven(hn::BitCast(Samples(), hn::ShiftLeft<1>(odd)),
+                       hn::BitCast(Samples(), hn::ShiftRight<15>(even)));
+  }
+  // Low half times low half + high half times high half.
+  static HWY_INLINE hn::Vec<Wide> dotOfHalves(hn::Vec<Samples> a, hn::Vec<Samples> b) {
+    auto rest = hn::Zero(Wide());
+    const auto sum = hn::ReorderWidenMulAccumulate(Wide(), a, b, hn::Zero(Wide()), rest);
+    return hn::RearrangeToOddPlusEven(sum, rest);
+  }
+#endif
+};
+
+// Rounded only once: rounding errors of this pass, unlike those of the other, are not smoothed by another one.
 template <int32_t Radius>
 HWY_ATTR void blurAcross(const BlurTask &task, int32_t i, const int16_t *HWY_RESTRICT in) {
   const Samples d;
-  hn::Vec<Samples> weights[Radius + 1];
-  for (int32_t k = 0; k <= Radius; ++k) weights[k] = hn::Set(d, task.weights[k]);
   const int16_t *below = task.rows[Radius + i];
   int16_t *out = task.out[i], *difference = task.difference[i];
+  int16_t weights[Radius + 1];
+  for (int32_t k = 0; k <= Radius; ++k) weights[k] = task.weights[k];
   for (int32_t x = 0; x < task.width; x += static_cast<int32_t>(hn::Lanes(d))) {
-    auto sum = hn::MulFixedPoint15(hn::Load(d, in + x), weights[0]);
+    Sums sums = Sums::start();
+    sums.add(hn::Load(d, in + x), weights[0]);
     for (int32_t k = 1; k <= Radius; ++k) {
-      const auto pair = hn::Add(hn::LoadU(d, in + x - k), hn::LoadU(d, in + x + k));
-      sum = hn::Add(sum, hn::MulFixedPoint15(pair, weights[k]));
+      sums.add(hn::Add(hn::LoadU(d, in + x - k), hn::LoadU(d, in + x + k)), weights[k]);
     }
+    const auto sum = sums.rounded();
     hn::Store(sum, d, out + x);
     if (difference) hn::Store(hn::Sub(sum, hn::Load(d, below + x)), d, difference + x);
   }

@@ -10,24 +10,24 @@ constexpr int32_t kRefineSteps = 5;      // times the fit may move to a neighbou
 constexpr float kEarlyThreshold = 0.8f;  // of the contrast threshold: what a sample must exceed to be refined
 
 Derivatives derivativesAt(const ScaleSpace &space, int32_t x, int32_t y, int32_t l) {
-  float d[3][3][3];
+  const int16_t *rows[3][3];
   for (int32_t k = 0; k < 3; ++k) {
-    for (int32_t j = 0; j < 3; ++j) {
-      const int16_t *row = space.difference(l + k - 1).row(y + j - 1) + x;
-      for (int32_t i = 0; i < 3; ++i) d[k][j][i] = row[i - 1];
-    }
+    for (int32_t j = 0; j < 3; ++j) rows[k][j] = space.difference(l + k - 1).row(y + j - 1) + x;
   }
+  const auto at = [&](int32_t k, int32_t j, int32_t i) { return int32_t{rows[k + 1][j + 1][i]}; };
+  const int32_t value = at(0, 0, 0), right = at(0, 0, 1), left = at(0, 0, -1), down = at(0, 1, 0),
+                up = at(0, -1, 0), above = at(1, 0, 0), below = at(-1, 0, 0);
   Derivatives r;
-  r.value = d[1][1][1];
-  r.dx = 0.5f * (d[1][1][2] - d[1][1][0]);
-  r.dy = 0.5f * (d[1][2][1] - d[1][0][1]);
-  r.ds = 0.5f * (d[2][1][1] - d[0][1][1]);
-  r.dxx = d[1][1][2] + d[1][1][0] - 2.0f * r.value;
-  r.dyy = d[1][2][1] + d[1][0][1] - 2.0f * r.value;
-  r.dss = d[2][1][1] + d[0][1][1] - 2.0f * r.value;
-  r.dxy = 0.25f * ((d[1][2][2] - d[1][2][0]) - (d[1][0][2] - d[1][0][0]));
-  r.dxs = 0.25f * ((d[2][1][2] - d[2][1][0]) - (d[0][1][2] - d[0][1][0]));
-  r.dys = 0.25f * ((d[2][2][1] - d[2][0][1]) - (d[0][2][1] - d[0][0][1]));
+  r.value = static_cast<float>(value);
+  r.dx = 0.5f * static_cast<float>(right - left);
+  r.dy = 0.5f * static_cast<float>(down - up);
+  r.ds = 0.5f * static_cast<float>(above - below);
+  r.dxx = static_cast<float>(right + left - 2 * value);
+  r.dyy = static_cast<float>(down + up - 2 * value);
+  r.dss = static_cast<float>(above + below - 2 * value);
+  r.dxy = 0.25f * static_cast<float>(at(0, 1, 1) - at(0, 1, -1) - at(0, -1, 1) + at(0, -1, -1));
+  r.dxs = 0.25f * static_cast<float>(at(1, 0, 1) - at(1, 0, -1) - at(-1, 0, 1) + at(-1, 0, -1));
+  r.dys = 0.25f * static_cast<float>(at(1, 1, 0) - at(1, -1, 0) - at(-1, 1, 0) + at(-1, -1, 0));
   return r;
 }
 

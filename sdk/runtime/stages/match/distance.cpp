@@ -22,9 +22,16 @@ void searchCandidatesScalar(Span<const Descriptor> map, Span<const uint32_t> can
   for (uint32_t i : candidates) nearest->see(distance2Scalar(map[i], query), i);
 }
 
-void rankRangeScalar(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
-                     Span<Ranked> best) {
-  for (uint32_t i = begin; i < end; ++i) rank({distance2Scalar(table[i], query), i}, best);
+void squareLengthsScalar(Span<const Descriptor> rows, Span<uint32_t> length2) {
+  const Descriptor zero = {};
+  for (size_t i = 0; i < rows.size(); ++i) length2[i] = distance2Scalar(rows[i], zero);
+}
+
+void rankCellsScalar(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {
+  for (uint32_t g = 0; g < table.groups.size(); ++g) rank({distance2Scalar(table.groups[g], query), g}, groups);
+  for (const Ranked &group : groups)
+    for (uint32_t c = table.group_begins[group.index]; c < table.group_begins[group.index + 1]; ++c)
+      rank({distance2Scalar(table.cells[c], query), c}, cells);
 }
 
 }  // namespace sphc

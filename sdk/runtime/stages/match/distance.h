@@ -46,10 +46,19 @@ void searchRange(Span<const Descriptor> map, uint32_t begin, uint32_t end, Span<
 void searchCandidates(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
                       NearestTwo *nearest);
 
-// Ranks the rows [begin, end) of `table` by their distance from `query` into `best`, which begins with rows
-// infinitely far.
-void rankRange(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
-               Span<Ranked> best);
+// The cells of a map's index and the groups they are in; squared lengths of their centroids are kept beside them.
+struct CellTable {
+  Span<const Descriptor> groups, cells;
+  Span<const uint32_t> group_begins;  // first cell of each group, and the number of cells
+  Span<const uint32_t> group_length2, cell_length2;
+};
+
+// The squared length of each row.
+void squareLengths(Span<const Descriptor> rows, Span<uint32_t> length2);
+
+// Ranks into `cells` the cells nearest to `query` among those of the nearest groups, into `groups`; both begin with
+// rows infinitely far.
+void rankCells(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells);
 
 // The scalar twins, for tests and for machines without SIMD.
 uint32_t distance2Scalar(const Descriptor &a, const Descriptor &b);
@@ -57,7 +66,7 @@ void searchRangeScalar(Span<const Descriptor> map, uint32_t begin, uint32_t end,
                        Span<const uint32_t> chosen, Span<NearestTwo> nearest);
 void searchCandidatesScalar(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
                             NearestTwo *nearest);
-void rankRangeScalar(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
-                     Span<Ranked> best);
+void squareLengthsScalar(Span<const Descriptor> rows, Span<uint32_t> length2);
+void rankCellsScalar(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells);
 
 }  // namespace sphc

@@ -27,9 +27,10 @@ void searchCandidatesSimd(Span<const Descriptor> map, Span<const uint32_t> candi
   searchCandidatesScalar(map, candidates, query, nearest);
 }
 
-void rankRangeSimd(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
-                   Span<Ranked> best) {
-  rankRangeScalar(table, begin, end, query, best);
+void squareLengthsSimd(Span<const Descriptor> rows, Span<uint32_t> length2) { squareLengthsScalar(rows, length2); }
+
+void rankCellsSimd(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {
+  rankCellsScalar(table, query, groups, cells);
 }
 
 #else
@@ -54,7 +55,7 @@ HWY_INLINE hn::Vec<D16> widen(const uint8_t *bytes) { return hn::PromoteTo(D16()
 
 HWY_INLINE hn::Vec<D4> foldHalves(hn::Vec<D4> v) { return v; }
 #if HWY_MAX_BYTES >= 32
-HWY_INLINE hn::Vec<D4> foldHalves(hn::Vec<hn::FixedTag<int32_t, 8>> v) {
+HWY_INLINE hn::Vec<D4> foldHalves(hn::Vec<hn::FixedTag<int32_t, 8> > v) {
   return hn::Add(hn::LowerHalf(D4(), v), hn::UpperHalf(D4(), v));
 }
 #endif
@@ -83,16 +84,17 @@ uint32_t distance2Simd(const Descriptor &a, const Descriptor &b) {
   return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(D32(), sum)));
 }
 
-// Squared lengths of `count` rows, at most kTile.
-HWY_INLINE void squareLengths(const Descriptor *rows, uint32_t count, int32_t *length2) {
-  for (uint32_t i = 0; i < count; ++i) {
-    Sum sum = hn::Zero(D32());
-    for (size_t k = 0; k < kDescriptorBytes; k += hn::Lanes(D16())) {
-      const auto v = widen(rows[i].bytes + k);
-      sum = multiplyAdd(v, v, sum);
-    }
-    length2[i] = hn::GetLane(hn::SumOfLanes(D32(), sum));
+HWY_INLINE uint32_t squareLength(const Descriptor &row) {
+  Sum sum = hn::Zero(D32());
+  for (size_t k = 0; k < kDescriptorBytes; k += hn::Lanes(D16())) {
+    const auto v = widen(row.bytes + k);
+    sum = multiplyAdd(v, v, sum);
   }
+  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(D32(), sum)));
+}
+
+void squareLengthsSimd(Span<const Descriptor> rows, Span<uint32_t> length2) {
+  for (size_t i = 0; i < rows.size(); ++i) length2[i] = squareLength(rows[i]);
 }
 
 // Up to kGroup queries in 16-bit lanes; where there are fewer, the last one is repeated and never sees anything.
@@ -113,7 +115,7 @@ HWY_INLINE void fill(Span<const Descriptor> queries, Span<const uint32_t> chosen
     group->second2[k] = k < group->count ? asLane(nearest[q].second2) : 0;
     for (size_t i = 0; i < kDescriptorBytes; i += hn::Lanes(D16()))
       hn::Store(widen(queries[q].bytes + i), D16(), group->lanes[k] + i);
-    squareLengths(&queries[q], 1, &group->length2[k]);
+    group->length2[k] = static_cast<int32_t>(squareLength(queries[q]));
   }
 }
 
@@ -141,6 +143,7 @@ HWY_INLINE void searchTile(const Descriptor *rows, uint32_t begin, uint32_t coun
   for (uint32_t i = 0; i < count; i += 2) {
     const uint32_t j = std::min(i + 1, count - 1);
     Sum a0 = hn::Zero(D32()), a1 = a0, a2 = a0, a3 = a0, b0 = a0, b1 = a0, b2 = a0, b3 = a0;
+    HWY_UNROLL(2)  // the whole would not fit the registers
     for (size_t k = 0; k < kDescriptorBytes; k += hn::Lanes(d16)) {
       const auto a = widen(rows[i].bytes + k), b = widen(rows[j].bytes + k);
       const auto q0 = hn::Load(d16, group->lanes[0] + k), q1 = hn::Load(d16, group->lanes[1] + k),
@@ -161,7 +164,7 @@ void searchRangeSimd(Span<const Descriptor> map, uint32_t begin, uint32_t end, S
   QueryGroup group;
   for (; begin < end; begin += kTile) {
     const uint32_t count = std::min(kTile, end - begin);
-    squareLengths(&map[begin], count, length2);
+    for (uint32_t i = 0; i < count; ++i) length2[i] = static_cast<int32_t>(squareLength(map[begin + i]));
     for (size_t first = 0; first < chosen.size(); first += kGroup) {
       fill(queries, chosen, first, nearest, &group);
       searchTile(&map[begin], begin, count, length2, &group, nearest);
@@ -173,6 +176,7 @@ void searchRangeSimd(Span<const Descriptor> map, uint32_t begin, uint32_t end, S
 HWY_INLINE hn::Vec<D4> distancesTo(const uint8_t *const rows[kGroup], const int16_t *query) {
   const D16 d16;
   Sum s0 = hn::Zero(D32()), s1 = s0, s2 = s0, s3 = s0;
+  HWY_UNROLL(2)
   for (size_t k = 0; k < kDescriptorBytes; k += hn::Lanes(d16)) {
     const auto q = hn::Load(d16, query + k);
     const auto r0 = hn::Sub(q, widen(rows[0] + k)), r1 = hn::Sub(q, widen(rows[1] + k)),
@@ -206,20 +210,51 @@ void searchCandidatesSimd(Span<const Descriptor> map, Span<const uint32_t> candi
   }
 }
 
-void rankRangeSimd(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
-                   Span<Ranked> best) {
+// The products of a query with four rows.
+HWY_INLINE hn::Vec<D4> productsWith(const uint8_t *const rows[kGroup], const int16_t *query) {
+  const D16 d16;
+  Sum s0 = hn::Zero(D32()), s1 = s0, s2 = s0, s3 = s0;
+  HWY_UNROLL(2)
+  for (size_t k = 0; k < kDescriptorBytes; k += hn::Lanes(d16)) {
+    const auto q = hn::Load(d16, query + k);
+    s0 = multiplyAdd(q, widen(rows[0] + k), s0), s1 = multiplyAdd(q, widen(rows[1] + k), s1);
+    s2 = multiplyAdd(q, widen(rows[2] + k), s2), s3 = multiplyAdd(q, widen(rows[3] + k), s3);
+  }
+  return sumsOf(s0, s1, s2, s3);
+}
+
+// A query as the ranking wants it.
+struct Asker {
   HWY_ALIGN int16_t lanes[kDescriptorBytes];
+  int32_t length2;
+};
+
+HWY_INLINE void rankRows(Span<const Descriptor> rows, Span<const uint32_t> length2, uint32_t begin, uint32_t end,
+                         const Asker &asker, Span<Ranked> best) {
   HWY_ALIGN int32_t each[kGroup];
-  widenAll(query, lanes);
   for (uint32_t i = begin; i < end; i += kGroup) {
-    const uint8_t *rows[kGroup];
-    for (uint32_t k = 0; k < kGroup; ++k) rows[k] = table[std::min(i + k, end - 1)].bytes;
-    const auto distances2 = distancesTo(rows, lanes);
+    const uint8_t *four[kGroup];
+    for (uint32_t k = 0; k < kGroup; ++k) {
+      const uint32_t row = std::min(i + k, end - 1);
+      four[k] = rows[row].bytes;
+      each[k] = static_cast<int32_t>(length2[row]);
+    }
+    const auto distances2 = fromProducts(hn::Load(D4(), each), asker.length2, productsWith(four, asker.lanes));
     const auto last = hn::Set(D4(), asLane(best[best.size() - 1].distance2));
     if (hn::AllFalse(D4(), hn::Lt(distances2, last))) continue;
     hn::Store(distances2, D4(), each);
     for (uint32_t k = 0; k < kGroup && i + k < end; ++k) rank({static_cast<uint32_t>(each[k]), i + k}, best);
   }
+}
+
+void rankCellsSimd(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {
+  Asker asker;
+  widenAll(query, asker.lanes);
+  asker.length2 = static_cast<int32_t>(squareLength(query));
+  rankRows(table.groups, table.group_length2, 0, static_cast<uint32_t>(table.groups.size()), asker, groups);
+  for (const Ranked &group : groups)
+    rankRows(table.cells, table.cell_length2, table.group_begins[group.index], table.group_begins[group.index + 1],
+             asker, cells);
 }
 
 #endif  // HWY_SCALAR
@@ -234,7 +269,8 @@ namespace sphc {
 HWY_EXPORT(distance2Simd);
 HWY_EXPORT(searchRangeSimd);
 HWY_EXPORT(searchCandidatesSimd);
-HWY_EXPORT(rankRangeSimd);
+HWY_EXPORT(squareLengthsSimd);
+HWY_EXPORT(rankCellsSimd);
 
 uint32_t distance2(const Descriptor &a, const Descriptor &b) { return HWY_DYNAMIC_DISPATCH(distance2Simd)(a, b); }
 
@@ -248,9 +284,12 @@ void searchCandidates(Span<const Descriptor> map, Span<const uint32_t> candidate
   HWY_DYNAMIC_DISPATCH(searchCandidatesSimd)(map, candidates, query, nearest);
 }
 
-void rankRange(Span<const Descriptor> table, uint32_t begin, uint32_t end, const Descriptor &query,
-               Span<Ranked> best) {
-  HWY_DYNAMIC_DISPATCH(rankRangeSimd)(table, begin, end, query, best);
+void squareLengths(Span<const Descriptor> rows, Span<uint32_t> length2) {
+  HWY_DYNAMIC_DISPATCH(squareLengthsSimd)(rows, length2);
+}
+
+void rankCells(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {
+  HWY_DYNAMIC_DISPATCH(rankCellsSimd)(table, query, groups, cells);
 }
 
 }  // namespace sphc

@@ -24,10 +24,6 @@ bool passesRatio(const NearestTwo &nearest, float max_ratio) {
 // Of the groups of cells, those whose cells are looked at.
 uint32_t groupsVisited(uint32_t groups) { return std::min(groups, groups / 3 + 4); }
 
-bool inside(const Direction &d, const Cap &cap) {
-  return d.x * cap.axis.x + d.y * cap.axis.y + d.z * cap.axis.z > cap.cosine;
-}
-
 }  // namespace
 
 void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
@@ -37,25 +33,27 @@ void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
   m.probed_ = scratch.take<uint16_t>("match.probed", size_t{max_queries} * kMaxProbes);
   m.starts_ = scratch.take<uint32_t>("match.askers", kMapMaxCells + 1);
   m.askers_ = scratch.take<uint32_t>("match.askers", size_t{max_queries} * kMaxProbes);
-  SectorCones::layout(scratch, &m.cones_);
+  m.cell_length2_ = scratch.take<uint32_t>("match.lengths", kMapMaxCells);
+  m.group_length2_ = scratch.take<uint32_t>("match.lengths", kMapMaxGroups);
+  SectorCones::layout(scratch, matcher ? &m.cones_ : nullptr);
 }
 
-void Matcher::begin(size_t queries) {
+void Matcher::begin(const MapView &map, size_t queries) {
   for (NearestTwo &n : nearest_.first(queries)) n = kStart;
+  const Span<uint32_t> cells = cell_length2_.first(map.cellCount()),
+                       groups = group_length2_.first(map.groupCount());
+  squareLengths(map.centroids(), cells);
+  squareLengths(map.groupCentroids(), groups);
+  table_ = {map.groupCentroids(), map.centroids(), map.groupBegins(), groups, cells};
 }
 
-// The cells nearest to a query, nearest first, by way of the groups that they are in.
-uint32_t Matcher::chooseCells(const MapView &map, const Descriptor &query, uint32_t probes,
-                              Span<Ranked> cells) const {
+// The cells nearest to a query, nearest first, by way of the groups that they are in; returns how many.
+uint32_t Matcher::chooseCells(const Descriptor &query, uint32_t probes, Span<Ranked> cells) const {
   Ranked near_groups[kMapMaxGroups];
-  const Span<Ranked> groups(near_groups, groupsVisited(map.groupCount()));
+  const Span<Ranked> groups(near_groups, groupsVisited(static_cast<uint32_t>(table_.groups.size())));
   std::fill(groups.begin(), groups.end(), kFar);
-  rankRange(map.groupCentroids(), 0, map.groupCount(), query, groups);
   std::fill(cells.begin(), cells.begin() + probes, kFar);
-  for (const Ranked &group : groups) {
-    const IndexRange range = map.group(group.index);
-    rankRange(map.centroids(), range.begin, range.end, query, cells.first(probes));
-  }
+  rankCells(table_, query, groups, cells.first(probes));
   while (probes > 0 && cells[probes - 1].index == kNobody) --probes;
   return probes;
 }
@@ -67,7 +65,7 @@ void Matcher::listByCell(const MapView &map, Span<const Descriptor> queries, uin
   std::fill(starts.begin(), starts.end(), 0u);
   for (size_t q = 0; q < queries.size(); ++q) {
     Ranked cells[kMaxProbes];
-    const uint32_t count = chooseCells(map, queries[q], probes, {cells, kMaxProbes});
+    const uint32_t count = chooseCells(queries[q], probes, {cells, kMaxProbes});
     for (uint32_t k = 0; k < probes; ++k) {
       probed_[q * probes + k] = k < count ? static_cast<uint16_t>(cells[k].index) : kNone;
       if (k < count) ++starts[cells[k].index];
@@ -84,7 +82,7 @@ void Matcher::listByCell(const MapView &map, Span<const Descriptor> queries, uin
 
 uint32_t Matcher::matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio, uint32_t probes,
                            Span<Match> matches) {
-  begin(queries.size());
+  begin(map, queries.size());
   listByCell(map, queries, std::min(std::max(probes, 1u), std::min(kMaxProbes, map.cellCount())));
   for (uint32_t c = 0; c < map.cellCount(); ++c) {
     const Span<const uint32_t> askers(askers_.data() + starts_[c], starts_[c + 1] - starts_[c]);
@@ -97,7 +95,7 @@ uint32_t Matcher::matchAll(const MapView &map, Span<const Descriptor> queries, f
 
 uint32_t Matcher::matchExact(const MapView &map, Span<const Descriptor> queries, float max_ratio,
                              Span<Match> matches) {
-  begin(queries.size());
+  begin(map, queries.size());
   const Span<uint32_t> all = askers_.first(queries.size());
   for (size_t q = 0; q < queries.size(); ++q) all[q] = static_cast<uint32_t>(q);
   for (uint32_t first = 0; first < map.pointCount(); first += kTile)
@@ -107,7 +105,7 @@ uint32_t Matcher::matchExact(const MapView &map, Span<const Descriptor> queries,
 
 uint32_t Matcher::matchNear(const MapView &map, Span<const Descriptor> queries, Span<const Direction> expected,
                             float cap_cosine, float max_ratio, Span<Match> matches) {
-  begin(queries.size());
+  begin(map, queries.size());
   cones_.prepare(map.sectorSide());
   for (size_t q = 0; q < queries.size(); ++q) searchNear(map, queries[q], {expected[q], cap_cosine}, &nearest_[q]);
   return select(queries.size(), max_ratio, matches);
@@ -117,9 +115,8 @@ void Matcher::searchNear(const MapView &map, const Descriptor &query, const Cap 
   Ranked cells[kMaxProbes];
   SectorRun runs[SectorCones::kMaxRuns];
   const uint32_t run_count = cones_.touched(cap, {runs, SectorCones::kMaxRuns});
-  const uint32_t cell_count =
-      chooseCells(map, query, std::min(kGuidedProbes, map.cellCount()), {cells, kMaxProbes});
-  uint32_t candidates[kCandidates], count = 0;
+  const uint32_t cell_count = chooseCells(query, std::min(kGuidedProbes, map.cellCount()), {cells, kMaxProbes});
+  uint32_t candidates[2 * kCandidates], count = 0;
   const auto compare = [&] {
     searchCandidates(map.descriptors(), {candidates, count}, query, nearest);
     count = 0;
@@ -127,10 +124,11 @@ void Matcher::searchNear(const MapView &map, const Descriptor &query, const Cap 
   for (uint32_t c = 0; c < cell_count; ++c)
     for (uint32_t r = 0; r < run_count; ++r) {
       const IndexRange points = map.sectors(cells[c].index, runs[r].first, runs[r].last);
-      for (uint32_t i = points.begin; i < points.end; ++i) {
-        if (!inside(map.direction(i), cap)) continue;
-        candidates[count++] = i;
-        if (count == kCandidates) compare();
+      for (uint32_t at = points.begin; at < points.end; at += kCandidates) {
+        // behind the directions lie the descriptors, so reading a few more is safe
+        const DirectionRun run = {at, std::min(at + kCandidates, points.end)};
+        count += findInside(map.directions().data(), run, cap, candidates + count);
+        if (count >= kCandidates) compare();
       }
     }
   compare();

@@ -32,8 +32,8 @@ class Matcher {
                      float cap_cosine, float max_ratio, Span<Match> matches);
 
  private:
-  void begin(size_t queries);
-  uint32_t chooseCells(const MapView &map, const Descriptor &query, uint32_t probes, Span<Ranked> cells) const;
+  void begin(const MapView &map, size_t queries);
+  uint32_t chooseCells(const Descriptor &query, uint32_t probes, Span<Ranked> cells) const;
   void listByCell(const MapView &map, Span<const Descriptor> queries, uint32_t probes);
   void searchNear(const MapView &map, const Descriptor &query, const Cap &cap, NearestTwo *nearest) const;
   uint32_t select(size_t queries, float max_ratio, Span<Match> matches);
@@ -42,6 +42,8 @@ class Matcher {
   Span<uint16_t> probed_;  // cells of each query
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`
   Span<uint32_t> askers_;
+  Span<uint32_t> cell_length2_, group_length2_;
+  CellTable table_;  // of the map that is being matched
   SectorCones cones_;
 };
 

@@ -1,15 +1,9 @@
 // Which sectors of the map's grid of directions a cap on the sphere touches.
 #pragma once
 #include "runtime/base/arena.h"
-#include "runtime/map/map_view.h"
+#include "runtime/stages/match/cap.h"
 
 namespace sphc {
-
-// A cap: directions whose angle from `axis` (unit) has a cosine above `cosine`.
-struct Cap {
-  Direction axis;
-  float cosine;
-};
 
 // First and last of sectors in sequence.
 struct SectorRun {

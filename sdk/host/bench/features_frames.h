@@ -1,0 +1,31 @@
+// A recording as the extractors see it: grey images and where the camera was.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "drivers/replay/replay.h"
+#include "runtime/geometry/camera.h"
+#include "runtime/geometry/rigid.h"
+#include "runtime/types/image_view.h"
+
+namespace sphc::host {
+
+struct GrayFrame {
+  std::vector<uint8_t> pixels;
+  Rigid world_from_camera;
+  bool has_pose = false;
+};
+
+struct GrayRecording {
+  Camera camera;
+  std::vector<GrayFrame> frames;
+
+  GrayView view(size_t frame) const {
+    return {frames[frame].pixels.data(), camera.width(), camera.height(), camera.width()};
+  }
+};
+
+// All chosen frames.  Throws std::runtime_error with cause and cure when one cannot be read.
+GrayRecording readGray(sphc_replay *replay);
+
+}  // namespace sphc::host

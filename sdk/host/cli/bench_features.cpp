@@ -1,0 +1,141 @@
+#include "host/cli/bench_features.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "host/bench/features_table.h"
+#include "host/bench/pose_bench.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/progress.h"
+#include "host/cli/recording.h"
+#include "host/report/file.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  std::vector<std::string> recordings, calibrations, only;
+  std::vector<uint32_t> first, last;
+  uint32_t step = 1;
+  FeaturesOptions bench;
+  std::string python = "python3", ledger;
+  bool no_peers = false;
+};
+
+// Present variants, of those asked for; names the absent.
+std::vector<FeaturesVariant> chooseVariants(const Options &options, const GrayRecording &recording,
+                                            const Console &console) {
+  std::vector<FeaturesVariant> all = ourFeatures(recording.camera.width(), recording.camera.height());
+  if (!options.no_peers) {
+    for (FeaturesVariant &peer : openCvFeatures()) all.push_back(std::move(peer));
+    all.push_back(colmapFeatures(options.python));
+  }
+  std::string known;
+  std::vector<FeaturesVariant> chosen;
+  for (const FeaturesVariant &variant : all) {
+    known += (known.empty() ? "" : "; ") + variant.name;
+    const auto &only = options.only;
+    if (!only.empty() && std::find(only.begin(), only.end(), variant.name) == only.end()) continue;
+    if (!variant.run) console.warn("note: " + variant.name + " is absent, " + variant.absent);
+    chosen.push_back(variant);
+  }
+  if (chosen.empty()) throw UsageError("--only: there is no such variant; choose from: " + known);
+  return chosen;
+}
+
+FeaturesTable measure(const Options &options, size_t which, const Console &console) {
+  RecordingOptions source;
+  source.folder = options.recordings[which];
+  if (!options.calibrations.empty()) source.calibration = options.calibrations[which];
+  if (!options.first.empty()) source.first = options.first[which];
+  if (!options.last.empty()) source.last = options.last[which];
+  source.step = options.step;
+  const GrayRecording recording = readGray(openRecording(source).get());
+  const auto variants = chooseVariants(options, recording, console);
+  ProgressBar bar("measuring ");
+  FeaturesTable table = {
+      std::filesystem::path(source.folder).lexically_normal().string(), recording.frames.size(), {}};
+  table.summaries = runFeaturesBench(recording, variants, options.bench,
+                                     [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
+  return table;
+}
+
+int run(const Options &options, const Console &console) {
+  const auto fits = [&](size_t given) { return given == 0 || given == options.recordings.size(); };
+  if (!fits(options.calibrations.size()) || !fits(options.first.size()) || !fits(options.last.size()))
+    throw UsageError(
+        "give --calibration, --first and --last once for each --recording, in the same order, or never");
+  const int core = pinToOneCore();
+  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
+                       : "Pinned to core " + std::to_string(core) + "; one thread; CPU time.");
+  std::vector<FeaturesTable> tables;
+  for (size_t i = 0; i < options.recordings.size(); ++i) {
+    tables.push_back(measure(options, i, console));
+    console.say("\n" + featuresText(tables.back()));
+  }
+  if (!options.ledger.empty()) writeText(options.ledger, featuresLedger(tables));
+  console.give({{"core", core}, {"repeats", options.bench.repeats}, {"tables", featuresJson(tables)}});
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Extracts keypoints from every frame by the library and its peers in one interleaved run, on one core.  Then\n"
+    "matches frames 8 and 20 apart by the ratio test and counts the matches that the recorded poses confirm.\n"
+    "docs/bench.md says more.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud bench features --recording kitchen --first 620\n"
+    "  spherecloud bench features --recording kitchen --calibration kitchen.json --only 'ours 800' --no-peers\n"
+    "What comes out: a table a recording.";
+
+void addOptions(CLI::App *app, Options *options) {
+  app->add_option("-r,--recording", options->recordings, "Folder of a recording; repeat for more")
+      ->required()
+      ->expected(1)
+      ->take_all()
+      ->type_name("DIR");
+  app->add_option("-c,--calibration", options->calibrations, "Its calibration file [DIR/calibration.json]")
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
+  app->add_option("--first", options->first, "Number of its first frame [0]")
+      ->expected(1)
+      ->take_all()
+      ->type_name("N");
+  app->add_option("--last", options->last, "Number of its last frame [all]")
+      ->expected(1)
+      ->take_all()
+      ->type_name("N");
+  app->add_option("--step", options->step, "Take every N-th frame [1]")->type_name("N")->check(CLI::PositiveNumber);
+  app->add_option("--repeat", options->bench.repeats, "Extractions of which the median time counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000u))
+      ->type_name("N");
+  app->add_option("--every", options->bench.every, "Frames from one pair to the next")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000000u))
+      ->type_name("N");
+  app->add_option("--only", options->only, "Only the variant of this name; repeat for more")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME");
+  app->add_flag("--no-peers", options->no_peers, "The library's own extractor only");
+  app->add_option("--python", options->python, "Python that has pycolmap and numpy")
+      ->capture_default_str()
+      ->type_name("PATH");
+  app->add_option("--ledger", options->ledger, "Write counts and ratios, no milliseconds")->type_name("FILE");
+}
+
+}  // namespace
+
+Command benchFeaturesCommand(CLI::App *bench) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = bench->add_subcommand("features");
+  app->description("Keypoint extractors on the frames of a recording.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addOptions(app, options.get());
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

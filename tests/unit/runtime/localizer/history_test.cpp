@@ -1,0 +1,78 @@
+#include "runtime/localizer/history.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/arena_memory.h"
+
+namespace sphc {
+namespace {
+
+class HistoryTest : public testing::Test {
+ protected:
+  HistoryTest()
+      : memory_([this](Arena &state, bool has_memory) {
+          History::layout(kCapacity, state, has_memory ? &history_ : nullptr);
+        }) {}
+  static LiftedPoint pointAt(double x_m, double z_m) { return {Vector3(x_m, 0, z_m), 0.005, 0.02}; }
+
+  static constexpr uint32_t kCapacity = 8;
+  History history_;
+  test::ArenaMemory memory_;
+};
+
+TEST_F(HistoryTest, PointsFollowTheCameraAndGetVaguer) {
+  history_.add(pointAt(0.5, 2), 7, 0.3f);
+  const Rigid now_from_before = {rotationFromVector(Vector3(0, 0.2, 0)), Vector3(-0.1, 0, 0.05)};
+  history_.advance(now_from_before, 0.001, 0.002);
+  ASSERT_EQ(history_.matches().size(), 1u);
+  const OldMatch &match = history_.matches()[0];
+  EXPECT_LT((match.lifted.point_m - now_from_before * Vector3(0.5, 0, 2)).norm(), 1e-12);
+  EXPECT_EQ(match.map_index, 7u);
+  EXPECT_EQ(match.age, 1u);
+  EXPECT_GT(match.lifted.sideways_m, 0.005);
+  EXPECT_GT(match.lifted.along_m, 0.02);
+  EXPECT_LT(match.lifted.along_m, 0.021);
+}
+
+TEST_F(HistoryTest, DepthErrorSeenFromTheSideIsSideways) {
+  history_.add({Vector3(0, 0, 1), 0.001, 0.02}, 1, 0);
+  // around the point by a right angle: what was along is across now
+  const Rigid around = {rotationFromVector(Vector3(0, kPi / 2, 0)), Vector3(-1, 0, 1)};
+  history_.advance(around, 1e-6, 1e-6);
+  ASSERT_EQ(history_.matches().size(), 1u);
+  EXPECT_LT((history_.matches()[0].lifted.point_m - Vector3(0, 0, 1)).norm(), 1e-9);
+  EXPECT_NEAR(history_.matches()[0].lifted.sideways_m, 0.02, 0.0002);
+}
+
+TEST_F(HistoryTest, AMapPointCountsOnce) {
+  history_.add(pointAt(0, 1), 7, 0);
+  history_.advance(Rigid(), 1e-4, 1e-4);
+  history_.add(pointAt(0.1, 1), 7, 0);
+  ASSERT_EQ(history_.matches().size(), 1u);
+  EXPECT_EQ(history_.matches()[0].age, 0u);
+  EXPECT_EQ(history_.frames(), 1u);
+}
+
+TEST_F(HistoryTest, TheOldestMakesRoom) {
+  history_.add(pointAt(0, 1), 100, 0);
+  history_.advance(Rigid(), 1e-4, 1e-4);
+  for (uint32_t i = 0; i < kCapacity; ++i) history_.add(pointAt(0, 1), i, 0);
+  EXPECT_EQ(history_.matches().size(), size_t{kCapacity});
+  for (const OldMatch &match : history_.matches()) EXPECT_NE(match.map_index, 100u);
+}
+
+TEST_F(HistoryTest, CountsFramesAndForgets) {
+  for (uint32_t i = 0; i < 3; ++i) {
+    history_.add(pointAt(0, 1), i, 0);
+    history_.advance(Rigid(), 1e-6, 1e-6);
+  }
+  EXPECT_EQ(history_.frames(), 3u);
+  history_.advance(Rigid(), 0.1, 0.1);  // too vague
+  EXPECT_EQ(history_.matches().size(), 0u);
+  history_.add(pointAt(0, 1), 1, 0);
+  for (int i = 0; i < 61; ++i) history_.advance(Rigid(), 1e-6, 1e-6);  // too old
+  EXPECT_EQ(history_.matches().size(), 0u);
+}
+
+}  // namespace
+}  // namespace sphc

@@ -1,0 +1,131 @@
+// Frames that follow each other, on the test rooms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "runtime/localizer/localizer.h"
+#include "tests/support/session.h"
+
+namespace sphc {
+namespace {
+
+constexpr int64_t kStepNs = 100000000;
+
+sphc_config trackingConfig() {
+  sphc_config config = test::sceneConfig();
+  config.mode = SPHC_MODE_TRACKING;
+  return config;
+}
+
+class Walk {
+ public:
+  explicit Walk(const sphc_config &config, double eta = 0.5, uint32_t rooms = 1)
+      : config_(config), session_(config, eta, rooms) {}
+
+  // The next frame, a tenth of a second later.
+  sphc_result see(uint32_t viewpoint, uint32_t room = 0, bool dark = false) {
+    const auto made = test::sceneFrame(config_, viewpoint, room);
+    if (dark) std::fill(made->images.gray.begin(), made->images.gray.end(), uint8_t{9});
+    sphc_frame frame = made->frame;
+    frame.color_time_ns = frame.depth_time_ns = time_ns_ += kStepNs;
+    sphc_prior prior = {};
+    if (odometry_) {
+      prior.struct_size = sizeof prior;
+      prior.flags = SPHC_PRIOR_ODOMETRY;
+      prior.odometry_from_camera = doorFromRigid(sceneViewpoint(viewpoint).inverse());
+      prior.odometry_rotation_sigma_rad = 1e-3;
+      prior.odometry_translation_sigma_m = 1e-3;
+      frame.prior = &prior;
+    }
+    sphc_result result = {};
+    session_.process(frame, &result);
+    if (result.outcome == SPHC_OUTCOME_LOCALIZED) {
+      EXPECT_EQ(result.map_index, room);
+      EXPECT_LT(session_.errorM(result, viewpoint), 0.03) << viewpoint;
+    }
+    return result;
+  }
+  void useOdometry() { odometry_ = true; }
+  void forget() { sphc_localizer_reset(session_.localizer()); }
+
+ private:
+  static Rigid sceneViewpoint(uint32_t i) { return test::sceneViewpoint(i); }
+
+  sphc_config config_;
+  test::Session session_;
+  int64_t time_ns_ = 0;
+  bool odometry_ = false;
+};
+
+TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
+  Walk walk(trackingConfig());
+  const sphc_result first = walk.see(0);
+  EXPECT_EQ(first.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(first.state, SPHC_STATE_RELOCALIZING);
+  EXPECT_EQ(first.guided, 0u);
+  EXPECT_EQ(walk.see(1).state, SPHC_STATE_TRACKING);
+  for (uint32_t viewpoint : {2u, 3u, 4u}) {
+    const sphc_result result = walk.see(viewpoint);
+    EXPECT_EQ(result.state, SPHC_STATE_TRACKING) << viewpoint;
+    EXPECT_EQ(result.guided, 1u) << viewpoint;
+    EXPECT_EQ(result.frames, 1u);
+  }
+}
+
+TEST(LocalizerTracking, ADarkFrameIsOvercome) {
+  Walk walk(trackingConfig());
+  for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
+  const sphc_result dark = walk.see(3, 0, true);
+  EXPECT_EQ(dark.outcome, SPHC_OUTCOME_FEW_KEYPOINTS);
+  EXPECT_EQ(dark.state, SPHC_STATE_LOST);
+  EXPECT_EQ(walk.see(3).state, SPHC_STATE_TRACKING);
+}
+
+TEST(LocalizerTracking, ResetForgets) {
+  Walk walk(trackingConfig());
+  for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
+  walk.forget();
+  const sphc_result result = walk.see(3);
+  EXPECT_EQ(result.state, SPHC_STATE_RELOCALIZING);
+  EXPECT_EQ(result.guided, 0u);
+}
+
+TEST(LocalizerTracking, SingleModeKnowsNoYesterday) {
+  Walk walk(test::sceneConfig());
+  for (uint32_t viewpoint : {0u, 1u, 2u}) {
+    const sphc_result result = walk.see(viewpoint);
+    EXPECT_EQ(result.state, SPHC_STATE_RELOCALIZING);
+    EXPECT_EQ(result.guided, 0u);
+  }
+}
+
+TEST(LocalizerTracking, FindsTheRoomAndIsHandedOver) {
+  Walk walk(trackingConfig(), 0.5, 3);
+  for (uint32_t viewpoint : {0u, 1u, 2u}) EXPECT_EQ(walk.see(viewpoint, 2).outcome, SPHC_OUTCOME_LOCALIZED);
+  const sphc_result moved = walk.see(1, 1);  // through a door
+  EXPECT_EQ(moved.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(moved.state, SPHC_STATE_LOST);  // one frame alone is not yet trusted
+  EXPECT_EQ(walk.see(2, 1).state, SPHC_STATE_TRACKING);
+  EXPECT_EQ(walk.see(3, 1).guided, 1u);
+}
+
+// Frames that show too little one by one.
+TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
+  sphc_config config = trackingConfig();
+  config.max_keypoints = 64;
+  constexpr double kEta = 0.2;
+  Walk alone(config, kEta), together(config, kEta);
+  together.useOdometry();
+  uint32_t found_alone = 0, found_together = 0, most_frames = 0;
+  for (uint32_t viewpoint = 0; viewpoint < 10; ++viewpoint) {
+    found_alone += alone.see(viewpoint).outcome == SPHC_OUTCOME_LOCALIZED;
+    const sphc_result result = together.see(viewpoint);
+    found_together += result.outcome == SPHC_OUTCOME_LOCALIZED;
+    if (result.outcome == SPHC_OUTCOME_LOCALIZED) most_frames = std::max(most_frames, result.frames);
+  }
+  EXPECT_GT(found_together, found_alone);
+  EXPECT_GT(most_frames, 1u);
+}
+
+}  // namespace
+}  // namespace sphc

@@ -1,0 +1,150 @@
+#include "runtime/localizer/tracker.h"
+
+#include <gtest/gtest.h>
+
+namespace sphc {
+namespace {
+
+constexpr int64_t kFrame = 33000000, kSecond = 1000000000;
+
+Rigid poseAt(double x_m, double turn_rad = 0) {
+  return {rotationFromVector(Vector3(0, turn_rad, 0)), Vector3(x_m, 0, 0)};
+}
+
+Estimate found(const Rigid &camera_from_map) {
+  Estimate estimate;
+  estimate.camera_from_map = camera_from_map;
+  estimate.covariance = 1e-6 * Matrix6::Identity();  // 1 mrad, 1 mm
+  return estimate;
+}
+
+class TrackerTest : public testing::Test {
+ protected:
+  void bring(int64_t time_ns, const Rigid &camera_from_map, uint32_t map = 0, const Odometry *odometry = nullptr) {
+    tracker_.advance(time_ns, odometry);
+    tracker_.accept(map, found(camera_from_map));
+  }
+  void bringNone(int64_t time_ns) {
+    tracker_.advance(time_ns, nullptr);
+    tracker_.miss();
+  }
+  void track() {
+    for (int i = 1; i <= 3; ++i) bring(i * kFrame, poseAt(0.01 * i));
+    ASSERT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+  }
+  Tracker tracker_;
+};
+
+TEST_F(TrackerTest, APoseIsTrustedOnceAnotherAgrees) {
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  bring(kFrame, poseAt(0));
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  bring(2 * kFrame, poseAt(2));  // not the same
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  bring(3 * kFrame, poseAt(2.01));
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+}
+
+TEST_F(TrackerTest, APoseInAnotherMapDoesNotAgree) {
+  bring(kFrame, poseAt(0), 0);
+  bring(2 * kFrame, poseAt(0), 1);
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  bring(3 * kFrame, poseAt(0), 1);
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+}
+
+TEST_F(TrackerTest, AMissLosesAndAnExpectedPoseFinds) {
+  track();
+  bringNone(4 * kFrame);
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_LOST);
+  bring(5 * kFrame, poseAt(0.05));
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+}
+
+TEST_F(TrackerTest, APoseElsewhereLosesUntilItIsConfirmed) {
+  track();
+  bring(4 * kFrame, poseAt(3));
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_LOST);
+  bring(5 * kFrame, poseAt(3.01));
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+}
+
+TEST_F(TrackerTest, LostForASecondIsForgotten) {
+  track();
+  Prediction expected;
+  for (int i = 4; i * kFrame - 3 * kFrame <= kSecond; ++i) {
+    bringNone(i * kFrame);
+    EXPECT_EQ(tracker_.state(), SPHC_STATE_LOST) << i;
+    EXPECT_TRUE(tracker_.predict(&expected)) << i;
+  }
+  bringNone(3 * kFrame + kSecond + kFrame);
+  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  EXPECT_FALSE(tracker_.predict(&expected));
+}
+
+TEST_F(TrackerTest, TimeThatDoesNotGrowOrJumpsStartsAnew) {
+  for (const int64_t next : {3 * kFrame, kFrame, 3 * kFrame + kSecond + 1}) {
+    tracker_.reset();
+    track();
+    tracker_.advance(next, nullptr);
+    Prediction expected;
+    EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING) << next;
+    EXPECT_FALSE(tracker_.predict(&expected)) << next;
+  }
+}
+
+TEST_F(TrackerTest, SteadyMotionIsPredicted) {
+  const auto at = [](int i) { return poseAt(0.02 * i, 0.03 * i); };
+  for (int i = 1; i <= 4; ++i) bring(i * kFrame, at(i));
+  tracker_.advance(5 * kFrame, nullptr);
+  Prediction expected;
+  ASSERT_TRUE(tracker_.predict(&expected));
+  const Rigid off = expected.camera_from_map * at(5).inverse();
+  EXPECT_LT(rotationAngle(off.rotation), 1e-9);
+  EXPECT_LT(off.translation_m.norm(), 0.002);  // a turning camera's step is not quite the same each time
+  EXPECT_LT(expected.rotation_sigma_rad, 0.02);
+  EXPECT_LT(expected.translation_sigma_m, 0.03);
+}
+
+TEST_F(TrackerTest, WithoutVelocityLessIsKnown) {
+  bring(kFrame, poseAt(0));
+  tracker_.advance(2 * kFrame, nullptr);
+  Prediction first, later;
+  ASSERT_TRUE(tracker_.predict(&first));
+  tracker_.miss();
+  tracker_.advance(4 * kFrame, nullptr);
+  ASSERT_TRUE(tracker_.predict(&later));
+  EXPECT_GT(first.rotation_sigma_rad, 0.02);
+  EXPECT_GT(later.rotation_sigma_rad, 2 * first.rotation_sigma_rad);
+  EXPECT_GT(later.translation_sigma_m, 2 * first.translation_sigma_m);
+}
+
+TEST_F(TrackerTest, OdometryPredictsAnyMotionAndItsErrorsAddUp) {
+  const auto odometryAt = [](int i) {  // in a frame of its own
+    const Rigid odometry_from_map = {rotationFromVector(Vector3(0.3, 0.2, -1)), Vector3(5, 6, 7)};
+    return Odometry{odometry_from_map * poseAt(0.1 * i * i, 0.2 * i).inverse(), 0.003, 0.004};
+  };
+  Odometry odometry = odometryAt(1);
+  bring(kFrame, poseAt(0.1, 0.2), 0, &odometry);
+  for (int i = 2; i <= 4; ++i) {
+    odometry = odometryAt(i);
+    tracker_.advance(i * kFrame, &odometry);
+    tracker_.miss();
+  }
+  Prediction expected;
+  ASSERT_TRUE(tracker_.predict(&expected));
+  const Rigid off = expected.camera_from_map * poseAt(1.6, 0.8).inverse();
+  EXPECT_LT(rotationAngle(off.rotation), 1e-9);
+  EXPECT_LT(off.translation_m.norm(), 1e-9);
+  EXPECT_GT(expected.rotation_sigma_rad, 0.003 * sqrtOf(3.0));
+  EXPECT_LT(expected.rotation_sigma_rad, 0.008);
+  EXPECT_GT(expected.translation_sigma_m, 0.004 * sqrtOf(3.0));
+
+  tracker_.advance(5 * kFrame, nullptr);  // once it fails, only the motion limits are left
+  Prediction without;
+  ASSERT_TRUE(tracker_.predict(&without));
+  EXPECT_GT(without.rotation_sigma_rad, 3 * expected.rotation_sigma_rad);
+}
+
+}  // namespace
+}  // namespace sphc
