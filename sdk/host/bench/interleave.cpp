@@ -8,18 +8,12 @@
 #include "host/report/statistics.h"
 
 namespace sphc::host {
-namespace {
-
-constexpr double kSlowS = 0.05;  // of such a run once is enough
-
 std::vector<size_t> shuffledOrder(size_t count, Random *random) {
   std::vector<size_t> order(count);
   std::iota(order.begin(), order.end(), size_t{0});
   for (size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random->below(static_cast<uint32_t>(i))]);
   return order;
 }
-
-}  // namespace
 
 std::vector<double> interleave(size_t count, uint32_t repeats, Random *random, const TimedRun &run) {
   std::vector<std::vector<double>> seconds(count);

@@ -54,6 +54,10 @@ double shareOf(const std::vector<PoseSample> &samples, Is is) {
   return percent(static_cast<uint32_t>(count), static_cast<uint32_t>(samples.size()));
 }
 
+}  // namespace
+
+const char kPoseLibName[] = "poselib p3p";
+
 VariantSummary summarizeVariant(const VariantRuns &runs) {
   using Sample = const PoseSample &;
   VariantSummary s;
@@ -73,10 +77,6 @@ VariantSummary summarizeVariant(const VariantRuns &runs) {
   });
   return s;
 }
-
-}  // namespace
-
-const char kPoseLibName[] = "poselib p3p";
 
 double clockSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

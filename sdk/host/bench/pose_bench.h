@@ -50,6 +50,9 @@ struct VariantSummary {
   double times_faster_than_poselib = 0;  // ratio of the medians; NaN without PoseLib
 };
 
+// Of one variant alone: without the ratio to another.
+VariantSummary summarizeVariant(const VariantRuns &runs);
+
 extern const char kPoseLibName[];
 std::vector<VariantSummary> summarizePoseBench(const std::vector<VariantRuns> &runs);
 

@@ -119,14 +119,7 @@ BenchDrawing drawGrowth(const std::vector<GrowthRow> &rows, GrowthAxis axis) {
   return {name, script + plots, {760, static_cast<int>(420 + 20 * lines.size())}};
 }
 
-PlotResult writeDrawings(const std::string &folder, const std::vector<BenchTable> &tables,
-                         const std::vector<GrowthRow> &growth) {
-  std::vector<BenchDrawing> drawings;
-  for (const BenchTable &table : tables) {
-    drawings.push_back(drawErrors(table));
-    drawings.push_back(drawTimes(table));
-  }
-  for (const GrowthAxis axis : {GrowthAxis::kCount, GrowthAxis::kEta}) drawings.push_back(drawGrowth(growth, axis));
+PlotResult writeDrawings(const std::string &folder, const std::vector<BenchDrawing> &drawings) {
   PlotResult worst = PlotResult::kDone;
   for (const BenchDrawing &drawing : drawings) {
     if (drawing.script.empty()) continue;
@@ -134,6 +127,17 @@ PlotResult writeDrawings(const std::string &folder, const std::vector<BenchTable
     if (drawn != PlotResult::kDone) worst = drawn;
   }
   return worst;
+}
+
+std::vector<BenchDrawing> poseDrawings(const std::vector<BenchTable> &tables,
+                                       const std::vector<GrowthRow> &growth) {
+  std::vector<BenchDrawing> drawings;
+  for (const BenchTable &table : tables) {
+    drawings.push_back(drawErrors(table));
+    drawings.push_back(drawTimes(table));
+  }
+  for (const GrowthAxis axis : {GrowthAxis::kCount, GrowthAxis::kEta}) drawings.push_back(drawGrowth(growth, axis));
+  return drawings;
 }
 
 }  // namespace sphc::host

@@ -16,8 +16,9 @@ BenchDrawing drawTimes(const BenchTable &table);   // median and 99 % of every v
 // Time against rows or eta, a line a variant and file; an empty script when there is nothing on that axis.
 BenchDrawing drawGrowth(const std::vector<GrowthRow> &rows, GrowthAxis axis);
 
-// All that there are, into a folder that exists; the worst result of them.
-PlotResult writeDrawings(const std::string &folder, const std::vector<BenchTable> &tables,
-                         const std::vector<GrowthRow> &growth);
+std::vector<BenchDrawing> poseDrawings(const std::vector<BenchTable> &tables, const std::vector<GrowthRow> &growth);
+
+// Those that have a script, into a folder that exists; the worst result of them.
+PlotResult writeDrawings(const std::string &folder, const std::vector<BenchDrawing> &drawings);
 
 }  // namespace sphc::host

@@ -9,6 +9,8 @@
 #include "host/cli/bench_align.h"
 #include "host/cli/bench_confidence.h"
 #include "host/cli/bench_features.h"
+#include "host/cli/bench_frame.h"
+#include "host/cli/bench_map.h"
 #include "host/cli/bench_match.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
@@ -118,7 +120,7 @@ void writeResult(const Options &options, const Result &result, const Console &co
   makeFolder(options.out);
   if (!result.tables.empty()) writeText(options.out + "/pose.csv", benchCsv(result.tables));
   if (!result.growth.empty()) writeText(options.out + "/pose_growth.csv", growthCsv(result.growth));
-  const PlotResult drawn = writeDrawings(options.out, result.tables, result.growth);
+  const PlotResult drawn = writeDrawings(options.out, poseDrawings(result.tables, result.growth));
   if (drawn == PlotResult::kNoGnuplot)
     console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
   if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
@@ -196,9 +198,11 @@ std::vector<Command> benchCommands(CLI::App *root) {
   auto options = std::make_shared<Options>();
   CLI::App *bench = root->add_subcommand("bench");
   bench->description(
-      "Measure estimators beside their peers.\n\n  spherecloud bench pose FILE...\n  spherecloud bench confidence "
-      "FILE...\n  spherecloud bench features --recording DIR\n  spherecloud bench match --recording DIR "
-      "--query-first N");
+      "Measure stages, estimators and whole frames beside their peers.\n\n  spherecloud bench pose FILE...\n"
+      "  spherecloud bench confidence FILE...\n  spherecloud bench features --recording DIR\n"
+      "  spherecloud bench match --recording DIR --query-first N\n"
+      "  spherecloud bench frame --recording DIR --map FILE...\n"
+      "  spherecloud bench map --recording DIR --points N... --out DIR");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
   CLI::App *app = bench->add_subcommand("pose");
@@ -209,7 +213,9 @@ std::vector<Command> benchCommands(CLI::App *root) {
           benchAlignCommand(bench),
           benchConfidenceCommand(bench),
           benchFeaturesCommand(bench),
-          benchMatchCommand(bench)};
+          benchMatchCommand(bench),
+          benchFrameCommand(bench),
+          benchMapCommand(bench)};
 }
 
 }  // namespace sphc::host

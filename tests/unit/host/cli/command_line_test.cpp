@@ -38,7 +38,7 @@ TEST_P(HelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
                          testing::Values("simulate", "build", "localize", "inspect", "info", "bench pose",
-                                         "bench confidence"));
+                                         "bench confidence", "bench map", "bench frame"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -49,14 +49,14 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
   EXPECT_THAT(answer.err, HasSubstr("--help"));
 }
 
-INSTANTIATE_TEST_SUITE_P(EachMistake, UsageTest,
-                         testing::Values("", "conquer", "info", "info a b", "bench", "bench pose",
-                                         "bench pose f --depth radar", "bench pose f --repeat 0", "simulate",
-                                         "simulate --out x --frames many", "build --recording r",
-                                         "build --recording r --map m --eta 1.5",
-                                         "build --recording r --map m --key a --new-key b",
-                                         "localize --recording r --map m --step 0",
-                                         "localize --recording r --map m --first 9 --last 3"));
+INSTANTIATE_TEST_SUITE_P(
+    EachMistake, UsageTest,
+    testing::Values("", "conquer", "info", "info a b", "bench", "bench pose", "bench pose f --depth radar",
+                    "bench pose f --repeat 0", "bench frame --recording r", "bench map --recording r --out o",
+                    "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
+                    "build --recording r", "build --recording r --map m --eta 1.5",
+                    "build --recording r --map m --key a --new-key b", "localize --recording r --map m --step 0",
+                    "localize --recording r --map m --first 9 --last 3"));
 
 TEST(CommandLine, UsageNamesTheSubcommand) {
   EXPECT_THAT(runCommand("build").err, HasSubstr("Try: spherecloud build --help"));
@@ -119,6 +119,32 @@ TEST(Inspect, NamesAPictureItCannotWrite) {
   EXPECT_THAT(answer.err, HasSubstr("picture.what"));
 }
 
+// Maps of wanted sizes, and the library's own variants on them.
+void expectBenches(const TempFolder &folder, const std::string &walk) {
+  const Answer made = runCommand("bench map -r " + walk + " --step 2 --points 500 --points 9000 --out " +
+                                 (folder / "maps") + " --json");
+  ASSERT_EQ(made.exit_code, kExitDone) << made.err;
+  EXPECT_EQ(nlohmann::json::parse(made.out)["maps"][0]["own_points"], 500);
+  EXPECT_LT(nlohmann::json::parse(made.out)["maps"][1]["own_points"], 9000);
+  const std::string frame = "bench frame -r " + walk + " --first 1 --step 2 --repeat 1 --no-peers --map ";
+  const Answer timed =
+      runCommand(frame + (folder / "maps/map_500.sphc") + " --map " + (folder / "maps/map_9000.sphc") +
+                 " --ledger " + (folder / "frame.csv") + " --json");
+  ASSERT_EQ(timed.exit_code, kExitDone) << timed.err;
+  const auto tables = nlohmann::json::parse(timed.out)["tables"];
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[1]["points"], 9000);
+  for (const auto &variant : tables[1]["variants"]) {
+    EXPECT_EQ(variant["frames"], 3);
+    EXPECT_EQ(variant["within_5cm_5deg_percent"], 100) << variant["variant"];
+    EXPECT_GT(variant["state_bytes"], 0);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "frame.csv"));
+  const Answer none = runCommand(frame + (folder / "maps/map_500.sphc") + " --only nobody");
+  EXPECT_EQ(none.exit_code, kExitUsage);
+  EXPECT_THAT(none.err, HasSubstr("'ours, tracking'"));
+}
+
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const TempFolder folder;
@@ -153,6 +179,8 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   const auto blind = nlohmann::json::parse(runCommand(localize).out);
   EXPECT_EQ(blind["base"], "map");
   EXPECT_TRUE(blind["within_5cm_5deg_percent"].is_null());
+
+  expectBenches(folder, walk);
 
   // In another place's map.
   writeTinyMap(folder / "other.sphc", 200);
