@@ -3,7 +3,6 @@
 #if SPHC_HAVE_OPENCV_RGBD
 #include <opencv2/rgbd/depth.hpp>
 
-#include "host/bench/pose_variant.h"
 #include "runtime/geometry/rigid.h"
 
 namespace sphc::host {
@@ -34,9 +33,9 @@ AlignFunction make(const AlignCase &c) {
     const cv::Mat depth_matrix = matrixOf(c.depth), color_matrix = matrixOf(c.color);
     const cv::Size size(static_cast<int>(c.color.width), static_cast<int>(c.color.height));
     cv::Mat aligned;
-    const double begin = clockSeconds();
+    const double begin = threadSeconds();
     cv::rgbd::registerDepth(depth_matrix, color_matrix, distortion, transform, depth, size, aligned, dilate);
-    out->seconds = clockSeconds() - begin;
+    out->seconds = threadSeconds() - begin;
     out->depth.assign(aligned.ptr<uint16_t>(), aligned.ptr<uint16_t>() + aligned.total());
   };
 }

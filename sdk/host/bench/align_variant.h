@@ -23,6 +23,9 @@ struct AlignVariant {
   std::string absent;                                    // then: why, and the cure
 };
 
+// Seconds that this thread has computed: what other programs take of the core does not count.
+double threadSeconds();
+
 extern const char kAlignOurs[], kAlignLoop[];
 AlignVariant ourAligner();
 AlignVariant plainLoop();

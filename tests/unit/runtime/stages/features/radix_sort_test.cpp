@@ -14,11 +14,11 @@ TEST(RadixSort, IsAStableSort) {
   Random random(1);
   for (const uint32_t count : {0u, 1u, 2u, 255u, 3000u}) {
     for (const uint32_t range : {5u, 70000u, 0xFFFFFFFFu}) {
-      std::vector<Ranked> values(count), spare(count);
+      std::vector<SortKey> values(count), spare(count);
       for (uint32_t i = 0; i < count; ++i) values[i] = {random.below(range), i};
-      std::vector<Ranked> expected = values;
+      std::vector<SortKey> expected = values;
       std::stable_sort(expected.begin(), expected.end(),
-                       [](const Ranked &a, const Ranked &b) { return a.key < b.key; });
+                       [](const SortKey &a, const SortKey &b) { return a.key < b.key; });
       radixSort(values.data(), spare.data(), count);
       for (uint32_t i = 0; i < count; ++i) {
         ASSERT_EQ(values[i].key, expected[i].key);
