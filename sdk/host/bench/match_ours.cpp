@@ -63,10 +63,10 @@ class OurSearch : public MatchSearch {
   uint32_t match(size_t first, size_t count, float ratio) {
     const Span<const Descriptor> queries(&case_.queries[first], count);
     const Span<Match> matches(matches_.data(), matches_.size());
+    matcher_.ask(case_.map, queries, way_.probes);
     if (way_.cap_degrees > 0)
-      return matcher_.matchNear(case_.map, queries, {&case_.expected[first], count}, cap_cosine_, ratio, matches);
-    if (way_.probes > 0) return matcher_.matchAll(case_.map, queries, ratio, way_.probes, matches);
-    return matcher_.matchExact(case_.map, queries, ratio, matches);
+      return matcher_.matchNear({&case_.expected[first], count}, cap_cosine_, ratio, matches);
+    return way_.probes > 0 ? matcher_.matchAll(count, ratio, matches) : matcher_.matchExact(ratio, matches);
   }
 
   const MatchCase &case_;

@@ -8,7 +8,7 @@
 namespace sphc {
 namespace {
 
-constexpr double kRayM = 1;            // where a keypoint without depth is taken to lie, as far as the map's error goes
+constexpr double kRayM = 1;  // where a keypoint without depth is taken to lie, as far as the map's error goes
 constexpr double kUselessSigma = 1e3;  // of a keypoint where the camera model has no bearing
 
 FeatureConfig featureConfig(const sphc_config &config) {
@@ -86,7 +86,8 @@ bool FrontEnd::liftOne(ImageView<uint16_t> depth, uint32_t k, double *z_m) {
   const Keypoint &keypoint = keypoints_[k];
   const Vector2 pixel_px = {keypoint.x_px, keypoint.y_px};
   // coarser keypoints are placed less exactly
-  const double sigma_px = pixel_sigma_px_ * (keypoint.scale_px > 2 ? 0.5 * static_cast<double>(keypoint.scale_px) : 1.0);
+  const double sigma_px =
+      pixel_sigma_px_ * (keypoint.scale_px > 2 ? 0.5 * static_cast<double>(keypoint.scale_px) : 1.0);
   lifted_[k] = {Vector3::UnitZ(), kUselessSigma, std::numeric_limits<double>::infinity()};
   if (aligner_.bearing(pixel_px, &lifted_[k].point_m))
     lifted_[k].sideways_m = hypotOf(sigma_px / focal_px_, map_sigma_m_ / kRayM);

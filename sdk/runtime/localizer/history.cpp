@@ -20,7 +20,8 @@ void History::advance(const Rigid &now_from_before, double rotation_sigma_rad, d
     LiftedPoint &lifted = match.lifted;
     const Vector3 old_view = now_from_before.rotation * lifted.point_m.normalized();
     lifted.point_m = now_from_before * lifted.point_m;
-    // Its depth error lay along the old viewing ray: what of it now lies across the new one adds to the error there.
+    // Its depth error lay along the old viewing ray: what of it now lies across the new one adds to the error
+    // there.
     const double cosine = old_view.dot(lifted.point_m.normalized());
     const double sine2 = cosine < 1 ? 1 - cosine * cosine : 0;
     const double turned = rotation_sigma_rad * lifted.point_m.norm();

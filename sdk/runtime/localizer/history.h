@@ -1,8 +1,9 @@
-// Matches of recent frames, carried along by odometry: where one frame shows too little, a few together show enough.
+// Matches of recent frames, carried along by odometry: where one frame shows too little, a few together show
+// enough.
 #pragma once
 #include "runtime/base/arena.h"
-#include "runtime/types/correspondence.h"
 #include "runtime/geometry/rigid.h"
+#include "runtime/types/correspondence.h"
 
 namespace sphc {
 

@@ -6,8 +6,8 @@ namespace {
 constexpr double kMostLogChance = -12;          // wrong poses on foreign maps were never seen below -6
 constexpr double kMostRotationSigma = 0.05;     // rad
 constexpr double kMostTranslationSigma = 0.10;  // m
-// Errors of the map and outliers among few inliers are not in the covariance: on real recordings poses from 15 to 25
-// inliers were off by 5 sigma, from 100 and more by less than 2.
+// Errors of the map and outliers among few inliers are not in the covariance: on real recordings poses from 15 to
+// 25 inliers were off by 5 sigma, from 100 and more by less than 2.
 constexpr double kInliersOfDoubt = 60;
 
 // Chernoff's bound on log P(at least `successes` of `trials`); for unequal chances too, given their mean.

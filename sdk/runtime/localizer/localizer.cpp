@@ -17,6 +17,7 @@ constexpr double kCapsOfFirstPose[] = {degrees(4), degrees(2.5)}, kCapsOfExpecte
 constexpr double kLeastCap = degrees(1), kCapSigmas = 2.5, kMostCap = degrees(10);
 constexpr double kTypicalDepth_m = 2;
 constexpr int kPaperIterations = 25;
+constexpr uint32_t kStrongest = 300;  // keypoints with depth that are asked first: they often tell the pose already
 // Which map?  Of so many keypoints, how many find their like in each; the best maps are then looked into.
 constexpr uint32_t kVoters = 200, kVoteProbes = 4, kMapsTried = 3;
 
@@ -145,7 +146,8 @@ Localizer::Look Localizer::lookNear(const Known &known, const Deadline &deadline
   prior.translation_sigma_m = expected.translation_sigma_m;
   PoseQuery query = queryFor(prior, deadline);
   ray_match_count_ = 0;
-  query.correspondences = correspond(look.map, matchAround(look.map, expected.camera_from_map, cap_rad));
+  askAbout(look.map, front_.liftedCount(), 1);  // guided matching has probes of its own
+  query.correspondences = correspond(look.map, matchAround(expected.camera_from_map, cap_rad));
   findPose(query, solidAngle(cap_rad), {kCapsOfExpectedPose, 1}, &look);
   return look;
 }
@@ -165,17 +167,23 @@ Localizer::Look Localizer::lookEverywhere(const Known &known, const Deadline &de
 }
 
 Localizer::Look Localizer::lookInto(uint32_t map, PoseQuery query) {
-  Look look;
-  look.map = map;
+  Look look, whole;
+  look.map = whole.map = map;
+  const uint32_t lifted = front_.liftedCount();
   // The paper's cost knows no keypoints without depth.
-  const uint32_t queries = isPaper() ? front_.liftedCount() : front_.keypointCount();
-  query.correspondences = correspond(map, matchEverywhere(map, queries, config_.probes));
-  keepRays();
-  const bool together = remember(map);
-  findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &look);
-  if (look.outcome == SPHC_OUTCOME_LOCALIZED || !together) return look;
-  const Look more = lookTogether(map, query);
-  return more.outcome == SPHC_OUTCOME_LOCALIZED ? more : look;
+  const uint32_t all = isPaper() ? lifted : front_.keypointCount();
+  askAbout(map, all, config_.probes);
+  if (!isPaper() && config_.probes > 0 && lifted >= 2 * kStrongest) {
+    query.correspondences = matchEverywhere(map, kStrongest);
+    findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &look);  // in its second look all take part
+    if (look.outcome == SPHC_OUTCOME_LOCALIZED) return look;
+  }
+  query.correspondences = matchEverywhere(map, all);
+  const bool has_history = remember(map);
+  findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &whole);
+  if (whole.outcome == SPHC_OUTCOME_LOCALIZED || !has_history) return whole;
+  const Look together = lookTogether(map, query);
+  return together.outcome == SPHC_OUTCOME_LOCALIZED ? together : whole;
 }
 
 // The global matches of this frame and of those before it, as odometry moves them.
@@ -207,7 +215,7 @@ void Localizer::findPose(const PoseQuery &query, double solid_angle_sr, Caps cap
 void Localizer::improve(PoseQuery query, Caps caps_rad, Look *look) {
   double last_cap_rad = 0;
   for (double cap_rad : caps_rad) {
-    query.correspondences = correspond(look->map, matchAround(look->map, look->estimate.camera_from_map, cap_rad));
+    query.correspondences = correspond(look->map, matchAround(look->estimate.camera_from_map, cap_rad));
     if (look->frames > 1) query.correspondences = withHistory(look->map);
     look->estimate = refined(query, look->estimate.camera_from_map);
     last_cap_rad = cap_rad;
@@ -227,7 +235,8 @@ Localizer::MapOrder Localizer::rankMaps() {
   MapOrder order;
   uint32_t votes[SPHC_MAPS_MAX] = {}, most = 0;
   for (uint32_t map = 0; map < mapCount() && mapCount() > 1; ++map) {
-    votes[map] = matchEverywhere(map, std::min(kVoters, front_.liftedCount()), kVoteProbes);
+    askAbout(map, std::min(kVoters, front_.liftedCount()), kVoteProbes);
+    votes[map] = static_cast<uint32_t>(matchEverywhere(map, std::min(kVoters, front_.liftedCount())).size());
     most = std::max(most, votes[map]);
   }
   for (uint32_t rank = 0; rank < kMapsTried && rank < mapCount(); ++rank) {
@@ -289,17 +298,25 @@ Estimate Localizer::refined(const PoseQuery &query, const Rigid &camera_from_map
   return estimator_.evaluate(query, pose);
 }
 
-uint32_t Localizer::matchEverywhere(uint32_t map, uint32_t queries, uint32_t probes) {
+// The matches that follow are those of the first `keypoints` with this map.
+void Localizer::askAbout(uint32_t map, uint32_t keypoints, uint32_t probes) {
   const int64_t begin = now();
-  const Span<const Descriptor> asked = front_.descriptors().first(queries);
-  const uint32_t count = probes ? matcher_.matchAll(maps_[map], asked, config_.max_ratio, probes, matches_)
-                                : matcher_.matchExact(maps_[map], asked, config_.max_ratio, matches_);
+  matcher_.ask(maps_[map], front_.descriptors().first(keypoints), probes);
   match_ns_ += now() - begin;
-  return count;
+}
+
+Span<const Correspondence> Localizer::matchEverywhere(uint32_t map, uint32_t keypoints) {
+  const int64_t begin = now();
+  const uint32_t count = config_.probes ? matcher_.matchAll(keypoints, config_.max_ratio, matches_)
+                                        : matcher_.matchExact(config_.max_ratio, matches_);
+  match_ns_ += now() - begin;
+  correspond(map, count);
+  keepRays();
+  return correspondences_.first(count);
 }
 
 // Matches each lifted keypoint near where the pose says it lies.
-uint32_t Localizer::matchAround(uint32_t map, const Rigid &camera_from_map, double cap_rad) {
+uint32_t Localizer::matchAround(const Rigid &camera_from_map, double cap_rad) {
   const int64_t begin = now();
   const uint32_t lifted = front_.liftedCount();
   const Rigid map_from_camera = camera_from_map.inverse();
@@ -309,8 +326,8 @@ uint32_t Localizer::matchAround(uint32_t map, const Rigid &camera_from_map, doub
   }
   double sine, cosine;
   sinCos(cap_rad, &sine, &cosine);
-  uint32_t count = matcher_.matchNear(maps_[map], front_.descriptors().first(lifted), expected_.first(lifted),
-                                      static_cast<float>(cosine), config_.max_ratio, matches_);
+  uint32_t count =
+      matcher_.matchNear(expected_.first(lifted), static_cast<float>(cosine), config_.max_ratio, matches_);
   for (uint32_t i = 0; i < ray_match_count_; ++i) matches_[count++] = ray_matches_[i];
   match_ns_ += now() - begin;
   return count;

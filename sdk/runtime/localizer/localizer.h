@@ -1,5 +1,6 @@
 // The only composer of the stages: features > align > match > pose, then once more with what the first pose tells.
-// Frame after frame: a predicted pose says where in the map to look, and the whole maps are searched where it fails.
+// Frame after frame: a predicted pose says where in the map to look, and the whole maps are searched where it
+// fails.
 #pragma once
 #include "runtime/base/fixed_vector.h"
 #include "runtime/localizer/front_end.h"
@@ -65,8 +66,9 @@ class Localizer {
   Estimate firstPose(const PoseQuery &query);
   Estimate refined(const PoseQuery &query, const Rigid &camera_from_map);
   PaperCostConfig paperConfig() const;
-  uint32_t matchEverywhere(uint32_t map, uint32_t queries, uint32_t probes);
-  uint32_t matchAround(uint32_t map, const Rigid &camera_from_map, double cap_rad);
+  void askAbout(uint32_t map, uint32_t keypoints, uint32_t probes);
+  Span<const Correspondence> matchEverywhere(uint32_t map, uint32_t keypoints);
+  uint32_t matchAround(const Rigid &camera_from_map, double cap_rad);
   void keepRays();
   Span<const Correspondence> correspond(uint32_t map, uint32_t match_count);
   Span<const Correspondence> withHistory(uint32_t map);

@@ -4,10 +4,10 @@ namespace sphc {
 namespace {
 
 // How a head moves, 1 sigma: with the velocity known, and without.
-constexpr double kTurnAcceleration = 6, kAcceleration = 4;  // rad / s^2, m / s^2
-constexpr double kTurnRate = 1, kSpeed = 0.7;               // rad / s, m / s
+constexpr double kTurnAcceleration = 6, kAcceleration = 4;           // rad / s^2, m / s^2
+constexpr double kTurnRate = 1, kSpeed = 0.7;                        // rad / s, m / s
 constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: a pose is never better known
-constexpr double kSteadySeconds = 0.25;  // poses further apart tell no velocity
+constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
 constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
 constexpr double kGateSigmas = 5;
 

@@ -1,4 +1,5 @@
-// The tracking states, and where the camera should be next: from the caller's odometry, or else at constant velocity.
+// The tracking states, and where the camera should be next: from the caller's odometry, or else at constant
+// velocity.
 //
 //   RELOCALIZING  no pose is trusted
 //   TRACKING      the last pose is: a second frame agreed with it
@@ -61,8 +62,8 @@ class Tracker {
   int64_t pose_time_ns_ = 0, trusted_time_ns_ = 0;
   Rigid camera_from_map_;
   double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
-  bool moved_known_ = false;  // by odometry, at every frame since
-  Rigid moved_;               // camera now from camera at the last pose
+  bool moved_known_ = false;                             // by odometry, at every frame since
+  Rigid moved_;                                          // camera now from camera at the last pose
   double moved_rotation2_ = 0, moved_translation2_ = 0;  // variances of it
 
   bool has_velocity_ = false;

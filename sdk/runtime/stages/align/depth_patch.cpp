@@ -12,18 +12,18 @@ constexpr float kFarthestFit = 0.05f;     // of the plane from the anchor, relat
 // A little pull towards a frontal plane keeps thin sets of samples from tilting wildly.
 constexpr float kPull = 2;
 
-using PatchCopy = uint16_t[kPatchSide][kPatchLanes];
+using PatchCopy = uint16_t[kFitSide][kFitLanes];
 
 // Points `patch` at the measurements around pixel (cx, cy): in the image, or at a copy where some lie outside.
 void aim(ImageView<uint16_t> depth, int cx, int cy, PatchView *patch, PatchCopy copy) {
-  const int left = cx - kPatchRadius, top = cy - kPatchRadius;
-  if (left >= 0 && top >= 0 && left + kPatchLanes <= depth.width && top + kPatchSide <= depth.height) {
-    for (int r = 0; r < kPatchSide; ++r) patch->rows[r] = depth.row(top + r) + left;
+  const int left = cx - kFitRadius, top = cy - kFitRadius;
+  if (left >= 0 && top >= 0 && left + kFitLanes <= depth.width && top + kFitSide <= depth.height) {
+    for (int r = 0; r < kFitSide; ++r) patch->rows[r] = depth.row(top + r) + left;
     return;
   }
-  for (int r = 0; r < kPatchSide; ++r) {
+  for (int r = 0; r < kFitSide; ++r) {
     patch->rows[r] = copy[r];
-    for (int l = 0; l < kPatchLanes; ++l) {
+    for (int l = 0; l < kFitLanes; ++l) {
       const int u = left + l, v = top + r;
       const bool inside = u >= 0 && v >= 0 && u < depth.width && v < depth.height;
       copy[r][l] = inside ? depth.row(v)[u] : uint16_t{0};
@@ -34,13 +34,13 @@ void aim(ImageView<uint16_t> depth, int cx, int cy, PatchView *patch, PatchCopy 
 // The valid measurement nearest to the point asked for; 0: none near enough.
 float findAnchor(const PatchView &patch) {
   const auto valid = [&patch](float raw) { return raw >= patch.low && raw <= patch.high; };
-  const float middle = static_cast<float>(patch.rows[kPatchRadius][kPatchRadius]);
+  const float middle = static_cast<float>(patch.rows[kFitRadius][kFitRadius]);
   if (valid(middle)) return middle;
   float nearest2 = kFarthestAnchor2, anchor = 0;
-  for (int r = 0; r < kPatchSide; ++r) {
-    for (int l = 0; l < kPatchSide; ++l) {
-      const float x = static_cast<float>(l - kPatchRadius) - patch.dx;
-      const float y = static_cast<float>(r - kPatchRadius) - patch.dy;
+  for (int r = 0; r < kFitSide; ++r) {
+    for (int l = 0; l < kFitSide; ++l) {
+      const float x = static_cast<float>(l - kFitRadius) - patch.dx;
+      const float y = static_cast<float>(r - kFitRadius) - patch.dy;
       const float distance2 = x * x + y * y, raw = static_cast<float>(patch.rows[r][l]);
       if (valid(raw) && distance2 < nearest2) nearest2 = distance2, anchor = raw;
     }
@@ -99,7 +99,7 @@ PatchDepth patchDepth(ImageView<uint16_t> depth, const DepthSensor &sensor, doub
   const double z = anchor_m / (1 + static_cast<double>(here));
   const double scatter = static_cast<double>(sqrtOf(meanSquare(sums, plane))) * z * z / anchor_m;
   // Few pixels of one surface: an edge runs through, and the keypoint may belong to either side.
-  const double edge = 1 + 2 * (1 - static_cast<double>(sums.n) / (kPatchSide * kPatchSide));
+  const double edge = 1 + 2 * (1 - static_cast<double>(sums.n) / (kFitSide * kFitSide));
   const double model = sensor.sigmaAt(z);
   return {z, edge * (scatter > model ? scatter : model)};
 }

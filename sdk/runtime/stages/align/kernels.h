@@ -8,15 +8,15 @@
 
 namespace sphc {
 
-constexpr int kPatchRadius = 2, kPatchSide = 2 * kPatchRadius + 1;
-constexpr int kPatchLanes = 8;  // a row of a patch, padded; sums run down each lane, then across
+constexpr int kFitRadius = 2, kFitSide = 2 * kFitRadius + 1;
+constexpr int kFitLanes = 8;  // a row of a patch, padded; sums run down each lane, then across
 
 // Depth measurements around a pixel.
 struct PatchView {
-  const uint16_t *rows[kPatchSide];  // kPatchLanes readable in each, the first kPatchSide count
-  float low, high;                   // measurements outside do not count
-  float anchor;                      // a measurement of the surface looked for
-  float dx, dy;                      // of the point asked for, from the middle of the patch
+  const uint16_t *rows[kFitSide];  // kFitLanes readable in each, the first kFitSide count
+  float low, high;                 // measurements outside do not count
+  float anchor;                    // a measurement of the surface looked for
+  float dx, dy;                    // of the point asked for, from the middle of the patch
 };
 // Sums over the measurements on the anchor's surface; u, v: pixels from the middle; q: inverse depth relative to
 // the anchor's, less 1.

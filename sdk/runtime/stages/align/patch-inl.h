@@ -28,11 +28,11 @@ HWY_ATTR HWY_INLINE void addColumns(D d, const PatchView &patch, size_t lane, hn
   const auto inside = hn::Lt(across, hn::Set(d, 3.0f));
   const auto away_u = hn::Abs(hn::Sub(across, hn::Set(d, patch.dx)));
   for (size_t k = 0; k < kSumCount; ++k) sums[k] = zero;
-  for (int r = 0; r < kPatchSide; ++r) {
+  for (int r = 0; r < kFitSide; ++r) {
     const auto integer = hn::LoadU(hn::Rebind<uint16_t, D>(), patch.rows[r] + lane);
     const auto raw = hn::ConvertTo(d, hn::PromoteTo(hn::Rebind<int32_t, D>(), integer));
     const auto valid = hn::And(inside, hn::And(hn::Ge(raw, low), hn::Le(raw, high)));
-    const auto v = hn::Set(d, static_cast<float>(r - kPatchRadius));
+    const auto v = hn::Set(d, static_cast<float>(r - kFitRadius));
     const auto away = hn::Max(away_u, hn::Abs(hn::Sub(v, hn::Set(d, patch.dy))));
     const auto q = hn::Sub(hn::Div(anchor, hn::IfThenElse(valid, raw, one)), one);
     const auto on = hn::And(valid, hn::Le(hn::Abs(q), hn::Mul(same, hn::Add(one, away))));
@@ -47,18 +47,18 @@ HWY_ATTR HWY_INLINE void addColumns(D d, const PatchView &patch, size_t lane, hn
 }
 
 HWY_ATTR void patchSums(const PatchView &patch, PatchSums *out) {
-  const hn::CappedTag<float, kPatchLanes> d;
+  const hn::CappedTag<float, kFitLanes> d;
   using V = hn::Vec<decltype(d)>;
-  alignas(32) static constexpr float kAcross[kPatchLanes] = {-2, -1, 0, 1, 2, 99, 99, 99};
-  alignas(32) float lanes[kSumCount][kPatchLanes];
-  for (size_t l = 0; l < kPatchLanes; l += hn::Lanes(d)) {
+  alignas(32) static constexpr float kAcross[kFitLanes] = {-2, -1, 0, 1, 2, 99, 99, 99};
+  alignas(32) float lanes[kSumCount][kFitLanes];
+  for (size_t l = 0; l < kFitLanes; l += hn::Lanes(d)) {
     V sums[kSumCount];
     addColumns(d, patch, l, hn::Load(d, kAcross + l), sums);
     for (size_t k = 0; k < kSumCount; ++k) hn::Store(sums[k], d, lanes[k] + l);
   }
   PatchSums s = {};
-  for (int l = 0; l < kPatchSide; ++l) {
-    const float u = static_cast<float>(l - kPatchRadius);
+  for (int l = 0; l < kFitSide; ++l) {
+    const float u = static_cast<float>(l - kFitRadius);
     s.n += lanes[0][l], s.v += lanes[1][l], s.vv += lanes[2][l];
     s.u += u * lanes[0][l], s.uu += u * u * lanes[0][l], s.uv += u * lanes[1][l];
     s.q += lanes[3][l], s.qu += u * lanes[3][l], s.qv += lanes[4][l], s.qq += lanes[5][l];

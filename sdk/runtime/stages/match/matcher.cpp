@@ -10,6 +10,7 @@ constexpr uint32_t kGuidedProbes = 8;  // as good as more, since the cap has lef
 constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in them, before they are compared
 
 constexpr uint32_t kNobody = UINT32_MAX;
+constexpr uint16_t kNoCell = UINT16_MAX;
 // Two unrelated descriptors are seldom nearer than this; a lone candidate has to beat it by the ratio.
 constexpr uint32_t kUnrelated2 = 300 * 300;
 constexpr NearestTwo kStart = {kUnrelated2, kUnrelated2, kNobody};
@@ -38,8 +39,12 @@ void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
   SectorCones::layout(scratch, matcher ? &m.cones_ : nullptr);
 }
 
-void Matcher::begin(const MapView &map, size_t queries) {
-  for (NearestTwo &n : nearest_.first(queries)) n = kStart;
+void Matcher::ask(const MapView &map, Span<const Descriptor> queries, uint32_t probes) {
+  map_ = &map;
+  queries_ = queries;
+  probes_ = std::min(std::max(probes, 1u), std::min(kMaxProbes, map.cellCount()));
+  ranks_ = std::max(probes_, std::min(kGuidedProbes, map.cellCount()));
+  ranked_ = 0;
   const Span<uint32_t> cells = cell_length2_.first(map.cellCount()),
                        groups = group_length2_.first(map.groupCount());
   squareLengths(map.centroids(), cells);
@@ -47,75 +52,80 @@ void Matcher::begin(const MapView &map, size_t queries) {
   table_ = {map.groupCentroids(), map.centroids(), map.groupBegins(), groups, cells};
 }
 
-// The cells nearest to a query, nearest first, by way of the groups that they are in; returns how many.
-uint32_t Matcher::chooseCells(const Descriptor &query, uint32_t probes, Span<Ranked> cells) const {
-  Ranked near_groups[kMapMaxGroups];
-  const Span<Ranked> groups(near_groups, groupsVisited(static_cast<uint32_t>(table_.groups.size()), probes));
+void Matcher::begin(size_t queries) {
+  for (NearestTwo &n : nearest_.first(queries)) n = kStart;
+}
+
+// The cells nearest to a query, nearest first, by way of the groups that they are in.
+void Matcher::chooseCells(const Descriptor &query, Span<uint16_t> cells) const {
+  Ranked near_groups[kMapMaxGroups], near_cells[kMaxProbes];
+  const uint32_t wanted = static_cast<uint32_t>(cells.size());
+  const Span<Ranked> groups(near_groups, groupsVisited(static_cast<uint32_t>(table_.groups.size()), wanted)),
+      ranked(near_cells, wanted);
   std::fill(groups.begin(), groups.end(), kFar);
-  std::fill(cells.begin(), cells.begin() + probes, kFar);
-  rankCells(table_, query, groups, cells.first(probes));
-  while (probes > 0 && cells[probes - 1].index == kNobody) --probes;
-  return probes;
+  std::fill(ranked.begin(), ranked.end(), kFar);
+  rankCells(table_, query, groups, ranked);
+  for (uint32_t k = 0; k < wanted; ++k)
+    cells[k] = ranked[k].index == kNobody ? kNoCell : static_cast<uint16_t>(ranked[k].index);
+}
+
+void Matcher::rankUpTo(size_t count) {
+  for (; ranked_ < count; ++ranked_) chooseCells(queries_[ranked_], {&probed_[ranked_ * ranks_], ranks_});
 }
 
 // Turns "cells of a query" into "queries of a cell", in the order of the queries.
-void Matcher::listByCell(const MapView &map, Span<const Descriptor> queries, uint32_t probes) {
-  constexpr uint16_t kNone = UINT16_MAX;
-  const Span<uint32_t> starts = starts_.first(map.cellCount() + 1);
+void Matcher::listByCell(size_t count) {
+  const Span<uint32_t> starts = starts_.first(map_->cellCount() + 1);
   std::fill(starts.begin(), starts.end(), 0u);
-  for (size_t q = 0; q < queries.size(); ++q) {
-    Ranked cells[kMaxProbes];
-    const uint32_t count = chooseCells(queries[q], probes, {cells, kMaxProbes});
-    for (uint32_t k = 0; k < probes; ++k) {
-      probed_[q * probes + k] = k < count ? static_cast<uint16_t>(cells[k].index) : kNone;
-      if (k < count) ++starts[cells[k].index];
-    }
-  }
+  for (size_t q = 0; q < count; ++q)
+    for (const uint16_t cell : cellsOf(q).first(probes_))
+      if (cell != kNoCell) ++starts[cell];
   uint32_t sum = 0;
   for (uint32_t &start : starts) {
     sum += start;
     start = sum;
   }
-  for (size_t at = queries.size() * probes; at > 0; --at)  // backwards, so that the starts end where they should
-    if (probed_[at - 1] != kNone) askers_[--starts[probed_[at - 1]]] = static_cast<uint32_t>((at - 1) / probes);
+  for (size_t q = count; q > 0; --q)  // backwards, so that the starts end where they should
+    for (const uint16_t cell : cellsOf(q - 1).first(probes_))
+      if (cell != kNoCell) askers_[--starts[cell]] = static_cast<uint32_t>(q - 1);
 }
 
-uint32_t Matcher::matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio, uint32_t probes,
-                           Span<Match> matches) {
-  begin(map, queries.size());
-  listByCell(map, queries, std::min(std::max(probes, 1u), std::min(kMaxProbes, map.cellCount())));
-  for (uint32_t c = 0; c < map.cellCount(); ++c) {
+uint32_t Matcher::matchAll(size_t count, float max_ratio, Span<Match> matches) {
+  begin(count);
+  rankUpTo(count);
+  listByCell(count);
+  for (uint32_t c = 0; c < map_->cellCount(); ++c) {
     const Span<const uint32_t> askers(askers_.data() + starts_[c], starts_[c + 1] - starts_[c]);
     if (askers.empty()) continue;
-    const IndexRange points = map.cell(c);
-    searchRange(map.descriptors(), points.begin, points.end, queries, askers, nearest_);
+    const IndexRange points = map_->cell(c);
+    searchRange(map_->descriptors(), points.begin, points.end, queries_, askers, nearest_);
   }
-  return select(queries.size(), max_ratio, matches);
+  return select(count, max_ratio, matches);
 }
 
-uint32_t Matcher::matchExact(const MapView &map, Span<const Descriptor> queries, float max_ratio,
-                             Span<Match> matches) {
-  begin(map, queries.size());
-  const Span<uint32_t> all = askers_.first(queries.size());
-  for (size_t q = 0; q < queries.size(); ++q) all[q] = static_cast<uint32_t>(q);
-  for (uint32_t first = 0; first < map.pointCount(); first += kTile)
-    searchRange(map.descriptors(), first, std::min(first + kTile, map.pointCount()), queries, all, nearest_);
-  return select(queries.size(), max_ratio, matches);
+uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches) {
+  begin(queries_.size());
+  const Span<uint32_t> all = askers_.first(queries_.size());
+  for (size_t q = 0; q < queries_.size(); ++q) all[q] = static_cast<uint32_t>(q);
+  for (uint32_t first = 0; first < map_->pointCount(); first += kTile)
+    searchRange(map_->descriptors(), first, std::min(first + kTile, map_->pointCount()), queries_, all, nearest_);
+  return select(queries_.size(), max_ratio, matches);
 }
 
-uint32_t Matcher::matchNear(const MapView &map, Span<const Descriptor> queries, Span<const Direction> expected,
-                            float cap_cosine, float max_ratio, Span<Match> matches) {
-  begin(map, queries.size());
-  cones_.prepare(map.sectorSide(), cap_cosine);
-  for (size_t q = 0; q < queries.size(); ++q) searchNear(map, queries[q], {expected[q], cap_cosine}, &nearest_[q]);
-  return select(queries.size(), max_ratio, matches);
+uint32_t Matcher::matchNear(Span<const Direction> expected, float cap_cosine, float max_ratio,
+                            Span<Match> matches) {
+  begin(expected.size());
+  rankUpTo(expected.size());
+  cones_.prepare(map_->sectorSide(), cap_cosine);
+  for (size_t q = 0; q < expected.size(); ++q) searchNear(q, {expected[q], cap_cosine}, &nearest_[q]);
+  return select(expected.size(), max_ratio, matches);
 }
 
-void Matcher::searchNear(const MapView &map, const Descriptor &query, const Cap &cap, NearestTwo *nearest) const {
-  Ranked cells[kMaxProbes];
+void Matcher::searchNear(size_t q, const Cap &cap, NearestTwo *nearest) const {
+  const MapView &map = *map_;
+  const Descriptor &query = queries_[q];
   SectorRun runs[SectorCones::kMaxRuns];
   const uint32_t run_count = cones_.touched(cap.axis, {runs, SectorCones::kMaxRuns});
-  const uint32_t cell_count = chooseCells(query, std::min(kGuidedProbes, map.cellCount()), {cells, kMaxProbes});
   DirectionRun gathered[kGathered];
   uint32_t candidates[kCandidates], gathered_count = 0, room = kCandidates;
   const auto compare = [&] {
@@ -125,9 +135,9 @@ void Matcher::searchNear(const MapView &map, const Descriptor &query, const Cap 
     gathered_count = 0;
     room = kCandidates;
   };
-  for (uint32_t c = 0; c < cell_count; ++c)
-    for (uint32_t r = 0; r < run_count; ++r) {
-      const IndexRange points = map.sectors(cells[c].index, runs[r].first, runs[r].last);
+  for (const uint16_t cell : cellsOf(q).first(std::min(kGuidedProbes, ranks_)))
+    for (uint32_t r = 0; r < run_count && cell != kNoCell; ++r) {
+      const IndexRange points = map.sectors(cell, runs[r].first, runs[r].last);
       for (uint32_t at = points.begin; at < points.end;) {
         const uint32_t end = std::min(at + room, points.end);
         gathered[gathered_count++] = {at, end};

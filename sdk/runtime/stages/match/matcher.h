@@ -9,9 +9,10 @@
 
 namespace sphc {
 
-// All calls write to `matches`, which has room for every query: at most one query for each map point, best ratio
-// first; they return how many.  `max_ratio` is of Lowe's test, on distances.  One matcher serves any number of
-// maps, one after another.
+// ask, then any of the other calls about the same queries: which cells of the map's index are nearest to a query is
+// found out once, when it is first needed.  They write to `matches`, which has room for every query: at most one
+// query for each map point, best ratio first; they return how many.  `max_ratio` is of Lowe's test, on distances.
+// One matcher serves any number of maps, one after another.
 class Matcher {
  public:
   static constexpr uint32_t kMaxProbes = 32;
@@ -19,27 +20,37 @@ class Matcher {
   // Depends on no map.
   static void layout(uint32_t max_queries, Arena &scratch, Matcher *matcher);
 
-  // Nearest neighbours in the `probes` cells (1 to kMaxProbes) of the map's index nearest to each query;
-  // docs/matching.md says what share of the exact matches that finds.
-  uint32_t matchAll(const MapView &map, Span<const Descriptor> queries, float max_ratio, uint32_t probes,
-                    Span<Match> matches);
+  // Both are borrowed until the next ask.  `probes`: cells in which matchAll looks for each query, at most
+  // kMaxProbes; docs/matching.md says what share of the exact matches that finds.
+  void ask(const MapView &map, Span<const Descriptor> queries, uint32_t probes);
 
-  // Nearest neighbours over the whole map: what matchAll approaches.
-  uint32_t matchExact(const MapView &map, Span<const Descriptor> queries, float max_ratio, Span<Match> matches);
+  // Nearest neighbours of the first `count` queries in their nearest cells.
+  uint32_t matchAll(size_t count, float max_ratio, Span<Match> matches);
 
-  // Nearest neighbours among the map points within a cap around each query's expected direction (unit, map frame).
-  uint32_t matchNear(const MapView &map, Span<const Descriptor> queries, Span<const Direction> expected,
-                     float cap_cosine, float max_ratio, Span<Match> matches);
+  // Nearest neighbours of all queries over the whole map: what matchAll approaches.
+  uint32_t matchExact(float max_ratio, Span<Match> matches);
+
+  // Nearest neighbours of the first queries, as many as `expected`, among the map points within a cap around each
+  // one's expected direction (unit, map frame).
+  uint32_t matchNear(Span<const Direction> expected, float cap_cosine, float max_ratio, Span<Match> matches);
 
  private:
-  void begin(const MapView &map, size_t queries);
-  uint32_t chooseCells(const Descriptor &query, uint32_t probes, Span<Ranked> cells) const;
-  void listByCell(const MapView &map, Span<const Descriptor> queries, uint32_t probes);
-  void searchNear(const MapView &map, const Descriptor &query, const Cap &cap, NearestTwo *nearest) const;
+  void begin(size_t queries);
+  void chooseCells(const Descriptor &query, Span<uint16_t> cells) const;
+  void rankUpTo(size_t count);
+  Span<const uint16_t> cellsOf(size_t query) const { return {&probed_[query * ranks_], ranks_}; }
+  void listByCell(size_t count);
+  void searchNear(size_t query, const Cap &cap, NearestTwo *nearest) const;
   uint32_t select(size_t queries, float max_ratio, Span<Match> matches);
 
+  // What was asked.
+  const MapView *map_ = nullptr;
+  Span<const Descriptor> queries_;
+  uint32_t probes_ = 0, ranks_ = 0;  // cells that matchAll looks at; that are ranked
+  size_t ranked_ = 0;                // queries that are
+
   Span<NearestTwo> nearest_;
-  Span<uint16_t> probed_;  // cells of each query
+  Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`
   Span<uint32_t> askers_;
   Span<uint32_t> cell_length2_, group_length2_;

@@ -14,12 +14,12 @@ namespace {
 TEST(AlignKernels, PatchSumsOfBothTwins) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
-    uint16_t raw[kPatchSide][kPatchLanes];
+    uint16_t raw[kFitSide][kFitLanes];
     for (auto &row : raw)
       for (uint16_t &mm : row)
         mm = static_cast<uint16_t>(random.below(4) == 0 ? random.below(65536) : 1500 + random.below(80));
     PatchView patch = {};
-    for (int r = 0; r < kPatchSide; ++r) patch.rows[r] = raw[r];
+    for (int r = 0; r < kFitSide; ++r) patch.rows[r] = raw[r];
     patch.low = 250, patch.high = 6000, patch.anchor = 1540;
     patch.dx = 0.01f * static_cast<float>(random.below(100)) - 0.5f;
     patch.dy = 0.01f * static_cast<float>(random.below(100)) - 0.5f;

@@ -46,8 +46,8 @@ class MatcherTest : public testing::Test {
     return view_;
   }
   std::vector<Match> matchExact(const std::vector<Descriptor> &queries, float ratio) {
-    const uint32_t n =
-        matcher_.matchExact(view(), {queries.data(), queries.size()}, ratio, {matches_.data(), kQueries});
+    matcher_.ask(view(), {queries.data(), queries.size()}, 8);
+    const uint32_t n = matcher_.matchExact(ratio, {matches_.data(), kQueries});
     return {matches_.begin(), matches_.begin() + n};
   }
   std::vector<Match> matchNear(const std::vector<Descriptor> &queries, const std::vector<Vector3> &expected,
@@ -55,8 +55,9 @@ class MatcherTest : public testing::Test {
     std::vector<Direction> directions;
     for (const Vector3 &d : expected)
       directions.push_back({static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())});
+    matcher_.ask(view(), {queries.data(), queries.size()}, 8);
     const uint32_t n =
-        matcher_.matchNear(view(), {queries.data(), queries.size()}, {directions.data(), directions.size()},
+        matcher_.matchNear({directions.data(), directions.size()},
                            static_cast<float>(std::cos(degrees * kPi / 180)), ratio, {matches_.data(), kQueries});
     return {matches_.begin(), matches_.begin() + n};
   }
@@ -172,6 +173,14 @@ class IndexedMatcherTest : public MatcherTest {
   Span<const Descriptor> queries() const { return {queries_.data(), queries_.size()}; }
   Span<Match> room() { return {matches_.data(), kQueries}; }
   std::vector<Match> taken(uint32_t count) const { return {matches_.begin(), matches_.begin() + count}; }
+  std::vector<Match> exactly(float ratio) {
+    matcher_.ask(view_, queries(), 8);
+    return taken(matcher_.matchExact(ratio, room()));
+  }
+  std::vector<Match> all(const MapView &map, Span<const Descriptor> queries, float ratio, uint32_t probes) {
+    matcher_.ask(map, queries, probes);
+    return taken(matcher_.matchAll(queries.size(), ratio, room()));
+  }
 
   std::vector<Descriptor> queries_;
 };
@@ -187,18 +196,18 @@ bool same(const std::vector<Match> &a, const std::vector<Match> &b) {
 
 TEST_F(IndexedMatcherTest, AllCellsProbedIsExact) {
   useCells(8);  // few enough that every group of them is looked at
-  const auto exact = taken(matcher_.matchExact(view_, queries(), 0.9f, room()));
+  const auto exact = exactly(0.9f);
   EXPECT_EQ(exact.size(), kQueries);
   for (const uint32_t probes : {8u, 32u, 1000u})
-    EXPECT_TRUE(same(exact, taken(matcher_.matchAll(view_, queries(), 0.9f, probes, room())))) << probes;
+    EXPECT_TRUE(same(exact, all(view_, queries(), 0.9f, probes))) << probes;
 }
 
 TEST_F(IndexedMatcherTest, MoreProbesFindMoreOfTheExactMatches) {
-  const auto exact = taken(matcher_.matchExact(view_, queries(), 0.9f, room()));
+  const auto exact = exactly(0.9f);
   size_t before = 0;
   for (const uint32_t probes : {0u, 1u, 4u, 16u, 32u}) {
     size_t found = 0;
-    for (const Match &m : taken(matcher_.matchAll(view_, queries(), 0.9f, probes, room())))
+    for (const Match &m : all(view_, queries(), 0.9f, probes))
       for (const Match &other : exact) found += m.query == other.query && m.map_index == other.map_index;
     EXPECT_GE(found, before) << probes;
     before = found;
@@ -207,23 +216,41 @@ TEST_F(IndexedMatcherTest, MoreProbesFindMoreOfTheExactMatches) {
 }
 
 TEST_F(IndexedMatcherTest, OneMatcherServesSeveralMaps) {
-  const auto first = taken(matcher_.matchAll(view_, queries(), 0.9f, 8, room()));
+  const auto first = all(view_, queries(), 0.9f, 8);
   ASSERT_FALSE(first.empty());
   const std::vector<uint8_t> other_file = test::randomMap(500, 99);
   MapView other;
   ASSERT_EQ(MapView::open(other_file.data(), other_file.size(), kExtractorId, &other, nullptr), SPHC_OK);
-  EXPECT_EQ(matcher_.matchAll(other, queries(), 0.8f, 8, room()), 0u);
-  EXPECT_TRUE(same(first, taken(matcher_.matchAll(view_, queries(), 0.9f, 8, room()))));
+  EXPECT_TRUE(all(other, queries(), 0.8f, 8).empty());
+  EXPECT_TRUE(same(first, all(view_, queries(), 0.9f, 8)));
 }
 
 TEST_F(IndexedMatcherTest, AQueryAloneFindsWhatItFindsAmongOthers) {
-  const auto together = taken(matcher_.matchAll(view_, queries(), 1.0f, 4, room()));
+  const auto together = all(view_, queries(), 1.0f, 4);
   ASSERT_GT(together.size(), kQueries / 4);
   for (const Match &m : together) {
-    ASSERT_EQ(matcher_.matchAll(view_, {&queries_[m.query], 1}, 1.0f, 4, room()), 1u);
+    ASSERT_EQ(all(view_, {&queries_[m.query], 1}, 1.0f, 4).size(), 1u);
     EXPECT_EQ(matches_[0].map_index, m.map_index);
     EXPECT_EQ(matches_[0].second2, m.second2);
   }
+}
+
+// What is found out about a query for one call serves the others, in any order.
+TEST_F(IndexedMatcherTest, CallsAboutTheSameQueriesDoNotDisturbEachOther) {
+  std::vector<Direction> expected;
+  for (uint32_t q = 0; q < kQueries; ++q) {
+    const Direction d = unpackDirection(packDirection(points_[3 * q].direction));
+    expected.push_back({d.x, d.y, d.z});
+  }
+  const Span<const Direction> few(expected.data(), kQueries / 2);
+  const auto part = all(view_, {queries_.data(), kQueries / 3}, 0.9f, 12), whole = all(view_, queries(), 0.9f, 12);
+  matcher_.ask(view_, queries(), 12);
+  const auto near = taken(matcher_.matchNear(few, 0.99f, 0.9f, room()));
+  EXPECT_FALSE(near.empty());
+  matcher_.ask(view_, queries(), 12);
+  EXPECT_TRUE(same(part, taken(matcher_.matchAll(kQueries / 3, 0.9f, room()))));
+  EXPECT_TRUE(same(near, taken(matcher_.matchNear(few, 0.99f, 0.9f, room()))));
+  EXPECT_TRUE(same(whole, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
 }
 
 TEST_F(IndexedMatcherTest, GuidedIsExactInTheCapWhateverItsSectors) {
@@ -237,8 +264,8 @@ TEST_F(IndexedMatcherTest, GuidedIsExactInTheCapWhateverItsSectors) {
   }
   for (const double degrees : {0.5, 6.0, 30.0, 90.0, 120.0, 179.0}) {
     const float cosine = static_cast<float>(std::cos(degrees * kPi / 180));
-    const auto matches =
-        taken(matcher_.matchNear(view_, queries(), {expected.data(), expected.size()}, cosine, 1.0f, room()));
+    matcher_.ask(view_, queries(), 8);
+    const auto matches = taken(matcher_.matchNear({expected.data(), expected.size()}, cosine, 1.0f, room()));
     EXPECT_EQ(matches.size(), queries_.size());
     for (const Match &m : matches) {
       NearestTwo two = {300 * 300, 300 * 300, UINT32_MAX};
