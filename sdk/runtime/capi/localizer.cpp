@@ -62,7 +62,7 @@ sphc_status sphc_config_init(sphc_config *config, size_t struct_size) {
   config->depth_offset_sigma_m = 0.003;
   config->depth_slope_sigma = 0.02;
   config->min_inliers = 10;
-  config->probes = 16;
+  config->probes = 8;
   return SPHC_OK;
 }
 

@@ -17,7 +17,9 @@ constexpr double kCapsOfFirstPose[] = {degrees(4), degrees(2.5)}, kCapsOfExpecte
 constexpr double kLeastCap = degrees(1), kCapSigmas = 2.5, kMostCap = degrees(10);
 constexpr double kTypicalDepth_m = 2;
 constexpr int kPaperIterations = 25;
-constexpr uint32_t kStrongest = 300;  // keypoints with depth that are asked first: they often tell the pose already
+// A second look leans towards the pose it was taken with: without all matches the first must leave no doubt.
+constexpr double kBeyondDoubt = -30;  // log of the chance
+constexpr uint32_t kStrongest = 200;  // keypoints with depth that are asked first: they often tell the pose already
 // Which map?  Of so many keypoints, how many find their like in each; the best maps are then looked into.
 constexpr uint32_t kVoters = 200, kVoteProbes = 4, kMapsTried = 3;
 
@@ -173,10 +175,10 @@ Localizer::Look Localizer::lookInto(uint32_t map, PoseQuery query) {
   // The paper's cost knows no keypoints without depth.
   const uint32_t all = isPaper() ? lifted : front_.keypointCount();
   askAbout(map, all, config_.probes);
-  if (!isPaper() && config_.probes > 0 && lifted >= 2 * kStrongest) {
+  if (!isPaper() && config_.probes > 0 && lifted > kStrongest) {
     query.correspondences = matchEverywhere(map, kStrongest);
     findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &look);  // in its second look all take part
-    if (look.outcome == SPHC_OUTCOME_LOCALIZED) return look;
+    if (look.outcome == SPHC_OUTCOME_LOCALIZED && look.evidence.log_chance_first < kBeyondDoubt) return look;
   }
   query.correspondences = matchEverywhere(map, all);
   const bool has_history = remember(map);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "runtime/stages/pose/mirrored.h"
 #include "runtime/stages/pose/residual.h"
 
 namespace sphc {
@@ -250,14 +251,27 @@ bool PoseEstimator::isSupported(float gain) const {
   return gain > kVerifiedGain && gain > kVerifiedShare * static_cast<float>(lifted_.count);
 }
 
-// Is the pose where it was expected?  Looked at with ever less tolerance.
-bool PoseEstimator::verifyPrior(const PoseQuery &query, Search *search) {
-  Rigid pose = query.prior->camera_from_map;
+// From a rough pose, with ever less tolerance.
+Rigid PoseEstimator::approach(const PoseQuery &query, const Rigid &start) {
+  Rigid pose = start;
   for (double scale2 : {400.0, 60.0, kLocalScale2}) {
     const RefineTask step = task(query, scale2);
     keepNear(step, pose, static_cast<float>(16 * scale2));
     pose = improvePose(step, pose, kLocalSteps);
   }
+  return pose;
+}
+
+// A flat scene has a second pose; the search ends with either, since both are beyond chance.
+void PoseEstimator::tryMirrored(const PoseQuery &query, Search *search) {
+  Rigid mirrored;
+  if (mirroredPose(query.correspondences, search->camera_from_map, kMinimalThreshold2, &mirrored))
+    optimise(query, approach(query, mirrored), search);
+}
+
+// Is the pose where it was expected?
+bool PoseEstimator::verifyPrior(const PoseQuery &query, Search *search) {
+  const Rigid pose = approach(query, query.prior->camera_from_map);
   const float gain = gainOf(pose, kMinimalThreshold2);
   if (!isNear(*query.prior, pose) || !isSupported(gain)) return false;
   search->camera_from_map = pose;
@@ -277,6 +291,7 @@ Estimate PoseEstimator::search(const PoseQuery &query) {
   if (!prior || !verifyPrior(query, &state)) {
     if (prior) sampleAndScore(query, prior, config_.max_iterations / kSmallSearch, &state, &estimate);
     if (!isSupported(state.gain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
+    if (state.gain > 0) tryMirrored(query, &state);
   }
   estimate.iterations = state.samples;
   estimate.hypotheses = state.hypotheses;

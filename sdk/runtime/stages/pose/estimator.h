@@ -52,6 +52,8 @@ class PoseEstimator {
   void load(const PoseQuery &query);
   bool isSupported(float gain) const;
   bool verifyPrior(const PoseQuery &query, Search *search);
+  Rigid approach(const PoseQuery &query, const Rigid &start);
+  void tryMirrored(const PoseQuery &query, Search *search);
   void sampleAndScore(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search,
                       Estimate *estimate);
   uint32_t scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search);
