@@ -239,8 +239,8 @@ TEST_F(IndexedMatcherTest, AQueryAloneFindsWhatItFindsAmongOthers) {
 TEST_F(IndexedMatcherTest, CallsAboutTheSameQueriesDoNotDisturbEachOther) {
   std::vector<Direction> expected;
   for (uint32_t q = 0; q < kQueries; ++q) {
-    const Direction d = unpackDirection(packDirection(points_[3 * q].direction));
-    expected.push_back({d.x, d.y, d.z});
+    const Vector3 &d = points_[3 * q].direction;
+    expected.push_back({static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())});
   }
   const Span<const Direction> few(expected.data(), kQueries / 2);
   const auto part = all(view_, {queries_.data(), kQueries / 3}, 0.9f, 12), whole = all(view_, queries(), 0.9f, 12);
