@@ -46,12 +46,23 @@ ProjectTask taskOf(const DenseConfig &config) {
   return task;
 }
 
-// The nearest sample of each pixel stays.
+// The nearest sample of each pixel stays.  Four quarters of the row in turn, as neighbours often fall into one
+// pixel and would wait for each other; without a branch, as which of two is nearer is not foreseen.
 void lowerPixels(const ProjectedRow &row, int32_t count, int32_t *__restrict pixels) {
   const int32_t *__restrict index = row.index;
   const int32_t *__restrict key = row.key;
-  for (int32_t u = 0; u < count; ++u)
-    if (key[u] < pixels[index[u]]) pixels[index[u]] = key[u];
+  const int32_t quarter = padded(count) / 4;
+  const auto lower = [=](int32_t u) {
+    int32_t *pixel = pixels + index[u];
+    const int32_t before = *pixel, now = key[u];
+    *pixel = now < before ? now : before;
+  };
+  for (int32_t u = 0; u < quarter; ++u) {
+    lower(u);
+    lower(u + quarter);
+    lower(u + 2 * quarter);
+    lower(u + 3 * quarter);
+  }
 }
 
 }  // namespace
