@@ -197,8 +197,9 @@ void DenseAligner::project(ImageView<uint16_t> depth, int32_t y) {
     const float ray_y = static_cast<float>((y + 0.5 - k[3]) / k[1]);
     for (float &every : rays_y_) every = ray_y;
   }
-  const SensedRows rows = {sensedRow(y + 2),   sensedRow(y),           sensedRow(y + 1),       rayRow(rays_x_, y),
-                           rayRow(rays_y_, y), half_x_.data() + start, half_y_.data() + start, depth_width_};
+  const SensedRows rows = {sensedRow(y + 2),       sensedRow(y),        sensedRow(y + 1),
+                           rayRow(rays_x_, y),     rayRow(rays_y_, y),  half_x_.data() + start,
+                           half_y_.data() + start, padded(depth_width_)};
   kernels_->project_row(task_, rows, &projected_);
   lowerPixels(projected_, depth_width_, measured_.keys.data());
   if (task_.with_footprints)
