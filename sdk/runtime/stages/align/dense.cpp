@@ -140,7 +140,7 @@ void DenseAligner::makeFootprints() {
   };
   const auto byteOf = [&widest](double extent_px) {
     double half = 0.5 * kStretch * extent_px;
-    if (half > kMostHalfPx) half = kMostHalfPx;
+    if (!(half < kMostHalfPx)) half = kMostHalfPx;
     if (half > widest) widest = half;
     return static_cast<uint8_t>(half * static_cast<double>(kFootprintsPerPixel) + 0.999);
   };
