@@ -60,10 +60,10 @@ struct SensedRows {
   const float *above, *here, *below;
   const float *ray_x, *ray_y;      // NaN where the camera model has none
   const uint8_t *half_x, *half_y;  // of a pixel's footprint in the colour image
-  int32_t count;
+  int32_t count;                   // a multiple of kRowPadding: depths beyond the image are 0
 };
 
-// Where the pixels of a row fall; arrays of `count`, rounded up to whole kRowPadding.
+// Where the pixels of a row fall; arrays of as many as were sensed.
 struct ProjectedRow {
   int32_t *index;                        // of the colour pixel in the z-buffer; 0: none
   int32_t *key;                          // of a pixel that the sample falls into

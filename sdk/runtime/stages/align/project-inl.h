@@ -133,6 +133,27 @@ HWY_ATTR HWY_INLINE hn::Mask<F32> opensGap(const ProjectTask &task, VF z, VF tow
   return hn::And(edge, hn::Gt(parallax, least));
 }
 
+// Depths of a vector of pixels and of their neighbours.
+struct Neighbours {
+  VF z, left, right, above, below;
+};
+
+// Appends those of `steep` pixels behind which the colour camera may see what the depth camera cannot.
+HWY_ATTR HWY_INLINE void findEdges(const ProjectTask &task, const Neighbours &n, const Point2 &ray,
+                                   hn::Mask<F32> steep, int32_t u, ProjectedRow *out) {
+  const F32 d;
+  const float *c = task.center_m;
+  const VF toward_x = hn::Sub(hn::Set(d, c[0]), hn::Mul(hn::Set(d, c[2]), ray.x));
+  const VF toward_y = hn::Sub(hn::Set(d, c[1]), hn::Mul(hn::Set(d, c[2]), ray.y));
+  const auto edge = hn::And(steep, hn::Or(opensGap(task, n.z, toward_x, toward_y, n.left, n.right),
+                                          opensGap(task, n.z, toward_y, toward_x, n.above, n.below)));
+  uint8_t bits[kRowPadding / 8 < 8 ? 8 : kRowPadding / 8] = {};
+  const size_t bytes = hn::StoreMaskBits(d, edge, bits);
+  for (size_t byte = 0; byte < bytes; ++byte)
+    for (int32_t bit = 0; bits[byte] >> bit; ++bit)
+      if (bits[byte] >> bit & 1) out->edges[out->edge_count++] = u + static_cast<int32_t>(8 * byte) + bit;
+}
+
 // What a vector of pixels without measurements gives.
 HWY_ATTR HWY_INLINE void storeNothing(const ProjectTask &task, const ProjectedRow &out, int32_t u) {
   const I32 d;
@@ -161,9 +182,8 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, Projec
     const VF above = hn::LoadU(d, in.above + u), below = hn::LoadU(d, in.below + u);
     const VF x = hn::LoadU(d, in.ray_x + u), y = hn::LoadU(d, in.ray_y + u);
 
-    const auto turned = [&](int row) HWY_ATTR {
-      return hn::Add(madd(madd(hn::Set(d, r[row + 2]), r[row + 1], y), r[row], x), zero);
-    };
+    const auto turned = [&](int row)
+                            HWY_ATTR { return madd(madd(hn::Set(d, r[row + 2]), r[row + 1], y), r[row], x); };
     const VF color_x = hn::Add(hn::Mul(z, turned(0)), hn::Set(d, task.t[0]));
     const VF color_y = hn::Add(hn::Mul(z, turned(3)), hn::Set(d, task.t[1]));
     const VF color_z = hn::Add(hn::Mul(z, turned(6)), hn::Set(d, task.t[2]));
@@ -172,11 +192,9 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, Projec
     const VF r2 = hn::Add(hn::Mul(ray.x, ray.x), hn::Mul(ray.y, ray.y));
     const Point2 px = colorPixel<kModel>(task.color, ray, r2);
     const VF subunits = hn::Mul(color_z, hn::Set(d, task.subunits_per_m));
-    const VF far = hn::Set(d, kFarPx);
-    const auto seen = hn::And(hn::And(hn::And(hn::Gt(z, zero), hn::Le(r2, hn::Set(d, task.color.max_radius2))),
-                                      hn::And(hn::Ge(subunits, hn::Set(d, 1.0f * kSubUnits)),
-                                              hn::Le(subunits, hn::Set(d, task.most_subunits)))),
-                              hn::And(hn::Lt(hn::Abs(px.x), far), hn::Lt(hn::Abs(px.y), far)));
+    const auto seen = hn::And(
+        hn::And(hn::Gt(z, zero), hn::Le(r2, hn::Set(d, task.color.max_radius2))),
+        hn::And(hn::Ge(subunits, hn::Set(d, 1.0f * kSubUnits)), hn::Le(subunits, hn::Set(d, task.most_subunits))));
 
     const VF slope = slopeOf(z, left, right, above, below);
     const VF sigma = madd(hn::Set(d, task.sigma_m), task.sigma_per_m2, hn::Mul(z, z)),
@@ -197,10 +215,12 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, Projec
                out->key + u);
 
     if (task.with_footprints) {
+      const VF far = hn::Set(d, kFarPx);
+      const auto near = hn::And(seen, hn::And(hn::Lt(hn::Abs(px.x), far), hn::Lt(hn::Abs(px.y), far)));
       const VF unsure = hn::IfThenElseZero(seen, confidenceOf(good2, sigma2, slope, kSpreadPx));
-      const VF half_x = hn::IfThenElseZero(seen, halfWidth(in.half_x + u));
-      const VF half_y = hn::IfThenElseZero(seen, halfWidth(in.half_y + u));
-      const VF at_x = hn::IfThenElseZero(seen, px.x), at_y = hn::IfThenElseZero(seen, px.y);
+      const VF half_x = hn::IfThenElseZero(near, halfWidth(in.half_x + u));
+      const VF half_y = hn::IfThenElseZero(near, halfWidth(in.half_y + u));
+      const VF at_x = hn::IfThenElseZero(near, px.x), at_y = hn::IfThenElseZero(near, px.y);
       hn::StoreU(keyOf(depth, unsure), di, out->fill_key + u);
       hn::StoreU(firstFrom(hn::Sub(at_x, half_x), task.color.width), di, out->left + u);
       hn::StoreU(firstFrom(hn::Add(at_x, half_x), task.color.width), di, out->right + u);
@@ -208,15 +228,8 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, Projec
       hn::StoreU(firstFrom(hn::Add(at_y, half_y), task.color.height), di, out->bottom + u);
     }
 
-    const VF toward_x = hn::Sub(hn::Set(d, task.center_m[0]), hn::Mul(hn::Set(d, task.center_m[2]), x));
-    const VF toward_y = hn::Sub(hn::Set(d, task.center_m[1]), hn::Mul(hn::Set(d, task.center_m[2]), y));
-    const auto edge = hn::And(seen, hn::Or(opensGap(task, z, toward_x, toward_y, left, right),
-                                           opensGap(task, z, toward_y, toward_x, above, below)));
-    if (!hn::AllFalse(d, edge)) {
-      const auto columns = hn::Iota(di, u);
-      out->edge_count += static_cast<int32_t>(
-          hn::CompressStore(columns, hn::RebindMask(di, edge), di, out->edges + out->edge_count));
-    }
+    const auto steep = hn::And(seen, hn::Gt(slope, hn::Mul(hn::Set(d, kEdgeJump), z)));
+    if (!hn::AllFalse(d, steep)) findEdges(task, {z, left, right, above, below}, {x, y}, steep, u, out);
   }
 }
 
