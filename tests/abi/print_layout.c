@@ -38,12 +38,17 @@ int main(void) {
   WHOLE(sphc_prior);
   FIELD(sphc_prior, struct_size);
   FIELD(sphc_prior, flags);
+  FIELD(sphc_prior, map_index);
+  FIELD(sphc_prior, reserved);
   FIELD(sphc_prior, camera_from_map);
   FIELD(sphc_prior, rotation_sigma_rad);
   FIELD(sphc_prior, translation_sigma_m);
   FIELD(sphc_prior, up_camera);
   FIELD(sphc_prior, up_map);
   FIELD(sphc_prior, up_sigma_rad);
+  FIELD(sphc_prior, odometry_from_camera);
+  FIELD(sphc_prior, odometry_rotation_sigma_rad);
+  FIELD(sphc_prior, odometry_translation_sigma_m);
   WHOLE(sphc_map_info);
   FIELD(sphc_map_info, struct_size);
   FIELD(sphc_map_info, format_version);
@@ -93,6 +98,8 @@ int main(void) {
   FIELD(sphc_config, min_inliers);
   FIELD(sphc_config, cost);
   FIELD(sphc_config, deadline_us);
+  FIELD(sphc_config, mode);
+  FIELD(sphc_config, probes);
   FIELD(sphc_config, reserved);
   FIELD(sphc_config, log);
   FIELD(sphc_config, log_user);
@@ -116,6 +123,10 @@ int main(void) {
   FIELD(sphc_result, pose_us);
   FIELD(sphc_result, confidence);
   FIELD(sphc_result, cut_short);
+  FIELD(sphc_result, state);
+  FIELD(sphc_result, map_index);
+  FIELD(sphc_result, frames);
+  FIELD(sphc_result, guided);
   FIELD(sphc_result, reserved);
   FIELD(sphc_result, depth);
   WHOLE(sphc_depth_bias);

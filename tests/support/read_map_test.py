@@ -25,7 +25,7 @@ def dump(path):
 def agree(path, file):
     fields, directions = dump(path)
     try:
-        cloud = read_map.read(file, extractor=1)
+        cloud = read_map.read(file, extractor=2)
     except read_map.MapError as error:
         assert fields["status"] == error.status, f"C++ {fields['status']}, Python {error}"
         return False

@@ -37,7 +37,7 @@ double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double
 
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
                             uint32_t inliers, uint32_t free, double noise_scale, double inlier_threshold2,
-                            double solid_angle_sr) {
+                            double solid_angle_sr, double widened) {
   if (inliers <= free) return 0;
   double sum = 0, count = 0;
   for (const Correspondence &c : correspondences) {
@@ -45,7 +45,8 @@ double logChanceOfAgreement(Span<const Correspondence> correspondences, const Ri
     sum += inlierShare(c, camera_from_map, noise_scale, inlier_threshold2, solid_angle_sr);
     ++count;
   }
-  return logTail(inliers - free, count - free, sum / count);
+  const double others = count > inliers ? widened * (count - inliers) : 0;
+  return logTail(inliers - free, inliers - free + others, sum / count / widened);
 }
 
 sphc_outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t min_inliers) {

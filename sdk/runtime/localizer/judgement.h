@@ -11,11 +11,12 @@ namespace sphc {
 // with the pose by chance, their directions being spread evenly over `solid_angle_sr` (4 pi: the sphere) around the
 // predicted ones.  `free`: of the inliers, how many agree because the pose was made from them.
 // `noise_scale`: of depth, over the stated one.
-// An a-contrario test, as in Moisan and Stival, "A probabilistic criterion to detect rigid point matches" (IJCV
-// 2004).
+// `widened`: the agreement is judged as in a solid angle so many times larger, where chance would bring as many
+// times more of the others: so that a narrow cap is no disadvantage. An a-contrario test, as in Moisan and Stival,
+// "A probabilistic criterion to detect rigid point matches" (IJCV 2004).
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
                             uint32_t inliers, uint32_t free, double noise_scale, double inlier_threshold2,
-                            double solid_angle_sr);
+                            double solid_angle_sr, double widened = 1);
 
 // What speaks for a pose.
 struct Evidence {

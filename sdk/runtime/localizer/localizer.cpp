@@ -13,9 +13,11 @@ constexpr double degrees(double value) { return value * kPi / 180; }
 constexpr uint32_t kFewestKeypoints = 32, kFewestLifted = 16, kFewestMatches = 6;
 // Half angles of the caps in which a second look is taken, once there is a pose; the first is generous towards it.
 constexpr double kCapsOfFirstPose[] = {degrees(4), degrees(2.5)}, kCapsOfExpectedPose[] = {degrees(2.5)};
-// Of the first look where a pose is expected: this, and so many sigmas; beyond the last the whole map is as good.
-constexpr double kLeastCap = degrees(1), kCapSigmas = 2.5, kMostCap = degrees(10);
+// Of the first look where a pose is expected: so many sigmas, but no less than a cap in which agreement still
+// proves something, and beyond the most the whole map is as good.
+constexpr double kLeastCap = degrees(2.5), kCapSigmas = 3, kMostCap = degrees(10);
 constexpr double kTypicalDepth_m = 2;
+constexpr double kCapOfEvidence = degrees(6);  // in which the agreement near an expected pose is judged
 constexpr int kPaperIterations = 25;
 // A second look leans towards the pose it was taken with: without all matches the first must leave no doubt.
 constexpr double kBeyondDoubt = -30;  // log of the chance
@@ -36,7 +38,8 @@ sphc_outcome outcomeOf(PoseEnding ending) {
 }
 
 double capFor(const Prediction &expected) {
-  return kLeastCap + kCapSigmas * (expected.rotation_sigma_rad + expected.translation_sigma_m / kTypicalDepth_m);
+  const double sigma_rad = expected.rotation_sigma_rad + expected.translation_sigma_m / kTypicalDepth_m;
+  return std::max(kLeastCap, kCapSigmas * sigma_rad);
 }
 
 }  // namespace
@@ -207,7 +210,8 @@ void Localizer::findPose(const PoseQuery &query, double solid_angle_sr, Caps cap
   if (found.inliers <= kFewestMatches / 2) return;
   look->evidence.log_chance_first =
       logChanceOfAgreement(query.correspondences, found.camera_from_map, found.inliers, 3, query.depth.noise_scale,
-                           estimator_.inlierThreshold2(), solid_angle_sr) +
+                           estimator_.inlierThreshold2(), solid_angle_sr,
+                           std::max(1.0, solidAngle(kCapOfEvidence) / solid_angle_sr)) +
       logOf(static_cast<double>(found.iterations) + 1);
   improve(query, caps_rad, look);
 }
