@@ -37,10 +37,9 @@ class DoorFailure : public testing::Test {
     const std::vector<uint8_t> state = state_.copy(), scratch = scratch_.copy();
     sphc_localizer *made = nullptr;
     sphc_message message = {};
-    EXPECT_EQ(
-        sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count, &made,
-                            &message),
-        expected);
+    EXPECT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count,
+                                  &made, &message),
+              expected);
     expectMentions(message.text, words);
     EXPECT_EQ(made, nullptr);
     EXPECT_EQ(state_.copy(), state);
@@ -89,10 +88,9 @@ TEST_F(DoorFailure, InitNulls) {
   expectRefused(i, SPHC_E_CAPACITY, "17 maps were given; a localizer holds at most 16");
   i = good();
   sphc_message message = {};
-  EXPECT_EQ(
-      sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count, nullptr,
-                          &message),
-      SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count,
+                                nullptr, &message),
+            SPHC_E_ARGUMENT);
   expectMentions(message.text, "localizer is null");
 }
 

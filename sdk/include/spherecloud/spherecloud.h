@@ -439,8 +439,8 @@ typedef struct sphc_localizer sphc_localizer;
 #define SPHC_MAPS_MAX 16u /* maps of one localizer */
 
 /* Makes a localizer in caller memory, for one map or a set of them (rooms), each with a frame of its own: it finds
- * out which one a frame shows.  `config` and the list are copied; `state`, `scratch` and the maps are borrowed until
- * sphc_localizer_fini.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT, CAPACITY. [pure] */
+ * out which one a frame shows.  `config` and the list are copied; `state`, `scratch` and the maps are borrowed
+ * until sphc_localizer_fini.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT, CAPACITY. [pure] */
 SPHC_API sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
                                          const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
                                          sphc_localizer **localizer, sphc_message *message);
@@ -451,10 +451,10 @@ SPHC_API void sphc_localizer_fini(sphc_localizer **localizer);
 SPHC_API void sphc_localizer_reset(sphc_localizer *localizer);
 
 /* Where was the colour camera?  In SPHC_MODE_TRACKING frames come in the order of color_time_ns; a time that does
- * not grow, or a gap of more than 1 s, starts anew.  Set result->struct_size first.  SPHC_OK: localized, *result filled.
- * SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT, STRUCT_SIZE,
- * IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame.
- * Bounded time, no allocation, no OS call. [exclusive] */
+ * not grow, or a gap of more than 1 s, starts anew.  Set result->struct_size first.  SPHC_OK: localized, *result
+ * filled. SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT,
+ * STRUCT_SIZE, IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame. Bounded time,
+ * no allocation, no OS call. [exclusive] */
 SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame,
                                             sphc_result *result);
 

@@ -83,8 +83,7 @@ bool checkPriorPose(const sphc_prior &prior, sphc_message *message) {
 }
 
 bool checkPriorUp(const sphc_prior &prior, sphc_message *message) {
-  return checkDirection("up_camera", prior.up_camera, message) &&
-         checkDirection("up_map", prior.up_map, message) &&
+  return checkDirection("up_camera", prior.up_camera, message) && checkDirection("up_map", prior.up_map, message) &&
          priorInRange("up_sigma_rad", prior.up_sigma_rad, 1e-4, 0.5, message);
 }
 

@@ -1,6 +1,6 @@
-// The other pose of a flat scene.  From the sphere centre a plane looks nearly alike when its tilt is mirrored at the
-// line of sight (Oberkampf, DeMenthon and Davis, "Iterative pose estimation using coplanar feature points", CVIU
-// 1996): two minima of the cost, and the wrong one can have most of the inliers of the right one.
+// The other pose of a flat scene.  From the sphere centre a plane looks nearly alike when its tilt is mirrored at
+// the line of sight (Oberkampf, DeMenthon and Davis, "Iterative pose estimation using coplanar feature points",
+// CVIU 1996): two minima of the cost, and the wrong one can have most of the inliers of the right one.
 #pragma once
 #include "runtime/base/span.h"
 #include "runtime/geometry/rigid.h"

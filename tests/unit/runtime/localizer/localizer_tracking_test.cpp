@@ -112,7 +112,7 @@ TEST(LocalizerTracking, FindsTheRoomAndIsHandedOver) {
 // Frames that show too little one by one.
 TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
   sphc_config config = trackingConfig();
-  config.max_keypoints = 64;
+  config.max_keypoints = 80;
   constexpr double kEta = 0.2;
   Walk alone(config, kEta), together(config, kEta);
   together.useOdometry();
