@@ -141,6 +141,8 @@ sphc_status checkRig(const sphc_camera &color, const sphc_camera &depth, const s
     MessageWriter(message) << "config." << entry.name << camera_message.text;
     return SPHC_E_ARGUMENT;
   }
+  for (double t : color_from_depth.t_m)
+    if (!inRange("color_from_depth.t_m", t, -100, 100, message)) return SPHC_E_ARGUMENT;
   if (isValidRigid(color_from_depth)) return SPHC_OK;
   MessageWriter(message)
       << "config.color_from_depth is not a rigid transform: its quaternion must have unit length "

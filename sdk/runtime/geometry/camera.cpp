@@ -26,14 +26,14 @@ uint32_t paramCount(sphc_camera_model model) {
 }
 
 // Ratio of distorted to true radius of the Brown-Conrady models; k7.. are absent.  params from k1 on.
+double brownDenominator(const double *k, double r2) { return 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])); }
 double brownRadial(const double *k, double r2) {
   const double up = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  const double down = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
-  return up / down;
+  return up / brownDenominator(k, r2);
 }
 double brownRadialDerivative(const double *k, double r2) {  // by r2
   const double up = 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  const double down = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+  const double down = brownDenominator(k, r2);
   const double up_d = k[0] + r2 * (2 * k[1] + 3 * r2 * k[4]);
   const double down_d = k[5] + r2 * (2 * k[6] + 3 * r2 * k[7]);
   return (up_d * down - up * down_d) / (down * down);
@@ -85,7 +85,8 @@ Camera::Camera(const sphc_camera &door) : door_(door) {
   max_radius2_ = findMaxRadius2();
 }
 
-// Radial distortion folds back on itself beyond some radius; rays past the fold have no pixel of their own.
+// Radial distortion folds back on itself beyond some radius, or has a pole; rays past either have no pixel of their
+// own.
 double Camera::findMaxRadius2() const {
   const double *k = door_.params + 4;
   if (door_.model == SPHC_CAMERA_PINHOLE) return kWidestRay2;
@@ -96,7 +97,7 @@ double Camera::findMaxRadius2() const {
     const double at = last * step / kDomainSteps;
     const double slope = fisheye ? kannalaBrandtDerivative(k, at)
                                  : brownRadial(k, at * at) + 2 * at * at * brownRadialDerivative(k, at * at);
-    if (!(slope > 0)) break;
+    if (!(slope > 0) || (!fisheye && !(brownDenominator(k, at * at) > 0))) break;
     valid = at;
   }
   if (!fisheye) return valid * valid;
@@ -130,7 +131,7 @@ bool Camera::project(const Vector3 &point_m, Vector2 *pixel_px) const {
     ray = distort(ray, nullptr);
   }
   *pixel_px = {door_.params[0] * ray.x() + door_.params[2], door_.params[1] * ray.y() + door_.params[3]};
-  return true;
+  return isFinite(pixel_px->x()) && isFinite(pixel_px->y());
 }
 
 bool Camera::undistortBrown(const Vector2 &distorted, Vector2 *ray) const {

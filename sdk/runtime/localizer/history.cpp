@@ -1,5 +1,7 @@
 #include "runtime/localizer/history.h"
 
+#include <algorithm>
+
 namespace sphc {
 namespace {
 
@@ -18,17 +20,15 @@ void History::advance(const Rigid &now_from_before, double rotation_sigma_rad, d
   for (uint32_t i = 0; i < count_; ++i) {
     OldMatch match = matches_[i];
     LiftedPoint &lifted = match.lifted;
-    const Vector3 old_view = now_from_before.rotation * lifted.point_m.normalized();
+    match.depth_ray = now_from_before.rotation * match.depth_ray;
     lifted.point_m = now_from_before * lifted.point_m;
-    // Its depth error lay along the old viewing ray: what of it now lies across the new one adds to the error
-    // there.
-    const double cosine = old_view.dot(lifted.point_m.normalized());
-    const double sine2 = cosine < 1 ? 1 - cosine * cosine : 0;
     const double turned = rotation_sigma_rad * lifted.point_m.norm();
-    const double drift2 = turned * turned + translation_sigma_m * translation_sigma_m;
-    const double along2 = lifted.along_m * lifted.along_m;
-    lifted.sideways_m = sqrtOf(lifted.sideways_m * lifted.sideways_m + along2 * sine2 + drift2);
-    lifted.along_m = sqrtOf(along2 + drift2);
+    match.rest_variance += turned * turned + translation_sigma_m * translation_sigma_m;
+    // What of the depth error now lies across the viewing ray adds to the error there.
+    const double cosine = match.depth_ray.dot(lifted.point_m.normalized());
+    const double cosine2 = std::min(1.0, cosine * cosine);
+    lifted.sideways_m = sqrtOf(match.rest_variance + match.depth_variance * (1 - cosine2));
+    lifted.along_m = sqrtOf(match.rest_variance + match.depth_variance * cosine2);
     if (++match.age <= kMostFrames && lifted.sideways_m < kVague_m) matches_[kept++] = match;
   }
   count_ = kept;
@@ -44,7 +44,9 @@ void History::add(const LiftedPoint &lifted, uint32_t map_index, float quality) 
       if (matches_[i].age > matches_[place].age) place = i;
   }
   if (place == count_) ++count_;
-  matches_[place] = {lifted, map_index, quality, 0};
+  const double depth_variance = lifted.along_m * lifted.along_m,
+               rest_variance = lifted.sideways_m * lifted.sideways_m;
+  matches_[place] = {lifted, lifted.point_m.normalized(), depth_variance, rest_variance, map_index, quality, 0};
 }
 
 uint32_t History::frames() const {

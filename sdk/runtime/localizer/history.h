@@ -8,7 +8,9 @@
 namespace sphc {
 
 struct OldMatch {
-  LiftedPoint lifted;  // in the camera of the latest frame
+  LiftedPoint lifted;                    // in the camera of the latest frame
+  Vector3 depth_ray;                     // unit, same camera: along which its depth was measured
+  double depth_variance, rest_variance;  // m^2: along that ray; of all else, each way
   uint32_t map_index;
   float quality;
   uint16_t age;  // frames ago

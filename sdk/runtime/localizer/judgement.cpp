@@ -1,11 +1,15 @@
 #include "runtime/localizer/judgement.h"
 
+#include <algorithm>
+
 namespace sphc {
 namespace {
 
-constexpr double kMostLogChance = -12;          // wrong poses on foreign maps were never seen below -6
-constexpr double kMostRotationSigma = 0.05;     // rad
-constexpr double kMostTranslationSigma = 0.10;  // m
+constexpr double kMostLogChance = -12;            // wrong poses on foreign maps were never seen below -6
+constexpr double kMostLogChanceExpected = -6;     // a pose that was expected is likely before it is looked at
+constexpr double kMostRotationSigma = 0.05;       // rad
+constexpr double kMostTranslationSigma = 0.10;    // m
+constexpr double kMostSigmaWithoutLevers = 0.15;  // m
 // Errors of the map and outliers among few inliers are not in the covariance: on real recordings poses from 15 to
 // 25 inliers were off by 5 sigma, from 100 and more by less than 2.
 constexpr double kInliersOfDoubt = 60;
@@ -37,7 +41,7 @@ double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double
 
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
                             uint32_t inliers, uint32_t free, double noise_scale, double inlier_threshold2,
-                            double solid_angle_sr, double widened) {
+                            double solid_angle_sr) {
   if (inliers <= free) return 0;
   double sum = 0, count = 0;
   for (const Correspondence &c : correspondences) {
@@ -45,20 +49,26 @@ double logChanceOfAgreement(Span<const Correspondence> correspondences, const Ri
     sum += inlierShare(c, camera_from_map, noise_scale, inlier_threshold2, solid_angle_sr);
     ++count;
   }
-  const double others = count > inliers ? widened * (count - inliers) : 0;
-  return logTail(inliers - free, inliers - free + others, sum / count / widened);
+  return logTail(inliers - free, count - free, sum / count);
 }
 
+double doubtOf(uint32_t inliers) { return 1 + kInliersOfDoubt / inliers; }
+
 sphc_outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t min_inliers) {
-  if (evidence.inliers < min_inliers || evidence.log_chance_first + evidence.log_chance_second > kMostLogChance)
+  const double first = evidence.log_chance_first, second = evidence.log_chance_second;
+  const bool expected = evidence.looks == Looks::kGuided;
+  const double log_chance = expected ? std::max(first, second) : first + second;
+  if (evidence.inliers < min_inliers || log_chance > (expected ? kMostLogChanceExpected : kMostLogChance))
     return SPHC_OUTCOME_NO_CONSENSUS;
-  const double doubt = 1 + kInliersOfDoubt / evidence.inliers, doubt2 = doubt * doubt;
+  const double doubt = doubtOf(evidence.inliers), doubt2 = doubt * doubt;
   const double rotation2 = estimate.covariance.topLeftCorner<3, 3>().trace();
   // T = exp(xi) T_estimate moves the camera's place in the map by the translation part of xi alone.
   const double centre2 = estimate.covariance.bottomRightCorner<3, 3>().trace();
   if (!(doubt2 * rotation2 < kMostRotationSigma * kMostRotationSigma) ||
       !(doubt2 * centre2 < kMostTranslationSigma * kMostTranslationSigma))
     return SPHC_OUTCOME_UNCERTAIN;
+  const double without2 = doubt2 * centre2 * evidence.vaguer * evidence.vaguer;
+  if (!(without2 < kMostSigmaWithoutLevers * kMostSigmaWithoutLevers)) return SPHC_OUTCOME_UNCERTAIN;
   return SPHC_OUTCOME_LOCALIZED;
 }
 

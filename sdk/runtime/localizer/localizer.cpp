@@ -17,7 +17,10 @@ constexpr double kCapsOfFirstPose[] = {degrees(4), degrees(2.5)}, kCapsOfExpecte
 // proves something, and beyond the most the whole map is as good.
 constexpr double kLeastCap = degrees(2.5), kCapSigmas = 3, kMostCap = degrees(10);
 constexpr double kTypicalDepth_m = 2;
-constexpr double kCapOfEvidence = degrees(6);  // in which the agreement near an expected pose is judged
+// A pose whose camera centre would be so many times vaguer without its heaviest matches rests on them.
+constexpr double kRestsOnFew = 1.8;
+constexpr uint32_t kInliersALever = 12, kInliersBeyondContest = 60;
+static_assert(1 + kInliersBeyondContest / kInliersALever <= kMostLevers, "so many may be left out");
 constexpr int kPaperIterations = 25;
 // A second look leans towards the pose it was taken with: without all matches the first must leave no doubt.
 constexpr double kBeyondDoubt = -30;  // log of the chance
@@ -37,9 +40,31 @@ sphc_outcome outcomeOf(PoseEnding ending) {
   return ending == PoseEnding::kDeadline ? SPHC_OUTCOME_DEADLINE : SPHC_OUTCOME_NO_CONSENSUS;
 }
 
+// By a clock that may step back.
+uint64_t elapsedNs(int64_t begin_ns, int64_t end_ns) {
+  return end_ns > begin_ns ? static_cast<uint64_t>(end_ns) - static_cast<uint64_t>(begin_ns) : 0;
+}
+
+uint32_t microseconds(uint64_t ns) { return static_cast<uint32_t>(std::min<uint64_t>(ns / 1000, UINT32_MAX)); }
+
 double capFor(const Prediction &expected) {
   const double sigma_rad = expected.rotation_sigma_rad + expected.translation_sigma_m / kTypicalDepth_m;
   return std::max(kLeastCap, kCapSigmas * sigma_rad);
+}
+
+// What is left is moved to the front.
+Span<const Correspondence> withoutLevers(const Levers &levers, Span<Correspondence> correspondences) {
+  const auto begin = levers.indices.begin(), end = levers.indices.end();
+  uint32_t left = 0;
+  for (uint32_t i = 0; i < correspondences.size(); ++i)
+    if (std::find(begin, end, i) == end) correspondences[left++] = correspondences[i];
+  return correspondences.first(left);
+}
+
+// Does the caller's pose say where to look?
+bool isNarrow(const Known &known) {
+  return known.prior.has_pose && capFor({known.map, known.prior.camera_from_map, known.prior.rotation_sigma_rad,
+                                         known.prior.translation_sigma_m}) < kMostCap;
 }
 
 }  // namespace
@@ -56,6 +81,7 @@ void Localizer::layout(const sphc_config &config, Arena &state, Arena &scratch, 
   History::layout(n, state, localizer ? &l.history_ : nullptr);
   l.expected_ = scratch.take<Direction>("localizer.expected", n);
   l.matches_ = scratch.take<Match>("localizer.matches", n);
+  l.kept_matches_ = scratch.take<Match>("localizer.matches", n);
   l.ray_matches_ = scratch.take<Match>("localizer.matches", n);
   l.correspondences_ = scratch.take<Correspondence>("localizer.correspondences", estimator.capacity);
   Matcher::layout(n, scratch, localizer ? &l.matcher_ : nullptr);
@@ -85,27 +111,28 @@ void Localizer::process(const sphc_frame &frame, sphc_result *result) {
   front_.lift(frame.depth);
   const int64_t aligned = now();
 
+  kept_ = {};
+  samples_ = 0;
   match_ns_ = 0;
   match_count_ = ray_match_count_ = 0;
   const Known known = knownFromDoor(isPaper() ? nullptr : frame.prior);
   if (tracks()) advance(frame, known);
-  Look look;
   if (front_.keypointCount() < kFewestKeypoints) {
-    look.outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
+    kept_.look.outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
   } else if (front_.liftedCount() < kFewestLifted) {
-    look.outcome = SPHC_OUTCOME_FEW_DEPTHS;
+    kept_.look.outcome = SPHC_OUTCOME_FEW_DEPTHS;
   } else {
     Deadline deadline;
     if (config_.deadline_us)
-      deadline = {config_.clock, config_.clock_user, begin + int64_t{config_.deadline_us} * 1000};
-    look = locate(known, deadline);
+      deadline = Deadline::after(config_.clock, config_.clock_user, begin, int64_t{config_.deadline_us} * 1000);
+    locate(known, deadline);
   }
-  conclude(look, result);
-  const int64_t end = now();
-  result->features_us = static_cast<uint32_t>((extracted - begin) / 1000);
-  result->align_us = static_cast<uint32_t>((aligned - extracted) / 1000);
-  result->match_us = static_cast<uint32_t>(match_ns_ / 1000);
-  result->pose_us = static_cast<uint32_t>((end - aligned - match_ns_) / 1000);
+  conclude(result);
+  const uint64_t located_ns = elapsedNs(aligned, now());
+  result->features_us = microseconds(elapsedNs(begin, extracted));
+  result->align_us = microseconds(elapsedNs(extracted, aligned));
+  result->match_us = microseconds(match_ns_);
+  result->pose_us = microseconds(located_ns > match_ns_ ? located_ns - match_ns_ : 0);
   log(*result);
 }
 
@@ -119,24 +146,33 @@ void Localizer::advance(const sphc_frame &frame, const Known &known) {
     history_.clear();
 }
 
-Localizer::Look Localizer::locate(const Known &known, const Deadline &deadline) {
+void Localizer::locate(const Known &known, const Deadline &deadline) {
   Prediction expected;
-  const bool expects = expect(known, &expected);
-  if (expects) {
-    const Look look = lookNear(known, deadline, expected);
-    if (look.outcome == SPHC_OUTCOME_LOCALIZED) return look;
-  }
-  return lookEverywhere(known, deadline, expects);
+  if (expect(known, &expected)) consider(lookNear(known, deadline, expected));
+  if (!isDone(deadline)) lookEverywhere(known, deadline);
+  if (kept_.look.outcome != SPHC_OUTCOME_LOCALIZED && deadline.passed()) kept_.look.outcome = SPHC_OUTCOME_DEADLINE;
 }
 
-// From the caller, else from the frames before; false where it says too little to narrow the search.
+// Where no look localizes, the last global one into the likeliest map stands for the frame.
+void Localizer::consider(const Look &look) {
+  const bool localized = look.outcome == SPHC_OUTCOME_LOCALIZED;
+  if (kept_.any && !kept_.look.guided && !localized && look.map != kept_.look.map) return;
+  kept_ = {true, look, match_count_};
+  std::copy_n(matches_.data(), match_count_, kept_matches_.data());
+}
+
+bool Localizer::isDone(const Deadline &deadline) const {
+  return kept_.look.outcome == SPHC_OUTCOME_LOCALIZED || deadline.passed();
+}
+
+// From the caller, else from the frames before; false where both say too little to narrow the search.
 bool Localizer::expect(const Known &known, Prediction *expected) const {
-  if (known.prior.has_pose)
+  if (isNarrow(known)) {
     *expected = {known.map, known.prior.camera_from_map, known.prior.rotation_sigma_rad,
                  known.prior.translation_sigma_m};
-  else if (!tracks() || !tracker_.predict(expected))
-    return false;
-  return capFor(*expected) < kMostCap;
+    return true;
+  }
+  return tracks() && tracker_.predict(expected) && capFor(*expected) < kMostCap;
 }
 
 Localizer::Look Localizer::lookNear(const Known &known, const Deadline &deadline, const Prediction &expected) {
@@ -157,21 +193,18 @@ Localizer::Look Localizer::lookNear(const Known &known, const Deadline &deadline
   return look;
 }
 
-// `expected`: a look where the camera was expected has failed, so the expected pose is not worth another.
-Localizer::Look Localizer::lookEverywhere(const Known &known, const Deadline &deadline, bool expected) {
-  Look best;
+void Localizer::lookEverywhere(const Known &known, const Deadline &deadline) {
   const MapOrder order = rankMaps();
+  const uint32_t remembered = mapToRemember(order);
   for (uint32_t map : order) {
     PosePrior prior = priorFor(known, map);
-    if (expected) prior.has_pose = false;
-    const Look look = lookInto(map, queryFor(prior, deadline));
-    if (map == order[0] || look.outcome == SPHC_OUTCOME_LOCALIZED) best = look;
-    if (look.outcome == SPHC_OUTCOME_LOCALIZED || deadline.passed()) break;
+    if (isNarrow(known)) prior.has_pose = false;  // a look there has failed
+    lookInto(map, queryFor(prior, deadline), map == remembered);
+    if (isDone(deadline)) break;
   }
-  return best;
 }
 
-Localizer::Look Localizer::lookInto(uint32_t map, PoseQuery query) {
+void Localizer::lookInto(uint32_t map, PoseQuery query, bool remembers) {
   Look look, whole;
   look.map = whole.map = map;
   const uint32_t lifted = front_.liftedCount();
@@ -181,14 +214,14 @@ Localizer::Look Localizer::lookInto(uint32_t map, PoseQuery query) {
   if (!isPaper() && config_.probes > 0 && lifted > kStrongest) {
     query.correspondences = matchEverywhere(map, kStrongest);
     findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &look);  // in its second look all take part
-    if (look.outcome == SPHC_OUTCOME_LOCALIZED && look.evidence.log_chance_first < kBeyondDoubt) return look;
+    const bool beyond_doubt = look.evidence.log_chance_first < kBeyondDoubt;
+    if ((look.outcome == SPHC_OUTCOME_LOCALIZED && beyond_doubt) || query.deadline.passed()) return consider(look);
   }
   query.correspondences = matchEverywhere(map, all);
-  const bool has_history = remember(map);
+  const bool has_history = remembers && remember(map);
   findPose(query, 4 * kPi, {kCapsOfFirstPose, 2}, &whole);
-  if (whole.outcome == SPHC_OUTCOME_LOCALIZED || !has_history) return whole;
-  const Look together = lookTogether(map, query);
-  return together.outcome == SPHC_OUTCOME_LOCALIZED ? together : whole;
+  consider(whole);
+  if (has_history && !isDone(query.deadline)) consider(lookTogether(map, query));
 }
 
 // The global matches of this frame and of those before it, as odometry moves them.
@@ -208,12 +241,13 @@ void Localizer::findPose(const PoseQuery &query, double solid_angle_sr, Caps cap
   const Estimate &found = look->searched = look->estimate = firstPose(query);
   look->outcome = outcomeOf(found.ending);
   if (found.inliers <= kFewestMatches / 2) return;
+  look->evidence.looks = look->guided ? Looks::kGuided : Looks::kGlobal;
   look->evidence.log_chance_first =
       logChanceOfAgreement(query.correspondences, found.camera_from_map, found.inliers, 3, query.depth.noise_scale,
-                           estimator_.inlierThreshold2(), solid_angle_sr,
-                           std::max(1.0, solidAngle(kCapOfEvidence) / solid_angle_sr)) +
+                           estimator_.inlierThreshold2(), solid_angle_sr) +
       logOf(static_cast<double>(found.iterations) + 1);
   improve(query, caps_rad, look);
+  contest(query, caps_rad, look);
 }
 
 // A pose says where in the map each keypoint lies: look there again.  True points that lost the ratio test against
@@ -233,7 +267,37 @@ void Localizer::improve(PoseQuery query, Caps caps_rad, Look *look) {
   look->evidence.log_chance_second =
       logChanceOfAgreement(correspondences_.first(match_count_), look->estimate.camera_from_map, seen_now, 3,
                            query.depth.noise_scale, estimator_.inlierThreshold2(), solidAngle(last_cap_rad));
+  findLevers(look);
+  look->evidence.vaguer = look->levers.vaguer;
   look->outcome = judgePose(look->evidence, look->estimate, config_.min_inliers);
+}
+
+// Among many matches a few that are wrong have no say.
+void Localizer::findLevers(Look *look) const {
+  look->levers = {};
+  const uint32_t inliers = look->estimate.inliers;
+  if (inliers >= kInliersBeyondContest || isPaper()) return;
+  const Span<const Correspondence> used = {correspondences_.data(), used_count_};
+  look->levers = heaviestLevers(used, look->estimate, 1 + inliers / kInliersALever);
+}
+
+// A pose may rest on one or two wrong matches, far from the others, that turn it by degrees: what would be found
+// without them has a second look too, and the better of the two stays.
+void Localizer::contest(const PoseQuery &query, Caps caps_rad, Look *look) {
+  if (look->levers.vaguer < kRestsOnFew) return;
+  PoseQuery without = query;
+  without.correspondences = withoutLevers(look->levers, correspondences_.first(used_count_));
+  Look rival = *look;
+  rival.estimate = estimator_.search(without);
+  samples_ += rival.estimate.iterations;
+  if (rival.estimate.inliers > kFewestMatches / 2) {
+    improve(query, caps_rad, &rival);
+    if (rival.estimate.gain > look->estimate.gain) {
+      *look = rival;
+      return;
+    }
+  }
+  improve(query, caps_rad, look);  // which brings back the matches that speak for it
 }
 
 // Which maps to look into, the likeliest first.
@@ -255,6 +319,12 @@ Localizer::MapOrder Localizer::rankMaps() {
     order.push(best);
   }
   return order;
+}
+
+// Frames are put together for one map at a time: as long as it is likely, the one that earlier frames spoke for.
+uint32_t Localizer::mapToRemember(const MapOrder &order) const {
+  const bool likely = std::find(order.begin(), order.end(), history_map_) != order.end();
+  return likely && history_.frames() > 0 ? history_map_ : order[0];
 }
 
 // Keeps the global matches of this frame for later ones; true when there are some of earlier frames too.
@@ -290,9 +360,10 @@ PaperCostConfig Localizer::paperConfig() const {
 }
 
 Estimate Localizer::firstPose(const PoseQuery &query) {
-  if (!isPaper()) return estimator_.search(query);
-  const Estimate found = estimateWithPaperCost(paperConfig(), query.correspondences, query.seed);
-  if (found.inliers == 0) return found;
+  const Estimate found = isPaper() ? estimateWithPaperCost(paperConfig(), query.correspondences, query.seed)
+                                   : estimator_.search(query);
+  samples_ += found.iterations;
+  if (!isPaper() || found.inliers == 0) return found;
   Estimate estimate = estimator_.evaluate(query, found.camera_from_map);
   estimate.iterations = found.iterations;
   return estimate;
@@ -308,14 +379,14 @@ Estimate Localizer::refined(const PoseQuery &query, const Rigid &camera_from_map
 void Localizer::askAbout(uint32_t map, uint32_t keypoints, uint32_t probes) {
   const int64_t begin = now();
   matcher_.ask(maps_[map], front_.descriptors().first(keypoints), probes);
-  match_ns_ += now() - begin;
+  match_ns_ += elapsedNs(begin, now());
 }
 
 Span<const Correspondence> Localizer::matchEverywhere(uint32_t map, uint32_t keypoints) {
   const int64_t begin = now();
   const uint32_t count = config_.probes ? matcher_.matchAll(keypoints, config_.max_ratio, matches_)
                                         : matcher_.matchExact(config_.max_ratio, matches_);
-  match_ns_ += now() - begin;
+  match_ns_ += elapsedNs(begin, now());
   correspond(map, count);
   keepRays();
   return correspondences_.first(count);
@@ -335,7 +406,7 @@ uint32_t Localizer::matchAround(const Rigid &camera_from_map, double cap_rad) {
   uint32_t count =
       matcher_.matchNear(expected_.first(lifted), static_cast<float>(cosine), config_.max_ratio, matches_);
   for (uint32_t i = 0; i < ray_match_count_; ++i) matches_[count++] = ray_matches_[i];
-  match_ns_ += now() - begin;
+  match_ns_ += elapsedNs(begin, now());
   return count;
 }
 
@@ -349,11 +420,15 @@ void Localizer::keepRays() {
 Span<const Correspondence> Localizer::correspond(uint32_t map, uint32_t match_count) {
   match_count_ = match_count;
   for (uint32_t i = 0; i < match_count; ++i) {
-    const Match &match = matches_[i];
-    correspondences_[i] = {front_.lifted()[match.query], directionOf(map, match.map_index),
-                           1.0f - static_cast<float>(match.distance2) / static_cast<float>(match.second2 + 1)};
+    correspondences_[i] = correspondenceOf(map, matches_[i]);
   }
+  used_count_ = match_count;
   return correspondences_.first(match_count);
+}
+
+Correspondence Localizer::correspondenceOf(uint32_t map, const Match &match) const {
+  return {front_.lifted()[match.query], directionOf(map, match.map_index),
+          1.0f - static_cast<float>(match.distance2) / static_cast<float>(match.second2 + 1)};
 }
 
 // Behind the correspondences of this frame those of the history, each map point once: the same wrong match, seen
@@ -366,6 +441,7 @@ Span<const Correspondence> Localizer::withHistory(uint32_t map) {
     for (uint32_t i = 0; i < match_count_ && !seen; ++i) seen = matches_[i].map_index == old.map_index;
     if (!seen) correspondences_[count++] = {old.lifted, directionOf(map, old.map_index), old.quality};
   }
+  used_count_ = count;
   return correspondences_.first(count);
 }
 
@@ -374,23 +450,24 @@ Vector3 Localizer::directionOf(uint32_t map, uint32_t point) const {
   return Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z));
 }
 
-void Localizer::conclude(const Look &look, sphc_result *result) {
+void Localizer::conclude(sphc_result *result) {
+  const Look &look = kept_.look;
   const bool localized = look.outcome == SPHC_OUTCOME_LOCALIZED;
   result->outcome = look.outcome;
   result->keypoints = front_.keypointCount();
   result->lifted = front_.liftedCount();
-  result->matches = match_count_;
+  result->matches = kept_.matches;
   result->inliers = look.estimate.inliers;
-  result->iterations = look.searched.iterations;
+  result->iterations = samples_;
   result->cut_short = look.searched.cut_short;
   result->map_index = look.map;
   result->frames = look.frames;
   result->guided = look.guided;
-  for (uint32_t i = 0; i < match_count_; ++i) {
-    sphc_observation &observation = front_.observationOf(matches_[i].query);
-    observation.map_index = matches_[i].map_index;
+  for (const Match &match : kept_matches_.first(kept_.matches)) {
+    sphc_observation &observation = front_.observationOf(match.query);
+    observation.map_index = match.map_index;
     observation.flags |= SPHC_OBSERVATION_MATCHED;
-    if (localized && estimator_.isInlier(correspondences_[i], look.estimate))
+    if (localized && estimator_.isInlier(correspondenceOf(look.map, match), look.estimate))
       observation.flags |= SPHC_OBSERVATION_INLIER;
   }
   if (localized) {

@@ -11,6 +11,7 @@
 #include "runtime/stages/match/matcher.h"
 #include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
+#include "runtime/stages/pose/lever.h"
 #include "runtime/stages/pose/paper_estimator.h"
 
 namespace sphc {
@@ -45,20 +46,32 @@ class Localizer {
     sphc_outcome outcome = SPHC_OUTCOME_FEW_MATCHES;
     Estimate searched, estimate;
     Evidence evidence = {};
+    Levers levers;
+  };
+  // What stands for the frame: its matches are in kept_matches_.
+  struct Kept {
+    bool any = false;
+    Look look;
+    uint32_t matches = 0;
   };
 
   using Caps = Span<const double>;
 
   void advance(const sphc_frame &frame, const Known &known);
-  Look locate(const Known &known, const Deadline &deadline);
+  void locate(const Known &known, const Deadline &deadline);
+  void consider(const Look &look);
+  bool isDone(const Deadline &deadline) const;
   bool expect(const Known &known, Prediction *expected) const;
   Look lookNear(const Known &known, const Deadline &deadline, const Prediction &expected);
-  Look lookEverywhere(const Known &known, const Deadline &deadline, bool expected);
-  Look lookInto(uint32_t map, PoseQuery query);
+  void lookEverywhere(const Known &known, const Deadline &deadline);
+  void lookInto(uint32_t map, PoseQuery query, bool remembers);
   Look lookTogether(uint32_t map, PoseQuery query);
   void findPose(const PoseQuery &query, double solid_angle_sr, Caps caps_rad, Look *look);
   void improve(PoseQuery query, Caps caps_rad, Look *look);
+  void findLevers(Look *look) const;
+  void contest(const PoseQuery &query, Caps caps_rad, Look *look);
   MapOrder rankMaps();
+  uint32_t mapToRemember(const MapOrder &order) const;
   bool remember(uint32_t map);
 
   PosePrior priorFor(const Known &known, uint32_t map) const;
@@ -71,10 +84,11 @@ class Localizer {
   uint32_t matchAround(const Rigid &camera_from_map, double cap_rad);
   void keepRays();
   Span<const Correspondence> correspond(uint32_t map, uint32_t match_count);
+  Correspondence correspondenceOf(uint32_t map, const Match &match) const;
   Span<const Correspondence> withHistory(uint32_t map);
   Vector3 directionOf(uint32_t map, uint32_t point) const;
 
-  void conclude(const Look &look, sphc_result *result);
+  void conclude(sphc_result *result);
   void fillPose(const Estimate &estimate, sphc_result *result) const;
   void recordDepth(sphc_result *result) const;
   void log(const sphc_result &result) const;
@@ -95,9 +109,15 @@ class Localizer {
   // In scratch.
   Span<Direction> expected_;
   Span<Match> matches_, ray_matches_;  // ray_matches_: of keypoints without depth, from the first look
+  Span<Match> kept_matches_;
   Span<Correspondence> correspondences_;
   uint32_t match_count_ = 0, ray_match_count_ = 0;
-  int64_t match_ns_ = 0;  // of this frame
+  uint32_t used_count_ = 0;  // correspondences: of the matches, and of the history behind them
+
+  // Of this frame.
+  Kept kept_;
+  uint32_t samples_ = 0;
+  uint64_t match_ns_ = 0;
 };
 
 }  // namespace sphc

@@ -1,5 +1,7 @@
 #include "runtime/localizer/tracker.h"
 
+#include "runtime/localizer/judgement.h"
+
 namespace sphc {
 namespace {
 
@@ -11,12 +13,17 @@ constexpr double kSteadySeconds = 0.25;                              // poses fu
 constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
 constexpr double kGateSigmas = 5;
 
-double seconds(int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+// Times may lie anywhere in their range, and so may not be subtracted as they are.
+uint64_t elapsedNs(int64_t since_ns, int64_t now_ns) {
+  return static_cast<uint64_t>(now_ns) - static_cast<uint64_t>(since_ns);
+}
+
+double seconds(uint64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 double hypotOf(double a, double b) { return sqrtOf(a * a + b * b); }
 
 double sigmaAnAxis(const Estimate &estimate, int first) {
-  return sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
+  return doubtOf(estimate.inliers) * sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
 }
 
 // Rotation vector of a rotation of less than half a turn.
@@ -31,7 +38,7 @@ Vector3 vectorFromRotation(const Matrix3 &rotation) {
 }  // namespace
 
 void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
-  const bool follows = begun_ && time_ns > time_ns_ && time_ns - time_ns_ <= kForgetNs;
+  const bool follows = begun_ && time_ns > time_ns_ && elapsedNs(time_ns_, time_ns) <= kForgetNs;
   if (!follows) reset();
   has_step_ = follows && has_odometry_ && odometry;
   if (has_step_) {
@@ -45,8 +52,8 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
   if (odometry) odometry_ = *odometry;
   time_ns_ = time_ns;
   begun_ = true;
-  if (time_ns - pose_time_ns_ > kForgetNs) has_pose_ = has_velocity_ = false;
-  if (time_ns - trusted_time_ns_ > kForgetNs) state_ = SPHC_STATE_RELOCALIZING;
+  if (elapsedNs(pose_time_ns_, time_ns) > kForgetNs) has_pose_ = has_velocity_ = false;
+  if (elapsedNs(trusted_time_ns_, time_ns) > kForgetNs) state_ = SPHC_STATE_RELOCALIZING;
 }
 
 bool Tracker::step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const {
@@ -66,7 +73,7 @@ bool Tracker::predict(Prediction *prediction) const {
     turn = sqrtOf(moved_rotation2_);
     shift = sqrtOf(moved_translation2_);
   } else {
-    const double dt = seconds(time_ns_ - pose_time_ns_);
+    const double dt = seconds(elapsedNs(pose_time_ns_, time_ns_));
     if (has_velocity_) moved = {rotationFromVector(dt * turn_rad_s_), dt * velocity_m_s_};
     if (has_velocity_) poses = kTwoPoses;
     turn = has_velocity_ ? 0.5 * kTurnAcceleration * dt * dt : kTurnRate * dt;
@@ -92,7 +99,7 @@ void Tracker::accept(uint32_t map, const Estimate &estimate) {
     state_ = SPHC_STATE_TRACKING;
   else if (state_ == SPHC_STATE_TRACKING)
     state_ = SPHC_STATE_LOST;
-  const double dt = seconds(time_ns_ - pose_time_ns_);
+  const double dt = seconds(elapsedNs(pose_time_ns_, time_ns_));
   has_velocity_ = state_ == SPHC_STATE_TRACKING && dt <= kSteadySeconds;
   if (has_velocity_) {
     const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();

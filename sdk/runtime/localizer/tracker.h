@@ -29,7 +29,7 @@ struct Prediction {
 
 class Tracker {
  public:
-  static constexpr int64_t kForgetNs = 1000000000;
+  static constexpr uint64_t kForgetNs = 1000000000;
 
   // Before each frame is looked at.  `odometry` may be null.
   void advance(int64_t time_ns, const Odometry *odometry);

@@ -1,18 +1,20 @@
 #include "runtime/stages/align/sparse.h"
 
+#include <algorithm>
+
 namespace sphc {
 namespace {
 
 constexpr int kMostSteps = 128;
 constexpr double kJump = 0.03;  // relative depth step between neighbours that is an edge, not a slope
 constexpr double kStridePx = DepthBlocks::kReachPx - 4;  // a margin, as steps are not quite even
+constexpr double kBeyond = 1e6;                          // pixels: outside of every image
 
 struct Cell {
   int u, v;
 };
-Cell cellOf(const Vector2 &px) {
-  return {floorToInt(static_cast<float>(px.x())), floorToInt(static_cast<float>(px.y()))};
-}
+int cellAt(double px) { return floorToInt(static_cast<float>(std::min(std::max(px, -kBeyond), kBeyond))); }
+Cell cellOf(const Vector2 &px) { return {cellAt(px.x()), cellAt(px.y())}; }
 
 }  // namespace
 

@@ -3,8 +3,10 @@
 namespace sphc {
 namespace {
 
-int64_t distanceNs(const sphc_capture &a, const sphc_capture &b) {
-  return a.time_ns > b.time_ns ? a.time_ns - b.time_ns : b.time_ns - a.time_ns;
+// Unsigned, since times may lie anywhere in their range.
+uint64_t distanceNs(const sphc_capture &a, const sphc_capture &b) {
+  const uint64_t between = static_cast<uint64_t>(a.time_ns) - static_cast<uint64_t>(b.time_ns);
+  return a.time_ns > b.time_ns ? between : 0 - between;
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ sphc_status Pairer::pop(sphc_pair *pair, sphc_capture *dropped) {
     return SPHC_AGAIN;
   }
   if (canStillImprove()) return SPHC_AGAIN;
-  if (distanceNs(color, depth_.slots[0]) <= config_.tolerance_ns) {
+  if (distanceNs(color, depth_.slots[0]) <= static_cast<uint64_t>(config_.tolerance_ns)) {
     pair->color = color_.takeFront();
     pair->depth = depth_.takeFront();
     return SPHC_OK;

@@ -14,7 +14,7 @@ constexpr double kMinimalThreshold2 = 30;  // minimal samples carry the noise of
 constexpr float kLocalLimit2 = 150;        // rows that local optimisation looks at
 constexpr float kFinalLimit2 = 60;         // rows that the final refinement looks at
 constexpr int kLocalSteps = 2, kFinalIterations = 12;
-constexpr double kLocalScale2 = 16, kFinalScale2 = 8;  // of the Geman-McClure loss
+constexpr double kLocalScale2 = 16;  // of the Geman-McClure loss
 // Wald's test on the gain seen so far: shares of the rows that a right pose gains at least, and slack in rows.
 constexpr float kLeastShare = 0.04f, kShareOfBest = 0.35f, kSlack = 2.0f;
 // Share of the rows that agree by chance, at least; log of the odds that make an agreement certain.

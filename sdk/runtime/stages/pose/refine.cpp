@@ -125,6 +125,11 @@ NormalTask normalTask(const RefineTask &task, const Rigid &pose, const Vector2 &
   return kernel;
 }
 
+double finalInformation(double squared) {
+  const double weight = 1 / (1 + squared / kFinalScale2);
+  return weight * weight / kCovarianceOfLoss;
+}
+
 Rigid improvePose(const RefineTask &task, const Rigid &start, int steps) {
   RefineTask plain = task;
   plain.depth.covariance.setZero();

@@ -11,6 +11,8 @@ namespace sphc {
 using Matrix8 = Eigen::Matrix<double, kPoseUnknowns, kPoseUnknowns>;
 using Vector8 = Eigen::Matrix<double, kPoseUnknowns, 1>;
 
+constexpr double kFinalScale2 = 8;  // scale2 of the last refinement
+
 struct RefineTask {
   const PoseKernels *kernels;
   const PoseRows *lifted;
@@ -29,6 +31,9 @@ struct Refinement {
 
 // The task of the kernels at a pose and bias.
 NormalTask normalTask(const RefineTask &task, const Rigid &pose, const Vector2 &bias);
+// What a correspondence of this squared residual adds to the information of the last refinement, over what its
+// errors would say: its robust weight, and the loss's efficiency.
+double finalInformation(double squared);
 // Gauss-Newton steps without looking back, and without the depth bias: local optimisation.
 Rigid improvePose(const RefineTask &task, const Rigid &start, int steps);
 // To convergence, at most `iterations`.

@@ -1,0 +1,75 @@
+#include "runtime/stages/pose/lever.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "runtime/stages/pose/refine.h"
+#include "runtime/stages/pose/residual.h"
+
+namespace sphc {
+namespace {
+
+constexpr double kVague = 1e-3;  // information about a motion that nothing pins down
+
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+
+// Of the whitened distance to the ray, by a motion exp(xi) of the pose.
+Matrix36 jacobianOf(const LiftedPoint &lifted, const Residual &r) {
+  const Vector3 view = lifted.point_m.normalized();
+  Matrix3 whitening;
+  for (int i = 0; i < 3; ++i) whitening.col(i) = whiten(lifted, view, Vector3::Unit(i));
+  const Matrix3 across = whitening - r.ray_whitened * (r.ray_whitened.transpose() * whitening);
+  Matrix36 jacobian;
+  jacobian << across * crossMatrix(r.foot_m), -across;
+  return jacobian;
+}
+
+// Of a correspondence at the pose: the square root of what it adds to the information; false where it says nothing.
+bool rowOf(const Correspondence &given, const Estimate &estimate, Matrix36 *row) {
+  Correspondence c = given;
+  if (!c.lifted.hasDepth()) return false;
+  c.lifted.along_m *= estimate.depth.noise_scale;
+  const Residual r = residualOf(c, estimate.camera_from_map);
+  if (!r.in_front) return false;
+  *row = sqrtOf(finalInformation(r.squared)) * jacobianOf(c.lifted, r);
+  return true;
+}
+
+Matrix6 covarianceOf(Span<const Correspondence> correspondences, const Estimate &estimate) {
+  Matrix6 information = kVague * Matrix6::Identity();
+  Matrix36 row;
+  for (const Correspondence &c : correspondences)
+    if (rowOf(c, estimate, &row)) information += row.transpose() * row;
+  return information.ldlt().solve(Matrix6::Identity());
+}
+
+double centreVariance(const Matrix6 &covariance) { return covariance.bottomRightCorner<3, 3>().trace(); }
+
+}  // namespace
+
+Levers heaviestLevers(Span<const Correspondence> correspondences, const Estimate &estimate, uint32_t count) {
+  Levers levers;
+  const Matrix6 all = covarianceOf(correspondences, estimate);
+  Matrix6 covariance = all;
+  while (levers.indices.size() < count) {
+    uint32_t heaviest = 0;
+    Matrix36 row;
+    Matrix6 most = Matrix6::Zero();
+    for (uint32_t i = 0; i < correspondences.size(); ++i) {
+      const bool taken = std::find(levers.indices.begin(), levers.indices.end(), i) != levers.indices.end();
+      if (taken || !rowOf(correspondences[i], estimate, &row)) continue;
+      const Eigen::Matrix<double, 6, 3> gain = covariance * row.transpose();
+      const Matrix3 rest = Matrix3::Identity() - row * gain;
+      const Matrix6 growth = gain * rest.inverse() * gain.transpose();  // of the covariance without it
+      if (centreVariance(growth) > centreVariance(most)) heaviest = i, most = growth;
+    }
+    if (!(centreVariance(most) > 0)) break;
+    covariance += most;
+    levers.indices.push(heaviest);
+  }
+  levers.vaguer = sqrtOf(centreVariance(covariance) / centreVariance(all));
+  return levers;
+}
+
+}  // namespace sphc
