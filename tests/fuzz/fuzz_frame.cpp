@@ -26,10 +26,8 @@ class Reader {
  public:
   Reader(const uint8_t *data, size_t bytes) : data_(data), bytes_(bytes) {}
   uint32_t take32() {
-    uint8_t four[4] = {};
-    for (uint8_t &byte : four) byte = next();
-    uint32_t value;
-    std::memcpy(&value, four, 4);
+    uint32_t value = 0;
+    for (int i = 0; i < 4; ++i) value |= uint32_t{next()} << 8 * i;
     return value;
   }
   uint8_t next() { return bytes_ ? (--bytes_, *data_++) : uint8_t{0}; }
@@ -44,6 +42,37 @@ uint32_t around(uint32_t right, Reader *reader) {
   const uint8_t how = reader->next();
   if (how < 200) return right;
   return how < 230 ? right + reader->next() - 128 : reader->take32();
+}
+
+// Mostly small numbers, at times whatever the bytes say.
+double anyNumber(Reader *reader) {
+  if (reader->next() < 220) return (reader->next() - 128) / 64.0;
+  const uint64_t bits = (uint64_t{reader->take32()} << 32) | reader->take32();
+  double value;
+  std::memcpy(&value, &bits, 8);
+  return value;
+}
+
+void fill(sphc_rigid *pose, Reader *reader) {
+  pose->q_wxyz[0] = 1;
+  if (reader->next() < 50)
+    for (double &q : pose->q_wxyz) q = anyNumber(reader);
+  for (double &t : pose->t_m) t = anyNumber(reader);
+}
+
+sphc_prior priorFrom(Reader *reader) {
+  sphc_prior prior = {};
+  prior.struct_size = around(sizeof prior, reader);
+  prior.flags = around(reader->next() % 8, reader);
+  prior.map_index = around(0, reader);
+  fill(&prior.camera_from_map, reader);
+  fill(&prior.odometry_from_camera, reader);
+  for (double *v : {prior.up_camera, prior.up_map})
+    for (int i = 0; i < 3; ++i) v[i] = anyNumber(reader);
+  for (double *sigma : {&prior.rotation_sigma_rad, &prior.translation_sigma_m, &prior.up_sigma_rad,
+                        &prior.odometry_rotation_sigma_rad, &prior.odometry_translation_sigma_m})
+    *sigma = anyNumber(reader);
+  return prior;
 }
 
 bool fits(const sphc_image &image, size_t bytes) {  // else the caller would lie about what the library may read
@@ -75,6 +104,10 @@ void frame(const uint8_t *data, size_t bytes) {
   f.depth.format = static_cast<sphc_format>(around(SPHC_FORMAT_DEPTH16, &reader));
   f.depth.stride_bytes = around(96, &reader);
   const uint8_t shift = reader.next() % 8;
+  f.color_time_ns = static_cast<int64_t>((uint64_t{around(0, &reader)} << 32) | reader.take32());
+  f.depth_time_ns = f.color_time_ns;
+  const sphc_prior prior = priorFrom(&reader);
+  if (reader.next() & 1) f.prior = &prior;
   for (uint8_t &byte : color) byte = reader.next();
   for (uint16_t &value : depth) value = static_cast<uint16_t>(reader.next() | (reader.next() << 8));
   f.color.data = color.data();

@@ -21,6 +21,37 @@ void readAll(const sphc_map *map, size_t bytes) {
   }
 }
 
+// Small, so that a run is short; every keypoint matches something.
+sphc_config smallConfig() {
+  sphc_config config = test::sceneConfig();
+  config.color_camera = test::pinhole(128, 96, 107);
+  config.depth_camera = test::pinhole(64, 48, 48);
+  config.max_keypoints = 64;
+  config.max_iterations = 50;
+  config.max_ratio = 1;
+  return config;
+}
+
+void localizeIn(const sphc_map *map) {
+  static const sphc_config config = smallConfig();
+  static const auto frame = test::sceneFrame(config, 0);
+  static const auto sizes = [] {
+    sphc_memory need = {};
+    if (sphc_localizer_memory(&config, &need, nullptr) != SPHC_OK) broken("the config is good");
+    return need;
+  }();
+  test::GuardedMemory state(sizes.state_bytes, sizes.alignment), scratch(sizes.scratch_bytes, sizes.alignment);
+  sphc_localizer *localizer = nullptr;
+  if (sphc_localizer_init(state.data(), state.size(), scratch.data(), scratch.size(), &config, &map, 1, &localizer,
+                          nullptr) != SPHC_OK)
+    broken("an accepted map can be localized in");
+  sphc_result result = {};
+  result.struct_size = sizeof result;
+  if (sphc_localizer_process(localizer, &frame->frame, &result) < 0) broken("a good frame is taken");
+  sphc_localizer_fini(&localizer);
+  if (!state.guardsIntact() || !scratch.guardsIntact()) broken("the localizer keeps inside its memory");
+}
+
 void open(const std::vector<uint8_t> &file) {
   // Exactly as many bytes as the file has, so that a sanitizer sees a step too far.
   const std::unique_ptr<uint64_t[]> copy(new uint64_t[file.size() / 8 + 1]);
@@ -32,6 +63,7 @@ void open(const std::vector<uint8_t> &file) {
   const sphc_status status = sphc_map_init(memory, sizeof memory, start, file.size(), &map, &message);
   if (status == SPHC_OK) {
     readAll(map, file.size());
+    localizeIn(map);
     sphc_map_fini(&map);
   } else if (status > 0 || map || !message.text[0]) {
     broken("a refusal is a failure that explains itself");

@@ -1,11 +1,22 @@
 #include "tests/support/pose_world.h"
 
+#include <cmath>
+
 #include "tests/support/random_numbers.h"
 
 namespace sphc::test {
 namespace {
 
 constexpr double kFocalPx = 525, kHalfWidth = 0.6, kHalfHeight = 0.45, kNearM = 0.6, kFarM = 4;
+
+// Evenly spread over the cap.
+Vector3 directionNear(const Vector3 &axis, double cap_rad, Random *random) {
+  const Vector3 any = randomDirection(random);
+  if (cap_rad >= kPi) return any;
+  const double cosine = 1 - (1 - std::cos(cap_rad)) * random->uniform();
+  const Vector3 across = (any - any.dot(axis) * axis).normalized();
+  return cosine * axis + std::sqrt(1 - cosine * cosine) * across;
+}
 
 Vector3 measured(const Vector3 &point, const PoseWorldOptions &options, Random *random) {
   const double across = options.pixel_sigma_px * point.z() / kFocalPx;
@@ -41,9 +52,10 @@ PoseWorld makePoseWorld(const PoseWorldOptions &options) {
   for (size_t i = 0; i < options.count; ++i) {
     Correspondence c;
     c.lifted = {measured(points[i], options, &random), options.stated_sideways_m, options.stated_depth_sigma_m};
-    const Vector3 fake = randomDirection(&random);
+    const Vector3 exact = (map_from_camera * points[i]).normalized();
+    const Vector3 fake = directionNear(exact, options.cap_rad, &random);
     world.is_true.push_back(i < true_count);
-    c.direction = i < true_count ? (map_from_camera * points[i]).normalized() : fake;
+    c.direction = i < true_count ? exact : fake;
     world.correspondences.push_back(c);
   }
   return world;

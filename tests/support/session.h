@@ -46,7 +46,7 @@ class Session {
   Session &operator=(const Session &) = delete;
 
   const SceneMap &sceneMap() const { return rooms_[0].scene; }
-  sphc_map *map() { return maps_[0]; }
+  sphc_map *map(uint32_t room = 0) { return maps_[room]; }
   sphc_localizer *localizer() { return localizer_; }
   GuardedMemory &state() { return state_; }
   GuardedMemory &scratch() { return scratch_; }

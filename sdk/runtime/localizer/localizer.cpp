@@ -150,7 +150,9 @@ void Localizer::locate(const Known &known, const Deadline &deadline) {
   Prediction expected;
   if (expect(known, &expected)) consider(lookNear(known, deadline, expected));
   if (!isDone(deadline)) lookEverywhere(known, deadline);
-  if (kept_.look.outcome != SPHC_OUTCOME_LOCALIZED && deadline.passed()) kept_.look.outcome = SPHC_OUTCOME_DEADLINE;
+  if (kept_.look.outcome == SPHC_OUTCOME_LOCALIZED || !deadline.passed()) return;
+  kept_.look.outcome = SPHC_OUTCOME_DEADLINE;
+  kept_.look.searched.cut_short = true;
 }
 
 // Where no look localizes, the last global one into the likeliest map stands for the frame.

@@ -118,6 +118,15 @@ TEST(Camera, BeyondTheFoldIsRefused) {
   EXPECT_FALSE(camera.unproject({320 + 400 * 0.72, 240}, &ray));  // the top is at 0.7027
 }
 
+TEST(Camera, APoleEndsTheImage) {
+  const Camera camera({SPHC_CAMERA_BROWN8, 640, 480, 12, {400, 400, 320, 240, 0, 0, 0, 0, 0, -1, 0, 0}});
+  Vector2 pixel(5, 6);
+  EXPECT_TRUE(camera.project({0.9, 0, 1}, &pixel));  // x / (1 - r^2)
+  pixel = {5, 6};
+  EXPECT_FALSE(camera.project({1, 0, 1}, &pixel));
+  EXPECT_FALSE(camera.project({1.01, 0, 1}, &pixel));
+}
+
 TEST(Camera, UnprojectRefusesNonsense) {
   for (const Named &c : cameras()) {
     const Camera camera(c.camera);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/arena_memory.h"
 
 namespace sphc {
@@ -42,6 +44,19 @@ TEST_F(HistoryTest, DepthErrorSeenFromTheSideIsSideways) {
   ASSERT_EQ(history_.matches().size(), 1u);
   EXPECT_LT((history_.matches()[0].lifted.point_m - Vector3(0, 0, 1)).norm(), 1e-9);
   EXPECT_NEAR(history_.matches()[0].lifted.sideways_m, 0.02, 0.0002);
+}
+
+TEST_F(HistoryTest, ManySmallStepsAreAsOneLarge) {
+  constexpr int kSteps = 60;
+  history_.add({Vector3(0, 0, 1), 0.005, 0.03}, 1, 0);
+  const auto around = [](double angle) {  // the point
+    const Matrix3 turn = rotationFromVector(Vector3(0, angle, 0));
+    return Rigid{turn, Vector3(0, 0, 1) - turn * Vector3(0, 0, 1)};
+  };
+  for (int i = 0; i < kSteps; ++i) history_.advance(around(kPi / 6 / kSteps), 1e-6, 1e-6);
+  ASSERT_EQ(history_.matches().size(), 1u);
+  EXPECT_NEAR(history_.matches()[0].lifted.sideways_m, std::hypot(0.005, 0.03 * 0.5), 1e-5);
+  EXPECT_NEAR(history_.matches()[0].lifted.along_m, std::hypot(0.005, 0.03 * std::sqrt(0.75)), 1e-5);
 }
 
 TEST_F(HistoryTest, AMapPointCountsOnce) {

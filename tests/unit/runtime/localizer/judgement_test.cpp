@@ -34,6 +34,24 @@ TEST(Judgement, WhatChanceWouldDoIsNot) {
   EXPECT_EQ(judgePose({60, 9, -15}, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);  // many poses were tried
 }
 
+TEST(Judgement, LooksThatShareTheirMatchesCountOnce) {
+  Evidence evidence = {60, -5, -20, Looks::kGuided};
+  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
+  evidence.log_chance_first = -20;
+  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), SPHC_OUTCOME_LOCALIZED);
+  evidence.log_chance_second = -5;
+  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
+}
+
+TEST(Judgement, WhatRestsOnFewMatchesIsUncertain) {
+  Estimate estimate = sureEstimate(20);
+  estimate.covariance.bottomRightCorner<3, 3>() = 0.01 * 0.01 * Matrix3::Identity();
+  Evidence evidence = {20, -40, -30};
+  EXPECT_EQ(judgePose(evidence, estimate, 10), SPHC_OUTCOME_LOCALIZED);
+  evidence.vaguer = 4;
+  EXPECT_EQ(judgePose(evidence, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
+}
+
 TEST(Judgement, AVaguePoseIsUncertain) {
   Estimate estimate = sureEstimate(80);
   estimate.covariance(4, 4) = 0.07 * 0.07;
@@ -68,6 +86,36 @@ TEST(Judgement, RandomOutliersAreNotAccepted) {
     const Estimate estimate = estimator.search(world, seed);
     EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED)
         << estimate.inliers << " of " << options.count;
+  }
+}
+
+// Where a pose is expected, all map directions that are looked at lie near the predicted ones, which helps a wrong
+// pose: still none of these, of which not one is right, may pass.
+TEST(Judgement, RandomDirectionsNearAnExpectedPoseAreNotAccepted) {
+  test::TestEstimator estimator(400, 2000);
+  constexpr double kCap = 2.5 * kPi / 180;
+  for (uint64_t seed = 1; seed <= 300; ++seed) {
+    test::PoseWorldOptions options;
+    options.seed = seed;
+    options.true_share = 0;
+    options.count = 20 + 20 * (seed % 10);
+    options.cap_rad = kCap;
+    const test::PoseWorld world = test::makePoseWorld(options);
+    EXPECT_NE(estimator.judgeExpected(world, kCap), SPHC_OUTCOME_LOCALIZED) << seed;
+  }
+}
+
+TEST(Judgement, ATruePoseNearTheExpectedOneIsAccepted) {
+  test::TestEstimator estimator(400, 2000);
+  constexpr double kCap = 2.5 * kPi / 180;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    test::PoseWorldOptions options;
+    options.seed = seed;
+    options.true_share = 0.7;
+    options.cap_rad = kCap;
+    options.centre_offset_m = Vector3(0, 0, 2);
+    const test::PoseWorld world = test::makePoseWorld(options);
+    EXPECT_EQ(estimator.judgeExpected(world, kCap), SPHC_OUTCOME_LOCALIZED) << seed;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "runtime/localizer/localizer.h"
 #include "tests/support/session.h"
@@ -44,6 +45,19 @@ class Walk {
       EXPECT_LT(session_.errorM(result, viewpoint), 0.03) << viewpoint;
     }
     return result;
+  }
+  std::vector<sphc_observation> observations() {
+    std::vector<sphc_observation> all(config_.max_keypoints);
+    uint32_t count = 0;
+    sphc_localizer_observations(session_.localizer(), all.data(), config_.max_keypoints, &count);
+    all.resize(count);
+    return all;
+  }
+  uint32_t pointsOf(uint32_t map) {
+    sphc_map_info info = {};
+    info.struct_size = sizeof info;
+    sphc_map_get_info(session_.map(map), &info);
+    return info.point_count;
   }
   void useOdometry() { odometry_ = true; }
   void forget() { sphc_localizer_reset(session_.localizer()); }
@@ -107,6 +121,28 @@ TEST(LocalizerTracking, FindsTheRoomAndIsHandedOver) {
   EXPECT_EQ(moved.state, SPHC_STATE_LOST);  // one frame alone is not yet trusted
   EXPECT_EQ(walk.see(2, 1).state, SPHC_STATE_TRACKING);
   EXPECT_EQ(walk.see(3, 1).guided, 1u);
+}
+
+// A frame of a room of which there is no map: several maps are looked into, and what is told is of one of them.
+TEST(LocalizerTracking, MatchesOfAFailureAreOfTheMapThatItNames) {
+  sphc_config config = trackingConfig();
+  config.max_ratio = 1;  // everything matches something
+  Walk walk(config, 0.5, 3);
+  uint32_t looked_at = 0;
+  for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) {
+    const sphc_result result = walk.see(viewpoint, 7);
+    EXPECT_NE(result.outcome, SPHC_OUTCOME_LOCALIZED);
+    uint32_t matched = 0;
+    for (const sphc_observation &o : walk.observations()) {
+      if (!(o.flags & SPHC_OBSERVATION_MATCHED)) continue;
+      EXPECT_LT(o.map_index, walk.pointsOf(result.map_index));
+      ++matched;
+    }
+    EXPECT_EQ(matched, result.matches);
+    EXPECT_LE(result.inliers, result.matches);
+    looked_at += result.matches;
+  }
+  EXPECT_GT(looked_at, 0u);
 }
 
 // Frames that show too little one by one.

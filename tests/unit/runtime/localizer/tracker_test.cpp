@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace sphc {
 namespace {
 
@@ -14,6 +16,7 @@ Rigid poseAt(double x_m, double turn_rad = 0) {
 Estimate found(const Rigid &camera_from_map) {
   Estimate estimate;
   estimate.camera_from_map = camera_from_map;
+  estimate.inliers = 200;
   estimate.covariance = 1e-6 * Matrix6::Identity();  // 1 mrad, 1 mm
   return estimate;
 }
@@ -51,6 +54,31 @@ TEST_F(TrackerTest, APoseInAnotherMapDoesNotAgree) {
   EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
   bring(3 * kFrame, poseAt(0), 1);
   EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+}
+
+TEST_F(TrackerTest, FewInliersExpectLess) {
+  const auto sigmaAfter = [this](uint32_t inliers) {
+    Estimate estimate = found(poseAt(0));
+    estimate.covariance *= 400;  // 2 cm
+    estimate.inliers = inliers;
+    tracker_.reset();
+    tracker_.advance(kFrame, nullptr);
+    tracker_.accept(0, estimate);
+    tracker_.advance(kFrame + kFrame / 100, nullptr);
+    Prediction expected;
+    EXPECT_TRUE(tracker_.predict(&expected));
+    return expected.translation_sigma_m;
+  };
+  EXPECT_GT(sigmaAfter(15), 2 * sigmaAfter(200));
+}
+
+TEST_F(TrackerTest, TimesMayLieAnywhere) {
+  constexpr int64_t kFirst = std::numeric_limits<int64_t>::min(), kLast = std::numeric_limits<int64_t>::max();
+  Prediction expected;
+  for (int64_t time_ns : {kFirst, kLast, int64_t{0}, kLast, kFirst, kFirst + kFrame}) {
+    bring(time_ns, poseAt(0));
+    EXPECT_EQ(tracker_.state(), time_ns == kFirst + kFrame ? SPHC_STATE_TRACKING : SPHC_STATE_RELOCALIZING);
+  }
 }
 
 TEST_F(TrackerTest, AMissLosesAndAnExpectedPoseFinds) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,19 @@ TEST(Pairer, BeyondToleranceTheOlderIsDropped) {
   EXPECT_EQ(drain(&pairer), "");
   pairer.flush();
   EXPECT_EQ(drain(&pairer), "c155+d150 ");
+}
+
+TEST(Pairer, TimesFarApartAreNoPair) {
+  Pairer pairer = makePairer(1, 10);
+  sphc_capture early = color(0), late = depth(0);
+  early.time_ns = std::numeric_limits<int64_t>::min();
+  late.time_ns = std::numeric_limits<int64_t>::max();
+  pairer.push(early);
+  pairer.push(late);
+  sphc_pair pair = {};
+  sphc_capture dropped = {};
+  EXPECT_EQ(pairer.pop(&pair, &dropped), SPHC_AGAIN);
+  EXPECT_EQ(dropped.stream, SPHC_STREAM_COLOR);
 }
 
 TEST(Pairer, ExactlyTheToleranceIsAPair) {

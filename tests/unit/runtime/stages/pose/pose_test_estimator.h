@@ -1,5 +1,7 @@
 // An estimator in memory of its own.
 #pragma once
+#include <cmath>
+
 #include "runtime/localizer/judgement.h"
 #include "runtime/stages/pose/estimator.h"
 #include "tests/support/arena_memory.h"
@@ -36,6 +38,22 @@ class TestEstimator {
                              estimate.inliers, 3, 1, estimator_.inlierThreshold2(), 4 * kPi) +
         logOf(static_cast<double>(estimate.iterations));
     return judgePose({estimate.inliers, log_chance, 0}, estimate, 10);
+  }
+  // As it judges a pose that was expected where the world's camera is.
+  sphc_outcome judgeExpected(const PoseWorld &world, double cap_rad) {
+    PosePrior prior;
+    prior.has_pose = true;
+    prior.camera_from_map = world.camera_from_map;
+    prior.rotation_sigma_rad = 0.005;
+    prior.translation_sigma_m = 0.015;
+    PoseQuery query;
+    query.prior = &prior;
+    const Estimate estimate = search(world, query);
+    const double log_chance = logChanceOfAgreement(
+        {world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map, estimate.inliers, 3,
+        1, estimator_.inlierThreshold2(), 2 * kPi * (1 - std::cos(cap_rad)));
+    const double tried = logOf(static_cast<double>(estimate.iterations) + 1);
+    return judgePose({estimate.inliers, log_chance + tried, log_chance, Looks::kGuided}, estimate, 10);
   }
 
  private:
