@@ -92,7 +92,7 @@ enum {
   SPHC_E_CAPACITY = -22, /* an input exceeds a capacity fixed in the config */
 
   SPHC_E_MAP_FORMAT = -30,    /* not a sphere-cloud file, cut short, or its fields contradict each other */
-  SPHC_E_MAP_VERSION = -31,   /* made by a newer format than this library reads */
+  SPHC_E_MAP_VERSION = -31,   /* made in another version of the format: build it again */
   SPHC_E_MAP_CHECKSUM = -32,  /* bytes changed since it was written */
   SPHC_E_MAP_EXTRACTOR = -33, /* its descriptors were made by another extractor than this library's */
 
@@ -330,7 +330,7 @@ enum {
 typedef struct sphc_config {
   uint32_t struct_size;
   uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
-  uint32_t max_iterations; /* upper bound on minimal samples drawn; bounds the time of a call; 1 to 1000000 */
+  uint32_t max_iterations; /* minimal samples drawn in one search, at most; a frame takes one to a few; 1 to 1000000 */
   float max_ratio;         /* Lowe's ratio test, on distances; 0.1 to 1 */
   uint64_t seed;           /* same seed, map, config and frames: same bytes in the results */
 
@@ -393,8 +393,8 @@ typedef struct sphc_result {
   uint32_t keypoints;         /* found in the colour image */
   uint32_t lifted;            /* of these, with depth */
   uint32_t matches;           /* keypoints with a map point that passed the ratio test, lifted or not */
-  uint32_t inliers;           /* of these, lifted and agreeing with the pose */
-  uint32_t iterations;        /* minimal samples drawn */
+  uint32_t inliers;           /* lifted and agreeing with the pose: of these, and where frames > 1 of earlier ones */
+  uint32_t iterations;        /* minimal samples drawn, in all searches */
   sphc_rigid camera_from_map; /* valid when outcome is LOCALIZED, else identity */
   /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
