@@ -51,6 +51,14 @@ void lowerPixels(const ProjectedRow &row, int32_t *__restrict pixels) {
   for (int32_t i = 4 * quarter; i < row.count; ++i) lower(i);
 }
 
+// Where gaps open: on the sides towards the colour camera.
+uint8_t sidesOf(const Vector2 &toward) {
+  uint8_t sides = 0;
+  if (absOf(toward.x()) > kObliquest * absOf(toward.y())) sides = toward.x() > 0 ? kRightSide : kLeftSide;
+  if (absOf(toward.y()) > kObliquest * absOf(toward.x())) sides |= toward.y() > 0 ? kLowerSide : kUpperSide;
+  return sides;
+}
+
 template <typename T>
 void fill(T value, int64_t count, T *to) {
   for (int64_t i = 0; i < count; ++i) to[i] = value;
@@ -74,6 +82,7 @@ void DenseAligner::layout(const DenseConfig &config, Arena &arena, DenseAligner 
   a.turned_ = arena.take<float>("align.rays", 3 * ray_stride);
   a.half_x_ = arena.take<uint8_t>("align.footprints", depth_pixels);
   a.half_y_ = arena.take<uint8_t>("align.footprints", depth_pixels);
+  a.sides_ = arena.take<uint8_t>("align.sides", depth_pixels / kRowPadding);
   a.measured_.keys = arena.take<int32_t>("align.z_buffer", plane);
   a.spread_.keys = arena.take<int32_t>("align.z_buffer", plane);
   a.sensed_ = arena.take<uint16_t>("align.rows", 3 * ray_stride);
@@ -97,6 +106,7 @@ void DenseAligner::init(const DenseConfig &config, const AlignKernels &kernels) 
   makeTask();
   makeRays();
   makeFootprints();
+  makeSides();
   int32_t *arrays = row_.data();
   int32_t **const of_row[] = {&projected_.key, &projected_.spread_key, &projected_.spread_shape};
   for (int32_t **array : of_row) *array = arrays, arrays += ray_stride_;
@@ -151,6 +161,13 @@ void DenseAligner::makeRays() {
       rays_y_[at] = static_cast<float>(ray.y());
     }
   }
+}
+
+void DenseAligner::makeSides() {
+  for (uint8_t &sides : sides_) sides = 0;
+  for (int32_t v = 0; v < depth_height_; ++v)
+    for (int32_t u = 0; u < depth_width_; ++u)
+      sides_[static_cast<size_t>(v * int64_t{ray_stride_} + u) / kRowPadding] |= sidesOf(towardColor(rayOf(u, v)));
 }
 
 // Half the extent of each depth pixel in the colour image, of far points; spread only if some reach over their
@@ -234,7 +251,8 @@ RowToProject DenseAligner::rowToProject(int32_t y) {
 // Every sample into its pixel, and over its footprint.
 void DenseAligner::project(ImageView<uint16_t> depth, int32_t y, bool with_shadows) {
   const RowToProject row = rowToProject(y);
-  const SensedRows rows = {sensedRow(y - 1), sensedRow(y), sensedRow(y + 1), row.count};
+  const SensedRows rows = {sensedRow(y - 1), sensedRow(y), sensedRow(y + 1), row.count,
+                           sides_.data() + int64_t{y} * ray_stride_ / kRowPadding};
   const int32_t edge_count = kernels_->compare_row(rows, slope_.data(), with_shadows ? edges_.data() : nullptr);
   kernels_->project_row(task_, row, &projected_);
   lowerPixels(projected_, measured_.keys.data());
@@ -253,7 +271,7 @@ Vector2 DenseAligner::rayOf(int32_t x, int32_t y) const {
 }
 
 // The next measurement from pixel (x, y) in a direction, beyond a hole if need be; 0: none.
-uint16_t DenseAligner::beside(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const {
+uint16_t DenseAligner::beside(const ImageView<uint16_t> &depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const {
   for (int32_t i = 1; i <= kShadowReachPx; ++i) {
     const int32_t u = x + i * dx, v = y + i * dy;
     if (u < 0 || v < 0 || u >= depth.width || v >= depth.height) return 0;
@@ -264,18 +282,18 @@ uint16_t DenseAligner::beside(ImageView<uint16_t> depth, int32_t x, int32_t y, i
 }
 
 // From the last pixel of something near, towards the colour camera's side.
-void DenseAligner::castShadows(ImageView<uint16_t> depth, int32_t x, int32_t y) {
+void DenseAligner::castShadows(const ImageView<uint16_t> &depth, int32_t x, int32_t y) {
   const Vector2 ray = rayOf(x, y);
-  const double toward_x = center_m_.x() - center_m_.z() * ray.x(), toward_y = center_m_.y() - center_m_.z() * ray.y();
-  const double reach_x = absOf(toward_x), reach_y = absOf(toward_y);
-  // Of both sides the farther, where the gap opens that way.
+  const Vector2 way = towardColor(ray);
+  const uint8_t sides = sidesOf(way);
+  // Of both sides the farther.
   uint16_t across = 0, down = 0;
-  if (reach_x > kObliquest * reach_y) across = beside(depth, x, y, toward_x > 0 ? 1 : -1, 0);
-  if (reach_y > kObliquest * reach_x) down = beside(depth, x, y, 0, toward_y > 0 ? 1 : -1);
+  if (sides & (kLeftSide | kRightSide)) across = beside(depth, x, y, sides & kRightSide ? 1 : -1, 0);
+  if (sides & (kUpperSide | kLowerSide)) down = beside(depth, x, y, 0, sides & kLowerSide ? 1 : -1);
   const double near_m = depth.row(y)[x] * config_.sensor.unit_m;
   const double far_m = (across > down ? across : down) * config_.sensor.unit_m;
   if (!(far_m > near_m * (1 + kShadowJump))) return;
-  const double toward = reach_x > reach_y ? reach_x : reach_y;
+  const double toward = absOf(way.x()) > absOf(way.y()) ? absOf(way.x()) : absOf(way.y());
   const double gap_px = config_.depth.focal() * toward * (far_m - near_m) / (far_m * near_m);
   const size_t at = static_cast<size_t>(y * int64_t{ray_stride_} + kRowPadding + x);
   if (gap_px > kLeastShadowPx) castShadow(ray, at, near_m, far_m);
@@ -332,13 +350,21 @@ void DenseAligner::decode(int32_t y) {
 }
 
 void DenseAligner::resolve(int32_t y, const AlignedImages &out) {
-  ResolvedRow row = {decodedRow(y - 1), decodedRow(y), decodedRow(y + 1), width_,
-                     depth_row_.data(), mask_row_.data(), confidence_row_.data()};
-  kernels_->resolve_row(row);
-  const size_t width = static_cast<size_t>(width_);
-  if (out.depth) std::memcpy(out.depth + y * out.depth_stride, row.depth, width * sizeof(uint16_t));
-  if (out.mask) std::memcpy(out.mask + y * out.mask_stride, row.mask, width);
-  if (out.confidence) std::memcpy(out.confidence + y * out.confidence_stride, row.confidence, width);
+  const auto from = [](DecodedRow row, int32_t x) { return DecodedRow{row.depth + x, row.state + x}; };
+  // Whole vectors go where they belong; what is left, and what nobody asked for, by way of rows of our own.
+  const int32_t whole = width_ / kRowPadding * kRowPadding, rest = width_ - whole;
+  uint16_t *depth = out.depth ? out.depth + y * out.depth_stride : depth_row_.data();
+  uint8_t *mask = out.mask ? out.mask + y * out.mask_stride : mask_row_.data();
+  uint8_t *confidence = out.confidence ? out.confidence + y * out.confidence_stride : confidence_row_.data();
+  const DecodedRow above = decodedRow(y - 1), here = decodedRow(y), below = decodedRow(y + 1);
+  kernels_->resolve_row({above, here, below, whole, depth, mask, confidence});
+  if (!rest) return;
+  kernels_->resolve_row({from(above, whole), from(here, whole), from(below, whole), kRowPadding, depth_row_.data(),
+                         mask_row_.data(), confidence_row_.data()});
+  const size_t bytes = static_cast<size_t>(rest);
+  if (out.depth) std::memcpy(depth + whole, depth_row_.data(), bytes * sizeof(uint16_t));
+  if (out.mask) std::memcpy(mask + whole, mask_row_.data(), bytes);
+  if (out.confidence) std::memcpy(confidence + whole, confidence_row_.data(), bytes);
 }
 
 }  // namespace sphc

@@ -43,12 +43,17 @@ class DenseAligner {
   void makeRays();
   void makeTask();
   void makeFootprints();
+  void makeSides();
   void sense(ImageView<uint16_t> depth, int32_t y);
   void project(ImageView<uint16_t> depth, int32_t y, bool with_shadows);
   RowToProject rowToProject(int32_t y);
   Vector2 rayOf(int32_t x, int32_t y) const;
-  uint16_t beside(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const;
-  void castShadows(ImageView<uint16_t> depth, int32_t x, int32_t y);
+  // From a ray to the colour camera, in the plane of the rays, times its depth.
+  Vector2 towardColor(const Vector2 &ray) const {
+    return {center_m_.x() - center_m_.z() * ray.x(), center_m_.y() - center_m_.z() * ray.y()};
+  }
+  uint16_t beside(const ImageView<uint16_t> &depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const;
+  void castShadows(const ImageView<uint16_t> &depth, int32_t x, int32_t y);
   void castShadow(const Vector2 &ray, size_t at, double near_m, double far_m);
   void markShadow(const Vector2 &px, double half_x, double half_y);
   void decode(int32_t y);
@@ -71,6 +76,7 @@ class DenseAligner {
   Span<float> rays_x_, rays_y_;  // of a depth camera with distortion; without, turned_ has all but a row's offset
   Span<float> turned_;           // three rows: of x, y, z
   Span<uint8_t> half_x_, half_y_;
+  Span<uint8_t> sides_;  // SensedRows'
   Plane measured_, spread_;
   Span<uint16_t> sensed_;                         // three rows of the depth image
   Span<uint16_t> slope_;                          // of the middle one

@@ -66,8 +66,10 @@ struct ProjectTask {
 // are kNotSensed.
 struct SensedRows {
   const uint16_t *above, *here, *below;
-  int32_t count;  // a multiple of kRowPadding: what is beyond the image is kNotSensed
+  int32_t count;         // a multiple of kRowPadding: what is beyond the image is kNotSensed
+  const uint8_t *sides;  // of every kRowPadding pixels: the neighbours towards the colour camera
 };
+constexpr uint8_t kLeftSide = 1, kRightSide = 2, kUpperSide = 4, kLowerSide = 8;
 
 // What project_row needs of a row of the depth image, as many as were sensed.
 struct RowToProject {
@@ -101,7 +103,7 @@ struct DecodedRow {
   uint16_t *depth, *state;
 };
 
-// Where a row of pixels goes; whole kRowPadding are written.
+// Where a row of pixels goes; of all these `count`, a multiple of kRowPadding, are written.
 struct ResolvedRow {
   DecodedRow above, here, below;
   int32_t count;
@@ -115,8 +117,8 @@ struct AlignKernels {
   void (*nearest_row)(const uint16_t *raw, uint16_t first, int32_t count, uint16_t *nearest);
   // sensed[i] = raw[i] - 1 where raw[i] is in [low, high], else kNotSensed; `count` is any.
   void (*sense_row)(const uint16_t *raw, uint16_t low, uint16_t high, int32_t count, uint16_t *sensed);
-  // Slopes where anything was sensed; columns where a neighbour is missing or clearly farther, unless `edges` is
-  // null.  Returns the number of these.
+  // Slopes where anything was sensed; columns where a neighbour on one of the sides is missing or clearly farther,
+  // unless `edges` is null.  Returns the number of these.
   int32_t (*compare_row)(const SensedRows &, uint16_t *slope, int32_t *edges);
   // turned[i] = row i of the matrix times (ray_x, ray_y, 1).
   void (*turn_row)(const float *matrix, const float *ray_x, const float *ray_y, int32_t count,

@@ -168,12 +168,9 @@ HWY_ATTR HWY_INLINE Seen seenFrom(const ProjectTask &task, const RowToProject &i
   return seen;
 }
 
-// Pixels of its own for each lane, where samples go that fall into none.
-HWY_ATTR HWY_INLINE VU32 nowhere(const ProjectTask &task) { return hn::Iota(U32(), task.plane_rest); }
-
-// Samples into single pixels.
-HWY_ATTR HWY_INLINE void place(const ProjectTask &task, const Seen &seen, hn::Vec<I32> key, uint32_t *indices,
-                               int32_t *keys) {
+// Samples into single pixels; those that fall into none go to `nowhere`.
+HWY_ATTR HWY_INLINE void place(const ProjectTask &task, const Seen &seen, hn::Vec<I32> key, VU32 nowhere,
+                               uint32_t *indices, int32_t *keys) {
   const F32 d;
   const U32 du;
   const VF zero = hn::Zero(d);
@@ -182,13 +179,13 @@ HWY_ATTR HWY_INLINE void place(const ProjectTask &task, const Seen &seen, hn::Ve
       hn::And(hn::And(seen.valid, hn::And(hn::Ge(px.x, zero), hn::Lt(px.x, hn::Set(d, task.color.width)))),
               hn::And(hn::Ge(px.y, zero), hn::Lt(px.y, hn::Set(d, task.color.height))));
   const VU32 index = indexOf(task, hn::Floor(px.x), hn::Floor(px.y));
-  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, inside), index, nowhere(task)), du, indices);
+  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, inside), index, nowhere), du, indices);
   hn::StoreU(key, I32(), keys);
 }
 
 // Samples over their footprints.
-HWY_ATTR HWY_INLINE void spread(const ProjectTask &task, const Seen &seen, hn::Vec<I32> key, VF half_x, VF half_y,
-                                const ProjectedRow &out) {
+HWY_ATTR HWY_INLINE void spread(const ProjectTask &task, const Seen &seen, hn::Vec<I32> key, VU32 nowhere, VF half_x,
+                                VF half_y, const ProjectedRow &out) {
   const F32 d;
   const U32 du;
   const I32 di;
@@ -202,18 +199,22 @@ HWY_ATTR HWY_INLINE void spread(const ProjectTask &task, const Seen &seen, hn::V
   const VU32 whole_shape = hn::Sub(wholeBits(shape), hn::Set(du, kWholeBits));
   const VU32 index = indexOf(task, x.first, y.first);
   const auto inside_u = hn::RebindMask(du, inside);
-  hn::StoreU(hn::IfThenElse(inside_u, index, nowhere(task)), du, out.spread_index + out.count);
+  hn::StoreU(hn::IfThenElse(inside_u, index, nowhere), du, out.spread_index + out.count);
   hn::StoreU(hn::BitCast(di, hn::IfThenElse(inside_u, whole_shape, hn::Set(du, kOnePixel))), di,
              out.spread_shape + out.count);
   hn::StoreU(key, di, out.spread_key + out.count);
 }
 
 template <sphc_camera_model kModel>
-HWY_ATTR void projectRowOf(const ProjectTask &task, const RowToProject &in, ProjectedRow *out) {
+HWY_ATTR void projectRowOf(const ProjectTask &shared_task, const RowToProject &row, ProjectedRow *projected) {
+  const ProjectTask task = shared_task;  // own copies, which no store through a pointer can change
+  const RowToProject in = row;
+  ProjectedRow out = *projected;
   const F32 d;
   const hn::Rebind<uint16_t, F32> d16;
   const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
-  out->count = 0;
+  const VU32 nowhere = hn::Iota(U32(), task.plane_rest);  // a place of its own for each lane
+  out.count = 0;
   for (int32_t u = 0; u < in.count; u += lanes) {
     if (hn::AllTrue(d16, hn::Eq(hn::LoadU(d16, in.sensed + u), hn::Set(d16, kNotSensed)))) continue;
     const VF z = hn::Add(floatOf(in.sensed + u), hn::Set(d, 1.0f)), z2 = hn::Mul(z, z);
@@ -223,13 +224,14 @@ HWY_ATTR void projectRowOf(const ProjectTask &task, const RowToProject &in, Proj
     const VF sigma = madd(hn::Set(d, task.sigma), task.sigma_per_raw2, z2), sigma2 = hn::Mul(sigma, sigma);
     const VF good2 = hn::Mul(hn::Set(d, kGoodError * kGoodError), z2);
     const auto key = keyOf(seen.subunits, good2, madd(sigma2, kPlacedPx * kPlacedPx, slope2));
-    place(task, seen, key, out->index + out->count, out->key + out->count);
+    place(task, seen, key, nowhere, out.index + out.count, out.key + out.count);
     if (task.with_footprints) {
       const auto spread_key = keyOf(seen.subunits, good2, madd(sigma2, kSpreadPx * kSpreadPx, slope2));
-      spread(task, seen, spread_key, halfWidth(in.half_x + u), halfWidth(in.half_y + u), *out);
+      spread(task, seen, spread_key, nowhere, halfWidth(in.half_x + u), halfWidth(in.half_y + u), out);
     }
-    out->count += lanes;
+    out.count += lanes;
   }
+  projected->count = out.count;
 }
 
 HWY_ATTR void projectRow(const ProjectTask &task, const RowToProject &in, ProjectedRow *out) {

@@ -75,23 +75,43 @@ HWY_ATTR HWY_INLINE VK combine(VK measured, VK spread) {
   return hn::IfThenElse(hn::Lt(depthOf(spread), near), hn::Or(spread, hn::Set(Key(), kFilledBit)), measured);
 }
 
-HWY_ATTR void decodeRow(const BufferRow &in, const DecodedRow &out) {
+// Depth of a key without flags in whole units, rounded.
+HWY_ATTR HWY_INLINE VK unitsOf(VK key) {
+  const VK half = hn::Set(Key(), 1 << (kDepthShift + kSubUnitShift - 1));
+  return hn::ShiftRight<kDepthShift + kSubUnitShift>(hn::Add(key, half));
+}
+
+HWY_ATTR HWY_INLINE void decode(VK key, VK *depth, VK *state) {
+  const Key d;
+  const VK low = hn::Set(d, 255), measured = hn::Set(d, kMeasured16), flags = hn::Set(d, kFilledBit);
+  if (hn::AllTrue(d, hn::Lt(key, flags))) {
+    *depth = unitsOf(key);
+    *state = hn::Or(hn::AndNot(key, low), measured);
+    return;
+  }
+  *depth = *state = hn::Zero(d);
+  if (hn::AllTrue(d, hn::Eq(key, hn::Set(d, kEmpty)))) return;
+  const MK there = hn::Lt(key, hn::Set(d, kShadowed));
+  const VK filled = hn::And(hn::ShiftRight<30 - kKindShift>(key), measured);  // the kind after it
+  const VK known = hn::Or(hn::Add(measured, filled), hn::AndNot(key, low));
+  const VK hidden = hn::IfThenElseZero(hn::Eq(key, hn::Set(d, kShadowed)), hn::Set(d, kOccluded16));
+  *depth = hn::IfThenElseZero(there, unitsOf(hn::AndNot(flags, key)));
+  *state = hn::IfThenElse(there, known, hidden);
+}
+
+HWY_ATTR void decodeRow(const BufferRow &shared_in, const DecodedRow &shared_out) {
+  const BufferRow in = shared_in;  // own copies, which no store through a pointer can change
+  const DecodedRow out = shared_out;
   const Key d;
   const hn::Rebind<uint16_t, Key> d16;
-  const VK empty = hn::Set(d, kEmpty), low = hn::Set(d, 255), measured = hn::Set(d, kMeasured16);
+  const VK empty = hn::Set(d, kEmpty);
   for (int32_t x = 0; x < in.count; x += static_cast<int32_t>(hn::Lanes(d))) {
-    VK key = hn::LoadU(d, in.measured + x);
+    VK key = hn::LoadU(d, in.measured + x), depth, state;
     hn::StoreU(empty, d, in.measured + x);
     if (in.spread) key = combine(key, spreadAt(in, x));
-    const MK there = hn::Lt(key, hn::Set(d, kShadowed));
-    // Rounded to whole units.
-    const VK half = hn::Set(d, 1 << (kDepthShift + kSubUnitShift - 1));
-    const VK depth = hn::ShiftRight<kDepthShift + kSubUnitShift>(hn::Add(hn::And(key, hn::Set(d, kFilledBit - 1)), half));
-    const VK filled = hn::And(hn::ShiftRight<30 - kKindShift>(key), measured);  // the kind after it
-    const VK known = hn::Or(hn::Add(measured, filled), hn::AndNot(key, low));
-    const VK hidden = hn::IfThenElseZero(hn::Eq(key, hn::Set(d, kShadowed)), hn::Set(d, kOccluded16));
-    hn::StoreU(hn::DemoteTo(d16, hn::IfThenElseZero(there, depth)), d16, out.depth + x);
-    hn::StoreU(hn::DemoteTo(d16, hn::IfThenElse(there, known, hidden)), d16, out.state + x);
+    decode(key, &depth, &state);
+    hn::StoreU(hn::DemoteTo(d16, depth), d16, out.depth + x);
+    hn::StoreU(hn::DemoteTo(d16, state), d16, out.state + x);
   }
 }
 
@@ -146,17 +166,29 @@ HWY_ATTR HWY_INLINE void storePixels(const Resolved &pixels, const ResolvedRow &
   hn::StoreU(hn::DemoteTo(d8, hn::BitCast(di, hn::And(pixels.state, hn::Set(d, 255)))), d8, out.confidence + x);
 }
 
-HWY_ATTR void resolveRow(const ResolvedRow &row) {
+HWY_ATTR HWY_INLINE void closeCracks(const ResolvedRow &row, int32_t x, MP open, Resolved *here) {
+  closeBetween(loadPixels(row.above, x), loadPixels(row.below, x), open, here);
+  closeBetween(loadPixels(row.here, x - 1), loadPixels(row.here, x + 1), open, here);
+}
+
+// Is nothing in a vector of pixels, and nothing to close?  More than one lane: of three beside each other two are
+// in the vector.
+HWY_ATTR HWY_INLINE bool isVoid(const ResolvedRow &row, int32_t x, MP open) {
   const Pixels d;
-  const VP zero = hn::Zero(d), filled = hn::Set(d, kFilled16);
+  if (hn::Lanes(d) == 1 || !hn::AllTrue(d, open)) return false;
+  const VP both = hn::Min(hn::LoadU(d, row.above.depth + x), hn::LoadU(d, row.below.depth + x));
+  return hn::AllTrue(d, hn::Eq(both, hn::Zero(d)));
+}
+
+HWY_ATTR void resolveRow(const ResolvedRow &shared_row) {
+  const ResolvedRow row = shared_row;  // an own copy, which no store through a pointer can change
+  const Pixels d;
+  const VP kind = hn::Set(d, kOccluded16), filled = hn::Set(d, kFilled16);
   for (int32_t x = 0; x < row.count; x += static_cast<int32_t>(hn::Lanes(d))) {
     Resolved here = loadPixels(row.here, x);
-    const MP open = hn::Eq(here.depth, zero);
-    if (!hn::AllFalse(d, open)) {
-      closeBetween(loadPixels(row.above, x), loadPixels(row.below, x), open, &here);
-      closeBetween(loadPixels(row.here, x - 1), loadPixels(row.here, x + 1), open, &here);
-    }
-    const MP is_filled = hn::Eq(hn::And(here.state, hn::Set(d, kOccluded16)), filled);
+    const MP open = hn::Eq(here.depth, hn::Zero(d));
+    if (!hn::AllFalse(d, open) && !isVoid(row, x, open)) closeCracks(row, x, open, &here);
+    const MP is_filled = hn::Eq(hn::And(here.state, kind), filled);
     if (!hn::AllFalse(d, is_filled)) {
       const VP others[] = {hn::LoadU(d, row.here.depth + x - 1), hn::LoadU(d, row.here.depth + x + 1),
                            hn::LoadU(d, row.above.depth + x), hn::LoadU(d, row.below.depth + x)};

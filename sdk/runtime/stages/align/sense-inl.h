@@ -39,11 +39,21 @@ HWY_ATTR void senseRow(const uint16_t *raw, uint16_t low, uint16_t high, int32_t
   }
 }
 
+// Appends those columns from `u` on whose lanes are true; returns where the next will go.
+HWY_ATTR HWY_INLINE int32_t *appendColumns(hn::Mask<U16> which, int32_t u, int32_t *columns) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(U16(), which, bits);
+  for (size_t rest = bits[0] | size_t{bits[1]} << 8; rest; rest &= rest - 1)
+    *columns++ = u + static_cast<int32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(rest));
+  return columns;
+}
+
 HWY_ATTR int32_t compareRow(const SensedRows &in, uint16_t *slope, int32_t *edges) {
   const U16 d;
-  const VU16 none = hn::Set(d, kNotSensed);
-  int32_t edge_count = 0;
-  for (int32_t u = 0; u < in.count; u += static_cast<int32_t>(hn::Lanes(d))) {
+  const VU16 none = hn::Set(d, kNotSensed), jump = hn::Set(d, kEdgeJump16);
+  int32_t *edges_end = edges;
+  const int32_t count = in.count;
+  for (int32_t u = 0; u < count; u += static_cast<int32_t>(hn::Lanes(d))) {
     const VU16 z = hn::LoadU(d, in.here + u);
     const auto missing = hn::Eq(z, none);
     if (hn::AllTrue(d, missing)) continue;
@@ -51,18 +61,21 @@ HWY_ATTR int32_t compareRow(const SensedRows &in, uint16_t *slope, int32_t *edge
     const VU16 above = hn::LoadU(d, in.above + u), below = hn::LoadU(d, in.below + u);
     const VU16 farthest = hn::Max(hn::Max(left, right), hn::Max(above, below));
     const VU16 nearest = hn::Min(hn::Min(left, right), hn::Min(above, below));
-    hn::StoreU(hn::Max(hn::SaturatedSub(farthest, z), hn::SaturatedSub(z, nearest)), d, slope + u);
+    const VU16 steepest = hn::Max(hn::SaturatedSub(farthest, z), hn::SaturatedSub(z, nearest));
+    hn::StoreU(steepest, d, slope + u);
     if (!edges) continue;
-    const VU16 same = hn::SaturatedAdd(z, hn::MulHigh(z, hn::Set(d, kEdgeJump16)));
-    const auto flat = hn::Or(missing, hn::Eq(hn::SaturatedSub(farthest, same), hn::Zero(d)));
-    if (hn::AllTrue(d, flat)) continue;
-    uint8_t bits[8] = {};
-    const size_t bytes = hn::StoreMaskBits(d, hn::Not(flat), bits);
-    for (size_t byte = 0; byte < bytes; ++byte)
-      for (int32_t bit = 0; bits[byte] >> bit; ++bit)
-        if (bits[byte] >> bit & 1) edges[edge_count++] = u + static_cast<int32_t>(8 * byte) + bit;
+    const VU16 same = hn::SaturatedAdd(z, hn::MulHigh(z, jump));
+    if (hn::AllTrue(d, hn::Eq(hn::SaturatedSub(farthest, same), hn::Zero(d)))) continue;
+    const uint8_t sides = in.sides[u / kRowPadding];
+    VU16 beside = z;
+    if (sides & kLeftSide) beside = hn::Max(beside, left);
+    if (sides & kRightSide) beside = hn::Max(beside, right);
+    if (sides & kUpperSide) beside = hn::Max(beside, above);
+    if (sides & kLowerSide) beside = hn::Max(beside, below);
+    const auto flat = hn::Eq(hn::SaturatedSub(beside, same), hn::Zero(d));
+    edges_end = appendColumns(hn::Not(hn::Or(missing, flat)), u, edges_end);
   }
-  return edge_count;
+  return static_cast<int32_t>(edges_end - edges);
 }
 
 }  // namespace
