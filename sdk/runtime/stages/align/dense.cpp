@@ -24,7 +24,7 @@ LensF lensF(const Camera &camera) {
   LensF lens = {};
   lens.model = door.model;
   lens.fx = static_cast<float>(door.params[0]), lens.fy = static_cast<float>(door.params[1]);
-  lens.cx = static_cast<float>(door.params[2]), lens.cy = static_cast<float>(door.params[3]);
+  lens.cx = static_cast<float>(door.params[2] - 0.5), lens.cy = static_cast<float>(door.params[3] - 0.5);
   for (int i = 0; i < 8; ++i) lens.k[i] = static_cast<float>(door.params[4 + i]);
   lens.max_radius2 = static_cast<float>(camera.maxRadius2());
   lens.width = static_cast<float>(camera.width()), lens.height = static_cast<float>(camera.height());
@@ -126,7 +126,7 @@ void DenseAligner::makeTask() {
   task_.color = lensF(c.color);
   Matrix3 lens = Matrix3::Identity();
   const double *k = c.color.parameters().params;
-  if (task_.color.model == SPHC_CAMERA_PINHOLE) lens << k[0], 0, k[2], 0, k[1], k[3], 0, 0, 1;
+  if (task_.color.model == SPHC_CAMERA_PINHOLE) lens << k[0], 0, k[2] - 0.5, 0, k[1], k[3] - 0.5, 0, 0, 1;
   const double subunits_per_m = kSubUnits / c.out_unit_m;
   const Matrix3 turn = c.sensor.unit_m * subunits_per_m * lens * c.color_from_depth.rotation;
   const Vector3 shift = subunits_per_m * lens * c.color_from_depth.translation_m;
@@ -272,11 +272,17 @@ Vector2 DenseAligner::rayOf(int32_t x, int32_t y) const {
 
 // The next measurement from pixel (x, y) in a direction, beyond a hole if need be; 0: none.
 uint16_t DenseAligner::beside(const ImageView<uint16_t> &depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const {
-  for (int32_t i = 1; i <= kShadowReachPx; ++i) {
-    const int32_t u = x + i * dx, v = y + i * dy;
-    if (u < 0 || v < 0 || u >= depth.width || v >= depth.height) return 0;
-    const uint16_t raw = depth.row(v)[u];
-    if (raw >= low_ && raw <= high_) return raw;
+  int32_t steps = kShadowReachPx;
+  const auto stopAt = [&steps](int32_t pixels) { steps = pixels < steps ? pixels : steps; };
+  if (dx) stopAt(dx > 0 ? depth.width - 1 - x : x);
+  if (dy) stopAt(dy > 0 ? depth.height - 1 - y : y);
+  const uint16_t *pixel = depth.row(y) + x;
+  const int64_t step = dx + dy * depth.stride;
+  const uint32_t range = static_cast<uint32_t>(high_ - low_);
+  while (steps-- > 0) {
+    pixel += step;
+    const uint32_t above_low = uint32_t{*pixel} - low_;  // wraps around below
+    if (above_low <= range) return *pixel;
   }
   return 0;
 }
@@ -341,6 +347,7 @@ void DenseAligner::decode(int32_t y) {
     if (task_.with_footprints)
       in.spread = spread_.row(y, plane_stride_), in.spread_above = spread_.row(y - 1, plane_stride_);
     kernels_->decode_row(in, row);
+    row.depth[width_] = row.state[width_] = 0;  // samples that fell beside the image
   } else {
     fill(uint16_t{0}, width_, row.depth);
     fill(uint16_t{0}, width_, row.state);

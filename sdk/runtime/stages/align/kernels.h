@@ -38,7 +38,7 @@ constexpr uint16_t kNotSensed = 0xFFFF;
 // A pixel's mask is the high byte of its state, its confidence the low one.
 constexpr int32_t kKindShift = 8;
 
-// How a colour pixel comes from a ray (x, y, 1).
+// How a colour pixel comes from a ray (x, y, 1); the centre of the first pixel is at (0, 0).
 struct LensF {
   sphc_camera_model model;
   float fx, fy, cx, cy;

@@ -29,9 +29,10 @@ constexpr float kGoodError = 0.01f;  // relative depth error of confidence 127
 constexpr float kPlacedPx = 0.3f;    // 1 sigma of where in its pixel a sample was measured
 constexpr float kSpreadPx = 0.8f;    // the same beside its pixel
 constexpr float kFarPx = 1e6f;       // a pixel of numbers that are too large, or not numbers
-// Numbers up to 2^22 added to it are rounded to whole ones, which are then the low bits.
+// Numbers up to 2^22, of either sign, added to it are rounded to whole ones, which are then the low bits.
 constexpr float kWhole = 12582912.0f;
 constexpr uint32_t kWholeBits = 0x4B400000;
+constexpr float kWholeDepth = 8388608.0f;  // the same for numbers from 0 on; all its bits are in the highest 9
 
 // a + s * b, rounded twice.
 HWY_ATTR HWY_INLINE VF madd(VF a, float s, VF b) { return hn::Add(a, hn::Mul(hn::Set(F32(), s), b)); }
@@ -101,46 +102,66 @@ HWY_ATTR HWY_INLINE VF halfWidth(const uint8_t *table) {
   return hn::Mul(sixteenths, hn::Set(F32(), 1 / kFootprintsPerPixel));
 }
 
+// What every sample of a row needs: numbers in all lanes.
+struct Constants {
+  VF offset[3], t[3];            // RowToProject's and ProjectTask's
+  VF least_depth, most_depth;    // subunits
+  VF sigma, sigma_per_raw2, good2, placed2, spread2, steepest;
+  VF left, right, top, bottom;   // of the image: centres of the pixels just outside
+  VF whole, whole_depth, one, every_doubt, no_sample;
+  VU32 stride, origin, nowhere, byte;
+};
+
+HWY_ATTR HWY_INLINE Constants constantsOf(const ProjectTask &task, const RowToProject &in) {
+  const F32 d;
+  const U32 du;
+  Constants c;
+  for (int i = 0; i < 3; ++i) c.offset[i] = hn::Set(d, in.offset[i]), c.t[i] = hn::Set(d, task.t[i]);
+  c.least_depth = hn::Set(d, 1.0f * kSubUnits), c.most_depth = hn::Set(d, task.most_subunits);
+  c.sigma = hn::Set(d, task.sigma), c.sigma_per_raw2 = hn::Set(d, task.sigma_per_raw2);
+  c.good2 = hn::Set(d, kGoodError * kGoodError), c.placed2 = hn::Set(d, kPlacedPx * kPlacedPx);
+  c.spread2 = hn::Set(d, kSpreadPx * kSpreadPx), c.steepest = hn::Set(d, kSteepest);
+  c.left = c.top = hn::Set(d, -1.0f);
+  c.right = hn::Set(d, task.color.width), c.bottom = hn::Set(d, task.color.height);
+  c.whole = hn::Set(d, kWhole), c.whole_depth = hn::Set(d, kWholeDepth);
+  c.one = hn::Set(d, 1.0f), c.every_doubt = hn::Set(d, 255.0f), c.no_sample = hn::Set(d, 65535.5f);
+  c.stride = hn::Set(du, task.plane_stride);
+  c.origin = hn::Set(du, task.plane_origin - kWholeBits * (task.plane_stride + 1));  // wraps around, as the sum does
+  c.nowhere = hn::Iota(du, task.plane_rest);
+  c.byte = hn::Set(du, 255);
+  return c;
+}
+
 // kWholeBits + the whole number nearest to a value of at most 2^22; of others nothing useful.
-HWY_ATTR HWY_INLINE VU32 wholeBits(VF value) {
-  return hn::BitCast(U32(), hn::Add(value, hn::Set(F32(), kWhole)));
+HWY_ATTR HWY_INLINE VU32 wholeBits(const Constants &c, VF value) {
+  return hn::BitCast(U32(), hn::Add(value, c.whole));
 }
 
 // Depth, in subunits, and 255 - confidence.  With e the relative error confidence is 255 / (1 + (e / good)^2), so
 // this is 255 e^2 / (good^2 + e^2).  good2, error2: both times the squared depth.
-HWY_ATTR HWY_INLINE hn::Vec<I32> keyOf(VF subunits, VF good2, VF error2) {
-  const F32 d;
-  const U32 du;
-  const VF doubt = hn::Div(hn::Mul(hn::Set(d, 255.0f), error2), hn::Add(good2, error2));
-  const VU32 low = hn::And(wholeBits(doubt), hn::Set(du, 255));
-  const VU32 high = hn::And(hn::ShiftLeft<kDepthShift>(wholeBits(subunits)), hn::Set(du, kFilledBit - 1));
-  return hn::BitCast(I32(), hn::Or(high, low));
+HWY_ATTR HWY_INLINE hn::Vec<I32> keyOf(const Constants &c, VF subunits, VF good2, VF error2) {
+  const VF doubt = hn::Div(hn::Mul(c.every_doubt, error2), hn::Add(good2, error2));
+  const VU32 depth = hn::BitCast(U32(), hn::Add(subunits, c.whole_depth));
+  return hn::BitCast(I32(), hn::Or(hn::ShiftLeft<kDepthShift>(depth), hn::And(wholeBits(c, doubt), c.byte)));
 }
 
-// Index of a pixel in the z-buffer; `column` and `row` are whole.
-HWY_ATTR HWY_INLINE VU32 indexOf(const ProjectTask &task, VF column, VF row) {
-  const U32 d;
-  const VU32 of_row = hn::Mul(wholeBits(row), hn::Set(d, task.plane_stride));
-  const uint32_t origin = task.plane_origin - kWholeBits * (task.plane_stride + 1);  // wraps around, as the sum does
-  return hn::Add(hn::Add(of_row, wholeBits(column)), hn::Set(d, origin));
+// Index in the z-buffer of the pixel whose centre is nearest.
+HWY_ATTR HWY_INLINE VU32 indexOf(const Constants &c, VF x, VF y) {
+  return hn::Add(hn::Mul(wholeBits(c, y), c.stride), hn::Add(wholeBits(c, x), c.origin));
 }
 
-// First pixel whose centre is not before `edge`.
-HWY_ATTR HWY_INLINE VF firstFrom(VF edge) { return hn::Ceil(hn::Sub(edge, hn::Set(F32(), 0.5f))); }
-
-// Pixels [first, last) along one axis that a footprint is spread over.
+// Pixels [first, last) along one axis that a footprint is spread over: those whose centres are in it.
 struct Extent {
   VF first, last;
 };
-HWY_ATTR HWY_INLINE Extent extentOf(VF middle, VF half, bool grown, float most) {
+HWY_ATTR HWY_INLINE Extent extentOf(VF middle, VF half, VF less, float most) {
   const F32 d;
-  const VF less = hn::Set(d, grown ? 1.0f : 0.0f);
-  const VF first = firstFrom(hn::Sub(middle, half)), last = firstFrom(hn::Add(middle, half));
+  const VF first = hn::Ceil(hn::Sub(middle, half)), last = hn::Ceil(hn::Add(middle, half));
   return {hn::Max(first, hn::Sub(hn::Zero(d), less)),
           hn::Min(hn::Max(hn::Sub(last, less), hn::Add(first, less)), hn::Set(d, most))};
 }
 
-// A vector of samples as the colour camera sees them.
+// A vector of samples as the colour camera sees them.  Here the centre of the first pixel is at (0, 0).
 struct Seen {
   VF subunits;
   Point2 px;
@@ -148,18 +169,18 @@ struct Seen {
 };
 
 template <sphc_camera_model kModel>
-HWY_ATTR HWY_INLINE Seen seenFrom(const ProjectTask &task, const RowToProject &in, int32_t u, VF z) {
+HWY_ATTR HWY_INLINE Seen seenFrom(const ProjectTask &task, const Constants &c, const RowToProject &in, int32_t u,
+                                  VF z) {
   const F32 d;
   const auto along = [&](int axis) HWY_ATTR {
-    const VF turned = hn::Add(hn::LoadU(d, in.turned[axis] + u), hn::Set(d, in.offset[axis]));
-    return hn::Add(hn::Mul(z, turned), hn::Set(d, task.t[axis]));
+    return hn::Add(hn::Mul(z, hn::Add(hn::LoadU(d, in.turned[axis] + u), c.offset[axis])), c.t[axis]);
   };
   Seen seen;
   seen.subunits = along(2);
-  const VF inverse = hn::Div(hn::Set(d, 1.0f), seen.subunits);
+  const VF inverse = hn::Div(c.one, seen.subunits);
   seen.px = {hn::Mul(along(0), inverse), hn::Mul(along(1), inverse)};
-  seen.valid = hn::And(hn::Lt(z, hn::Set(d, 65535.5f)), hn::And(hn::Ge(seen.subunits, hn::Set(d, 1.0f * kSubUnits)),
-                                                  hn::Le(seen.subunits, hn::Set(d, task.most_subunits))));
+  seen.valid = hn::And(hn::Lt(z, c.no_sample),
+                       hn::And(hn::Ge(seen.subunits, c.least_depth), hn::Le(seen.subunits, c.most_depth)));
   if constexpr (kModel != SPHC_CAMERA_PINHOLE) {
     const VF r2 = hn::Add(hn::Mul(seen.px.x, seen.px.x), hn::Mul(seen.px.y, seen.px.y));
     seen.valid = hn::And(seen.valid, hn::Le(r2, hn::Set(d, task.color.max_radius2)));
@@ -168,38 +189,32 @@ HWY_ATTR HWY_INLINE Seen seenFrom(const ProjectTask &task, const RowToProject &i
   return seen;
 }
 
-// Samples into single pixels; those that fall into none go to `nowhere`.
-HWY_ATTR HWY_INLINE void place(const ProjectTask &task, const Seen &seen, hn::Vec<I32> key, VU32 nowhere,
-                               uint32_t *indices, int32_t *keys) {
-  const F32 d;
+// Samples into single pixels.  What falls beside the image goes into the pixels around it, which nobody reads.
+HWY_ATTR HWY_INLINE void place(const Constants &c, const Seen &seen, hn::Vec<I32> key, uint32_t *indices,
+                               int32_t *keys) {
   const U32 du;
-  const VF zero = hn::Zero(d);
-  const Point2 &px = seen.px;
-  const MF inside =
-      hn::And(hn::And(seen.valid, hn::And(hn::Ge(px.x, zero), hn::Lt(px.x, hn::Set(d, task.color.width)))),
-              hn::And(hn::Ge(px.y, zero), hn::Lt(px.y, hn::Set(d, task.color.height))));
-  const VU32 index = indexOf(task, hn::Floor(px.x), hn::Floor(px.y));
-  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, inside), index, nowhere), du, indices);
+  const VU32 index = indexOf(c, hn::Min(hn::Max(seen.px.x, c.left), c.right),
+                             hn::Min(hn::Max(seen.px.y, c.top), c.bottom));
+  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, seen.valid), index, c.nowhere), du, indices);
   hn::StoreU(key, I32(), keys);
 }
 
 // Samples over their footprints.
-HWY_ATTR HWY_INLINE void spread(const ProjectTask &task, const Seen &seen, hn::Vec<I32> key, VU32 nowhere, VF half_x,
-                                VF half_y, const ProjectedRow &out) {
+HWY_ATTR HWY_INLINE void spread(const ProjectTask &task, const Constants &c, const Seen &seen, hn::Vec<I32> key,
+                                VF half_x, VF half_y, const ProjectedRow &out) {
   const F32 d;
   const U32 du;
   const I32 di;
-  const VF far = hn::Set(d, kFarPx);
-  const Extent x = extentOf(seen.px.x, half_x, task.grown, task.color.width);
-  const Extent y = extentOf(seen.px.y, half_y, task.grown, task.color.height);
+  const VF far = hn::Set(d, kFarPx), less = hn::Set(d, task.grown ? 1.0f : 0.0f);
+  const Extent x = extentOf(seen.px.x, half_x, less, task.color.width);
+  const Extent y = extentOf(seen.px.y, half_y, less, task.color.height);
   const MF near = hn::And(hn::And(seen.valid, hn::Gt(half_x, hn::Zero(d))),
                           hn::And(hn::Lt(hn::Abs(seen.px.x), far), hn::Lt(hn::Abs(seen.px.y), far)));
   const MF inside = hn::And(near, hn::And(hn::Lt(x.first, x.last), hn::Lt(y.first, y.last)));
   const VF shape = hn::Add(hn::Mul(hn::Sub(y.last, y.first), hn::Set(d, 65536.0f)), hn::Sub(x.last, x.first));
-  const VU32 whole_shape = hn::Sub(wholeBits(shape), hn::Set(du, kWholeBits));
-  const VU32 index = indexOf(task, x.first, y.first);
+  const VU32 whole_shape = hn::Sub(wholeBits(c, shape), hn::Set(du, kWholeBits));
   const auto inside_u = hn::RebindMask(du, inside);
-  hn::StoreU(hn::IfThenElse(inside_u, index, nowhere), du, out.spread_index + out.count);
+  hn::StoreU(hn::IfThenElse(inside_u, indexOf(c, x.first, y.first), c.nowhere), du, out.spread_index + out.count);
   hn::StoreU(hn::BitCast(di, hn::IfThenElse(inside_u, whole_shape, hn::Set(du, kOnePixel))), di,
              out.spread_shape + out.count);
   hn::StoreU(key, di, out.spread_key + out.count);
@@ -212,22 +227,21 @@ HWY_ATTR void projectRowOf(const ProjectTask &shared_task, const RowToProject &r
   ProjectedRow out = *projected;
   const F32 d;
   const hn::Rebind<uint16_t, F32> d16;
+  const Constants c = constantsOf(task, in);
   const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
-  const VU32 nowhere = hn::Iota(U32(), task.plane_rest);  // a place of its own for each lane
   out.count = 0;
   for (int32_t u = 0; u < in.count; u += lanes) {
     if (hn::AllTrue(d16, hn::Eq(hn::LoadU(d16, in.sensed + u), hn::Set(d16, kNotSensed)))) continue;
-    const VF z = hn::Add(floatOf(in.sensed + u), hn::Set(d, 1.0f)), z2 = hn::Mul(z, z);
-    const Seen seen = seenFrom<kModel>(task, in, u, z);
-    const VF slope = hn::Min(floatOf(in.slope + u), hn::Mul(hn::Set(d, kSteepest), z));
-    const VF slope2 = hn::Mul(slope, slope);
-    const VF sigma = madd(hn::Set(d, task.sigma), task.sigma_per_raw2, z2), sigma2 = hn::Mul(sigma, sigma);
-    const VF good2 = hn::Mul(hn::Set(d, kGoodError * kGoodError), z2);
-    const auto key = keyOf(seen.subunits, good2, madd(sigma2, kPlacedPx * kPlacedPx, slope2));
-    place(task, seen, key, nowhere, out.index + out.count, out.key + out.count);
+    const VF z = hn::Add(floatOf(in.sensed + u), c.one), z2 = hn::Mul(z, z);
+    const Seen seen = seenFrom<kModel>(task, c, in, u, z);
+    const VF slope = hn::Min(floatOf(in.slope + u), hn::Mul(c.steepest, z)), slope2 = hn::Mul(slope, slope);
+    const VF sigma = hn::Add(c.sigma, hn::Mul(c.sigma_per_raw2, z2)), sigma2 = hn::Mul(sigma, sigma);
+    const VF good2 = hn::Mul(c.good2, z2), error2 = hn::Add(sigma2, hn::Mul(c.placed2, slope2));
+    place(c, seen, keyOf(c, seen.subunits, good2, error2), out.index + out.count, out.key + out.count);
     if (task.with_footprints) {
-      const auto spread_key = keyOf(seen.subunits, good2, madd(sigma2, kSpreadPx * kSpreadPx, slope2));
-      spread(task, seen, spread_key, nowhere, halfWidth(in.half_x + u), halfWidth(in.half_y + u), out);
+      const VF spread_error2 = hn::Add(sigma2, hn::Mul(c.spread2, slope2));
+      const auto key = keyOf(c, seen.subunits, good2, spread_error2);
+      spread(task, c, seen, key, halfWidth(in.half_x + u), halfWidth(in.half_y + u), out);
     }
     out.count += lanes;
   }
