@@ -12,9 +12,7 @@ constexpr int32_t kRowArrays = 5;  // of a projected row
 constexpr double kStretch = 1.05;  // footprints grow on slanted surfaces
 constexpr double kMostHalfPx = 255 / static_cast<double>(kFootprintsPerPixel);
 constexpr int32_t kShadowReachPx = 48;  // how wide a hole beside an edge may be
-constexpr double kShadowJump = 0.03;    // relative depth step that casts one
 constexpr double kObliquest = 0.25;     // gaps open along an axis from this share of the other on
-constexpr double kFarPx = 1e6;
 constexpr double kLeastShadowPx = 0.5, kMostShadowPx = 256;
 
 int32_t padded(int32_t count) { return (count + kRowPadding - 1) / kRowPadding * kRowPadding; }
@@ -102,6 +100,8 @@ void DenseAligner::init(const DenseConfig &config, const AlignKernels &kernels) 
   const double low = config.sensor.min_m / config.sensor.unit_m, high = config.sensor.max_m / config.sensor.unit_m;
   low_ = low > 1 ? (low < 65535 ? static_cast<uint16_t>(-floorOf(-low)) : uint16_t{65535}) : uint16_t{1};
   high_ = high < 65535 ? static_cast<uint16_t>(high) : uint16_t{65535};
+  const double *k = config.depth.parameters().params;
+  per_focal_ = Vector2(1 / k[0], 1 / k[1]);
   center_m_ = config.color_from_depth.inverse().translation_m;
   makeTask();
   makeRays();
@@ -257,29 +257,23 @@ void DenseAligner::project(ImageView<uint16_t> depth, int32_t y, bool with_shado
   kernels_->project_row(task_, row, &projected_);
   lowerPixels(projected_, measured_.keys.data());
   if (task_.with_footprints) kernels_->spread_row(projected_, plane_stride_, spread_.keys.data());
-  for (int32_t i = 0; i < edge_count; ++i) castShadows(depth, edges_[static_cast<size_t>(i)], y);
+  castShadows(depth, y, edges_.data(), edge_count);
 }
 
 // x and y of the ray (x, y, 1) of a depth pixel.
 Vector2 DenseAligner::rayOf(int32_t x, int32_t y) const {
   if (config_.depth.isPinhole()) {
     const double *k = config_.depth.parameters().params;
-    return {(x + 0.5 - k[2]) / k[0], (y + 0.5 - k[3]) / k[1]};
+    return {(x + 0.5 - k[2]) * per_focal_.x(), (y + 0.5 - k[3]) * per_focal_.y()};
   }
   const size_t at = static_cast<size_t>(y * int64_t{ray_stride_} + kRowPadding + x);
   return {static_cast<double>(rays_x_[at]), static_cast<double>(rays_y_[at])};
 }
 
-// The next measurement from pixel (x, y) in a direction, beyond a hole if need be; 0: none.
-uint16_t DenseAligner::beside(const ImageView<uint16_t> &depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const {
-  int32_t steps = kShadowReachPx;
-  const auto stopAt = [&steps](int32_t pixels) { steps = pixels < steps ? pixels : steps; };
-  if (dx) stopAt(dx > 0 ? depth.width - 1 - x : x);
-  if (dy) stopAt(dy > 0 ? depth.height - 1 - y : y);
-  const uint16_t *pixel = depth.row(y) + x;
-  const int64_t step = dx + dy * depth.stride;
+// The next measurement within `steps` steps, beyond a hole if need be; 0: none.
+uint16_t DenseAligner::beside(const uint16_t *pixel, int64_t step, int32_t steps) const {
   const uint32_t range = static_cast<uint32_t>(high_ - low_);
-  while (steps-- > 0) {
+  for (int32_t i = steps < kShadowReachPx ? steps : kShadowReachPx; i > 0; --i) {
     pixel += step;
     const uint32_t above_low = uint32_t{*pixel} - low_;  // wraps around below
     if (above_low <= range) return *pixel;
@@ -287,22 +281,30 @@ uint16_t DenseAligner::beside(const ImageView<uint16_t> &depth, int32_t x, int32
   return 0;
 }
 
-// From the last pixel of something near, towards the colour camera's side.
-void DenseAligner::castShadows(const ImageView<uint16_t> &depth, int32_t x, int32_t y) {
-  const Vector2 ray = rayOf(x, y);
-  const Vector2 way = towardColor(ray);
-  const uint8_t sides = sidesOf(way);
-  // Of both sides the farther.
-  uint16_t across = 0, down = 0;
-  if (sides & (kLeftSide | kRightSide)) across = beside(depth, x, y, sides & kRightSide ? 1 : -1, 0);
-  if (sides & (kUpperSide | kLowerSide)) down = beside(depth, x, y, 0, sides & kLowerSide ? 1 : -1);
-  const double near_m = depth.row(y)[x] * config_.sensor.unit_m;
-  const double far_m = (across > down ? across : down) * config_.sensor.unit_m;
-  if (!(far_m > near_m * (1 + kShadowJump))) return;
-  const double toward = absOf(way.x()) > absOf(way.y()) ? absOf(way.x()) : absOf(way.y());
-  const double gap_px = config_.depth.focal() * toward * (far_m - near_m) / (far_m * near_m);
-  const size_t at = static_cast<size_t>(y * int64_t{ray_stride_} + kRowPadding + x);
-  if (gap_px > kLeastShadowPx) castShadow(ray, at, near_m, far_m);
+// From the last pixels of something near, the row's `columns`, towards the colour camera's side.
+void DenseAligner::castShadows(const ImageView<uint16_t> &depth, int32_t y, const int32_t *columns, int32_t count) {
+  const uint16_t *row = depth.row(y);
+  const double gap_scale = config_.depth.focal() / config_.sensor.unit_m;
+  for (int32_t i = 0; i < count; ++i) {
+    const int32_t x = columns[i];
+    const Vector2 ray = rayOf(x, y), way = towardColor(ray);
+    const double reach_x = absOf(way.x()), reach_y = absOf(way.y());
+    const uint32_t near = row[x];
+    uint32_t far = 0;  // of both sides the farther, where the gap opens that way
+    if (reach_x > kObliquest * reach_y)
+      far = way.x() > 0 ? beside(row + x, 1, depth.width - 1 - x) : beside(row + x, -1, x);
+    if (reach_y > kObliquest * reach_x) {
+      const uint32_t down = way.y() > 0 ? beside(row + x, depth.stride, depth.height - 1 - y)
+                                        : beside(row + x, -depth.stride, y);
+      if (down > far) far = down;
+    }
+    if (100 * far <= 103 * near) continue;
+    // What the colour camera sees of the gap, in depth pixels: focal * reach * (1 / near - 1 / far).
+    const double reach = reach_x > reach_y ? reach_x : reach_y;
+    if (gap_scale * reach * (far - near) > kLeastShadowPx * far * near)
+      castShadow(ray, static_cast<size_t>(y * int64_t{ray_stride_} + kRowPadding + x),
+                 near * config_.sensor.unit_m, far * config_.sensor.unit_m);
+  }
 }
 
 // What lies behind the sample, from its depth to that of the surface behind, along the ray of the depth camera.
@@ -317,24 +319,25 @@ void DenseAligner::castShadow(const Vector2 &ray, size_t at, double near_m, doub
   const double length = absOf(way.x()) > absOf(way.y()) ? absOf(way.x()) : absOf(way.y());
   if (!(length >= kLeastShadowPx && length <= kMostShadowPx)) return;
   const int32_t steps = static_cast<int32_t>(length) + 1;
-  const double least = 0.5;
+  const double least = 0.5, per_step = 1.0 / steps;
   const double half_x = half_x_[at] / static_cast<double>(kFootprintsPerPixel);
   const double half_y = half_y_[at] / static_cast<double>(kFootprintsPerPixel);
-  for (int32_t i = 0; i <= steps; ++i)
-    markShadow(near_px + way * (static_cast<double>(i) / steps), half_x > least ? half_x : least,
-               half_y > least ? half_y : least);
+  const Vector2 half(half_x > least ? half_x : least, half_y > least ? half_y : least);
+  for (int32_t i = 0; i <= steps; ++i) markShadow(near_px + way * (i * per_step), half);
 }
 
-void DenseAligner::markShadow(const Vector2 &px, double half_x, double half_y) {
-  if (!(absOf(px.x()) < kFarPx && absOf(px.y()) < kFarPx)) return;
-  const auto from = [](double edge) {
-    return edge > 0 ? static_cast<int32_t>(edge) : 0;
-  };  // floor of what is inside
-  const int32_t left = from(px.x() - half_x + 0.5), right = from(px.x() + half_x + 0.5);
-  const int32_t top = from(px.y() - half_y + 0.5), bottom = from(px.y() + half_y + 0.5);
-  for (int32_t y = top; y < bottom && y < height_; ++y) {
+void DenseAligner::markShadow(const Vector2 &px, const Vector2 &half) {
+  constexpr int32_t kFar = 1 << 20;
+  if (!(absOf(px.x()) < kFar && absOf(px.y()) < kFar)) return;
+  const auto within = [](double edge, int32_t most) {  // the first pixel whose centre is not before the edge
+    const int32_t pixel = static_cast<int32_t>(edge + (0.5 + 2 * kFar)) - 2 * kFar;
+    return pixel < 0 ? 0 : pixel < most ? pixel : most;
+  };
+  const int32_t left = within(px.x() - half.x(), width_), right = within(px.x() + half.x(), width_);
+  const int32_t top = within(px.y() - half.y(), height_), bottom = within(px.y() + half.y(), height_);
+  for (int32_t y = top; y < bottom; ++y) {
     int32_t *row = measured_.row(y, plane_stride_);
-    for (int32_t x = left; x < right && x < width_; ++x)
+    for (int32_t x = left; x < right; ++x)
       if (row[x] == kEmpty) row[x] = kShadowed;  // a sample still to come is less, and so replaces it
   }
 }

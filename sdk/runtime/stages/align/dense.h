@@ -52,10 +52,10 @@ class DenseAligner {
   Vector2 towardColor(const Vector2 &ray) const {
     return {center_m_.x() - center_m_.z() * ray.x(), center_m_.y() - center_m_.z() * ray.y()};
   }
-  uint16_t beside(const ImageView<uint16_t> &depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const;
-  void castShadows(const ImageView<uint16_t> &depth, int32_t x, int32_t y);
+  uint16_t beside(const uint16_t *pixel, int64_t step, int32_t steps) const;
+  void castShadows(const ImageView<uint16_t> &depth, int32_t y, const int32_t *columns, int32_t count);
   void castShadow(const Vector2 &ray, size_t at, double near_m, double far_m);
-  void markShadow(const Vector2 &px, double half_x, double half_y);
+  void markShadow(const Vector2 &px, const Vector2 &half);
   void decode(int32_t y);
   void resolve(int32_t y, const AlignedImages &out);
 
@@ -68,6 +68,7 @@ class DenseAligner {
   DenseConfig config_;
   const AlignKernels *kernels_ = nullptr;
   ProjectTask task_ = {};
+  Vector2 per_focal_ = Vector2::Zero();  // of the depth camera, 1 / px
   Vector3 center_m_ = Vector3::Zero();  // of the colour camera, depth frame
   uint16_t low_ = 1, high_ = 65535;     // measurements in range; none where low is beyond high
   int32_t depth_width_ = 0, depth_height_ = 0, width_ = 0, height_ = 0;
