@@ -294,16 +294,16 @@ void DenseAligner::castShadows(const ImageView<uint16_t> &depth, int32_t y, cons
     if (reach_x > kObliquest * reach_y)
       far = way.x() > 0 ? beside(row + x, 1, depth.width - 1 - x) : beside(row + x, -1, x);
     if (reach_y > kObliquest * reach_x) {
-      const uint32_t down = way.y() > 0 ? beside(row + x, depth.stride, depth.height - 1 - y)
-                                        : beside(row + x, -depth.stride, y);
+      const uint32_t down =
+          way.y() > 0 ? beside(row + x, depth.stride, depth.height - 1 - y) : beside(row + x, -depth.stride, y);
       if (down > far) far = down;
     }
     if (100 * far <= 103 * near) continue;
     // What the colour camera sees of the gap, in depth pixels: focal * reach * (1 / near - 1 / far).
     const double reach = reach_x > reach_y ? reach_x : reach_y;
     if (gap_scale * reach * (far - near) > kLeastShadowPx * far * near)
-      castShadow(ray, static_cast<size_t>(y * int64_t{ray_stride_} + kRowPadding + x),
-                 near * config_.sensor.unit_m, far * config_.sensor.unit_m);
+      castShadow(ray, static_cast<size_t>(y * int64_t{ray_stride_} + kRowPadding + x), near * config_.sensor.unit_m,
+                 far * config_.sensor.unit_m);
   }
 }
 

@@ -69,8 +69,8 @@ class DenseAligner {
   const AlignKernels *kernels_ = nullptr;
   ProjectTask task_ = {};
   Vector2 per_focal_ = Vector2::Zero();  // of the depth camera, 1 / px
-  Vector3 center_m_ = Vector3::Zero();  // of the colour camera, depth frame
-  uint16_t low_ = 1, high_ = 65535;     // measurements in range; none where low is beyond high
+  Vector3 center_m_ = Vector3::Zero();   // of the colour camera, depth frame
+  uint16_t low_ = 1, high_ = 65535;      // measurements in range; none where low is beyond high
   int32_t depth_width_ = 0, depth_height_ = 0, width_ = 0, height_ = 0;
   int32_t ray_stride_ = 0, plane_stride_ = 0;
 

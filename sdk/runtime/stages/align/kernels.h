@@ -52,13 +52,13 @@ struct ProjectTask {
   float turn[9];  // rays of the depth camera to turned ones, row-major; a pinhole colour camera's matrix is in it
   float t[3];     // with the same matrix
   LensF color;
-  float most_subunits;         // of the z-buffer
-  float sigma, sigma_per_raw2; // of the depth sensor, in its raw units: sigma + sigma_per_raw2 * raw^2
+  float most_subunits;                  // of the z-buffer
+  float sigma, sigma_per_raw2;          // of the depth sensor, in its raw units: sigma + sigma_per_raw2 * raw^2
   uint32_t plane_stride, plane_origin;  // elements: a row; index of the top-left pixel
   uint32_t plane_rest;                  // index of kRowPadding elements that are no pixels
   bool with_footprints;
-  // Footprints are at least two pixels wide and high.  They are spread a pixel smaller to the right and below, mostly
-  // into a single pixel, and grow by it when the z-buffers are combined.
+  // Footprints are at least two pixels wide and high.  They are spread a pixel smaller to the right and below,
+  // mostly into a single pixel, and grow by it when the z-buffers are combined.
   bool grown;
 };
 
@@ -92,7 +92,7 @@ struct ProjectedRow {
 
 // A row of both z-buffers.
 struct BufferRow {
-  int32_t *measured;            // emptied for the next frame
+  int32_t *measured;                     // emptied for the next frame
   const int32_t *spread, *spread_above;  // null without footprints
   int32_t count;
   bool grown;

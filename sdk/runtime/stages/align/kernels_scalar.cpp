@@ -9,8 +9,8 @@ namespace sphc {
 
 const AlignKernels &scalarAlignKernels() {
   using namespace HWY_NAMESPACE;
-  static constexpr AlignKernels kernels = {patchSums, nearestRow, senseRow,  compareRow, turnRow,
-                                           projectRow, spreadRow, decodeRow, resolveRow};
+  static constexpr AlignKernels kernels = {patchSums,  nearestRow, senseRow,  compareRow, turnRow,
+                                           projectRow, spreadRow,  decodeRow, resolveRow};
   return kernels;
 }
 

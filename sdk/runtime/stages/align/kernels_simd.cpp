@@ -15,8 +15,8 @@ namespace sphc {
 namespace HWY_NAMESPACE {
 
 const AlignKernels *alignKernels() {
-  static constexpr AlignKernels kernels = {patchSums, nearestRow, senseRow,  compareRow, turnRow,
-                                           projectRow, spreadRow, decodeRow, resolveRow};
+  static constexpr AlignKernels kernels = {patchSums,  nearestRow, senseRow,  compareRow, turnRow,
+                                           projectRow, spreadRow,  decodeRow, resolveRow};
   return &kernels;
 }
 

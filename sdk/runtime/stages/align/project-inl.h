@@ -104,10 +104,10 @@ HWY_ATTR HWY_INLINE VF halfWidth(const uint8_t *table) {
 
 // What every sample of a row needs: numbers in all lanes.
 struct Constants {
-  VF offset[3], t[3];            // RowToProject's and ProjectTask's
-  VF least_depth, most_depth;    // subunits
+  VF offset[3], t[3];          // RowToProject's and ProjectTask's
+  VF least_depth, most_depth;  // subunits
   VF sigma, sigma_per_raw2, good2, placed2, spread2, steepest;
-  VF left, right, top, bottom;   // of the image: centres of the pixels just outside
+  VF left, right, top, bottom;  // of the image: centres of the pixels just outside
   VF whole, whole_depth, one, every_doubt, no_sample;
   VU32 stride, origin, nowhere, byte;
 };
@@ -126,7 +126,8 @@ HWY_ATTR HWY_INLINE Constants constantsOf(const ProjectTask &task, const RowToPr
   c.whole = hn::Set(d, kWhole), c.whole_depth = hn::Set(d, kWholeDepth);
   c.one = hn::Set(d, 1.0f), c.every_doubt = hn::Set(d, 255.0f), c.no_sample = hn::Set(d, 65535.5f);
   c.stride = hn::Set(du, task.plane_stride);
-  c.origin = hn::Set(du, task.plane_origin - kWholeBits * (task.plane_stride + 1));  // wraps around, as the sum does
+  c.origin =
+      hn::Set(du, task.plane_origin - kWholeBits * (task.plane_stride + 1));  // wraps around, as the sum does
   c.nowhere = hn::Iota(du, task.plane_rest);
   c.byte = hn::Set(du, 255);
   return c;
@@ -193,8 +194,8 @@ HWY_ATTR HWY_INLINE Seen seenFrom(const ProjectTask &task, const Constants &c, c
 HWY_ATTR HWY_INLINE void place(const Constants &c, const Seen &seen, hn::Vec<I32> key, uint32_t *indices,
                                int32_t *keys) {
   const U32 du;
-  const VU32 index = indexOf(c, hn::Min(hn::Max(seen.px.x, c.left), c.right),
-                             hn::Min(hn::Max(seen.px.y, c.top), c.bottom));
+  const VU32 index =
+      indexOf(c, hn::Min(hn::Max(seen.px.x, c.left), c.right), hn::Min(hn::Max(seen.px.y, c.top), c.bottom));
   hn::StoreU(hn::IfThenElse(hn::RebindMask(du, seen.valid), index, c.nowhere), du, indices);
   hn::StoreU(key, I32(), keys);
 }

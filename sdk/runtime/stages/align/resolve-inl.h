@@ -49,8 +49,9 @@ HWY_ATTR HWY_INLINE void spreadOne(int32_t key, int32_t shape, int32_t stride, i
 // Four quarters of the row in turn: a footprint does not wait for the one just written.
 HWY_ATTR void spreadRow(const ProjectedRow &in, int32_t stride, int32_t *plane) {
   const int32_t quarter = in.count / 4;
-  const auto put = [&](int32_t i)
-                       HWY_ATTR { spreadOne(in.spread_key[i], in.spread_shape[i], stride, plane + in.spread_index[i]); };
+  const auto put = [&](int32_t i) HWY_ATTR {
+    spreadOne(in.spread_key[i], in.spread_shape[i], stride, plane + in.spread_index[i]);
+  };
   for (int32_t i = 0; i < quarter; ++i)
     for (int32_t part = 0; part < 4; ++part) put(i + part * quarter);
   for (int32_t i = 4 * quarter; i < in.count; ++i) put(i);
