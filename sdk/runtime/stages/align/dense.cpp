@@ -1,5 +1,7 @@
 #include "runtime/stages/align/dense.h"
 
+#include <hwy/cache_control.h>
+
 #include <cstring>
 #include <limits>
 
@@ -27,6 +29,12 @@ LensF lensF(const Camera &camera) {
   lens.max_radius2 = static_cast<float>(camera.maxRadius2());
   lens.width = static_cast<float>(camera.width()), lens.height = static_cast<float>(camera.height());
   return lens;
+}
+
+// A z-buffer is larger than most caches, and rows to come fall some rows below this one.
+void fetchAhead(const uint32_t *index, int32_t count, int32_t stride, const int32_t *pixels) {
+  constexpr int32_t kRowsAhead = 4, kEvery = 8;
+  for (int32_t i = 0; i < count; i += kEvery) hwy::Prefetch(pixels + index[i] + int64_t{kRowsAhead} * stride);
 }
 
 // The nearest sample of each pixel stays.  Four quarters of the row in turn, as neighbours often fall into one
@@ -255,8 +263,12 @@ void DenseAligner::project(ImageView<uint16_t> depth, int32_t y, bool with_shado
                            sides_.data() + int64_t{y} * ray_stride_ / kRowPadding};
   const int32_t edge_count = kernels_->compare_row(rows, slope_.data(), with_shadows ? edges_.data() : nullptr);
   kernels_->project_row(task_, row, &projected_);
+  fetchAhead(projected_.index, projected_.count, plane_stride_, measured_.keys.data());
   lowerPixels(projected_, measured_.keys.data());
-  if (task_.with_footprints) kernels_->spread_row(projected_, plane_stride_, spread_.keys.data());
+  if (task_.with_footprints) {
+    fetchAhead(projected_.spread_index, projected_.count, plane_stride_, spread_.keys.data());
+    kernels_->spread_row(projected_, plane_stride_, spread_.keys.data());
+  }
   castShadows(depth, y, edges_.data(), edge_count);
 }
 
