@@ -37,43 +37,53 @@ class DenseAligner {
 
  private:
   struct Plane {
-    Span<int32_t> keys;
-    int32_t *row(int32_t y, int32_t stride) { return keys.data() + (y + 1) * int64_t{stride} + kRowPadding; }
+    Span<int32_t> keys;  // kEmpty between frames
+    int32_t *row(int32_t y, int32_t stride) const { return keys.data() + (y + 1) * int64_t{stride} + kRowPadding; }
   };
   void makeRays();
+  void makeTask();
   void makeFootprints();
+  void makeSides();
   void sense(ImageView<uint16_t> depth, int32_t y);
-  void project(ImageView<uint16_t> depth, int32_t y);
-  uint16_t beside(ImageView<uint16_t> depth, int32_t x, int32_t y, int32_t dx, int32_t dy) const;
-  void castShadows(ImageView<uint16_t> depth, int32_t x, int32_t y);
-  void castShadow(int32_t x, int32_t y, double near_m, double far_m);
-  void markShadow(const Vector2 &px, double half_x, double half_y);
-  void combine(int32_t y);
+  void project(ImageView<uint16_t> depth, int32_t y, bool with_shadows);
+  RowToProject rowToProject(int32_t y);
+  Vector2 rayOf(int32_t x, int32_t y) const;
+  // From a ray to the colour camera, in the plane of the rays, times its depth.
+  Vector2 towardColor(const Vector2 &ray) const {
+    return {center_m_.x() - center_m_.z() * ray.x(), center_m_.y() - center_m_.z() * ray.y()};
+  }
+  uint16_t beside(const uint16_t *pixel, int64_t step, int32_t steps) const;
+  void castShadows(const ImageView<uint16_t> &depth, int32_t y, const int32_t *columns, int32_t count);
+  void castShadow(const Vector2 &ray, size_t at, double near_m, double far_m);
+  void markShadow(const Vector2 &px, const Vector2 &half);
+  void decode(int32_t y);
   void resolve(int32_t y, const AlignedImages &out);
 
-  const float *rayRow(Span<float> rays, int32_t y) const {
-    return rays.data() + y * int64_t{row_of_rays_} + kRowPadding;
-  }
-  float *sensedRow(int32_t y) { return sensed_.data() + (y % 3) * int64_t{ray_stride_} + kRowPadding; }
-  int32_t *combinedRow(int32_t y) {
-    return combined_.data() + ((y + 3) % 3) * int64_t{plane_stride_} + kRowPadding;
+  uint16_t *sensedRow(int32_t y) { return sensed_.data() + (y + 3) % 3 * int64_t{ray_stride_} + kRowPadding; }
+  DecodedRow decodedRow(int32_t y) {
+    const int64_t at = (y + 3) % 3 * int64_t{plane_stride_} + kRowPadding;
+    return {decoded_depth_.data() + at, decoded_state_.data() + at};
   }
 
   DenseConfig config_;
   const AlignKernels *kernels_ = nullptr;
   ProjectTask task_ = {};
-  uint16_t low_ = 1, high_ = 65535;  // measurements in range
+  Vector2 per_focal_ = Vector2::Zero();  // of the depth camera, 1 / px
+  Vector3 center_m_ = Vector3::Zero();   // of the colour camera, depth frame
+  uint16_t low_ = 1, high_ = 65535;      // measurements in range; none where low is beyond high
   int32_t depth_width_ = 0, depth_height_ = 0, width_ = 0, height_ = 0;
   int32_t ray_stride_ = 0, plane_stride_ = 0;
 
-  int32_t row_of_rays_ = 0;  // stride of the rays; 0: without distortion x is the same in every row, y in a row
-  Span<float> rays_x_, rays_y_;
+  Span<float> rays_x_, rays_y_;  // of a depth camera with distortion; without, turned_ has all but a row's offset
+  Span<float> turned_;           // three rows: of x, y, z
   Span<uint8_t> half_x_, half_y_;
+  Span<uint8_t> sides_;  // SensedRows'
   Plane measured_, spread_;
-  Span<float> sensed_;      // three rows of the depth image
-  Span<int32_t> combined_;  // three rows of both planes together
-  Span<int32_t> row_;       // ProjectedRow's arrays
-  Span<int32_t> edges_;     // of it, apart as it is written in whole vectors
+  Span<uint16_t> sensed_;                         // three rows of the depth image
+  Span<uint16_t> slope_;                          // of the middle one
+  Span<uint16_t> decoded_depth_, decoded_state_;  // three rows of the colour image
+  Span<int32_t> row_;                             // ProjectedRow's arrays
+  Span<int32_t> edges_;
   ProjectedRow projected_ = {};
   Span<uint16_t> depth_row_;
   Span<uint8_t> mask_row_, confidence_row_;

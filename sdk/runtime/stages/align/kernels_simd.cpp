@@ -8,14 +8,15 @@
 #include "runtime/stages/align/patch-inl.h"
 #include "runtime/stages/align/project-inl.h"
 #include "runtime/stages/align/resolve-inl.h"
+#include "runtime/stages/align/sense-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sphc {
 namespace HWY_NAMESPACE {
 
 const AlignKernels *alignKernels() {
-  static constexpr AlignKernels kernels = {patchSums, nearestRow, senseRow,  projectRow,
-                                           spreadRow, combineRow, resolveRow};
+  static constexpr AlignKernels kernels = {patchSums,  nearestRow, senseRow,  compareRow, turnRow,
+                                           projectRow, spreadRow,  decodeRow, resolveRow};
   return &kernels;
 }
 

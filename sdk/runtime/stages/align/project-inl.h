@@ -19,15 +19,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using F32 = hn::CappedTag<float, kRowPadding>;
 using I32 = hn::Rebind<int32_t, F32>;
+using U32 = hn::Rebind<uint32_t, F32>;
 using VF = hn::Vec<F32>;
+using MF = hn::Mask<F32>;
+using VU32 = hn::Vec<U32>;
 
-constexpr float kEdgeJump = 0.03f;      // relative depth step between neighbours that is an edge
-constexpr float kSteepest = 0.1f;       // relative depth step beyond which a neighbour says nothing more
-constexpr float kGoodError = 0.01f;     // relative depth error of confidence 127
-constexpr float kPlacedPx = 0.3f;       // 1 sigma of where in its pixel a sample was measured
-constexpr float kSpreadPx = 0.8f;       // the same beside its pixel
-constexpr float kFarPx = 1e6f;          // a pixel of numbers that are too large, or not numbers
-constexpr float kLeastShadowPx = 0.5f;  // narrower ones are within the error of the edge
+constexpr float kSteepest = 0.1f;    // relative depth step beyond which a neighbour says nothing more
+constexpr float kGoodError = 0.01f;  // relative depth error of confidence 127
+constexpr float kPlacedPx = 0.3f;    // 1 sigma of where in its pixel a sample was measured
+constexpr float kSpreadPx = 0.8f;    // the same beside its pixel
+constexpr float kFarPx = 1e6f;       // a pixel of numbers that are too large, or not numbers
+// Numbers up to 2^22, of either sign, added to it are rounded to whole ones, which are then the low bits.
+constexpr float kWhole = 12582912.0f;
+constexpr uint32_t kWholeBits = 0x4B400000;
+constexpr float kWholeDepth = 8388608.0f;  // the same for numbers from 0 on; all its bits are in the highest 9
 
 // a + s * b, rounded twice.
 HWY_ATTR HWY_INLINE VF madd(VF a, float s, VF b) { return hn::Add(a, hn::Mul(hn::Set(F32(), s), b)); }
@@ -86,25 +91,9 @@ HWY_ATTR HWY_INLINE Point2 colorPixel(const LensF &lens, Point2 p, VF r2) {
   return {madd(hn::Set(d, lens.cx), lens.fx, p.x), madd(hn::Set(d, lens.cy), lens.fy, p.y)};
 }
 
-// Largest depth difference from a neighbour; of no measurement and of another surface the steepest.
-HWY_ATTR HWY_INLINE VF slopeOf(VF z, VF left, VF right, VF above, VF below) {
-  const VF across = hn::Max(hn::Abs(hn::Sub(z, left)), hn::Abs(hn::Sub(z, right)));
-  const VF down = hn::Max(hn::Abs(hn::Sub(z, above)), hn::Abs(hn::Sub(z, below)));
-  return hn::Min(hn::Max(across, down), hn::Mul(hn::Set(F32(), kSteepest), z));
-}
-
-// 255 for an exact depth, 127 for a relative error of kGoodError: 255 / (1 + (error / good)^2).
-HWY_ATTR HWY_INLINE VF confidenceOf(VF good2, VF sigma2, VF slope, float placed_px) {
-  const F32 d;
-  const VF misplaced = hn::Mul(hn::Set(d, placed_px), slope);
-  const VF all = hn::Add(hn::Add(good2, sigma2), hn::Mul(misplaced, misplaced));
-  return hn::Div(hn::Mul(hn::Set(d, 255.0f), good2), all);
-}
-
-HWY_ATTR HWY_INLINE hn::Vec<I32> keyOf(hn::Vec<I32> depth, VF confidence) {
-  const I32 di;
-  const auto doubt = hn::Sub(hn::Set(di, 255), hn::ConvertTo(di, hn::Add(confidence, hn::Set(F32(), 0.5f))));
-  return hn::Or(hn::ShiftLeft<kDepthShift>(depth), doubt);
+HWY_ATTR HWY_INLINE VF floatOf(const uint16_t *from) {
+  const hn::Rebind<uint16_t, F32> d16;
+  return hn::ConvertTo(F32(), hn::PromoteTo(I32(), hn::LoadU(d16, from)));
 }
 
 HWY_ATTR HWY_INLINE VF halfWidth(const uint8_t *table) {
@@ -113,127 +102,154 @@ HWY_ATTR HWY_INLINE VF halfWidth(const uint8_t *table) {
   return hn::Mul(sixteenths, hn::Set(F32(), 1 / kFootprintsPerPixel));
 }
 
-// First pixel whose centre is not before `edge`, within [0, most].
-HWY_ATTR HWY_INLINE hn::Vec<I32> firstFrom(VF edge, float most) {
-  const F32 d;
-  const VF first = hn::Ceil(hn::Sub(edge, hn::Set(d, 0.5f)));
-  return hn::ConvertTo(I32(), hn::Min(hn::Max(first, hn::Zero(d)), hn::Set(d, most)));
-}
-
-// `toward`: how far to the colour camera along one axis of the image; `other`: along the other.  Is the neighbour
-// on that side missing, or clearly farther, and would the gap show?
-HWY_ATTR HWY_INLINE hn::Mask<F32> opensGap(const ProjectTask &task, VF z, VF toward, VF other, VF before,
-                                           VF after) {
-  const F32 d;
-  const VF zero = hn::Zero(d), neighbour = hn::IfThenElse(hn::Gt(toward, zero), after, before);
-  const auto edge = hn::Or(hn::Eq(neighbour, zero), hn::Gt(neighbour, hn::Mul(z, hn::Set(d, 1 + kEdgeJump))));
-  const VF reach = hn::Abs(toward), parallax = hn::Mul(hn::Set(d, task.depth_focal_px), reach);
-  const VF least = hn::Max(hn::Mul(hn::Set(d, kLeastShadowPx), z),
-                           hn::Mul(hn::Set(d, kObliquest * task.depth_focal_px), hn::Abs(other)));
-  return hn::And(edge, hn::Gt(parallax, least));
-}
-
-// Depths of a vector of pixels and of their neighbours.
-struct Neighbours {
-  VF z, left, right, above, below;
+// What every sample of a row needs: numbers in all lanes.
+struct Constants {
+  VF offset[3], t[3];          // RowToProject's and ProjectTask's
+  VF least_depth, most_depth;  // subunits
+  VF sigma, sigma_per_raw2, good2, placed2, spread2, steepest;
+  VF left, right, top, bottom;  // of the image: centres of the pixels just outside
+  VF whole, whole_depth, one, every_doubt, no_sample;
+  VU32 stride, origin, nowhere, byte;
 };
 
-// Appends those of `steep` pixels behind which the colour camera may see what the depth camera cannot.
-HWY_ATTR HWY_INLINE void findEdges(const ProjectTask &task, const Neighbours &n, const Point2 &ray,
-                                   hn::Mask<F32> steep, int32_t u, ProjectedRow *out) {
+HWY_ATTR HWY_INLINE Constants constantsOf(const ProjectTask &task, const RowToProject &in) {
   const F32 d;
-  const float *c = task.center_m;
-  const VF toward_x = hn::Sub(hn::Set(d, c[0]), hn::Mul(hn::Set(d, c[2]), ray.x));
-  const VF toward_y = hn::Sub(hn::Set(d, c[1]), hn::Mul(hn::Set(d, c[2]), ray.y));
-  const auto edge = hn::And(steep, hn::Or(opensGap(task, n.z, toward_x, toward_y, n.left, n.right),
-                                          opensGap(task, n.z, toward_y, toward_x, n.above, n.below)));
-  uint8_t bits[kRowPadding / 8 < 8 ? 8 : kRowPadding / 8] = {};
-  const size_t bytes = hn::StoreMaskBits(d, edge, bits);
-  for (size_t byte = 0; byte < bytes; ++byte)
-    for (int32_t bit = 0; bits[byte] >> bit; ++bit)
-      if (bits[byte] >> bit & 1) out->edges[out->edge_count++] = u + static_cast<int32_t>(8 * byte) + bit;
+  const U32 du;
+  Constants c;
+  for (int i = 0; i < 3; ++i) c.offset[i] = hn::Set(d, in.offset[i]), c.t[i] = hn::Set(d, task.t[i]);
+  c.least_depth = hn::Set(d, 1.0f * kSubUnits), c.most_depth = hn::Set(d, task.most_subunits);
+  c.sigma = hn::Set(d, task.sigma), c.sigma_per_raw2 = hn::Set(d, task.sigma_per_raw2);
+  c.good2 = hn::Set(d, kGoodError * kGoodError), c.placed2 = hn::Set(d, kPlacedPx * kPlacedPx);
+  c.spread2 = hn::Set(d, kSpreadPx * kSpreadPx), c.steepest = hn::Set(d, kSteepest);
+  c.left = c.top = hn::Set(d, -1.0f);
+  c.right = hn::Set(d, task.color.width), c.bottom = hn::Set(d, task.color.height);
+  c.whole = hn::Set(d, kWhole), c.whole_depth = hn::Set(d, kWholeDepth);
+  c.one = hn::Set(d, 1.0f), c.every_doubt = hn::Set(d, 255.0f), c.no_sample = hn::Set(d, 65535.5f);
+  c.stride = hn::Set(du, task.plane_stride);
+  c.origin =
+      hn::Set(du, task.plane_origin - kWholeBits * (task.plane_stride + 1));  // wraps around, as the sum does
+  c.nowhere = hn::Iota(du, task.plane_rest);
+  c.byte = hn::Set(du, 255);
+  return c;
 }
 
-// What a vector of pixels without measurements gives.
-HWY_ATTR HWY_INLINE void storeNothing(const ProjectTask &task, const ProjectedRow &out, int32_t u) {
-  const I32 d;
-  hn::StoreU(hn::Zero(d), d, out.index + u);
-  hn::StoreU(hn::Set(d, kEmpty), d, out.key + u);
-  if (!task.with_footprints) return;
-  hn::StoreU(hn::Zero(d), d, out.right + u);
-  hn::StoreU(hn::Zero(d), d, out.left + u);
+// kWholeBits + the whole number nearest to a value of at most 2^22; of others nothing useful.
+HWY_ATTR HWY_INLINE VU32 wholeBits(const Constants &c, VF value) {
+  return hn::BitCast(U32(), hn::Add(value, c.whole));
+}
+
+// Depth, in subunits, and 255 - confidence.  With e the relative error confidence is 255 / (1 + (e / good)^2), so
+// this is 255 e^2 / (good^2 + e^2).  good2, error2: both times the squared depth.
+HWY_ATTR HWY_INLINE hn::Vec<I32> keyOf(const Constants &c, VF subunits, VF good2, VF error2) {
+  const VF doubt = hn::Div(hn::Mul(c.every_doubt, error2), hn::Add(good2, error2));
+  const VU32 depth = hn::BitCast(U32(), hn::Add(subunits, c.whole_depth));
+  return hn::BitCast(I32(), hn::Or(hn::ShiftLeft<kDepthShift>(depth), hn::And(wholeBits(c, doubt), c.byte)));
+}
+
+// Index in the z-buffer of the pixel whose centre is nearest.
+HWY_ATTR HWY_INLINE VU32 indexOf(const Constants &c, VF x, VF y) {
+  return hn::Add(hn::Mul(wholeBits(c, y), c.stride), hn::Add(wholeBits(c, x), c.origin));
+}
+
+// Pixels [first, last) along one axis that a footprint is spread over: those whose centres are in it.
+struct Extent {
+  VF first, last;
+};
+HWY_ATTR HWY_INLINE Extent extentOf(VF middle, VF half, VF less, float most) {
+  const F32 d;
+  const VF first = hn::Ceil(hn::Sub(middle, half)), last = hn::Ceil(hn::Add(middle, half));
+  return {hn::Max(first, hn::Sub(hn::Zero(d), less)),
+          hn::Min(hn::Max(hn::Sub(last, less), hn::Add(first, less)), hn::Set(d, most))};
+}
+
+// A vector of samples as the colour camera sees them.  Here the centre of the first pixel is at (0, 0).
+struct Seen {
+  VF subunits;
+  Point2 px;
+  MF valid;
+};
+
+template <sphc_camera_model kModel>
+HWY_ATTR HWY_INLINE Seen seenFrom(const ProjectTask &task, const Constants &c, const RowToProject &in, int32_t u,
+                                  VF z) {
+  const F32 d;
+  const auto along = [&](int axis) HWY_ATTR {
+    return hn::Add(hn::Mul(z, hn::Add(hn::LoadU(d, in.turned[axis] + u), c.offset[axis])), c.t[axis]);
+  };
+  Seen seen;
+  seen.subunits = along(2);
+  const VF inverse = hn::Div(c.one, seen.subunits);
+  seen.px = {hn::Mul(along(0), inverse), hn::Mul(along(1), inverse)};
+  seen.valid = hn::And(hn::Lt(z, c.no_sample),
+                       hn::And(hn::Ge(seen.subunits, c.least_depth), hn::Le(seen.subunits, c.most_depth)));
+  if constexpr (kModel != SPHC_CAMERA_PINHOLE) {
+    const VF r2 = hn::Add(hn::Mul(seen.px.x, seen.px.x), hn::Mul(seen.px.y, seen.px.y));
+    seen.valid = hn::And(seen.valid, hn::Le(r2, hn::Set(d, task.color.max_radius2)));
+    seen.px = colorPixel<kModel>(task.color, seen.px, r2);
+  }
+  return seen;
+}
+
+// Samples into single pixels.  What falls beside the image goes into the pixels around it, which nobody reads.
+HWY_ATTR HWY_INLINE void place(const Constants &c, const Seen &seen, hn::Vec<I32> key, uint32_t *indices,
+                               int32_t *keys) {
+  const U32 du;
+  const VU32 index =
+      indexOf(c, hn::Min(hn::Max(seen.px.x, c.left), c.right), hn::Min(hn::Max(seen.px.y, c.top), c.bottom));
+  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, seen.valid), index, c.nowhere), du, indices);
+  hn::StoreU(key, I32(), keys);
+}
+
+// Samples over their footprints.
+HWY_ATTR HWY_INLINE void spread(const ProjectTask &task, const Constants &c, const Seen &seen, hn::Vec<I32> key,
+                                VF half_x, VF half_y, const ProjectedRow &out) {
+  const F32 d;
+  const U32 du;
+  const I32 di;
+  const VF far = hn::Set(d, kFarPx), less = hn::Set(d, task.grown ? 1.0f : 0.0f);
+  const Extent x = extentOf(seen.px.x, half_x, less, task.color.width);
+  const Extent y = extentOf(seen.px.y, half_y, less, task.color.height);
+  const MF near = hn::And(hn::And(seen.valid, hn::Gt(half_x, hn::Zero(d))),
+                          hn::And(hn::Lt(hn::Abs(seen.px.x), far), hn::Lt(hn::Abs(seen.px.y), far)));
+  const MF inside = hn::And(near, hn::And(hn::Lt(x.first, x.last), hn::Lt(y.first, y.last)));
+  const VF shape = hn::Add(hn::Mul(hn::Sub(y.last, y.first), hn::Set(d, 65536.0f)), hn::Sub(x.last, x.first));
+  const VU32 whole_shape = hn::Sub(wholeBits(c, shape), hn::Set(du, kWholeBits));
+  const auto inside_u = hn::RebindMask(du, inside);
+  hn::StoreU(hn::IfThenElse(inside_u, indexOf(c, x.first, y.first), c.nowhere), du, out.spread_index + out.count);
+  hn::StoreU(hn::BitCast(di, hn::IfThenElse(inside_u, whole_shape, hn::Set(du, kOnePixel))), di,
+             out.spread_shape + out.count);
+  hn::StoreU(key, di, out.spread_key + out.count);
 }
 
 template <sphc_camera_model kModel>
-HWY_ATTR void projectRowOf(const ProjectTask &task, const SensedRows &in, ProjectedRow *out) {
+HWY_ATTR void projectRowOf(const ProjectTask &shared_task, const RowToProject &row, ProjectedRow *projected) {
+  const ProjectTask task = shared_task;  // own copies, which no store through a pointer can change
+  const RowToProject in = row;
+  ProjectedRow out = *projected;
   const F32 d;
-  const I32 di;
-  const VF zero = hn::Zero(d);
+  const hn::Rebind<uint16_t, F32> d16;
+  const Constants c = constantsOf(task, in);
   const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
-  const float *r = task.r;
-  out->edge_count = 0;
+  out.count = 0;
   for (int32_t u = 0; u < in.count; u += lanes) {
-    const VF z = hn::LoadU(d, in.here + u);
-    if (hn::AllFalse(d, hn::Gt(z, zero))) {
-      storeNothing(task, *out, u);
-      continue;
-    }
-    const VF left = hn::LoadU(d, in.here + u - 1), right = hn::LoadU(d, in.here + u + 1);
-    const VF above = hn::LoadU(d, in.above + u), below = hn::LoadU(d, in.below + u);
-    const VF x = hn::LoadU(d, in.ray_x + u), y = hn::LoadU(d, in.ray_y + u);
-
-    const auto turned = [&](int row)
-                            HWY_ATTR { return madd(madd(hn::Set(d, r[row + 2]), r[row + 1], y), r[row], x); };
-    const VF color_x = hn::Add(hn::Mul(z, turned(0)), hn::Set(d, task.t[0]));
-    const VF color_y = hn::Add(hn::Mul(z, turned(3)), hn::Set(d, task.t[1]));
-    const VF color_z = hn::Add(hn::Mul(z, turned(6)), hn::Set(d, task.t[2]));
-    const VF inverse = hn::Div(hn::Set(d, 1.0f), color_z);
-    const Point2 ray = {hn::Mul(color_x, inverse), hn::Mul(color_y, inverse)};
-    const VF r2 = hn::Add(hn::Mul(ray.x, ray.x), hn::Mul(ray.y, ray.y));
-    const Point2 px = colorPixel<kModel>(task.color, ray, r2);
-    const VF subunits = hn::Mul(color_z, hn::Set(d, task.subunits_per_m));
-    const auto seen = hn::And(
-        hn::And(hn::Gt(z, zero), hn::Le(r2, hn::Set(d, task.color.max_radius2))),
-        hn::And(hn::Ge(subunits, hn::Set(d, 1.0f * kSubUnits)), hn::Le(subunits, hn::Set(d, task.most_subunits))));
-
-    const VF slope = slopeOf(z, left, right, above, below);
-    const VF sigma = madd(hn::Set(d, task.sigma_m), task.sigma_per_m2, hn::Mul(z, z)),
-             sigma2 = hn::Mul(sigma, sigma);
-    const VF good = hn::Mul(hn::Set(d, kGoodError), z), good2 = hn::Mul(good, good);
-    const auto depth = hn::ConvertTo(di, hn::IfThenElseZero(seen, subunits));
-
-    const auto inside =
-        hn::And(hn::And(seen, hn::And(hn::Ge(px.x, zero), hn::Lt(px.x, hn::Set(d, task.color.width)))),
-                hn::And(hn::Ge(px.y, zero), hn::Lt(px.y, hn::Set(d, task.color.height))));
-    const auto column = hn::ConvertTo(di, hn::IfThenElseZero(inside, px.x));
-    const auto row = hn::ConvertTo(di, hn::IfThenElseZero(inside, px.y));
-    const auto index =
-        hn::Add(hn::Add(column, hn::Mul(row, hn::Set(di, task.plane_stride))), hn::Set(di, task.plane_origin));
-    const VF sure = hn::IfThenElseZero(seen, confidenceOf(good2, sigma2, slope, kPlacedPx));
-    hn::StoreU(hn::IfThenElseZero(hn::RebindMask(di, inside), index), di, out->index + u);
-    hn::StoreU(hn::IfThenElse(hn::RebindMask(di, inside), keyOf(depth, sure), hn::Set(di, kEmpty)), di,
-               out->key + u);
-
+    if (hn::AllTrue(d16, hn::Eq(hn::LoadU(d16, in.sensed + u), hn::Set(d16, kNotSensed)))) continue;
+    const VF z = hn::Add(floatOf(in.sensed + u), c.one), z2 = hn::Mul(z, z);
+    const Seen seen = seenFrom<kModel>(task, c, in, u, z);
+    const VF slope = hn::Min(floatOf(in.slope + u), hn::Mul(c.steepest, z)), slope2 = hn::Mul(slope, slope);
+    const VF sigma = hn::Add(c.sigma, hn::Mul(c.sigma_per_raw2, z2)), sigma2 = hn::Mul(sigma, sigma);
+    const VF good2 = hn::Mul(c.good2, z2), error2 = hn::Add(sigma2, hn::Mul(c.placed2, slope2));
+    place(c, seen, keyOf(c, seen.subunits, good2, error2), out.index + out.count, out.key + out.count);
     if (task.with_footprints) {
-      const VF far = hn::Set(d, kFarPx);
-      const auto near = hn::And(seen, hn::And(hn::Lt(hn::Abs(px.x), far), hn::Lt(hn::Abs(px.y), far)));
-      const VF unsure = hn::IfThenElseZero(seen, confidenceOf(good2, sigma2, slope, kSpreadPx));
-      const VF half_x = hn::IfThenElseZero(near, halfWidth(in.half_x + u));
-      const VF half_y = hn::IfThenElseZero(near, halfWidth(in.half_y + u));
-      const VF at_x = hn::IfThenElseZero(near, px.x), at_y = hn::IfThenElseZero(near, px.y);
-      hn::StoreU(keyOf(depth, unsure), di, out->fill_key + u);
-      hn::StoreU(firstFrom(hn::Sub(at_x, half_x), task.color.width), di, out->left + u);
-      hn::StoreU(firstFrom(hn::Add(at_x, half_x), task.color.width), di, out->right + u);
-      hn::StoreU(firstFrom(hn::Sub(at_y, half_y), task.color.height), di, out->top + u);
-      hn::StoreU(firstFrom(hn::Add(at_y, half_y), task.color.height), di, out->bottom + u);
+      const VF spread_error2 = hn::Add(sigma2, hn::Mul(c.spread2, slope2));
+      const auto key = keyOf(c, seen.subunits, good2, spread_error2);
+      spread(task, c, seen, key, halfWidth(in.half_x + u), halfWidth(in.half_y + u), out);
     }
-
-    const auto steep = hn::And(seen, hn::Gt(slope, hn::Mul(hn::Set(d, kEdgeJump), z)));
-    if (!hn::AllFalse(d, steep)) findEdges(task, {z, left, right, above, below}, {x, y}, steep, u, out);
+    out.count += lanes;
   }
+  projected->count = out.count;
 }
 
-HWY_ATTR void projectRow(const ProjectTask &task, const SensedRows &in, ProjectedRow *out) {
+HWY_ATTR void projectRow(const ProjectTask &task, const RowToProject &in, ProjectedRow *out) {
   switch (task.color.model) {
     case SPHC_CAMERA_PINHOLE:
       return projectRowOf<SPHC_CAMERA_PINHOLE>(task, in, out);
@@ -244,21 +260,13 @@ HWY_ATTR void projectRow(const ProjectTask &task, const SensedRows &in, Projecte
   }
 }
 
-HWY_ATTR void senseRow(const uint16_t *raw, float unit_m, float low, float high, int32_t count, float *m) {
+HWY_ATTR void turnRow(const float *m, const float *ray_x, const float *ray_y, int32_t count, float *const *turned) {
   const F32 d;
-  const hn::Rebind<uint16_t, F32> d16;
-  const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
-  const auto sense = [&](hn::Vec<hn::Rebind<uint16_t, F32>> row) HWY_ATTR {
-    const VF units = hn::ConvertTo(d, hn::PromoteTo(I32(), row));
-    const auto good = hn::And(hn::Ge(units, hn::Set(d, low)), hn::Le(units, hn::Set(d, high)));
-    return hn::IfThenElseZero(good, hn::Mul(units, hn::Set(d, unit_m)));
-  };
-  int32_t u = 0;
-  for (; u + lanes <= count; u += lanes) hn::StoreU(sense(hn::LoadU(d16, raw + u)), d, m + u);
-  if (u == count) return;
-  uint16_t rest[kRowPadding] = {};
-  for (int32_t i = u; i < count; ++i) rest[i - u] = raw[i];
-  hn::StoreU(sense(hn::LoadU(d16, rest)), d, m + u);
+  for (int32_t u = 0; u < count; u += static_cast<int32_t>(hn::Lanes(d))) {
+    const VF x = hn::LoadU(d, ray_x + u), y = hn::LoadU(d, ray_y + u);
+    for (int i = 0; i < 3; ++i)
+      hn::StoreU(madd(madd(hn::Set(d, m[3 * i + 2]), m[3 * i + 1], y), m[3 * i], x), d, turned[i] + u);
+  }
 }
 
 }  // namespace

@@ -195,6 +195,15 @@ TEST(Dense, RegisteredImagesComeBackAsTheyWere) {
   EXPECT_EQ(rig.count(SPHC_ALIGNED_MEASURED), 64 * 48);
 }
 
+TEST(Dense, WidthsThatAreNoWholeVectors) {
+  const sphc_camera camera = test::pinhole(75, 48, 50);
+  Rig rig(camera, camera, Rigid());
+  rig.measure(plane({0.1, 0.2, 1}, 1.5));
+  rig.align();
+  EXPECT_EQ(rig.depth, rig.raw);
+  EXPECT_EQ(rig.count(SPHC_ALIGNED_MEASURED), 75 * 48);
+}
+
 TEST(Dense, TheChosenUnit) {
   const sphc_camera camera = test::pinhole(64, 48, 50);
   Rig rig(camera, camera, Rigid());
