@@ -329,10 +329,11 @@ enum {
 
 typedef struct sphc_config {
   uint32_t struct_size;
-  uint32_t max_keypoints;  /* strongest are kept; 64 to 4096 */
-  uint32_t max_iterations; /* minimal samples drawn in one search, at most; a frame takes one to a few; 1 to 1000000 */
-  float max_ratio;         /* Lowe's ratio test, on distances; 0.1 to 1 */
-  uint64_t seed;           /* same seed, map, config and frames: same bytes in the results */
+  uint32_t max_keypoints; /* strongest are kept; 64 to 4096 */
+  uint32_t
+      max_iterations; /* minimal samples drawn in one search, at most; a frame takes one to a few; 1 to 1000000 */
+  float max_ratio;    /* Lowe's ratio test, on distances; 0.1 to 1 */
+  uint64_t seed;      /* same seed, map, config and frames: same bytes in the results */
 
   sphc_camera color_camera;
   sphc_camera depth_camera;
@@ -390,11 +391,11 @@ typedef struct sphc_result {
   uint32_t sequence; /* of the frame */
   int64_t time_ns;   /* frame.color_time_ns */
   sphc_outcome outcome;
-  uint32_t keypoints;         /* found in the colour image */
-  uint32_t lifted;            /* of these, with depth */
-  uint32_t matches;           /* keypoints with a map point that passed the ratio test, lifted or not */
-  uint32_t inliers;           /* lifted and agreeing with the pose: of these, and where frames > 1 of earlier ones */
-  uint32_t iterations;        /* minimal samples drawn, in all searches */
+  uint32_t keypoints;  /* found in the colour image */
+  uint32_t lifted;     /* of these, with depth */
+  uint32_t matches;    /* keypoints with a map point that passed the ratio test, lifted or not */
+  uint32_t inliers;    /* lifted and agreeing with the pose: of these, and where frames > 1 of earlier ones */
+  uint32_t iterations; /* minimal samples drawn, in all searches */
   sphc_rigid camera_from_map; /* valid when outcome is LOCALIZED, else identity */
   /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
