@@ -37,7 +37,6 @@ MODES = {
 # What is measured, and floors at eta 33 %: (share within 5 cm and 5 deg, median cm, median deg).
 FLOORS = {
     ("simulated", "single"): (99.0, 1.0, 0.3),
-    ("simulated", "tracking"): (99.0, 1.0, 0.3),
     ("redkitchen", "single"): (85.0, 1.8, None),
     ("redkitchen", "tracking"): (97.0, 1.5, None),
     ("hololens", "single"): (96.0, 1.2, None),
