@@ -61,7 +61,13 @@ sphc_status Player::acquire(uint32_t timeout_us, sphc_capture &capture) {
   const RecordedImage &image = (is_color ? recording_.color : recording_.depth)[event.index];
   const sphc_image view = reader_.read(event.stream, image, slot->pixels.data());
   slot->token = ++last_token_;
-  capture = {sizeof capture, event.stream, event.time_ns, slot->token, image.sequence, 0, view};
+  capture = {};
+  capture.struct_size = sizeof capture;
+  capture.stream = event.stream;
+  capture.time_ns = event.time_ns;
+  capture.token = slot->token;
+  capture.sequence = image.sequence;
+  capture.image = view;
   return SPHC_OK;
 }
 

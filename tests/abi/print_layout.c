@@ -158,8 +158,13 @@ int main(void) {
   FIELD(sphc_capture, time_ns);
   FIELD(sphc_capture, token);
   FIELD(sphc_capture, sequence);
-  FIELD(sphc_capture, reserved);
+  FIELD(sphc_capture, time_point);
   FIELD(sphc_capture, image);
+  FIELD(sphc_capture, arrival_ns);
+  FIELD(sphc_capture, exposure_us);
+  FIELD(sphc_capture, time_sigma_us);
+  FIELD(sphc_capture, clock);
+  FIELD(sphc_capture, reserved);
   WHOLE(sphc_source);
   FIELD(sphc_source, struct_size);
   FIELD(sphc_source, loan_limit);

@@ -81,7 +81,11 @@ TEST_F(RecordingWriter, TakesEveryColourFormatAndStride) {
 }
 
 TEST_F(RecordingWriter, TakesTheStreamsApart) {
-  sphc_capture capture{sizeof(sphc_capture), SPHC_STREAM_DEPTH, 5, 0, 0, 0, images_.depthImage()};
+  sphc_capture capture{};
+  capture.struct_size = sizeof capture;
+  capture.stream = SPHC_STREAM_DEPTH;
+  capture.time_ns = 5;
+  capture.image = images_.depthImage();
   EXPECT_EQ(sphc_recording_add(writer_, &capture, &message_), SPHC_OK) << message_.text;
   capture.stream = SPHC_STREAM_COLOR;
   capture.image = images_.colorImage();

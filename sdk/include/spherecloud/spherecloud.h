@@ -482,15 +482,37 @@ SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer
 typedef int32_t sphc_stream;
 enum { SPHC_STREAM_NONE = 0, SPHC_STREAM_COLOR = 1, SPHC_STREAM_DEPTH = 2 };
 
+/* Which clock a time is on.  Times of two clocks cannot be compared. */
+typedef int32_t sphc_clock_id;
+enum {
+  SPHC_CLOCK_SOURCE = 0,    /* the source's own, such as a device's counter or a recording's; monotonic */
+  SPHC_CLOCK_MONOTONIC = 1, /* the host's CLOCK_MONOTONIC */
+  SPHC_CLOCK_BOOTTIME = 2   /* the host's CLOCK_BOOTTIME */
+};
+
+/* What of the exposure a time is that of. */
+typedef int32_t sphc_time_point;
+enum {
+  SPHC_TIME_MIDDLE = 0,
+  SPHC_TIME_START = 1,  /* as UVC cameras; half the exposure early when that is not known */
+  SPHC_TIME_END = 2,    /* as many capture bridges: of the readout too */
+  SPHC_TIME_ARRIVAL = 3 /* when it reached the host: late by readout and transfer */
+};
+
 /* One image of one stream, on loan from its source until released. */
 typedef struct sphc_capture {
   uint32_t struct_size;
   sphc_stream stream;
-  int64_t time_ns;   /* mid-exposure, the source's monotonic clock */
-  uint64_t token;    /* the source's own; hand it back unchanged */
-  uint32_t sequence; /* counts the captures of this stream, lost ones too: a gap is a loss */
+  int64_t time_ns;            /* of the point of the exposure that time_point names, on `clock`; monotonic */
+  uint64_t token;             /* the source's own; hand it back unchanged */
+  uint32_t sequence;          /* counts the captures of this stream, lost ones too: a gap is a loss */
+  sphc_time_point time_point; /* MIDDLE, if the driver can: it moves the time by half an exposure it knows */
+  sphc_image image;           /* valid until release */
+  int64_t arrival_ns;         /* when the host had it, by CLOCK_MONOTONIC; 0: not told */
+  uint32_t exposure_us;       /* 0: not told */
+  uint32_t time_sigma_us;     /* of time_ns as the middle of the exposure, 1 sigma; 0: exact */
+  sphc_clock_id clock;
   uint32_t reserved;
-  sphc_image image; /* valid until release */
 } sphc_capture;
 
 /* Filled by a driver; the functions take its `self`.  States: stopped (after opening) -> start -> running -> stop
