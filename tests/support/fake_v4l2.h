@@ -73,7 +73,7 @@ class FakeCamera {
   friend class FakeKernel;
   enum class State { Free, Queued, Done };
   struct Buffer {
-    std::unique_ptr<uint8_t[]> data;
+    std::shared_ptr<uint8_t[]> data;  // shared, so that a camera not yet in use can be copied
     State state;
     v4l2_buffer told;
   };
