@@ -7,7 +7,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr uint32_t kYuyv = V4L2_PIX_FMT_YUYV, kMjpg = V4L2_PIX_FMT_MJPEG, kZ16 = V4L2_PIX_FMT_Z16;
+constexpr uint32_t kYuyv = V4L2_PIX_FMT_YUYV, kMjpg = V4L2_PIX_FMT_MJPEG;
 
 struct Tried {
   sphc_status status;
