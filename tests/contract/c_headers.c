@@ -3,5 +3,6 @@
 #include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sample/sample.h"
+#include "drivers/v4l2/v4l2.h"
 
 typedef int c_headers_compile;
