@@ -86,18 +86,20 @@ sphc_status Camera::start() {
     const sphc_status status = openDevice(&message_);
     if (status != SPHC_OK) return status;
   }
-  ended_ = false;
+  silent_ns_ = 0;
+  std::fill(last_index_, last_index_ + kStreams, -1);
   const QueueConfig config = queueConfig();
   {
     const Lock lock(reading_);
     timeline_.start(config.is_recording, config.period_ns);
     queue_.start(config);
-    listening_ = true;
   }
   running_ = true;
   played_ = config.is_recording;
   const sphc_status status = device_.start(&message_);
   if (status != SPHC_OK) stop();
+  const Lock lock(reading_);
+  listening_ = status == SPHC_OK;
   return status;
 }
 
@@ -125,7 +127,7 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
 void Camera::stop() {
   if (!running_) return;
   running_ = false;
-  device_.stop();
+  if (!device_.isRecording()) device_.stop();  // a file waits until it is asked again, and is closed as it is
   const Lock lock(reading_);
   listening_ = false;
   queue_.stop();
@@ -137,7 +139,6 @@ void Camera::onGone() {
 }
 
 void Camera::onState(OniDeviceState state) {
-  if (state == ONI_DEVICE_STATE_EOF) ended_ = true;
   if (state == ONI_DEVICE_STATE_ERROR)
     queue_.report(SPHC_E_DEVICE, "acquire: the device reports a failure; if captures stay away, unplug it");
   if (state == ONI_DEVICE_STATE_NOT_READY)
@@ -166,30 +167,53 @@ sphc_status Camera::acquireFromFile(int64_t until_ns, sphc_capture *capture) {
   for (;;) {
     const sphc_status status = queue_.take(0, capture, &message_);
     if (status != SPHC_AGAIN) return status;
-    const int64_t left_ns = std::max(until_ns - monotonicNs(), int64_t{0});
-    readFromFile(static_cast<int>(std::min(left_ns, kSliceNs) / 1000000));
+    const int64_t before_ns = monotonicNs();
+    const int64_t left_ns = std::max(until_ns - before_ns, int64_t{0});
+    const bool read = readFromFile(static_cast<int>(std::min(left_ns, kSliceNs) / 1000000));
+    noticeSilence(read ? 0 : silent_ns_ + monotonicNs() - before_ns);
     if (left_ns == 0) return queue_.take(0, capture, &message_);
   }
 }
 
-void Camera::readFromFile(int timeout_ms) {
+bool Camera::readFromFile(int timeout_ms) {
   OniStreamHandle handles[kStreams];
   int streams[kStreams], count = 0, index = 0;
   for (int stream = 0; stream < kStreams; ++stream)
     if (device_.has(stream)) streams[count] = stream, handles[count++] = device_.stream(stream);
-  const bool at_end = ended_;  // before the last look, so that no frame is left behind
-  if (oniWaitForAnyStream(handles, count, &index, timeout_ms) == ONI_STATUS_OK) {
-    const Lock lock(reading_);
-    readOne(streams[index]);
-  } else if (at_end) {
-    queue_.endReached();
-  }
+  if (oniWaitForAnyStream(handles, count, &index, timeout_ms) != ONI_STATUS_OK) return false;
+  const Lock lock(reading_);
+  return readOne(streams[index]);
+}
+
+void Camera::noticeSilence(int64_t silent_ns) {
+  const int64_t limit_ns = int64_t{config_.stall_us} * 1000;
+  if (silent_ns_ < limit_ns && silent_ns >= limit_ns)
+    queue_.report(
+        SPHC_E_DEVICE,
+        "acquire: the recording gives no more frames and does not end: it is cut short, damaged, or was made "
+        "of a device without the cropping property; record it anew");
+  silent_ns_ = silent_ns;
+}
+
+// The first frame of a stream once more: the player is through, and repeats.
+bool Camera::beginsAnew(int stream, const OniFrame &frame) {
+  const bool is_first = last_index_[stream] < 0;
+  if (is_first) first_index_[stream] = frame.frameIndex;
+  const bool anew =
+      !is_first && (frame.frameIndex < last_index_[stream] || frame.frameIndex == first_index_[stream]);
+  last_index_[stream] = frame.frameIndex;
+  return anew;
 }
 
 bool Camera::readOne(int stream) {
   OniFrame *frame = nullptr;
   if (oniStreamReadFrame(device_.stream(stream), &frame) != ONI_STATUS_OK || !frame) return false;
-  accept(stream, *frame, device_.isRecording() ? 0 : monotonicNs());
+  if (!device_.isRecording())
+    accept(stream, *frame, monotonicNs());
+  else if (beginsAnew(stream, *frame))
+    queue_.endReached();
+  else
+    accept(stream, *frame, 0);
   oniFrameRelease(frame);
   return true;
 }

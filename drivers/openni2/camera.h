@@ -48,7 +48,9 @@ class Camera final : private DeviceWatcher {
   int64_t periodNs(int stream) const { return 1000000000 / device_.mode(stream).fps; }
 
   sphc_status acquireFromFile(int64_t until_ns, sphc_capture *capture);
-  void readFromFile(int timeout_ms);
+  bool readFromFile(int timeout_ms);
+  void noticeSilence(int64_t silent_ns);
+  bool beginsAnew(int stream, const OniFrame &frame);
   void readWaiting(int stream);
   bool readOne(int stream);
   void accept(int stream, const OniFrame &frame, int64_t arrival_ns);
@@ -61,8 +63,11 @@ class Camera final : private DeviceWatcher {
   Listener listeners_[kStreams] = {};
   CaptureQueue queue_;
   bool running_ = false;
-  bool played_ = false;  // a recording: is behind its beginning
-  std::atomic<bool> gone_{false}, ended_{false};
+  // Of a recording:
+  bool played_ = false;  // is behind its beginning
+  int first_index_[kStreams] = {}, last_index_[kStreams] = {};
+  int64_t silent_ns_ = 0;  // how long it was asked in vain
+  std::atomic<bool> gone_{false};
 
   std::mutex reading_;      // one frame at a time leaves OpenNI2; what follows is under it
   bool listening_ = false;  // a callback that comes later finds nothing to do

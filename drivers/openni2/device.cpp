@@ -13,6 +13,7 @@ namespace sphc::openni2 {
 
 namespace {
 
+constexpr int kPlayerPatienceMs = 1000;
 constexpr OniSensorType kSensors[kStreams] = {ONI_SENSOR_COLOR, ONI_SENSOR_DEPTH};
 
 template <typename Value>
@@ -59,18 +60,25 @@ sphc_status Device::open(const char *uri, const sphc_openni2_config &config, sph
         uri, LibraryError().text);
   }
   is_recording_ = oniDeviceIsPropertySupported(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED);
-  sphc_status status = SPHC_OK;
-  if (config.streams & SPHC_OPENNI2_STREAM_COLOR) status = openStream(kColor, config.color, message);
+  player_awake_ = false;
+  sphc_status status = is_recording_ ? playByHand(message) : SPHC_OK;
+  if (status == SPHC_OK && config.streams & SPHC_OPENNI2_STREAM_COLOR)
+    status = openStream(kColor, config.color, message);
   if (status == SPHC_OK && config.streams & SPHC_OPENNI2_STREAM_DEPTH)
     status = openStream(kDepth, config.depth, message);
-  if (status == SPHC_OK) status = is_recording_ ? playByHand(message) : SPHC_OK;
+  if (status == SPHC_OK && is_recording_ && !awaitPlayer())
+    status = explain(message, SPHC_E_DEVICE,
+                     "the recording gives no frames: it is cut short, damaged, or was made of a device without the "
+                     "cropping property; record it anew");
   if (status == SPHC_OK) status = setRegistration(config.registration != 0, message);
-  if (status == SPHC_OK) status = setFrameSync(config.frame_sync != 0, message);
+  frame_sync_ = config.frame_sync != 0;
+  if (status == SPHC_OK && frame_sync_) status = checkFrameSync(message);
   if (status != SPHC_OK) close();
   return status;
 }
 
 void Device::close() {
+  if (device_ && is_recording_ && !player_awake_) awaitPlayer();
   for (OniStreamHandle &stream : streams_) {
     if (stream) oniStreamDestroy(stream);
     stream = nullptr;
@@ -149,31 +157,34 @@ sphc_status Device::setRegistration(bool on, sphc_message *message) {
       on ? "on" : "off", supported ? "the device says it did, but did not" : "the device cannot", on ? 0 : 1);
 }
 
-sphc_status Device::setFrameSync(bool on, sphc_message *message) {
-  if (!on) {
-    if (oniDeviceGetDepthColorSyncEnabled(device_)) oniDeviceDisableDepthColorSync(device_);
-    return SPHC_OK;
-  }
-  const bool possible = !is_recording_ && has(kColor) && has(kDepth);
-  if (possible && oniDeviceEnableDepthColorSync(device_) == ONI_STATUS_OK &&
-      oniDeviceGetDepthColorSyncEnabled(device_))
-    return SPHC_OK;
-  return explain(message, SPHC_E_UNSUPPORTED,
-                 "frame synchronisation is not to be had: %s; set config.frame_sync to 0 and pair by time",
-                 is_recording_ ? "a recording has none"
-                 : possible    ? "the device refuses"
-                               : "it needs both streams");
+sphc_status Device::checkFrameSync(sphc_message *message) const {
+  if (!is_recording_ && has(kColor) && has(kDepth)) return SPHC_OK;
+  return explain(message, SPHC_E_UNSUPPORTED, "frame synchronisation: %s; set config.frame_sync to 0",
+                 is_recording_ ? "a recording has none" : "it needs both streams");
 }
 
-// Speed -1: the file goes on as frames are read.  Seeking crashes in OpenNI2 and is never done.
+// Speed -1: the file goes on as frames are read.  Seeking crashes in OpenNI2 and is never done.  Repeating: at an
+// end the player's thread would run on at full speed, and crash when streams are destroyed meanwhile.
 sphc_status Device::playByHand(sphc_message *message) {
   const float speed = -1;
-  const OniBool repeat = FALSE;
-  if (oniDeviceSetProperty(device_, ONI_DEVICE_PROPERTY_PLAYBACK_REPEAT_ENABLED, &repeat, sizeof repeat) ==
-          ONI_STATUS_OK &&
-      oniDeviceSetProperty(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED, &speed, sizeof speed) == ONI_STATUS_OK)
-    return SPHC_OK;
-  return explain(message, SPHC_E_DEVICE, "the recording cannot be played frame by frame (%s)", LibraryError().text);
+  const OniBool repeat = TRUE;
+  if (oniDeviceSetProperty(device_, ONI_DEVICE_PROPERTY_PLAYBACK_REPEAT_ENABLED, &repeat, sizeof repeat) !=
+          ONI_STATUS_OK ||
+      oniDeviceSetProperty(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED, &speed, sizeof speed) != ONI_STATUS_OK)
+    return explain(message, SPHC_E_DEVICE, "the recording cannot be played frame by frame (%s)",
+                   LibraryError().text);
+  return SPHC_OK;
+}
+
+// Until the file's first frame is there.  A player that is closed before its thread runs is not ended but killed, 3
+// s later, and takes the process with it.
+bool Device::awaitPlayer() {
+  OniStreamHandle handles[kStreams];
+  int count = 0, index = 0;
+  for (const OniStreamHandle stream : streams_)
+    if (stream && oniStreamStart(stream) == ONI_STATUS_OK) handles[count++] = stream;
+  player_awake_ = oniWaitForAnyStream(handles, count, &index, kPlayerPatienceMs) == ONI_STATUS_OK;
+  return player_awake_;
 }
 
 // ---- running ----
@@ -187,10 +198,16 @@ sphc_status Device::start(sphc_message *message) {
                    "start: the %s stream does not start (%s); unplug the device and plug it in",
                    kStreamNames[stream], error.text);
   }
-  return SPHC_OK;
+  // Asked for before the streams run, OpenNI2 grants it whatever the device says.
+  if (!frame_sync_ || oniDeviceEnableDepthColorSync(device_) == ONI_STATUS_OK) return SPHC_OK;
+  stop();
+  return explain(
+      message, SPHC_E_UNSUPPORTED,
+      "start: the device refuses to synchronise its streams; set config.frame_sync to 0 and pair by time");
 }
 
 void Device::stop() {
+  if (frame_sync_ && oniDeviceGetDepthColorSyncEnabled(device_)) oniDeviceDisableDepthColorSync(device_);
   for (const OniStreamHandle stream : streams_)
     if (stream) oniStreamStop(stream);
 }
@@ -217,7 +234,7 @@ void Device::describe(sphc_openni2_info *info) const {
   info->depth = modeOf(kDepth);
   info->color_format = formatOf(modes_[kColor].pixelFormat);
   info->registration = registration_;
-  info->frame_sync = oniDeviceGetDepthColorSyncEnabled(device_) != FALSE;
+  info->frame_sync = frame_sync_;
   info->depth_unit_m = modes_[kDepth].pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 0.0001 : 0.001;
   info->color_camera = cameraHint(kColor);
   info->depth_camera = cameraHint(kDepth);

@@ -36,14 +36,15 @@ class Device {
   sphc_status setMode(int stream, const sphc_openni2_mode &wanted, sphc_message *message);
   sphc_status makePlain(int stream, sphc_message *message);
   sphc_status setRegistration(bool on, sphc_message *message);
-  sphc_status setFrameSync(bool on, sphc_message *message);
+  sphc_status checkFrameSync(sphc_message *message) const;
   sphc_status playByHand(sphc_message *message);
+  bool awaitPlayer();
   sphc_camera cameraHint(int stream) const;
 
   OniDeviceHandle device_ = nullptr;
   OniStreamHandle streams_[kStreams] = {};
   OniVideoMode modes_[kStreams] = {};
-  bool is_recording_ = false, registration_ = false;
+  bool is_recording_ = false, player_awake_ = false, registration_ = false, frame_sync_ = false;
 };
 
 }  // namespace sphc::openni2

@@ -1,5 +1,7 @@
 #include "openni2.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -17,23 +19,27 @@ namespace {
 
 constexpr uint32_t kMaxStallUs = 60000000, kMinStallUs = 1000, kMaxOrderWaitUs = 1000000;
 
-// What OpenNI2 lists, given back when done.
+// What OpenNI2 lists but for recordings that it has open, given back when done.
 class DeviceList {
  public:
   DeviceList() {
-    if (oniGetDeviceList(&devices_, &count_) != ONI_STATUS_OK) devices_ = nullptr, count_ = 0;
+    int listed = 0;
+    if (oniGetDeviceList(&devices_, &listed) != ONI_STATUS_OK) return;
+    count_ = static_cast<uint32_t>(std::remove_if(devices_, devices_ + listed, isFile) - devices_);
   }
   ~DeviceList() {
     if (devices_) oniReleaseDeviceList(devices_);
   }
   DeviceList(const DeviceList &) = delete;
   DeviceList &operator=(const DeviceList &) = delete;
-  uint32_t count() const { return static_cast<uint32_t>(std::max(count_, 0)); }
+  uint32_t count() const { return count_; }
   const OniDeviceInfo &operator[](uint32_t i) const { return devices_[i]; }
 
  private:
+  static bool isFile(const OniDeviceInfo &info) { return access(info.uri, F_OK) == 0; }
+
   OniDeviceInfo *devices_ = nullptr;
-  int count_ = 0;
+  uint32_t count_ = 0;
 };
 
 sphc_status checkConfig(const sphc_openni2_config &config, sphc_message *message) {

@@ -23,8 +23,7 @@ extern "C" {
 
 typedef struct sphc_openni2 sphc_openni2;
 
-/* ---- which devices are there ----------------------------------------------------------------------------------
- */
+/* ---- which devices are there ---- */
 
 #define SPHC_OPENNI2_TEXT_BYTES 256u
 
@@ -39,8 +38,7 @@ typedef struct sphc_openni2_device {
 sphc_status sphc_openni2_list(sphc_openni2_device *devices, uint32_t capacity, uint32_t *count,
                               sphc_message *message);
 
-/* ---- config ---------------------------------------------------------------------------------------------------
- */
+/* ---- config ---- */
 
 /* Bits of sphc_openni2_config.streams. */
 enum { SPHC_OPENNI2_STREAM_COLOR = 1u, SPHC_OPENNI2_STREAM_DEPTH = 2u };
@@ -57,19 +55,17 @@ typedef struct sphc_openni2_config {
   uint32_t registration;          /* 1: the device draws depth as its colour camera sees it; 0 */
   uint32_t frame_sync;            /* 1: only pairs of equal frame number come; 0 */
   uint32_t loan_limit;            /* of the source: 2 to 64 buffers; those not on loan are the queue; 8 */
-  uint32_t stall_us;              /* a stream that is silent so long is a failure, said once; 1000 to 60 s; 1 s */
-  uint32_t order_wait_us;     /* how long a capture waits for an older one of the other stream; to 1 s; 0: a frame
-                                 period */
-  sphc_time_point time_point; /* what the device's timestamps are; OpenNI2 does not say; END */
-  uint32_t time_sigma_us;     /* 1 sigma of time_ns as mid-exposure; 0: half a frame period */
-  uint32_t reserved;          /* 0 */
+  uint32_t stall_us;              /* a stream that is silent so long is a failure; 1000 to 60000000; 1 s */
+  uint32_t order_wait_us;         /* wait for an older capture of the other stream; to 1000000; 0: a period */
+  sphc_time_point time_point;     /* what the device's timestamps are, which OpenNI2 does not say; END */
+  uint32_t time_sigma_us;         /* 1 sigma of time_ns as mid-exposure; 0: half a frame period */
+  uint32_t reserved;              /* 0 */
 } sphc_openni2_config;
 
 /* The defaults stand behind the fields above.  Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 sphc_status sphc_openni2_config_init(sphc_openni2_config *config, size_t struct_size);
 
-/* ---- open, close ----------------------------------------------------------------------------------------------
- */
+/* ---- open, close ---- */
 
 /* `uri`: of sphc_openni2_list, the path of an .oni recording, or null for the first device.  `config` null: the
  * defaults; it is copied.  Images come neither mirrored nor cropped.
@@ -82,8 +78,7 @@ sphc_status sphc_openni2_open(const char *uri, const sphc_openni2_config *config
  * [exclusive] */
 void sphc_openni2_close(sphc_openni2 **openni2);
 
-/* ---- what was opened ------------------------------------------------------------------------------------------
- */
+/* ---- what was opened ---- */
 
 typedef struct sphc_openni2_info {
   uint32_t struct_size;
@@ -102,18 +97,21 @@ typedef struct sphc_openni2_info {
 /* Set info->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_openni2_get_info(const sphc_openni2 *openni2, sphc_openni2_info *info);
 
-/* ---- as a source ----------------------------------------------------------------------------------------------
- */
+/* ---- as a source ---- */
 
 /* Fills *source (struct_size too) with the contract of spherecloud.h; valid until sphc_openni2_close.  A handle has
  * one source; a second call gives the same one.
- *   time_ns       the device's timestamp, on its own clock (SPHC_CLOCK_SOURCE); a jump of that clock is bridged
- *   sequence      the device's frame index: a gap is a loss, whether the device or this driver lost it
- *   acquire       E_DEVICE: a stream is silent, or the device's clock jumped; E_IMAGE: a frame that does not fit
- * its mode was thrown away; both once each time, and the next acquire goes on.  E_DEVICE_LOST: unplugged; what had
- * come before is given first. a recording   starts from the beginning each time and comes as fast as it is
- * acquired, nothing is lost; then SPHC_END.  start may fail: the file is opened again. Errors: ARGUMENT.
- * [exclusive] */
+ *
+ *   time_ns      the device's timestamp, on its own clock (SPHC_CLOCK_SOURCE); a jump of that clock is bridged
+ *   sequence     the device's frame index: a gap is a loss, whether the device or this driver lost it
+ *   acquire      E_DEVICE: a stream is silent, or the device's clock jumped.  E_IMAGE: a frame that does not fit
+ * its mode was thrown away.  Each is said once, and the next acquire goes on.  E_DEVICE_LOST: unplugged; what had
+ * come before is given first start        E_UNSUPPORTED: the device refuses config.frame_sync, for which OpenNI2
+ * does not ask it earlier
+ *
+ * A recording starts from the beginning each time (the file is opened again, which may fail) and comes as fast as
+ * it is acquired; nothing of it is thrown away for want of buffers; then SPHC_END.  Errors: ARGUMENT. [exclusive]
+ */
 sphc_status sphc_openni2_source(sphc_openni2 *openni2, sphc_source *source);
 
 /* What became of the frames of one stream since the last start. */
@@ -135,8 +133,7 @@ typedef struct sphc_openni2_statistics {
 /* Set statistics->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_openni2_get_statistics(const sphc_openni2 *openni2, sphc_openni2_statistics *statistics);
 
-/* ---- controls of the colour camera ----------------------------------------------------------------------------
- */
+/* ---- controls of the colour camera ---- */
 
 typedef int32_t sphc_openni2_control;
 enum {

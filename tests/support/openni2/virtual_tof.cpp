@@ -3,6 +3,7 @@
 #include <OniCProperties.h>
 #include <PS1080.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -37,6 +38,7 @@ constexpr int count(const Modes &modes) {
 }
 
 class Stream;
+constexpr uint8_t kStuffing = 0xee;
 
 // What of a device outlives its being opened.
 struct Socket {
@@ -105,16 +107,13 @@ class Stream final : public StreamBase {
     OniFrame *frame = getServices().acquireFrame();
     if (!frame) return false;
     describe(wanted, frame);
-    const int room = mode_.resolutionX * mode_.resolutionY * bytesPerPixel(mode_.pixelFormat);
-    uint8_t *bytes = static_cast<uint8_t *>(frame->data);
-    if (wanted.pixels)
-      std::memcpy(bytes, wanted.pixels, static_cast<size_t>(room));
-    else
-      for (int i = 0; i < room; ++i) bytes[i] = pattern(wanted.index, static_cast<size_t>(i));
+    draw(wanted, static_cast<uint8_t *>(frame->data));
     raiseNewFrame(frame);
     getServices().releaseFrame(frame);
     return true;
   }
+
+  int getRequiredFrameSize() override { return 2 * getServices().getDefaultRequiredFrameSize(); }
 
   OniStatus getProperty(int id, void *data, int *bytes) override {
     const bool is_color = sensor_ == ONI_SENSOR_COLOR;
@@ -188,6 +187,23 @@ class Stream final : public StreamBase {
     mode_ = wanted;
     if (socket_.faults.grants_another_mode) mode_.resolutionX /= 2, mode_.resolutionY /= 2;
     return ONI_STATUS_OK;
+  }
+
+  // The mode's pixels, whatever else the frame claims; longer rows are stuffed.
+  void draw(const Frame &wanted, uint8_t *bytes) const {
+    const size_t row_bytes = static_cast<size_t>(mode_.resolutionX * bytesPerPixel(mode_.pixelFormat));
+    const bool has_gaps = wanted.stride_bytes > 0 && static_cast<size_t>(wanted.stride_bytes) <= 2 * row_bytes;
+    const size_t stride_bytes =
+        has_gaps ? std::max(static_cast<size_t>(wanted.stride_bytes), row_bytes) : row_bytes;
+    for (size_t y = 0; y < static_cast<size_t>(mode_.resolutionY); ++y) {
+      uint8_t *row = bytes + y * stride_bytes;
+      std::memset(row, kStuffing, stride_bytes);
+      if (wanted.pixels) {
+        std::memcpy(row, static_cast<const uint8_t *>(wanted.pixels) + y * row_bytes, row_bytes);
+        continue;
+      }
+      for (size_t i = 0; i < row_bytes; ++i) row[i] = pattern(sensor_, wanted.index, y * row_bytes + i);
+    }
   }
 
   void describe(const Frame &wanted, OniFrame *frame) const {

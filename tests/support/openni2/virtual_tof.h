@@ -55,8 +55,16 @@ VTOF_API void emitPair(int device, int index, uint64_t depth_lag_us = 0);
 VTOF_API void run(int device, bool on);
 
 // Byte `i` of the pixels of frame `index` without pixels of its own.
-inline uint8_t pattern(int index, size_t i) {
-  return static_cast<uint8_t>(31 * static_cast<size_t>(index) + i % 251);
+// Depth stays below 8192: recorders garble what is beyond the device's maximum.
+inline uint8_t pattern(OniSensorType sensor, int index, size_t i) {
+  const uint8_t byte = static_cast<uint8_t>(31 * static_cast<size_t>(index) + i % 251);
+  return sensor == ONI_SENSOR_DEPTH && i % 2 != 0 ? byte % 32 : byte;
+}
+
+// The index, below 256, of the frame whose pattern begins with this byte.
+inline int indexOf(uint8_t first_byte) {
+  constexpr int kInverse = 223;  // of 31, modulo 256
+  return first_byte * kInverse % 256;
 }
 
 // What the plug-in was last told.
