@@ -58,11 +58,8 @@ sphc_status checkConfig(const sphc_openni2_config &config, sphc_message *message
   return SPHC_OK;
 }
 
-// The uri of the first device when none is named.
+// The uri of the first device when none is named.  OpenNI2 is started.
 sphc_status chooseDevice(const char *uri, char (&chosen)[ONI_MAX_STR], sphc_message *message) {
-  Library library;
-  const sphc_status status = library.start(message);
-  if (status != SPHC_OK) return status;
   if (uri && std::strlen(uri) >= sizeof chosen)
     return explain(message, SPHC_E_ARGUMENT, "uri: is %zu bytes long; OpenNI2 takes %zu at most", std::strlen(uri),
                    sizeof chosen - 1);
@@ -137,8 +134,10 @@ sphc_status sphc_openni2_open(const char *uri, const sphc_openni2_config *config
   if (status != SPHC_OK) return status;
   sphc_openni2 *opened = new (std::nothrow) sphc_openni2;
   if (!opened) return explain(message, SPHC_E_DEVICE, "out of memory");
+  Library library;
+  status = library.start(message);
   char its_uri[ONI_MAX_STR];
-  status = chooseDevice(uri, its_uri, message);
+  if (status == SPHC_OK) status = chooseDevice(uri, its_uri, message);
   if (status == SPHC_OK) status = opened->camera.open(its_uri, chosen, message);
   if (status != SPHC_OK) {
     delete opened;
