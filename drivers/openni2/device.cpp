@@ -260,8 +260,8 @@ sphc_camera Device::cameraHint(int stream) const {
   camera.width = static_cast<uint32_t>(modes_[stream].resolutionX);
   camera.height = static_cast<uint32_t>(modes_[stream].resolutionY);
   camera.param_count = 4;
-  camera.params[0] = 0.5 * width / std::tan(0.5 * double{horizontal_rad});
-  camera.params[1] = 0.5 * height / std::tan(0.5 * double{vertical_rad});
+  camera.params[0] = 0.5 * width / std::tan(0.5 * static_cast<double>(horizontal_rad));
+  camera.params[1] = 0.5 * height / std::tan(0.5 * static_cast<double>(vertical_rad));
   camera.params[2] = 0.5 * width;
   camera.params[3] = 0.5 * height;
   return camera;

@@ -136,11 +136,6 @@ TEST_F(CaptureQueueTest, ForgetsWhatWaitedWhenStopped) {
   EXPECT_EQ(take(&capture), SPHC_E_STATE);
 }
 
-TEST(CaptureQueueMemory, IsRefusedWhenThereIsNone) {
-  CaptureQueue queue;
-  EXPECT_FALSE(queue.open(kMaxBuffers, size_t{1} << 56));
-}
-
 }  // namespace
 
 }  // namespace sphc::openni2
