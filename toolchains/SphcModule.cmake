@@ -95,7 +95,6 @@ function(sphc_test name)
   set(environment TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/thread_sanitizer.txt)
   if(SPHC_SANITIZE MATCHES "address") # a process a test case would take longer than most cases
     add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
-    list(APPEND environment LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/leak_sanitizer.txt)
     set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600 ENVIRONMENT "${environment}")
   else()
     gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
