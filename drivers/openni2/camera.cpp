@@ -26,6 +26,8 @@ sphc_status Camera::open(const char *uri, const sphc_openni2_config &config, sph
     return explain(message, SPHC_E_DEVICE, "%.80s is open in this process already; close it there first", uri_);
   status = openDevice(message);
   if (status != SPHC_OK) return status;
+  info_.struct_size = sizeof info_;
+  device_.describe(&info_);
   const size_t buffer_bytes = std::max(device_.frameBytes(kColor), device_.frameBytes(kDepth));
   if (!queue_.open(config_.loan_limit, buffer_bytes))
     return explain(message, SPHC_E_DEVICE, "out of memory: %u buffers of %zu bytes; lower loan_limit or the modes",
@@ -68,12 +70,6 @@ sphc_status Camera::listen(sphc_message *message) {
   return SPHC_OK;
 }
 
-void Camera::describe(sphc_openni2_info *info) const {
-  *info = {};
-  info->struct_size = sizeof *info;
-  device_.describe(info);
-}
-
 // ---- the source ----
 
 sphc_status Camera::start() {
@@ -82,9 +78,8 @@ sphc_status Camera::start() {
     return explain(&message_, SPHC_E_DEVICE_LOST, "start: the device was unplugged; close, and open it again");
   if (played_) {  // a recording cannot be rewound
     device_.close();
-    played_ = false;
     const sphc_status status = openDevice(&message_);
-    if (status != SPHC_OK) return status;
+    if (status != SPHC_OK) return status;  // the next start tries again
   }
   silent_ns_ = 0;
   std::fill(last_index_, last_index_ + kStreams, -1);

@@ -23,7 +23,7 @@ class Camera final : private DeviceWatcher {
   void stop();
 
   Device &device() { return device_; }
-  void describe(sphc_openni2_info *info) const;
+  const sphc_openni2_info &info() const { return info_; }
   void copyCounts(sphc_openni2_counts *color, sphc_openni2_counts *depth) const { queue_.copyCounts(color, depth); }
   uint32_t loanLimit() const { return config_.loan_limit; }
   sphc_message *messageRoom() { return &message_; }
@@ -59,6 +59,7 @@ class Camera final : private DeviceWatcher {
   Library library_;
   char uri_[ONI_MAX_STR] = "";
   sphc_openni2_config config_ = {};
+  sphc_openni2_info info_ = {};
   Device device_;
   Listener listeners_[kStreams] = {};
   CaptureQueue queue_;

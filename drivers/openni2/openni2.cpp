@@ -156,7 +156,7 @@ void sphc_openni2_close(sphc_openni2 **openni2) {
 sphc_status sphc_openni2_get_info(const sphc_openni2 *openni2, sphc_openni2_info *info) {
   if (!openni2 || !info) return SPHC_E_ARGUMENT;
   if (info->struct_size != sizeof *info) return SPHC_E_STRUCT_SIZE;
-  openni2->camera.describe(info);
+  *info = openni2->camera.info();
   return SPHC_OK;
 }
 

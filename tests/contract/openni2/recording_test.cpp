@@ -193,6 +193,26 @@ TEST_F(OniRecording, ThatIsCutShortComesToAnEndOrSaysSo) {
   }
 }
 
+TEST_F(OniRecording, StartsAgainOnceItsFileIsBack) {
+  const std::string path = record(), aside = folder_ / "aside.oni";
+  const OpenCamera camera(cameraConfig(), path.c_str());
+  ASSERT_EQ(camera.start(), SPHC_OK) << camera.openMessage();
+  ASSERT_EQ(camera.next(), SPHC_OK);
+  camera.stop();
+  std::filesystem::rename(path, aside);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(camera.start(), SPHC_E_DEVICE);
+    EXPECT_THAT(camera.message(), HasSubstr("cannot be opened"));
+    EXPECT_EQ(camera.next(), SPHC_E_STATE);
+  }
+  EXPECT_EQ(camera.info().is_recording, 1u);
+  int32_t value = 0;
+  EXPECT_EQ(sphc_openni2_get_control(camera.get(), SPHC_OPENNI2_EXPOSURE, &value, nullptr), SPHC_E_UNSUPPORTED);
+  std::filesystem::rename(aside, path);
+  ASSERT_EQ(camera.start(), SPHC_OK) << camera.message();
+  EXPECT_EQ(camera.next(), SPHC_OK);
+}
+
 TEST_F(OniRecording, IsNotListedAsADevice) {
   const std::string path = record();
   uint32_t count = 0;
