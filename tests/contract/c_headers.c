@@ -1,4 +1,5 @@
 /* The public headers are C. */
+#include "drivers/openni2/openni2.h"
 #include "drivers/replay/calibration.h"
 #include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
