@@ -63,10 +63,13 @@ TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Align) { walk("align", 3000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
+TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
 
 #ifdef SPHC_FUZZ_CALIBRATION
 TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key
-  const Target target = allTargets().back();
+  const std::vector<Target> targets = allTargets();
+  const Target &target = *std::find_if(targets.begin(), targets.end(),
+                                       [](const Target &each) { return std::string(each.name) == "calibration"; });
   sphc_calibration parsed;
   sphc_calibration_init(&parsed, sizeof parsed);
   sphc_message message = {};

@@ -3,6 +3,9 @@
 #include <cstdlib>
 
 #include "tests/fuzz/targets.h"
+#ifdef SPHC_FUZZ_MJPEG
+#include "tests/support/jpeg_frame.h"
+#endif
 #include "tests/support/map_bytes.h"
 #include "tests/support/scene.h"
 
@@ -77,6 +80,11 @@ std::vector<Target> allTargets() {
         alignSeed(SPHC_CAMERA_KANNALA_BRANDT4, {0.02, -0.01, 0, 0})}}};
 #ifdef SPHC_FUZZ_CALIBRATION
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
+#endif
+#ifdef SPHC_FUZZ_MJPEG
+  const std::vector<uint8_t> rgb = test::gradientRgb(32, 16), frame = test::jpegFrame(rgb, 32, 16);
+  targets.push_back(
+      {"mjpeg", mjpeg, {frame, test::withoutHuffmanTables(frame), test::jpegFrame(rgb, 32, 16, TJSAMP_420)}});
 #endif
   return targets;
 }

@@ -1,0 +1,61 @@
+#include "mjpeg.h"
+
+#include <turbojpeg.h>
+
+#include "explain.h"
+
+namespace sphc::pixels {
+
+namespace {
+
+int turboFormat(sphc_format format) {
+  return format == SPHC_FORMAT_GRAY8 ? TJPF_GRAY : format == SPHC_FORMAT_RGB8 ? TJPF_RGB : TJPF_BGR;
+}
+
+sphc_status explainTurbo(sphc_message *message, tjhandle handle, size_t bytes) {
+  return explain(message, SPHC_E_IMAGE, "JPEG frame of %zu bytes: %s; the frame is left out", bytes,
+                 tjGetErrorStr2(handle));
+}
+
+// After a bad header TurboJPEG goes on in its middle with the next frame; only tjDecompress2 starts anew, after it
+// failed.
+void forgetHeader(tjhandle handle) {
+  const uint8_t no_jpeg = 0;
+  uint8_t pixel = 0;
+  tjDecompress2(handle, &no_jpeg, 1, &pixel, 1, 1, 1, TJPF_GRAY, 0);
+}
+
+}  // namespace
+
+MjpegDecoder::MjpegDecoder() : handle_(tjInitDecompress()) {}
+
+MjpegDecoder::~MjpegDecoder() {
+  if (handle_) tjDestroy(handle_);
+}
+
+sphc_status MjpegDecoder::decode(const uint8_t *data, size_t bytes, const OutImage &out, sphc_message *message) {
+  if (!handle_) return explain(message, SPHC_E_STATE, "JPEG decoder: was not made, memory ran out");
+  const sphc_status status = checkOut(out, message);
+  if (status < 0) return status;
+  if (out.format == SPHC_FORMAT_DEPTH16)
+    return explain(message, SPHC_E_UNSUPPORTED, "JPEG becomes GRAY8, RGB8 or BGR8, not depth");
+  if (!data || bytes == 0) return explain(message, SPHC_E_IMAGE, "JPEG frame of %zu bytes: empty", bytes);
+
+  int width = 0, height = 0, subsampling = 0, colorspace = 0;
+  if (tjDecompressHeader3(handle_, data, bytes, &width, &height, &subsampling, &colorspace) != 0) {
+    const sphc_status failed = explainTurbo(message, handle_, bytes);
+    forgetHeader(handle_);
+    return failed;
+  }
+  if (width != static_cast<int>(out.width) || height != static_cast<int>(out.height))
+    return explain(message, SPHC_E_IMAGE, "JPEG frame of %d x %d pixels; %u x %u were negotiated", width, height,
+                   out.width, out.height);
+  // A warning means damage that the decoder papered over; a progressive frame may not keep it busy for ever.
+  const int flags = TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
+  if (tjDecompress2(handle_, data, bytes, out.data, width, static_cast<int>(out.stride_bytes), height,
+                    turboFormat(out.format), flags) != 0)
+    return explainTurbo(message, handle_, bytes);
+  return SPHC_OK;
+}
+
+}  // namespace sphc::pixels

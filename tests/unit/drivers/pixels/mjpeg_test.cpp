@@ -1,0 +1,100 @@
+#include "drivers/pixels/mjpeg.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/jpeg_frame.h"
+
+namespace sphc::pixels {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr uint32_t kWidth = 48, kHeight = 32;
+
+struct Decoded {
+  sphc_status status;
+  std::vector<uint8_t> pixels;
+  sphc_message message;
+};
+
+Decoded decode(const std::vector<uint8_t> &frame, sphc_format format = SPHC_FORMAT_RGB8) {
+  static MjpegDecoder decoder;  // one for all, as in a driver: a bad frame must not spoil the next
+  const uint32_t stride = pixelBytes(format) * kWidth;
+  Decoded decoded{SPHC_OK, std::vector<uint8_t>(stride * kHeight), {}};
+  const OutImage out{decoded.pixels.data(), decoded.pixels.size(), kWidth, kHeight, stride, format};
+  decoded.status = decoder.decode(frame.data(), frame.size(), out, &decoded.message);
+  EXPECT_EQ(decoded.status < 0, decoded.message.text[0] != '\0') << "a failure explains itself";
+  return decoded;
+}
+
+const std::vector<uint8_t> kRgb = test::gradientRgb(kWidth, kHeight);
+const std::vector<uint8_t> kFrame = test::jpegFrame(kRgb, kWidth, kHeight);
+
+TEST(Mjpeg, DecodesEverySubsampling) {
+  for (const int subsampling : {TJSAMP_444, TJSAMP_422, TJSAMP_420}) {
+    const Decoded rgb = decode(test::jpegFrame(kRgb, kWidth, kHeight, subsampling));
+    ASSERT_EQ(rgb.status, SPHC_OK) << rgb.message.text;
+    for (size_t i = 0; i < kRgb.size(); ++i) ASSERT_NEAR(rgb.pixels[i], kRgb[i], 8) << "byte " << i;
+  }
+}
+
+TEST(Mjpeg, OrdersColours) {
+  const Decoded rgb = decode(kFrame), bgr = decode(kFrame, SPHC_FORMAT_BGR8),
+                gray = decode(kFrame, SPHC_FORMAT_GRAY8);
+  ASSERT_EQ(rgb.status + bgr.status + gray.status, SPHC_OK);
+  for (size_t i = 0; i < kWidth * kHeight; ++i) {
+    for (size_t c = 0; c < 3; ++c) ASSERT_EQ(rgb.pixels[3 * i + c], bgr.pixels[3 * i + 2 - c]);
+    const double luma = 0.299 * rgb.pixels[3 * i] + 0.587 * rgb.pixels[3 * i + 1] + 0.114 * rgb.pixels[3 * i + 2];
+    ASSERT_NEAR(gray.pixels[i], luma, 2);
+  }
+}
+
+TEST(Mjpeg, NeedsNoHuffmanTablesAndIgnoresWhatFollowsTheEnd) {
+  const std::vector<uint8_t> bare = test::withoutHuffmanTables(kFrame);
+  ASSERT_LT(bare.size() + 400, kFrame.size());
+  EXPECT_EQ(decode(bare).pixels, decode(kFrame).pixels);
+  std::vector<uint8_t> padded = kFrame;
+  padded.resize(padded.size() + 1000);
+  EXPECT_EQ(decode(padded).pixels, decode(kFrame).pixels);
+}
+
+TEST(Mjpeg, RefusesAFrameCutAnywhereBeforeItsEndMark) {
+  for (size_t bytes = 0; bytes + 2 <= kFrame.size(); ++bytes)
+    ASSERT_EQ(decode({kFrame.begin(), kFrame.begin() + static_cast<long>(bytes)}).status, SPHC_E_IMAGE) << bytes;
+  EXPECT_EQ(decode(kFrame).status, SPHC_OK);
+}
+
+TEST(Mjpeg, RefusesWhatIsNoJpeg) {
+  EXPECT_EQ(decode(std::vector<uint8_t>(5000)).status, SPHC_E_IMAGE);
+  EXPECT_EQ(decode(std::vector<uint8_t>(5000, 0xff)).status, SPHC_E_IMAGE);
+}
+
+TEST(Mjpeg, NoticesAnEndInTheMiddle) {  // as when packets are lost
+  std::vector<uint8_t> torn = kFrame;
+  torn[torn.size() - 40] = 0xff;
+  torn[torn.size() - 39] = 0xd9;
+  const Decoded decoded = decode(torn);
+  EXPECT_EQ(decoded.status, SPHC_E_IMAGE);
+  EXPECT_THAT(decoded.message.text, HasSubstr("the frame is left out"));
+}
+
+TEST(Mjpeg, IsNotSpoiltByABadFrame) {  // TurboJPEG alone is, by one that ends in its header
+  for (size_t bytes = 0; bytes + 2 <= kFrame.size(); ++bytes) {
+    ASSERT_EQ(decode({kFrame.begin(), kFrame.begin() + static_cast<long>(bytes)}).status, SPHC_E_IMAGE) << bytes;
+    ASSERT_EQ(decode(kFrame).status, SPHC_OK) << bytes;
+  }
+}
+
+TEST(Mjpeg, RefusesAnotherSize) {
+  const Decoded decoded = decode(test::jpegFrame(test::gradientRgb(64, 32), 64, 32));
+  EXPECT_EQ(decoded.status, SPHC_E_IMAGE);
+  EXPECT_STREQ(decoded.message.text, "JPEG frame of 64 x 32 pixels; 48 x 32 were negotiated");
+}
+
+TEST(Mjpeg, RefusesDepth) { EXPECT_EQ(decode(kFrame, SPHC_FORMAT_DEPTH16).status, SPHC_E_UNSUPPORTED); }
+
+}  // namespace
+}  // namespace sphc::pixels
