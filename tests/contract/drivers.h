@@ -22,6 +22,7 @@ struct Driver {
   std::function<OpenedDriver()> open;
   uint32_t captures_until_end = 0;  // 0: endless
   bool opens_twice = true;          // two at the same time; a real device cannot
+  uint32_t streams = 2;             // that come; a camera of colour or depth alone has one
 };
 inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
 
@@ -31,5 +32,6 @@ std::vector<Driver> driversUnderTest();
 // One file each.
 std::vector<Driver> sampleDrivers();
 std::vector<Driver> replayDrivers();
+std::vector<Driver> libcameraDrivers();
 
 }  // namespace sphc::contract
