@@ -11,7 +11,8 @@ trap 'rm -rf "$root"' EXIT
 mkdir -p "$root"/{bin,dev,etc,lib/modules,proc,run,sbin,sys,tmp,usr/lib}
 cp /usr/bin/busybox "$root/bin/"
 cp "$script" "$root/test.sh"
-cp "$(dirname "$0")/init.sh" "$root/init"
+cp "$(dirname "$0")/in_guest/steps.sh" "$root/steps.sh"
+cp "$(dirname "$0")/in_guest/init.sh" "$root/init"
 chmod +x "$root/init"
 
 for module in $modules; do

@@ -31,7 +31,7 @@ struct ControlSpec {
   uint32_t min, max, step, def;
 };
 constexpr ControlSpec kControls[] = {
-    {kCameraTerminal, 0x02, 1, 0, 0, 3, 2},        // auto-exposure mode: 1 manual, 2 auto; GET_RES lists them
+    {kCameraTerminal, 0x02, 1, 0, 0, 9, 8},  // auto-exposure mode: 1 manual, 8 automatic time; GET_RES lists both
     {kCameraTerminal, 0x04, 4, 1, 10000, 1, 100},  // exposure time, 100 us
     {kProcessingUnit, 0x02, 2, 0, 255, 1, 128},    // brightness
     {kProcessingUnit, 0x04, 2, 0, 255, 1, 10},     // gain
