@@ -1,0 +1,57 @@
+#include "frame_clock.h"
+
+#include <linux/videodev2.h>
+
+#include <algorithm>
+
+namespace sphc::v4l2 {
+
+namespace {
+
+constexpr int64_t kUnknownPeriodNs = 66666667;  // slower than most
+constexpr int64_t kMillisecondNs = 1000000;
+constexpr int64_t kMaxPeriodNs = 60000 * kMillisecondNs;
+// uvcvideo stamps the first packet of a frame, so before stream-on is not possible; vivid's lie up to 29 ms ahead.
+constexpr int64_t kBeforeStartNs = 100 * kMillisecondNs, kFutureNs = 100 * kMillisecondNs;
+constexpr uint32_t kKnownSigmaUs = 1000;  // of a start of exposure as the host sees it
+
+}  // namespace
+
+void FrameClock::restart(int64_t now_ns, int64_t period_ns) {
+  start_ns_ = now_ns;
+  period_ns_ = period_ns > 0 ? std::min(period_ns, kMaxPeriodNs) : kUnknownPeriodNs;
+  if (last_ns_ > now_ns) last_ns_ = now_ns;
+}
+
+FrameClock::Stamp FrameClock::ofDevice(int64_t device_time_ns, bool is_end) const {
+  // Half an exposure, or half a readout, of anything up to a period: the root of the mean square.
+  const uint32_t half_of_unknown_us = static_cast<uint32_t>(static_cast<double>(period_ns_) / 3464.1);
+  if (exposure_us_ == 0)
+    return {device_time_ns, is_end ? SPHC_TIME_END : SPHC_TIME_START, 0, half_of_unknown_us, false};
+  const int64_t half_ns = int64_t{exposure_us_} * 500;
+  return {device_time_ns + (is_end ? -half_ns : half_ns), SPHC_TIME_MIDDLE, exposure_us_,
+          is_end ? half_of_unknown_us : kKnownSigmaUs, false};
+}
+
+FrameClock::Stamp FrameClock::ofArrival(int64_t arrival_ns) const {
+  return {arrival_ns, SPHC_TIME_ARRIVAL, exposure_us_, static_cast<uint32_t>(period_ns_ / 1000), false};
+}
+
+bool FrameClock::isPossible(int64_t time_ns, int64_t arrival_ns) const {
+  return time_ns > last_ns_ && time_ns >= start_ns_ - kBeforeStartNs && time_ns <= arrival_ns + kFutureNs;
+}
+
+bool FrameClock::stamp(int64_t device_time_ns, uint32_t buffer_flags, int64_t arrival_ns, Stamp *stamp) {
+  const bool is_monotonic = (buffer_flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  const bool is_end = (buffer_flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_EOF;
+  *stamp = is_monotonic && device_time_ns >= 0 ? ofDevice(device_time_ns, is_end) : ofArrival(arrival_ns);
+  if (!isPossible(stamp->time_ns, arrival_ns)) {
+    *stamp = ofArrival(arrival_ns);
+    stamp->is_replaced = true;
+  }
+  if (stamp->time_ns <= last_ns_) return false;
+  last_ns_ = stamp->time_ns;
+  return true;
+}
+
+}  // namespace sphc::v4l2
