@@ -133,13 +133,12 @@ void localize(const std::string &folder, const std::vector<std::vector<uint8_t>>
 }
 
 // Captures until acquire says something else; gives that.
-sphc_status captureWhileItLasts(const LiveSource &live, uint32_t *count) {
+sphc_status captureWhileItLasts(const LiveSource &live, uint32_t timeout_us, uint32_t *count) {
   sphc_capture capture{};
   capture.struct_size = sizeof capture;
   sphc_status status = acquire(live.source, &capture);
   for (*count = 0; status == SPHC_OK; ++*count) {
     live.source.release(live.source.self, &capture);
-    const uint32_t timeout_us = 5 * kTimeoutUs;
     status = live.source.acquire(live.source.self, timeout_us, &capture);
   }
   return status;
@@ -149,7 +148,8 @@ void expectEnd(const std::string &what, sphc_stream stream, sphc_status expected
   const LiveSource live = openLive(what, stream);
   if (live.source.start(live.source.self) != SPHC_OK) fail(live.source.message(live.source.self));
   uint32_t count = 0;
-  const sphc_status status = captureWhileItLasts(live, &count);
+  const sphc_status status =
+      captureWhileItLasts(live, expected == SPHC_AGAIN ? kTimeoutUs : kPatience * kTimeoutUs, &count);
   std::printf("%s: after %u captures %s: %s\n", what.c_str(), count, sphc_status_name(status),
               live.source.message(live.source.self));
   if (status != expected || count == 0) fail("expected captures, then " + std::string(sphc_status_name(expected)));

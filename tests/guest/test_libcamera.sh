@@ -15,7 +15,7 @@ sockets=$(mktemp -d)  # their paths must be short
 trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$sockets"' EXIT
 color() {
   "$redirect_camera" --socket "$sockets/color" --name sphc-color --format YUYV --size 640x480 --rate 15 \
-    --frames "$recorded/color.yuyv" "$@"
+    --exposure-modes 9 --frames "$recorded/color.yuyv" "$@"
 }
 { color --unplug-after 60 && color; } &
 "$redirect_camera" --socket "$sockets/depth" --name sphc-depth --format Z16 --size 320x288 --rate 15 \

@@ -11,7 +11,7 @@ namespace {
 [[noreturn]] void usage(const char *program, const char *where_option, const char *wrong) {
   std::fprintf(stderr,
                "%s: %s\nusage: %s %s WHERE --name NAME --format YUYV|Z16|GREY --size WxH --rate HZ --frames FILE\n"
-               "       [--unplug-after N] [--stall-after N] [--cut-frame N]\n",
+               "       [--unplug-after N] [--stall-after N] [--cut-frame N] [--exposure-modes BITS]\n",
                program, wrong, program, where_option);
   std::exit(2);
 }
@@ -40,6 +40,8 @@ CameraOptions parseOptions(int argc, char **argv, const char *where_option) {
       options.unplug_after = std::atoi(value);
     } else if (option == "--stall-after") {
       options.stall_after = std::atoi(value);
+    } else if (option == "--exposure-modes") {
+      options.exposure_modes = static_cast<uint32_t>(std::atoi(value));
     } else if (option == "--cut-frame") {
       options.cut_frame = std::atoi(value);
     } else {

@@ -26,12 +26,15 @@ enum Request : uint8_t {
   kGetDef = 0x87
 };
 
+constexpr uint8_t kManual = 1;       // an auto-exposure mode
+constexpr size_t kExposureMode = 0;  // its place in the table
+
 struct ControlSpec {
   uint8_t entity, selector, bytes;
   uint32_t min, max, step, def;
 };
 constexpr ControlSpec kControls[] = {
-    {kCameraTerminal, 0x02, 1, 0, 0, 9, 8},  // auto-exposure mode: 1 manual, 8 automatic time; GET_RES lists both
+    {kCameraTerminal, 0x02, 1, 0, 0, 0, kManual},  // auto-exposure mode; its step lists the modes there are
     {kCameraTerminal, 0x04, 4, 1, 10000, 1, 100},  // exposure time, 100 us
     {kProcessingUnit, 0x02, 2, 0, 255, 1, 128},    // brightness
     {kProcessingUnit, 0x04, 2, 0, 255, 1, 10},     // gain
@@ -253,7 +256,7 @@ int UvcCamera::cameraRequest(const SetupPacket &setup, uint8_t *data) {
         value = control.max;
         break;
       case kGetRes:
-        value = control.step;
+        value = i == kExposureMode ? options_.exposure_modes : control.step;
         break;
       case kGetDef:
         value = control.def;

@@ -25,7 +25,10 @@ struct CameraOptions {
   int64_t unplug_after = -1;  // frames sent, in all; -1: never
   int64_t stall_after = -1;   // from then on it stays plugged in and sends nothing
   int64_t cut_frame = -1;     // of this frame of every stream only the first half is sent
-  std::string where;          // port of the virtual bus, or socket
+  // Bits: 1 manual, 2 automatic, 4 shutter priority, 8 aperture priority, which libcamera takes for automatic; but
+  // v4l2-compliance fails on a camera that ends in a mode other than manual when it has tried all.
+  uint32_t exposure_modes = 3;
+  std::string where;  // port of the virtual bus, or socket
 };
 
 // "--name X --format YUYV --size 640x480 ..."; explains on stderr and exits when they make no sense.
