@@ -118,6 +118,21 @@ TEST_F(Libcamera, SaysThatACameraIsNotThere) {
   EXPECT_THAT(message_.text, HasSubstr("fake-three"));
 }
 
+#ifdef SPHC_REAL_LIBCAMERA
+TEST(LibcameraPlugin, SpeaksToTheRealLibrary) {  // which sees cameras only where there are some: see tests/guest
+  sphc_message message = {};
+  uint32_t count = UINT32_MAX;
+  ASSERT_EQ(sphc_libcamera_list(SPHC_REAL_LIBCAMERA, nullptr, 0, &count, &message), SPHC_OK) << message.text;
+  EXPECT_NE(count, UINT32_MAX);
+  sphc_libcamera_config config;
+  sphc_libcamera_config_init(&config, sizeof config);
+  config.plugin_path = SPHC_REAL_LIBCAMERA;
+  sphc_libcamera *camera = nullptr;
+  EXPECT_EQ(sphc_libcamera_open("no such camera", &config, &camera, &message), SPHC_E_DEVICE);
+  EXPECT_THAT(message.text, HasSubstr("no such camera"));
+}
+#endif
+
 // ---- negotiation -----------------------------------------------------------------------------------------------
 
 TEST_F(Libcamera, NoticesAnotherSizeThanAskedFor) {

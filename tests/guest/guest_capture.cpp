@@ -1,8 +1,10 @@
 // Runs inside the guest, on cameras that play a recording:
 //
-//     guest_capture FOLDER COLOR DEPTH     both streams must be the recording's bytes, and the poses replay's
-//     guest_capture --lost SOURCE color   captures until the camera is unplugged; then it must be lost
-//     guest_capture --stall SOURCE color  captures until nothing comes; then there must be nothing yet, and no more
+//     guest_capture --pair COLOR DEPTH        both streams must be the recording's bytes, and the poses replay's
+//     guest_capture --ring SOURCE STREAM      the stream must be the recording's bytes; STREAM: color or depth
+//     guest_capture --lost SOURCE STREAM      captures until the camera is unplugged; then it must be lost
+//     guest_capture --stall SOURCE STREAM     captures until nothing comes; then there must be nothing yet, and no
+//     more
 //
 // Exits with 0 when that is so.
 #include <cstdio>
@@ -18,15 +20,16 @@ namespace sphc::guest {
 
 namespace {
 
+constexpr const char *kRecorded = "/recorded";
 constexpr uint32_t kTimeoutUs = 1000000;
 constexpr int kPatience = 60;  // timeouts without a frame: an emulator on a busy machine is slow
 
 [[noreturn]] void fail(const std::string &what) { throw std::runtime_error(what); }
 
 // The recording as the driver should give it.
-std::vector<std::vector<uint8_t>> recordedImages(const std::string &folder, sphc_stream stream) {
+std::vector<std::vector<uint8_t>> recordedImages(sphc_stream stream) {
   const bool is_depth = stream == SPHC_STREAM_DEPTH;
-  const std::vector<uint8_t> raw = readFile(folder + (is_depth ? kDepthFile : kColorFile));
+  const std::vector<uint8_t> raw = readFile(std::string(kRecorded) + (is_depth ? kDepthFile : kColorFile));
   const size_t raw_bytes = raw.size() / kFrames;
   std::vector<std::vector<uint8_t>> images;
   for (uint32_t i = 0; i < kFrames; ++i) {
@@ -76,8 +79,8 @@ uint32_t findImage(const std::vector<uint8_t> &image, const std::vector<std::vec
 // Captures until every frame of the ring came.  Every one must be the recording's, to the bit, and the one that its
 // sequence number says, which counts lost ones too.  The first one of all is frame 0 in the kernel's count;
 // libcamera begins to count with the first that it gets.
-std::vector<std::vector<uint8_t>> captureRing(const std::string &what, sphc_stream stream,
-                                              const std::vector<std::vector<uint8_t>> &recorded) {
+std::vector<std::vector<uint8_t>> captureRing(const std::string &what, sphc_stream stream) {
+  const std::vector<std::vector<uint8_t>> recorded = recordedImages(stream);
   const LiveSource live = openLive(what, stream);
   const sphc_source &source = live.source;
   if (source.start(source.self) != SPHC_OK) fail(what + ": " + source.message(source.self));
@@ -111,10 +114,9 @@ std::vector<std::vector<uint8_t>> captureRing(const std::string &what, sphc_stre
   return ring;
 }
 
-void localize(const std::string &folder, const std::vector<std::vector<uint8_t>> &color,
-              const std::vector<std::vector<uint8_t>> &depth) {
-  const Cameras cameras = readCameras(folder);
-  PoseLog log(folder);
+void localize(const std::vector<std::vector<uint8_t>> &color, const std::vector<std::vector<uint8_t>> &depth) {
+  const Cameras cameras = readCameras(kRecorded);
+  PoseLog log(kRecorded);
   for (uint32_t i = 0; i < kFrames; ++i) {
     sphc_frame frame{};
     frame.struct_size = sizeof frame;
@@ -125,7 +127,7 @@ void localize(const std::string &folder, const std::vector<std::vector<uint8_t>>
     frame.depth = {depth[i].data(), kDepthWidth, kDepthHeight, kDepthWidth * 2, SPHC_FORMAT_DEPTH16};
     log.add(frame);
   }
-  const std::vector<uint8_t> expected = readFile(folder + kPosesFile);
+  const std::vector<uint8_t> expected = readFile(std::string(kRecorded) + kPosesFile);
   if (expected.size() != log.bytes() || std::memcmp(expected.data(), log.data(), log.bytes()) != 0)
     fail("poses differ from replay's; " + std::to_string(log.localized()) + " localized here");
   std::printf("poses: %u of %u localized, %zu bytes, identical to replay's\n", log.localized(), kFrames,
@@ -163,16 +165,19 @@ void expectEnd(const std::string &what, sphc_stream stream, sphc_status expected
 
 int run(int argc, char **argv) {
   if (argc != 4) return 2;
-  const std::string first = argv[1];
+  const std::string what = argv[1];
   const sphc_stream stream = std::strcmp(argv[3], "depth") == 0 ? SPHC_STREAM_DEPTH : SPHC_STREAM_COLOR;
-  if (first == "--lost") {
+  if (what == "--lost") {
     expectEnd(argv[2], stream, SPHC_E_DEVICE_LOST);
-  } else if (first == "--stall") {
+  } else if (what == "--stall") {
     expectEnd(argv[2], stream, SPHC_AGAIN);
+  } else if (what == "--ring") {
+    captureRing(argv[2], stream);
+  } else if (what == "--pair") {
+    const auto color = captureRing(argv[2], SPHC_STREAM_COLOR), depth = captureRing(argv[3], SPHC_STREAM_DEPTH);
+    localize(color, depth);
   } else {
-    const auto color = captureRing(argv[2], SPHC_STREAM_COLOR, recordedImages(first, SPHC_STREAM_COLOR));
-    const auto depth = captureRing(argv[3], SPHC_STREAM_DEPTH, recordedImages(first, SPHC_STREAM_DEPTH));
-    localize(first, color, depth);
+    return 2;
   }
   return 0;
 }

@@ -4,7 +4,7 @@
 set -uo pipefail
 kernel=$1 initramfs=$2 log=$3
 shift 3
-timeout "${GUEST_TIMEOUT_S:-120}" qemu-system-x86_64 -M q35 -accel tcg -cpu max -m 768 -smp 1 -nodefaults -nographic \
+timeout "${GUEST_TIMEOUT_S:-150}" qemu-system-x86_64 -M q35 -accel tcg -cpu max -m 768 -smp 1 -nodefaults -nographic \
   -no-reboot -serial stdio -kernel "$kernel/vmlinux" -initrd "$initramfs" \
   -append "console=ttyS0 quiet panic=-1 mitigations=off" "$@" >"$log" 2>&1 </dev/null
 status=$(tr -d '\r' <"$log" | sed -n 's/^@@RC //p' | tail -n 1)

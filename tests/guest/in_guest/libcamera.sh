@@ -8,11 +8,11 @@ step "the kernel finds the colour camera" wait_for_node sphc-color
 step "the kernel finds the depth camera" wait_for_node sphc-depth
 depth=$node
 udevadm settle -t 10
-step "colour of libcamera, depth of V4L2, and all poses are the recording's" guest_capture /recorded libcamera: "v4l2:$depth"
+step "colour of libcamera, depth of V4L2, and all poses are the recording's" guest_capture --pair libcamera: "v4l2:$depth"
 step "unplugging while it captures is a lost device" guest_capture --lost libcamera: color
 step "the camera goes" wait_until_gone sphc-color
 step "and comes back" wait_for_node sphc-color
 udevadm settle -t 10
-step "the same pictures again" guest_capture /recorded libcamera: "v4l2:$depth"
+step "the same pictures again" guest_capture --ring libcamera: color
 dmesg | grep -iE "oops|bug:|warning:" && failures=$((failures + 1))
 exit "$failures"

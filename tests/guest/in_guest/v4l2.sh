@@ -14,7 +14,7 @@ step "the cameras comply" compliance "$color"
 step "the depth camera complies" compliance "$depth"
 step "YUYV comes through the kernel to the bit" raw_capture "$color" /recorded/color.yuyv
 step "Z16 comes through the kernel to the bit" raw_capture "$depth" /recorded/depth.z16
-step "both streams and all poses are the recording's" guest_capture /recorded "v4l2:$color" "v4l2:$depth"
+step "both streams and all poses are the recording's" guest_capture --pair "v4l2:$color" "v4l2:$depth"
 
 kill "$depth_camera"
 step "an unplugged camera goes" wait_until_gone sphc-depth
@@ -24,7 +24,7 @@ step "unplugging while it captures is a lost device" guest_capture --lost "v4l2:
 step "and goes" wait_until_gone sphc-depth
 plug_depth 3 "--cut-frame 3"
 step "it comes back again" wait_for_node sphc-depth
-step "a frame cut short is left out, and all others are the recording's" guest_capture /recorded "v4l2:$color" "v4l2:$node"
+step "a frame cut short is left out, and all others are the recording's" guest_capture --ring "v4l2:$node" depth
 kill "$camera"
 step "it goes again" wait_until_gone sphc-depth
 plug_depth 4 "--stall-after 5"
