@@ -1,7 +1,8 @@
 #!/bin/bash
 # make_initramfs.sh OUT KERNEL "MODULE..." SCRIPT [FILE[=PLACE]]... - an initial file system in which SCRIPT runs.
 # It holds busybox, the modules of the kernel that fetch_kernel.sh got with all they need, in order, and the FILEs with
-# their shared libraries (PLACE: /bin/NAME).
+# their shared libraries (PLACE: /bin/NAME); those of another architecture must be named.  BUSYBOX: another one than this
+# machine's.
 set -euo pipefail
 out=$(realpath -m "$1") kernel=$(realpath "$2") modules=$3 script=$4
 shift 4
@@ -9,7 +10,7 @@ version=$(cat "$kernel/version")
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
 mkdir -p "$root"/{bin,dev,etc,lib/modules,proc,run,sbin,sys,tmp,usr/lib}
-cp /usr/bin/busybox "$root/bin/"
+cp "${BUSYBOX:-/usr/bin/busybox}" "$root/bin/busybox"
 cp "$script" "$root/test.sh"
 cp "$(dirname "$0")/in_guest/steps.sh" "$root/steps.sh"
 cp "$(dirname "$0")/in_guest/init.sh" "$root/init"

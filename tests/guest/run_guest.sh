@@ -4,9 +4,14 @@
 set -uo pipefail
 kernel=$1 initramfs=$2 log=$3
 shift 3
-timeout "${GUEST_TIMEOUT_S:-150}" qemu-system-x86_64 -M q35 -accel tcg -cpu max -m 768 -smp 1 -nodefaults -nographic \
-  -no-reboot -serial stdio -kernel "$kernel/vmlinux" -initrd "$initramfs" \
-  -append "console=ttyS0 quiet panic=-1 mitigations=off" "$@" >"$log" 2>&1 </dev/null
+if [ "$(cat "$kernel/architecture")" = arm64 ]; then
+  machine=(qemu-system-aarch64 -M virt -cpu cortex-a57) console=ttyAMA0
+else
+  machine=(qemu-system-x86_64 -M q35 -cpu max) console=ttyS0
+fi
+timeout "${GUEST_TIMEOUT_S:-150}" "${machine[@]}" -accel tcg -m 768 -smp 1 -nodefaults -nographic -no-reboot -serial stdio \
+  -kernel "$kernel/vmlinux" -initrd "$initramfs" -append "console=$console quiet panic=-1 mitigations=off" "$@" \
+  >"$log" 2>&1 </dev/null
 status=$(tr -d '\r' <"$log" | sed -n 's/^@@RC //p' | tail -n 1)
 [ "${status:-125}" = 0 ] || { tail -n 200 "$log"; echo "the guest's status: ${status:-none}; all it said: $log"; }
 exit "${status:-125}"

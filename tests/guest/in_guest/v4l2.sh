@@ -10,10 +10,12 @@ step "the kernel finds the colour camera" wait_for_node sphc-color
 color=$node
 step "the kernel finds the depth camera" wait_for_node sphc-depth
 depth=$node
-step "the cameras comply" compliance "$color"
-step "the depth camera complies" compliance "$depth"
-step "YUYV comes through the kernel to the bit" raw_capture "$color" /recorded/color.yuyv
-step "Z16 comes through the kernel to the bit" raw_capture "$depth" /recorded/depth.z16
+if [ "$(uname -m)" = x86_64 ]; then  # cameras and kernel without our driver; once is enough
+  step "the cameras comply" compliance "$color"
+  step "the depth camera complies" compliance "$depth"
+  step "YUYV comes through the kernel to the bit" raw_capture "$color" /recorded/color.yuyv
+  step "Z16 comes through the kernel to the bit" raw_capture "$depth" /recorded/depth.z16
+fi
 step "both streams and all poses are the recording's" guest_capture --pair "v4l2:$color" "v4l2:$depth"
 
 kill "$depth_camera"
