@@ -27,7 +27,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   # constructors that it writes itself too; nothing here uses those instructions.
   target_compile_definitions(sphc_flags INTERFACE
     "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
-  target_compile_options(sphc_flags INTERFACE -march=armv8-a+crypto)
+  # Without __ARM_FEATURE_FMA Eigen multiplies and adds one after the other, as it does on x86: the same bytes.
+  target_compile_options(sphc_flags INTERFACE -march=armv8-a+crypto -U__ARM_FEATURE_FMA)
 endif()
 if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE} -fno-omit-frame-pointer

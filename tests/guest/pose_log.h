@@ -29,6 +29,7 @@ class PoseLog {
     localized_ += result.outcome == SPHC_OUTCOME_LOCALIZED;
   }
 
+  const sphc_result *results() const { return results_.data(); }
   const void *data() const { return results_.data(); }
   size_t bytes() const { return results_.size() * sizeof(sphc_result); }
   uint32_t localized() const { return localized_; }
