@@ -1,6 +1,5 @@
 #include "convert.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "explain.h"
@@ -17,18 +16,20 @@ constexpr int32_t kBits = 16;
 constexpr YuvMatrix kLimited = {16, 76309, 104597, -25675, -53279, 132201};
 constexpr YuvMatrix kFull = {0, 65536, 91881, -22554, -46802, 116130};
 
-struct Rgb {
-  uint8_t r, g, b;
+// What U and V add to red, green and blue; two pixels share it.
+struct Chroma {
+  int32_t r, g, b;
 };
+Chroma chromaOf(const YuvMatrix &matrix, int32_t u, int32_t v) {
+  return {matrix.r_from_v * (v - 128), matrix.g_from_u * (u - 128) + matrix.g_from_v * (v - 128),
+          matrix.b_from_u * (u - 128)};
+}
 
-uint8_t clampToByte(int32_t value) { return static_cast<uint8_t>(std::clamp(value >> kBits, 0, 255)); }
-
-Rgb rgbFromYuv(const YuvMatrix &matrix, int32_t y, int32_t u, int32_t v) {
-  const int32_t luma = (y - matrix.y_offset) * matrix.y + (1 << (kBits - 1));
-  u -= 128;
-  v -= 128;
-  return {clampToByte(luma + matrix.r_from_v * v), clampToByte(luma + matrix.g_from_u * u + matrix.g_from_v * v),
-          clampToByte(luma + matrix.b_from_u * u)};
+// Without a branch, which noise would make the processor guess wrong.
+uint8_t clampToByte(int32_t value) {
+  const int32_t whole = value >> kBits;
+  const int32_t not_negative = whole & ~(whole >> 31);
+  return static_cast<uint8_t>(not_negative | ((255 - not_negative) >> 31));
 }
 
 // Where Y, U and V of pixels 2 i and 2 i + 1 stand in their rows.
@@ -42,19 +43,20 @@ PairOffsets offsetsOf(Layout layout) {
 }
 
 template <uint32_t kRed>  // where red goes: 0 or 2
-void storeRgb(Rgb color, uint8_t *pixel) {
-  pixel[kRed] = color.r;
-  pixel[1] = color.g;
-  pixel[2 - kRed] = color.b;
+void storePixel(const YuvMatrix &matrix, int32_t y, Chroma chroma, uint8_t *pixel) {
+  const int32_t luma = (y - matrix.y_offset) * matrix.y + (1 << (kBits - 1));
+  pixel[kRed] = clampToByte(luma + chroma.r);
+  pixel[1] = clampToByte(luma + chroma.g);
+  pixel[2 - kRed] = clampToByte(luma + chroma.b);
 }
 
 template <uint32_t kRed>
 void yuvRow(PairOffsets at, const YuvMatrix &matrix, const uint8_t *luma, const uint8_t *chroma, uint32_t width,
             uint8_t *out) {
   for (uint32_t i = 0; i < width / 2; ++i) {
-    const int32_t u = chroma[i * at.uv_step + at.u], v = chroma[i * at.uv_step + at.v];
-    storeRgb<kRed>(rgbFromYuv(matrix, luma[i * at.y_step + at.y0], u, v), out + 6 * i);
-    storeRgb<kRed>(rgbFromYuv(matrix, luma[i * at.y_step + at.y1], u, v), out + 6 * i + 3);
+    const Chroma pair = chromaOf(matrix, chroma[i * at.uv_step + at.u], chroma[i * at.uv_step + at.v]);
+    storePixel<kRed>(matrix, luma[i * at.y_step + at.y0], pair, out + 6 * i);
+    storePixel<kRed>(matrix, luma[i * at.y_step + at.y1], pair, out + 6 * i + 3);
   }
 }
 

@@ -184,6 +184,8 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
 
 sphc_status Camera::nextFilled(int64_t deadline_ns, FilledBuffer *filled) {
   ring_.queueIdle();
+  const sphc_status news = takeNews();
+  if (news < 0) return news;
   for (int round = 0; round < kMaxRounds; ++round) {
     const int error = ring_.dequeue(filled);
     if (error == 0 && round == 0 && !ring_.deviceHasRoom()) ++stats_.starved;

@@ -44,7 +44,7 @@ bool FrameClock::isPossible(int64_t time_ns, int64_t arrival_ns) const {
 bool FrameClock::stamp(int64_t device_time_ns, uint32_t buffer_flags, int64_t arrival_ns, Stamp *stamp) {
   const bool is_monotonic = (buffer_flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   const bool is_end = (buffer_flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_EOF;
-  *stamp = is_monotonic && device_time_ns >= 0 ? ofDevice(device_time_ns, is_end) : ofArrival(arrival_ns);
+  *stamp = is_monotonic ? ofDevice(device_time_ns, is_end) : ofArrival(arrival_ns);
   if (!isPossible(stamp->time_ns, arrival_ns)) {
     *stamp = ofArrival(arrival_ns);
     stamp->is_replaced = true;

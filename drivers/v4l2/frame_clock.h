@@ -19,7 +19,7 @@ class FrameClock {
     bool is_replaced;  // the device's time could not be, so it is that of arrival
   };
   // False: neither the device's time nor that of arrival is later than the last stamp's.
-  // `device_time_ns` negative: none.
+  // `device_time_ns` negative: one that cannot be.
   bool stamp(int64_t device_time_ns, uint32_t buffer_flags, int64_t arrival_ns, Stamp *stamp);
 
  private:

@@ -1,7 +1,10 @@
 /* The public headers are C. */
 #include "drivers/replay/calibration.h"
+#include "drivers/libcamera/libcamera.h"
+#include "drivers/libcamera/plugin.h"
 #include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sample/sample.h"
+#include "drivers/v4l2/v4l2.h"
 
 typedef int c_headers_compile;

@@ -8,6 +8,7 @@ std::vector<Driver> driversUnderTest() {
   add(sampleDrivers());
   add(replayDrivers());
   add(libcameraDrivers());
+  add(v4l2Drivers());
   return all;
 }
 

@@ -22,7 +22,7 @@ struct Driver {
   std::function<OpenedDriver()> open;
   uint32_t captures_until_end = 0;  // 0: endless
   bool opens_twice = true;          // two at the same time; a real device cannot
-  uint32_t streams = 2;             // that come; a camera of colour or depth alone has one
+  uint32_t streams = 2;             // that it gives
 };
 inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
 
@@ -33,5 +33,6 @@ std::vector<Driver> driversUnderTest();
 std::vector<Driver> sampleDrivers();
 std::vector<Driver> replayDrivers();
 std::vector<Driver> libcameraDrivers();
+std::vector<Driver> v4l2Drivers();
 
 }  // namespace sphc::contract

@@ -64,6 +64,7 @@ TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Align) { walk("align", 3000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
+TEST(Mutations, V4l2) { walk("v4l2", 5000); }
 
 #ifdef SPHC_FUZZ_CALIBRATION
 TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "tests/fuzz/targets.h"
-#ifdef SPHC_FUZZ_MJPEG
+#ifdef SPHC_FUZZ_CAMERAS
 #include "tests/support/jpeg_frame.h"
 #endif
 #include "tests/support/map_bytes.h"
@@ -81,10 +81,11 @@ std::vector<Target> allTargets() {
 #ifdef SPHC_FUZZ_CALIBRATION
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
 #endif
-#ifdef SPHC_FUZZ_MJPEG
+#ifdef SPHC_FUZZ_CAMERAS
   const std::vector<uint8_t> rgb = test::gradientRgb(32, 16), frame = test::jpegFrame(rgb, 32, 16);
   targets.push_back(
       {"mjpeg", mjpeg, {frame, test::withoutHuffmanTables(frame), test::jpegFrame(rgb, 32, 16, TJSAMP_420)}});
+  targets.push_back({"v4l2", v4l2, {std::vector<uint8_t>(600), std::vector<uint8_t>(1200)}});
 #endif
   return targets;
 }

@@ -17,6 +17,8 @@ void align(const uint8_t *data, size_t bytes);
 void calibration(const uint8_t *data, size_t bytes);
 // A frame of Motion JPEG.
 void mjpeg(const uint8_t *data, size_t bytes);
+// What is wrong with a kernel's answers to the V4L2 driver.
+void v4l2(const uint8_t *data, size_t bytes);
 
 struct Target {
   const char *name;
