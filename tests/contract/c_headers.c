@@ -1,7 +1,7 @@
 /* The public headers are C. */
-#include "drivers/replay/calibration.h"
 #include "drivers/libcamera/libcamera.h"
 #include "drivers/libcamera/plugin.h"
+#include "drivers/replay/calibration.h"
 #include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sample/sample.h"
