@@ -14,10 +14,10 @@ mkdir -p "$out"
 sockets=$(mktemp -d)  # their paths must be short
 trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$sockets"' EXIT
 color() {
-  "$redirect_camera" --socket "$sockets/color" --name sphc-color --format YUYV --size 640x480 --rate 15 \
+  "$redirect_camera" --socket "$sockets/color" --format YUYV --size 640x480 --rate 15 \
     --exposure-modes 9 --frames "$recorded/color.yuyv" "$@"
 }
-{ color --unplug-after 60 && color; } &
+{ color --name sphc-color --unplug-after 60 && color --name sphc-again; } &
 "$redirect_camera" --socket "$sockets/depth" --name sphc-depth --format Z16 --size 320x288 --rate 15 \
   --frames "$recorded/depth.z16" &
 "$here/run_guest.sh" "$kernel" "$out/initramfs" "$out/serial.log" -device qemu-xhci \
