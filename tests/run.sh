@@ -60,12 +60,18 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
 
 formatting() { git ls-files -z '*.h' '*.hpp' '*.c' '*.cpp' | xargs -0 clang-format --dry-run -Werror; }
 
-check "packages" toolchains/install_packages.sh build test
+check "packages" toolchains/install_packages.sh build test guest
 check "formatting" formatting
 check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
 tests "release: tests" build/release
 check "the runtime alone, as firmware links it" build build/device all -DCMAKE_BUILD_TYPE=Release -DSPHC_HOST=OFF \
   -DSPHC_DRIVERS=OFF -DSPHC_EXAMPLES=OFF -DSPHC_TESTS=OFF
+arm64=$root/build/guest/arm64
+check "arm64: a kernel and libraries" tests/guest/fetch_arm64.sh "$arm64"
+check "arm64: build" build build/arm64 'vhci_camera guest_capture' -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_TOOLCHAIN_FILE=toolchains/aarch64-linux-gnu.cmake -DSPHC_SYSROOT="$arm64/sysroot" -DSPHC_HOST=OFF \
+  -DSPHC_EXAMPLES=OFF
+tests "arm64: on a stock kernel in an emulator" build/arm64
 check "clang, sanitizers for addresses and undefined behaviour: build" build build/sanitized all "${sanitized[@]}" \
   -DSPHC_SANITIZE=address,undefined
 # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.

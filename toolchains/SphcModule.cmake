@@ -22,14 +22,24 @@ target_compile_options(sphc_flags INTERFACE
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion
   -ffp-contract=off # the same bytes on every machine: multiply-add only where the code says so
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  # Vectors of SVE cannot be members of structs.  Highway's NEON has the attribute +crypto, which gcc must see on
+  # constructors that it writes itself too; nothing here uses those instructions.
+  target_compile_definitions(sphc_flags INTERFACE
+    "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
+  # Without __ARM_FEATURE_FMA Eigen multiplies and adds one after the other, as it does on x86: the same bytes.
+  target_compile_options(sphc_flags INTERFACE -march=armv8-a+crypto -U__ARM_FEATURE_FMA)
+endif()
 if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
   target_link_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE})
   target_compile_options(sphc_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-pass-failed>) # loops asked to be vectors
   # Vector kernels with sanitizers take clang minutes to compile: of x86's targets the narrowest and AVX2 are enough.
-  target_compile_definitions(sphc_flags INTERFACE
-    "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_definitions(sphc_flags INTERFACE
+      "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+  endif()
 endif()
 
 # The device side: no exceptions, no RTTI; Eigen may neither allocate nor print.

@@ -7,6 +7,7 @@ std::vector<Driver> driversUnderTest() {
   const auto add = [&all](const std::vector<Driver> &some) { all.insert(all.end(), some.begin(), some.end()); };
   add(sampleDrivers());
   add(replayDrivers());
+  add(libcameraDrivers());
   add(v4l2Drivers());
   return all;
 }

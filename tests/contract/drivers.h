@@ -34,6 +34,7 @@ std::vector<Driver> driversUnderTest();
 // One file each.
 std::vector<Driver> sampleDrivers();
 std::vector<Driver> replayDrivers();
+std::vector<Driver> libcameraDrivers();
 std::vector<Driver> v4l2Drivers();
 
 }  // namespace sphc::contract

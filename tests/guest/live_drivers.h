@@ -1,0 +1,11 @@
+// The drivers behind openLive, one file each.
+#pragma once
+
+#include "live_source.h"
+
+namespace sphc::guest {
+
+LiveSource openLibcamera(const std::string &id);
+LiveSource openV4l2(const std::string &node, sphc_stream stream);
+
+}  // namespace sphc::guest

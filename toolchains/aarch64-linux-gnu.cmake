@@ -1,0 +1,15 @@
+# 64-bit ARM Linux with Debian's cross compiler (g++-aarch64-linux-gnu).  SPHC_SYSROOT, where given, holds unpacked arm64
+# packages of libraries, as tests/guest/fetch_arm64.sh gets them.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH ${SPHC_SYSROOT} /usr/aarch64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES SPHC_SYSROOT)
+if(SPHC_SYSROOT)
+  set(ENV{PKG_CONFIG_LIBDIR} ${SPHC_SYSROOT}/usr/lib/aarch64-linux-gnu/pkgconfig)
+  set(ENV{PKG_CONFIG_SYSROOT_DIR} ${SPHC_SYSROOT})
+endif()
