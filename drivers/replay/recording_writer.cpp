@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "failure.h"
-#include "image_file.h"
+#include "pixels.h"
 #include "pose_track.h"
 #include "text_field.h"
 
@@ -62,24 +62,6 @@ class List {
   int64_t last_ns_ = -1;
   uint32_t count_ = 0;
 };
-
-void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_color) {
-  const std::string name = is_color ? "colour image" : "depth image";
-  const bool is_depth_format = image.format == SPHC_FORMAT_DEPTH16;
-  if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null");
-  if (bytesPerPixel(image.format) == 0 || is_depth_format == is_color)
-    throw Failure(SPHC_E_IMAGE, name + ": format " + std::to_string(image.format) + " does not fit; " +
-                                    (is_color ? "give GRAY8, RGB8 or BGR8" : "give DEPTH16"));
-  if (image.width != camera.width || image.height != camera.height)
-    throw Failure(SPHC_E_IMAGE, name + ": is " + std::to_string(image.width) + " x " +
-                                    std::to_string(image.height) + ", its camera in the calibration " +
-                                    std::to_string(camera.width) + " x " + std::to_string(camera.height) +
-                                    "; they must be equal");
-  const uint64_t row_bytes = uint64_t{image.width} * bytesPerPixel(image.format);
-  if (image.stride_bytes < row_bytes || (is_depth_format && image.stride_bytes % 2 != 0))
-    throw Failure(SPHC_E_IMAGE,
-                  name + ": stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row or odd");
-}
 
 int matType(sphc_format format) {
   if (format == SPHC_FORMAT_DEPTH16) return CV_16UC1;
@@ -134,14 +116,8 @@ void sphc_recording_writer::encode(const sphc_image &image) {
   cv::Mat mat(static_cast<int>(image.height), static_cast<int>(image.width), matType(image.format),
               const_cast<void *>(image.data), image.stride_bytes);
   if (image.format == SPHC_FORMAT_RGB8) {
-    bgr.resize(size_t{image.width} * image.height * 3);
-    uint8_t *out = bgr.data();
-    for (int y = 0; y < mat.rows; ++y)
-      for (const uint8_t *p = mat.ptr(y), *end = p + 3 * mat.cols; p < end; p += 3, out += 3) {
-        out[0] = p[2];
-        out[1] = p[1];
-        out[2] = p[0];
-      }
+    bgr.resize(packedBytes(image));
+    packPixels(image, SPHC_FORMAT_BGR8, bgr.data());
     mat = cv::Mat(mat.rows, mat.cols, CV_8UC3, bgr.data());
   }
   if (!cv::imencode(".png", mat, encoded, {cv::IMWRITE_PNG_COMPRESSION, 1}))
