@@ -8,9 +8,9 @@ namespace sphc::replay {
 
 namespace {
 
-// OpenCV's weights, so that a recording gives the same grey through each of its layouts.
+// As OpenCV reads a colour PNG to grey, so that a recording gives the same through each of its layouts.
 uint8_t grayOf(uint32_t red, uint32_t green, uint32_t blue) {
-  return static_cast<uint8_t>((4899 * red + 9617 * green + 1868 * blue + 8192) >> 14);
+  return static_cast<uint8_t>((9797 * red + 19234 * green + 3737 * blue) >> 15);
 }
 
 void convertRow(const uint8_t *in, sphc_format from, uint8_t *out, sphc_format to, uint32_t width) {
