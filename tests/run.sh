@@ -61,6 +61,7 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
 formatting() { git ls-files -z '*.h' '*.hpp' '*.c' '*.cpp' | xargs -0 clang-format --dry-run -Werror; }
 
 check "packages" toolchains/install_packages.sh build test
+check "python packages" toolchains/install_python_packages.sh build/python
 check "formatting" formatting
 check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
 tests "release: tests" build/release
