@@ -64,4 +64,26 @@ void decodeImage(ByteView encoded, const sphc_camera &camera, sphc_format format
   if (format == SPHC_FORMAT_RGB8) swapRedAndBlue(pixels, size_t{camera.width} * camera.height);
 }
 
+ByteView ImageEncoder::encode(const sphc_image &image, const char *extension, const std::vector<int> &options) {
+  sphc_image given = image;
+  if (image.format == SPHC_FORMAT_RGB8) {
+    bgr_.resize(packedBytes(image));
+    packPixels(image, SPHC_FORMAT_BGR8, bgr_.data());
+    given = {bgr_.data(), image.width, image.height, image.width * 3, SPHC_FORMAT_BGR8};
+  }
+  const cv::Mat mat(static_cast<int>(given.height), static_cast<int>(given.width), typeOf(given.format),
+                    const_cast<void *>(given.data), given.stride_bytes);
+  if (!cv::imencode(extension, mat, encoded_, options))
+    throw Failure(SPHC_E_INTERNAL, std::string("an image cannot be encoded as ") + extension);
+  return viewOf(encoded_);
+}
+
+ByteView ImageEncoder::png(const sphc_image &image) {
+  return encode(image, ".png", {cv::IMWRITE_PNG_COMPRESSION, 1});
+}
+
+ByteView ImageEncoder::jpeg(const sphc_image &image, uint32_t quality) {
+  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, static_cast<int>(quality)});
+}
+
 }  // namespace sphc::replay

@@ -1,8 +1,6 @@
 #include "recording_encoder.h"
 
 #include <algorithm>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "calibration_json.h"
@@ -32,7 +30,7 @@ RecordingEncoder::RecordingEncoder(const std::filesystem::path &path, const sphc
     : config_(config),
       writer_(path, config.chunk_bytes, mostMessageBytes(calibration)),
       zstd_(pixelsOf(calibration.depth_camera)),
-      encoded_(mostDepthBytes(calibration)) {
+      depth_(mostDepthBytes(calibration)) {
   Bytes head;
   putSchemasAndChannels(head, {kindOf(SPHC_STREAM_COLOR), kindOf(SPHC_STREAM_DEPTH), Kind::kColorCapture,
                                Kind::kDepthCapture, Kind::kPose, Kind::kDrops});
@@ -52,38 +50,24 @@ Kind RecordingEncoder::kindOf(sphc_stream stream) const {
 ByteView RecordingEncoder::encodeDepth(Kind kind, const sphc_image &image) {
   const auto *depth = static_cast<const uint16_t *>(image.data);
   const size_t count = size_t{image.width} * image.height;
-  uint8_t *const out = encoded_.data();
+  uint8_t *const out = depth_.data();
   if (kind == Kind::kDepthRvl) {
     putRvlHead(out, image.width, image.height);
     return {out, kRvlHeadBytes + encodeRvl(depth, count, out + kRvlHeadBytes)};
   }
   putZstdHead(out, image.width, image.height);
-  const size_t bytes = zstd_.encode(depth, count, out + kZstdHeadBytes, encoded_.size() - kZstdHeadBytes);
+  const size_t bytes = zstd_.encode(depth, count, out + kZstdHeadBytes, depth_.size() - kZstdHeadBytes);
   if (bytes == 0) throw Failure(SPHC_E_DEVICE, "zstd cannot encode a depth image: out of memory");
   return {out, kZstdHeadBytes + bytes};
-}
-
-ByteView RecordingEncoder::encodeJpeg(const sphc_image &image) {
-  const bool is_gray = image.format == SPHC_FORMAT_GRAY8;
-  const void *pixels = image.data;
-  if (image.format == SPHC_FORMAT_RGB8) {
-    bgr_.resize(packedBytes(image));
-    packPixels(image, SPHC_FORMAT_BGR8, bgr_.data());
-    pixels = bgr_.data();
-  }
-  const cv::Mat mat(static_cast<int>(image.height), static_cast<int>(image.width), is_gray ? CV_8UC1 : CV_8UC3,
-                    const_cast<void *>(pixels));
-  if (!cv::imencode(".jpg", mat, jpeg_, {cv::IMWRITE_JPEG_QUALITY, static_cast<int>(config_.jpeg_quality)}))
-    throw Failure(SPHC_E_INTERNAL, "the image cannot be encoded as JPEG");
-  return viewOf(jpeg_);
 }
 
 void RecordingEncoder::putEncoded(Kind kind, int64_t time_ns, const sphc_image &image, Bytes &out) {
   if (kind == Kind::kColorImage || kind == Kind::kDepthImage)
     putImageMessage(out, time_ns, image);
   else
-    putCompressedMessage(out, time_ns, kind,
-                         kind == Kind::kColorJpeg ? encodeJpeg(image) : encodeDepth(kind, image));
+    putCompressedMessage(
+        out, time_ns, kind,
+        kind == Kind::kColorJpeg ? jpeg_.jpeg(image, config_.jpeg_quality) : encodeDepth(kind, image));
 }
 
 void RecordingEncoder::add(const CaptureNote &note, const sphc_image &image) {

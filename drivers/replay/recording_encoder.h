@@ -1,8 +1,7 @@
 // Captures in, a crash-safe file out: the recorder without its queue.
 #pragma once
 
-#include <memory>
-
+#include "encoded_image.h"
 #include "mcap/depth_zstd.h"
 #include "mcap/writer.h"
 #include "recorder.h"
@@ -31,13 +30,12 @@ class RecordingEncoder {
   Kind kindOf(sphc_stream stream) const;
   void putEncoded(Kind kind, int64_t time_ns, const sphc_image &image, Bytes &out);
   ByteView encodeDepth(Kind kind, const sphc_image &image);
-  ByteView encodeJpeg(const sphc_image &image);
 
   sphc_recorder_config config_;
   McapWriter writer_;
   DepthZstdEncoder zstd_;
-  Bytes encoded_;     // depth
-  Bytes jpeg_, bgr_;  // made at the first such image
+  ImageEncoder jpeg_;
+  Bytes depth_;  // encoded
   bool is_synced_ = true;
 };
 
