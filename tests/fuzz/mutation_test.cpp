@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#ifdef SPHC_FUZZ_CALIBRATION
+#ifdef SPHC_FUZZ_RECORDINGS
 #include "drivers/replay/calibration.h"
 #endif
 #include "runtime/base/random.h"
@@ -62,9 +62,12 @@ void walk(const char *name, int runs) {
 TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Align) { walk("align", 3000); }
+TEST(Mutations, Recording) { walk("recording", 3000); }
+TEST(Mutations, Message) { walk("message", 20000); }
+TEST(Mutations, Rvl) { walk("rvl", 20000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 
-#ifdef SPHC_FUZZ_CALIBRATION
+#ifdef SPHC_FUZZ_RECORDINGS
 TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key
   const Target target = allTargets().back();
   sphc_calibration parsed;
