@@ -72,9 +72,9 @@ check "clang, sanitizers for addresses and undefined behaviour: build" build bui
 # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
 tests "sanitizers for addresses and undefined behaviour: tests" build/sanitized -LE 'pipeline|memory' \
   -E driver_contract_simulated
-check "thread sanitizer: build" build build/tsan 'driver_contract_test driver_simulated_test' "${sanitized[@]}" \
+check "thread sanitizer: build" build build/tsan 'driver_contract_test driver_simulated_test replay_driver_test' "${sanitized[@]}" \
   -DSPHC_SANITIZE=thread
-tests "thread sanitizer: the driver contract, rendering by threads" build/tsan \
-  -R 'DriverContract|SameConfigSameBytesWhateverTheThreads'
+tests "thread sanitizer: the driver contract, the recorder, rendering by threads" build/tsan \
+  -R 'DriverContract|Recorder|SameConfigSameBytesWhateverTheThreads'
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" = 0 ]
