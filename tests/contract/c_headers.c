@@ -3,6 +3,7 @@
 #include "drivers/libcamera/plugin.h"
 #include "drivers/openni2/openni2.h"
 #include "drivers/replay/calibration.h"
+#include "drivers/replay/recorder.h"
 #include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sample/sample.h"

@@ -21,7 +21,8 @@ POSIX = re.compile(r"^(sys/.+|linux/.+|unistd\.h|fcntl\.h|dirent\.h|poll\.h|pthr
 LIBRARIES = {"eigen": re.compile(r"^Eigen/"), "highway": re.compile(r"^hwy/"), "opencv": re.compile(r"^opencv2/"),
              "openni2": re.compile(r"^(OniCAPI|PS1080)\.h$"), "sqlite": re.compile(r"^sqlite3\.h$"),
              "json": re.compile(r"^nlohmann/"), "posix": POSIX, "turbojpeg": re.compile(r"^turbojpeg\.h$"),
-             "libcamera": re.compile(r"^libcamera/")}
+             "libcamera": re.compile(r"^libcamera/"), "zlib": re.compile(r"^zlib\.h$"),
+             "zstd": re.compile(r"^zstd\.h$")}
 # The device side makes no calls that need these, however standard they are.
 DEVICE_BANNED = {"thread", "mutex", "condition_variable", "future", "atomic", "iostream", "fstream", "sstream", "ostream",
                  "istream", "iomanip", "filesystem", "regex", "stdexcept", "exception", "string", "vector", "map", "set",
