@@ -50,7 +50,7 @@ class FrameCommand {
   FrameCommand(const Options &options, const Console &console)
       : options_(options), console_(console), replay_(openRecording(options.recording)) {
     config_ = spherecloud::defaultConfig();
-    setCameras(replay_.get(), &config_);
+    setCameras(calibrationOf(replay_.get()), &config_);
     if (!options.no_peers) preparePeers();
   }
 

@@ -35,13 +35,6 @@ Replay open(const Options &options) {
   return Replay(replay);
 }
 
-sphc_calibration calibrationOf(const sphc_replay *replay) {
-  sphc_calibration calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
-  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay, &calibration); });
-  return calibration;
-}
-
 sphc_replay_info infoOf(const sphc_replay *replay) {
   sphc_replay_info info = {};
   info.struct_size = sizeof info;

@@ -63,7 +63,7 @@ Run localize(const Options &options, sphc_replay *replay, const Console &console
   input.play_odometry = options.odometry;
   input.config = options.config;
   input.keep_observations = !options.report.empty();
-  setCameras(replay, &input.config);
+  setCameras(calibrationOf(replay), &input.config);
   readNotes(options, &input, &run);
   run.settings = describeConfig(input.config);
   ProgressBar bar("localizing");

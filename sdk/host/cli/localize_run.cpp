@@ -117,10 +117,7 @@ FrameRecord processFrame(const LocalizeInput &input, const sphc_frame &image, ui
 
 }  // namespace
 
-void setCameras(const sphc_replay *replay, sphc_config *config) {
-  sphc_calibration calibration = {};
-  calibration.struct_size = sizeof calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay, &calibration); });
+void setCameras(const sphc_calibration &calibration, sphc_config *config) {
   config->color_camera = calibration.color_camera;
   config->depth_camera = calibration.depth_camera;
   config->color_from_depth = calibration.color_from_depth;

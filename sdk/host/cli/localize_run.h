@@ -22,7 +22,7 @@ struct LocalizeInput {
 };
 
 // Cameras, depth unit and clock into a config whose other fields stay.
-void setCameras(const sphc_replay *replay, sphc_config *config);
+void setCameras(const sphc_calibration &calibration, sphc_config *config);
 std::vector<Setting> describeConfig(const sphc_config &config);
 
 // Fills everything of *run that comes from processing.  A frame that cannot be read is told to `unreadable`,

@@ -60,4 +60,11 @@ std::string describeSelection(const RecordingOptions &options) {
   return text;
 }
 
+sphc_calibration calibrationOf(const sphc_replay *replay) {
+  sphc_calibration calibration;
+  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
+  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay, &calibration); });
+  return calibration;
+}
+
 }  // namespace sphc::host

@@ -21,6 +21,7 @@ using Replay = std::unique_ptr<sphc_replay, ReplayCloser>;
 
 // Throws std::runtime_error with cause and cure, also when the selection holds no frame.
 Replay openRecording(const RecordingOptions &options);
+sphc_calibration calibrationOf(const sphc_replay *replay);
 std::string describeSelection(const RecordingOptions &options);
 
 }  // namespace sphc::host

@@ -1,0 +1,136 @@
+/* live_c - two V4L2 cameras, a map, a pose a frame; C99, nothing allocated once the cameras run.
+ *
+ *     live_c /dev/video0 /dev/video2 CALIBRATION.json MAP.sphc [FRAMES]
+ *
+ * Colour first, depth second; a node, or "card=NAME".  Ends after FRAMES pairs, or never.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include <drivers/replay/calibration.h>
+#include <drivers/v4l2/v4l2.h>
+#include <fcntl.h>
+#include <spherecloud/spherecloud.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+/* Sizes as the _memory functions give them, rounded up; one too small is refused with the size. */
+static __attribute__((aligned(64))) char view[512], state[1 << 18], scratch[24 << 20], pairs[2048];
+static sphc_message message;
+
+struct camera {
+  sphc_v4l2 *handle;
+  sphc_source source;
+};
+
+static void check(sphc_status status, const char *what) {
+  if (status >= 0) return;
+  fprintf(stderr, "%s: %s %s\n", what, sphc_status_name(status), message.text);
+  exit(1);
+}
+
+static struct camera open_camera(const char *name, sphc_stream stream, const sphc_camera *lens) {
+  struct camera camera;
+  sphc_v4l2_config config;
+  check(sphc_v4l2_config_init(&config, sizeof config), "camera config");
+  config.stream = stream;
+  config.width = lens->width;
+  config.height = lens->height;
+  config.buffers = 8;
+  config.loan_limit = 6; /* more than the pairer has slots */
+  check(sphc_v4l2_open(name, &config, &camera.handle, &message), name);
+  check(sphc_v4l2_source(camera.handle, &camera.source), name);
+  check(camera.source.start(camera.source.self), camera.source.message(camera.source.self));
+  return camera;
+}
+
+static sphc_map *open_map(const char *path) {
+  const int file = open(path, O_RDONLY);
+  struct stat info = {0};
+  fstat(file, &info);
+  const void *bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  sphc_map *map = NULL;
+  check(bytes == MAP_FAILED ? SPHC_E_DEVICE : SPHC_OK, path);
+  check(sphc_map_init(view, sizeof view, bytes, (size_t)info.st_size, &map, &message), path);
+  return map;
+}
+
+static sphc_localizer *make_localizer(const sphc_map *map, const sphc_calibration *cameras) {
+  sphc_config config;
+  sphc_localizer *localizer = NULL;
+  check(sphc_config_init(&config, sizeof config), "config");
+  config.color_camera = cameras->color_camera;
+  config.depth_camera = cameras->depth_camera;
+  config.color_from_depth = cameras->color_from_depth;
+  config.depth_unit_m = cameras->depth_unit_m;
+  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &map, 1, &localizer, &message),
+        "localizer");
+  return localizer;
+}
+
+/* One capture, where there is one within 2 ms, goes to the pairer; its loan goes with it. */
+static void feed(const struct camera *camera, sphc_pairer *pairer) {
+  sphc_capture capture = {.struct_size = sizeof capture};
+  const sphc_status status = camera->source.acquire(camera->source.self, 2000, &capture);
+  if (status == SPHC_E_DEVICE_LOST) check(status, camera->source.message(camera->source.self));
+  if (status < 0) fprintf(stderr, "%s\n", camera->source.message(camera->source.self)); /* and go on */
+  if (status == SPHC_OK && sphc_pairer_push(pairer, &capture) != SPHC_OK)
+    camera->source.release(camera->source.self, &capture);
+}
+
+static void localize(sphc_localizer *localizer, const sphc_pair *pair) {
+  const sphc_frame frame = {.struct_size = sizeof frame,
+                            .sequence = pair->color.sequence,
+                            .color_time_ns = sphc_capture_middle_ns(&pair->color),
+                            .depth_time_ns = sphc_capture_middle_ns(&pair->depth),
+                            .color = pair->color.image,
+                            .depth = pair->depth.image};
+  sphc_result result = {.struct_size = sizeof result};
+  sphc_rigid pose; /* map_from_camera */
+  const sphc_status status = sphc_localizer_process(localizer, &frame, &result);
+  check(status, sphc_localizer_message(localizer));
+  sphc_rigid_inverse(&result.camera_from_map, &pose);
+  if (status == SPHC_OK)
+    printf("%u at %.3f %.3f %.3f, confidence %.2f\n", (unsigned)frame.sequence, pose.t_m[0], pose.t_m[1],
+           pose.t_m[2], result.confidence);
+  else
+    printf("%u not localized, outcome %d\n", (unsigned)frame.sequence, (int)result.outcome);
+}
+
+int main(int argc, char **argv) {
+  if (argc < 5) return fprintf(stderr, "usage: %s COLOR DEPTH CALIBRATION MAP [FRAMES]\n", argv[0]), 2;
+  sphc_calibration cameras = {.struct_size = sizeof cameras};
+  check(sphc_calibration_read(argv[3], &cameras, &message), argv[3]);
+  sphc_map *map = open_map(argv[4]);
+  sphc_localizer *localizer = make_localizer(map, &cameras);
+  struct camera color = open_camera(argv[1], SPHC_STREAM_COLOR, &cameras.color_camera);
+  struct camera depth = open_camera(argv[2], SPHC_STREAM_DEPTH, &cameras.depth_camera);
+  sphc_pairer_config config;
+  sphc_pairer *pairer = NULL;
+  check(sphc_pairer_config_init(&config, sizeof config), "pairer config");
+  check(sphc_pairer_init(pairs, sizeof pairs, &config, &pairer, &message), "pairer");
+
+  const long frames = argc > 5 ? atol(argv[5]) : -1;
+  for (long done = 0; done != frames;) {
+    sphc_pair pair = {.struct_size = sizeof pair};
+    sphc_capture dropped;
+    const sphc_status status = sphc_pairer_pop(pairer, &pair, &dropped);
+    if (status == SPHC_OK) {
+      localize(localizer, &pair);
+      color.source.release(color.source.self, &pair.color);
+      depth.source.release(depth.source.self, &pair.depth);
+      ++done;
+    } else if (dropped.stream != SPHC_STREAM_NONE) {
+      const struct camera *from = dropped.stream == SPHC_STREAM_COLOR ? &color : &depth;
+      from->source.release(from->source.self, &dropped);
+    } else {
+      feed(&color, pairer);
+      feed(&depth, pairer);
+    }
+  }
+  sphc_v4l2_close(&color.handle);
+  sphc_v4l2_close(&depth.handle);
+  sphc_localizer_fini(&localizer);
+  sphc_map_fini(&map);
+  return 0;
+}

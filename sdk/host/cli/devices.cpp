@@ -1,0 +1,41 @@
+// spherecloud devices: which cameras are there?
+#include "host/cli/command.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/live/found.h"
+
+namespace sphc::host {
+namespace {
+
+void say(const Found &found, const Console &console) {
+  if (found.cameras.empty()) console.say("No camera is there. `spherecloud doctor` tells what to look at.");
+  for (const FoundCamera &camera : found.cameras) {
+    console.say(camera.spec);
+    console.say("    " + camera.name + ", " + camera.offers);
+    if (!camera.problem.empty()) console.say("    PROBLEM: " + camera.problem);
+  }
+  for (const std::string &note : found.notes) console.say("note: " + note);
+}
+
+nlohmann::ordered_json jsonOf(const Found &found) {
+  nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
+  for (const FoundCamera &c : found.cameras)
+    cameras.push_back({{"camera", c.spec}, {"name", c.name}, {"offers", c.offers}, {"problem", c.problem}});
+  return {{"cameras", cameras}, {"notes", found.notes}};
+}
+
+}  // namespace
+
+Command devicesCommand(CLI::App *root) {
+  CLI::App *app = root->add_subcommand("devices");
+  app->description(
+      "List the cameras of this machine, and what is wrong with them.\n\nThe first line of each is what --device, "
+      "--color and --depth take.");
+  return {app, [](const Console &console) {
+            const Found found = findCameras();
+            say(found, console);
+            console.give(jsonOf(found));
+            return kExitDone;
+          }};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,126 @@
+// spherecloud doctor: what is wrong with these cameras?
+#include <memory>
+
+#include "host/cli/command.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/live/found.h"
+#include "host/cli/live/geometry_check.h"
+#include "host/cli/live/interrupt.h"
+#include "host/cli/live/rig_options.h"
+#include "host/cli/live/status_line.h"
+#include "host/cli/live/stream_check.h"
+
+namespace sphc::host {
+namespace {
+
+using Grade = Finding::Grade;
+constexpr uint32_t kEveryPair = 5;  // of the pairs, those whose geometry is looked at
+
+struct Options {
+  RigOptions rig;
+  uint32_t frames = 60;
+};
+
+const char *gradeText(Grade grade) {
+  if (grade == Grade::kFine) return "fine";
+  return grade == Grade::kWrong ? "WRONG" : "look";
+}
+
+Findings lookAround() {
+  Findings findings;
+  const Found found = findCameras();
+  for (const FoundCamera &camera : found.cameras)
+    findings.push_back(camera.problem.empty()
+                           ? Finding{Grade::kFine, camera.spec, camera.name + ", " + camera.offers}
+                           : Finding{Grade::kWrong, camera.spec, camera.problem});
+  for (const std::string &note : found.notes) findings.push_back({Grade::kDoubtful, "driver", note});
+  if (found.cameras.empty())
+    findings.push_back({Grade::kWrong, "cameras",
+                        "none is there; is it plugged in, does `dmesg` see it, may this user read /dev/video*?"});
+  return findings;
+}
+
+bool fits(const sphc_image &image, const sphc_camera &camera) {
+  return image.width == camera.width && image.height == camera.height;
+}
+
+Findings lookAt(const Options &options, const Console &console) {
+  StatusLine line;
+  Findings findings;
+  Rig rig(options.rig, [&](const std::string &trouble) {
+    findings.push_back({Grade::kDoubtful, "capture", trouble});
+  });
+  for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
+  const sphc_calibration calibration = calibrationOf(options.rig, rig);
+  StreamCheck color(SPHC_STREAM_COLOR, calibration), depth(SPHC_STREAM_DEPTH, calibration);
+  GeometryCheck geometry(calibration);
+  rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? color : depth).look(c); });
+  std::vector<double> apart_ms;
+  const Interrupt interrupt;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  bool geometry_fits = true;
+  while (apart_ms.size() < options.frames && !interrupt.came() && std::chrono::steady_clock::now() < until) {
+    sphc_pair pair = {};
+    const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
+    if (got == Rig::Got::kEnd) break;
+    if (got == Rig::Got::kNothing) continue;
+    geometry_fits =
+        fits(pair.color.image, calibration.color_camera) && fits(pair.depth.image, calibration.depth_camera);
+    if (geometry_fits && apart_ms.size() % kEveryPair == 0) geometry.look(pair.color.image, pair.depth.image);
+    apart_ms.push_back(
+        1e-6 * static_cast<double>(sphc_capture_middle_ns(&pair.color) - sphc_capture_middle_ns(&pair.depth)));
+    rig.release(pair);
+    line.show("looking: " + std::to_string(apart_ms.size()) + " of " + std::to_string(options.frames));
+  }
+  for (const StreamCheck *stream : {&color, &depth})
+    for (Finding &finding : stream->findings()) findings.push_back(std::move(finding));
+  const sphc_pairer_counts counts = rig.counts();
+  findings.push_back(pairsFinding(apart_ms, counts.too_far + counts.overtaken + counts.full));
+  if (!apart_ms.empty() && geometry_fits) findings.push_back(geometry.finding());
+  return findings;
+}
+
+int run(const Options &options, const Console &console) {
+  const bool has_cameras = !options.rig.both.empty() || !options.rig.color.empty() || !options.rig.depth.empty();
+  if (has_cameras) checkRigOptions(options.rig);
+  const Findings findings = has_cameras ? lookAt(options, console) : lookAround();
+  bool wrong = false;
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const Finding &finding : findings) {
+    wrong = wrong || finding.grade == Grade::kWrong;
+    char head[48];
+    std::snprintf(head, sizeof head, "%-6s %-14s ", gradeText(finding.grade), finding.what.c_str());
+    console.say(head + finding.text);
+    all.push_back({{"grade", gradeText(finding.grade)}, {"what", finding.what}, {"text", finding.text}});
+  }
+  console.give({{"findings", all}, {"wrong", wrong}});
+  return wrong ? kExitFailure : kExitDone;
+}
+
+const char kExample[] =
+    "Examples:\n"
+    "  spherecloud doctor                                              this machine\n"
+    "  spherecloud doctor --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json\n"
+    "  spherecloud doctor --device replay:walk.mcap                    a recording\n"
+    "Show the cameras a room with things in it.  Exit status 1: something is wrong.";
+
+}  // namespace
+
+Command doctorCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("doctor");
+  app->description(
+      "Say what is wrong with cameras, and the cure.\n\nWithout cameras: what is plugged in, and may be opened.  "
+      "With "
+      "cameras: rates, losses, clocks,\nsizes, light, depth, and whether depth lies on the image as the "
+      "calibration "
+      "says, or would do so\nif it were mirrored, turned or registered already.");
+  app->footer(kExample);
+  addRigOptions(app, &options->rig);
+  app->add_option("--frames", options->frames, "Pairs to look at")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000));
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,206 @@
+// spherecloud live: cameras and a map; where is the camera now?
+#include <cmath>
+#include <memory>
+
+#include "host/cli/command.h"
+#include "host/cli/door.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/live/interrupt.h"
+#include "host/cli/live/rate.h"
+#include "host/cli/live/rig_options.h"
+#include "host/cli/live/status_line.h"
+#include "host/cli/localize_run.h"
+#include "host/cli/map_file.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  RigOptions rig;
+  std::vector<std::string> maps;
+  uint32_t frames = 0;
+  double seconds = 0;
+  bool every = false;
+};
+
+struct Tally {
+  uint32_t frames = 0, localized = 0, skipped = 0;
+  double total_ms = 0;
+  Rate color, depth, poses;
+};
+
+spherecloud::Localizer makeLocalizer(const sphc_calibration &calibration, const std::vector<MapFile> &maps) {
+  sphc_config config = spherecloud::defaultConfig();
+  setCameras(calibration, &config);
+  std::vector<const sphc_map *> views;
+  for (const MapFile &file : maps) views.push_back(file.map.get());
+  spherecloud::Localizer localizer;
+  const spherecloud::Status status =
+      spherecloud::Localizer::make(config, views.data(), static_cast<uint32_t>(views.size()), &localizer);
+  if (status.failed()) throw std::runtime_error(std::string("cannot make the localizer: ") + status.text());
+  return localizer;
+}
+
+const char *stateName(sphc_state state) {
+  if (state == SPHC_STATE_TRACKING) return "tracking";
+  return state == SPHC_STATE_LOST ? "lost" : "relocalizing";
+}
+
+std::string poseText(const sphc_result &result) {
+  if (result.outcome != SPHC_OUTCOME_LOCALIZED) return "no pose";
+  const sphc_rigid pose = spherecloud::inverse(result.camera_from_map);
+  char text[96];
+  std::snprintf(text, sizeof text, "%+.2f %+.2f %+.2f m, confidence %.2f", pose.t_m[0], pose.t_m[1], pose.t_m[2],
+                result.confidence);
+  return text;
+}
+
+std::string statusText(const Tally &tally, const sphc_result &result, const Rig &rig, double ms) {
+  const sphc_pairer_counts counts = rig.counts();
+  char text[256];
+  std::snprintf(text, sizeof text, "%-12s %s | %u inliers, %.1f ms | %.0f + %.0f in, %.0f poses/s | lost %llu",
+                stateName(result.state), poseText(result).c_str(), result.inliers, ms, tally.color.hz(),
+                tally.depth.hz(), tally.poses.hz(),
+                static_cast<unsigned long long>(counts.color_lost + counts.depth_lost));
+  return text;
+}
+
+nlohmann::ordered_json frameJson(const sphc_pair &pair, const sphc_result &result, double ms) {
+  nlohmann::ordered_json out = {{"time_ns", result.time_ns},
+                                {"color_sequence", pair.color.sequence},
+                                {"depth_sequence", pair.depth.sequence},
+                                {"state", stateName(result.state)},
+                                {"localized", result.outcome == SPHC_OUTCOME_LOCALIZED},
+                                {"outcome", result.outcome},
+                                {"map", result.map_index},
+                                {"inliers", result.inliers},
+                                {"ms", std::round(1000 * ms) / 1000}};
+  if (result.outcome != SPHC_OUTCOME_LOCALIZED) return out;
+  out["confidence"] = result.confidence;
+  out["camera_from_map"] = {{"q_wxyz", result.camera_from_map.q_wxyz}, {"t_m", result.camera_from_map.t_m}};
+  return out;
+}
+
+sphc_frame frameOf(const sphc_pair &pair) {
+  sphc_frame frame = {};
+  frame.struct_size = sizeof frame;
+  frame.sequence = pair.color.sequence;
+  frame.color_time_ns = sphc_capture_middle_ns(&pair.color);
+  frame.depth_time_ns = sphc_capture_middle_ns(&pair.depth);
+  frame.color = pair.color.image;
+  frame.depth = pair.depth.image;
+  return frame;
+}
+
+// When frames come faster than they are looked at, the newest is the one that matters.
+uint32_t skipToNewest(Rig *rig, sphc_pair *pair) {
+  uint32_t skipped = 0;
+  sphc_pair newer = {};
+  while (rig->next(std::chrono::milliseconds(0), &newer) == Rig::Got::kPair) {
+    rig->release(*pair);
+    *pair = newer;
+    ++skipped;
+  }
+  return skipped;
+}
+
+void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spherecloud::Localizer *localizer,
+            StatusLine *line, Tally *tally) {
+  sphc_result result = spherecloud::emptyResult();
+  const auto begin = std::chrono::steady_clock::now();
+  const spherecloud::Status status = localizer->process(frameOf(pair), &result);
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  if (status.failed())
+    throw std::runtime_error("frame " + std::to_string(pair.color.sequence) + ": " + status.text() +
+                             "; does the calibration belong to these cameras?");
+  ++tally->frames;
+  tally->localized += result.outcome == SPHC_OUTCOME_LOCALIZED;
+  tally->total_ms += ms;
+  tally->poses.count();
+  console.give(frameJson(pair, result, ms));
+  line->show(statusText(*tally, result, rig, ms));
+}
+
+bool isOver(const Options &options, const Tally &tally, std::chrono::steady_clock::time_point begin) {
+  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return (options.frames > 0 && tally.frames >= options.frames) ||
+         (options.seconds > 0 && elapsed_s >= options.seconds);
+}
+
+void sayTally(const Tally &tally, const Rig &rig, const Console &console) {
+  const sphc_pairer_counts counts = rig.counts();
+  console.say("Frames looked at: " + std::to_string(tally.frames) +
+              ", localized: " + std::to_string(tally.localized) +
+              (tally.skipped ? ", skipped: " + std::to_string(tally.skipped) : ""));
+  if (tally.frames > 0)
+    console.say("Time a frame: " + std::to_string(tally.total_ms / tally.frames).substr(0, 5) + " ms, mean");
+  console.say(
+      "Without a partner: " + std::to_string(counts.too_far + counts.overtaken + counts.full + counts.ended) +
+      "; never came: " + std::to_string(counts.color_lost) + " colour, " + std::to_string(counts.depth_lost) +
+      " depth");
+  const std::string troubles = rig.troubles();
+  if (!troubles.empty()) console.say(troubles);
+}
+
+int run(const Options &options, const Console &console) {
+  checkRigOptions(options.rig);
+  std::vector<MapFile> maps;
+  for (const std::string &path : options.maps) maps.push_back(openMapFile(path));
+  StatusLine line;
+  Rig rig(options.rig, [&](const std::string &trouble) {
+    line.wipe();
+    console.warn(trouble);
+  });
+  for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
+  spherecloud::Localizer localizer = makeLocalizer(calibrationOf(options.rig, rig), maps);
+  Tally tally;
+  rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? tally.color : tally.depth).count(); });
+  const bool every = options.every || rig.waits();
+  const Interrupt interrupt;
+  const auto begin = std::chrono::steady_clock::now();
+  while (!interrupt.came() && !isOver(options, tally, begin)) {
+    sphc_pair pair = {};
+    const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
+    if (got == Rig::Got::kEnd) break;
+    if (got == Rig::Got::kNothing) {
+      line.show("no pair of images; " + rig.troubles());
+      continue;
+    }
+    if (!every) tally.skipped += skipToNewest(&rig, &pair);
+    lookAt(pair, rig, console, &localizer, &line, &tally);
+    rig.release(pair);
+  }
+  line.wipe();
+  sayTally(tally, rig, console);
+  return tally.localized > 0 ? kExitDone : kExitNotLocalized;
+}
+
+const char kExample[] =
+    "Examples:\n"
+    "  spherecloud live --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --map room.sphc\n"
+    "  spherecloud live --color libcamera: --depth v4l2:card=ToF -c headset.json --map room.sphc --json\n"
+    "  spherecloud live --device openni2: -c kinect.json --map room.sphc --seconds 60\n"
+    "Ctrl-C ends it.  A camera that is unplugged is waited for.  Exit status 3: not one frame was localized.";
+
+}  // namespace
+
+Command liveCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("live");
+  app->description(
+      "Capture, pair, localize: where is the camera now?\n\nOn a terminal one line shows the pose, its confidence, "
+      "rates and losses; with --json a line of\nJSON comes for every frame.");
+  app->footer(kExample);
+  addRigOptions(app, &options->rig);
+  app->add_option("-m,--map", options->maps, "Map file; repeat for more rooms")
+      ->required()
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
+  app->add_option("--frames", options->frames, "End after so many frames; 0: never");
+  app->add_option("--seconds", options->seconds, "End after so long; 0: never");
+  app->add_flag("--every", options->every, "Look at every frame, however late; else the newest counts");
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

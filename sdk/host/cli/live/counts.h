@@ -1,0 +1,18 @@
+// Counters of a driver in words.
+#pragma once
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+namespace sphc::host {
+
+// "3 lost, 1 corrupt": those that are not 0.
+inline std::string countsInWords(std::initializer_list<std::pair<const char *, uint64_t>> counts) {
+  std::string words;
+  for (const auto &[name, count] : counts)
+    if (count > 0) words += (words.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  return words;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,22 @@
+// The cameras of this machine, and what is wrong.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace sphc::host {
+
+struct FoundCamera {
+  std::string spec;  // for openDevice
+  std::string name;
+  std::string offers;   // "colour: YUYV MJPG", "colour and depth"
+  std::string problem;  // why it cannot be opened; "" where it can
+};
+
+struct Found {
+  std::vector<FoundCamera> cameras;
+  std::vector<std::string> notes;  // kinds of cameras that could not be looked for, and why
+};
+
+Found findCameras();
+
+}  // namespace sphc::host

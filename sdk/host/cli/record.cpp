@@ -1,0 +1,153 @@
+// spherecloud record: cameras to one crash-safe file.
+#include <filesystem>
+#include <memory>
+
+#include "drivers/replay/recorder.h"
+#include "host/cli/command.h"
+#include "host/cli/door.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/live/interrupt.h"
+#include "host/cli/live/rate.h"
+#include "host/cli/live/rig_options.h"
+#include "host/cli/live/status_line.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  RigOptions rig;
+  std::string out;
+  double seconds = 0;
+  sphc_recorder_config recorder = {};
+};
+
+struct RecorderCloser {
+  void operator()(sphc_recorder *recorder) const { sphc_recorder_close(&recorder, nullptr); }
+};
+using Recorder = std::unique_ptr<sphc_recorder, RecorderCloser>;
+
+Recorder openRecorder(const Options &options, const sphc_calibration &calibration) {
+  sphc_recorder *recorder = nullptr;
+  orThrow("cannot record", [&](sphc_message *message) {
+    return sphc_recorder_open(options.out.c_str(), &calibration, &options.recorder, &recorder, message);
+  });
+  return Recorder(recorder);
+}
+
+sphc_recorder_statistics statisticsOf(const sphc_recorder *recorder) {
+  sphc_recorder_statistics statistics = {};
+  statistics.struct_size = sizeof statistics;
+  sphc_recorder_get_statistics(recorder, &statistics);
+  return statistics;
+}
+
+std::string megabytes(uint64_t bytes) { return std::to_string(bytes / 1000000) + " MB"; }
+
+// What was given to the recorder.
+struct Tally {
+  uint64_t color = 0, depth = 0, raw_bytes = 0;
+  Rate color_rate, depth_rate;
+
+  void count(const sphc_capture &capture) {
+    const bool is_color = capture.stream == SPHC_STREAM_COLOR;
+    ++(is_color ? color : depth);
+    (is_color ? color_rate : depth_rate).count();
+    raw_bytes += uint64_t{capture.image.stride_bytes} * capture.image.height;
+  }
+};
+
+std::string statusText(const sphc_recorder_statistics &s, const Tally &tally) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%llu colour (%.0f/s), %llu depth (%.0f/s), %s; dropped %llu, never came %llu",
+                static_cast<unsigned long long>(tally.color), tally.color_rate.hz(),
+                static_cast<unsigned long long>(tally.depth), tally.depth_rate.hz(),
+                megabytes(s.file_bytes).c_str(), static_cast<unsigned long long>(s.dropped_count),
+                static_cast<unsigned long long>(s.missing_count));
+  return text;
+}
+
+void sayResult(const Options &options, const Tally &tally, const sphc_recorder_statistics &s, const Rig &rig,
+               const Console &console) {
+  const uint64_t file_bytes = std::filesystem::file_size(options.out);
+  console.say("Wrote " + options.out + ": " + std::to_string(tally.color) + " colour and " +
+              std::to_string(tally.depth) + " depth images, " + megabytes(file_bytes) + " of " +
+              megabytes(tally.raw_bytes));
+  console.say("Dropped: " + std::to_string(s.dropped_count) + ", never came: " + std::to_string(s.missing_count) +
+              ", most waiting at once: " + std::to_string(s.queue_most));
+  const std::string troubles = rig.troubles();
+  if (!troubles.empty()) console.say(troubles);
+  console.give({{"file", options.out},
+                {"color", tally.color},
+                {"depth", tally.depth},
+                {"dropped", s.dropped_count},
+                {"missing", s.missing_count},
+                {"raw_bytes", tally.raw_bytes},
+                {"file_bytes", file_bytes}});
+}
+
+int run(const Options &options, const Console &console) {
+  checkRigOptions(options.rig);
+  StatusLine line;
+  const auto tell = [&](const std::string &trouble) {
+    line.wipe();
+    console.warn(trouble);
+  };
+  Rig rig(options.rig, tell);
+  for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
+  Recorder recorder = openRecorder(options, calibrationOf(options.rig, rig));
+  Tally tally;
+  rig.watch([&](const sphc_capture &capture) {
+    sphc_message message = {};
+    const sphc_status status = sphc_recorder_add(recorder.get(), &capture, &message);
+    if (status == SPHC_OK) tally.count(capture);
+    if (status == SPHC_E_DEVICE) throw std::runtime_error(options.out + ": " + message.text);
+    if (status < 0) tell(message.text);
+  });
+  const Interrupt interrupt;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto is_over = [&] {
+    return options.seconds > 0 &&
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= options.seconds;
+  };
+  while (!interrupt.came() && !is_over()) {
+    sphc_pair pair = {};
+    const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
+    if (got == Rig::Got::kEnd) break;
+    if (got == Rig::Got::kPair) rig.release(pair);
+    line.show(statusText(statisticsOf(recorder.get()), tally));
+  }
+  line.wipe();
+  const sphc_recorder_statistics statistics = statisticsOf(recorder.get());
+  sphc_recorder *ended = recorder.release();
+  orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });
+  sayResult(options, tally, statistics, rig, console);
+  return kExitDone;
+}
+
+const char kExample[] =
+    "Examples:\n"
+    "  spherecloud record --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --out walk.mcap\n"
+    "  spherecloud record --device openni2: -c kinect.json --out walk.mcap --seconds 60\n"
+    "Ctrl-C ends it.  The file plays everywhere a recording does, and opens in Foxglove.";
+
+}  // namespace
+
+Command recordCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  sphc_recorder_config_init(&options->recorder, sizeof options->recorder);
+  options->rig.wish.color_images = true;
+  CLI::App *app = root->add_subcommand("record");
+  app->description(
+      "Record cameras into one file that survives a crash.\n\nEvery image is kept as it came, paired or not; what "
+      "was lost or dropped is listed in the file.");
+  app->footer(kExample);
+  addRigOptions(app, &options->rig);
+  app->add_option("-o,--out", options->out, "The file, ending in .mcap")->required()->type_name("FILE");
+  app->add_option("--seconds", options->seconds, "End after so long; 0: never");
+  app->add_option("--jpeg", options->recorder.jpeg_quality,
+                  "Colour as JPEG of this quality, 1 to 100; 0: as it came")
+      ->capture_default_str();
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host
