@@ -61,6 +61,7 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
 formatting() { git ls-files -z '*.h' '*.hpp' '*.c' '*.cpp' | xargs -0 clang-format --dry-run -Werror; }
 
 check "packages" toolchains/install_packages.sh build test guest
+check "python packages" toolchains/install_python_packages.sh build/python
 check "formatting" formatting
 check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
 tests "release: tests" build/release
@@ -77,9 +78,9 @@ check "clang, sanitizers for addresses and undefined behaviour: build" build bui
 # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
 tests "sanitizers for addresses and undefined behaviour: tests" build/sanitized -LE 'pipeline|memory' \
   -E driver_contract_simulated
-check "thread sanitizer: build" build build/tsan 'driver_contract_test driver_simulated_test' "${sanitized[@]}" \
-  -DSPHC_SANITIZE=thread
-tests "thread sanitizer: the driver contract, rendering by threads" build/tsan \
-  -R 'DriverContract|SameConfigSameBytesWhateverTheThreads'
+threaded='driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
+check "thread sanitizer: build" build build/tsan "$threaded" "${sanitized[@]}" -DSPHC_SANITIZE=thread
+tests "thread sanitizer: the driver contract, the recorder, OpenNI2, rendering by threads" build/tsan \
+  -R 'DriverContract|Recorder|^(Opening|Frames|Unplugging|OniRecording)\.|SameConfigSameBytesWhateverTheThreads'
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" = 0 ]

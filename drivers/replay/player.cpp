@@ -67,6 +67,11 @@ sphc_status Player::acquire(uint32_t timeout_us, sphc_capture &capture) {
   capture.time_ns = event.time_ns;
   capture.token = slot->token;
   capture.sequence = image.sequence;
+  capture.time_point = image.note.time_point;
+  capture.arrival_ns = image.note.arrival_ns;
+  capture.exposure_us = image.note.exposure_us;
+  capture.time_sigma_us = image.note.time_sigma_us;
+  capture.clock = image.note.clock;
   capture.image = view;
   return SPHC_OK;
 }

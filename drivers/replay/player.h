@@ -4,7 +4,7 @@
 #include <chrono>
 #include <vector>
 
-#include "image_file.h"
+#include "image_reader.h"
 #include "recording.h"
 
 namespace sphc::replay {

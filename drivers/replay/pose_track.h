@@ -8,19 +8,20 @@
 
 namespace sphc::replay {
 
+struct TimedPose {
+  int64_t time_ns;
+  sphc_rigid pose;
+};
+
 class PoseTrack {
  public:
   // Times must not decrease; of equal times the first counts.
   void add(int64_t time_ns, const sphc_rigid &world_from_camera);
   // Exact at a recorded time, else between neighbours at most `gap_ns` apart.
   bool at(int64_t time_ns, int64_t gap_ns, sphc_rigid &world_from_camera) const;
-  size_t size() const { return poses_.size(); }
+  const std::vector<TimedPose> &poses() const { return poses_; }
 
  private:
-  struct TimedPose {
-    int64_t time_ns;
-    sphc_rigid pose;
-  };
   std::vector<TimedPose> poses_;
 };
 

@@ -34,8 +34,9 @@ bool holdsSequences(const fs::path &folder) {
 }  // namespace
 
 Recording openRecording(const fs::path &folder) {
+  if (fs::is_regular_file(folder)) return openMcap(folder);
   const std::string name = shortPath(folder.string());
-  if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder; give a recording's folder");
+  if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder or file; give a recording");
   if (isTum(folder)) return openTum(folder);
   if (is7Scenes(folder)) return open7Scenes(folder);
   if (holdsSequences(folder))

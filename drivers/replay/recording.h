@@ -1,4 +1,4 @@
-// What a recording's folder holds: images by time, poses by time.
+// What a recording holds, folder or file: images by time, poses by time.
 #pragma once
 
 #include <cstdint>
@@ -6,24 +6,43 @@
 #include <string>
 #include <vector>
 
+#include "mcap/messages.h"
+#include "mcap/walk.h"
 #include "pose_track.h"
 #include "replay.h"
 
 namespace sphc::replay {
 
+// Where an image is in an MCAP file.
+struct MessagePlace {
+  Kind kind;
+  uint32_t chunk;  // index in Recording::chunks
+  uint64_t start;  // of the message's data, in the file
+  uint64_t bytes;
+};
+
 struct RecordedImage {
   int64_t time_ns;
   uint32_t sequence;
-  std::string file;  // relative to the folder
+  std::string file;         // relative to the folder
+  CaptureNote note = {};    // what else is known, in an MCAP file
+  MessagePlace place = {};  // likewise
 };
 
 struct Recording {
   sphc_replay_layout layout = 0;
-  std::filesystem::path folder;
+  std::filesystem::path path;        // of the folder or the MCAP file
   std::vector<RecordedImage> color;  // times increase
   std::vector<RecordedImage> depth;  // times increase
   PoseTrack poses;
   uint32_t bad_pose_count = 0;
+
+  // Of an MCAP file.
+  sphc_calibration calibration = {};
+  std::vector<ChunkPlace> chunks;
+  uint64_t lost_count = 0;
+  uint32_t bad_chunk_count = 0;
+  bool is_cut = false;
 };
 
 struct FramePair {
@@ -32,7 +51,7 @@ struct FramePair {
 };
 
 // Finds the layout and reads lists and poses, no image; throws Failure.
-Recording openRecording(const std::filesystem::path &folder);
+Recording openRecording(const std::filesystem::path &path);
 
 // Keeps the frames that the config chooses; throws Failure when it chooses none.
 void selectFrames(const sphc_replay_config &config, Recording &recording);
@@ -45,5 +64,6 @@ bool is7Scenes(const std::filesystem::path &folder);
 Recording open7Scenes(const std::filesystem::path &folder);
 bool isTum(const std::filesystem::path &folder);
 Recording openTum(const std::filesystem::path &folder);
+Recording openMcap(const std::filesystem::path &file);
 
 }  // namespace sphc::replay

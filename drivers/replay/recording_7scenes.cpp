@@ -83,7 +83,7 @@ bool is7Scenes(const fs::path &folder) {
 Recording open7Scenes(const fs::path &folder) {
   Recording recording;
   recording.layout = SPHC_REPLAY_7SCENES;
-  recording.folder = folder;
+  recording.path = folder;
   std::vector<RecordedImage> poses;
   for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

@@ -84,7 +84,7 @@ bool isTum(const fs::path &folder) { return fs::exists(folder / "rgb.txt") || fs
 Recording openTum(const fs::path &folder) {
   Recording recording;
   recording.layout = SPHC_REPLAY_TUM;
-  recording.folder = folder;
+  recording.path = folder;
   recording.color = readImageList(folder / "rgb.txt");
   recording.depth = readImageList(folder / "depth.txt");
   if (fs::exists(folder / "groundtruth.txt")) readGroundTruth(folder / "groundtruth.txt", recording);

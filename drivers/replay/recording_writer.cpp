@@ -1,17 +1,15 @@
 #include "recording_writer.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
-#include <vector>
 
+#include "encoded_image.h"
 #include "failure.h"
-#include "image_file.h"
+#include "file_writer.h"
+#include "pixels.h"
 #include "pose_track.h"
 #include "text_field.h"
 
@@ -24,10 +22,6 @@ struct CloseFile {
   void operator()(std::FILE *file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
-
-[[noreturn]] void failWrite(const fs::path &path) {
-  throw Failure(SPHC_E_DEVICE, shortPath(path.string()) + ": cannot be written; is there room and permission?");
-}
 
 // A list of the recording: a line an entry, each handed over at once, times increasing.
 class List {
@@ -63,50 +57,9 @@ class List {
   uint32_t count_ = 0;
 };
 
-void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_color) {
-  const std::string name = is_color ? "colour image" : "depth image";
-  const bool is_depth_format = image.format == SPHC_FORMAT_DEPTH16;
-  if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null");
-  if (bytesPerPixel(image.format) == 0 || is_depth_format == is_color)
-    throw Failure(SPHC_E_IMAGE, name + ": format " + std::to_string(image.format) + " does not fit; " +
-                                    (is_color ? "give GRAY8, RGB8 or BGR8" : "give DEPTH16"));
-  if (image.width != camera.width || image.height != camera.height)
-    throw Failure(SPHC_E_IMAGE, name + ": is " + std::to_string(image.width) + " x " +
-                                    std::to_string(image.height) + ", its camera in the calibration " +
-                                    std::to_string(camera.width) + " x " + std::to_string(camera.height) +
-                                    "; they must be equal");
-  const uint64_t row_bytes = uint64_t{image.width} * bytesPerPixel(image.format);
-  if (image.stride_bytes < row_bytes || (is_depth_format && image.stride_bytes % 2 != 0))
-    throw Failure(SPHC_E_IMAGE,
-                  name + ": stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row or odd");
-}
-
-int matType(sphc_format format) {
-  if (format == SPHC_FORMAT_DEPTH16) return CV_16UC1;
-  return format == SPHC_FORMAT_GRAY8 ? CV_8UC1 : CV_8UC3;
-}
-
-void writeFile(const fs::path &path, const std::vector<uint8_t> &bytes) {
-  std::FILE *file = std::fopen(path.string().c_str(), "wb");
-  if (!file) failWrite(path);
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  if ((std::fclose(file) == 0) && written) return;
-  std::error_code ignored;
-  fs::remove(path, ignored);
-  failWrite(path);
-}
-
-// The shortest digits that bring back the same bits, under every locale.
 std::string poseText(const sphc_rigid &pose) {
-  const double fields[] = {pose.t_m[0],    pose.t_m[1],    pose.t_m[2],   pose.q_wxyz[1],
-                           pose.q_wxyz[2], pose.q_wxyz[3], pose.q_wxyz[0]};
-  std::string line;
-  for (const double field : fields) {
-    char text[32];
-    const std::to_chars_result end = std::to_chars(text, text + sizeof text, field);
-    line.append(line.empty() ? "" : " ").append(text, end.ptr);
-  }
-  return line;
+  return formatNumbers(
+      {pose.t_m[0], pose.t_m[1], pose.t_m[2], pose.q_wxyz[1], pose.q_wxyz[2], pose.q_wxyz[3], pose.q_wxyz[0]});
 }
 
 }  // namespace
@@ -120,33 +73,13 @@ struct sphc_recording_writer {
         poses(where / "groundtruth.txt", "# world_from_camera: seconds tx ty tz qx qy qz qw") {}
 
   void add(sphc_stream stream, int64_t time_ns, const sphc_image &image);
-  void encode(const sphc_image &image);
 
   fs::path folder;
   sphc_calibration calibration;
   List color, depth, poses;
-  std::vector<uint8_t> bgr;  // scratch of RGB images
-  std::vector<uint8_t> encoded;
+  ImageEncoder encoder;
   bool is_broken = false;  // a list may end in half a line: no more lines
 };
-
-void sphc_recording_writer::encode(const sphc_image &image) {
-  cv::Mat mat(static_cast<int>(image.height), static_cast<int>(image.width), matType(image.format),
-              const_cast<void *>(image.data), image.stride_bytes);
-  if (image.format == SPHC_FORMAT_RGB8) {
-    bgr.resize(size_t{image.width} * image.height * 3);
-    uint8_t *out = bgr.data();
-    for (int y = 0; y < mat.rows; ++y)
-      for (const uint8_t *p = mat.ptr(y), *end = p + 3 * mat.cols; p < end; p += 3, out += 3) {
-        out[0] = p[2];
-        out[1] = p[1];
-        out[2] = p[0];
-      }
-    mat = cv::Mat(mat.rows, mat.cols, CV_8UC3, bgr.data());
-  }
-  if (!cv::imencode(".png", mat, encoded, {cv::IMWRITE_PNG_COMPRESSION, 1}))
-    throw Failure(SPHC_E_INTERNAL, "the image cannot be encoded as PNG");
-}
 
 void sphc_recording_writer::add(sphc_stream stream, int64_t time_ns, const sphc_image &image) {
   const bool is_color = stream == SPHC_STREAM_COLOR;
@@ -155,10 +88,10 @@ void sphc_recording_writer::add(sphc_stream stream, int64_t time_ns, const sphc_
   List &list = is_color ? color : depth;
   checkImage(image, is_color ? calibration.color_camera : calibration.depth_camera, is_color);
   list.checkTime(time_ns);
-  encode(image);
+  const ByteView png = encoder.png(image);
   char name[32];
   std::snprintf(name, sizeof name, "%s/%06u.png", is_color ? "rgb" : "depth", list.count());
-  writeFile(folder / name, encoded);
+  writeFile(folder / name, png);
   list.add(time_ns, name);
 }
 

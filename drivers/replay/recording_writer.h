@@ -1,4 +1,5 @@
-/* recording_writer.h - writes a recording that replay.h reads: the TUM layout with a calibration file.
+/* recording_writer.h - writes recordings of one file an image, which replay.h reads: the TUM layout with a
+ * calibration file, and frames of the 7-Scenes layout.  To record live, see recorder.h.
  *
  *     FOLDER/calibration.json
  *     FOLDER/rgb.txt, rgb/000000.png, ...      "seconds.nanoseconds rgb/000000.png" a line
@@ -46,6 +47,13 @@ sphc_status sphc_recording_add_pose(sphc_recording_writer *writer, int64_t time_
 
 /* Ends the recording and frees the writer.  Accepts null and pointer to null; sets *writer to null. [exclusive] */
 void sphc_recording_close(sphc_recording_writer **writer);
+
+/* Writes one frame of the 7-Scenes layout into `folder`, which is there: frame-NNNNNN.color.png, .depth.png and,
+ * unless `world_from_camera` (of the colour camera) is null, .pose.txt; NNNNNN is frame->sequence.  The layout
+ * keeps neither times nor a calibration.  Errors: ARGUMENT, STRUCT_SIZE, IMAGE, STATE (the frame is there already),
+ * DEVICE. [pure] */
+sphc_status sphc_recording_write_7scenes(const char *folder, const sphc_frame *frame,
+                                         const sphc_rigid *world_from_camera, sphc_message *message);
 
 #ifdef __cplusplus
 }

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "failure.h"
-#include "image_file.h"
+#include "image_reader.h"
 #include "player.h"
 #include "recording.h"
 
@@ -48,11 +48,15 @@ void checkConfig(const sphc_replay_config &config) {
   require(config.pose_gap_ns >= 0, "pose_gap_ns: is negative");
 }
 
-sphc_calibration readCalibration(const fs::path &folder, const char *path, sphc_message *message) {
+sphc_calibration readCalibration(const Recording &recording, const char *path, sphc_message *message) {
+  if (!path && recording.calibration.struct_size != 0) return recording.calibration;
+  if (!path && recording.layout == SPHC_REPLAY_MCAP)
+    throw Failure(SPHC_E_ARGUMENT, shortPath(recording.path.string()) +
+                                       ": no calibration in it; give a calibration file (docs/drivers.md)");
   sphc_calibration calibration;
   sphc_calibration_init(&calibration, sizeof calibration);
   sphc_message text{};
-  const std::string file = path ? path : (folder / "calibration.json").string();
+  const std::string file = path ? path : (recording.path / "calibration.json").string();
   const sphc_status status = sphc_calibration_read(file.c_str(), &calibration, message ? message : &text);
   if (status < 0) throw Failure(status, message ? message->text : text.text);
   return calibration;
@@ -83,10 +87,10 @@ sphc_status sphc_replay_config_init(sphc_replay_config *config, size_t struct_si
   return SPHC_OK;
 }
 
-sphc_status sphc_replay_open(const char *folder, const char *calibration_path, const sphc_replay_config *config,
+sphc_status sphc_replay_open(const char *path, const char *calibration_path, const sphc_replay_config *config,
                              sphc_replay **replay, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!folder || !replay) throw Failure(SPHC_E_ARGUMENT, "folder or replay is null");
+    if (!path || !replay) throw Failure(SPHC_E_ARGUMENT, "path or replay is null");
     sphc_replay_config chosen;
     sphc_replay_config_init(&chosen, sizeof chosen);
     if (config && config->struct_size != sizeof *config)
@@ -94,8 +98,8 @@ sphc_status sphc_replay_open(const char *folder, const char *calibration_path, c
                     "config.struct_size is none this library knows; use sphc_replay_config_init");
     if (config) chosen = *config;
     checkConfig(chosen);
-    Recording recording = openRecording(folder);
-    const sphc_calibration calibration = readCalibration(folder, calibration_path, message);
+    Recording recording = openRecording(path);
+    const sphc_calibration calibration = readCalibration(recording, calibration_path, message);
     selectFrames(chosen, recording);
     *replay = std::make_unique<sphc_replay>(std::move(recording), calibration, chosen).release();
     return SPHC_OK;
@@ -115,8 +119,11 @@ sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *in
   info->layout = recording.layout;
   info->color_count = static_cast<uint32_t>(recording.color.size());
   info->depth_count = static_cast<uint32_t>(recording.depth.size());
-  info->pose_count = static_cast<uint32_t>(recording.poses.size());
+  info->pose_count = static_cast<uint32_t>(recording.poses.poses().size());
   info->bad_pose_count = recording.bad_pose_count;
+  info->lost_count = recording.lost_count;
+  info->bad_chunk_count = recording.bad_chunk_count;
+  info->is_cut = recording.is_cut;
   return SPHC_OK;
 }
 
@@ -179,6 +186,16 @@ sphc_status sphc_replay_pose_at(const sphc_replay *replay, int64_t time_ns, sphc
   if (!replay || !world_from_camera) return SPHC_E_ARGUMENT;
   const bool found = replay->recording.poses.at(time_ns, replay->config.pose_gap_ns, *world_from_camera);
   return found ? SPHC_OK : SPHC_NOT_LOCALIZED;
+}
+
+sphc_status sphc_replay_recorded_pose(const sphc_replay *replay, uint32_t index, int64_t *time_ns,
+                                      sphc_rigid *world_from_camera) {
+  if (!replay || !time_ns || !world_from_camera) return SPHC_E_ARGUMENT;
+  const std::vector<TimedPose> &poses = replay->recording.poses.poses();
+  if (index >= poses.size()) return SPHC_E_ARGUMENT;
+  *time_ns = poses[index].time_ns;
+  *world_from_camera = poses[index].pose;
+  return SPHC_OK;
 }
 
 }  // extern "C"

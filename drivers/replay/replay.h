@@ -1,13 +1,13 @@
 /* replay.h - plays a recording of colour and depth images back, as a source or frame by frame.
  *
- * A recording is a folder in one of two layouts (docs/drivers.md):
- *   7-Scenes  frame-NNNNNN.color.{jpg,png}, frame-NNNNNN.depth.png, frame-NNNNNN.pose.txt; time = NNNNNN / 30 s
- *   TUM       rgb.txt, depth.txt, groundtruth.txt (optional); time as in these lists
- * and a calibration file, inside the folder (calibration.json) or elsewhere.
+ * A recording is one MCAP file, as recorder.h writes it (docs/recording.md), which holds its calibration, or a
+ * folder in one of two layouts (docs/drivers.md): 7-Scenes  frame-NNNNNN.color.{jpg,png}, frame-NNNNNN.depth.png,
+ * frame-NNNNNN.pose.txt; time = NNNNNN / 30 s TUM       rgb.txt, depth.txt, groundtruth.txt (optional); time as in
+ * these lists and a calibration file, inside the folder (calibration.json) or elsewhere.
  *
  *     sphc_replay_config config;
  *     sphc_replay_config_init(&config, sizeof config);
- *     sphc_replay_open(folder, NULL, &config, &replay, &message);
+ *     sphc_replay_open(path, NULL, &config, &replay, &message);
  *     sphc_replay_source(replay, &source);             either: two streams in order of time
  *     sphc_replay_read_frame(replay, i, &frame, ...);  or: frames of colour and depth by index
  *     sphc_replay_close(&replay);
@@ -61,12 +61,13 @@ sphc_status sphc_replay_config_init(sphc_replay_config *config, size_t struct_si
 
 /* ---- open, close -------------------------------------------------------------------------------------------- */
 
-/* Opens the recording in `folder`.  `calibration_path` null: calibration.json in the folder.  `config` null: the
- * defaults; it is copied.  No image is read yet.
- * Errors: ARGUMENT (null, config, contents of the calibration or of a list), STRUCT_SIZE, DEVICE (folder or file
- * cannot be read, or the folder holds no recording); each with file, place, cause and cure in the message. [pure]
+/* Opens the recording at `path`, a folder or a file.  `calibration_path` null: calibration.json in it.  `config`
+ * null: the defaults; it is copied.  No image is read yet; an MCAP file that was cut off is read through for its
+ * checksums. Errors: ARGUMENT (null, config, contents of the calibration or of a list), STRUCT_SIZE, DEVICE (folder
+ * or file cannot be read, or the folder holds no recording); each with file, place, cause and cure in the message.
+ * [pure]
  */
-sphc_status sphc_replay_open(const char *folder, const char *calibration_path, const sphc_replay_config *config,
+sphc_status sphc_replay_open(const char *path, const char *calibration_path, const sphc_replay_config *config,
                              sphc_replay **replay, sphc_message *message);
 /* Ends every loan and every borrowed image.  Accepts null and pointer to null; sets *replay to null. [exclusive] */
 void sphc_replay_close(sphc_replay **replay);
@@ -74,7 +75,7 @@ void sphc_replay_close(sphc_replay **replay);
 /* ---- what is in it ------------------------------------------------------------------------------------------ */
 
 typedef int32_t sphc_replay_layout;
-enum { SPHC_REPLAY_7SCENES = 1, SPHC_REPLAY_TUM = 2 };
+enum { SPHC_REPLAY_7SCENES = 1, SPHC_REPLAY_TUM = 2, SPHC_REPLAY_MCAP = 3 };
 
 typedef struct sphc_replay_info {
   uint32_t struct_size;
@@ -82,6 +83,9 @@ typedef struct sphc_replay_info {
   uint32_t color_count, depth_count; /* images chosen by the config */
   uint32_t pose_count;               /* usable poses of the whole recording */
   uint32_t bad_pose_count;           /* poses left out: not finite, or no rotation */
+  uint64_t lost_count;               /* MCAP: captures that the recording says it lost */
+  uint32_t bad_chunk_count;          /* MCAP: parts left out because their bytes have changed */
+  uint32_t is_cut;                   /* MCAP, 1: the end is missing, as after a power cut */
 } sphc_replay_info;
 /* Set info->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *info);
@@ -92,7 +96,8 @@ sphc_status sphc_replay_calibration(const sphc_replay *replay, sphc_calibration 
 
 /* Fills *source (struct_size too) with the contract of spherecloud.h; valid until sphc_replay_close.  A handle has
  * one source; a second call gives the same one.  Every start begins at the first chosen capture.  capture.time_ns
- * is the recorded time, capture.sequence the frame number (7-Scenes) or the place in the list (TUM): frames that
+ * is the recorded time, and so are clock, exposure and the rest where the recording knows them (clocks are those of
+ * the host that recorded), capture.sequence the frame number (7-Scenes) or the place in the list (TUM): frames that
  * the config leaves out show as gaps. acquire: E_DEVICE when an image is missing or corrupt, E_IMAGE when it does
  * not fit the calibration; source.message names the file, and the next acquire goes on behind it.  Errors:
  * ARGUMENT. [exclusive] */
@@ -127,6 +132,9 @@ sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_fra
 sphc_status sphc_replay_pose(const sphc_replay *replay, uint32_t index, sphc_rigid *world_from_camera);
 /* The same at any time. [shared] */
 sphc_status sphc_replay_pose_at(const sphc_replay *replay, int64_t time_ns, sphc_rigid *world_from_camera);
+/* Pose `index` of info.pose_count as it was recorded, in order of time.  Errors: ARGUMENT. [shared] */
+sphc_status sphc_replay_recorded_pose(const sphc_replay *replay, uint32_t index, int64_t *time_ns,
+                                      sphc_rigid *world_from_camera);
 
 #ifdef __cplusplus
 }

@@ -73,4 +73,14 @@ std::string formatSeconds(int64_t time_ns) {
   return text;
 }
 
+std::string formatNumbers(std::initializer_list<double> numbers) {
+  std::string line;
+  for (const double number : numbers) {
+    char text[32];
+    const std::to_chars_result end = std::to_chars(text, text + sizeof text, number);
+    line.append(line.empty() ? "" : " ").append(text, end.ptr);
+  }
+  return line;
+}
+
 }  // namespace sphc::replay

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -20,5 +21,8 @@ bool parseUnsigned(std::string_view field, uint32_t &value);
 bool parseSeconds(std::string_view field, int64_t &time_ns);
 // Its inverse for times >= 0: nine decimals.
 std::string formatSeconds(int64_t time_ns);
+
+// The shortest digits that bring back the same bits, with a space between numbers.
+std::string formatNumbers(std::initializer_list<double> numbers);
 
 }  // namespace sphc::replay

@@ -237,37 +237,47 @@ sphc_status Camera::checkAlive() {
 
 bool Camera::takeFrame(const FilledBuffer &filled, Loan *loan, sphc_capture *capture) {
   const int64_t arrival_ns = node_.nowNs();
-  const FrameCounter::Step step = counter_.step(filled.sequence, filled.time_ns);
-  stats_.lost += step.lost;
-  stats_.uncounted += step.kind == FrameCounter::Kind::Uncounted;
-  stats_.duplicated += step.kind == FrameCounter::Kind::Duplicate;
-  sphc_image image = {};
-  FrameClock::Stamp stamp = {};
-  bool is_good = step.kind != FrameCounter::Kind::Duplicate && isWhole(filled) && fillImage(filled, *loan, &image);
-  if (is_good) {
-    is_good = clock_.stamp(filled.time_ns, filled.flags, arrival_ns, &stamp);
-    stats_.time_refused += !is_good;
-    stats_.time_replaced += is_good && stamp.is_replaced;
-  }
+  sphc_capture taken = {};
+  const bool is_good = countFrame(filled, &taken) && isWhole(filled) && fillImage(filled, *loan, &taken.image) &&
+                       stampTime(filled, arrival_ns, &taken);
   if (!is_good || !is_zero_copy_) ring_.giveBack(filled.index);
   if (!is_good) return false;
-
   loan->token = ++last_token_;
-  loan->data = image.data;
+  loan->data = taken.image.data;
   loan->buffer = is_zero_copy_ ? filled.index : kNoBuffer;
   ++stats_.captured;
-  *capture = {};
-  capture->struct_size = sizeof *capture;
-  capture->stream = config_.stream;
-  capture->time_ns = stamp.time_ns;
-  capture->token = loan->token;
+  taken.struct_size = sizeof taken;
+  taken.stream = config_.stream;
+  taken.token = loan->token;
+  *capture = taken;
+  return true;
+}
+
+bool Camera::countFrame(const FilledBuffer &filled, sphc_capture *capture) {
+  const FrameCounter::Step step = counter_.step(filled.sequence, filled.time_ns);
   capture->sequence = step.sequence;
+  stats_.lost += step.lost;
+  stats_.uncounted += step.kind == FrameCounter::Kind::Uncounted;
+  if (step.kind != FrameCounter::Kind::Duplicate) return true;
+  ++stats_.duplicated;
+  explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: came before, with the same time", filled.sequence);
+  return false;
+}
+
+bool Camera::stampTime(const FilledBuffer &filled, int64_t arrival_ns, sphc_capture *capture) {
+  FrameClock::Stamp stamp;
+  if (!clock_.stamp(filled.time_ns, filled.flags, arrival_ns, &stamp)) {
+    ++stats_.time_refused;
+    explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: no later than the last one", filled.sequence);
+    return false;
+  }
+  stats_.time_replaced += stamp.is_replaced;
+  capture->time_ns = stamp.time_ns;
   capture->time_point = stamp.time_point;
-  capture->image = image;
-  capture->arrival_ns = arrival_ns;
   capture->exposure_us = stamp.exposure_us;
   capture->time_sigma_us = stamp.time_sigma_us;
   capture->clock = SPHC_CLOCK_MONOTONIC;
+  capture->arrival_ns = arrival_ns;
   return true;
 }
 

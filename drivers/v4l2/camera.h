@@ -53,6 +53,9 @@ class Camera {
   sphc_status checkAlive();
   // False: the frame is no good; it was counted.
   bool takeFrame(const FilledBuffer &filled, Loan *loan, sphc_capture *capture);
+  // Steps of it; each fills its part of the capture.
+  bool countFrame(const FilledBuffer &filled, sphc_capture *capture);
+  bool stampTime(const FilledBuffer &filled, int64_t arrival_ns, sphc_capture *capture);
   bool isWhole(const FilledBuffer &filled);
   bool fillImage(const FilledBuffer &filled, const Loan &loan, sphc_image *image);
   bool convertInto(const FilledBuffer &filled, const pixels::OutImage &out);

@@ -13,7 +13,7 @@ constexpr int64_t kMillisecondNs = 1000000;
 constexpr int64_t kMaxPeriodNs = 60000 * kMillisecondNs;
 // uvcvideo stamps the first packet of a frame, so before stream-on is not possible; vivid's lie up to 29 ms ahead.
 constexpr int64_t kBeforeStartNs = 100 * kMillisecondNs, kFutureNs = 100 * kMillisecondNs;
-constexpr uint32_t kKnownSigmaUs = 1000;  // of a start of exposure as the host sees it
+constexpr uint32_t kLeastSigmaUs = 1000;  // of any time that the host takes
 
 }  // namespace
 
@@ -28,9 +28,11 @@ FrameClock::Stamp FrameClock::ofDevice(int64_t device_time_ns, bool is_end) cons
   const uint32_t half_of_unknown_us = static_cast<uint32_t>(static_cast<double>(period_ns_) / 3464.1);
   if (exposure_us_ == 0)
     return {device_time_ns, is_end ? SPHC_TIME_END : SPHC_TIME_START, 0, half_of_unknown_us, false};
+  // uvcvideo says "start" of the first packet's arrival, which for many cameras is the end: an exposure apart.
+  const uint32_t start_sigma_us = std::max(exposure_us_, kLeastSigmaUs);
   const int64_t half_ns = int64_t{exposure_us_} * 500;
   return {device_time_ns + (is_end ? -half_ns : half_ns), SPHC_TIME_MIDDLE, exposure_us_,
-          is_end ? half_of_unknown_us : kKnownSigmaUs, false};
+          is_end ? half_of_unknown_us : start_sigma_us, false};
 }
 
 FrameClock::Stamp FrameClock::ofArrival(int64_t arrival_ns) const {

@@ -1,7 +1,9 @@
 /* The public headers are C. */
 #include "drivers/libcamera/libcamera.h"
 #include "drivers/libcamera/plugin.h"
+#include "drivers/openni2/openni2.h"
 #include "drivers/replay/calibration.h"
+#include "drivers/replay/recorder.h"
 #include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sample/sample.h"

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <numeric>
 #include <set>
@@ -364,6 +365,62 @@ TEST_P(DriverContract, ComesBackWithinTheTimeout) {
     EXPECT_TRUE(status == SPHC_OK || status == SPHC_AGAIN) << status;
     if (status == SPHC_OK) release(capture);
   }
+}
+
+TEST_P(DriverContract, SaysAgainWhileNothingComes) {
+  if (!opened_.stall) GTEST_SKIP() << "cannot stall";
+  ASSERT_EQ(start(), SPHC_OK);
+  forEachCapture(2, [](const sphc_capture &) {});
+  opened_.stall();
+  sphc_capture capture = emptyCapture();
+  sphc_status status = SPHC_OK;
+  for (int on_their_way = 0; status == SPHC_OK && on_their_way < 64; ++on_their_way) {
+    status = opened_.source.acquire(opened_.source.self, kTimeoutUs, &capture);
+    if (status == SPHC_OK) release(capture);
+  }
+  EXPECT_EQ(status, SPHC_AGAIN) << message();
+}
+
+TEST_P(DriverContract, IsLostOnceUnplugged) {
+  if (!opened_.unplug) GTEST_SKIP() << "cannot be unplugged";
+  ASSERT_EQ(start(), SPHC_OK);
+  sphc_capture kept = emptyCapture();
+  ASSERT_EQ(acquire(&kept), SPHC_OK) << message();
+  const uint64_t sum = checksum(kept.image);
+  opened_.unplug();
+  sphc_capture capture = emptyCapture();
+  sphc_status status = SPHC_OK;
+  for (int on_their_way = 0; status == SPHC_OK && on_their_way < 64; ++on_their_way) {
+    status = acquire(&capture);
+    if (status == SPHC_OK) release(capture);
+  }
+  EXPECT_EQ(status, SPHC_E_DEVICE_LOST) << message();
+  EXPECT_STRNE(message(), "");
+  EXPECT_EQ(acquire(&capture), SPHC_E_DEVICE_LOST) << "and stays so";
+  EXPECT_EQ(checksum(kept.image), sum) << "a loan goes on until its release";
+  release(kept);
+  stop();
+  EXPECT_LT(start(), 0) << "only opening helps";
+}
+
+// Of this process.
+size_t threadsAndFiles() {
+  const auto entries = [](const char *folder) {
+    return std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator());
+  };
+  return static_cast<size_t>(entries("/proc/self/task") + entries("/proc/self/fd"));
+}
+
+TEST_P(DriverContract, LeavesNoThreadAndNoFileBehind) {
+  opened_ = {};
+  const size_t before = threadsAndFiles();
+  for (int i = 0; i < 3; ++i) {
+    opened_ = GetParam().open();
+    ASSERT_EQ(start(), SPHC_OK);
+    forEachCapture(2, [](const sphc_capture &) {});
+    opened_ = {};
+  }
+  EXPECT_EQ(threadsAndFiles(), before);
 }
 
 TEST_P(DriverContract, RunsBesideAnotherOfItsKind) {

@@ -17,13 +17,14 @@ struct OpenCamera {
 
 OpenedDriver openFake(test::FakeCamera fake, sphc_v4l2_config config) {
   auto opened = std::make_shared<OpenCamera>();
-  opened->kernel.plugIn(0, std::move(fake));
+  const auto camera = opened->kernel.plugIn(0, std::move(fake));
   config.width = kWidth;
   config.height = kHeight;
   sphc_message message = {};
   if (v4l2::openCamera(opened->kernel.syscalls(), "/dev/video0", &config, &opened->camera, &message) < 0)
     throw std::runtime_error(message.text);
-  OpenedDriver driver{{}, opened};
+  OpenedDriver driver{
+      {}, opened, [kernel = &opened->kernel] { kernel->unplug(0); }, [camera] { camera->is_stalled = true; }};
   sphc_v4l2_source(opened->camera, &driver.source);
   return driver;
 }

@@ -15,6 +15,8 @@ namespace sphc::contract {
 struct OpenedDriver {
   sphc_source source;
   std::shared_ptr<void> handle;  // closes the driver when the last copy goes
+  // Where there is a device that can be pulled out, or made to send nothing.
+  std::function<void()> unplug = nullptr, stall = nullptr;
 };
 
 struct Driver {
@@ -22,7 +24,7 @@ struct Driver {
   std::function<OpenedDriver()> open;
   uint32_t captures_until_end = 0;  // 0: endless
   bool opens_twice = true;          // two at the same time; a real device cannot
-  uint32_t streams = 2;             // that it gives
+  uint32_t streams = 2;             // that come; a camera of colour or depth alone has one
 };
 inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
 

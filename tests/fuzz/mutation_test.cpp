@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#ifdef SPHC_FUZZ_CALIBRATION
+#ifdef SPHC_FUZZ_RECORDINGS
 #include "drivers/replay/calibration.h"
 #endif
 #include "runtime/base/random.h"
@@ -62,11 +62,14 @@ void walk(const char *name, int runs) {
 TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Align) { walk("align", 3000); }
+TEST(Mutations, Recording) { walk("recording", 3000); }
+TEST(Mutations, Message) { walk("message", 20000); }
+TEST(Mutations, Rvl) { walk("rvl", 20000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
 TEST(Mutations, V4l2) { walk("v4l2", 5000); }
 
-#ifdef SPHC_FUZZ_CALIBRATION
+#ifdef SPHC_FUZZ_RECORDINGS
 TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key
   const std::vector<Target> targets = allTargets();
   const Target &target = *std::find_if(targets.begin(), targets.end(),

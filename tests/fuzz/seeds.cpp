@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "tests/fuzz/recording_seeds.h"
 #include "tests/fuzz/targets.h"
 #ifdef SPHC_FUZZ_CAMERAS
 #include "tests/support/jpeg_frame.h"
@@ -48,7 +49,7 @@ std::vector<uint8_t> alignSeed(sphc_camera_model model, const std::vector<double
   return seed;
 }
 
-#ifdef SPHC_FUZZ_CALIBRATION
+#ifdef SPHC_FUZZ_RECORDINGS
 const char *const kCalibration = R"({
   "format": "spherecloud-calibration",
   "version": 1,
@@ -78,7 +79,10 @@ std::vector<Target> allTargets() {
        {alignSeed(SPHC_CAMERA_PINHOLE, {}), alignSeed(SPHC_CAMERA_BROWN5, {0.1, -0.05, 0.001, 0, 0}),
         alignSeed(SPHC_CAMERA_BROWN8, {0.1, 0, 0, 0, 0, 0.1, 0, 0}),
         alignSeed(SPHC_CAMERA_KANNALA_BRANDT4, {0.02, -0.01, 0, 0})}}};
-#ifdef SPHC_FUZZ_CALIBRATION
+#ifdef SPHC_FUZZ_RECORDINGS
+  targets.push_back({"recording", recording, recordingSeeds()});
+  targets.push_back({"message", message, messageSeeds()});
+  targets.push_back({"rvl", rvl, rvlSeeds()});
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
 #endif
 #ifdef SPHC_FUZZ_CAMERAS

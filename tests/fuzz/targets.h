@@ -13,6 +13,12 @@ void map(const uint8_t *data, size_t bytes);
 void frame(const uint8_t *data, size_t bytes);
 // An aligner's config, then pixels of a depth image.
 void align(const uint8_t *data, size_t bytes);
+// A recording in one file; when it is accepted, images are read from it.
+void recording(const uint8_t *data, size_t bytes);
+// The kind of an image message of a recording, then the message.
+void message(const uint8_t *data, size_t bytes);
+// A depth image in RVL.
+void rvl(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
 // A frame of Motion JPEG.

@@ -41,6 +41,8 @@ int main() {
   std::printf("any,map view,all,%zu\n", bytes);
   sphc_pairer_memory(&bytes, &alignment);
   std::printf("any,pairer,all,%zu\n", bytes);
+  sphc_clock_mapper_memory(&bytes, &alignment);
+  std::printf("any,clock mapper,all,%zu\n", bytes);
   sphc_aligner_config aligner;
   sphc_aligner_config_init(&aligner, sizeof aligner);
   aligner.color_camera = aligner.depth_camera = sphc::test::pinhole(640, 480, 500);

@@ -96,12 +96,14 @@ class Recording:
                 every_other_block(self.folder, self.workdir / (self.name + part), self.spec["block"], remainder)
         return True
 
-    def source(self, part):
+    def place(self, part):
         """part: "map" or "query"."""
         folder = self.workdir / (self.name + part) if "block" in self.spec else self.folder
         calibration = HERE / "calibration" / (self.spec.get("folder", "").split("/")[0] + ".json")
-        return (["--recording", folder] + (["--calibration", calibration] if "folder" in self.spec else [])
-                + (frames(self.spec[part]) if part in self.spec else []))
+        return ["--recording", folder] + (["--calibration", calibration] if "folder" in self.spec else [])
+
+    def source(self, part):
+        return self.place(part) + (frames(self.spec[part]) if part in self.spec else [])
 
     def map(self, eta):
         """The map file and what its builder says, made once."""

@@ -39,7 +39,7 @@ def call(tool, *arguments):
 def maps(tool, run, out):
     recording, foreign = (Recording(run[key], tool, out) for key in ("recording", "foreign"))
     wanted = [option for points in run["points"] for option in ("--points", points)]
-    call(tool, "map", *recording.source, *frames(RECORDINGS[run["recording"]]["map"]), *wanted, "--eta", ETA, "--foreign",
+    call(tool, "map", *recording.place("map"), *frames(RECORDINGS[run["recording"]]["map"]), *wanted, "--eta", ETA, "--foreign",
          foreign.folder, "--foreign-calibration", HERE / "calibration" / (foreign.name + ".json"), "--out", out)
     return [option for points in run["points"] for option in ("--map", out / ("map_%d.sphc" % points))]
 
@@ -51,7 +51,7 @@ def measure(tool, python, name, out):
               for option in frames(RECORDINGS[run["recording"]]["map"])]
     only = [option for variant in run.get("ours", OURS) + run["peers"] for option in ("--only", variant)]
     part = out / "ledger.csv"
-    call(tool, "frame", *recording.source, *frames(run["query"]), *maps(tool, run, out), *mapped, *only, "--name", name,
+    call(tool, "frame", *recording.place("query"), *frames(run["query"]), *maps(tool, run, out), *mapped, *only, "--name", name,
          "--python", python, "--out", out, "--ledger", part)
     return part.read_text().splitlines()
 

@@ -82,8 +82,7 @@ sphc_camera pinhole(uint32_t width, uint32_t height, double focal_px) {
   return {SPHC_CAMERA_PINHOLE, width, height, 4, {focal_px, focal_px, width / 2.0, height / 2.0}};
 }
 
-Rigid sceneViewpoint(uint32_t i) {
-  const double step = i;
+Rigid sceneViewpoint(double step) {
   Rigid world_from_camera;
   world_from_camera.rotation = rotationFromVector(Vector3(0.02 * step, -0.04 * step + 0.05, 0.015 * step));
   world_from_camera.translation_m = Vector3(0.05 * step - 0.1, -0.02 * step, 0.04 * step);

@@ -18,7 +18,7 @@ SceneImages renderScene(const sphc_camera &color, const sphc_camera &depth, cons
                         const Rigid &color_from_depth, uint32_t room = 0);
 
 sphc_camera pinhole(uint32_t width, uint32_t height, double focal_px);
-// The i-th of a row of nearby viewpoints.
-Rigid sceneViewpoint(uint32_t i);
+// The i-th of a row of nearby viewpoints; those between lie on the way.
+Rigid sceneViewpoint(double i);
 
 }  // namespace sphc::test

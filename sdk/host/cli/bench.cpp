@@ -12,6 +12,7 @@
 #include "host/cli/bench_frame.h"
 #include "host/cli/bench_map.h"
 #include "host/cli/bench_match.h"
+#include "host/cli/bench_recording.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -202,7 +203,8 @@ std::vector<Command> benchCommands(CLI::App *root) {
       "  spherecloud bench confidence FILE...\n  spherecloud bench features --recording DIR\n"
       "  spherecloud bench match --recording DIR --query-first N\n"
       "  spherecloud bench frame --recording DIR --map FILE...\n"
-      "  spherecloud bench map --recording DIR --points N... --out DIR");
+      "  spherecloud bench map --recording DIR --points N... --out DIR\n"
+      "  spherecloud bench recording --recording DIR");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
   CLI::App *app = bench->add_subcommand("pose");
@@ -215,7 +217,8 @@ std::vector<Command> benchCommands(CLI::App *root) {
           benchFeaturesCommand(bench),
           benchMatchCommand(bench),
           benchFrameCommand(bench),
-          benchMapCommand(bench)};
+          benchMapCommand(bench),
+          benchRecordingCommand(bench)};
 }
 
 }  // namespace sphc::host

@@ -16,6 +16,7 @@ struct Command {
 Command simulateCommand(CLI::App *root);
 Command buildCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
+Command convertCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
 Command infoCommand(CLI::App *root);
 std::vector<Command> benchCommands(CLI::App *root);

@@ -16,11 +16,11 @@ std::string ordinal(uint32_t n) {
 
 void addRecordingOptions(CLI::App *app, RecordingOptions *options) {
   const char *group = "Recording";
-  app->add_option("-r,--recording", options->folder, "Folder of the recording (7-Scenes or TUM layout)")
+  app->add_option("-r,--recording", options->folder, "Recording: a folder (7-Scenes or TUM layout) or a .mcap file")
       ->required()
-      ->type_name("DIR")
+      ->type_name("PATH")
       ->group(group);
-  app->add_option("-c,--calibration", options->calibration, "Calibration file [DIR/calibration.json]")
+  app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")
       ->type_name("FILE")
       ->group(group);
   app->add_option("--first", options->first, "Number of the first frame [0]")->type_name("N")->group(group);

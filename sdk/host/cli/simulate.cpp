@@ -3,12 +3,12 @@
 #include <cmath>
 #include <memory>
 
-#include "drivers/replay/recording_writer.h"
 #include "drivers/simulated/simulated.h"
 #include "host/cli/command.h"
 #include "host/cli/door.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
+#include "host/cli/recording_out.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -23,11 +23,7 @@ struct Options {
 struct SimulatedCloser {
   void operator()(sphc_simulated *simulated) const { sphc_simulated_close(&simulated); }
 };
-struct WriterCloser {
-  void operator()(sphc_recording_writer *writer) const { sphc_recording_close(&writer); }
-};
 using Simulated = std::unique_ptr<sphc_simulated, SimulatedCloser>;
-using Writer = std::unique_ptr<sphc_recording_writer, WriterCloser>;
 
 Simulated openHeadset(const Options &options) {
   sphc_simulated_config config = options.config;
@@ -41,7 +37,7 @@ Simulated openHeadset(const Options &options) {
   return Simulated(simulated);
 }
 
-Writer createRecording(const std::string &folder, const sphc_simulated *simulated) {
+sphc_calibration calibrationOf(const sphc_simulated *simulated) {
   sphc_calibration calibration;
   orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
   orThrow("cameras", [&](sphc_message *) {
@@ -49,25 +45,19 @@ Writer createRecording(const std::string &folder, const sphc_simulated *simulate
                                   &calibration.color_from_depth);
   });
   calibration.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
-  sphc_recording_writer *writer = nullptr;
-  orThrow("cannot start the recording in " + folder, [&](sphc_message *message) {
-    return sphc_recording_create(folder.c_str(), &calibration, &writer, message);
-  });
-  return Writer(writer);
+  return calibration;
 }
 
 // One capture to disk, with the exact pose when it is a colour image.
-void keep(const sphc_capture &capture, const sphc_simulated *simulated, sphc_recording_writer *writer) {
-  orThrow("cannot write an image",
-          [&](sphc_message *message) { return sphc_recording_add(writer, &capture, message); });
+void keep(const sphc_capture &capture, const sphc_simulated *simulated, RecordingOut *out) {
+  out->add(capture);
   if (capture.stream != SPHC_STREAM_COLOR) return;
   sphc_rigid pose;
   orThrow("pose", [&](sphc_message *) { return sphc_simulated_pose_at(simulated, capture.time_ns, &pose); });
-  orThrow("cannot write a pose",
-          [&](sphc_message *message) { return sphc_recording_add_pose(writer, capture.time_ns, &pose, message); });
+  out->addPose(capture.time_ns, pose);
 }
 
-void record(sphc_simulated *simulated, sphc_recording_writer *writer) {
+void record(sphc_simulated *simulated, RecordingOut *out) {
   sphc_source source = {};
   source.struct_size = sizeof source;
   orThrow("source", [&](sphc_message *) { return sphc_simulated_source(simulated, &source); });
@@ -82,7 +72,7 @@ void record(sphc_simulated *simulated, sphc_recording_writer *writer) {
   sphc_capture capture = {};
   capture.struct_size = sizeof capture;
   while (check(source.acquire(source.self, 0, &capture)) != SPHC_END) {
-    keep(capture, simulated, writer);
+    keep(capture, simulated, out);
     if (capture.stream == SPHC_STREAM_DEPTH) bar.show(capture.sequence + 1, total);
     source.release(source.self, &capture);
   }
@@ -103,9 +93,9 @@ void tellNext(const Options &options, const Console &console) {
 int simulate(const Options &options, const Console &console) {
   const auto start = std::chrono::steady_clock::now();
   const Simulated simulated = openHeadset(options);
-  Writer writer = createRecording(options.out, simulated.get());
-  record(simulated.get(), writer.get());
-  writer.reset();
+  const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
+  record(simulated.get(), out.get());
+  out->close();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   console.say("Recorded " + std::to_string(options.config.frame_count) + " frames to " + options.out + " in " +
               fixed(seconds, 1) + " s: colour, depth, calibration and exact poses.");
@@ -126,14 +116,16 @@ const char kExample[] =
     "Example:\n"
     "  spherecloud simulate --out walk            200 frames, two laps of 100\n"
     "  spherecloud simulate --out walk30 --frames 960 --rate 30 --seed 7\n"
-    "What comes out: a folder in the TUM layout, with calibration.json, rgb/, depth/ and groundtruth.txt.\n"
+    "  spherecloud simulate --out walk.mcap       the same in one file\n"
+    "What comes out: a folder in the TUM layout, with calibration.json, rgb/, depth/ and groundtruth.txt; or one\n"
+    "MCAP file with all of that.\n"
     "The same options give the same bytes on every machine.";
 
 void addOptions(CLI::App *app, Options *options) {
   sphc_simulated_config &config = options->config;
-  app->add_option("-o,--out", options->out, "Folder to make; must not hold a recording yet")
+  app->add_option("-o,--out", options->out, "Folder to make, or file X.mcap; must not be a recording yet")
       ->required()
-      ->type_name("DIR");
+      ->type_name("PATH");
   app->add_option("--frames", config.frame_count, "How many frames")->capture_default_str()->type_name("N");
   app->add_option("--rate", config.frame_rate_hz, "Frames a second")->capture_default_str()->type_name("HZ");
   app->add_option("--lap", config.lap_s, "Seconds for a lap around the room")

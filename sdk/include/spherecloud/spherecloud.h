@@ -187,9 +187,9 @@ typedef struct sphc_prior {
   /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
   double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
   double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
-  /* ODOMETRY: the device's own dead reckoning, in a frame of its own that may drift.  Used in SPHC_MODE_TRACKING,
-   * from frame to frame: it predicts better than constant velocity, and lets frames that show too little be put
-   * together. */
+  /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
+   * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
+   * little be put together, and takes depth to the time of the colour image. */
   sphc_rigid odometry_from_camera;
   double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
   double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */
@@ -515,6 +515,10 @@ typedef struct sphc_capture {
   uint32_t reserved;
 } sphc_capture;
 
+/* The middle of a capture's exposure, as far as it tells: time_ns moved by half of exposure_us where time_point is
+ * START or END.  Saturates.  0 for null. [pure] */
+SPHC_API int64_t sphc_capture_middle_ns(const sphc_capture *capture);
+
 /* Filled by a driver; the functions take its `self`.  States: stopped (after opening) -> start -> running -> stop
  * -> stopped, any number of times.  All [exclusive] per source. */
 typedef struct sphc_source {
@@ -545,6 +549,25 @@ typedef struct sphc_pairer_config {
   int64_t tolerance_ns; /* pair only when the mid-exposure times differ by at most this */
 } sphc_pairer_config;
 
+/* Why a capture found no partner. */
+typedef int32_t sphc_drop;
+enum {
+  SPHC_DROP_NONE = 0,
+  SPHC_DROP_TOO_FAR = 1,   /* none within the tolerance */
+  SPHC_DROP_OVERTAKEN = 2, /* another one of its stream fits better */
+  SPHC_DROP_FULL = 3,      /* the other stream is silent and the slots are full */
+  SPHC_DROP_ENDED = 4      /* left over at sphc_pairer_flush */
+};
+
+/* What a pairer has done since sphc_pairer_init. */
+typedef struct sphc_pairer_counts {
+  uint32_t struct_size;
+  sphc_drop last_drop; /* why the last capture was dropped */
+  uint64_t pairs;
+  uint64_t too_far, overtaken, full, ended; /* dropped, of both streams */
+  uint64_t color_lost, depth_lost;          /* never came: gaps in `sequence` */
+} sphc_pairer_counts;
+
 /* A time-matched pair.  Both captures are out on loan to the caller, who releases them to their source after use.
  */
 typedef struct sphc_pair {
@@ -563,7 +586,9 @@ SPHC_API sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const s
                                       sphc_pairer **pairer, sphc_message *message);
 SPHC_API void sphc_pairer_fini(sphc_pairer **pairer); /* [exclusive] */
 /* Gives the pairer one capture (a copy; the loan goes with it).  Call sphc_pairer_pop until SPHC_AGAIN after each
- * push. SPHC_E_CAPACITY: its stream's slots are full; pop first (drops come out there). [exclusive] */
+ * push.  Captures are paired by sphc_capture_middle_ns.  SPHC_E_CAPACITY: its stream's slots are full; pop first
+ * (drops come out there).  SPHC_E_ARGUMENT: earlier than the one before it, or on another clock than the first
+ * capture (sphc_clock_mapper brings times to one clock). [exclusive] */
 SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture);
 /* SPHC_OK: *pair is the oldest pair, and *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing
  * more until the next push.  SPHC_AGAIN with another dropped->stream: a capture that can no longer find a partner
@@ -571,6 +596,50 @@ SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *c
 SPHC_API sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_pair *pair, sphc_capture *dropped);
 /* Ends the input: every capture still held comes out of sphc_pairer_pop as a pair or a drop. [exclusive] */
 SPHC_API void sphc_pairer_flush(sphc_pairer *pairer);
+/* Set counts->struct_size first. [exclusive] */
+SPHC_API sphc_status sphc_pairer_get_counts(const sphc_pairer *pairer, sphc_pairer_counts *counts);
+
+/* ---- clock mapper: times of a device's clock on the host's; pure, no device ---- */
+
+typedef struct sphc_clock_mapper_config {
+  uint32_t struct_size;
+  uint32_t max_drift_ppm; /* the clocks differ by no more, parts per million; 1 to 10000 */
+  int64_t window_ns;      /* what lies further back is forgotten; 1 s to 1 h */
+  int64_t delay_ns;       /* from a source time to its arrival, at the least: exposure, readout, transfer */
+  int64_t delay_sigma_ns; /* of delay_ns, 1 sigma; at least 0 */
+  int64_t jump_ns;        /* a larger step is a clock that was set, and starts anew; at least 1 */
+} sphc_clock_mapper_config;
+
+/* host time = source time + offset, the offset growing by drift_ppm. */
+typedef struct sphc_clock_mapping {
+  uint32_t struct_size;
+  uint32_t samples;  /* since the last start; 2^32 - 1 at most */
+  uint32_t restarts; /* clocks that were set or ran backwards */
+  uint32_t reserved;
+  int64_t offset_ns; /* at the last sample */
+  double drift_ppm;
+  int64_t sigma_ns; /* of mapped times, 1 sigma: scatter of the quickest arrivals, and delay_sigma_ns */
+} sphc_clock_mapping;
+
+typedef struct sphc_clock_mapper sphc_clock_mapper;
+/* Defaults: 200 ppm, 20 s, delay 0 +- 1 ms, jump 50 ms. [pure] */
+SPHC_API sphc_status sphc_clock_mapper_config_init(sphc_clock_mapper_config *config, size_t struct_size);
+SPHC_API sphc_status sphc_clock_mapper_memory(size_t *bytes, size_t *alignment); /* [pure] */
+/* `config` is copied. Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
+SPHC_API sphc_status sphc_clock_mapper_init(void *memory, size_t memory_bytes,
+                                            const sphc_clock_mapper_config *config, sphc_clock_mapper **mapper,
+                                            sphc_message *message);
+SPHC_API void sphc_clock_mapper_fini(sphc_clock_mapper **mapper); /* [exclusive] */
+/* One source time and when it arrived by the host's clock, in the order of arrival.  Arrivals are late by a varying
+ * time, never early: the line below all of them is the mapping (Moon, Skelly, Towsley 1999).  SPHC_AGAIN: a clock
+ * was set or ran backwards; all before is forgotten. [exclusive] */
+SPHC_API sphc_status sphc_clock_mapper_add(sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t arrival_ns);
+/* *host_time_ns of a source time.  SPHC_AGAIN: no sample yet.  SPHC_E_ARGUMENT: more than an hour from the last
+ * sample. [exclusive] */
+SPHC_API sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t source_time_ns,
+                                           int64_t *host_time_ns);
+/* Set mapping->struct_size first.  SPHC_AGAIN: no sample yet. [exclusive] */
+SPHC_API sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping);
 
 #ifdef __cplusplus
 }

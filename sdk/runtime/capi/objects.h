@@ -3,6 +3,7 @@
 #include "runtime/localizer/localizer.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/align/dense.h"
+#include "runtime/stages/capture/clock_mapper.h"
 #include "runtime/stages/capture/pairer.h"
 
 struct sphc_map {
@@ -22,4 +23,8 @@ struct alignas(sphc::kArenaAlignment) sphc_aligner {
 
 struct sphc_pairer {
   sphc::Pairer pairer;
+};
+
+struct sphc_clock_mapper {
+  sphc::ClockMapper mapper;
 };

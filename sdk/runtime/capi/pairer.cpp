@@ -3,6 +3,7 @@
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
 #include "runtime/capi/objects.h"
+#include "runtime/stages/capture/middle.h"
 
 sphc_status sphc_pairer_config_init(sphc_pairer_config *config, size_t struct_size) {
   if (!config) return SPHC_E_ARGUMENT;
@@ -55,6 +56,16 @@ sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_pair *pair, sphc_capture *
   if (!pairer || !pair || !dropped) return SPHC_E_ARGUMENT;
   if (pair->struct_size != sizeof(sphc_pair)) return SPHC_E_STRUCT_SIZE;
   return pairer->pairer.pop(pair, dropped);
+}
+
+int64_t sphc_capture_middle_ns(const sphc_capture *capture) { return capture ? sphc::middleNs(*capture) : 0; }
+
+sphc_status sphc_pairer_get_counts(const sphc_pairer *pairer, sphc_pairer_counts *counts) {
+  if (!pairer || !counts) return SPHC_E_ARGUMENT;
+  if (counts->struct_size != sizeof(sphc_pairer_counts)) return SPHC_E_STRUCT_SIZE;
+  *counts = pairer->pairer.counts();
+  counts->struct_size = sizeof *counts;
+  return SPHC_OK;
 }
 
 void sphc_pairer_flush(sphc_pairer *pairer) {

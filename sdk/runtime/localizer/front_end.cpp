@@ -64,10 +64,11 @@ void FrontEnd::extract(const sphc_image &color) {
   lifted_count_ = 0;
 }
 
-void FrontEnd::lift(const sphc_image &depth) {
+void FrontEnd::lift(const sphc_image &depth, const Rigid &color_from_depth) {
   const ImageView<uint16_t> view = {static_cast<const uint16_t *>(depth.data), static_cast<int32_t>(depth.width),
                                     static_cast<int32_t>(depth.height),
                                     static_cast<int32_t>(depth.stride_bytes / 2)};
+  aligner_.setPose(color_from_depth);
   aligner_.prepare(view);
   lifted_count_ = 0;
   for (uint32_t k = 0; k < keypoint_count_; ++k) {

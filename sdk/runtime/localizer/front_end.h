@@ -13,8 +13,9 @@ class FrontEnd {
   void init(const sphc_config &config);
 
   void extract(const sphc_image &color);
-  // After extract.  Those with depth come first from then on, then those without.
-  void lift(const sphc_image &depth);
+  // After extract.  Those with depth come first from then on, then those without.  `color_from_depth`: the cameras
+  // at the time of each one's image.
+  void lift(const sphc_image &depth, const Rigid &color_from_depth);
 
   uint32_t keypointCount() const { return keypoint_count_; }
   uint32_t liftedCount() const { return lifted_count_; }

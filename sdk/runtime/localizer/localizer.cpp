@@ -108,15 +108,15 @@ void Localizer::process(const sphc_frame &frame, sphc_result *result) {
   recordDepth(result);
   front_.extract(frame.color);
   const int64_t extracted = now();
-  front_.lift(frame.depth);
+  const Known known = knownFromDoor(isPaper() ? nullptr : frame.prior);
+  if (tracks()) advance(frame, known);
+  front_.lift(frame.depth, colorFromDepth(frame));
   const int64_t aligned = now();
 
   kept_ = {};
   samples_ = 0;
   match_ns_ = 0;
   match_count_ = ray_match_count_ = 0;
-  const Known known = knownFromDoor(isPaper() ? nullptr : frame.prior);
-  if (tracks()) advance(frame, known);
   if (front_.keypointCount() < kFewestKeypoints) {
     kept_.look.outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
   } else if (front_.liftedCount() < kFewestLifted) {
@@ -144,6 +144,14 @@ void Localizer::advance(const sphc_frame &frame, const Known &known) {
     history_.advance(step, rotation_sigma_rad, translation_sigma_m);
   else
     history_.clear();
+}
+
+// The camera moves between the two exposures; odometry tells how.
+Rigid Localizer::colorFromDepth(const sphc_frame &frame) const {
+  const Rigid color_from_depth = rigidFromDoor(config_.color_from_depth);
+  Rigid moved;
+  if (!tracks() || frame.depth_time_ns == frame.color_time_ns) return color_from_depth;
+  return tracker_.motionSince(frame.depth_time_ns, &moved) ? moved * color_from_depth : color_from_depth;
 }
 
 void Localizer::locate(const Known &known, const Deadline &deadline) {

@@ -58,6 +58,7 @@ class Localizer {
   using Caps = Span<const double>;
 
   void advance(const sphc_frame &frame, const Known &known);
+  Rigid colorFromDepth(const sphc_frame &frame) const;
   void locate(const Known &known, const Deadline &deadline);
   void consider(const Look &look);
   bool isDone(const Deadline &deadline) const;

@@ -10,6 +10,7 @@ constexpr double kTurnAcceleration = 6, kAcceleration = 4;           // rad / s^
 constexpr double kTurnRate = 1, kSpeed = 0.7;                        // rad / s, m / s
 constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: a pose is never better known
 constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
+constexpr uint64_t kNearNs = 100000000;                              // beside a frame, motion is steady for so long
 constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
 constexpr double kGateSigmas = 5;
 
@@ -40,6 +41,7 @@ Vector3 vectorFromRotation(const Matrix3 &rotation) {
 void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
   const bool follows = begun_ && time_ns > time_ns_ && elapsedNs(time_ns_, time_ns) <= kForgetNs;
   if (!follows) reset();
+  step_ns_ = follows ? elapsedNs(time_ns_, time_ns) : 0;
   has_step_ = follows && has_odometry_ && odometry;
   if (has_step_) {
     step_ = odometry->odometry_from_camera.inverse() * odometry_.odometry_from_camera;
@@ -61,6 +63,18 @@ bool Tracker::step(Rigid *now_from_before, double *rotation_sigma_rad, double *t
   *rotation_sigma_rad = odometry_.rotation_sigma_rad;
   *translation_sigma_m = odometry_.translation_sigma_m;
   return has_step_;
+}
+
+// Turns and moves at the rate of the last step; the camera's centre in a straight line.
+bool Tracker::motionSince(int64_t then_ns, Rigid *now_from_then) const {
+  const bool before = then_ns <= time_ns_;
+  const uint64_t apart_ns = before ? elapsedNs(then_ns, time_ns_) : elapsedNs(time_ns_, then_ns);
+  if (!has_step_ || seconds(step_ns_) > kSteadySeconds || apart_ns > kNearNs) return false;
+  const double share = seconds(apart_ns) / seconds(step_ns_), then = before ? 1 - share : 1 + share;
+  const Matrix3 turned = rotationFromVector(then * vectorFromRotation(step_.rotation));
+  const Vector3 center = then * step_.inverse().translation_m;  // in the camera's frame at the frame before
+  *now_from_then = step_ * Rigid{turned, -(turned * center)}.inverse();
+  return true;
 }
 
 bool Tracker::predict(Prediction *prediction) const {

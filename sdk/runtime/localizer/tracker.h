@@ -43,6 +43,9 @@ class Tracker {
   bool hasOdometry() const { return has_odometry_; }
   // Motion of the camera since the frame before, by odometry; false where it is not known.
   bool step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const;
+  // Motion of the camera since another time near this frame's, by the odometry around it; false where that says
+  // nothing.
+  bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
   void reset() { *this = {}; }
 
  private:
@@ -55,6 +58,7 @@ class Tracker {
   bool has_odometry_ = false, has_step_ = false;
   Odometry odometry_;
   Rigid step_;  // camera now from camera at the frame before
+  uint64_t step_ns_ = 0;
 
   // The last pose that was found, and the motion since.
   bool has_pose_ = false;

@@ -60,9 +60,13 @@ void SparseAligner::init(const Camera &color, const Camera &depth, const Rigid &
                          const DepthSensor &sensor) {
   color_ = color;
   depth_ = depth;
-  depth_from_color_ = color_from_depth.inverse();
   sensor_ = sensor;
-  registered_ = color == depth && rotationAngle(color_from_depth.rotation) < 1e-9 &&
+  setPose(color_from_depth);
+}
+
+void SparseAligner::setPose(const Rigid &color_from_depth) {
+  depth_from_color_ = color_from_depth.inverse();
+  registered_ = color_ == depth_ && rotationAngle(color_from_depth.rotation) < 1e-9 &&
                 color_from_depth.translation_m.norm() < 1e-9;
 }
 

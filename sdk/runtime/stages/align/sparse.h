@@ -30,6 +30,8 @@ class SparseAligner {
     DepthBlocks::layout(depth_width, depth_height, scratch, aligner ? &aligner->blocks_ : nullptr);
   }
   void init(const Camera &color, const Camera &depth, const Rigid &color_from_depth, const DepthSensor &sensor);
+  // Of the frames that follow, where the cameras are not as they were built.
+  void setPose(const Rigid &color_from_depth);
   // Looks through a depth image, so that rays can be followed in strides.  Call before lift for every new image.
   void prepare(ImageView<uint16_t> depth);
 

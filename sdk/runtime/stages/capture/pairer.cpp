@@ -1,12 +1,15 @@
 #include "runtime/stages/capture/pairer.h"
 
+#include "runtime/stages/capture/middle.h"
+
 namespace sphc {
 namespace {
 
 // Unsigned, since times may lie anywhere in their range.
 uint64_t distanceNs(const sphc_capture &a, const sphc_capture &b) {
-  const uint64_t between = static_cast<uint64_t>(a.time_ns) - static_cast<uint64_t>(b.time_ns);
-  return a.time_ns > b.time_ns ? between : 0 - between;
+  const int64_t a_ns = middleNs(a), b_ns = middleNs(b);
+  const uint64_t between = static_cast<uint64_t>(a_ns) - static_cast<uint64_t>(b_ns);
+  return a_ns > b_ns ? between : 0 - between;
 }
 
 }  // namespace
@@ -21,8 +24,16 @@ sphc_capture Pairer::Queue::takeFront() {
 sphc_status Pairer::push(const sphc_capture &capture) {
   if (capture.stream != SPHC_STREAM_COLOR && capture.stream != SPHC_STREAM_DEPTH) return SPHC_E_ARGUMENT;
   Queue &queue = capture.stream == SPHC_STREAM_COLOR ? color_ : depth_;
-  if (queue.count == config_.slots) return SPHC_E_CAPACITY;
+  if (begun_ && capture.clock != clock_) return SPHC_E_ARGUMENT;
   if (queue.count && capture.time_ns < queue.slots[queue.count - 1].time_ns) return SPHC_E_ARGUMENT;
+  if (queue.count == config_.slots) return SPHC_E_CAPACITY;
+  begun_ = true;
+  clock_ = capture.clock;
+  // a source that started anew counts from 0
+  if (queue.begun && capture.sequence > queue.last_sequence)
+    (&queue == &color_ ? counts_.color_lost : counts_.depth_lost) += capture.sequence - queue.last_sequence - 1;
+  queue.begun = true;
+  queue.last_sequence = capture.sequence;
   queue.slots[queue.count++] = capture;
   return SPHC_OK;
 }
@@ -30,31 +41,38 @@ sphc_status Pairer::push(const sphc_capture &capture) {
 // Could a depth capture yet to come fit the oldest colour capture better than those at hand?
 bool Pairer::canStillImprove() const {
   if (ended_ || color_.count == config_.slots || depth_.count == config_.slots) return false;
-  return depth_.slots[depth_.count - 1].time_ns < color_.slots[0].time_ns;
+  return middleNs(depth_.slots[depth_.count - 1]) < middleNs(color_.slots[0]);
+}
+
+sphc_status Pairer::drop(Queue *queue, sphc_drop why, sphc_capture *dropped) {
+  *dropped = queue->takeFront();
+  counts_.last_drop = why;
+  if (why == SPHC_DROP_TOO_FAR) ++counts_.too_far;
+  if (why == SPHC_DROP_OVERTAKEN) ++counts_.overtaken;
+  if (why == SPHC_DROP_FULL) ++counts_.full;
+  if (why == SPHC_DROP_ENDED) ++counts_.ended;
+  return SPHC_AGAIN;
 }
 
 sphc_status Pairer::pop(sphc_pair *pair, sphc_capture *dropped) {
   dropped->stream = SPHC_STREAM_NONE;
   if (!color_.count || !depth_.count) {
     Queue &rest = color_.count ? color_ : depth_;
-    if (rest.count && (ended_ || rest.count == config_.slots)) *dropped = rest.takeFront();
-    return SPHC_AGAIN;
+    if (rest.count == 0 || (!ended_ && rest.count < config_.slots)) return SPHC_AGAIN;
+    return drop(&rest, ended_ ? SPHC_DROP_ENDED : SPHC_DROP_FULL, dropped);
   }
   const sphc_capture &color = color_.slots[0];
   // Depth captures that are older than a better one are nobody's partner: every later colour is further away still.
-  if (depth_.count > 1 && distanceNs(depth_.slots[1], color) <= distanceNs(depth_.slots[0], color)) {
-    *dropped = depth_.takeFront();
-    return SPHC_AGAIN;
-  }
+  if (depth_.count > 1 && distanceNs(depth_.slots[1], color) <= distanceNs(depth_.slots[0], color))
+    return drop(&depth_, SPHC_DROP_OVERTAKEN, dropped);
   if (canStillImprove()) return SPHC_AGAIN;
   if (distanceNs(color, depth_.slots[0]) <= static_cast<uint64_t>(config_.tolerance_ns)) {
     pair->color = color_.takeFront();
     pair->depth = depth_.takeFront();
+    ++counts_.pairs;
     return SPHC_OK;
   }
-  Queue &older = color.time_ns < depth_.slots[0].time_ns ? color_ : depth_;
-  *dropped = older.takeFront();
-  return SPHC_AGAIN;
+  return drop(middleNs(color) < middleNs(depth_.slots[0]) ? &color_ : &depth_, SPHC_DROP_TOO_FAR, dropped);
 }
 
 }  // namespace sphc

@@ -11,20 +11,27 @@ class Pairer {
   sphc_status push(const sphc_capture &capture);
   sphc_status pop(sphc_pair *pair, sphc_capture *dropped);
   void flush() { ended_ = true; }
+  const sphc_pairer_counts &counts() const { return counts_; }
 
  private:
   // Captures of one stream in order of time.
   struct Queue {
     sphc_capture slots[SPHC_PAIRER_SLOTS] = {};
     uint32_t count = 0;
+    bool begun = false;
+    uint32_t last_sequence = 0;
 
     sphc_capture takeFront();
   };
   bool canStillImprove() const;
+  sphc_status drop(Queue *queue, sphc_drop why, sphc_capture *dropped);
 
   sphc_pairer_config config_;
   Queue color_, depth_;
   bool ended_ = false;
+  bool begun_ = false;
+  sphc_clock_id clock_ = SPHC_CLOCK_SOURCE;  // of all captures
+  sphc_pairer_counts counts_ = {};
 };
 
 }  // namespace sphc

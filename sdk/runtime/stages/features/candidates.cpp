@@ -14,18 +14,6 @@ constexpr float kSameScale = 1.28f;  // a little over the step from scale to sca
 
 // Pixels of the first octave in one of the candidate's.
 float pixelSize(const Candidate &c) { return static_cast<float>(1 << c.octave); }
-float sigmaOf(const Candidate &c) { return c.strength / c.response; }
-
-float placeOf(const Candidate &c) { return c.y * pixelSize(c); }
-
-// One structure found twice: by neighbouring scales, in particular on both sides of an octave's end, or by two
-// samples that refine to the same point.
-bool isSameStructure(const Candidate &a, const Candidate &b) {
-  const float smaller = std::min(sigmaOf(a), sigmaOf(b)), larger = std::max(sigmaOf(a), sigmaOf(b));
-  if (larger > kSameScale * smaller) return false;
-  const float dx = a.x * pixelSize(a) - b.x * pixelSize(b), dy = a.y * pixelSize(a) - b.y * pixelSize(b);
-  return dx * dx + dy * dy < kSamePlace * kSamePlace * smaller * smaller;
-}
 
 // Cells of the grid are counted in octave pixels, so that first_octave does not matter here.
 uint32_t cellOf(const Candidate &c, const FeatureConfig &config) {
@@ -44,6 +32,7 @@ void CandidateList::layout(const FeatureConfig &config, Arena &scratch, Candidat
   self.items_ = scratch.take<Candidate>("features.candidates", 2 * self.kept_);
   self.ranks_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
   self.spare_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
+  self.places_ = scratch.take<Place>("features.candidate_places", 2 * self.kept_);
   self.chosen_ = scratch.take<Candidate>("features.chosen", std::max<size_t>(config.max_keypoints, self.kept_));
 }
 
@@ -54,16 +43,36 @@ void CandidateList::cut() {
   size_ = kept_;
 }
 
-// Whoever has a stronger twin is one, whether or not that one stays: so the order of looking does not matter.
-void CandidateList::markTwins() {
-  for (size_t i = 0; i < size_; ++i) ranks_[i] = {keyOf(placeOf(items_[i])), static_cast<uint32_t>(i)};
+// From the top of the image down.
+void CandidateList::listPlaces() {
+  for (uint32_t i = 0; i < size_; ++i) ranks_[i] = {keyOf(items_[i].y * pixelSize(items_[i])), i};
   radixSort(ranks_.data(), spare_.data(), size_);
   for (size_t i = 0; i < size_; ++i) {
-    Candidate &a = items_[ranks_[i].index];
-    const uint32_t last = keyOf(placeOf(a) + kSamePlace * sigmaOf(a));
-    for (size_t j = i + 1; j < size_ && ranks_[j].key < last; ++j) {
-      Candidate &b = items_[ranks_[j].index];
-      if (isSameStructure(a, b)) (a.strength >= b.strength ? b : a).is_twin = true;
+    const uint32_t candidate = ranks_[i].index;
+    const Candidate &c = items_[candidate];
+    places_[i] = {c.x * pixelSize(c), c.y * pixelSize(c), c.strength / c.response, candidate};
+  }
+}
+
+// One structure found twice: by neighbouring scales, in particular on both sides of an octave's end, or by two
+// samples that refine to the same point.
+bool CandidateList::isSameStructure(const Place &a, const Place &b) {
+  const float smaller = std::min(a.sigma, b.sigma), larger = std::max(a.sigma, b.sigma);
+  const float dx = a.x - b.x, dy = a.y - b.y;
+  return larger <= kSameScale * smaller && dx * dx + dy * dy < kSamePlace * kSamePlace * smaller * smaller;
+}
+
+// Whoever has a stronger twin is one, whether or not that one stays: so the order of looking does not matter.
+void CandidateList::markTwins() {
+  listPlaces();
+  for (size_t i = 0; i < size_; ++i) {
+    const Place a = places_[i];
+    const float reach = kSamePlace * a.sigma, left = a.x - reach, right = a.x + reach, bottom = a.y + reach;
+    for (size_t j = i + 1; j < size_ && places_[j].y < bottom; ++j) {
+      const Place &b = places_[j];
+      if (b.x < left || b.x > right || !isSameStructure(a, b)) continue;
+      Candidate &first = items_[a.candidate], &second = items_[b.candidate];
+      (first.strength >= second.strength ? second : first).is_twin = true;
     }
   }
 }

@@ -20,6 +20,12 @@ struct Candidate {
 };
 
 class CandidateList {
+  // Where a candidate lies, in pixels of the first octave.
+  struct Place {
+    float x, y, sigma;
+    uint32_t candidate;
+  };
+
  public:
   static void layout(const FeatureConfig &config, Arena &scratch, CandidateList *out);
 
@@ -35,13 +41,16 @@ class CandidateList {
 
  private:
   void cut();
+  void listPlaces();
   void markTwins();
+  static bool isSameStructure(const Place &a, const Place &b);
   // Of those that are no twins: by strength, highest first, into ranks_.  Returns how many.
   size_t rankByStrength();
   size_t chooseByCell(size_t ranked, const FeatureConfig &config);
 
   Span<Candidate> items_, chosen_;
   Span<SortKey> ranks_, spare_;
+  Span<Place> places_;
   size_t size_ = 0, kept_ = 0;
 };
 

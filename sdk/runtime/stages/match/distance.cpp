@@ -2,14 +2,21 @@
 
 namespace sphc {
 
-uint32_t distance2Scalar(const Descriptor &a, const Descriptor &b) {
+namespace {
+
+template <typename A, typename B>
+uint32_t sumOfSquares(const A *a, const B *b) {
   uint32_t sum = 0;
   for (size_t i = 0; i < kDescriptorBytes; ++i) {
-    const int32_t difference = a.bytes[i] - b.bytes[i];
+    const int32_t difference = a[i] - b[i];
     sum += static_cast<uint32_t>(difference * difference);
   }
   return sum;
 }
+
+}  // namespace
+
+uint32_t distance2Scalar(const Descriptor &a, const Descriptor &b) { return sumOfSquares(a.bytes, b.bytes); }
 
 void searchRangeScalar(Span<const Descriptor> map, uint32_t begin, uint32_t end, Span<const Descriptor> queries,
                        Span<const uint32_t> chosen, Span<NearestTwo> nearest) {
@@ -22,16 +29,20 @@ void searchCandidatesScalar(Span<const Descriptor> map, Span<const uint32_t> can
   for (uint32_t i : candidates) nearest->see(distance2Scalar(map[i], query), i);
 }
 
-void squareLengthsScalar(Span<const Descriptor> rows, Span<uint32_t> length2) {
+void widenRowsScalar(Span<const Descriptor> rows, Span<WideRow> wide, Span<uint32_t> length2) {
   const Descriptor zero = {};
-  for (size_t i = 0; i < rows.size(); ++i) length2[i] = distance2Scalar(rows[i], zero);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    for (size_t k = 0; k < kDescriptorBytes; ++k) wide[i].lanes[k] = rows[i].bytes[k];
+    length2[i] = distance2Scalar(rows[i], zero);
+  }
 }
 
 void rankCellsScalar(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {
-  for (uint32_t g = 0; g < table.groups.size(); ++g) rank({distance2Scalar(table.groups[g], query), g}, groups);
+  for (uint32_t g = 0; g < table.groups.size(); ++g)
+    rank({sumOfSquares(table.groups[g].lanes, query.bytes), g}, groups);
   for (const Ranked &group : groups)
     for (uint32_t c = table.group_begins[group.index]; c < table.group_begins[group.index + 1]; ++c)
-      rank({distance2Scalar(table.cells[c], query), c}, cells);
+      rank({sumOfSquares(table.cells[c].lanes, query.bytes), c}, cells);
 }
 
 }  // namespace sphc

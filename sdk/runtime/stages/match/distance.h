@@ -46,15 +46,20 @@ void searchRange(Span<const Descriptor> map, uint32_t begin, uint32_t end, Span<
 void searchCandidates(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
                       NearestTwo *nearest);
 
+// A descriptor as it is multiplied: every query of a frame passes over many centroids, so these are widened once.
+struct WideRow {
+  int16_t lanes[kDescriptorBytes];
+};
+
 // The cells of a map's index and the groups they are in; squared lengths of their centroids are kept beside them.
 struct CellTable {
-  Span<const Descriptor> groups, cells;
+  Span<const WideRow> groups, cells;
   Span<const uint32_t> group_begins;  // first cell of each group, and the number of cells
   Span<const uint32_t> group_length2, cell_length2;
 };
 
-// The squared length of each row.
-void squareLengths(Span<const Descriptor> rows, Span<uint32_t> length2);
+// Rows and their squared lengths.
+void widenRows(Span<const Descriptor> rows, Span<WideRow> wide, Span<uint32_t> length2);
 
 // Ranks into `cells` the cells nearest to `query` among those of the nearest groups, into `groups`; both begin with
 // rows infinitely far.
@@ -66,7 +71,7 @@ void searchRangeScalar(Span<const Descriptor> map, uint32_t begin, uint32_t end,
                        Span<const uint32_t> chosen, Span<NearestTwo> nearest);
 void searchCandidatesScalar(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
                             NearestTwo *nearest);
-void squareLengthsScalar(Span<const Descriptor> rows, Span<uint32_t> length2);
+void widenRowsScalar(Span<const Descriptor> rows, Span<WideRow> wide, Span<uint32_t> length2);
 void rankCellsScalar(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells);
 
 }  // namespace sphc

@@ -27,7 +27,9 @@ void searchCandidatesSimd(Span<const Descriptor> map, Span<const uint32_t> candi
   searchCandidatesScalar(map, candidates, query, nearest);
 }
 
-void squareLengthsSimd(Span<const Descriptor> rows, Span<uint32_t> length2) { squareLengthsScalar(rows, length2); }
+void widenRowsSimd(Span<const Descriptor> rows, Span<WideRow> wide, Span<uint32_t> length2) {
+  widenRowsScalar(rows, wide, length2);
+}
 
 void rankCellsSimd(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {
   rankCellsScalar(table, query, groups, cells);
@@ -91,10 +93,6 @@ HWY_INLINE uint32_t squareLength(const Descriptor &row) {
     sum = multiplyAdd(v, v, sum);
   }
   return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(D32(), sum)));
-}
-
-void squareLengthsSimd(Span<const Descriptor> rows, Span<uint32_t> length2) {
-  for (size_t i = 0; i < rows.size(); ++i) length2[i] = squareLength(rows[i]);
 }
 
 // Up to kGroup queries in 16-bit lanes; where there are fewer, the last one is repeated and never sees anything.
@@ -189,7 +187,7 @@ HWY_INLINE hn::Vec<D4> distancesTo(const uint8_t *const rows[kGroup], const int1
 
 HWY_INLINE void widenAll(const Descriptor &query, int16_t *lanes) {
   for (size_t i = 0; i < kDescriptorBytes; i += hn::Lanes(D16()))
-    hn::Store(widen(query.bytes + i), D16(), lanes + i);
+    hn::StoreU(widen(query.bytes + i), D16(), lanes + i);
 }
 
 void searchCandidatesSimd(Span<const Descriptor> map, Span<const uint32_t> candidates, const Descriptor &query,
@@ -210,15 +208,24 @@ void searchCandidatesSimd(Span<const Descriptor> map, Span<const uint32_t> candi
   }
 }
 
+void widenRowsSimd(Span<const Descriptor> rows, Span<WideRow> wide, Span<uint32_t> length2) {
+  for (size_t i = 0; i < rows.size(); ++i) {
+    widenAll(rows[i], wide[i].lanes);
+    length2[i] = static_cast<uint32_t>(squareLength(rows[i]));
+  }
+}
+
 // The products of a query with four rows.
-HWY_INLINE hn::Vec<D4> productsWith(const uint8_t *const rows[kGroup], const int16_t *query) {
+HWY_INLINE hn::Vec<D4> productsWith(const WideRow *const rows[kGroup], const int16_t *query) {
   const D16 d16;
   Sum s0 = hn::Zero(D32()), s1 = s0, s2 = s0, s3 = s0;
-  HWY_UNROLL(2)
+  HWY_UNROLL(4)
   for (size_t k = 0; k < kDescriptorBytes; k += hn::Lanes(d16)) {
     const auto q = hn::Load(d16, query + k);
-    s0 = multiplyAdd(q, widen(rows[0] + k), s0), s1 = multiplyAdd(q, widen(rows[1] + k), s1);
-    s2 = multiplyAdd(q, widen(rows[2] + k), s2), s3 = multiplyAdd(q, widen(rows[3] + k), s3);
+    s0 = multiplyAdd(q, hn::LoadU(d16, rows[0]->lanes + k), s0);
+    s1 = multiplyAdd(q, hn::LoadU(d16, rows[1]->lanes + k), s1);
+    s2 = multiplyAdd(q, hn::LoadU(d16, rows[2]->lanes + k), s2);
+    s3 = multiplyAdd(q, hn::LoadU(d16, rows[3]->lanes + k), s3);
   }
   return sumsOf(s0, s1, s2, s3);
 }
@@ -229,7 +236,7 @@ struct Asker {
   int32_t length2;
 };
 
-HWY_INLINE void rankFour(const uint8_t *const rows[kGroup], const int32_t *length2, uint32_t first, uint32_t count,
+HWY_INLINE void rankFour(const WideRow *const rows[kGroup], const int32_t *length2, uint32_t first, uint32_t count,
                          const Asker &asker, Span<Ranked> best) {
   const auto query2 = hn::Set(D4(), asker.length2);
   const auto distances2 =
@@ -241,21 +248,20 @@ HWY_INLINE void rankFour(const uint8_t *const rows[kGroup], const int32_t *lengt
   for (uint32_t k = 0; k < count; ++k) rank({static_cast<uint32_t>(each[k]), first + k}, best);
 }
 
-HWY_INLINE void rankRows(Span<const Descriptor> rows, Span<const uint32_t> length2, uint32_t begin, uint32_t end,
+HWY_INLINE void rankRows(Span<const WideRow> rows, Span<const uint32_t> length2, uint32_t begin, uint32_t end,
                          const Asker &asker, Span<Ranked> best) {
   uint32_t i = begin;
   for (; i + kGroup <= end; i += kGroup) {
-    const uint8_t *first = rows[i].bytes;
-    const uint8_t *four[kGroup] = {first, first + kDescriptorBytes, first + 2 * kDescriptorBytes,
-                                   first + 3 * kDescriptorBytes};
+    const WideRow *first = &rows[i];
+    const WideRow *four[kGroup] = {first, first + 1, first + 2, first + 3};
     rankFour(four, reinterpret_cast<const int32_t *>(&length2[i]), i, kGroup, asker, best);
   }
   if (i == end) return;
-  const uint8_t *four[kGroup];
+  const WideRow *four[kGroup];
   int32_t rest[kGroup];
   for (uint32_t k = 0; k < kGroup; ++k) {
     const uint32_t row = std::min(i + k, end - 1);
-    four[k] = rows[row].bytes;
+    four[k] = &rows[row];
     rest[k] = static_cast<int32_t>(length2[row]);
   }
   rankFour(four, rest, i, end - i, asker, best);
@@ -283,7 +289,7 @@ namespace sphc {
 HWY_EXPORT(distance2Simd);
 HWY_EXPORT(searchRangeSimd);
 HWY_EXPORT(searchCandidatesSimd);
-HWY_EXPORT(squareLengthsSimd);
+HWY_EXPORT(widenRowsSimd);
 HWY_EXPORT(rankCellsSimd);
 
 uint32_t distance2(const Descriptor &a, const Descriptor &b) { return HWY_DYNAMIC_DISPATCH(distance2Simd)(a, b); }
@@ -298,8 +304,8 @@ void searchCandidates(Span<const Descriptor> map, Span<const uint32_t> candidate
   HWY_DYNAMIC_DISPATCH(searchCandidatesSimd)(map, candidates, query, nearest);
 }
 
-void squareLengths(Span<const Descriptor> rows, Span<uint32_t> length2) {
-  HWY_DYNAMIC_DISPATCH(squareLengthsSimd)(rows, length2);
+void widenRows(Span<const Descriptor> rows, Span<WideRow> wide, Span<uint32_t> length2) {
+  HWY_DYNAMIC_DISPATCH(widenRowsSimd)(rows, wide, length2);
 }
 
 void rankCells(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells) {

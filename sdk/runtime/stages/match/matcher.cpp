@@ -34,6 +34,8 @@ void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
   m.probed_ = scratch.take<uint16_t>("match.probed", size_t{max_queries} * kMaxProbes);
   m.starts_ = scratch.take<uint32_t>("match.askers", kMapMaxCells + 1);
   m.askers_ = scratch.take<uint32_t>("match.askers", size_t{max_queries} * kMaxProbes);
+  m.wide_cells_ = scratch.take<WideRow>("match.centroids", kMapMaxCells);
+  m.wide_groups_ = scratch.take<WideRow>("match.centroids", kMapMaxGroups);
   m.cell_length2_ = scratch.take<uint32_t>("match.lengths", kMapMaxCells);
   m.group_length2_ = scratch.take<uint32_t>("match.lengths", kMapMaxGroups);
   SectorCones::layout(scratch, matcher ? &m.cones_ : nullptr);
@@ -45,11 +47,10 @@ void Matcher::ask(const MapView &map, Span<const Descriptor> queries, uint32_t p
   probes_ = std::min(std::max(probes, 1u), std::min(kMaxProbes, map.cellCount()));
   ranks_ = std::max(probes_, std::min(kGuidedProbes, map.cellCount()));
   ranked_ = 0;
-  const Span<uint32_t> cells = cell_length2_.first(map.cellCount()),
-                       groups = group_length2_.first(map.groupCount());
-  squareLengths(map.centroids(), cells);
-  squareLengths(map.groupCentroids(), groups);
-  table_ = {map.groupCentroids(), map.centroids(), map.groupBegins(), groups, cells};
+  widenRows(map.centroids(), wide_cells_, cell_length2_);
+  widenRows(map.groupCentroids(), wide_groups_, group_length2_);
+  table_ = {wide_groups_.first(map.groupCount()), wide_cells_.first(map.cellCount()), map.groupBegins(),
+            group_length2_, cell_length2_};
 }
 
 void Matcher::begin(size_t queries) {

@@ -53,6 +53,7 @@ class Matcher {
   Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`
   Span<uint32_t> askers_;
+  Span<WideRow> wide_cells_, wide_groups_;
   Span<uint32_t> cell_length2_, group_length2_;
   CellTable table_;  // of the map that is being matched
   SectorCones cones_;

@@ -37,8 +37,9 @@ TEST_P(HelpTest, TeachesByExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
-                         testing::Values("simulate", "build", "localize", "inspect", "info", "bench pose",
-                                         "bench confidence", "bench map", "bench frame"));
+                         testing::Values("simulate", "build", "localize", "inspect", "info", "convert",
+                                         "bench pose", "bench confidence", "bench map", "bench frame",
+                                         "bench recording"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -51,7 +52,8 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
 
 INSTANTIATE_TEST_SUITE_P(
     EachMistake, UsageTest,
-    testing::Values("", "conquer", "info", "info a b", "bench", "bench pose", "bench pose f --depth radar",
+    testing::Values("", "conquer", "info", "info a b", "convert a", "convert a b --to zip", "convert a b --to mcap",
+                    "convert a b.mcap --jpeg 0", "bench", "bench pose", "bench pose f --depth radar",
                     "bench pose f --repeat 0", "bench frame --recording r", "bench map --recording r --out o",
                     "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
                     "build --recording r", "build --recording r --map m --eta 1.5",
@@ -143,6 +145,36 @@ void expectBenches(const TempFolder &folder, const std::string &walk) {
   const Answer none = runCommand(frame + (folder / "maps/map_500.sphc") + " --only nobody");
   EXPECT_EQ(none.exit_code, kExitUsage);
   EXPECT_THAT(none.err, HasSubstr("'ours, tracking'"));
+}
+
+// Files of two folders, compared to the byte.
+bool sameFiles(const std::string &a, const std::string &b) {
+  return std::system(("diff -r " + a + " " + b + " >/dev/null").c_str()) == 0;
+}
+
+TEST(Convert, GoesThroughEveryLayoutAndBack) {
+  const TempFolder folder;
+  const std::string file = folder / "walk.mcap", walk = folder / "walk", scenes = folder / "seq-01";
+  ASSERT_EQ(runCommand("simulate --frames 2 --rate 6 --out " + file).exit_code, kExitDone);
+  const Answer unpacked = runCommand("convert --json " + file + " " + walk);
+  ASSERT_EQ(unpacked.exit_code, kExitDone) << unpacked.err;
+  const auto json = nlohmann::json::parse(unpacked.out);
+  EXPECT_EQ(json["color"], 2);
+  EXPECT_EQ(json["depth"], 2);
+  EXPECT_EQ(json["poses"], 2);
+  ASSERT_EQ(runCommand("convert --depth-codec rvl " + walk + " " + (folder / "b.mcap")).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("convert " + (folder / "b.mcap") + " " + (folder / "back")).exit_code, kExitDone);
+  EXPECT_TRUE(sameFiles(walk, folder / "back"));
+
+  const Answer numbered = runCommand("convert " + walk + " " + scenes + " --to 7scenes");
+  ASSERT_EQ(numbered.exit_code, kExitDone) << numbered.err;
+  EXPECT_THAT(numbered.err, HasSubstr("no times"));
+  ASSERT_EQ(runCommand("convert " + scenes + " " + (folder / "c.mcap")).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("convert " + (folder / "c.mcap") + " " + (folder / "seq-02") + " --to 7scenes").exit_code,
+            kExitDone);
+  for (const char *name : {"calibration.json", "frame-000000.color.png", "frame-000001.depth.png"})
+    EXPECT_TRUE(sameFiles(scenes + "/" + name, folder / ("seq-02/" + std::string(name)))) << name;
+  EXPECT_EQ(runCommand("convert " + walk + " " + file).exit_code, kExitFailure) << "nothing is overwritten";
 }
 
 // The whole way on a few frames of a simulated walk.

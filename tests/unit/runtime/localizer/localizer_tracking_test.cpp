@@ -163,5 +163,37 @@ TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
   EXPECT_GT(most_frames, 1u);
 }
 
+// Depth is taken 30 ms before colour, while the camera moves.
+double errorWithDepthBefore(bool times_are_told) {
+  const sphc_config config = trackingConfig();
+  test::Session session(config);
+  constexpr int64_t kLagNs = 3 * kStepNs / 10;
+  double sum_m = 0;
+  for (uint32_t i = 0; i < 8; ++i) {
+    const auto made = test::sceneFrame(config, i);
+    made->images.depth_mm = test::renderScene(config.color_camera, config.depth_camera,
+                                              test::sceneViewpoint(i - 0.3), rigidFromDoor(config.color_from_depth))
+                                .depth_mm;
+    sphc_frame frame = made->frame;
+    frame.depth.data = made->images.depth_mm.data();
+    frame.color_time_ns = frame.depth_time_ns = (i + 1) * kStepNs;
+    if (times_are_told) frame.depth_time_ns -= kLagNs;
+    sphc_prior prior = {};
+    prior.struct_size = sizeof prior;
+    prior.flags = SPHC_PRIOR_ODOMETRY;
+    prior.odometry_from_camera = doorFromRigid(test::sceneViewpoint(i).inverse());
+    prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
+    frame.prior = &prior;
+    sphc_result result = {};
+    EXPECT_EQ(session.process(frame, &result), SPHC_OK) << i;
+    if (i > 0) sum_m += session.errorM(result, i);  // of the first, no step is known
+  }
+  return sum_m / 7;
+}
+
+TEST(LocalizerTracking, OdometryTakesDepthToTheTimeOfTheColourImage) {
+  EXPECT_LT(errorWithDepthBefore(true), 0.5 * errorWithDepthBefore(false));
+}
+
 }  // namespace
 }  // namespace sphc

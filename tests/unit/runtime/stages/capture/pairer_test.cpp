@@ -194,5 +194,64 @@ TEST(Pairer, RandomStreamsGiveBackEveryLoanOnce) {
   }
 }
 
+TEST(Pairer, PairsByTheMiddleOfTheExposure) {
+  Pairer pairer = makePairer(4, 3);
+  sphc_capture early = color(100), late = depth(110);
+  early.time_point = SPHC_TIME_START;
+  early.exposure_us = 10000;
+  late.time_point = SPHC_TIME_END;
+  late.exposure_us = 10000;
+  pairer.push(early);
+  pairer.push(late);
+  EXPECT_EQ(drain(&pairer), "c100+d110 ");
+  EXPECT_EQ(sphc_capture_middle_ns(&early), 105 * kMs);
+  EXPECT_EQ(sphc_capture_middle_ns(&late), 105 * kMs);
+  early.time_point = SPHC_TIME_ARRIVAL;
+  EXPECT_EQ(sphc_capture_middle_ns(&early), 100 * kMs);
+  late.time_ns = std::numeric_limits<int64_t>::min();
+  EXPECT_EQ(sphc_capture_middle_ns(&late), std::numeric_limits<int64_t>::min());
+  EXPECT_EQ(sphc_capture_middle_ns(nullptr), 0);
+}
+
+TEST(Pairer, OneClockOnly) {
+  Pairer pairer = makePairer();
+  sphc_capture other = depth(100);
+  other.clock = SPHC_CLOCK_BOOTTIME;
+  EXPECT_EQ(pairer.push(color(100)), SPHC_OK);
+  EXPECT_EQ(pairer.push(other), SPHC_E_ARGUMENT);
+  EXPECT_EQ(pairer.push(depth(100)), SPHC_OK);
+}
+
+TEST(Pairer, CountsWhatItDropsAndWhatNeverCame) {
+  Pairer pairer = makePairer(3, 5);
+  const auto push = [&](sphc_capture c, uint32_t sequence) {
+    c.sequence = sequence;
+    EXPECT_EQ(pairer.push(c), SPHC_OK);
+    drain(&pairer);
+    return pairer.counts().last_drop;
+  };
+  push(color(100), 7);
+  EXPECT_EQ(push(depth(101), 3), SPHC_DROP_NONE);
+  push(color(200), 9);                                // one lost
+  EXPECT_EQ(push(depth(290), 7), SPHC_DROP_TOO_FAR);  // three lost; colour 200 finds nobody
+  push(depth(299), 8);
+  EXPECT_EQ(push(color(301), 10), SPHC_DROP_OVERTAKEN);  // 290
+  push(depth(302), 9);                                   // better than 299
+  push(depth(400), 0);                                   // a source that started anew
+  push(depth(410), 1);
+  EXPECT_EQ(push(depth(420), 2), SPHC_DROP_FULL);  // no colour comes
+  pairer.flush();
+  drain(&pairer);
+  const sphc_pairer_counts &counts = pairer.counts();
+  EXPECT_EQ(counts.last_drop, SPHC_DROP_ENDED);
+  EXPECT_EQ(counts.pairs, 2u);
+  EXPECT_EQ(counts.too_far, 1u);
+  EXPECT_EQ(counts.overtaken, 2u);
+  EXPECT_EQ(counts.full, 1u);
+  EXPECT_EQ(counts.ended, 2u);
+  EXPECT_EQ(counts.color_lost, 1u);
+  EXPECT_EQ(counts.depth_lost, 3u);
+}
+
 }  // namespace
 }  // namespace sphc

@@ -106,12 +106,16 @@ class Cells {
     cells_.assign(tables.map.begin() + 10, tables.map.begin() + 10 + begin);
     group_length2_.resize(groups_.size());
     cell_length2_.resize(cells_.size());
-    squareLengths({groups_.data(), groups_.size()}, {group_length2_.data(), group_length2_.size()});
-    squareLengths({cells_.data(), cells_.size()}, {cell_length2_.data(), cell_length2_.size()});
+    wide_groups_.resize(groups_.size());
+    wide_cells_.resize(cells_.size());
+    widenRows({groups_.data(), groups_.size()}, {wide_groups_.data(), wide_groups_.size()},
+              {group_length2_.data(), group_length2_.size()});
+    widenRows({cells_.data(), cells_.size()}, {wide_cells_.data(), wide_cells_.size()},
+              {cell_length2_.data(), cell_length2_.size()});
   }
   CellTable table() const {
-    return {{groups_.data(), groups_.size()},
-            {cells_.data(), cells_.size()},
+    return {{wide_groups_.data(), wide_groups_.size()},
+            {wide_cells_.data(), wide_cells_.size()},
             {begins_.data(), begins_.size()},
             {group_length2_.data(), group_length2_.size()},
             {cell_length2_.data(), cell_length2_.size()}};
@@ -119,6 +123,7 @@ class Cells {
 
  private:
   std::vector<Descriptor> groups_, cells_;
+  std::vector<WideRow> wide_groups_, wide_cells_;
   std::vector<uint32_t> begins_, group_length2_, cell_length2_;
 };
 
@@ -140,13 +145,17 @@ TEST(Distance, RankingCellsEqualsScalarAndIsInOrder) {
       }
 }
 
-TEST(Distance, SquaredLengthsEqualScalar) {
+TEST(Distance, WideRowsAndLengthsEqualScalar) {
   const Tables tables(6);
-  std::vector<uint32_t> simd(tables.map.size()), scalar(tables.map.size());
-  squareLengths(tables.mapSpan(), {simd.data(), simd.size()});
-  squareLengthsScalar(tables.mapSpan(), {scalar.data(), scalar.size()});
+  const size_t count = tables.map.size();
+  std::vector<WideRow> simd_rows(count), scalar_rows(count);
+  std::vector<uint32_t> simd(count), scalar(count);
+  widenRows(tables.mapSpan(), {simd_rows.data(), count}, {simd.data(), count});
+  widenRowsScalar(tables.mapSpan(), {scalar_rows.data(), count}, {scalar.data(), count});
   EXPECT_EQ(simd, scalar);
   EXPECT_EQ(simd[41], 128u * 255 * 255);
+  EXPECT_EQ(std::memcmp(simd_rows.data(), scalar_rows.data(), count * sizeof(WideRow)), 0);
+  EXPECT_EQ(simd_rows[41].lanes[127], 255);
 }
 
 }  // namespace

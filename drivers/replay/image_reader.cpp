@@ -1,0 +1,77 @@
+#include "image_reader.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "encoded_image.h"
+#include "failure.h"
+
+namespace sphc::replay {
+
+ImageReader::ImageReader(const Recording &recording, const sphc_calibration &calibration, sphc_format color_format)
+    : recording_(recording),
+      color_camera_(calibration.color_camera),
+      depth_camera_(calibration.depth_camera),
+      color_format_(color_format) {
+  if (recording.layout == SPHC_REPLAY_MCAP) messages_.emplace(recording.path);
+}
+
+const sphc_camera &ImageReader::cameraOf(sphc_stream stream) const {
+  return stream == SPHC_STREAM_COLOR ? color_camera_ : depth_camera_;
+}
+
+sphc_format ImageReader::formatOf(sphc_stream stream) const {
+  return stream == SPHC_STREAM_COLOR ? color_format_ : SPHC_FORMAT_DEPTH16;
+}
+
+size_t ImageReader::bytesOf(sphc_stream stream) const {
+  const sphc_camera &camera = cameraOf(stream);
+  return size_t{camera.width} * camera.height * bytesPerPixel(formatOf(stream));
+}
+
+std::string ImageReader::nameOf(sphc_stream stream, const RecordedImage &image) const {
+  return shortPath(messages_ ? recording_.path.string() : image.file) + " (" +
+         (stream == SPHC_STREAM_COLOR ? "colour " : "depth ") + std::to_string(image.sequence) + ")";
+}
+
+ByteView ImageReader::load(const RecordedImage &image) {
+  std::ifstream file(recording_.path / image.file, std::ios::binary | std::ios::ate);
+  const std::streamoff bytes = file ? static_cast<std::streamoff>(file.tellg()) : -1;
+  if (bytes < 0) throw Failure(SPHC_E_DEVICE, "cannot be read; is it there?");
+  constexpr std::streamoff kMostBytes = std::streamoff{1} << 30;
+  if (bytes == 0) throw Failure(SPHC_E_DEVICE, "is empty; remove the frame or copy the file again");
+  if (bytes > kMostBytes) throw Failure(SPHC_E_DEVICE, "is over 1 GiB: no image");
+  encoded_.resize(static_cast<size_t>(bytes));
+  file.seekg(0);
+  if (!file.read(reinterpret_cast<char *>(encoded_.data()), bytes)) throw Failure(SPHC_E_DEVICE, "cannot be read");
+  return viewOf(encoded_);
+}
+
+ByteView ImageReader::loadMessage(const MessagePlace &place) {
+  const ChunkPlace &chunk = recording_.chunks[place.chunk];
+  const uint8_t *bytes = messages_->chunks.load(chunk);
+  if (!bytes)
+    throw Failure(SPHC_E_DEVICE, "its chunk, at byte " + std::to_string(chunk.start) +
+                                     ", does not have the bytes that were written (checksum); copy the file again");
+  return {bytes + (place.start - chunk.start), static_cast<size_t>(place.bytes)};
+}
+
+sphc_image ImageReader::read(sphc_stream stream, const RecordedImage &image, uint8_t *pixels) {
+  const sphc_camera &camera = cameraOf(stream);
+  const sphc_format format = formatOf(stream);
+  try {
+    if (messages_)
+      messages_->decoder.decode(image.place.kind, loadMessage(image.place), camera, format, pixels);
+    else
+      decodeImage(load(image), camera, format, pixels);
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), nameOf(stream, image) + ": " + failure.what());
+  }
+  if (stream == SPHC_STREAM_DEPTH && recording_.layout == SPHC_REPLAY_7SCENES) {  // where 65535 is a hole
+    uint16_t *depth = reinterpret_cast<uint16_t *>(pixels);
+    std::replace(depth, depth + size_t{camera.width} * camera.height, uint16_t{65535}, uint16_t{0});
+  }
+  return {pixels, camera.width, camera.height, camera.width * bytesPerPixel(format), format};
+}
+
+}  // namespace sphc::replay

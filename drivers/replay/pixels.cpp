@@ -1,0 +1,83 @@
+#include "pixels.h"
+
+#include <cstring>
+
+#include "failure.h"
+
+namespace sphc::replay {
+
+namespace {
+
+// As OpenCV reads a colour PNG to grey, so that a recording gives the same through each of its layouts.
+uint8_t grayOf(uint32_t red, uint32_t green, uint32_t blue) {
+  return static_cast<uint8_t>((9797 * red + 19234 * green + 3737 * blue) >> 15);
+}
+
+void convertRow(const uint8_t *in, sphc_format from, uint8_t *out, sphc_format to, uint32_t width) {
+  if (from == SPHC_FORMAT_GRAY8) {
+    for (uint32_t x = 0; x < width; ++x) std::memset(out + 3 * x, in[x], 3);
+  } else if (to == SPHC_FORMAT_GRAY8) {
+    const uint32_t red = from == SPHC_FORMAT_RGB8 ? 0 : 2;
+    for (uint32_t x = 0; x < width; ++x, in += 3) out[x] = grayOf(in[red], in[1], in[2 - red]);
+  } else {
+    for (uint32_t x = 0; x < width; ++x, in += 3, out += 3) {
+      out[0] = in[2];
+      out[1] = in[1];
+      out[2] = in[0];
+    }
+  }
+}
+
+}  // namespace
+
+uint32_t bytesPerPixel(sphc_format format) {
+  switch (format) {
+    case SPHC_FORMAT_GRAY8:
+      return 1;
+    case SPHC_FORMAT_RGB8:
+    case SPHC_FORMAT_BGR8:
+      return 3;
+    case SPHC_FORMAT_DEPTH16:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+size_t packedBytes(const sphc_image &image) {
+  return size_t{image.width} * image.height * bytesPerPixel(image.format);
+}
+
+std::string sizeText(uint32_t width, uint32_t height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_color) {
+  const std::string name = is_color ? "colour image" : "depth image";
+  const bool is_depth_format = image.format == SPHC_FORMAT_DEPTH16;
+  if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null");
+  if (bytesPerPixel(image.format) == 0 || is_depth_format == is_color)
+    throw Failure(SPHC_E_IMAGE, name + ": format " + std::to_string(image.format) + " does not fit; " +
+                                    (is_color ? "give GRAY8, RGB8 or BGR8" : "give DEPTH16"));
+  if (image.width != camera.width || image.height != camera.height)
+    throw Failure(SPHC_E_IMAGE, name + ": is " + sizeText(image.width, image.height) +
+                                    ", its camera in the calibration " + sizeText(camera.width, camera.height) +
+                                    "; they must be equal");
+  const uint64_t row_bytes = uint64_t{image.width} * bytesPerPixel(image.format);
+  if (image.stride_bytes < row_bytes || (is_depth_format && image.stride_bytes % 2 != 0))
+    throw Failure(SPHC_E_IMAGE,
+                  name + ": stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row or odd");
+}
+
+void packPixels(const sphc_image &image, sphc_format to, uint8_t *out) {
+  const size_t row_bytes = size_t{image.width} * bytesPerPixel(to);
+  const auto *row = static_cast<const uint8_t *>(image.data);
+  for (uint32_t y = 0; y < image.height; ++y, row += image.stride_bytes, out += row_bytes) {
+    if (image.format == to)
+      std::memcpy(out, row, row_bytes);
+    else
+      convertRow(row, image.format, out, to, image.width);
+  }
+}
+
+}  // namespace sphc::replay

@@ -1,0 +1,25 @@
+// Images in memory: what fits, and from one pixel format to another.
+#pragma once
+
+#include <spherecloud/spherecloud.h>
+
+#include <string>
+
+namespace sphc::replay {
+
+// 0 for a format that is none.
+uint32_t bytesPerPixel(sphc_format format);
+
+size_t packedBytes(const sphc_image &image);
+
+// "640 x 480"
+std::string sizeText(uint32_t width, uint32_t height);
+
+// Throws Failure (IMAGE) unless the image is a valid one of its stream and of the camera's size.
+void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_color);
+
+// Rows without padding.  `to` is the image's own format, or both are of colour; grey is what OpenCV makes of
+// colour.
+void packPixels(const sphc_image &image, sphc_format to, uint8_t *out);
+
+}  // namespace sphc::replay

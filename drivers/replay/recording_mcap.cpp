@@ -1,0 +1,186 @@
+// A recording in one MCAP file, as recorder.h writes it.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "calibration_json.h"
+#include "failure.h"
+#include "recording.h"
+
+namespace sphc::replay {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint64_t kMostSmallBytes = FileWindow::kMostBytes;  // of records that describe
+constexpr uint64_t kMostCalibrationBytes = 1 << 20;
+
+// One look through the file's records.  A whole file is believed, as each chunk is checked when an image of it is
+// read; a cut one has every chunk checked, because a power cut may leave garbage at its end.
+class McapScan {
+ public:
+  McapScan(const File &file, bool checks_all)
+      : file_(file), window_(file), chunks_(file), checks_all_(checks_all) {}
+
+  Recording run();
+  bool inOrder() const { return in_order_; }
+
+ private:
+  void look(const RecordPlace &record);
+  void lookAtChunk(const RecordPlace &record);
+  void lookAtMessage(const RecordPlace &record);
+  void lookAtSmallMessage(Kind kind, const MessageHead &head, ByteView data);
+  void addImage(Kind kind, const MessageHead &head, const RecordPlace &record);
+  void addPose(int64_t time_ns, sphc_rigid pose);
+  void readCalibration(const RecordPlace &record);
+  std::optional<ByteView> small(const RecordPlace &record);
+
+  const File &file_;
+  FileWindow window_;
+  ChunkReader chunks_;
+  bool checks_all_;
+  bool in_order_ = true;
+  std::map<uint16_t, std::string> schemas_;
+  std::map<uint16_t, Kind> kinds_;
+  std::optional<CaptureNote> color_note_, depth_note_;  // of the image that comes next
+  Recording recording_;
+};
+
+std::optional<ByteView> McapScan::small(const RecordPlace &record) {
+  if (record.bytes > kMostSmallBytes) return {};
+  return window_.at(record.content, static_cast<size_t>(record.bytes));
+}
+
+void McapScan::look(const RecordPlace &record) {
+  const std::optional<ByteView> content = small(record);
+  Schema schema;
+  Channel channel;
+  if (record.op == Op::kChunk) {
+    lookAtChunk(record);
+  } else if (record.op == Op::kAttachment) {
+    readCalibration(record);
+  } else if (record.op == Op::kSchema && content && readSchema(*content, schema)) {
+    schemas_[schema.id] = schema.name;
+  } else if (record.op == Op::kChannel && content && readChannel(*content, channel)) {
+    kinds_[channel.id] = channel.encoding == "cdr" ? kindOf(channel.topic, schemas_[channel.schema]) : Kind::kNone;
+  }
+}
+
+void McapScan::lookAtChunk(const RecordPlace &record) {
+  ChunkHead head;
+  ChunkPlace place;
+  if (!readChunk(window_, record, head, place) || (checks_all_ && !chunks_.load(place))) {
+    ++recording_.bad_chunk_count;
+    return;
+  }
+  recording_.chunks.push_back(place);
+  const WalkEnd end =
+      walkRecords(window_, place.start, place.start + place.bytes, [this](const RecordPlace &inner) {
+        if (inner.op == Op::kMessage)
+          lookAtMessage(inner);
+        else if (inner.op != Op::kChunk && inner.op != Op::kAttachment)
+          look(inner);
+      });
+  if (end != WalkEnd::kEdge) in_order_ = false;
+}
+
+void McapScan::lookAtMessage(const RecordPlace &record) {
+  if (record.bytes < kMessageHeadBytes) return;
+  const uint64_t data_bytes = record.bytes - kMessageHeadBytes;
+  const size_t shown = static_cast<size_t>(std::min(data_bytes, kMostSmallBytes - kMessageHeadBytes));
+  const ByteView bytes = window_.at(record.content, kMessageHeadBytes + shown);
+  MessageHead head;
+  readMessageHead(bytes, head);
+  const auto known = kinds_.find(head.channel);
+  if (known == kinds_.end() || known->second == Kind::kNone || head.time_ns > INT64_MAX) return;
+  if (isImage(known->second))
+    addImage(known->second, head, record);
+  else
+    lookAtSmallMessage(known->second, head, {bytes.data + kMessageHeadBytes, shown});
+}
+
+void McapScan::lookAtSmallMessage(Kind kind, const MessageHead &head, ByteView data) {
+  CaptureNote note;
+  Drop drop;
+  sphc_rigid pose;
+  if (kind == Kind::kColorCapture && readCaptureNote(data, note))
+    color_note_ = note;
+  else if (kind == Kind::kDepthCapture && readCaptureNote(data, note))
+    depth_note_ = note;
+  else if (kind == Kind::kDrops && readDrop(data, drop))
+    recording_.lost_count += drop.count;
+  else if (kind == Kind::kPose && readPoseMessage(data, pose))
+    addPose(static_cast<int64_t>(head.time_ns), pose);
+}
+
+void McapScan::addImage(Kind kind, const MessageHead &head, const RecordPlace &record) {
+  const bool is_color = streamOf(kind) == SPHC_STREAM_COLOR;
+  std::vector<RecordedImage> &images = is_color ? recording_.color : recording_.depth;
+  std::optional<CaptureNote> &note = is_color ? color_note_ : depth_note_;
+  RecordedImage image;
+  image.time_ns = static_cast<int64_t>(head.time_ns);
+  image.sequence = head.sequence;
+  if (note && note->time_ns == image.time_ns && note->sequence == image.sequence) image.note = *note;
+  note.reset();
+  image.place = {kind, static_cast<uint32_t>(recording_.chunks.size() - 1), record.content + kMessageHeadBytes,
+                 record.bytes - kMessageHeadBytes};
+  if (!images.empty() && images.back().time_ns >= image.time_ns) {
+    in_order_ = false;
+    ++recording_.lost_count;
+    return;
+  }
+  images.push_back(std::move(image));
+}
+
+void McapScan::addPose(int64_t time_ns, sphc_rigid pose) {
+  const std::vector<TimedPose> &poses = recording_.poses.poses();
+  const bool is_later = poses.empty() || poses.back().time_ns < time_ns;
+  if (is_later && isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2))
+    recording_.poses.add(time_ns, pose);
+  else
+    ++recording_.bad_pose_count;
+}
+
+void McapScan::readCalibration(const RecordPlace &record) {
+  if (record.bytes > kMostCalibrationBytes || recording_.calibration.struct_size != 0) return;
+  Bytes content(static_cast<size_t>(record.bytes));
+  file_.read(record.content, content.data(), content.size());
+  Attachment attachment;
+  if (!readAttachment(viewOf(content), attachment) || attachment.name != "calibration.json") return;
+  try {
+    recording_.calibration = calibrationFromJson(textOf(attachment.data));
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), file_.name() + ", calibration.json in it: " + failure.what());
+  }
+}
+
+Recording McapScan::run() {
+  recording_.layout = SPHC_REPLAY_MCAP;
+  const WalkEnd end = walkRecords(window_, sizeof kMcapMagic, window_.fileSize(),
+                                  [this](const RecordPlace &record) { look(record); });
+  recording_.is_cut = end != WalkEnd::kDataEnd;
+  return std::move(recording_);
+}
+
+}  // namespace
+
+Recording openMcap(const fs::path &path) {
+  const File file(path);
+  FileWindow window(file);
+  if (!hasMagic(window, 0))
+    throw Failure(SPHC_E_DEVICE, file.name() + ": is no MCAP file; give one that the recorder wrote, or a folder");
+  const bool is_whole = hasMagic(window, window.fileSize() - sizeof kMcapMagic);
+  McapScan quick(file, !is_whole);
+  Recording recording = quick.run();
+  if (is_whole && !quick.inOrder()) recording = McapScan(file, true).run();
+  recording.path = path;
+  if (recording.color.empty())
+    throw Failure(SPHC_E_DEVICE, file.name() + ": holds no colour image" +
+                                     (recording.is_cut ? "; it was cut before its first chunk was written"
+                                                       : "; record one, or convert it"));
+  return recording;
+}
+
+}  // namespace sphc::replay

@@ -1,0 +1,76 @@
+#include <new>
+
+#include "runtime/base/message.h"
+#include "runtime/capi/check.h"
+#include "runtime/capi/objects.h"
+
+namespace {
+
+constexpr int64_t kSecondNs = 1000000000, kHourNs = 3600 * kSecondNs;
+
+bool isInRange(const sphc_clock_mapper_config &config) {
+  const auto within = [](int64_t value, int64_t least, int64_t most) { return value >= least && value <= most; };
+  return within(config.max_drift_ppm, 1, 10000) && within(config.window_ns, kSecondNs, kHourNs) &&
+         within(config.delay_ns, -kHourNs, kHourNs) && within(config.delay_sigma_ns, 0, kHourNs) &&
+         within(config.jump_ns, 1, kHourNs);
+}
+
+}  // namespace
+
+sphc_status sphc_clock_mapper_config_init(sphc_clock_mapper_config *config, size_t struct_size) {
+  if (!config) return SPHC_E_ARGUMENT;
+  if (struct_size != sizeof(sphc_clock_mapper_config)) return SPHC_E_STRUCT_SIZE;
+  *config = {static_cast<uint32_t>(struct_size), 200, 20 * kSecondNs, 0, 1000000, 50000000};
+  return SPHC_OK;
+}
+
+sphc_status sphc_clock_mapper_memory(size_t *bytes, size_t *alignment) {
+  if (!bytes || !alignment) return SPHC_E_ARGUMENT;
+  *bytes = sizeof(sphc_clock_mapper);
+  *alignment = alignof(sphc_clock_mapper);
+  return SPHC_OK;
+}
+
+sphc_status sphc_clock_mapper_init(void *memory, size_t memory_bytes, const sphc_clock_mapper_config *config,
+                                   sphc_clock_mapper **mapper, sphc_message *message) {
+  if (!config || !mapper) {
+    sphc::MessageWriter(message) << (config ? "mapper" : "config") << " is null";
+    return SPHC_E_ARGUMENT;
+  }
+  if (config->struct_size != sizeof(sphc_clock_mapper_config)) {
+    sphc::MessageWriter(message) << "clock mapper config.struct_size is " << config->struct_size
+                                 << "; call sphc_clock_mapper_config_init first";
+    return SPHC_E_STRUCT_SIZE;
+  }
+  if (!isInRange(*config)) {
+    sphc::MessageWriter(message) << "clock mapper config: max_drift_ppm " << config->max_drift_ppm
+                                 << " must be 1 to 10000, window_ns " << config->window_ns
+                                 << " 1 s to 1 h, delay_ns " << config->delay_ns << " within 1 h, delay_sigma_ns "
+                                 << config->delay_sigma_ns << " 0 to 1 h, jump_ns " << config->jump_ns
+                                 << " 1 ns to 1 h";
+    return SPHC_E_ARGUMENT;
+  }
+  const sphc_status status = sphc::checkMemory(memory, memory_bytes, sizeof(sphc_clock_mapper),
+                                               alignof(sphc_clock_mapper), "clock mapper", message);
+  if (status != SPHC_OK) return status;
+  *mapper = new (memory) sphc_clock_mapper{sphc::ClockMapper(*config)};
+  return SPHC_OK;
+}
+
+void sphc_clock_mapper_fini(sphc_clock_mapper **mapper) {
+  if (mapper) *mapper = nullptr;
+}
+
+sphc_status sphc_clock_mapper_add(sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t arrival_ns) {
+  return mapper ? mapper->mapper.add(source_time_ns, arrival_ns) : SPHC_E_ARGUMENT;
+}
+
+sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t *host_time_ns) {
+  return mapper && host_time_ns ? mapper->mapper.map(source_time_ns, host_time_ns) : SPHC_E_ARGUMENT;
+}
+
+sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping) {
+  if (!mapper || !mapping) return SPHC_E_ARGUMENT;
+  if (mapping->struct_size != sizeof(sphc_clock_mapping)) return SPHC_E_STRUCT_SIZE;
+  return mapper->mapper.get(mapping);
+}

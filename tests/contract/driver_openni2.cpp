@@ -1,0 +1,72 @@
+#include <filesystem>
+
+#include "drivers.h"
+#include "drivers/openni2/openni2.h"
+#include "openni2/oni_file.h"
+#include "temp_folder.h"
+#include "tests/support/openni2/virtual_tof.h"
+
+namespace sphc::contract {
+
+namespace {
+
+// A virtual camera that runs freely, in a process that has two.
+class RunningCamera {
+ public:
+  RunningCamera() : device_(taken_[0] ? 1 : 0) {
+    taken_[device_] = true;
+    sphc_openni2_open(vtof::uri(device_), nullptr, &camera_, nullptr);
+    vtof::run(device_, true);
+  }
+  ~RunningCamera() {
+    sphc_openni2_close(&camera_);
+    vtof::run(device_, false);
+    taken_[device_] = false;
+  }
+  RunningCamera(const RunningCamera &) = delete;
+  RunningCamera &operator=(const RunningCamera &) = delete;
+  sphc_openni2 *get() { return camera_; }
+
+ private:
+  static inline bool taken_[vtof::kDevices];
+  int device_;
+  sphc_openni2 *camera_ = nullptr;
+};
+
+// One recording a process, and a copy of it each time: OpenNI2 opens a file once.
+class RecordingCopy {
+ public:
+  RecordingCopy() {
+    static const TempFolder folder;
+    static const std::string original = folder / "original.oni";
+    if (!std::filesystem::exists(original)) writeOniFile(original, false);
+    const std::string copy = folder_ / "copy.oni";
+    std::filesystem::copy_file(original, copy);
+    sphc_openni2_open(copy.c_str(), nullptr, &camera_, nullptr);
+  }
+  ~RecordingCopy() { sphc_openni2_close(&camera_); }
+  RecordingCopy(const RecordingCopy &) = delete;
+  RecordingCopy &operator=(const RecordingCopy &) = delete;
+  sphc_openni2 *get() { return camera_; }
+
+ private:
+  TempFolder folder_;
+  sphc_openni2 *camera_ = nullptr;
+};
+
+template <typename Camera>
+OpenedDriver openCamera() {
+  const auto opened = std::make_shared<Camera>();
+  OpenedDriver driver{{}, opened};
+  if (sphc_openni2_source(opened->get(), &driver.source) != SPHC_OK) return {};
+  return driver;
+}
+
+}  // namespace
+
+// How many captures the recording has depends on when OpenNI2's recorder wakes; its end is tested elsewhere.
+std::vector<Driver> driversUnderTest() {
+  return {{"OpenNI2", openCamera<RunningCamera>}, {"OpenNI2Recording", openCamera<RecordingCopy>}};
+}
+
+}  // namespace sphc::contract

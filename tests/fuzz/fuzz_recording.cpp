@@ -1,0 +1,103 @@
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "drivers/replay/failure.h"
+#include "drivers/replay/mcap/depth_rvl.h"
+#include "drivers/replay/message_image.h"
+#include "drivers/replay/replay.h"
+#include "tests/fuzz/targets.h"
+
+namespace sphc::fuzz {
+namespace {
+
+// The bytes as a file that is nowhere on the disk.
+class MemoryFile {
+ public:
+  MemoryFile(const uint8_t *data, size_t bytes) : descriptor_(memfd_create("fuzz", 0)) {
+    if (write(descriptor_, data, bytes) != static_cast<ssize_t>(bytes)) broken("a file in memory takes its bytes");
+  }
+  ~MemoryFile() { close(descriptor_); }
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+void readAll(sphc_replay *replay) {
+  const uint32_t frames = std::min(sphc_replay_frame_count(replay), 20u);
+  for (uint32_t i = 0; i < frames; ++i) {
+    sphc_frame frame;
+    sphc_message message = {};
+    const sphc_status status = sphc_replay_read_frame(replay, i, &frame, &message);
+    if (status > 0 || (status < 0 && !message.text[0])) broken("an image is read, or the failure explains itself");
+  }
+  sphc_source source;
+  sphc_replay_source(replay, &source);
+  source.start(source.self);
+  int64_t last_ns = 0;
+  for (uint32_t i = 0; i < 40; ++i) {
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
+    const sphc_status status = source.acquire(source.self, 0, &capture);
+    if (status == SPHC_END) return;
+    if (status != SPHC_OK) continue;
+    if (capture.time_ns < last_ns) broken("captures come in order of time");
+    last_ns = capture.time_ns;
+    source.release(source.self, &capture);
+  }
+}
+
+}  // namespace
+
+void recording(const uint8_t *data, size_t bytes) {
+  const MemoryFile file(data, bytes);
+  sphc_replay *replay = nullptr;
+  sphc_message message = {};
+  const sphc_status status = sphc_replay_open(file.path().c_str(), nullptr, nullptr, &replay, &message);
+  if (status != SPHC_OK) {
+    if (status > 0 || !message.text[0] || replay) broken("a refusal is a failure that explains itself");
+    return;
+  }
+  readAll(replay);
+  sphc_replay_close(&replay);
+}
+
+// The kind of message, then the message.
+void message(const uint8_t *data, size_t bytes) {
+  if (bytes == 0) return;
+  const auto kind = static_cast<replay::Kind>(1 + data[0] % 5);
+  const std::vector<uint8_t> exact(data + 1, data + bytes);
+  const bool is_color = replay::streamOf(kind) == SPHC_STREAM_COLOR;
+  sphc_camera camera = {};
+  camera.width = 16;
+  camera.height = 16;
+  std::vector<uint16_t> pixels(16 * 16 * 2, 0xABCD);
+  const size_t used = is_color ? 16 * 16 * 3 / 2 : 16 * 16;
+  try {
+    replay::MessageDecoder().decode(kind, replay::viewOf(exact), camera,
+                                    is_color ? SPHC_FORMAT_BGR8 : SPHC_FORMAT_DEPTH16,
+                                    reinterpret_cast<uint8_t *>(pixels.data()));
+  } catch (const replay::Failure &failure) {
+    if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_IMAGE) broken("the failure is the image's");
+  }
+  if (std::any_of(pixels.begin() + static_cast<ptrdiff_t>(used), pixels.end(),
+                  [](uint16_t p) { return p != 0xABCD; }))
+    broken("nothing is written behind the image");
+}
+
+void rvl(const uint8_t *data, size_t bytes) {
+  const std::vector<uint8_t> exact(data, data + bytes);
+  std::vector<uint16_t> depth(300);
+  if (!replay::decodeRvl(replay::viewOf(exact), depth.data(), depth.size())) return;
+  std::vector<uint8_t> encoded(replay::rvlMostBytes(depth.size()));
+  std::vector<uint16_t> again(depth.size());
+  encoded.resize(replay::encodeRvl(depth.data(), depth.size(), encoded.data()));
+  if (!replay::decodeRvl(replay::viewOf(encoded), again.data(), again.size()) || again != depth)
+    broken("what was decoded can be encoded");
+}
+
+}  // namespace sphc::fuzz

@@ -1,0 +1,116 @@
+#include "tests/fuzz/recording_seeds.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "drivers/replay/encoded_image.h"
+#include "drivers/replay/mcap/depth_rvl.h"
+#include "drivers/replay/mcap/depth_zstd.h"
+#include "drivers/replay/mcap/messages.h"
+#include "drivers/replay/recorder.h"
+
+namespace sphc::fuzz {
+namespace {
+
+constexpr uint32_t kSide = 16;
+
+// A step, a slope and a hole.
+std::vector<uint16_t> depthPixels() {
+  std::vector<uint16_t> depth(kSide * kSide);
+  for (size_t i = 0; i < depth.size(); ++i)
+    depth[i] = static_cast<uint16_t>(i % 33 < 5 ? 0 : i % 50 < 20 ? 900 + i : 3000);
+  return depth;
+}
+
+std::vector<uint8_t> colorPixels() {
+  std::vector<uint8_t> color(kSide * kSide * 3);
+  for (size_t i = 0; i < color.size(); ++i) color[i] = static_cast<uint8_t>(i * 7);
+  return color;
+}
+
+sphc_calibration smallCalibration() {
+  sphc_calibration calibration;
+  sphc_calibration_init(&calibration, sizeof calibration);
+  calibration.color_camera = {SPHC_CAMERA_PINHOLE, kSide, kSide, 4, {20, 20, 8, 8}};
+  calibration.depth_camera = calibration.color_camera;
+  return calibration;
+}
+
+std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality) {
+  std::string folder = (std::filesystem::temp_directory_path() / "sphc_XXXXXX").string();
+  if (!mkdtemp(folder.data())) broken("there is a temporary folder");
+  const std::string path = folder + "/seed.mcap";
+  const sphc_calibration calibration = smallCalibration();
+  sphc_recorder_config config;
+  sphc_recorder_config_init(&config, sizeof config);
+  config.depth_codec = codec;
+  config.jpeg_quality = jpeg_quality;
+  sphc_recorder *recorder = nullptr;
+  sphc_recorder_open(path.c_str(), &calibration, &config, &recorder, nullptr);
+  const std::vector<uint16_t> depth = depthPixels();
+  const std::vector<uint8_t> color = colorPixels();
+  for (uint32_t i = 0; i < 6; ++i) {
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
+    capture.stream = i % 2 ? SPHC_STREAM_DEPTH : SPHC_STREAM_COLOR;
+    capture.time_ns = 1000 + 10 * i;
+    capture.sequence = i;
+    capture.image = i % 2 ? sphc_image{depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16}
+                          : sphc_image{color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8};
+    sphc_recorder_add(recorder, &capture, nullptr);
+    const sphc_rigid pose = {{1, 0, 0, 0}, {0.1 * i, 0, 0}};
+    sphc_recorder_add_pose(recorder, 1000 + 10 * i, &pose, nullptr);
+  }
+  sphc_recorder_close(&recorder, nullptr);
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::filesystem::remove_all(folder);
+  return bytes;
+}
+
+std::vector<uint8_t> begun(replay::Kind kind) { return {static_cast<uint8_t>(static_cast<int>(kind) - 1)}; }
+
+}  // namespace
+
+std::vector<std::vector<uint8_t>> recordingSeeds() {
+  const std::vector<uint8_t> whole = recordedFile(SPHC_DEPTH_RVL, 0);
+  const std::vector<uint8_t> cut(whole.begin(), whole.end() - static_cast<ptrdiff_t>(whole.size() / 4));
+  return {whole, recordedFile(SPHC_DEPTH_ZSTD, 90), recordedFile(SPHC_DEPTH_RAW, 0), cut};
+}
+
+std::vector<std::vector<uint8_t>> messageSeeds() {
+  using namespace replay;
+  const std::vector<uint16_t> depth = depthPixels();
+  const std::vector<uint8_t> color = colorPixels();
+  const sphc_image color_image = {color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8};
+  const sphc_image depth_image = {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16};
+  Bytes raw_color = begun(Kind::kColorImage), raw_depth = begun(Kind::kDepthImage), jpeg = begun(Kind::kColorJpeg),
+        rvl_message = begun(Kind::kDepthRvl), zstd_message = begun(Kind::kDepthZstd);
+  putImageMessage(raw_color, 5, color_image);
+  putImageMessage(raw_depth, 5, depth_image);
+  ImageEncoder encoder;
+  putCompressedMessage(jpeg, 5, Kind::kColorJpeg, encoder.jpeg(color_image, 90));
+  Bytes encoded(kRvlHeadBytes + rvlMostBytes(depth.size()));
+  putRvlHead(encoded.data(), kSide, kSide);
+  encoded.resize(kRvlHeadBytes + encodeRvl(depth.data(), depth.size(), encoded.data() + kRvlHeadBytes));
+  putCompressedMessage(rvl_message, 5, Kind::kDepthRvl, viewOf(encoded));
+  encoded.assign(kZstdHeadBytes + DepthZstdEncoder::mostBytes(depth.size()), 0);
+  putZstdHead(encoded.data(), kSide, kSide);
+  encoded.resize(kZstdHeadBytes + DepthZstdEncoder(depth.size())
+                                      .encode(depth.data(), depth.size(), encoded.data() + kZstdHeadBytes,
+                                              encoded.size() - kZstdHeadBytes));
+  putCompressedMessage(zstd_message, 5, Kind::kDepthZstd, viewOf(encoded));
+  return {raw_color, raw_depth, jpeg, rvl_message, zstd_message};
+}
+
+std::vector<std::vector<uint8_t>> rvlSeeds() {
+  std::vector<uint16_t> depth = depthPixels();
+  depth.resize(300, 77);
+  std::vector<uint8_t> encoded(replay::rvlMostBytes(depth.size()));
+  encoded.resize(replay::encodeRvl(depth.data(), depth.size(), encoded.data()));
+  return {encoded};
+}
+
+}  // namespace sphc::fuzz

@@ -1,0 +1,199 @@
+// openni2_poses RECORDING MAP - localizes a recording twice, through the replay driver and through OpenNI2's own
+// runtime with a virtual camera that shows the recording; the results must be the same to the last bit.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "drivers/openni2/openni2.h"
+#include "drivers/replay/replay.h"
+#include "tests/support/openni2/virtual_tof.h"
+
+namespace {
+
+namespace vtof = sphc::vtof;
+constexpr uint32_t kPatienceUs = 10000000;
+
+void require(sphc_status status, const char *what, const char *why) {
+  if (status >= 0) return;
+  std::fprintf(stderr, "%s: %s (%s)\n", what, why, sphc_status_name(status));
+  std::exit(1);
+}
+
+void *allocate(size_t bytes, size_t alignment) {
+  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);  // until the process ends
+}
+
+std::vector<uint64_t> readMap(const char *path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::vector<uint64_t> words((bytes.size() + 7) / 8);
+  std::memcpy(words.data(), bytes.data(), bytes.size());
+  return words;
+}
+
+sphc_config configOf(const sphc_replay *replay) {
+  sphc_calibration calibration = {};
+  calibration.struct_size = sizeof calibration;
+  sphc_replay_calibration(replay, &calibration);
+  sphc_config config;
+  sphc_config_init(&config, sizeof config);
+  config.color_camera = calibration.color_camera;
+  config.depth_camera = calibration.depth_camera;
+  config.color_from_depth = calibration.color_from_depth;
+  config.depth_unit_m = calibration.depth_unit_m;
+  return config;
+}
+
+// Pairs captures and localizes the pairs.
+class Pipeline {
+ public:
+  Pipeline(const sphc_config &config, const std::vector<uint64_t> &map_file, const sphc_source &source)
+      : source_(source) {
+    sphc_message message = {};
+    size_t bytes = 0, alignment = 0;
+    sphc_map_memory(&bytes, &alignment);
+    require(sphc_map_init(allocate(bytes, alignment), bytes, map_file.data(), map_file.size() * 8, &map_, &message),
+            "map", message.text);
+    sphc_memory need = {};
+    require(sphc_localizer_memory(&config, &need, &message), "localizer", message.text);
+    require(sphc_localizer_init(allocate(need.state_bytes, need.alignment), need.state_bytes,
+                                allocate(need.scratch_bytes, need.alignment), need.scratch_bytes, &config, &map_, 1,
+                                &localizer_, &message),
+            "localizer", message.text);
+    sphc_pairer_config pairing;
+    sphc_pairer_config_init(&pairing, sizeof pairing);
+    sphc_pairer_memory(&bytes, &alignment);
+    require(sphc_pairer_init(allocate(bytes, alignment), bytes, &pairing, &pairer_, &message), "pairer",
+            message.text);
+  }
+
+  // Takes one capture from the source; false at its end.
+  bool step() {
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
+    const sphc_status status = source_.acquire(source_.self, kPatienceUs, &capture);
+    require(status, "acquire", source_.message(source_.self));
+    if (status != SPHC_OK) return false;
+    require(sphc_pairer_push(pairer_, &capture), "pairer", "full");
+    sphc_pair pair = {};
+    pair.struct_size = sizeof pair;
+    sphc_capture dropped = {};
+    for (;;) {
+      if (sphc_pairer_pop(pairer_, &pair, &dropped) == SPHC_OK)
+        localize(pair);
+      else if (dropped.stream == SPHC_STREAM_NONE)
+        return true;
+      else
+        source_.release(source_.self, &dropped);
+    }
+  }
+
+  const std::vector<sphc_result> &results() const { return results_; }
+
+ private:
+  void localize(const sphc_pair &pair) {
+    const sphc_frame frame = {sizeof frame,
+                              pair.color.sequence,
+                              pair.color.time_ns,
+                              pair.depth.time_ns,
+                              pair.color.image,
+                              pair.depth.image,
+                              nullptr};
+    sphc_result result;
+    std::memset(&result, 0, sizeof result);
+    result.struct_size = sizeof result;
+    require(sphc_localizer_process(localizer_, &frame, &result), "localizer", sphc_localizer_message(localizer_));
+    results_.push_back(result);
+    source_.release(source_.self, &pair.color);
+    source_.release(source_.self, &pair.depth);
+  }
+
+  sphc_source source_;
+  sphc_map *map_ = nullptr;
+  sphc_localizer *localizer_ = nullptr;
+  sphc_pairer *pairer_ = nullptr;
+  std::vector<sphc_result> results_;
+};
+
+void show(const sphc_capture &capture) {
+  vtof::Frame frame = {};
+  frame.sensor = capture.stream == SPHC_STREAM_COLOR ? ONI_SENSOR_COLOR : ONI_SENSOR_DEPTH;
+  frame.index = static_cast<int>(capture.sequence);
+  frame.timestamp_us = static_cast<uint64_t>(capture.time_ns / 1000);
+  frame.pixels = capture.image.data;
+  if (capture.time_ns % 1000 != 0 || !vtof::emit(0, frame)) {
+    std::fprintf(stderr, "capture %u of the recording cannot be shown\n", capture.sequence);
+    std::exit(1);
+  }
+}
+
+// The recording shown to the camera, two captures at a time.
+void showAll(const sphc_source &recording, Pipeline *camera) {
+  require(recording.start(recording.self), "recording", recording.message(recording.self));
+  for (int shown = 1;; ++shown) {
+    sphc_capture capture = {};
+    capture.struct_size = sizeof capture;
+    const sphc_status status = recording.acquire(recording.self, kPatienceUs, &capture);
+    require(status, "recording", recording.message(recording.self));
+    if (status != SPHC_OK) break;
+    show(capture);
+    recording.release(recording.self, &capture);
+    if (shown % 2 == 0) camera->step(), camera->step();
+  }
+  recording.stop(recording.self);
+}
+
+sphc_openni2 *openCamera(const sphc_config &config) {
+  sphc_openni2_config wanted;
+  sphc_openni2_config_init(&wanted, sizeof wanted);
+  wanted.color = {config.color_camera.width, config.color_camera.height, 0};
+  wanted.depth = {config.depth_camera.width, config.depth_camera.height, 0};
+  wanted.stall_us = 60000000;
+  sphc_openni2 *camera = nullptr;
+  sphc_message message = {};
+  require(sphc_openni2_open(vtof::uri(0), &wanted, &camera, &message), "camera", message.text);
+  return camera;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  if (argc != 3) return 2;
+  sphc_replay_config replaying;
+  sphc_replay_config_init(&replaying, sizeof replaying);
+  replaying.color_format = SPHC_FORMAT_RGB8;
+  sphc_replay *replay = nullptr;
+  sphc_message message = {};
+  require(sphc_replay_open(argv[1], nullptr, &replaying, &replay, &message), "recording", message.text);
+  const sphc_config config = configOf(replay);
+  const std::vector<uint64_t> map_file = readMap(argv[2]);
+
+  sphc_source recording = {}, live = {};
+  sphc_replay_source(replay, &recording);
+  Pipeline replayed(config, map_file, recording);
+  require(recording.start(recording.self), "recording", recording.message(recording.self));
+  while (replayed.step()) continue;
+  recording.stop(recording.self);
+
+  sphc_openni2 *camera = openCamera(config);
+  sphc_openni2_source(camera, &live);
+  Pipeline captured(config, map_file, live);
+  require(live.start(live.self), "camera", live.message(live.self));
+  showAll(recording, &captured);
+  sphc_openni2_close(&camera);
+  sphc_replay_close(&replay);
+
+  size_t same = 0, localized = 0;
+  for (size_t i = 0; i < replayed.results().size() && i < captured.results().size(); ++i) {
+    same += std::memcmp(&replayed.results()[i], &captured.results()[i], sizeof(sphc_result)) == 0;
+    localized += replayed.results()[i].outcome == SPHC_OUTCOME_LOCALIZED;
+  }
+  std::printf("replayed %zu frames, localized %zu; through OpenNI2 %zu frames, %zu the same to the bit\n",
+              replayed.results().size(), localized, captured.results().size(), same);
+  const bool enough = localized > 0 && 2 * localized > replayed.results().size();
+  return enough && same == replayed.results().size() && same == captured.results().size() ? 0 : 1;
+}
