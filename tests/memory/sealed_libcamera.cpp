@@ -1,5 +1,5 @@
-// The libcamera driver while the heap is sealed: between start and stop none of our code may allocate, on good days and
-// bad.  (libcamera itself does, in its own libraries, and so does the fake that stands for it here.)
+// The libcamera driver while the heap is sealed: between start and stop none of our code may allocate, on good days
+// and bad.  (libcamera itself does, in its own libraries, and so does the fake that stands for it here.)
 #include <dlfcn.h>
 
 #include <cstdio>

@@ -1,10 +1,10 @@
 #include "runtime/stages/pose/estimator.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "runtime/stages/pose/mirrored.h"
 #include "runtime/stages/pose/residual.h"
+#include "runtime/stages/pose/symmetric_inverse.h"
 
 namespace sphc {
 namespace {
@@ -357,7 +357,7 @@ void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterat
   estimate->camera_from_map = cleaned(refined.camera_from_map);
   Matrix8 information = refined.information;
   information.diagonal().array() += 1e-6;  // a direction that nothing pins down gets a large, finite variance
-  const Matrix8 covariance = information.ldlt().solve(Matrix8::Identity());
+  const Matrix8 covariance = symmetricInverse(information);
   estimate->covariance = covariance.topLeftCorner<6, 6>();
   estimate->depth = query.depth;
   estimate->depth.mean += refined.bias;

@@ -1,11 +1,11 @@
 #include "runtime/stages/pose/lever.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 
 #include "runtime/stages/pose/refine.h"
 #include "runtime/stages/pose/residual.h"
+#include "runtime/stages/pose/symmetric_inverse.h"
 
 namespace sphc {
 namespace {
@@ -41,7 +41,7 @@ Matrix6 covarianceOf(Span<const Correspondence> correspondences, const Estimate 
   Matrix36 row;
   for (const Correspondence &c : correspondences)
     if (rowOf(c, estimate, &row)) information += row.transpose() * row;
-  return information.ldlt().solve(Matrix6::Identity());
+  return symmetricInverse(information);
 }
 
 double centreVariance(const Matrix6 &covariance) { return covariance.bottomRightCorner<3, 3>().trace(); }
