@@ -85,6 +85,14 @@ void File::sync() {
   if (::fdatasync(descriptor_) != 0) fail(name_, "cannot be brought to the disk", "check the disk");
 }
 
+void File::syncFolder(const std::filesystem::path &path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // a folder that may be written but not read
+  ::fsync(descriptor);         // some file systems know no such thing: the file's own sync has to do
+  ::close(descriptor);
+}
+
 void File::truncate(uint64_t size) noexcept {
   if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0)
     return;  // then its end is garbage, which readers bear

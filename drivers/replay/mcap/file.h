@@ -28,6 +28,8 @@ class File {
   void append(std::initializer_list<ByteView> parts);
   // What was written survives a power cut from now on.
   void sync();
+  // Likewise that a new file is in its folder.
+  static void syncFolder(const std::filesystem::path &path);
   void truncate(uint64_t size) noexcept;
 
  private:

@@ -18,6 +18,7 @@ const std::string kLibrary =
 
 McapWriter::McapWriter(const std::filesystem::path &path, size_t chunk_bytes, size_t most_message_bytes)
     : file_(File::create(path)), chunk_bytes_(chunk_bytes) {
+  File::syncFolder(path);
   chunk_.reserve(chunk_bytes + most_message_bytes + kRecordHeadBytes + kMessageHeadBytes);
   head_.reserve(256);
   index_.reserve(kMostMessages * kIndexEntryBytes + 1024);
