@@ -18,6 +18,7 @@ Command buildCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
 Command infoCommand(CLI::App *root);
+Command calibrationCommand(CLI::App *root);
 std::vector<Command> benchCommands(CLI::App *root);
 
 }  // namespace sphc::host

@@ -62,7 +62,7 @@ int run(int argc, char **argv) {
   root.footer(kExitCodes);
   Console console;
   std::vector<Command> commands = {simulateCommand(&root), buildCommand(&root), localizeCommand(&root),
-                                   inspectCommand(&root), infoCommand(&root)};
+                                   inspectCommand(&root),  infoCommand(&root),  calibrationCommand(&root)};
   for (Command &command : benchCommands(&root)) commands.push_back(std::move(command));
   for (Command &command : commands) {
     command.app->add_flag("--json", console.json, "Result as JSON on stdout, nothing else there");
