@@ -63,6 +63,7 @@ TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Align) { walk("align", 3000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
+TEST(Mutations, Foreign) { walk("foreign", 10000); }
 
 #ifdef SPHC_FUZZ_CALIBRATION
 TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key

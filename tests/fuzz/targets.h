@@ -15,6 +15,8 @@ void frame(const uint8_t *data, size_t bytes);
 void align(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
+// A calibration file of another format: the first byte chooses it, COLMAP's rigs stand behind a zero.
+void foreign(const uint8_t *data, size_t bytes);
 
 struct Target {
   const char *name;

@@ -1,6 +1,7 @@
 // Kalibr's camchain.yaml: cameras cam0, cam1, ... of which each holds the transform from the one before it.
 #include <algorithm>
 
+#include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
 #include "host/calibration/intrinsics.h"
 #include "host/calibration/number_text.h"
@@ -15,8 +16,8 @@ constexpr size_t kMostCameras = 32;
 sphc_camera readCamera(const YamlMap &map) {
   const std::string model = map.text("camera_model", "pinhole");
   if (model != "pinhole")
-    map.refuse("camera_model", "is " + model.substr(0, 40) +
-                                   "; known here: pinhole; calibrate with pinhole-radtan or pinhole-equi");
+    map.refuse("camera_model",
+               "is " + shown(model) + "; known here: pinhole; calibrate with pinhole-radtan or pinhole-equi");
   const std::vector<double> k = map.numbers("intrinsics", "[fu, fv, pu, pv]");
   if (k.size() != 4)
     map.refuse("intrinsics", "has " + std::to_string(k.size()) + " numbers; pinhole takes 4: fu fv pu pv");
@@ -34,7 +35,7 @@ sphc_camera readCamera(const YamlMap &map) {
   std::vector<double> coefficients;
   if (distortion != "none") coefficients = map.numbers("distortion_coeffs", "[0, 0, 0, 0]");
   if (distortion != "radtan" && distortion != "equidistant" && distortion != "none")
-    map.refuse("distortion_model", "is " + distortion.substr(0, 40) + "; known here: radtan, equidistant, none");
+    map.refuse("distortion_model", "is " + shown(distortion) + "; known here: radtan, equidistant, none");
   if (distortion != "none" && coefficients.size() != 4)
     map.refuse("distortion_coeffs",
                "has " + std::to_string(coefficients.size()) + " numbers; " + distortion + " takes 4");

@@ -1,6 +1,7 @@
 // ROS camera_info as camera_calibration_parsers writes it: one camera a file.
 #include <array>
 
+#include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
 #include "host/calibration/intrinsics.h"
 #include "host/calibration/number_text.h"
@@ -59,7 +60,7 @@ CalibrationPart readRos(const TextFile &file) {
     return {{camera}, {}, {}};
   }
   map.refuse("distortion_model",
-             "is " + model.substr(0, 40) + "; known here: plumb_bob, rational_polynomial, equidistant");
+             "is " + shown(model) + "; known here: plumb_bob, rational_polynomial, equidistant");
 }
 
 std::vector<TextFile> rosTexts(const sphc_calibration &calibration) {

@@ -35,8 +35,7 @@ YamlMap::YamlMap(YAML::Node node, std::string file, std::string path)
   std::set<std::string> seen;
   for (const auto &item : node_) {
     if (!item.first.IsScalar()) continue;
-    if (!seen.insert(item.first.Scalar()).second)
-      refuse(item.first.Scalar().substr(0, 40), "given twice; remove one");
+    if (!seen.insert(item.first.Scalar()).second) refuse(shown(item.first.Scalar()), "given twice; remove one");
   }
 }
 
