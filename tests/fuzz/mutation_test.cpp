@@ -68,6 +68,7 @@ TEST(Mutations, Rvl) { walk("rvl", 20000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
 TEST(Mutations, V4l2) { walk("v4l2", 5000); }
+TEST(Mutations, Foreign) { walk("foreign", 10000); }
 
 #ifdef SPHC_FUZZ_RECORDINGS
 TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key

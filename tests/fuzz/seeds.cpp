@@ -9,6 +9,10 @@
 #endif
 #include "tests/support/map_bytes.h"
 #include "tests/support/scene.h"
+#ifdef SPHC_FUZZ_FOREIGN
+#include "host/calibration/formats.h"
+#include "tests/unit/host/calibration/golden_files.h"
+#endif
 
 namespace sphc::fuzz {
 namespace {
@@ -63,6 +67,21 @@ const char *const kCalibration = R"({
 )";
 #endif
 
+#ifdef SPHC_FUZZ_FOREIGN
+std::vector<std::vector<uint8_t>> foreignSeeds() {
+  using namespace sphc::host;
+  const auto seed = [](Format format, const std::string &text) {
+    return bytesOf(static_cast<char>(format) + text);
+  };
+  return {seed(Format::kKalibr, kKalibrFile),
+          seed(Format::kRos, kRosColorFile),
+          seed(Format::kOpencv, kOpencvSampleFile),
+          seed(Format::kOpencv, kOpencvStereoFile),
+          seed(Format::kColmap, std::string(kColmapCamerasFile) + '\0' + kColmapRigsFile),
+          seed(Format::kAzureKinect, kAzureKinectFile)};
+}
+#endif
+
 }  // namespace
 
 void broken(const char *promise) {
@@ -79,6 +98,9 @@ std::vector<Target> allTargets() {
        {alignSeed(SPHC_CAMERA_PINHOLE, {}), alignSeed(SPHC_CAMERA_BROWN5, {0.1, -0.05, 0.001, 0, 0}),
         alignSeed(SPHC_CAMERA_BROWN8, {0.1, 0, 0, 0, 0, 0.1, 0, 0}),
         alignSeed(SPHC_CAMERA_KANNALA_BRANDT4, {0.02, -0.01, 0, 0})}}};
+#ifdef SPHC_FUZZ_FOREIGN
+  targets.push_back({"foreign", foreign, foreignSeeds()});
+#endif
 #ifdef SPHC_FUZZ_RECORDINGS
   targets.push_back({"recording", recording, recordingSeeds()});
   targets.push_back({"message", message, messageSeeds()});

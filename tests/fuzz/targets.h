@@ -25,6 +25,8 @@ void calibration(const uint8_t *data, size_t bytes);
 void mjpeg(const uint8_t *data, size_t bytes);
 // What is wrong with a kernel's answers to the V4L2 driver.
 void v4l2(const uint8_t *data, size_t bytes);
+// A calibration file of another format: the first byte chooses it, COLMAP's rigs stand behind a zero.
+void foreign(const uint8_t *data, size_t bytes);
 
 struct Target {
   const char *name;

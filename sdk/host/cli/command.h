@@ -23,6 +23,7 @@ Command recordCommand(CLI::App *root);
 Command liveCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
 Command infoCommand(CLI::App *root);
+Command calibrationCommand(CLI::App *root);
 std::vector<Command> benchCommands(CLI::App *root);
 
 }  // namespace sphc::host

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <nlohmann/json.hpp>
 
 #include "command_runner.h"
@@ -38,8 +39,8 @@ TEST_P(HelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
                          testing::Values("simulate", "build", "localize", "inspect", "info", "convert",
-                                         "bench pose", "bench confidence", "bench map", "bench frame",
-                                         "bench recording"));
+                                         "calibration", "record", "live", "devices", "doctor", "bench pose",
+                                         "bench confidence", "bench map", "bench frame", "bench recording"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -52,9 +53,12 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
 
 INSTANTIATE_TEST_SUITE_P(
     EachMistake, UsageTest,
-    testing::Values("", "conquer", "info", "info a b", "convert a", "convert a b --to zip", "convert a b --to mcap",
-                    "convert a b.mcap --jpeg 0", "bench", "bench pose", "bench pose f --depth radar",
-                    "bench pose f --repeat 0", "bench frame --recording r", "bench map --recording r --out o",
+    testing::Values("", "conquer", "live", "live --device simulated:", "record --out x.mcap",
+                    "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
+                    "calibration x --format what", "calibration x --color-size 640", "info", "info a b",
+                    "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b.mcap --jpeg 0",
+                    "bench", "bench pose", "bench pose f --depth radar", "bench pose f --repeat 0",
+                    "bench frame --recording r", "bench map --recording r --out o",
                     "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
                     "build --recording r", "build --recording r --map m --eta 1.5",
                     "build --recording r --map m --key a --new-key b", "localize --recording r --map m --step 0",
@@ -66,7 +70,8 @@ TEST(CommandLine, UsageNamesTheSubcommand) {
 
 TEST(CommandLine, MissingInputIsExitCodeOneAndNamesIt) {
   for (const std::string &command :
-       {std::string("info /nonexistent.sphc"), std::string("inspect /nonexistent.sphc"),
+       {std::string("info /nonexistent.sphc"), std::string("calibration /nonexistent.yaml"),
+        std::string("inspect /nonexistent.sphc"),
         std::string("build --recording /nonexistent --map /tmp/never.sphc"),
         std::string("localize --recording /nonexistent --map /tmp/never.sphc")}) {
     const Answer answer = runCommand(command);
@@ -177,6 +182,93 @@ TEST(Convert, GoesThroughEveryLayoutAndBack) {
   EXPECT_EQ(runCommand("convert " + walk + " " + file).exit_code, kExitFailure) << "nothing is overwritten";
 }
 
+const char kChain[] =
+    "cam0: {camera_model: pinhole, intrinsics: [500, 501, 319.5, 239.5], distortion_model: equidistant,\n"
+    "  distortion_coeffs: [0.01, 0.02, -0.01, 0.001], resolution: [640, 480]}\n"
+    "cam1: {camera_model: pinhole, intrinsics: [250, 251, 159.5, 119.5], distortion_model: radtan,\n"
+    "  distortion_coeffs: [0.1, -0.2, 0.001, 0.002], resolution: [320, 240],\n"
+    "  T_cn_cnm1: [[1, 0, 0, 0.02], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}\n";
+
+TEST(Calibration, ShowsAndConverts) {
+  const TempFolder folder;
+  std::ofstream(folder / "chain.yaml") << kChain;
+  const Answer shown = runCommand("calibration " + (folder / "chain.yaml"));
+  ASSERT_EQ(shown.exit_code, kExitDone) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("(kalibr)"));
+  EXPECT_THAT(shown.out, HasSubstr("20.00 mm"));
+
+  std::string from = folder / "chain.yaml";
+  for (const std::string format : {"opencv", "ros", "colmap", "spherecloud", "kalibr"}) {
+    const std::string to = folder / ("as_" + format);
+    const Answer made = runCommand("calibration " + from + " --json --to " + format + " --out " + to);
+    ASSERT_EQ(made.exit_code, kExitDone) << made.err;
+    const auto json = nlohmann::json::parse(made.out);
+    EXPECT_NEAR(json["baseline_m"].get<double>(), 0.02, 1e-12);
+    EXPECT_EQ(json["written"]["round_trip"].size(), 6u);
+    for (const auto &part : json["written"]["round_trip"]) EXPECT_LT(part["largest_px"], 1e-6) << format;
+    from = format == "ros" ? to + "/color.yaml " + to + "/depth.yaml " + to + "/extrinsics.yaml" : to;
+  }
+}
+
+TEST(Calibration, ApproximatesOnlyWhenTold) {
+  const TempFolder folder;
+  std::ofstream(folder / "chain.yaml") << kChain;
+  const std::string command =
+      "calibration " + (folder / "chain.yaml") + " --to azure-kinect --out " + (folder / "k.json");
+  const Answer refused = runCommand(command);
+  EXPECT_EQ(refused.exit_code, kExitFailure);
+  EXPECT_THAT(refused.err, HasSubstr("--approximate"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "k.json"));
+  const Answer made = runCommand(command + " --approximate --json");
+  ASSERT_EQ(made.exit_code, kExitDone) << made.err;
+  const auto written = nlohmann::json::parse(made.out)["written"];
+  EXPECT_FALSE(written["exact"]);
+  EXPECT_LT(written["round_trip"][0]["largest_px"], 0.5);
+  EXPECT_EQ(written["round_trip"][0]["lost"], 0);
+}
+
+TEST(Calibration, OptionsSayWhatAFileLeavesOpen) {
+  const TempFolder folder;
+  std::ofstream(folder / "cameras.txt") << "1 PINHOLE 640 480 500 501 320 240\n2 PINHOLE 320 240 250 251 160 120\n";
+  const std::string command =
+      "calibration " + (folder / "cameras.txt") + " --json --color 2 --depth 1 --depth-unit 0.0002";
+  const Answer open = runCommand(command);
+  EXPECT_EQ(open.exit_code, kExitFailure);
+  EXPECT_THAT(open.err, HasSubstr("--color-from-depth"));
+  const Answer given = runCommand(command + " --color-from-depth -0.6,0,-0.8,0,-0.1,0,0.2");
+  ASSERT_EQ(given.exit_code, kExitDone) << given.err;
+  const auto json = nlohmann::json::parse(given.out);
+  EXPECT_EQ(json["color_camera"]["width"], 320);
+  EXPECT_EQ(json["color_from_depth"]["q_wxyz"][2], -0.8);
+  EXPECT_EQ(json["depth_unit_m"], 0.0002);
+}
+
+// A recording in a camera's place.
+void expectCaptures(const TempFolder &folder, const std::string &walk, const std::string &map) {
+  const std::string camera = " --device replay:" + walk;
+  const Answer live = runCommand("live --json --map " + map + camera);
+  EXPECT_EQ(live.exit_code, kExitDone) << live.err;
+  std::stringstream lines(live.out);
+  std::string line;
+  uint32_t frames = 0, localized = 0;
+  for (; std::getline(lines, line); ++frames) localized += nlohmann::json::parse(line)["localized"].get<bool>();
+  EXPECT_EQ(frames, 6u);
+  EXPECT_GE(localized, 5u);
+
+  const std::string file = folder / "again.mcap";
+  const Answer recorded = runCommand("record --json --out " + file + camera);
+  ASSERT_EQ(recorded.exit_code, kExitDone) << recorded.err;
+  const auto json = nlohmann::json::parse(recorded.out);
+  EXPECT_EQ(json["color"], 6);
+  EXPECT_EQ(json["depth"], 6);
+  EXPECT_EQ(json["dropped"], 0);
+  EXPECT_EQ(runCommand("localize -r " + file + " -m " + map).exit_code, kExitDone);
+
+  const Answer doctor = runCommand("doctor --json" + camera);
+  EXPECT_EQ(doctor.exit_code, kExitDone) << doctor.err << doctor.out;
+  EXPECT_FALSE(nlohmann::json::parse(doctor.out)["wrong"].get<bool>());
+}
+
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const TempFolder folder;
@@ -213,6 +305,7 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   EXPECT_TRUE(blind["within_5cm_5deg_percent"].is_null());
 
   expectBenches(folder, walk);
+  expectCaptures(folder, walk, map);
 
   // In another place's map.
   writeTinyMap(folder / "other.sphc", 200);

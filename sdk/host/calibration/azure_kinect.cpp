@@ -1,0 +1,200 @@
+// Azure Kinect's raw calibration.  Lengths are in units of the sensor's width and height from its corner; of the
+// distortion OpenCV's rational model; Rt is camera_from_rig in metres, the rig being the depth camera.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/calibration/fault.h"
+#include "host/calibration/formats.h"
+#include "host/calibration/intrinsics.h"
+#include "host/calibration/nearest_camera.h"
+#include "host/calibration/number_text.h"
+#include "host/calibration/rigid_matrix.h"
+
+namespace sphc::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The order of ModelParameters.
+enum { kCx, kCy, kFx, kFy, kK1, kK2, kK3, kK4, kK5, kK6, kCenterX, kCenterY, kP2, kP1, kParameterCount };
+
+const char kBrown[] = "CALIBRATION_LensDistortionModelBrownConrady";
+const char kRational[] = "CALIBRATION_LensDistortionModelRational6KT";
+const char kColorPurpose[] = "CALIBRATION_CameraPurposePhotoVideo";
+const char kDepthPurpose[] = "CALIBRATION_CameraPurposeDepth";
+
+// The modes of the sensor development kit.
+const std::vector<ImageMode> kDepthModes = {
+    {512, 512, 96, 90, 320, 288}, {1024, 1024, 192, 180, 640, 576}, {512, 512, 0, 0, 512, 512}};
+const std::vector<ImageMode> kColorModes = {{1280, 960, 0, 120, 1280, 720},
+                                            {1920, 1440, 0, 180, 1920, 1080},
+                                            {2560, 1920, 0, 240, 2560, 1440},
+                                            {2048, 1536, 0, 0, 2048, 1536},
+                                            {3840, 2880, 0, 360, 3840, 2160}};
+
+// A JSON value and where it stands.
+class Value {
+ public:
+  Value(const Json &json, std::string file, std::string path)
+      : json_(json), file_(std::move(file)), path_(std::move(path)) {}
+
+  Value at(const char *key) const {
+    const std::string path = path_.empty() ? key : path_ + "." + key;
+    if (!json_.is_object() || !json_.contains(key))
+      refuse(file_, path, "missing; is it an Azure Kinect's raw calibration?");
+    return {json_[key], file_, path};
+  }
+  std::vector<Value> items() const {
+    if (!json_.is_array() || json_.size() > 64) fail("must be a list of at most 64");
+    std::vector<Value> result;
+    for (size_t i = 0; i < json_.size(); ++i)
+      result.emplace_back(json_[i], file_, path_ + "[" + std::to_string(i) + "]");
+    return result;
+  }
+  double number() const {
+    if (!json_.is_number() || !std::isfinite(json_.get<double>())) fail("must be a finite number");
+    return json_.get<double>();
+  }
+  std::vector<double> numbers() const {
+    std::vector<double> result;
+    for (const Value &item : items()) result.push_back(item.number());
+    return result;
+  }
+  uint32_t pixels() const {
+    const double value = number();
+    if (!(value >= 16 && value <= 8192) || value != std::floor(value))
+      fail("must be a whole number from 16 to 8192");
+    return static_cast<uint32_t>(value);
+  }
+  std::string text() const {
+    if (!json_.is_string()) fail("must be a word in quotes");
+    return json_.get<std::string>();
+  }
+  [[noreturn]] void fail(const std::string &why) const { refuse(file_, path_, why); }
+
+ private:
+  const Json &json_;
+  std::string file_, path_;
+};
+
+// Rational6KT: as OpenCV's rational model but for half the tangential cross terms.
+Vector2 projectRational6kt(const sphc_camera &brown8, const Vector2 &ray) {
+  const double *k = brown8.params + 4;
+  const double x = ray.x(), y = ray.y(), r2 = x * x + y * y, p1 = k[2], p2 = k[3];
+  const double radial = (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+  const double u = x * radial + p2 * (r2 + 2 * x * x) + p1 * x * y;
+  const double v = y * radial + p1 * (r2 + 2 * y * y) + p2 * x * y;
+  return {brown8.params[0] * u + brown8.params[2], brown8.params[1] * v + brown8.params[3]};
+}
+
+// The file's model is none of ours: the nearest of ours, over the image.
+void approximateRational6kt(NamedCamera *named) {
+  sphc_camera brown8 = named->camera;
+  brown8.model = SPHC_CAMERA_BROWN8;
+  brown8.param_count = 12;
+  std::vector<RaySample> samples = sampleCamera(brown8);
+  if (samples.empty()) return;
+  for (RaySample &sample : samples) sample.pixel_px = projectRational6kt(brown8, sample.ray);
+  const NearestCamera nearest = nearestCamera(samples, {SPHC_CAMERA_BROWN8, 12}, brown8);
+  named->camera = nearest.camera;
+  named->inexact = "its model Rational6KT is not OpenCV's; the nearest brown8 is off by up to " +
+                   briefText(nearest.largest_px) + " px";
+}
+
+NamedCamera readCamera(const Value &value, const char *name, const std::vector<ImageMode> &modes) {
+  NamedCamera result;
+  result.name = name;
+  const uint32_t width = value.at("SensorWidth").pixels(), height = value.at("SensorHeight").pixels();
+  const Value model = value.at("Intrinsics").at("ModelType"), list = value.at("Intrinsics").at("ModelParameters");
+  const bool rational = model.text() == kRational;
+  if (!rational && model.text() != kBrown)
+    model.fail("is " + shown(model.text()) + "; known here: " + kBrown + " and " + kRational);
+  const std::vector<double> p = list.numbers();
+  if (p.size() != kParameterCount && p.size() != kParameterCount + 1)  // the metric radius may follow
+    list.fail("has " + std::to_string(p.size()) + " numbers; must be 14");
+  if (p[kCenterX] != 0 || p[kCenterY] != 0)
+    list.fail("has a centre of distortion of its own (numbers 11 and 12), which no camera model here has");
+  const Intrinsics intrinsics = {
+      p[kFx] * width, p[kFy] * height, p[kCx] * width + kCornerCentered, p[kCy] * height + kCornerCentered,
+      width,          height};
+  result.camera = brownCamera(intrinsics, {p[kK1], p[kK2], p[kP1], p[kP2], p[kK3], p[kK4], p[kK5], p[kK6]});
+  if (rational && (p[kP1] != 0 || p[kP2] != 0)) approximateRational6kt(&result);
+  if ((width == 1024 && height == 1024) || (width == 4096 && height == 3072)) result.modes = modes;
+
+  const Value rt = value.at("Rt");
+  sphc_rigid rigid;
+  const std::string fault = rigidFromMatrix(rt.at("Rotation").numbers(), rt.at("Translation").numbers(), &rigid);
+  if (!fault.empty()) rt.fail(fault);
+  result.camera_from_rig = rigid;
+  return result;
+}
+
+Json cameraJson(const sphc_camera &camera, const char *purpose, const char *location,
+                const sphc_rigid &camera_from_rig) {
+  const double *c = camera.params;
+  std::vector<double> d = opencvDistortion(camera);
+  d.resize(8);
+  const RigidMatrix m = matrixFromRigid(camera_from_rig);
+  Json json;
+  json["Intrinsics"]["ModelParameterCount"] = int{kParameterCount};
+  json["Intrinsics"]["ModelParameters"] = std::vector<double>{(c[2] - kCornerCentered) / camera.width,
+                                                              (c[3] - kCornerCentered) / camera.height,
+                                                              c[0] / camera.width,
+                                                              c[1] / camera.height,
+                                                              d[0],
+                                                              d[1],
+                                                              d[4],
+                                                              d[5],
+                                                              d[6],
+                                                              d[7],
+                                                              0,
+                                                              0,
+                                                              d[3],
+                                                              d[2]};
+  json["Intrinsics"]["ModelType"] = kBrown;
+  json["Location"] = location;
+  json["Purpose"] = purpose;
+  json["Rt"]["Rotation"] = m.rotation;
+  json["Rt"]["Translation"] = m.t_m;
+  json["SensorHeight"] = camera.height;
+  json["SensorWidth"] = camera.width;
+  return json;
+}
+
+// The kit hands the text out with the zero at its end.
+Json parse(const TextFile &file) {
+  const size_t end = file.text.find_last_not_of('\0');
+  try {
+    return Json::parse(file.text.substr(0, end == std::string::npos ? 0 : end + 1));
+  } catch (const Json::exception &error) {
+    refuse(file.name, "the file", std::string("no valid JSON: ") + error.what());
+  }
+}
+
+}  // namespace
+
+CalibrationPart readAzureKinect(const TextFile &file) {
+  const Json json = parse(file);
+  const Value cameras = Value(json, file.name, "").at("CalibrationInformation").at("Cameras");
+  CalibrationPart part;
+  for (const Value &camera : cameras.items()) {
+    const std::string purpose = camera.at("Purpose").text();
+    if (purpose == kColorPurpose) part.cameras.push_back(readCamera(camera, "color", kColorModes));
+    if (purpose == kDepthPurpose) part.cameras.push_back(readCamera(camera, "depth", kDepthModes));
+  }
+  if (part.cameras.empty())
+    cameras.fail(std::string("has no camera of purpose ") + kColorPurpose + " or " + kDepthPurpose);
+  return part;
+}
+
+std::string azureKinectText(const sphc_calibration &calibration) {
+  const sphc_rigid identity = {{1, 0, 0, 0}, {0, 0, 0}};
+  Json json;
+  json["CalibrationInformation"]["Cameras"] = {
+      cameraJson(calibration.depth_camera, kDepthPurpose, "CALIBRATION_CameraLocationD0", identity),
+      cameraJson(calibration.color_camera, kColorPurpose, "CALIBRATION_CameraLocationPV0",
+                 calibration.color_from_depth)};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace sphc::host

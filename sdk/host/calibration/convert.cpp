@@ -1,0 +1,82 @@
+#include "host/calibration/convert.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/replay/calibration_json.h"
+#include "host/calibration/fault.h"
+#include "host/calibration/nearest_camera.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr size_t kMostFileBytes = 256 << 10;
+
+TextFile readText(const std::string &path) {
+  TextFile file = {path, std::string(kMostFileBytes + 1, '\0')};
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || !std::filesystem::is_regular_file(path))
+    throw std::runtime_error(path + ": no such file, or it may not be read; check its name and permissions");
+  stream.read(file.text.data(), static_cast<std::streamsize>(file.text.size()));
+  if (stream.bad()) throw std::runtime_error(path + ": cannot be read");
+  file.text.resize(static_cast<size_t>(stream.gcount()));
+  if (file.text.size() > kMostFileBytes) throw std::runtime_error(path + ": over 256 KiB: no calibration file");
+  return file;
+}
+
+// COLMAP keeps its rigs beside its cameras.
+std::optional<TextFile> readRigs(const std::string &cameras_path) {
+  const std::filesystem::path rigs = std::filesystem::path(cameras_path).replace_filename("rigs.txt");
+  if (!std::filesystem::exists(rigs)) return {};
+  return readText(rigs.string());
+}
+
+// What of a format may stand in for a camera that it cannot hold.
+std::vector<WantedModel> modelsOf(Format format) {
+  if (format == Format::kKalibr) return {{SPHC_CAMERA_BROWN5, 8}, {SPHC_CAMERA_KANNALA_BRANDT4, 8}};
+  return {{SPHC_CAMERA_BROWN8, 12}};
+}
+
+sphc_camera fitCamera(const sphc_camera &camera, const char *role, Format format, bool approximate) {
+  if (formatHolds(format, camera)) return camera;
+  if (!approximate)
+    throw std::runtime_error(std::string(nameOf(format).name) + " cannot hold the " + role + " camera's model, " +
+                             replay::findModel(camera.model)->name +
+                             ", exactly; choose another format, or accept the nearest with --approximate");
+  const std::vector<RaySample> samples = sampleCamera(camera);
+  if (samples.empty())
+    throw std::runtime_error(std::string("the ") + role + " camera sees nothing; check its parameters");
+  std::optional<NearestCamera> best;
+  for (const WantedModel wanted : modelsOf(format)) {
+    const NearestCamera nearest = nearestCamera(samples, wanted, camera);
+    if (!best || nearest.rms_px < best->rms_px) best = nearest;
+  }
+  return best->camera;
+}
+
+}  // namespace
+
+ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std::optional<Format> format,
+                                     const JoinOptions &options) {
+  ReadCalibration result = {};
+  std::vector<CalibrationPart> parts;
+  for (const std::string &path : paths) {
+    const bool is_folder = std::filesystem::is_directory(path);
+    const TextFile file = readText(is_folder ? path + "/cameras.txt" : path);
+    const Format own = format ? *format : detectFormat(file);
+    const std::optional<TextFile> rigs = own == Format::kColmap ? readRigs(file.name) : std::nullopt;
+    parts.push_back(readCalibration(own, file, rigs ? &*rigs : nullptr));
+    result.files.push_back({file.name, own});
+  }
+  result.calibration = joinParts(parts, options);
+  return result;
+}
+
+sphc_calibration fitToFormat(const sphc_calibration &calibration, Format format, bool approximate) {
+  sphc_calibration result = calibration;
+  result.color_camera = fitCamera(calibration.color_camera, "colour", format, approximate);
+  result.depth_camera = fitCamera(calibration.depth_camera, "depth", format, approximate);
+  return result;
+}
+
+}  // namespace sphc::host

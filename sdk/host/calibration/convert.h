@@ -1,0 +1,28 @@
+// Calibration files: reading whatever format, and making a calibration fit the one wanted.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/calibration/formats.h"
+#include "host/calibration/join.h"
+
+namespace sphc::host {
+
+struct ReadFile {
+  std::string path;
+  Format format;
+};
+struct ReadCalibration {
+  sphc_calibration calibration;
+  std::vector<ReadFile> files;
+};
+// A folder stands for the cameras.txt in it.  `format`: of all files; none: each tells by itself.
+ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std::optional<Format> format,
+                                     const JoinOptions &options);
+
+// The calibration with cameras that the format holds.  Where it does not hold one: throws, or with `approximate`
+// takes the nearest that it holds.
+sphc_calibration fitToFormat(const sphc_calibration &calibration, Format format, bool approximate);
+
+}  // namespace sphc::host

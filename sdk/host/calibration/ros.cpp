@@ -1,0 +1,73 @@
+// ROS camera_info as camera_calibration_parsers writes it: one camera a file.
+#include <array>
+
+#include "host/calibration/fault.h"
+#include "host/calibration/formats.h"
+#include "host/calibration/intrinsics.h"
+#include "host/calibration/number_text.h"
+#include "host/calibration/rigid_matrix.h"
+#include "host/calibration/yaml_map.h"
+
+namespace sphc::host {
+namespace {
+
+struct Distortion {
+  const char *name;
+  size_t count;
+};
+constexpr std::array<Distortion, 3> kDistortions = {
+    {{"plumb_bob", 5}, {"rational_polynomial", 8}, {"equidistant", 4}}};
+
+std::string matrixText(const std::string &key, size_t rows, size_t cols, const std::vector<double> &data) {
+  return key + ":\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(cols) + "\n  data: [" +
+         numbersText(data) + "]\n";
+}
+
+std::string cameraText(const std::string &name, const sphc_camera &camera) {
+  const std::vector<double> k = matrixFromCamera(camera, kZeroCentered), d = opencvDistortion(camera);
+  const char *model = isFisheye(camera) ? "equidistant" : d.size() == 8 ? "rational_polynomial" : "plumb_bob";
+  return "image_width: " + std::to_string(camera.width) + "\nimage_height: " + std::to_string(camera.height) +
+         "\ncamera_name: " + name + "\n" + matrixText("camera_matrix", 3, 3, k) + "distortion_model: " + model +
+         "\n" + matrixText("distortion_coefficients", 1, d.size(), d) +
+         matrixText("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+         matrixText("projection_matrix", 3, 4, {k[0], 0, k[2], 0, 0, k[4], k[5], 0, 0, 0, 1, 0});
+}
+
+}  // namespace
+
+CalibrationPart readRos(const TextFile &file) {
+  const YamlMap map = YamlMap::parse(file);
+  Intrinsics intrinsics;
+  intrinsics.width = map.pixels("image_width");
+  intrinsics.height = map.pixels("image_height");
+  const YamlMap matrix = map.map("camera_matrix");
+  std::string fault =
+      intrinsicsFromMatrix(matrix.numbers("data", "[fx, 0, cx, 0, fy, cy, 0, 0, 1]"), kZeroCentered, &intrinsics);
+  if (!fault.empty()) matrix.refuse("data", fault);
+
+  const std::string model = map.text("distortion_model", "plumb_bob");
+  const YamlMap coefficients = map.map("distortion_coefficients");
+  const std::vector<double> d = coefficients.numbers("data", "[0, 0, 0, 0, 0]");
+  for (const Distortion &known : kDistortions) {
+    if (model != known.name) continue;
+    if (d.size() != known.count)
+      coefficients.refuse("data", "has " + std::to_string(d.size()) + " numbers; " + model + " takes " +
+                                      std::to_string(known.count));
+    NamedCamera camera;
+    camera.name = map.has("camera_name") ? map.text("camera_name", "color") : file.name;
+    fault = cameraFromOpencv(intrinsics, d, model == "equidistant", &camera.camera);
+    if (!fault.empty()) coefficients.refuse("data", fault);
+    return {{camera}, {}, {}};
+  }
+  map.refuse("distortion_model",
+             "is " + shown(model) + "; known here: plumb_bob, rational_polynomial, equidistant");
+}
+
+std::vector<TextFile> rosTexts(const sphc_calibration &calibration) {
+  return {{"color.yaml", cameraText("color", calibration.color_camera)},
+          {"depth.yaml", cameraText("depth", calibration.depth_camera)},
+          // camera_info has no place for it; in the keys of OpenCV's stereo sample
+          {"extrinsics.yaml", "%YAML:1.0\n---\n" + opencvExtrinsics(inverse(calibration.color_from_depth))}};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,150 @@
+// Every format written and read again, and files that are none.
+#include "host/calibration/convert.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "golden.h"
+#include "host/calibration/compare.h"
+
+namespace sphc::host {
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    char path[] = "/tmp/sphc_calibration_XXXXXX";
+    if (mkdtemp(path)) path_ = path;
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder &) = delete;
+  Folder &operator=(const Folder &) = delete;
+
+  std::string write(const std::string &name, const std::string &text) const {
+    std::ofstream(path_ + "/" + name, std::ios::binary) << text;
+    return path_ + "/" + name;
+  }
+
+ private:
+  std::string path_;
+};
+
+const sphc_camera kCameras[] = {
+    {SPHC_CAMERA_PINHOLE, 640, 480, 4, {525.5, 524.25, 320.125, 238}},
+    {SPHC_CAMERA_BROWN5, 752, 480, 9, {461.629, 460.152, 363.18, 246.549, -0.277, 0.067, 0.00087, 0.00011, 0}},
+    {SPHC_CAMERA_BROWN5, 640, 480, 9, {517.3, 516.5, 318.6, 255.3, 0.26, -0.95, -0.005, 0.003, 1.16}},
+    {SPHC_CAMERA_BROWN8, 1280, 720, 12, {614, 613, 639, 366, 0.5, -2.6, 0.0008, -0.0003, 1.49, 0.38, -2.44, 1.42}},
+    {SPHC_CAMERA_KANNALA_BRANDT4, 320, 288, 8, {160.1, 160.2, 161.3, 144.7, 0.05, -0.02, 0.004, -0.0005}}};
+
+sphc_calibration calibrationOf(const sphc_camera &color, const sphc_camera &depth) {
+  sphc_calibration c;
+  sphc_calibration_init(&c, sizeof c);
+  c.color_camera = color;
+  c.depth_camera = depth;
+  const double q[4] = {0.96, 0.08, -0.24, 0.12};
+  for (int i = 0; i < 4; ++i) c.color_from_depth.q_wxyz[i] = q[i];
+  c.color_from_depth.t_m[0] = -0.032;
+  c.color_from_depth.t_m[1] = 1.0 / 300;
+  return c;
+}
+
+sphc_calibration writtenAndRead(Format format, const sphc_calibration &calibration) {
+  const Folder folder;
+  std::vector<std::string> paths;
+  for (const TextFile &file : writeCalibration(format, calibration))
+    paths.push_back(folder.write(file.name.empty() ? "file" : file.name, file.text));
+  if (format == Format::kColmap) paths.pop_back();
+  JoinOptions options;
+  options.depth_unit_m = calibration.depth_unit_m;
+  const ReadCalibration read = readCalibrationFiles(paths, {}, options);  // each format tells itself
+  EXPECT_EQ(read.files[0].format, format);
+  return read.calibration;
+}
+
+class RoundTrip : public testing::TestWithParam<size_t> {};
+
+TEST_P(RoundTrip, IsExactForWhatTheFormatHolds) {
+  const Format format = formatNames()[GetParam()].format;
+  int held = 0;
+  for (const sphc_camera &color : kCameras) {
+    for (const sphc_camera &depth : kCameras) {
+      if (!formatHolds(format, color) || !formatHolds(format, depth)) continue;
+      ++held;
+      const sphc_calibration calibration = calibrationOf(color, depth);
+      const CalibrationDifference difference =
+          compareCalibrations(calibration, writtenAndRead(format, calibration));
+      EXPECT_LT(difference.largestPx(), 1e-6) << color.model << " " << depth.model;
+      EXPECT_EQ(difference.lost(), 0u);
+      EXPECT_GT(difference.color.samples, 0u);
+      EXPECT_GT(difference.depth_to_color[2].samples, 0u);
+    }
+  }
+  EXPECT_EQ(held, format == Format::kKalibr ? 9 : format == Format::kAzureKinect ? 16 : 25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, RoundTrip, testing::Range<size_t>(0, 6), [](const auto &test) {
+  std::string name = formatNames()[test.param].name;
+  name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+  return name;
+});
+
+TEST(Fit, RefusesWhatTheFormatCannotHoldUnlessToldSo) {
+  const sphc_calibration calibration = calibrationOf(kCameras[3], kCameras[4]);
+  for (const Format format : {Format::kKalibr, Format::kAzureKinect}) {
+    try {
+      fitToFormat(calibration, format, false);
+      ADD_FAILURE();
+    } catch (const std::runtime_error &error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("--approximate"));
+    }
+    const sphc_calibration fitted = fitToFormat(calibration, format, true);
+    const CalibrationDifference difference = compareCalibrations(calibration, fitted);
+    EXPECT_LT(difference.color.largest_px, 10);  // of a lens that bends as strongly as an Azure Kinect's
+    EXPECT_LT(difference.depth.largest_px, 1);
+    EXPECT_EQ(difference.lost(), 0u);
+    EXPECT_GT(difference.largestPx(), 1e-6);
+    EXPECT_LT(compareCalibrations(fitted, writtenAndRead(format, fitted)).largestPx(), 1e-6);
+  }
+}
+
+TEST(ReadFiles, ColmapFindsItsRigsBesideTheCameras) {
+  const Folder folder;
+  const std::string cameras = folder.write("cameras.txt", kColmapCamerasFile);
+  folder.write("rigs.txt", kColmapRigsFile);
+  const std::string parent = std::filesystem::path(cameras).parent_path().string();
+  EXPECT_EQ(readCalibrationFiles({parent}, {}, {}).files[0].path, parent + "/cameras.txt");
+  EXPECT_EQ(readCalibrationFiles({cameras}, {}, {}).calibration.color_camera.width, 3072u);
+}
+
+TEST(ReadFiles, FormatsTellThemselves) {
+  EXPECT_EQ(detectFormat({"f", kKalibrFile}), Format::kKalibr);
+  EXPECT_EQ(detectFormat({"f", kRosColorFile}), Format::kRos);
+  EXPECT_EQ(detectFormat({"f", kOpencvSampleFile}), Format::kOpencv);
+  EXPECT_EQ(detectFormat({"f", kAzureKinectFile}), Format::kAzureKinect);
+  EXPECT_EQ(detectFormat({"a/cameras.txt", kColmapCamerasFile}), Format::kColmap);
+  EXPECT_THROW(detectFormat({"f", kColmapCamerasFile}), std::runtime_error);
+}
+
+TEST(ReadFiles, SaysWhichFileIsWrong) {
+  const Folder folder;
+  const auto refusal = [](const std::string &path) -> std::string {
+    try {
+      readCalibrationFiles({path}, {}, {});
+    } catch (const std::runtime_error &error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal("/nonexistent/file"), HasSubstr("/nonexistent/file: no such file"));
+  EXPECT_THAT(refusal(folder.write("big", std::string(300000, ' '))), HasSubstr("over 256 KiB"));
+  EXPECT_THAT(refusal(folder.write("empty", "")), HasSubstr("say it with --format"));
+  EXPECT_THAT(refusal(folder.write("own.json", "{\"format\": \"spherecloud-calibration\"}")),
+              HasSubstr("own.json: version"));
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,109 @@
+#include "host/calibration/join.h"
+
+#include <gmock/gmock.h>
+
+#include "golden.h"
+
+namespace sphc::host {
+namespace {
+
+std::string refusal(const std::vector<CalibrationPart> &parts, const JoinOptions &options) {
+  try {
+    joinParts(parts, options);
+  } catch (const std::runtime_error &error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+const sphc_rigid kBaseline = {{1, 0, 0, 0}, {0.1, 0, 0}};
+
+TEST(Join, FilesInTheOrderColourDepthExtrinsics) {
+  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
+                        depth = readRos({"depth.yaml", kRosDepthFile});
+  CalibrationPart extrinsics;
+  extrinsics.second_from_first = kBaseline;
+  const sphc_calibration joined = joinParts({color, depth, extrinsics}, {});
+  EXPECT_EQ(joined.color_camera.width, 640u);
+  EXPECT_EQ(joined.depth_camera.width, 320u);
+  expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {-0.1, 0, 0});
+  EXPECT_EQ(joined.depth_unit_m, 0.001);
+}
+
+TEST(Join, NamesSwapTheCamerasAndTheTransform) {
+  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
+                        depth = readRos({"depth.yaml", kRosDepthFile});
+  CalibrationPart extrinsics;
+  extrinsics.second_from_first = kBaseline;
+  JoinOptions options;
+  options.color = "tof";
+  options.depth = "narrow_stereo";
+  const sphc_calibration joined = joinParts({color, depth, extrinsics}, options);
+  EXPECT_EQ(joined.color_camera.width, 320u);
+  expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {0.1, 0, 0});
+}
+
+TEST(Join, OptionsSayWhatFilesLeaveOpen) {
+  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
+                        depth = readRos({"depth.yaml", kRosDepthFile});
+  JoinOptions options;
+  options.color_from_depth = kBaseline;
+  options.depth_unit_m = 0.00025;
+  const sphc_calibration joined = joinParts({color, depth}, options);
+  expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {0.1, 0, 0});
+  EXPECT_EQ(joined.depth_unit_m, 0.00025);
+}
+
+TEST(Join, RegisteredDepthNeedsOneCamera) {
+  JoinOptions options;
+  options.registered = true;
+  const sphc_calibration joined = joinParts({readRos({"color.yaml", kRosColorFile})}, options);
+  EXPECT_EQ(joined.depth_camera.params[4], joined.color_camera.params[4]);
+  expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {0, 0, 0});
+}
+
+TEST(Join, ASizeThatTheFileLacksIsAskedFor) {
+  const std::string text = changed(changed(kOpencvStereoFile, "image_width: 640\n", ""), "image_height: 480\n", "");
+  const CalibrationPart part = readOpencv({"f", text});
+  EXPECT_THAT(refusal({part}, {}), testing::HasSubstr("give --color-size WIDTHxHEIGHT"));
+  JoinOptions options;
+  options.color_size = {640, 480};
+  EXPECT_THAT(refusal({part}, options), testing::HasSubstr("give --depth-size"));
+  options.depth_size = {320, 240};
+  EXPECT_EQ(joinParts({part}, options).depth_camera.height, 240u);
+}
+
+TEST(Join, SaysWhatIsMissing) {
+  using testing::HasSubstr;
+  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
+                        depth = readRos({"depth.yaml", kRosDepthFile});
+  CalibrationPart extrinsics;
+  extrinsics.second_from_first = kBaseline;
+  EXPECT_THAT(refusal({extrinsics}, {}), HasSubstr("no camera"));
+  EXPECT_THAT(refusal({color}, {}), HasSubstr("say --registered"));
+  EXPECT_THAT(refusal({color, depth}, {}), HasSubstr("--color-from-depth QW,QX,QY,QZ,TX,TY,TZ"));
+  EXPECT_THAT(refusal({color, depth, depth}, {}), HasSubstr("say with --color and --depth which to take"));
+  JoinOptions options;
+  options.color = "left";
+  EXPECT_THAT(refusal({color, depth, extrinsics}, options),
+              HasSubstr("no camera 'left' in these files; there are: 'narrow_stereo', 'tof'"));
+  options.color = "tof";
+  EXPECT_THAT(refusal({color, depth, extrinsics}, options), HasSubstr("cannot be both"));
+  options = {};
+  options.color_size = {1280, 720};
+  EXPECT_THAT(refusal({color, depth, extrinsics}, options),
+              HasSubstr("--color-size 1280x720: camera 'narrow_stereo' is calibrated for 640x480"));
+  options = {};
+  options.depth_unit_m = 5;
+  EXPECT_THAT(refusal({color, depth, extrinsics}, options), HasSubstr("depth_unit_m"));
+}
+
+TEST(Join, AnImpossibleCameraIsRefusedWhateverTheFormat) {
+  CalibrationPart part = readKalibr({"f", changed(kKalibrFile, "461.629", "-461.629")});
+  EXPECT_THAT(refusal({part}, {}), testing::HasSubstr("fx -461.629"));
+  part = readKalibr({"f", changed(kKalibrFile, "461.629", "1.0e9")});
+  EXPECT_THAT(refusal({part}, {}), testing::HasSubstr("beyond 1e6"));
+}
+
+}  // namespace
+}  // namespace sphc::host
