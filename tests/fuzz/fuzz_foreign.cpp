@@ -1,3 +1,5 @@
+#include <stdexcept>
+
 #include "host/calibration/formats.h"
 #include "host/calibration/join.h"
 #include "tests/fuzz/targets.h"

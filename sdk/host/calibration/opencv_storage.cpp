@@ -2,6 +2,8 @@
 #include <cmath>
 #include <opencv2/core/persistence.hpp>
 #include <opencv2/core/utility.hpp>
+#include <set>
+#include <stdexcept>
 
 #include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
@@ -31,7 +33,12 @@ class QuietOpencv {
 class Reader {
  public:
   explicit Reader(const TextFile &file)
-      : name_(file.name), storage_(file.text, cv::FileStorage::READ | cv::FileStorage::MEMORY) {}
+      : name_(file.name), storage_(file.text, cv::FileStorage::READ | cv::FileStorage::MEMORY) {
+    std::set<std::string> seen;
+    for (const std::string &key : storage_.root().keys()) {
+      if (!seen.insert(key).second) fail(shown(key), "given twice; remove one");
+    }
+  }
 
   bool has(const std::string &key) const { return !storage_[key].empty(); }
 
@@ -149,10 +156,13 @@ std::string cameraText(const std::string &n, const sphc_camera &camera) {
 
 CalibrationPart readOpencv(const TextFile &file) {
   const QuietOpencv quiet;
+  const char *what = "no valid OpenCV FileStorage (begins with %YAML:1.0, { or <?xml): ";
   try {
     return read(file);
   } catch (const cv::Exception &error) {
-    refuse(file.name, "the file", "no valid OpenCV FileStorage (begins with %YAML:1.0, { or <?xml): " + error.err);
+    refuse(file.name, "the file", what + error.err);
+  } catch (const std::logic_error &error) {  // its parser has these too
+    refuse(file.name, "the file", what + std::string(error.what()));
   }
 }
 

@@ -73,6 +73,7 @@ TEST(OpencvStorage, SaysWhatIsWrong) {
   expectRefused(Format::kOpencv, kOpencvStereoFile,
                 {{"%YAML:1.0", "# YAML", "the file", "no valid OpenCV FileStorage"},
                  {"M1: !!opencv-matrix", "M1: !!opencv-matrix [", "the file", "no valid OpenCV FileStorage"},
+                 {"image_width: 640", "image_width: 640\nimage_width: 641", "image_width", "given twice"},
                  {"image_width: 640", "image_width: 6.5", "image_width", "from 16 to 8192"},
                  {"image_width: 640", "image_width: wide", "image_width", "from 16 to 8192"},
                  {"image_width: 640", "fisheye_model: yes\nimage_width: 640", "fisheye_model", "must be 0 or 1"},
