@@ -16,4 +16,10 @@ void Console::give(const nlohmann::ordered_json &value) const {
   if (json) std::fputs((value.dump(2) + "\n").c_str(), stdout);
 }
 
+void Console::giveLine(const nlohmann::ordered_json &value) const {
+  if (!json) return;
+  std::fputs((value.dump() + "\n").c_str(), stdout);
+  std::fflush(stdout);
+}
+
 }  // namespace sphc::host

@@ -15,6 +15,8 @@ class Console {
   void warn(const std::string &text) const;
   // For programs, on stdout; only with --json.
   void give(const nlohmann::ordered_json &value) const;
+  // The same on one line, at once: one of many.
+  void giveLine(const nlohmann::ordered_json &value) const;
 };
 
 }  // namespace sphc::host

@@ -30,6 +30,8 @@ Command devicesCommand(CLI::App *root) {
   app->description(
       "List the cameras of this machine, and what is wrong with them.\n\nThe first line of each is what --device, "
       "--color and --depth take.");
+  app->footer(
+      "Example:\n  spherecloud devices\nA camera that cannot be opened is listed with the reason and the cure.");
   return {app, [](const Console &console) {
             const Found found = findCameras();
             say(found, console);

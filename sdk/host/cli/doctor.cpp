@@ -98,7 +98,7 @@ int run(const Options &options, const Console &console) {
 }
 
 const char kExample[] =
-    "Examples:\n"
+    "Example:\n"
     "  spherecloud doctor                                              this machine\n"
     "  spherecloud doctor --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json\n"
     "  spherecloud doctor --device replay:walk.mcap                    a recording\n"

@@ -117,7 +117,7 @@ void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spher
   tally->localized += result.outcome == SPHC_OUTCOME_LOCALIZED;
   tally->total_ms += ms;
   tally->poses.count();
-  console.give(frameJson(pair, result, ms));
+  console.giveLine(frameJson(pair, result, ms));
   line->show(statusText(*tally, result, rig, ms));
 }
 
@@ -176,7 +176,7 @@ int run(const Options &options, const Console &console) {
 }
 
 const char kExample[] =
-    "Examples:\n"
+    "Example:\n"
     "  spherecloud live --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --map room.sphc\n"
     "  spherecloud live --color libcamera: --depth v4l2:card=ToF -c headset.json --map room.sphc --json\n"
     "  spherecloud live --device openni2: -c kinect.json --map room.sphc --seconds 60\n"

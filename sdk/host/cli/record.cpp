@@ -125,7 +125,7 @@ int run(const Options &options, const Console &console) {
 }
 
 const char kExample[] =
-    "Examples:\n"
+    "Example:\n"
     "  spherecloud record --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --out walk.mcap\n"
     "  spherecloud record --device openni2: -c kinect.json --out walk.mcap --seconds 60\n"
     "Ctrl-C ends it.  The file plays everywhere a recording does, and opens in Foxglove.";
