@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 
 #include "drivers/libcamera/frame_time.h"
 #include "drivers/libcamera/libcamera.h"
@@ -338,6 +339,25 @@ TEST_F(Libcamera, IsLostWhenUnpluggedAndComesBackWhenOpenedAgain) {
   fake_->unplugged = false;
   openAndStart();
   EXPECT_EQ(acquire(), SPHC_OK);
+}
+
+TEST_F(Libcamera, AThousandTimesUnpluggedLeavesNothing) {
+  const auto files = [] {
+    const std::filesystem::directory_iterator all("/proc/self/fd");
+    return std::distance(begin(all), end(all));
+  };
+  const auto before = files();
+  for (uint32_t i = 0; i < 1000; ++i) {
+    openAndStart();
+    ASSERT_EQ(i % 3 ? acquire() : glance(), SPHC_OK);
+    fake_->unplugged = true;
+    ASSERT_EQ(acquire(), SPHC_E_DEVICE_LOST);
+    if (i % 2) source_.stop(source_.self);
+    sphc_libcamera_close(&camera_);
+    fake_->unplugged = false;
+    ASSERT_EQ(fake_->open_devices, 0u);
+  }
+  EXPECT_EQ(files(), before);
 }
 
 TEST_F(Libcamera, StaysStoppedWhenTheCameraCannotStart) {

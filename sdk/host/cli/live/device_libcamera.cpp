@@ -22,7 +22,8 @@ class LibcameraDevice : public Device {
     orThrow("libcamera:" + address, [&](sphc_message *message) {
       return sphc_libcamera_open(address.empty() ? nullptr : address.c_str(), &config, &camera_, message);
     });
-    sphc_libcamera_source(camera_, &source_);
+    source_.struct_size = sizeof source_;
+    orThrow("libcamera:", [&](sphc_message *) { return sphc_libcamera_source(camera_, &source_); });
   }
   ~LibcameraDevice() override { sphc_libcamera_close(&camera_); }
 

@@ -23,7 +23,8 @@ class Openni2Device : public Device {
     orThrow("openni2:" + address, [&](sphc_message *message) {
       return sphc_openni2_open(address.empty() ? nullptr : address.c_str(), &config, &openni2_, message);
     });
-    sphc_openni2_source(openni2_, &source_);
+    source_.struct_size = sizeof source_;
+    orThrow("openni2:", [&](sphc_message *) { return sphc_openni2_source(openni2_, &source_); });
   }
   ~Openni2Device() override { sphc_openni2_close(&openni2_); }
 

@@ -19,7 +19,8 @@ class ReplayDevice : public Device {
     orThrow("replay:" + address, [&](sphc_message *message) {
       return sphc_replay_open(address.c_str(), calibration, &config, &replay_, message);
     });
-    sphc_replay_source(replay_, &source_);
+    source_.struct_size = sizeof source_;
+    orThrow("replay:", [&](sphc_message *) { return sphc_replay_source(replay_, &source_); });
   }
   ~ReplayDevice() override { sphc_replay_close(&replay_); }
 

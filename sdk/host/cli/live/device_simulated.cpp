@@ -15,7 +15,8 @@ class SimulatedDevice : public Device {
     sphc_simulated_config_init(&config, sizeof config);
     orThrow("simulated:",
             [&](sphc_message *message) { return sphc_simulated_open(&config, &simulated_, message); });
-    sphc_simulated_source(simulated_, &source_);
+    source_.struct_size = sizeof source_;
+    orThrow("simulated:", [&](sphc_message *) { return sphc_simulated_source(simulated_, &source_); });
   }
   ~SimulatedDevice() override { sphc_simulated_close(&simulated_); }
 

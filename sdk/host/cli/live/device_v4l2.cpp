@@ -28,7 +28,8 @@ class V4l2Device : public Device {
     config.loan_limit = kLoans;
     orThrow("v4l2:" + address,
             [&](sphc_message *message) { return sphc_v4l2_open(address.c_str(), &config, &v4l2_, message); });
-    sphc_v4l2_source(v4l2_, &source_);
+    source_.struct_size = sizeof source_;
+    orThrow("v4l2:", [&](sphc_message *) { return sphc_v4l2_source(v4l2_, &source_); });
   }
   ~V4l2Device() override { sphc_v4l2_close(&v4l2_); }
 
