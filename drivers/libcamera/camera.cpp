@@ -105,6 +105,8 @@ sphc_status Camera::convertInto(const Slot &slot, const sphc_libcamera_frame &fr
 
 sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
   if (!capture) return explain(&message_, SPHC_E_ARGUMENT, "acquire: capture is null");
+  if (capture->struct_size != sizeof *capture)
+    return explain(&message_, SPHC_E_STRUCT_SIZE, "acquire: set capture.struct_size to sizeof(sphc_capture)");
   if (!running_) return explain(&message_, SPHC_E_STATE, "acquire: not running; call start first");
   const auto free_slot =
       std::find_if(slots_.begin(), slots_.end(), [](const Slot &slot) { return slot.token == 0; });

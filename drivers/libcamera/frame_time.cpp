@@ -26,7 +26,8 @@ bool isFresh(int64_t age_ns) { return age_ns >= -kEarlyNs && age_ns <= kOldestNs
 
 HostClocks readHostClocks() { return {read(CLOCK_MONOTONIC), read(CLOCK_BOOTTIME)}; }
 
-FrameClock::FrameClock(int64_t period_ns) : period_ns_(period_ns > 0 ? period_ns : kNsPerS / 30) {}
+FrameClock::FrameClock(int64_t period_ns)
+    : period_ns_(period_ns > 0 ? period_ns : kNsPerS / 30), is_guessed_(period_ns <= 0) {}
 
 FrameTime FrameClock::frameTime(int64_t sensor_time_ns, int64_t exposure_us, const HostClocks &arrival) {
   const int64_t slept_ns = arrival.boottime_ns - arrival.monotonic_ns;
@@ -42,6 +43,9 @@ FrameTime FrameClock::frameTime(int64_t sensor_time_ns, int64_t exposure_us, con
   if (!isFresh(age_ns) && isFresh(age_ns + slept_ns_)) is_boottime_ = true;
   const int64_t start_ns = sensor_time_ns - (is_boottime_ ? slept_ns_ : 0);
   if (!isFresh(arrival.monotonic_ns - start_ns)) return on_arrival;
+  if (is_guessed_ && last_start_ns_ > 0 && start_ns > last_start_ns_)
+    period_ns_ = std::min(std::max(kNsPerS / 30, start_ns - last_start_ns_), kNsPerS);
+  last_start_ns_ = start_ns;
   if (exposure_us <= 0 || exposure_us > kLongestExposureUs) return {start_ns, SPHC_TIME_START, sigma_us(1)};
   return {start_ns + exposure_us * kNsPerUs / 2, SPHC_TIME_MIDDLE, sigma_us(0.5)};
 }

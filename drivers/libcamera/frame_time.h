@@ -22,7 +22,7 @@ struct FrameTime {
 // The two differ once the machine has slept, so this looks which of them the frames of a stream fit.
 class FrameClock {
  public:
-  // 0: not known; 30 Hz then.
+  // 0: not known; that from a frame to the next then, but no less than at 30 Hz.
   explicit FrameClock(int64_t period_ns = 0);
 
   // `sensor_time_ns` of the start of the exposure, or <= 0; `exposure_us` 0: not known.
@@ -30,6 +30,8 @@ class FrameClock {
 
  private:
   int64_t period_ns_;
+  bool is_guessed_;
+  int64_t last_start_ns_ = 0;
   bool is_boottime_ = false;
   int64_t slept_ns_ = -1;  // boottime less monotonic; kept while it holds, so that reading clocks adds no jitter
 };

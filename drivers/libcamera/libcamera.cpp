@@ -82,6 +82,9 @@ sphc_status sphc_libcamera_config_init(sphc_libcamera_config *config, size_t str
 sphc_status sphc_libcamera_open(const char *id, const sphc_libcamera_config *config, sphc_libcamera **camera,
                                 sphc_message *message) try {
   if (!camera) return explain(message, SPHC_E_ARGUMENT, "camera is null");
+  if (config && config->struct_size != sizeof *config)
+    return explain(message, SPHC_E_STRUCT_SIZE, "config.struct_size is %u; call sphc_libcamera_config_init first",
+                   config->struct_size);
   sphc_libcamera_config chosen;
   sphc_libcamera_config_init(&chosen, sizeof chosen);
   if (config) chosen = *config;

@@ -80,6 +80,11 @@ sphc_status Camera::start() {
     device_.close();
     const sphc_status status = openDevice(&message_);
     if (status != SPHC_OK) return status;  // the next start tries again
+    if (!isAsOpened()) {
+      device_.close();
+      return explain(&message_, SPHC_E_DEVICE, "start: %.80s is another recording now; close, and open it again",
+                     uri_);
+    }
   }
   silent_ns_ = 0;
   std::fill(last_index_, last_index_ + kStreams, -1);
@@ -98,6 +103,17 @@ sphc_status Camera::start() {
   return status;
 }
 
+// A file may have been written anew since, with images that do not fit the buffers.
+bool Camera::isAsOpened() const {
+  sphc_openni2_info now = {};
+  device_.describe(&now);
+  const auto same = [](const sphc_openni2_mode &a, const sphc_openni2_mode &b) {
+    return a.width == b.width && a.height == b.height && a.frames_per_s == b.frames_per_s;
+  };
+  return device_.isRecording() && same(now.color, info_.color) && same(now.depth, info_.depth) &&
+         now.color_format == info_.color_format && now.depth_unit_m == info_.depth_unit_m;
+}
+
 QueueConfig Camera::queueConfig() const {
   QueueConfig config = {};
   config.is_recording = device_.isRecording();
@@ -114,6 +130,8 @@ QueueConfig Camera::queueConfig() const {
 
 sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
   if (!capture) return explain(&message_, SPHC_E_ARGUMENT, "acquire: capture is null");
+  if (capture->struct_size != sizeof *capture)
+    return explain(&message_, SPHC_E_STRUCT_SIZE, "acquire: set capture.struct_size to sizeof(sphc_capture)");
   const int64_t until_ns = monotonicNs() + int64_t{timeout_us} * 1000;
   if (running_ && device_.isRecording()) return acquireFromFile(until_ns, capture);
   return queue_.take(until_ns, capture, &message_);
@@ -122,9 +140,12 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
 void Camera::stop() {
   if (!running_) return;
   running_ = false;
+  {  // from here no callback reads: a read whose frame OpenNI2's stop has cleared would wait for ever
+    const Lock lock(reading_);
+    listening_ = false;
+  }
   if (!device_.isRecording()) device_.stop();  // a file waits until it is asked again, and is closed as it is
   const Lock lock(reading_);
-  listening_ = false;
   queue_.stop();
 }
 

@@ -44,6 +44,7 @@ class Camera final : private DeviceWatcher {
   sphc_status openDevice(sphc_message *message);
   void closeDevice();
   sphc_status listen(sphc_message *message);
+  bool isAsOpened() const;
   QueueConfig queueConfig() const;
   int64_t periodNs(int stream) const { return 1000000000 / device_.mode(stream).fps; }
 

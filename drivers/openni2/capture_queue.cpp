@@ -83,11 +83,6 @@ CaptureQueue::Buffer *CaptureQueue::claim(int stream, int64_t time_ns) {
   return buffer;
 }
 
-bool CaptureQueue::hasRoom() {
-  const Lock lock(wakeup_);
-  return find(kFree) != nullptr;
-}
-
 void CaptureQueue::report(sphc_status status, const char *text) {
   const Lock lock(wakeup_);
   if (!running_ || news_ != SPHC_OK) return;

@@ -34,10 +34,8 @@ class CaptureQueue {
   void stop();
 
   // ---- one producer at a time ----
-  // Copies the pixels; sets token and data.  Without room the oldest capture that waits goes; a recording has
-  // asked.
+  // Copies the pixels; sets token and data.  Without room the oldest capture that waits goes.
   void push(int stream, sphc_capture capture, const Pixels &pixels);
-  bool hasRoom();
   // For the next acquire, unless there is such news already.
   void report(sphc_status status, const char *text);
   template <typename Change>

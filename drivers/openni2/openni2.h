@@ -2,8 +2,8 @@
  *
  *     sphc_openni2_config config;
  *     sphc_openni2_config_init(&config, sizeof config);
- *     sphc_openni2_open(NULL, &config, &camera, &message);     the first device; or a uri, or the path of an .oni
- * file sphc_openni2_source(camera, &source);                    both streams in order of time
+ *     sphc_openni2_open(NULL, &config, &camera, &message);     NULL: the first device; or a uri, or an .oni file
+ *     sphc_openni2_source(camera, &source);                    both streams in order of time
  *     sphc_openni2_close(&camera);
  *
  * Conventions (frames, units, pixels, failure, thread classes) are those of spherecloud.h.  Opening allocates,
@@ -104,10 +104,11 @@ sphc_status sphc_openni2_get_info(const sphc_openni2 *openni2, sphc_openni2_info
  *
  *   time_ns      the device's timestamp, on its own clock (SPHC_CLOCK_SOURCE); a jump of that clock is bridged
  *   sequence     the device's frame index: a gap is a loss, whether the device or this driver lost it
- *   acquire      E_DEVICE: a stream is silent, or the device's clock jumped.  E_IMAGE: a frame that does not fit
- * its mode was thrown away.  Each is said once, and the next acquire goes on.  E_DEVICE_LOST: unplugged; what had
- * come before is given first start        E_UNSUPPORTED: the device refuses config.frame_sync, for which OpenNI2
- * does not ask it earlier
+ *   start        E_UNSUPPORTED: the device refuses config.frame_sync, for which OpenNI2 does not ask it earlier
+ *   acquire      E_DEVICE: a stream is silent, or the device's clock jumped.
+ *                E_IMAGE: a frame that does not fit its mode was thrown away.
+ *                Each is said once, and the next acquire goes on.
+ *                E_DEVICE_LOST: unplugged; what had come before is given first.
  *
  * A recording starts from the beginning each time (the file is opened again, which may fail) and comes as fast as
  * it is acquired; nothing of it is thrown away for want of buffers; then SPHC_END.  Errors: ARGUMENT. [exclusive]

@@ -2,6 +2,8 @@
 
 #include <turbojpeg.h>
 
+#include <cstring>
+
 #include "explain.h"
 
 namespace sphc::pixels {
@@ -23,6 +25,13 @@ void forgetHeader(tjhandle handle) {
   const uint8_t no_jpeg = 0;
   uint8_t pixel = 0;
   tjDecompress2(handle, &no_jpeg, 1, &pixel, 1, 1, 1, TJPF_GRAY, 0);
+}
+
+// Cheap cameras pad a frame before its end mark.  The decoder complains when it looks for that mark, and has
+// written every row by then.
+bool isPadding(tjhandle handle) {
+  return tjGetErrorCode(handle) == TJERR_WARNING &&
+         std::strstr(tjGetErrorStr2(handle), "extraneous bytes before marker 0xd9") != nullptr;
 }
 
 }  // namespace
@@ -53,7 +62,8 @@ sphc_status MjpegDecoder::decode(const uint8_t *data, size_t bytes, const OutIma
   // A warning means damage that the decoder papered over; a progressive frame may not keep it busy for ever.
   const int flags = TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
   if (tjDecompress2(handle_, data, bytes, out.data, width, static_cast<int>(out.stride_bytes), height,
-                    turboFormat(out.format), flags) != 0)
+                    turboFormat(out.format), flags) != 0 &&
+      !isPadding(handle_))
     return explainTurbo(message, handle_, bytes);
   return SPHC_OK;
 }

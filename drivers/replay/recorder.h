@@ -70,7 +70,7 @@ sphc_status sphc_recorder_open(const char *path, const sphc_calibration *calibra
  * written any more (disk full); close, what was written before is good. [exclusive] */
 sphc_status sphc_recorder_add(sphc_recorder *recorder, const sphc_capture *capture, sphc_message *message);
 
-/* Adds a pose of the colour camera, of any time not before the last pose's and not negative.  SPHC_AGAIN and errors
+/* Adds a pose of the colour camera, of a time after the last pose's and not negative.  SPHC_AGAIN and errors
  * as above. [exclusive] */
 sphc_status sphc_recorder_add_pose(sphc_recorder *recorder, int64_t time_ns, const sphc_rigid *world_from_camera,
                                    sphc_message *message);

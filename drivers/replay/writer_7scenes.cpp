@@ -29,11 +29,16 @@ std::string matrixText(const sphc_rigid &pose) {
          formatNumbers({2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), t[2]}) + "\n0 0 0 1\n";
 }
 
-void writeImage(const fs::path &path, const sphc_image &image, bool is_color) {
-  sphc_camera camera = {};  // of any size
+// Of any size.
+void checkOwnSize(const sphc_image &image, bool is_color) {
+  sphc_camera camera = {};
   camera.width = image.width;
   camera.height = image.height;
   checkImage(image, camera, is_color);
+}
+
+void writeImage(const fs::path &path, const sphc_image &image, bool is_color) {
+  checkOwnSize(image, is_color);
   ImageEncoder encoder;
   writeFile(path, encoder.png(image));
 }
@@ -50,6 +55,7 @@ sphc_status sphc_recording_write_7scenes(const char *folder, const sphc_frame *f
     if (world_from_camera && !isFinite(*world_from_camera)) throw Failure(SPHC_E_ARGUMENT, "pose: not finite");
     const fs::path color = frameFile(folder, frame->sequence, "color.png");
     if (fs::exists(color)) throw Failure(SPHC_E_STATE, shortPath(color.string()) + ": is there already; remove it");
+    checkOwnSize(frame->depth, false);  // before the colour image is written
     writeImage(color, frame->color, true);
     writeImage(frameFile(folder, frame->sequence, "depth.png"), frame->depth, false);
     if (!world_from_camera) return SPHC_OK;

@@ -78,6 +78,8 @@ sphc_status acquire(void *self, uint32_t /*timeout_us*/, sphc_capture *capture) 
   if (!self) return SPHC_E_ARGUMENT;
   sphc_sample *sample = sampleOf(self);
   if (!capture) return fail(sample, SPHC_E_ARGUMENT, "acquire: capture is null");
+  if (capture->struct_size != sizeof *capture)
+    return fail(sample, SPHC_E_STRUCT_SIZE, "acquire: set capture.struct_size to sizeof(sphc_capture)");
   if (!sample->running) return fail(sample, SPHC_E_STATE, "acquire: not running; call start first");
   const uint32_t frame = sample->next / 2;
   const bool is_depth = sample->next % 2 != 0;

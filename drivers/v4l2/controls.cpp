@@ -90,6 +90,11 @@ int readDescription(const Node &node, uint32_t id, v4l2_query_ext_ctrl *reply) {
   return node.ioctl(VIDIOC_QUERY_EXT_CTRL, reply);
 }
 
+sphc_status explainPayload(const Node &node, const v4l2_query_ext_ctrl &reply, sphc_message *message) {
+  return explain(message, SPHC_E_UNSUPPORTED, "%s: %.32s is a text or a list, not one number", node.path(),
+                 reply.name);
+}
+
 sphc_status checkSetting(const Node &node, const sphc_v4l2_control &control, int64_t value, sphc_message *message) {
   if (control.is_read_only)
     return explain(message, SPHC_E_UNSUPPORTED, "%s: %s is read only", node.path(), control.name);
@@ -142,6 +147,7 @@ sphc_status getControl(const Node &node, uint32_t id, int64_t *value, sphc_messa
   v4l2_query_ext_ctrl reply;
   if (const int error = readDescription(node, id, &reply))
     return explainControl(node, "VIDIOC_QUERY_EXT_CTRL", id, error, message);
+  if (reply.flags & V4L2_CTRL_FLAG_HAS_PAYLOAD) return explainPayload(node, reply, message);
   int64_t read = 0;
   if (const int error = readValue(node, id, &read))
     return explainControl(node, "VIDIOC_G_EXT_CTRLS", id, error, message);
@@ -153,6 +159,7 @@ sphc_status setControl(const Node &node, uint32_t id, int64_t value, sphc_messag
   v4l2_query_ext_ctrl reply;
   if (const int error = readDescription(node, id, &reply))
     return explainControl(node, "VIDIOC_QUERY_EXT_CTRL", id, error, message);
+  if (reply.flags & V4L2_CTRL_FLAG_HAS_PAYLOAD) return explainPayload(node, reply, message);
   const sphc_status status = checkSetting(node, describe(reply), value, message);
   if (status < 0) return status;
   v4l2_ext_control control = {};

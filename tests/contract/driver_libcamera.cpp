@@ -1,9 +1,18 @@
+#include <dlfcn.h>
+
 #include "drivers.h"
 #include "drivers/libcamera/libcamera.h"
+#include "fake_libcamera.h"
 
 namespace sphc::contract {
 
 namespace {
+
+// What the fake plug-in is told holds for all its cameras.
+FakeLibcamera *fake() {
+  static void *library = dlopen(SPHC_FAKE_LIBCAMERA, RTLD_NOW | RTLD_NODELETE);
+  return reinterpret_cast<FakeLibcameraFn>(dlsym(library, kFakeLibcameraSymbol))();
+}
 
 OpenedDriver openLibcamera() {
   sphc_libcamera_config config;
@@ -13,7 +22,11 @@ OpenedDriver openLibcamera() {
   config.plugin_path = SPHC_FAKE_LIBCAMERA;
   sphc_libcamera *camera = nullptr;
   sphc_libcamera_open(nullptr, &config, &camera, nullptr);
-  OpenedDriver opened{{}, {camera, [](sphc_libcamera *closing) { sphc_libcamera_close(&closing); }}};
+  const auto close = [](sphc_libcamera *closing) {
+    sphc_libcamera_close(&closing);
+    fake()->unplugged = fake()->stalled = false;
+  };
+  OpenedDriver opened{{}, {camera, close}, [] { fake()->unplugged = true; }, [] { fake()->stalled = true; }};
   sphc_libcamera_source(camera, &opened.source);
   return opened;
 }

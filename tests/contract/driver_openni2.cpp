@@ -21,11 +21,14 @@ class RunningCamera {
   ~RunningCamera() {
     sphc_openni2_close(&camera_);
     vtof::run(device_, false);
+    vtof::plug(device_);
     taken_[device_] = false;
   }
   RunningCamera(const RunningCamera &) = delete;
   RunningCamera &operator=(const RunningCamera &) = delete;
   sphc_openni2 *get() { return camera_; }
+  void unplug() { vtof::unplug(device_); }
+  void stall() { vtof::run(device_, false); }
 
  private:
   static inline bool taken_[vtof::kDevices];
@@ -54,9 +57,16 @@ class RecordingCopy {
   sphc_openni2 *camera_ = nullptr;
 };
 
-template <typename Camera>
 OpenedDriver openCamera() {
-  const auto opened = std::make_shared<Camera>();
+  const auto opened = std::make_shared<RunningCamera>();
+  OpenedDriver driver{
+      {}, opened, [camera = opened.get()] { camera->unplug(); }, [camera = opened.get()] { camera->stall(); }};
+  if (sphc_openni2_source(opened->get(), &driver.source) != SPHC_OK) return {};
+  return driver;
+}
+
+OpenedDriver openRecording() {
+  const auto opened = std::make_shared<RecordingCopy>();
   OpenedDriver driver{{}, opened};
   if (sphc_openni2_source(opened->get(), &driver.source) != SPHC_OK) return {};
   return driver;
@@ -65,8 +75,6 @@ OpenedDriver openCamera() {
 }  // namespace
 
 // How many captures the recording has depends on when OpenNI2's recorder wakes; its end is tested elsewhere.
-std::vector<Driver> driversUnderTest() {
-  return {{"OpenNI2", openCamera<RunningCamera>}, {"OpenNI2Recording", openCamera<RecordingCopy>}};
-}
+std::vector<Driver> driversUnderTest() { return {{"OpenNI2", openCamera}, {"OpenNI2Recording", openRecording}}; }
 
 }  // namespace sphc::contract

@@ -55,15 +55,29 @@ int64_t numberOf(const ControlValue &value, int64_t other) {
 
 std::shared_ptr<CameraManager> sharedManager() {
   static std::mutex mutex;
-  static std::weak_ptr<CameraManager> shared;
-  const std::lock_guard<std::mutex> lock(mutex);
-  std::shared_ptr<CameraManager> manager = shared.lock();
-  if (manager) return manager;
-  manager = std::make_shared<CameraManager>();
-  const int error = manager->start();
-  if (error) refuse(SPHC_E_DEVICE, "libcamera does not start: " + errorText(error));
-  shared = manager;
-  return manager;
+  static CameraManager *manager = nullptr;
+  static uint32_t users = 0;
+  // There may be one manager only, until its destructor has ended: it is made and ended under the lock.
+  struct User {
+    User() {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (users == 0) {
+        auto made = std::make_unique<CameraManager>();
+        const int error = made->start();
+        if (error) refuse(SPHC_E_DEVICE, "libcamera does not start: " + errorText(error));
+        manager = made.release();
+      }
+      ++users;
+    }
+    ~User() {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (--users > 0) return;
+      delete manager;
+      manager = nullptr;
+    }
+  };
+  const auto user = std::make_shared<User>();
+  return {user, manager};
 }
 
 sphc_libcamera_name nameOf(const Camera &camera) {
@@ -164,6 +178,8 @@ void Device::start() {
     if (lost_) refuse(SPHC_E_DEVICE_LOST, id_ + ": was unplugged; close it and open it again");
     first_done_ = done_count_ = 0;
     queue_error_ = 0;
+    is_back_ = {};
+    stopping_ = false;
   }
   const int error = camera_->start();
   if (error) refuse(SPHC_E_DEVICE, id_ + ": does not start: " + errorText(error));
@@ -181,8 +197,15 @@ void Device::start() {
 }
 
 void Device::completed(Request *request) {
-  if (request->status() == Request::RequestCancelled) return;
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (request->status() ==
+      Request::RequestCancelled) {  // by stop, or since the kernel refused a buffer or a control
+    if (stopping_) return;
+    is_back_[request->cookie()] = true;
+    queue_error_ = -ECANCELED;
+    changed_.notify_one();
+    return;
+  }
   done_[(first_done_ + done_count_) % SPHC_LIBCAMERA_BUFFERS_MAX] = static_cast<uint32_t>(request->cookie());
   ++done_count_;
   changed_.notify_one();
@@ -203,7 +226,12 @@ sphc_status Device::wait(uint32_t timeout_us, sphc_libcamera_frame &frame, sphc_
                            id_.c_str());
   if (queue_error_ != 0) {
     const int error = std::exchange(queue_error_, 0);
-    return pixels::explain(message, SPHC_E_DEVICE, "%s: takes a buffer no more (error %d); stop and start",
+    const auto back = std::exchange(is_back_, {});
+    lock.unlock();
+    for (uint32_t buffer = 0; buffer < requests_.size(); ++buffer)
+      if (back[buffer]) queue(buffer);  // without controls
+    return pixels::explain(message, SPHC_E_DEVICE,
+                           "%s: the camera refused a buffer or a control, such as the exposure (error %d)",
                            id_.c_str(), error);
   }
   const uint32_t index = done_[first_done_];
@@ -216,7 +244,8 @@ sphc_status Device::wait(uint32_t timeout_us, sphc_libcamera_frame &frame, sphc_
   frame = {};
   frame.buffer = index;
   frame.sequence = metadata.sequence;
-  frame.damaged = metadata.status != FrameMetadata::FrameSuccess;
+  // Later releases also know whole frames of a sensor that is still starting.
+  frame.damaged = metadata.status == FrameMetadata::FrameError || metadata.status == FrameMetadata::FrameCancelled;
   size_t plane = 0;
   for (const auto &used : metadata.planes())
     if (plane < 2) frame.used_bytes[plane++] = used.bytesused;
@@ -233,11 +262,16 @@ void Device::queue(uint32_t buffer) {
   if (error == 0) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   queue_error_ = error;
+  is_back_[buffer] = true;
 }
 
 void Device::stop() {
   if (!running_) return;
   running_ = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
   camera_->stop();  // gives every request back, cancelled
 }
 

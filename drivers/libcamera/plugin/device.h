@@ -67,8 +67,9 @@ class Device {
   std::condition_variable changed_;
   std::array<uint32_t, SPHC_LIBCAMERA_BUFFERS_MAX> done_ = {};  // a ring of buffers, oldest first
   uint32_t first_done_ = 0, done_count_ = 0;
-  bool lost_ = false;
+  bool lost_ = false, stopping_ = false;
   int queue_error_ = 0;
+  std::array<bool, SPHC_LIBCAMERA_BUFFERS_MAX> is_back_ = {};  // buffers that came back without a frame
 };
 
 }  // namespace sphc::libcamera_plugin

@@ -41,6 +41,8 @@ Format detectFormat(const TextFile &file) {
   if (contains(file, "CalibrationInformation")) return Format::kAzureKinect;
   if (contains(file, "%YAML") || contains(file, "opencv-matrix") || contains(file, "opencv_storage"))
     return Format::kOpencv;
+  // a ROS camera may be called cam0
+  if (contains(file, "distortion_model") && contains(file, "distortion_coefficients")) return Format::kRos;
   if (contains(file, "cam0")) return Format::kKalibr;
   if (contains(file, "distortion_model")) return Format::kRos;
   const size_t name = file.name.rfind("cameras.txt");

@@ -68,7 +68,7 @@ Result copyStreams(sphc_replay *replay, RecordingOut *out, const Console &consol
   Poses poses(replay, info.pose_count);
   sphc_source source = {};
   orThrow("source", [&](sphc_message *) { return sphc_replay_source(replay, &source); });
-  source.start(source.self);
+  if (source.start(source.self) < 0) throw std::runtime_error(source.message(source.self));
   ProgressBar bar("converting ");
   Result result;
   result.poses = info.pose_count;
@@ -98,6 +98,7 @@ Result copyFrames(sphc_replay *replay, const std::string &folder, const Console 
   ProgressBar bar("converting ");
   Result result;
   result.unpaired = infoOf(replay).color_count - count;
+  uint32_t last = 0;
   for (uint32_t i = 0; i < count; ++i) {
     sphc_frame frame;
     sphc_rigid pose;
@@ -108,6 +109,8 @@ Result copyFrames(sphc_replay *replay, const std::string &folder, const Console 
       ++result.unreadable;
       continue;
     }
+    if (i > 0 && frame.sequence <= last) frame.sequence = last + 1;  // a camera that came back counts anew
+    last = frame.sequence;
     const bool has_pose = sphc_replay_pose(replay, i, &pose) == SPHC_OK;
     orThrow("cannot write a frame", [&](sphc_message *why) {
       return sphc_recording_write_7scenes(folder.c_str(), &frame, has_pose ? &pose : nullptr, why);
@@ -138,6 +141,13 @@ void tellLosses(const Options &options, const sphc_replay_info &info, const Resu
     console.warn("note: " + std::to_string(info.bad_chunk_count) + " parts with changed bytes are left out");
   if (options.layout == Layout::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
+  if (options.layout == Layout::k7Scenes && info.depth_count > result.depth)
+    console.warn("note: " + std::to_string(info.depth_count - result.depth) +
+                 " depth images that are no frame's are left out");
+  if (options.layout == Layout::k7Scenes && info.pose_count > result.poses)
+    console.warn("note: " + std::to_string(info.pose_count - result.poses) + " poses between frames are left out");
+  if (options.layout == Layout::kTum && info.layout == SPHC_REPLAY_MCAP)
+    console.warn("note: the TUM layout has no sequence numbers, clocks and exposures");
   if (result.unpaired)
     console.warn("note: " + std::to_string(result.unpaired) + " colour images without depth are left out");
 }

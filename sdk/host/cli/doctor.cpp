@@ -88,9 +88,10 @@ int run(const Options &options, const Console &console) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Finding &finding : findings) {
     wrong = wrong || finding.grade == Grade::kWrong;
-    char head[48];
-    std::snprintf(head, sizeof head, "%-6s %-14s ", gradeText(finding.grade), finding.what.c_str());
-    console.say(head + finding.text);
+    std::string grade = gradeText(finding.grade), what = finding.what;
+    grade.resize(6, ' ');
+    what.resize(std::max<size_t>(what.size(), 14), ' ');
+    console.say(grade + " " + what + " " + finding.text);
     all.push_back({{"grade", gradeText(finding.grade)}, {"what", finding.what}, {"text", finding.text}});
   }
   console.give({{"findings", all}, {"wrong", wrong}});

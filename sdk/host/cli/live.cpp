@@ -166,7 +166,12 @@ int run(const Options &options, const Console &console) {
       line.show("no pair of images; " + rig.troubles());
       continue;
     }
+    const uint32_t losses = rig.losses();
     if (!every) tally.skipped += skipToNewest(&rig, &pair);
+    if (rig.losses() != losses) {  // the images went with the camera
+      rig.release(pair);
+      continue;
+    }
     lookAt(pair, rig, console, &localizer, &line, &tally);
     rig.release(pair);
   }

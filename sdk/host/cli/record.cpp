@@ -100,8 +100,10 @@ int run(const Options &options, const Console &console) {
     sphc_message message = {};
     const sphc_status status = sphc_recorder_add(recorder.get(), &capture, &message);
     if (status == SPHC_OK) tally.count(capture);
-    if (status == SPHC_E_DEVICE) throw std::runtime_error(options.out + ": " + message.text);
-    if (status < 0) tell(message.text);
+    if (status == SPHC_E_ARGUMENT) return tell(message.text);  // a time that does not grow
+    const char *cure =
+        status == SPHC_E_IMAGE ? "; choose that mode (--width, --height) or give its calibration" : "";
+    if (status < 0) throw std::runtime_error(options.out + ": " + message.text + cure);
   });
   const Interrupt interrupt;
   const auto begin = std::chrono::steady_clock::now();
@@ -121,7 +123,7 @@ int run(const Options &options, const Console &console) {
   sphc_recorder *ended = recorder.release();
   orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });
   sayResult(options, tally, statistics, rig, console);
-  return kExitDone;
+  return tally.color > 0 && tally.depth > 0 ? kExitDone : kExitFailure;
 }
 
 const char kExample[] =

@@ -26,7 +26,8 @@ std::string offersOf(const sphc_v4l2_device &device) {
 void findV4l2(Found *found) {
   std::vector<sphc_v4l2_device> devices(kMost);
   uint32_t count = 0;
-  if (sphc_v4l2_list(devices.data(), kMost, &count) < 0) return;
+  if (sphc_v4l2_list(devices.data(), kMost, &count) < 0)
+    return found->notes.push_back("v4l2: the cameras cannot be listed; may this user read /dev and /sys?");
   for (uint32_t i = 0; i < std::min(count, kMost); ++i) {
     const sphc_v4l2_device &d = devices[i];
     found->cameras.push_back({std::string("v4l2:") + d.node, d.card, offersOf(d), d.problem});

@@ -119,10 +119,13 @@ Finding GeometryCheck::finding() const {
   const double calibrated_px = medians_px[kNone];
   const size_t best =
       static_cast<size_t>(std::min_element(medians_px.begin(), medians_px.end()) - medians_px.begin());
-  if (distances_px_[kNone].size() < kFewestEdges && best == kNone)
+  const bool too_few = distances_px_[kNone].size() < kFewestEdges;
+  if (too_few && (best == kNone || distances_px_[best].size() < 3 * kFewestEdges))
     return {Finding::Grade::kDoubtful, "geometry",
             "too few edges in depth to tell; show the cameras a room with things in it, 1 to 3 m away"};
-  const std::string seen = "edges of depth lie " + fixed(calibrated_px, 1) + " px from edges of the image";
+  const std::string seen = too_few
+                               ? "hardly an edge of depth lies in the image"
+                               : "edges of depth lie " + fixed(calibrated_px, 1) + " px from edges of the image";
   if (best != kNone && medians_px[best] < kClearly * calibrated_px)
     return {Finding::Grade::kWrong, "geometry",
             seen + " as calibrated, and " + fixed(medians_px[best], 1) + " px if it is " + kNames[best]};

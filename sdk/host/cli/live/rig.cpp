@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTurn(2);  // with two cameras: how long one is waited for
 constexpr std::chrono::seconds kRetry(1);
+constexpr uint32_t kFailures = 10;  // in a row: the camera is closed and opened again
 
 int64_t nowNs(clockid_t clock) {
   timespec now = {};
@@ -102,7 +103,9 @@ bool Rig::pop(sphc_pair *pair) {
 
 Rig::Got Rig::next(std::chrono::milliseconds timeout, sphc_pair *pair) {
   const Clock::time_point until = Clock::now() + timeout;
+  bool came = false;
   do {
+    came = false;
     if (pop(pair)) return Got::kPair;
     const bool over = std::all_of(cameras_.begin(), cameras_.end(), [](const Camera &c) { return c.ended; });
     if (over && flushed_) return Got::kEnd;
@@ -113,30 +116,45 @@ Rig::Got Rig::next(std::chrono::milliseconds timeout, sphc_pair *pair) {
     }
     const auto left = std::chrono::duration_cast<std::chrono::microseconds>(until - Clock::now());
     const auto turn = cameras_.size() == 1 ? left : std::min<std::chrono::microseconds>(left, kTurn);
-    for (Camera &camera : cameras_) acquireFrom(&camera, std::max(turn, std::chrono::microseconds(0)));
-  } while (Clock::now() < until || flushed_);
+    for (Camera &camera : cameras_)
+      came = acquireFrom(&camera, std::max(turn, std::chrono::microseconds(0))) || came;
+  } while (came || Clock::now() < until || flushed_);
   return pop(pair) ? Got::kPair : Got::kNothing;
 }
 
-void Rig::acquireFrom(Camera *camera, std::chrono::microseconds timeout) {
-  if (camera->ended) return;
+bool Rig::acquireFrom(Camera *camera, std::chrono::microseconds timeout) {
+  if (camera->ended) return false;
   if (!camera->device) tryAgain(camera);
-  if (!camera->device) return std::this_thread::sleep_for(timeout);
+  if (!camera->device) {
+    std::this_thread::sleep_for(timeout);
+    return false;
+  }
   const sphc_source &source = camera->device->source();
   sphc_capture capture = {};
   capture.struct_size = sizeof capture;
   const sphc_status status = source.acquire(source.self, static_cast<uint32_t>(timeout.count()), &capture);
-  if (status == SPHC_AGAIN) return;
-  if (status == SPHC_END) {
-    camera->ended = true;
-    return;
-  }
-  if (status == SPHC_E_DEVICE_LOST) return lose(camera);
-  if (status < 0) return trouble_(camera->spec + ": " + source.message(source.self));
-  if (cameras_.size() > 1) bringToHostClock(camera, &capture);
+  if (status == SPHC_AGAIN) return false;
+  camera->ended = status == SPHC_END;
+  if (status < 0 && status != SPHC_E_DEVICE_LOST) trouble_(camera->spec + ": " + source.message(source.self));
+  camera->failures = status < 0 ? camera->failures + 1 : 0;
+  if (status == SPHC_E_DEVICE_LOST || (camera->failures > kFailures && !camera->device->waits())) lose(camera);
+  if (status != SPHC_OK) return false;
+  cameras_.size() > 1 ? bringToHostClock(camera, &capture) : keepTimeGoing(camera, &capture);
   if (watcher_) watcher_(capture);
   // A clock that was set may bring a time that does not grow.
   if (sphc_pairer_push(pairer_, &capture) != SPHC_OK) giveBack(capture);
+  return true;
+}
+
+// A device's own clock may begin again when it is plugged in again; what records goes on.
+void Rig::keepTimeGoing(Camera *camera, sphc_capture *capture) {
+  if (capture->clock != SPHC_CLOCK_SOURCE) return;
+  const int64_t now_ns = nowNs(CLOCK_MONOTONIC);
+  if (camera->reopened) camera->shift_ns = camera->last_ns + (now_ns - camera->last_arrival_ns) - capture->time_ns;
+  camera->reopened = false;
+  capture->time_ns += camera->shift_ns;
+  camera->last_ns = std::max(camera->last_ns, capture->time_ns);
+  camera->last_arrival_ns = now_ns;
 }
 
 void Rig::bringToHostClock(Camera *camera, sphc_capture *capture) {
@@ -161,9 +179,11 @@ void Rig::emptyPairer() {
 void Rig::lose(Camera *camera) {
   const sphc_source &source = camera->device->source();
   trouble_(camera->spec + ": " + source.message(source.self) + "; waiting for it to come back");
+  ++losses_;
   emptyPairer();
   source.stop(source.self);
   camera->device.reset();
+  camera->failures = 0;
   camera->retry = Clock::now() + kRetry;
 }
 
@@ -173,6 +193,7 @@ void Rig::tryAgain(Camera *camera) {
   try {
     camera->device = openDevice(camera->spec, camera->wish);
     start(camera);
+    camera->reopened = true;
     trouble_(camera->spec + ": is back");
   } catch (const std::exception &) {  // not yet
     camera->device.reset();

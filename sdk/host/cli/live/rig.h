@@ -31,9 +31,11 @@ class Rig {
   Rig(const Rig &) = delete;
   Rig &operator=(const Rig &) = delete;
 
-  // The next pair, within a timeout; to be released.  Throws std::runtime_error where a camera fails for good.
+  // The next pair, within a timeout; to be released.
   Got next(std::chrono::milliseconds timeout, sphc_pair *pair);
   void release(const sphc_pair &pair);
+  // How often a camera was lost: pairs from before a loss are void.
+  uint32_t losses() const { return losses_; }
 
   // Sees every capture that comes, paired later or not, on the clock of the rig.
   void watch(std::function<void(const sphc_capture &)> watcher) { watcher_ = std::move(watcher); }
@@ -52,6 +54,10 @@ class Rig {
     std::unique_ptr<Device> device;  // null while it is unplugged
     bool ended = false;
     Clock::time_point retry;
+    uint32_t failures = 0;  // in a row
+    bool reopened = false;  // and has given nothing yet
+    int64_t shift_ns = 0;   // of a clock that began again when the camera came back
+    int64_t last_ns = 0, last_arrival_ns = 0;
     std::vector<uint64_t> mapper_memory;
     sphc_clock_mapper *mapper = nullptr;
   };
@@ -61,7 +67,9 @@ class Rig {
   void makePairer();
   void emptyPairer();
   bool pop(sphc_pair *pair);
-  void acquireFrom(Camera *camera, std::chrono::microseconds timeout);
+  // True where a capture came.
+  bool acquireFrom(Camera *camera, std::chrono::microseconds timeout);
+  void keepTimeGoing(Camera *camera, sphc_capture *capture);
   void bringToHostClock(Camera *camera, sphc_capture *capture);
   void lose(Camera *camera);
   void tryAgain(Camera *camera);
@@ -76,6 +84,7 @@ class Rig {
   sphc_pairer *pairer_ = nullptr;
   sphc_pairer_counts earlier_ = {};  // of pairers before a camera was unplugged
   bool flushed_ = false;
+  uint32_t losses_ = 0;
 };
 
 }  // namespace sphc::host

@@ -60,6 +60,11 @@ void ClockMapper::keep(const Sample &sample) {
     if (sample.late_s < slots_[count_ - 1].late_s) slots_[count_ - 1] = sample;
     return;
   }
+  const double oldest_s = sample.source_s - seconds(config_.window_ns);
+  uint32_t forgotten = 0;
+  while (forgotten < count_ && slots_[forgotten].source_s < oldest_s) ++forgotten;
+  std::copy(slots_ + forgotten, slots_ + count_, slots_);
+  count_ -= forgotten;
   if (count_ == kSlots) std::copy(slots_ + 1, slots_ + count_--, slots_);
   slots_[count_++] = sample;
   slot_ends_s_ = sample.source_s + seconds(config_.window_ns) / kSlots;

@@ -25,7 +25,7 @@ sphc_status Pairer::push(const sphc_capture &capture) {
   if (capture.stream != SPHC_STREAM_COLOR && capture.stream != SPHC_STREAM_DEPTH) return SPHC_E_ARGUMENT;
   Queue &queue = capture.stream == SPHC_STREAM_COLOR ? color_ : depth_;
   if (begun_ && capture.clock != clock_) return SPHC_E_ARGUMENT;
-  if (queue.count && capture.time_ns < queue.slots[queue.count - 1].time_ns) return SPHC_E_ARGUMENT;
+  if (queue.begun && capture.time_ns < queue.last_ns) return SPHC_E_ARGUMENT;
   if (queue.count == config_.slots) return SPHC_E_CAPACITY;
   begun_ = true;
   clock_ = capture.clock;
@@ -34,6 +34,7 @@ sphc_status Pairer::push(const sphc_capture &capture) {
     (&queue == &color_ ? counts_.color_lost : counts_.depth_lost) += capture.sequence - queue.last_sequence - 1;
   queue.begun = true;
   queue.last_sequence = capture.sequence;
+  queue.last_ns = capture.time_ns;
   queue.slots[queue.count++] = capture;
   return SPHC_OK;
 }

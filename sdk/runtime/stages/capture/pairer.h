@@ -20,6 +20,7 @@ class Pairer {
     uint32_t count = 0;
     bool begun = false;
     uint32_t last_sequence = 0;
+    int64_t last_ns = 0;
 
     sphc_capture takeFront();
   };

@@ -61,6 +61,14 @@ TEST(Mjpeg, NeedsNoHuffmanTablesAndIgnoresWhatFollowsTheEnd) {
   EXPECT_EQ(decode(padded).pixels, decode(kFrame).pixels);
 }
 
+TEST(Mjpeg, TakesPaddingBeforeTheEndMark) {
+  std::vector<uint8_t> padded = kFrame;
+  padded.insert(padded.end() - 2, 7, uint8_t{0});
+  const Decoded decoded = decode(padded);
+  EXPECT_EQ(decoded.status, SPHC_OK) << decoded.message.text;
+  EXPECT_EQ(decoded.pixels, decode(kFrame).pixels);
+}
+
 TEST(Mjpeg, RefusesAFrameCutAnywhereBeforeItsEndMark) {
   for (size_t bytes = 0; bytes + 2 <= kFrame.size(); ++bytes)
     ASSERT_EQ(decode({kFrame.begin(), kFrame.begin() + static_cast<long>(bytes)}).status, SPHC_E_IMAGE) << bytes;

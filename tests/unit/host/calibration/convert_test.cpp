@@ -122,6 +122,7 @@ TEST(ReadFiles, ColmapFindsItsRigsBesideTheCameras) {
 TEST(ReadFiles, FormatsTellThemselves) {
   EXPECT_EQ(detectFormat({"f", kKalibrFile}), Format::kKalibr);
   EXPECT_EQ(detectFormat({"f", kRosColorFile}), Format::kRos);
+  EXPECT_EQ(detectFormat({"f", std::string("# of cam0\n") + kRosColorFile}), Format::kRos);
   EXPECT_EQ(detectFormat({"f", kOpencvSampleFile}), Format::kOpencv);
   EXPECT_EQ(detectFormat({"f", kAzureKinectFile}), Format::kAzureKinect);
   EXPECT_EQ(detectFormat({"a/cameras.txt", kColmapCamerasFile}), Format::kColmap);

@@ -115,6 +115,13 @@ TEST(ClockMapper, AStallIsNoJump) {
   EXPECT_EQ(mapped(mapper, 2 * kSecond), 2 * kSecond + kMs);
 }
 
+TEST(ClockMapper, ForgetsWhatLiesBeyondTheWindow) {
+  ClockMapper mapper(defaults());
+  for (int64_t i = 1; i <= 10; ++i) ASSERT_EQ(mapper.add(i * kSecond, i * kSecond + kMs), SPHC_OK);
+  for (int64_t i = 60; i <= 65; ++i) ASSERT_EQ(mapper.add(i * kSecond, i * kSecond + 9 * kMs), SPHC_OK);
+  EXPECT_EQ(mapped(mapper, 65 * kSecond), 65 * kSecond + 9 * kMs);
+}
+
 TEST(ClockMapper, RunsForDays) {
   ClockMapper mapper(defaults());
   for (int64_t i = 1; i <= 100000; ++i)

@@ -213,6 +213,15 @@ TEST(Pairer, PairsByTheMiddleOfTheExposure) {
   EXPECT_EQ(sphc_capture_middle_ns(nullptr), 0);
 }
 
+TEST(Pairer, TimeGoesOnAfterAPairToo) {
+  Pairer pairer = makePairer();
+  pairer.push(color(100));
+  pairer.push(depth(100));
+  EXPECT_EQ(drain(&pairer), "c100+d100 ");
+  EXPECT_EQ(pairer.push(color(99)), SPHC_E_ARGUMENT);
+  EXPECT_EQ(pairer.push(color(100)), SPHC_OK);
+}
+
 TEST(Pairer, OneClockOnly) {
   Pairer pairer = makePairer();
   sphc_capture other = depth(100);
