@@ -19,9 +19,6 @@ namespace {
 constexpr uint32_t kMostLoans = 64;
 
 sphc_status checkConfig(const sphc_libcamera_config &config, sphc_message *message) {
-  if (config.struct_size != sizeof config)
-    return explain(message, SPHC_E_STRUCT_SIZE, "config.struct_size %u: must be %zu", config.struct_size,
-                   sizeof config);
   if (config.format != SPHC_FORMAT_BGR8 && config.format != SPHC_FORMAT_RGB8 && config.format != SPHC_FORMAT_GRAY8)
     return explain(message, SPHC_E_ARGUMENT, "config.format %d: BGR8, RGB8 or GRAY8", config.format);
   if ((config.width == 0) != (config.height == 0) || config.width > 8192 || config.height > 8192)
@@ -83,8 +80,8 @@ sphc_status sphc_libcamera_open(const char *id, const sphc_libcamera_config *con
                                 sphc_message *message) try {
   if (!camera) return explain(message, SPHC_E_ARGUMENT, "camera is null");
   if (config && config->struct_size != sizeof *config)
-    return explain(message, SPHC_E_STRUCT_SIZE, "config.struct_size is %u; call sphc_libcamera_config_init first",
-                   config->struct_size);
+    return explain(message, SPHC_E_STRUCT_SIZE, "config.struct_size %u: must be %zu", config->struct_size,
+                   sizeof *config);
   sphc_libcamera_config chosen;
   sphc_libcamera_config_init(&chosen, sizeof chosen);
   if (config) chosen = *config;

@@ -20,7 +20,10 @@ int64_t sum(int64_t a, int64_t b) {
   return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
 }
 double seconds(int64_t ns) { return 1e-9 * static_cast<double>(ns); }
-int64_t nanoseconds(double s) { return static_cast<int64_t>(1e9 * std::min(std::max(s, -kMost_s), kMost_s)); }
+int64_t nanoseconds(double s) {
+  const double ns = 1e9 * std::min(std::max(s, -kMost_s), kMost_s);
+  return static_cast<int64_t>(ns < 0 ? ns - 0.5 : ns + 0.5);
+}
 
 }  // namespace
 

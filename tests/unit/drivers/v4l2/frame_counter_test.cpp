@@ -35,6 +35,15 @@ TEST(FrameCounter, GoesThroughTheWrap) {
   EXPECT_EQ(step.sequence, 2u);
 }
 
+TEST(FrameCounter, ADeviceThatTellsNeitherNumberNorTimeIsCounted) {
+  FrameCounter counter;
+  for (uint32_t i = 0; i < 4; ++i) {
+    const FrameCounter::Step step = counter.step(0, 0);
+    EXPECT_NE(step.kind, Kind::Duplicate);
+    EXPECT_EQ(step.sequence, i);
+  }
+}
+
 TEST(FrameCounter, KnowsADuplicateByNumberAndTime) {
   FrameCounter counter;
   counter.step(3, 100);
