@@ -36,6 +36,7 @@ static struct camera open_camera(const char *name, sphc_stream stream, const sph
   config.stream = stream;
   config.width = lens->width;
   config.height = lens->height;
+  config.fps = 0; /* whatever the camera does */
   config.buffers = 8;
   config.loan_limit = 6; /* more than the pairer has slots */
   check(sphc_v4l2_open(name, &config, &camera.handle, &message), name);
@@ -108,6 +109,7 @@ int main(int argc, char **argv) {
   sphc_pairer_config config;
   sphc_pairer *pairer = NULL;
   check(sphc_pairer_config_init(&config, sizeof config), "pairer config");
+  config.tolerance_ns = 34000000; /* nobody synchronises two webcams: half a period at 15 Hz */
   check(sphc_pairer_init(pairs, sizeof pairs, &config, &pairer, &message), "pairer");
 
   const long frames = argc > 5 ? atol(argv[5]) : -1;

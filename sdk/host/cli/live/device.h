@@ -18,9 +18,9 @@ namespace sphc::host {
 // What is wanted of a device.
 struct Wish {
   bool color = true, depth = true;
-  bool color_images = false;  // colours, not grey: to record
-  uint32_t width = 640, height = 480, fps = 30;
-  std::string calibration;  // of a recording that has none beside it
+  bool color_images = false;                    // colours, not grey: to record
+  uint32_t width = 640, height = 480, fps = 0;  // fps 0: whatever the camera does
+  std::string calibration;                      // of a recording that has none beside it
 };
 
 // Captures that may be out on loan at once: those that wait in a pairer, and those in use.
