@@ -11,6 +11,9 @@ mkdir -p build
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
+# OpenNI2 asks threads that have ended whether they live; as long as their stacks are kept it gets an answer.
+export GLIBC_TUNABLES=glibc.pthread.stack_cache_size=1073741824
+
 # check NAME COMMAND...: one step; its output is shown when it fails
 check() {
   local name=$1 log
