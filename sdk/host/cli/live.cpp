@@ -29,23 +29,6 @@ struct Tally {
   Rate color, depth, poses;
 };
 
-spherecloud::Localizer makeLocalizer(const sphc_calibration &calibration, const std::vector<MapFile> &maps) {
-  sphc_config config = spherecloud::defaultConfig();
-  setCameras(calibration, &config);
-  std::vector<const sphc_map *> views;
-  for (const MapFile &file : maps) views.push_back(file.map.get());
-  spherecloud::Localizer localizer;
-  const spherecloud::Status status =
-      spherecloud::Localizer::make(config, views.data(), static_cast<uint32_t>(views.size()), &localizer);
-  if (status.failed()) throw std::runtime_error(std::string("cannot make the localizer: ") + status.text());
-  return localizer;
-}
-
-const char *stateName(sphc_state state) {
-  if (state == SPHC_STATE_TRACKING) return "tracking";
-  return state == SPHC_STATE_LOST ? "lost" : "relocalizing";
-}
-
 std::string poseText(const sphc_result &result) {
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return "no pose";
   const sphc_rigid pose = spherecloud::inverse(result.camera_from_map);
@@ -132,8 +115,7 @@ void sayTally(const Tally &tally, const Rig &rig, const Console &console) {
   console.say("Frames looked at: " + std::to_string(tally.frames) +
               ", localized: " + std::to_string(tally.localized) +
               (tally.skipped ? ", skipped: " + std::to_string(tally.skipped) : ""));
-  if (tally.frames > 0)
-    console.say("Time a frame: " + std::to_string(tally.total_ms / tally.frames).substr(0, 5) + " ms, mean");
+  if (tally.frames > 0) console.say("Time a frame: " + fixed(tally.total_ms / tally.frames, 2) + " ms, mean");
   console.say(
       "Without a partner: " + std::to_string(counts.too_far + counts.overtaken + counts.full + counts.ended) +
       "; never came: " + std::to_string(counts.color_lost) + " colour, " + std::to_string(counts.depth_lost) +
@@ -152,7 +134,9 @@ int run(const Options &options, const Console &console) {
     console.warn(trouble);
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  spherecloud::Localizer localizer = makeLocalizer(calibrationOf(options.rig, rig), maps);
+  sphc_config config = spherecloud::defaultConfig();
+  setCameras(calibrationOf(options.rig, rig), &config);
+  spherecloud::Localizer localizer = makeLocalizer(config, maps);
   Tally tally;
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? tally.color : tally.depth).count(); });
   const bool every = options.every || rig.waits();
@@ -203,7 +187,7 @@ Command liveCommand(CLI::App *root) {
       ->take_all()
       ->type_name("FILE");
   app->add_option("--frames", options->frames, "End after so many frames; 0: never");
-  app->add_option("--seconds", options->seconds, "End after so long; 0: never");
+  app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(CLI::NonNegativeNumber);
   app->add_flag("--every", options->every, "Look at every frame, however late; else the newest counts");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }

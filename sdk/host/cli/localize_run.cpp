@@ -125,6 +125,15 @@ void setCameras(const sphc_calibration &calibration, sphc_config *config) {
   config->clock = steadyNanoseconds;
 }
 
+spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vector<MapFile> &maps) {
+  spherecloud::Localizer localizer;
+  std::vector<const sphc_map *> views;
+  for (const MapFile &file : maps) views.push_back(file.map.get());
+  check("cannot make the localizer",
+        spherecloud::Localizer::make(config, views.data(), static_cast<uint32_t>(views.size()), &localizer));
+  return localizer;
+}
+
 std::vector<Setting> describeConfig(const sphc_config &config) {
   return {{"colour camera", describeCamera(config.color_camera)},
           {"depth camera", describeCamera(config.depth_camera)},
@@ -151,11 +160,7 @@ std::vector<Setting> describeConfig(const sphc_config &config) {
 void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
                     const std::function<void(const std::string &)> &unreadable, Run *run) {
   measureMemory(input.config, run);
-  spherecloud::Localizer localizer;
-  std::vector<const sphc_map *> maps;
-  for (const MapFile &file : input.maps) maps.push_back(file.map.get());
-  check("cannot make the localizer",
-        spherecloud::Localizer::make(input.config, maps.data(), static_cast<uint32_t>(maps.size()), &localizer));
+  spherecloud::Localizer localizer = makeLocalizer(input.config, input.maps);
   PlayedOdometry odometry(input.replay);
   std::vector<sphc_observation> room(input.config.max_keypoints);
   const uint32_t count = sphc_replay_frame_count(input.replay);

@@ -23,6 +23,8 @@ struct LocalizeInput {
 
 // Cameras, depth unit and clock into a config whose other fields stay.
 void setCameras(const sphc_calibration &calibration, sphc_config *config);
+// Throws std::runtime_error with cause and cure.
+spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vector<MapFile> &maps);
 std::vector<Setting> describeConfig(const sphc_config &config);
 
 // Fills everything of *run that comes from processing.  A frame that cannot be read is told to `unreadable`,

@@ -10,6 +10,8 @@
 #include "host/cli/live/rate.h"
 #include "host/cli/live/rig_options.h"
 #include "host/cli/live/status_line.h"
+#include "host/cli/recording_out.h"
+#include "host/report/run.h"
 
 namespace sphc::host {
 namespace {
@@ -41,8 +43,6 @@ sphc_recorder_statistics statisticsOf(const sphc_recorder *recorder) {
   return statistics;
 }
 
-std::string megabytes(uint64_t bytes) { return std::to_string(bytes / 1000000) + " MB"; }
-
 // What was given to the recorder.
 struct Tally {
   uint64_t color = 0, depth = 0, raw_bytes = 0;
@@ -61,8 +61,8 @@ std::string statusText(const sphc_recorder_statistics &s, const Tally &tally) {
   std::snprintf(text, sizeof text, "%llu colour (%.0f/s), %llu depth (%.0f/s), %s; dropped %llu, never came %llu",
                 static_cast<unsigned long long>(tally.color), tally.color_rate.hz(),
                 static_cast<unsigned long long>(tally.depth), tally.depth_rate.hz(),
-                megabytes(s.file_bytes).c_str(), static_cast<unsigned long long>(s.dropped_count),
-                static_cast<unsigned long long>(s.missing_count));
+                humanBytes(static_cast<double>(s.file_bytes)).c_str(),
+                static_cast<unsigned long long>(s.dropped_count), static_cast<unsigned long long>(s.missing_count));
   return text;
 }
 
@@ -70,8 +70,8 @@ void sayResult(const Options &options, const Tally &tally, const sphc_recorder_s
                const Console &console) {
   const uint64_t file_bytes = std::filesystem::file_size(options.out);
   console.say("Wrote " + options.out + ": " + std::to_string(tally.color) + " colour and " +
-              std::to_string(tally.depth) + " depth images, " + megabytes(file_bytes) + " of " +
-              megabytes(tally.raw_bytes));
+              std::to_string(tally.depth) + " depth images, " + humanBytes(static_cast<double>(file_bytes)) +
+              " of " + humanBytes(static_cast<double>(tally.raw_bytes)));
   console.say("Dropped: " + std::to_string(s.dropped_count) + ", never came: " + std::to_string(s.missing_count) +
               ", most waiting at once: " + std::to_string(s.queue_most));
   const std::string troubles = rig.troubles();
@@ -87,6 +87,7 @@ void sayResult(const Options &options, const Tally &tally, const sphc_recorder_s
 
 int run(const Options &options, const Console &console) {
   checkRigOptions(options.rig);
+  if (!isMcap(options.out)) throw UsageError("--out: the name of the file ends with .mcap: " + options.out);
   StatusLine line;
   const auto tell = [&](const std::string &trouble) {
     line.wipe();
@@ -145,7 +146,7 @@ Command recordCommand(CLI::App *root) {
   app->footer(kExample);
   addRigOptions(app, &options->rig);
   app->add_option("-o,--out", options->out, "The file, ending in .mcap")->required()->type_name("FILE");
-  app->add_option("--seconds", options->seconds, "End after so long; 0: never");
+  app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(CLI::NonNegativeNumber);
   app->add_option("--jpeg", options->recorder.jpeg_quality,
                   "Colour as JPEG of this quality, 1 to 100; 0: as it came")
       ->capture_default_str();

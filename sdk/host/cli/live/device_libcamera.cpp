@@ -1,7 +1,7 @@
 #include "drivers/libcamera/libcamera.h"
 #include "host/cli/door.h"
-#include "host/cli/live/counts.h"
 #include "host/cli/live/device.h"
+#include "host/cli/live/words.h"
 
 namespace sphc::host {
 namespace {

@@ -1,16 +1,10 @@
 #include "drivers/v4l2/v4l2.h"
 #include "host/cli/door.h"
-#include "host/cli/live/counts.h"
 #include "host/cli/live/device.h"
+#include "host/cli/live/words.h"
 
 namespace sphc::host {
 namespace {
-
-std::string fourccText(uint32_t fourcc) {
-  std::string text;
-  for (int i = 0; i < 4; ++i) text += static_cast<char>(fourcc >> (8 * i) & 0x7f);
-  return text;
-}
 
 class V4l2Device : public Device {
  public:

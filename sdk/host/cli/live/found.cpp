@@ -5,6 +5,7 @@
 #include "drivers/libcamera/libcamera.h"
 #include "drivers/openni2/openni2.h"
 #include "drivers/v4l2/v4l2.h"
+#include "host/cli/live/words.h"
 
 namespace sphc::host {
 namespace {
@@ -16,10 +17,7 @@ std::string offersOf(const sphc_v4l2_device &device) {
   if (device.can_depth) text += text.empty() ? "depth" : " and depth";
   if (text.empty()) text = "nothing that we read";
   text += ":";
-  for (uint32_t i = 0; i < std::min(device.fourcc_count, 32u); ++i) {
-    text += " ";
-    for (int k = 0; k < 4; ++k) text += static_cast<char>(device.fourccs[i] >> (8 * k) & 0x7f);
-  }
+  for (uint32_t i = 0; i < std::min(device.fourcc_count, 32u); ++i) text += " " + fourccText(device.fourccs[i]);
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include "host/cli/live/rig_options.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "host/cli/door.h"
@@ -31,6 +32,7 @@ void checkRigOptions(const RigOptions &options) {
   const bool any_of_two = !options.color.empty() || !options.depth.empty();
   if (options.both.empty() ? !two : any_of_two)
     throw UsageError("give --device, or --color and --depth; `spherecloud devices` lists what is there");
+  if (std::isnan(options.tolerance_ms)) throw UsageError("--tolerance-ms: must be a number from 0 to 1000");
 }
 
 sphc_calibration calibrationOf(const RigOptions &options, const Rig &rig) {

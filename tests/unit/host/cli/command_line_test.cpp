@@ -54,6 +54,8 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
 INSTANTIATE_TEST_SUITE_P(
     EachMistake, UsageTest,
     testing::Values("", "conquer", "live", "live --device simulated:", "record --out x.mcap",
+                    "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
+                    "live --device simulated: --map m --seconds -3",
                     "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
                     "calibration x --format what", "calibration x --color-size 640", "info", "info a b",
                     "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b.mcap --jpeg 0",

@@ -1,4 +1,4 @@
-// Counters of a driver in words.
+// What drivers tell in numbers, in words.
 #pragma once
 #include <cstdint>
 #include <initializer_list>
@@ -13,6 +13,13 @@ inline std::string countsInWords(std::initializer_list<std::pair<const char *, u
   for (const auto &[name, count] : counts)
     if (count > 0) words += (words.empty() ? "" : ", ") + std::to_string(count) + " " + name;
   return words;
+}
+
+// "YUYV"
+inline std::string fourccText(uint32_t fourcc) {
+  std::string text;
+  for (int i = 0; i < 4; ++i) text += static_cast<char>(fourcc >> (8 * i) & 0x7f);
+  return text;
 }
 
 }  // namespace sphc::host
