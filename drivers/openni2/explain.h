@@ -5,11 +5,11 @@
 
 #include <cstring>
 
+#include "drivers/pixels/explain.h"
+
 namespace sphc::openni2 {
 
-// Prints into `message`, which may be null, cut to fit; gives `status` back.
-[[gnu::format(printf, 3, 4)]] sphc_status explain(sphc_message *message, sphc_status status, const char *format,
-                                                  ...);
+using pixels::explain;
 
 // Copies as much as fits, and terminates it.
 template <size_t N>
