@@ -312,10 +312,8 @@ TEST_P(DriverContract, CountsTheCapturesOfAStreamUpwards) {
 TEST_P(DriverContract, ReusesItsMemory) {
   ASSERT_EQ(start(), SPHC_OK);
   std::set<const void *> buffers;
-  forEachCapture(50, [&](const sphc_capture &capture) { buffers.insert(capture.image.data); });
-  const size_t made = buffers.size();  // at least as many as may be on loan; a kernel has some more
-  forEachCapture(100, [&](const sphc_capture &capture) { buffers.insert(capture.image.data); });
-  EXPECT_EQ(buffers.size(), made);
+  forEachCapture(150, [&](const sphc_capture &capture) { buffers.insert(capture.image.data); });
+  EXPECT_LE(buffers.size(), opened_.source.loan_limit + GetParam().spare_buffers);
 }
 
 // ---- failure, end, time

@@ -65,7 +65,10 @@ std::vector<Driver> v4l2Drivers() {
                                  {"V4l2Mjpeg", openMjpeg},
                                  {"V4l2Depth", [] { return openDepth(0); }},
                                  {"V4l2DepthByDmabuf", [] { return openDepth(1); }}};
-  for (Driver &driver : drivers) driver.streams = 1;
+  for (Driver &driver : drivers) {
+    driver.streams = 1;
+    driver.spare_buffers = 3;  // the kernel's
+  }
   return drivers;
 }
 

@@ -25,6 +25,7 @@ struct Driver {
   uint32_t captures_until_end = 0;  // 0: endless
   bool opens_twice = true;          // two at the same time; a real device cannot
   uint32_t streams = 2;             // that come; a camera of colour or depth alone has one
+  uint32_t spare_buffers = 0;       // beyond those that may be on loan
 };
 inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
 
