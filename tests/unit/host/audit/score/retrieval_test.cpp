@@ -1,0 +1,65 @@
+#include "host/audit/score/retrieval.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/unit/host/audit/score/truth_picture.h"
+
+namespace sphc::host {
+namespace {
+
+struct Pairs {
+  std::vector<cv::Mat> pictures;
+  std::vector<TruthView> truths;
+};
+
+// Each picture is its truth, blurred and in another unit.
+Pairs tenPairs() {
+  Pairs pairs;
+  for (uint64_t i = 0; i < 10; ++i) {
+    pairs.truths.push_back(truthPicture(i));
+    cv::Mat picture;
+    cv::GaussianBlur(pairs.truths.back().grey * 0.02 - 1, picture, {}, 3);
+    pairs.pictures.push_back(picture);
+  }
+  return pairs;
+}
+
+TEST(Retrieval, FindsWhatIsShown) {
+  const Pairs pairs = tenPairs();
+  const Retrieval retrieval = retrieve(pairs.pictures, pairs.truths);
+  EXPECT_EQ(retrieval.top1, 1);
+  EXPECT_EQ(retrieval.standard_error, 0);
+}
+
+TEST(Retrieval, AnotherPlaceIsAMiss) {
+  Pairs pairs = tenPairs();
+  std::swap(pairs.pictures[2], pairs.pictures[7]);
+  const Retrieval retrieval = retrieve(pairs.pictures, pairs.truths);
+  EXPECT_NEAR(retrieval.top1, 0.8, 1e-12);
+  EXPECT_NEAR(retrieval.standard_error, std::sqrt(0.8 * 0.2 / 10), 1e-12);
+  EXPECT_FALSE(retrieval.hits[2]);
+  EXPECT_FALSE(retrieval.hits[7]);
+  EXPECT_TRUE(retrieval.hits[0]);
+}
+
+TEST(Retrieval, EdgesAloneFindAPlaceWhoseBrightnessIsWrong) {
+  Pairs pairs = tenPairs();
+  for (cv::Mat &picture : pairs.pictures) {  // locally flat
+    cv::Mat mean;
+    cv::GaussianBlur(picture, mean, {}, 6);
+    picture = picture - mean;
+  }
+  EXPECT_GE(retrieve(pairs.pictures, pairs.truths).top1, 0.9);
+}
+
+TEST(Retrieval, NothingToFindIsNoFault) {
+  const Retrieval retrieval = retrieve({}, {});
+  EXPECT_EQ(retrieval.top1, 0);
+  EXPECT_TRUE(retrieval.hits.empty());
+}
+
+}  // namespace
+}  // namespace sphc::host
