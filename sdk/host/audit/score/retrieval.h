@@ -12,8 +12,11 @@ struct Retrieval {
   double top1 = 0, standard_error = 0;
 };
 
-// Pictures and truths in the same order.  Alike is what correlates at 32 x 32 pixels and has the same edges in 8 x
-// 8 cells; the sum of both finds more than either.
-Retrieval retrieve(const std::vector<cv::Mat> &pictures, const std::vector<TruthView> &truths);
+// Cells of a picture, both ways, in which edges are compared.  Fine finds the most, given the very pose of the
+// picture; coarse needs it to a few degrees only.
+constexpr int kFineCells = 32, kCoarseCells = 8;
+
+// Pictures and truths in the same order.  Alike are pictures whose edges, in each cell, have the same directions.
+Retrieval retrieve(const std::vector<cv::Mat> &pictures, const std::vector<TruthView> &truths, int cells);
 
 }  // namespace sphc::host

@@ -2,53 +2,30 @@
 // OUT, little-endian, an image after the other: uint32 count, count times float32 x, y in px, count times 128
 // bytes.
 #include <cstdint>
-#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
+#include "host/audit/train/extractor.h"
 #include "host/audit/train/output.h"
-#include "runtime/stages/features/extractor.h"
 
 namespace sphc::host {
 namespace {
 
-constexpr uint32_t kMaxKeypoints = 1200;  // as a mapping frame has
-
 void describe(const std::string &path, std::ostream *out) {
   const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw std::runtime_error(path + " is no image that OpenCV reads");
-  FeatureConfig config;
-  config.width = image.cols;
-  config.height = image.rows;
-  config.max_keypoints = kMaxKeypoints;
-  if (!FeatureExtractor::accepts(config)) throw std::runtime_error(path + " is too small or too large");
-
-  FeatureExtractor extractor;
-  Arena state_size, scratch_size;
-  FeatureExtractor::layout(config, state_size, scratch_size, nullptr);
-  std::vector<uint8_t> memory(state_size.used() + scratch_size.used() + kArenaAlignment);
-  const auto address = reinterpret_cast<uintptr_t>(memory.data());
-  uint8_t *begin = memory.data() + (kArenaAlignment - address % kArenaAlignment) % kArenaAlignment;
-  Arena state(begin), scratch(begin + state_size.used());
-  FeatureExtractor::layout(config, state, scratch, &extractor);
-  extractor.init();
-
-  std::vector<Keypoint> keypoints(kMaxKeypoints);
-  std::vector<Descriptor> descriptors(kMaxKeypoints);
-  const uint32_t count =
-      extractor.extract({image.data, image.cols, image.rows, static_cast<int32_t>(image.step)},
-                        {keypoints.data(), keypoints.size()}, {descriptors.data(), descriptors.size()});
+  HeapExtractor extractor(image.cols, image.rows);
+  const uint32_t count = extractor.extract({image.data, image.cols, image.rows, static_cast<int32_t>(image.step)});
   writeValue(count, out);
   for (uint32_t i = 0; i < count; ++i) {
-    writeValue(keypoints[i].x_px, out);
-    writeValue(keypoints[i].y_px, out);
+    writeValue(extractor.keypoints()[i].x_px, out);
+    writeValue(extractor.keypoints()[i].y_px, out);
   }
-  for (uint32_t i = 0; i < count; ++i) writeValue(descriptors[i], out);
+  for (uint32_t i = 0; i < count; ++i) writeValue(extractor.descriptors()[i], out);
 }
 
 }  // namespace

@@ -5,29 +5,19 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
-#include "drivers/replay/replay.h"
 #include "host/audit/train/output.h"
+#include "host/audit/train/replay_handle.h"
 #include "host/import/rgbd_import.h"
 
 namespace sphc::host {
 namespace {
 
-struct ReplayCloser {
-  void operator()(sphc_replay *replay) const { sphc_replay_close(&replay); }
-};
-using Replay = std::unique_ptr<sphc_replay, ReplayCloser>;
-
 PointModel pointsOf(const char *recording) {
-  sphc_replay *opened = nullptr;
-  sphc_message why;
-  if (sphc_replay_open(recording, nullptr, nullptr, &opened, &why) != SPHC_OK) throw std::runtime_error(why.text);
-  const Replay replay(opened);
   RgbdImportSummary summary;
-  return importRgbd(replay.get(), {}, {}, &summary);
+  return importRgbd(openReplay(recording, nullptr, nullptr).get(), {}, {}, &summary);
 }
 
 void write(const PointModel &model, const char *path) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Makes a training set: pictures of 128 x 128 and the keypoints from which a network shall paint them.
 
-    make_set.py TOOLS OUT --rooms FOLDER... --photos FILE...
+    make_set.py TOOLS OUT --rooms FOLDER...
+    make_set.py TOOLS OUT --photos FOLDER       the pictures of photos.txt, which fetch_photos.sh put into FOLDER
 
 TOOLS is the folder with describe_images and dump_points.  Two kinds of samples:
 - a frame of a simulated walk with the points of the whole walk's map, hidden ones too, projected onto it: what an
@@ -110,19 +111,24 @@ def add_photo(out, tools, path, random):
         out.add(truth, pixel, np.concatenate([d for _, d in parts]), "photo " + os.path.basename(path))
 
 
+def photos(folder):
+    listed = os.path.join(os.path.dirname(os.path.abspath(__file__)), "photos.txt")
+    return [os.path.join(folder, line.strip()) for line in open(listed) if not line.startswith("#")]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tools")
     parser.add_argument("out")
     parser.add_argument("--rooms", nargs="*", default=[])
-    parser.add_argument("--photos", nargs="*", default=[])
+    parser.add_argument("--photos")
     options = parser.parse_args()
     cv2.setNumThreads(1)
     os.makedirs(options.out, exist_ok=True)
     out, random = Set(), np.random.Generator(np.random.PCG64(1))
     for folder in options.rooms:
         add_room(out, options.tools, folder)
-    for path in options.photos:
+    for path in photos(options.photos) if options.photos else []:
         add_photo(out, options.tools, path, random)
     out.save(options.out)
     print(f"{len(out.truth)} samples of {len(out.name)} sources, {out.begin[-1]} keypoints")

@@ -34,9 +34,10 @@ class Recording:
         camera = json.load(open(os.path.join(folder, "calibration.json")))["color_camera"]
         fx, fy, cx, cy, k1, k2, p1, p2, k3 = camera["params"]
         lens = np.array([[fx, 0, cx - .5], [0, fy, cy - .5], [0, 0, 1]])  # OpenCV's centres are at 0
+        self._lens, self._distortion = lens, np.array([k1, k2, p1, p2, k3])
         fine = 3 * SIDE
         pinhole = np.array([[3 * FOCAL, 0, fine / 2 - .5], [0, 3 * FOCAL, fine / 2 - .5], [0, 0, 1]])
-        self._map = cv2.initUndistortRectifyMap(lens, np.array([k1, k2, p1, p2, k3]), None, pinhole, (fine, fine),
+        self._map = cv2.initUndistortRectifyMap(lens, self._distortion, None, pinhole, (fine, fine),
                                                 cv2.CV_32FC1)
         self._folder = folder
         poses = np.loadtxt(os.path.join(folder, "groundtruth.txt"), ndmin=2)
@@ -49,3 +50,8 @@ class Recording:
         image = cv2.imread(os.path.join(self._folder, self.files[index]), cv2.IMREAD_GRAYSCALE)
         fine = cv2.remap(image, *self._map, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         return cv2.resize(fine, (SIDE, SIDE), interpolation=cv2.INTER_AREA)
+
+    def to_view(self, pixel):
+        """Pixels of a frame as pixels of the virtual camera at its place."""
+        flat = cv2.undistortPoints((pixel - .5).astype(np.float64)[:, None], self._lens, self._distortion)[:, 0]
+        return FOCAL * flat + SIDE / 2

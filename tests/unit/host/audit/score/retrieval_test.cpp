@@ -27,17 +27,20 @@ Pairs tenPairs() {
   return pairs;
 }
 
-TEST(Retrieval, FindsWhatIsShown) {
+class EitherCells : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Retrieval, EitherCells, testing::Values(kFineCells, kCoarseCells));
+
+TEST_P(EitherCells, FindsWhatIsShown) {
   const Pairs pairs = tenPairs();
-  const Retrieval retrieval = retrieve(pairs.pictures, pairs.truths);
+  const Retrieval retrieval = retrieve(pairs.pictures, pairs.truths, GetParam());
   EXPECT_EQ(retrieval.top1, 1);
   EXPECT_EQ(retrieval.standard_error, 0);
 }
 
-TEST(Retrieval, AnotherPlaceIsAMiss) {
+TEST_P(EitherCells, AnotherPlaceIsAMiss) {
   Pairs pairs = tenPairs();
   std::swap(pairs.pictures[2], pairs.pictures[7]);
-  const Retrieval retrieval = retrieve(pairs.pictures, pairs.truths);
+  const Retrieval retrieval = retrieve(pairs.pictures, pairs.truths, GetParam());
   EXPECT_NEAR(retrieval.top1, 0.8, 1e-12);
   EXPECT_NEAR(retrieval.standard_error, std::sqrt(0.8 * 0.2 / 10), 1e-12);
   EXPECT_FALSE(retrieval.hits[2]);
@@ -45,18 +48,28 @@ TEST(Retrieval, AnotherPlaceIsAMiss) {
   EXPECT_TRUE(retrieval.hits[0]);
 }
 
-TEST(Retrieval, EdgesAloneFindAPlaceWhoseBrightnessIsWrong) {
+TEST_P(EitherCells, EdgesAloneFindAPlaceWhoseBrightnessIsWrong) {
   Pairs pairs = tenPairs();
   for (cv::Mat &picture : pairs.pictures) {  // locally flat
     cv::Mat mean;
     cv::GaussianBlur(picture, mean, {}, 6);
     picture = picture - mean;
   }
-  EXPECT_GE(retrieve(pairs.pictures, pairs.truths).top1, 0.9);
+  EXPECT_GE(retrieve(pairs.pictures, pairs.truths, GetParam()).top1, 0.9);
+}
+
+// Turned by 3 degrees: what coarse cells forgive.
+TEST(Retrieval, CoarseCellsForgiveAPoseThatIsNearlyRight) {
+  Pairs pairs = tenPairs();
+  for (cv::Mat &picture : pairs.pictures) {
+    const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, 7, 0, 1, 0);
+    cv::warpAffine(picture, picture, shift, picture.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  }
+  EXPECT_GE(retrieve(pairs.pictures, pairs.truths, kCoarseCells).top1, 0.9);
 }
 
 TEST(Retrieval, NothingToFindIsNoFault) {
-  const Retrieval retrieval = retrieve({}, {});
+  const Retrieval retrieval = retrieve({}, {}, kFineCells);
   EXPECT_EQ(retrieval.top1, 0);
   EXPECT_TRUE(retrieval.hits.empty());
 }
