@@ -189,8 +189,8 @@ void run(int argc, char **argv) {
   const std::string out = argv[2];
   std::ofstream csv(out + ".csv");
   Measurement measurement(argv[1], &csv);
-  SecretRandom random({1});  // the same figures every time; nothing here is published
   for (int i = 3; i < argc; ++i) {
+    SecretRandom random({1});  // the same figures every time; nothing here is published
     measurement.measure(readPlace(argv[i], &random), &random);
     if (i == 3) cv::imwrite(out + ".png", measurement.picture());
   }
