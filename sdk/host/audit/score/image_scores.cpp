@@ -50,7 +50,7 @@ cv::Mat edgesOf(const cv::Mat &picture, const cv::Mat &seen) {
   cv::Mat sorted;
   cv::sort(strength.reshape(1, 1), sorted, cv::SORT_EVERY_ROW | cv::SORT_DESCENDING);
   const int last = static_cast<int>(kEdgeShare * cv::countNonZero(inner));
-  return strength > std::max(sorted.at<float>(last), 1e-6f);
+  return strength > std::max(static_cast<double>(sorted.at<float>(last)), 1e-6);
 }
 
 void scoreEdges(const cv::Mat &picture, const cv::Mat &truth, const cv::Mat &seen, ImageScores *scores) {
