@@ -66,7 +66,7 @@ class Measurement {
       descriptors.push_back(point.descriptor);
     }
     attackCentre({"none", "1", "centre"}, directions, descriptors, {});
-    measureFakes(*gaussianFakes(), descriptors, random);
+    for (const auto &strategy : {gaussianFakes(), patchworkFakes()}) measureFakes(*strategy, random);
     shuffle(&descriptors, random);
     attackCentre({"shuffled", "1", "centre"}, directions, descriptors, {});
   }
@@ -78,14 +78,15 @@ class Measurement {
   const cv::Mat &picture() const { return picture_; }
 
  private:
-  void measureFakes(const FakeStrategy &strategy, const std::vector<Descriptor> &descriptors,
-                    SecretRandom *random) {
+  void measureFakes(const FakeStrategy &strategy, SecretRandom *random) {
     const auto real = static_cast<size_t>(kEta * static_cast<double>(place_->points.size()));
     const std::vector<Fate> fates = strategy.fates(place_->points, real, random);
     std::vector<Vector3> directions;
+    std::vector<Descriptor> descriptors;
     std::vector<float> oracle;
     for (const Fate &fate : fates) {
-      directions.push_back(fate.direction);
+      directions.push_back(fate.shown.direction);
+      descriptors.push_back(fate.shown.descriptor);
       oracle.push_back(fate.real ? 1.0f : 0.0f);
     }
     attackCentre({strategy.name(), "0.33", "centre"}, directions, descriptors, {});
