@@ -15,18 +15,6 @@
 namespace sphc::host {
 namespace {
 
-PackedDirection packDirection(const Vector3 &direction) {
-  const double sum = direction.cwiseAbs().sum();
-  double u = direction.x() / sum, v = direction.y() / sum;
-  if (direction.z() < 0) {
-    const double folded_u = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
-    v = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
-    u = folded_u;
-  }
-  const auto pack = [](double x) { return static_cast<uint16_t>(32768 + std::lround(x * 32767)); };
-  return {pack(u), pack(v)};
-}
-
 size_t alignUp(size_t offset) { return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment; }
 
 // Appends sections to a file, in ascending order of type.
@@ -78,6 +66,18 @@ MapId unhex(const std::string &text) {
 }
 
 }  // namespace
+
+PackedDirection packDirection(const Vector3 &direction) {
+  const double sum = direction.cwiseAbs().sum();
+  double u = direction.x() / sum, v = direction.y() / sum;
+  if (direction.z() < 0) {
+    const double folded_u = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
+    v = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
+    u = folded_u;
+  }
+  const auto pack = [](double x) { return static_cast<uint16_t>(32768 + std::lround(x * 32767)); };
+  return {pack(u), pack(v)};
+}
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
   std::vector<PackedDirection> directions;
