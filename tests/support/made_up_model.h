@@ -1,7 +1,5 @@
 // Private point models of rooms that do not exist, and how other recordings would show them.
 #pragma once
-#include <algorithm>
-
 #include "host/import/point_model.h"
 #include "tests/support/random_numbers.h"
 
@@ -20,24 +18,24 @@ inline host::PointModel madeUpRoom(uint32_t points, uint64_t seed, const Vector3
   return model;
 }
 
-// Bytes change by at most `most`, which moves a descriptor by about 6.5 most.
-inline Descriptor changed(const Descriptor &descriptor, int most, Random *random) {
+// Every byte moves by `by`, up or down, which moves the descriptor by 11.3 times as much.
+inline Descriptor changed(const Descriptor &descriptor, int by, Random *random) {
   Descriptor out;
   for (size_t i = 0; i < kDescriptorBytes; ++i) {
-    const int value =
-        descriptor.bytes[i] + static_cast<int>(random->below(static_cast<uint32_t>(2 * most + 1))) - most;
-    out.bytes[i] = static_cast<uint8_t>(std::clamp(value, 0, 255));
+    const int value = descriptor.bytes[i];
+    const bool up = value < by || (value + by <= 255 && random->below(2) == 1);
+    out.bytes[i] = static_cast<uint8_t>(up ? value + by : value - by);
   }
   return out;
 }
 
 // The room in another recording: triangulated anew, described anew, in another world frame.
 inline host::PointModel seenAgain(host::PointModel model, uint64_t seed, const Rigid &other_from_world = {},
-                                  double noise_m = 0.005, int most = 15) {
+                                  double noise_m = 0.005, int by = 15) {
   Random random(seed);
   for (host::ModelPoint &point : model.points) {
     point.position_m = other_from_world * (point.position_m + noise_m * normalVector(&random));
-    point.descriptor = changed(point.descriptor, most, &random);
+    point.descriptor = changed(point.descriptor, by, &random);
   }
   return model;
 }

@@ -10,10 +10,23 @@
 #include "host/build/descriptor_index.h"
 #include "runtime/map/crc32.h"
 #include "runtime/map/layout.h"
+#include "runtime/map/packed_direction.h"
 #include "runtime/stages/features/extractor.h"
 
 namespace sphc::host {
 namespace {
+
+PackedDirection packOnce(const Vector3 &direction) {
+  const double sum = direction.cwiseAbs().sum();
+  double u = direction.x() / sum, v = direction.y() / sum;
+  if (direction.z() < 0) {
+    const double folded_u = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
+    v = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
+    u = folded_u;
+  }
+  const auto pack = [](double x) { return static_cast<uint16_t>(32768 + std::lround(x * 32767)); };
+  return {pack(u), pack(v)};
+}
 
 size_t alignUp(size_t offset) { return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment; }
 
@@ -68,15 +81,9 @@ MapId unhex(const std::string &text) {
 }  // namespace
 
 PackedDirection packDirection(const Vector3 &direction) {
-  const double sum = direction.cwiseAbs().sum();
-  double u = direction.x() / sum, v = direction.y() / sum;
-  if (direction.z() < 0) {
-    const double folded_u = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
-    v = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
-    u = folded_u;
-  }
-  const auto pack = [](double x) { return static_cast<uint16_t>(32768 + std::lround(x * 32767)); };
-  return {pack(u), pack(v)};
+  // On the edges of the square a direction has two encodings: the second round chooses one.
+  const Direction d = unpackDirection(packOnce(direction));
+  return packOnce(Vector3(d.x, d.y, d.z));
 }
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {

@@ -70,7 +70,7 @@ TEST(Recognition, ThingsThatWereMovedAreKnown) {
 TEST(Recognition, NearButOnlySomewhatAlikeIsAmbiguous) {
   const PointModel room = test::madeUpRoom(2000, 1);
   const PointModel again = test::joined(test::seenAgain(test::part(room, 0, 1000), 6),
-                                        test::seenAgain(test::part(room, 1000, 1000), 7, {}, 0.005, 46));
+                                        test::seenAgain(test::part(room, 1000, 1000), 7, {}, 0.005, 26));
   const Recognition r = recognize(placeOf(room), again);
   EXPECT_EQ(r.known, 1000u);
   for (size_t i = 1000; i < 2000; ++i) EXPECT_EQ(r.identities[i], Identity::kAmbiguous);

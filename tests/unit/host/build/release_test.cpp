@@ -177,7 +177,7 @@ TEST(Release, EntriesKeepTheirOrder) {
 TEST(Release, DoubtfulPointsAreLeftOut) {
   const PointModel room = test::madeUpRoom(2000, 1);
   const NewRelease first = makeRelease(test::part(room, 0, 1500), request());
-  const PointModel doubtful = test::seenAgain(test::part(room, 0, 200), 3, {}, 0.005, 46);
+  const PointModel doubtful = test::seenAgain(test::part(room, 0, 200), 3, {}, 0.005, 26);
   const NewRelease second =
       makeRelease(test::joined(doubtful, test::part(room, 200, 1800)), request({first.place}));
   EXPECT_EQ(second.summary.known, 1300u);
