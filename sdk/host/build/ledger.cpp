@@ -54,6 +54,14 @@ int64_t valueOf(sqlite3 *database, const char *statement) {
   return query.step() ? query.integer(0) : 0;
 }
 
+// Tables alone, since a view can hold more rows than any file.
+void checkContent(sqlite3 *database) {
+  SqliteStatement check(database, "PRAGMA quick_check(1)");
+  if (!check.step() || check.text(0) != "ok") throw std::runtime_error("it is damaged; take the backup");
+  if (valueOf(database, "SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index')") != 0)
+    throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
+}
+
 bool isPacked(int64_t coordinate) { return coordinate >= 1 && coordinate <= 65535; }
 
 bool isNear(const Vector3 &position_m) { return position_m.allFinite() && position_m.norm() < kFarthestM; }
@@ -162,6 +170,7 @@ void Ledger::read(const SecretKey *expected) {
       throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
     if (valueOf(database_.get(), "PRAGMA user_version") != kVersion)
       throw std::runtime_error("it was written by another version of this program; use that one");
+    checkContent(database_.get());
     SqliteStatement owner(database_.get(), "SELECT secret_key FROM owner");
     if (!owner.step() || !owner.blob(0, key_.data(), key_.size()))
       throw std::runtime_error("it holds no key; take the backup");

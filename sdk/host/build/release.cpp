@@ -183,7 +183,7 @@ SphereCloud publishedCloud(const Place &place, const SecretKey &key) {
 
 NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
   checkModel(all, request);
-  const PointModel model = withoutTwins(all, getenv("TWR") ? TwinRule{atof(getenv("TWR")), atof(getenv("TWD"))} : kSamePoint);
+  const PointModel model = withoutTwins(all, kSamePoint);
   ReleaseSummary summary;
   summary.twins = all.points.size() - model.points.size();
   const bool blind = request.understood;

@@ -100,8 +100,8 @@ Matrix3 refined(const Matrix3 &start, const std::vector<DirectionPair> &pairs, d
   return parts.matrixU() * Vector3(1, 1, 0).asDiagonal() * parts.matrixV().transpose();
 }
 
-Matrix3 bestEssential(std::vector<DirectionPair> pairs, const TriangulationOptions &options, Random *random) {
-  const double sine = std::sin(options.angle_rad);
+Matrix3 bestEssential(const std::vector<DirectionPair> &pairs, double angle_rad, int samples, Random *random) {
+  const double sine = std::sin(angle_rad);
   const Matrix3 rotation = coarseRotation(pairs, random);
   std::vector<DirectionPair> sorted = pairs;
   std::sort(sorted.begin(), sorted.end(), [&](const DirectionPair &p, const DirectionPair &q) {
@@ -110,7 +110,7 @@ Matrix3 bestEssential(std::vector<DirectionPair> pairs, const TriangulationOptio
   Matrix3 best = Matrix3::Zero();
   size_t best_support = 0, best_look = 0;
   const size_t look = std::min(pairs.size(), kLook);
-  for (int i = 0; i < options.samples; ++i) {
+  for (int i = 0; i < samples; ++i) {
     const double share = kShares[static_cast<size_t>(i) % std::size(kShares)];
     const size_t among = std::max<size_t>(5, static_cast<size_t>(share * static_cast<double>(sorted.size())));
     std::array<Vector3, 5> a, b;
@@ -178,26 +178,43 @@ Pose poseOf(const Matrix3 &e, const std::vector<DirectionPair> &pairs, double an
   return best;
 }
 
+Triangulation attack(const std::vector<DirectionPair> &pairs, double angle_rad, int samples) {
+  Random random(7);
+  const Matrix3 e = bestEssential(pairs, angle_rad, samples, &random);
+  const Pose pose = poseOf(e, pairs, angle_rad);
+  std::vector<DirectionPair> wrong = pairs;
+  for (size_t i = 0; i < pairs.size(); ++i) wrong[i].b = pairs[(i + pairs.size() / 2) % pairs.size()].b;
+  Triangulation result;
+  result.b_from_a = pose.b_from_a;
+  result.centre_b = pose.centre_b;
+  result.points = triangulateAll(pose, e, pairs, angle_rad);
+  result.by_chance = triangulateAll(pose, e, wrong, angle_rad).size();
+  const double chance = static_cast<double>(result.by_chance);
+  result.found = static_cast<double>(result.points.size()) > 1.5 * chance + 6 * std::sqrt(chance) + 12;
+  return result;
+}
+
+// How much more than chance was found, in standard deviations of chance.
+double surprise(const Triangulation &result) {
+  const double found = static_cast<double>(result.points.size()), chance = static_cast<double>(result.by_chance);
+  return (found - chance) / std::sqrt(chance + 1);
+}
+
 }  // namespace
 
 Triangulation triangulateReleases(const Published &a, const Published &b, const TriangulationOptions &options) {
   std::vector<DirectionPair> pairs;
   for (const EntryPair &pair : pairEntries(a.descriptors, b.descriptors, options.ratio))
     pairs.push_back({a.directions[pair.a], b.directions[pair.b], pair});
-  Triangulation result;
-  if (pairs.size() < 8) return result;
-  Random random(7);
-  const Matrix3 e = bestEssential(pairs, options, &random);
-  const Pose pose = poseOf(e, pairs, options.angle_rad);
-  std::vector<DirectionPair> wrong = pairs;
-  for (size_t i = 0; i < pairs.size(); ++i) wrong[i].b = pairs[(i + pairs.size() / 2) % pairs.size()].b;
-  result.b_from_a = pose.b_from_a;
-  result.centre_b = pose.centre_b;
-  result.points = triangulateAll(pose, e, pairs, options.angle_rad);
-  result.by_chance = triangulateAll(pose, e, wrong, options.angle_rad).size();
-  const double chance = static_cast<double>(result.by_chance);
-  result.found = static_cast<double>(result.points.size()) > 1.5 * chance + 6 * std::sqrt(chance) + 12;
-  return result;
+  Triangulation best;
+  if (pairs.size() < 8) return best;
+  for (double angle_rad : options.angles_rad) {
+    Triangulation result = attack(pairs, angle_rad, options.samples);
+    const bool better =
+        result.found > best.found || (result.found == best.found && surprise(result) > surprise(best));
+    if (better) best = std::move(result);
+  }
+  return best;
 }
 
 }  // namespace sphc::host

@@ -7,8 +7,10 @@
 namespace sphc::host {
 
 struct TriangulationOptions {
-  double angle_rad = 2e-3;  // between a direction and the plane in which it should lie
-  double ratio = 0.8;       // of descriptors that are not equal
+  // Between a direction and the plane in which it should lie: the one that finds most beyond chance counts.  Points
+  // that were measured anew want more than those that were not.
+  std::vector<double> angles_rad = {2e-3, 8e-3};
+  double ratio = 0.8;  // of descriptors that are not equal
   int samples = 20000;
 };
 

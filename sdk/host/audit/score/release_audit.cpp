@@ -11,6 +11,7 @@
 #include "host/audit/score/release_scores.h"
 #include "host/build/release.h"
 #include "runtime/base/random.h"
+#include "runtime/geometry/rigid.h"
 
 namespace sphc::host {
 namespace {
@@ -40,7 +41,7 @@ class Auditor {
   }
   void intersectRebuilds();
   void intersect(const std::string &variant, const std::vector<Audited> &releases);
-  void triangulate(const std::string &variant, const Audited &a, const Audited &b);
+  void triangulate(const std::string &variant, const Audited &a, const Audited &b, const Rigid &b_from_a = {});
   void leak(const Audited &last);
   void testPresence(const Audited &last);
   void query(const Audited &last);
@@ -52,9 +53,10 @@ class Auditor {
 };
 
 // Another gauge, as another mapping run has.
+Rigid otherFromWorld() { return {rotationFromVector({0.4, -1.1, 0.7}), {3, -2, 0.5}}; }
+
 PointModel moved(PointModel model) {
-  const Matrix3 rotation = rotationFromVector({0.4, -1.1, 0.7});
-  for (ModelPoint &point : model.points) point.position_m = rotation * point.position_m + Vector3(3, -2, 0.5);
+  for (ModelPoint &point : model.points) point.position_m = otherFromWorld() * point.position_m;
   return model;
 }
 
@@ -122,9 +124,12 @@ void Auditor::intersect(const std::string &variant, const std::vector<Audited> &
     add("intersection", variant, "precision_of_new", scoreEntries(fresh, truths.back()).precision());
 }
 
-void Auditor::triangulate(const std::string &variant, const Audited &a, const Audited &b) {
-  const Triangulation attack = triangulateReleases(a.map, b.map, {});
-  const double centres_m = (a.place.centre_m - b.place.centre_m).norm();
+// b_from_a: of their worlds.
+void Auditor::triangulate(const std::string &variant, const Audited &a, const Audited &b, const Rigid &b_from_a) {
+  TriangulationOptions options;
+  options.samples = input_.samples;
+  const Triangulation attack = triangulateReleases(a.map, b.map, options);
+  const double centres_m = (b_from_a * a.place.centre_m - b.place.centre_m).norm();
   add("triangulation", variant, "pose_found", attack.found);
   add("triangulation", variant, "points_share",
       attack.found ? static_cast<double>(attack.points.size()) / static_cast<double>(b.map.packed.size()) : 0);
@@ -186,7 +191,8 @@ std::vector<PrivacyRow> Auditor::rows() {
 
   triangulate("undisciplined, the same points, another centre", first,
               release(lopsided(input_.first), kFirstKey + 1));
-  triangulate("undisciplined, 10 % more frames, another world", first, release(moved(input_.more), kFirstKey + 1));
+  triangulate("undisciplined, 10 % more frames, another world", first, release(moved(input_.more), kFirstKey + 1),
+              otherFromWorld());
   triangulate("undisciplined, other frames", first, release(input_.other, kFirstKey + 1));
   triangulate("released, 10 % more frames, another world", first, more);
   triangulate("released, other frames", first, other);

@@ -16,6 +16,7 @@ struct ReleaseAuditInput {
   PointModel other;                   // of other frames of the same place
   std::vector<PointModel> queries;    // of single frames in the world of `first`
   std::vector<PointModel> strangers;  // of single frames of other places
+  int samples = 20000;                // of the triangulation's search
 };
 
 std::vector<PrivacyRow> auditReleases(const ReleaseAuditInput &input, const FakeStrategy &strategy, double eta);

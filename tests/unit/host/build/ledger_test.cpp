@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "tests/support/made_up_model.h"
 
@@ -153,13 +154,36 @@ TEST_F(LedgerTest, DamageIsSeen) {
         "UPDATE point SET v = 65536 WHERE number = 3", "UPDATE point SET x = 9e999 WHERE number = 3",
         "UPDATE point SET sigma = -1 WHERE number = 3", "UPDATE place SET eta = 0", "UPDATE place SET number = 2",
         "UPDATE place SET centre_x = 1e7", "UPDATE release SET points = 100", "UPDATE release SET map_id = x''",
-        "DELETE FROM owner", "PRAGMA user_version = 2"}) {
+        "DELETE FROM owner", "PRAGMA user_version = 2", "CREATE VIEW v AS SELECT 1"}) {
     unlink(path_.c_str());
     Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
     EXPECT_EQ(refusal(), "accepted");
     change(damage);
     EXPECT_NE(refusal(), "accepted") << damage;
   }
+}
+
+// Whatever the bytes are, there is an answer: places or a message.
+TEST_F(LedgerTest, DamagedBytesAreNoDanger) {
+  Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
+  std::stringstream text;
+  text << std::ifstream(path_, std::ios::binary).rdbuf();
+  const std::string good = text.str();
+  Random random(6);
+  int refused = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::string bad = good;
+    for (int k = 0; k < 4; ++k)
+      bad[random.below(static_cast<uint32_t>(bad.size()))] = static_cast<char>(random.below(256));
+    if (round % 4 == 0) bad.resize(random.below(static_cast<uint32_t>(bad.size())));
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << bad;
+    try {
+      EXPECT_LE(Ledger::openToRead(path_).places().size(), 1u);
+    } catch (const std::runtime_error &) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 50);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ constexpr double kEta = 0.5;
 
 TriangulationOptions quick() {
   TriangulationOptions options;
-  options.samples = 3000;
+  options.samples = 1500;
+  options.angles_rad = {2e-3};
   return options;
 }
 

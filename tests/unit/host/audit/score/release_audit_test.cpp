@@ -11,6 +11,7 @@ namespace {
 TEST(ReleaseAudit, TellsDisciplineFromCarelessness) {
   ReleaseAuditInput input;
   input.map = "room";
+  input.samples = 1500;
   const PointModel room = test::madeUpRoom(900, 1);
   input.first = room;
   input.more = test::seenAgain(test::joined(room, test::madeUpRoom(90, 2)), 3, {}, 0.002);
