@@ -25,7 +25,7 @@ CREATE TABLE release (place INTEGER NOT NULL, number INTEGER NOT NULL, map_id BL
                       points INTEGER NOT NULL, time_s INTEGER NOT NULL, PRIMARY KEY (place, number));
 CREATE TABLE point (place INTEGER NOT NULL, number INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,
                     sigma REAL NOT NULL, observations INTEGER NOT NULL, descriptor BLOB NOT NULL, u INTEGER NOT NULL,
-                    v INTEGER NOT NULL, real INTEGER NOT NULL, release INTEGER NOT NULL, PRIMARY KEY (place, number));
+                    v INTEGER NOT NULL, shown BLOB NOT NULL, real INTEGER NOT NULL, release INTEGER NOT NULL, PRIMARY KEY (place, number));
 )";
 
 [[noreturn]] void refuse(const std::string &path, const std::string &why) {
@@ -73,9 +73,10 @@ PlacePoint pointOf(SqliteStatement *row) {
   point.seen.observations = static_cast<uint32_t>(row->integer(4));
   const int64_t u = row->integer(6), v = row->integer(7);
   point.direction = {static_cast<uint16_t>(u), static_cast<uint16_t>(v)};
-  point.real = row->integer(8) != 0;
-  point.release = static_cast<uint32_t>(row->integer(9));
-  const bool valid = row->blob(5, point.seen.descriptor.bytes, kDescriptorBytes) && isNear(point.seen.position_m) &&
+  point.real = row->integer(9) != 0;
+  point.release = static_cast<uint32_t>(row->integer(10));
+  const bool valid = row->blob(5, point.seen.descriptor.bytes, kDescriptorBytes) &&
+                     row->blob(8, point.descriptor.bytes, kDescriptorBytes) && isNear(point.seen.position_m) &&
                      point.seen.sigma_m >= 0 && point.seen.sigma_m < kFarthestM && isPacked(u) && isPacked(v);
   if (!valid) throw std::runtime_error("a point is damaged; take the backup");
   return point;
@@ -83,7 +84,7 @@ PlacePoint pointOf(SqliteStatement *row) {
 
 std::vector<PlacePoint> readPoints(sqlite3 *database, uint32_t place) {
   SqliteStatement rows(database,
-                       "SELECT x, y, z, sigma, observations, descriptor, u, v, real, release FROM point "
+                       "SELECT x, y, z, sigma, observations, descriptor, u, v, shown, real, release FROM point "
                        "WHERE place = ? ORDER BY number");
   rows.bind(int64_t{place});
   std::vector<PlacePoint> points;
@@ -109,7 +110,7 @@ std::vector<Release> readReleases(sqlite3 *database, const Place &place) {
 void writePoints(sqlite3 *database, const Place &place) {
   SqliteStatement known(database, "SELECT count(*) FROM point WHERE place = ?");
   known.bind(int64_t{place.number}).step();
-  SqliteStatement insert(database, "INSERT INTO point VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(database, "INSERT INTO point VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (size_t i = static_cast<size_t>(known.integer(0)); i < place.points.size(); ++i) {
     const PlacePoint &point = place.points[i];
     const Vector3 &p = point.seen.position_m;
@@ -117,6 +118,7 @@ void writePoints(sqlite3 *database, const Place &place) {
     insert.bind(point.seen.sigma_m).bind(int64_t{point.seen.observations});
     insert.bind(point.seen.descriptor.bytes, kDescriptorBytes);
     insert.bind(int64_t{point.direction.u}).bind(int64_t{point.direction.v});
+    insert.bind(point.descriptor.bytes, kDescriptorBytes);
     insert.bind(int64_t{point.real}).bind(int64_t{point.release}).run();
   }
 }

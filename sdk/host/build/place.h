@@ -14,8 +14,10 @@ using MapId = std::array<uint8_t, 16>;
 
 // A published point.  None of this changes once it is published.
 struct PlacePoint {
-  ModelPoint seen;            // position in the place's frame, descriptor as published
-  PackedDirection direction;  // as published
+  ModelPoint seen;  // position in the place's frame
+  // As published; those of a real point are its own.
+  PackedDirection direction;
+  Descriptor descriptor;
   bool real;
   uint32_t release;  // the first that had it, counted from 1
 };

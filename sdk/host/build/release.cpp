@@ -123,7 +123,8 @@ size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Pl
   for (const ModelPoint &point : points) directions.push_back(seenFrom(place->centre_m, point));
   const std::vector<Fate> fates = request.strategy->fates(directions, real, &random);
   for (size_t i = 0; i < points.size(); ++i)
-    place->points.push_back({points[i], packDirection(fates[i].direction), fates[i].real, release});
+    place->points.push_back(
+        {points[i], packDirection(fates[i].shown.direction), fates[i].shown.descriptor, fates[i].real, release});
   return points.size();
 }
 
@@ -132,7 +133,7 @@ NewRelease finish(Place place, const ReleaseRequest &request, const ReleaseSumma
   const SphereCloud cloud = publishedCloud(place, request.key);
   std::vector<uint8_t> content;
   for (const PlacePoint &point : place.points) {
-    content.insert(content.end(), point.seen.descriptor.bytes, point.seen.descriptor.bytes + kDescriptorBytes);
+    content.insert(content.end(), point.descriptor.bytes, point.descriptor.bytes + kDescriptorBytes);
     for (int coordinate : {point.direction.u, point.direction.v})
       content.insert(content.end(), {static_cast<uint8_t>(coordinate), static_cast<uint8_t>(coordinate >> 8)});
   }
@@ -176,7 +177,7 @@ SphereCloud publishedCloud(const Place &place, const SecretKey &key) {
   SphereCloud cloud;
   for (size_t i : order) {
     const Direction d = unpackDirection(place.points[i].direction);
-    cloud.points.push_back({Vector3(d.x, d.y, d.z), place.points[i].seen.descriptor});
+    cloud.points.push_back({Vector3(d.x, d.y, d.z), place.points[i].descriptor});
   }
   return cloud;
 }

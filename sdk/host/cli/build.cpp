@@ -22,7 +22,8 @@ struct Options {
   std::string map, key, ledger;
   std::vector<std::string> against;
   std::optional<double> eta;
-  double sigma2 = 0.1;
+  std::string fakes = "patchwork";
+  double sigma2 = 0.1, patch_deg = 6;
   bool new_place = false, understood = false;
   RgbdImportOptions import;
 };
@@ -79,7 +80,8 @@ Outcome build(const Options &options) {
   const auto start = std::chrono::steady_clock::now();
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping.
-  const auto strategy = gaussianFakes(options.sigma2);
+  const auto strategy =
+      options.fakes == "gaussian" ? gaussianFakes(options.sigma2) : patchworkFakes(options.patch_deg);
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, *strategy);
   NewRelease made = makeRelease(importModel(options, &outcome.import), request);
@@ -218,7 +220,15 @@ void addOptions(CLI::App *app, Options *options) {
   app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1] [1/3]")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("X");
-  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes fake directions")
+  app->add_option("--fakes", options->fakes, "How fakes are made; gaussian is the paper's way")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"patchwork", "gaussian"}))
+      ->type_name("NAME");
+  app->add_option("--patch-deg", options->patch_deg, "Width of a patch of patchwork, degrees")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 60.0))
+      ->type_name("DEG");
+  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes gaussian fakes")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 100.0))
       ->type_name("X");

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/support/made_up_model.h"
+#include "tests/support/random_numbers.h"
 
 namespace sphc::host {
 namespace {
@@ -52,7 +53,7 @@ Place makePlace(uint32_t number, size_t points) {
   place.strategy = "gaussian";
   for (const ModelPoint &point : test::madeUpRoom(static_cast<uint32_t>(points), number).points) {
     const uint16_t u = static_cast<uint16_t>(1 + random.below(65535)), v = 65535;
-    place.points.push_back({point, {u, v}, random.below(2) == 1, 1});
+    place.points.push_back({point, {u, v}, test::randomDescriptor(&random), random.below(2) == 1, 1});
   }
   place.releases.push_back({{1, 2, 3}, 0xFFFFFFFFu, static_cast<uint32_t>(points), 1234567890123});
   return place;
@@ -71,6 +72,7 @@ void expectSame(const Place &a, const Place &b) {
     EXPECT_EQ(p.seen.observations, q.seen.observations);
     EXPECT_EQ(std::memcmp(&p.seen.descriptor, &q.seen.descriptor, sizeof(Descriptor)), 0);
     EXPECT_EQ(std::memcmp(&p.direction, &q.direction, sizeof(PackedDirection)), 0);
+    EXPECT_EQ(std::memcmp(&p.descriptor, &q.descriptor, sizeof(Descriptor)), 0);
     EXPECT_EQ(p.real, q.real);
     EXPECT_EQ(p.release, q.release);
   }

@@ -9,7 +9,7 @@ namespace {
 
 Place placeOf(const PointModel &model) {
   Place place;
-  for (const ModelPoint &point : model.points) place.points.push_back({point, {1, 1}, true, 1});
+  for (const ModelPoint &point : model.points) place.points.push_back({point, {1, 1}, point.descriptor, true, 1});
   return place;
 }
 
