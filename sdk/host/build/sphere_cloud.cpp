@@ -46,7 +46,7 @@ SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &o
   const size_t real_count = static_cast<size_t>(options.eta * static_cast<double>(points.size()));
 
   const std::vector<Fate> fates = strategy.fates(points, real_count, random);
-  for (size_t i = 0; i < points.size(); ++i) points[i].direction = fates[i].direction;
+  for (size_t i = 0; i < points.size(); ++i) points[i] = fates[i].shown;
 
   shuffle(&points, random);
   *centre_m = centre;

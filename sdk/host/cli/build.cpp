@@ -19,7 +19,8 @@ struct Options {
   RecordingOptions recording;
   std::string map, key, new_key;
   SphereCloudOptions cloud;
-  double sigma2 = 0.1;
+  std::string fakes = "patchwork";
+  double sigma2 = 0.1, patch_deg = 12;
   RgbdImportOptions import;
 };
 
@@ -57,7 +58,8 @@ Outcome build(const Options &options) {
   // The key first: a key that cannot be read or written must not cost minutes of mapping.
   SecretRandom random(chooseKey(options));
   const PointModel model = importModel(options, &outcome.import);
-  const auto strategy = gaussianFakes(options.sigma2);
+  const auto strategy =
+      options.fakes == "gaussian" ? gaussianFakes(options.sigma2) : patchworkFakes(options.patch_deg);
   OwnerNote note;
   const SphereCloud cloud = makeSphereCloud(model, options.cloud, *strategy, &random, &note.centre_in_world_m);
   note.map_id = drawMapId(&random);  // from the key too: the same recording, options and key give the same bytes
@@ -137,7 +139,15 @@ void addOptions(CLI::App *app, Options *options) {
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("X");
-  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes fake directions")
+  app->add_option("--fakes", options->fakes, "How fakes are made; gaussian is the paper's way")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"patchwork", "gaussian"}))
+      ->type_name("NAME");
+  app->add_option("--patch-deg", options->patch_deg, "Width of a patch of patchwork, degrees")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 60.0))
+      ->type_name("DEG");
+  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes gaussian fakes")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 100.0))
       ->type_name("X");

@@ -16,9 +16,10 @@ class GaussianFakes : public FakeStrategy {
                           SecretRandom *random) const override {
     std::vector<Fate> fates;
     fates.reserve(points.size());
-    for (size_t i = 0; i < real_count; ++i) fates.push_back({true, points[i].direction});
+    for (size_t i = 0; i < real_count; ++i) fates.push_back({true, points[i]});
     for (size_t i = real_count; i < points.size(); ++i)
-      fates.push_back({false, near(points[(i - real_count) % real_count].direction, random)});
+      fates.push_back(
+          {false, {near(points[(i - real_count) % real_count].direction, random), points[i].descriptor}});
     return fates;
   }
 

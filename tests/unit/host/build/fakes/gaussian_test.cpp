@@ -17,7 +17,7 @@ std::vector<Vector3> fakesOf(double variance, const std::vector<Vector3> &real, 
   for (size_t i = 0; i < count; ++i) points.push_back({Vector3(0, 0, -1), {}});  // where a fake was says nothing
   std::vector<Vector3> fakes;
   for (const Fate &fate : gaussianFakes(variance)->fates(points, real.size(), random)) {
-    if (!fate.real) fakes.push_back(fate.direction);
+    if (!fate.real) fakes.push_back(fate.shown.direction);
   }
   return fakes;
 }
