@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sphc::host {
 
@@ -36,5 +38,11 @@ class SecretRandom {
   double spare_normal_ = 0;
   bool has_spare_ = false;
 };
+
+// Fisher and Yates.
+template <typename T>
+void shuffle(std::vector<T> *items, SecretRandom *random) {
+  for (size_t i = items->size(); i > 1; --i) std::swap((*items)[i - 1], (*items)[random->below(i)]);
+}
 
 }  // namespace sphc::host
