@@ -44,7 +44,7 @@ Line joining(const Vector3 &a_m, const Vector3 &b_m, Random *random) {
 // A line for each two points in a row, and one for the last of an odd number with the first.
 LineCloud joinPairs(const std::string &name, const std::vector<Vector3> &points_m,
                     const std::vector<uint32_t> &order, Random *random) {
-  LineCloud cloud = {name, {}, std::vector<uint32_t>(points_m.size()), {}};
+  LineCloud cloud = {name, {}, std::vector<uint32_t>(points_m.size()), {}, {}};
   for (size_t k = 0; k + 1 < order.size(); k += 2) {
     for (const uint32_t point : {order[k], order[k + 1]})
       cloud.line_of_point[point] = static_cast<uint32_t>(cloud.lines.size());
@@ -88,7 +88,7 @@ double steepness(const Vector3 &a_m, const Vector3 &b_m, const Vector3 &normal_a
 
 LineCloud centralLines(const std::string &name, const std::vector<Vector3> &points_m,
                        const std::vector<Vector3> &centres_m, Random *random) {
-  LineCloud cloud = {name, {}, {}, {}};
+  LineCloud cloud = {name, {}, {}, centres_m, {}};
   for (const Vector3 &point : points_m) {
     const uint32_t group = random->below(static_cast<uint32_t>(centres_m.size()));
     cloud.line_of_point.push_back(static_cast<uint32_t>(cloud.lines.size()));
@@ -103,7 +103,7 @@ LineCloud centralLines(const std::string &name, const std::vector<Vector3> &poin
 LineCloud uniformLineCloud(const std::vector<Vector3> &points_m, uint64_t seed) {
   checkCount(points_m);
   Random random(seed);
-  LineCloud cloud = {"uniform line cloud", {}, std::vector<uint32_t>(points_m.size()), {}};
+  LineCloud cloud = {"uniform line cloud", {}, std::vector<uint32_t>(points_m.size()), {}, {}};
   std::iota(cloud.line_of_point.begin(), cloud.line_of_point.end(), 0u);
   for (const Vector3 &point : points_m) cloud.lines.push_back(Line::through(point, uniformDirection(&random)));
   return cloud;
@@ -144,15 +144,7 @@ LineCloud rayCloud(const std::vector<Vector3> &points_m, uint64_t seed) {
   return centralLines("ray cloud", points_m, {mean_m - offset, mean_m + offset}, &random);
 }
 
-LineCloud centralLineCloud(const std::vector<Vector3> &points_m) {
-  checkCount(points_m);
-  Random random(0);
-  Vector3 mean_m;
-  axesOf(points_m, &mean_m);
-  return centralLines("sphere cloud", points_m, {mean_m}, &random);
-}
-
-LineCloud centralLineCloudOf(const std::vector<Vector3> &directions) {
+LineCloud centralLineCloud(const std::vector<Vector3> &directions) {
   checkCount(directions);
   Random random(0);
   return centralLines("sphere cloud", directions, {Vector3::Zero()}, &random);

@@ -8,12 +8,15 @@
 
 namespace sphc::host {
 
-// `lines` are what is published (with the points' descriptors); the rest is the owner's.
+// `lines` are what is published, with the points' descriptors (and where they meet is plain to see); line_of_point
+// is the owner's.
 struct LineCloud {
   std::string name;
   std::vector<Line> lines;
   std::vector<uint32_t> line_of_point;
-  std::vector<uint32_t> group_of_line;  // which centre a line goes through, of several; empty when all are alike
+  // Where lines meet, and in which of several centres each line does: empty where there is no choice.
+  std::vector<Vector3> centres_m;
+  std::vector<uint32_t> group_of_line;
 };
 
 // A line through each point in a direction of its own, uniform on the sphere (Speciale et al., CVPR 2019).
@@ -35,10 +38,7 @@ constexpr double kLeastAngleRad = 0.35;  // 20 degrees
 // the longest axis of the points, a standard deviation to either side of their mean.
 LineCloud rayCloud(const std::vector<Vector3> &points_m, uint64_t seed);
 
-// Lines through the mean of the points: a sphere cloud without its signs.
-LineCloud centralLineCloud(const std::vector<Vector3> &points_m);
-
-// The same from directions that are published, about the origin.
-LineCloud centralLineCloudOf(const std::vector<Vector3> &directions);
+// Lines about the origin: a sphere cloud as this attacker sees it.
+LineCloud centralLineCloud(const std::vector<Vector3> &directions);
 
 }  // namespace sphc::host
