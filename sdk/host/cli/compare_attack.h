@@ -13,9 +13,11 @@ struct AttackedCloud {
   std::string name;
   std::string strategy = "none";  // that made the fakes
   uint32_t eta_percent = 100;
-  // Of each line's recovered point from the nearest point that the line stands for.  A fake direction stands for
-  // the point whose descriptor it carries.
+  // Of the point recovered for each point's line (the paper's e_g).  A fake direction stands for the point whose
+  // descriptor it carries.
   std::vector<double> errors_m;
+  // Of each line's recovered point from the nearest point that the line stands for.
+  std::vector<double> nearest_errors_m;
   bool has_centre = false;
   double at_centre_percent = 0;  // recovered within kAtCentreM of where lines meet
 };

@@ -41,17 +41,21 @@ void squaredDistances(const LineColumns &c, size_t line, std::vector<float> *squ
   }
 }
 
-// The lines that pass closest to one.
+// The lines that pass closest to one; of those at the same distance the first.
 std::vector<uint32_t> closestLines(const LineColumns &columns, size_t line, size_t count,
-                                   std::vector<float> *squared, std::vector<uint32_t> *order) {
+                                   std::vector<float> *squared, std::vector<float> *sorted) {
   squaredDistances(columns, line, squared);
-  for (uint32_t i = 0; i < order->size(); ++i) (*order)[i] = i;
-  const auto nearer = [&](uint32_t a, uint32_t b) {
-    return (*squared)[a] != (*squared)[b] ? (*squared)[a] < (*squared)[b] : a < b;
-  };
-  count = std::min(count, order->size() - 1);  // itself is far
-  std::nth_element(order->begin(), order->begin() + static_cast<ptrdiff_t>(count), order->end(), nearer);
-  return {order->begin(), order->begin() + static_cast<ptrdiff_t>(count)};
+  count = std::min(count, squared->size() - 1);  // itself is far
+  *sorted = *squared;
+  std::nth_element(sorted->begin(), sorted->begin() + static_cast<ptrdiff_t>(count) - 1, sorted->end());
+  const float farthest = (*sorted)[count - 1];
+  std::vector<uint32_t> closest, last;
+  for (uint32_t i = 0; i < squared->size(); ++i) {
+    if ((*squared)[i] < farthest) closest.push_back(i);
+    if ((*squared)[i] == farthest && last.size() < count) last.push_back(i);
+  }
+  closest.insert(closest.end(), last.begin(), last.begin() + static_cast<ptrdiff_t>(count - closest.size()));
+  return closest;
 }
 
 template <typename Index>
@@ -96,12 +100,11 @@ std::vector<Vector3> attackByDensity(const std::vector<Line> &lines, const Densi
     if (progress) progress(++done, total);
   };
   const LineColumns columns(lines);
-  std::vector<float> squared(lines.size());
-  std::vector<uint32_t> order(lines.size());
+  std::vector<float> squared(lines.size()), sorted;
   std::vector<Vector3> points_m;
   for (size_t i = 0; i < lines.size(); ++i, tell())
     points_m.push_back(
-        peakOf(lines, i, closestLines(columns, i, options.neighbours, &squared, &order), options.peak_share));
+        peakOf(lines, i, closestLines(columns, i, options.neighbours, &squared, &sorted), options.peak_share));
   for (uint32_t round = 0; round < options.rounds; ++round) {
     const std::vector<Vector3> before_m = points_m;
     const NearestPoints tree(before_m);

@@ -25,7 +25,7 @@ std::vector<Vector3> roomPoints(size_t count) {
 }
 
 double medianError(const LineCloud &cloud, const std::vector<Vector3> &points_m) {
-  auto errors_m = nearestPointErrors(points_m, cloud.line_of_point, attackByDensity(cloud.lines, {}, {}));
+  auto errors_m = pointErrors(points_m, cloud.line_of_point, attackByDensity(cloud.lines, {}, {}));
   std::nth_element(errors_m.begin(), errors_m.begin() + static_cast<ptrdiff_t>(errors_m.size() / 2),
                    errors_m.end());
   return errors_m[errors_m.size() / 2];
