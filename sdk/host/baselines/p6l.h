@@ -21,8 +21,8 @@ constexpr int kP6lLines = 6, kP6lMaxSolutions = 64;
 // Oskarsson, Astrom, "Solutions to Minimal Generalized Relative Pose Problems", OMNIVIS 2005).  With the rotation
 // as a quaternion the six equations are linear in (t, 1), so that the fifteen 4 x 4 minors vanish.  Each has the
 // quaternion's squared length as a factor and leaves a form of degree 6; their products with the ten monomials of
-// degree 2 span all 101 forms of degree 8 that vanish at the 64 solutions.  Multiplication in the 64 dimensions that
-// are left is a matrix, whose eigenvectors are the solutions (Cox, Little, O'Shea, "Using Algebraic Geometry",
+// degree 2 span all 101 forms of degree 8 that vanish at the 64 solutions.  Multiplication in the 64 dimensions
+// that are left is a matrix, whose eigenvectors are the solutions (Cox, Little, O'Shea, "Using Algebraic Geometry",
 // chapter 2); Newton steps on the equations polish each.
 std::vector<Rigid> solveP6l(const Vector3 bearing[kP6lLines], const Line line[kP6lLines]);
 
