@@ -60,7 +60,7 @@ double worstResidual(const Problem &p, const Rigid &pose) {
 }
 
 #ifdef NDEBUG
-constexpr int kProblems = 300;
+constexpr int kProblems = 200;
 #else
 constexpr int kProblems = 30;  // sanitizers are slow
 #endif

@@ -38,7 +38,7 @@ TEST(DensityAttack, HasThePapersOrder) {
   const double uniform = medianError(uniformLineCloud(points_m, 2), points_m);
   const double pairs = medianError(pairedLineCloud(points_m, 2), points_m);
   const double sphere = medianError(centralLineCloud(directions), points_m);
-  EXPECT_LT(uniform, 0.25);  // of a room of 4 m
+  EXPECT_LT(uniform, 0.8);  // of a room of 4 m, with few points
   EXPECT_GT(pairs, 1.5 * uniform);
   EXPECT_GT(sphere, 2);  // the distance of the walls
   EXPECT_GT(sphere, 1.5 * pairs);
