@@ -39,8 +39,9 @@ TEST_P(HelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
                          testing::Values("simulate", "build", "localize", "inspect", "info", "convert",
-                                         "calibration", "record", "live", "devices", "doctor", "bench pose",
-                                         "bench confidence", "bench map", "bench frame", "bench recording"));
+                                         "calibration", "record", "live", "devices", "doctor", "compare",
+                                         "bench pose", "bench confidence", "bench map", "bench frame",
+                                         "bench recording"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -59,6 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
                     "calibration x --format what", "calibration x --color-size 640", "info", "info a b",
                     "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b.mcap --jpeg 0",
+                    "audit", "audit m --limit x", "audit m --recording r", "compare", "compare --recording r --correspondences f", "compare --correspondences f --out o", "compare --correspondences f --attack --ledger l",
                     "bench", "bench pose", "bench pose f --depth radar", "bench pose f --repeat 0",
                     "bench frame --recording r", "bench map --recording r --out o",
                     "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
