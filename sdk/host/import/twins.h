@@ -1,0 +1,17 @@
+// Twins: points so near to each other and so alike that they are one, seen twice.
+#pragma once
+#include "host/import/point_model.h"
+
+namespace sphc::host {
+
+double descriptorDistance(const Descriptor &a, const Descriptor &b);  // L2 of bytes
+
+struct TwinRule {
+  double radius_m;
+  double descriptor_distance;
+};
+
+// Keeps of each group of twins the one that most frames saw.  Most seen first in what comes out.
+PointModel withoutTwins(PointModel model, const TwinRule &rule);
+
+}  // namespace sphc::host
