@@ -14,6 +14,7 @@ struct Command {
 };
 
 Command simulateCommand(CLI::App *root);
+Command auditCommand(CLI::App *root);
 Command buildCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
 Command compareCommand(CLI::App *root);

@@ -65,11 +65,11 @@ PoseQuery matchedQuery(const DescribedFrame &frame, const std::vector<Descriptor
 
 ComparedSphere sphereOf(const CompareInput &input, const std::vector<Fate> &fates, double eta) {
   ComparedSphere sphere = {input.true_points, {}};
-  for (const Fate &fate : fates) sphere.directions.push_back(fate.direction);
+  for (const Fate &fate : fates) sphere.directions.push_back(fate.shown.direction);
   sphere.queries.eta_percent = static_cast<uint32_t>(std::lround(100 * eta));
   for (PoseQuery &query : sphere.queries.queries) {
     for (PoseRow &row : query.rows) {
-      row.direction = fates[row.point_id].direction;
+      row.direction = fates[row.point_id].shown.direction;
       row.is_true = fates[row.point_id].real;
     }
   }

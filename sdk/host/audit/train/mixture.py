@@ -2,6 +2,8 @@
 import numpy as np
 from view import SIDE
 
+MIRROR = np.arange(128).reshape(4, 4, 8)[::-1][:, :, (-np.arange(8)) % 8].reshape(-1)  # of a mirrored image
+
 
 def _spread(random, count, pixel):
     """Anywhere, as under a wide Gaussian on the sphere: flat or in a broad heap around the real ones."""
@@ -49,6 +51,34 @@ def mix(random, pixel, descriptor, other_pixel, other_descriptor, with_fakes):
     else:  # each at the place of another: the place is real, the look is not
         places = other_pixel[random.integers(len(other_pixel), size=count)]
     return np.concatenate([pixel, places]), np.concatenate([descriptor, other_descriptor[chosen]])
+
+
+def _cells(random, pixel, width):
+    """Indices of the points of each patch, `width` pixels wide."""
+    count = max(2, int((SIDE / width) ** 2))
+    seed = random.uniform(0, SIDE, (count, 2))
+    nearest = ((pixel[:, None] - seed[None]) ** 2).sum(2).argmin(1)
+    return [patch for patch in (np.flatnonzero(nearest == k) for k in range(count)) if len(patch)]
+
+
+def patchwork(random, pixel, descriptor, other_pixel, other_descriptor):
+    """The project's own fakes: a third of the patches stay, others lie on them in mirror image, turned."""
+    width = random.uniform(9, 32)
+    stay = [patch for patch in _cells(random, pixel, width) if random.random() < 1 / 3]
+    if not stay or len(other_pixel) < 2:
+        return pixel, descriptor
+    guests = _cells(random, other_pixel, width)
+    pixels = [pixel[patch] for patch in stay]
+    descriptors = [descriptor[patch] for patch in stay]
+    for patch in stay:
+        for _ in range(2):
+            guest = guests[random.integers(len(guests))]
+            angle = random.uniform(-np.pi, np.pi)
+            turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+            laid = (other_pixel[guest] - other_pixel[guest].mean(0)) * [-1, 1] @ turn.T
+            pixels.append(laid + pixel[patch].mean(0))
+            descriptors.append(other_descriptor[guest][:, MIRROR])
+    return np.concatenate(pixels), np.concatenate(descriptors)
 
 
 def inside(pixel):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Trains the inverter.
 
-    train.py OUT.pt SET... [--clean] [--steps N] [--start FILE.pt] [--seed N]
+    train.py OUT.pt SET... [--clean | --patchwork] [--steps N] [--start FILE.pt] [--seed N]
 
 SET is a folder that make_set.py wrote.  Sources whose number is divisible by 12 are kept aside for validation.
-Without --clean six samples of ten are mixed with fakes.  One thread, the same seed gives the same network on the same
+Without --clean six samples of ten are mixed with fakes; with --patchwork by the project's own strategy.  One thread, the same seed gives the same network on the same
 machine; the log goes to stdout.
 """
 import argparse
@@ -13,18 +13,18 @@ import time
 
 import numpy as np
 import torch
-from mixture import inside, mix
+from mixture import MIRROR, inside, mix, patchwork
 from network import GRID, Embedding, Painter, cells, paint
 from view import SIDE
 
 BATCH = 8
 RATE = 2e-3
 VALIDATE_EVERY = 250
-MIRROR = np.arange(128).reshape(4, 4, 8)[::-1][:, :, (-np.arange(8)) % 8].reshape(-1)  # of a mirrored image
 
 
 class Samples:
-    def __init__(self, folders):
+    def __init__(self, folders, by_patchwork):
+        self.by_patchwork = by_patchwork
         sets = [np.load(os.path.join(folder, "set.npz")) for folder in folders]
         self.truth = np.concatenate([s["truth"] for s in sets])
         sources, offset = [], 0
@@ -51,8 +51,11 @@ class Samples:
         other = friends[random.integers(len(friends))]
         if other == index:  # a source of one view: borrow from a stranger
             other = random.integers(len(self.truth))
-        pixel, descriptor = mix(random, self.pixel[index], self.descriptor[index], self.pixel[other],
-                                self.descriptor[other], with_fakes)
+        points = self.pixel[index], self.descriptor[index], self.pixel[other], self.descriptor[other]
+        if with_fakes and self.by_patchwork:
+            pixel, descriptor = patchwork(random, *points)
+        else:
+            pixel, descriptor = mix(random, *points, with_fakes)
         truth = self.truth[index]
         if random.random() < .5:
             pixel, truth = np.stack([SIDE - pixel[:, 0], pixel[:, 1]], 1), truth[:, ::-1]
@@ -111,6 +114,7 @@ def main():
     parser.add_argument("out")
     parser.add_argument("sets", nargs="+")
     parser.add_argument("--clean", action="store_true")
+    parser.add_argument("--patchwork", action="store_true")
     parser.add_argument("--steps", type=int, default=1800)
     parser.add_argument("--start")
     parser.add_argument("--seed", type=int, default=1)
@@ -118,7 +122,7 @@ def main():
     torch.set_num_threads(1)
     torch.manual_seed(options.seed)
     random = np.random.Generator(np.random.PCG64(options.seed))
-    samples, embedding, painter = Samples(options.sets), Embedding(), Painter()
+    samples, embedding, painter = Samples(options.sets, options.patchwork), Embedding(), Painter()
     if options.start:
         state = torch.load(options.start)
         embedding.load_state_dict(state["embedding"]), painter.load_state_dict(state["painter"])
