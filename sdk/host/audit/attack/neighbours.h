@@ -15,7 +15,7 @@ struct Neighbours {
 };
 
 // There must be more than `count` points.
-Neighbours directionNeighbours(const std::vector<Vector3> &directions, int count);      // chords
+Neighbours directionNeighbours(const std::vector<Vector3> &directions, int count);       // chords
 Neighbours descriptorNeighbours(const std::vector<Descriptor> &descriptors, int count);  // L2 of bytes
 
 }  // namespace sphc::host

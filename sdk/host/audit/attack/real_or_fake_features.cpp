@@ -66,8 +66,7 @@ void addLooksBeside(const std::vector<Descriptor> &descriptors, const Neighbours
   ArrayXXf distances(beside.indices.rows(), kBeside);
   for (Index i = 0; i < distances.rows(); ++i)
     for (Index k = 0; k < kBeside; ++k)
-      distances(i, k) =
-          std::sqrt(static_cast<float>(distance2(descriptors[i], descriptors[beside.indices(i, k)])));
+      distances(i, k) = std::sqrt(static_cast<float>(distance2(descriptors[i], descriptors[beside.indices(i, k)])));
   for (const Index k : {4, 8, 16, 32, 48}) {
     columns->add(distances.leftCols(k).rowwise().mean());
     columns->add(distances.leftCols(k).rowwise().minCoeff());
@@ -90,8 +89,7 @@ ArrayXf addLookalikes(const Published &map, Columns *columns) {
     columns->add(logs.leftCols(k).rowwise().mean());
   }
   for (const Index k : {0, 3, 15}) columns->add(alike.distances.col(k));
-  for (const float radius : {0.03f, 0.1f, 0.3f})
-    columns->add((chords < radius).cast<float>().rowwise().sum());
+  for (const float radius : {0.03f, 0.1f, 0.3f}) columns->add((chords < radius).cast<float>().rowwise().sum());
   return -logs.leftCols(8).rowwise().mean();
 }
 
