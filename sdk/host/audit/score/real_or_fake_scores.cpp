@@ -15,9 +15,9 @@ std::vector<RealOrFakeScores> scoreRealOrFake(const std::vector<RealOrFakeGuess>
   for (const RealOrFakeGuess &guess : guesses)
     scores.push_back({guess.attacker, areaUnderCurve(guess.scores, real).value,
                       precisionAtTop(guess.scores, real, eta), precisionAtTop(guess.scores, real, 0.1)});
-  RealOrFakeScores strongest = *std::max_element(
-      scores.begin(), scores.end(),
-      [](const RealOrFakeScores &a, const RealOrFakeScores &b) { return a.auc < b.auc; });
+  RealOrFakeScores strongest =
+      *std::max_element(scores.begin(), scores.end(),
+                        [](const RealOrFakeScores &a, const RealOrFakeScores &b) { return a.auc < b.auc; });
   strongest.attacker = "strongest";
   scores.push_back(strongest);
   return scores;
