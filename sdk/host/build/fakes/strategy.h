@@ -39,6 +39,6 @@ std::unique_ptr<FakeStrategy> gaussianFakes(double variance = 0.1);
 // point for point; each of the others is laid on one of them in mirror image, descriptors too, turned at random. So
 // a fake is among the company it had: nothing near it tells it from a real point, and no camera sees it from
 // anywhere.
-std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 12);
+std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 6);
 
 }  // namespace sphc::host

@@ -39,8 +39,9 @@ TEST_P(HelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
                          testing::Values("simulate", "build", "localize", "inspect", "info", "convert",
-                                         "calibration", "record", "live", "devices", "doctor", "bench pose",
-                                         "bench confidence", "bench map", "bench frame", "bench recording"));
+                                         "calibration", "record", "live", "devices", "doctor", "compare",
+                                         "bench pose", "bench confidence", "bench map", "bench frame",
+                                         "bench recording"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -59,11 +60,12 @@ INSTANTIATE_TEST_SUITE_P(
                     "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
                     "calibration x --format what", "calibration x --color-size 640", "info", "info a b",
                     "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b.mcap --jpeg 0",
+                    "audit", "audit m --limit x", "audit m --recording r", "compare", "compare --recording r --correspondences f", "compare --correspondences f --out o", "compare --correspondences f --attack --ledger l",
                     "bench", "bench pose", "bench pose f --depth radar", "bench pose f --repeat 0",
                     "bench frame --recording r", "bench map --recording r --out o",
                     "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
                     "build --recording r", "build --recording r --map m --eta 1.5",
-                    "build --recording r --map m --key a --new-key b", "localize --recording r --map m --step 0",
+                    "build --recording r --map m --against", "localize --recording r --map m --step 0",
                     "localize --recording r --map m --first 9 --last 3"));
 
 TEST(CommandLine, UsageNamesTheSubcommand) {
@@ -271,6 +273,23 @@ void expectCaptures(const TempFolder &folder, const std::string &walk, const std
   EXPECT_FALSE(nlohmann::json::parse(doctor.out)["wrong"].get<bool>());
 }
 
+// What the ledger beside the map allows, and what not.
+void expectDiscipline(const TempFolder &folder, const std::string &build, const std::string &map) {
+  const std::string again = folder / "again.sphc", ledger = folder / "spherecloud.ledger";
+  const Answer same = runCommand(build + "--json -m " + again);
+  ASSERT_EQ(same.exit_code, kExitDone) << same.err;
+  EXPECT_TRUE(nlohmann::json::parse(same.out)["release"]["same_as_before"].get<bool>());
+  EXPECT_EQ(std::system(("cmp -s " + map + " " + again).c_str()), 0) << "one recording, other bytes";
+
+  const Answer other_eta = runCommand(build + "--eta 0.5 -m " + again);
+  EXPECT_EQ(other_eta.exit_code, kExitFailure);
+  EXPECT_THAT(other_eta.err, HasSubstr("--i-understand"));
+  const std::string elsewhere = build + "-m " + again + " --ledger " + (folder / "other") + " --against " + ledger;
+  EXPECT_THAT(runCommand(elsewhere).err, HasSubstr("released by another ledger"));
+  EXPECT_THAT(runCommand(elsewhere + " --i-understand").err, HasSubstr("now exposed"));
+  EXPECT_NE(std::system(("cmp -s " + map + " " + again).c_str()), 0);
+}
+
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const TempFolder folder;
@@ -280,14 +299,11 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   EXPECT_EQ(nlohmann::json::parse(recorded.out)["frames"], 6);
   EXPECT_EQ(runCommand("simulate --frames 6 --out " + walk).exit_code, kExitFailure);  // nothing is overwritten
 
-  const Answer built = runCommand("build -r " + walk + " -m " + map + " --step 2 --new-key " + (folder / "key"));
+  const std::string build = "build -r " + walk + " --step 2 ";
+  const Answer built = runCommand(build + "-m " + map);
   ASSERT_EQ(built.exit_code, kExitDone) << built.err;
   EXPECT_THAT(built.out, HasSubstr("never ship it"));
-  EXPECT_EQ(
-      runCommand("build -r " + walk + " -m " + (folder / "again.sphc") + " --step 2 --key " + (folder / "key"))
-          .exit_code,
-      kExitDone);
-  EXPECT_EQ(std::system(("cmp -s " + map + " " + (folder / "again.sphc")).c_str()), 0) << "same key, other bytes";
+  expectDiscipline(folder, build, map);
 
   const std::string localize = "localize -r " + walk + " -m " + map + " --first 1 --step 2 --json";
   const Answer found =
