@@ -1,5 +1,6 @@
 #include "host/audit/attack/neighbours.h"
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -46,6 +47,21 @@ void keepOthers(const std::vector<Ranked> &found, Eigen::Index point, Neighbours
   }
 }
 
+// Calls take(query, the `count` nearest of `rows`) for each query, from several threads.
+template <typename Take>
+void searchAll(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &rows, size_t count,
+               const Take &take) {
+  const Table table(rows);
+  const size_t threads = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::thread> running;
+  for (size_t t = 0; t < threads; ++t)
+    running.emplace_back([&, t] {
+      for (size_t i = t; i < queries.size(); i += threads)
+        take(static_cast<Eigen::Index>(i), table.nearest(queries[i], count));
+    });
+  for (std::thread &thread : running) thread.join();
+}
+
 }  // namespace
 
 Neighbours directionNeighbours(const std::vector<Vector3> &directions, int count) {
@@ -64,18 +80,19 @@ Neighbours directionNeighbours(const std::vector<Vector3> &directions, int count
 }
 
 Neighbours descriptorNeighbours(const std::vector<Descriptor> &descriptors, int count) {
-  const Table table(descriptors);
   const auto points = static_cast<Eigen::Index>(descriptors.size());
   Neighbours neighbours = {Eigen::ArrayXXi(points, count), Eigen::ArrayXXf(points, count)};
-  const Eigen::Index threads = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> running;
-  for (Eigen::Index t = 0; t < threads; ++t)
-    running.emplace_back([&, t] {
-      for (Eigen::Index i = t; i < points; i += threads)
-        keepOthers(table.nearest(descriptors[i], static_cast<size_t>(count) + 1), i, &neighbours);
-    });
-  for (std::thread &thread : running) thread.join();
+  searchAll(descriptors, descriptors, static_cast<size_t>(count) + 1,
+            [&](Eigen::Index i, const std::vector<Ranked> &found) { keepOthers(found, i, &neighbours); });
   return neighbours;
+}
+
+Eigen::ArrayXf nearestDistances(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &table) {
+  Eigen::ArrayXf distances(static_cast<Eigen::Index>(queries.size()));
+  searchAll(queries, table, 1, [&](Eigen::Index i, const std::vector<Ranked> &found) {
+    distances[i] = std::sqrt(static_cast<float>(found[0].distance2));
+  });
+  return distances;
 }
 
 }  // namespace sphc::host

@@ -18,4 +18,7 @@ struct Neighbours {
 Neighbours directionNeighbours(const std::vector<Vector3> &directions, int count);       // chords
 Neighbours descriptorNeighbours(const std::vector<Descriptor> &descriptors, int count);  // L2 of bytes
 
+// From each of `queries` to the nearest of `table`, L2 of bytes.
+Eigen::ArrayXf nearestDistances(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &table);
+
 }  // namespace sphc::host

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "host/audit/attack/mirror.h"
 #include "runtime/stages/match/distance.h"
 
 namespace sphc::host {
@@ -76,8 +77,7 @@ void addLooksBeside(const std::vector<Descriptor> &descriptors, const Neighbours
 }
 
 // How far those lie that look like it.
-ArrayXf addLookalikes(const Published &map, Columns *columns) {
-  const Neighbours alike = descriptorNeighbours(map.descriptors, kLookalikes);
+ArrayXf addLookalikes(const Published &map, const Neighbours &alike, Columns *columns) {
   ArrayXXf chords(alike.indices.rows(), kLookalikes);
   for (Index i = 0; i < chords.rows(); ++i)
     for (Index k = 0; k < kLookalikes; ++k)
@@ -91,6 +91,17 @@ ArrayXf addLookalikes(const Published &map, Columns *columns) {
   for (const Index k : {0, 3, 15}) columns->add(alike.distances.col(k));
   for (const float radius : {0.03f, 0.1f, 0.3f}) columns->add((chords < radius).cast<float>().rowwise().sum());
   return -logs.leftCols(8).rowwise().mean();
+}
+
+// Where fakes are mirror images, most of what a real point resembles is its own mirror image.
+ArrayXf addMirror(const std::vector<Descriptor> &descriptors, const Neighbours &alike, const Neighbours &beside,
+                  Columns *columns) {
+  std::vector<Descriptor> mirrors;
+  for (const Descriptor &descriptor : descriptors) mirrors.push_back(mirrorOf(descriptor));
+  const ArrayXf cue = ((alike.distances.col(0) + 1) / (nearestDistances(mirrors, descriptors) + 1)).log();
+  columns->add(cue);
+  columns->add(meanOfNeighbours(cue, beside, 16));
+  return cue;
 }
 
 ArrayXf addCoOccurrence(const Eigen::MatrixXf &components, const Neighbours &beside, const CoOccurrence &network,
@@ -118,7 +129,9 @@ RealOrFakeFeatures realOrFakeFeatures(const Published &map, const CoOccurrence &
   features.beside = directionNeighbours(map.directions, kBeside);
   features.density = addDensity(features.beside, &columns);
   addLooksBeside(map.descriptors, features.beside, &columns);
-  features.lookalikes = addLookalikes(map, &columns);
+  const Neighbours alike = descriptorNeighbours(map.descriptors, kLookalikes);
+  features.lookalikes = addLookalikes(map, alike, &columns);
+  features.mirror = addMirror(map.descriptors, alike, features.beside, &columns);
   const Eigen::MatrixXf components = co_occurrence.components(map.descriptors);
   features.co_occurrence = addCoOccurrence(components, features.beside, co_occurrence, &columns);
   for (Index c = 0; c < kShownComponents; ++c) columns.add(components.col(c));

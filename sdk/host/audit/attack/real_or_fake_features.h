@@ -1,5 +1,6 @@
 // What may tell a real point from a fake one, in numbers: how dense directions lie about it, whether its neighbours
-// in direction look like it, whether those that look like it lie near, and how it looks.
+// in direction look like it, whether those that look like it lie near, whether some look like its mirror image,
+// and how it looks.
 #pragma once
 #include <Eigen/Core>
 
@@ -9,13 +10,13 @@
 
 namespace sphc::host {
 
-constexpr Eigen::Index kRealOrFakeFeatures = 58;
+constexpr Eigen::Index kRealOrFakeFeatures = 60;
 
 struct RealOrFakeFeatures {
   Eigen::MatrixXf values;  // a row a point, kRealOrFakeFeatures columns
   Neighbours beside;       // by direction
   // Each a cue by itself, larger for points that seem real.
-  Eigen::ArrayXf density, lookalikes, co_occurrence;
+  Eigen::ArrayXf density, lookalikes, mirror, co_occurrence;
 };
 
 // Throws std::runtime_error when the map has too few points to have neighbours.

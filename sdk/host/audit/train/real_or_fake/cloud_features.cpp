@@ -1,5 +1,6 @@
-// cloud_features NETWORKS CLOUD OUT: what the classifier sees of a cloud.  OUT, little-endian: uint32 points, uint32
-// features, uint32 neighbours; of all points float32 features; int32 neighbours in direction; a byte, 1 for real.
+// cloud_features NETWORKS CLOUD OUT: what the classifier sees of a cloud.  OUT, little-endian: uint32 points,
+// uint32 features, uint32 neighbours; of all points float32 features; int32 neighbours in direction; a byte, 1 for
+// real.
 #include <exception>
 #include <fstream>
 #include <iostream>

@@ -7,8 +7,8 @@ import torch
 
 FARTHEST = 5  # deviations from the mean
 HIDDEN = (64, 32)
-BATCH = 512
-RATE, DECAY = 2e-3, 1e-4
+BATCH = 1024
+RATE, DECAY = 3e-3, 1e-4
 
 
 class Network:

@@ -30,7 +30,8 @@ PointModel readPoints(const std::string &path) {
 
 std::vector<SpherePoint> project(const PointModel &model) {
   Vector3 centre = Vector3::Zero();
-  for (const ModelPoint &point : model.points) centre += point.position_m / static_cast<double>(model.points.size());
+  for (const ModelPoint &point : model.points)
+    centre += point.position_m / static_cast<double>(model.points.size());
   std::vector<SpherePoint> points;
   for (const ModelPoint &point : model.points)
     points.push_back({(point.position_m - centre).normalized(), point.descriptor});
@@ -46,16 +47,17 @@ KnownCloud publish(const PointModel &model, const FakeStrategy &strategy, double
   const auto real_count = static_cast<size_t>(eta * static_cast<double>(points.size()));
   const std::vector<Fate> fates = strategy.fates(points, real_count, &random);
   KnownCloud cloud;
-  for (size_t i = 0; i < points.size(); ++i) {
-    cloud.published.directions.push_back(fates[i].direction);
-    cloud.published.descriptors.push_back(points[i].descriptor);
-    cloud.real.push_back(fates[i].real);
+  for (const Fate &fate : fates) {
+    cloud.published.directions.push_back(fate.shown.direction);
+    cloud.published.descriptors.push_back(fate.shown.descriptor);
+    cloud.real.push_back(fate.real);
   }
   return cloud;
 }
 
 std::unique_ptr<FakeStrategy> strategyNamed(const std::string &name) {
   if (name == "gaussian") return gaussianFakes();
+  if (name == "patchwork") return patchworkFakes();
   throw std::runtime_error("there is no strategy " + name);
 }
 

@@ -13,8 +13,8 @@ import torch
 from clouds import read_features
 from network import Network, auc, write
 
-FOLDS = 4
-EPOCHS = 10
+FOLDS = 2
+EPOCHS = 8
 
 
 def with_neighbours_scores(values, beside, scores):
