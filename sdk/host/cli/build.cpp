@@ -8,19 +8,16 @@
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/map_file.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
+#include "host/cli/point_source.h"
 
 namespace sphc::host {
 namespace {
 
 struct Options {
-  RecordingOptions recording;
+  PointSource source;
   std::string map, key, new_key;
   SphereCloudOptions cloud;
   double sigma2 = 0.1;
-  RgbdImportOptions import;
 };
 
 SecretKey chooseKey(const Options &options) {
@@ -30,13 +27,6 @@ SecretKey chooseKey(const Options &options) {
   return key;
 }
 
-PointModel importModel(const Options &options, RgbdImportSummary *summary) {
-  const Replay replay = openRecording(options.recording);
-  ProgressBar bar("mapping   ");
-  return importRgbd(
-      replay.get(), options.import, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, summary);
-}
-
 MapId drawMapId(SecretRandom *random) {
   MapId id;
   for (uint8_t &byte : id) byte = static_cast<uint8_t>(random->below(256));
@@ -44,7 +34,7 @@ MapId drawMapId(SecretRandom *random) {
 }
 
 struct Outcome {
-  RgbdImportSummary import;
+  ImportedPoints import;
   size_t points = 0, bytes = 0;
   MapId map_id = {};
   std::string note;
@@ -56,10 +46,11 @@ Outcome build(const Options &options) {
   Outcome outcome;
   // The key first: a key that cannot be read or written must not cost minutes of mapping.
   SecretRandom random(chooseKey(options));
-  const PointModel model = importModel(options, &outcome.import);
+  outcome.import = importPoints(options.source);
   const auto strategy = gaussianFakes(options.sigma2);
   OwnerNote note;
-  const SphereCloud cloud = makeSphereCloud(model, options.cloud, *strategy, &random, &note.centre_in_world_m);
+  const SphereCloud cloud =
+      makeSphereCloud(outcome.import.model, options.cloud, *strategy, &random, &note.centre_in_world_m);
   note.map_id = drawMapId(&random);  // from the key too: the same recording, options and key give the same bytes
   note.eta = options.cloud.eta;
   note.strategy = strategy->name();
@@ -74,19 +65,9 @@ Outcome build(const Options &options) {
   return outcome;
 }
 
-void warnOfFrames(const RgbdImportSummary &import, const Console &console) {
-  const auto warn = [&console](uint32_t count, const char *what) {
-    if (count) console.warn("note: " + std::to_string(count) + " frames " + what);
-  };
-  warn(import.frames_without_pose, "have no pose and took no part");
-  warn(import.frames_unreadable, "could not be read and took no part");
-}
-
 void tell(const Options &options, const Outcome &outcome, const Console &console) {
-  const RgbdImportSummary &import = outcome.import;
-  console.say("Mapped " + std::to_string(import.frames_used) + " frames (" + describeSelection(options.recording) +
-              ") in " + fixed(outcome.seconds, 1) + " s: " + std::to_string(import.points_kept) + " points kept, " +
-              std::to_string(import.points_dropped) + " dropped.");
+  for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
+  console.say(outcome.import.told + " " + fixed(outcome.seconds, 1) + " s.");
   console.say("Wrote " + options.map + ": " + std::to_string(outcome.points) + " directions, " +
               fixed(100 * options.cloud.eta, 0) + " % of them real, " +
               humanBytes(static_cast<double>(outcome.bytes)) + ".");
@@ -97,24 +78,14 @@ void tell(const Options &options, const Outcome &outcome, const Console &console
 
 int run(const Options &options, const Console &console) {
   const Outcome outcome = build(options);
-  warnOfFrames(outcome.import, console);
   tell(options, outcome, console);
-  const RgbdImportSummary &import = outcome.import;
-  console.give({{"map", options.map},
-                {"map_id", hexText(outcome.map_id.data(), outcome.map_id.size())},
-                {"owner_note", outcome.note},
-                {"points", outcome.points},
-                {"eta", options.cloud.eta},
-                {"bytes", outcome.bytes},
-                {"frames_used", import.frames_used},
-                {"frames_without_pose", import.frames_without_pose},
-                {"frames_unreadable", import.frames_unreadable},
-                {"keypoints", import.keypoints},
-                {"lifted", import.lifted},
-                {"merged", import.merged},
-                {"points_kept", import.points_kept},
-                {"points_dropped", import.points_dropped},
-                {"seconds", outcome.seconds}});
+  nlohmann::ordered_json json = {
+      {"map", options.map},         {"map_id", hexText(outcome.map_id.data(), outcome.map_id.size())},
+      {"owner_note", outcome.note}, {"points", outcome.points},
+      {"eta", options.cloud.eta},   {"bytes", outcome.bytes}};
+  json.update(outcome.import.facts);
+  json["seconds"] = outcome.seconds;
+  console.give(json);
   return kExitDone;
 }
 
@@ -124,6 +95,8 @@ const char kHelp[] =
 const char kExample[] =
     "Example:\n"
     "  spherecloud build --recording walk --last 99 --map room.sphc\n"
+    "  spherecloud build --colmap sparse/0 --images images --depth depth --calibration kinect.json --map "
+    "room.sphc\n"
     "  spherecloud build --recording kitchen --last 597 --map kitchen.sphc --eta 0.25 --new-key kitchen.key\n"
     "What comes out:\n"
     "  room.sphc               the map: ship it\n"
@@ -131,7 +104,7 @@ const char kExample[] =
     "Without --key or --new-key the randomness is forgotten: nobody can make the same map again, you neither.";
 
 void addOptions(CLI::App *app, Options *options) {
-  addRecordingOptions(app, &options->recording);
+  addPointSourceOptions(app, &options->source);
   app->add_option("-m,--map", options->map, "Map file to write")->required()->type_name("FILE");
   app->add_option("--eta", options->cloud.eta, "Share of points that keep their true direction, (0, 1]")
       ->capture_default_str()
@@ -146,20 +119,6 @@ void addOptions(CLI::App *app, Options *options) {
   app->add_option("--new-key", options->new_key, "Make a secret key, use it and write it here")
       ->type_name("FILE")
       ->excludes(key);
-  const char *group = "Mapping";
-  RgbdImportOptions &import = options->import;
-  app->add_option("--max-keypoints", import.max_keypoints, "Strongest keypoints of a frame")
-      ->capture_default_str()
-      ->group(group);
-  app->add_option("--min-observations", import.min_observations, "Frames that must agree on a point")
-      ->capture_default_str()
-      ->group(group);
-  app->add_option("--depth-min", import.depth_min_m, "Nearest depth used, metres")
-      ->capture_default_str()
-      ->group(group);
-  app->add_option("--depth-max", import.depth_max_m, "Farthest depth used, metres")
-      ->capture_default_str()
-      ->group(group);
 }
 
 }  // namespace

@@ -4,31 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <tuple>
+
+#include "host/import/descriptors.h"
+#include "host/import/twins.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr int kCellPx = 16;
-constexpr size_t kMostKept = 24;         // observations a track remembers
-constexpr double kScaleRatio = 1.8;      // keypoints of one point differ in metric size at most by this factor
-constexpr double kAgreement2 = 16;       // squared Mahalanobis distance of an observation that supports the mean
-constexpr double kLoneNoise = 2;         // a point seen once may scatter at most so many times the sensor's noise
-constexpr double kTwinM = 0.015;         // points so near to each other ...
-constexpr double kTwinDescriptor = 220;  // ... and so alike are one
+constexpr size_t kMostKept = 24;     // observations a track remembers
+constexpr double kScaleRatio = 1.8;  // keypoints of one point differ in metric size at most by this factor
+constexpr double kAgreement2 = 16;   // squared Mahalanobis distance of an observation that supports the mean
+constexpr double kLoneNoise = 2;     // a point seen once may scatter at most so many times the sensor's noise
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 int cellsAcross(int pixels) { return pixels / kCellPx + 1; }
-
-double descriptorDistance(const Descriptor &a, const Descriptor &b) {
-  int sum = 0;
-  for (size_t i = 0; i < kDescriptorBytes; ++i) {
-    const int d = a.bytes[i] - b.bytes[i];
-    sum += d * d;
-  }
-  return std::sqrt(static_cast<double>(sum));
-}
 
 // Weighted mean of the observations that lie within reach of `around`.
 size_t fuse(const std::vector<Observation> &observations, const Vector3 &around, double reach2, Vector3 *mean,
@@ -55,43 +46,10 @@ bool isTrustworthy(const Observation &lone) {
   return lone.sigma_m < kLoneNoise * kMappingNoise.sigmaAt(lone.depth_m);
 }
 
-// The observation whose descriptor is nearest to all others (medoid).
 const Descriptor &representative(const std::vector<Observation> &observations) {
-  size_t best = 0;
-  double best_sum = kInfinite;
-  for (size_t i = 0; i < observations.size(); ++i) {
-    double sum = 0;
-    for (const Observation &other : observations)
-      sum += descriptorDistance(observations[i].descriptor, other.descriptor);
-    if (sum < best_sum) best_sum = sum, best = i;
-  }
-  return observations[best].descriptor;
-}
-
-// Keeps of each group of twins the one seen most often.
-std::vector<ModelPoint> withoutTwins(std::vector<ModelPoint> points) {
-  std::stable_sort(points.begin(), points.end(),
-                   [](const ModelPoint &a, const ModelPoint &b) { return a.observations > b.observations; });
-  std::map<std::tuple<int, int, int>, std::vector<size_t>> cells;
-  std::vector<ModelPoint> kept;
-  const auto cellOf = [](double x) { return static_cast<int>(std::floor(x / kTwinM)); };
-  for (const ModelPoint &point : points) {
-    const int x = cellOf(point.position_m.x()), y = cellOf(point.position_m.y()), z = cellOf(point.position_m.z());
-    bool twin = false;
-    for (int dx = -1; dx <= 1 && !twin; ++dx)
-      for (int dy = -1; dy <= 1 && !twin; ++dy)
-        for (int dz = -1; dz <= 1 && !twin; ++dz) {
-          const auto cell = cells.find({x + dx, y + dy, z + dz});
-          if (cell == cells.end()) continue;
-          for (size_t i : cell->second)
-            twin = twin || ((kept[i].position_m - point.position_m).norm() < kTwinM &&
-                            descriptorDistance(kept[i].descriptor, point.descriptor) < kTwinDescriptor);
-        }
-    if (twin) continue;
-    cells[{x, y, z}].push_back(kept.size());
-    kept.push_back(point);
-  }
-  return kept;
+  std::vector<const Descriptor *> seen;
+  for (const Observation &o : observations) seen.push_back(&o.descriptor);
+  return *seen[medoidOf(seen)];
 }
 
 }  // namespace
