@@ -44,11 +44,13 @@ Statement prepare(sqlite3 *database, const char *sql) {
   return Statement(statement);
 }
 
-// Any SIFT histogram to our bytes: square roots of the L1-normalised histogram, times 512.  COLMAP's are that
-// already, unless it was told to normalise by L2.
+// COLMAP's are RootSIFT too, in 4 x 4 cells in our order; its orientations turn the other way.
 Descriptor fromColmap(const uint8_t *bytes) {
   Descriptor descriptor;
-  for (size_t i = 0; i < kDescriptorBytes; ++i) descriptor.bytes[i] = bytes[i];
+  for (size_t i = 0; i < kDescriptorBytes; ++i) {
+    const size_t cell = i / 8, orientation = i % 8;
+    descriptor.bytes[i] = bytes[8 * cell + (8 - orientation) % 8];
+  }
   return descriptor;
 }
 

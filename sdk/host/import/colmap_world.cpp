@@ -20,10 +20,19 @@ constexpr double kUprightness = 0.1;  // heads nod much more than they tilt
 constexpr double kNearestM = 0.3, kFarthestM = 6.0;
 constexpr size_t kFewestOfImage = 10, kFewestImages = 3;
 
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// A scale that one point tells, and how much it counts: the relative error of depth, by either way, grows with
+// depth.
+struct Vote {
+  double value, weight;
+};
+
+double medianOf(std::vector<Vote> votes) {
+  std::sort(votes.begin(), votes.end(), [](const Vote &a, const Vote &b) { return a.value < b.value; });
+  double half = 0;
+  for (const Vote &vote : votes) half += 0.5 * vote.weight;
+  for (const Vote &vote : votes)
+    if ((half -= vote.weight) <= 0) return vote.value;
+  return votes.back().value;
 }
 
 // X.png for X.jpg, and X.depth.png for X.color.jpg.
@@ -48,13 +57,13 @@ class DepthImages {
       throw std::runtime_error(message.text);
   }
 
-  // Scales that single points of an image tell; none where there is no depth image.
-  std::vector<double> scales(const ColmapModel &model, const ColmapImage &image,
-                             const std::vector<std::pair<Vector2, double>> &depths) const {
+  // What single points of an image tell; nothing where there is no depth image.
+  std::vector<Vote> votes(const ColmapModel &model, const ColmapImage &image,
+                          const std::vector<std::pair<Vector2, double>> &depths) const {
     const sphc_camera &color = model.cameras.at(image.camera);
     const cv::Mat depth = read(image.name, separate_ ? calibration_.depth_camera : color);
-    std::vector<double> scales;
-    if (depth.empty()) return scales;
+    std::vector<Vote> votes;
+    if (depth.empty()) return votes;
     const DepthSensor sensor = {calibration_.depth_unit_m, kNearestM, kFarthestM, kMappingNoise.sigma_m,
                                 kMappingNoise.sigma_per_m2};
     const SparseAligner aligner(Camera(color), Camera(separate_ ? calibration_.depth_camera : color),
@@ -64,9 +73,10 @@ class DepthImages {
     for (const auto &[pixel, units] : depths) {
       Vector3 point_m;
       double sigma_m = 0;
-      if (units > 0 && aligner.lift(view, pixel, &point_m, &sigma_m)) scales.push_back(point_m.z() / units);
+      if (units > 0 && aligner.lift(view, pixel, &point_m, &sigma_m))
+        votes.push_back({point_m.z() / units, 1 / (point_m.z() * point_m.z())});
     }
-    return scales;
+    return votes;
   }
 
  private:
@@ -118,18 +128,18 @@ Matrix3 uprightAxes(const Vector3 &down) {
 
 ColmapScale scaleByDepth(const ColmapModel &model, const std::string &depth, const std::string &calibration) {
   const DepthImages images(depth, calibration);
-  std::vector<double> of_images;
+  std::vector<Vote> of_images;
   for (const auto &[id, depths] : depthsOfImages(model)) {
-    const std::vector<double> scales = images.scales(model, model.images.at(id), depths);
-    if (scales.size() >= kFewestOfImage) of_images.push_back(medianOf(scales));
+    const std::vector<Vote> votes = images.votes(model, model.images.at(id), depths);
+    if (votes.size() >= kFewestOfImage) of_images.push_back({medianOf(votes), 1});
   }
   if (of_images.size() < kFewestImages)
     throw std::runtime_error("only " + std::to_string(of_images.size()) + " images have depth at their points in " +
                              depth + "; depth images are named like the colour images, X.png for X.jpg");
   ColmapScale scale;
   scale.metres_per_unit = medianOf(of_images);
-  std::vector<double> off;
-  for (double s : of_images) off.push_back(std::abs(s / scale.metres_per_unit - 1));
+  std::vector<Vote> off;
+  for (const Vote &vote : of_images) off.push_back({std::abs(vote.value / scale.metres_per_unit - 1), 1});
   scale.spread = 1.4826 * medianOf(off);
   return scale;
 }
