@@ -15,6 +15,7 @@ struct Command {
 
 Command simulateCommand(CLI::App *root);
 Command buildCommand(CLI::App *root);
+Command adviseCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
 Command convertCommand(CLI::App *root);
 Command devicesCommand(CLI::App *root);

@@ -61,10 +61,10 @@ int run(int argc, char **argv) {
   root.require_subcommand(1);
   root.footer(kExitCodes);
   Console console;
-  std::vector<Command> commands = {simulateCommand(&root), buildCommand(&root),      localizeCommand(&root),
-                                   inspectCommand(&root),  infoCommand(&root),       convertCommand(&root),
-                                   recordCommand(&root),   liveCommand(&root),       devicesCommand(&root),
-                                   doctorCommand(&root),   calibrationCommand(&root)};
+  std::vector<Command> commands = {simulateCommand(&root), buildCommand(&root),       localizeCommand(&root),
+                                   inspectCommand(&root),  infoCommand(&root),        convertCommand(&root),
+                                   recordCommand(&root),   liveCommand(&root),        devicesCommand(&root),
+                                   doctorCommand(&root),   calibrationCommand(&root), adviseCommand(&root)};
   for (Command &command : benchCommands(&root)) commands.push_back(std::move(command));
   for (Command &command : commands) {
     command.app->add_flag("--json", console.json, "Result as JSON on stdout, nothing else there");

@@ -90,6 +90,7 @@ PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, con
   PointTracks tracks(options);
   const uint32_t total = sphc_replay_frame_count(replay);
   for (uint32_t i = 0; i < total; ++i) {
+    if (options.takes_part && !options.takes_part(i)) continue;
     sphc_rigid pose;
     sphc_frame frame;
     sphc_message message;

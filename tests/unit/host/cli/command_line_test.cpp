@@ -39,8 +39,9 @@ TEST_P(HelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
                          testing::Values("simulate", "build", "localize", "inspect", "info", "convert",
-                                         "calibration", "record", "live", "devices", "doctor", "bench pose",
-                                         "bench confidence", "bench map", "bench frame", "bench recording"));
+                                         "calibration", "advise", "record", "live", "devices", "doctor",
+                                         "bench pose", "bench confidence", "bench map", "bench frame",
+                                         "bench recording"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -62,7 +63,10 @@ INSTANTIATE_TEST_SUITE_P(
                     "bench", "bench pose", "bench pose f --depth radar", "bench pose f --repeat 0",
                     "bench frame --recording r", "bench map --recording r --out o",
                     "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
-                    "build --recording r", "build --recording r --map m --eta 1.5",
+                    "build --recording r", "build --map m", "build --map m --recording r --colmap c",
+                    "build --map m --colmap c", "build --map m --colmap c --images i",
+                    "build --map m --colmap c --images i --scale 1 --gravity down",
+                    "advise --recording r --folds 1", "build --recording r --map m --eta 1.5",
                     "build --recording r --map m --key a --new-key b", "localize --recording r --map m --step 0",
                     "localize --recording r --map m --first 9 --last 3"));
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "runtime/geometry/camera.h"
+#include "runtime/types/keypoint.h"
 #include "tests/support/scene.h"
 
 namespace sphc::test {
