@@ -4,7 +4,7 @@
     descriptors.py --spherecloud BIN [--ledger FILE]
 
 Builds maps at eta 33 %, replaces their descriptors by what a code of so many bits or bytes would bring back, and measures
-localization of other frames, and how well a stranger with 40 keypoints of a picture can tell whether the place is in the map
+localization of other frames, and how well a stranger with 64 keypoints of a picture can tell whether the place is in the map
 (share of keypoints that pass the ratio test; AUC against pictures of another place).  Needs numpy and the recordings of
 accuracy.py; exits with 77 (skipped) where they are absent.
 """
@@ -24,7 +24,7 @@ sys.path.insert(0, str(HERE.parent / "support"))
 import read_map  # noqa: E402
 
 DATA = pathlib.Path(os.environ.get("SPHC_DATA", HERE.parent.parent.parent / "shared" / "data"))
-ETA, STRANGER_KEYPOINTS, BYTES = 0.33, 40, 128
+ETA, STRANGER_KEYPOINTS, BYTES = 0.33, 64, 128
 PLACES = {
     "redkitchen": dict(folder="redkitchen/seq-01", map=(0, 597, 3), query=(620, 799, 6)),
     "hololens": dict(folder="hololens", map=(0, 198, 2), query=(1, 199, 8)),

@@ -161,7 +161,7 @@ TEST(ColmapWorld, DownIsWhereNoXAxisPoints) {
     level_from_camera.col(1) = level_from_camera.col(2).cross(level_from_camera.col(0));
     model.images[i].camera_from_model.rotation = (model_from_level * level_from_camera).transpose();
   }
-  EXPECT_GT(downByCameras(model).dot(down), std::cos(1e-3));
+  EXPECT_GT(downByCameras(model).dot(down), std::cos(0.01));  // how they nod leaves a quarter of a degree
   EXPECT_NEAR((uprightAxes(down) * down + Vector3::UnitZ()).norm(), 0, 1e-12);
 }
 
