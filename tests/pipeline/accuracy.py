@@ -110,7 +110,7 @@ class Recording:
         if eta not in self.maps:
             file = self.workdir / ("%s_%d.sphc" % (self.name, round(100 * eta)))
             built = run([self.tool, "build", *self.source("map"), "--map", file, "--eta", eta,
-                         "--key", HERE / "test_key.txt", "--json"])
+                         "--key", HERE / "test_key.txt", "--ledger", str(file) + ".ledger", "--json"])
             self.maps[eta] = (file, built)
         return self.maps[eta]
 

@@ -75,7 +75,7 @@ def check(tool, recording, folder, model, name, source):
     """Builds by `source`, localizes the odd frames; gives what was wrong."""
     map_file = folder / (name + ".sphc")
     built = json.loads(run([tool, "build", "--colmap", model, *source, "--depth", recording / "depth", "--calibration",
-                            recording / "calibration.json", "--map", map_file, "--eta", 0.5, "--key",
+                            recording / "calibration.json", "--map", map_file, "--ledger", folder / (name + ".ledger"), "--eta", 0.5, "--key",
                             HERE / "test_key.txt", "--json"], folder))
     trajectory = folder / (name + ".tum")
     found = json.loads(run([tool, "localize", "--recording", recording, "--first", 1, "--step", 2, "--map", map_file,

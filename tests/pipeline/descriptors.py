@@ -126,7 +126,8 @@ def auc(present, absent):
 def measure(tool, place, other, folder):
     import numpy
     map_file = folder / "map.sphc"
-    run([tool, "build", *source(place, "map"), "--map", map_file, "--eta", ETA, "--key", HERE / "test_key.txt", "--json"])
+    run([tool, "build", *source(place, "map"), "--map", map_file, "--eta", ETA, "--fakes", "gaussian", "--key",
+         HERE / "test_key.txt", "--json"])
     original = map_file.read_bytes()
     descriptors = numpy.frombuffer(read_map.read(original).descriptors, numpy.uint8).reshape(-1, BYTES)
     for name, (bits, code) in CODES.items():

@@ -10,12 +10,13 @@
 #include "host/build/descriptor_index.h"
 #include "runtime/map/crc32.h"
 #include "runtime/map/layout.h"
+#include "runtime/map/packed_direction.h"
 #include "runtime/stages/features/extractor.h"
 
 namespace sphc::host {
 namespace {
 
-PackedDirection packDirection(const Vector3 &direction) {
+PackedDirection packOnce(const Vector3 &direction) {
   const double sum = direction.cwiseAbs().sum();
   double u = direction.x() / sum, v = direction.y() / sum;
   if (direction.z() < 0) {
@@ -78,6 +79,12 @@ MapId unhex(const std::string &text) {
 }
 
 }  // namespace
+
+PackedDirection packDirection(const Vector3 &direction) {
+  // On the edges of the square a direction has two encodings: the second round chooses one.
+  const Direction d = unpackDirection(packOnce(direction));
+  return packOnce(Vector3(d.x, d.y, d.z));
+}
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
   std::vector<PackedDirection> directions;

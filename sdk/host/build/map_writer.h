@@ -1,15 +1,16 @@
 // The only writer of sphere-cloud files (docs/map_format.md), and of the owner's note beside them.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "host/build/place.h"
 #include "host/build/sphere_cloud.h"
 
 namespace sphc::host {
 
-using MapId = std::array<uint8_t, 16>;
+// The nearest direction that a map can hold; one that was unpacked is packed into the same bytes.
+PackedDirection packDirection(const Vector3 &direction);
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id);
 // Whole or not at all: writes beside the target, then renames.  Throws std::runtime_error.

@@ -5,28 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "host/build/descriptor_symmetry.h"
+
 namespace sphc::host {
 namespace {
 
-constexpr size_t kCells = 4, kBins = 8;
 constexpr double kNoise = 0.45, kLength = 512, kScatter = 0.1;
-
-size_t byteAt(size_t row, size_t column, size_t bin) { return (row * kCells + column) * kBins + bin; }
-
-// A descriptor whose byte (row, column, bin) is the byte that `source` names.
-template <typename Source>
-Descriptor permuted(const Descriptor &descriptor, Source source) {
-  Descriptor out;
-  for (size_t row = 0; row < kCells; ++row)
-    for (size_t column = 0; column < kCells; ++column)
-      for (size_t bin = 0; bin < kBins; ++bin)
-        out.bytes[byteAt(row, column, bin)] = descriptor.bytes[source(row, column, bin)];
-  return out;
-}
-
-void shuffle(std::vector<Descriptor> *items, SecretRandom *random) {
-  for (size_t i = items->size(); i > 1; --i) std::swap((*items)[i - 1], (*items)[random->below(i)]);
-}
 
 void appendTurned(const PointModel &model, std::vector<Descriptor> *out) {
   for (const ModelPoint &point : model.points) {
@@ -76,19 +60,6 @@ Vector3 centreOf(const PointModel &model) {
 }  // namespace
 
 // Gradients along the keypoint's own direction stay; across it they change sign.
-Descriptor mirrored(const Descriptor &descriptor) {
-  return permuted(descriptor, [](size_t row, size_t column, size_t bin) {
-    return byteAt(kCells - 1 - row, column, (kBins - bin) % kBins);
-  });
-}
-
-// All gradients turn round, the keypoint's own direction with them: the patch is seen upside down.
-Descriptor negative(const Descriptor &descriptor) {
-  return permuted(descriptor, [](size_t row, size_t column, size_t bin) {
-    return byteAt(kCells - 1 - row, kCells - 1 - column, bin);
-  });
-}
-
 PointModel resizedModel(const PointModel &own, const std::vector<PointModel> &foreign, size_t count,
                         SecretRandom *random) {
   if (own.points.empty()) throw std::runtime_error("the model has no points to resize; record more frames");

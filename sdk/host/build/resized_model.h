@@ -17,9 +17,4 @@ namespace sphc::host {
 PointModel resizedModel(const PointModel &own, const std::vector<PointModel> &foreign, size_t count,
                         SecretRandom *random);
 
-// The descriptor of a patch's mirror image, and of its negative.  Rows, columns and bins are those of the feature
-// stage: 4 x 4 cells of 8 orientations relative to the keypoint's own.
-Descriptor mirrored(const Descriptor &descriptor);
-Descriptor negative(const Descriptor &descriptor);
-
 }  // namespace sphc::host

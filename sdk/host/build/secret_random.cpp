@@ -1,9 +1,8 @@
 #include "host/build/secret_random.h"
 
-#include <fcntl.h>
 #include <sodium.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -30,8 +29,7 @@ SecretKey readSecretKey(const std::string &path) {
   std::ifstream in(path);
   std::string text;
   if (!in || !(in >> text))
-    throw std::runtime_error("key file " + path +
-                             " cannot be read; make one with: spherecloud build --new-key FILE");
+    throw std::runtime_error("key file " + path + " cannot be read; leave --key out, and the ledger draws one");
   SecretKey key;
   size_t bytes = 0;
   const bool parsed =
@@ -42,17 +40,24 @@ SecretKey readSecretKey(const std::string &path) {
   return key;
 }
 
-void writeSecretKey(const std::string &path, const SecretKey &key) {
+std::vector<uint8_t> keyedHash(const SecretKey &key, const std::string &purpose,
+                               const std::vector<uint8_t> &content, size_t count) {
   startSodium();
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0600);
-  if (file < 0)
-    throw std::runtime_error("key file " + path + " cannot be made: " + std::strerror(errno) +
-                             "; an existing key is never replaced");
-  std::string text(2 * key.size() + 1, '\0');
-  sodium_bin2hex(text.data(), text.size(), key.data(), key.size());
-  text.back() = '\n';
-  const bool written = write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (close(file) != 0 || !written) throw std::runtime_error("key file " + path + " could not be written whole");
+  crypto_generichash_state state;
+  std::vector<uint8_t> hash(count);
+  if (crypto_generichash_init(&state, key.data(), key.size(), count) != 0)
+    throw std::runtime_error("a hash of " + std::to_string(count) + " bytes cannot be made");
+  crypto_generichash_update(&state, reinterpret_cast<const uint8_t *>(purpose.c_str()), purpose.size() + 1);
+  crypto_generichash_update(&state, content.data(), content.size());
+  crypto_generichash_final(&state, hash.data(), count);
+  return hash;
+}
+
+SecretKey derivedKey(const SecretKey &key, const std::string &purpose) {
+  SecretKey derived;
+  const std::vector<uint8_t> hash = keyedHash(key, purpose, {}, derived.size());
+  std::copy(hash.begin(), hash.end(), derived.begin());
+  return derived;
 }
 
 SecretRandom::SecretRandom(const SecretKey &key) : key_(key) { startSodium(); }

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sphc::host {
 
@@ -12,8 +14,12 @@ using SecretKey = std::array<uint8_t, 32>;
 SecretKey newSecretKey();
 // 64 hexadecimal digits, from a file that holds nothing else; throws std::runtime_error with cause and cure.
 SecretKey readSecretKey(const std::string &path);
-// Writes it, readable by its owner alone; refuses to replace a file.
-void writeSecretKey(const std::string &path, const SecretKey &key);
+
+// Bytes that say nothing without the key (BLAKE2b, 16 to 64 of them); another purpose gives others.
+std::vector<uint8_t> keyedHash(const SecretKey &key, const std::string &purpose,
+                               const std::vector<uint8_t> &content, size_t count);
+// A key for one purpose.
+SecretKey derivedKey(const SecretKey &key, const std::string &purpose);
 
 // A stream of ChaCha20 (libsodium) under the key; the same key gives the same stream.
 class SecretRandom {
@@ -36,5 +42,11 @@ class SecretRandom {
   double spare_normal_ = 0;
   bool has_spare_ = false;
 };
+
+// Fisher and Yates.
+template <typename T>
+void shuffle(std::vector<T> *items, SecretRandom *random) {
+  for (size_t i = items->size(); i > 1; --i) std::swap((*items)[i - 1], (*items)[random->below(i)]);
+}
 
 }  // namespace sphc::host

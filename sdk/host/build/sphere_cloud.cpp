@@ -1,6 +1,5 @@
 #include "host/build/sphere_cloud.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -8,36 +7,6 @@
 
 namespace sphc::host {
 namespace {
-
-template <typename T>
-void shuffle(std::vector<T> *items, SecretRandom *random) {  // Fisher and Yates
-  for (size_t i = items->size(); i > 1; --i) std::swap((*items)[i - 1], (*items)[random->below(i)]);
-}
-
-class GaussianFakes : public FakeStrategy {
- public:
-  explicit GaussianFakes(double variance) : sigma_(std::sqrt(variance)) {}
-
-  std::string name() const override { return "gaussian"; }
-
-  std::vector<Vector3> fakes(const std::vector<Vector3> &real, size_t count, SecretRandom *random) const override {
-    std::vector<Vector3> fakes;
-    fakes.reserve(count);
-    for (size_t k = 0; k < count; ++k) {
-      const Vector3 &base = real[k % real.size()];
-      Vector3 z;
-      do {
-        const double x = random->normal(), y = random->normal(), w = random->normal();
-        z = base + sigma_ * Vector3(x, y, w);
-      } while (!(z.norm() > 1e-6));
-      fakes.push_back(z.normalized());
-    }
-    return fakes;
-  }
-
- private:
-  double sigma_;
-};
 
 Vector3 meanOf(const std::vector<ModelPoint> &points) {
   Vector3 sum = Vector3::Zero();
@@ -59,12 +28,6 @@ void checkCount(size_t points, double eta) {
 
 }  // namespace
 
-std::unique_ptr<FakeStrategy> gaussianFakes(double variance) {
-  if (!(variance >= 0 && variance <= 100))
-    throw std::runtime_error("sigma^2 is " + std::to_string(variance) + "; it must lie in [0, 100]");
-  return std::make_unique<GaussianFakes>(variance);
-}
-
 SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options,
                             const FakeStrategy &strategy, SecretRandom *random, Vector3 *centre_m) {
   checkModel(model, options);
@@ -82,12 +45,8 @@ SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &o
   shuffle(&points, random);
   const size_t real_count = static_cast<size_t>(options.eta * static_cast<double>(points.size()));
 
-  std::vector<Vector3> real;
-  real.reserve(real_count);
-  for (size_t i = 0; i < real_count; ++i) real.push_back(points[i].direction);
-  // Each discarded point lends its descriptor to a fake direction.
-  const std::vector<Vector3> fakes = strategy.fakes(real, points.size() - real_count, random);
-  for (size_t k = 0; k < fakes.size(); ++k) points[real_count + k].direction = fakes[k];
+  const std::vector<Fate> fates = strategy.fates(points, real_count, random);
+  for (size_t i = 0; i < points.size(); ++i) points[i] = fates[i].shown;
 
   shuffle(&points, random);
   *centre_m = centre;

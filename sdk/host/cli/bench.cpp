@@ -13,6 +13,7 @@
 #include "host/cli/bench_map.h"
 #include "host/cli/bench_match.h"
 #include "host/cli/bench_recording.h"
+#include "host/cli/bench_releases.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -204,7 +205,8 @@ std::vector<Command> benchCommands(CLI::App *root) {
       "  spherecloud bench match --recording DIR --query-first N\n"
       "  spherecloud bench frame --recording DIR --map FILE...\n"
       "  spherecloud bench map --recording DIR --points N... --out DIR\n"
-      "  spherecloud bench recording --recording DIR");
+      "  spherecloud bench recording --recording DIR\n"
+      "  spherecloud bench releases --recording DIR --more-last N --other-first N --other-last N --strangers DIR");
   bench->require_subcommand(1);
   bench->footer("Example:\n  spherecloud bench pose kitchen_eta33_dev.bin\nMore: spherecloud bench pose --help");
   CLI::App *app = bench->add_subcommand("pose");
@@ -218,7 +220,8 @@ std::vector<Command> benchCommands(CLI::App *root) {
           benchMatchCommand(bench),
           benchFrameCommand(bench),
           benchMapCommand(bench),
-          benchRecordingCommand(bench)};
+          benchRecordingCommand(bench),
+          benchReleasesCommand(bench)};
 }
 
 }  // namespace sphc::host

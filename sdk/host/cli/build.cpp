@@ -1,10 +1,12 @@
 // spherecloud build: from a recording with poses to a sphere-cloud file.
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "host/build/ledger.h"
 #include "host/build/map_writer.h"
-#include "host/build/secret_random.h"
-#include "host/build/sphere_cloud.h"
+#include "host/build/release.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/map_file.h"
@@ -15,74 +17,140 @@ namespace {
 
 struct Options {
   PointSource source;
-  std::string map, key, new_key;
-  SphereCloudOptions cloud;
-  double sigma2 = 0.1;
+  std::string map, key, ledger;
+  std::vector<std::string> against;
+  std::optional<double> eta;
+  std::string fakes = "patchwork";
+  double sigma2 = 0.1, patch_deg = 6;
+  bool new_place = false, understood = false;
 };
 
-SecretKey chooseKey(const Options &options) {
-  if (!options.key.empty()) return readSecretKey(options.key);
-  const SecretKey key = newSecretKey();
-  if (!options.new_key.empty()) writeSecretKey(options.new_key, key);
-  return key;
+std::string ledgerPath(const Options &options) {
+  if (!options.ledger.empty()) return options.ledger;
+  return (std::filesystem::path(options.map).parent_path() / "spherecloud.ledger").string();
 }
 
-MapId drawMapId(SecretRandom *random) {
-  MapId id;
-  for (uint8_t &byte : id) byte = static_cast<uint8_t>(random->below(256));
-  return id;
+Ledger openLedger(const Options &options) {
+  if (options.key.empty()) return Ledger::openOrMake(ledgerPath(options), nullptr);
+  const SecretKey key = readSecretKey(options.key);
+  return Ledger::openOrMake(ledgerPath(options), &key);
+}
+
+std::vector<Place> placesOfOthers(const Options &options) {
+  std::vector<Place> places;
+  for (const std::string &path : options.against)
+    for (Place &place : Ledger::openToRead(path).places()) places.push_back(std::move(place));
+  return places;
+}
+
+ReleaseRequest requestOf(const Options &options, const Ledger &ledger, const FakeStrategy &strategy) {
+  ReleaseRequest request;
+  request.own = ledger.places();
+  request.foreign = placesOfOthers(options);
+  request.key = ledger.key();
+  request.strategy = &strategy;
+  request.eta = options.eta;
+  request.new_place = options.new_place;
+  request.understood = options.understood;
+  request.time_s =
+      std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+  return request;
 }
 
 struct Outcome {
   ImportedPoints import;
-  size_t points = 0, bytes = 0;
-  MapId map_id = {};
-  std::string note;
+  Place place;
+  ReleaseSummary release;
+  size_t bytes = 0;
+  std::string note, ledger;
   double seconds = 0;
 };
 
 Outcome build(const Options &options) {
   const auto start = std::chrono::steady_clock::now();
   Outcome outcome;
-  // The key first: a key that cannot be read or written must not cost minutes of mapping.
-  SecretRandom random(chooseKey(options));
+  // What can be refused at once must not cost minutes of mapping, or leave a ledger.
+  checkPointSource(options.source);
+  const auto strategy =
+      options.fakes == "gaussian" ? gaussianFakes(options.sigma2) : patchworkFakes(options.patch_deg);
+  Ledger ledger = openLedger(options);
+  const ReleaseRequest request = requestOf(options, ledger, *strategy);
   outcome.import = importPoints(options.source);
-  const auto strategy = gaussianFakes(options.sigma2);
-  OwnerNote note;
-  const SphereCloud cloud =
-      makeSphereCloud(outcome.import.model, options.cloud, *strategy, &random, &note.centre_in_world_m);
-  note.map_id = drawMapId(&random);  // from the key too: the same recording, options and key give the same bytes
-  note.eta = options.cloud.eta;
-  note.strategy = strategy->name();
-  const auto bytes = encodeMap(cloud, note.map_id);
+  NewRelease made = makeRelease(std::move(outcome.import.model), request);
+  // The ledger first: what it does not know was never published.
+  ledger.record(made.place);
   outcome.note = options.map + ".owner.json";
-  writeFile(options.map, bytes);
-  writeOwnerNote(outcome.note, note);
-  outcome.map_id = note.map_id;
-  outcome.points = cloud.points.size();
-  outcome.bytes = bytes.size();
+  writeFile(options.map, made.file);
+  writeOwnerNote(outcome.note,
+                 {made.place.releases.back().map_id, made.place.centre_m, made.place.eta, made.place.strategy});
+  outcome.place = std::move(made.place);
+  outcome.release = made.summary;
+  outcome.ledger = ledgerPath(options);
+  outcome.bytes = made.file.size();
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
+}
+
+std::string releaseText(const Outcome &outcome) {
+  const ReleaseSummary &release = outcome.release;
+  const auto count = [](size_t n, const char *what) { return std::to_string(n) + what; };
+  std::string text = "Place " + std::to_string(outcome.place.number) + " of the ledger, release " +
+                     std::to_string(outcome.place.releases.size());
+  if (release.is_same) text += ", as it was";
+  text += ": " + count(release.added, " new points");
+  if (release.is_update) text += ", " + count(release.known, " known, ") + count(release.ambiguous, " doubtful");
+  if (release.elsewhere) text += ", " + count(release.elsewhere, " published in other maps and left out");
+  if (release.held_back) text += ", " + count(release.held_back, " held back, too few to hide among each other");
+  return text + "; " + count(release.twins, " near-duplicates merged.");
 }
 
 void tell(const Options &options, const Outcome &outcome, const Console &console) {
   for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
   console.say(outcome.import.told + " " + fixed(outcome.seconds, 1) + " s.");
-  console.say("Wrote " + options.map + ": " + std::to_string(outcome.points) + " directions, " +
-              fixed(100 * options.cloud.eta, 0) + " % of them real, " +
+  console.say(releaseText(outcome));
+  console.say("Wrote " + options.map + ": " + std::to_string(outcome.place.points.size()) + " directions, " +
+              fixed(100 * outcome.place.eta, 0) + " % of them real, " +
               humanBytes(static_cast<double>(outcome.bytes)) + ".");
   console.say("Wrote " + outcome.note + ": where the centre is. Keep it, never ship it with the map.");
-  if (!options.new_key.empty())
-    console.say("Wrote " + options.new_key + ": the secret key. Keep it, never ship it.");
+  console.say("Wrote " + outcome.ledger +
+              ": the secret key and all that was released. Keep it and back it up, never ship it.");
+}
+
+nlohmann::ordered_json releaseJson(const Outcome &outcome) {
+  const ReleaseSummary &release = outcome.release;
+  const Similarity &place_from_world = release.place_from_world;
+  double q_wxyz[4];
+  quaternionFromRotation(place_from_world.rotation, q_wxyz);
+  const Vector3 &t = place_from_world.translation_m;
+  return {{"place", outcome.place.number},
+          {"release", outcome.place.releases.size()},
+          {"update", release.is_update},
+          {"same_as_before", release.is_same},
+          {"near_duplicates", release.twins},
+          {"known", release.known},
+          {"doubtful", release.ambiguous},
+          {"elsewhere", release.elsewhere},
+          {"held_back", release.held_back},
+          {"added", release.added},
+          {"place_from_world",
+           {{"scale", place_from_world.scale},
+            {"q_wxyz", {q_wxyz[0], q_wxyz[1], q_wxyz[2], q_wxyz[3]}},
+            {"t_m", {t.x(), t.y(), t.z()}}}}};
 }
 
 int run(const Options &options, const Console &console) {
   const Outcome outcome = build(options);
+  const MapId &map_id = outcome.place.releases.back().map_id;
+  if (options.understood) console.warn("note: --i-understand: points that other maps hold too are now exposed");
   tell(options, outcome, console);
-  nlohmann::ordered_json json = {
-      {"map", options.map},         {"map_id", hexText(outcome.map_id.data(), outcome.map_id.size())},
-      {"owner_note", outcome.note}, {"points", outcome.points},
-      {"eta", options.cloud.eta},   {"bytes", outcome.bytes}};
+  nlohmann::ordered_json json = {{"map", options.map},
+                                 {"map_id", hexText(map_id.data(), map_id.size())},
+                                 {"owner_note", outcome.note},
+                                 {"ledger", outcome.ledger},
+                                 {"points", outcome.place.points.size()},
+                                 {"eta", outcome.place.eta},
+                                 {"bytes", outcome.bytes},
+                                 {"release", releaseJson(outcome)}};
   json.update(outcome.import.facts);
   json["seconds"] = outcome.seconds;
   console.give(json);
@@ -91,34 +159,56 @@ int run(const Options &options, const Console &console) {
 
 const char kHelp[] =
     "Makes a sphere cloud, the map that a device carries, from frames with known poses: finds points seen in\n"
-    "several frames, keeps of each only its direction from one centre, turns most of them into fakes, shuffles.";
+    "several frames, keeps of each only its direction from one centre, turns most of them into fakes, shuffles.\n"
+    "A place that the ledger knows is updated: what was published of it stays as it is, new points are added.";
 const char kExample[] =
     "Example:\n"
     "  spherecloud build --recording walk --last 99 --map room.sphc\n"
     "  spherecloud build --colmap sparse/0 --images images --depth depth --calibration kinect.json --map "
     "room.sphc\n"
-    "  spherecloud build --recording kitchen --last 597 --map kitchen.sphc --eta 0.25 --new-key kitchen.key\n"
+    "  spherecloud build --recording kitchen --last 597 --map kitchen.sphc --eta 0.25\n"
     "What comes out:\n"
     "  room.sphc               the map: ship it\n"
     "  room.sphc.owner.json    where the centre is in the recording's world: keep it, never ship it\n"
-    "Without --key or --new-key the randomness is forgotten: nobody can make the same map again, you neither.";
+    "  spherecloud.ledger      the secret key, and what was ever released: keep it, back it up, never ship it\n"
+    "Never publish two independent maps of one place: docs/release.md.";
+
+void addReleaseOptions(CLI::App *app, Options *options) {
+  const char *group = "Release";
+  app->add_option("--ledger", options->ledger, "What was released [spherecloud.ledger in the map's folder]")
+      ->type_name("FILE")
+      ->group(group);
+  app->add_option("--key", options->key, "Secret key for a new ledger (64 hexadecimal digits) [drawn]")
+      ->type_name("FILE")
+      ->group(group);
+  app->add_option("--against", options->against, "Ledgers of others whose places must not be published again")
+      ->type_name("FILE")
+      ->group(group);
+  app->add_flag("--new-place", options->new_place, "No update: a new map, of what was never published")
+      ->group(group);
+  app->add_flag("--i-understand", options->understood, "Publish known points anew, which exposes them")
+      ->group(group);
+}
 
 void addOptions(CLI::App *app, Options *options) {
   addPointSourceOptions(app, &options->source);
   app->add_option("-m,--map", options->map, "Map file to write")->required()->type_name("FILE");
-  app->add_option("--eta", options->cloud.eta, "Share of points that keep their true direction, (0, 1]")
-      ->capture_default_str()
+  app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1] [1/3]")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("X");
-  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes fake directions")
+  app->add_option("--fakes", options->fakes, "How fakes are made; gaussian is the paper's way")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"patchwork", "gaussian"}))
+      ->type_name("NAME");
+  app->add_option("--patch-deg", options->patch_deg, "Width of a patch of patchwork, degrees")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 60.0))
+      ->type_name("DEG");
+  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes gaussian fakes")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 100.0))
       ->type_name("X");
-  auto *key =
-      app->add_option("--key", options->key, "Secret key to use (64 hexadecimal digits)")->type_name("FILE");
-  app->add_option("--new-key", options->new_key, "Make a secret key, use it and write it here")
-      ->type_name("FILE")
-      ->excludes(key);
+  addReleaseOptions(app, options);
 }
 
 }  // namespace

@@ -67,11 +67,6 @@ std::optional<Vector3> gravityFrom(const std::string &text) {
 
 ImportedPoints fromColmap(const PointSource &source) {
   ColmapImportOptions options = source.colmap;
-  if (options.images.empty() && options.database.empty())
-    throw UsageError("--colmap wants --images, to describe them for the device, or --database");
-  if (!options.metres_per_unit && options.depth.empty())
-    throw UsageError(
-        "a COLMAP model has no scale: give --scale, metres a unit, or --depth, a folder of depth images");
   options.descriptors = options.images.empty() ? ColmapDescriptors::kDatabase : ColmapDescriptors::kAgain;
   options.calibration = source.recording.calibration;
   options.gravity = gravityFrom(source.gravity);
@@ -131,9 +126,20 @@ void addPointSourceOptions(CLI::App *app, PointSource *source) {
   addColmapOptions(app, source);
 }
 
-ImportedPoints importPoints(const PointSource &source) {
-  if (source.recording.folder.empty() == source.colmap.model.empty())
+void checkPointSource(const PointSource &source) {
+  const ColmapImportOptions &colmap = source.colmap;
+  if (source.recording.folder.empty() == colmap.model.empty())
     throw UsageError("--recording or --colmap is required, one of the two");
+  gravityFrom(source.gravity);
+  if (colmap.model.empty()) return;
+  if (colmap.images.empty() && colmap.database.empty())
+    throw UsageError("--colmap wants --images, to describe them for the device, or --database");
+  if (!colmap.metres_per_unit && colmap.depth.empty())
+    throw UsageError(
+        "a COLMAP model has no scale: give --scale, metres a unit, or --depth, a folder of depth images");
+}
+
+ImportedPoints importPoints(const PointSource &source) {
   return source.colmap.model.empty() ? fromRecording(source) : fromColmap(source);
 }
 

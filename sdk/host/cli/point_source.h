@@ -23,7 +23,9 @@ struct ImportedPoints {
   std::vector<std::string> warnings;  // frames that took no part
   nlohmann::ordered_json facts;       // for --json
 };
-// Throws UsageError, or std::runtime_error with cause and cure.
+// Throws UsageError for options that make no sense together.
+void checkPointSource(const PointSource &source);
+// Of a source that passed the check.  Throws std::runtime_error with cause and cure.
 ImportedPoints importPoints(const PointSource &source);
 
 }  // namespace sphc::host

@@ -69,7 +69,7 @@ PointModel importColmap(const ColmapImportOptions &options, const Progress &prog
                                               ? describeAgain(model, options, progress)
                                               : describeFromDatabase(model, options.database);
   summary->points_described = static_cast<uint32_t>(descriptors.size());
-  std::vector<ModelPoint> points;
+  PointModel points;
   for (const auto &[id, seen] : descriptors) {
     const ColmapPoint &point = model.points.at(id);
     if (point.track.size() < options.min_observations || !isNear(model, point, summary->metres_per_unit)) continue;
@@ -78,9 +78,9 @@ PointModel importColmap(const ColmapImportOptions &options, const Progress &prog
     kept.descriptor = representative(seen);
     kept.sigma_m = sigmaOf(model, point, summary->metres_per_unit);
     kept.observations = static_cast<uint32_t>(point.track.size());
-    points.push_back(kept);
+    points.points.push_back(kept);
   }
-  PointModel result = {withoutTwins(std::move(points))};
+  PointModel result = withoutTwins(std::move(points), kModelTwins);
   summary->points_kept = static_cast<uint32_t>(result.points.size());
   return result;
 }

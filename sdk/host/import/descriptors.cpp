@@ -1,18 +1,10 @@
 #include "host/import/descriptors.h"
 
-#include <cmath>
 #include <limits>
 
-namespace sphc::host {
+#include "host/import/twins.h"
 
-double descriptorDistance(const Descriptor &a, const Descriptor &b) {
-  int sum = 0;
-  for (size_t i = 0; i < kDescriptorBytes; ++i) {
-    const int d = a.bytes[i] - b.bytes[i];
-    sum += d * d;
-  }
-  return std::sqrt(static_cast<double>(sum));
-}
+namespace sphc::host {
 
 size_t medoidOf(const std::vector<const Descriptor *> &descriptors) {
   size_t best = 0;

@@ -1,4 +1,4 @@
-// How alike descriptors are.
+// One descriptor for all that a point was seen with.
 #pragma once
 #include <vector>
 
@@ -6,7 +6,6 @@
 
 namespace sphc::host {
 
-double descriptorDistance(const Descriptor &a, const Descriptor &b);  // L2 of bytes
 // Index of the one nearest to all others; there is at least one.
 size_t medoidOf(const std::vector<const Descriptor *> &descriptors);
 

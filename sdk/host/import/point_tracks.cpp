@@ -143,7 +143,7 @@ PointModel PointTracks::finish(size_t *dropped) const {
     point.observations = static_cast<uint32_t>(agreeing);
     points.push_back(point);
   }
-  PointModel model = {withoutTwins(std::move(points))};
+  PointModel model = withoutTwins({std::move(points)}, kModelTwins);
   *dropped = tracks_.size() - model.points.size();
   return model;
 }

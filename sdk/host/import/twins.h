@@ -1,12 +1,18 @@
-// Near-duplicate points, which would give each other away.
+// Twins: points so near to each other and so alike that they are one, seen twice.
 #pragma once
-#include <vector>
-
 #include "host/import/point_model.h"
 
 namespace sphc::host {
 
-// Keeps of each group of twins (within 1.5 cm, and alike) the one seen most often.
-std::vector<ModelPoint> withoutTwins(std::vector<ModelPoint> points);
+double descriptorDistance(const Descriptor &a, const Descriptor &b);  // L2 of bytes
+
+struct TwinRule {
+  double radius_m;
+  double descriptor_distance;
+};
+constexpr TwinRule kModelTwins = {0.015, 220};  // of an imported model
+
+// Keeps of each group of twins the one that most frames saw.  Most seen first in what comes out.
+PointModel withoutTwins(PointModel model, const TwinRule &rule);
 
 }  // namespace sphc::host

@@ -89,21 +89,5 @@ TEST(ResizedModel, NothingCannotBeResized) {
   EXPECT_THROW(resizedModel({}, {}, 10, &random), std::runtime_error);
 }
 
-// The descriptor of a single gradient in one cell.
-Descriptor single(size_t row, size_t column, size_t bin) {
-  Descriptor d = {};
-  d.bytes[(row * 4 + column) * 8 + bin] = 255;
-  return d;
-}
-
-TEST(ResizedModel, AMirrorTurnsRowsAndAnglesRound) {
-  EXPECT_EQ(bytesOf(mirrored(single(0, 1, 1))), bytesOf(single(3, 1, 7)));
-  EXPECT_EQ(bytesOf(mirrored(single(2, 3, 0))), bytesOf(single(1, 3, 0)));
-}
-
-TEST(ResizedModel, ANegativeIsSeenUpsideDown) {
-  EXPECT_EQ(bytesOf(negative(single(0, 1, 5))), bytesOf(single(3, 2, 5)));
-}
-
 }  // namespace
 }  // namespace sphc::host

@@ -87,45 +87,6 @@ TEST(SphereCloud, AllDirectionsAreUnit) {
     EXPECT_NEAR(point.direction.norm(), 1, 1e-12);
 }
 
-// Algorithm 1: a fake is a real direction plus Gaussian noise of variance sigma^2 on each coordinate, projected.
-TEST(SphereCloud, FakesSpreadAroundRealDirectionsWithSigma) {
-  SecretRandom random({5});
-  const Vector3 base(0, 0.6, 0.8);
-  constexpr size_t kFakes = 40000;
-  double expected_mean = 0, expected_square = 0;
-  Random reference(8);
-  for (size_t i = 0; i < kFakes; ++i) {
-    const double dot = (base + std::sqrt(0.1) * test::normalVector(&reference)).normalized().dot(base);
-    expected_mean += dot / kFakes, expected_square += dot * dot / kFakes;
-  }
-  double mean = 0, square = 0;
-  const std::vector<Vector3> fakes = gaussianFakes(0.1)->fakes({base}, kFakes, &random);
-  ASSERT_EQ(fakes.size(), kFakes);
-  Vector3 sum = Vector3::Zero();
-  for (const Vector3 &fake : fakes) {
-    const double dot = fake.dot(base);
-    mean += dot / kFakes, square += dot * dot / kFakes;
-    sum += fake / kFakes;
-  }
-  EXPECT_NEAR(mean, expected_mean, 0.003);
-  EXPECT_NEAR(square, expected_square, 0.003);
-  EXPECT_LT((sum.normalized() - base).norm(), 0.01);  // no side is preferred
-  // for small noise the tangential variance is sigma^2 itself
-  double tangential = 0;
-  for (const Vector3 &fake : gaussianFakes(1e-4)->fakes({base}, kFakes, &random))
-    tangential += (fake - base).squaredNorm() / 2 / kFakes;
-  EXPECT_NEAR(tangential, 1e-4, 3e-6);
-}
-
-TEST(SphereCloud, EveryRealDirectionBearsAsManyFakes) {
-  SecretRandom random({6});
-  const std::vector<Vector3> real = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
-  int count[3] = {};
-  for (const Vector3 &fake : gaussianFakes(1e-6)->fakes(real, 300, &random))
-    for (int k = 0; k < 3; ++k) count[k] += fake.dot(real[static_cast<size_t>(k)]) > 0.9;
-  for (int c : count) EXPECT_EQ(c, 100);
-}
-
 // Which points keep their direction must not hang on where they stood in the model, nor show in the map's order.
 TEST(SphereCloud, OrderTellsNothing) {
   const PointModel model = makeModel(2000);
@@ -169,8 +130,6 @@ TEST(SphereCloud, BadRequestsAreExplained) {
   for (double eta : {0.0, -0.1, 1.01, std::nan("")}) EXPECT_THROW(build(model, eta), std::runtime_error) << eta;
   EXPECT_THROW(build(makeModel(15), 1), std::runtime_error);
   EXPECT_THROW(build(model, 0.001), std::runtime_error);  // not one real direction
-  EXPECT_THROW(gaussianFakes(-1), std::runtime_error);
-  EXPECT_THROW(gaussianFakes(std::nan("")), std::runtime_error);
   // Nearly all points at one place, so that too few have a direction.
   PointModel heap = model;
   for (ModelPoint &point : heap.points) point.position_m = Vector3(1, 1, 1);

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "build --map m --colmap c", "build --map m --colmap c --images i",
                     "build --map m --colmap c --images i --scale 1 --gravity down",
                     "advise --recording r --folds 1", "build --recording r --map m --eta 1.5",
-                    "build --recording r --map m --key a --new-key b", "localize --recording r --map m --step 0",
+                    "build --recording r --map m --against", "localize --recording r --map m --step 0",
                     "localize --recording r --map m --first 9 --last 3"));
 
 TEST(CommandLine, UsageNamesTheSubcommand) {
@@ -275,6 +275,23 @@ void expectCaptures(const TempFolder &folder, const std::string &walk, const std
   EXPECT_FALSE(nlohmann::json::parse(doctor.out)["wrong"].get<bool>());
 }
 
+// What the ledger beside the map allows, and what not.
+void expectDiscipline(const TempFolder &folder, const std::string &build, const std::string &map) {
+  const std::string again = folder / "again.sphc", ledger = folder / "spherecloud.ledger";
+  const Answer same = runCommand(build + "--json -m " + again);
+  ASSERT_EQ(same.exit_code, kExitDone) << same.err;
+  EXPECT_TRUE(nlohmann::json::parse(same.out)["release"]["same_as_before"].get<bool>());
+  EXPECT_EQ(std::system(("cmp -s " + map + " " + again).c_str()), 0) << "one recording, other bytes";
+
+  const Answer other_eta = runCommand(build + "--eta 0.5 -m " + again);
+  EXPECT_EQ(other_eta.exit_code, kExitFailure);
+  EXPECT_THAT(other_eta.err, HasSubstr("--i-understand"));
+  const std::string elsewhere = build + "-m " + again + " --ledger " + (folder / "other") + " --against " + ledger;
+  EXPECT_THAT(runCommand(elsewhere).err, HasSubstr("released by another ledger"));
+  EXPECT_THAT(runCommand(elsewhere + " --i-understand").err, HasSubstr("now exposed"));
+  EXPECT_NE(std::system(("cmp -s " + map + " " + again).c_str()), 0);
+}
+
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const TempFolder folder;
@@ -284,14 +301,11 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   EXPECT_EQ(nlohmann::json::parse(recorded.out)["frames"], 6);
   EXPECT_EQ(runCommand("simulate --frames 6 --out " + walk).exit_code, kExitFailure);  // nothing is overwritten
 
-  const Answer built = runCommand("build -r " + walk + " -m " + map + " --step 2 --new-key " + (folder / "key"));
+  const std::string build = "build -r " + walk + " --step 2 ";
+  const Answer built = runCommand(build + "-m " + map);
   ASSERT_EQ(built.exit_code, kExitDone) << built.err;
   EXPECT_THAT(built.out, HasSubstr("never ship it"));
-  EXPECT_EQ(
-      runCommand("build -r " + walk + " -m " + (folder / "again.sphc") + " --step 2 --key " + (folder / "key"))
-          .exit_code,
-      kExitDone);
-  EXPECT_EQ(std::system(("cmp -s " + map + " " + (folder / "again.sphc")).c_str()), 0) << "same key, other bytes";
+  expectDiscipline(folder, build, map);
 
   const std::string localize = "localize -r " + walk + " -m " + map + " --first 1 --step 2 --json";
   const Answer found =

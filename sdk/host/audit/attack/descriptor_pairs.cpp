@@ -1,0 +1,55 @@
+#include "host/audit/attack/descriptor_pairs.h"
+
+#include <cstring>
+#include <string>
+#include <unordered_map>
+
+namespace sphc::host {
+namespace {
+
+int32_t distance2(const Descriptor &a, const Descriptor &b) {
+  int32_t sum = 0;
+  for (size_t i = 0; i < kDescriptorBytes; ++i) {
+    const int32_t d = a.bytes[i] - b.bytes[i];
+    sum += d * d;
+  }
+  return sum;
+}
+
+std::string bytesOf(const Descriptor &d) { return {reinterpret_cast<const char *>(d.bytes), kDescriptorBytes}; }
+
+// False when no descriptor stands out.
+bool nearest(const Descriptor &query, const std::vector<Descriptor> &table, double ratio, uint32_t *index) {
+  int32_t best = INT32_MAX, second = INT32_MAX;
+  for (uint32_t i = 0; i < table.size(); ++i) {
+    const int32_t d = distance2(query, table[i]);
+    if (d < best) {
+      second = best;
+      best = d;
+      *index = i;
+    } else if (d < second) {
+      second = d;
+    }
+  }
+  return best < ratio * ratio * second;
+}
+
+}  // namespace
+
+std::vector<EntryPair> pairEntries(const std::vector<Descriptor> &a, const std::vector<Descriptor> &b,
+                                   double ratio) {
+  std::unordered_map<std::string, uint32_t> equal;
+  for (uint32_t i = 0; i < b.size(); ++i) equal.emplace(bytesOf(b[i]), i);
+  std::vector<EntryPair> pairs;
+  for (uint32_t i = 0; i < a.size(); ++i) {
+    const auto same = equal.find(bytesOf(a[i]));
+    uint32_t partner = 0;
+    if (same != equal.end())
+      pairs.push_back({i, same->second});
+    else if (nearest(a[i], b, ratio, &partner))
+      pairs.push_back({i, partner});
+  }
+  return pairs;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,13 @@
+#include "host/audit/attack/presence.h"
+
+#include "host/audit/attack/descriptor_pairs.h"
+
+namespace sphc::host {
+
+double presenceScore(const Published &map, const std::vector<Descriptor> &crop, double ratio) {
+  if (crop.empty()) return 0;
+  const size_t found = pairEntries(crop, map.descriptors, ratio).size();
+  return static_cast<double>(found) / static_cast<double>(crop.size());
+}
+
+}  // namespace sphc::host

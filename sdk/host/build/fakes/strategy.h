@@ -1,0 +1,44 @@
+// Which points of a model keep their direction, and where the others pretend to be.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/build/secret_random.h"
+#include "runtime/geometry/rotation.h"
+#include "runtime/types/keypoint.h"
+
+namespace sphc::host {
+
+// All that leaves the owner's hands: no field in which a position, a colour or a count could hide.
+struct SpherePoint {
+  Vector3 direction;  // unit, from the centre
+  Descriptor descriptor;
+};
+
+// What becomes of one point.
+struct Fate {
+  bool real;
+  SpherePoint shown;  // what the map says; the point itself when real
+};
+
+class FakeStrategy {
+ public:
+  virtual ~FakeStrategy() = default;
+  virtual std::string name() const = 0;
+  // A fate a point, in order.  About `real_count` of them are real, and at least one.  `points` come in an order
+  // that says nothing.
+  virtual std::vector<Fate> fates(const std::vector<SpherePoint> &points, size_t real_count,
+                                  SecretRandom *random) const = 0;
+};
+
+// The paper's: Gaussian noise on the coordinates of the real directions in turn, projected back to the sphere.
+std::unique_ptr<FakeStrategy> gaussianFakes(double variance = 0.1);
+
+// The default (docs/fakes.md): the sphere is cut into patches about `patch_deg` wide.  Those that stay are real,
+// point for point; each of the others is laid on one of them in mirror image, descriptors too, turned at random. So
+// a fake is among the company it had: nothing near it tells it from a real point, and no camera sees it from
+// anywhere.
+std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 6);
+
+}  // namespace sphc::host

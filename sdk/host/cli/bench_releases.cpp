@@ -1,0 +1,119 @@
+#include "host/cli/bench_releases.h"
+
+#include <filesystem>
+#include <memory>
+
+#include "host/audit/score/release_audit.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/progress.h"
+#include "host/cli/recording.h"
+#include "host/import/rgbd_import.h"
+#include "host/report/table.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  RecordingOptions recording, other, strangers;
+  uint32_t more_last = 0, frames = 25;
+  double eta = 1.0 / 3;
+  std::string name, ledger;
+};
+
+PointModel importModel(const RecordingOptions &recording, const char *what) {
+  const Replay replay = openRecording(recording);
+  ProgressBar bar(what);
+  RgbdImportSummary summary;
+  return importRgbd(
+      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+}
+
+// At most `count` frames, evenly chosen, each by itself.
+std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what) {
+  const uint32_t available = sphc_replay_frame_count(openRecording(recording).get());
+  std::vector<PointModel> models;
+  ProgressBar bar(what);
+  for (uint32_t k = 0; k < count && k < available; ++k) {
+    RecordingOptions one = recording;
+    one.first += k * std::max(1u, available / count) * recording.step;
+    one.last = one.first + recording.step - 1;
+    const Replay replay = openRecording(one);
+    RgbdImportSummary summary;
+    models.push_back(importRgbd(replay.get(), {}, {}, &summary));
+    bar.show(k + 1, count);
+  }
+  return models;
+}
+
+void tell(const std::vector<PrivacyRow> &rows, const Console &console) {
+  std::vector<Row> table;
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const PrivacyRow &row : rows) {
+    table.push_back({row.attack + ", " + row.variant, fixed(row.value, 4), row.metric});
+    json.push_back(
+        {{"attack", row.attack}, {"variant", row.variant}, {"metric", row.metric}, {"value", row.value}});
+  }
+  console.say(tableText(table));
+  console.give({{"rows", json}});
+}
+
+int run(Options options, const Console &console) {
+  options.other.folder = options.recording.folder;
+  options.other.calibration = options.recording.calibration;
+  options.other.step = options.recording.step;
+  RecordingOptions more = options.recording;
+  more.last = options.more_last;
+  ReleaseAuditInput input;
+  input.map =
+      options.name.empty() ? std::filesystem::path(options.recording.folder).filename().string() : options.name;
+  input.first = importModel(options.recording, "mapping   ");
+  input.more = importModel(more, "10 % more ");
+  input.other = importModel(options.other, "others    ");
+  input.queries = importFrames(options.other, options.frames, "querying  ");
+  input.strangers = importFrames(options.strangers, options.frames, "strangers ");
+  const std::vector<PrivacyRow> rows = auditReleases(input, *gaussianFakes(), options.eta);
+  tell(rows, console);
+  if (!options.ledger.empty()) updatePrivacyLedger(options.ledger, rows);
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Publishes one place several times, carelessly and through the release discipline, runs the attacks on\n"
+    "several releases on both, and scores them by what the owner knows.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud bench releases --recording kitchen --last 537 --step 3 --more-last 597 \\\n"
+    "              --other-first 620 --other-last 799 --strangers corridor\n"
+    "More: docs/release.md";
+
+}  // namespace
+
+Command benchReleasesCommand(CLI::App *bench) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = bench->add_subcommand("releases");
+  app->description("Attacks on several releases of one place.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addRecordingOptions(app, &options->recording);
+  app->add_option("--more-last", options->more_last, "Last frame of the update")->required()->type_name("N");
+  app->add_option("--other-first", options->other.first, "First of the other frames of the place")
+      ->required()
+      ->type_name("N");
+  app->add_option("--other-last", options->other.last, "Last of them")->required()->type_name("N");
+  app->add_option("--strangers", options->strangers.folder, "Recording of another place")
+      ->required()
+      ->type_name("PATH");
+  app->add_option("--strangers-calibration", options->strangers.calibration, "Its calibration")->type_name("FILE");
+  app->add_option("--frames", options->frames, "Single frames of each that attackers have")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  app->add_option("--eta", options->eta, "Share of points that stay real")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1.0))
+      ->type_name("X");
+  app->add_option("--name", options->name, "Of the map, in the ledger [the recording's]")->type_name("NAME");
+  app->add_option("--ledger", options->ledger, "Update these attacks' rows here")->type_name("CSV");
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

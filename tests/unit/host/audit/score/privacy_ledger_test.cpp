@@ -1,0 +1,28 @@
+#include "host/audit/score/privacy_ledger.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace sphc::host {
+namespace {
+
+TEST(PrivacyLedger, ReplacesItsOwnAttacksAndKeepsTheOthers) {
+  const std::string path = testing::TempDir() + "sphc_privacy_" + std::to_string(getpid()) + ".csv";
+  updatePrivacyLedger(path, {{"density", "room", "none", 1, "ulc", "median_cm", 1.5}});
+  updatePrivacyLedger(path, {{"order", "room", "gaussian", 0.333, "", "auc", 0.9}});
+  updatePrivacyLedger(path, {{"order", "room", "gaussian", 0.333, "", "auc", 0.5}});
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_EQ(text.str(),
+            "attack,map,strategy,eta,variant,metric,value\ndensity,room,none,1.00,ulc,median_cm,1.5\n"
+            "order,room,gaussian,0.33,,auc,0.5\n");
+  unlink(path.c_str());
+  EXPECT_THROW(updatePrivacyLedger("/nonexistent-folder/x.csv", {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sphc::host
