@@ -23,6 +23,7 @@ void addTruePoints(const PoseQuery &eta100, DepthSource source, PoseCase *pose_c
     if (!isDepth(depthOf(eta100.rows[i], source))) continue;
     pose_case->true_pixels_px.push_back(eta100.rows[i].pixel_px);
     pose_case->true_points_map_m.push_back(eta100.points_map_m[i]);
+    pose_case->true_point_ids.push_back(eta100.rows[i].point_id);
   }
 }
 

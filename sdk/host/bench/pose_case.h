@@ -39,6 +39,7 @@ struct PoseCase {
   // For peers that see the map's points: of the rows with depth at eta 100.  Empty when not known.
   std::vector<Vector2> true_pixels_px;
   std::vector<Vector3> true_points_map_m;
+  std::vector<uint32_t> true_point_ids;
 
   double focalPx() const { return 0.5 * (camera.fx_px + camera.fy_px); }
 };

@@ -25,7 +25,8 @@ CREATE TABLE release (place INTEGER NOT NULL, number INTEGER NOT NULL, map_id BL
                       points INTEGER NOT NULL, time_s INTEGER NOT NULL, PRIMARY KEY (place, number));
 CREATE TABLE point (place INTEGER NOT NULL, number INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,
                     sigma REAL NOT NULL, observations INTEGER NOT NULL, descriptor BLOB NOT NULL, u INTEGER NOT NULL,
-                    v INTEGER NOT NULL, shown BLOB NOT NULL, real INTEGER NOT NULL, release INTEGER NOT NULL, PRIMARY KEY (place, number));
+                    v INTEGER NOT NULL, shown BLOB NOT NULL, real INTEGER NOT NULL, release INTEGER NOT NULL,
+                    PRIMARY KEY (place, number));
 )";
 
 [[noreturn]] void refuse(const std::string &path, const std::string &why) {

@@ -9,6 +9,7 @@ enum ExitCode {
   kExitFailure = 1,       // something could not be read, written or done; the message has cause and cure
   kExitUsage = 2,         // the command line makes no sense
   kExitNotLocalized = 3,  // localize ran through, but not one frame was localized
+  kExitAuditFailed = 4,   // audit ran through, and a limit is broken
 };
 
 // Options that parse but contradict each other.

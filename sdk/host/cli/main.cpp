@@ -25,7 +25,8 @@ const char kAbout[] =
     "Then open report/report.html.  Each subcommand explains itself: spherecloud build --help";
 
 const char kExitCodes[] =
-    "Exit status: 0 done, 1 failure (the message has cause and cure), 2 wrong use, 3 not one frame localized.";
+    "Exit status: 0 done, 1 failure (the message has cause and cure), 2 wrong use, 3 not one frame localized,\n"
+    "4 a limit of the audit is broken.";
 
 // The list of subcommands shows the first line of each; the rest is for its own help.
 class Formatter : public CLI::Formatter {
@@ -64,7 +65,8 @@ int run(int argc, char **argv) {
   std::vector<Command> commands = {simulateCommand(&root), buildCommand(&root),       localizeCommand(&root),
                                    inspectCommand(&root),  infoCommand(&root),        convertCommand(&root),
                                    recordCommand(&root),   liveCommand(&root),        devicesCommand(&root),
-                                   doctorCommand(&root),   calibrationCommand(&root), adviseCommand(&root)};
+                                   doctorCommand(&root),   calibrationCommand(&root), compareCommand(&root),
+                                   auditCommand(&root),    adviseCommand(&root)};
   for (Command &command : benchCommands(&root)) commands.push_back(std::move(command));
   for (Command &command : commands) {
     command.app->add_flag("--json", console.json, "Result as JSON on stdout, nothing else there");

@@ -189,13 +189,13 @@ std::vector<PrivacyRow> Auditor::rows() {
   intersect("released k=2", {first, more});
   intersect("released k=3", {first, more, other});
 
-  triangulate("undisciplined, the same points, another centre", first,
+  triangulate("undisciplined: same points about another centre", first,
               release(lopsided(input_.first), kFirstKey + 1));
-  triangulate("undisciplined, 10 % more frames, another world", first, release(moved(input_.more), kFirstKey + 1),
+  triangulate("undisciplined: 10 % more frames in another world", first, release(moved(input_.more), kFirstKey + 1),
               otherFromWorld());
-  triangulate("undisciplined, other frames", first, release(input_.other, kFirstKey + 1));
-  triangulate("released, 10 % more frames, another world", first, more);
-  triangulate("released, other frames", first, other);
+  triangulate("undisciplined: other frames", first, release(input_.other, kFirstKey + 1));
+  triangulate("released: 10 % more frames in another world", first, more);
+  triangulate("released: other frames", first, other);
   leak(other);
   testPresence(other);
   query(other);

@@ -16,8 +16,7 @@ std::string bytesOf(const PackedDirection &direction, const Descriptor &descript
 
 std::vector<EntryTruth> truthOf(const Published &map, const Place &place) {
   std::unordered_map<std::string, const PlacePoint *> points;
-  for (const PlacePoint &point : place.points)
-    points.emplace(bytesOf(point.direction, point.descriptor), &point);
+  for (const PlacePoint &point : place.points) points.emplace(bytesOf(point.direction, point.descriptor), &point);
   std::vector<EntryTruth> truth;
   for (size_t i = 0; i < map.packed.size(); ++i) {
     const auto found = points.find(bytesOf(map.packed[i], map.descriptors[i]));

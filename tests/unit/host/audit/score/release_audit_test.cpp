@@ -30,9 +30,9 @@ TEST(ReleaseAudit, TellsDisciplineFromCarelessness) {
   EXPECT_GT(value("intersection", "undisciplined rebuilds k=2", "precision"), 0.99);
   EXPECT_NEAR(value("intersection", "released k=3", "precision"), 0.5, 0.01);
   EXPECT_NEAR(value("intersection", "released k=3", "precision_of_new"), 0.5, 0.01);
-  EXPECT_EQ(value("triangulation", "undisciplined, the same points, another centre", "pose_found"), 1);
-  EXPECT_EQ(value("triangulation", "released, 10 % more frames, another world", "pose_found"), 0);
-  EXPECT_EQ(value("triangulation", "released, other frames", "pose_found"), 0);
+  EXPECT_EQ(value("triangulation", "undisciplined: same points about another centre", "pose_found"), 1);
+  EXPECT_EQ(value("triangulation", "released: 10 % more frames in another world", "pose_found"), 0);
+  EXPECT_EQ(value("triangulation", "released: other frames", "pose_found"), 0);
   EXPECT_EQ(value("presence", "object of 40 points", "auc"), 1);
   EXPECT_GT(value("querying client", "queries k=1", "precision"), 0.95);
 }

@@ -1,0 +1,24 @@
+// The nearest others of every point: by direction, and by looks.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "runtime/geometry/rotation.h"
+#include "runtime/types/keypoint.h"
+
+namespace sphc::host {
+
+// A row a point, nearest first, itself not among them.
+struct Neighbours {
+  Eigen::ArrayXXi indices;
+  Eigen::ArrayXXf distances;
+};
+
+// There must be more than `count` points.
+Neighbours directionNeighbours(const std::vector<Vector3> &directions, int count);       // chords
+Neighbours descriptorNeighbours(const std::vector<Descriptor> &descriptors, int count);  // L2 of bytes
+
+// From each of `queries` to the nearest of `table`, L2 of bytes.
+Eigen::ArrayXf nearestDistances(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &table);
+
+}  // namespace sphc::host

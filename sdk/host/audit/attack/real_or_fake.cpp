@@ -1,0 +1,55 @@
+#include "host/audit/attack/real_or_fake.h"
+
+#include <nlohmann/json.hpp>
+
+namespace sphc::host {
+namespace {
+
+constexpr Eigen::Index kFromNeighbours = 5;
+const char *const kKnownStrategies[] = {"gaussian", "patchwork"};
+
+Eigen::ArrayXf sigmoid(const Eigen::ArrayXf &logits) { return 1 / (1 + (-logits).exp()); }
+
+RealOrFakeGuess guess(const std::string &attacker, const Eigen::ArrayXf &scores) {
+  return {attacker, {scores.begin(), scores.end()}};
+}
+
+}  // namespace
+
+RealOrFakeClassifier::RealOrFakeClassifier(const std::string &path)
+    : RealOrFakeClassifier(readModel(path, "spherecloud real-or-fake 1")) {}
+
+RealOrFakeClassifier::RealOrFakeClassifier(const nlohmann::json &json)
+    : first_(json.value("first", nlohmann::json()), kRealOrFakeFeatures),
+      second_(json.value("second", nlohmann::json()), kRealOrFakeFeatures + kFromNeighbours) {}
+
+Eigen::ArrayXf RealOrFakeClassifier::probabilities(const RealOrFakeFeatures &features) const {
+  const Eigen::ArrayXf alone = sigmoid(first_(features.values));
+  return sigmoid(second_(withNeighboursScores(features, alone)));
+}
+
+Eigen::MatrixXf withNeighboursScores(const RealOrFakeFeatures &features, const Eigen::ArrayXf &scores) {
+  const Eigen::ArrayXXi &beside = features.beside.indices;
+  Eigen::ArrayXXf theirs(beside.rows(), beside.cols());
+  for (Eigen::Index k = 0; k < beside.cols(); ++k)
+    for (Eigen::Index i = 0; i < beside.rows(); ++i) theirs(i, k) = scores[beside(i, k)];
+  Eigen::MatrixXf values(features.values.rows(), features.values.cols() + kFromNeighbours);
+  values << features.values, scores.matrix(), theirs.leftCols(4).rowwise().mean().matrix(),
+      theirs.leftCols(16).rowwise().mean().matrix(), theirs.rowwise().mean().matrix(),
+      theirs.leftCols(16).rowwise().maxCoeff().matrix();
+  return values;
+}
+
+std::vector<RealOrFakeGuess> guessRealOrFake(const Published &map, const std::string &folder) {
+  const RealOrFakeFeatures features = realOrFakeFeatures(map, CoOccurrence(folder + "/co_occurrence.json"));
+  std::vector<RealOrFakeGuess> guesses = {
+      guess("density", features.density), guess("lookalikes", features.lookalikes),
+      guess("mirror", features.mirror), guess("co-occurrence", features.co_occurrence)};
+  for (const std::string strategy : kKnownStrategies) {
+    const RealOrFakeClassifier classifier(folder + "/real_or_fake_" + strategy + ".json");
+    guesses.push_back(guess("knows " + strategy, classifier.probabilities(features)));
+  }
+  return guesses;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,39 @@
+// measure_real_or_fake NETWORKS MAP STRATEGY CLOUD: rows of tests/pipeline/privacy.csv for a cloud whose truth is
+// known; MAP and STRATEGY are what the rows shall call them.
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "host/audit/score/real_or_fake_scores.h"
+#include "host/audit/train/real_or_fake/cloud_file.h"
+
+namespace sphc::host {
+namespace {
+
+void run(char **arguments) {
+  const KnownCloud cloud = readCloud(arguments[4]);
+  const double eta = static_cast<double>(std::count(cloud.real.begin(), cloud.real.end(), true)) /
+                     static_cast<double>(cloud.real.size());
+  const auto scores = scoreRealOrFake(guessRealOrFake(cloud.published, arguments[1]), cloud.real);
+  for (const PrivacyRow &row : realOrFakeRows(scores, arguments[2], arguments[3], eta)) {
+    std::printf("%s,%s,%s,%.2f,%s,%s,%.3f\n", row.attack.c_str(), row.map.c_str(), row.strategy.c_str(), row.eta,
+                row.variant.c_str(), row.metric.c_str(), row.value);
+  }
+}
+
+}  // namespace
+}  // namespace sphc::host
+
+int main(int argc, char **argv) {
+  if (argc != 5) {
+    std::cerr << "usage: measure_real_or_fake NETWORKS MAP STRATEGY CLOUD\n";
+    return 2;
+  }
+  try {
+    sphc::host::run(argv);
+  } catch (const std::exception &failure) {
+    std::cerr << "measure_real_or_fake: " << failure.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

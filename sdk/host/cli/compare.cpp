@@ -1,0 +1,186 @@
+// spherecloud compare: the systems of the paper's table 2 side by side, and the density attack on their clouds.
+#include <algorithm>
+#include <memory>
+
+#include "host/cli/command.h"
+#include "host/cli/compare_attack.h"
+#include "host/cli/compare_input.h"
+#include "host/cli/compare_systems.h"
+#include "host/cli/compare_table.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/progress.h"
+#include "host/report/file.h"
+#include "host/report/ledger.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  CompareRecordingOptions recording;
+  std::vector<std::string> correspondences, only;
+  std::vector<DepthSource> depths = {DepthSource::kTof};
+  uint32_t every = 1;
+  BenchOptions bench;
+  std::string name, out, ledger, privacy_ledger;
+  bool attack = false;
+};
+
+CompareInput readInput(Options options) {
+  const bool recording = !options.recording.mapping.folder.empty();
+  if (recording == !options.correspondences.empty())
+    throw UsageError("give either --recording or --correspondences");
+  CompareInput input;
+  if (recording) {
+    options.recording.queries.folder = options.recording.mapping.folder;
+    options.recording.queries.calibration = options.recording.mapping.calibration;
+    input = recordCompareInput(options.recording);
+  } else {
+    input = readCompareInput(options.correspondences, options.every);
+  }
+  if (!options.name.empty()) input.name = options.name;
+  return input;
+}
+
+std::vector<PoseVariant> chosenSystems(const std::vector<std::string> &only, std::vector<PoseVariant> all) {
+  std::vector<PoseVariant> chosen;
+  std::string known;
+  for (PoseVariant &system : all) {
+    known += (known.empty() ? "" : "; ") + system.name;
+    const bool asked = only.empty() || std::count(only.begin(), only.end(), system.name) > 0;
+    if (asked) chosen.push_back(std::move(system));
+  }
+  if (chosen.empty()) throw UsageError("--only: there is no such system; choose from: " + known);
+  return chosen;
+}
+
+// Whose time is 1: the library on the last sphere cloud given.
+std::string referenceName(const CompareInput &input) {
+  return input.spheres.empty() ? "" : sphereName(input.spheres.back().queries.eta_percent);
+}
+
+CompareTable compareAll(const CompareInput &input, DepthSource depth, const Options &options) {
+  const std::vector<PoseCase> cases = compareCases(input, depth);
+  const std::vector<PoseVariant> systems = chosenSystems(options.only, compareSystems(input, depth));
+  CompareTable table = {input.name, depth, cases.size(), referenceName(input), {}};
+  ProgressBar bar("comparing ");
+  for (const VariantRuns &runs : runPoseBench(cases, systems, options.bench,
+                                              [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }))
+    table.systems.push_back(summarizeVariant(runs));
+  return table;
+}
+
+nlohmann::ordered_json runTables(const CompareInput &input, const Options &options, const Console &console) {
+  const int core = pinToOneCore();
+  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
+                       : "Pinned to core " + std::to_string(core) + "; one thread.");
+  nlohmann::ordered_json tables = nlohmann::ordered_json::array();
+  for (const DepthSource depth : options.depths) {
+    const CompareTable table = compareAll(input, depth, options);
+    console.say("\n" + compareText(table));
+    if (!options.ledger.empty()) replaceRows(options.ledger, kCompareHead, compareKey(table), compareRows(table));
+    tables.push_back(compareJson(table));
+  }
+  return tables;
+}
+
+nlohmann::ordered_json runAttack(const CompareInput &input, const Options &options, const Console &console) {
+  const std::vector<AttackedCloud> clouds = attackClouds(input);
+  console.say("\n" + attackText(input.name, clouds));
+  if (!options.privacy_ledger.empty())
+    replaceRows(options.privacy_ledger, kPrivacyHead, attackKey(input.name), attackRows(input.name, clouds));
+  if (!options.out.empty()) {
+    makeFolder(options.out);
+    const PlotResult drawn = drawAttack(options.out, input.name, clouds);
+    if (drawn == PlotResult::kNoGnuplot)
+      console.warn("note: no drawing without gnuplot: apt-get install gnuplot-nox");
+    if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
+    console.say("Wrote " + options.out + ".");
+  }
+  return attackJson(input.name, clouds);
+}
+
+int run(const Options &options, const Console &console) {
+  if (!options.attack && (!options.privacy_ledger.empty() || !options.out.empty()))
+    throw UsageError("--out and --privacy-ledger are for --attack");
+  if (options.attack && !options.ledger.empty()) throw UsageError("--ledger is not for --attack");
+  const CompareInput input = readInput(options);
+  if (options.attack)
+    console.give(runAttack(input, options, console));
+  else
+    console.give({{"repeats", options.bench.repeats}, {"tables", runTables(input, options, console)}});
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Compares sphere clouds with a point cloud, line clouds (uniform, PPL, PPL+) and ray clouds of the same "
+    "points,\n"
+    "each with its own localizer on the same matches, in one interleaved run on one core: the rows of the paper's\n"
+    "table 2.  With --attack the density attack on each cloud instead.  docs/baselines.md says what each system "
+    "is.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud compare --recording kitchen --last 597 --step 3 --query-first 620 --query-step 5\n"
+    "  spherecloud compare --correspondences kitchen_eta100_dev.bin kitchen_eta33_dev.bin\n"
+    "  spherecloud compare --correspondences kitchen_eta100_dev.bin kitchen_eta33_dev.bin --attack --out attack\n"
+    "What comes out: a table; with --attack --out a drawing of the errors of recovered points.";
+
+void addInputOptions(CLI::App *app, Options *options) {
+  addRecordingOptions(app, &options->recording.mapping);
+  app->get_option("--recording")->required(false);
+  const char *group = "Queries";
+  RecordingOptions &queries = options->recording.queries;
+  app->add_option("--query-first", queries.first, "First frame to localize [0]")->type_name("N")->group(group);
+  app->add_option("--query-last", queries.last, "Last frame to localize [all]")->type_name("N")->group(group);
+  app->add_option("--query-step", queries.step, "Localize every N-th frame [1]")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  app->add_option("--eta", options->recording.etas, "Sphere clouds made of the recording [1 0.333]")
+      ->check(CLI::Range(1e-3, 1.0))
+      ->type_name("X");
+  app->add_option("--correspondences", options->correspondences,
+                  "Correspondence files of one place in place of a recording")
+      ->type_name("FILE");
+  app->add_option("--every", options->every, "Every N-th query of the files only")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000000u))
+      ->type_name("N");
+}
+
+void addOptions(CLI::App *app, Options *options) {
+  addInputOptions(app, options);
+  const std::map<std::string, DepthSource> depths = {{"tof", DepthSource::kTof}, {"oracle", DepthSource::kOracle}};
+  app->add_option("--depth", options->depths, "tof: as the sensor measured; oracle: of the true points; or both")
+      ->transform(CLI::CheckedTransformer(depths).description(""))
+      ->expected(1)
+      ->take_all()
+      ->type_name("tof|oracle");
+  app->add_option("--repeat", options->bench.repeats, "Runs of which the median time counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000u))
+      ->type_name("N");
+  app->add_option("--only", options->only, "Only the system of this name; repeat for more")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME");
+  app->add_option("--name", options->name, "What the place is called in tables")->type_name("NAME");
+  app->add_option("--ledger", options->ledger, "Put the rows of this place in a file, without milliseconds")
+      ->type_name("FILE");
+  app->add_flag("--attack", options->attack, "Recover points from each cloud by the density attack");
+  app->add_option("-o,--out", options->out, "Folder for the attack's drawing")->type_name("DIR");
+  app->add_option("--privacy-ledger", options->privacy_ledger, "Put the attack's rows of this place in a file")
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+Command compareCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("compare");
+  app->description("Compare sphere clouds with the systems of the literature.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addOptions(app, options.get());
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

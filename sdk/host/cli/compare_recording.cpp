@@ -1,0 +1,107 @@
+#include <cmath>
+#include <filesystem>
+
+#include "host/bench/described_frames.h"
+#include "host/bench/pose_case.h"
+#include "host/bench/ratio_match.h"
+#include "host/build/fakes/strategy.h"
+#include "host/cli/compare_input.h"
+#include "host/cli/progress.h"
+#include "host/import/rgbd_import.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr double kRatio = 0.8;
+
+PointModel mapFrames(const RecordingOptions &options) {
+  const Replay replay = openRecording(options);
+  ProgressBar bar("mapping   ");
+  RgbdImportSummary summary;
+  return importRgbd(
+      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+}
+
+// Positions about their mean, which is left in *centre_m.
+std::vector<Vector3> centredPoints(const PointModel &model, Vector3 *centre_m) {
+  *centre_m = Vector3::Zero();
+  for (const ModelPoint &point : model.points) *centre_m += point.position_m;
+  *centre_m /= static_cast<double>(model.points.size());
+  std::vector<Vector3> points_m;
+  for (const ModelPoint &point : model.points) points_m.push_back(point.position_m - *centre_m);
+  return points_m;
+}
+
+// The published direction of every point.
+std::vector<Fate> fatesOf(const std::vector<Vector3> &points_m, const PointModel &model, double eta) {
+  SecretRandom random{SecretKey{}};
+  std::vector<size_t> order(points_m.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  shuffle(&order, &random);
+  std::vector<SpherePoint> points;
+  for (const size_t i : order) points.push_back({points_m[i].normalized(), model.points[i].descriptor});
+  const auto real_count = static_cast<size_t>(eta * static_cast<double>(points.size()));
+  const std::vector<Fate> shuffled = gaussianFakes()->fates(points, real_count, &random);
+  std::vector<Fate> fates(points.size());
+  for (size_t k = 0; k < order.size(); ++k) fates[order[k]] = shuffled[k];
+  return fates;
+}
+
+PoseQuery matchedQuery(const DescribedFrame &frame, const std::vector<Descriptor> &map,
+                       const std::vector<Vector3> &points_m, const Vector3 &centre_m) {
+  PoseQuery query;
+  query.name = frame.name;
+  query.camera = frame.camera;
+  const Rigid &from_world = frame.camera_from_world;
+  query.camera_from_map = {from_world.rotation, from_world * centre_m};
+  for (const RatioMatch &match : matchByRatio(frame.descriptors, map, kRatio)) {
+    const Vector3 &point_m = points_m[match.point];
+    query.rows.push_back({frame.pixels_px[match.query], point_m.normalized(), frame.depths_m[match.query],
+                          (query.camera_from_map * point_m).z(), true, match.point});
+    query.points_map_m.push_back(point_m);
+  }
+  return query;
+}
+
+ComparedSphere sphereOf(const CompareInput &input, const std::vector<Fate> &fates, double eta) {
+  ComparedSphere sphere = {input.true_points, {}};
+  for (const Fate &fate : fates) sphere.directions.push_back(fate.shown.direction);
+  sphere.queries.eta_percent = static_cast<uint32_t>(std::lround(100 * eta));
+  for (PoseQuery &query : sphere.queries.queries) {
+    for (PoseRow &row : query.rows) {
+      row.direction = fates[row.point_id].shown.direction;
+      row.is_true = fates[row.point_id].real;
+    }
+  }
+  return sphere;
+}
+
+}  // namespace
+
+CompareInput recordCompareInput(const CompareRecordingOptions &options) {
+  CompareInput input;
+  const std::filesystem::path path = options.mapping.folder;
+  input.name = (path.has_filename() ? path : path.parent_path()).stem().string();
+  const PointModel model = mapFrames(options.mapping);
+  Vector3 centre_m;
+  input.points_m = centredPoints(model, &centre_m);
+  std::vector<Descriptor> map;
+  for (uint32_t i = 0; i < model.points.size(); ++i) {
+    map.push_back(model.points[i].descriptor);
+    input.place_of_id[i] = i;
+  }
+  const Replay replay = openRecording(options.queries);
+  const std::vector<DescribedFrame> frames = describeFrames(replay.get());
+  ProgressBar bar("matching  ");
+  for (uint32_t i = 0; i < frames.size(); ++i) {
+    input.true_points.queries.push_back(matchedQuery(frames[i], map, input.points_m, centre_m));
+    bar.show(i + 1, static_cast<uint32_t>(frames.size()));
+  }
+  input.true_points.eta_percent = 100;
+  input.true_points.centre_world_m = centre_m;
+  for (const double eta : options.etas)
+    input.spheres.push_back(sphereOf(input, fatesOf(input.points_m, model, eta), eta));
+  return input;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,12 @@
+// Pictures whose scores are known.
+#pragma once
+#include <cstdint>
+
+#include "host/audit/score/panorama.h"
+
+namespace sphc::host {
+
+// Rectangles of chance greys, some of it unknown; another for every seed.
+TruthView truthPicture(uint64_t seed);
+
+}  // namespace sphc::host
