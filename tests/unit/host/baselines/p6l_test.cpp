@@ -60,9 +60,9 @@ double worstResidual(const Problem &p, const Rigid &pose) {
 }
 
 #ifdef NDEBUG
-constexpr int kProblems = 200;
+constexpr int kProblems = 200, kSpecialProblems = 20;
 #else
-constexpr int kProblems = 30;  // sanitizers are slow
+constexpr int kProblems = 10, kSpecialProblems = 4;  // sanitizers are slow
 #endif
 
 TEST(P6l, FindsTheTruePoseAndNothingThatIsNone) {
@@ -106,26 +106,26 @@ TEST(P6l, DoesNotCareWhereTheOriginIsNorInWhichUnit) {
 TEST(P6l, TwoMatchesOfOneLineWillDo) {  // as paired-point lifting has them
   Random random(4);
   int found = 0;
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < kSpecialProblems; ++k) {
     Problem p = randomProblem(&random);
     const Vector3 other = p.line[0].point_m + 0.7 * p.line[0].direction;
     p.line[1] = p.line[0];
     p.bearing[1] = (p.camera_from_map * other).normalized();
     found += distanceToTruth(p, solveP6l(p.bearing, p.line)) < 1e-6;
   }
-  EXPECT_EQ(found, 20);
+  EXPECT_EQ(found, kSpecialProblems);
 }
 
 TEST(P6l, ThreeLinesThroughEachOfTwoCentresWillDo) {  // as ray clouds have them
   Random random(5);
   int found = 0;
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < kSpecialProblems; ++k) {
     const Vector3 centre[2] = {normalVector(&random), normalVector(&random)};
     const Problem p =
         makeProblem(&random, [&](int i, const Vector3 &point) -> Vector3 { return centre[i % 2] - point; });
     found += distanceToTruth(p, solveP6l(p.bearing, p.line)) < 1e-6;
   }
-  EXPECT_GE(found, 19);
+  EXPECT_GE(found, kSpecialProblems - 1);
 }
 
 TEST(P6l, LinesThroughOnePointGiveNoNonsense) {  // the scale is not known: no pose is isolated

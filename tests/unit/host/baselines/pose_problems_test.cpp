@@ -147,8 +147,7 @@ TEST(PoseProblems, TooFewMatchesHaveNoPose) {
 TEST(PoseProblems, TheSameSeedGivesTheSameAnswer) {
   const World world = makeWorld(60, 0.5, 12);
   const LineCloud cloud = uniformLineCloud(world.points_m, 13);
-  const RobustPose a = findPose(lineProblem(world, cloud, 4), {}, 14),
-                   b = findPose(lineProblem(world, cloud, 4), {}, 14);
+  const RobustPose a = findPose(lineProblem(world, cloud), {}, 14), b = findPose(lineProblem(world, cloud), {}, 14);
   EXPECT_EQ(a.camera_from_map.rotation, b.camera_from_map.rotation);
   EXPECT_EQ(a.camera_from_map.translation_m, b.camera_from_map.translation_m);
   EXPECT_EQ(a.iterations, b.iterations);
