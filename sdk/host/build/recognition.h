@@ -8,6 +8,8 @@
 
 namespace sphc::host {
 
+// Of one release, merged before it: twins give each other away.
+constexpr TwinRule kReleaseTwins = {0.06, 200};
 // Points of a place are never published beside these: the radius grows with the points' own uncertainty.
 constexpr TwinRule kSamePoint = {0.06, 260};
 // Near, but only somewhat alike: it may be the same point, so it is left out.

@@ -184,7 +184,7 @@ SphereCloud publishedCloud(const Place &place, const SecretKey &key) {
 
 NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
   checkModel(all, request);
-  const PointModel model = withoutTwins(all, kSamePoint);
+  const PointModel model = withoutTwins(all, kReleaseTwins);
   ReleaseSummary summary;
   summary.twins = all.points.size() - model.points.size();
   const bool blind = request.understood;

@@ -17,7 +17,7 @@ struct Options {
   RecordingOptions recording, other, strangers;
   uint32_t more_last = 0, frames = 25;
   double eta = 1.0 / 3;
-  std::string name, ledger, fakes = "patchwork";
+  std::string name, ledger, fakes = "gaussian";
 };
 
 PointModel importModel(const RecordingOptions &recording, const char *what) {

@@ -20,7 +20,7 @@ struct Options {
   std::string map, key, ledger;
   std::vector<std::string> against;
   std::optional<double> eta;
-  std::string fakes = "patchwork";
+  std::string fakes = "gaussian";
   double sigma2 = 0.1, patch_deg = 6;
   bool new_place = false, understood = false;
 };
@@ -196,7 +196,8 @@ void addOptions(CLI::App *app, Options *options) {
   app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1] [1/3]")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("X");
-  app->add_option("--fakes", options->fakes, "How fakes are made; gaussian is the paper's way")
+  app->add_option("--fakes", options->fakes,
+                  "How fakes are made; gaussian is the paper's way, patchwork the one that is harder to tell")
       ->capture_default_str()
       ->check(CLI::IsMember({"patchwork", "gaussian"}))
       ->type_name("NAME");

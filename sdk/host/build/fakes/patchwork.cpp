@@ -142,7 +142,7 @@ class PatchworkFakes : public FakeStrategy {
                           SecretRandom *random) const override {
     // A cloud that covers little of the sphere needs smaller patches.
     std::vector<Patch> patches = cut(points, width_rad_, random);
-    for (double width_rad = width_rad_ / 2; patches.size() < kMinPatches && width_rad > 1e-3; width_rad /= 2)
+    for (double width_rad = width_rad_ / 2; patches.size() < kMinPatches && width_rad > 0.01; width_rad /= 2)
       patches = cut(points, width_rad, random);
 
     const double eta = static_cast<double>(real_count) / static_cast<double>(points.size());
@@ -152,31 +152,20 @@ class PatchworkFakes : public FakeStrategy {
     std::vector<Fate> fates(points.size());
     for (const Patch *patch : stay)
       for (size_t i : patch->points) fates[i] = {true, points[i]};
-    // Half of all points end up mirrored, if there are fakes enough: were it most, what has more lookalikes on the
-    // other side of the mirror would be real.
-    const double mirrored_share = std::min(1.0, 0.5 / (1 - eta));
-    double owed = 0;
-    for (size_t k = 0; k < go.size(); ++k) {
-      const double size = static_cast<double>(go[k]->points.size());
-      owed += mirrored_share * size;
-      const bool in_mirror = owed >= size / 2;
-      if (in_mirror) owed -= size;
-      lay(points, *go[k], stay[k * stay.size() / go.size()]->middle, in_mirror, &fates, random);
-    }
+    for (size_t k = 0; k < go.size(); ++k)
+      lay(points, *go[k], stay[k * stay.size() / go.size()]->middle, &fates, random);
     return fates;
   }
 
  private:
-  // About the middle of another patch, turned at random.
-  static void lay(const std::vector<SpherePoint> &points, const Patch &patch, const Vector3 &where, bool in_mirror,
+  // In mirror image, turned at random, about the middle of another patch.
+  static void lay(const std::vector<SpherePoint> &points, const Patch &patch, const Vector3 &where,
                   std::vector<Fate> *fates, SecretRandom *random) {
     Matrix3 from = frameAt(patch.middle, random);
-    if (in_mirror) from.col(0) = -from.col(0);
+    from.col(0) = -from.col(0);
     const Matrix3 move = frameAt(where, random) * from.transpose();
-    for (size_t i : patch.points) {
-      const Descriptor &own = points[i].descriptor;
-      (*fates)[i] = {false, {(move * points[i].direction).normalized(), in_mirror ? mirrored(own) : own}};
-    }
+    for (size_t i : patch.points)
+      (*fates)[i] = {false, {(move * points[i].direction).normalized(), mirrored(points[i].descriptor)}};
   }
 
   double width_rad_;

@@ -32,12 +32,13 @@ class FakeStrategy {
                                   SecretRandom *random) const = 0;
 };
 
-// The paper's: Gaussian noise on the coordinates of the real directions in turn, projected back to the sphere.
+// The default, the paper's: Gaussian noise on the coordinates of the real directions in turn, projected back to the
+// sphere.
 std::unique_ptr<FakeStrategy> gaussianFakes(double variance = 0.1);
 
-// The default (docs/fakes.md): the sphere is cut into patches about `patch_deg` wide.  Those that stay are real,
-// point for point; each of the others is laid on one of them, turned at random, and mostly in mirror image,
-// descriptors too. So a fake is among the company it had, and nothing near it tells it from a real point.
+// docs/fakes.md: the sphere is cut into patches about `patch_deg` wide.  Those that stay are real, point for point;
+// each of the others is laid on one of them in mirror image, descriptors too, turned at random.  So a fake is among
+// the company it had, and no camera sees it from anywhere.
 std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 6);
 
 }  // namespace sphc::host
