@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -13,8 +15,18 @@
 #include "host/calibration/formats.h"
 #include "tests/unit/host/calibration/golden_files.h"
 #endif
+#ifdef SPHC_FUZZ_COLMAP
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/unit/host/import/tiny_colmap.h"
+#endif
 
 namespace sphc::fuzz {
+#ifdef SPHC_FUZZ_COLMAP
+std::vector<uint8_t> colmapSeed(const host::ColmapFiles &files);  // fuzz_colmap.cpp
+#endif
 namespace {
 
 std::vector<uint8_t> bytesOf(const std::string &text) { return {text.begin(), text.end()}; }
@@ -82,6 +94,17 @@ std::vector<std::vector<uint8_t>> foreignSeeds() {
 }
 #endif
 
+#ifdef SPHC_FUZZ_COLMAP
+std::vector<uint8_t> databaseSeed(test::Schema schema) {
+  const std::string path = std::filesystem::temp_directory_path() / ("seed" + std::to_string(getpid()) + ".db");
+  test::writeColmapDatabase(path, test::tinyColmapModel(1), schema);
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  std::filesystem::remove(path);
+  return bytes;
+}
+#endif
+
 }  // namespace
 
 void broken(const char *promise) {
@@ -106,6 +129,12 @@ std::vector<Target> allTargets() {
   targets.push_back({"message", message, messageSeeds()});
   targets.push_back({"rvl", rvl, rvlSeeds()});
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
+#endif
+#ifdef SPHC_FUZZ_COLMAP
+  const host::ColmapModel model = test::tinyColmapModel(2);
+  targets.push_back({"colmap", colmap, {colmapSeed(test::binaryFiles(model)), colmapSeed(test::textFiles(model))}});
+  targets.push_back(
+      {"colmapDatabase", colmapDatabase, {databaseSeed(test::Schema::kOld), databaseSeed(test::Schema::kNew)}});
 #endif
 #ifdef SPHC_FUZZ_CAMERAS
   const std::vector<uint8_t> rgb = test::gradientRgb(32, 16), frame = test::jpegFrame(rgb, 32, 16);

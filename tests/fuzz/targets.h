@@ -27,6 +27,10 @@ void mjpeg(const uint8_t *data, size_t bytes);
 void v4l2(const uint8_t *data, size_t bytes);
 // A calibration file of another format: the first byte chooses it, COLMAP's rigs stand behind a zero.
 void foreign(const uint8_t *data, size_t bytes);
+// A COLMAP model: format, two bytes each of length of the first two files, the three files.
+void colmap(const uint8_t *data, size_t bytes);
+// A COLMAP database, beside a fixed model.
+void colmapDatabase(const uint8_t *data, size_t bytes);
 
 struct Target {
   const char *name;

@@ -1,11 +1,11 @@
-// COLMAP's cameras.txt, and rigs.txt of 3.12 and later.  Its principal points are ours: pixel centres at 0.5.
+// COLMAP's cameras.txt, and rigs.txt of 3.12 and later.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
 #include "drivers/replay/pose_track.h"
 #include "drivers/replay/text_field.h"
+#include "host/calibration/colmap_camera.h"
 #include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
 #include "host/calibration/intrinsics.h"
@@ -14,33 +14,6 @@
 
 namespace sphc::host {
 namespace {
-
-enum Slot { kF, kFx, kFy, kCx, kCy, kFirstDistortion };  // distortion slots: OpenCV's order
-
-struct ColmapModel {
-  const char *name;
-  bool fisheye;
-  std::vector<int> slots;
-};
-
-int distortion(int index) { return kFirstDistortion + index; }
-
-const std::vector<ColmapModel> &models() {
-  static const std::vector<ColmapModel> kModels = {
-      {"SIMPLE_PINHOLE", false, {kF, kCx, kCy}},
-      {"PINHOLE", false, {kFx, kFy, kCx, kCy}},
-      {"SIMPLE_RADIAL", false, {kF, kCx, kCy, distortion(0)}},
-      {"RADIAL", false, {kF, kCx, kCy, distortion(0), distortion(1)}},
-      {"OPENCV", false, {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3)}},
-      {"FULL_OPENCV",
-       false,
-       {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3), distortion(4),
-        distortion(5), distortion(6), distortion(7)}},
-      {"SIMPLE_RADIAL_FISHEYE", true, {kF, kCx, kCy, distortion(0)}},
-      {"RADIAL_FISHEYE", true, {kF, kCx, kCy, distortion(0), distortion(1)}},
-      {"OPENCV_FISHEYE", true, {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3)}}};
-  return kModels;
-}
 
 // The words of one line, and where it stands.
 struct Line {
@@ -78,33 +51,20 @@ uint32_t pixels(const std::string &file, const Line &line, size_t index) {
   return value;
 }
 
-const ColmapModel &modelOf(const std::string &file, const Line &line) {
-  std::string known;
-  for (const ColmapModel &model : models()) {
-    if (line.words[1] == model.name) return model;
-    known += (known.empty() ? "" : ", ") + std::string(model.name);
-  }
-  refuse(file, line.place, "camera model is " + shown(line.words[1]) + "; known here: " + known);
-}
-
 NamedCamera readCamera(const std::string &file, const Line &line) {
   if (line.words.size() < 4) refuse(file, line.place, "must be CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
-  const ColmapModel &model = modelOf(file, line);
-  if (line.words.size() != 4 + model.slots.size())
+  const ColmapCameraModel *model = findColmapModel(line.words[1]);
+  if (!model)
+    refuse(file, line.place, "camera model is " + shown(line.words[1]) + "; known here: " + knownColmapModels());
+  if (line.words.size() != 4 + model->slots.size())
     refuse(file, line.place,
-           "has " + std::to_string(line.words.size() - 4) + " parameters; " + model.name + " takes " +
-               std::to_string(model.slots.size()));
-  std::array<double, kFirstDistortion + 8> values{};
-  for (size_t i = 0; i < model.slots.size(); ++i) values[model.slots[i]] = number(file, line, 4 + i);
-  if (model.slots[0] == kF) values[kFx] = values[kFy] = values[kF];
-  const Intrinsics intrinsics = {
-      values[kFx],           values[kFy],          values[kCx] + kCornerCentered, values[kCy] + kCornerCentered,
-      pixels(file, line, 2), pixels(file, line, 3)};
-  const double *k = values.data() + kFirstDistortion;
+           "has " + std::to_string(line.words.size() - 4) + " parameters; " + model->name + " takes " +
+               std::to_string(model->slots.size()));
+  std::vector<double> params;
+  for (size_t i = 0; i < model->slots.size(); ++i) params.push_back(number(file, line, 4 + i));
   NamedCamera camera;
   camera.name = line.words[0];
-  camera.camera = model.fisheye ? fisheyeCamera(intrinsics, {k[0], k[1], k[2], k[3]})
-                                : brownCamera(intrinsics, {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]});
+  camera.camera = colmapCamera(*model, pixels(file, line, 2), pixels(file, line, 3), params);
   return camera;
 }
 

@@ -1,9 +1,11 @@
 // spherecloud audit: attacks a map before others do.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "host/audit/score/look_around.h"
 #include "host/audit/score/map_audit.h"
+#include "host/audit/score/privacy_ledger.h"
 #include "host/build/ledger.h"
 #include "host/cli/audit_page.h"
 #include "host/cli/command.h"
@@ -20,7 +22,7 @@ namespace {
 constexpr double kApartDeg = 20, kSeenShare = 0.5;  // of views
 
 struct Options {
-  std::string map, truth, report, networks = SPHC_AUDIT_NETWORKS;
+  std::string map, truth, report, figures, name, networks = SPHC_AUDIT_NETWORKS;
   RecordingOptions recording;
   std::vector<std::string> releases, limits;
   uint32_t queries = 10;
@@ -97,6 +99,18 @@ std::map<std::string, double> limitsOf(const Options &options) {
   return limits;
 }
 
+// For a ledger of figures.
+std::vector<PrivacyRow> rowsOf(const Options &options, const MapAudit &audit, const MapAuditInput &input) {
+  const std::string name = options.name.empty() ? std::filesystem::path(options.map).stem().string() : options.name;
+  std::vector<PrivacyRow> rows;
+  for (const AuditFigure &figure : audit.figures) {
+    if (!figure.value) continue;
+    rows.push_back({"audit", name, input.place ? input.place->strategy : "unknown",
+                    input.place ? input.place->eta : 0, figure.remark, figure.name, *figure.value});
+  }
+  return rows;
+}
+
 void tell(const MapAudit &audit, const std::string &page, const Console &console) {
   std::vector<Row> rows;
   nlohmann::ordered_json figures = nlohmann::ordered_json::array();
@@ -116,7 +130,13 @@ void tell(const MapAudit &audit, const std::string &page, const Console &console
   if (!page.empty()) console.say("Report: " + page);
   console.say(audit.holds() ? "Every limit that was measured holds."
                             : "A limit is broken: do not release this map.");
-  console.give({{"holds", audit.holds()}, {"figures", figures}, {"report", page}});
+  nlohmann::ordered_json inversions = nlohmann::ordered_json::array();
+  for (const InversionResult &result : audit.inversions)
+    inversions.push_back({{"points", result.name},
+                          {"views", result.pictures.size()},
+                          {"retrieval_coarse", result.coarse.top1},
+                          {"retrieval_fine", result.fine.top1}});
+  console.give({{"holds", audit.holds()}, {"figures", figures}, {"inversions", inversions}, {"report", page}});
 }
 
 int run(const Options &options, const Console &console) {
@@ -132,6 +152,7 @@ int run(const Options &options, const Console &console) {
   });
   bar.show(1, 1);
   const std::string page = options.report.empty() ? "" : writeAuditPage(options.report, options.map, audit);
+  if (!options.figures.empty()) updatePrivacyLedger(options.figures, rowsOf(options, audit, input));
   tell(audit, page, console);
   return audit.holds() ? kExitDone : kExitAuditFailed;
 }
@@ -163,6 +184,8 @@ Command auditCommand(CLI::App *root) {
   app->add_option("--queries", options->queries, "Frames of a client")->capture_default_str()->type_name("N");
   app->add_option("--limit", options->limits, "Another limit: NAME=NUMBER")->type_name("NAME=X");
   app->add_option("--report", options->report, "Folder for a page with pictures")->type_name("FOLDER");
+  app->add_option("--figures", options->figures, "Write the figures into this table too")->type_name("CSV");
+  app->add_option("--name", options->name, "Of the map, in that table [the file's]")->type_name("NAME");
   app->add_option("--networks", options->networks, "Folder of the attackers' networks [built in]")
       ->type_name("FOLDER");
   app->add_flag("--quick", options->quick, "Fewer lines and views: within half a minute");

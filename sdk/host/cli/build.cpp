@@ -10,22 +10,19 @@
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/map_file.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
+#include "host/cli/point_source.h"
 
 namespace sphc::host {
 namespace {
 
 struct Options {
-  RecordingOptions recording;
+  PointSource source;
   std::string map, key, ledger;
   std::vector<std::string> against;
   std::optional<double> eta;
   std::string fakes = "patchwork";
   double sigma2 = 0.1, patch_deg = 6;
   bool new_place = false, understood = false;
-  RgbdImportOptions import;
 };
 
 std::string ledgerPath(const Options &options) {
@@ -46,13 +43,6 @@ std::vector<Place> placesOfOthers(const Options &options) {
   return places;
 }
 
-PointModel importModel(const Options &options, RgbdImportSummary *summary) {
-  const Replay replay = openRecording(options.recording);
-  ProgressBar bar("mapping   ");
-  return importRgbd(
-      replay.get(), options.import, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, summary);
-}
-
 ReleaseRequest requestOf(const Options &options, const Ledger &ledger, const FakeStrategy &strategy) {
   ReleaseRequest request;
   request.own = ledger.places();
@@ -68,7 +58,7 @@ ReleaseRequest requestOf(const Options &options, const Ledger &ledger, const Fak
 }
 
 struct Outcome {
-  RgbdImportSummary import;
+  ImportedPoints import;
   Place place;
   ReleaseSummary release;
   size_t bytes = 0;
@@ -79,12 +69,14 @@ struct Outcome {
 Outcome build(const Options &options) {
   const auto start = std::chrono::steady_clock::now();
   Outcome outcome;
-  // What can be refused at once must not cost minutes of mapping.
+  // What can be refused at once must not cost minutes of mapping, or leave a ledger.
+  checkPointSource(options.source);
   const auto strategy =
       options.fakes == "gaussian" ? gaussianFakes(options.sigma2) : patchworkFakes(options.patch_deg);
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, *strategy);
-  NewRelease made = makeRelease(importModel(options, &outcome.import), request);
+  outcome.import = importPoints(options.source);
+  NewRelease made = makeRelease(std::move(outcome.import.model), request);
   // The ledger first: what it does not know was never published.
   ledger.record(made.place);
   outcome.note = options.map + ".owner.json";
@@ -97,14 +89,6 @@ Outcome build(const Options &options) {
   outcome.bytes = made.file.size();
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
-}
-
-void warnOfFrames(const RgbdImportSummary &import, const Console &console) {
-  const auto warn = [&console](uint32_t count, const char *what) {
-    if (count) console.warn("note: " + std::to_string(count) + " frames " + what);
-  };
-  warn(import.frames_without_pose, "have no pose and took no part");
-  warn(import.frames_unreadable, "could not be read and took no part");
 }
 
 std::string releaseText(const Outcome &outcome) {
@@ -121,10 +105,8 @@ std::string releaseText(const Outcome &outcome) {
 }
 
 void tell(const Options &options, const Outcome &outcome, const Console &console) {
-  const RgbdImportSummary &import = outcome.import;
-  console.say("Mapped " + std::to_string(import.frames_used) + " frames (" + describeSelection(options.recording) +
-              ") in " + fixed(outcome.seconds, 1) + " s: " + std::to_string(import.points_kept) + " points kept, " +
-              std::to_string(import.points_dropped) + " dropped.");
+  for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
+  console.say(outcome.import.told + " " + fixed(outcome.seconds, 1) + " s.");
   console.say(releaseText(outcome));
   console.say("Wrote " + options.map + ": " + std::to_string(outcome.place.points.size()) + " directions, " +
               fixed(100 * outcome.place.eta, 0) + " % of them real, " +
@@ -159,27 +141,19 @@ nlohmann::ordered_json releaseJson(const Outcome &outcome) {
 int run(const Options &options, const Console &console) {
   const Outcome outcome = build(options);
   const MapId &map_id = outcome.place.releases.back().map_id;
-  warnOfFrames(outcome.import, console);
   if (options.understood) console.warn("note: --i-understand: points that other maps hold too are now exposed");
   tell(options, outcome, console);
-  const RgbdImportSummary &import = outcome.import;
-  console.give({{"map", options.map},
-                {"map_id", hexText(map_id.data(), map_id.size())},
-                {"owner_note", outcome.note},
-                {"ledger", outcome.ledger},
-                {"points", outcome.place.points.size()},
-                {"eta", outcome.place.eta},
-                {"bytes", outcome.bytes},
-                {"release", releaseJson(outcome)},
-                {"frames_used", import.frames_used},
-                {"frames_without_pose", import.frames_without_pose},
-                {"frames_unreadable", import.frames_unreadable},
-                {"keypoints", import.keypoints},
-                {"lifted", import.lifted},
-                {"merged", import.merged},
-                {"points_kept", import.points_kept},
-                {"points_dropped", import.points_dropped},
-                {"seconds", outcome.seconds}});
+  nlohmann::ordered_json json = {{"map", options.map},
+                                 {"map_id", hexText(map_id.data(), map_id.size())},
+                                 {"owner_note", outcome.note},
+                                 {"ledger", outcome.ledger},
+                                 {"points", outcome.place.points.size()},
+                                 {"eta", outcome.place.eta},
+                                 {"bytes", outcome.bytes},
+                                 {"release", releaseJson(outcome)}};
+  json.update(outcome.import.facts);
+  json["seconds"] = outcome.seconds;
+  console.give(json);
   return kExitDone;
 }
 
@@ -190,6 +164,8 @@ const char kHelp[] =
 const char kExample[] =
     "Example:\n"
     "  spherecloud build --recording walk --last 99 --map room.sphc\n"
+    "  spherecloud build --colmap sparse/0 --images images --depth depth --calibration kinect.json --map "
+    "room.sphc\n"
     "  spherecloud build --recording kitchen --last 597 --map kitchen.sphc --eta 0.25\n"
     "What comes out:\n"
     "  room.sphc               the map: ship it\n"
@@ -215,7 +191,7 @@ void addReleaseOptions(CLI::App *app, Options *options) {
 }
 
 void addOptions(CLI::App *app, Options *options) {
-  addRecordingOptions(app, &options->recording);
+  addPointSourceOptions(app, &options->source);
   app->add_option("-m,--map", options->map, "Map file to write")->required()->type_name("FILE");
   app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1] [1/3]")
       ->check(CLI::Range(1e-6, 1.0))
@@ -233,20 +209,6 @@ void addOptions(CLI::App *app, Options *options) {
       ->check(CLI::Range(1e-9, 100.0))
       ->type_name("X");
   addReleaseOptions(app, options);
-  const char *group = "Mapping";
-  RgbdImportOptions &import = options->import;
-  app->add_option("--max-keypoints", import.max_keypoints, "Strongest keypoints of a frame")
-      ->capture_default_str()
-      ->group(group);
-  app->add_option("--min-observations", import.min_observations, "Frames that must agree on a point")
-      ->capture_default_str()
-      ->group(group);
-  app->add_option("--depth-min", import.depth_min_m, "Nearest depth used, metres")
-      ->capture_default_str()
-      ->group(group);
-  app->add_option("--depth-max", import.depth_max_m, "Farthest depth used, metres")
-      ->capture_default_str()
-      ->group(group);
 }
 
 }  // namespace

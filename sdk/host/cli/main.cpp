@@ -66,7 +66,7 @@ int run(int argc, char **argv) {
                                    inspectCommand(&root),  infoCommand(&root),        convertCommand(&root),
                                    recordCommand(&root),   liveCommand(&root),        devicesCommand(&root),
                                    doctorCommand(&root),   calibrationCommand(&root), compareCommand(&root),
-                                   auditCommand(&root)};
+                                   auditCommand(&root),    adviseCommand(&root)};
   for (Command &command : benchCommands(&root)) commands.push_back(std::move(command));
   for (Command &command : commands) {
     command.app->add_flag("--json", console.json, "Result as JSON on stdout, nothing else there");

@@ -1,9 +1,12 @@
 #include "host/cli/map_file.h"
 
+#include <cstring>
 #include <stdexcept>
 
 namespace sphc::host {
 namespace {
+
+constexpr size_t kMapAlignment = 64;
 
 void check(const std::string &what, const spherecloud::Status &status) {
   if (!status.ok()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
@@ -15,6 +18,14 @@ MapFile openMapFile(const std::string &path) {
   MapFile file;
   check("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
   check("cannot use the map " + path, spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
+  return file;
+}
+
+MapFile openMapBytes(const std::vector<uint8_t> &bytes) {
+  MapFile file;
+  file.bytes = spherecloud::AlignedBuffer(bytes.size(), kMapAlignment);
+  std::memcpy(file.bytes.data(), bytes.data(), bytes.size());
+  check("cannot use the map", spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
   return file;
 }
 

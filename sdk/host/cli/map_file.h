@@ -14,6 +14,8 @@ struct MapFile {
 
 // Validates every byte.  Throws std::runtime_error with cause and cure.
 MapFile openMapFile(const std::string &path);
+// The same of a map that is no file.
+MapFile openMapBytes(const std::vector<uint8_t> &bytes);
 MapFacts mapFacts(const MapFile &file, const std::string &path);
 std::string hexText(const uint8_t *bytes, size_t count);
 

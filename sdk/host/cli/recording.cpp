@@ -14,12 +14,13 @@ std::string ordinal(uint32_t n) {
 
 }  // namespace
 
-void addRecordingOptions(CLI::App *app, RecordingOptions *options) {
+CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {
   const char *group = "Recording";
-  app->add_option("-r,--recording", options->folder, "Recording: a folder (7-Scenes or TUM layout) or a .mcap file")
-      ->required()
-      ->type_name("PATH")
-      ->group(group);
+  CLI::Option *recording = app->add_option("-r,--recording", options->folder,
+                                           "Recording: a folder (7-Scenes or TUM layout) or a .mcap file")
+                               ->required()
+                               ->type_name("PATH")
+                               ->group(group);
   app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")
       ->type_name("FILE")
       ->group(group);
@@ -29,6 +30,7 @@ void addRecordingOptions(CLI::App *app, RecordingOptions *options) {
       ->type_name("N")
       ->check(CLI::PositiveNumber)
       ->group(group);
+  return recording;
 }
 
 Replay openRecording(const RecordingOptions &options) {

@@ -12,7 +12,8 @@ struct RecordingOptions {
   std::string folder, calibration;
   uint32_t first = 0, last = UINT32_MAX, step = 1;
 };
-void addRecordingOptions(CLI::App *app, RecordingOptions *options);
+// Gives --recording, which is required unless the caller says otherwise.
+CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options);
 
 struct ReplayCloser {
   void operator()(sphc_replay *replay) const { sphc_replay_close(&replay); }

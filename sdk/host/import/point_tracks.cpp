@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "host/import/descriptors.h"
 #include "host/import/twins.h"
 
 namespace sphc::host {
@@ -16,7 +17,6 @@ constexpr size_t kMostKept = 24;     // observations a track remembers
 constexpr double kScaleRatio = 1.8;  // keypoints of one point differ in metric size at most by this factor
 constexpr double kAgreement2 = 16;   // squared Mahalanobis distance of an observation that supports the mean
 constexpr double kLoneNoise = 2;     // a point seen once may scatter at most so many times the sensor's noise
-constexpr TwinRule kTwins = {0.015, 220};
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 int cellsAcross(int pixels) { return pixels / kCellPx + 1; }
@@ -46,17 +46,10 @@ bool isTrustworthy(const Observation &lone) {
   return lone.sigma_m < kLoneNoise * kMappingNoise.sigmaAt(lone.depth_m);
 }
 
-// The observation whose descriptor is nearest to all others (medoid).
 const Descriptor &representative(const std::vector<Observation> &observations) {
-  size_t best = 0;
-  double best_sum = kInfinite;
-  for (size_t i = 0; i < observations.size(); ++i) {
-    double sum = 0;
-    for (const Observation &other : observations)
-      sum += descriptorDistance(observations[i].descriptor, other.descriptor);
-    if (sum < best_sum) best_sum = sum, best = i;
-  }
-  return observations[best].descriptor;
+  std::vector<const Descriptor *> seen;
+  for (const Observation &o : observations) seen.push_back(&o.descriptor);
+  return *seen[medoidOf(seen)];
 }
 
 }  // namespace
@@ -150,7 +143,7 @@ PointModel PointTracks::finish(size_t *dropped) const {
     point.observations = static_cast<uint32_t>(agreeing);
     points.push_back(point);
   }
-  PointModel model = withoutTwins({std::move(points)}, kTwins);
+  PointModel model = withoutTwins({std::move(points)}, kModelTwins);
   *dropped = tracks_.size() - model.points.size();
   return model;
 }

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "host/import/frame_features.h"
 #include "host/import/point_tracks.h"
 #include "runtime/stages/align/sparse.h"
-#include "runtime/stages/features/extractor.h"
 #include "runtime/stages/features/gray.h"
 
 namespace sphc::host {
@@ -16,25 +16,15 @@ constexpr double kPixelSigma = 1.0, kPoseSigmaM = 0.002;
 class FrameDescriber {
  public:
   FrameDescriber(const sphc_calibration &calibration, const RgbdImportOptions &options)
-      : camera_(calibration.color_camera), width_(camera_.width()), height_(camera_.height()) {
-    FeatureConfig config;
-    config.width = width_;
-    config.height = height_;
-    config.max_keypoints = options.max_keypoints;
-    Arena state_size, scratch_size;
-    FeatureExtractor::layout(config, state_size, scratch_size, nullptr);
-    state_.resize(state_size.used() + kArenaAlignment);
-    scratch_.resize(scratch_size.used() + kArenaAlignment);
-    Arena state(aligned(state_)), scratch(aligned(scratch_));
-    FeatureExtractor::layout(config, state, scratch, &extractor_);
-    extractor_.init();
+      : camera_(calibration.color_camera),
+        width_(camera_.width()),
+        height_(camera_.height()),
+        features_(width_, height_, options.max_keypoints) {
     const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m,
                                 kMappingNoise.sigma_m, kMappingNoise.sigma_per_m2};
     aligner_ = SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromDoor(calibration.color_from_depth),
                              sensor);
     gray_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));
-    keypoints_.resize(options.max_keypoints);
-    descriptors_.resize(options.max_keypoints);
   }
 
   const Camera &camera() const { return camera_; }
@@ -42,14 +32,14 @@ class FrameDescriber {
   std::vector<Observation> describe(const sphc_frame &frame, const Rigid &world_from_camera, uint32_t *keypoints) {
     bgrToGray(static_cast<const uint8_t *>(frame.color.data), static_cast<int32_t>(frame.color.stride_bytes),
               width_, height_, gray_.data(), width_);
-    *keypoints = extractor_.extract({gray_.data(), width_, height_, width_}, {keypoints_.data(), keypoints_.size()},
-                                    {descriptors_.data(), descriptors_.size()});
+    features_.extract({gray_.data(), width_, height_, width_});
+    *keypoints = features_.count();
     const ImageView<uint16_t> depth = {
         static_cast<const uint16_t *>(frame.depth.data), static_cast<int32_t>(frame.depth.width),
         static_cast<int32_t>(frame.depth.height), static_cast<int32_t>(frame.depth.stride_bytes / 2)};
     std::vector<Observation> observations;
     for (uint32_t i = 0; i < *keypoints; ++i) {
-      const Vector2 pixel(static_cast<double>(keypoints_[i].x_px), static_cast<double>(keypoints_[i].y_px));
+      const Vector2 pixel = features_.pixel(i);
       Vector3 point;
       double sigma = 0;
       if (!aligner_.lift(depth, pixel, &point, &sigma)) continue;
@@ -59,19 +49,14 @@ class FrameDescriber {
       o.pixel_px = pixel;
       o.depth_m = point.z();
       o.sigma_m = sigma;
-      o.metric_scale_m = static_cast<double>(keypoints_[i].scale_px) * point.z() / camera_.focal();
-      o.descriptor = descriptors_[i];
+      o.metric_scale_m = static_cast<double>(features_.keypoint(i).scale_px) * point.z() / camera_.focal();
+      o.descriptor = features_.descriptor(i);
       observations.push_back(o);
     }
     return observations;
   }
 
  private:
-  static void *aligned(std::vector<uint8_t> &memory) {
-    const auto address = reinterpret_cast<uintptr_t>(memory.data());
-    return memory.data() + (kArenaAlignment - address % kArenaAlignment) % kArenaAlignment;
-  }
-
   // Exact across the view, uncertain along it.
   Matrix3 information(const Vector3 &point, double sigma, const Matrix3 &world_from_camera) const {
     const Vector3 view = world_from_camera * point.normalized();
@@ -83,11 +68,9 @@ class FrameDescriber {
 
   Camera camera_;
   int32_t width_, height_;
-  std::vector<uint8_t> state_, scratch_, gray_;
-  FeatureExtractor extractor_;
+  FrameFeatures features_;
+  std::vector<uint8_t> gray_;
   SparseAligner aligner_;
-  std::vector<Keypoint> keypoints_;
-  std::vector<Descriptor> descriptors_;
 };
 
 sphc_calibration calibrationOf(const sphc_replay *replay) {
@@ -107,6 +90,7 @@ PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, con
   PointTracks tracks(options);
   const uint32_t total = sphc_replay_frame_count(replay);
   for (uint32_t i = 0; i < total; ++i) {
+    if (options.takes_part && !options.takes_part(i)) continue;
     sphc_rigid pose;
     sphc_frame frame;
     sphc_message message;

@@ -10,6 +10,7 @@ struct TwinRule {
   double radius_m;
   double descriptor_distance;
 };
+constexpr TwinRule kModelTwins = {0.015, 220};  // of an imported model
 
 // Keeps of each group of twins the one that most frames saw.  Most seen first in what comes out.
 PointModel withoutTwins(PointModel model, const TwinRule &rule);

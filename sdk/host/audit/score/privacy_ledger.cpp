@@ -18,15 +18,22 @@ std::string lineOf(const PrivacyRow &row) {
          value;
 }
 
+// Attack, map and strategy.
+std::string groupOf(const std::string &line) {
+  size_t end = 0;
+  for (int commas = 0; end < line.size() && commas < 3; ++end) commas += line[end] == ',';
+  return line.substr(0, end);
+}
+
 }  // namespace
 
 void updatePrivacyLedger(const std::string &path, const std::vector<PrivacyRow> &rows) {
-  std::set<std::string> attacks;
-  for (const PrivacyRow &row : rows) attacks.insert(row.attack);
+  std::set<std::string> replaced;
+  for (const PrivacyRow &row : rows) replaced.insert(groupOf(lineOf(row)));
   std::vector<std::string> lines = {kHeader};
   std::ifstream in(path);
   for (std::string line; std::getline(in, line);)
-    if (line != kHeader && attacks.count(line.substr(0, line.find(','))) == 0) lines.push_back(line);
+    if (line != kHeader && replaced.count(groupOf(line)) == 0) lines.push_back(line);
   in.close();
   for (const PrivacyRow &row : rows) lines.push_back(lineOf(row));
   std::ofstream out(path, std::ios::trunc);

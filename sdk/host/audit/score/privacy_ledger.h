@@ -12,7 +12,8 @@ struct PrivacyRow {
   double value;
 };
 
-// Replaces the rows of the attacks that `rows` are of; others stay.  Throws std::runtime_error with cause and cure.
+// Replaces the rows of the attacks, maps and strategies that `rows` are of; others stay.  Throws std::runtime_error
+// with cause and cure.
 void updatePrivacyLedger(const std::string &path, const std::vector<PrivacyRow> &rows);
 
 }  // namespace sphc::host

@@ -152,20 +152,31 @@ class PatchworkFakes : public FakeStrategy {
     std::vector<Fate> fates(points.size());
     for (const Patch *patch : stay)
       for (size_t i : patch->points) fates[i] = {true, points[i]};
-    for (size_t k = 0; k < go.size(); ++k)
-      lay(points, *go[k], stay[k * stay.size() / go.size()]->middle, &fates, random);
+    // Half of all points end up mirrored, if there are fakes enough: were it most, what has more lookalikes on the
+    // other side of the mirror would be real.
+    const double mirrored_share = std::min(1.0, 0.5 / (1 - eta));
+    double owed = 0;
+    for (size_t k = 0; k < go.size(); ++k) {
+      const double size = static_cast<double>(go[k]->points.size());
+      owed += mirrored_share * size;
+      const bool in_mirror = owed >= size / 2;
+      if (in_mirror) owed -= size;
+      lay(points, *go[k], stay[k * stay.size() / go.size()]->middle, in_mirror, &fates, random);
+    }
     return fates;
   }
 
  private:
-  // In mirror image, about the middle of another patch.
-  static void lay(const std::vector<SpherePoint> &points, const Patch &patch, const Vector3 &where,
+  // About the middle of another patch, turned at random.
+  static void lay(const std::vector<SpherePoint> &points, const Patch &patch, const Vector3 &where, bool in_mirror,
                   std::vector<Fate> *fates, SecretRandom *random) {
     Matrix3 from = frameAt(patch.middle, random);
-    from.col(0) = -from.col(0);
+    if (in_mirror) from.col(0) = -from.col(0);
     const Matrix3 move = frameAt(where, random) * from.transpose();
-    for (size_t i : patch.points)
-      (*fates)[i] = {false, {(move * points[i].direction).normalized(), mirrored(points[i].descriptor)}};
+    for (size_t i : patch.points) {
+      const Descriptor &own = points[i].descriptor;
+      (*fates)[i] = {false, {(move * points[i].direction).normalized(), in_mirror ? mirrored(own) : own}};
+    }
   }
 
   double width_rad_;

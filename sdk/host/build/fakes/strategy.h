@@ -36,9 +36,8 @@ class FakeStrategy {
 std::unique_ptr<FakeStrategy> gaussianFakes(double variance = 0.1);
 
 // The default (docs/fakes.md): the sphere is cut into patches about `patch_deg` wide.  Those that stay are real,
-// point for point; each of the others is laid on one of them in mirror image, descriptors too, turned at random. So
-// a fake is among the company it had: nothing near it tells it from a real point, and no camera sees it from
-// anywhere.
+// point for point; each of the others is laid on one of them, turned at random, and mostly in mirror image,
+// descriptors too. So a fake is among the company it had, and nothing near it tells it from a real point.
 std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 6);
 
 }  // namespace sphc::host

@@ -39,7 +39,7 @@ TEST_P(HelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
                          testing::Values("simulate", "build", "localize", "inspect", "info", "convert",
-                                         "calibration", "record", "live", "devices", "doctor", "compare",
+                                         "calibration", "advise", "record", "live", "devices", "doctor", "compare",
                                          "bench pose", "bench confidence", "bench map", "bench frame",
                                          "bench recording"));
 
@@ -54,19 +54,22 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
 
 INSTANTIATE_TEST_SUITE_P(
     EachMistake, UsageTest,
-    testing::Values("", "conquer", "live", "live --device simulated:", "record --out x.mcap",
-                    "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
-                    "live --device simulated: --map m --seconds -3",
-                    "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
-                    "calibration x --format what", "calibration x --color-size 640", "info", "info a b",
-                    "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b.mcap --jpeg 0",
-                    "audit", "audit m --limit x", "audit m --recording r", "compare", "compare --recording r --correspondences f", "compare --correspondences f --out o", "compare --correspondences f --attack --ledger l",
-                    "bench", "bench pose", "bench pose f --depth radar", "bench pose f --repeat 0",
-                    "bench frame --recording r", "bench map --recording r --out o",
-                    "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
-                    "build --recording r", "build --recording r --map m --eta 1.5",
-                    "build --recording r --map m --against", "localize --recording r --map m --step 0",
-                    "localize --recording r --map m --first 9 --last 3"));
+    testing::Values(
+        "", "conquer", "live", "live --device simulated:", "record --out x.mcap",
+        "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
+        "live --device simulated: --map m --seconds -3", "live --device openni2: --color v4l2:x --map m",
+        "calibration", "calibration x --to kalibr", "calibration x --format what", "calibration x --color-size 640",
+        "info", "info a b", "convert a", "convert a b --to zip", "convert a b --to mcap",
+        "convert a b.mcap --jpeg 0", "audit", "audit m --limit x", "audit m --recording r", "compare",
+        "compare --recording r --correspondences f", "compare --correspondences f --out o",
+        "compare --correspondences f --attack --ledger l", "bench", "bench pose", "bench pose f --depth radar",
+        "bench pose f --repeat 0", "bench frame --recording r", "bench map --recording r --out o",
+        "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
+        "build --recording r", "build --map m", "build --map m --recording r --colmap c",
+        "build --map m --colmap c", "build --map m --colmap c --images i",
+        "build --map m --colmap c --images i --scale 1 --gravity down", "advise --recording r --folds 1",
+        "build --recording r --map m --eta 1.5", "build --recording r --map m --against",
+        "localize --recording r --map m --step 0", "localize --recording r --map m --first 9 --last 3"));
 
 TEST(CommandLine, UsageNamesTheSubcommand) {
   EXPECT_THAT(runCommand("build").err, HasSubstr("Try: spherecloud build --help"));

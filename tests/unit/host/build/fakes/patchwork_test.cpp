@@ -27,7 +27,9 @@ std::vector<Fate> fatesOf(const std::vector<SpherePoint> &points, size_t real, u
 
 bool same(const Descriptor &a, const Descriptor &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-TEST(PatchworkFakes, RealPointsStayAndFakesAreMirrored) {
+// Were most descriptors mirrored, the minority would be real.
+TEST(PatchworkFakes, RealPointsStayAndHalfOfAllAreMirrored) {
+  size_t in_mirror = 0;
   const auto points = somePoints(3000, 1);
   const auto fates = fatesOf(points, 1000);
   ASSERT_EQ(fates.size(), points.size());
@@ -37,9 +39,12 @@ TEST(PatchworkFakes, RealPointsStayAndFakesAreMirrored) {
       EXPECT_EQ(fates[i].shown.direction, points[i].direction);
       EXPECT_TRUE(same(fates[i].shown.descriptor, points[i].descriptor));
     } else {
-      EXPECT_TRUE(same(fates[i].shown.descriptor, mirrored(points[i].descriptor)));
+      const bool turned_over = same(fates[i].shown.descriptor, mirrored(points[i].descriptor));
+      EXPECT_TRUE(turned_over || same(fates[i].shown.descriptor, points[i].descriptor));
+      in_mirror += turned_over;
     }
   }
+  EXPECT_NEAR(static_cast<double>(in_mirror) / static_cast<double>(points.size()), 0.5, 0.02);
 }
 
 TEST(PatchworkFakes, TheShareOfRealPointsIsEtaWithinAPatch) {
@@ -75,12 +80,13 @@ TEST(PatchworkFakes, FakesKeepTheirCompany) {
       return (at(near[0]) - at(i)).cross(at(near[1]) - at(i)).dot(at(i)) > 0;
     };
     ++triples;
-    turned_over += side(false) != side(true);
+    const bool in_mirror = same(fates[i].shown.descriptor, mirrored(points[i].descriptor));
+    turned_over += (side(false) != side(true)) == in_mirror;
   }
   ASSERT_GT(pairs, 200u);
   EXPECT_GT(static_cast<double>(kept) / static_cast<double>(pairs), 0.7);  // the others straddle an edge
   ASSERT_GT(triples, 50u);
-  EXPECT_EQ(turned_over, triples);  // so that no camera, wherever it is, sees fakes where they are shown
+  EXPECT_EQ(turned_over, triples);  // directions and descriptors together
 }
 
 TEST(PatchworkFakes, FakesLieOnRealPatches) {
@@ -91,7 +97,7 @@ TEST(PatchworkFakes, FakesLieOnRealPatches) {
     if (fate.real) continue;
     ++fakes;
     for (size_t j = 0; j < points.size(); ++j) {
-      if (!fates[j].real || (points[j].direction - fate.shown.direction).norm() > 0.15) continue;
+      if (!fates[j].real || (points[j].direction - fate.shown.direction).norm() > 0.1) continue;
       ++covered;
       break;
     }

@@ -1,0 +1,70 @@
+#include "host/calibration/colmap_camera.h"
+
+#include <algorithm>
+#include <array>
+
+#include "host/calibration/intrinsics.h"
+
+namespace sphc::host {
+namespace {
+
+enum Slot { kF, kFx, kFy, kCx, kCy, kFirstDistortion };  // distortion slots: OpenCV's order
+
+int distortion(int index) { return kFirstDistortion + index; }
+
+const std::vector<ColmapCameraModel> &models() {
+  static const std::vector<ColmapCameraModel> kModels = {
+      {0, "SIMPLE_PINHOLE", false, {kF, kCx, kCy}},
+      {1, "PINHOLE", false, {kFx, kFy, kCx, kCy}},
+      {2, "SIMPLE_RADIAL", false, {kF, kCx, kCy, distortion(0)}},
+      {3, "RADIAL", false, {kF, kCx, kCy, distortion(0), distortion(1)}},
+      {4, "OPENCV", false, {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3)}},
+      {6,
+       "FULL_OPENCV",
+       false,
+       {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3), distortion(4),
+        distortion(5), distortion(6), distortion(7)}},
+      {8, "SIMPLE_RADIAL_FISHEYE", true, {kF, kCx, kCy, distortion(0)}},
+      {9, "RADIAL_FISHEYE", true, {kF, kCx, kCy, distortion(0), distortion(1)}},
+      {5,
+       "OPENCV_FISHEYE",
+       true,
+       {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3)}}};
+  return kModels;
+}
+
+template <typename Matches>
+const ColmapCameraModel *findModel(const Matches &matches) {
+  const auto found = std::find_if(models().begin(), models().end(), matches);
+  return found == models().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const ColmapCameraModel *findColmapModel(int id) {
+  return findModel([id](const ColmapCameraModel &model) { return model.id == id; });
+}
+
+const ColmapCameraModel *findColmapModel(std::string_view name) {
+  return findModel([name](const ColmapCameraModel &model) { return model.name == name; });
+}
+
+std::string knownColmapModels() {
+  std::string known;
+  for (const ColmapCameraModel &model : models()) known += (known.empty() ? "" : ", ") + std::string(model.name);
+  return known;
+}
+
+sphc_camera colmapCamera(const ColmapCameraModel &model, uint32_t width, uint32_t height,
+                         const std::vector<double> &params) {
+  std::array<double, kFirstDistortion + 8> values{};
+  for (size_t i = 0; i < model.slots.size(); ++i) values[model.slots[i]] = params[i];
+  if (model.slots[0] == kF) values[kFx] = values[kFy] = values[kF];
+  const Intrinsics intrinsics = {
+      values[kFx], values[kFy], values[kCx] + kCornerCentered, values[kCy] + kCornerCentered, width, height};
+  const double *k = values.data() + kFirstDistortion;
+  return model.fisheye ? fisheyeCamera(intrinsics, {k[0], k[1], k[2], k[3]})
+                       : brownCamera(intrinsics, {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]});
+}
+
+}  // namespace sphc::host

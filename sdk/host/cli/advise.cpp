@@ -1,0 +1,129 @@
+// spherecloud advise: is this recording good enough for a map?
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+
+#include "host/cli/advise_run.h"
+#include "host/cli/command.h"
+#include "host/cli/exit_code.h"
+#include "host/cli/progress.h"
+#include "host/report/coverage_picture.h"
+#include "host/report/statistics.h"
+#include "host/report/table.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr size_t kMostFailuresTold = 12;
+
+struct Options {
+  AdviceOptions advice;
+  std::string picture;
+};
+
+std::string holesText(const std::vector<Hole> &holes) {
+  std::string text;
+  for (const Hole &hole : holes)
+    text += "  yaw " + fixed(hole.yaw_deg, 0) + ", pitch " + fixed(hole.pitch_deg, 0) + ": nothing within " +
+            fixed(hole.radius_deg, 0) + " deg\n";
+  return text.empty() ? "  none\n" : text;
+}
+
+std::string failuresText(const std::vector<Failure> &failures) {
+  std::string text;
+  for (size_t i = 0; i < failures.size() && i < kMostFailuresTold; ++i)
+    text += "  frame " + std::to_string(failures[i].sequence) + ": " + failures[i].why + "\n";
+  if (failures.size() > kMostFailuresTold)
+    text += "  and " + std::to_string(failures.size() - kMostFailuresTold) + " more (--json lists them)\n";
+  return text.empty() ? "  none\n" : text;
+}
+
+void tell(const Options &options, const Advice &advice, const Console &console) {
+  std::vector<Row> rows = {
+      {"points", std::to_string(advice.points), "before fakes replace most of their directions"},
+      {"sphere covered", fixed(100 * advice.coverage.covered_share, 0) + " %", "within 5 deg of a point"},
+      {"evenness", fixed(100 * advice.coverage.evenness, 0) + " %", "100: as many points in every direction"}};
+  for (const Recall &recall : advice.recalls)
+    rows.push_back({"expected recall, eta " + fixed(100 * recall.eta, 0) + " %",
+                    fixed(percent(recall.good, recall.frames), 1) + " %",
+                    std::to_string(recall.good) + " of " + std::to_string(recall.frames) +
+                        " held-out frames within 5 cm and 5 deg, median " + fixed(100 * recall.median_m, 2) +
+                        " cm"});
+  console.say(tableText(rows));
+  console.say("Directions without points (yaw around z from x, pitch up, in the recording's world)\n" +
+              holesText(advice.coverage.holes));
+  console.say("Frames that would fail at eta " + fixed(100 * options.advice.judged_eta, 0) + " %\n" +
+              failuresText(advice.failures));
+}
+
+nlohmann::ordered_json json(const Advice &advice) {
+  nlohmann::ordered_json value = {{"points", advice.points},
+                                  {"covered_percent", 100 * advice.coverage.covered_share},
+                                  {"evenness_percent", 100 * advice.coverage.evenness},
+                                  {"holes", nlohmann::ordered_json::array()},
+                                  {"recall", nlohmann::ordered_json::array()},
+                                  {"failures", nlohmann::ordered_json::array()}};
+  for (const Hole &hole : advice.coverage.holes)
+    value["holes"].push_back(
+        {{"yaw_deg", hole.yaw_deg}, {"pitch_deg", hole.pitch_deg}, {"radius_deg", hole.radius_deg}});
+  for (const Recall &recall : advice.recalls)
+    value["recall"].push_back({{"eta", recall.eta}, {"good", recall.good}, {"frames", recall.frames}});
+  for (const Failure &failure : advice.failures)
+    value["failures"].push_back({{"sequence", failure.sequence}, {"why", failure.why}});
+  return value;
+}
+
+void writePicture(const std::string &path, const Advice &advice) {
+  std::vector<std::array<double, 3>> views;
+  for (const Failure &failure : advice.failures) views.push_back(failure.view);
+  bool written = false;
+  try {
+    written = cv::imwrite(path, drawCoverage(advice.directions, advice.coverage.holes, views));
+  } catch (const cv::Exception &) {  // a file name without a known ending
+  }
+  if (!written)
+    throw std::runtime_error("cannot write the picture " + path +
+                             ": choose a writable place and end its name in .png");
+}
+
+int run(const Options &options, const Console &console) {
+  ProgressBar bar("holding out");
+  const Advice advice = advise(options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
+  tell(options, advice, console);
+  if (!options.picture.empty()) {
+    writePicture(options.picture, advice);
+    console.say("Picture, private: " + options.picture +
+                " (rings: no points; crosses: where failed frames looked)");
+  }
+  console.give(json(advice));
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Maps a recording several times, each time without a block of neighbouring frames, and localizes that block "
+    "by\n"
+    "the real localizer: what a device may expect that comes by later.  Tells which directions have no points, "
+    "how\n"
+    "recall falls with eta, and which frames fail and why.  Everything it says is private: it is for the owner.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud advise --recording walk --last 99 --picture advice.png\n"
+    "A frame fails for few keypoints (blank walls, blur, dark), few depths (too near, too far, dark surfaces) or "
+    "few\n"
+    "matches (seen from nowhere else: walk there again).";
+
+}  // namespace
+
+Command adviseCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("advise");
+  app->description("Look at a recording before its map is released.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addRecordingOptions(app, &options->advice.recording);
+  app->add_option("--folds", options->advice.folds, "Blocks of frames held out in turn")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 100));
+  app->add_option("--picture", options->picture, "Coverage as a map of the sky")->type_name("PNG");
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,169 @@
+#include "host/import/colmap_import.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+
+#include "host/import/colmap_descriptors.h"
+#include "host/import/colmap_world.h"
+#include "tests/contract/temp_folder.h"
+#include "tests/unit/host/import/tiny_colmap.h"
+
+namespace sphc::host {
+namespace {
+
+using test::binaryFiles;
+using test::Schema;
+using test::textFiles;
+using test::tinyColmapModel;
+using testing::HasSubstr;
+
+template <typename Action>
+std::string refusal(const Action &action) {
+  try {
+    action();
+  } catch (const std::runtime_error &error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Depth images of the tiny model's wall, in millimetres.
+void writeWall(const std::string &folder, double depth_m) {
+  std::filesystem::create_directories(folder + "/sub");
+  const cv::Mat wall(72, 96, CV_16UC1, cv::Scalar(1000 * depth_m));
+  for (const char *name : {"/a.png", "/b.png", "/sub/c d.png"}) cv::imwrite(folder + name, wall);
+}
+
+class ColmapImport : public testing::Test {
+ protected:
+  ColmapImport() {
+    test::writeColmapFiles(folder_.path().string(), binaryFiles(tinyColmapModel(kUnitsPerMetre)));
+    test::writeColmapDatabase(folder_ / "database.db", tinyColmapModel(1), Schema::kNew);
+    options_.model = folder_.path().string();
+    options_.database = folder_ / "database.db";
+    options_.descriptors = ColmapDescriptors::kDatabase;
+  }
+  PointModel import() { return importColmap(options_, nullptr, &summary_); }
+
+  static constexpr double kUnitsPerMetre = 5;
+  contract::TempFolder folder_;
+  ColmapImportOptions options_;
+  ColmapImportSummary summary_;
+};
+
+TEST_F(ColmapImport, MetresByAKnownScaleAndUpByTheCameras) {
+  options_.metres_per_unit = 1 / kUnitsPerMetre;
+  const PointModel model = import();
+  ASSERT_EQ(model.points.size(), 12u);
+  EXPECT_EQ(summary_.images, 3u);
+  for (const ModelPoint &point : model.points) {
+    EXPECT_NEAR(point.position_m.y(), test::kTinyWallM, 1e-9);  // forward, since z is up now
+    EXPECT_LE(std::abs(point.position_m.z()), 0.2 + 1e-9);
+    EXPECT_EQ(point.observations, 3u);
+    // About one pixel of 60 a radian, over a base of 0.2 m: a matter of decimetres, along the view.
+    EXPECT_GT(point.sigma_m, 0.05);
+    EXPECT_LT(point.sigma_m, 0.5);
+  }
+}
+
+TEST_F(ColmapImport, MetresByDepthImages) {
+  writeWall(folder_.path().string(), test::kTinyWallM);
+  options_.depth = folder_.path().string();
+  import();
+  EXPECT_NEAR(summary_.metres_per_unit, 1 / kUnitsPerMetre, 1e-6);
+  EXPECT_LT(summary_.scale_spread, 1e-6);
+}
+
+TEST_F(ColmapImport, WithoutDepthAtThePointsTheMessageSaysHowImagesAreNamed) {
+  options_.depth = folder_ / "nothing";
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("X.png for X.jpg"));
+}
+
+TEST_F(ColmapImport, AxesStayOnRequest) {
+  options_.metres_per_unit = 1;
+  options_.gravity = Vector3(Vector3::Zero());
+  import();
+  EXPECT_TRUE(summary_.world_from_model_axes.isIdentity());
+}
+
+TEST_F(ColmapImport, AFolderWithoutAModelSaysWhichToName) {
+  options_.model = "/nonexistent";
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("sparse/0"));
+}
+
+TEST_F(ColmapImport, AMissingImageIsNamed) {
+  options_.metres_per_unit = 1;
+  options_.descriptors = ColmapDescriptors::kAgain;
+  options_.images = folder_.path().string();
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("a.png; name COLMAP's folder of images"));
+  writeWall(folder_.path().string(), 1);
+  cv::imwrite(folder_ / "a.png", cv::Mat(10, 10, CV_8UC1));
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("is 10 x 10, its camera 96 x 72"));
+}
+
+class ColmapDatabase : public testing::TestWithParam<Schema> {};
+
+TEST_P(ColmapDatabase, DescriptorsHaveOurOrientations) {
+  const contract::TempFolder folder;
+  const ColmapModel model = tinyColmapModel(1);
+  test::writeColmapDatabase(folder / "d.db", model, GetParam());
+  const DescriptorsOfPoints found = describeFromDatabase(model, folder / "d.db");
+  ASSERT_EQ(found.size(), 12u);
+  const Descriptor &third = found.at(102)[1];  // keypoint 2: bytes 20 to 27 in each cell
+  const int turned[] = {20, 27, 26, 25, 24, 23, 22, 21};
+  for (size_t i = 0; i < kDescriptorBytes; ++i) EXPECT_EQ(third.bytes[i], turned[i % 8]);
+}
+
+TEST_P(ColmapDatabase, OfAnotherModelIsRefused) {
+  const contract::TempFolder folder;
+  ColmapModel fewer = tinyColmapModel(1);
+  fewer.images[2].keypoints_px.resize(5);
+  test::writeColmapDatabase(folder / "fewer.db", fewer, GetParam());
+  fewer.images.erase(2);
+  test::writeColmapDatabase(folder / "none.db", fewer, GetParam());
+  const auto read = [&folder](const char *name) {
+    return refusal([&] { describeFromDatabase(tinyColmapModel(1), folder / name); });
+  };
+  EXPECT_THAT(read("fewer.db"), HasSubstr("fewer than its keypoints"));
+  EXPECT_THAT(read("none.db"), HasSubstr("image 2: are not there"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Schema, ColmapDatabase, testing::Values(Schema::kOld, Schema::kNew));
+
+TEST(ColmapDatabaseTypes, LearnedDescriptorsAreRefused) {
+  const contract::TempFolder folder;
+  test::writeColmapDatabase(folder / "d.db", tinyColmapModel(1), Schema::kNew, 1);
+  EXPECT_THAT(refusal([&] { describeFromDatabase(tinyColmapModel(1), folder / "d.db"); }),
+              HasSubstr("not SIFT; describe the images again"));
+}
+
+TEST(ColmapDatabaseTypes, OtherFilesAreRefused) {
+  EXPECT_THAT(refusal([] { describeFromDatabase(tinyColmapModel(1), "/nonexistent.db"); }),
+              HasSubstr("database.db"));
+}
+
+// Cameras that nod by up to half a radian and turn all around have their x axes level.
+TEST(ColmapWorld, DownIsWhereNoXAxisPoints) {
+  const Vector3 down = Vector3(1, 2, 3).normalized();
+  const Matrix3 model_from_level = uprightAxes(down).transpose();  // -z to down
+  ColmapModel model;
+  for (uint32_t i = 0; i < 12; ++i) {
+    const double yaw = 0.5 * i, nod = 0.5 * std::sin(2.0 * i);
+    Matrix3 level_from_camera;  // x right, y down, z forward
+    level_from_camera.col(0) = Vector3(std::cos(yaw), std::sin(yaw), 0);
+    const Vector3 forward(-std::sin(yaw), std::cos(yaw), 0);
+    level_from_camera.col(2) = std::cos(nod) * forward - std::sin(nod) * Vector3::UnitZ();
+    level_from_camera.col(1) = level_from_camera.col(2).cross(level_from_camera.col(0));
+    model.images[i].camera_from_model.rotation = (model_from_level * level_from_camera).transpose();
+  }
+  EXPECT_GT(downByCameras(model).dot(down), std::cos(0.01));  // how they nod leaves a quarter of a degree
+  EXPECT_NEAR((uprightAxes(down) * down + Vector3::UnitZ()).norm(), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace sphc::host
