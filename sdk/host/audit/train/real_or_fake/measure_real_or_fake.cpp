@@ -1,6 +1,7 @@
 // measure_real_or_fake NETWORKS MAP STRATEGY CLOUD: rows of tests/pipeline/privacy.csv for a cloud whose truth is
 // known; MAP and STRATEGY are what the rows shall call them.
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 
