@@ -141,9 +141,9 @@ class Auditor {
     };
     paint("no fakes", directions, descriptors, {});
     const double paper = paintPaper(directions, descriptors, paint);
+    const double plain = paint("this map", map_.directions, map_.descriptors, {});
     const double own =
-        std::max(paint("this map", map_.directions, map_.descriptors, {}),
-                 paint("this map, pruned", map_.directions, map_.descriptors, pruned(scores_, eta_)));
+        std::max(plain, paint("this map, pruned", map_.directions, map_.descriptors, pruned(scores_, eta_)));
     SecretRandom random({1});  // of a control; hides nothing
     shuffle(&descriptors, &random);
     const double control = paint("descriptors shuffled", directions, descriptors, {});
@@ -181,7 +181,8 @@ class Auditor {
       scores = guess.scores;
     }
     add("real_or_fake.auc_paper", "the same, had the paper's fakes been used", best);
-    return std::max(paint("paper's fakes", paper.directions, paper.descriptors, {}),
+    const double plain = paint("paper's fakes", paper.directions, paper.descriptors, {});
+    return std::max(plain,
                     paint("paper's fakes, pruned", paper.directions, paper.descriptors, pruned(scores, eta_)));
   }
 
