@@ -83,7 +83,7 @@ MapId unhex(const std::string &text) {
 PackedDirection packDirection(const Vector3 &direction) {
   // On the edges of the square a direction has two encodings: the second round chooses one.
   const Direction d = unpackDirection(packOnce(direction));
-  return packOnce(Vector3(d.x, d.y, d.z));
+  return packOnce({static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)});
 }
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {

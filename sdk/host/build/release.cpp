@@ -177,7 +177,7 @@ SphereCloud publishedCloud(const Place &place, const SecretKey &key) {
   SphereCloud cloud;
   for (size_t i : order) {
     const Direction d = unpackDirection(place.points[i].direction);
-    cloud.points.push_back({Vector3(d.x, d.y, d.z), place.points[i].descriptor});
+    cloud.points.push_back({Eigen::Vector3f(d.x, d.y, d.z).cast<double>(), place.points[i].descriptor});
   }
   return cloud;
 }

@@ -85,7 +85,7 @@ TEST(PackedDirections, WhatWasUnpackedIsPackedIntoTheSameBytes) {
   for (const Vector3 &direction : directions) {
     const PackedDirection packed = packDirection(direction);
     const Direction d = unpackDirection(packed);
-    const PackedDirection again = packDirection(Vector3(d.x, d.y, d.z));
+    const PackedDirection again = packDirection(Eigen::Vector3f(d.x, d.y, d.z).cast<double>());
     ASSERT_TRUE(packed.u == again.u && packed.v == again.v) << direction.transpose();
   }
 }
@@ -105,7 +105,7 @@ TEST(Release, TheFirstHasEveryPointAndRealOnesByEta) {
   for (const PlacePoint &point : made.place.points) {
     const Direction d = unpackDirection(point.direction);
     const Vector3 truth = (point.seen.position_m - made.place.centre_m).normalized();
-    EXPECT_EQ(point.real, (Vector3(d.x, d.y, d.z) - truth).norm() < 1e-4);
+    EXPECT_EQ(point.real, (Eigen::Vector3f(d.x, d.y, d.z).cast<double>() - truth).norm() < 1e-4);
     real += point.real;
   }
   EXPECT_EQ(real, 1000u);
