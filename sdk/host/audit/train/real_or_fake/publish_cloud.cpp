@@ -20,7 +20,7 @@ PointModel readPoints(const std::string &path) {
   PointModel model;
   for (uint32_t i = 0; i < count && in; ++i) {
     const float x = readPlain<float>(&in), y = readPlain<float>(&in), z = readPlain<float>(&in);
-    model.points.push_back({{x, y, z}, {}, 0, 1});
+    model.points.push_back({Eigen::Vector3f(x, y, z).cast<double>(), {}, 0, 1});
   }
   for (ModelPoint &point : model.points) point.descriptor = readPlain<Descriptor>(&in);
   if (!in || model.points.empty())
