@@ -2,8 +2,8 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
+#include "host/frames/frame_features.h"
 #include "host/import/colmap_descriptors.h"
-#include "host/import/frame_features.h"
 
 namespace sphc::host {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "host/import/frame_features.h"
+#include "host/frames/frame_features.h"
 #include "host/import/point_tracks.h"
 #include "runtime/stages/align/sparse.h"
 #include "runtime/stages/features/gray.h"

@@ -9,8 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/audit/train/extractor.h"
 #include "host/audit/train/output.h"
+#include "host/frames/frame_features.h"
+#include "host/import/rgbd_import.h"
 
 namespace sphc::host {
 namespace {
@@ -18,14 +19,14 @@ namespace {
 void describe(const std::string &path, std::ostream *out) {
   const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw std::runtime_error(path + " is no image that OpenCV reads");
-  HeapExtractor extractor(image.cols, image.rows);
-  const uint32_t count = extractor.extract({image.data, image.cols, image.rows, static_cast<int32_t>(image.step)});
-  writeValue(count, out);
-  for (uint32_t i = 0; i < count; ++i) {
-    writeValue(extractor.keypoints()[i].x_px, out);
-    writeValue(extractor.keypoints()[i].y_px, out);
+  FrameFeatures features(image.cols, image.rows, RgbdImportOptions().max_keypoints);
+  features.extract({image.data, image.cols, image.rows, static_cast<int32_t>(image.step)});
+  writeValue(features.count(), out);
+  for (uint32_t i = 0; i < features.count(); ++i) {
+    writeValue(features.keypoint(i).x_px, out);
+    writeValue(features.keypoint(i).y_px, out);
   }
-  for (uint32_t i = 0; i < count; ++i) writeValue(extractor.descriptors()[i], out);
+  for (uint32_t i = 0; i < features.count(); ++i) writeValue(features.descriptor(i), out);
 }
 
 }  // namespace

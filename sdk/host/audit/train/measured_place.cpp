@@ -6,9 +6,9 @@
 #include "host/audit/attack/virtual_camera.h"
 #include "host/audit/score/frame_view.h"
 #include "host/audit/score/look_around.h"
-#include "host/audit/train/extractor.h"
 #include "host/audit/train/replay_handle.h"
 #include "host/build/sphere_cloud.h"
+#include "host/frames/frame_features.h"
 #include "host/import/rgbd_import.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/stages/features/gray.h"
@@ -52,7 +52,9 @@ Replay open(const Description &place) {
 class FrameReader {
  public:
   FrameReader(sphc_replay *replay, const Camera &camera, const PointModel &model)
-      : replay_(replay), camera_(camera), extractor_(camera.width(), camera.height()) {
+      : replay_(replay),
+        camera_(camera),
+        features_(camera.width(), camera.height(), RgbdImportOptions().max_keypoints) {
     for (const ModelPoint &point : model.points) {
       positions_.push_back(point.position_m);
       descriptors_.push_back(point.descriptor);
@@ -92,23 +94,21 @@ class FrameReader {
   }
 
   SeenPoints ownKeypoints(const cv::Mat &grey) {
-    const uint32_t count = extractor_.extract({grey.data, grey.cols, grey.rows, static_cast<int32_t>(grey.step)});
+    features_.extract({grey.data, grey.cols, grey.rows, static_cast<int32_t>(grey.step)});
     std::vector<Vector3> rays;
     std::vector<Descriptor> descriptors;
-    for (uint32_t i = 0; i < count; ++i) {
-      const Keypoint &keypoint = extractor_.keypoints()[i];
+    for (uint32_t i = 0; i < features_.count(); ++i) {
       Vector2 ray;
-      if (!camera_.unproject(Vector2(static_cast<double>(keypoint.x_px), static_cast<double>(keypoint.y_px)), &ray))
-        continue;
+      if (!camera_.unproject(features_.pixel(i), &ray)) continue;
       rays.emplace_back(ray.x(), ray.y(), 1);
-      descriptors.push_back(extractor_.descriptors()[i]);
+      descriptors.push_back(features_.descriptor(i));
     }
     return see(rays, descriptors, {}, {});
   }
 
   sphc_replay *replay_;
   Camera camera_;
-  HeapExtractor extractor_;
+  FrameFeatures features_;
   std::vector<Vector3> positions_;
   std::vector<Descriptor> descriptors_;
 };

@@ -9,7 +9,9 @@ namespace sphc::host {
 
 class FrameFeatures {
  public:
-  FrameFeatures(int32_t width, int32_t height, uint32_t max_keypoints);
+  // Throws std::runtime_error where the stage takes no such images.
+  FrameFeatures(int32_t width, int32_t height, uint32_t max_keypoints,
+                const FeatureKernels &kernels = simdFeatureKernels());
 
   // Of an image of that size; what was found stays until the next call.
   void extract(GrayView gray);
