@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "host/bench/interleave.h"
+#include "host/frames/recording.h"
 #include "host/report/statistics.h"
 
 namespace sphc::host {
@@ -70,9 +71,7 @@ void orFail(sphc_status status, const sphc_message &message) {
 
 // Processor seconds a frame, without reading it.
 double record(sphc_replay *replay, const std::string &file, bool with_color) {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  sphc_replay_calibration(replay, &calibration);
+  const sphc_calibration calibration = calibrationOf(replay);
   sphc_recorder_config config;
   sphc_recorder_config_init(&config, sizeof config);
   config.wait_us = 60000000;

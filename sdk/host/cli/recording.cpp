@@ -1,6 +1,5 @@
 #include "host/cli/recording.h"
 
-#include "host/cli/door.h"
 #include "host/cli/exit_code.h"
 
 namespace sphc::host {
@@ -35,23 +34,13 @@ CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {
 
 Replay openRecording(const RecordingOptions &options) {
   if (options.last < options.first) throw UsageError("--last lies before --first; swap them");
-  sphc_replay_config config;
-  orThrow("replay", [&](sphc_message *) { return sphc_replay_config_init(&config, sizeof config); });
-  config.first = options.first;
-  config.last = options.last;
-  config.step = options.step;
-  sphc_replay *replay = nullptr;
-  const char *calibration = options.calibration.empty() ? nullptr : options.calibration.c_str();
-  orThrow("cannot open the recording", [&](sphc_message *message) {
-    return sphc_replay_open(options.folder.c_str(), calibration, &config, &replay, message);
-  });
-  Replay owned(replay);
-  if (sphc_replay_frame_count(replay) == 0) {
+  Replay replay = openReplay(options);
+  if (sphc_replay_frame_count(replay.get()) == 0) {
     throw std::runtime_error("no frame of colour and depth in " + options.folder + " for " +
                              describeSelection(options) +
                              ": check --first, --last, --step, and that depth images are there");
   }
-  return owned;
+  return replay;
 }
 
 std::string describeSelection(const RecordingOptions &options) {
@@ -60,13 +49,6 @@ std::string describeSelection(const RecordingOptions &options) {
   if (!all) text += options.last == UINT32_MAX ? "the end" : std::to_string(options.last);
   if (options.step > 1) text += ", every " + ordinal(options.step);
   return text;
-}
-
-sphc_calibration calibrationOf(const sphc_replay *replay) {
-  sphc_calibration calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
-  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay, &calibration); });
-  return calibration;
 }
 
 }  // namespace sphc::host

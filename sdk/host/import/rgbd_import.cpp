@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "host/frames/frame_features.h"
+#include "host/frames/frame_images.h"
+#include "host/frames/recording.h"
 #include "host/import/point_tracks.h"
 #include "runtime/stages/align/sparse.h"
-#include "runtime/stages/features/gray.h"
 
 namespace sphc::host {
 namespace {
@@ -16,27 +17,19 @@ constexpr double kPixelSigma = 1.0, kPoseSigmaM = 0.002;
 class FrameDescriber {
  public:
   FrameDescriber(const sphc_calibration &calibration, const RgbdImportOptions &options)
-      : camera_(calibration.color_camera),
-        width_(camera_.width()),
-        height_(camera_.height()),
-        features_(width_, height_, options.max_keypoints) {
+      : camera_(calibration.color_camera), features_(camera_.width(), camera_.height(), options.max_keypoints) {
     const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m,
                                 kMappingNoise.sigma_m, kMappingNoise.sigma_per_m2};
     aligner_ = SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromDoor(calibration.color_from_depth),
                              sensor);
-    gray_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));
   }
 
   const Camera &camera() const { return camera_; }
 
   std::vector<Observation> describe(const sphc_frame &frame, const Rigid &world_from_camera, uint32_t *keypoints) {
-    bgrToGray(static_cast<const uint8_t *>(frame.color.data), static_cast<int32_t>(frame.color.stride_bytes),
-              width_, height_, gray_.data(), width_);
-    features_.extract({gray_.data(), width_, height_, width_});
+    features_.extract(grayOf(frame.color, &gray_));
     *keypoints = features_.count();
-    const ImageView<uint16_t> depth = {
-        static_cast<const uint16_t *>(frame.depth.data), static_cast<int32_t>(frame.depth.width),
-        static_cast<int32_t>(frame.depth.height), static_cast<int32_t>(frame.depth.stride_bytes / 2)};
+    const ImageView<uint16_t> depth = depthOf(frame.depth);
     std::vector<Observation> observations;
     for (uint32_t i = 0; i < *keypoints; ++i) {
       const Vector2 pixel = features_.pixel(i);
@@ -67,19 +60,10 @@ class FrameDescriber {
   }
 
   Camera camera_;
-  int32_t width_, height_;
   FrameFeatures features_;
   std::vector<uint8_t> gray_;
   SparseAligner aligner_;
 };
-
-sphc_calibration calibrationOf(const sphc_replay *replay) {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  if (sphc_replay_calibration(replay, &calibration) != SPHC_OK)
-    throw std::runtime_error("the recording's calibration cannot be read");
-  return calibration;
-}
 
 }  // namespace
 

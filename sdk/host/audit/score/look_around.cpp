@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "host/frames/recording.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 
@@ -81,11 +82,7 @@ Matrix3 turned(double yaw_deg, double pitch_deg) {
 }  // namespace
 
 Panorama lookAround(sphc_replay *replay, const Vector3 &centre_m) {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  if (sphc_replay_calibration(replay, &calibration) != SPHC_OK)
-    throw std::runtime_error("the recording's calibration cannot be read");
-  const FramePainter painter(calibration, centre_m);
+  const FramePainter painter(calibrationOf(replay), centre_m);
   Panorama panorama;
   uint32_t painted = 0;
   for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {

@@ -9,15 +9,17 @@
 #include <string>
 
 #include "host/audit/train/output.h"
-#include "host/audit/train/replay_handle.h"
+#include "host/frames/recording.h"
 #include "host/import/rgbd_import.h"
 
 namespace sphc::host {
 namespace {
 
 PointModel pointsOf(const char *recording) {
+  RecordingOptions options;
+  options.folder = recording;
   RgbdImportSummary summary;
-  return importRgbd(openReplay(recording, nullptr, nullptr).get(), {}, {}, &summary);
+  return importRgbd(openReplay(options).get(), {}, {}, &summary);
 }
 
 void write(const PointModel &model, const char *path) {

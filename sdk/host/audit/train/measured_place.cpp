@@ -6,12 +6,12 @@
 #include "host/audit/attack/virtual_camera.h"
 #include "host/audit/score/frame_view.h"
 #include "host/audit/score/look_around.h"
-#include "host/audit/train/replay_handle.h"
 #include "host/build/sphere_cloud.h"
 #include "host/frames/frame_features.h"
+#include "host/frames/frame_images.h"
+#include "host/frames/recording.h"
 #include "host/import/rgbd_import.h"
 #include "runtime/geometry/rigid.h"
-#include "runtime/stages/features/gray.h"
 
 namespace sphc::host {
 namespace {
@@ -19,33 +19,24 @@ namespace {
 constexpr double kApartDeg = 20, kSeenShare = 0.5;
 
 struct Description {
-  std::string name, recording, calibration;
-  uint32_t first = 0, last = UINT32_MAX, step = 1;
+  std::string name;
+  RecordingOptions recording;
 };
 
 Description parse(const std::string &text) {
   Description place;
+  RecordingOptions &recording = place.recording;
   std::istringstream stream(text);
   std::string first, last, step;
   std::getline(stream, place.name, '=');
-  std::getline(stream, place.recording, ',');
-  std::getline(stream, place.calibration, ',');
-  if (std::getline(stream, first, ',')) place.first = static_cast<uint32_t>(std::stoul(first));
-  if (std::getline(stream, last, ',')) place.last = static_cast<uint32_t>(std::stoul(last));
-  if (std::getline(stream, step, ',')) place.step = static_cast<uint32_t>(std::stoul(step));
-  if (place.recording.empty())
+  std::getline(stream, recording.folder, ',');
+  std::getline(stream, recording.calibration, ',');
+  if (std::getline(stream, first, ',')) recording.first = static_cast<uint32_t>(std::stoul(first));
+  if (std::getline(stream, last, ',')) recording.last = static_cast<uint32_t>(std::stoul(last));
+  if (std::getline(stream, step, ',')) recording.step = static_cast<uint32_t>(std::stoul(step));
+  if (recording.folder.empty())
     throw std::runtime_error(text + " is not name=recording,calibration,first,last,step");
   return place;
-}
-
-Replay open(const Description &place) {
-  sphc_replay_config config;
-  sphc_replay_config_init(&config, sizeof config);
-  config.first = place.first;
-  config.last = place.last;
-  config.step = place.step;
-  return openReplay(place.recording.c_str(), place.calibration.empty() ? nullptr : place.calibration.c_str(),
-                    &config);
 }
 
 // Frames whose axes are far enough from each other.
@@ -72,8 +63,8 @@ class FrameReader {
       const Vector3 axis = world_from_camera.rotation.col(2);
       if (!farFrom(axis, axes) || sphc_replay_read_frame(replay_, i, &frame, &message) != SPHC_OK) continue;
       axes.push_back(axis);
-      const cv::Mat grey = greyOf(frame.color);
-      place->frame_truths.push_back(frameView(grey, camera_));
+      const GrayView grey = grayOf(frame.color, &grey_);
+      place->frame_truths.push_back(frameView(cv::Mat(grey.height, grey.width, CV_8U, grey_.data()), camera_));
       place->own_keypoints.push_back(ownKeypoints(grey));
       place->unprotected.push_back(see(positions_, descriptors_, {}, world_from_camera.inverse()));
     }
@@ -86,15 +77,8 @@ class FrameReader {
     return true;
   }
 
-  static cv::Mat greyOf(const sphc_image &color) {
-    cv::Mat grey(static_cast<int>(color.height), static_cast<int>(color.width), CV_8U);
-    bgrToGray(static_cast<const uint8_t *>(color.data), static_cast<int32_t>(color.stride_bytes), grey.cols,
-              grey.rows, grey.data, static_cast<int32_t>(grey.step));
-    return grey;
-  }
-
-  SeenPoints ownKeypoints(const cv::Mat &grey) {
-    features_.extract({grey.data, grey.cols, grey.rows, static_cast<int32_t>(grey.step)});
+  SeenPoints ownKeypoints(const GrayView &grey) {
+    features_.extract(grey);
     std::vector<Vector3> rays;
     std::vector<Descriptor> descriptors;
     for (uint32_t i = 0; i < features_.count(); ++i) {
@@ -109,23 +93,16 @@ class FrameReader {
   sphc_replay *replay_;
   Camera camera_;
   FrameFeatures features_;
+  std::vector<uint8_t> grey_;
   std::vector<Vector3> positions_;
   std::vector<Descriptor> descriptors_;
 };
-
-Camera colorCamera(sphc_replay *replay) {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  if (sphc_replay_calibration(replay, &calibration) != SPHC_OK)
-    throw std::runtime_error("the recording's calibration cannot be read");
-  return Camera(calibration.color_camera);
-}
 
 }  // namespace
 
 MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
   const Description described = parse(description);
-  const Replay replay = open(described);
+  const Replay replay = openReplay(described.recording);
   RgbdImportSummary summary;
   const PointModel model = importRgbd(replay.get(), {}, {}, &summary);
   MeasuredPlace place;
@@ -135,7 +112,7 @@ MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
   const Panorama panorama = lookAround(replay.get(), centre_m);
   place.rotations = choosePoses(replay.get(), panorama, kApartDeg, kSeenShare);
   for (const Matrix3 &rotation : place.rotations) place.centre_truths.push_back(panorama.view(rotation));
-  FrameReader(replay.get(), colorCamera(replay.get()), model).read(&place);
+  FrameReader(replay.get(), Camera(calibrationOf(replay.get()).color_camera), model).read(&place);
   return place;
 }
 
