@@ -12,6 +12,7 @@
 #include "host/audit/attack/querying_client.h"
 #include "host/audit/attack/real_or_fake.h"
 #include "host/audit/attack/triangulation.h"
+#include "host/audit/score/known_cloud.h"
 #include "host/audit/score/point_errors.h"
 #include "host/audit/score/real_or_fake_scores.h"
 #include "host/audit/score/release_scores.h"
@@ -164,26 +165,22 @@ class Auditor {
     for (size_t i = 0; i < directions.size(); ++i) points.push_back({directions[i], descriptors[i]});
     SecretRandom random({1});
     shuffle(&points, &random);
-    Published paper;
-    for (const Fate &fate :
-         gaussianFakes()->fates(points, static_cast<size_t>(eta_ * static_cast<double>(points.size())), &random)) {
-      paper.directions.push_back(fate.shown.direction);
-      paper.descriptors.push_back(fate.shown.descriptor);
-      paper_real_.push_back(fate.real);
-    }
-    const std::vector<RealOrFakeGuess> guesses = guessRealOrFake(paper, input_.networks);
+    const auto real_count = static_cast<size_t>(eta_ * static_cast<double>(points.size()));
+    const KnownCloud paper = knownCloud(gaussianFakes()->fates(points, real_count, &random));
+    const Published &shown = paper.published;
+    const std::vector<RealOrFakeGuess> guesses = guessRealOrFake(shown, input_.networks);
     double best = 0;
     std::vector<double> scores;
     for (const RealOrFakeGuess &guess : guesses) {
-      const double auc = areaUnderCurve(guess.scores, paper_real_).value;
+      const double auc = areaUnderCurve(guess.scores, paper.real).value;
       if (auc <= best) continue;
       best = auc;
       scores = guess.scores;
     }
     add("real_or_fake.auc_paper", "the same, had the paper's fakes been used", best);
-    const double plain = paint("paper's fakes", paper.directions, paper.descriptors, {});
+    const double plain = paint("paper's fakes", shown.directions, shown.descriptors, {});
     return std::max(plain,
-                    paint("paper's fakes, pruned", paper.directions, paper.descriptors, pruned(scores, eta_)));
+                    paint("paper's fakes, pruned", shown.directions, shown.descriptors, pruned(scores, eta_)));
   }
 
   void attackReleases(size_t k) {
@@ -227,7 +224,7 @@ class Auditor {
   const AuditProgress &progress_;
   Published map_;
   std::vector<EntryTruth> truth_;
-  std::vector<bool> real_, paper_real_;
+  std::vector<bool> real_;
   double eta_ = 0;
   std::vector<double> scores_;
   std::set<std::string> names_;

@@ -1,14 +1,11 @@
-// dump_points RECORDING OUT: the private points of a recording that may be trained on.
-// OUT, little-endian: uint32 count, count times float32 x, y, z in metres of the recording's world, count times 128
-// bytes.
-#include <cstdint>
-#include <exception>
+// dump_points RECORDING OUT: the private points of a recording that may be trained on.  OUT as point_file.h says,
+// in metres of the recording's world.
 #include <fstream>
-#include <iostream>
 #include <stdexcept>
 #include <string>
 
-#include "host/audit/train/output.h"
+#include "host/audit/train/point_file.h"
+#include "host/audit/train/tool.h"
 #include "host/frames/recording.h"
 #include "host/import/rgbd_import.h"
 
@@ -22,29 +19,23 @@ PointModel pointsOf(const char *recording) {
   return importRgbd(openReplay(options).get(), {}, {}, &summary);
 }
 
-void write(const PointModel &model, const char *path) {
-  std::ofstream out(path, std::ios::binary);
-  writeValue(static_cast<uint32_t>(model.points.size()), &out);
+void write(const PointModel &model, const std::string &path) {
+  std::vector<Vector3> positions_m;
+  std::vector<Descriptor> descriptors;
   for (const ModelPoint &point : model.points) {
-    for (int axis = 0; axis < 3; ++axis) writeValue(static_cast<float>(point.position_m[axis]), &out);
+    positions_m.push_back(point.position_m);
+    descriptors.push_back(point.descriptor);
   }
-  for (const ModelPoint &point : model.points) writeValue(point.descriptor, &out);
-  if (!out.flush()) throw std::runtime_error(std::string(path) + " cannot be written; is the disk full?");
+  std::ofstream out(path, std::ios::binary);
+  writePoints(positions_m, descriptors, &out);
+  if (!out.flush()) throw std::runtime_error(path + " cannot be written; is the disk full?");
 }
+
+void run(char **arguments) { write(pointsOf(arguments[1]), arguments[2]); }
 
 }  // namespace
 }  // namespace sphc::host
 
 int main(int argc, char **argv) {
-  if (argc != 3) {
-    std::cerr << "usage: dump_points RECORDING OUT\n";
-    return 2;
-  }
-  try {
-    sphc::host::write(sphc::host::pointsOf(argv[1]), argv[2]);
-  } catch (const std::exception &failure) {
-    std::cerr << "dump_points: " << failure.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return sphc::host::runTool("dump_points RECORDING OUT", argc == 3, [&] { sphc::host::run(argv); });
 }

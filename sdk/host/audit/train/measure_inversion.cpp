@@ -3,9 +3,7 @@
 // attack,map,strategy,eta,variant,metric,value; OUT.png shows views of the first place.
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <fstream>
-#include <iostream>
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
@@ -14,8 +12,10 @@
 
 #include "host/audit/attack/inversion.h"
 #include "host/audit/score/image_scores.h"
+#include "host/audit/score/known_cloud.h"
 #include "host/audit/score/retrieval.h"
 #include "host/audit/train/measured_place.h"
+#include "host/audit/train/tool.h"
 
 namespace sphc::host {
 namespace {
@@ -80,17 +80,11 @@ class Measurement {
  private:
   void measureFakes(const FakeStrategy &strategy, SecretRandom *random) {
     const auto real = static_cast<size_t>(kEta * static_cast<double>(place_->points.size()));
-    const std::vector<Fate> fates = strategy.fates(place_->points, real, random);
-    std::vector<Vector3> directions;
-    std::vector<Descriptor> descriptors;
-    std::vector<float> oracle;
-    for (const Fate &fate : fates) {
-      directions.push_back(fate.shown.direction);
-      descriptors.push_back(fate.shown.descriptor);
-      oracle.push_back(fate.real ? 1.0f : 0.0f);
-    }
-    attackCentre({strategy.name(), "0.33", "centre"}, directions, descriptors, {});
-    attackCentre({strategy.name(), "0.33", "centre_oracle"}, directions, descriptors, oracle);
+    const KnownCloud cloud = knownCloud(strategy.fates(place_->points, real, random));
+    const std::vector<float> oracle(cloud.real.begin(), cloud.real.end());
+    const Published &shown = cloud.published;
+    attackCentre({strategy.name(), "0.33", "centre"}, shown.directions, shown.descriptors, {});
+    attackCentre({strategy.name(), "0.33", "centre_oracle"}, shown.directions, shown.descriptors, oracle);
   }
 
   void attackCentre(const Variant &variant, const std::vector<Vector3> &directions,
@@ -203,15 +197,6 @@ void run(int argc, char **argv) {
 }  // namespace sphc::host
 
 int main(int argc, char **argv) {
-  if (argc < 4) {
-    std::cerr << "usage: measure_inversion NETWORKS OUT NAME=RECORDING,CALIBRATION,FIRST,LAST,STEP...\n";
-    return 2;
-  }
-  try {
-    sphc::host::run(argc, argv);
-  } catch (const std::exception &failure) {
-    std::cerr << "measure_inversion: " << failure.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return sphc::host::runTool("measure_inversion NETWORKS OUT NAME=RECORDING,CALIBRATION,FIRST,LAST,STEP...",
+                             argc >= 4, [&] { sphc::host::run(argc, argv); });
 }

@@ -1,16 +1,9 @@
 // Clouds in which real points lie in clusters of lookalikes, and fakes anywhere, or in nothing different from them.
 #pragma once
-#include <vector>
-
-#include "host/audit/attack/published.h"
+#include "host/audit/score/known_cloud.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc::host {
-
-struct MadeUpCloud {
-  Published published;
-  std::vector<bool> real;
-};
 
 inline Descriptor nearTo(const Descriptor &descriptor, Random *random) {
   Descriptor near = descriptor;
@@ -19,9 +12,9 @@ inline Descriptor nearTo(const Descriptor &descriptor, Random *random) {
 }
 
 // `tell`: fakes lie anywhere; otherwise where real ones do.
-inline MadeUpCloud makeUpCloud(bool tell, uint64_t seed) {
+inline KnownCloud makeUpCloud(bool tell, uint64_t seed) {
   Random random(seed);
-  MadeUpCloud cloud;
+  KnownCloud cloud;
   for (int cluster = 0; cluster < 12; ++cluster) {
     const Vector3 middle = test::randomDirection(&random);
     const Descriptor look = test::randomDescriptor(&random);

@@ -1,14 +1,13 @@
 // cloud_features NETWORKS CLOUD OUT: what the classifier sees of a cloud.  OUT, little-endian: uint32 points,
 // uint32 features, uint32 neighbours; of all points float32 features; int32 neighbours in direction; a byte, 1 for
 // real.
-#include <exception>
 #include <fstream>
-#include <iostream>
 #include <stdexcept>
 
 #include "host/audit/attack/real_or_fake_features.h"
+#include "host/audit/train/plain_values.h"
 #include "host/audit/train/real_or_fake/cloud_file.h"
-#include "host/audit/train/real_or_fake/plain_values.h"
+#include "host/audit/train/tool.h"
 
 namespace sphc::host {
 namespace {
@@ -37,15 +36,5 @@ void run(char **arguments) {
 }  // namespace sphc::host
 
 int main(int argc, char **argv) {
-  if (argc != 4) {
-    std::cerr << "usage: cloud_features NETWORKS CLOUD OUT\n";
-    return 2;
-  }
-  try {
-    sphc::host::run(argv);
-  } catch (const std::exception &failure) {
-    std::cerr << "cloud_features: " << failure.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return sphc::host::runTool("cloud_features NETWORKS CLOUD OUT", argc == 4, [&] { sphc::host::run(argv); });
 }

@@ -2,11 +2,10 @@
 // known; MAP and STRATEGY are what the rows shall call them.
 #include <algorithm>
 #include <cstdio>
-#include <exception>
-#include <iostream>
 
 #include "host/audit/score/real_or_fake_scores.h"
 #include "host/audit/train/real_or_fake/cloud_file.h"
+#include "host/audit/train/tool.h"
 
 namespace sphc::host {
 namespace {
@@ -26,15 +25,6 @@ void run(char **arguments) {
 }  // namespace sphc::host
 
 int main(int argc, char **argv) {
-  if (argc != 5) {
-    std::cerr << "usage: measure_real_or_fake NETWORKS MAP STRATEGY CLOUD\n";
-    return 2;
-  }
-  try {
-    sphc::host::run(argv);
-  } catch (const std::exception &failure) {
-    std::cerr << "measure_real_or_fake: " << failure.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return sphc::host::runTool("measure_real_or_fake NETWORKS MAP STRATEGY CLOUD", argc == 5,
+                             [&] { sphc::host::run(argv); });
 }

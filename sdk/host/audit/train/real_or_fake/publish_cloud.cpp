@@ -1,30 +1,27 @@
 // publish_cloud POINTS STRATEGY ETA SEED OUT: what would be published of private points, and the truth.
-// POINTS as dump_points writes them: uint32 count, of all points float32 x, y, z in metres, of all 128 bytes.
+// POINTS as dump_points writes them.
 #include <cstring>
-#include <exception>
 #include <fstream>
-#include <iostream>
 #include <stdexcept>
 
+#include "host/audit/train/point_file.h"
 #include "host/audit/train/real_or_fake/cloud_file.h"
-#include "host/audit/train/real_or_fake/plain_values.h"
+#include "host/audit/train/tool.h"
 #include "host/build/fakes/strategy.h"
 #include "host/import/twins.h"
 
 namespace sphc::host {
 namespace {
 
-PointModel readPoints(const std::string &path) {
+PointModel readModel(const std::string &path) {
   std::ifstream in(path, std::ios::binary);
-  const auto count = readPlain<uint32_t>(&in);
-  PointModel model;
-  for (uint32_t i = 0; i < count && in; ++i) {
-    const float x = readPlain<float>(&in), y = readPlain<float>(&in), z = readPlain<float>(&in);
-    model.points.push_back({Eigen::Vector3f(x, y, z).cast<double>(), {}, 0, 1});
-  }
-  for (ModelPoint &point : model.points) point.descriptor = readPlain<Descriptor>(&in);
-  if (!in || model.points.empty())
+  std::vector<Vector3> positions_m;
+  std::vector<Descriptor> descriptors;
+  readPoints(&in, &positions_m, &descriptors);
+  if (!in || positions_m.empty())
     throw std::runtime_error(path + " is missing or has no points; dump_points makes them");
+  PointModel model;
+  for (size_t i = 0; i < positions_m.size(); ++i) model.points.push_back({positions_m[i], descriptors[i], 0, 1});
   return model;
 }
 
@@ -45,14 +42,7 @@ KnownCloud publish(const PointModel &model, const FakeStrategy &strategy, double
   std::vector<SpherePoint> points = project(model);
   shuffle(&points, &random);
   const auto real_count = static_cast<size_t>(eta * static_cast<double>(points.size()));
-  const std::vector<Fate> fates = strategy.fates(points, real_count, &random);
-  KnownCloud cloud;
-  for (const Fate &fate : fates) {
-    cloud.published.directions.push_back(fate.shown.direction);
-    cloud.published.descriptors.push_back(fate.shown.descriptor);
-    cloud.real.push_back(fate.real);
-  }
-  return cloud;
+  return knownCloud(strategy.fates(points, real_count, &random));
 }
 
 std::unique_ptr<FakeStrategy> strategyNamed(const std::string &name) {
@@ -63,7 +53,7 @@ std::unique_ptr<FakeStrategy> strategyNamed(const std::string &name) {
 
 void run(char **arguments) {
   const auto strategy = strategyNamed(arguments[2]);
-  const PointModel model = withoutTwins(readPoints(arguments[1]), {0.06, 260});
+  const PointModel model = withoutTwins(readModel(arguments[1]), {0.06, 260});
   writeCloud(arguments[5], publish(model, *strategy, std::stod(arguments[3]), std::stoull(arguments[4])));
 }
 
@@ -71,15 +61,6 @@ void run(char **arguments) {
 }  // namespace sphc::host
 
 int main(int argc, char **argv) {
-  if (argc != 6) {
-    std::cerr << "usage: publish_cloud POINTS STRATEGY ETA SEED OUT\n";
-    return 2;
-  }
-  try {
-    sphc::host::run(argv);
-  } catch (const std::exception &failure) {
-    std::cerr << "publish_cloud: " << failure.what() << '\n';
-    return 1;
-  }
-  return 0;
+  return sphc::host::runTool("publish_cloud POINTS STRATEGY ETA SEED OUT", argc == 6,
+                             [&] { sphc::host::run(argv); });
 }

@@ -23,7 +23,7 @@ double aucOf(const std::vector<RealOrFakeGuess> &guesses, const std::string &att
 }
 
 TEST(RealOrFake, FakesThatLieAnywhereAreFound) {
-  const MadeUpCloud cloud = makeUpCloud(true, 5);
+  const KnownCloud cloud = makeUpCloud(true, 5);
   const auto guesses = guessRealOrFake(cloud.published, kNetworks);
   EXPECT_GT(aucOf(guesses, "density", cloud.real), 0.85);
   EXPECT_GT(aucOf(guesses, "lookalikes", cloud.real), 0.9);
@@ -31,7 +31,7 @@ TEST(RealOrFake, FakesThatLieAnywhereAreFound) {
 }
 
 TEST(RealOrFake, FakesLikeRealPointsAreNot) {
-  const MadeUpCloud cloud = makeUpCloud(false, 6);
+  const KnownCloud cloud = makeUpCloud(false, 6);
   for (const RealOrFakeGuess &guess : guessRealOrFake(cloud.published, kNetworks)) {
     ASSERT_EQ(guess.scores.size(), cloud.real.size());
     const Auc auc = areaUnderCurve(guess.scores, cloud.real);
@@ -56,7 +56,7 @@ TEST(RealOrFake, MirroredFakesAreFoundAmongTheirLike) {
 }
 
 TEST(RealOrFake, ProbabilitiesAreProbabilitiesAndTheSameAgain) {
-  const MadeUpCloud cloud = makeUpCloud(true, 8);
+  const KnownCloud cloud = makeUpCloud(true, 8);
   const auto once = guessRealOrFake(cloud.published, kNetworks),
              again = guessRealOrFake(cloud.published, kNetworks);
   for (size_t g = 0; g < once.size(); ++g) {
@@ -67,7 +67,7 @@ TEST(RealOrFake, ProbabilitiesAreProbabilitiesAndTheSameAgain) {
 }
 
 TEST(RealOrFake, TooFewPointsAreRefused) {
-  MadeUpCloud cloud = makeUpCloud(true, 9);
+  KnownCloud cloud = makeUpCloud(true, 9);
   cloud.published.directions.resize(48);
   cloud.published.descriptors.resize(48);
   EXPECT_THROW(guessRealOrFake(cloud.published, kNetworks), std::runtime_error);

@@ -1,0 +1,17 @@
+// A cloud as published, and which of its points are real.
+#pragma once
+#include <vector>
+
+#include "host/audit/attack/published.h"
+#include "host/build/fakes/strategy.h"
+
+namespace sphc::host {
+
+struct KnownCloud {
+  Published published;  // directions and descriptors alone
+  std::vector<bool> real;
+};
+
+KnownCloud knownCloud(const std::vector<Fate> &fates);
+
+}  // namespace sphc::host
