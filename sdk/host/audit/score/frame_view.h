@@ -1,6 +1,6 @@
 // A frame of a recording as the virtual camera at its place would see it.
 #pragma once
-#include "host/audit/score/panorama.h"
+#include "host/audit/score/truth_view.h"
 #include "runtime/geometry/camera.h"
 
 namespace sphc::host {

@@ -4,7 +4,7 @@
 #pragma once
 #include <opencv2/core.hpp>
 
-#include "host/audit/score/panorama.h"
+#include "host/audit/score/truth_view.h"
 
 namespace sphc::host {
 

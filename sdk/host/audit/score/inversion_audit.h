@@ -7,8 +7,8 @@
 
 #include "host/audit/attack/inversion.h"
 #include "host/audit/attack/published.h"
-#include "host/audit/score/panorama.h"
 #include "host/audit/score/retrieval.h"
+#include "host/audit/score/truth_view.h"
 
 namespace sphc::host {
 

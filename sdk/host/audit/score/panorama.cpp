@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/audit/attack/virtual_camera.h"
-
 namespace sphc::host {
 namespace {
 
 constexpr float kSameSurface = 0.06f;  // relative: ranges this close are one surface
 constexpr double kNearM = 0.6;         // the centre may lie in the furniture: what is nearer would hide the room
-constexpr int kSubsamples = 3;         // rays a pixel, both ways
-constexpr int kEnough = 3;             // rays that must have met something
+constexpr RaysOfPixel kRays = {3, 3};
 
 }  // namespace
 
@@ -45,30 +42,14 @@ void Panorama::add(const Vector3 &offset_m, double radius_m, float grey) {
 }
 
 TruthView Panorama::view(const Matrix3 &camera_from_map) const {
-  const int side = VirtualCamera::kSide;
   const Matrix3 map_from_camera = camera_from_map.transpose();
-  TruthView view = {cv::Mat(side, side, CV_32F, cv::Scalar(0)), cv::Mat(side, side, CV_8U, cv::Scalar(0))};
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      float sum = 0;
-      int met = 0;
-      for (int i = 0; i < kSubsamples * kSubsamples; ++i) {
-        const Vector2 within(i % kSubsamples + 0.5, i / kSubsamples + 0.5);
-        const Vector3 ray = map_from_camera * VirtualCamera::ray(Vector2(x, y) + within / kSubsamples);
-        Vector2 place;
-        const int face = faceOf(ray, &place);
-        const auto cell_of = [](double p) { return std::min(static_cast<int>(p), kSide - 1); };
-        const Cell &cell = cells_[indexOf(face, cell_of(place.x()), cell_of(place.y()))];
-        if (cell.weight == 0) continue;
-        sum += cell.sum / cell.weight;
-        ++met;
-      }
-      if (met < kEnough) continue;
-      view.grey.at<float>(y, x) = sum / static_cast<float>(met);
-      view.seen.at<uint8_t>(y, x) = 255;
-    }
-  }
-  return view;
+  return truthView(kRays, [&](const Vector3 &ray) {
+    Vector2 place;
+    const int face = faceOf(map_from_camera * ray, &place);
+    const auto cell_of = [](double p) { return std::min(static_cast<int>(p), kSide - 1); };
+    const Cell &cell = cells_[indexOf(face, cell_of(place.x()), cell_of(place.y()))];
+    return cell.weight == 0 ? -1.0f : cell.sum / cell.weight;
+  });
 }
 
 }  // namespace sphc::host

@@ -1,19 +1,10 @@
 // What is seen from one point in all directions, painted with measured points: six faces of a cube, nearest first.
 #pragma once
-#include <opencv2/core.hpp>
 #include <vector>
 
-#include "runtime/geometry/rotation.h"
+#include "host/audit/score/truth_view.h"
 
 namespace sphc::host {
-
-struct TruthView {
-  cv::Mat grey;  // VirtualCamera's side, CV_32F, 0 to 255
-  cv::Mat seen;  // CV_8U: 255 where the truth is known
-  double seenShare() const {
-    return static_cast<double>(cv::countNonZero(seen)) / static_cast<double>(seen.total());
-  }
-};
 
 class Panorama {
  public:

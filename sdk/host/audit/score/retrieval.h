@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "host/audit/score/panorama.h"
+#include "host/audit/score/truth_view.h"
 
 namespace sphc::host {
 

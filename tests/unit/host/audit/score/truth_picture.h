@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "host/audit/score/panorama.h"
+#include "host/audit/score/truth_view.h"
 
 namespace sphc::host {
 
