@@ -19,8 +19,6 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kApartDeg = 20, kSeenShare = 0.5;  // of views
-
 struct Options {
   std::string map, truth, report, figures, name, networks = SPHC_AUDIT_NETWORKS;
   RecordingOptions recording;
@@ -46,12 +44,7 @@ Place placeOf(const Options &options, const std::vector<uint8_t> &file) {
 }
 
 std::vector<InversionView> viewsOf(const Options &options, const Place &place) {
-  const Replay replay = openRecording(options.recording);
-  const Panorama panorama = lookAround(replay.get(), place.centre_m);
-  std::vector<InversionView> views;
-  for (const Matrix3 &rotation : choosePoses(replay.get(), panorama, kApartDeg, kSeenShare))
-    views.push_back({rotation, panorama.view(rotation)});
-  return views;
+  return viewsFromCentre(openRecording(options.recording).get(), place.centre_m);
 }
 
 std::vector<std::vector<ModelPoint>> queriesOf(const Options &options) {

@@ -1,9 +1,8 @@
 #include "host/cli/audit_page.h"
 
-#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
+#include "host/audit/score/inversion_sheet.h"
 #include "host/report/encode.h"
 #include "host/report/file.h"
 #include "host/report/page_style.h"
@@ -11,45 +10,6 @@
 
 namespace sphc::host {
 namespace {
-
-constexpr size_t kPictured = 6;  // views
-constexpr int kLabel = 190, kBorder = 2;
-
-// Brought to one brightness and contrast, since networks paint in no unit.
-cv::Mat shown(const cv::Mat &grey, const cv::Mat &mask) {
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(grey, mean, deviation, mask);
-  const double gain = 55 / std::max(deviation[0], 1e-6);
-  cv::Mat bytes, framed;
-  grey.convertTo(bytes, CV_8U, gain, 120 - gain * mean[0]);
-  if (!mask.empty()) bytes.setTo(90, mask == 0);
-  cv::copyMakeBorder(bytes, framed, kBorder, kBorder, kBorder, kBorder, cv::BORDER_CONSTANT, cv::Scalar(255));
-  return framed;
-}
-
-// A label and some pictures.
-cv::Mat strip(const std::string &name, const std::vector<cv::Mat> &pictures) {
-  cv::Mat row(pictures.front().rows, kLabel, CV_8U, cv::Scalar(255));
-  cv::putText(row, name, {6, row.rows / 2}, cv::FONT_HERSHEY_SIMPLEX, 0.42, cv::Scalar(0), 1, cv::LINE_AA);
-  for (const cv::Mat &picture : pictures) cv::hconcat(row, picture, row);
-  return row;
-}
-
-cv::Mat sheetOf(const MapAudit &audit) {
-  std::vector<size_t> chosen;
-  for (size_t k = 0; k < std::min(kPictured, audit.views.size()); ++k)
-    chosen.push_back(k * audit.views.size() / std::min(kPictured, audit.views.size()));
-  if (chosen.empty()) return {};
-  std::vector<cv::Mat> truth;
-  for (size_t i : chosen) truth.push_back(shown(audit.views[i].truth.grey, audit.views[i].truth.seen));
-  cv::Mat sheet = strip("truth", truth);
-  for (const InversionResult &result : audit.inversions) {
-    std::vector<cv::Mat> pictures;
-    for (size_t i : chosen) pictures.push_back(shown(result.pictures[i], {}));
-    cv::vconcat(sheet, strip(result.name, pictures), sheet);
-  }
-  return sheet;
-}
 
 std::string cell(const std::string &text) { return "<td>" + escapeHtml(text) + "</td>"; }
 
@@ -97,7 +57,7 @@ std::string wordFor(Verdict verdict) {
 std::string writeAuditPage(const std::string &folder, const std::string &map, const MapAudit &audit) {
   makeFolder(folder);
   std::string pictures;
-  const cv::Mat sheet = sheetOf(audit);
+  const cv::Mat sheet = inversionSheet(audit.views, audit.inversions);
   if (!sheet.empty()) {
     std::vector<uint8_t> png;
     cv::imencode(".png", sheet, png);

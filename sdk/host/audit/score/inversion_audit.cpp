@@ -34,20 +34,23 @@ std::vector<Matrix3> rotationsAllAround() {
 
 }  // namespace
 
-InversionResult invert(Inverter *inverter, const std::string &name, const std::vector<Vector3> &directions,
-                       const std::vector<Descriptor> &descriptors, const std::vector<float> &weights,
-                       const std::vector<InversionView> &views) {
+InversionResult invert(Inverter *inverter, const std::string &name, const std::vector<SeenPoints> &seen,
+                       const std::vector<TruthView> &truths) {
   InversionResult result;
   result.name = name;
-  std::vector<TruthView> truths;
-  for (const InversionView &view : views) {
-    result.pictures.push_back(
-        inverter->paint(see(directions, descriptors, weights, {view.camera_from_map, Vector3::Zero()})));
-    truths.push_back(view.truth);
-  }
+  for (const SeenPoints &points : seen) result.pictures.push_back(inverter->paint(points));
   result.coarse = retrieve(result.pictures, truths, kCoarseCells);
   result.fine = retrieve(result.pictures, truths, kFineCells);
   return result;
+}
+
+InversionResult invert(Inverter *inverter, const std::string &name, const std::vector<Vector3> &directions,
+                       const std::vector<Descriptor> &descriptors, const std::vector<float> &weights,
+                       const std::vector<InversionView> &views) {
+  std::vector<SeenPoints> seen;
+  for (const InversionView &view : views)
+    seen.push_back(see(directions, descriptors, weights, {view.camera_from_map, Vector3::Zero()}));
+  return invert(inverter, name, seen, truthsOf(views));
 }
 
 std::vector<float> pruned(const std::vector<double> &scores, double share) {

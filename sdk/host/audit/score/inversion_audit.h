@@ -12,11 +12,6 @@
 
 namespace sphc::host {
 
-struct InversionView {
-  Matrix3 camera_from_map;
-  TruthView truth;
-};
-
 // One attacker's picture of each view, and how often it tells the view.
 struct InversionResult {
   std::string name;
@@ -24,7 +19,11 @@ struct InversionResult {
   Retrieval coarse, fine;
 };
 
-// What an attacker who prunes has: for each point how much to believe in it; empty: everything alike.
+// What an attacker sees of each view, and its truth.
+InversionResult invert(Inverter *inverter, const std::string &name, const std::vector<SeenPoints> &seen,
+                       const std::vector<TruthView> &truths);
+// Of directions from the centre.  What an attacker who prunes has: for each point how much to believe in it; empty:
+// everything alike.
 InversionResult invert(Inverter *inverter, const std::string &name, const std::vector<Vector3> &directions,
                        const std::vector<Descriptor> &descriptors, const std::vector<float> &weights,
                        const std::vector<InversionView> &views);

@@ -10,6 +10,7 @@
 namespace sphc::host {
 namespace {
 
+constexpr double kApartDeg = 20, kSeenShare = 0.5;  // of views
 constexpr double kDepthMinM = 0.2, kDepthMaxM = 6.0;
 constexpr double kPi = 3.14159265358979323846;
 // Beside where the recording looked, the attacker looks a little up, down and aside.
@@ -114,6 +115,14 @@ std::vector<Matrix3> choosePoses(sphc_replay *replay, const Panorama &panorama, 
     }
   }
   return chosen;
+}
+
+std::vector<InversionView> viewsFromCentre(sphc_replay *replay, const Vector3 &centre_m) {
+  const Panorama panorama = lookAround(replay, centre_m);
+  std::vector<InversionView> views;
+  for (const Matrix3 &rotation : choosePoses(replay, panorama, kApartDeg, kSeenShare))
+    views.push_back({rotation, panorama.view(rotation)});
+  return views;
 }
 
 }  // namespace sphc::host

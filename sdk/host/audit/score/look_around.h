@@ -15,4 +15,7 @@ Panorama lookAround(sphc_replay *replay, const Vector3 &centre_m);
 std::vector<Matrix3> choosePoses(sphc_replay *replay, const Panorama &panorama, double apart_deg,
                                  double seen_share);
 
+// Both: the views that are inverted.
+std::vector<InversionView> viewsFromCentre(sphc_replay *replay, const Vector3 &centre_m);
+
 }  // namespace sphc::host

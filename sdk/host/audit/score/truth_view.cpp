@@ -4,6 +4,12 @@
 
 namespace sphc::host {
 
+std::vector<TruthView> truthsOf(const std::vector<InversionView> &views) {
+  std::vector<TruthView> truths;
+  for (const InversionView &view : views) truths.push_back(view.truth);
+  return truths;
+}
+
 TruthView truthView(const RaysOfPixel &rays, const std::function<float(const Vector3 &ray)> &grey_at) {
   const int side = VirtualCamera::kSide;
   TruthView view = {cv::Mat(side, side, CV_32F, cv::Scalar(0)), cv::Mat(side, side, CV_8U, cv::Scalar(0))};

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "runtime/geometry/rotation.h"
 
@@ -14,6 +15,13 @@ struct TruthView {
     return static_cast<double>(cv::countNonZero(seen)) / static_cast<double>(seen.total());
   }
 };
+
+// What the camera sees from the map's centre, turned like this.
+struct InversionView {
+  Matrix3 camera_from_map;
+  TruthView truth;
+};
+std::vector<TruthView> truthsOf(const std::vector<InversionView> &views);
 
 struct RaysOfPixel {
   int across;  // and down

@@ -16,7 +16,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kApartDeg = 20, kSeenShare = 0.5;
+constexpr double kApartDeg = 20;  // of frames' axes
 
 struct Description {
   std::string name;
@@ -109,9 +109,7 @@ MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
   place.name = described.name;
   Vector3 centre_m;
   place.points = makeSphereCloud(model, {1}, *gaussianFakes(), random, &centre_m).points;
-  const Panorama panorama = lookAround(replay.get(), centre_m);
-  place.rotations = choosePoses(replay.get(), panorama, kApartDeg, kSeenShare);
-  for (const Matrix3 &rotation : place.rotations) place.centre_truths.push_back(panorama.view(rotation));
+  place.centre_views = viewsFromCentre(replay.get(), centre_m);
   FrameReader(replay.get(), Camera(calibrationOf(replay.get()).color_camera), model).read(&place);
   return place;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/audit/attack/inversion.h"
-#include "host/audit/score/panorama.h"
+#include "host/audit/score/truth_view.h"
 #include "host/build/fakes/strategy.h"
 #include "host/import/point_model.h"
 
@@ -13,9 +13,7 @@ namespace sphc::host {
 struct MeasuredPlace {
   std::string name;
   std::vector<SpherePoint> points;  // all real, shuffled
-  // At the centre: rotations, camera_from_map, and the truth.
-  std::vector<Matrix3> rotations;
-  std::vector<TruthView> centre_truths;
+  std::vector<InversionView> centre_views;
   // At the poses of frames: the frame, its own keypoints, and the unprotected points.
   std::vector<TruthView> frame_truths;
   std::vector<SeenPoints> own_keypoints, unprotected;
