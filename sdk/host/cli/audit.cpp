@@ -5,11 +5,11 @@
 
 #include "host/audit/score/look_around.h"
 #include "host/audit/score/map_audit.h"
-#include "host/audit/score/privacy_ledger.h"
 #include "host/build/ledger.h"
 #include "host/cli/audit_page.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/privacy_ledger.h"
 #include "host/cli/progress.h"
 #include "host/cli/recording.h"
 #include "host/import/rgbd_import.h"

@@ -5,6 +5,7 @@
 
 #include "host/audit/score/release_audit.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/privacy_ledger.h"
 #include "host/cli/progress.h"
 #include "host/cli/recording.h"
 #include "host/import/rgbd_import.h"

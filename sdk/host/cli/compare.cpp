@@ -8,6 +8,7 @@
 #include "host/cli/compare_systems.h"
 #include "host/cli/compare_table.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/privacy_ledger.h"
 #include "host/cli/progress.h"
 #include "host/report/file.h"
 #include "host/report/ledger.h"
@@ -86,8 +87,7 @@ nlohmann::ordered_json runTables(const CompareInput &input, const Options &optio
 nlohmann::ordered_json runAttack(const CompareInput &input, const Options &options, const Console &console) {
   const std::vector<AttackedCloud> clouds = attackClouds(input);
   console.say("\n" + attackText(input.name, clouds));
-  if (!options.privacy_ledger.empty())
-    replaceRows(options.privacy_ledger, kPrivacyHead, attackKey(input.name), attackRows(input.name, clouds));
+  if (!options.privacy_ledger.empty()) updatePrivacyLedger(options.privacy_ledger, attackRows(input.name, clouds));
   if (!options.out.empty()) {
     makeFolder(options.out);
     const PlotResult drawn = drawAttack(options.out, input.name, clouds);

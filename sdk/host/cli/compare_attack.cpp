@@ -96,20 +96,18 @@ nlohmann::ordered_json attackJson(const std::string &input, const std::vector<At
   return {{"input", input}, {"clouds", list}};
 }
 
-const char kPrivacyHead[] = "attack,map,strategy,eta,variant,metric,value";
-
-std::string attackKey(const std::string &input) { return "density," + input + ","; }
-
-std::vector<std::string> attackRows(const std::string &input, const std::vector<AttackedCloud> &clouds) {
-  std::vector<std::string> rows;
+std::vector<PrivacyRow> attackRows(const std::string &input, const std::vector<AttackedCloud> &clouds) {
+  std::vector<PrivacyRow> rows;
   for (const AttackedCloud &c : clouds) {
-    const std::string begin = attackKey(input) + c.strategy + "," + fixed(0.01 * c.eta_percent, 2) + "," +
-                              (c.name == sphereName(c.eta_percent) ? "sphere cloud" : c.name) + ",";
-    rows.push_back(begin + "median_cm," + fixed(medianCm(c), 2));
-    rows.push_back(begin + "nearest_median_cm," + fixed(nearestCm(c), 2));
-    rows.push_back(begin + "within_5cm_percent," + fixed(100 * shareUpTo(c.errors_m, kNearM), 2));
-    rows.push_back(begin + "within_25cm_percent," + fixed(100 * shareUpTo(c.errors_m, kRoughlyM), 2));
-    if (c.has_centre) rows.push_back(begin + "at_centre_percent," + fixed(c.at_centre_percent, 2));
+    const std::string variant = c.name == sphereName(c.eta_percent) ? "sphere cloud" : c.name;
+    const auto add = [&](const char *metric, double value) {
+      rows.push_back({"density", input, c.strategy, 0.01 * c.eta_percent, variant, metric, value});
+    };
+    add("median_cm", medianCm(c));
+    add("nearest_median_cm", nearestCm(c));
+    add("within_5cm_percent", 100 * shareUpTo(c.errors_m, kNearM));
+    add("within_25cm_percent", 100 * shareUpTo(c.errors_m, kRoughlyM));
+    if (c.has_centre) add("at_centre_percent", c.at_centre_percent);
   }
   return rows;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/audit/score/privacy_row.h"
 #include "host/cli/compare_input.h"
 #include "host/report/gnuplot.h"
 
@@ -28,11 +29,8 @@ std::vector<AttackedCloud> attackClouds(const CompareInput &input);
 std::string attackText(const std::string &input, const std::vector<AttackedCloud> &clouds);
 nlohmann::ordered_json attackJson(const std::string &input, const std::vector<AttackedCloud> &clouds);
 
-// The privacy ledger: a metric a row.
-extern const char kPrivacyHead[];
-// What the rows of this attack on this input begin with.
-std::string attackKey(const std::string &input);
-std::vector<std::string> attackRows(const std::string &input, const std::vector<AttackedCloud> &clouds);
+// For the privacy ledger.
+std::vector<PrivacyRow> attackRows(const std::string &input, const std::vector<AttackedCloud> &clouds);
 
 // The share of points within an error, as in the paper's figure 5: FOLDER/density_<input>.svg, .png, .gp.
 PlotResult drawAttack(const std::string &folder, const std::string &input,

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/audit/attack/real_or_fake.h"
-#include "host/audit/score/privacy_ledger.h"
+#include "host/audit/score/privacy_row.h"
 
 namespace sphc::host {
 

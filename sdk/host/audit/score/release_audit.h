@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/audit/score/privacy_ledger.h"
+#include "host/audit/score/privacy_row.h"
 #include "host/build/fakes/strategy.h"
 #include "host/import/point_model.h"
 

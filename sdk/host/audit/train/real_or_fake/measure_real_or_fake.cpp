@@ -15,10 +15,8 @@ void run(char **arguments) {
   const double eta = static_cast<double>(std::count(cloud.real.begin(), cloud.real.end(), true)) /
                      static_cast<double>(cloud.real.size());
   const auto scores = scoreRealOrFake(guessRealOrFake(cloud.published, arguments[1]), cloud.real);
-  for (const PrivacyRow &row : realOrFakeRows(scores, arguments[2], arguments[3], eta)) {
-    std::printf("%s,%s,%s,%.2f,%s,%s,%.3f\n", row.attack.c_str(), row.map.c_str(), row.strategy.c_str(), row.eta,
-                row.variant.c_str(), row.metric.c_str(), row.value);
-  }
+  for (const PrivacyRow &row : realOrFakeRows(scores, arguments[2], arguments[3], eta))
+    std::puts(lineOf(row).c_str());
 }
 
 }  // namespace

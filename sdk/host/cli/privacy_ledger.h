@@ -3,14 +3,9 @@
 #include <string>
 #include <vector>
 
-namespace sphc::host {
+#include "host/audit/score/privacy_row.h"
 
-struct PrivacyRow {
-  std::string attack, map, strategy;
-  double eta;
-  std::string variant, metric;
-  double value;
-};
+namespace sphc::host {
 
 // Replaces the rows of the attacks, maps and strategies that `rows` are of; others stay.  Throws std::runtime_error
 // with cause and cure.

@@ -1,4 +1,4 @@
-#include "host/audit/score/privacy_ledger.h"
+#include "host/cli/privacy_ledger.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,7 +21,9 @@ TEST(PrivacyLedger, ReplacesItsOwnAttacksAndKeepsTheOthers) {
             "attack,map,strategy,eta,variant,metric,value\ndensity,room,none,1.00,ulc,median_cm,1.5\n"
             "order,room,gaussian,0.33,,auc,0.5\n");
   unlink(path.c_str());
-  EXPECT_THROW(updatePrivacyLedger("/nonexistent-folder/x.csv", {}), std::runtime_error);
+  EXPECT_THROW(
+      updatePrivacyLedger("/nonexistent-folder/x.csv", {{"order", "room", "gaussian", 0.333, "", "auc", 0.9}}),
+      std::runtime_error);
 }
 
 }  // namespace
