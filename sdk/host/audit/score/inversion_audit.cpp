@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/base/elementary.h"
+
 namespace sphc::host {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kApartDeg = 24;     // of neighbouring views' axes: half a field
 constexpr double kSteepestDeg = 48;  // up and down
 constexpr size_t kFewPoints = 100;   // in view

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "host/frames/recording.h"
+#include "runtime/base/elementary.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kApartDeg = 20, kSeenShare = 0.5;  // of views
 constexpr double kDepthMinM = 0.2, kDepthMaxM = 6.0;
-constexpr double kPi = 3.14159265358979323846;
 // Beside where the recording looked, the attacker looks a little up, down and aside.
 constexpr double kAsideDeg[][2] = {{0, 0},   {20, 0},    {-20, 0},  {0, 20},  {0, -20},
                                    {20, 20}, {-20, -20}, {20, -20}, {-20, 20}};

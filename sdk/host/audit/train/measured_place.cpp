@@ -11,6 +11,7 @@
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
 #include "host/import/rgbd_import.h"
+#include "runtime/base/elementary.h"
 #include "runtime/geometry/rigid.h"
 
 namespace sphc::host {
@@ -73,7 +74,7 @@ class FrameReader {
  private:
   static bool farFrom(const Vector3 &axis, const std::vector<Vector3> &others) {
     for (const Vector3 &other : others)
-      if (axis.dot(other) > std::cos(kApartDeg * 3.14159265358979323846 / 180)) return false;
+      if (axis.dot(other) > std::cos(kApartDeg * kPi / 180)) return false;
     return true;
   }
 

@@ -7,11 +7,10 @@
 #include <sstream>
 
 #include "host/audit/attack/virtual_camera.h"
+#include "runtime/base/elementary.h"
 
 namespace sphc::host {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // As golden_points() of train/export.py.
 SeenPoints goldenPoints() {

@@ -7,6 +7,7 @@
 
 #include "drivers/replay/recording_writer.h"
 #include "host/audit/attack/virtual_camera.h"
+#include "runtime/base/elementary.h"
 #include "runtime/geometry/rigid.h"
 #include "tests/contract/temp_folder.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 constexpr double kFocalPx = 110, kRadiusM = 2;
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kDegree = kPi / 180;
 
 // The inside of a ball around the world's origin; stripes by longitude, some 20 degrees wide.
 int greyOf(const Vector3 &point_m) {
