@@ -51,4 +51,15 @@ inline host::PointModel part(const host::PointModel &model, size_t first, size_t
            model.points.begin() + static_cast<ptrdiff_t>(first + count)}};
 }
 
+inline Rigid otherWorld() {
+  Random random(8);
+  return {randomRotation(&random), {-5, 2, 1}};
+}
+
+// A later recording, in another world, of the room's first points and of others.
+inline host::PointModel seenLater(const host::PointModel &room, size_t points, const host::PointModel &others,
+                                  uint64_t seed = 3) {
+  return seenAgain(joined(part(room, 0, points), others), seed, otherWorld());
+}
+
 }  // namespace sphc::test

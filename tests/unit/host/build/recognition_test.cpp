@@ -13,14 +13,9 @@ Place placeOf(const PointModel &model) {
   return place;
 }
 
-Rigid somewhere() {
-  Random random(12);
-  return {test::randomRotation(&random), {3, -1, 7}};
-}
-
 TEST(Recognition, FindsTheFrameAndThePointsWhateverTheWorld) {
   const PointModel room = test::madeUpRoom(2000, 1);
-  const Rigid other_from_world = somewhere();
+  const Rigid other_from_world = test::otherWorld();
   const PointModel again = test::joined(test::seenAgain(room, 2, other_from_world),
                                         test::seenAgain(test::madeUpRoom(500, 3), 4, other_from_world));
   const Recognition r = recognize(placeOf(room), again);
@@ -52,7 +47,7 @@ TEST(Recognition, AnotherRoomIsAnother) {
 TEST(Recognition, AFewPercentInCommonAreEnough) {
   const PointModel room = test::madeUpRoom(2000, 1);
   const PointModel next =
-      test::joined(test::madeUpRoom(1900, 2), test::seenAgain(test::part(room, 0, 60), 5, somewhere()));
+      test::joined(test::madeUpRoom(1900, 2), test::seenAgain(test::part(room, 0, 60), 5, test::otherWorld()));
   EXPECT_EQ(recognize(placeOf(room), next).known, 60u);
 }
 

@@ -13,31 +13,25 @@
 #include "runtime/map/packed_direction.h"
 #include "runtime/stages/features/extractor.h"
 #include "tests/support/made_up_model.h"
+#include "tests/support/refusal.h"
+#include "tests/support/release_request.h"
 
 namespace sphc::host {
 namespace {
 
+using test::releaseRequest;
 using testing::HasSubstr;
 
 constexpr double kEta = 1.0 / 3;
 
-ReleaseRequest request(std::vector<Place> own = {}, uint8_t key = 1) {
-  static const auto strategy = gaussianFakes();
-  ReleaseRequest request;
-  request.own = std::move(own);
-  request.key = {key};
-  request.strategy = strategy.get();
-  return request;
-}
-
 // Why it is refused.
 std::string refusal(const PointModel &model, const ReleaseRequest &request) {
-  try {
-    makeRelease(model, request);
-    return "accepted";
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
+  return test::refusal([&] { makeRelease(model, request); });
+}
+
+// The next release of what the owner has.
+NewRelease releaseAfter(const NewRelease &before, const PointModel &model) {
+  return makeRelease(model, releaseRequest({before.place}));
 }
 
 // Direction and descriptor of each entry, in the order of the file.
@@ -66,11 +60,6 @@ bool contains(const std::set<std::string> &all, const std::set<std::string> &som
   return std::includes(all.begin(), all.end(), some.begin(), some.end());
 }
 
-Rigid otherWorld() {
-  Random random(8);
-  return {test::randomRotation(&random), {-5, 2, 1}};
-}
-
 TEST(PackedDirections, WhatWasUnpackedIsPackedIntoTheSameBytes) {
   Random random(2);
   std::vector<Vector3> directions = {Vector3::UnitX(),
@@ -92,7 +81,7 @@ TEST(PackedDirections, WhatWasUnpackedIsPackedIntoTheSameBytes) {
 
 TEST(Release, TheFirstHasEveryPointAndRealOnesByEta) {
   const PointModel room = test::madeUpRoom(3000, 1);
-  const NewRelease made = makeRelease(room, request());
+  const NewRelease made = makeRelease(room, releaseRequest());
   EXPECT_EQ(made.place.number, 1u);
   EXPECT_EQ(made.place.releases.size(), 1u);
   EXPECT_EQ(made.summary.added, 3000u);
@@ -113,10 +102,10 @@ TEST(Release, TheFirstHasEveryPointAndRealOnesByEta) {
 
 TEST(Release, TheSameRecordingAndKeyGiveTheSameBytes) {
   const PointModel room = test::madeUpRoom(1000, 1);
-  const NewRelease made = makeRelease(room, request());
-  EXPECT_EQ(made.file, makeRelease(room, request()).file);
-  EXPECT_NE(made.file, makeRelease(room, request({}, 2)).file);
-  const NewRelease again = makeRelease(room, request({made.place}));
+  const NewRelease made = makeRelease(room, releaseRequest());
+  EXPECT_EQ(made.file, makeRelease(room, releaseRequest()).file);
+  EXPECT_NE(made.file, makeRelease(room, releaseRequest({}, 2)).file);
+  const NewRelease again = releaseAfter(made, room);
   EXPECT_TRUE(again.summary.is_same);
   EXPECT_EQ(again.file, made.file);
   EXPECT_EQ(again.place.releases.size(), 1u);
@@ -124,11 +113,10 @@ TEST(Release, TheSameRecordingAndKeyGiveTheSameBytes) {
 
 TEST(Release, AnUpdateKeepsAllThatWasPublished) {
   const PointModel room = test::madeUpRoom(3000, 1);
-  const NewRelease first = makeRelease(room, request());
+  const NewRelease first = makeRelease(room, releaseRequest());
   // Triangulated anew in another world, a tenth of it gone, a tenth new.
-  const PointModel more = test::seenAgain(
-      test::joined(test::part(room, 0, 2700), test::madeUpRoom(300, 9, {10.5, -4, 2})), 3, otherWorld());
-  const NewRelease second = makeRelease(more, request({first.place}));
+  const PointModel more = test::seenLater(room, 2700, test::madeUpRoom(300, 9, {10.5, -4, 2}));
+  const NewRelease second = releaseAfter(first, more);
   EXPECT_TRUE(second.summary.is_update);
   EXPECT_EQ(second.summary.known, 2700u);
   EXPECT_EQ(second.summary.added, 300u);
@@ -146,9 +134,9 @@ TEST(Release, AnUpdateKeepsAllThatWasPublished) {
 
 TEST(Release, NewPointsAreSeenFromTheOldCentreInTheOldWorld) {
   const PointModel room = test::madeUpRoom(2000, 1), corner = test::madeUpRoom(200, 9, {10.5, -4, 2});
-  const NewRelease first = makeRelease(room, request());
+  const NewRelease first = makeRelease(room, releaseRequest());
   const NewRelease second =
-      makeRelease(test::seenAgain(test::joined(room, corner), 3, otherWorld(), 0, 0), request({first.place}));
+      releaseAfter(first, test::seenAgain(test::joined(room, corner), 3, test::otherWorld(), 0, 0));
   for (size_t i = 2000; i < 2200; ++i) {
     const PlacePoint &point = second.place.points[i];
     const auto same = std::find_if(corner.points.begin(), corner.points.end(), [&](const ModelPoint &p) {
@@ -161,8 +149,8 @@ TEST(Release, NewPointsAreSeenFromTheOldCentreInTheOldWorld) {
 
 TEST(Release, EntriesKeepTheirOrder) {
   const PointModel room = test::madeUpRoom(500, 1);
-  const NewRelease first = makeRelease(room, request());
-  const NewRelease second = makeRelease(test::joined(room, test::madeUpRoom(100, 9)), request({first.place}));
+  const NewRelease first = makeRelease(room, releaseRequest());
+  const NewRelease second = releaseAfter(first, test::joined(room, test::madeUpRoom(100, 9)));
   std::vector<std::string> before, after;
   for (const SpherePoint &p : publishedCloud(first.place, {1}).points)
     before.emplace_back(p.descriptor.bytes, p.descriptor.bytes + kDescriptorBytes);
@@ -176,10 +164,9 @@ TEST(Release, EntriesKeepTheirOrder) {
 
 TEST(Release, DoubtfulPointsAreLeftOut) {
   const PointModel room = test::madeUpRoom(2000, 1);
-  const NewRelease first = makeRelease(test::part(room, 0, 1500), request());
+  const NewRelease first = makeRelease(test::part(room, 0, 1500), releaseRequest());
   const PointModel doubtful = test::seenAgain(test::part(room, 0, 200), 3, {}, 0.005, 26);
-  const NewRelease second =
-      makeRelease(test::joined(doubtful, test::part(room, 200, 1800)), request({first.place}));
+  const NewRelease second = releaseAfter(first, test::joined(doubtful, test::part(room, 200, 1800)));
   EXPECT_EQ(second.summary.known, 1300u);
   EXPECT_EQ(second.summary.ambiguous, 200u);
   EXPECT_EQ(second.summary.added, 500u);
@@ -187,34 +174,34 @@ TEST(Release, DoubtfulPointsAreLeftOut) {
 
 TEST(Release, AFewNewPointsWaitForMore) {
   const PointModel room = test::madeUpRoom(1100, 1);
-  const NewRelease first = makeRelease(test::part(room, 0, 1000), request());
-  const NewRelease held = makeRelease(test::part(room, 0, 1030), request({first.place}));
+  const NewRelease first = makeRelease(test::part(room, 0, 1000), releaseRequest());
+  const NewRelease held = releaseAfter(first, test::part(room, 0, 1030));
   EXPECT_EQ(held.summary.held_back, 30u);
   EXPECT_TRUE(held.summary.is_same);
   EXPECT_EQ(held.file, first.file);
-  EXPECT_EQ(makeRelease(room, request({held.place})).summary.added, 100u);
+  EXPECT_EQ(releaseAfter(held, room).summary.added, 100u);
 }
 
 TEST(Release, NearDuplicatesAreMergedFirst) {
   const PointModel room = test::madeUpRoom(500, 1);
-  const NewRelease made = makeRelease(test::joined(room, test::seenAgain(room, 2)), request());
+  const NewRelease made = makeRelease(test::joined(room, test::seenAgain(room, 2)), releaseRequest());
   EXPECT_EQ(made.summary.twins, 500u);
   EXPECT_EQ(setOf(made.file).size(), 500u);
 }
 
 TEST(Release, AnotherRoomIsAnotherPlaceAndSharesNoPoint) {
   const PointModel room = test::madeUpRoom(2000, 1);
-  const NewRelease first = makeRelease(room, request());
-  const PointModel next = test::seenAgain(
-      test::joined(test::part(room, 0, 400), test::madeUpRoom(1600, 5, {14, -4, 2})), 3, otherWorld());
-  const NewRelease second = makeRelease(next, request({first.place}));
+  const NewRelease first = makeRelease(room, releaseRequest());
+  const PointModel next = test::seenLater(room, 400, test::madeUpRoom(1600, 5, {14, -4, 2}));
+  const NewRelease second = releaseAfter(first, next);
   EXPECT_FALSE(second.summary.is_update);
   EXPECT_EQ(second.place.number, 2u);
   EXPECT_EQ(second.summary.elsewhere, 400u);
   EXPECT_EQ(second.summary.added, 1600u);
   // A third recording shows both: it belongs to the one, and what the other has is left out.
-  const PointModel both = test::joined(test::part(room, 0, 300), test::seenAgain(next, 4, otherWorld().inverse()));
-  const NewRelease third = makeRelease(both, request({first.place, second.place}));
+  const PointModel both =
+      test::joined(test::part(room, 0, 300), test::seenAgain(next, 4, test::otherWorld().inverse()));
+  const NewRelease third = makeRelease(both, releaseRequest({first.place, second.place}));
   EXPECT_TRUE(third.summary.is_update);
   EXPECT_EQ(third.place.number, 2u);
   EXPECT_EQ(third.summary.added, 0u);
@@ -222,27 +209,27 @@ TEST(Release, AnotherRoomIsAnotherPlaceAndSharesNoPoint) {
 
 TEST(Release, ASecondIndependentReleaseIsRefused) {
   const PointModel room = test::madeUpRoom(1000, 1);
-  const NewRelease first = makeRelease(room, request());
-  ReleaseRequest other_eta = request({first.place});
+  const NewRelease first = makeRelease(room, releaseRequest());
+  ReleaseRequest other_eta = releaseRequest({first.place});
   other_eta.eta = 0.5;
   EXPECT_THAT(refusal(room, other_eta), HasSubstr("eta 0.3333"));
   other_eta.eta = kEta;
-  EXPECT_EQ(refusal(room, other_eta), "accepted");
+  EXPECT_EQ(refusal(room, other_eta), "");
 
-  ReleaseRequest other_fakes = request({first.place});
+  ReleaseRequest other_fakes = releaseRequest({first.place});
   other_fakes.own[0].strategy = "permuted";
   EXPECT_THAT(refusal(room, other_fakes), HasSubstr("'permuted', not 'gaussian'"));
 
-  ReleaseRequest other_ledger = request({}, 2);
+  ReleaseRequest other_ledger = releaseRequest({}, 2);
   other_ledger.foreign = {first.place};
-  EXPECT_THAT(refusal(test::seenAgain(room, 2, otherWorld()), other_ledger), HasSubstr("--i-understand"));
-  EXPECT_EQ(refusal(test::madeUpRoom(1000, 6), other_ledger), "accepted");
+  EXPECT_THAT(refusal(test::seenAgain(room, 2, test::otherWorld()), other_ledger), HasSubstr("--i-understand"));
+  EXPECT_EQ(refusal(test::madeUpRoom(1000, 6), other_ledger), "");
 }
 
 TEST(Release, ANewPlaceHasOnlyWhatWasNeverPublished) {
   const PointModel room = test::madeUpRoom(1500, 1);
-  const NewRelease first = makeRelease(test::part(room, 0, 1000), request());
-  ReleaseRequest anew = request({first.place}, 2);
+  const NewRelease first = makeRelease(test::part(room, 0, 1000), releaseRequest());
+  ReleaseRequest anew = releaseRequest({first.place}, 2);
   anew.eta = 0.5;
   anew.new_place = true;
   const NewRelease second = makeRelease(room, anew);
@@ -254,8 +241,8 @@ TEST(Release, ANewPlaceHasOnlyWhatWasNeverPublished) {
 
 TEST(Release, WhoUnderstandsMayPublishTwice) {
   const PointModel room = test::madeUpRoom(1000, 1);
-  const NewRelease first = makeRelease(room, request());
-  ReleaseRequest again = request({first.place});
+  const NewRelease first = makeRelease(room, releaseRequest());
+  ReleaseRequest again = releaseRequest({first.place});
   again.understood = true;
   const NewRelease second = makeRelease(room, again);
   EXPECT_EQ(second.place.number, 2u);
@@ -265,15 +252,15 @@ TEST(Release, WhoUnderstandsMayPublishTwice) {
 
 TEST(Release, BadModelsAreExplained) {
   PointModel room = test::madeUpRoom(200, 1);
-  EXPECT_THAT(refusal(test::part(room, 0, 20), request()), HasSubstr("too few"));
-  ReleaseRequest bad_eta = request();
+  EXPECT_THAT(refusal(test::part(room, 0, 20), releaseRequest()), HasSubstr("too few"));
+  ReleaseRequest bad_eta = releaseRequest();
   for (double eta : {0.0, -1.0, 1.01, std::nan("")}) {
     bad_eta.eta = eta;
     EXPECT_THAT(refusal(room, bad_eta), HasSubstr("(0, 1]"));
   }
   for (double far : {1e7, std::nan(""), HUGE_VAL}) {
     room.points[7].position_m.x() = far;
-    EXPECT_THAT(refusal(room, request()), HasSubstr("nowhere near"));
+    EXPECT_THAT(refusal(room, releaseRequest()), HasSubstr("nowhere near"));
   }
 }
 

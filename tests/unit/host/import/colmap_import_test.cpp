@@ -6,31 +6,22 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 
 #include "host/import/colmap_descriptors.h"
 #include "host/import/colmap_world.h"
 #include "tests/contract/temp_folder.h"
+#include "tests/support/refusal.h"
 #include "tests/unit/host/import/tiny_colmap.h"
 
 namespace sphc::host {
 namespace {
 
 using test::binaryFiles;
+using test::refusal;
 using test::Schema;
 using test::textFiles;
 using test::tinyColmapModel;
 using testing::HasSubstr;
-
-template <typename Action>
-std::string refusal(const Action &action) {
-  try {
-    action();
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
-  return "";
-}
 
 // Depth images of the tiny model's wall, in millimetres.
 void writeWall(const std::string &folder, double depth_m) {

@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
+#include "tests/support/refusal.h"
 #include "tests/unit/host/import/tiny_colmap.h"
 
 namespace sphc::host {
@@ -14,12 +13,7 @@ using test::tinyColmapModel;
 using testing::HasSubstr;
 
 std::string refusal(const ColmapFiles &files) {
-  try {
-    parseColmapModel(files);
-  } catch (const std::runtime_error &error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal([&] { parseColmapModel(files); });
 }
 
 class EitherFormat : public testing::TestWithParam<ColmapFiles (*)(const ColmapModel &)> {};

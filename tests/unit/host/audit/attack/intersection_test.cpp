@@ -45,8 +45,7 @@ TEST(Intersection, ReleasesOfOneLedgerSayNoMoreThanTheLast) {
   const PointModel room = test::madeUpRoom(2000, 1);
   std::vector<test::MadeUpRelease> releases = {test::released(room, 1, kEta)};
   for (uint64_t seed = 2; seed < 5; ++seed) {
-    const PointModel more =
-        test::seenAgain(test::joined(room, test::madeUpRoom(200, seed)), seed, test::otherWorld());
+    const PointModel more = test::seenLater(room, 2000, test::madeUpRoom(200, seed), seed);
     releases.push_back(test::released(more, 1, kEta, {releases.back().place}));
   }
   ASSERT_EQ(releases.back().place.releases.size(), 4u);

@@ -80,7 +80,7 @@ TEST(Triangulation, ALargeShiftGivesThemToMillimetres) {
 TEST(Triangulation, UpdatesHaveNoParallax) {
   const PointModel room = test::madeUpRoom(2000, 1);
   const test::MadeUpRelease a = test::released(room, 1, kEta);
-  const PointModel more = test::seenAgain(test::joined(room, test::madeUpRoom(200, 2)), 3, test::otherWorld());
+  const PointModel more = test::seenLater(room, 2000, test::madeUpRoom(200, 2));
   const test::MadeUpRelease b = test::released(more, 1, kEta, {a.place});
   EXPECT_FALSE(triangulateReleases(a.map, b.map, quick()).found);
 }
@@ -88,8 +88,7 @@ TEST(Triangulation, UpdatesHaveNoParallax) {
 TEST(Triangulation, MapsOfRoomsThatOverlapHaveNoPointInCommon) {
   const PointModel room = test::madeUpRoom(1500, 1);
   const test::MadeUpRelease a = test::released(room, 1, kEta);
-  const PointModel next = test::seenAgain(
-      test::joined(test::part(room, 0, 400), test::madeUpRoom(1100, 5, {14, -4, 2})), 3, test::otherWorld());
+  const PointModel next = test::seenLater(room, 400, test::madeUpRoom(1100, 5, {14, -4, 2}));
   const test::MadeUpRelease b = test::released(next, 1, kEta, {a.place});
   ASSERT_EQ(b.place.number, 2u);
   EXPECT_FALSE(triangulateReleases(a.map, b.map, quick()).found);
