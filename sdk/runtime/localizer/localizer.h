@@ -71,6 +71,7 @@ class Localizer {
   void improve(PoseQuery query, Caps caps_rad, Look *look);
   void findLevers(Look *look) const;
   void contest(const PoseQuery &query, Caps caps_rad, Look *look);
+  void contestMirrored(PoseQuery query, Caps caps_rad, Look *look);
   MapOrder rankMaps();
   uint32_t mapToRemember(const MapOrder &order) const;
   bool remember(uint32_t map);

@@ -4,16 +4,18 @@
 #include <stdexcept>
 
 #include "host/build/descriptor_symmetry.h"
+#include "host/build/fakes/spread_draw.h"
 #include "host/build/fakes/strategy.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr size_t kMinPatches = 60;       // with points in them; fewer would not mix
-constexpr size_t kAlike = 8;             // patches, of nearly equal counts
-constexpr double kNeighboursOfReal = 2;  // real patches among those drawn from together
-constexpr double kUneven = 0.35;         // of a patch's width, so that no lattice shows
+constexpr size_t kMinPatches = 60;  // with points in them; fewer would not mix
+constexpr double kNarrowestRad = 0.02;
+constexpr size_t kAlike = 8;      // patches, of nearly equal counts
+constexpr double kReach = 0.8;    // of a patch's width: as far as patches that stay push each other away
+constexpr double kUneven = 0.15;  // of a patch's width, so that no lattice shows
 
 struct Patch {
   std::vector<size_t> points;
@@ -80,37 +82,12 @@ std::vector<Patch> cut(const std::vector<SpherePoint> &points, double width_rad,
   return patches;
 }
 
-// The patch nearest to `middle` among those that are left, which it leaves.
-size_t takeNearest(const std::vector<Patch> &patches, const Vector3 &middle, std::vector<size_t> *left) {
-  const auto nearest = std::max_element(left->begin(), left->end(), [&](size_t a, size_t b) {
-    return patches[a].middle.dot(middle) < patches[b].middle.dot(middle);
-  });
-  const size_t patch = *nearest;
-  left->erase(nearest);
-  return patch;
-}
-
-// Which patches stay: a share of eta of the points, drawn from each neighbourhood, so that no view is without any.
-std::vector<bool> drawReal(const std::vector<Patch> &patches, double eta, SecretRandom *random) {
-  std::vector<bool> real(patches.size());
-  std::vector<size_t> left(patches.size());
-  std::iota(left.begin(), left.end(), size_t{0});
-  shuffle(&left, random);
-  double owed = 0;  // real points, to the patches that were asked
-  while (!left.empty()) {
-    std::vector<size_t> neighbours;
-    const Vector3 middle = patches[left.front()].middle;
-    while (!left.empty() && static_cast<double>(neighbours.size()) < kNeighboursOfReal / eta)
-      neighbours.push_back(takeNearest(patches, middle, &left));
-    shuffle(&neighbours, random);
-    for (size_t patch : neighbours) {
-      const double size = static_cast<double>(patches[patch].points.size());
-      owed += eta * size;
-      real[patch] = owed >= size / 2;
-      if (real[patch]) owed -= size;
-    }
-  }
-  return real;
+// Which patches stay: apart from each other, so that no view is without any, and what one shows does not go on in
+// the next.
+std::vector<bool> drawReal(const std::vector<Patch> &patches, double eta, double width_rad, SecretRandom *random) {
+  std::vector<Site> sites;
+  for (const Patch &patch : patches) sites.push_back({patch.middle, static_cast<double>(patch.points.size())});
+  return spreadDraw(sites, eta, kReach * width_rad, random);
 }
 
 // Patches of one kind, sparse ones first; those of nearly one count in random order.
@@ -141,12 +118,15 @@ class PatchworkFakes : public FakeStrategy {
   std::vector<Fate> fates(const std::vector<SpherePoint> &points, size_t real_count,
                           SecretRandom *random) const override {
     // A cloud that covers little of the sphere needs smaller patches.
-    std::vector<Patch> patches = cut(points, width_rad_, random);
-    for (double width_rad = width_rad_ / 2; patches.size() < kMinPatches && width_rad > 0.01; width_rad /= 2)
+    double width_rad = width_rad_;
+    std::vector<Patch> patches = cut(points, width_rad, random);
+    while (patches.size() < kMinPatches && width_rad > kNarrowestRad) {
+      width_rad /= 2;
       patches = cut(points, width_rad, random);
+    }
 
     const double eta = static_cast<double>(real_count) / static_cast<double>(points.size());
-    const std::vector<bool> real = drawReal(patches, eta, random);
+    const std::vector<bool> real = drawReal(patches, eta, width_rad, random);
     const std::vector<const Patch *> stay = byCount(patches, real, true, random);
     const std::vector<const Patch *> go = byCount(patches, real, false, random);
     std::vector<Fate> fates(points.size());
@@ -174,8 +154,8 @@ class PatchworkFakes : public FakeStrategy {
 }  // namespace
 
 std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg) {
-  if (!(patch_deg >= 1 && patch_deg <= 60))
-    throw std::runtime_error("patches are " + std::to_string(patch_deg) + " degrees wide; it must be 1 to 60");
+  if (!(patch_deg >= 2 && patch_deg <= 60))
+    throw std::runtime_error("patches are " + std::to_string(patch_deg) + " degrees wide; it must be 2 to 60");
   return std::make_unique<PatchworkFakes>(patch_deg);
 }
 

@@ -39,6 +39,6 @@ std::unique_ptr<FakeStrategy> gaussianFakes(double variance = 0.1);
 // docs/fakes.md: the sphere is cut into patches about `patch_deg` wide.  Those that stay are real, point for point;
 // each of the others is laid on one of them in mirror image, descriptors too, turned at random.  So a fake is among
 // the company it had, and no camera sees it from anywhere.
-std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 6);
+std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 8);
 
 }  // namespace sphc::host

@@ -303,6 +303,15 @@ Estimate PoseEstimator::search(const PoseQuery &query) {
   return estimate;
 }
 
+Estimate PoseEstimator::refineMirrored(const PoseQuery &query, const Rigid &camera_from_map) {
+  Estimate estimate;
+  Rigid mirrored;
+  if (!mirroredPose(query.correspondences, camera_from_map, config_.inlier_threshold2, &mirrored)) return estimate;
+  load(query);
+  finish(query, approach(query, mirrored), &estimate);
+  return estimate;
+}
+
 Estimate PoseEstimator::refine(const PoseQuery &query, const Rigid &camera_from_map) {
   Estimate estimate;
   load(query);

@@ -32,6 +32,8 @@ class PoseEstimator {
   Estimate search(const PoseQuery &query);
   // Refines from a pose that is nearly right.
   Estimate refine(const PoseQuery &query, const Rigid &camera_from_map);
+  // The same from the other pose that a flat scene seen obliquely has; kNoConsensus when there is none.
+  Estimate refineMirrored(const PoseQuery &query, const Rigid &camera_from_map);
   // Says of a pose what refine would, and leaves it where it is.
   Estimate evaluate(const PoseQuery &query, const Rigid &camera_from_map);
   // Does the correspondence agree with the estimate?

@@ -121,7 +121,7 @@ TEST(PatchworkFakes, SmallCloudsHaveFakesToo) {
 }
 
 TEST(PatchworkFakes, BadWidthsAreExplained) {
-  for (double width : {0.0, -1.0, 61.0, std::nan("")}) EXPECT_THROW(patchworkFakes(width), std::runtime_error);
+  for (double width : {0.0, -1.0, 1.9, 61.0, std::nan("")}) EXPECT_THROW(patchworkFakes(width), std::runtime_error);
 }
 
 }  // namespace

@@ -69,5 +69,30 @@ TEST(MirroredPose, TheSearchGivesTheRightOneOfTheTwo) {
   }
 }
 
+// Whoever ends with the wrong one asks for the other, and sees that it is better.
+TEST(MirroredPose, RefinedFromTheWrongOneIsTheRightOne) {
+  test::TestEstimator estimator;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    const test::PoseWorld world = flatWorld(seed, {0.5, 0.6, 0, 0.5});
+    PoseQuery query;
+    query.correspondences = {world.correspondences.data(), world.correspondences.size()};
+    Rigid wrong;
+    ASSERT_TRUE(mirror(world, world.camera_from_map, &wrong)) << seed;
+    const Estimate stayed = estimator.get().refine(query, wrong);
+    const Estimate other = estimator.get().refineMirrored(query, stayed.camera_from_map);
+    EXPECT_GT(test::rotationErrorRad(stayed.camera_from_map, world.camera_from_map), 0.5) << seed;
+    EXPECT_LT(test::rotationErrorRad(other.camera_from_map, world.camera_from_map), 0.02) << seed;
+    EXPECT_GT(other.gain, stayed.gain) << seed;
+  }
+}
+
+TEST(MirroredPose, NothingToRefineInASceneWithDepth) {
+  test::TestEstimator estimator;
+  const test::PoseWorld world = flatWorld(2, {0.15, 0.6, 0.15});
+  PoseQuery query;
+  query.correspondences = {world.correspondences.data(), world.correspondences.size()};
+  EXPECT_EQ(estimator.get().refineMirrored(query, world.camera_from_map).ending, PoseEnding::kNoConsensus);
+}
+
 }  // namespace
 }  // namespace sphc
