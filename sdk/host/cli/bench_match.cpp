@@ -9,6 +9,8 @@
 #include "host/bench/match_table.h"
 #include "host/bench/pose_bench.h"
 #include "host/build/map_writer.h"
+#include "host/cli/bench_options.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
 #include "host/cli/recording.h"
@@ -74,16 +76,10 @@ std::vector<MatchVariant> variantsOf(const Options &options, const Console &cons
     for (MatchVariant &peer : openCvMatchPeers()) all.push_back(std::move(peer));
     for (MatchVariant &peer : pythonMatchPeers(options.python)) all.push_back(std::move(peer));
   }
-  std::vector<MatchVariant> chosen;
-  for (MatchVariant &variant : all) {
-    const bool asked =
-        options.only.empty() || std::count(options.only.begin(), options.only.end(), variant.name) > 0;
-    if (!asked) continue;
+  all = chosenByName(options.only, std::move(all));
+  for (const MatchVariant &variant : all)
     if (!variant.prepare) console.warn("note: " + variant.name + " is absent, " + variant.absent);
-    chosen.push_back(std::move(variant));
-  }
-  if (chosen.empty()) throw UsageError("--only: no matcher has such a name; run without it to see their names");
-  return chosen;
+  return all;
 }
 
 void writeResult(const Options &options, const std::vector<MatchTable> &tables, const Console &console) {
@@ -91,11 +87,7 @@ void writeResult(const Options &options, const std::vector<MatchTable> &tables, 
   if (options.out.empty()) return;
   makeFolder(options.out);
   writeText(options.out + "/match.csv", matchCsv(tables));
-  const PlotResult drawn = writeMatchDrawings(options.out, tables);
-  if (drawn == PlotResult::kNoGnuplot)
-    console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
-  if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
-  console.say("Wrote " + options.out + ".");
+  sayWritten(options.out, writeMatchDrawings(options.out, tables), console);
 }
 
 int run(Options options, const Console &console) {
@@ -103,8 +95,7 @@ int run(Options options, const Console &console) {
   options.queries.calibration = options.recording.calibration;
   const int core = pinToOneCore();
   const auto variants = variantsOf(options, console);
-  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
-                       : "Pinned to core " + std::to_string(core) + "; one thread; CPU time.");
+  console.say(pinnedText(core, "CPU time"));
   const PointModel model = importModel(options.recording, "mapping   ");
   const Vector3 centre_m = centreOf(model);
   const auto queries = chosenPoints(importModel(options.queries, "querying  "), centre_m, options.query_count);
@@ -155,14 +146,8 @@ void addOptions(CLI::App *app, Options *options) {
       ->take_all()
       ->check(CLI::Range(size_t{1000}, size_t{16000000}))
       ->type_name("N");
-  app->add_option("--repeat", options->repeats, "Runs of which the median time counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
-  app->add_option("--only", options->only, "Only the matcher of this name; repeat for more")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME");
+  addRepeatOption(app, &options->repeats);
+  addOnlyOption(app, &options->only, "matcher");
   app->add_flag("--no-peers", options->no_peers, "The library's own matchers only");
   app->add_option("--python", options->python, "Python that has faiss, hnswlib and numpy")
       ->capture_default_str()
