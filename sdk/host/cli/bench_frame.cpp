@@ -1,13 +1,11 @@
 #include "host/cli/bench_frame.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "host/bench/frame_ours.h"
 #include "host/bench/frame_peer.h"
 #include "host/bench/frame_plots.h"
-#include "host/build/map_writer.h"
 #include "host/cli/bench_options.h"
 #include "host/cli/bench_words.h"
 #include "host/cli/exit_code.h"
@@ -38,12 +36,7 @@ struct OwnedMap {
 
 OwnedMap openOwnedMap(const std::string &path) {
   OwnedMap map = {openMapFile(path), Vector3::Zero()};
-  const OwnerNote note = readOwnerNote(path + ".owner.json");
-  const sphc_map_info info = map.file.map.info();
-  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id))
-    throw std::runtime_error(path +
-                             ".owner.json belongs to another map (their map ids differ); build the map anew");
-  map.centre_in_world_m = note.centre_in_world_m;
+  map.centre_in_world_m = centreByNote(path + ".owner.json", map.file, path);
   return map;
 }
 

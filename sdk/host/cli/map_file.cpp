@@ -1,5 +1,6 @@
 #include "host/cli/map_file.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -41,6 +42,15 @@ MapFacts mapFacts(const MapFile &file, const std::string &path) {
   facts.directions.resize(info.point_count);
   for (uint32_t i = 0; i < info.point_count; ++i) sphc_map_direction(file.map.get(), i, facts.directions[i].data());
   return facts;
+}
+
+Vector3 centreByNote(const std::string &note_path, const MapFile &file, const std::string &map_path) {
+  const OwnerNote note = readOwnerNote(note_path);
+  const sphc_map_info info = file.map.info();
+  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id))
+    throw std::runtime_error(note_path + " belongs to another map than " + map_path +
+                             " (their map ids differ); give the note that was written beside this map");
+  return note.centre_in_world_m;
 }
 
 std::string hexText(const uint8_t *bytes, size_t count) {

@@ -3,6 +3,7 @@
 #include <spherecloud/spherecloud.hpp>
 #include <string>
 
+#include "host/build/map_writer.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -17,6 +18,9 @@ MapFile openMapFile(const std::string &path);
 // The same of a map that is no file.
 MapFile openMapBytes(const std::vector<uint8_t> &bytes);
 MapFacts mapFacts(const MapFile &file, const std::string &path);
+// Where the map's centre is, as the note says that was written beside it.  Throws std::runtime_error when the note
+// belongs to another map.
+Vector3 centreByNote(const std::string &note_path, const MapFile &file, const std::string &map_path);
 std::string hexText(const uint8_t *bytes, size_t count);
 
 }  // namespace sphc::host
