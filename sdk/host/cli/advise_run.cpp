@@ -65,7 +65,7 @@ class Trial {
     SphereCloudOptions cloud;
     cloud.eta = eta;
     Vector3 centre;
-    const SphereCloud made = makeSphereCloud(model_, cloud, *gaussianFakes(), &random, &centre);
+    const SphereCloud made = makeSphereCloud(model_, cloud, *makeFakes(kDefaultFakes), &random, &centre);
     input_.maps.clear();
     input_.maps.push_back(openMapBytes(encodeMap(made, MapId{})));
     input_.centres_in_world_m = {{centre.x(), centre.y(), centre.z()}};

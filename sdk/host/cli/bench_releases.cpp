@@ -17,7 +17,7 @@ struct Options {
   RecordingOptions recording, other, strangers;
   uint32_t more_last = 0, frames = 25;
   double eta = 1.0 / 3;
-  std::string name, ledger, fakes = "gaussian";
+  std::string name, ledger, fakes = kDefaultFakes;
 };
 
 PointModel importModel(const RecordingOptions &recording, const char *what) {
@@ -71,7 +71,7 @@ int run(Options options, const Console &console) {
   input.other = importModel(options.other, "others    ");
   input.queries = importFrames(options.other, options.frames, "querying  ");
   input.strangers = importFrames(options.strangers, options.frames, "strangers ");
-  const auto strategy = options.fakes == "gaussian" ? gaussianFakes() : patchworkFakes();
+  const auto strategy = makeFakes(options.fakes);
   const std::vector<PrivacyRow> rows = auditReleases(input, *strategy, options.eta);
   tell(rows, console);
   if (!options.ledger.empty()) updatePrivacyLedger(options.ledger, rows);
@@ -114,7 +114,7 @@ Command benchReleasesCommand(CLI::App *bench) {
       ->type_name("X");
   app->add_option("--fakes", options->fakes, "How fakes are made")
       ->capture_default_str()
-      ->check(CLI::IsMember({"patchwork", "gaussian"}))
+      ->check(CLI::IsMember(fakeNames()))
       ->type_name("NAME");
   app->add_option("--name", options->name, "Of the map, in the ledger [the recording's]")->type_name("NAME");
   app->add_option("--ledger", options->ledger, "Update these attacks' rows here")->type_name("CSV");

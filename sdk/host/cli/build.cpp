@@ -20,8 +20,8 @@ struct Options {
   std::string map, key, ledger;
   std::vector<std::string> against;
   std::optional<double> eta;
-  std::string fakes = "gaussian";
-  double sigma2 = 0.1, patch_deg = 6;
+  std::string fakes = kDefaultFakes;
+  FakeOptions fake_options;
   bool new_place = false, understood = false;
 };
 
@@ -71,8 +71,7 @@ Outcome build(const Options &options) {
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
   checkPointSource(options.source);
-  const auto strategy =
-      options.fakes == "gaussian" ? gaussianFakes(options.sigma2) : patchworkFakes(options.patch_deg);
+  const auto strategy = makeFakes(options.fakes, options.fake_options);
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, *strategy);
   outcome.import = importPoints(options.source);
@@ -199,13 +198,13 @@ void addOptions(CLI::App *app, Options *options) {
   app->add_option("--fakes", options->fakes,
                   "How fakes are made; gaussian is the paper's way, patchwork the one that is harder to tell")
       ->capture_default_str()
-      ->check(CLI::IsMember({"patchwork", "gaussian"}))
+      ->check(CLI::IsMember(fakeNames()))
       ->type_name("NAME");
-  app->add_option("--patch-deg", options->patch_deg, "Width of a patch of patchwork, degrees")
+  app->add_option("--patch-deg", options->fake_options.patch_deg, "Width of a patch of patchwork, degrees")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 60.0))
       ->type_name("DEG");
-  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes gaussian fakes")
+  app->add_option("--sigma2", options->fake_options.sigma2, "Variance of the noise that makes gaussian fakes")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 100.0))
       ->type_name("X");
