@@ -86,23 +86,13 @@ std::vector<ModelPoint> freshPoints(const PointModel &model, const Recognition *
   return fresh;
 }
 
-Vector3 meanOf(const std::vector<ModelPoint> &points) {
-  Vector3 sum = Vector3::Zero();
-  for (const ModelPoint &point : points) sum += point.position_m;
-  return sum / static_cast<double>(points.size());
-}
-
 Place newPlace(const std::vector<ModelPoint> &points, const ReleaseRequest &request) {
   Place place;
   place.number = static_cast<uint32_t>(request.own.size() + 1);
   place.eta = request.eta.value_or(kDefaultEta);
   place.strategy = request.strategy->name();
-  if (!points.empty()) place.centre_m = meanOf(points);
+  if (!points.empty()) place.centre_m = centreOf(points);
   return place;
-}
-
-SpherePoint seenFrom(const Vector3 &centre_m, const ModelPoint &point) {
-  return {(point.position_m - centre_m).normalized(), point.descriptor};
 }
 
 // Gives the points their fates, once and for all.  How many there are.

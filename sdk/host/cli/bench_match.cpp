@@ -40,12 +40,6 @@ PointModel importModel(const RecordingOptions &recording, const char *what) {
       replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
 }
 
-Vector3 centreOf(const PointModel &model) {
-  Vector3 sum = Vector3::Zero();
-  for (const ModelPoint &point : model.points) sum += point.position_m;
-  return sum / static_cast<double>(model.points.size());
-}
-
 // `count` points of a model, evenly chosen, as seen from a centre.
 std::vector<MatchPoint> chosenPoints(const PointModel &model, const Vector3 &centre_m, size_t count) {
   std::vector<MatchPoint> points;
@@ -97,7 +91,7 @@ int run(Options options, const Console &console) {
   const auto variants = variantsOf(options, console);
   console.say(pinnedText(core, "CPU time"));
   const PointModel model = importModel(options.recording, "mapping   ");
-  const Vector3 centre_m = centreOf(model);
+  const Vector3 centre_m = centreOf(model.points);
   const auto queries = chosenPoints(importModel(options.queries, "querying  "), centre_m, options.query_count);
   std::vector<MatchTable> tables;
   for (const size_t size : options.sizes) {
