@@ -10,9 +10,8 @@
 #include "host/cli/audit_page.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/import_recording.h"
 #include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
 #include "host/report/table.h"
 #include "runtime/map/crc32.h"
 
@@ -54,20 +53,6 @@ std::vector<InversionView> viewsOf(const Options &options, const Place &place) {
   return views;
 }
 
-std::vector<std::vector<ModelPoint>> queriesOf(const Options &options) {
-  const uint32_t frames = sphc_replay_frame_count(openRecording(options.recording).get());
-  const uint32_t count = std::min(options.queries, frames), apart = std::max(1u, frames / std::max(1u, count));
-  std::vector<std::vector<ModelPoint>> queries;
-  for (uint32_t k = 0; k < count; ++k) {
-    RecordingOptions one = options.recording;
-    one.first += k * apart * one.step;
-    one.last = one.first + one.step - 1;
-    RgbdImportSummary summary;
-    queries.push_back(importRgbd(openRecording(one).get(), {}, {}, &summary).points);
-  }
-  return queries;
-}
-
 MapAuditInput inputOf(const Options &options) {
   MapAuditInput input;
   input.file = readMapFile(options.map);
@@ -78,7 +63,8 @@ MapAuditInput inputOf(const Options &options) {
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
   input.views = viewsOf(options, *input.place);
-  input.queries = queriesOf(options);
+  for (PointModel &frame : importFrames(options.recording, options.queries, "querying  "))
+    input.queries.push_back(std::move(frame.points));
   return input;
 }
 

@@ -12,9 +12,8 @@
 #include "host/cli/bench_options.h"
 #include "host/cli/bench_words.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/import_recording.h"
 #include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
 #include "host/report/file.h"
 
 namespace sphc::host {
@@ -31,14 +30,6 @@ struct Options {
   std::string python = "python3", out, ledger;
   bool no_peers = false;
 };
-
-PointModel importModel(const RecordingOptions &recording, const char *what) {
-  const Replay replay = openRecording(recording);
-  ProgressBar bar(what);
-  RgbdImportSummary summary;
-  return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-}
 
 // `count` points of a model, evenly chosen, as seen from a centre.
 std::vector<MatchPoint> chosenPoints(const PointModel &model, const Vector3 &centre_m, size_t count) {
@@ -90,9 +81,9 @@ int run(Options options, const Console &console) {
   const int core = pinToOneCore();
   const auto variants = variantsOf(options, console);
   console.say(pinnedText(core, "CPU time"));
-  const PointModel model = importModel(options.recording, "mapping   ");
+  const PointModel model = importRecording(options.recording, "mapping   ");
   const Vector3 centre_m = centreOf(model.points);
-  const auto queries = chosenPoints(importModel(options.queries, "querying  "), centre_m, options.query_count);
+  const auto queries = chosenPoints(importRecording(options.queries, "querying  "), centre_m, options.query_count);
   std::vector<MatchTable> tables;
   for (const size_t size : options.sizes) {
     const MatchCase c = caseOf(model, centre_m, size, queries);

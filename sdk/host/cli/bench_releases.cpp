@@ -5,9 +5,7 @@
 
 #include "host/audit/score/release_audit.h"
 #include "host/cli/exit_code.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
+#include "host/cli/import_recording.h"
 #include "host/report/table.h"
 
 namespace sphc::host {
@@ -19,31 +17,6 @@ struct Options {
   double eta = 1.0 / 3;
   std::string name, ledger, fakes = kDefaultFakes;
 };
-
-PointModel importModel(const RecordingOptions &recording, const char *what) {
-  const Replay replay = openRecording(recording);
-  ProgressBar bar(what);
-  RgbdImportSummary summary;
-  return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-}
-
-// At most `count` frames, evenly chosen, each by itself.
-std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what) {
-  const uint32_t available = sphc_replay_frame_count(openRecording(recording).get());
-  std::vector<PointModel> models;
-  ProgressBar bar(what);
-  for (uint32_t k = 0; k < count && k < available; ++k) {
-    RecordingOptions one = recording;
-    one.first += k * std::max(1u, available / count) * recording.step;
-    one.last = one.first + recording.step - 1;
-    const Replay replay = openRecording(one);
-    RgbdImportSummary summary;
-    models.push_back(importRgbd(replay.get(), {}, {}, &summary));
-    bar.show(k + 1, count);
-  }
-  return models;
-}
 
 void tell(const std::vector<PrivacyRow> &rows, const Console &console) {
   std::vector<Row> table;
@@ -66,9 +39,9 @@ int run(Options options, const Console &console) {
   ReleaseAuditInput input;
   input.map =
       options.name.empty() ? std::filesystem::path(options.recording.folder).filename().string() : options.name;
-  input.first = importModel(options.recording, "mapping   ");
-  input.more = importModel(more, "10 % more ");
-  input.other = importModel(options.other, "others    ");
+  input.first = importRecording(options.recording, "mapping   ");
+  input.more = importRecording(more, "10 % more ");
+  input.other = importRecording(options.other, "others    ");
   input.queries = importFrames(options.other, options.frames, "querying  ");
   input.strangers = importFrames(options.strangers, options.frames, "strangers ");
   const auto strategy = makeFakes(options.fakes);

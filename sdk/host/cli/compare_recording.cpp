@@ -7,21 +7,13 @@
 #include "host/build/fakes/strategy.h"
 #include "host/build/sphere_cloud.h"
 #include "host/cli/compare_input.h"
+#include "host/cli/import_recording.h"
 #include "host/cli/progress.h"
-#include "host/import/rgbd_import.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr double kRatio = 0.8;
-
-PointModel mapFrames(const RecordingOptions &options) {
-  const Replay replay = openRecording(options);
-  ProgressBar bar("mapping   ");
-  RgbdImportSummary summary;
-  return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-}
 
 std::vector<Vector3> pointsAbout(const Vector3 &centre_m, const PointModel &model) {
   std::vector<Vector3> points_m;
@@ -79,7 +71,7 @@ CompareInput recordCompareInput(const CompareRecordingOptions &options) {
   CompareInput input;
   const std::filesystem::path path = options.mapping.folder;
   input.name = (path.has_filename() ? path : path.parent_path()).stem().string();
-  const PointModel model = mapFrames(options.mapping);
+  const PointModel model = importRecording(options.mapping, "mapping   ");
   const Vector3 centre_m = centreOf(model.points);
   input.points_m = pointsAbout(centre_m, model);
   std::vector<Descriptor> map;
