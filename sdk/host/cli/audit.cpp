@@ -7,6 +7,7 @@
 #include "host/audit/score/map_audit.h"
 #include "host/audit/score/privacy_ledger.h"
 #include "host/build/ledger.h"
+#include "host/cli/audit_networks.h"
 #include "host/cli/audit_page.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
@@ -21,7 +22,7 @@ namespace {
 constexpr double kApartDeg = 20, kSeenShare = 0.5;  // of views
 
 struct Options {
-  std::string map, truth, report, figures, name, networks = SPHC_AUDIT_NETWORKS;
+  std::string map, truth, report, figures, name, networks;
   RecordingOptions recording;
   std::vector<std::string> releases, limits;
   uint32_t queries = 10;
@@ -56,10 +57,10 @@ std::vector<InversionView> viewsOf(const Options &options, const Place &place) {
 MapAuditInput inputOf(const Options &options) {
   MapAuditInput input;
   input.file = readMapFile(options.map);
-  input.networks = options.networks;
   input.quick = options.quick;
   for (const std::string &release : options.releases) input.releases.push_back(readMapFile(release));
   if (options.truth.empty()) return input;
+  input.networks = options.networks.empty() ? auditNetworks() : options.networks;
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
   input.views = viewsOf(options, *input.place);
@@ -172,7 +173,7 @@ Command auditCommand(CLI::App *root) {
   app->add_option("--report", options->report, "Folder for a page with pictures")->type_name("FOLDER");
   app->add_option("--figures", options->figures, "Write the figures into this table too")->type_name("CSV");
   app->add_option("--name", options->name, "Of the map, in that table [the file's]")->type_name("NAME");
-  app->add_option("--networks", options->networks, "Folder of the attackers' networks [built in]")
+  app->add_option("--networks", options->networks, "Folder of the attackers' networks [the command's own]")
       ->type_name("FOLDER");
   app->add_flag("--quick", options->quick, "Fewer lines and views: within half a minute");
   return {app, [options](const Console &console) { return run(*options, console); }};
