@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The command as it is installed: it audits by the networks that came with it.
+"""The command as it is installed: its own networks, and what it says of a map that is none.
 
     installed.py --build FOLDER
 """
@@ -30,6 +30,15 @@ def main():
         tool, networks = prefix / "bin" / "spherecloud", prefix / "share" / "spherecloud" / "networks"
         run([tool, "simulate", "--frames", 6, "--rate", 6, "--out", walk])
         run([tool, "build", "--recording", walk, "--map", room])
+        for command in (["info", walk], ["inspect", walk], ["audit", walk], ["localize", "--recording", walk, "--map", walk],
+                        ["live", "--device", "replay:%s" % walk, "--map", walk]):
+            told = run([tool, *command], accepted=(1,)).stderr
+            if "%s is a folder; give the map file" % walk not in told:
+                sys.exit("a folder in the map's place is not named by %s: %s" % (command[0], told))
+        told = run([tool, "info", "/dev/null"], accepted=(1,)).stderr
+        if "/dev/null is a device or a pipe; give the map file" not in told:
+            sys.exit("a device in the map's place is not named: %s" % told)
+
         audit = [tool, "audit", room, "--quick", "--truth", folder / "spherecloud.ledger"]
         run(audit, accepted=(0, 4))  # 4: so few points may break a limit
 

@@ -12,6 +12,7 @@
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/import_recording.h"
+#include "host/cli/map_file.h"
 #include "host/cli/progress.h"
 #include "host/report/table.h"
 #include "runtime/map/crc32.h"
@@ -54,11 +55,16 @@ std::vector<InversionView> viewsOf(const Options &options, const Place &place) {
   return views;
 }
 
+std::vector<uint8_t> readMap(const std::string &path) {
+  checkIsFile(path);
+  return readMapFile(path);
+}
+
 MapAuditInput inputOf(const Options &options) {
   MapAuditInput input;
-  input.file = readMapFile(options.map);
+  input.file = readMap(options.map);
   input.quick = options.quick;
-  for (const std::string &release : options.releases) input.releases.push_back(readMapFile(release));
+  for (const std::string &release : options.releases) input.releases.push_back(readMap(release));
   if (options.truth.empty()) return input;
   input.networks = options.networks.empty() ? auditNetworks() : options.networks;
   input.place = placeOf(options, input.file);

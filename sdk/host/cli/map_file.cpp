@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 namespace sphc::host {
@@ -15,7 +16,17 @@ void check(const std::string &what, const spherecloud::Status &status) {
 
 }  // namespace
 
+void checkIsFile(const std::string &path) {
+  std::error_code absent;
+  const std::filesystem::file_status status = std::filesystem::status(path, absent);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+  throw std::runtime_error(path +
+                           (std::filesystem::is_directory(status) ? " is a folder" : " is a device or a pipe") +
+                           "; give the map file itself, which spherecloud build wrote");
+}
+
 MapFile openMapFile(const std::string &path) {
+  checkIsFile(path);
   MapFile file;
   check("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
   check("cannot use the map " + path, spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));

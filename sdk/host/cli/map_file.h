@@ -13,6 +13,8 @@ struct MapFile {
   spherecloud::Map map;
 };
 
+// Throws std::runtime_error, which says what is wanted, when something is there that is no file.
+void checkIsFile(const std::string &path);
 // Validates every byte.  Throws std::runtime_error with cause and cure.
 MapFile openMapFile(const std::string &path);
 // The same of a map that is no file.
