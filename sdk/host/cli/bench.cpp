@@ -54,9 +54,7 @@ Input readInput(const std::string &path, uint32_t every, const Console &console)
   if (input.file.queries.empty()) throw std::runtime_error(path + " holds no query; choose another file");
   if (input.eta100.queries.empty())
     console.warn("note: beside " + path + " lies no eta-100 file with its _xyz companion: no peers on true points");
-  std::vector<PoseQuery> kept;
-  for (size_t i = 0; i < input.file.queries.size(); i += every) kept.push_back(input.file.queries[i]);
-  input.file.queries = std::move(kept);
+  keepEvery(every, &input.file);
   return input;
 }
 
