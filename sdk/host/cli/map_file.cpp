@@ -64,14 +64,4 @@ Vector3 centreByNote(const std::string &note_path, const MapFile &file, const st
   return note.centre_in_world_m;
 }
 
-std::string hexText(const uint8_t *bytes, size_t count) {
-  static const char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (size_t i = 0; i < count; ++i) {
-    text += kDigits[bytes[i] >> 4];
-    text += kDigits[bytes[i] & 15];
-  }
-  return text;
-}
-
 }  // namespace sphc::host

@@ -23,6 +23,5 @@ MapFacts mapFacts(const MapFile &file, const std::string &path);
 // Where the map's centre is, as the note says that was written beside it.  Throws std::runtime_error when the note
 // belongs to another map.
 Vector3 centreByNote(const std::string &note_path, const MapFile &file, const std::string &map_path);
-std::string hexText(const uint8_t *bytes, size_t count);
 
 }  // namespace sphc::host
