@@ -3,6 +3,7 @@
 #include <cstring>
 #include <vector>
 
+#include "spherecloud/spherecloud.hpp"
 #include "tests/capi/bytes.h"
 #include "tests/support/map_bytes.h"
 #include "tests/support/session.h"
@@ -34,6 +35,13 @@ class DoorMap : public testing::Test {
   sphc_message message_ = {};
   std::vector<uint8_t> file_ = sphc::test::randomMap(50, 1);
 };
+
+TEST(ReadFile, NamesAFolder) {
+  spherecloud::AlignedBuffer bytes;
+  const spherecloud::Status status = spherecloud::readFile(testing::TempDir().c_str(), &bytes);
+  EXPECT_EQ(status.code(), SPHC_E_DEVICE);
+  expectMentions(status.text(), "folder");
+}
 
 TEST_F(DoorMap, OpensAndTellsWhatIsInIt) {
   ASSERT_EQ(init(file_), SPHC_OK);

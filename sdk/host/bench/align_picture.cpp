@@ -1,9 +1,8 @@
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 #include "host/bench/align_bench.h"
 #include "host/bench/align_edges.h"
+#include "host/report/picture_file.h"
 
 namespace sphc::host {
 namespace {
@@ -35,7 +34,7 @@ void writeAlignPicture(const AlignCase &c, const std::string &path) {
   cv::hconcat(std::vector<cv::Mat>{drawEdges(c, frame.gray, laidOver(c, frame)),
                                    drawEdges(c, frame.gray, aligned.depth), drawMask(c, aligned)},
               picture);
-  if (!cv::imwrite(path, picture)) throw std::runtime_error("cannot write " + path + "; is the folder writable?");
+  writePicture(path, picture);
 }
 
 }  // namespace sphc::host

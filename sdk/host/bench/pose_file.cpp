@@ -152,6 +152,12 @@ PoseFile readPoseFile(const std::string &path) {
   return parsePoseFile({bytes.data(), bytes.size()}, path);
 }
 
+void keepEvery(uint32_t n, PoseFile *file) {
+  std::vector<PoseQuery> kept;
+  for (size_t i = 0; i < file->queries.size(); i += n) kept.push_back(std::move(file->queries[i]));
+  file->queries = std::move(kept);
+}
+
 std::string eta100Path(const std::string &path) {
   const size_t name = path.find_last_of('/') == std::string::npos ? 0 : path.find_last_of('/') + 1;
   const size_t found = path.rfind("_eta");

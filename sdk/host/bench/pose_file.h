@@ -46,6 +46,8 @@ struct PoseFile {
 // Both validate every value and throw std::runtime_error with cause and cure; `name` is for messages.
 PoseFile parsePoseFile(Span<const uint8_t> bytes, const std::string &name);
 PoseFile readPoseFile(const std::string &path);
+// Of the queries, each N-th from the first on.
+void keepEvery(uint32_t n, PoseFile *file);
 
 // True points beside a file ("X_eta33_dev.bin"): in "X_eta100_dev_xyz.bin", three f64 a row of "X_eta100_dev.bin".
 std::string eta100Path(const std::string &path);  // of the same stem; "" when the name has no "_eta<number>"

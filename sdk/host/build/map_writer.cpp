@@ -59,16 +59,6 @@ std::vector<T> inOrder(const std::vector<T> &items, const std::vector<uint32_t> 
   return sorted;
 }
 
-std::string hex(const MapId &id) {
-  std::string text;
-  char digits[3];
-  for (uint8_t byte : id) {
-    std::snprintf(digits, sizeof digits, "%02x", byte);
-    text += digits;
-  }
-  return text;
-}
-
 MapId unhex(const std::string &text) {
   MapId id = {};
   if (text.size() != 2 * id.size() || text.find_first_not_of("0123456789abcdef") != std::string::npos)
@@ -135,12 +125,22 @@ void writeFile(const std::string &path, const std::vector<uint8_t> &bytes) {
   }
 }
 
+std::string hexText(const uint8_t *bytes, size_t count) {
+  std::string text;
+  char digits[3];
+  for (size_t i = 0; i < count; ++i) {
+    std::snprintf(digits, sizeof digits, "%02x", bytes[i]);
+    text += digits;
+  }
+  return text;
+}
+
 void writeOwnerNote(const std::string &path, const OwnerNote &note) {
   const nlohmann::ordered_json json = {
       {"format", "spherecloud-owner-note"},
       {"version", 1},
       {"private", "the map's owner keeps this file; whoever has it knows where the map's centre is"},
-      {"map_id", hex(note.map_id)},
+      {"map_id", hexText(note.map_id.data(), note.map_id.size())},
       {"centre_in_world_m", {note.centre_in_world_m.x(), note.centre_in_world_m.y(), note.centre_in_world_m.z()}},
       {"eta", note.eta},
       {"strategy", note.strategy}};

@@ -16,6 +16,9 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id);
 // Whole or not at all: writes beside the target, then renames.  Throws std::runtime_error.
 void writeFile(const std::string &path, const std::vector<uint8_t> &bytes);
 
+// Two lower-case digits a byte, as map ids are written.
+std::string hexText(const uint8_t *bytes, size_t count);
+
 // What the owner keeps and never ships: where the centre is in the world of the recording.  JSON.
 struct OwnerNote {
   MapId map_id;

@@ -65,7 +65,7 @@ void refuseChange(const Place &place, const ReleaseRequest &request) {
       "exposed. Leave the option out, or publish with --new-place only what is not released yet, or say "
       "--i-understand";
   if (request.eta && std::abs(*request.eta - place.eta) > 1e-9) throw std::runtime_error(was + std::string(cure));
-  if (request.strategy->name() != place.strategy)
+  if (request.strategy && request.strategy->name() != place.strategy)
     throw std::runtime_error(was + (" and fakes '" + place.strategy + "', not '" + request.strategy->name() + "'") +
                              cure);
 }
@@ -86,23 +86,13 @@ std::vector<ModelPoint> freshPoints(const PointModel &model, const Recognition *
   return fresh;
 }
 
-Vector3 meanOf(const std::vector<ModelPoint> &points) {
-  Vector3 sum = Vector3::Zero();
-  for (const ModelPoint &point : points) sum += point.position_m;
-  return sum / static_cast<double>(points.size());
-}
-
 Place newPlace(const std::vector<ModelPoint> &points, const ReleaseRequest &request) {
   Place place;
   place.number = static_cast<uint32_t>(request.own.size() + 1);
   place.eta = request.eta.value_or(kDefaultEta);
-  place.strategy = request.strategy->name();
-  if (!points.empty()) place.centre_m = meanOf(points);
+  place.strategy = request.strategy ? request.strategy->name() : kDefaultFakes;
+  if (!points.empty()) place.centre_m = centreOf(points);
   return place;
-}
-
-SpherePoint seenFrom(const Vector3 &centre_m, const ModelPoint &point) {
-  return {(point.position_m - centre_m).normalized(), point.descriptor};
 }
 
 // Gives the points their fates, once and for all.  How many there are.
@@ -121,7 +111,9 @@ size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Pl
   shuffle(&points, &random);
   std::vector<SpherePoint> directions;
   for (const ModelPoint &point : points) directions.push_back(seenFrom(place->centre_m, point));
-  const std::vector<Fate> fates = request.strategy->fates(directions, real, &random);
+  const std::unique_ptr<FakeStrategy> usual = request.strategy ? nullptr : makeFakes(place->strategy);
+  const FakeStrategy &strategy = request.strategy ? *request.strategy : *usual;
+  const std::vector<Fate> fates = strategy.fates(directions, real, &random);
   for (size_t i = 0; i < points.size(); ++i)
     place->points.push_back(
         {points[i], packDirection(fates[i].shown.direction), fates[i].shown.descriptor, fates[i].real, release});

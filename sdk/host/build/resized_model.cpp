@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/build/descriptor_symmetry.h"
+#include "host/build/sphere_cloud.h"
 
 namespace sphc::host {
 namespace {
@@ -51,12 +52,6 @@ std::vector<Descriptor> foreignDescriptors(const PointModel &own, const std::vec
   return all;
 }
 
-Vector3 centreOf(const PointModel &model) {
-  Vector3 sum = Vector3::Zero();
-  for (const ModelPoint &point : model.points) sum += point.position_m;
-  return sum / static_cast<double>(model.points.size());
-}
-
 }  // namespace
 
 // Gradients along the keypoint's own direction stay; across it they change sign.
@@ -68,7 +63,7 @@ PointModel resizedModel(const PointModel &own, const std::vector<PointModel> &fo
                    [](const ModelPoint &a, const ModelPoint &b) { return a.observations > b.observations; });
   if (resized.points.size() > count) resized.points.resize(count);
   const size_t missing = count - resized.points.size();
-  const Vector3 centre = centreOf(own);
+  const Vector3 centre = centreOf(own.points);
   for (const Descriptor &descriptor : foreignDescriptors(own, foreign, missing, random)) {
     ModelPoint point = own.points[random->below(own.points.size())];
     const double x = random->normal(), y = random->normal(), z = random->normal();

@@ -8,12 +8,6 @@
 namespace sphc::host {
 namespace {
 
-Vector3 meanOf(const std::vector<ModelPoint> &points) {
-  Vector3 sum = Vector3::Zero();
-  for (const ModelPoint &point : points) sum += point.position_m;
-  return sum / static_cast<double>(points.size());
-}
-
 void checkModel(const PointModel &model, const SphereCloudOptions &options) {
   if (!(options.eta > 0 && options.eta <= 1))
     throw std::runtime_error("eta is " + std::to_string(options.eta) + "; it must lie in (0, 1]");
@@ -28,19 +22,27 @@ void checkCount(size_t points, double eta) {
 
 }  // namespace
 
+Vector3 centreOf(const std::vector<ModelPoint> &points) {
+  Vector3 sum = Vector3::Zero();
+  for (const ModelPoint &point : points) sum += point.position_m;
+  return sum / static_cast<double>(points.size());
+}
+
+SpherePoint seenFrom(const Vector3 &centre_m, const ModelPoint &point) {
+  return {(point.position_m - centre_m).normalized(), point.descriptor};
+}
+
 SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options,
                             const FakeStrategy &strategy, SecretRandom *random, Vector3 *centre_m) {
   checkModel(model, options);
   checkCount(model.points.size(), options.eta);
-  const Vector3 centre = meanOf(model.points);
+  const Vector3 centre = centreOf(model.points);
 
   std::vector<SpherePoint> points;
   points.reserve(model.points.size());
-  for (const ModelPoint &point : model.points) {
-    const Vector3 offset = point.position_m - centre;
-    if (offset.norm() > 1e-6)
-      points.push_back({offset.normalized(), point.descriptor});  // at the centre: no direction
-  }
+  for (const ModelPoint &point : model.points)
+    if ((point.position_m - centre).norm() > 1e-6)  // at the centre: no direction
+      points.push_back(seenFrom(centre, point));
   checkCount(points.size(), options.eta);
   shuffle(&points, random);
   const size_t real_count = static_cast<size_t>(options.eta * static_cast<double>(points.size()));

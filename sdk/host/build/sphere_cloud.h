@@ -16,6 +16,10 @@ struct SphereCloud {
   std::vector<SpherePoint> points;  // real and fake, shuffled
 };
 
+// Where a new map of these points has its centre: their mean.
+Vector3 centreOf(const std::vector<ModelPoint> &points);
+SpherePoint seenFrom(const Vector3 &centre_m, const ModelPoint &point);
+
 // `centre_m` receives the sphere centre in the model's world frame: for the owner, not for the map.
 // Throws std::runtime_error, with cause and cure, when the model cannot make a map.
 SphereCloud makeSphereCloud(const PointModel &model, const SphereCloudOptions &options,

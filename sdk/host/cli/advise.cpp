@@ -1,12 +1,12 @@
 // spherecloud advise: is this recording good enough for a map?
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 
 #include "host/cli/advise_run.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
 #include "host/report/coverage_picture.h"
+#include "host/report/picture_file.h"
 #include "host/report/statistics.h"
 #include "host/report/table.h"
 
@@ -72,17 +72,10 @@ nlohmann::ordered_json json(const Advice &advice) {
   return value;
 }
 
-void writePicture(const std::string &path, const Advice &advice) {
+void drawAdvice(const std::string &path, const Advice &advice) {
   std::vector<std::array<double, 3>> views;
   for (const Failure &failure : advice.failures) views.push_back(failure.view);
-  bool written = false;
-  try {
-    written = cv::imwrite(path, drawCoverage(advice.directions, advice.coverage.holes, views));
-  } catch (const cv::Exception &) {  // a file name without a known ending
-  }
-  if (!written)
-    throw std::runtime_error("cannot write the picture " + path +
-                             ": choose a writable place and end its name in .png");
+  writePicture(path, drawCoverage(advice.directions, advice.coverage.holes, views));
 }
 
 int run(const Options &options, const Console &console) {
@@ -90,7 +83,7 @@ int run(const Options &options, const Console &console) {
   const Advice advice = advise(options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   tell(options, advice, console);
   if (!options.picture.empty()) {
-    writePicture(options.picture, advice);
+    drawAdvice(options.picture, advice);
     console.say("Picture, private: " + options.picture +
                 " (rings: no points; crosses: where failed frames looked)");
   }

@@ -65,7 +65,7 @@ class Trial {
     SphereCloudOptions cloud;
     cloud.eta = eta;
     Vector3 centre;
-    const SphereCloud made = makeSphereCloud(model_, cloud, *gaussianFakes(), &random, &centre);
+    const SphereCloud made = makeSphereCloud(model_, cloud, *makeFakes(kDefaultFakes), &random, &centre);
     input_.maps.clear();
     input_.maps.push_back(openMapBytes(encodeMap(made, MapId{})));
     input_.centres_in_world_m = {{centre.x(), centre.y(), centre.z()}};
@@ -82,12 +82,10 @@ class Trial {
 };
 
 std::vector<std::array<double, 3>> directionsOf(const PointModel &model) {
-  Vector3 centre = Vector3::Zero();
-  for (const ModelPoint &point : model.points)
-    centre += point.position_m / static_cast<double>(model.points.size());
+  const Vector3 centre = centreOf(model.points);
   std::vector<std::array<double, 3>> directions;
   for (const ModelPoint &point : model.points) {
-    const Vector3 d = (point.position_m - centre).normalized();
+    const Vector3 d = seenFrom(centre, point).direction;
     directions.push_back({d.x(), d.y(), d.z()});
   }
   return directions;

@@ -6,13 +6,14 @@
 #include "host/audit/score/look_around.h"
 #include "host/audit/score/map_audit.h"
 #include "host/build/ledger.h"
+#include "host/cli/audit_networks.h"
 #include "host/cli/audit_page.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/import_recording.h"
+#include "host/cli/map_file.h"
 #include "host/cli/privacy_ledger.h"
 #include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
 #include "host/report/table.h"
 #include "runtime/map/crc32.h"
 
@@ -20,7 +21,7 @@ namespace sphc::host {
 namespace {
 
 struct Options {
-  std::string map, truth, report, figures, name, networks = SPHC_AUDIT_NETWORKS;
+  std::string map, truth, report, figures, name, networks;
   RecordingOptions recording;
   std::vector<std::string> releases, limits;
   uint32_t queries = 10;
@@ -47,31 +48,23 @@ std::vector<InversionView> viewsOf(const Options &options, const Place &place) {
   return viewsFromCentre(openRecording(options.recording).get(), place.centre_m);
 }
 
-std::vector<std::vector<ModelPoint>> queriesOf(const Options &options) {
-  const uint32_t frames = sphc_replay_frame_count(openRecording(options.recording).get());
-  const uint32_t count = std::min(options.queries, frames), apart = std::max(1u, frames / std::max(1u, count));
-  std::vector<std::vector<ModelPoint>> queries;
-  for (uint32_t k = 0; k < count; ++k) {
-    RecordingOptions one = options.recording;
-    one.first += k * apart * one.step;
-    one.last = one.first + one.step - 1;
-    RgbdImportSummary summary;
-    queries.push_back(importRgbd(openRecording(one).get(), {}, {}, &summary).points);
-  }
-  return queries;
+std::vector<uint8_t> readMap(const std::string &path) {
+  checkIsFile(path);
+  return readMapFile(path);
 }
 
 MapAuditInput inputOf(const Options &options) {
   MapAuditInput input;
-  input.file = readMapFile(options.map);
-  input.networks = options.networks;
+  input.file = readMap(options.map);
   input.quick = options.quick;
-  for (const std::string &release : options.releases) input.releases.push_back(readMapFile(release));
+  for (const std::string &release : options.releases) input.releases.push_back(readMap(release));
   if (options.truth.empty()) return input;
+  input.networks = options.networks.empty() ? auditNetworks() : options.networks;
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
   input.views = viewsOf(options, *input.place);
-  input.queries = queriesOf(options);
+  for (PointModel &frame : importFrames(options.recording, options.queries, "querying  "))
+    input.queries.push_back(std::move(frame.points));
   return input;
 }
 
@@ -179,7 +172,7 @@ Command auditCommand(CLI::App *root) {
   app->add_option("--report", options->report, "Folder for a page with pictures")->type_name("FOLDER");
   app->add_option("--figures", options->figures, "Write the figures into this table too")->type_name("CSV");
   app->add_option("--name", options->name, "Of the map, in that table [the file's]")->type_name("NAME");
-  app->add_option("--networks", options->networks, "Folder of the attackers' networks [built in]")
+  app->add_option("--networks", options->networks, "Folder of the attackers' networks [the command's own]")
       ->type_name("FOLDER");
   app->add_flag("--quick", options->quick, "Fewer lines and views: within half a minute");
   return {app, [options](const Console &console) { return run(*options, console); }};

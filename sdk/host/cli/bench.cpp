@@ -12,8 +12,10 @@
 #include "host/cli/bench_frame.h"
 #include "host/cli/bench_map.h"
 #include "host/cli/bench_match.h"
+#include "host/cli/bench_options.h"
 #include "host/cli/bench_recording.h"
 #include "host/cli/bench_releases.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -23,10 +25,8 @@ namespace sphc::host {
 namespace {
 
 struct Options {
-  std::vector<std::string> files, only;
-  std::vector<DepthSource> depths = {DepthSource::kTof};
-  uint32_t every = 1;
-  BenchOptions bench;
+  std::vector<std::string> files;
+  PoseRunOptions runs;
   std::string python = "python3", out, ledger;
   bool no_peers = false, growth = false;
 };
@@ -43,22 +43,6 @@ void tellAbsent(const std::vector<PoseVariant> &variants, const Console &console
     if (!variant.run) console.warn("note: " + variant.name + " is absent, " + variant.absent);
 }
 
-// Variants by name, when some were asked for.
-std::vector<PoseVariant> chooseVariants(const Options &options, std::vector<PoseVariant> all) {
-  if (options.only.empty()) return all;
-  std::vector<PoseVariant> chosen;
-  for (const std::string &name : options.only) {
-    size_t before = chosen.size();
-    for (const PoseVariant &variant : all)
-      if (variant.name == name) chosen.push_back(variant);
-    if (chosen.size() > before) continue;
-    std::string known;
-    for (const PoseVariant &variant : all) known += (known.empty() ? "" : ", ") + variant.name;
-    throw UsageError("--only " + name + ": there is no such variant; choose from: " + known);
-  }
-  return chosen;
-}
-
 // One file, read once for all kinds of depth.
 struct Input {
   std::string name;
@@ -70,9 +54,7 @@ Input readInput(const std::string &path, uint32_t every, const Console &console)
   if (input.file.queries.empty()) throw std::runtime_error(path + " holds no query; choose another file");
   if (input.eta100.queries.empty())
     console.warn("note: beside " + path + " lies no eta-100 file with its _xyz companion: no peers on true points");
-  std::vector<PoseQuery> kept;
-  for (size_t i = 0; i < input.file.queries.size(); i += every) kept.push_back(input.file.queries[i]);
-  input.file.queries = std::move(kept);
+  keepEvery(every, &input.file);
   return input;
 }
 
@@ -106,11 +88,11 @@ struct Result {
 void append(const Options &options, const Input &input, DepthSource depth, const std::vector<PoseVariant> &variants,
             const Console &console, Result *result) {
   if (!options.growth) {
-    result->tables.push_back(runInput(input, depth, options.bench, variants));
+    result->tables.push_back(runInput(input, depth, options.runs.bench, variants));
     console.say("\n" + benchTableText(result->tables.back()));
     return;
   }
-  const auto rows = growInput(input, depth, options.bench, variants);
+  const auto rows = growInput(input, depth, options.runs.bench, variants);
   console.say("\n" + growthText(rows));
   result->growth.insert(result->growth.end(), rows.begin(), rows.end());
 }
@@ -122,28 +104,23 @@ void writeResult(const Options &options, const Result &result, const Console &co
   makeFolder(options.out);
   if (!result.tables.empty()) writeText(options.out + "/pose.csv", benchCsv(result.tables));
   if (!result.growth.empty()) writeText(options.out + "/pose_growth.csv", growthCsv(result.growth));
-  const PlotResult drawn = writeDrawings(options.out, poseDrawings(result.tables, result.growth));
-  if (drawn == PlotResult::kNoGnuplot)
-    console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
-  if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
-  console.say("Wrote " + options.out + ".");
+  sayWritten(options.out, writeDrawings(options.out, poseDrawings(result.tables, result.growth)), console);
 }
 
 int runPose(const Options &options, const Console &console) {
   const int core = pinToOneCore();
-  const auto variants = chooseVariants(options, allVariants(options));
+  const auto variants = chosenByName(options.runs.only, allVariants(options));
   tellAbsent(variants, console);
-  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
-                       : "Pinned to core " + std::to_string(core) + "; one thread.");
+  console.say(pinnedText(core));
   Result result;
   for (const std::string &path : options.files) {
-    const Input input = readInput(path, options.every, console);
-    for (const DepthSource depth : options.depths) append(options, input, depth, variants, console, &result);
+    const Input input = readInput(path, options.runs.every, console);
+    for (const DepthSource depth : options.runs.depths) append(options, input, depth, variants, console, &result);
   }
   writeResult(options, result, console);
   console.give({{"core", core},
-                {"repeats", options.bench.repeats},
-                {"seeds", options.bench.seeds},
+                {"repeats", options.runs.bench.repeats},
+                {"seeds", options.runs.bench.seeds},
                 {"tables", benchJson(result.tables)},
                 {"growth", growthJson(result.growth)}});
   return kExitDone;
@@ -162,28 +139,10 @@ const char kExample[] =
 
 void addOptions(CLI::App *app, Options *options) {
   app->add_option("files", options->files, "Correspondence files")->required()->type_name("FILE");
-  const std::map<std::string, DepthSource> depths = {{"tof", DepthSource::kTof}, {"oracle", DepthSource::kOracle}};
-  app->add_option("--depth", options->depths,
-                  "tof: as the sensor measured; oracle: of the true points; repeat for both")
-      ->transform(CLI::CheckedTransformer(depths).description(""))
-      ->expected(1)
-      ->take_all()
-      ->type_name("tof|oracle");
-  app->add_option("--repeat", options->bench.repeats, "Runs of which the median time counts")
+  addPoseRunOptions(app, &options->runs, "variant");
+  app->add_option("--seeds", options->runs.bench.seeds, "Runs with different seeds a query; 8 for tails")
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
-  app->add_option("--seeds", options->bench.seeds, "Runs with different seeds a query; 8 for tails")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
-  app->add_option("--only", options->only, "Only the variant of this name; repeat for more")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME");
-  app->add_option("--every", options->every, "Every N-th query only")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000000u))
       ->type_name("N");
   app->add_flag("--growth", options->growth, "Time against the number of rows and against eta instead");
   app->add_flag("--no-peers", options->no_peers, "The library's own estimators only");

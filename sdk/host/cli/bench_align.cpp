@@ -3,7 +3,8 @@
 #include <memory>
 
 #include "host/bench/align_bench.h"
-#include "host/bench/pose_bench.h"
+#include "host/cli/bench_options.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/door.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -76,8 +77,7 @@ int run(const Options &options, const Console &console) {
   if (!options.no_peers) variants.push_back(openCvAligner());
   for (const AlignVariant &variant : variants)
     if (!variant.make) console.warn("note: " + variant.name + " is absent, " + variant.absent);
-  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
-                       : "Pinned to core " + std::to_string(core) + "; one thread.");
+  console.say(pinnedText(core));
   std::vector<AlignTable> tables;
   if (!options.out.empty()) makeFolder(options.out);
   for (const AlignCase &c : casesOf(options, console)) {
@@ -111,10 +111,7 @@ Command benchAlignCommand(CLI::App *bench) {
   app->description("Depth alignment beside its peers.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addRecordingOptions(app, &options->recording);
-  app->add_option("--repeat", options->repeats, "Runs of which the median time counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
+  addRepeatOption(app, &options->repeats);
   app->add_flag("--no-peers", options->no_peers, "Without OpenCV");
   app->add_option("-o,--out", options->out, "Folder for pictures")->type_name("DIR");
   app->add_option("--ledger", options->ledger, "Write ratios and errors, no milliseconds")->type_name("FILE");

@@ -5,6 +5,7 @@
 
 #include "host/bench/confidence_fit.h"
 #include "host/bench/confidence_table.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
 #include "host/report/file.h"
@@ -76,11 +77,7 @@ void writeResult(const Options &options, const std::vector<ConfidenceScene> &sce
   makeFolder(options.out);
   writeText(options.out + "/confidence.csv", confidenceCsv(scenes, model));
   const Drawing drawing = drawConfidence(scenes, model);
-  const PlotResult drawn = plot(options.out, drawing.name, drawing.script, drawing.size);
-  if (drawn == PlotResult::kNoGnuplot)
-    console.warn("note: no drawing without gnuplot: apt-get install gnuplot-nox");
-  if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
-  console.say("Wrote " + options.out + ".");
+  sayWritten(options.out, plot(options.out, drawing.name, drawing.script, drawing.size), console);
 }
 
 int run(const Options &options, const Console &console) {

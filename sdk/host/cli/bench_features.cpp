@@ -1,11 +1,11 @@
 #include "host/cli/bench_features.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "host/bench/features_table.h"
-#include "host/bench/pose_bench.h"
+#include "host/cli/bench_options.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
 #include "host/cli/recording.h"
@@ -31,17 +31,10 @@ std::vector<FeaturesVariant> chooseVariants(const Options &options, const GrayRe
     for (FeaturesVariant &peer : openCvFeatures()) all.push_back(std::move(peer));
     all.push_back(colmapFeatures(options.python));
   }
-  std::string known;
-  std::vector<FeaturesVariant> chosen;
-  for (const FeaturesVariant &variant : all) {
-    known += (known.empty() ? "" : "; ") + variant.name;
-    const auto &only = options.only;
-    if (!only.empty() && std::find(only.begin(), only.end(), variant.name) == only.end()) continue;
+  all = chosenByName(options.only, std::move(all));
+  for (const FeaturesVariant &variant : all)
     if (!variant.run) console.warn("note: " + variant.name + " is absent, " + variant.absent);
-    chosen.push_back(variant);
-  }
-  if (chosen.empty()) throw UsageError("--only: there is no such variant; choose from: " + known);
-  return chosen;
+  return all;
 }
 
 FeaturesTable measure(const Options &options, size_t which, const Console &console) {
@@ -67,8 +60,7 @@ int run(const Options &options, const Console &console) {
     throw UsageError(
         "give --calibration, --first and --last once for each --recording, in the same order, or never");
   const int core = pinToOneCore();
-  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
-                       : "Pinned to core " + std::to_string(core) + "; one thread; CPU time.");
+  console.say(pinnedText(core, "CPU time"));
   std::vector<FeaturesTable> tables;
   for (size_t i = 0; i < options.recordings.size(); ++i) {
     tables.push_back(measure(options, i, console));
@@ -108,18 +100,12 @@ void addOptions(CLI::App *app, Options *options) {
       ->take_all()
       ->type_name("N");
   app->add_option("--step", options->step, "Take every N-th frame [1]")->type_name("N")->check(CLI::PositiveNumber);
-  app->add_option("--repeat", options->bench.repeats, "Extractions of which the median time counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
+  addRepeatOption(app, &options->bench.repeats);
   app->add_option("--every", options->bench.every, "Frames from one pair to the next")
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000000u))
       ->type_name("N");
-  app->add_option("--only", options->only, "Only the variant of this name; repeat for more")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME");
+  addOnlyOption(app, &options->only, "variant");
   app->add_flag("--no-peers", options->no_peers, "The library's own extractor only");
   app->add_option("--python", options->python, "Python that has pycolmap and numpy")
       ->capture_default_str()

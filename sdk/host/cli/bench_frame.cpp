@@ -1,13 +1,13 @@
 #include "host/cli/bench_frame.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "host/bench/frame_ours.h"
 #include "host/bench/frame_peer.h"
 #include "host/bench/frame_plots.h"
-#include "host/build/map_writer.h"
+#include "host/cli/bench_options.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/localize_run.h"
 #include "host/cli/map_file.h"
@@ -36,12 +36,7 @@ struct OwnedMap {
 
 OwnedMap openOwnedMap(const std::string &path) {
   OwnedMap map = {openMapFile(path), Vector3::Zero()};
-  const OwnerNote note = readOwnerNote(path + ".owner.json");
-  const sphc_map_info info = map.file.map.info();
-  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id))
-    throw std::runtime_error(path +
-                             ".owner.json belongs to another map (their map ids differ); build the map anew");
-  map.centre_in_world_m = note.centre_in_world_m;
+  map.centre_in_world_m = centreByNote(path + ".owner.json", map.file, path);
   return map;
 }
 
@@ -64,10 +59,6 @@ class FrameCommand {
   }
 
  private:
-  bool isWanted(const std::string &name) const {
-    return options_.only.empty() || std::count(options_.only.begin(), options_.only.end(), name) > 0;
-  }
-
   // Absent peers are told; those wanted and present map the place.
   void preparePeers() {
     if (options_.mapping.last == UINT32_MAX) {
@@ -77,7 +68,7 @@ class FrameCommand {
     auto peers = std::make_unique<FramePeers>(options_.python);
     std::vector<std::string> chosen;
     for (const FrameVariant &peer : peers->variants()) {
-      if (!isWanted(peer.name)) continue;
+      if (!isChosen(options_.only, peer.name)) continue;
       if (!peer.run) console_.warn("note: " + peer.name + " is absent, " + peer.absent);
       if (peer.run) chosen.push_back(peer.name);
     }
@@ -122,19 +113,7 @@ class FrameCommand {
                    " foreign.");
       all.insert(all.end(), peers_->variants().begin(), peers_->variants().end());
     }
-    return chosenOf(all);
-  }
-
-  std::vector<FrameVariant> chosenOf(const std::vector<FrameVariant> &all) const {
-    std::string known;
-    for (const FrameVariant &variant : all) known += (known.empty() ? "'" : ", '") + variant.name + "'";
-    for (const std::string &name : options_.only)
-      if (std::none_of(all.begin(), all.end(), [&](const FrameVariant &variant) { return variant.name == name; }))
-        throw UsageError("--only '" + name + "': there is no such variant; choose from: " + known);
-    std::vector<FrameVariant> chosen;
-    for (const FrameVariant &variant : all)
-      if (isWanted(variant.name)) chosen.push_back(variant);
-    return chosen;
+    return chosenByName(options_.only, std::move(all));
   }
 
   FrameTable measureMap(const std::string &path) {
@@ -171,18 +150,13 @@ void writeResult(const Options &options, const std::vector<FrameTable> &tables, 
   if (options.out.empty()) return;
   makeFolder(options.out);
   writeText(options.out + "/frame.csv", frameCsv(tables));
-  const PlotResult drawn = writeDrawings(options.out, frameDrawings(tables));
-  if (drawn == PlotResult::kNoGnuplot)
-    console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
-  if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
-  console.say("Wrote " + options.out + ".");
+  sayWritten(options.out, writeDrawings(options.out, frameDrawings(tables)), console);
 }
 
 int run(Options options, const Console &console) {
   const int core = pinToOneCore();
   if (options.name.empty()) options.name = std::filesystem::path(options.recording.folder).filename().string();
-  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
-                       : "Pinned to core " + std::to_string(core) + "; one thread; processor time.");
+  console.say(pinnedText(core, "CPU time"));
   FrameCommand command(options, console);
   const std::vector<FrameTable> tables = command.measure();
   if (tables.size() > 1) console.say(frameScalingText(tables));
@@ -216,10 +190,7 @@ void addOptions(CLI::App *app, Options *options) {
       ->capture_default_str()
       ->check(CLI::Range(1u, 100u))
       ->type_name("N");
-  app->add_option("--only", options->only, "Only the variant of this name; repeat for more")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME");
+  addOnlyOption(app, &options->only, "variant");
   const char *group = "Peers";
   app->add_option("--mapping-first", options->mapping.first, "First frame that peers map [0]")
       ->type_name("N")

@@ -6,9 +6,7 @@
 #include "host/build/resized_model.h"
 #include "host/build/sphere_cloud.h"
 #include "host/cli/exit_code.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
+#include "host/cli/import_recording.h"
 #include "host/report/file.h"
 
 namespace sphc::host {
@@ -25,14 +23,6 @@ struct Options {
   std::string out;
 };
 
-PointModel import(const RecordingOptions &recording) {
-  const Replay replay = openRecording(recording);
-  ProgressBar bar("mapping   ");
-  RgbdImportSummary summary;
-  return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-}
-
 std::vector<PointModel> importForeign(const Options &options) {
   if (!options.foreign_calibrations.empty() && options.foreign_calibrations.size() != options.foreign.size())
     throw UsageError("give --foreign-calibration once for each --foreign, or not at all");
@@ -41,7 +31,7 @@ std::vector<PointModel> importForeign(const Options &options) {
     RecordingOptions recording;
     recording.folder = options.foreign[i];
     if (!options.foreign_calibrations.empty()) recording.calibration = options.foreign_calibrations[i];
-    models.push_back(import(recording));
+    models.push_back(importRecording(recording, "mapping   "));
   }
   return models;
 }
@@ -62,7 +52,7 @@ std::string writeMap(const Options &options, const PointModel &model) {
 
 int run(const Options &options, const Console &console) {
   makeFolder(options.out);
-  const PointModel own = import(options.recording);
+  const PointModel own = importRecording(options.recording, "mapping   ");
   const std::vector<PointModel> foreign = importForeign(options);
   nlohmann::ordered_json maps = nlohmann::ordered_json::array();
   for (const uint32_t points : options.points) {

@@ -9,10 +9,11 @@
 #include "host/bench/match_table.h"
 #include "host/bench/pose_bench.h"
 #include "host/build/map_writer.h"
+#include "host/cli/bench_options.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/import_recording.h"
 #include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
 #include "host/report/file.h"
 
 namespace sphc::host {
@@ -29,20 +30,6 @@ struct Options {
   std::string python = "python3", out, ledger;
   bool no_peers = false;
 };
-
-PointModel importModel(const RecordingOptions &recording, const char *what) {
-  const Replay replay = openRecording(recording);
-  ProgressBar bar(what);
-  RgbdImportSummary summary;
-  return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-}
-
-Vector3 centreOf(const PointModel &model) {
-  Vector3 sum = Vector3::Zero();
-  for (const ModelPoint &point : model.points) sum += point.position_m;
-  return sum / static_cast<double>(model.points.size());
-}
 
 // `count` points of a model, evenly chosen, as seen from a centre.
 std::vector<MatchPoint> chosenPoints(const PointModel &model, const Vector3 &centre_m, size_t count) {
@@ -74,16 +61,10 @@ std::vector<MatchVariant> variantsOf(const Options &options, const Console &cons
     for (MatchVariant &peer : openCvMatchPeers()) all.push_back(std::move(peer));
     for (MatchVariant &peer : pythonMatchPeers(options.python)) all.push_back(std::move(peer));
   }
-  std::vector<MatchVariant> chosen;
-  for (MatchVariant &variant : all) {
-    const bool asked =
-        options.only.empty() || std::count(options.only.begin(), options.only.end(), variant.name) > 0;
-    if (!asked) continue;
+  all = chosenByName(options.only, std::move(all));
+  for (const MatchVariant &variant : all)
     if (!variant.prepare) console.warn("note: " + variant.name + " is absent, " + variant.absent);
-    chosen.push_back(std::move(variant));
-  }
-  if (chosen.empty()) throw UsageError("--only: no matcher has such a name; run without it to see their names");
-  return chosen;
+  return all;
 }
 
 void writeResult(const Options &options, const std::vector<MatchTable> &tables, const Console &console) {
@@ -91,11 +72,7 @@ void writeResult(const Options &options, const std::vector<MatchTable> &tables, 
   if (options.out.empty()) return;
   makeFolder(options.out);
   writeText(options.out + "/match.csv", matchCsv(tables));
-  const PlotResult drawn = writeMatchDrawings(options.out, tables);
-  if (drawn == PlotResult::kNoGnuplot)
-    console.warn("note: no drawings without gnuplot: apt-get install gnuplot-nox");
-  if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
-  console.say("Wrote " + options.out + ".");
+  sayWritten(options.out, writeMatchDrawings(options.out, tables), console);
 }
 
 int run(Options options, const Console &console) {
@@ -103,11 +80,10 @@ int run(Options options, const Console &console) {
   options.queries.calibration = options.recording.calibration;
   const int core = pinToOneCore();
   const auto variants = variantsOf(options, console);
-  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
-                       : "Pinned to core " + std::to_string(core) + "; one thread; CPU time.");
-  const PointModel model = importModel(options.recording, "mapping   ");
-  const Vector3 centre_m = centreOf(model);
-  const auto queries = chosenPoints(importModel(options.queries, "querying  "), centre_m, options.query_count);
+  console.say(pinnedText(core, "CPU time"));
+  const PointModel model = importRecording(options.recording, "mapping   ");
+  const Vector3 centre_m = centreOf(model.points);
+  const auto queries = chosenPoints(importRecording(options.queries, "querying  "), centre_m, options.query_count);
   std::vector<MatchTable> tables;
   for (const size_t size : options.sizes) {
     const MatchCase c = caseOf(model, centre_m, size, queries);
@@ -155,14 +131,8 @@ void addOptions(CLI::App *app, Options *options) {
       ->take_all()
       ->check(CLI::Range(size_t{1000}, size_t{16000000}))
       ->type_name("N");
-  app->add_option("--repeat", options->repeats, "Runs of which the median time counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
-  app->add_option("--only", options->only, "Only the matcher of this name; repeat for more")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME");
+  addRepeatOption(app, &options->repeats);
+  addOnlyOption(app, &options->only, "matcher");
   app->add_flag("--no-peers", options->no_peers, "The library's own matchers only");
   app->add_option("--python", options->python, "Python that has faiss, hnswlib and numpy")
       ->capture_default_str()

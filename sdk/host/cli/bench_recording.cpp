@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/bench/recording_bench.h"
+#include "host/cli/bench_options.h"
 #include "host/cli/door.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/progress.h"
@@ -111,10 +112,7 @@ Command benchRecordingCommand(CLI::App *bench) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber)
       ->type_name("N");
-  app->add_option("--repeat", options->repeats, "Runs of which the median time counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
+  addRepeatOption(app, &options->repeats);
   app->add_option("--folder", options->folder, "Where the recorder writes while it is measured")
       ->capture_default_str()
       ->type_name("DIR");

@@ -5,10 +5,8 @@
 
 #include "host/audit/score/release_audit.h"
 #include "host/cli/exit_code.h"
+#include "host/cli/import_recording.h"
 #include "host/cli/privacy_ledger.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/import/rgbd_import.h"
 #include "host/report/table.h"
 
 namespace sphc::host {
@@ -18,33 +16,8 @@ struct Options {
   RecordingOptions recording, other, strangers;
   uint32_t more_last = 0, frames = 25;
   double eta = 1.0 / 3;
-  std::string name, ledger, fakes = "gaussian";
+  std::string name, ledger, fakes = kDefaultFakes;
 };
-
-PointModel importModel(const RecordingOptions &recording, const char *what) {
-  const Replay replay = openRecording(recording);
-  ProgressBar bar(what);
-  RgbdImportSummary summary;
-  return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-}
-
-// At most `count` frames, evenly chosen, each by itself.
-std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what) {
-  const uint32_t available = sphc_replay_frame_count(openRecording(recording).get());
-  std::vector<PointModel> models;
-  ProgressBar bar(what);
-  for (uint32_t k = 0; k < count && k < available; ++k) {
-    RecordingOptions one = recording;
-    one.first += k * std::max(1u, available / count) * recording.step;
-    one.last = one.first + recording.step - 1;
-    const Replay replay = openRecording(one);
-    RgbdImportSummary summary;
-    models.push_back(importRgbd(replay.get(), {}, {}, &summary));
-    bar.show(k + 1, count);
-  }
-  return models;
-}
 
 void tell(const std::vector<PrivacyRow> &rows, const Console &console) {
   std::vector<Row> table;
@@ -67,12 +40,12 @@ int run(Options options, const Console &console) {
   ReleaseAuditInput input;
   input.map =
       options.name.empty() ? std::filesystem::path(options.recording.folder).filename().string() : options.name;
-  input.first = importModel(options.recording, "mapping   ");
-  input.more = importModel(more, "10 % more ");
-  input.other = importModel(options.other, "others    ");
+  input.first = importRecording(options.recording, "mapping   ");
+  input.more = importRecording(more, "10 % more ");
+  input.other = importRecording(options.other, "others    ");
   input.queries = importFrames(options.other, options.frames, "querying  ");
   input.strangers = importFrames(options.strangers, options.frames, "strangers ");
-  const auto strategy = options.fakes == "gaussian" ? gaussianFakes() : patchworkFakes();
+  const auto strategy = makeFakes(options.fakes);
   const std::vector<PrivacyRow> rows = auditReleases(input, *strategy, options.eta);
   tell(rows, console);
   if (!options.ledger.empty()) updatePrivacyLedger(options.ledger, rows);
@@ -115,7 +88,7 @@ Command benchReleasesCommand(CLI::App *bench) {
       ->type_name("X");
   app->add_option("--fakes", options->fakes, "How fakes are made")
       ->capture_default_str()
-      ->check(CLI::IsMember({"patchwork", "gaussian"}))
+      ->check(CLI::IsMember(fakeNames()))
       ->type_name("NAME");
   app->add_option("--name", options->name, "Of the map, in the ledger [the recording's]")->type_name("NAME");
   app->add_option("--ledger", options->ledger, "Update these attacks' rows here")->type_name("CSV");

@@ -20,8 +20,8 @@ struct Options {
   std::string map, key, ledger;
   std::vector<std::string> against;
   std::optional<double> eta;
-  std::string fakes = "gaussian";
-  double sigma2 = 0.1, patch_deg = 6;
+  std::string fakes;
+  FakeOptions fake_options;
   bool new_place = false, understood = false;
 };
 
@@ -43,12 +43,12 @@ std::vector<Place> placesOfOthers(const Options &options) {
   return places;
 }
 
-ReleaseRequest requestOf(const Options &options, const Ledger &ledger, const FakeStrategy &strategy) {
+ReleaseRequest requestOf(const Options &options, const Ledger &ledger, const FakeStrategy *strategy) {
   ReleaseRequest request;
   request.own = ledger.places();
   request.foreign = placesOfOthers(options);
   request.key = ledger.key();
-  request.strategy = &strategy;
+  request.strategy = strategy;
   request.eta = options.eta;
   request.new_place = options.new_place;
   request.understood = options.understood;
@@ -71,10 +71,9 @@ Outcome build(const Options &options) {
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
   checkPointSource(options.source);
-  const auto strategy =
-      options.fakes == "gaussian" ? gaussianFakes(options.sigma2) : patchworkFakes(options.patch_deg);
+  const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
   Ledger ledger = openLedger(options);
-  const ReleaseRequest request = requestOf(options, ledger, *strategy);
+  const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
   // The ledger first: what it does not know was never published.
@@ -196,18 +195,21 @@ void addOptions(CLI::App *app, Options *options) {
   app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1] [1/3]")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("X");
-  app->add_option("--fakes", options->fakes,
-                  "How fakes are made; gaussian is the paper's way, patchwork the one that is harder to tell")
+  CLI::Option *fakes =
+      app->add_option("--fakes", options->fakes,
+                      std::string("How fakes are made: patchwork is hard to tell, gaussian is the paper's way [") +
+                          kDefaultFakes + ", or as the place was released]")
+          ->check(CLI::IsMember(fakeNames()))
+          ->type_name("NAME");
+  app->add_option("--patch-deg", options->fake_options.patch_deg, "Width of a patch of patchwork, degrees")
       ->capture_default_str()
-      ->check(CLI::IsMember({"patchwork", "gaussian"}))
-      ->type_name("NAME");
-  app->add_option("--patch-deg", options->patch_deg, "Width of a patch of patchwork, degrees")
-      ->capture_default_str()
-      ->check(CLI::Range(1.0, 60.0))
+      ->check(CLI::Range(2.0, 60.0))
+      ->needs(fakes)
       ->type_name("DEG");
-  app->add_option("--sigma2", options->sigma2, "Variance of the noise that makes gaussian fakes")
+  app->add_option("--sigma2", options->fake_options.sigma2, "Variance of the noise that makes gaussian fakes")
       ->capture_default_str()
       ->check(CLI::Range(1e-9, 100.0))
+      ->needs(fakes)
       ->type_name("X");
   addReleaseOptions(app, options);
 }

@@ -1,7 +1,8 @@
 // spherecloud compare: the systems of the paper's table 2 side by side, and the density attack on their clouds.
-#include <algorithm>
 #include <memory>
 
+#include "host/cli/bench_options.h"
+#include "host/cli/bench_words.h"
 #include "host/cli/command.h"
 #include "host/cli/compare_attack.h"
 #include "host/cli/compare_input.h"
@@ -18,10 +19,8 @@ namespace {
 
 struct Options {
   CompareRecordingOptions recording;
-  std::vector<std::string> correspondences, only;
-  std::vector<DepthSource> depths = {DepthSource::kTof};
-  uint32_t every = 1;
-  BenchOptions bench;
+  std::vector<std::string> correspondences;
+  PoseRunOptions runs;
   std::string name, out, ledger, privacy_ledger;
   bool attack = false;
 };
@@ -36,22 +35,10 @@ CompareInput readInput(Options options) {
     options.recording.queries.calibration = options.recording.mapping.calibration;
     input = recordCompareInput(options.recording);
   } else {
-    input = readCompareInput(options.correspondences, options.every);
+    input = readCompareInput(options.correspondences, options.runs.every);
   }
   if (!options.name.empty()) input.name = options.name;
   return input;
-}
-
-std::vector<PoseVariant> chosenSystems(const std::vector<std::string> &only, std::vector<PoseVariant> all) {
-  std::vector<PoseVariant> chosen;
-  std::string known;
-  for (PoseVariant &system : all) {
-    known += (known.empty() ? "" : "; ") + system.name;
-    const bool asked = only.empty() || std::count(only.begin(), only.end(), system.name) > 0;
-    if (asked) chosen.push_back(std::move(system));
-  }
-  if (chosen.empty()) throw UsageError("--only: there is no such system; choose from: " + known);
-  return chosen;
 }
 
 // Whose time is 1: the library on the last sphere cloud given.
@@ -61,21 +48,19 @@ std::string referenceName(const CompareInput &input) {
 
 CompareTable compareAll(const CompareInput &input, DepthSource depth, const Options &options) {
   const std::vector<PoseCase> cases = compareCases(input, depth);
-  const std::vector<PoseVariant> systems = chosenSystems(options.only, compareSystems(input, depth));
+  const std::vector<PoseVariant> systems = chosenByName(options.runs.only, compareSystems(input, depth));
   CompareTable table = {input.name, depth, cases.size(), referenceName(input), {}};
   ProgressBar bar("comparing ");
-  for (const VariantRuns &runs : runPoseBench(cases, systems, options.bench,
+  for (const VariantRuns &runs : runPoseBench(cases, systems, options.runs.bench,
                                               [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }))
     table.systems.push_back(summarizeVariant(runs));
   return table;
 }
 
 nlohmann::ordered_json runTables(const CompareInput &input, const Options &options, const Console &console) {
-  const int core = pinToOneCore();
-  console.say(core < 0 ? "The system does not let itself be pinned to one core; times may jump."
-                       : "Pinned to core " + std::to_string(core) + "; one thread.");
+  console.say(pinnedText(pinToOneCore()));
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
-  for (const DepthSource depth : options.depths) {
+  for (const DepthSource depth : options.runs.depths) {
     const CompareTable table = compareAll(input, depth, options);
     console.say("\n" + compareText(table));
     if (!options.ledger.empty()) replaceRows(options.ledger, kCompareHead, compareKey(table), compareRows(table));
@@ -90,11 +75,7 @@ nlohmann::ordered_json runAttack(const CompareInput &input, const Options &optio
   if (!options.privacy_ledger.empty()) updatePrivacyLedger(options.privacy_ledger, attackRows(input.name, clouds));
   if (!options.out.empty()) {
     makeFolder(options.out);
-    const PlotResult drawn = drawAttack(options.out, input.name, clouds);
-    if (drawn == PlotResult::kNoGnuplot)
-      console.warn("note: no drawing without gnuplot: apt-get install gnuplot-nox");
-    if (drawn == PlotResult::kFailed) console.warn("note: gnuplot failed; see " + options.out + "/gnuplot.log");
-    console.say("Wrote " + options.out + ".");
+    sayWritten(options.out, drawAttack(options.out, input.name, clouds), console);
   }
   return attackJson(input.name, clouds);
 }
@@ -107,7 +88,7 @@ int run(const Options &options, const Console &console) {
   if (options.attack)
     console.give(runAttack(input, options, console));
   else
-    console.give({{"repeats", options.bench.repeats}, {"tables", runTables(input, options, console)}});
+    console.give({{"repeats", options.runs.bench.repeats}, {"tables", runTables(input, options, console)}});
   return kExitDone;
 }
 
@@ -141,28 +122,11 @@ void addInputOptions(CLI::App *app, Options *options) {
   app->add_option("--correspondences", options->correspondences,
                   "Correspondence files of one place in place of a recording")
       ->type_name("FILE");
-  app->add_option("--every", options->every, "Every N-th query of the files only")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000000u))
-      ->type_name("N");
 }
 
 void addOptions(CLI::App *app, Options *options) {
   addInputOptions(app, options);
-  const std::map<std::string, DepthSource> depths = {{"tof", DepthSource::kTof}, {"oracle", DepthSource::kOracle}};
-  app->add_option("--depth", options->depths, "tof: as the sensor measured; oracle: of the true points; or both")
-      ->transform(CLI::CheckedTransformer(depths).description(""))
-      ->expected(1)
-      ->take_all()
-      ->type_name("tof|oracle");
-  app->add_option("--repeat", options->bench.repeats, "Runs of which the median time counts")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 1000u))
-      ->type_name("N");
-  app->add_option("--only", options->only, "Only the system of this name; repeat for more")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME");
+  addPoseRunOptions(app, &options->runs, "system");
   app->add_option("--name", options->name, "What the place is called in tables")->type_name("NAME");
   app->add_option("--ledger", options->ledger, "Put the rows of this place in a file, without milliseconds")
       ->type_name("FILE");

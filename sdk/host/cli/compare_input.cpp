@@ -12,12 +12,6 @@ std::string placeName(const std::string &path) {
   return stem.substr(0, stem.find("_eta"));
 }
 
-void keepEvery(uint32_t every, PoseFile *file) {
-  std::vector<PoseQuery> kept;
-  for (size_t i = 0; i < file->queries.size(); i += every) kept.push_back(std::move(file->queries[i]));
-  file->queries = std::move(kept);
-}
-
 // The rows of both must be of the same points, in the same order.
 void checkSame(const PoseFile &file, const PoseFile &truth, const std::string &path) {
   bool same = file.queries.size() == truth.queries.size();

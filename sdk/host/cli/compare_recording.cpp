@@ -5,30 +5,19 @@
 #include "host/bench/pose_case.h"
 #include "host/bench/ratio_match.h"
 #include "host/build/fakes/strategy.h"
+#include "host/build/sphere_cloud.h"
 #include "host/cli/compare_input.h"
+#include "host/cli/import_recording.h"
 #include "host/cli/progress.h"
-#include "host/import/rgbd_import.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr double kRatio = 0.8;
 
-PointModel mapFrames(const RecordingOptions &options) {
-  const Replay replay = openRecording(options);
-  ProgressBar bar("mapping   ");
-  RgbdImportSummary summary;
-  return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-}
-
-// Positions about their mean, which is left in *centre_m.
-std::vector<Vector3> centredPoints(const PointModel &model, Vector3 *centre_m) {
-  *centre_m = Vector3::Zero();
-  for (const ModelPoint &point : model.points) *centre_m += point.position_m;
-  *centre_m /= static_cast<double>(model.points.size());
+std::vector<Vector3> pointsAbout(const Vector3 &centre_m, const PointModel &model) {
   std::vector<Vector3> points_m;
-  for (const ModelPoint &point : model.points) points_m.push_back(point.position_m - *centre_m);
+  for (const ModelPoint &point : model.points) points_m.push_back(point.position_m - centre_m);
   return points_m;
 }
 
@@ -82,9 +71,9 @@ CompareInput recordCompareInput(const CompareRecordingOptions &options) {
   CompareInput input;
   const std::filesystem::path path = options.mapping.folder;
   input.name = (path.has_filename() ? path : path.parent_path()).stem().string();
-  const PointModel model = mapFrames(options.mapping);
-  Vector3 centre_m;
-  input.points_m = centredPoints(model, &centre_m);
+  const PointModel model = importRecording(options.mapping, "mapping   ");
+  const Vector3 centre_m = centreOf(model.points);
+  input.points_m = pointsAbout(centre_m, model);
   std::vector<Descriptor> map;
   for (uint32_t i = 0; i < model.points.size(); ++i) {
     map.push_back(model.points[i].descriptor);

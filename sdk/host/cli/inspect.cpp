@@ -1,11 +1,11 @@
 // spherecloud inspect: a close look at a map file.
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/map_anatomy.h"
 #include "host/report/direction_picture.h"
+#include "host/report/picture_file.h"
 #include "host/report/table.h"
 
 namespace sphc::host {
@@ -59,21 +59,6 @@ nlohmann::ordered_json json(const MapFacts &facts, const MapAnatomy &anatomy) {
   return value;
 }
 
-// Gives the density at the brightest spot.
-double writePicture(const std::string &path, const MapFacts &facts) {
-  double peak = 0;
-  const cv::Mat picture = drawDirections(facts.directions, &peak);
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception &) {  // a file name without a known ending
-  }
-  if (!written)
-    throw std::runtime_error("cannot write the picture " + path +
-                             ": choose a writable place and end its name in .png");
-  return peak;
-}
-
 int inspect(const Options &options, const Console &console) {
   const MapFile file = openMapFile(options.map);
   const MapFacts facts = mapFacts(file, options.map);
@@ -82,7 +67,8 @@ int inspect(const Options &options, const Console &console) {
   nlohmann::ordered_json value = json(facts, anatomy);
   if (!options.no_picture) {
     const std::string path = options.picture.empty() ? options.map + ".directions.png" : options.picture;
-    const double peak = writePicture(path, facts);
+    double peak = 0;
+    writePicture(path, drawDirections(facts.directions, &peak));
     console.say("Picture of the directions, as a map of the sky: " + path + "\n  (the brightest spot is " +
                 fixed(peak, 1) + " times denser than an even spread)");
     value["picture"] = path;

@@ -1,9 +1,7 @@
 // spherecloud localize: where was the camera, frame by frame?
-#include <algorithm>
 #include <map>
 #include <memory>
 
-#include "host/build/map_writer.h"
 #include "host/cli/command.h"
 #include "host/cli/exit_code.h"
 #include "host/cli/localize_run.h"
@@ -29,24 +27,14 @@ struct Options {
   sphc_config config = spherecloud::defaultConfig();
 };
 
-// A note is the owner's; it must belong to this very map.
-std::array<double, 3> readCentre(const std::string &path, const MapFile &file, const std::string &map) {
-  const OwnerNote note = readOwnerNote(path);
-  const sphc_map_info info = file.map.info();
-  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id)) {
-    throw std::runtime_error(path + " belongs to another map than " + map +
-                             " (their map ids differ); give the note that was written beside this map");
-  }
-  const Vector3 &centre = note.centre_in_world_m;
-  return {centre.x(), centre.y(), centre.z()};
-}
-
 void readNotes(const Options &options, LocalizeInput *input, Run *run) {
   if (options.owner_notes.empty()) return;
   if (options.owner_notes.size() != options.maps.size())
     throw UsageError("--owner-note: give one for each --map, in the same order, or none");
-  for (size_t i = 0; i < options.maps.size(); ++i)
-    input->centres_in_world_m.push_back(readCentre(options.owner_notes[i], input->maps[i], options.maps[i]));
+  for (size_t i = 0; i < options.maps.size(); ++i) {
+    const Vector3 centre = centreByNote(options.owner_notes[i], input->maps[i], options.maps[i]);
+    input->centres_in_world_m.push_back({centre.x(), centre.y(), centre.z()});
+  }
   run->centre_m = input->centres_in_world_m.front();
   run->base = "world";
 }

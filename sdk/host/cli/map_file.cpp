@@ -1,6 +1,8 @@
 #include "host/cli/map_file.h"
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 namespace sphc::host {
@@ -14,7 +16,17 @@ void check(const std::string &what, const spherecloud::Status &status) {
 
 }  // namespace
 
+void checkIsFile(const std::string &path) {
+  std::error_code absent;
+  const std::filesystem::file_status status = std::filesystem::status(path, absent);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+  throw std::runtime_error(path +
+                           (std::filesystem::is_directory(status) ? " is a folder" : " is a device or a pipe") +
+                           "; give the map file itself, which spherecloud build wrote");
+}
+
 MapFile openMapFile(const std::string &path) {
+  checkIsFile(path);
   MapFile file;
   check("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
   check("cannot use the map " + path, spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
@@ -43,14 +55,13 @@ MapFacts mapFacts(const MapFile &file, const std::string &path) {
   return facts;
 }
 
-std::string hexText(const uint8_t *bytes, size_t count) {
-  static const char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (size_t i = 0; i < count; ++i) {
-    text += kDigits[bytes[i] >> 4];
-    text += kDigits[bytes[i] & 15];
-  }
-  return text;
+Vector3 centreByNote(const std::string &note_path, const MapFile &file, const std::string &map_path) {
+  const OwnerNote note = readOwnerNote(note_path);
+  const sphc_map_info info = file.map.info();
+  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id))
+    throw std::runtime_error(note_path + " belongs to another map than " + map_path +
+                             " (their map ids differ); give the note that was written beside this map");
+  return note.centre_in_world_m;
 }
 
 }  // namespace sphc::host

@@ -131,7 +131,9 @@ inline Status readFile(const char *path, AlignedBuffer *bytes) {
   std::FILE *file = std::fopen(path, "rb");
   if (!file) return Status(SPHC_E_DEVICE, "cannot open the file; check its name and permissions");
   Status status(SPHC_E_DEVICE, "cannot read the file; is it a folder, or a device?");
-  if (std::fseek(file, 0, SEEK_END) == 0) {
+  // A folder can be opened and has a length, but not a first byte.
+  const bool readable = std::fgetc(file) != EOF || std::feof(file);
+  if (readable && std::fseek(file, 0, SEEK_END) == 0) {
     const long size = std::ftell(file);
     if (size >= 0 && std::fseek(file, 0, SEEK_SET) == 0) {
       AlignedBuffer buffer(static_cast<std::size_t>(size), 64);

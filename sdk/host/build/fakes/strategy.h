@@ -32,13 +32,23 @@ class FakeStrategy {
                                   SecretRandom *random) const = 0;
 };
 
-// The default, the paper's: Gaussian noise on the coordinates of the real directions in turn, projected back to the
-// sphere.
-std::unique_ptr<FakeStrategy> gaussianFakes(double variance = 0.1);
+// What the strategies can be told.
+struct FakeOptions {
+  double sigma2 = 0.1;   // of gaussian
+  double patch_deg = 8;  // of patchwork
+};
+
+constexpr char kDefaultFakes[] = "patchwork";
+std::vector<std::string> fakeNames();
+// Throws std::runtime_error, with cause and cure, for another name or an option out of range.
+std::unique_ptr<FakeStrategy> makeFakes(const std::string &name, const FakeOptions &options = {});
+
+// The paper's: Gaussian noise on the coordinates of the real directions in turn, projected back to the sphere.
+std::unique_ptr<FakeStrategy> gaussianFakes(double variance = FakeOptions().sigma2);
 
 // docs/fakes.md: the sphere is cut into patches about `patch_deg` wide.  Those that stay are real, point for point;
 // each of the others is laid on one of them in mirror image, descriptors too, turned at random.  So a fake is among
 // the company it had, and no camera sees it from anywhere.
-std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = 8);
+std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = FakeOptions().patch_deg);
 
 }  // namespace sphc::host

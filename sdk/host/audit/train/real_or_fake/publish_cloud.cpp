@@ -8,6 +8,7 @@
 #include "host/audit/train/real_or_fake/cloud_file.h"
 #include "host/audit/train/tool.h"
 #include "host/build/fakes/strategy.h"
+#include "host/build/recognition.h"
 #include "host/import/twins.h"
 
 namespace sphc::host {
@@ -45,15 +46,9 @@ KnownCloud publish(const PointModel &model, const FakeStrategy &strategy, double
   return knownCloud(strategy.fates(points, real_count, &random));
 }
 
-std::unique_ptr<FakeStrategy> strategyNamed(const std::string &name) {
-  if (name == "gaussian") return gaussianFakes();
-  if (name == "patchwork") return patchworkFakes();
-  throw std::runtime_error("there is no strategy " + name);
-}
-
 void run(char **arguments) {
-  const auto strategy = strategyNamed(arguments[2]);
-  const PointModel model = withoutTwins(readModel(arguments[1]), {0.06, 260});
+  const auto strategy = makeFakes(arguments[2]);
+  const PointModel model = withoutTwins(readModel(arguments[1]), kReleaseTwins);
   writeCloud(arguments[5], publish(model, *strategy, std::stod(arguments[3]), std::stoull(arguments[4])));
 }
 

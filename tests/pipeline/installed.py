@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""The command as it is installed: its own networks, and what it says of a map that is none.
+
+    installed.py --build FOLDER
+"""
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+
+def run(command, accepted=(0,)):
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if result.returncode not in accepted:
+        sys.exit("ended with %d: %s\n%s%s" % (result.returncode, " ".join(map(str, command)), result.stdout,
+                                              result.stderr))
+    return result
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", required=True, help="build tree, with everything built")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder).resolve()
+        prefix, walk, room = folder / "prefix", folder / "walk", folder / "room.sphc"
+        run(["cmake", "--install", arguments.build, "--prefix", prefix])
+        tool, networks = prefix / "bin" / "spherecloud", prefix / "share" / "spherecloud" / "networks"
+        run([tool, "simulate", "--frames", 6, "--rate", 6, "--out", walk])
+        run([tool, "build", "--recording", walk, "--map", room])
+        for command in (["info", walk], ["inspect", walk], ["audit", walk], ["localize", "--recording", walk, "--map", walk],
+                        ["live", "--device", "replay:%s" % walk, "--map", walk]):
+            told = run([tool, *command], accepted=(1,)).stderr
+            if "%s is a folder; give the map file" % walk not in told:
+                sys.exit("a folder in the map's place is not named by %s: %s" % (command[0], told))
+        told = run([tool, "info", "/dev/null"], accepted=(1,)).stderr
+        if "/dev/null is a device or a pipe; give the map file" not in told:
+            sys.exit("a device in the map's place is not named: %s" % told)
+
+        audit = [tool, "audit", room, "--quick", "--truth", folder / "spherecloud.ledger"]
+        run(audit, accepted=(0, 4))  # 4: so few points may break a limit
+
+        # Its own networks, not those of the source: with one missing it names the place.
+        (networks / "co_occurrence.json").unlink()
+        told = run(audit, accepted=(1,)).stderr
+        if str(networks) not in told:
+            sys.exit("with %s damaged the command says: %s" % (networks, told))
+        # Without any it takes those of the source it was built from.
+        shutil.rmtree(networks)
+        run(audit, accepted=(0, 4))
+
+
+if __name__ == "__main__":
+    main()
