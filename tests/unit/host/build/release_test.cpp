@@ -207,6 +207,20 @@ TEST(Release, AnotherRoomIsAnotherPlaceAndSharesNoPoint) {
   EXPECT_EQ(third.summary.added, 0u);
 }
 
+TEST(Release, UnlessToldOtherwiseANewPlaceHasTheDefaultFakesAndAKnownOneItsOwn) {
+  const PointModel room = test::madeUpRoom(1000, 1);
+  ReleaseRequest unsaid = releaseRequest();
+  unsaid.strategy = nullptr;
+  EXPECT_EQ(makeRelease(room, unsaid).place.strategy, kDefaultFakes);
+
+  unsaid.own = {makeRelease(room, releaseRequest()).place};
+  const PointModel larger = test::madeUpRoom(1500, 1);
+  const NewRelease update = makeRelease(larger, unsaid);
+  EXPECT_TRUE(update.summary.is_update);
+  EXPECT_EQ(update.place.strategy, "gaussian");
+  EXPECT_GT(update.summary.added, 0u);
+}
+
 TEST(Release, ASecondIndependentReleaseIsRefused) {
   const PointModel room = test::madeUpRoom(1000, 1);
   const NewRelease first = makeRelease(room, releaseRequest());
