@@ -13,9 +13,9 @@
 namespace sphc::host {
 
 struct ReleaseRequest {
-  std::vector<Place> own;      // of the ledger that the release goes into
-  std::vector<Place> foreign;  // what others released
-  SecretKey key = {};          // the ledger's
+  std::vector<Place> own;                  // of the ledger that the release goes into
+  std::vector<Place> foreign;              // what others released
+  SecretKey key = {};                      // the ledger's
   const FakeStrategy *strategy = nullptr;  // null: of a new place the default, of a known one its own
   std::optional<double>
       eta;  // share of points that stay real: of a new place 1/3, of a known one its own and no other
