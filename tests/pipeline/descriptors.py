@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What coarser descriptors cost a map and what they still tell, through the command line alone; docs/descriptors.md.
+"""What coarser or keyed descriptors cost a map and what they still tell, through the command line; docs/descriptors.md.
 
     descriptors.py --spherecloud BIN [--ledger FILE]
 
@@ -10,6 +10,7 @@ accuracy.py; exits with 77 (skipped) where they are absent.
 """
 import argparse
 import csv
+import itertools
 import json
 import os
 import pathlib
@@ -93,6 +94,115 @@ CODES = {
     "PQ 32 bytes": (256, lambda d: product(d, 32)),
     "PQ 16 bytes": (128, lambda d: product(d, 16)),
 }
+RATIO = 0.8
+
+
+def rounded(values):
+    import numpy
+    return numpy.clip(numpy.rint(values), 0, 255)
+
+
+class Rotation:
+    """A secret orthogonal map of descriptor space, its values stored as bytes about 128."""
+
+    def __init__(self, descriptors):
+        import numpy
+        self.turn = numpy.linalg.qr(numpy.random.RandomState(7).standard_normal((BYTES, BYTES)))[0]
+        self.mean = descriptors.mean(0)
+        turned = (descriptors - self.mean) @ self.turn
+        self.gain = 127 / numpy.quantile(numpy.abs(turned), 0.9999)
+        self.stored = rounded(128 + self.gain * turned)
+
+    def undone(self):
+        return rounded(self.mean + (self.stored - 128) / self.gain @ self.turn.T)
+
+
+UNDONE = {"rotation, undone": (8 * BYTES, lambda d: Rotation(d).undone())}
+
+
+def permuted(descriptors):
+    import numpy
+    return descriptors[:, numpy.random.RandomState(7).permutation(BYTES)]
+
+
+def moments(descriptors):
+    import numpy
+    centred = descriptors - descriptors.mean(0)
+    return centred.T @ centred / len(centred)
+
+
+def assigned(costs):
+    """The stored place of each, the surest first."""
+    import numpy
+    taken = numpy.full(BYTES, -1)
+    for at in numpy.argsort(costs, axis=None):
+        place, source = divmod(int(at), BYTES)
+        if taken[place] < 0 and source not in taken:
+            taken[place] = source
+    return taken
+
+
+def place_by_place(stored, public):
+    """Undoes a permutation: each place by the stored one whose mean, deviation and covariances look most alike, then, again
+    and again, by the covariances with the others as they were assigned."""
+    import numpy
+
+    def looks(descriptors):
+        covariances = moments(descriptors)
+        return numpy.column_stack([descriptors.mean(0), numpy.sqrt(numpy.diag(covariances)),
+                                   numpy.sqrt(numpy.abs(numpy.sort(covariances, 1)))])
+
+    def apart(a, b):
+        return (a ** 2).sum(1)[:, None] - 2 * a @ b.T + (b ** 2).sum(1)
+    taken = assigned(apart(looks(public), looks(stored)))
+    theirs, ours = moments(stored), moments(public)
+    for _ in range(40):
+        taken = assigned(apart(ours, theirs[:, taken]))
+    return stored[:, taken]
+
+
+def axis_by_axis(stored, public):
+    """Undoes a rotation: principal axes onto principal axes, signs by skewness."""
+    import numpy
+
+    def axes(descriptors):
+        vectors = numpy.linalg.eigh(moments(descriptors))[1]
+        along = (descriptors - descriptors.mean(0)) @ vectors
+        return vectors * numpy.sign((along ** 3).mean(0)), along.std(0)
+    (theirs, their_spread), (ours, our_spread) = axes(stored), axes(public)
+    along = (stored - stored.mean(0)) @ theirs / numpy.maximum(their_spread, 1e-9)
+    return rounded(public.mean(0) + (along * our_spread) @ ours.T)
+
+
+# What a stranger sees of what is stored under a key, who has the descriptors of another place.
+KEYED = {
+    "8 bits": lambda d, public: d,
+    "rotation": lambda d, public: Rotation(d).stored,
+    "rotation, guessed": lambda d, public: axis_by_axis(Rotation(d).stored, public),
+    "permutation": lambda d, public: permuted(d),
+    "permutation, guessed": lambda d, public: place_by_place(permuted(d), public),
+}
+
+
+def passing(queries, descriptors):
+    """Which queries pass the ratio test in a map, all of it looked at."""
+    import numpy
+    lengths = (descriptors ** 2).sum(1)
+    near = numpy.sort(numpy.partition(lengths - 2 * queries @ descriptors.T, 1)[:, :2], 1) + (queries ** 2).sum(1)[:, None]
+    return near[:, 0] < RATIO ** 2 * near[:, 1]
+
+
+def keyed(tool, place, other, folder):
+    """Rows of what a stranger with sets of keypoints tells of a map's membership when he has no key."""
+    import numpy
+    descriptors = {name: build(tool, name, folder, "map", ETA)[1].astype(numpy.float32) for name in PLACES}
+    pictures = {name: build(tool, name, folder, "query", 1)[1].astype(numpy.float32) for name in PLACES}
+    for code, seen in KEYED.items():
+        found = seen(descriptors[place], descriptors[other]).astype(numpy.float32)
+        shares = {name: [passing(some, found).mean() for some in numpy.split(pictures[name][:40 * STRANGER_KEYPOINTS], 40)]
+                  for name in PLACES}
+        yield [place, code + " (keyed)", 8 * BYTES, "", "", "", "", "", "%.3f" % auc(shares[place], shares[other]),
+               "%.3f" % numpy.mean(shares[place]), "%.3f" % numpy.mean(shares[other])]
 
 
 def with_descriptors(file, descriptors):
@@ -123,20 +233,29 @@ def auc(present, absent):
     return wins / (len(present) * len(absent))
 
 
+def build(tool, place, folder, part, eta):
+    """The map file, and its descriptors."""
+    import numpy
+    stem = folder / ("%s_%s" % (place, part))
+    map_file = stem.with_suffix(".sphc")
+    if not map_file.exists():
+        run([tool, "build", *source(place, part), "--map", map_file, "--ledger", stem.with_suffix(".ledger"), "--eta", eta,
+             "--fakes", "gaussian", "--key", HERE / "test_key.txt", "--json"])
+    stored = read_map.read(map_file.read_bytes()).descriptors
+    return map_file, numpy.frombuffer(stored, numpy.uint8).reshape(-1, BYTES)
+
+
 def measure(tool, place, other, folder):
     import numpy
-    map_file = folder / "map.sphc"
-    run([tool, "build", *source(place, "map"), "--map", map_file, "--eta", ETA, "--fakes", "gaussian", "--key",
-         HERE / "test_key.txt", "--json"])
-    original = map_file.read_bytes()
-    descriptors = numpy.frombuffer(read_map.read(original).descriptors, numpy.uint8).reshape(-1, BYTES)
-    for name, (bits, code) in CODES.items():
+    map_file, descriptors = build(tool, place, folder, "map", ETA)
+    original, coded = map_file.read_bytes(), folder / "coded.sphc"
+    for name, (bits, code) in {**CODES, **UNDONE}.items():
         rough = code(descriptors).astype(numpy.uint8)
-        map_file.write_bytes(with_descriptors(original, rough.tobytes()))
-        found = run([tool, "localize", *source(place, "query"), "--map", map_file, "--mode", "single", "--owner-note",
+        coded.write_bytes(with_descriptors(original, rough.tobytes()))
+        found = run([tool, "localize", *source(place, "query"), "--map", coded, "--mode", "single", "--owner-note",
                      str(map_file) + ".owner.json", "--json"])
-        present = matched_shares(tool, place, map_file, folder)
-        absent = matched_shares(tool, other, map_file, folder)
+        present = matched_shares(tool, place, coded, folder)
+        absent = matched_shares(tool, other, coded, folder)
         distortion = numpy.sqrt(((rough.astype(float) - descriptors) ** 2).sum(1)).mean()
         median = found["translation_error_m"]["median"]
         yield [place, name, bits, "%.1f" % distortion, "%.1f" % found["within_5cm_5deg_percent"],
@@ -156,7 +275,9 @@ def main():
     rows = []
     for place, other in (("redkitchen", "hololens"), ("hololens", "redkitchen")):
         with tempfile.TemporaryDirectory() as folder:
-            for row in measure(arguments.spherecloud, place, other, pathlib.Path(folder)):
+            folder = pathlib.Path(folder)
+            for row in itertools.chain(measure(arguments.spherecloud, place, other, folder),
+                                       keyed(arguments.spherecloud, place, other, folder)):
                 rows.append(row)
                 print(*row, flush=True)
     if arguments.ledger:
