@@ -6,16 +6,16 @@
 #include "host/build/descriptor_symmetry.h"
 #include "host/build/fakes/spread_draw.h"
 #include "host/build/fakes/strategy.h"
+#include "runtime/base/elementary.h"
 
 namespace sphc::host {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr size_t kMinPatches = 60;  // with points in them; fewer would not mix
-constexpr double kNarrowestRad = 0.02;
-constexpr size_t kAlike = 8;      // patches, of nearly equal counts
-constexpr double kReach = 0.8;    // of a patch's width: as far as patches that stay push each other away
-constexpr double kUneven = 0.15;  // of a patch's width, so that no lattice shows
+constexpr size_t kMinPatches = 60;      // with points in them; fewer would not mix
+constexpr double kNarrowestRad = 0.02;  // patches are not halved below it
+constexpr size_t kAlike = 8;            // patches, of nearly equal counts
+constexpr double kReach = 0.8;          // of a patch's width: as far as patches that stay push each other away
+constexpr double kUneven = 0.15;        // of a patch's width, so that no lattice shows
 
 struct Patch {
   std::vector<size_t> points;
