@@ -5,7 +5,8 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_C_STANDARD 99)
 set(CMAKE_C_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+get_property(SPHC_HAS_SHARED_LIBRARIES GLOBAL PROPERTY TARGET_SUPPORTS_SHARED_LIBS) # a bare machine has none
+set(CMAKE_POSITION_INDEPENDENT_CODE ${SPHC_HAS_SHARED_LIBRARIES})
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_C_VISIBILITY_PRESET hidden)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
@@ -26,6 +27,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   # Highway's NEON has the attribute +crypto, which gcc must see on constructors that it writes itself too; nothing
   # here uses those instructions.
   string(APPEND flags " -march=armv8-a+crypto")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  string(APPEND flags " -mfp16-format=ieee") # Highway names the type where the processor has it
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^i[3-6]86$")
   string(APPEND flags " -msse2 -mfpmath=sse") # x87 computes with more digits than the others
 endif()
@@ -49,11 +52,13 @@ if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-pass-failed>) # loops asked to be vectors
 endif()
 
-# The device side: no exceptions, no RTTI; Eigen may neither allocate nor print.
+# The device side: no exceptions, no RTTI; Eigen may neither allocate nor print.  gcc's vectorizer of straight-line code
+# makes fused vfmaddsub for processors that have it, -ffp-contract=off or not.
 add_library(sphc_runtime_flags INTERFACE)
 target_link_libraries(sphc_runtime_flags INTERFACE sphc_flags)
 target_compile_options(sphc_runtime_flags INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>)
+  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>
+  $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>)
 
 # Reading these takes longer than most of our files.  ccache needs the options, and CCACHE_SLOPPINESS as in tests/run.sh.
 set(SPHC_PRECOMPILE_FROM 4) # sources; fewer are not worth it
