@@ -1,4 +1,4 @@
-// Validation of what comes through the door.
+// Validation of what comes through the C interface.
 #pragma once
 #include "spherecloud/spherecloud.h"
 
@@ -6,9 +6,12 @@ namespace sphc {
 
 // Copies a growing struct of any known size; what the caller's version lacks keeps its default.
 sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message);
-// Do a frame's images fit the config?
-sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, uint32_t map_count,
-                       sphc_message *message);
+// What a frame must fit.
+struct FrameLimits {
+  const sphc_camera &color, &depth;
+  uint32_t map_count;
+};
+sphc_status checkFrame(const sphc_frame *frame, const FrameLimits &limits, sphc_message *message);
 // Is every map of the list there, and are there not too many?
 sphc_status checkMaps(const sphc_map *const *maps, uint32_t map_count, sphc_message *message);
 // Can an aligner be made of it?
