@@ -106,6 +106,8 @@ sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_alig
   }
   const DenseConfig dense = denseConfig(*config);
   status = sphc::checkMemory(memory, memory_bytes, bytesOf(dense), sphc::kArenaAlignment, "aligner", message);
+  if (status == SPHC_OK)
+    status = sphc::checkApart({"aligner", memory, bytesOf(dense)}, {"the config", config, sizeof *config}, message);
   if (status != SPHC_OK) return status;
   auto *made = new (memory) sphc_aligner();
   Arena arena(static_cast<unsigned char *>(memory) + kObjectBytes);

@@ -1,6 +1,7 @@
 #include "runtime/capi/check.h"
 
 #include "runtime/base/message.h"
+#include "runtime/capi/objects.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/localizer/localizer.h"
@@ -266,6 +267,26 @@ sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t 
     return SPHC_E_MEMORY_SIZE;
   }
   return SPHC_OK;
+}
+
+sphc_status checkApart(const MemoryRange &written, const MemoryRange &other, sphc_message *message) {
+  const auto a = reinterpret_cast<uintptr_t>(written.begin), b = reinterpret_cast<uintptr_t>(other.begin);
+  const bool apart = a < b ? b - a >= written.bytes : a - b >= other.bytes;
+  if (apart) return SPHC_OK;
+  MessageWriter(message) << written.name << " memory overlaps " << other.name << "; give it bytes of its own";
+  return SPHC_E_ARGUMENT;
+}
+
+sphc_status checkApartFromMaps(const MemoryRange &written, const sphc_map *const *maps, uint32_t map_count,
+                               sphc_message *message) {
+  sphc_status status = checkApart(written, {"the list of maps", maps, map_count * sizeof *maps}, message);
+  for (uint32_t i = 0; i < map_count && status == SPHC_OK; ++i) {
+    const MapHeader &file = maps[i]->view.header();
+    status = checkApart(written, {"the view of a map", maps[i], sizeof *maps[i]}, message);
+    if (status == SPHC_OK)
+      status = checkApart(written, {"the file of a map", &file, static_cast<size_t>(file.file_bytes)}, message);
+  }
+  return status;
 }
 
 }  // namespace sphc

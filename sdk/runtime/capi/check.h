@@ -22,5 +22,15 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);
+// What the library writes to must not be read as something else.
+struct MemoryRange {
+  const char *name;
+  const void *begin;
+  size_t bytes;
+};
+sphc_status checkApart(const MemoryRange &written, const MemoryRange &other, sphc_message *message);
+// Is it apart from the maps: their views, their files and the list of them?
+sphc_status checkApartFromMaps(const MemoryRange &written, const sphc_map *const *maps, uint32_t map_count,
+                               sphc_message *message);
 
 }  // namespace sphc

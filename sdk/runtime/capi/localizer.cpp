@@ -10,6 +10,7 @@ namespace {
 using sphc::Arena;
 using sphc::Localizer;
 using sphc::LocalizerConfig;
+using sphc::MemoryRange;
 
 constexpr size_t kObjectBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
 
@@ -121,6 +122,12 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   status = sphc::checkMemory(state, state_bytes, need.state_bytes, need.alignment, "state", message);
   if (status != SPHC_OK) return status;
   status = sphc::checkMemory(scratch, scratch_bytes, need.scratch_bytes, need.alignment, "scratch", message);
+  if (status != SPHC_OK) return status;
+  const MemoryRange used_state = {"state", state, need.state_bytes},
+                    used_scratch = {"scratch", scratch, need.scratch_bytes};
+  status = sphc::checkApart(used_state, used_scratch, message);
+  if (status == SPHC_OK) status = sphc::checkApartFromMaps(used_state, maps, map_count, message);
+  if (status == SPHC_OK) status = sphc::checkApartFromMaps(used_scratch, maps, map_count, message);
   if (status != SPHC_OK) return status;
 
   auto *made = new (state) sphc_localizer();
