@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "failure.h"
+#include "host/recording/failure.h"
 
 namespace sphc::replay {
 

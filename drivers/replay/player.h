@@ -4,8 +4,8 @@
 #include <chrono>
 #include <vector>
 
-#include "image_reader.h"
-#include "recording.h"
+#include "host/recording/image_reader.h"
+#include "host/recording/recording.h"
 
 namespace sphc::replay {
 

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "failure.h"
-#include "image_reader.h"
+#include "host/recording/failure.h"
+#include "host/recording/image_reader.h"
+#include "host/recording/recording.h"
 #include "player.h"
-#include "recording.h"
 
 using namespace sphc::replay;
 namespace fs = std::filesystem;

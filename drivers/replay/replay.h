@@ -22,7 +22,7 @@
 
 #include <spherecloud/spherecloud.h>
 
-#include "calibration.h"
+#include "host/recording/calibration.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Compares the ABI with its ledgers.
+"""Compares the ABI with its results.
 
     check_abi.py layout PRINT_LAYOUT [--write]       struct layouts with layout.csv (64-bit machines)
     check_abi.py symbols LIBRARY NM [--write]        exported names of the shared library with symbols.txt
-    check_abi.py header SPHERECLOUD_H                every struct, field and function of the header is in the ledgers
+    check_abi.py header SPHERECLOUD_H                every struct, field and function of the header is in the results
 """
 import os
 import re
@@ -32,7 +32,7 @@ def compare(path, now):
     for line in new:
         print("+ " + line)
     if pinned != now:
-        sys.exit(f"the ABI differs from {os.path.basename(path)}: read docs/abi.md, then build the target abi_ledger")
+        sys.exit(f"the ABI differs from {os.path.basename(path)}: read docs/abi.md, then build the target abi_results")
 
 
 def exported(library, nm):
@@ -59,7 +59,7 @@ def check_header(path):
         if wanted != len(fields):
             faults.append(f"{name} has {wanted} fields, layout.csv {len(fields)}")
     if faults:
-        sys.exit("the header and the ledgers disagree about: " + ", ".join(faults))
+        sys.exit("the header and the results disagree about: " + ", ".join(faults))
 
 
 def main():

@@ -1,4 +1,4 @@
-#include "drivers/replay/calibration.h"
+#include "host/recording/calibration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

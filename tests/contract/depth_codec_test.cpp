@@ -4,8 +4,8 @@
 #include <functional>
 #include <random>
 
-#include "drivers/replay/mcap/depth_rvl.h"
-#include "drivers/replay/mcap/depth_zstd.h"
+#include "host/recording/mcap/depth_rvl.h"
+#include "host/recording/mcap/depth_zstd.h"
 
 namespace sphc::replay {
 

@@ -1,4 +1,4 @@
-#include "drivers/replay/recorder.h"
+#include "host/recording/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "drivers/replay/recording_writer.h"
+#include "host/recording/recording_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

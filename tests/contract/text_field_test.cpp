@@ -1,4 +1,4 @@
-#include "drivers/replay/text_field.h"
+#include "host/recording/text_field.h"
 
 #include <gtest/gtest.h>
 

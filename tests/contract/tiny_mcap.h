@@ -1,7 +1,7 @@
 // The small recording of tiny_recording.h in one file, made with the recorder.
 #pragma once
 
-#include "drivers/replay/recorder.h"
+#include "host/recording/recorder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {

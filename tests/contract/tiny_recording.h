@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
+#include "host/recording/recording_writer.h"
 
 namespace sphc::contract {
 

@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "drivers/replay/calibration.h"
+#include "host/recording/calibration.h"
 #include "tests/fuzz/targets.h"
 
 namespace sphc::fuzz {

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <string>
 
-#include "drivers/replay/failure.h"
-#include "drivers/replay/mcap/depth_rvl.h"
-#include "drivers/replay/message_image.h"
 #include "drivers/replay/replay.h"
+#include "host/recording/failure.h"
+#include "host/recording/mcap/depth_rvl.h"
+#include "host/recording/message_image.h"
 #include "tests/fuzz/targets.h"
 
 namespace sphc::fuzz {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #ifdef SPHC_FUZZ_RECORDINGS
-#include "drivers/replay/calibration.h"
+#include "host/recording/calibration.h"
 #endif
 #include "runtime/base/random.h"
 #include "tests/fuzz/targets.h"

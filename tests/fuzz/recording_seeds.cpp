@@ -5,11 +5,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "drivers/replay/encoded_image.h"
-#include "drivers/replay/mcap/depth_rvl.h"
-#include "drivers/replay/mcap/depth_zstd.h"
-#include "drivers/replay/mcap/messages.h"
-#include "drivers/replay/recorder.h"
+#include "host/recording/encoded_image.h"
+#include "host/recording/mcap/depth_rvl.h"
+#include "host/recording/mcap/depth_zstd.h"
+#include "host/recording/mcap/messages.h"
+#include "host/recording/recorder.h"
 
 namespace sphc::fuzz {
 namespace {

@@ -10,8 +10,8 @@
 #include <filesystem>
 
 #include "drivers/pixels/convert.h"
-#include "drivers/replay/recording_writer.h"
 #include "drivers/simulated/simulated.h"
+#include "host/recording/recording_writer.h"
 #include "recorded.h"
 
 namespace sphc::guest {

@@ -111,7 +111,7 @@ def check_outside(row, source, name):
 def check_include(rows, row, root, source, name):
     target = resolve(root, source, name)
     if target is None:
-        if name.split("/")[0] in ("runtime", "host", "drivers", "spherecloud", "tests"):
+        if name.split("/")[0] in ("runtime", "host", "lab", "drivers", "spherecloud", "tests"):
             return f'"{name}" is not there'
         return check_outside(row, source, name)
     folder = os.path.dirname(target)
@@ -143,8 +143,7 @@ def check_tree(root, table):
     rows, faults, files = read_table(table), [], 0
     for tree in TREES:
         for folder, subfolders, names in os.walk(os.path.join(root, tree)):
-            subfolders[:] = sorted(s for s in subfolders if not s.startswith(".") and s not in ("build", "target") or
-                                   s == "build" and folder.endswith("host"))
+            subfolders[:] = sorted(s for s in subfolders if not s.startswith(".") and s not in ("build", "target"))
             for name in sorted(names):
                 if name.endswith(SOURCES):
                     files += 1

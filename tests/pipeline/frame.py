@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whole frames beside package peers, through the command line alone; writes the ledger frame.csv.
+"""Whole frames beside package peers, through the command line alone; writes frame.csv.
 
     frame.py --spherecloud BIN --python PYTHON --out DIR
 
@@ -14,7 +14,7 @@ import sys
 sys.dont_write_bytecode = True
 from accuracy import HERE, RECORDINGS, Recording, frames
 
-LEDGER = HERE / "frame.csv"
+RESULTS = HERE / "frame.csv"
 ETA, POINTS = 0.33, 50000
 SCALING = (10000, 50000, 200000, 1000000)
 PEERS = ("opencv sift, faiss ivf 16", "opencv sift, faiss ivf 8", "opencv sift, hnswlib", "opencv sift, opencv flann",
@@ -30,10 +30,10 @@ RUNS = {
 
 
 def call(tool, *arguments):
-    command = [str(part) for part in (tool, "bench") + arguments]
+    command = [str(part) for part in (tool,) + arguments]
     print("+", *command, flush=True)
     if subprocess.run(command).returncode != 0:
-        sys.exit("failed; the ledger is unchanged")
+        sys.exit("failed; frame.csv is unchanged")
 
 
 def maps(tool, run, out):
@@ -50,27 +50,27 @@ def measure(tool, python, name, out):
     mapped = [option.replace("--", "--mapping-") if isinstance(option, str) else option
               for option in frames(RECORDINGS[run["recording"]]["map"])]
     only = [option for variant in run.get("ours", OURS) + run["peers"] for option in ("--only", variant)]
-    part = out / "ledger.csv"
+    part = out / "results.csv"
     call(tool, "frame", *recording.place("query"), *frames(run["query"]), *maps(tool, run, out), *mapped, *only, "--name", name,
-         "--python", python, "--out", out, "--ledger", part)
+         "--python", python, "--out", out, "--results", part)
     return part.read_text().splitlines()
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--spherecloud", required=True, help="the command")
+    parser.add_argument("--lab", required=True, help="the command spherecloud-lab")
     parser.add_argument("--python", default="python3", help="Python with the peers' packages")
     parser.add_argument("--out", required=True, type=pathlib.Path, help="folder for maps, figures and drawings")
     arguments = parser.parse_args()
     for name in {run["recording"] for run in RUNS.values()}:
-        folder = Recording(name, arguments.spherecloud, arguments.out).folder
+        folder = Recording(name, arguments.lab, arguments.out).folder
         if not folder.is_dir():
             sys.exit("%s is not there; set SPHC_DATA" % folder)
     lines = []
     for name in RUNS:
-        head, *rows = measure(arguments.spherecloud, arguments.python, name, arguments.out / name)
+        head, *rows = measure(arguments.lab, arguments.python, name, arguments.out / name)
         lines += ([] if lines else [head]) + rows
-    LEDGER.write_text("\n".join(lines) + "\n")
+    RESULTS.write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/build/release.h"
+#include "host/publish/release.h"
 
 namespace sphc::test {
 

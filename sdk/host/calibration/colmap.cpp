@@ -3,14 +3,14 @@
 #include <cmath>
 #include <map>
 
-#include "drivers/replay/pose_track.h"
-#include "drivers/replay/text_field.h"
 #include "host/calibration/colmap_camera.h"
 #include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
 #include "host/calibration/intrinsics.h"
 #include "host/calibration/number_text.h"
 #include "host/calibration/rigid_matrix.h"
+#include "host/recording/pose_track.h"
+#include "host/recording/text_field.h"
 
 namespace sphc::host {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "drivers/replay/calibration.h"
+#include "host/recording/calibration.h"
 
 namespace sphc::host {
 

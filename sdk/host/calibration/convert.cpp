@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "drivers/replay/calibration_json.h"
 #include "host/calibration/fault.h"
 #include "host/calibration/nearest_camera.h"
+#include "host/recording/calibration_json.h"
 
 namespace sphc::host {
 namespace {

@@ -1,8 +1,8 @@
 #include "host/calibration/formats.h"
 
-#include "drivers/replay/calibration_json.h"
 #include "host/calibration/fault.h"
 #include "host/calibration/intrinsics.h"
+#include "host/recording/calibration_json.h"
 
 namespace sphc::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/replay/calibration_json.h"
+#include "host/recording/calibration_json.h"
 
 namespace sphc::host {
 namespace {

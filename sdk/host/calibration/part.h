@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/calibration.h"
+#include "host/recording/calibration.h"
 
 namespace sphc::host {
 

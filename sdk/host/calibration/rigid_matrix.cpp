@@ -1,7 +1,7 @@
 #include "host/calibration/rigid_matrix.h"
 
-#include "drivers/replay/pose_track.h"
 #include "host/calibration/number_text.h"
+#include "host/recording/pose_track.h"
 #include "runtime/geometry/rotation.h"
 
 namespace sphc::host {

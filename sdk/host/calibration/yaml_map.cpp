@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include "drivers/replay/text_field.h"
 #include "host/calibration/fault.h"
+#include "host/recording/text_field.h"
 
 namespace sphc::host {
 namespace {

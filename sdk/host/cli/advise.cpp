@@ -1,10 +1,11 @@
 // spherecloud advise: is this recording good enough for a map?
 #include <memory>
 
-#include "host/cli/advise_run.h"
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/progress.h"
+#include "host/advise/advice.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/progress.h"
+#include "host/cli/common/recording_options.h"
 #include "host/report/coverage_picture.h"
 #include "host/report/picture_file.h"
 #include "host/report/statistics.h"

@@ -3,17 +3,18 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/audit/report/networks.h"
+#include "host/audit/report/page.h"
 #include "host/audit/score/look_around.h"
 #include "host/audit/score/map_audit.h"
-#include "host/build/ledger.h"
-#include "host/cli/audit_networks.h"
-#include "host/cli/audit_page.h"
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/import_recording.h"
-#include "host/cli/map_file.h"
-#include "host/cli/privacy_ledger.h"
-#include "host/cli/progress.h"
+#include "host/base/usage_error.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/import_recording.h"
+#include "host/cli/common/privacy_results.h"
+#include "host/cli/common/progress.h"
+#include "host/evaluate/map_file.h"
+#include "host/publish/ledger.h"
 #include "host/report/table.h"
 #include "runtime/map/crc32.h"
 
@@ -138,7 +139,7 @@ int run(const Options &options, const Console &console) {
   });
   bar.show(1, 1);
   const std::string page = options.report.empty() ? "" : writeAuditPage(options.report, options.map, audit);
-  if (!options.figures.empty()) updatePrivacyLedger(options.figures, rowsOf(options, audit, input));
+  if (!options.figures.empty()) updatePrivacyResults(options.figures, rowsOf(options, audit, input));
   tell(audit, page, console);
   return audit.holds() ? kExitDone : kExitAuditFailed;
 }

@@ -4,13 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "host/build/ledger.h"
-#include "host/build/map_writer.h"
-#include "host/build/release.h"
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/map_file.h"
-#include "host/cli/point_source.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/point_source.h"
+#include "host/evaluate/map_file.h"
+#include "host/publish/ledger.h"
+#include "host/publish/map_writer.h"
+#include "host/publish/release.h"
 
 namespace sphc::host {
 namespace {

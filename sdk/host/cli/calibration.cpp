@@ -3,11 +3,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "drivers/replay/calibration_json.h"
+#include "host/base/usage_error.h"
 #include "host/calibration/compare.h"
 #include "host/calibration/convert.h"
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/recording/calibration_json.h"
 #include "host/report/file.h"
 #include "host/report/table.h"
 

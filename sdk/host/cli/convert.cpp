@@ -2,14 +2,15 @@
 #include <filesystem>
 #include <memory>
 
-#include "drivers/replay/recording_writer.h"
 #include "drivers/replay/replay.h"
-#include "host/cli/command.h"
-#include "host/cli/door.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording.h"
-#include "host/cli/recording_out.h"
+#include "host/base/checked_call.h"
+#include "host/base/usage_error.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/progress.h"
+#include "host/cli/common/recording_options.h"
+#include "host/cli/common/recording_out.h"
+#include "host/recording/recording_writer.h"
 
 namespace sphc::host {
 namespace {

@@ -1,7 +1,7 @@
 // spherecloud devices: which cameras are there?
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/live/found.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/live/found.h"
 
 namespace sphc::host {
 namespace {

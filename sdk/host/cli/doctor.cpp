@@ -1,14 +1,14 @@
 // spherecloud doctor: what is wrong with these cameras?
 #include <memory>
 
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/live/found.h"
-#include "host/cli/live/geometry_check.h"
-#include "host/cli/live/interrupt.h"
-#include "host/cli/live/rig_options.h"
-#include "host/cli/live/status_line.h"
-#include "host/cli/live/stream_check.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/rig_options.h"
+#include "host/live/found.h"
+#include "host/live/geometry_check.h"
+#include "host/live/interrupt.h"
+#include "host/live/status_line.h"
+#include "host/live/stream_check.h"
 
 namespace sphc::host {
 namespace {

@@ -1,9 +1,9 @@
 // spherecloud info: what a map file's header says.
 #include <memory>
 
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/map_file.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/evaluate/map_file.h"
 #include "host/report/table.h"
 
 namespace sphc::host {

@@ -1,9 +1,9 @@
 // spherecloud inspect: a close look at a map file.
 #include <memory>
 
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/map_anatomy.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/evaluate/map_anatomy.h"
 #include "host/report/direction_picture.h"
 #include "host/report/picture_file.h"
 #include "host/report/table.h"

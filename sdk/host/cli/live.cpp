@@ -2,15 +2,15 @@
 #include <cmath>
 #include <memory>
 
-#include "host/cli/command.h"
-#include "host/cli/door.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/live/interrupt.h"
-#include "host/cli/live/rate.h"
-#include "host/cli/live/rig_options.h"
-#include "host/cli/live/status_line.h"
-#include "host/cli/localize_run.h"
-#include "host/cli/map_file.h"
+#include "host/base/checked_call.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/rig_options.h"
+#include "host/evaluate/localize_run.h"
+#include "host/evaluate/map_file.h"
+#include "host/live/interrupt.h"
+#include "host/live/rate.h"
+#include "host/live/status_line.h"
 
 namespace sphc::host {
 namespace {

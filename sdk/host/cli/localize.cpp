@@ -2,12 +2,13 @@
 #include <map>
 #include <memory>
 
-#include "host/cli/command.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/localize_run.h"
-#include "host/cli/map_file.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording.h"
+#include "host/base/usage_error.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/progress.h"
+#include "host/cli/common/recording_options.h"
+#include "host/evaluate/localize_run.h"
+#include "host/evaluate/map_file.h"
 #include "host/report/file.h"
 #include "host/report/json.h"
 #include "host/report/overlay.h"

@@ -2,15 +2,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "drivers/replay/recorder.h"
-#include "host/cli/command.h"
-#include "host/cli/door.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/live/interrupt.h"
-#include "host/cli/live/rate.h"
-#include "host/cli/live/rig_options.h"
-#include "host/cli/live/status_line.h"
-#include "host/cli/recording_out.h"
+#include "host/base/checked_call.h"
+#include "host/base/usage_error.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/recording_out.h"
+#include "host/cli/common/rig_options.h"
+#include "host/live/interrupt.h"
+#include "host/live/rate.h"
+#include "host/live/status_line.h"
+#include "host/recording/recorder.h"
 #include "host/report/run.h"
 
 namespace sphc::host {

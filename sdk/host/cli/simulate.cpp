@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "drivers/simulated/simulated.h"
-#include "host/cli/command.h"
-#include "host/cli/door.h"
-#include "host/cli/exit_code.h"
-#include "host/cli/progress.h"
-#include "host/cli/recording_out.h"
+#include "host/base/checked_call.h"
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/progress.h"
+#include "host/cli/common/recording_out.h"
 #include "host/report/run.h"
 
 namespace sphc::host {

@@ -2,9 +2,18 @@
 
 #include <stdexcept>
 
-namespace sphc::host {
+#include "host/base/usage_error.h"
 
-Replay openReplay(const RecordingOptions &options) {
+namespace sphc::host {
+namespace {
+
+std::string ordinal(uint32_t n) {
+  const uint32_t tens = n / 10 % 10, ones = n % 10;
+  const char *ending = tens == 1 || ones > 3 || ones == 0 ? "th" : ones == 1 ? "st" : ones == 2 ? "nd" : "rd";
+  return std::to_string(n) + ending;
+}
+
+Replay open(const RecordingOptions &options) {
   sphc_replay_config config;
   sphc_replay_config_init(&config, sizeof config);
   config.first = options.first;
@@ -18,12 +27,33 @@ Replay openReplay(const RecordingOptions &options) {
   return Replay(replay);
 }
 
+}  // namespace
+
 sphc_calibration calibrationOf(const sphc_replay *replay) {
   sphc_calibration calibration;
   sphc_calibration_init(&calibration, sizeof calibration);
   if (sphc_replay_calibration(replay, &calibration) != SPHC_OK)
     throw std::runtime_error("the recording's calibration cannot be read; check the calibration file");
   return calibration;
+}
+
+Replay openRecording(const RecordingOptions &options) {
+  if (options.last < options.first) throw UsageError("--last lies before --first; swap them");
+  Replay replay = open(options);
+  if (sphc_replay_frame_count(replay.get()) == 0) {
+    throw std::runtime_error("no frame of colour and depth in " + options.folder + " for " +
+                             describeSelection(options) +
+                             ": check --first, --last, --step, and that depth images are there");
+  }
+  return replay;
+}
+
+std::string describeSelection(const RecordingOptions &options) {
+  const bool all = options.first == 0 && options.last == UINT32_MAX;
+  std::string text = all ? "all frames" : "frames " + std::to_string(options.first) + " to ";
+  if (!all) text += options.last == UINT32_MAX ? "the end" : std::to_string(options.last);
+  if (options.step > 1) text += ", every " + ordinal(options.step);
+  return text;
 }
 
 }  // namespace sphc::host

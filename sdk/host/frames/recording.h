@@ -18,8 +18,11 @@ struct ReplayCloser {
 };
 using Replay = std::unique_ptr<sphc_replay, ReplayCloser>;
 
-// Both throw std::runtime_error with cause and cure.
-Replay openReplay(const RecordingOptions &options);
+// Throws UsageError, or std::runtime_error with cause and cure, also when the selection holds no frame.
+Replay openRecording(const RecordingOptions &options);
+// "frames 100 to 199, every 3rd".
+std::string describeSelection(const RecordingOptions &options);
+// Throws std::runtime_error with cause and cure.
 sphc_calibration calibrationOf(const sphc_replay *replay);
 
 }  // namespace sphc::host

@@ -8,7 +8,7 @@
 #include "host/import/colmap_model.h"
 #include "host/import/colmap_world.h"
 #include "host/import/descriptors.h"
-#include "host/import/twins.h"
+#include "host/import/near_duplicates.h"
 #include "runtime/geometry/camera.h"
 
 namespace sphc::host {
@@ -80,7 +80,7 @@ PointModel importColmap(const ColmapImportOptions &options, const Progress &prog
     kept.observations = static_cast<uint32_t>(point.track.size());
     points.points.push_back(kept);
   }
-  PointModel result = withoutTwins(std::move(points), kModelTwins);
+  PointModel result = withoutNearDuplicates(std::move(points), kModelNearDuplicates);
   summary->points_kept = static_cast<uint32_t>(result.points.size());
   return result;
 }

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "drivers/replay/text_field.h"
 #include "host/calibration/colmap_camera.h"
 #include "host/calibration/fault.h"
 #include "host/import/colmap_record.h"
+#include "host/recording/text_field.h"
 
 namespace sphc::host {
 namespace {

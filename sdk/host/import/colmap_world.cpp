@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "drivers/replay/calibration.h"
 #include "host/import/point_tracks.h"
+#include "host/recording/calibration.h"
 #include "runtime/stages/align/sparse.h"
 
 namespace sphc::host {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "host/import/twins.h"
+#include "host/import/near_duplicates.h"
 
 namespace sphc::host {
 

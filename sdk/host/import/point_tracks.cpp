@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "host/import/descriptors.h"
-#include "host/import/twins.h"
+#include "host/import/near_duplicates.h"
 
 namespace sphc::host {
 namespace {
@@ -143,7 +143,7 @@ PointModel PointTracks::finish(size_t *dropped) const {
     point.observations = static_cast<uint32_t>(agreeing);
     points.push_back(point);
   }
-  PointModel model = withoutTwins({std::move(points)}, kModelTwins);
+  PointModel model = withoutNearDuplicates({std::move(points)}, kModelNearDuplicates);
   *dropped = tracks_.size() - model.points.size();
   return model;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/report/above.h"
+#include "host/report/top_view.h"
 
 namespace sphc::host {
 namespace {
@@ -39,7 +39,7 @@ Path splitPath(const Run &run) {
     else if (frame.localized)
       poses.push_back(frame.base_from_camera);
   }
-  const AboveView view = viewFromAbove(poses);
+  const TopView view = topView(poses);
   Path path;
   path.centre = view.project(run.centre_m.data());
   for (const FrameRecord &frame : run.frames) {
@@ -175,7 +175,7 @@ std::string cdfScript(const Points &points, const std::string &unit, double mark
 
 }  // namespace
 
-Drawing pathFromAbove(const Run &run) {
+Drawing pathFromTop(const Run &run) {
   const Path path = splitPath(run);
   if (path.truth.empty() && path.estimate.empty()) return {"path", "", "", "", {}};
   bool with_centre = false;

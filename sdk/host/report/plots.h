@@ -13,7 +13,7 @@ struct Drawing {
   PlotSize size;
 };
 
-Drawing pathFromAbove(const Run &run);
+Drawing pathFromTop(const Run &run);
 Drawing translationCdf(const Run &run);
 Drawing rotationCdf(const Run &run);
 Drawing timeline(const Run &run);

@@ -4,7 +4,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "host/report/above.h"
 #include "host/report/direction_picture.h"
 #include "host/report/encode.h"
 #include "host/report/file.h"
@@ -13,6 +12,7 @@
 #include "host/report/page.h"
 #include "host/report/plots.h"
 #include "host/report/reliability_plot.h"
+#include "host/report/top_view.h"
 #include "host/report/trajectory.h"
 
 namespace sphc::host {
@@ -57,7 +57,7 @@ void addPlots(const std::string &folder, const Run &run, const Summary &summary,
   const std::string plots = folder + "/plots";
   makeFolder(plots);
   std::filesystem::remove(plots + "/gnuplot.log");
-  for (const Drawing &drawing : {pathFromAbove(run), stageTimes(summary), translationCdf(run), rotationCdf(run),
+  for (const Drawing &drawing : {pathFromTop(run), stageTimes(summary), translationCdf(run), rotationCdf(run),
                                  reliability(run), timeline(run)}) {
     if (drawing.script.empty()) continue;
     const PlotResult result = plot(plots, drawing.name, drawing.script, drawing.size);
@@ -86,7 +86,7 @@ std::vector<std::array<double, 3>> uprightDirections(const Run &run) {
   for (const FrameRecord &frame : run.frames) {
     if (frame.localized) poses.push_back(frame.base_from_camera);
   }
-  const AboveView view = viewFromAbove(poses);
+  const TopView view = topView(poses);
   const auto &r = view.right, &u = view.up;
   const double sky[3] = {r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]};
   std::vector<std::array<double, 3>> upright;

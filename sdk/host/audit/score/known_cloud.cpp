@@ -2,12 +2,12 @@
 
 namespace sphc::host {
 
-KnownCloud knownCloud(const std::vector<Fate> &fates) {
+KnownCloud knownCloud(const std::vector<Assignment> &assignments) {
   KnownCloud cloud;
-  for (const Fate &fate : fates) {
-    cloud.published.directions.push_back(fate.shown.direction);
-    cloud.published.descriptors.push_back(fate.shown.descriptor);
-    cloud.real.push_back(fate.real);
+  for (const Assignment &assignment : assignments) {
+    cloud.published.directions.push_back(assignment.shown.direction);
+    cloud.published.descriptors.push_back(assignment.shown.descriptor);
+    cloud.real.push_back(assignment.real);
   }
   return cloud;
 }

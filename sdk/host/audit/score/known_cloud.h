@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "host/audit/attack/published.h"
-#include "host/build/fakes/strategy.h"
+#include "host/publish/fakes/strategy.h"
 
 namespace sphc::host {
 
@@ -12,6 +12,6 @@ struct KnownCloud {
   std::vector<bool> real;
 };
 
-KnownCloud knownCloud(const std::vector<Fate> &fates);
+KnownCloud knownCloud(const std::vector<Assignment> &assignments);
 
 }  // namespace sphc::host

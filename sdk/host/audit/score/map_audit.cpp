@@ -16,8 +16,8 @@
 #include "host/audit/score/point_errors.h"
 #include "host/audit/score/real_or_fake_scores.h"
 #include "host/audit/score/release_scores.h"
-#include "host/build/fakes/strategy.h"
-#include "host/build/secret_random.h"
+#include "host/publish/fakes/strategy.h"
+#include "host/publish/secret_random.h"
 
 namespace sphc::host {
 namespace {
@@ -49,7 +49,7 @@ class Auditor {
   MapAudit run() {
     attackFile();
     attackDensity();
-    attackFates();
+    attackAssignments();
     attackPictures();
     for (size_t k = 0; k < input_.releases.size(); ++k) attackReleases(k);
     askAsClient();
@@ -101,7 +101,7 @@ class Auditor {
   }
 
   // Leaves the strongest scores for those who prune.
-  void attackFates() {
+  void attackAssignments() {
     progress_("real or fake");
     const char *name = "real_or_fake.auc", *about = "telling real from fake entries; 0.5 is chance";
     if (!known(name, about)) return;
@@ -166,7 +166,7 @@ class Auditor {
     SecretRandom random({1});
     shuffle(&points, &random);
     const auto real_count = static_cast<size_t>(eta_ * static_cast<double>(points.size()));
-    const KnownCloud paper = knownCloud(gaussianFakes()->fates(points, real_count, &random));
+    const KnownCloud paper = knownCloud(gaussianFakes()->assignments(points, real_count, &random));
     const Published &shown = paper.published;
     const std::vector<RealOrFakeGuess> guesses = guessRealOrFake(shown, input_.networks);
     double best = 0;

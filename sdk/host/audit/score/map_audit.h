@@ -9,7 +9,7 @@
 #include "host/audit/attack/published.h"
 #include "host/audit/score/inversion_audit.h"
 #include "host/audit/score/truth.h"
-#include "host/build/place.h"
+#include "host/publish/place.h"
 
 namespace sphc::host {
 

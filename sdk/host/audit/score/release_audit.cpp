@@ -9,7 +9,7 @@
 #include "host/audit/attack/querying_client.h"
 #include "host/audit/attack/triangulation.h"
 #include "host/audit/score/release_scores.h"
-#include "host/build/release.h"
+#include "host/publish/release.h"
 #include "runtime/base/random.h"
 #include "runtime/geometry/rigid.h"
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "host/audit/score/privacy_row.h"
-#include "host/build/fakes/strategy.h"
 #include "host/import/point_model.h"
+#include "host/publish/fakes/strategy.h"
 
 namespace sphc::host {
 

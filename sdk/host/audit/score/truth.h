@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "host/audit/attack/published.h"
-#include "host/build/place.h"
+#include "host/publish/place.h"
 
 namespace sphc::host {
 

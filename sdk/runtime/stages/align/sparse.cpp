@@ -22,7 +22,7 @@ Cell cellOf(const Vector2 &px) { return {cellAt(px.x()), cellAt(px.y())}; }
 // inverse depth, which are nearly even in pixels.  Points are homogeneous, (x, y, z) times the inverse depth, and
 // so linear in the step.
 struct SparseAligner::Walk {
-  enum Place { kNowhere, kOutside, kHole, kAbove, kUnder };
+  enum Place { kNowhere, kOutside, kHole, kTopView, kUnder };
 
   const Camera &camera;
   const DepthSensor &sensor;
@@ -52,7 +52,7 @@ struct SparseAligner::Walk {
     *measured = depth.row(cell.v)[cell.u] * sensor.unit_m;
     if (!(*measured >= sensor.min_m && *measured <= sensor.max_m)) return kHole;
     *gap = point.z() - *measured * inverseAt(step);
-    return *gap >= 0 ? kUnder : kAbove;
+    return *gap >= 0 ? kUnder : kTopView;
   }
 };
 
@@ -136,7 +136,7 @@ bool SparseAligner::findSurface(ImageView<uint16_t> depth, const Vector2 &ray, V
     int last_step = step;
     while (last_step > 0 && place == Walk::kHole)
       place = walk.look(--last_step, &last_px, &last_measured, &last_gap);
-    if (place != Walk::kAbove) return *depth_pixel_px = px, steps <= 2;
+    if (place != Walk::kTopView) return *depth_pixel_px = px, steps <= 2;
     if (absOf(measured - last_measured) > kJump * measured) return false;  // slipped behind an edge
     last_gap *= walk.inverseAt(step);                                      // both by the product of the two
     gap *= walk.inverseAt(last_step);

@@ -63,7 +63,7 @@ bool CandidateList::isSameStructure(const Place &a, const Place &b) {
 }
 
 // Whoever has a stronger twin is one, whether or not that one stays: so the order of looking does not matter.
-void CandidateList::markTwins() {
+void CandidateList::markNearDuplicates() {
   listPlaces();
   for (size_t i = 0; i < size_; ++i) {
     const Place a = places_[i];
@@ -72,7 +72,7 @@ void CandidateList::markTwins() {
       const Place &b = places_[j];
       if (b.x < left || b.x > right || !isSameStructure(a, b)) continue;
       Candidate &first = items_[a.candidate], &second = items_[b.candidate];
-      (first.strength >= second.strength ? second : first).is_twin = true;
+      (first.strength >= second.strength ? second : first).is_near_duplicate = true;
     }
   }
 }
@@ -80,7 +80,7 @@ void CandidateList::markTwins() {
 size_t CandidateList::rankByStrength() {
   size_t count = 0;
   for (size_t i = 0; i < size_; ++i) {
-    if (!items_[i].is_twin) ranks_[count++] = {~keyOf(items_[i].strength), static_cast<uint32_t>(i)};
+    if (!items_[i].is_near_duplicate) ranks_[count++] = {~keyOf(items_[i].strength), static_cast<uint32_t>(i)};
   }
   radixSort(ranks_.data(), spare_.data(), count);
   return count;
@@ -106,7 +106,7 @@ size_t CandidateList::chooseByCell(size_t ranked, const FeatureConfig &config) {
 }
 
 Span<Candidate> CandidateList::choose(const FeatureConfig &config) {
-  markTwins();
+  markNearDuplicates();
   const size_t count = chooseByCell(rankByStrength(), config);
   for (size_t i = 0; i < count; ++i) ranks_[i].key = ~keyOf(items_[ranks_[i].index].response);
   radixSort(ranks_.data(), spare_.data(), count);

@@ -15,8 +15,8 @@ struct Candidate {
   float x, y;
   float layer;  // continuous: level + offset
   int8_t octave;
-  int8_t level;  // 1 .. kScales
-  bool is_twin;  // a stronger one stands for the same structure
+  int8_t level;            // 1 .. kScales
+  bool is_near_duplicate;  // a stronger one stands for the same structure
 };
 
 class CandidateList {
@@ -42,7 +42,7 @@ class CandidateList {
  private:
   void cut();
   void listPlaces();
-  void markTwins();
+  void markNearDuplicates();
   static bool isSameStructure(const Place &a, const Place &b);
   // Of those that are no twins: by strength, highest first, into ranks_.  Returns how many.
   size_t rankByStrength();

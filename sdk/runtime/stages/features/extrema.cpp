@@ -129,7 +129,7 @@ void ExtremaFinder::accept(const Derivatives &d, const float offset[3], int32_t 
   c.strength = c.response * sigmaOfLayer(c.layer) * static_cast<float>(1 << octave_);
   c.octave = static_cast<int8_t>(octave_);
   c.level = static_cast<int8_t>(level);
-  c.is_twin = false;
+  c.is_near_duplicate = false;
   found->push(c);
 }
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "command_runner.h"
-#include "host/cli/exit_code.h"
+#include "host/cli/common/exit_code.h"
 
 namespace sphc::host {
 namespace {
@@ -39,9 +39,7 @@ TEST_P(HelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, HelpTest,
                          testing::Values("simulate", "build", "localize", "inspect", "info", "convert",
-                                         "calibration", "advise", "record", "live", "devices", "doctor", "compare",
-                                         "bench pose", "bench confidence", "bench map", "bench frame",
-                                         "bench recording"));
+                                         "calibration", "advise", "record", "live", "devices", "doctor", "audit"));
 
 class UsageTest : public testing::TestWithParam<const char *> {};
 
@@ -60,13 +58,9 @@ INSTANTIATE_TEST_SUITE_P(
         "live --device simulated: --map m --seconds -3", "live --device openni2: --color v4l2:x --map m",
         "calibration", "calibration x --to kalibr", "calibration x --format what", "calibration x --color-size 640",
         "info", "info a b", "convert a", "convert a b --to zip", "convert a b --to mcap",
-        "convert a b.mcap --jpeg 0", "audit", "audit m --limit x", "audit m --recording r", "compare",
-        "compare --recording r --correspondences f", "compare --correspondences f --out o",
-        "compare --correspondences f --attack --ledger l", "bench", "bench pose", "bench pose f --depth radar",
-        "bench pose f --repeat 0", "bench frame --recording r", "bench map --recording r --out o",
-        "bench map --recording r --out o --points 0", "simulate", "simulate --out x --frames many",
-        "build --recording r", "build --map m", "build --map m --recording r --colmap c",
-        "build --map m --colmap c", "build --map m --colmap c --images i",
+        "convert a b.mcap --jpeg 0", "audit", "audit m --limit x", "audit m --recording r", "simulate",
+        "simulate --out x --frames many", "build --recording r", "build --map m",
+        "build --map m --recording r --colmap c", "build --map m --colmap c", "build --map m --colmap c --images i",
         "build --map m --colmap c --images i --scale 1 --gravity down", "advise --recording r --folds 1",
         "build --recording r --map m --eta 1.5", "build --recording r --map m --against",
         "localize --recording r --map m --step 0", "localize --recording r --map m --first 9 --last 3"));
@@ -131,32 +125,6 @@ TEST(Inspect, NamesAPictureItCannotWrite) {
   const Answer answer = runCommand("inspect " + (folder / "tiny.sphc") + " --picture " + (folder / "picture.what"));
   EXPECT_EQ(answer.exit_code, kExitFailure);
   EXPECT_THAT(answer.err, HasSubstr("picture.what"));
-}
-
-// Maps of wanted sizes, and the library's own variants on them.
-void expectBenches(const TempFolder &folder, const std::string &walk) {
-  const Answer made = runCommand("bench map -r " + walk + " --step 2 --points 500 --points 9000 --out " +
-                                 (folder / "maps") + " --json");
-  ASSERT_EQ(made.exit_code, kExitDone) << made.err;
-  EXPECT_EQ(nlohmann::json::parse(made.out)["maps"][0]["own_points"], 500);
-  EXPECT_LT(nlohmann::json::parse(made.out)["maps"][1]["own_points"], 9000);
-  const std::string frame = "bench frame -r " + walk + " --first 1 --step 2 --repeat 1 --no-peers --map ";
-  const Answer timed =
-      runCommand(frame + (folder / "maps/map_500.sphc") + " --map " + (folder / "maps/map_9000.sphc") +
-                 " --ledger " + (folder / "frame.csv") + " --json");
-  ASSERT_EQ(timed.exit_code, kExitDone) << timed.err;
-  const auto tables = nlohmann::json::parse(timed.out)["tables"];
-  ASSERT_EQ(tables.size(), 2u);
-  EXPECT_EQ(tables[1]["points"], 9000);
-  for (const auto &variant : tables[1]["variants"]) {
-    EXPECT_EQ(variant["frames"], 3);
-    EXPECT_EQ(variant["within_5cm_5deg_percent"], 100) << variant["variant"];
-    EXPECT_GT(variant["state_bytes"], 0);
-  }
-  EXPECT_TRUE(std::filesystem::exists(folder / "frame.csv"));
-  const Answer none = runCommand(frame + (folder / "maps/map_500.sphc") + " --only nobody");
-  EXPECT_EQ(none.exit_code, kExitUsage);
-  EXPECT_THAT(none.err, HasSubstr("'ours, tracking'"));
 }
 
 // Files of two folders, compared to the byte.
@@ -325,7 +293,6 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   EXPECT_EQ(blind["base"], "map");
   EXPECT_TRUE(blind["within_5cm_5deg_percent"].is_null());
 
-  expectBenches(folder, walk);
   expectCaptures(folder, walk, map);
 
   // In another place's map.

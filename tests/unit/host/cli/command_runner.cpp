@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "host/build/map_writer.h"
+#include "host/publish/map_writer.h"
 #include "host/report/file.h"
 
 namespace sphc::host {
@@ -26,10 +26,12 @@ TempFolder::TempFolder() {
 
 TempFolder::~TempFolder() { std::filesystem::remove_all(path_); }
 
-Answer runCommand(const std::string &arguments) {
+Answer runCommand(const std::string &arguments) { return runProgram(SPHC_COMMAND, arguments); }
+
+Answer runProgram(const std::string &program, const std::string &arguments) {
   const TempFolder folder;
-  const std::string command = std::string(SPHC_COMMAND) + " " + arguments + " >" + (folder / "out") + " 2>" +
-                              (folder / "err") + " </dev/null";
+  const std::string command =
+      program + " " + arguments + " >" + (folder / "out") + " 2>" + (folder / "err") + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
 }

@@ -10,6 +10,8 @@ struct Answer {
 };
 // `arguments` as typed in a shell.  Needs SPHC_COMMAND, the path of the command.
 Answer runCommand(const std::string &arguments);
+// The same of any program.
+Answer runProgram(const std::string &program, const std::string &arguments);
 
 // A folder of its own, removed at the end.
 class TempFolder {

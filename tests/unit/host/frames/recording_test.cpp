@@ -12,7 +12,7 @@ TEST(Recording, OneThatIsNotThereIsNamed) {
   RecordingOptions options;
   options.folder = "/nonexistent";
   EXPECT_THAT(
-      test::refusal([&] { openReplay(options); }),
+      test::refusal([&] { openRecording(options); }),
       testing::AllOf(testing::StartsWith("cannot open the recording: "), testing::HasSubstr("/nonexistent")));
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/audit/score/point_errors.h"
-#include "host/baselines/line_clouds.h"
+#include "lab/baselines/line_clouds.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc::host {

@@ -27,7 +27,7 @@ Result attack(const std::vector<test::MadeUpRelease> &releases) {
       static_cast<double>(distinctReal(believed, maps, truths)) / static_cast<double>(maps.back().packed.size())};
 }
 
-// Fresh fates about one centre: after k releases most points are known.
+// Fresh assignments about one centre: after k releases most points are known.
 TEST(Intersection, CarelessRebuildsExposeThePoints) {
   const PointModel room = test::madeUpRoom(2000, 1);
   const double expected[] = {0, 0, 0.111, 0.259, 0.407, 0.539, 0.649, 0.737, 0.805};

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "host/audit/score/release_scores.h"
-#include "host/build/map_writer.h"
+#include "host/publish/map_writer.h"
 #include "tests/unit/host/audit/made_up_releases.h"
 
 namespace sphc::host {

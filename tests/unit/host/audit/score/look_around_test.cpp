@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "drivers/replay/recording_writer.h"
 #include "host/audit/attack/virtual_camera.h"
+#include "host/recording/recording_writer.h"
 #include "runtime/base/elementary.h"
 #include "runtime/geometry/rigid.h"
 #include "tests/contract/temp_folder.h"

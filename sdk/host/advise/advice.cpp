@@ -1,0 +1,148 @@
+#include "host/advise/advice.h"
+
+#include <algorithm>
+
+#include "host/evaluate/localize_run.h"
+#include "host/publish/map_writer.h"
+#include "host/publish/secret_random.h"
+#include "host/publish/sphere_cloud.h"
+#include "host/report/statistics.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr size_t kMostHoles = 6;
+constexpr SecretKey kKey = {};  // these maps never leave this process; the same advice each time
+
+struct Block {
+  uint32_t first, last;                    // indices
+  uint32_t first_sequence, last_sequence;  // numbers of the recording
+};
+
+uint32_t sequenceOf(const sphc_replay *replay, uint32_t index) {
+  sphc_replay_frame_info info = {};
+  info.struct_size = sizeof info;
+  sphc_replay_get_frame_info(replay, index, &info);
+  return info.sequence;
+}
+
+std::vector<Block> blocksOf(const sphc_replay *replay, uint32_t folds) {
+  const uint32_t count = sphc_replay_frame_count(replay);
+  if (count < 2 * folds)
+    throw std::runtime_error("the recording has " + std::to_string(count) + " frames, too few for " +
+                             std::to_string(folds) + " folds of two; record more, or give --folds");
+  std::vector<Block> blocks;
+  for (uint32_t k = 0; k < folds; ++k) {
+    const uint32_t first = k * count / folds, last = (k + 1) * count / folds - 1;
+    blocks.push_back({first, last, sequenceOf(replay, first), sequenceOf(replay, last)});
+  }
+  return blocks;
+}
+
+std::string whyFailed(const FrameRecord &frame) {
+  const std::string counts = std::to_string(frame.keypoints) + " keypoints, " + std::to_string(frame.lifted) +
+                             " with depth, " + std::to_string(frame.matches) + " matches";
+  if (frame.localized) return "localized " + fixed(100 * frame.translation_error_m, 0) + " cm off (" + counts + ")";
+  return std::string(outcomeName(frame.outcome)) + " (" + counts + ")";
+}
+
+// One block against the map of the others, eta by eta.
+class Trial {
+ public:
+  Trial(const AdviceOptions &options, const PointModel &model, const RecordingOptions &held_out)
+      : model_(model), replay_(openRecording(held_out)) {
+    input_.replay = replay_.get();
+    input_.config = spherecloud::defaultConfig();
+    input_.config.mode = SPHC_MODE_SINGLE;
+    input_.config.depth_min_m = options.import.depth_min_m;
+    input_.config.depth_max_m = options.import.depth_max_m;
+    setCameras(calibrationOf(replay_.get()), &input_.config);
+  }
+
+  std::vector<FrameRecord> frames(double eta) {
+    SecretRandom random(kKey);
+    SphereCloudOptions cloud;
+    cloud.eta = eta;
+    Vector3 centre;
+    const SphereCloud made = makeSphereCloud(model_, cloud, *makeFakes(kDefaultFakes), &random, &centre);
+    input_.maps.clear();
+    input_.maps.push_back(openMapBytes(encodeMap(made, MapId{})));
+    input_.centres_in_world_m = {{centre.x(), centre.y(), centre.z()}};
+    Run run;
+    localizeFrames(
+        input_, [](uint32_t, uint32_t) {}, [](const std::string &) {}, &run);
+    return run.frames;
+  }
+
+ private:
+  const PointModel &model_;
+  Replay replay_;
+  LocalizeInput input_;
+};
+
+std::vector<std::array<double, 3>> directionsOf(const PointModel &model) {
+  const Vector3 centre = centreOf(model.points);
+  std::vector<std::array<double, 3>> directions;
+  for (const ModelPoint &point : model.points) {
+    const Vector3 d = seenFrom(centre, point).direction;
+    directions.push_back({d.x(), d.y(), d.z()});
+  }
+  return directions;
+}
+
+void count(const std::vector<FrameRecord> &frames, Recall *recall, std::vector<double> *errors_m) {
+  for (const FrameRecord &frame : frames) {
+    recall->frames += frame.has_truth;
+    recall->good += frame.has_truth && isGood(frame);
+    if (frame.has_truth && frame.localized) errors_m->push_back(frame.translation_error_m);
+  }
+}
+
+// The camera's z axis.
+std::array<double, 3> viewOf(const sphc_rigid &base_from_camera) {
+  const double w = base_from_camera.q_wxyz[0], x = base_from_camera.q_wxyz[1], y = base_from_camera.q_wxyz[2],
+               z = base_from_camera.q_wxyz[3];
+  return {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
+}
+
+void addFailures(const std::vector<FrameRecord> &frames, std::vector<Failure> *failures) {
+  for (const FrameRecord &frame : frames) {
+    if (!frame.has_truth || isGood(frame)) continue;
+    failures->push_back({frame.sequence, whyFailed(frame), viewOf(frame.truth_base_from_camera)});
+  }
+}
+
+}  // namespace
+
+Advice advise(const AdviceOptions &options, const std::function<void(uint32_t done, uint32_t total)> &progress) {
+  const Replay replay = openRecording(options.recording);
+  const std::vector<Block> blocks = blocksOf(replay.get(), options.folds);
+  Advice advice;
+  RgbdImportSummary summary;
+  const PointModel whole = importRgbd(replay.get(), options.import, nullptr, &summary);
+  advice.points = whole.points.size();
+  advice.directions = directionsOf(whole);
+  advice.coverage = coverageOf(advice.directions, kMostHoles);
+  std::vector<std::vector<double>> errors_m(options.etas.size());
+  for (double eta : options.etas) advice.recalls.push_back({eta, 0, 0, 0});
+  for (uint32_t k = 0; k < blocks.size(); ++k) {
+    const Block &block = blocks[k];
+    progress(k + 1, options.folds + 1);
+    RgbdImportOptions others = options.import;
+    others.takes_part = [&block](uint32_t index) { return index < block.first || index > block.last; };
+    const PointModel model = importRgbd(replay.get(), others, nullptr, &summary);
+    RecordingOptions held_out = options.recording;
+    held_out.first = block.first_sequence;
+    held_out.last = block.last_sequence;
+    Trial trial(options, model, held_out);
+    for (size_t i = 0; i < options.etas.size(); ++i) {
+      const std::vector<FrameRecord> frames = trial.frames(options.etas[i]);
+      count(frames, &advice.recalls[i], &errors_m[i]);
+      if (options.etas[i] == options.judged_eta) addFailures(frames, &advice.failures);
+    }
+  }
+  for (size_t i = 0; i < errors_m.size(); ++i) advice.recalls[i].median_m = percentile(errors_m[i], 0.5);
+  return advice;
+}
+
+}  // namespace sphc::host

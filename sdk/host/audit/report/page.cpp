@@ -1,0 +1,84 @@
+#include "host/audit/report/page.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "host/audit/score/inversion_sheet.h"
+#include "host/report/encode.h"
+#include "host/report/file.h"
+#include "host/report/page_style.h"
+#include "host/report/statistics.h"
+
+namespace sphc::host {
+namespace {
+
+std::string cell(const std::string &text) { return "<td>" + escapeHtml(text) + "</td>"; }
+
+std::string figuresTable(const MapAudit &audit) {
+  std::string html =
+      "<table><thead><tr><th>Figure</th><th>Value</th><th>Limit</th><th>Verdict</th><th></th></tr></thead>";
+  for (const AuditFigure &figure : audit.figures) {
+    html += "<tr>" + cell(figure.about) + "<td class=value>" + (figure.value ? fixed(*figure.value, 3) : "-") +
+            (figure.standard_error > 0 ? " &plusmn; " + fixed(figure.standard_error, 3) : "") + "</td>" +
+            cell(figure.limit ? (figure.at_most ? "at most " : "at least ") + fixed(*figure.limit, 3) : "") +
+            cell(wordFor(figure.verdict())) + "<td class=soft>" + escapeHtml(figure.remark) + " <code>" +
+            escapeHtml(figure.name) + "</code></td></tr>";
+  }
+  return html + "</table>";
+}
+
+std::string retrievalTable(const MapAudit &audit) {
+  std::string html = "<table><thead><tr><th>Points</th><th>Places told, coarse</th><th>fine</th></tr></thead>";
+  for (const InversionResult &result : audit.inversions) {
+    const auto text = [](const Retrieval &r) {
+      return fixed(r.top1, 2) + " &plusmn; " + fixed(r.standard_error, 2);
+    };
+    html += "<tr>" + cell(result.name) + "<td class=value>" + text(result.coarse) + "</td><td class=value>" +
+            text(result.fine) + "</td></tr>";
+  }
+  return html + "</table>";
+}
+
+}  // namespace
+
+std::string wordFor(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHolds:
+      return "holds";
+    case Verdict::kBroken:
+      return "BROKEN";
+    case Verdict::kInformation:
+      return "for information";
+    case Verdict::kNotMeasured:
+      break;
+  }
+  return "not measured";
+}
+
+std::string writeAuditPage(const std::string &folder, const std::string &map, const MapAudit &audit) {
+  makeFolder(folder);
+  std::string pictures;
+  const cv::Mat sheet = inversionSheet(audit.views, audit.inversions);
+  if (!sheet.empty()) {
+    std::vector<uint8_t> png;
+    cv::imencode(".png", sheet, png);
+    writeText(folder + "/inversion.png", std::string(png.begin(), png.end()));
+    pictures =
+        "<section><h2>What inversion shows</h2><p class=soft>Views from the centre. The network has never seen the "
+        "place. A picture tells its place when it is more like its own truth than like that of any other view.</p>"
+        "<figure class=wide><img tabindex=0 alt=\"inverted pictures beside the truth\" "
+        "src=\"data:image/png;base64," +
+        base64(png) + "\"></figure>" + retrievalTable(audit) + "</section>";
+  }
+  const std::string html =
+      "<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport "
+      "content=\"width=device-width\"><title>Audit of " +
+      escapeHtml(map) + "</title><style>" + kPageStyle + "</style><header><div><h1>Privacy audit</h1><p>" +
+      escapeHtml(map) + "</p></div></header><main><section><h2>" +
+      (audit.holds() ? "Every limit holds" : "A limit is broken: do not release this map") + "</h2>" +
+      figuresTable(audit) + "</section>" + pictures + "</main></html>\n";
+  const std::string page = folder + "/audit.html";
+  writeText(page, html);
+  return page;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,146 @@
+#include "host/cli/common/point_source.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "host/base/usage_error.h"
+#include "host/cli/common/progress.h"
+#include "host/report/run.h"
+
+namespace sphc::host {
+namespace {
+
+void addColmapOptions(CLI::App *app, PointSource *source) {
+  const char *group = "COLMAP";
+  ColmapImportOptions &colmap = source->colmap;
+  app->add_option("--colmap", colmap.model, "Model to take in place of a recording: the folder of cameras.bin")
+      ->type_name("DIR")
+      ->group(group);
+  app->add_option("--images", colmap.images, "Its images, to be described anew for the device")
+      ->type_name("DIR")
+      ->group(group);
+  app->add_option("--database", colmap.database,
+                  "Its database.db, whose descriptors are taken when there is no --images")
+      ->type_name("FILE")
+      ->group(group);
+  app->add_option("--scale", colmap.metres_per_unit, "Metres a unit of the model")
+      ->check(CLI::Range(1e-9, 1e9))
+      ->type_name("X")
+      ->group(group);
+  app->add_option("--depth", colmap.depth,
+                  "Depth images that tell the scale: X.png for X.jpg; --calibration says where their camera was")
+      ->type_name("DIR")
+      ->group(group);
+  app->add_option("--gravity", source->gravity,
+                  "Down in the model: X,Y,Z; level: cameras were held level; none: the axes stay")
+      ->capture_default_str()
+      ->group(group);
+}
+
+void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
+  const char *group = "Mapping";
+  app->add_option("--max-keypoints", import->max_keypoints, "Strongest keypoints of a frame")
+      ->capture_default_str()
+      ->group(group);
+  app->add_option("--min-observations", import->min_observations, "Frames that must agree on a point")
+      ->capture_default_str()
+      ->group(group);
+  app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
+      ->capture_default_str()
+      ->group(group);
+  app->add_option("--depth-max", import->depth_max_m, "Farthest depth used, metres")
+      ->capture_default_str()
+      ->group(group);
+}
+
+std::optional<Vector3> gravityFrom(const std::string &text) {
+  if (text == "level") return std::nullopt;
+  if (text == "none") return Vector3(Vector3::Zero());
+  std::istringstream in(text);
+  Vector3 down;
+  char comma = 0, second = 0;
+  if (!(in >> down.x() >> comma >> down.y() >> second >> down.z()) || comma != ',' || second != ',' || !in.eof() ||
+      !(down.norm() > 0))
+    throw UsageError("--gravity is level, none or a direction such as 0,1,0");
+  return down;
+}
+
+ImportedPoints fromColmap(const PointSource &source) {
+  ColmapImportOptions options = source.colmap;
+  options.descriptors = options.images.empty() ? ColmapDescriptors::kDatabase : ColmapDescriptors::kAgain;
+  options.calibration = source.recording.calibration;
+  options.gravity = gravityFrom(source.gravity);
+  ProgressBar bar("describing");
+  ImportedPoints imported;
+  ColmapImportSummary summary;
+  imported.model = importColmap(
+      options, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+  imported.told = "Took " + std::to_string(summary.points_kept) + " of " + std::to_string(summary.points_of_model) +
+                  " points of the COLMAP model; one unit of it is " + fixed(summary.metres_per_unit, 4) + " m.";
+  if (summary.scale_spread > 0.05)
+    imported.warnings.push_back("the images disagree on the scale by " + fixed(100 * summary.scale_spread, 0) +
+                                " %: is --calibration that of the depth images?");
+  nlohmann::ordered_json axes = nlohmann::ordered_json::array();
+  for (int i = 0; i < 9; ++i) axes.push_back(summary.world_from_model_axes(i / 3, i % 3));
+  imported.facts = {{"images", summary.images},
+                    {"points_of_model", summary.points_of_model},
+                    {"points_described", summary.points_described},
+                    {"points_kept", summary.points_kept},
+                    {"metres_per_unit", summary.metres_per_unit},
+                    {"scale_spread", summary.scale_spread},
+                    {"world_from_model_axes", axes}};
+  return imported;
+}
+
+ImportedPoints fromRecording(const PointSource &source) {
+  const Replay replay = openRecording(source.recording);
+  ProgressBar bar("mapping   ");
+  ImportedPoints imported;
+  RgbdImportSummary summary;
+  imported.model = importRgbd(
+      replay.get(), source.import, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+  imported.told = "Mapped " + std::to_string(summary.frames_used) + " frames (" +
+                  describeSelection(source.recording) + "): " + std::to_string(summary.points_kept) +
+                  " points kept, " + std::to_string(summary.points_dropped) + " dropped.";
+  const auto warn = [&imported](uint32_t count, const char *what) {
+    if (count) imported.warnings.push_back(std::to_string(count) + " frames " + what);
+  };
+  warn(summary.frames_without_pose, "have no pose and took no part");
+  warn(summary.frames_unreadable, "could not be read and took no part");
+  imported.facts = {{"frames_used", summary.frames_used},
+                    {"frames_without_pose", summary.frames_without_pose},
+                    {"frames_unreadable", summary.frames_unreadable},
+                    {"keypoints", summary.keypoints},
+                    {"lifted", summary.lifted},
+                    {"merged", summary.merged},
+                    {"points_kept", summary.points_kept},
+                    {"points_dropped", summary.points_dropped}};
+  return imported;
+}
+
+}  // namespace
+
+void addPointSourceOptions(CLI::App *app, PointSource *source) {
+  addRecordingOptions(app, &source->recording)->required(false);
+  addMappingOptions(app, &source->import);
+  addColmapOptions(app, source);
+}
+
+void checkPointSource(const PointSource &source) {
+  const ColmapImportOptions &colmap = source.colmap;
+  if (source.recording.folder.empty() == colmap.model.empty())
+    throw UsageError("--recording or --colmap is required, one of the two");
+  gravityFrom(source.gravity);
+  if (colmap.model.empty()) return;
+  if (colmap.images.empty() && colmap.database.empty())
+    throw UsageError("--colmap wants --images, to describe them for the device, or --database");
+  if (!colmap.metres_per_unit && colmap.depth.empty())
+    throw UsageError(
+        "a COLMAP model has no scale: give --scale, metres a unit, or --depth, a folder of depth images");
+}
+
+ImportedPoints importPoints(const PointSource &source) {
+  return source.colmap.model.empty() ? fromRecording(source) : fromColmap(source);
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,31 @@
+// Where a map's points come from: a recording, or a COLMAP model.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "host/cli/common/console.h"
+#include "host/cli/common/recording_options.h"
+#include "host/import/colmap_import.h"
+#include "host/import/rgbd_import.h"
+
+namespace sphc::host {
+
+struct PointSource {
+  RecordingOptions recording;
+  RgbdImportOptions import;
+  ColmapImportOptions colmap;
+  std::string gravity = "level";
+};
+void addPointSourceOptions(CLI::App *app, PointSource *source);
+
+struct ImportedPoints {
+  PointModel model;
+  std::string told;                   // how it went, one line
+  std::vector<std::string> warnings;  // frames that took no part
+  nlohmann::ordered_json facts;       // for --json
+};
+// Throws UsageError for options that make no sense together.
+void checkPointSource(const PointSource &source);
+// Of a source that passed the check.  Throws std::runtime_error with cause and cure.
+ImportedPoints importPoints(const PointSource &source);
+
+}  // namespace sphc::host

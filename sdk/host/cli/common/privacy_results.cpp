@@ -1,0 +1,25 @@
+#include "host/cli/common/privacy_results.h"
+
+#include <map>
+
+#include "host/report/results.h"
+
+namespace sphc::host {
+namespace {
+
+const char kHead[] = "attack,map,strategy,eta,variant,metric,value";
+
+}  // namespace
+
+void updatePrivacyResults(const std::string &path, const std::vector<PrivacyRow> &rows) {
+  std::map<std::string, std::vector<std::string>> groups;
+  std::vector<std::string> keys;  // in the rows' order
+  for (const PrivacyRow &row : rows) {
+    const std::string key = row.attack + "," + row.map + "," + row.strategy + ",";
+    if (!groups.count(key)) keys.push_back(key);
+    groups[key].push_back(lineOf(row));
+  }
+  for (const std::string &key : keys) replaceRows(path, kHead, key, groups[key]);
+}
+
+}  // namespace sphc::host

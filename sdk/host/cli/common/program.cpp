@@ -1,0 +1,80 @@
+#include "host/cli/common/program.h"
+
+#include <spherecloud/spherecloud.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <sstream>
+
+#include "host/base/usage_error.h"
+#include "host/cli/common/exit_code.h"
+
+namespace sphc::host {
+namespace {
+
+// The list of subcommands shows the first line of each; the rest is for its own help.
+class Formatter : public CLI::Formatter {
+ public:
+  std::string make_subcommand(const CLI::App *sub) const override {
+    const std::string all = sub->get_description();
+    std::stringstream out;
+    CLI::detail::format_help(out, sub->get_name(), all.substr(0, all.find('\n')), get_column_width());
+    return out.str();
+  }
+};
+
+int runChosen(const std::vector<Command> &commands, const Console &console) {
+  for (const Command &command : commands) {
+    if (command.app->parsed()) return command.run(console);
+  }
+  return kExitUsage;  // unreachable: a subcommand is required
+}
+
+int usage(const CLI::App &root, const std::string &why) {
+  const auto chosen = root.get_subcommands();
+  const std::string name = chosen.empty() ? root.get_name() : root.get_name() + " " + chosen.front()->get_name();
+  std::fprintf(stderr, "%s: %s\nTry: %s --help\n", name.c_str(), why.c_str(), name.c_str());
+  return kExitUsage;
+}
+
+int parseAndRun(const Program &program, int argc, char **argv) {
+  CLI::App root(program.about, program.name);
+  const auto formatter = std::make_shared<Formatter>();
+  formatter->column_width(32);
+  root.formatter(formatter);
+  root.set_version_flag("--version", program.name + " " + sphc_version_string());
+  root.require_subcommand(1);
+  root.footer(program.footer);
+  Console console;
+  const std::vector<Command> commands = program.declare(&root);
+  for (const Command &command : commands)
+    command.app->add_flag("--json", console.json, "Result as JSON on stdout, nothing else there");
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError &error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+      return root.exit(error);  // --help, --version
+    return usage(root, error.what());
+  }
+  try {
+    return runChosen(commands, console);
+  } catch (const UsageError &error) {
+    return usage(root, error.what());
+  }
+}
+
+}  // namespace
+
+int runProgram(const Program &program, int argc, char **argv) {
+  try {
+    return parseAndRun(program, argc, argv);
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "%s: %s\n", program.name.c_str(), error.what());
+  } catch (...) {
+    std::fprintf(stderr, "%s: an unknown error; please report it with the command line\n", program.name.c_str());
+  }
+  return kExitFailure;
+}
+
+}  // namespace sphc::host

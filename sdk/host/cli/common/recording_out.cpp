@@ -1,0 +1,83 @@
+#include "host/cli/common/recording_out.h"
+
+#include "host/base/checked_call.h"
+#include "host/recording/recording_writer.h"
+
+namespace sphc::host {
+namespace {
+
+class FileOut : public RecordingOut {
+ public:
+  FileOut(const std::string &path, const sphc_calibration &calibration, const sphc_recorder_config &config) {
+    orThrow("cannot start the recording", [&](sphc_message *message) {
+      return sphc_recorder_open(path.c_str(), &calibration, &config, &recorder_, message);
+    });
+  }
+  ~FileOut() override { sphc_recorder_close(&recorder_, nullptr); }
+
+  void add(const sphc_capture &capture) override {
+    notDropped(orThrow("cannot record an image",
+                       [&](sphc_message *message) { return sphc_recorder_add(recorder_, &capture, message); }));
+  }
+  void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) override {
+    notDropped(orThrow("cannot record a pose", [&](sphc_message *message) {
+      return sphc_recorder_add_pose(recorder_, time_ns, &world_from_camera, message);
+    }));
+  }
+  void close() override {
+    orThrow("cannot end the recording",
+            [&](sphc_message *message) { return sphc_recorder_close(&recorder_, message); });
+  }
+
+ private:
+  static void notDropped(sphc_status status) {
+    if (status == SPHC_AGAIN) throw std::runtime_error("the disk took nothing for a minute; is it all right?");
+  }
+  sphc_recorder *recorder_ = nullptr;
+};
+
+class FolderOut : public RecordingOut {
+ public:
+  FolderOut(const std::string &path, const sphc_calibration &calibration) {
+    orThrow("cannot start the recording in " + path, [&](sphc_message *message) {
+      return sphc_recording_create(path.c_str(), &calibration, &writer_, message);
+    });
+  }
+  ~FolderOut() override { sphc_recording_close(&writer_); }
+
+  void add(const sphc_capture &capture) override {
+    orThrow("cannot write an image",
+            [&](sphc_message *message) { return sphc_recording_add(writer_, &capture, message); });
+  }
+  void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) override {
+    orThrow("cannot write a pose", [&](sphc_message *message) {
+      return sphc_recording_add_pose(writer_, time_ns, &world_from_camera, message);
+    });
+  }
+  void close() override { sphc_recording_close(&writer_); }
+
+ private:
+  sphc_recording_writer *writer_ = nullptr;
+};
+
+}  // namespace
+
+bool isMcap(const std::string &path) {
+  const std::string ending = ".mcap";
+  return path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_calibration &calibration,
+                                              const sphc_recorder_config &config) {
+  if (isMcap(path)) return std::make_unique<FileOut>(path, calibration, config);
+  return std::make_unique<FolderOut>(path, calibration);
+}
+
+sphc_recorder_config patientRecorderConfig() {
+  sphc_recorder_config config;
+  orThrow("recorder", [&](sphc_message *) { return sphc_recorder_config_init(&config, sizeof config); });
+  config.wait_us = 60000000;
+  return config;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,29 @@
+// Where a subcommand records to: one MCAP file, or a folder in the TUM layout.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "host/recording/recorder.h"
+
+namespace sphc::host {
+
+// All throw std::runtime_error with cause and cure.
+class RecordingOut {
+ public:
+  virtual ~RecordingOut() = default;
+  virtual void add(const sphc_capture &capture) = 0;
+  virtual void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) = 0;
+  // Without it the recording counts as cut off.
+  virtual void close() = 0;
+};
+
+bool isMcap(const std::string &path);  // by its ending
+
+// `config` is that of a file.
+std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_calibration &calibration,
+                                              const sphc_recorder_config &config);
+
+// Nothing is dropped: adding waits for the disk.
+sphc_recorder_config patientRecorderConfig();
+
+}  // namespace sphc::host

@@ -1,0 +1,50 @@
+#include "host/cli/common/rig_options.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "host/base/checked_call.h"
+#include "host/base/usage_error.h"
+
+namespace sphc::host {
+
+void addRigOptions(CLI::App *app, RigOptions *options) {
+  const char *group = "Cameras";
+  const auto add = [&](const char *name, auto &field, const char *text) {
+    return app->add_option(name, field, text)->group(group);
+  };
+  add("--device", options->both, "A camera that gives colour and depth: openni2:, replay:FOLDER, simulated:")
+      ->type_name("CAMERA");
+  add("--color", options->color, "Or a colour camera: v4l2:/dev/video0, libcamera:")->type_name("CAMERA");
+  add("--depth", options->depth, "and a depth camera: v4l2:/dev/video2")->type_name("CAMERA");
+  add("-c,--calibration", options->wish.calibration, "Calibration file; `spherecloud calibration` makes one")
+      ->type_name("FILE");
+  add("--width", options->wish.width, "Of V4L2 and libcamera images, pixels")->capture_default_str();
+  add("--height", options->wish.height, "The same")->capture_default_str();
+  add("--fps", options->wish.fps, "The same, images a second; 0: whatever the camera does")->capture_default_str();
+  add("--tolerance-ms", options->tolerance_ms, "Colour and depth are a pair when taken at most so far apart")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1000.0));
+}
+
+void checkRigOptions(const RigOptions &options) {
+  const bool two = !options.color.empty() && !options.depth.empty();
+  const bool any_of_two = !options.color.empty() || !options.depth.empty();
+  if (options.both.empty() ? !two : any_of_two)
+    throw UsageError("give --device, or --color and --depth; `spherecloud devices` lists what is there");
+  if (std::isnan(options.tolerance_ms)) throw UsageError("--tolerance-ms: must be a number from 0 to 1000");
+}
+
+sphc_calibration calibrationOf(const RigOptions &options, const Rig &rig) {
+  sphc_calibration calibration;
+  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
+  const std::string &path = options.wish.calibration;
+  if (!path.empty())
+    orThrow("calibration",
+            [&](sphc_message *message) { return sphc_calibration_read(path.c_str(), &calibration, message); });
+  else if (!rig.calibration(&calibration))
+    throw std::runtime_error("these cameras do not know their calibration; give --calibration FILE");
+  return calibration;
+}
+
+}  // namespace sphc::host

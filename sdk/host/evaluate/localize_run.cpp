@@ -1,0 +1,182 @@
+#include "host/evaluate/localize_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "host/base/checked_call.h"
+#include "host/evaluate/played_odometry.h"
+#include "host/report/statistics.h"
+
+namespace sphc::host {
+namespace {
+
+int64_t steadyNanoseconds(void *) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+void check(const std::string &what, const spherecloud::Status &status) {
+  if (status.failed()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
+}
+
+const char *modelName(sphc_camera_model model) {
+  switch (model) {
+    case SPHC_CAMERA_PINHOLE:
+      return "pinhole";
+    case SPHC_CAMERA_BROWN5:
+      return "Brown-Conrady 5";
+    case SPHC_CAMERA_BROWN8:
+      return "Brown-Conrady 8";
+    case SPHC_CAMERA_KANNALA_BRANDT4:
+      return "Kannala-Brandt 4";
+    default:
+      return "unknown";
+  }
+}
+
+std::string describeCamera(const sphc_camera &camera) {
+  return std::to_string(camera.width) + " x " + std::to_string(camera.height) + ", " + modelName(camera.model) +
+         ", f " + fixed(camera.params[0], 1) + " px";
+}
+
+// One sigma of a 3-vector's length, from its block of the covariance.
+double sigmaOf(const double covariance[36], size_t first) {
+  double sum = 0;
+  for (size_t i = first; i < first + 3; ++i) sum += covariance[7 * i];
+  return std::sqrt(sum);
+}
+
+void measureMemory(const sphc_config &config, Run *run) {
+  sphc_memory memory = {};
+  orThrow("localizer memory",
+          [&](sphc_message *message) { return sphc_localizer_memory(&config, &memory, message); });
+  run->state_bytes = memory.state_bytes;
+  run->scratch_bytes = memory.scratch_bytes;
+  sphc_memory_piece piece = {};
+  for (uint32_t i = 0; sphc_localizer_memory_piece(&config, i, &piece) == SPHC_OK; ++i) {
+    run->memory.push_back({piece.name, piece.bytes, piece.scratch != 0});
+  }
+}
+
+void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameRecord *frame) {
+  frame->outcome = result.outcome;
+  frame->localized = result.outcome == SPHC_OUTCOME_LOCALIZED;
+  frame->keypoints = result.keypoints;
+  frame->lifted = result.lifted;
+  frame->matches = result.matches;
+  frame->inliers = result.inliers;
+  frame->iterations = result.iterations;
+  frame->features_us = result.features_us;
+  frame->align_us = result.align_us;
+  frame->match_us = result.match_us;
+  frame->pose_us = result.pose_us;
+  frame->state = result.state;
+  frame->map = result.map_index;
+  frame->frames_together = result.frames;
+  frame->guided = result.guided != 0;
+  frame->depth = result.depth;
+  if (!frame->localized) return;
+  frame->confidence = result.confidence;
+  frame->base_from_camera = spherecloud::inverse(result.camera_from_map);
+  if (!input.centres_in_world_m.empty()) {  // world_from_map is a translation
+    const auto &centre = input.centres_in_world_m[result.map_index];
+    for (size_t i = 0; i < 3; ++i) frame->base_from_camera.t_m[i] += centre[i];
+  }
+  frame->sigma_rotation_deg = sigmaOf(result.covariance, 0) * 180 / M_PI;
+  frame->sigma_translation_m = sigmaOf(result.covariance, 3);
+}
+
+void fillTruth(const LocalizeInput &input, FrameRecord *frame) {
+  if (input.centres_in_world_m.empty()) return;
+  frame->has_truth = sphc_replay_pose(input.replay, frame->index, &frame->truth_base_from_camera) == SPHC_OK;
+  judge(frame);
+}
+
+FrameRecord processFrame(const LocalizeInput &input, const sphc_frame &image, uint32_t index,
+                         spherecloud::Localizer *localizer, std::vector<sphc_observation> *room) {
+  sphc_result result = spherecloud::emptyResult();
+  const int64_t start = steadyNanoseconds(nullptr);
+  const spherecloud::Status status = localizer->process(image, &result);
+  const int64_t end = steadyNanoseconds(nullptr);
+  check("frame " + std::to_string(image.sequence), status);
+  FrameRecord frame;
+  frame.index = index;
+  frame.sequence = image.sequence;
+  frame.time_ns = image.color_time_ns;
+  frame.total_us = static_cast<uint32_t>((end - start) / 1000);
+  fillAnswer(input, result, &frame);
+  fillTruth(input, &frame);
+  if (input.keep_observations) {
+    const uint32_t count = localizer->observations(room->data(), static_cast<uint32_t>(room->size()));
+    frame.observations.assign(
+        room->begin(), room->begin() + std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(room->size())));
+  }
+  return frame;
+}
+
+}  // namespace
+
+void setCameras(const sphc_calibration &calibration, sphc_config *config) {
+  config->color_camera = calibration.color_camera;
+  config->depth_camera = calibration.depth_camera;
+  config->color_from_depth = calibration.color_from_depth;
+  config->depth_unit_m = calibration.depth_unit_m;
+  config->clock = steadyNanoseconds;
+}
+
+spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vector<MapFile> &maps) {
+  spherecloud::Localizer localizer;
+  std::vector<const sphc_map *> views;
+  for (const MapFile &file : maps) views.push_back(file.map.get());
+  check("cannot make the localizer",
+        spherecloud::Localizer::make(config, views.data(), static_cast<uint32_t>(views.size()), &localizer));
+  return localizer;
+}
+
+std::vector<Setting> describeConfig(const sphc_config &config) {
+  return {{"colour camera", describeCamera(config.color_camera)},
+          {"depth camera", describeCamera(config.depth_camera)},
+          {"seed", std::to_string(config.seed)},
+          {"max_keypoints", std::to_string(config.max_keypoints)},
+          {"max_ratio", fixed(static_cast<double>(config.max_ratio), 3)},
+          {"max_iterations", std::to_string(config.max_iterations)},
+          {"min_inliers", std::to_string(config.min_inliers)},
+          {"depth_min_m", fixed(config.depth_min_m, 3)},
+          {"depth_max_m", fixed(config.depth_max_m, 3)},
+          {"depth_unit_m", fixed(config.depth_unit_m, 6)},
+          {"depth_sigma_m", fixed(config.depth_sigma_m, 4)},
+          {"depth_sigma_per_m2", fixed(config.depth_sigma_per_m2, 4)},
+          {"pixel_sigma_px", fixed(config.pixel_sigma_px, 2)},
+          {"map_sigma_m", fixed(config.map_sigma_m, 4)},
+          {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},
+          {"depth_slope_sigma", fixed(config.depth_slope_sigma, 4)},
+          {"deadline_us", std::to_string(config.deadline_us)},
+          {"mode", config.mode == SPHC_MODE_TRACKING ? "tracking" : "single"},
+          {"probes", std::to_string(config.probes)}};
+}
+
+void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
+                    const std::function<void(const std::string &)> &unreadable, Run *run) {
+  measureMemory(input.config, run);
+  spherecloud::Localizer localizer = makeLocalizer(input.config, input.maps);
+  PlayedOdometry odometry(input.replay);
+  std::vector<sphc_observation> room(input.config.max_keypoints);
+  const uint32_t count = sphc_replay_frame_count(input.replay);
+  for (uint32_t i = 0; i < count; ++i) {
+    sphc_frame image = {};
+    sphc_message message = {};
+    if (sphc_replay_read_frame(input.replay, i, &image, &message) < 0) {
+      unreadable(message.text);
+      ++run->unreadable;
+    } else {
+      if (input.play_odometry) image.prior = odometry.at(i);
+      run->frames.push_back(processFrame(input, image, i, &localizer, &room));
+    }
+    frame_done(i + 1, count);
+  }
+  if (run->frames.empty())
+    throw std::runtime_error("not one frame could be read; check the recording and its calibration");
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,35 @@
+// A recording through the localizer, by the C door alone, as a device would do it.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "drivers/replay/replay.h"
+#include "host/evaluate/map_file.h"
+#include "host/report/run.h"
+
+namespace sphc::host {
+
+using FrameDone = std::function<void(uint32_t done, uint32_t total)>;
+
+struct LocalizeInput {
+  sphc_replay *replay = nullptr;
+  std::vector<MapFile> maps;
+  sphc_config config = {};  // cameras already set
+  // Where each map's origin lies in the recording's world; empty: poses stay in their map's frame, without truth.
+  std::vector<std::array<double, 3>> centres_in_world_m;
+  bool play_odometry = false;  // the recording's own poses, each step disturbed
+  bool keep_observations = false;
+};
+
+// Cameras, depth unit and clock into a config whose other fields stay.
+void setCameras(const sphc_calibration &calibration, sphc_config *config);
+// Throws std::runtime_error with cause and cure.
+spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vector<MapFile> &maps);
+std::vector<Setting> describeConfig(const sphc_config &config);
+
+// Fills everything of *run that comes from processing.  A frame that cannot be read is told to `unreadable`,
+// counted and left out.  Throws std::runtime_error when the localizer cannot be made or refuses a frame.
+void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
+                    const std::function<void(const std::string &)> &unreadable, Run *run);
+
+}  // namespace sphc::host

@@ -1,0 +1,67 @@
+#include "host/evaluate/map_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace sphc::host {
+namespace {
+
+constexpr size_t kMapAlignment = 64;
+
+void check(const std::string &what, const spherecloud::Status &status) {
+  if (!status.ok()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
+}
+
+}  // namespace
+
+void checkIsFile(const std::string &path) {
+  std::error_code absent;
+  const std::filesystem::file_status status = std::filesystem::status(path, absent);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+  throw std::runtime_error(path +
+                           (std::filesystem::is_directory(status) ? " is a folder" : " is a device or a pipe") +
+                           "; give the map file itself, which spherecloud build wrote");
+}
+
+MapFile openMapFile(const std::string &path) {
+  checkIsFile(path);
+  MapFile file;
+  check("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
+  check("cannot use the map " + path, spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
+  return file;
+}
+
+MapFile openMapBytes(const std::vector<uint8_t> &bytes) {
+  MapFile file;
+  file.bytes = spherecloud::AlignedBuffer(bytes.size(), kMapAlignment);
+  std::memcpy(file.bytes.data(), bytes.data(), bytes.size());
+  check("cannot use the map", spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
+  return file;
+}
+
+MapFacts mapFacts(const MapFile &file, const std::string &path) {
+  const sphc_map_info info = file.map.info();
+  MapFacts facts;
+  facts.path = path;
+  facts.id = hexText(info.map_id, sizeof info.map_id);
+  facts.points = info.point_count;
+  facts.format_version = info.format_version;
+  facts.extractor = info.extractor;
+  facts.file_bytes = info.file_bytes;
+  facts.directions.resize(info.point_count);
+  for (uint32_t i = 0; i < info.point_count; ++i) sphc_map_direction(file.map.get(), i, facts.directions[i].data());
+  return facts;
+}
+
+Vector3 centreByNote(const std::string &note_path, const MapFile &file, const std::string &map_path) {
+  const OwnerNote note = readOwnerNote(note_path);
+  const sphc_map_info info = file.map.info();
+  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id))
+    throw std::runtime_error(note_path + " belongs to another map than " + map_path +
+                             " (their map ids differ); give the note that was written beside this map");
+  return note.centre_in_world_m;
+}
+
+}  // namespace sphc::host

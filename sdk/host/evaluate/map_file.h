@@ -1,0 +1,27 @@
+// A map file in memory, opened through the door.
+#pragma once
+#include <spherecloud/spherecloud.hpp>
+#include <string>
+
+#include "host/publish/map_writer.h"
+#include "host/report/run.h"
+
+namespace sphc::host {
+
+struct MapFile {
+  spherecloud::AlignedBuffer bytes;  // outlives the map
+  spherecloud::Map map;
+};
+
+// Throws std::runtime_error, which says what is wanted, when something is there that is no file.
+void checkIsFile(const std::string &path);
+// Validates every byte.  Throws std::runtime_error with cause and cure.
+MapFile openMapFile(const std::string &path);
+// The same of a map that is no file.
+MapFile openMapBytes(const std::vector<uint8_t> &bytes);
+MapFacts mapFacts(const MapFile &file, const std::string &path);
+// Where the map's centre is, as the note says that was written beside it.  Throws std::runtime_error when the note
+// belongs to another map.
+Vector3 centreByNote(const std::string &note_path, const MapFile &file, const std::string &map_path);
+
+}  // namespace sphc::host

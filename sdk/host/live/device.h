@@ -1,0 +1,60 @@
+// A camera, or what stands for one, chosen by a line of text:
+//
+//     v4l2:/dev/video0   v4l2:card=NAME   v4l2:bus=PLUG      one node, one stream
+//     libcamera:   libcamera:ID                              the first camera, or this one; colour
+//     openni2:   openni2:URI   openni2:walk.oni              the first device, or this one; colour and depth
+//     replay:walk   replay:walk.mcap                         a recording, as fast as it was recorded
+//     simulated:                                             the simulated headset, as fast as it renders
+#pragma once
+#include <spherecloud/spherecloud.h>
+
+#include <memory>
+#include <string>
+
+#include "host/recording/calibration.h"
+
+namespace sphc::host {
+
+// What is wanted of a device.
+struct Wish {
+  bool color = true, depth = true;
+  bool color_images = false;                    // colours, not grey: to record
+  uint32_t width = 640, height = 480, fps = 0;  // fps 0: whatever the camera does
+  std::string calibration;                      // of a recording that has none beside it
+};
+
+// Captures that may be out on loan at once: those that wait in a pairer, and those in use.
+constexpr uint32_t kLoans = 6;
+
+class Device {
+ public:
+  virtual ~Device() = default;
+  Device() = default;
+  Device(const Device &) = delete;
+  Device &operator=(const Device &) = delete;
+
+  const sphc_source &source() const { return source_; }
+  // What was opened: "OV5640 (/dev/video0), YUYV 640 x 480 at 30 Hz".
+  virtual std::string describe() const = 0;
+  // What went wrong so far, in words; "" where nothing did.
+  virtual std::string troubles() const { return ""; }
+  // False where the device does not know its cameras.
+  virtual bool calibration(sphc_calibration * /*calibration*/) const { return false; }
+  // Frames wait until they are asked for, so none need be skipped.
+  virtual bool waits() const { return false; }
+
+ protected:
+  sphc_source source_ = {};
+};
+
+// Throws std::runtime_error with cause and cure.
+std::unique_ptr<Device> openDevice(const std::string &spec, const Wish &wish);
+
+// One file each; `address` is what stands behind the colon.
+std::unique_ptr<Device> openV4l2(const std::string &address, const Wish &wish);
+std::unique_ptr<Device> openLibcamera(const std::string &address, const Wish &wish);
+std::unique_ptr<Device> openOpenni2(const std::string &address, const Wish &wish);
+std::unique_ptr<Device> openReplay(const std::string &address, const Wish &wish);
+std::unique_ptr<Device> openSimulated(const std::string &address, const Wish &wish);
+
+}  // namespace sphc::host

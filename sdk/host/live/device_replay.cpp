@@ -1,0 +1,45 @@
+#include "drivers/replay/replay.h"
+#include "host/base/checked_call.h"
+#include "host/live/device.h"
+
+namespace sphc::host {
+namespace {
+
+class ReplayDevice : public Device {
+ public:
+  ReplayDevice(const std::string &address, const Wish &wish) : address_(address) {
+    sphc_replay_config config;
+    sphc_replay_config_init(&config, sizeof config);
+    config.mode = SPHC_REPLAY_REAL_TIME;
+    config.streams = 0;
+    if (wish.color) config.streams |= SPHC_REPLAY_STREAM_COLOR;
+    if (wish.depth) config.streams |= SPHC_REPLAY_STREAM_DEPTH;
+    config.loan_limit = 2 * kLoans;
+    const char *calibration = wish.calibration.empty() ? nullptr : wish.calibration.c_str();
+    orThrow("replay:" + address, [&](sphc_message *message) {
+      return sphc_replay_open(address.c_str(), calibration, &config, &replay_, message);
+    });
+    source_.struct_size = sizeof source_;
+    orThrow("replay:", [&](sphc_message *) { return sphc_replay_source(replay_, &source_); });
+  }
+  ~ReplayDevice() override { sphc_replay_close(&replay_); }
+
+  std::string describe() const override { return "recording " + address_; }
+  bool calibration(sphc_calibration *calibration) const override {
+    calibration->struct_size = sizeof *calibration;
+    return sphc_replay_calibration(replay_, calibration) == SPHC_OK;
+  }
+  bool waits() const override { return true; }
+
+ private:
+  std::string address_;
+  sphc_replay *replay_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Device> openReplay(const std::string &address, const Wish &wish) {
+  return std::make_unique<ReplayDevice>(address, wish);
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,31 @@
+// Does depth lie on the image as the calibration says?  Edges of depth should be edges of the image: they are
+// compared as calibrated, and under the usual mistakes.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "host/live/finding.h"
+#include "host/recording/calibration.h"
+
+namespace sphc::host {
+
+class GeometryCheck {
+ public:
+  explicit GeometryCheck(const sphc_calibration &calibration);
+
+  // A pair of images of the calibration's sizes.
+  void look(const sphc_image &color, const sphc_image &depth);
+  Finding finding() const;
+
+ private:
+  enum Mistake { kNone, kMirrored, kUpsideDown, kTurned, kRegistered, kInverse, kMistakes };
+
+  bool canBe(Mistake mistake) const;
+  sphc_calibration calibrationOf(Mistake mistake) const;
+  std::vector<uint16_t> aligned(const sphc_image &depth, Mistake mistake) const;
+
+  sphc_calibration calibration_;
+  std::array<std::vector<double>, kMistakes> distances_px_;
+};
+
+}  // namespace sphc::host

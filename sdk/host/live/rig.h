@@ -1,0 +1,90 @@
+// One camera that gives colour and depth, or two that give one each, as pairs of both.
+//
+// Two cameras may have two clocks; then both streams' times are brought to the host's CLOCK_MONOTONIC.  A camera
+// that was unplugged is opened again as soon as it is back.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/live/device.h"
+
+namespace sphc::host {
+
+struct RigOptions {
+  std::string both, color, depth;  // `both`, or the other two: lines of text for openDevice
+  Wish wish;
+  double tolerance_ms = 20;
+};
+
+class Rig {
+ public:
+  enum class Got { kPair, kNothing, kEnd };
+  using Tell = std::function<void(const std::string &)>;
+
+  // Opens and starts the cameras.  `trouble` hears of what goes on by itself.
+  Rig(const RigOptions &options, Tell trouble);
+  ~Rig();
+  Rig(const Rig &) = delete;
+  Rig &operator=(const Rig &) = delete;
+
+  // The next pair, within a timeout; to be released.
+  Got next(std::chrono::milliseconds timeout, sphc_pair *pair);
+  void release(const sphc_pair &pair);
+  // How often a camera was lost: pairs from before a loss are void.
+  uint32_t losses() const { return losses_; }
+
+  // Sees every capture that comes, paired later or not, on the clock of the rig.
+  void watch(std::function<void(const sphc_capture &)> watcher) { watcher_ = std::move(watcher); }
+
+  std::vector<std::string> descriptions() const;
+  std::string troubles() const;
+  sphc_pairer_counts counts() const;
+  bool calibration(sphc_calibration *calibration) const;
+  bool waits() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Camera {
+    std::string spec;
+    Wish wish;
+    std::unique_ptr<Device> device;  // null while it is unplugged
+    bool ended = false;
+    Clock::time_point retry;
+    uint32_t failures = 0;  // in a row
+    bool reopened = false;  // and has given nothing yet
+    int64_t shift_ns = 0;   // of a clock that began again when the camera came back
+    int64_t last_ns = 0, last_arrival_ns = 0;
+    std::vector<uint64_t> mapper_memory;
+    sphc_clock_mapper *mapper = nullptr;
+  };
+
+  void add(const std::string &spec, bool color, bool depth);
+  void start(Camera *camera);
+  void makePairer();
+  void emptyPairer();
+  bool pop(sphc_pair *pair);
+  // True where a capture came.
+  bool acquireFrom(Camera *camera, std::chrono::microseconds timeout);
+  void keepTimeGoing(Camera *camera, sphc_capture *capture);
+  void bringToHostClock(Camera *camera, sphc_capture *capture);
+  void lose(Camera *camera);
+  void tryAgain(Camera *camera);
+  void giveBack(const sphc_capture &capture);
+  Camera &cameraOf(sphc_stream stream);
+
+  RigOptions options_;
+  Tell trouble_;
+  std::function<void(const sphc_capture &)> watcher_;
+  std::vector<Camera> cameras_;
+  std::vector<uint64_t> pairer_memory_;
+  sphc_pairer *pairer_ = nullptr;
+  sphc_pairer_counts earlier_ = {};  // of pairers before a camera was unplugged
+  bool flushed_ = false;
+  uint32_t losses_ = 0;
+};
+
+}  // namespace sphc::host

@@ -1,0 +1,148 @@
+#include "host/live/stream_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/report/run.h"
+#include "host/report/statistics.h"
+
+namespace sphc::host {
+namespace {
+
+using Grade = Finding::Grade;
+constexpr uint32_t kEvery = 7;  // pixels looked at
+
+uint32_t pixelAt(const sphc_image &image, uint32_t x, uint32_t y) {
+  const auto *row = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
+  if (image.format == SPHC_FORMAT_DEPTH16) return reinterpret_cast<const uint16_t *>(row)[x];
+  return image.format == SPHC_FORMAT_GRAY8 ? row[x] : row[3 * x + 1];
+}
+
+std::string sizeText(uint32_t width, uint32_t height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+const char *pointName(sphc_time_point point) {
+  const char *const names[] = {"the middle", "the start", "the end", "not the exposure but the arrival"};
+  return point >= 0 && point < 4 ? names[point] : "an unknown point";
+}
+
+}  // namespace
+
+StreamCheck::StreamCheck(sphc_stream stream, const sphc_calibration &calibration)
+    : is_color_(stream == SPHC_STREAM_COLOR),
+      camera_(is_color_ ? calibration.color_camera : calibration.depth_camera),
+      depth_unit_m_(calibration.depth_unit_m) {}
+
+void StreamCheck::look(const sphc_capture &capture) {
+  if (count_++ == 0) {
+    first_ = capture;
+  } else {
+    periods_ms_.push_back(1e-6 * static_cast<double>(capture.time_ns - last_.time_ns));
+    if (capture.sequence > last_.sequence) lost_ += capture.sequence - last_.sequence - 1;
+  }
+  last_ = capture;
+  const sphc_image &image = capture.image;
+  double sum = 0;
+  uint32_t pixels = 0, measured = 0;
+  for (uint32_t y = kEvery / 2; y < image.height; y += kEvery)
+    for (uint32_t x = kEvery / 2; x < image.width; x += kEvery, ++pixels) {
+      const uint32_t value = pixelAt(image, x, y);
+      sum += value;
+      if (is_color_ || value == 0) continue;
+      ++measured;
+      if (count_ % 10 == 1) depths_m_.push_back(value * depth_unit_m_);
+    }
+  if (pixels == 0) return;
+  brightness_.push_back(sum / pixels);
+  measured_share_.push_back(static_cast<double>(measured) / pixels);
+}
+
+Findings StreamCheck::findings() const {
+  if (count_ == 0)
+    return {{Grade::kWrong, is_color_ ? "colour" : "depth",
+             "not one image came; is another program using the camera, or its shutter closed?"}};
+  if (const std::optional<Finding> wrong = size()) return {*wrong};
+  return {rate(), clock(), is_color_ ? brightness() : depths()};
+}
+
+std::optional<Finding> StreamCheck::size() const {
+  const sphc_image &image = last_.image;
+  if (image.width == camera_.width && image.height == camera_.height) return std::nullopt;
+  return Finding{Grade::kWrong, is_color_ ? "colour size" : "depth size",
+                 "images are " + sizeText(image.width, image.height) + ", the calibration is for " +
+                     sizeText(camera_.width, camera_.height) +
+                     "; choose that mode (--width, --height), or calibrate this one"};
+}
+
+Finding StreamCheck::rate() const {
+  const std::string what = is_color_ ? "colour rate" : "depth rate";
+  if (periods_ms_.empty()) return {Grade::kDoubtful, what, "one image only"};
+  const double median_ms = percentile(periods_ms_, 0.5), most_ms = percentile(periods_ms_, 1);
+  const std::string seen = fixed(1000 / median_ms, 1) + " images a second, longest pause " + fixed(most_ms, 0) +
+                           " ms, " + std::to_string(lost_) + " of " + std::to_string(count_ + lost_) +
+                           " never came";
+  if (10 * lost_ > count_)
+    return {Grade::kWrong, what, seen + "; use another USB port or bus, a smaller image, or MJPG"};
+  return {lost_ > 0 ? Grade::kDoubtful : Grade::kFine, what, seen};
+}
+
+Finding StreamCheck::clock() const {
+  const std::string what = is_color_ ? "colour clock" : "depth clock";
+  std::string seen = last_.clock == SPHC_CLOCK_MONOTONIC  ? "the host's CLOCK_MONOTONIC"
+                     : last_.clock == SPHC_CLOCK_BOOTTIME ? "the host's CLOCK_BOOTTIME"
+                                                          : "the camera's own";
+  seen += "; times are those of " + std::string(pointName(last_.time_point)) +
+          (last_.time_point == SPHC_TIME_ARRIVAL ? "" : " of the exposure");
+  if (last_.time_sigma_us > 0) seen += ", good to " + fixed(last_.time_sigma_us / 1000.0, 1) + " ms";
+  if (last_.time_point == SPHC_TIME_MIDDLE) return {Grade::kFine, what, seen};
+  if (last_.exposure_us > 0)
+    return {Grade::kFine, what, seen + "; the exposure is known, so they are moved to its middle"};
+  return {Grade::kDoubtful, what,
+          seen +
+              "; the camera does not tell its exposure, so they may be off by half of it: fix the exposure, or "
+              "light the room"};
+}
+
+Finding StreamCheck::brightness() const {
+  const double mean = percentile(brightness_, 0.5);
+  const std::string seen = "mean " + fixed(mean, 0) + " of 255";
+  if (mean < 25) return {Grade::kDoubtful, "brightness", seen + "; too dark for keypoints: more light or exposure"};
+  if (mean > 230) return {Grade::kDoubtful, "brightness", seen + "; overexposed: less exposure or gain"};
+  return {Grade::kFine, "brightness", seen};
+}
+
+Finding StreamCheck::depths() const {
+  const double share = percentile(measured_share_, 0.5);
+  const std::string measured = fixed(100 * share, 0) + " % of the pixels are measured";
+  if (share < 0.1 || depths_m_.empty())
+    return {Grade::kWrong, "depth", measured + "; is the ToF emitter on, its window clean, and a wall within 5 m?"};
+  const double near_m = percentile(depths_m_, 0.05), middle_m = percentile(depths_m_, 0.5),
+               far_m = percentile(depths_m_, 0.95);
+  const std::string seen = measured + ", from " + fixed(near_m, 2) + " to " + fixed(far_m, 2) +
+                           " m, half of them beyond " + fixed(middle_m, 2) + " m";
+  if (middle_m < 0.1 || middle_m > 20)
+    return {Grade::kWrong, "depth",
+            seen + "; no room is like that: is depth_unit_m " + fixed(depth_unit_m_, 6) +
+                " right? 0.001 is a millimetre"};
+  return {share < 0.4 ? Grade::kDoubtful : Grade::kFine, "depth", seen};
+}
+
+Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t without_partner) {
+  if (color_minus_depth_ms.empty())
+    return {
+        Grade::kWrong, "pairs",
+        "no colour and depth image were taken at the same time; is one stream silent, or are they on two clocks? "
+        "--tolerance-ms widens what counts as the same"};
+  const double median_ms = percentile(color_minus_depth_ms, 0.5);
+  const double spread_ms = percentile(color_minus_depth_ms, 0.95) - percentile(color_minus_depth_ms, 0.05);
+  const std::string seen = "colour is taken " + fixed(std::fabs(median_ms), 1) + " ms " +
+                           (median_ms < 0 ? "before" : "after") + " depth, within " + fixed(spread_ms, 1) +
+                           " ms; " + std::to_string(without_partner) + " images had no partner";
+  if (spread_ms > 10)
+    return {Grade::kDoubtful, "pairs",
+            seen + "; the cameras drift apart: synchronise them, or expect blur from motion"};
+  return {Grade::kFine, "pairs", seen};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,37 @@
+// What a stream of captures looks like: rate, losses, clock, size, brightness or depth.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "host/live/finding.h"
+#include "host/recording/calibration.h"
+
+namespace sphc::host {
+
+class StreamCheck {
+ public:
+  StreamCheck(sphc_stream stream, const sphc_calibration &calibration);
+
+  void look(const sphc_capture &capture);
+  // Of this stream alone; nothing else is said where not one capture came.
+  Findings findings() const;
+
+ private:
+  Finding rate() const;
+  Finding clock() const;
+  std::optional<Finding> size() const;  // where it is wrong
+  Finding brightness() const;
+  Finding depths() const;
+
+  bool is_color_;
+  sphc_camera camera_;
+  double depth_unit_m_;
+  sphc_capture first_ = {}, last_ = {};
+  uint32_t count_ = 0, lost_ = 0;
+  std::vector<double> periods_ms_, brightness_, depths_m_, measured_share_;
+};
+
+// Of pairs: how far apart they were taken.
+Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t without_partner);
+
+}  // namespace sphc::host

@@ -1,0 +1,240 @@
+#include "host/publish/ledger.h"
+
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "host/publish/sqlite_statement.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr int64_t kApplication = 0x53504C47, kVersion = 1;  // "SPLG"
+constexpr double kFarthestM = 1e6;
+
+const char kSchema[] = R"(
+CREATE TABLE owner (secret_key BLOB NOT NULL);
+CREATE TABLE place (number INTEGER PRIMARY KEY, centre_x REAL NOT NULL, centre_y REAL NOT NULL, centre_z REAL NOT NULL,
+                    eta REAL NOT NULL, strategy TEXT NOT NULL);
+CREATE TABLE release (place INTEGER NOT NULL, number INTEGER NOT NULL, map_id BLOB NOT NULL, crc32 INTEGER NOT NULL,
+                      points INTEGER NOT NULL, time_s INTEGER NOT NULL, PRIMARY KEY (place, number));
+CREATE TABLE point (place INTEGER NOT NULL, number INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,
+                    sigma REAL NOT NULL, observations INTEGER NOT NULL, descriptor BLOB NOT NULL, u INTEGER NOT NULL,
+                    v INTEGER NOT NULL, shown BLOB NOT NULL, real INTEGER NOT NULL, release INTEGER NOT NULL,
+                    PRIMARY KEY (place, number));
+)";
+
+[[noreturn]] void refuse(const std::string &path, const std::string &why) {
+  throw std::runtime_error("ledger " + path + ": " + why);
+}
+
+// SQLite gives its journal the mode of the file, so the file is made first.
+void makeFile(const std::string &path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0600);
+  if (file >= 0) close(file);
+  if (file < 0 && errno != EEXIST)
+    refuse(path, std::string("cannot be made: ") + std::strerror(errno) + "; choose another place with --ledger");
+}
+
+void checkMode(const std::string &path) {
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) != 0)
+    refuse(path,
+           std::string(std::strerror(errno)) + "; is the file there? Its name is the ledger's, not the map's");
+  if (facts.st_mode & (S_IRWXG | S_IRWXO))
+    refuse(path, "others may read it, and it tells real points from fake ones; run: chmod 600 " + path);
+}
+
+int64_t valueOf(sqlite3 *database, const char *statement) {
+  SqliteStatement query(database, statement);
+  return query.step() ? query.integer(0) : 0;
+}
+
+// Tables alone, since a view can hold more rows than any file.
+void checkContent(sqlite3 *database) {
+  SqliteStatement check(database, "PRAGMA quick_check(1)");
+  if (!check.step() || check.text(0) != "ok") throw std::runtime_error("it is damaged; take the backup");
+  if (valueOf(database, "SELECT count(*) FROM sqlite_master WHERE type NOT IN ('table', 'index')") != 0)
+    throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
+}
+
+bool isPacked(int64_t coordinate) { return coordinate >= 1 && coordinate <= 65535; }
+
+bool isNear(const Vector3 &position_m) { return position_m.allFinite() && position_m.norm() < kFarthestM; }
+
+PlacePoint pointOf(SqliteStatement *row) {
+  PlacePoint point = {};
+  point.seen.position_m = {row->real(0), row->real(1), row->real(2)};
+  point.seen.sigma_m = row->real(3);
+  point.seen.observations = static_cast<uint32_t>(row->integer(4));
+  const int64_t u = row->integer(6), v = row->integer(7);
+  point.direction = {static_cast<uint16_t>(u), static_cast<uint16_t>(v)};
+  point.real = row->integer(9) != 0;
+  point.release = static_cast<uint32_t>(row->integer(10));
+  const bool valid = row->blob(5, point.seen.descriptor.bytes, kDescriptorBytes) &&
+                     row->blob(8, point.descriptor.bytes, kDescriptorBytes) && isNear(point.seen.position_m) &&
+                     point.seen.sigma_m >= 0 && point.seen.sigma_m < kFarthestM && isPacked(u) && isPacked(v);
+  if (!valid) throw std::runtime_error("a point is damaged; take the backup");
+  return point;
+}
+
+std::vector<PlacePoint> readPoints(sqlite3 *database, uint32_t place) {
+  SqliteStatement rows(database,
+                       "SELECT x, y, z, sigma, observations, descriptor, u, v, shown, real, release FROM point "
+                       "WHERE place = ? ORDER BY number");
+  rows.bind(int64_t{place});
+  std::vector<PlacePoint> points;
+  while (rows.step()) points.push_back(pointOf(&rows));
+  return points;
+}
+
+std::vector<Release> readReleases(sqlite3 *database, const Place &place) {
+  SqliteStatement rows(database,
+                       "SELECT map_id, crc32, points, time_s FROM release WHERE place = ? ORDER BY number");
+  rows.bind(int64_t{place.number});
+  std::vector<Release> releases;
+  while (rows.step()) {
+    Release release = {
+        {}, static_cast<uint32_t>(rows.integer(1)), static_cast<uint32_t>(rows.integer(2)), rows.integer(3)};
+    if (!rows.blob(0, release.map_id.data(), release.map_id.size()) || release.points > place.points.size())
+      throw std::runtime_error("a release is damaged; take the backup");
+    releases.push_back(release);
+  }
+  return releases;
+}
+
+void writePoints(sqlite3 *database, const Place &place) {
+  SqliteStatement known(database, "SELECT count(*) FROM point WHERE place = ?");
+  known.bind(int64_t{place.number}).step();
+  SqliteStatement insert(database, "INSERT INTO point VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (size_t i = static_cast<size_t>(known.integer(0)); i < place.points.size(); ++i) {
+    const PlacePoint &point = place.points[i];
+    const Vector3 &p = point.seen.position_m;
+    insert.bind(int64_t{place.number}).bind(static_cast<int64_t>(i + 1)).bind(p.x()).bind(p.y()).bind(p.z());
+    insert.bind(point.seen.sigma_m).bind(int64_t{point.seen.observations});
+    insert.bind(point.seen.descriptor.bytes, kDescriptorBytes);
+    insert.bind(int64_t{point.direction.u}).bind(int64_t{point.direction.v});
+    insert.bind(point.descriptor.bytes, kDescriptorBytes);
+    insert.bind(int64_t{point.real}).bind(int64_t{point.release}).run();
+  }
+}
+
+void writeReleases(sqlite3 *database, const Place &place) {
+  SqliteStatement insert(database, "INSERT OR IGNORE INTO release VALUES (?, ?, ?, ?, ?, ?)");
+  for (size_t i = 0; i < place.releases.size(); ++i) {
+    const Release &release = place.releases[i];
+    insert.bind(int64_t{place.number}).bind(static_cast<int64_t>(i + 1));
+    insert.bind(release.map_id.data(), release.map_id.size()).bind(int64_t{release.crc32});
+    insert.bind(int64_t{release.points}).bind(release.time_s).run();
+  }
+}
+
+void writePlace(sqlite3 *database, const Place &place) {
+  SqliteStatement insert(database, "INSERT OR IGNORE INTO place VALUES (?, ?, ?, ?, ?, ?)");
+  const Vector3 &c = place.centre_m;
+  insert.bind(int64_t{place.number}).bind(c.x()).bind(c.y()).bind(c.z()).bind(place.eta).bind(place.strategy).run();
+  writePoints(database, place);
+  writeReleases(database, place);
+}
+
+}  // namespace
+
+void Ledger::Closer::operator()(sqlite3 *database) const { sqlite3_close(database); }
+
+Ledger::Ledger(const std::string &path, int flags) : path_(path) {
+  sqlite3 *database = nullptr;
+  const int result = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
+  database_.reset(database);
+  if (result != SQLITE_OK) refuse(path, std::string("cannot be opened: ") + sqlite3_errmsg(database));
+}
+
+void Ledger::run(const char *statement) {
+  if (sqlite3_exec(database_.get(), statement, nullptr, nullptr, nullptr) != SQLITE_OK)
+    refuse(path_,
+           std::string(sqlite3_errmsg(database_.get())) + "; is another program using it, or the disk full?");
+}
+
+void Ledger::make(const SecretKey &key) {
+  run(kSchema);
+  SqliteStatement insert(database_.get(), "INSERT INTO owner VALUES (?)");
+  insert.bind(key.data(), key.size()).run();
+  run(("PRAGMA application_id = " + std::to_string(kApplication)).c_str());
+  run(("PRAGMA user_version = " + std::to_string(kVersion)).c_str());
+}
+
+void Ledger::read(const SecretKey *expected) {
+  try {
+    if (valueOf(database_.get(), "PRAGMA application_id") != kApplication)
+      throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
+    if (valueOf(database_.get(), "PRAGMA user_version") != kVersion)
+      throw std::runtime_error("it was written by another version of this program; use that one");
+    checkContent(database_.get());
+    SqliteStatement owner(database_.get(), "SELECT secret_key FROM owner");
+    if (!owner.step() || !owner.blob(0, key_.data(), key_.size()))
+      throw std::runtime_error("it holds no key; take the backup");
+  } catch (const std::runtime_error &error) {
+    refuse(path_, error.what());
+  }
+  if (expected && *expected != key_)
+    refuse(path_, "it was made with another key. A place keeps its key: leave --key out; a ledger has its own");
+}
+
+Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
+  makeFile(path);
+  checkMode(path);
+  Ledger ledger(path, SQLITE_OPEN_READWRITE);
+  ledger.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE");
+  if (valueOf(ledger.database_.get(), "SELECT count(*) FROM sqlite_master") == 0)
+    ledger.make(key ? *key : newSecretKey());
+  ledger.run("COMMIT");
+  ledger.read(key);
+  return ledger;
+}
+
+Ledger Ledger::openToRead(const std::string &path) {
+  checkMode(path);
+  Ledger ledger(path, SQLITE_OPEN_READONLY);
+  ledger.read(nullptr);
+  return ledger;
+}
+
+std::vector<Place> Ledger::places() const {
+  try {
+    std::vector<Place> places;
+    SqliteStatement rows(database_.get(),
+                         "SELECT number, centre_x, centre_y, centre_z, eta, strategy FROM place ORDER BY number");
+    while (rows.step()) {
+      Place place;
+      place.number = static_cast<uint32_t>(rows.integer(0));
+      place.centre_m = {rows.real(1), rows.real(2), rows.real(3)};
+      place.eta = rows.real(4);
+      place.strategy = rows.text(5);
+      if (place.number != places.size() + 1 || !isNear(place.centre_m) || !(place.eta > 0 && place.eta <= 1))
+        throw std::runtime_error("a place is damaged; take the backup");
+      place.points = readPoints(database_.get(), place.number);
+      place.releases = readReleases(database_.get(), place);
+      places.push_back(std::move(place));
+    }
+    return places;
+  } catch (const std::runtime_error &error) {
+    refuse(path_, error.what());
+  }
+}
+
+void Ledger::record(const Place &place) {
+  run("BEGIN IMMEDIATE");
+  try {
+    writePlace(database_.get(), place);
+  } catch (const std::runtime_error &error) {
+    sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+    refuse(path_, error.what());
+  }
+  run("COMMIT");
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,173 @@
+#include "host/publish/map_writer.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "host/publish/descriptor_index.h"
+#include "runtime/map/crc32.h"
+#include "runtime/map/layout.h"
+#include "runtime/map/packed_direction.h"
+#include "runtime/stages/features/extractor.h"
+
+namespace sphc::host {
+namespace {
+
+PackedDirection packOnce(const Vector3 &direction) {
+  const double sum = direction.cwiseAbs().sum();
+  double u = direction.x() / sum, v = direction.y() / sum;
+  if (direction.z() < 0) {
+    const double folded_u = (1 - std::abs(v)) * (u < 0 ? -1 : 1);
+    v = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
+    u = folded_u;
+  }
+  const auto pack = [](double x) { return static_cast<uint16_t>(32768 + std::lround(x * 32767)); };
+  return {pack(u), pack(v)};
+}
+
+size_t alignUp(size_t offset) { return (offset + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment; }
+
+// Appends sections to a file, in ascending order of type.
+class Sections {
+ public:
+  explicit Sections(std::vector<uint8_t> *file) : file_(file) {
+    file_->resize(sizeof(MapHeader) + kMapSections * sizeof(MapSection));
+  }
+
+  template <typename T>
+  void add(SectionType type, const std::vector<T> &elements) {
+    const size_t offset = alignUp(file_->size()), bytes = sizeof(T) * elements.size();
+    file_->resize(offset + bytes);
+    std::memcpy(file_->data() + offset, elements.data(), bytes);
+    table_.push_back({type, sizeof(T), offset, bytes, crc32(0, elements.data(), bytes), 0});
+  }
+  const std::vector<MapSection> &table() const { return table_; }
+
+ private:
+  std::vector<uint8_t> *file_;
+  std::vector<MapSection> table_;
+};
+
+template <typename T>
+std::vector<T> inOrder(const std::vector<T> &items, const std::vector<uint32_t> &order) {
+  std::vector<T> sorted;
+  sorted.reserve(items.size());
+  for (uint32_t from : order) sorted.push_back(items[from]);
+  return sorted;
+}
+
+MapId unhex(const std::string &text) {
+  MapId id = {};
+  if (text.size() != 2 * id.size() || text.find_first_not_of("0123456789abcdef") != std::string::npos)
+    throw std::runtime_error("map_id is not 32 hexadecimal digits");
+  for (size_t i = 0; i < id.size(); ++i)
+    id[i] = static_cast<uint8_t>(std::stoul(text.substr(2 * i, 2), nullptr, 16));
+  return id;
+}
+
+}  // namespace
+
+PackedDirection packDirection(const Vector3 &direction) {
+  // On the edges of the square a direction has two encodings: the second round chooses one.
+  const Direction d = unpackDirection(packOnce(direction));
+  return packOnce({static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)});
+}
+
+std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
+  std::vector<PackedDirection> directions;
+  std::vector<Descriptor> descriptors;
+  directions.reserve(cloud.points.size());
+  descriptors.reserve(cloud.points.size());
+  for (const SpherePoint &point : cloud.points) {
+    directions.push_back(packDirection(point.direction));
+    descriptors.push_back(point.descriptor);
+  }
+
+  const DescriptorIndex index = makeIndex(descriptors, directions);
+  std::vector<uint8_t> file;
+  Sections sections(&file);
+  sections.add(kSectionDirections, inOrder(directions, index.order));
+  sections.add(kSectionDescriptors, inOrder(descriptors, index.order));
+  sections.add(kSectionRuns, index.runs);
+  sections.add(kSectionCentroids, index.centroids);
+  sections.add(kSectionGroups, index.groups);
+  sections.add(kSectionGroupCentroids, index.group_centroids);
+
+  MapHeader header = {};
+  std::memcpy(header.magic, kMapMagic, sizeof kMapMagic);
+  header.version = kMapVersion;
+  header.extractor = kExtractorId;
+  header.file_bytes = file.size();
+  header.point_count = static_cast<uint32_t>(cloud.points.size());
+  header.section_count = kMapSections;
+  std::memcpy(header.map_id, map_id.data(), map_id.size());
+  header.cell_count = static_cast<uint32_t>(index.centroids.size());
+  header.group_count = static_cast<uint32_t>(index.group_centroids.size());
+  header.sector_side = index.sector_side;
+  const size_t table_bytes = kMapSections * sizeof(MapSection);
+  header.crc32 = crc32(crc32(0, &header, sizeof header), sections.table().data(), table_bytes);
+  std::memcpy(file.data(), &header, sizeof header);
+  std::memcpy(file.data() + sizeof header, sections.table().data(), table_bytes);
+  return file;
+}
+
+void writeFile(const std::string &path, const std::vector<uint8_t> &bytes) {
+  const std::string beside = path + ".part";
+  std::ofstream out(beside, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char *>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out || std::rename(beside.c_str(), path.c_str()) != 0) {
+    std::remove(beside.c_str());
+    throw std::runtime_error(path + " cannot be written; is the folder there and the disk not full?");
+  }
+}
+
+std::string hexText(const uint8_t *bytes, size_t count) {
+  std::string text;
+  char digits[3];
+  for (size_t i = 0; i < count; ++i) {
+    std::snprintf(digits, sizeof digits, "%02x", bytes[i]);
+    text += digits;
+  }
+  return text;
+}
+
+void writeOwnerNote(const std::string &path, const OwnerNote &note) {
+  const nlohmann::ordered_json json = {
+      {"format", "spherecloud-owner-note"},
+      {"version", 1},
+      {"private", "the map's owner keeps this file; whoever has it knows where the map's centre is"},
+      {"map_id", hexText(note.map_id.data(), note.map_id.size())},
+      {"centre_in_world_m", {note.centre_in_world_m.x(), note.centre_in_world_m.y(), note.centre_in_world_m.z()}},
+      {"eta", note.eta},
+      {"strategy", note.strategy}};
+  const std::string text = json.dump(2) + "\n";
+  writeFile(path, std::vector<uint8_t>(text.begin(), text.end()));
+}
+
+OwnerNote readOwnerNote(const std::string &path) {
+  std::ifstream in(path);
+  if (!in)
+    throw std::runtime_error("owner's note " + path +
+                             " cannot be read; spherecloud build writes it beside the map");
+  try {
+    const nlohmann::json json = nlohmann::json::parse(in);
+    if (json.at("format") != "spherecloud-owner-note" || json.at("version") != 1)
+      throw std::runtime_error("it is not an owner's note of version 1");
+    const auto &centre = json.at("centre_in_world_m");
+    OwnerNote note;
+    note.map_id = unhex(json.at("map_id").get<std::string>());
+    if (centre.size() != 3) throw std::runtime_error("centre_in_world_m must have three numbers");
+    for (int i = 0; i < 3; ++i) note.centre_in_world_m[i] = centre.at(static_cast<size_t>(i)).get<double>();
+    note.eta = json.at("eta").get<double>();
+    note.strategy = json.at("strategy").get<std::string>();
+    return note;
+  } catch (const std::exception &error) {
+    throw std::runtime_error("owner's note " + path + ": " + error.what());
+  }
+}
+
+}  // namespace sphc::host

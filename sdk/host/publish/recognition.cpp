@@ -1,0 +1,63 @@
+#include "host/publish/recognition.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/import/point_grid.h"
+#include "host/publish/alignment.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr size_t kPaired = 12000;     // points of a model that look for their like
+constexpr double kMostSlackM = 0.15;  // however uncertain two points are, no further apart are they one
+constexpr double kCubeM = 0.1;
+
+// What a model point at `position_m` of the place is.
+Identity identityAt(const Vector3 &position_m, const ModelPoint &point, const Place &place, const PointGrid &grid) {
+  Identity identity = Identity::kNew;
+  const double farthest = kSamePoint.radius_m + kMostSlackM;
+  grid.forEachNear(position_m, farthest, [&](size_t i, double distance_m) {
+    const ModelPoint &known = place.points[i].seen;
+    const double slack = std::min(kMostSlackM, 3 * std::hypot(point.sigma_m, known.sigma_m));
+    if (identity == Identity::kKnown || distance_m > kSamePoint.radius_m + slack) return;
+    const double apart = descriptorDistance(point.descriptor, known.descriptor);
+    if (apart < kSamePoint.descriptor_distance)
+      identity = Identity::kKnown;
+    else if (apart < kMaybeSamePoint.descriptor_distance)
+      identity = Identity::kAmbiguous;
+  });
+  return identity;
+}
+
+// Known where any of the alignments says so.
+Identity identityOf(const ModelPoint &point, const std::vector<Similarity> &place_from_model, const Place &place,
+                    const PointGrid &grid) {
+  Identity identity = Identity::kNew;
+  for (const Similarity &alignment : place_from_model) {
+    const Identity here = identityAt(alignment * point.position_m, point, place, grid);
+    if (here == Identity::kKnown) return here;
+    if (here == Identity::kAmbiguous) identity = here;
+  }
+  return identity;
+}
+
+}  // namespace
+
+Recognition recognize(const Place &place, const PointModel &model) {
+  std::vector<ModelPoint> known;
+  PointGrid grid(kCubeM);
+  for (const PlacePoint &point : place.points) {
+    grid.add(point.seen.position_m, known.size());
+    known.push_back(point.seen);
+  }
+  Recognition recognition;
+  recognition.place_from_model = alignments(pairByDescriptor(known, model.points, kPaired));
+  for (const ModelPoint &point : model.points) {
+    recognition.identities.push_back(identityOf(point, recognition.place_from_model, place, grid));
+    recognition.known += recognition.identities.back() == Identity::kKnown;
+  }
+  return recognition;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,30 @@
+// Is this a place that we know, and which of its points are these?
+#pragma once
+#include <vector>
+
+#include "host/import/near_duplicates.h"
+#include "host/publish/place.h"
+#include "host/publish/similarity.h"
+
+namespace sphc::host {
+
+// Of one release, merged before it: near-duplicates give each other away.
+constexpr NearDuplicateRule kReleaseNearDuplicates = {0.06, 200};
+// Points of a place are never published beside these: the radius grows with the points' own uncertainty.
+constexpr NearDuplicateRule kSamePoint = {0.06, 260};
+// Near, but only somewhat alike: it may be the same point, so it is left out.
+constexpr NearDuplicateRule kMaybeSamePoint = {0.06, 340};
+
+enum class Identity : uint8_t { kNew, kKnown, kAmbiguous };
+
+struct Recognition {
+  // Of the model's frame, largest support first, then those of things that were moved since.  Empty: another place.
+  std::vector<Similarity> place_from_model;
+  std::vector<Identity> identities;  // of each model point
+  size_t known = 0;
+};
+
+// By descriptors that match and positions that agree, whatever frame the model is in.
+Recognition recognize(const Place &place, const PointModel &model);
+
+}  // namespace sphc::host

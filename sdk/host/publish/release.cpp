@@ -1,0 +1,204 @@
+#include "host/publish/release.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "host/publish/map_writer.h"
+#include "host/publish/recognition.h"
+#include "runtime/map/crc32.h"
+#include "runtime/map/packed_direction.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr double kDefaultEta = 1.0 / 3;
+constexpr double kSamePlaceShare = 1.0 / 3;  // of a recording's points that are known makes it one of that place
+constexpr size_t kLeastBatch = 64;           // fewer new points have too few others to hide among
+constexpr double kNearestM = 0.01;           // a point so near to the centre has no direction worth having
+constexpr double kFarthestM = 1e6;
+
+std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
+
+void checkModel(const PointModel &model, const ReleaseRequest &request) {
+  if (request.eta && !(*request.eta > 0 && *request.eta <= 1))
+    throw std::runtime_error("eta is " + std::to_string(*request.eta) + "; it must lie in (0, 1]");
+  for (const ModelPoint &point : model.points)
+    if (!point.position_m.allFinite() || point.position_m.norm() > kFarthestM)
+      throw std::runtime_error("the model has a point that is nowhere near; are the recording's poses in metres?");
+}
+
+std::vector<Recognition> recognizeAll(const std::vector<Place> &places, const PointModel &model) {
+  std::vector<Recognition> recognitions;
+  for (const Place &place : places) recognitions.push_back(recognize(place, model));
+  return recognitions;
+}
+
+// The place that knows most of the model's points, if it knows enough of them; else null.
+const Recognition *samePlace(const std::vector<Recognition> &recognitions, const PointModel &model) {
+  const Recognition *best = nullptr;
+  for (const Recognition &r : recognitions)
+    if (!best || r.known > best->known) best = &r;
+  const double least = kSamePlaceShare * static_cast<double>(model.points.size());
+  return best && best->known > 0 && static_cast<double>(best->known) >= least ? best : nullptr;
+}
+
+void refuseForeign(const Recognition *recognition, const PointModel &model) {
+  if (!recognition) return;
+  const double share = static_cast<double>(recognition->known) / static_cast<double>(model.points.size());
+  throw std::runtime_error(percent(share) +
+                           " of the recording's points were released by another ledger (--against). A second, "
+                           "independent map of one place "
+                           "exposes what both have. Update that ledger's map with --ledger, or publish with "
+                           "--new-place only what it does "
+                           "not have, or say --i-understand");
+}
+
+void refuseChange(const Place &place, const ReleaseRequest &request) {
+  char was[64];
+  std::snprintf(was, sizeof was, "place %u was released with eta %.4g", place.number, place.eta);
+  const char *cure =
+      "; the assignments of its points cannot change any more, since points that are real in two ways of hiding "
+      "them are "
+      "exposed. Leave the option out, or publish with --new-place only what is not released yet, or say "
+      "--i-understand";
+  if (request.eta && std::abs(*request.eta - place.eta) > 1e-9) throw std::runtime_error(was + std::string(cure));
+  if (request.strategy && request.strategy->name() != place.strategy)
+    throw std::runtime_error(was + (" and fakes '" + place.strategy + "', not '" + request.strategy->name() + "'") +
+                             cure);
+}
+
+// Points that nobody has published, sorting out the others.
+std::vector<ModelPoint> freshPoints(const PointModel &model, const Recognition *own,
+                                    const std::vector<const Recognition *> &others, ReleaseSummary *summary) {
+  std::vector<ModelPoint> fresh;
+  for (size_t i = 0; i < model.points.size(); ++i) {
+    const Identity here = own ? own->identities[i] : Identity::kNew;
+    const bool elsewhere = std::any_of(others.begin(), others.end(),
+                                       [i](const Recognition *r) { return r->identities[i] != Identity::kNew; });
+    summary->known += here == Identity::kKnown;
+    summary->ambiguous += here == Identity::kAmbiguous;
+    summary->elsewhere += here == Identity::kNew && elsewhere;
+    if (here == Identity::kNew && !elsewhere) fresh.push_back(model.points[i]);
+  }
+  return fresh;
+}
+
+Place newPlace(const std::vector<ModelPoint> &points, const ReleaseRequest &request) {
+  Place place;
+  place.number = static_cast<uint32_t>(request.own.size() + 1);
+  place.eta = request.eta.value_or(kDefaultEta);
+  place.strategy = request.strategy ? request.strategy->name() : kDefaultFakes;
+  if (!points.empty()) place.centre_m = centreOf(points);
+  return place;
+}
+
+// Gives the points their assignments, once and for all.  How many there are.
+size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Place *place) {
+  const auto at_centre = [&](const ModelPoint &p) { return (p.position_m - place->centre_m).norm() < kNearestM; };
+  points.erase(std::remove_if(points.begin(), points.end(), at_centre), points.end());
+  const size_t real = static_cast<size_t>(place->eta * static_cast<double>(points.size()));
+  const uint32_t release = static_cast<uint32_t>(place->releases.size() + 1);
+  if (points.size() < kLeastBatch || real == 0)
+    throw std::runtime_error("there are " + std::to_string(points.size()) +
+                             " points to publish, too few for a map; record more frames, slower, in better light");
+  if (place->points.size() + points.size() > kMapMaxPoints)
+    throw std::runtime_error("the place has too many points for one map; make a map of a part of it");
+  SecretRandom random(derivedKey(request.key, "assignments of place " + std::to_string(place->number) +
+                                                  " release " + std::to_string(release)));
+  shuffle(&points, &random);
+  std::vector<SpherePoint> directions;
+  for (const ModelPoint &point : points) directions.push_back(seenFrom(place->centre_m, point));
+  const std::unique_ptr<FakeStrategy> usual = request.strategy ? nullptr : makeFakes(place->strategy);
+  const FakeStrategy &strategy = request.strategy ? *request.strategy : *usual;
+  const std::vector<Assignment> assignments = strategy.assignments(directions, real, &random);
+  for (size_t i = 0; i < points.size(); ++i)
+    place->points.push_back({points[i], packDirection(assignments[i].shown.direction),
+                             assignments[i].shown.descriptor, assignments[i].real, release});
+  return points.size();
+}
+
+// Names the release by what it holds; none is added when the last one held the same.
+NewRelease finish(Place place, const ReleaseRequest &request, const ReleaseSummary &summary) {
+  const SphereCloud cloud = publishedCloud(place, request.key);
+  std::vector<uint8_t> content;
+  for (const PlacePoint &point : place.points) {
+    content.insert(content.end(), point.descriptor.bytes, point.descriptor.bytes + kDescriptorBytes);
+    for (int coordinate : {point.direction.u, point.direction.v})
+      content.insert(content.end(), {static_cast<uint8_t>(coordinate), static_cast<uint8_t>(coordinate >> 8)});
+  }
+  MapId id;
+  const std::vector<uint8_t> name = keyedHash(request.key, "map id", content, id.size());
+  std::copy(name.begin(), name.end(), id.begin());
+  NewRelease made = {std::move(place), encodeMap(cloud, id), summary};
+  made.summary.is_same = !made.place.releases.empty() && made.place.releases.back().map_id == id;
+  if (!made.summary.is_same)
+    made.place.releases.push_back({id, crc32(0, made.file.data(), made.file.size()),
+                                   static_cast<uint32_t>(made.place.points.size()), request.time_s});
+  return made;
+}
+
+std::vector<const Recognition *> allBut(const Recognition *one, const std::vector<Recognition> &own,
+                                        const std::vector<Recognition> &foreign) {
+  std::vector<const Recognition *> all;
+  for (const auto *recognitions : {&own, &foreign})
+    for (const Recognition &r : *recognitions)
+      if (&r != one) all.push_back(&r);
+  return all;
+}
+
+void toPlace(const Similarity &place_from_world, std::vector<ModelPoint> *points) {
+  for (ModelPoint &point : *points) {
+    point.position_m = place_from_world * point.position_m;
+    point.sigma_m *= place_from_world.scale;
+  }
+}
+
+}  // namespace
+
+SphereCloud publishedCloud(const Place &place, const SecretKey &key) {
+  SecretRandom random(derivedKey(key, "order of place " + std::to_string(place.number)));
+  // Each point draws its rank once, so that those of earlier releases keep their order.
+  std::vector<uint64_t> ranks;
+  for (size_t i = 0; i < place.points.size(); ++i) ranks.push_back(random.next());
+  std::vector<size_t> order(place.points.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return ranks[a] < ranks[b]; });
+  SphereCloud cloud;
+  for (size_t i : order) {
+    const Direction d = unpackDirection(place.points[i].direction);
+    cloud.points.push_back({Eigen::Vector3f(d.x, d.y, d.z).cast<double>(), place.points[i].descriptor});
+  }
+  return cloud;
+}
+
+NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
+  checkModel(all, request);
+  const PointModel model = withoutNearDuplicates(all, kReleaseNearDuplicates);
+  ReleaseSummary summary;
+  summary.twins = all.points.size() - model.points.size();
+  const bool blind = request.understood;
+  const auto own = recognizeAll(blind ? std::vector<Place>() : request.own, model);
+  const auto foreign = recognizeAll(blind ? std::vector<Place>() : request.foreign, model);
+  if (!request.new_place) refuseForeign(samePlace(foreign, model), model);
+  const Recognition *here = request.new_place ? nullptr : samePlace(own, model);
+  std::vector<ModelPoint> fresh = freshPoints(model, here, allBut(here, own, foreign), &summary);
+  Place place;
+  if (here) {
+    place = request.own[static_cast<size_t>(here - own.data())];
+    refuseChange(place, request);
+    summary.is_update = true;
+    summary.place_from_world = here->place_from_model.front();
+    toPlace(summary.place_from_world, &fresh);
+    if (fresh.size() < kLeastBatch) summary.held_back = fresh.size();
+  } else {
+    place = newPlace(fresh, request);
+  }
+  if (!summary.held_back && !(here && fresh.empty())) summary.added = publish(std::move(fresh), request, &place);
+  return finish(std::move(place), request, summary);
+}
+
+}  // namespace sphc::host

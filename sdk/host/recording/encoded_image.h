@@ -1,0 +1,29 @@
+// The bytes of PNG and JPEG files: made, and decoded into memory that is there already.
+#pragma once
+
+#include "host/recording/mcap/bytes.h"
+#include "pixels.h"
+
+namespace sphc::replay {
+
+// Fills `pixels` with an image of the camera's size: DEPTH16, or colour in `format`.  Throws Failure without a
+// name: DEVICE when the bytes are corrupt or cut, IMAGE when the image does not fit the calibration.
+void decodeImage(ByteView encoded, const sphc_camera &camera, sphc_format format, uint8_t *pixels);
+
+class ImageEncoder {
+ public:
+  // The image was checked.  Valid until the next call; throws Failure.
+  ByteView png(const sphc_image &image);  // of fast compression
+  ByteView jpeg(const sphc_image &image, uint32_t quality);
+
+ private:
+  ByteView encode(const sphc_image &image, const char *extension, const std::vector<int> &options);
+
+  Bytes bgr_;  // of an RGB image
+  Bytes encoded_;
+};
+
+// IMAGE unless the size is the camera's.
+void requireSize(uint32_t width, uint32_t height, const sphc_camera &camera, bool is_color);
+
+}  // namespace sphc::replay

@@ -1,0 +1,69 @@
+// What a recording holds, folder or file: images by time, poses by time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "drivers/replay/replay.h"
+#include "host/recording/mcap/messages.h"
+#include "host/recording/mcap/walk.h"
+#include "pose_track.h"
+
+namespace sphc::replay {
+
+// Where an image is in an MCAP file.
+struct MessagePlace {
+  Kind kind;
+  uint32_t chunk;  // index in Recording::chunks
+  uint64_t start;  // of the message's data, in the file
+  uint64_t bytes;
+};
+
+struct RecordedImage {
+  int64_t time_ns;
+  uint32_t sequence;
+  std::string file;         // relative to the folder
+  CaptureNote note = {};    // what else is known, in an MCAP file
+  MessagePlace place = {};  // likewise
+};
+
+struct Recording {
+  sphc_replay_layout layout = 0;
+  std::filesystem::path path;        // of the folder or the MCAP file
+  std::vector<RecordedImage> color;  // times increase
+  std::vector<RecordedImage> depth;  // times increase
+  PoseTrack poses;
+  uint32_t bad_pose_count = 0;
+
+  // Of an MCAP file.
+  sphc_calibration calibration = {};
+  std::vector<ChunkPlace> chunks;
+  uint64_t lost_count = 0;
+  uint32_t bad_chunk_count = 0;
+  bool is_cut = false;
+};
+
+struct FramePair {
+  uint32_t color;  // index in Recording::color
+  uint32_t depth;
+};
+
+// Finds the layout and reads lists and poses, no image; throws Failure.
+Recording openRecording(const std::filesystem::path &path);
+
+// Keeps the frames that the config chooses; throws Failure when it chooses none.
+void selectFrames(const sphc_replay_config &config, Recording &recording);
+
+// Each colour image with the depth image nearest in time, where there is one within the tolerance.
+std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_ns);
+
+// The layouts.
+bool is7Scenes(const std::filesystem::path &folder);
+Recording open7Scenes(const std::filesystem::path &folder);
+bool isTum(const std::filesystem::path &folder);
+Recording openTum(const std::filesystem::path &folder);
+Recording openMcap(const std::filesystem::path &file);
+
+}  // namespace sphc::replay

@@ -1,0 +1,226 @@
+
+#include <filesystem>
+#include <memory>
+
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/progress.h"
+#include "host/cli/common/recording_options.h"
+#include "host/evaluate/localize_run.h"
+#include "host/evaluate/map_file.h"
+#include "host/evaluate/played_odometry.h"
+#include "host/report/file.h"
+#include "lab/cli/commands.h"
+#include "lab/cli/options.h"
+#include "lab/cli/words.h"
+#include "lab/frame/ours.h"
+#include "lab/frame/peer.h"
+#include "lab/frame/plots.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  RecordingOptions recording;
+  RecordingOptions mapping;  // folder and calibration are those of `recording`
+  std::vector<std::string> maps, only;
+  uint32_t repeats = 3;
+  std::string name, python = "python3", out, results;
+  bool no_peers = false;
+};
+
+// A map with what only its owner knows.
+struct OwnedMap {
+  MapFile file;
+  Vector3 centre_in_world_m;
+};
+
+OwnedMap openOwnedMap(const std::string &path) {
+  OwnedMap map = {openMapFile(path), Vector3::Zero()};
+  map.centre_in_world_m = centreByNote(path + ".owner.json", map.file, path);
+  return map;
+}
+
+class FrameCommand {
+ public:
+  FrameCommand(const Options &options, const Console &console)
+      : options_(options), console_(console), replay_(openRecording(options.recording)) {
+    config_ = spherecloud::defaultConfig();
+    setCameras(calibrationOf(replay_.get()), &config_);
+    if (!options.no_peers) preparePeers();
+  }
+
+  std::vector<FrameTable> measure() {
+    std::vector<FrameTable> tables;
+    for (const std::string &path : options_.maps) {
+      tables.push_back(measureMap(path));
+      console_.say("\n" + frameTableText(tables.back()));
+    }
+    return tables;
+  }
+
+ private:
+  // Absent peers are told; those wanted and present map the place.
+  void preparePeers() {
+    if (options_.mapping.last == UINT32_MAX) {
+      console_.warn("note: no peers: tell which frames they shall map with --mapping-last");
+      return;
+    }
+    auto peers = std::make_unique<FramePeers>(options_.python);
+    std::vector<std::string> chosen;
+    for (const FrameVariant &peer : peers->variants()) {
+      if (!isChosen(options_.only, peer.name)) continue;
+      if (!peer.run) console_.warn("note: " + peer.name + " is absent, " + peer.absent);
+      if (peer.run) chosen.push_back(peer.name);
+    }
+    if (chosen.empty()) return;
+    console_.say("Peers: " + peers->packages() + ".");
+    peers->begin(config_, chosen);
+    peers_ = std::move(peers);
+    mapPeers();
+  }
+
+  void mapPeers() {
+    RecordingOptions mapping = options_.mapping;
+    mapping.folder = options_.recording.folder;
+    mapping.calibration = options_.recording.calibration;
+    const Replay replay = openRecording(mapping);
+    const uint32_t count = sphc_replay_frame_count(replay.get());
+    ProgressBar bar("peers map ");
+    for (uint32_t i = 0; i < count; ++i) {
+      FrameCase frame;
+      if (readFrame(replay.get(), i, &frame))
+        peers_->addMappingFrame(frame.image, frame.truth_camera_from_world.inverse());
+      bar.show(i + 1, count);
+    }
+  }
+
+  // False when the frame cannot be read or has no pose.
+  static bool readFrame(sphc_replay *replay, uint32_t index, FrameCase *frame) {
+    sphc_rigid world_from_camera;
+    if (sphc_replay_pose(replay, index, &world_from_camera) != SPHC_OK) return false;
+    if (sphc_replay_read_frame(replay, index, &frame->image, nullptr) != SPHC_OK) return false;
+    frame->index = index;
+    frame->truth_camera_from_world = rigidFromDoor(world_from_camera).inverse();
+    return true;
+  }
+
+  std::vector<FrameVariant> variantsFor(const OwnedMap &map) {
+    const OurFrames ours = {config_, &map.file.map, map.centre_in_world_m, options_.repeats};
+    std::vector<FrameVariant> all = ourFrameVariants(ours);
+    if (peers_) {
+      const uint32_t points = map.file.map.info().point_count, own = peers_->index(points);
+      console_.say("Peers' map: " + std::to_string(own) + " points of the place, " + std::to_string(points - own) +
+                   " foreign.");
+      all.insert(all.end(), peers_->variants().begin(), peers_->variants().end());
+    }
+    return chosenByName(options_.only, std::move(all));
+  }
+
+  FrameTable measureMap(const std::string &path) {
+    const OwnedMap map = openOwnedMap(path);
+    const std::vector<FrameVariant> variants = variantsFor(map);
+    sphc_replay *replay = replay_.get();
+    PlayedOdometry odometry(replay);
+    const FrameBenchInput input = {sphc_replay_frame_count(replay), options_.repeats,
+                                   [replay, &odometry](uint32_t i, FrameCase *frame) {
+                                     frame->odometry = odometry.at(i);
+                                     return readFrame(replay, i, frame);
+                                   }};
+    ProgressBar bar("measuring ");
+    FrameTable table = {
+        options_.name, std::filesystem::path(path).filename().string(), map.file.map.info().point_count, 0, {}, {}};
+    table.runs = runFrameBench(input, variants, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
+    if (table.runs.empty() || table.runs[0].poses.samples.empty())
+      throw std::runtime_error(
+          "nothing was measured: no variant is there, or no frame has a pose (groundtruth.txt, *.pose.txt)");
+    table.frames = table.runs[0].poses.samples.size();
+    table.summaries = summarizeFrameBench(table.runs);
+    return table;
+  }
+
+  const Options &options_;
+  const Console &console_;
+  Replay replay_;
+  sphc_config config_;
+  std::unique_ptr<FramePeers> peers_;
+};
+
+void writeResult(const Options &options, const std::vector<FrameTable> &tables, const Console &console) {
+  if (!options.results.empty()) writeText(options.results, frameResults(tables));
+  if (options.out.empty()) return;
+  makeFolder(options.out);
+  writeText(options.out + "/frame.csv", frameCsv(tables));
+  sayWritten(options.out, writeDrawings(options.out, frameDrawings(tables)), console);
+}
+
+int run(Options options, const Console &console) {
+  const int core = pinToOneCore();
+  if (options.name.empty()) options.name = std::filesystem::path(options.recording.folder).filename().string();
+  console.say(pinnedText(core, "CPU time"));
+  FrameCommand command(options, console);
+  const std::vector<FrameTable> tables = command.measure();
+  if (tables.size() > 1) console.say(frameScalingText(tables));
+  writeResult(options, tables, console);
+  console.give({{"core", core}, {"repeats", options.repeats}, {"tables", frameJson(tables)}});
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Localizes every frame of a recording by every variant in turn, on one core: the library, cold and\n"
+    "tracking, and package peers (OpenCV, faiss, hnswlib) on an open point map of the same place and size.\n"
+    "Several maps show how time grows with the map.  docs/bench.md says what each column means and how peers\n"
+    "are installed.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud-lab frame --recording kitchen --first 620 --map maps/map_50000.sphc --no-peers\n"
+    "  spherecloud-lab frame --recording kitchen --first 620 --map maps/map_50000.sphc \\\n"
+    "      --mapping-last 597 --mapping-step 3 --out bench\n"
+    "What comes out: a table a map; with --out frame.csv and drawings.  The owner's note must lie beside a map;\n"
+    "spherecloud-lab map makes maps of wanted sizes.";
+
+void addOptions(CLI::App *app, Options *options) {
+  addRecordingOptions(app, &options->recording);
+  app->add_option("-m,--map", options->maps, "Map file; repeat for more")
+      ->required()
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
+  app->add_option("--name", options->name, "Name of the recording in tables [last part of DIR]")->type_name("NAME");
+  app->add_option("--repeat", options->repeats, "Runs of a frame of which the median time counts")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 100u))
+      ->type_name("N");
+  addOnlyOption(app, &options->only, "variant");
+  const char *group = "Peers";
+  app->add_option("--mapping-first", options->mapping.first, "First frame that peers map [0]")
+      ->type_name("N")
+      ->group(group);
+  app->add_option("--mapping-last", options->mapping.last, "Last one; needed for peers")
+      ->type_name("N")
+      ->group(group);
+  app->add_option("--mapping-step", options->mapping.step, "Every N-th of them [1]")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  app->add_flag("--no-peers", options->no_peers, "The library alone")->group(group);
+  app->add_option("--python", options->python, "Python that has the packages")
+      ->capture_default_str()
+      ->type_name("PATH")
+      ->group(group);
+  app->add_option("-o,--out", options->out, "Folder for frame.csv and drawings")->type_name("DIR");
+  app->add_option("--results", options->results, "Write accuracy, ratios and bytes, no milliseconds")
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+Command frameCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("frame");
+  app->description("Whole frames, ours beside package peers.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addOptions(app, options.get());
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,98 @@
+
+#include <filesystem>
+#include <memory>
+
+#include "host/audit/score/release_audit.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/import_recording.h"
+#include "host/cli/common/privacy_results.h"
+#include "host/report/table.h"
+#include "lab/cli/commands.h"
+
+namespace sphc::host {
+namespace {
+
+struct Options {
+  RecordingOptions recording, other, strangers;
+  uint32_t more_last = 0, frames = 25;
+  double eta = 1.0 / 3;
+  std::string name, results, fakes = kDefaultFakes;
+};
+
+void tell(const std::vector<PrivacyRow> &rows, const Console &console) {
+  std::vector<Row> table;
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const PrivacyRow &row : rows) {
+    table.push_back({row.attack + ", " + row.variant, fixed(row.value, 4), row.metric});
+    json.push_back(
+        {{"attack", row.attack}, {"variant", row.variant}, {"metric", row.metric}, {"value", row.value}});
+  }
+  console.say(tableText(table));
+  console.give({{"rows", json}});
+}
+
+int run(Options options, const Console &console) {
+  options.other.folder = options.recording.folder;
+  options.other.calibration = options.recording.calibration;
+  options.other.step = options.recording.step;
+  RecordingOptions more = options.recording;
+  more.last = options.more_last;
+  ReleaseAuditInput input;
+  input.map =
+      options.name.empty() ? std::filesystem::path(options.recording.folder).filename().string() : options.name;
+  input.first = importRecording(options.recording, "mapping   ");
+  input.more = importRecording(more, "10 % more ");
+  input.other = importRecording(options.other, "others    ");
+  input.queries = importFrames(options.other, options.frames, "querying  ");
+  input.strangers = importFrames(options.strangers, options.frames, "strangers ");
+  const auto strategy = makeFakes(options.fakes);
+  const std::vector<PrivacyRow> rows = auditReleases(input, *strategy, options.eta);
+  tell(rows, console);
+  if (!options.results.empty()) updatePrivacyResults(options.results, rows);
+  return kExitDone;
+}
+
+const char kHelp[] =
+    "Publishes one place several times, carelessly and through the release discipline, runs the attacks on\n"
+    "several releases on both, and scores them by what the owner knows.";
+const char kExample[] =
+    "Example:\n"
+    "  spherecloud-lab releases --recording kitchen --last 537 --step 3 --more-last 597 \\\n"
+    "              --other-first 620 --other-last 799 --strangers corridor\n"
+    "More: docs/release.md";
+
+}  // namespace
+
+Command releasesCommand(CLI::App *root) {
+  auto options = std::make_shared<Options>();
+  CLI::App *app = root->add_subcommand("releases");
+  app->description("Attacks on several releases of one place.\n\n" + std::string(kHelp));
+  app->footer(kExample);
+  addRecordingOptions(app, &options->recording);
+  app->add_option("--more-last", options->more_last, "Last frame of the update")->required()->type_name("N");
+  app->add_option("--other-first", options->other.first, "First of the other frames of the place")
+      ->required()
+      ->type_name("N");
+  app->add_option("--other-last", options->other.last, "Last of them")->required()->type_name("N");
+  app->add_option("--strangers", options->strangers.folder, "Recording of another place")
+      ->required()
+      ->type_name("PATH");
+  app->add_option("--strangers-calibration", options->strangers.calibration, "Its calibration")->type_name("FILE");
+  app->add_option("--frames", options->frames, "Single frames of each that attackers have")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  app->add_option("--eta", options->eta, "Share of points that stay real")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1.0))
+      ->type_name("X");
+  app->add_option("--fakes", options->fakes, "How fakes are made")
+      ->capture_default_str()
+      ->check(CLI::IsMember(fakeNames()))
+      ->type_name("NAME");
+  app->add_option("--name", options->name, "Of the map, in the results [the recording's]")->type_name("NAME");
+  app->add_option("--results", options->results, "Update these attacks' rows here")->type_name("CSV");
+  return {app, [options](const Console &console) { return run(*options, console); }};
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,118 @@
+#include "lab/train/measured_place.h"
+
+#include <sstream>
+#include <stdexcept>
+
+#include "host/audit/attack/virtual_camera.h"
+#include "host/audit/score/frame_view.h"
+#include "host/audit/score/look_around.h"
+#include "host/frames/frame_features.h"
+#include "host/frames/frame_images.h"
+#include "host/frames/recording.h"
+#include "host/import/rgbd_import.h"
+#include "host/publish/sphere_cloud.h"
+#include "runtime/base/elementary.h"
+#include "runtime/geometry/rigid.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr double kApartDeg = 20;  // of frames' axes
+
+struct Description {
+  std::string name;
+  RecordingOptions recording;
+};
+
+Description parse(const std::string &text) {
+  Description place;
+  RecordingOptions &recording = place.recording;
+  std::istringstream stream(text);
+  std::string first, last, step;
+  std::getline(stream, place.name, '=');
+  std::getline(stream, recording.folder, ',');
+  std::getline(stream, recording.calibration, ',');
+  if (std::getline(stream, first, ',')) recording.first = static_cast<uint32_t>(std::stoul(first));
+  if (std::getline(stream, last, ',')) recording.last = static_cast<uint32_t>(std::stoul(last));
+  if (std::getline(stream, step, ',')) recording.step = static_cast<uint32_t>(std::stoul(step));
+  if (recording.folder.empty())
+    throw std::runtime_error(text + " is not name=recording,calibration,first,last,step");
+  return place;
+}
+
+// Frames whose axes are far enough from each other.
+class FrameReader {
+ public:
+  FrameReader(sphc_replay *replay, const Camera &camera, const PointModel &model)
+      : replay_(replay),
+        camera_(camera),
+        features_(camera.width(), camera.height(), RgbdImportOptions().max_keypoints) {
+    for (const ModelPoint &point : model.points) {
+      positions_.push_back(point.position_m);
+      descriptors_.push_back(point.descriptor);
+    }
+  }
+
+  void read(MeasuredPlace *place) {
+    std::vector<Vector3> axes;
+    for (uint32_t i = 0; i < sphc_replay_frame_count(replay_); ++i) {
+      sphc_rigid pose;
+      sphc_frame frame;
+      sphc_message message;
+      if (sphc_replay_pose(replay_, i, &pose) != SPHC_OK) continue;
+      const Rigid world_from_camera = rigidFromDoor(pose);
+      const Vector3 axis = world_from_camera.rotation.col(2);
+      if (!farFrom(axis, axes) || sphc_replay_read_frame(replay_, i, &frame, &message) != SPHC_OK) continue;
+      axes.push_back(axis);
+      const GrayView grey = grayOf(frame.color, &grey_);
+      place->frame_truths.push_back(frameView(cv::Mat(grey.height, grey.width, CV_8U, grey_.data()), camera_));
+      place->own_keypoints.push_back(ownKeypoints(grey));
+      place->unprotected.push_back(see(positions_, descriptors_, {}, world_from_camera.inverse()));
+    }
+  }
+
+ private:
+  static bool farFrom(const Vector3 &axis, const std::vector<Vector3> &others) {
+    for (const Vector3 &other : others)
+      if (axis.dot(other) > std::cos(kApartDeg * kPi / 180)) return false;
+    return true;
+  }
+
+  SeenPoints ownKeypoints(const GrayView &grey) {
+    features_.extract(grey);
+    std::vector<Vector3> rays;
+    std::vector<Descriptor> descriptors;
+    for (uint32_t i = 0; i < features_.count(); ++i) {
+      Vector2 ray;
+      if (!camera_.unproject(features_.pixel(i), &ray)) continue;
+      rays.emplace_back(ray.x(), ray.y(), 1);
+      descriptors.push_back(features_.descriptor(i));
+    }
+    return see(rays, descriptors, {}, {});
+  }
+
+  sphc_replay *replay_;
+  Camera camera_;
+  FrameFeatures features_;
+  std::vector<uint8_t> grey_;
+  std::vector<Vector3> positions_;
+  std::vector<Descriptor> descriptors_;
+};
+
+}  // namespace
+
+MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
+  const Description described = parse(description);
+  const Replay replay = openRecording(described.recording);
+  RgbdImportSummary summary;
+  const PointModel model = importRgbd(replay.get(), {}, {}, &summary);
+  MeasuredPlace place;
+  place.name = described.name;
+  Vector3 centre_m;
+  place.points = makeSphereCloud(model, {1}, *gaussianFakes(), random, &centre_m).points;
+  place.centre_views = viewsFromCentre(replay.get(), centre_m);
+  FrameReader(replay.get(), Camera(calibrationOf(replay.get()).color_camera), model).read(&place);
+  return place;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,28 @@
+#include "host/evaluate/map_anatomy.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/host/cli/command_runner.h"
+
+namespace sphc::host {
+namespace {
+
+TEST(MapAnatomy, OfAnEvenSpiral) {
+  const TempFolder folder;
+  writeTinyMap(folder / "spiral.sphc", 3000);
+  const MapFile file = openMapFile(folder / "spiral.sphc");
+  const MapFacts facts = mapFacts(file, folder / "spiral.sphc");
+  const MapAnatomy anatomy = dissect(file, facts);
+  EXPECT_GT(anatomy.covered_percent, 99);
+  EXPECT_LT(anatomy.lopsidedness, 0.01);
+  // 3000 even directions are about sqrt(4 pi / 3000) apart.
+  EXPECT_NEAR(anatomy.nearest_median_deg, 3.5, 0.5);
+}
+
+TEST(HexText, HasTwoDigitsAByte) {
+  const uint8_t bytes[] = {0x00, 0xA5, 0xFF};
+  EXPECT_EQ(hexText(bytes, 3), "00a5ff");
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,93 @@
+#include "host/live/geometry_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <memory>
+
+#include "drivers/simulated/simulated.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr uint32_t kFrames = 4;
+
+struct Images {
+  std::vector<uint8_t> color;
+  std::vector<uint16_t> depth;
+};
+
+// A few views of the simulated room, rendered once.
+class GeometryCheckTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    sphc_simulated_config config;
+    sphc_simulated_config_init(&config, sizeof config);
+    config.frame_count = kFrames;
+    config.frame_rate_hz = 0.5;  // far apart
+    sphc_simulated *simulated = nullptr;
+    ASSERT_EQ(sphc_simulated_open(&config, &simulated, nullptr), SPHC_OK);
+    sphc_calibration_init(&calibration_, sizeof calibration_);
+    sphc_simulated_cameras(simulated, &calibration_.color_camera, &calibration_.depth_camera,
+                           &calibration_.color_from_depth);
+    for (uint32_t i = 0; i < kFrames; ++i) {
+      Images images;
+      images.color.resize(size_t{3} * calibration_.color_camera.width * calibration_.color_camera.height);
+      images.depth.resize(size_t{calibration_.depth_camera.width} * calibration_.depth_camera.height);
+      sphc_simulated_render_color(simulated, i, images.color.data());
+      sphc_simulated_render_depth(simulated, i, images.depth.data());
+      images_.push_back(std::move(images));
+    }
+    sphc_simulated_close(&simulated);
+  }
+  static void TearDownTestSuite() { images_.clear(); }
+
+  using Spoil = std::function<void(std::vector<uint16_t> *depth)>;
+  Finding look(
+      const sphc_calibration &calibration, const Spoil &spoil = [](std::vector<uint16_t> *) {}) {
+    GeometryCheck check(calibration);
+    const sphc_camera &c = calibration.color_camera, &d = calibration.depth_camera;
+    for (const Images &images : images_) {
+      std::vector<uint16_t> depth = images.depth;
+      spoil(&depth);
+      check.look({images.color.data(), c.width, c.height, 3 * c.width, SPHC_FORMAT_RGB8},
+                 {depth.data(), d.width, d.height, 2 * d.width, SPHC_FORMAT_DEPTH16});
+    }
+    return check.finding();
+  }
+
+  static sphc_calibration calibration_;
+  static std::vector<Images> images_;
+};
+sphc_calibration GeometryCheckTest::calibration_;
+std::vector<Images> GeometryCheckTest::images_;
+
+TEST_F(GeometryCheckTest, ATrueCalibrationIsFine) {
+  const Finding finding = look(calibration_);
+  EXPECT_EQ(finding.grade, Finding::Grade::kFine) << finding.text;
+}
+
+TEST_F(GeometryCheckTest, MirroringAndTurningAreNamed) {
+  const uint32_t width = calibration_.depth_camera.width;
+  const Finding mirrored = look(calibration_, [width](std::vector<uint16_t> *depth) {
+    for (auto row = depth->begin(); row != depth->end(); row += width) std::reverse(row, row + width);
+  });
+  EXPECT_EQ(mirrored.grade, Finding::Grade::kWrong);
+  EXPECT_NE(mirrored.text.find("mirrored"), std::string::npos) << mirrored.text;
+  const Finding turned =
+      look(calibration_, [](std::vector<uint16_t> *depth) { std::reverse(depth->begin(), depth->end()); });
+  EXPECT_EQ(turned.grade, Finding::Grade::kWrong);
+  EXPECT_NE(turned.text.find("half a turn"), std::string::npos) << turned.text;
+}
+
+TEST_F(GeometryCheckTest, ABlankWallTellsNothing) {
+  const Finding finding = look(
+      calibration_, [](std::vector<uint16_t> *depth) { std::fill(depth->begin(), depth->end(), uint16_t{2000}); });
+  EXPECT_EQ(finding.grade, Finding::Grade::kDoubtful);
+  EXPECT_NE(finding.text.find("too few edges"), std::string::npos) << finding.text;
+}
+
+}  // namespace
+}  // namespace sphc::host

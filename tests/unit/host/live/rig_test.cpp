@@ -1,0 +1,115 @@
+#include "host/live/rig.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/contract/temp_folder.h"
+#include "tests/contract/tiny_recording.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr uint32_t kFrames = 6;
+
+std::string messageOf(const std::function<void()> &call) {
+  try {
+    call();
+  } catch (const std::exception &error) {
+    return error.what();
+  }
+  return "";
+}
+
+class RigTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string walk = folder_ / "walk";
+    contract::writeTinyRecording(walk, kFrames);
+    options_.both = "replay:" + walk;
+  }
+  std::unique_ptr<Rig> open() {
+    return std::make_unique<Rig>(options_, [this](const std::string &trouble) { troubles_ += trouble + "\n"; });
+  }
+
+  contract::TempFolder folder_;
+  RigOptions options_;
+  std::string troubles_;
+};
+
+TEST_F(RigTest, GivesEveryPairOfARecordingAndThenItsEnd) {
+  const auto rig = open();
+  EXPECT_TRUE(rig->waits());
+  sphc_calibration calibration = {};
+  ASSERT_TRUE(rig->calibration(&calibration));
+  EXPECT_EQ(calibration.color_camera.width, contract::kColorWidth);
+  uint32_t captures = 0, pairs = 0;
+  rig->watch([&](const sphc_capture &) { ++captures; });
+  sphc_pair pair = {};
+  Rig::Got got;
+  while ((got = rig->next(std::chrono::seconds(10), &pair)) == Rig::Got::kPair) {
+    EXPECT_EQ(pair.color.sequence, pairs);
+    EXPECT_EQ(pair.depth.sequence, pairs);
+    EXPECT_EQ(pair.depth.time_ns - pair.color.time_ns, contract::kDepthLagNs);
+    ++pairs;
+    rig->release(pair);
+  }
+  EXPECT_EQ(got, Rig::Got::kEnd);
+  EXPECT_EQ(pairs, kFrames);
+  EXPECT_EQ(captures, 2 * kFrames);
+  EXPECT_EQ(rig->counts().pairs, kFrames);
+  EXPECT_EQ(rig->next(std::chrono::milliseconds(0), &pair), Rig::Got::kEnd);
+  EXPECT_EQ(troubles_, "");
+}
+
+TEST_F(RigTest, WhatIsTooFarApartIsNoPair) {
+  options_.tolerance_ms = 0.5;  // depth lags by a millisecond
+  const auto rig = open();
+  sphc_pair pair = {};
+  EXPECT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kEnd);
+  const sphc_pairer_counts counts = rig->counts();
+  EXPECT_EQ(counts.pairs, 0u);
+  EXPECT_EQ(counts.too_far + counts.overtaken + counts.full + counts.ended, 2 * kFrames);
+}
+
+// Two cameras, each with a clock of its own: both come out on the host's.
+TEST_F(RigTest, TwoCamerasShareTheClockOfTheHost) {
+  options_.color = options_.depth = options_.both;
+  options_.both.clear();
+  options_.tolerance_ms = 1000;
+  const auto rig = open();
+  uint32_t captures = 0;
+  rig->watch([&](const sphc_capture &capture) {
+    EXPECT_EQ(capture.clock, SPHC_CLOCK_MONOTONIC);
+    EXPECT_LT(capture.time_ns, contract::kFirstNs);  // the recording's own times are of the year 2011
+    ++captures;
+  });
+  sphc_pair pair = {};
+  uint32_t pairs = 0;
+  while (rig->next(std::chrono::seconds(10), &pair) == Rig::Got::kPair) {
+    rig->release(pair);
+    ++pairs;
+  }
+  EXPECT_EQ(captures, 2 * kFrames);
+  EXPECT_GT(pairs, 0u);
+}
+
+TEST_F(RigTest, SaysWhatCannotBeOpenedAndTheCure) {
+  const Wish both, color = [] {
+    Wish wish;
+    wish.depth = false;
+    return wish;
+  }();
+  const auto says = [](const std::string &spec, const Wish &wish) {
+    return messageOf([&] { openDevice(spec, wish); });
+  };
+  EXPECT_NE(says("webcam:0", both).find("v4l2:, libcamera:"), std::string::npos);
+  EXPECT_NE(says("v4l2:/dev/video0", both).find("--color and --depth"), std::string::npos);
+  EXPECT_NE(says("v4l2:/dev/no-such-camera", color).find("/dev/no-such-camera"), std::string::npos);
+  EXPECT_NE(says("libcamera:", both).find("--depth v4l2:"), std::string::npos);
+  EXPECT_NE(says("simulated:", color).find("--device simulated:"), std::string::npos);
+  EXPECT_NE(says("replay:/no/such/walk", both).find("/no/such/walk"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,88 @@
+#include "host/live/stream_check.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace sphc::host {
+namespace {
+
+using Grade = Finding::Grade;
+constexpr uint32_t kWidth = 64, kHeight = 48;
+
+class StreamCheckTest : public testing::Test {
+ protected:
+  StreamCheckTest() {
+    sphc_calibration_init(&calibration_, sizeof calibration_);
+    calibration_.color_camera =
+        calibration_.depth_camera = {SPHC_CAMERA_PINHOLE, kWidth, kHeight, 4, {50, 50, 32, 24}};
+  }
+  void feed(StreamCheck *check, sphc_stream stream, uint16_t value, uint32_t frames = 20, uint32_t skip = 0) {
+    const bool color = stream == SPHC_STREAM_COLOR;
+    std::vector<uint8_t> gray(kWidth * kHeight, static_cast<uint8_t>(value));
+    std::vector<uint16_t> depth(kWidth * kHeight, value);
+    for (uint32_t i = 0; i < frames; ++i) {
+      sphc_capture capture = capture_;
+      capture.struct_size = sizeof capture;
+      capture.stream = stream;
+      capture.sequence = i * (1 + skip);
+      capture.time_ns = int64_t{i} * 33333333 * (1 + skip);
+      if (color)
+        capture.image = {gray.data(), kWidth, kHeight, kWidth, SPHC_FORMAT_GRAY8};
+      else
+        capture.image = {depth.data(), kWidth, kHeight, 2 * kWidth, SPHC_FORMAT_DEPTH16};
+      check->look(capture);
+    }
+  }
+  Finding found(sphc_stream stream, uint16_t value, const std::string &what, uint32_t skip = 0) {
+    StreamCheck check(stream, calibration_);
+    feed(&check, stream, value, 20, skip);
+    for (const Finding &finding : check.findings())
+      if (finding.what == what) return finding;
+    ADD_FAILURE() << "nothing is said of " << what;
+    return {Grade::kFine, "", ""};
+  }
+
+  sphc_calibration calibration_;
+  sphc_capture capture_ = {};
+};
+
+TEST_F(StreamCheckTest, GoodStreamsAreFine) {
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate").grade, Grade::kFine);
+  EXPECT_NE(found(SPHC_STREAM_COLOR, 120, "colour rate").text.find("30.0 images a second"), std::string::npos);
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "brightness").grade, Grade::kFine);
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour clock").grade, Grade::kFine);
+  EXPECT_EQ(found(SPHC_STREAM_DEPTH, 1500, "depth").grade, Grade::kFine);
+}
+
+TEST_F(StreamCheckTest, FaultsAreNamed) {
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate", 1).grade, Grade::kWrong) << "half never came";
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 9, "brightness").grade, Grade::kDoubtful);
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 250, "brightness").grade, Grade::kDoubtful);
+  EXPECT_EQ(found(SPHC_STREAM_DEPTH, 0, "depth").grade, Grade::kWrong) << "blind";
+  calibration_.depth_unit_m = 1;
+  EXPECT_NE(found(SPHC_STREAM_DEPTH, 1500, "depth").text.find("depth_unit_m"), std::string::npos);
+  calibration_.color_camera.width = 640;
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour size").grade, Grade::kWrong);
+  const StreamCheck silent(SPHC_STREAM_DEPTH, calibration_);
+  ASSERT_EQ(silent.findings().size(), 1u);
+  EXPECT_EQ(silent.findings()[0].grade, Grade::kWrong);
+}
+
+TEST_F(StreamCheckTest, TimesThatAreNotTheMiddle) {
+  capture_.time_point = SPHC_TIME_START;
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour clock").grade, Grade::kDoubtful);
+  capture_.exposure_us = 8000;
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour clock").grade, Grade::kFine);
+}
+
+TEST(PairsFinding, TellsTheOffsetAndItsSpread) {
+  EXPECT_EQ(pairsFinding({}, 9).grade, Grade::kWrong);
+  const Finding steady = pairsFinding({-4, -4.1, -3.9, -4}, 1);
+  EXPECT_EQ(steady.grade, Grade::kFine);
+  EXPECT_NE(steady.text.find("4.0 ms before"), std::string::npos) << steady.text;
+  EXPECT_EQ(pairsFinding({-15, 0, 15, 8}, 0).grade, Grade::kDoubtful);
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,29 @@
+#include "host/publish/descriptor_symmetry.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace sphc::host {
+namespace {
+
+std::vector<uint8_t> bytesOf(const Descriptor &d) { return {d.bytes, d.bytes + kDescriptorBytes}; }
+
+// The descriptor of a single gradient in one cell.
+Descriptor single(size_t row, size_t column, size_t bin) {
+  Descriptor d = {};
+  d.bytes[(row * 4 + column) * 8 + bin] = 255;
+  return d;
+}
+
+TEST(DescriptorSymmetry, AMirrorTurnsRowsAndAnglesRound) {
+  EXPECT_EQ(bytesOf(mirrored(single(0, 1, 1))), bytesOf(single(3, 1, 7)));
+  EXPECT_EQ(bytesOf(mirrored(single(2, 3, 0))), bytesOf(single(1, 3, 0)));
+}
+
+TEST(DescriptorSymmetry, ANegativeIsSeenUpsideDown) {
+  EXPECT_EQ(bytesOf(negative(single(0, 1, 5))), bytesOf(single(3, 2, 5)));
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "host/publish/descriptor_symmetry.h"
+#include "host/publish/fakes/strategy.h"
+#include "tests/support/random_numbers.h"
+
+namespace sphc::host {
+namespace {
+
+std::vector<SpherePoint> somePoints(size_t count, double spread, uint64_t seed = 3) {
+  Random random(seed);
+  std::vector<SpherePoint> points;
+  for (size_t i = 0; i < count; ++i)
+    points.push_back({(Vector3(1, 0.3, 0) + spread * test::normalVector(&random)).normalized(),
+                      test::randomDescriptor(&random)});
+  return points;
+}
+
+std::vector<Assignment> assignmentsOf(const std::vector<SpherePoint> &points, size_t real, uint8_t key = 1) {
+  SecretRandom random({key});
+  return patchworkFakes()->assignments(points, real, &random);
+}
+
+bool same(const Descriptor &a, const Descriptor &b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+TEST(PatchworkFakes, RealPointsStayAndFakesAreMirrored) {
+  const auto points = somePoints(3000, 1);
+  const auto assignments = assignmentsOf(points, 1000);
+  ASSERT_EQ(assignments.size(), points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(assignments[i].shown.direction.norm(), 1, 1e-12);
+    if (assignments[i].real) {
+      EXPECT_EQ(assignments[i].shown.direction, points[i].direction);
+      EXPECT_TRUE(same(assignments[i].shown.descriptor, points[i].descriptor));
+    } else {
+      EXPECT_TRUE(same(assignments[i].shown.descriptor, mirrored(points[i].descriptor)));
+    }
+  }
+}
+
+TEST(PatchworkFakes, TheShareOfRealPointsIsEtaWithinAPatch) {
+  for (double eta : {0.75, 0.5, 1.0 / 3, 0.25, 0.1}) {
+    for (double spread : {0.05, 0.3, 2.0}) {
+      const auto points = somePoints(6000, spread);
+      double real = 0;
+      for (const Assignment &assignment : assignmentsOf(points, static_cast<size_t>(eta * 6000)))
+        real += assignment.real;
+      EXPECT_NEAR(real / 6000, eta, 0.04) << spread;
+    }
+  }
+}
+
+// Points that lie together before lie together after, at the same distances: the company says nothing.
+TEST(PatchworkFakes, FakesKeepTheirCompany) {
+  const auto points = somePoints(3000, 1);
+  const auto assignments = assignmentsOf(points, 1000);
+  size_t pairs = 0, kept = 0, turned_over = 0, triples = 0;
+  for (size_t i = 0; i < points.size(); i += 3) {
+    if (assignments[i].real) continue;
+    std::vector<size_t> near;
+    for (size_t j = 0; j < points.size(); ++j) {
+      if (j == i || (points[i].direction - points[j].direction).norm() > 0.03) continue;
+      ++pairs;
+      const double before = (points[i].direction - points[j].direction).norm();
+      const bool stayed =
+          std::abs((assignments[i].shown.direction - assignments[j].shown.direction).norm() - before) < 1e-9;
+      kept += stayed;
+      if (stayed) near.push_back(j);
+    }
+    if (near.size() < 2) continue;
+    const auto side = [&](bool shown) {
+      const auto at = [&](size_t k) { return shown ? assignments[k].shown.direction : points[k].direction; };
+      return (at(near[0]) - at(i)).cross(at(near[1]) - at(i)).dot(at(i)) > 0;
+    };
+    ++triples;
+    turned_over += side(false) != side(true);
+  }
+  ASSERT_GT(pairs, 200u);
+  EXPECT_GT(static_cast<double>(kept) / static_cast<double>(pairs), 0.7);  // the others straddle an edge
+  ASSERT_GT(triples, 50u);
+  EXPECT_EQ(turned_over, triples);  // so that no camera, wherever it is, sees fakes where they are shown
+}
+
+TEST(PatchworkFakes, FakesLieOnRealPatches) {
+  const auto points = somePoints(4000, 0.5);
+  const auto assignments = assignmentsOf(points, 1333);
+  size_t fakes = 0, covered = 0;
+  for (const Assignment &assignment : assignments) {
+    if (assignment.real) continue;
+    ++fakes;
+    for (size_t j = 0; j < points.size(); ++j) {
+      if (!assignments[j].real || (points[j].direction - assignment.shown.direction).norm() > 0.1) continue;
+      ++covered;
+      break;
+    }
+  }
+  EXPECT_GT(static_cast<double>(covered) / static_cast<double>(fakes), 0.95);
+}
+
+TEST(PatchworkFakes, SameKeySameAssignmentsOtherKeyOthers) {
+  const auto points = somePoints(1000, 1);
+  const auto a = assignmentsOf(points, 333), b = assignmentsOf(points, 333), c = assignmentsOf(points, 333, 2);
+  size_t alike = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(a[i].real, b[i].real);
+    EXPECT_EQ(a[i].shown.direction, b[i].shown.direction);
+    alike += a[i].real && c[i].real;
+  }
+  EXPECT_NEAR(static_cast<double>(alike) / 1000, 1.0 / 9, 0.08);
+}
+
+TEST(PatchworkFakes, SmallCloudsHaveFakesToo) {
+  for (size_t count : {16u, 50u, 200u}) {
+    size_t real = 0;
+    for (const Assignment &assignment : assignmentsOf(somePoints(count, 0.01), count / 2)) real += assignment.real;
+    EXPECT_GT(real, 0u);
+    EXPECT_LT(real, count);
+  }
+}
+
+TEST(PatchworkFakes, BadWidthsAreExplained) {
+  for (double width : {0.0, -1.0, 1.9, 61.0, std::nan("")}) EXPECT_THROW(patchworkFakes(width), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sphc::host

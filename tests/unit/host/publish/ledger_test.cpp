@@ -1,0 +1,192 @@
+#include "host/publish/ledger.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/made_up_model.h"
+#include "tests/support/random_numbers.h"
+
+namespace sphc::host {
+namespace {
+
+using testing::HasSubstr;
+
+class LedgerTest : public testing::Test {
+ protected:
+  LedgerTest() : path_(testing::TempDir() + "sphc_ledger_" + std::to_string(getpid()) + "_" + name()) {}
+  ~LedgerTest() override { unlink(path_.c_str()); }
+
+  static std::string name() { return testing::UnitTest::GetInstance()->current_test_info()->name(); }
+  // The message with which the ledger is refused.
+  std::string refusal(const SecretKey *key = nullptr) const {
+    try {
+      Ledger::openOrMake(path_, key).places();
+      return "accepted";
+    } catch (const std::runtime_error &error) {
+      EXPECT_THAT(error.what(), HasSubstr(path_));
+      return error.what();
+    }
+  }
+  void change(const char *statement) const {
+    sqlite3 *database = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(database, statement, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+    sqlite3_close(database);
+  }
+
+  const std::string path_;
+};
+
+Place makePlace(uint32_t number, size_t points) {
+  Random random(number);
+  Place place;
+  place.number = number;
+  place.centre_m = {1.0 / 3, -2e-9, 1e5};
+  place.eta = 1.0 / 3;
+  place.strategy = "gaussian";
+  for (const ModelPoint &point : test::madeUpRoom(static_cast<uint32_t>(points), number).points) {
+    const uint16_t u = static_cast<uint16_t>(1 + random.below(65535)), v = 65535;
+    place.points.push_back({point, {u, v}, test::randomDescriptor(&random), random.below(2) == 1, 1});
+  }
+  place.releases.push_back({{1, 2, 3}, 0xFFFFFFFFu, static_cast<uint32_t>(points), 1234567890123});
+  return place;
+}
+
+void expectSame(const Place &a, const Place &b) {
+  EXPECT_EQ(a.number, b.number);
+  EXPECT_EQ(a.centre_m, b.centre_m);  // to the bit
+  EXPECT_EQ(a.eta, b.eta);
+  EXPECT_EQ(a.strategy, b.strategy);
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (size_t i = 0; i < a.points.size(); ++i) {
+    const PlacePoint &p = a.points[i], &q = b.points[i];
+    EXPECT_EQ(p.seen.position_m, q.seen.position_m);
+    EXPECT_EQ(p.seen.sigma_m, q.seen.sigma_m);
+    EXPECT_EQ(p.seen.observations, q.seen.observations);
+    EXPECT_EQ(std::memcmp(&p.seen.descriptor, &q.seen.descriptor, sizeof(Descriptor)), 0);
+    EXPECT_EQ(std::memcmp(&p.direction, &q.direction, sizeof(PackedDirection)), 0);
+    EXPECT_EQ(std::memcmp(&p.descriptor, &q.descriptor, sizeof(Descriptor)), 0);
+    EXPECT_EQ(p.real, q.real);
+    EXPECT_EQ(p.release, q.release);
+  }
+  ASSERT_EQ(a.releases.size(), b.releases.size());
+  for (size_t i = 0; i < a.releases.size(); ++i) {
+    EXPECT_EQ(a.releases[i].map_id, b.releases[i].map_id);
+    EXPECT_EQ(a.releases[i].crc32, b.releases[i].crc32);
+    EXPECT_EQ(a.releases[i].points, b.releases[i].points);
+    EXPECT_EQ(a.releases[i].time_s, b.releases[i].time_s);
+  }
+}
+
+TEST_F(LedgerTest, RoundTripAndGrowth) {
+  const SecretKey key = {7};
+  Place first = makePlace(1, 100);
+  const Place second = makePlace(2, 30);
+  {
+    Ledger ledger = Ledger::openOrMake(path_, &key);
+    ledger.record(first);
+    ledger.record(second);
+  }
+  Place grown = makePlace(1, 140);
+  std::copy(first.points.begin(), first.points.end(), grown.points.begin());
+  for (size_t i = 100; i < 140; ++i) grown.points[i].release = 2;
+  grown.releases = {first.releases[0], {{9}, 5, 140, -1}};
+  {
+    Ledger ledger = Ledger::openOrMake(path_, nullptr);
+    EXPECT_EQ(ledger.key(), key);
+    expectSame(ledger.places().at(0), first);
+    ledger.record(grown);
+    ledger.record(grown);  // the same release over again
+  }
+  const std::vector<Place> places = Ledger::openToRead(path_).places();
+  ASSERT_EQ(places.size(), 2u);
+  expectSame(places[0], grown);
+  expectSame(places[1], second);
+}
+
+TEST_F(LedgerTest, ItsOwnerAloneMayReadIt) {
+  { const Ledger ledger = Ledger::openOrMake(path_, nullptr); }
+  struct stat status;
+  ASSERT_EQ(stat(path_.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600u);
+  chmod(path_.c_str(), 0640);
+  EXPECT_THAT(refusal(), HasSubstr("chmod 600"));
+  EXPECT_THROW(Ledger::openToRead(path_), std::runtime_error);
+}
+
+TEST_F(LedgerTest, DrawsAKeyAndKeepsIt) {
+  const SecretKey drawn = Ledger::openOrMake(path_, nullptr).key(), other = {1};
+  EXPECT_NE(drawn, SecretKey{});
+  EXPECT_EQ(Ledger::openOrMake(path_, nullptr).key(), drawn);
+  EXPECT_EQ(Ledger::openOrMake(path_, &drawn).key(), drawn);
+  EXPECT_THAT(refusal(&other), HasSubstr("another key"));
+}
+
+TEST_F(LedgerTest, OneProgramAtATime) {
+  const Ledger ledger = Ledger::openOrMake(path_, nullptr);
+  EXPECT_THAT(refusal(), HasSubstr("another program"));
+}
+
+TEST_F(LedgerTest, WhatIsNoLedgerIsRefused) {
+  EXPECT_THROW(Ledger::openToRead(path_), std::runtime_error);
+  EXPECT_NE(access(path_.c_str(), F_OK), 0) << "a look made a file";
+  std::ofstream(path_) << "no database, and long enough that nobody takes it for the beginning of one "
+                       << std::string(200, 'x');
+  chmod(path_.c_str(), 0600);
+  EXPECT_THAT(refusal(), HasSubstr("not a database"));
+  EXPECT_THROW(Ledger::openOrMake("/nonexistent-folder/ledger", nullptr), std::runtime_error);
+}
+
+TEST_F(LedgerTest, ADatabaseOfSomebodyElseIsRefused) {
+  change("CREATE TABLE cats (name TEXT)");
+  chmod(path_.c_str(), 0600);
+  EXPECT_THAT(refusal(), HasSubstr("not a ledger"));
+}
+
+TEST_F(LedgerTest, DamageIsSeen) {
+  for (const char *damage :
+       {"UPDATE point SET descriptor = x'00' WHERE number = 3", "UPDATE point SET u = 0 WHERE number = 3",
+        "UPDATE point SET v = 65536 WHERE number = 3", "UPDATE point SET x = 9e999 WHERE number = 3",
+        "UPDATE point SET sigma = -1 WHERE number = 3", "UPDATE place SET eta = 0", "UPDATE place SET number = 2",
+        "UPDATE place SET centre_x = 1e7", "UPDATE release SET points = 100", "UPDATE release SET map_id = x''",
+        "DELETE FROM owner", "PRAGMA user_version = 2", "CREATE VIEW v AS SELECT 1"}) {
+    unlink(path_.c_str());
+    Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
+    EXPECT_EQ(refusal(), "accepted");
+    change(damage);
+    EXPECT_NE(refusal(), "accepted") << damage;
+  }
+}
+
+// Whatever the bytes are, there is an answer: places or a message.
+TEST_F(LedgerTest, DamagedBytesAreNoDanger) {
+  Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
+  std::stringstream text;
+  text << std::ifstream(path_, std::ios::binary).rdbuf();
+  const std::string good = text.str();
+  Random random(6);
+  int refused = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::string bad = good;
+    for (int k = 0; k < 4; ++k)
+      bad[random.below(static_cast<uint32_t>(bad.size()))] = static_cast<char>(random.below(256));
+    if (round % 4 == 0) bad.resize(random.below(static_cast<uint32_t>(bad.size())));
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << bad;
+    try {
+      EXPECT_LE(Ledger::openToRead(path_).places().size(), 1u);
+    } catch (const std::runtime_error &) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 50);
+}
+
+}  // namespace
+}  // namespace sphc::host

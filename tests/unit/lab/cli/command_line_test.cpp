@@ -1,0 +1,78 @@
+// Arguments, exit codes and results of spherecloud-lab, seen from outside.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/common/exit_code.h"
+#include "tests/unit/host/cli/command_runner.h"
+
+namespace sphc::host {
+namespace {
+
+using testing::HasSubstr;
+
+Answer runLab(const std::string &arguments) { return runProgram(SPHC_LAB_COMMAND, arguments); }
+
+class LabHelpTest : public testing::TestWithParam<const char *> {};
+
+TEST_P(LabHelpTest, TeachesByExample) {
+  const Answer answer = runLab(std::string(GetParam()) + " --help");
+  EXPECT_EQ(answer.exit_code, kExitDone);
+  EXPECT_THAT(answer.out, HasSubstr("Example:\n  spherecloud-lab " + std::string(GetParam())));
+  EXPECT_THAT(answer.out, HasSubstr("--json"));
+  EXPECT_EQ(answer.err, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(EachSubcommand, LabHelpTest,
+                         testing::Values("align", "compare", "confidence", "features", "frame", "map", "match",
+                                         "pose", "recording", "releases"));
+
+class LabUsageTest : public testing::TestWithParam<const char *> {};
+
+TEST_P(LabUsageTest, IsExitCodeTwoAndPointsToHelp) {
+  const Answer answer = runLab(GetParam());
+  EXPECT_EQ(answer.exit_code, kExitUsage);
+  EXPECT_EQ(answer.out, "");
+  EXPECT_THAT(answer.err, HasSubstr("spherecloud-lab"));
+  EXPECT_THAT(answer.err, HasSubstr("--help"));
+}
+
+INSTANTIATE_TEST_SUITE_P(EachMistake, LabUsageTest,
+                         testing::Values("", "conquer", "compare", "compare --recording r --correspondences f",
+                                         "compare --correspondences f --out o",
+                                         "compare --correspondences f --attack --results l", "pose",
+                                         "pose f --depth radar", "pose f --repeat 0", "frame --recording r",
+                                         "map --recording r --out o", "map --recording r --out o --points 0"));
+
+// Maps of wanted sizes, and the library's own variants on them.
+TEST(Lab, MakesMapsOfWantedSizesAndTimesFramesOnThem) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 6 --rate 6 --out " + walk).exit_code, kExitDone);
+  const Answer made =
+      runLab("map -r " + walk + " --step 2 --points 500 --points 9000 --out " + (folder / "maps") + " --json");
+  ASSERT_EQ(made.exit_code, kExitDone) << made.err;
+  EXPECT_EQ(nlohmann::json::parse(made.out)["maps"][0]["own_points"], 500);
+  EXPECT_LT(nlohmann::json::parse(made.out)["maps"][1]["own_points"], 9000);
+  const std::string frame = "frame -r " + walk + " --first 1 --step 2 --repeat 1 --no-peers --map ";
+  const Answer timed = runLab(frame + (folder / "maps/map_500.sphc") + " --map " + (folder / "maps/map_9000.sphc") +
+                              " --results " + (folder / "frame.csv") + " --json");
+  ASSERT_EQ(timed.exit_code, kExitDone) << timed.err;
+  const auto tables = nlohmann::json::parse(timed.out)["tables"];
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[1]["points"], 9000);
+  for (const auto &variant : tables[1]["variants"]) {
+    EXPECT_EQ(variant["frames"], 3);
+    EXPECT_EQ(variant["within_5cm_5deg_percent"], 100) << variant["variant"];
+    EXPECT_GT(variant["state_bytes"], 0);
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "frame.csv"));
+  const Answer none = runLab(frame + (folder / "maps/map_500.sphc") + " --only nobody");
+  EXPECT_EQ(none.exit_code, kExitUsage);
+  EXPECT_THAT(none.err, HasSubstr("'ours, tracking'"));
+}
+
+}  // namespace
+}  // namespace sphc::host
