@@ -132,6 +132,10 @@ TEST_F(DoorAligner, ForbiddenMemory) {
   EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_ - 1, &config_, &aligner_, &message_), SPHC_E_MEMORY_SIZE);
   EXPECT_EQ(sphc_aligner_init(static_cast<uint8_t *>(memory_.data()) + 1, bytes_, &config_, &aligner_, &message_),
             SPHC_E_MEMORY_ALIGNMENT);
+  auto *inside = reinterpret_cast<sphc_aligner_config *>(static_cast<uint8_t *>(memory_.data()) + 64);
+  *inside = config_;
+  EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, inside, &aligner_, &message_), SPHC_E_ARGUMENT);
+  expectMentions(message_.text, "aligner memory overlaps the config");
   EXPECT_EQ(aligner_, nullptr);
   sphc_aligner_fini(nullptr);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/capi/bytes.h"
+#include "tests/support/map_bytes.h"
 #include "tests/support/session.h"
 
 namespace {
@@ -112,6 +113,56 @@ TEST_F(DoorFailure, InitMemoryMisaligned) {
     i = good(), i.scratch = static_cast<uint8_t *>(i.scratch) + off;
     expectRefused(i, SPHC_E_MEMORY_ALIGNMENT, "scratch memory must be aligned to 64");
   }
+}
+
+TEST_F(DoorFailure, InitMemoryOverlaps) {
+  const size_t state_end = (need_.state_bytes + 63) / 64 * 64;
+  GuardedMemory both(state_end + need_.scratch_bytes + 64, 64);
+  auto *begin = static_cast<uint8_t *>(both.data());
+  const std::vector<uint8_t> before = both.copy();
+  Init i = good();
+  i.state = begin;
+  for (size_t off : {size_t{0}, size_t{64}, state_end - 64}) {
+    i.scratch = begin + off;
+    expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps scratch");
+  }
+  i = good(), i.scratch = begin;
+  for (size_t off : {size_t{64}, (need_.scratch_bytes - 1) / 64 * 64}) {
+    i.state = begin + off;
+    expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps scratch");
+  }
+  EXPECT_EQ(both.copy(), before);
+  i = good(), i.state = begin, i.scratch = begin + state_end;  // side by side
+  sphc_localizer *made = nullptr;
+  EXPECT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count,
+                                &made, nullptr),
+            SPHC_OK);
+}
+
+TEST_F(DoorFailure, InitMemoryOverlapsAMap) {
+  // A file, its view and the list of maps, each inside memory that would be written.
+  const std::vector<uint8_t> file = sphc::test::randomMap(50, 1);
+  GuardedMemory memory(need_.scratch_bytes, 64), view_memory(4096, 64);
+  std::memcpy(memory.data(), file.data(), file.size());
+  sphc_map *view = nullptr;
+  ASSERT_EQ(sphc_map_init(view_memory.data(), 4096, memory.data(), file.size(), &view, nullptr), SPHC_OK);
+  const sphc_map *maps[] = {view};
+  Init i = good();
+  i.maps = maps;
+  i.scratch = memory.data();
+  expectRefused(i, SPHC_E_ARGUMENT, "scratch memory overlaps the file of a map");
+  i = good(), i.state = memory.data(), i.maps = maps;
+  expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps the file of a map");
+
+  auto *inside = static_cast<uint8_t *>(memory.data()) + 1024;
+  ASSERT_EQ(sphc_map_init(inside, 4096, file.data(), file.size(), &view, nullptr), SPHC_OK);
+  maps[0] = view;
+  expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps the view of a map");
+
+  auto **list = reinterpret_cast<const sphc_map **>(inside);
+  list[0] = map_;
+  i.maps = list;
+  expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps the list of maps");
 }
 
 TEST_F(DoorFailure, InitBadConfig) {

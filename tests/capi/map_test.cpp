@@ -92,6 +92,14 @@ TEST_F(DoorMap, MemoryTooSmallOrMisaligned) {
                 "aligned to 8");
 }
 
+TEST_F(DoorMap, MemoryInsideTheFile) {
+  const std::vector<uint8_t> before = file_;
+  void *inside = file_.data() + 64;
+  expectRefused(SPHC_E_ARGUMENT, sphc_map_init(inside, bytes_, file_.data(), file_.size(), &map_, &message_),
+                "map memory overlaps the map file's bytes");
+  EXPECT_EQ(file_, before);
+}
+
 TEST_F(DoorMap, EmptyFile) { expectRefused(SPHC_E_MAP_FORMAT, init(std::vector<uint8_t>(1, 0x89)), "shorter"); }
 
 TEST_F(DoorMap, FailureLeavesMemoryUntouched) {

@@ -150,18 +150,6 @@ TEST_F(DoorPoseOptions, ADistantDeadlineChangesNothing) {
   EXPECT_EQ(b.cut_short, 0u);
 }
 
-TEST_F(DoorPoseOptions, ThePapersCostLocalizesToo) {
-  Session whitened(config_);
-  config_.cost = SPHC_COST_PAPER;
-  Session paper(config_);
-  const sphc_result a = localize(&whitened, 1), b = localize(&paper, 1);
-  ASSERT_EQ(status_, SPHC_OK);
-  EXPECT_LT(distanceM(a.camera_from_map, b.camera_from_map), 0.03);
-  EXPECT_NE(std::memcmp(&a.camera_from_map, &b.camera_from_map, sizeof a.camera_from_map), 0);
-  config_.cost = 7;
-  expectConfigRefused("config.cost");
-}
-
 TEST_F(DoorPoseOptions, TheSensorsBiasIsLearntAndTold) {
   config_.depth_offset_sigma_m = 0.003;
   config_.depth_slope_sigma = 0.02;
