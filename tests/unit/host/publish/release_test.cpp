@@ -111,6 +111,21 @@ TEST(Release, TheSameRecordingAndKeyGiveTheSameBytes) {
   EXPECT_EQ(again.place.releases.size(), 1u);
 }
 
+// Whoever lost a first release makes it again with its key, years later: what is drawn under a key stays for ever.
+TEST(Release, WhatAKeyDrawsNeverChanges) {
+  const PointModel room = test::madeUpRoom(100, 1);
+  const NewRelease made = makeRelease(room, releaseRequest());
+  std::vector<std::pair<ptrdiff_t, bool>> first;  // which points were published first, and are they real
+  for (size_t i = 0; i < 6; ++i) {
+    const Descriptor &descriptor = made.place.points[i].seen.descriptor;
+    const auto point = std::find_if(room.points.begin(), room.points.end(), [&](const ModelPoint &p) {
+      return std::equal(p.descriptor.bytes, p.descriptor.bytes + kDescriptorBytes, descriptor.bytes);
+    });
+    first.emplace_back(point - room.points.begin(), made.place.points[i].real);
+  }
+  EXPECT_THAT(first, testing::ElementsAre(testing::Pair(0, true), testing::Pair(1, true)));
+}
+
 TEST(Release, AnUpdateKeepsAllThatWasPublished) {
   const PointModel room = test::madeUpRoom(3000, 1);
   const NewRelease first = makeRelease(room, releaseRequest());
@@ -185,7 +200,7 @@ TEST(Release, AFewNewPointsWaitForMore) {
 TEST(Release, NearDuplicatesAreMergedFirst) {
   const PointModel room = test::madeUpRoom(500, 1);
   const NewRelease made = makeRelease(test::joined(room, test::seenAgain(room, 2)), releaseRequest());
-  EXPECT_EQ(made.summary.twins, 500u);
+  EXPECT_EQ(made.summary.near_duplicates, 500u);
   EXPECT_EQ(setOf(made.file).size(), 500u);
 }
 
