@@ -70,6 +70,7 @@ TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
 TEST(Mutations, V4l2) { walk("v4l2", 5000); }
 TEST(Mutations, Foreign) { walk("foreign", 10000); }
 TEST(Mutations, Colmap) { walk("colmap", 10000); }
+TEST(Mutations, PointModel) { walk("pointModel", 20000); }
 TEST(Mutations, ColmapDatabase) { walk("colmapDatabase", 1000); }
 
 #ifdef SPHC_FUZZ_RECORDINGS

@@ -20,6 +20,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/import/model_file.h"
+#include "tests/support/made_up_model.h"
 #include "tests/unit/host/import/tiny_colmap.h"
 #endif
 
@@ -135,6 +137,9 @@ std::vector<Target> allTargets() {
   targets.push_back({"colmap", colmap, {colmapSeed(test::binaryFiles(model)), colmapSeed(test::textFiles(model))}});
   targets.push_back(
       {"colmapDatabase", colmapDatabase, {databaseSeed(test::Schema::kOld), databaseSeed(test::Schema::kNew)}});
+  targets.push_back({"pointModel",
+                     pointModel,
+                     {host::encodeModel(test::madeUpRoom(2, 1)), host::encodeModel(test::madeUpRoom(20, 2))}});
 #endif
 #ifdef SPHC_FUZZ_CAMERAS
   const std::vector<uint8_t> rgb = test::gradientRgb(32, 16), frame = test::jpegFrame(rgb, 32, 16);

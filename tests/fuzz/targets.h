@@ -31,6 +31,8 @@ void foreign(const uint8_t *data, size_t bytes);
 void colmap(const uint8_t *data, size_t bytes);
 // A COLMAP database, beside a fixed model.
 void colmapDatabase(const uint8_t *data, size_t bytes);
+// A private point model.
+void pointModel(const uint8_t *data, size_t bytes);
 
 struct Target {
   const char *name;

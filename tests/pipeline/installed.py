@@ -4,6 +4,7 @@
     installed.py --build FOLDER
 """
 import argparse
+import json
 import pathlib
 import shutil
 import subprocess
@@ -42,14 +43,21 @@ def main():
         audit = [tool, "audit", room, "--quick", "--truth", folder / "spherecloud.ledger"]
         run(audit, accepted=(0, 4))  # 4: so few points may break a limit
 
-        # Its own networks, not those of the source: with one missing it names the place.
+        # Nothing in it says where it was built.
+        source = pathlib.Path(__file__).resolve().parents[2]
+        if str(source).encode() in tool.read_bytes():
+            sys.exit("%s holds the path of its source, %s" % (tool, source))
+
+        # Its own networks: with one missing it names the place.
         (networks / "co_occurrence.json").unlink()
         told = run(audit, accepted=(1,)).stderr
         if str(networks) not in told:
             sys.exit("with %s damaged the command says: %s" % (networks, told))
-        # Without any it takes those of the source it was built from.
+        # Without any it says what was not measured, and does not pass.
         shutil.rmtree(networks)
-        run(audit, accepted=(0, 4))
+        found = json.loads(run([*audit, "--json"], accepted=(4, 5)).stdout)
+        if found["not_measured"] != ["real_or_fake.auc", "inversion.of_papers"]:
+            sys.exit("without networks it misses %s" % found["not_measured"])
 
 
 if __name__ == "__main__":

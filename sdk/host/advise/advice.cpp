@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include "host/evaluate/localize_run.h"
-#include "host/publish/map_writer.h"
-#include "host/publish/secret_random.h"
-#include "host/publish/sphere_cloud.h"
+#include "host/publish/release.h"
 #include "host/report/statistics.h"
 
 namespace sphc::host {
@@ -60,14 +58,14 @@ class Trial {
   }
 
   std::vector<FrameRecord> frames(double eta) {
-    SecretRandom random(kKey);
-    SphereCloudOptions cloud;
-    cloud.eta = eta;
-    Vector3 centre;
-    const SphereCloud made = makeSphereCloud(model_, cloud, *makeFakes(kDefaultFakes), &random, &centre);
+    ReleaseRequest request;
+    request.key = kKey;
+    request.eta = eta;
+    const NewRelease made = makeRelease(model_, request);
     input_.maps.clear();
-    input_.maps.push_back(openMapBytes(encodeMap(made, MapId{})));
-    input_.centres_in_world_m = {{centre.x(), centre.y(), centre.z()}};
+    input_.maps.push_back(openMapBytes(made.file));
+    const Vector3 &centre_m = made.place.centre_m;
+    input_.centres_in_world_m = {{centre_m.x(), centre_m.y(), centre_m.z()}};
     Run run;
     localizeFrames(
         input_, [](uint32_t, uint32_t) {}, [](const std::string &) {}, &run);

@@ -5,7 +5,7 @@
 
 #include "host/audit/report/networks.h"
 #include "host/audit/report/page.h"
-#include "host/audit/score/look_around.h"
+#include "host/audit/score/centre_views.h"
 #include "host/audit/score/map_audit.h"
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
@@ -24,7 +24,7 @@ namespace {
 struct Options {
   std::string map, truth, report, figures, name, networks;
   RecordingOptions recording;
-  std::vector<std::string> releases, limits;
+  std::vector<std::string> releases, limits, allow_unmeasured;
   uint32_t queries = 10;
   bool quick = false;
 };
@@ -54,13 +54,20 @@ std::vector<uint8_t> readMap(const std::string &path) {
   return readMapFile(path);
 }
 
-MapAuditInput inputOf(const Options &options) {
-  MapAuditInput input;
+std::string networksOf(const Options &options) {
+  if (!options.networks.empty() && !std::filesystem::is_directory(options.networks))
+    throw std::runtime_error("--networks " + options.networks +
+                             " is no folder; give the one with *.onnx and *.json");
+  return options.networks.empty() ? auditNetworks() : options.networks;
+}
+
+AuditInput inputOf(const Options &options) {
+  AuditInput input;
   input.file = readMap(options.map);
   input.quick = options.quick;
   for (const std::string &release : options.releases) input.releases.push_back(readMap(release));
+  input.networks = networksOf(options);
   if (options.truth.empty()) return input;
-  input.networks = options.networks.empty() ? auditNetworks() : options.networks;
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
   input.views = viewsOf(options, *input.place);
@@ -69,8 +76,9 @@ MapAuditInput inputOf(const Options &options) {
   return input;
 }
 
-std::map<std::string, double> limitsOf(const Options &options) {
-  auto limits = defaultAuditLimits();
+AuditRules rulesOf(const Options &options) {
+  AuditRules rules;
+  rules.allow_unmeasured = options.allow_unmeasured;
   for (const std::string &text : options.limits) {
     const size_t equals = text.find('=');
     try {
@@ -78,80 +86,106 @@ std::map<std::string, double> limitsOf(const Options &options) {
       const std::string number = equals == std::string::npos ? "" : text.substr(equals + 1);
       const double value = std::stod(number, &used);
       if (used != number.size() || !(value == value)) throw std::invalid_argument(number);
-      limits[text.substr(0, equals)] = value;
+      rules.limits[text.substr(0, equals)] = value;
     } catch (const std::logic_error &) {
       throw UsageError("--limit " + text + " is not NAME=NUMBER, as in --limit real_or_fake.auc=0.55");
     }
   }
-  return limits;
+  try {
+    checkRules(rules);
+  } catch (const std::runtime_error &error) {
+    throw UsageError(error.what());
+  }
+  return rules;
 }
 
-// For a ledger of figures.
-std::vector<PrivacyRow> rowsOf(const Options &options, const MapAudit &audit, const MapAuditInput &input) {
+// For a table of results.
+std::vector<PrivacyRow> rowsOf(const Options &options, const MapAudit &audit, const AuditInput &input) {
   const std::string name = options.name.empty() ? std::filesystem::path(options.map).stem().string() : options.name;
   std::vector<PrivacyRow> rows;
   for (const AuditFigure &figure : audit.figures) {
     if (!figure.value) continue;
     rows.push_back({"audit", name, input.place ? input.place->strategy : "unknown",
-                    input.place ? input.place->eta : 0, figure.remark, figure.name, *figure.value});
+                    input.place ? input.place->eta : 0, figure.remark, figure.kind.name, *figure.value});
   }
   return rows;
+}
+
+Row rowOf(const AuditFigure &figure) {
+  const FigureKind &kind = figure.kind;
+  const std::string limit = kind.limit ? (kind.at_most ? ", at most " : ", at least ") + fixed(*kind.limit, 2) : "";
+  const std::string remark = figure.remark.empty() ? "" : " (" + figure.remark + ")";
+  return {kind.name, figure.value ? fixed(*figure.value, 3) : "-",
+          wordFor(figure) + limit + ": " + kind.about + remark};
+}
+
+nlohmann::ordered_json jsonOf(const AuditFigure &figure) {
+  nlohmann::ordered_json json = {{"name", figure.kind.name}, {"verdict", wordFor(figure)}};
+  if (figure.value) json["value"] = *figure.value;
+  if (figure.kind.limit) json["limit"] = *figure.kind.limit;
+  if (!figure.remark.empty()) json["remark"] = figure.remark;
+  return json;
 }
 
 void tell(const MapAudit &audit, const std::string &page, const Console &console) {
   std::vector<Row> rows;
   nlohmann::ordered_json figures = nlohmann::ordered_json::array();
-  for (const AuditFigure &figure : audit.figures) {
-    const std::string limit =
-        figure.limit ? (figure.at_most ? ", at most " : ", at least ") + fixed(*figure.limit, 2) : "";
-    const std::string remark = figure.remark.empty() ? "" : " (" + figure.remark + ")";
-    rows.push_back({figure.name, figure.value ? fixed(*figure.value, 3) : "-",
-                    wordFor(figure.verdict()) + limit + ": " + figure.about + remark});
-    nlohmann::ordered_json json = {{"name", figure.name}, {"verdict", wordFor(figure.verdict())}};
-    if (figure.value) json["value"] = *figure.value;
-    if (figure.limit) json["limit"] = *figure.limit;
-    if (!figure.remark.empty()) json["remark"] = figure.remark;
-    figures.push_back(json);
-  }
-  console.say(tableText(rows));
-  if (!page.empty()) console.say("Report: " + page);
-  console.say(audit.holds() ? "Every limit that was measured holds."
-                            : "A limit is broken: do not release this map.");
   nlohmann::ordered_json inversions = nlohmann::ordered_json::array();
+  for (const AuditFigure &figure : audit.figures) {
+    rows.push_back(rowOf(figure));
+    figures.push_back(jsonOf(figure));
+  }
   for (const InversionResult &result : audit.inversions)
     inversions.push_back({{"points", result.name},
                           {"views", result.pictures.size()},
                           {"retrieval_coarse", result.coarse.top1},
                           {"retrieval_fine", result.fine.top1}});
-  console.give({{"holds", audit.holds()}, {"figures", figures}, {"inversions", inversions}, {"report", page}});
+  console.say(tableText(rows));
+  if (!page.empty()) console.say("Report: " + page);
+  console.say(outcomeText(audit));
+  console.give({{"holds", audit.outcome() == AuditOutcome::kHolds},
+                {"not_measured", audit.missingGates()},
+                {"allowed_unmeasured", audit.allowedGates()},
+                {"quick", audit.quick},
+                {"figures", figures},
+                {"inversions", inversions},
+                {"report", page}});
+}
+
+int exitCodeOf(AuditOutcome outcome) {
+  switch (outcome) {
+    case AuditOutcome::kHolds:
+      return kExitDone;
+    case AuditOutcome::kBroken:
+      return kExitAuditFailed;
+    case AuditOutcome::kNotMeasured:
+      break;
+  }
+  return kExitAuditIncomplete;
 }
 
 int run(const Options &options, const Console &console) {
   if (options.truth.empty() && !options.recording.folder.empty())
     throw UsageError("--recording tells nothing without --truth; give the ledger too");
-  const auto limits = limitsOf(options);
-  const MapAuditInput input = inputOf(options);
+  const AuditRules rules = rulesOf(options);
+  const AuditInput input = inputOf(options);
   ProgressBar bar("auditing  ");
-  uint32_t done = 0;
-  const MapAudit audit = auditMap(input, limits, [&](const std::string &) {
-    bar.show(done, std::max(done + 1, 6 + static_cast<uint32_t>(input.releases.size())));
-    ++done;
-  });
+  const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   bar.show(1, 1);
   const std::string page = options.report.empty() ? "" : writeAuditPage(options.report, options.map, audit);
   if (!options.figures.empty()) updatePrivacyResults(options.figures, rowsOf(options, audit, input));
   tell(audit, page, console);
-  return audit.holds() ? kExitDone : kExitAuditFailed;
+  return exitCodeOf(audit.outcome());
 }
 
 const char kHelp[] =
     "Runs the attacks that are known against a map file and scores them by what its owner knows: density of\n"
     "lines, real against fake, inverted pictures, other releases, a querying client.  Ends with status 4 when a\n"
-    "limit is broken, so that a release stops there.";
+    "limit is broken, and with 5 when a limit was not measured, so that a release stops there.";
 const char kExample[] =
     "Example:\n"
     "  spherecloud audit room.sphc --truth spherecloud.ledger --recording walk --last 99 --report audit\n"
-    "  spherecloud audit room.sphc --quick                    what an attacker can do without the truth\n"
+    "  spherecloud audit room.sphc --quick --allow-unmeasured truth --allow-unmeasured releases\n"
     "  spherecloud audit room2.sphc --truth spherecloud.ledger --release room.sphc --limit real_or_fake.auc=0.55\n"
     "Without --recording the truth of pictures is what a network paints of the unprotected points.\n"
     "More: docs/audit.md";
@@ -170,6 +204,11 @@ Command auditCommand(CLI::App *root) {
   app->add_option("--release", options->releases, "Other maps of the place that were published")->type_name("MAP");
   app->add_option("--queries", options->queries, "Frames of a client")->capture_default_str()->type_name("N");
   app->add_option("--limit", options->limits, "Another limit: NAME=NUMBER")->type_name("NAME=X");
+  app->add_option("--allow-unmeasured", options->allow_unmeasured,
+                  "What may stay unmeasured: a figure, an attack, or truth, networks, releases; repeat")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME");
   app->add_option("--report", options->report, "Folder for a page with pictures")->type_name("FOLDER");
   app->add_option("--figures", options->figures, "Write the figures into this table too")->type_name("CSV");
   app->add_option("--name", options->name, "Of the map, in that table [the file's]")->type_name("NAME");

@@ -8,6 +8,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/point_source.h"
 #include "host/evaluate/map_file.h"
+#include "host/import/model_file.h"
 #include "host/publish/ledger.h"
 #include "host/publish/map_writer.h"
 #include "host/publish/release.h"
@@ -17,7 +18,7 @@ namespace {
 
 struct Options {
   PointSource source;
-  std::string map, key, ledger;
+  std::string map, key, ledger, save_model;
   std::vector<std::string> against;
   std::optional<double> eta;
   std::string fakes;
@@ -71,10 +72,12 @@ Outcome build(const Options &options) {
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
   checkPointSource(options.source);
+  if (!options.save_model.empty()) checkModelTarget(options.save_model);
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source);
+  if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
   // The ledger first: what it does not know was never published.
   ledger.record(made.place);
@@ -100,7 +103,7 @@ std::string releaseText(const Outcome &outcome) {
   if (release.is_update) text += ", " + count(release.known, " known, ") + count(release.ambiguous, " doubtful");
   if (release.elsewhere) text += ", " + count(release.elsewhere, " published in other maps and left out");
   if (release.held_back) text += ", " + count(release.held_back, " held back, too few to hide among each other");
-  return text + "; " + count(release.twins, " near-duplicates merged.");
+  return text + "; " + count(release.near_duplicates, " near-duplicates merged.");
 }
 
 void tell(const Options &options, const Outcome &outcome, const Console &console) {
@@ -110,6 +113,8 @@ void tell(const Options &options, const Outcome &outcome, const Console &console
   console.say("Wrote " + options.map + ": " + std::to_string(outcome.place.points.size()) + " directions, " +
               fixed(100 * outcome.place.eta, 0) + " % of them real, " +
               humanBytes(static_cast<double>(outcome.bytes)) + ".");
+  if (!options.save_model.empty())
+    console.say("Wrote " + options.save_model + ": where every point is. Keep it, never ship it.");
   console.say("Wrote " + outcome.note + ": where the centre is. Keep it, never ship it with the map.");
   console.say("Wrote " + outcome.ledger +
               ": the secret key and all that was released. Keep it and back it up, never ship it.");
@@ -125,7 +130,7 @@ nlohmann::ordered_json releaseJson(const Outcome &outcome) {
           {"release", outcome.place.releases.size()},
           {"update", release.is_update},
           {"same_as_before", release.is_same},
-          {"near_duplicates", release.twins},
+          {"near_duplicates", release.near_duplicates},
           {"known", release.known},
           {"doubtful", release.ambiguous},
           {"elsewhere", release.elsewhere},
@@ -150,6 +155,7 @@ int run(const Options &options, const Console &console) {
                                  {"eta", outcome.place.eta},
                                  {"bytes", outcome.bytes},
                                  {"release", releaseJson(outcome)}};
+  if (!options.save_model.empty()) json["saved_model"] = options.save_model;
   json.update(outcome.import.facts);
   json["seconds"] = outcome.seconds;
   console.give(json);
@@ -166,6 +172,8 @@ const char kExample[] =
     "  spherecloud build --colmap sparse/0 --images images --depth depth --calibration kinect.json --map "
     "room.sphc\n"
     "  spherecloud build --recording kitchen --last 597 --map kitchen.sphc --eta 0.25\n"
+    "  spherecloud build --recording walk --map room.sphc --save-model room.model\n"
+    "  spherecloud build --model room.model --map room.sphc   the same map, without mapping again\n"
     "What comes out:\n"
     "  room.sphc               the map: ship it\n"
     "  room.sphc.owner.json    where the centre is in the recording's world: keep it, never ship it\n"
@@ -192,6 +200,10 @@ void addReleaseOptions(CLI::App *app, Options *options) {
 void addOptions(CLI::App *app, Options *options) {
   addPointSourceOptions(app, &options->source);
   app->add_option("-m,--map", options->map, "Map file to write")->required()->type_name("FILE");
+  app->add_option("--save-model", options->save_model,
+                  "Private file for the points, to make a map of them again with --model")
+      ->excludes(app->get_option("--model"))
+      ->type_name("FILE");
   app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1] [1/3]")
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("X");

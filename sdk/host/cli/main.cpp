@@ -16,7 +16,7 @@ const char kAbout[] =
 
 const char kExitCodes[] =
     "Exit status: 0 done, 1 failure (the message has cause and cure), 2 wrong use, 3 not one frame localized,\n"
-    "4 a limit of the audit is broken.";
+    "4 a limit of the audit is broken, 5 a limit of the audit was not measured.";
 
 std::vector<Command> declare(CLI::App *root) {
   return {simulateCommand(root), buildCommand(root),   localizeCommand(root),    inspectCommand(root),

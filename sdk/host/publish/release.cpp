@@ -177,9 +177,9 @@ SphereCloud publishedCloud(const Place &place, const SecretKey &key) {
 
 NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
   checkModel(all, request);
-  const PointModel model = withoutNearDuplicates(all, kReleaseNearDuplicates);
+  const PointModel model = request.merge ? withoutNearDuplicates(all, kReleaseNearDuplicates) : all;
   ReleaseSummary summary;
-  summary.twins = all.points.size() - model.points.size();
+  summary.near_duplicates = all.points.size() - model.points.size();
   const bool blind = request.understood;
   const auto own = recognizeAll(blind ? std::vector<Place>() : request.own, model);
   const auto foreign = recognizeAll(blind ? std::vector<Place>() : request.foreign, model);

@@ -1,5 +1,6 @@
-// Release discipline: whatever is published of a place over time reveals no more than its last map alone.
-// docs/release.md says how and why.
+// The one way from private points to a map, with release discipline: whatever is published of a place over time
+// reveals no more than its last map alone.  docs/release.md says how and why.  A map that never leaves the house
+// needs no ledger: a request with a key and nothing else.
 #pragma once
 #include <optional>
 #include <vector>
@@ -21,6 +22,7 @@ struct ReleaseRequest {
       eta;  // share of points that stay real: of a new place 1/3, of a known one its own and no other
   bool new_place = false;   // not a further release of a known place: a map of what was never published
   bool understood = false;  // publish anew what was published before, which exposes it
+  bool merge = true;        // near-duplicates first; false for a model of a wanted size
   int64_t time_s = 0;       // since 1970
 };
 
@@ -28,7 +30,7 @@ struct ReleaseSummary {
   bool is_update = false;  // of a place in `own`
   bool is_same = false;    // the last release over again
   Similarity place_from_world;
-  size_t twins = 0;  // of other points of the recording, merged
+  size_t near_duplicates = 0;  // of other points of the recording, merged
   // What became of the others.
   size_t known = 0, ambiguous = 0, elsewhere = 0, held_back = 0, added = 0;
 };

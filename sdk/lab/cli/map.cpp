@@ -5,8 +5,9 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/import_recording.h"
 #include "host/publish/map_writer.h"
+#include "host/publish/recognition.h"
+#include "host/publish/release.h"
 #include "host/publish/resized_model.h"
-#include "host/publish/sphere_cloud.h"
 #include "host/report/file.h"
 #include "lab/cli/commands.h"
 
@@ -20,7 +21,7 @@ struct Options {
   RecordingOptions recording;
   std::vector<std::string> foreign, foreign_calibrations;
   std::vector<uint32_t> points;
-  SphereCloudOptions cloud;
+  double eta = 1.0 / 3;
   std::string out;
 };
 
@@ -37,23 +38,26 @@ std::vector<PointModel> importForeign(const Options &options) {
   return models;
 }
 
+// The model has been merged as a whole, and is of the wanted size.
 std::string writeMap(const Options &options, const PointModel &model) {
-  SecretRandom random(kKey);
-  OwnerNote note;
   const auto strategy = gaussianFakes();
-  const SphereCloud cloud = makeSphereCloud(model, options.cloud, *strategy, &random, &note.centre_in_world_m);
-  for (uint8_t &byte : note.map_id) byte = static_cast<uint8_t>(random.below(256));
-  note.eta = options.cloud.eta;
-  note.strategy = strategy->name();
+  ReleaseRequest request;
+  request.key = kKey;
+  request.strategy = strategy.get();
+  request.eta = options.eta;
+  request.merge = false;
+  const NewRelease made = makeRelease(model, request);
   const std::string path = options.out + "/map_" + std::to_string(model.points.size()) + ".sphc";
-  writeFile(path, encodeMap(cloud, note.map_id));
-  writeOwnerNote(path + ".owner.json", note);
+  writeFile(path, made.file);
+  writeOwnerNote(path + ".owner.json",
+                 {made.place.releases.back().map_id, made.place.centre_m, made.place.eta, made.place.strategy});
   return path;
 }
 
 int run(const Options &options, const Console &console) {
   makeFolder(options.out);
-  const PointModel own = importRecording(options.recording, "mapping   ");
+  const PointModel own =
+      withoutNearDuplicates(importRecording(options.recording, "mapping   "), kReleaseNearDuplicates);
   const std::vector<PointModel> foreign = importForeign(options);
   nlohmann::ordered_json maps = nlohmann::ordered_json::array();
   for (const uint32_t points : options.points) {
@@ -64,7 +68,7 @@ int run(const Options &options, const Console &console) {
                 std::to_string(points - own_points) + " foreign.");
     maps.push_back({{"map", path}, {"points", points}, {"own_points", own_points}});
   }
-  console.give({{"maps", maps}, {"eta", options.cloud.eta}});
+  console.give({{"maps", maps}, {"eta", options.eta}});
   return kExitDone;
 }
 
@@ -93,7 +97,7 @@ void addOptions(CLI::App *app, Options *options) {
       ->expected(1)
       ->take_all()
       ->type_name("FILE");
-  app->add_option("--eta", options->cloud.eta, "Share of points that keep their true direction, (0, 1]")
+  app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1]")
       ->capture_default_str()
       ->check(CLI::Range(1e-6, 1.0))
       ->type_name("X");

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "host/audit/attack/virtual_camera.h"
+#include "host/audit/score/centre_views.h"
 #include "host/audit/score/frame_view.h"
-#include "host/audit/score/look_around.h"
 #include "host/frames/frame_features.h"
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
@@ -108,8 +108,9 @@ MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
   const PointModel model = importRgbd(replay.get(), {}, {}, &summary);
   MeasuredPlace place;
   place.name = described.name;
-  Vector3 centre_m;
-  place.points = makeSphereCloud(model, {1}, *gaussianFakes(), random, &centre_m).points;
+  const Vector3 centre_m = centreOf(model.points);
+  for (const ModelPoint &point : model.points) place.points.push_back(seenFrom(centre_m, point));
+  shuffle(&place.points, random);
   place.centre_views = viewsFromCentre(replay.get(), centre_m);
   FrameReader(replay.get(), Camera(calibrationOf(replay.get()).color_camera), model).read(&place);
   return place;

@@ -4,8 +4,8 @@
 
 namespace sphc::host {
 
-// The folder that was installed with this command, else that of the source it was built from.  Throws
-// std::runtime_error, which names both, when there is neither.
+// share/spherecloud/networks beside this program's folder, as it is installed and as the build tree has it; empty
+// when there is none.
 std::string auditNetworks();
 
 }  // namespace sphc::host

@@ -17,11 +17,12 @@ std::string figuresTable(const MapAudit &audit) {
   std::string html =
       "<table><thead><tr><th>Figure</th><th>Value</th><th>Limit</th><th>Verdict</th><th></th></tr></thead>";
   for (const AuditFigure &figure : audit.figures) {
-    html += "<tr>" + cell(figure.about) + "<td class=value>" + (figure.value ? fixed(*figure.value, 3) : "-") +
+    const FigureKind &kind = figure.kind;
+    html += "<tr>" + cell(kind.about) + "<td class=value>" + (figure.value ? fixed(*figure.value, 3) : "-") +
             (figure.standard_error > 0 ? " &plusmn; " + fixed(figure.standard_error, 3) : "") + "</td>" +
-            cell(figure.limit ? (figure.at_most ? "at most " : "at least ") + fixed(*figure.limit, 3) : "") +
-            cell(wordFor(figure.verdict())) + "<td class=soft>" + escapeHtml(figure.remark) + " <code>" +
-            escapeHtml(figure.name) + "</code></td></tr>";
+            cell(kind.limit ? (kind.at_most ? "at most " : "at least ") + fixed(*kind.limit, 3) : "") +
+            cell(wordFor(figure)) + "<td class=soft>" + escapeHtml(figure.remark) + " <code>" +
+            escapeHtml(kind.name) + "</code></td></tr>";
   }
   return html + "</table>";
 }
@@ -38,20 +39,44 @@ std::string retrievalTable(const MapAudit &audit) {
   return html + "</table>";
 }
 
+std::string listed(const std::vector<std::string> &names) {
+  std::string text;
+  for (const std::string &name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 }  // namespace
 
-std::string wordFor(Verdict verdict) {
-  switch (verdict) {
+std::string wordFor(const AuditFigure &figure) {
+  switch (figure.verdict()) {
     case Verdict::kHolds:
       return "holds";
     case Verdict::kBroken:
       return "BROKEN";
     case Verdict::kInformation:
       return "for information";
+    case Verdict::kDoesNotApply:
+      return "does not apply";
     case Verdict::kNotMeasured:
       break;
   }
-  return "not measured";
+  if (!figure.kind.limit) return "not measured";
+  return figure.may_stay_unmeasured ? "not measured, as allowed" : "NOT MEASURED";
+}
+
+std::string outcomeText(const MapAudit &audit) {
+  const std::string allowed =
+      audit.allowedGates().empty() ? "" : " Not measured, as allowed: " + listed(audit.allowedGates()) + ".";
+  switch (audit.outcome()) {
+    case AuditOutcome::kHolds:
+      return (allowed.empty() ? "Every limit holds." : "Every limit that was measured holds.") + allowed;
+    case AuditOutcome::kBroken:
+      return "A limit is broken: do not release this map." + allowed;
+    case AuditOutcome::kNotMeasured:
+      break;
+  }
+  return "No limit is broken, but some were not measured: " + listed(audit.missingGates()) +
+         ". Give what they need, or allow it with --allow-unmeasured." + allowed;
 }
 
 std::string writeAuditPage(const std::string &folder, const std::string &map, const MapAudit &audit) {
@@ -73,9 +98,9 @@ std::string writeAuditPage(const std::string &folder, const std::string &map, co
       "<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport "
       "content=\"width=device-width\"><title>Audit of " +
       escapeHtml(map) + "</title><style>" + kPageStyle + "</style><header><div><h1>Privacy audit</h1><p>" +
-      escapeHtml(map) + "</p></div></header><main><section><h2>" +
-      (audit.holds() ? "Every limit holds" : "A limit is broken: do not release this map") + "</h2>" +
-      figuresTable(audit) + "</section>" + pictures + "</main></html>\n";
+      escapeHtml(map) + "</p></div></header><main><section><h2>" + escapeHtml(outcomeText(audit)) + "</h2>" +
+      (audit.quick ? "<p class=soft>A quick audit: fewer lines and views.</p>" : "") + figuresTable(audit) +
+      "</section>" + pictures + "</main></html>\n";
   const std::string page = folder + "/audit.html";
   writeText(page, html);
   return page;

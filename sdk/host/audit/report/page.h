@@ -10,7 +10,9 @@ namespace sphc::host {
 // std::runtime_error when the folder cannot be written.
 std::string writeAuditPage(const std::string &folder, const std::string &map, const MapAudit &audit);
 
-// "holds", "BROKEN", "for information" or "not measured".
-std::string wordFor(Verdict verdict);
+// The figure's verdict in a word or two; capitals for what stops a release.
+std::string wordFor(const AuditFigure &figure);
+// What the owner is to make of it.
+std::string outcomeText(const MapAudit &audit);
 
 }  // namespace sphc::host

@@ -6,52 +6,52 @@
 #include <string>
 #include <vector>
 
-#include "host/audit/attack/published.h"
-#include "host/audit/score/inversion_audit.h"
-#include "host/audit/score/truth.h"
-#include "host/publish/place.h"
+#include "host/audit/score/attack.h"
+#include "host/audit/score/audit_input.h"
 
 namespace sphc::host {
 
-struct MapAuditInput {
-  std::vector<uint8_t> file;
-  std::string networks;                          // folder of the attackers' trained files
-  std::optional<Place> place;                    // the owner's truth; without it some attacks cannot be scored
-  std::vector<InversionView> views;              // pictures of the place from the centre; else pseudo truth
-  std::vector<std::vector<uint8_t>> releases;    // other maps of the place that were published
-  std::vector<std::vector<ModelPoint>> queries;  // frames of a client, in the place's frame
-  bool quick = false;
+struct AuditRules {
+  std::map<std::string, double> limits;  // by figure, beside or in place of its own
+  // What may stay unmeasured: names of figures, of attacks, or of needs (truth, recording, networks, releases).
+  std::vector<std::string> allow_unmeasured;
 };
 
-enum class Verdict { kHolds, kBroken, kInformation, kNotMeasured };
+// Throws std::runtime_error when a name of the rules is none.
+void checkRules(const AuditRules &rules);
+
+enum class Verdict { kHolds, kBroken, kInformation, kNotMeasured, kDoesNotApply };
 
 struct AuditFigure {
-  std::string name;   // "attack.metric": what a limit is set for
-  std::string about;  // a line for people
+  FigureKind kind;  // with the limit of the rules
   std::optional<double> value;
   double standard_error = 0;
-  std::optional<double> limit;
-  bool at_most = true;  // else at least
-  std::string remark;   // why it was not measured, or what it is of
+  std::string remark;                // what it is of, or why it was not measured
+  bool applies = true;               // else there is nothing to attack
+  bool may_stay_unmeasured = false;  // by the rules, or as information
+
   Verdict verdict() const;
 };
 
+// Of all figures together; a gate that was not measured fails closed.
+enum class AuditOutcome { kHolds, kBroken, kNotMeasured };
+
 struct MapAudit {
+  bool quick = false;
   std::vector<AuditFigure> figures;
   std::vector<InversionView> views;
   std::vector<InversionResult> inversions;
-  bool holds() const;  // no figure is broken
+
+  AuditOutcome outcome() const;
+  std::vector<std::string> missingGates() const;  // not measured, and nobody allowed it
+  std::vector<std::string> allowedGates() const;  // not measured, as the rules allow
 };
 
-// Limits by figure name; those of a release unless the user has others.
-std::map<std::string, double> defaultAuditLimits();
+// Told before each attack how many are done.
+using AuditProgress = std::function<void(uint32_t done, uint32_t total)>;
 
-// Told the name of each attack before it begins.
-using AuditProgress = std::function<void(const std::string &attack)>;
-
-// Throws std::runtime_error, with cause and cure, when the map cannot be read or is not of the place, or a limit
-// has no figure.
-MapAudit auditMap(const MapAuditInput &input, const std::map<std::string, double> &limits,
-                  const AuditProgress &progress);
+// Throws std::runtime_error, with cause and cure, when the map cannot be read or is not of the place, or by
+// checkRules.
+MapAudit auditMap(const AuditInput &input, const AuditRules &rules, const AuditProgress &progress);
 
 }  // namespace sphc::host

@@ -5,6 +5,7 @@
 
 #include "host/base/usage_error.h"
 #include "host/cli/common/progress.h"
+#include "host/import/model_file.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -118,18 +119,28 @@ ImportedPoints fromRecording(const PointSource &source) {
   return imported;
 }
 
+ImportedPoints fromModel(const PointSource &source) {
+  ImportedPoints imported;
+  imported.model = readModelFile(source.model);
+  imported.told = "Read " + std::to_string(imported.model.points.size()) + " points of " + source.model + ".";
+  imported.facts = {{"model", source.model}, {"points_kept", imported.model.points.size()}};
+  return imported;
+}
+
 }  // namespace
 
 void addPointSourceOptions(CLI::App *app, PointSource *source) {
   addRecordingOptions(app, &source->recording)->required(false);
   addMappingOptions(app, &source->import);
   addColmapOptions(app, source);
+  app->add_option("--model", source->model, "Point model to take in place of a recording: from --save-model")
+      ->type_name("FILE");
 }
 
 void checkPointSource(const PointSource &source) {
   const ColmapImportOptions &colmap = source.colmap;
-  if (source.recording.folder.empty() == colmap.model.empty())
-    throw UsageError("--recording or --colmap is required, one of the two");
+  const int sources = !source.recording.folder.empty() + !colmap.model.empty() + !source.model.empty();
+  if (sources != 1) throw UsageError("--recording, --colmap or --model is required, one of the three");
   gravityFrom(source.gravity);
   if (colmap.model.empty()) return;
   if (colmap.images.empty() && colmap.database.empty())
@@ -140,6 +151,7 @@ void checkPointSource(const PointSource &source) {
 }
 
 ImportedPoints importPoints(const PointSource &source) {
+  if (!source.model.empty()) return fromModel(source);
   return source.colmap.model.empty() ? fromRecording(source) : fromColmap(source);
 }
 

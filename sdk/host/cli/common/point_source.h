@@ -1,4 +1,4 @@
-// Where a map's points come from: a recording, or a COLMAP model.
+// Where a map's points come from: a recording, a COLMAP model, or a point model that was saved.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -14,6 +14,7 @@ struct PointSource {
   RgbdImportOptions import;
   ColmapImportOptions colmap;
   std::string gravity = "level";
+  std::string model;  // a saved one
 };
 void addPointSourceOptions(CLI::App *app, PointSource *source);
 

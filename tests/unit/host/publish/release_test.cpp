@@ -185,7 +185,7 @@ TEST(Release, AFewNewPointsWaitForMore) {
 TEST(Release, NearDuplicatesAreMergedFirst) {
   const PointModel room = test::madeUpRoom(500, 1);
   const NewRelease made = makeRelease(test::joined(room, test::seenAgain(room, 2)), releaseRequest());
-  EXPECT_EQ(made.summary.twins, 500u);
+  EXPECT_EQ(made.summary.near_duplicates, 500u);
   EXPECT_EQ(setOf(made.file).size(), 500u);
 }
 

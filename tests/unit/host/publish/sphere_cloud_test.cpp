@@ -8,7 +8,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "host/publish/map_writer.h"
+#include "host/publish/release.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc::host {
@@ -38,17 +38,21 @@ struct Built {
   Vector3 centre_m;
 };
 
-Built build(const PointModel &model, double eta, uint8_t key = 1, double variance = 0.1) {
-  SecretRandom random({key});
-  Built built;
-  built.cloud = makeSphereCloud(model, {eta}, *gaussianFakes(variance), &random, &built.centre_m);
-  return built;
+// By the only way there is.
+Built build(const PointModel &model, double eta, uint8_t key = 1) {
+  const auto strategy = gaussianFakes();
+  ReleaseRequest request;
+  request.key = {key};
+  request.strategy = strategy.get();
+  request.eta = eta;
+  const NewRelease made = makeRelease(model, request);
+  return {publishedCloud(made.place, request.key), made.place.centre_m};
 }
 
 // Is this point's direction the one of the model point that has its descriptor?
 bool isReal(const PointModel &model, const Built &built, const SpherePoint &point) {
   const Vector3 &position = model.points[nameOf(point.descriptor)].position_m;
-  return ((position - built.centre_m).normalized() - point.direction).norm() < 1e-12;
+  return ((position - built.centre_m).normalized() - point.direction).norm() < 1e-4;  // as packed
 }
 
 TEST(SphereCloud, CentreIsTheCentroid) {
@@ -84,7 +88,7 @@ TEST(SphereCloud, EveryDescriptorAppearsExactlyOnceAndUnchanged) {
 
 TEST(SphereCloud, AllDirectionsAreUnit) {
   for (const SpherePoint &point : build(makeModel(2000), 0.25).cloud.points)
-    EXPECT_NEAR(point.direction.norm(), 1, 1e-12);
+    EXPECT_NEAR(point.direction.norm(), 1, 1e-6);
 }
 
 // Which points keep their direction must not hang on where they stood in the model, nor show in the map's order.
@@ -107,28 +111,21 @@ TEST(SphereCloud, OrderTellsNothing) {
   EXPECT_NEAR(displacement / (kKeys * 2000) / 2000, 1.0 / 3, 0.01);  // of two independent uniforms
 }
 
-TEST(SphereCloud, SameKeySameBytesOtherKeyOthers) {
-  const PointModel model = makeModel(300);
-  const auto bytes = [&](uint8_t key) { return encodeMap(build(model, 0.33, key).cloud, {}); };
-  EXPECT_EQ(bytes(1), bytes(1));
-  EXPECT_NE(bytes(1), bytes(2));
-}
-
 TEST(SphereCloud, APointAtTheCentreHasNoDirection) {
-  PointModel model = makeModel(50);
-  for (size_t i = 0; i < 50; ++i)
+  PointModel model = makeModel(100);
+  for (size_t i = 0; i < 100; ++i)
     model.points[i].position_m = Vector3(i % 2 ? 1 : -1, 0.1 * static_cast<double>(i / 2), 0);
   model.points.push_back(model.points[0]);
   Vector3 mean = Vector3::Zero();
-  for (size_t i = 0; i < 50; ++i) mean += model.points[i].position_m / 50;
-  model.points[50].position_m = mean;
-  EXPECT_EQ(build(model, 1).cloud.points.size(), 50u);
+  for (size_t i = 0; i < 100; ++i) mean += model.points[i].position_m / 100;
+  model.points[100].position_m = mean;
+  EXPECT_EQ(build(model, 1).cloud.points.size(), 100u);
 }
 
 TEST(SphereCloud, BadRequestsAreExplained) {
   const PointModel model = makeModel(100);
   for (double eta : {0.0, -0.1, 1.01, std::nan("")}) EXPECT_THROW(build(model, eta), std::runtime_error) << eta;
-  EXPECT_THROW(build(makeModel(15), 1), std::runtime_error);
+  EXPECT_THROW(build(makeModel(63), 1), std::runtime_error);
   EXPECT_THROW(build(model, 0.001), std::runtime_error);  // not one real direction
   // Nearly all points at one place, so that too few have a direction.
   PointModel heap = model;

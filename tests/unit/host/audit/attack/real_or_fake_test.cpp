@@ -84,7 +84,20 @@ nlohmann::json shipped() {
   return readModel(std::string(kNetworks) + "/real_or_fake_gaussian.json", "spherecloud real-or-fake 1");
 }
 
-TEST(RealOrFakeModel, ShippedOneIsTaken) { EXPECT_NO_THROW(RealOrFakeClassifier(fileWith(shipped().dump()))); }
+TEST(RealOrFakeModel, ACopyOfTheShippedOneSaysTheSame) {
+  const KnownCloud cloud = makeUpCloud(true, 8);
+  const RealOrFakeFeatures features =
+      realOrFakeFeatures(cloud.published, CoOccurrence(std::string(kNetworks) + "/co_occurrence.json"));
+  const Eigen::ArrayXf copied = RealOrFakeClassifier(fileWith(shipped().dump())).probabilities(features);
+  EXPECT_GT(copied.maxCoeff() - copied.minCoeff(), 0.1f);  // it does tell points from each other
+  for (const RealOrFakeGuess &guess : guessRealOrFake(cloud.published, kNetworks)) {
+    if (guess.attacker != "knows gaussian") continue;
+    ASSERT_EQ(guess.scores.size(), static_cast<size_t>(copied.size()));
+    for (Eigen::Index i = 0; i < copied.size(); ++i) EXPECT_EQ(guess.scores[static_cast<size_t>(i)], copied[i]);
+    return;
+  }
+  FAIL() << "no attacker knows gaussian";
+}
 
 TEST(RealOrFakeModel, OthersAreRefused) {
   EXPECT_THROW(RealOrFakeClassifier(std::string("/nowhere/model.json")), std::runtime_error);

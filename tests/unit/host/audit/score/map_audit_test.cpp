@@ -1,16 +1,27 @@
 #include "host/audit/score/map_audit.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/audit/attack/real_or_fake.h"
+#include "host/audit/score/auc.h"
+#include "host/publish/map_writer.h"
+#include "tests/support/refusal.h"
 #include "tests/unit/host/audit/made_up_releases.h"
 
 namespace sphc::host {
 namespace {
 
-MapAuditInput inputOf(const test::MadeUpRelease &release) {
-  MapAuditInput input;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+AuditInput inputOf(const test::MadeUpRelease &release) {
+  AuditInput input;
   input.file = release.file;
   input.networks = SPHC_NETWORKS;
   input.place = release.place;
@@ -18,55 +29,143 @@ MapAuditInput inputOf(const test::MadeUpRelease &release) {
   return input;
 }
 
-MapAudit audit(const MapAuditInput &input, const std::map<std::string, double> &limits = defaultAuditLimits()) {
-  return auditMap(input, limits, [](const std::string &) {});
+MapAudit audit(const AuditInput &input, const AuditRules &rules = {}) {
+  return auditMap(input, rules, [](uint32_t, uint32_t) {});
 }
 
 const AuditFigure &figure(const MapAudit &audit, const std::string &name) {
   const auto found = std::find_if(audit.figures.begin(), audit.figures.end(),
-                                  [&](const AuditFigure &candidate) { return candidate.name == name; });
+                                  [&](const AuditFigure &candidate) { return candidate.kind.name == name; });
   if (found == audit.figures.end()) throw std::runtime_error("no figure " + name);
   return *found;
 }
 
-TEST(MapAudit, TheFileItselfHolds) {
-  const MapAudit result = audit(inputOf(test::released(test::madeUpRoom(600, 1), 1, 1.0 / 3)));
-  for (const char *name : {"file.stray_bytes", "file.order_sigma", "file.cues_sigma", "density.at_centre"})
-    EXPECT_EQ(figure(result, name).verdict(), Verdict::kHolds) << name;
-  EXPECT_TRUE(figure(result, "real_or_fake.auc").value);
+constexpr const char *kOfTheFile[] = {"file.stray_bytes", "file.order_sigma", "file.cues_sigma",
+                                      "density.at_centre"};
+
+// The release with fakes whose directions have an even u, which nothing but carelessness makes.
+test::MadeUpRelease withEvenFakes(test::MadeUpRelease release) {
+  for (PlacePoint &point : release.place.points)
+    if (!point.real) point.direction.u &= static_cast<uint16_t>(~1u);
+  release.file = encodeMap(publishedCloud(release.place, {1}), {});
+  release.place.releases.clear();
+  return release;
 }
 
-TEST(MapAudit, WithoutTheTruthItSaysWhatItCannotMeasure) {
-  MapAuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
+TEST(MapAudit, TheFileItselfHolds) {
+  const test::MadeUpRelease release = test::released(test::madeUpRoom(600, 1), 1, 1.0 / 3);
+  const MapAudit result = audit(inputOf(release));
+  for (const char *name : kOfTheFile) EXPECT_EQ(figure(result, name).verdict(), Verdict::kHolds) << name;
+  double strongest = 0;
+  std::vector<bool> real;
+  for (const EntryTruth &entry : release.truth) real.push_back(entry.real);
+  for (const RealOrFakeGuess &guess : guessRealOrFake(release.map, SPHC_NETWORKS))
+    strongest = std::max(strongest, areaUnderCurve(guess.scores, real).value);
+  EXPECT_EQ(figure(result, "real_or_fake.auc").value, strongest);
+}
+
+TEST(MapAudit, ACarelessFileDoesNotHold) {
+  const test::MadeUpRelease good = test::released(test::madeUpRoom(600, 1), 1, 1.0 / 3);
+  const MapAudit even = audit(inputOf(withEvenFakes(good)));
+  EXPECT_EQ(figure(even, "file.cues_sigma").verdict(), Verdict::kBroken);
+  AuditInput longer = inputOf(good);
+  longer.file.push_back(1);
+  EXPECT_THROW(audit(longer), std::runtime_error);  // no map at all
+  longer = inputOf(good);
+  longer.file[92] = 7;  // reserved, in the first row of the section table
+  EXPECT_EQ(figure(audit(longer), "file.stray_bytes").verdict(), Verdict::kBroken);
+  EXPECT_EQ(audit(longer).outcome(), AuditOutcome::kBroken);
+}
+
+TEST(MapAudit, WithoutTheTruthItFailsClosed) {
+  AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
   input.place.reset();
   const MapAudit result = audit(input);
   EXPECT_EQ(figure(result, "file.order_sigma").verdict(), Verdict::kHolds);
-  for (const char *name : {"file.cues_sigma", "real_or_fake.auc", "inversion.of_papers"})
+  EXPECT_EQ(result.outcome(), AuditOutcome::kNotMeasured);
+  for (const char *name : {"file.cues_sigma", "real_or_fake.auc", "inversion.of_papers", "triangulation.pose_found",
+                           "intersection.gain"}) {
     EXPECT_EQ(figure(result, name).verdict(), Verdict::kNotMeasured) << name;
-  EXPECT_TRUE(result.holds());
+    EXPECT_THAT(result.missingGates(), Contains(name));
+  }
+  EXPECT_THAT(result.missingGates(), Not(Contains("querying_client.share_of_real")));  // has no limit
+}
+
+TEST(MapAudit, WhatIsAllowedMayStayUnmeasured) {
+  AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
+  input.place.reset();
+  const auto missing = [&](std::vector<std::string> allowed) {
+    AuditRules rules;
+    rules.allow_unmeasured = std::move(allowed);
+    return audit(input, rules).missingGates();
+  };
+  EXPECT_THAT(missing({"truth", "releases"}), IsEmpty());
+  EXPECT_THAT(missing({"truth"}), testing::ElementsAre("triangulation.pose_found"));
+  EXPECT_THAT(missing({"real_or_fake"}), Not(Contains("real_or_fake.auc")));  // an attack
+  EXPECT_THAT(missing({"real_or_fake"}), Contains("inversion.of_papers"));
+  EXPECT_THAT(missing({"inversion.of_papers"}), Not(Contains("inversion.of_papers")));  // a figure
+  AuditRules rules;
+  rules.allow_unmeasured = {"truth", "releases"};
+  EXPECT_EQ(audit(input, rules).outcome(), AuditOutcome::kHolds);
+  EXPECT_THAT(audit(input, rules).allowedGates(), Contains("real_or_fake.auc"));
+  rules.allow_unmeasured = {"luck"};
+  EXPECT_THAT(test::refusal([&] { audit(input, rules); }), HasSubstr("nothing is named luck"));
+}
+
+TEST(MapAudit, WithoutNetworksWhatNeedsThemIsMissing) {
+  AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
+  input.networks.clear();
+  EXPECT_THAT(audit(input).missingGates(), testing::ElementsAre("real_or_fake.auc", "inversion.of_papers"));
+}
+
+TEST(MapAudit, AllowingDoesNotExcuseWhatIsBroken) {
+  AuditInput input = inputOf(withEvenFakes(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3)));
+  AuditRules rules;
+  rules.allow_unmeasured = {"truth", "releases", "file.cues_sigma"};
+  EXPECT_EQ(audit(input, rules).outcome(), AuditOutcome::kBroken);
+}
+
+// The ledger knows what else was published of the place.
+TEST(MapAudit, AReleaseThatTheLedgerListsAndNobodyGivesIsMissed) {
+  const PointModel room = test::madeUpRoom(800, 1);
+  const test::MadeUpRelease first = test::released(test::part(room, 0, 600), 1, 1.0 / 3);
+  const test::MadeUpRelease second = test::released(room, 1, 1.0 / 3, {first.place});
+  EXPECT_EQ(figure(audit(inputOf(first)), "intersection.gain").verdict(), Verdict::kDoesNotApply);
+  AuditInput input = inputOf(second);
+  EXPECT_THAT(audit(input).missingGates(), testing::ElementsAre("triangulation.pose_found", "intersection.gain"));
+  input.releases = {first.file};
+  const MapAudit whole = audit(input);
+  EXPECT_THAT(whole.missingGates(), IsEmpty());
+  EXPECT_EQ(figure(whole, "triangulation.pose_found").verdict(), Verdict::kHolds);
+  EXPECT_EQ(figure(whole, "intersection.gain").verdict(), Verdict::kHolds);
+  // Another map in its place does not make it known.
+  input.releases = {test::released(test::madeUpRoom(600, 7), 1, 1.0 / 3).file};
+  EXPECT_THAT(audit(input).missingGates(), testing::ElementsAre("triangulation.pose_found", "intersection.gain"));
 }
 
 TEST(MapAudit, ACarelessSecondReleaseIsFound) {
   const PointModel room = test::madeUpRoom(600, 1);
-  MapAuditInput input = inputOf(test::released(room, 1, 1.0 / 3));
+  AuditInput input = inputOf(test::released(room, 1, 1.0 / 3));
   input.releases.push_back(test::released(room, 2, 1.0 / 3).file);
   const MapAudit result = audit(input);
   EXPECT_EQ(figure(result, "intersection.gain").verdict(), Verdict::kBroken);
   EXPECT_NEAR(*figure(result, "intersection.gain").value, 2.0 / 3, 0.1);
-  EXPECT_FALSE(result.holds());
+  EXPECT_EQ(result.outcome(), AuditOutcome::kBroken);
 }
 
 TEST(MapAudit, LimitsAreTheUsers) {
-  const MapAuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
-  auto limits = defaultAuditLimits();
-  limits["real_or_fake.precision_at_eta"] = 0;
-  EXPECT_EQ(figure(audit(input, limits), "real_or_fake.precision_at_eta").verdict(), Verdict::kBroken);
-  limits["no.such"] = 1;
-  EXPECT_THROW(audit(input, limits), std::runtime_error);
+  const AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
+  AuditRules rules;
+  rules.limits["real_or_fake.precision_at_eta"] = 0;
+  EXPECT_EQ(figure(audit(input, rules), "real_or_fake.precision_at_eta").verdict(), Verdict::kBroken);
+  rules.limits = {{"querying_client.share_of_real", 1}};  // with a limit it is a gate
+  EXPECT_THAT(audit(input, rules).missingGates(), Contains("querying_client.share_of_real"));
+  rules.limits = {{"no.such", 1}};
+  EXPECT_THROW(audit(input, rules), std::runtime_error);
 }
 
 TEST(MapAudit, AnotherPlacesTruthIsRefused) {
-  MapAuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
+  AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
   input.place = test::released(test::madeUpRoom(500, 2), 1, 1.0 / 3).place;
   EXPECT_THROW(audit(input), std::runtime_error);
 }

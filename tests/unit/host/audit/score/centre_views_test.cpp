@@ -1,4 +1,4 @@
-#include "host/audit/score/look_around.h"
+#include "host/audit/score/centre_views.h"
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,7 @@ void writeFrame(int frame, sphc_recording_writer *writer) {
 }
 
 // Six frames that turn by 60 degrees.
-class LookAround : public testing::Test {
+class PanoramaFrom : public testing::Test {
  protected:
   void SetUp() override {
     sphc_calibration calibration;
@@ -77,15 +77,15 @@ class LookAround : public testing::Test {
     ASSERT_EQ(sphc_replay_open((folder_ / "ball").c_str(), nullptr, nullptr, &replay_, &message), SPHC_OK)
         << message.text;
   }
-  ~LookAround() override { sphc_replay_close(&replay_); }
+  ~PanoramaFrom() override { sphc_replay_close(&replay_); }
 
   contract::TempFolder folder_;
   sphc_replay *replay_ = nullptr;
 };
 
-TEST_F(LookAround, PaintsWhatTheCentreWouldSee) {
+TEST_F(PanoramaFrom, PaintsWhatTheCentreWouldSee) {
   const Vector3 centre(-0.2, 0.1, 0.1);
-  const Panorama panorama = lookAround(replay_, centre);
+  const Panorama panorama = panoramaFrom(replay_, centre);
   const Matrix3 camera_from_map = Eigen::AngleAxisd(-25 * kDegree, Vector3::UnitY()).toRotationMatrix();
   const TruthView view = panorama.view(camera_from_map);
   EXPECT_GT(view.seenShare(), 0.95);  // but for a strip above, which no frame saw
@@ -103,8 +103,8 @@ TEST_F(LookAround, PaintsWhatTheCentreWouldSee) {
   EXPECT_LT(sum / 256, 6);
 }
 
-TEST_F(LookAround, PosesAreApartAndKnown) {
-  const Panorama panorama = lookAround(replay_, Vector3::Zero());
+TEST_F(PanoramaFrom, PosesAreApartAndKnown) {
+  const Panorama panorama = panoramaFrom(replay_, Vector3::Zero());
   const std::vector<Matrix3> poses = choosePoses(replay_, panorama, 20, 0.7);
   EXPECT_GE(poses.size(), 3u);  // at 0, 24 and 48 degrees
   for (size_t i = 0; i < poses.size(); ++i) {

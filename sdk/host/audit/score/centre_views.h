@@ -8,7 +8,7 @@
 namespace sphc::host {
 
 // All frames with a pose.  Throws std::runtime_error, with cause and cure, where there are none.
-Panorama lookAround(sphc_replay *replay, const Vector3 &centre_m);
+Panorama panoramaFrom(sphc_replay *replay, const Vector3 &centre_m);
 
 // Rotations to look in, camera_from_map: upright like the recording's frames, axes at least `apart_deg` from each
 // other, and enough of the view known.

@@ -1,4 +1,4 @@
-#include "host/audit/score/look_around.h"
+#include "host/audit/score/centre_views.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -82,7 +82,7 @@ Matrix3 turned(double yaw_deg, double pitch_deg) {
 
 }  // namespace
 
-Panorama lookAround(sphc_replay *replay, const Vector3 &centre_m) {
+Panorama panoramaFrom(sphc_replay *replay, const Vector3 &centre_m) {
   const FramePainter painter(calibrationOf(replay), centre_m);
   Panorama panorama;
   uint32_t painted = 0;
@@ -118,7 +118,7 @@ std::vector<Matrix3> choosePoses(sphc_replay *replay, const Panorama &panorama, 
 }
 
 std::vector<InversionView> viewsFromCentre(sphc_replay *replay, const Vector3 &centre_m) {
-  const Panorama panorama = lookAround(replay, centre_m);
+  const Panorama panorama = panoramaFrom(replay, centre_m);
   std::vector<InversionView> views;
   for (const Matrix3 &rotation : choosePoses(replay, panorama, kApartDeg, kSeenShare))
     views.push_back({rotation, panorama.view(rotation)});

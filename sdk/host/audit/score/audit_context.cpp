@@ -1,0 +1,73 @@
+#include "host/audit/score/audit_context.h"
+
+#include <algorithm>
+#include <set>
+
+#include "host/audit/attack/real_or_fake.h"
+#include "host/publish/fakes/strategy.h"
+#include "host/publish/secret_random.h"
+#include "runtime/map/crc32.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr SecretKey kControlKey = {1};  // of a control; hides nothing
+
+uint32_t crcOf(const std::vector<uint8_t> &file) { return crc32(0, file.data(), file.size()); }
+
+size_t releasesNotGivenOf(const AuditInput &input) {
+  std::set<uint32_t> given = {crcOf(input.file)};
+  for (const std::vector<uint8_t> &release : input.releases) given.insert(crcOf(release));
+  const auto &releases = input.place->releases;
+  return static_cast<size_t>(std::count_if(releases.begin(), releases.end(),
+                                           [&](const Release &release) { return !given.count(release.crc32); }));
+}
+
+RealOrFakeStudy studyOf(const Published &map, const std::vector<bool> &real, const std::string &networks) {
+  std::vector<RealOrFakeGuess> guesses = guessRealOrFake(map, networks);
+  RealOrFakeStudy study = {scoreRealOrFake(guesses, real), {}};
+  const auto strongest = std::max_element(study.scores.begin(), study.scores.end() - 1,
+                                          [](const auto &a, const auto &b) { return a.auc < b.auc; });
+  study.strongest = std::move(guesses[static_cast<size_t>(strongest - study.scores.begin())].scores);
+  return study;
+}
+
+}  // namespace
+
+AuditContext::AuditContext(const AuditInput &input) : input_(input), map_(publishedIn(input.file)) {
+  if (!input.place) return;
+  releases_not_given_ = releasesNotGivenOf(input);
+  truth_ = truthOf(map_, *input.place);
+  for (const EntryTruth &entry : truth_) real_.push_back(entry.real);
+  eta_ = static_cast<double>(std::count(real_.begin(), real_.end(), true)) / static_cast<double>(real_.size());
+}
+
+const Published &AuditContext::unprotected() {
+  if (unprotected_) return *unprotected_;
+  unprotected_.emplace();
+  for (const PlacePoint &point : input_.place->points) {
+    unprotected_->directions.push_back((point.seen.position_m - input_.place->centre_m).normalized());
+    unprotected_->descriptors.push_back(point.seen.descriptor);
+  }
+  return *unprotected_;
+}
+
+const RealOrFakeStudy &AuditContext::realOrFake() {
+  if (!real_or_fake_) real_or_fake_ = studyOf(map_, real_, input_.networks);
+  return *real_or_fake_;
+}
+
+const PaperControl &AuditContext::paper() {
+  if (paper_) return *paper_;
+  std::vector<SpherePoint> points;
+  for (size_t i = 0; i < unprotected().directions.size(); ++i)
+    points.push_back({unprotected().directions[i], unprotected().descriptors[i]});
+  SecretRandom random(kControlKey);
+  shuffle(&points, &random);
+  const auto real_count = static_cast<size_t>(eta_ * static_cast<double>(points.size()));
+  paper_ = PaperControl{knownCloud(gaussianFakes()->assignments(points, real_count, &random)), {}};
+  paper_->study = studyOf(paper_->cloud.published, paper_->cloud.real, input_.networks);
+  return *paper_;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,56 @@
+// What attacks share: each artefact is computed when an attack first asks for it, and once.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "host/audit/score/audit_input.h"
+#include "host/audit/score/known_cloud.h"
+#include "host/audit/score/real_or_fake_scores.h"
+#include "host/audit/score/truth.h"
+
+namespace sphc::host {
+
+// How well real points were told from fake ones, and by what.
+struct RealOrFakeStudy {
+  std::vector<RealOrFakeScores> scores;  // one an attacker, then the strongest again
+  std::vector<double> strongest;         // its scores, a point each
+};
+
+// The paper's fakes of the same points, and the same attackers on them.
+struct PaperControl {
+  KnownCloud cloud;
+  RealOrFakeStudy study;
+};
+
+class AuditContext {
+ public:
+  // Throws std::runtime_error when the file is no map, or is not of the input's place.  `input` must outlive this.
+  explicit AuditContext(const AuditInput &input);
+
+  const AuditInput &input() const { return input_; }
+  const Published &map() const { return map_; }
+  // Other releases of the place that the ledger lists and the input does not have.
+  size_t releasesNotGiven() const { return releases_not_given_; }
+
+  // Of attacks that need the truth alone.
+  const std::vector<EntryTruth> &truth() const { return truth_; }
+  double eta() const { return eta_; }  // share of real entries
+  const Published &unprotected();      // all points in their true directions
+
+  // Of attacks that need truth and networks.
+  const RealOrFakeStudy &realOrFake();
+  const PaperControl &paper();
+
+ private:
+  const AuditInput &input_;
+  Published map_;
+  size_t releases_not_given_ = 0;
+  std::vector<EntryTruth> truth_;
+  std::vector<bool> real_;
+  double eta_ = 0;
+  std::optional<Published> unprotected_;
+  std::optional<RealOrFakeStudy> real_or_fake_;
+  std::optional<PaperControl> paper_;
+};
+
+}  // namespace sphc::host

@@ -1,0 +1,198 @@
+#include "host/import/model_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "runtime/map/crc32.h"
+#include "runtime/stages/features/extractor.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr char kMagic[8] = {'S', 'P', 'H', 'C', 'P', 'R', 'I', 'V'};
+constexpr uint32_t kVersion = 1;
+constexpr size_t kPointBytes = 4 * sizeof(double) + sizeof(uint32_t) + kDescriptorBytes;
+constexpr uint32_t kMostPoints = 1u << 24;
+constexpr double kFarthestM = 1e6;
+static_assert(kPointBytes == 164 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "docs/private_model.md");
+
+struct Header {
+  char magic[8];
+  uint32_t version, extractor;
+  uint64_t file_bytes;
+  uint32_t point_count;
+  uint32_t crc32;  // of the whole file with 0 in this field
+};
+static_assert(sizeof(Header) == 32, "docs/private_model.md");
+
+// Takes values from bytes, or puts them there, one after the other.
+template <typename T>
+void put(const T &value, uint8_t **at) {
+  std::memcpy(*at, &value, sizeof value);
+  *at += sizeof value;
+}
+template <typename T>
+void take(const uint8_t **at, T *value) {
+  std::memcpy(value, *at, sizeof *value);
+  *at += sizeof *value;
+}
+
+uint32_t crcOf(Header header, const uint8_t *points, size_t bytes) {
+  header.crc32 = 0;
+  return crc32(crc32(0, &header, sizeof header), points, bytes);
+}
+
+[[noreturn]] void refuse(const std::string &why) { throw std::runtime_error(why); }
+
+void checkHeader(const Header &header, const std::vector<uint8_t> &bytes) {
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0)
+    refuse("this is no point model; give a file that build --save-model wrote");
+  if (header.version != kVersion) refuse("it was written by another version of this program; save it anew");
+  if (header.extractor != kExtractorId)
+    refuse("its descriptors are of another version of this program; map the recording again");
+  if (header.file_bytes != bytes.size() || header.point_count > kMostPoints ||
+      bytes.size() != sizeof header + header.point_count * kPointBytes)
+    refuse("it is cut or has too many bytes; take the backup, or map the recording again");
+  if (header.crc32 != crcOf(header, bytes.data() + sizeof header, bytes.size() - sizeof header))
+    refuse("it is damaged; take the backup, or map the recording again");
+}
+
+ModelPoint pointAt(const uint8_t **at) {
+  ModelPoint point;
+  for (int i = 0; i < 3; ++i) take(at, &point.position_m[i]);
+  take(at, &point.sigma_m);
+  take(at, &point.observations);
+  take(at, &point.descriptor.bytes);
+  const bool valid = point.position_m.allFinite() && point.position_m.norm() < kFarthestM && point.sigma_m >= 0 &&
+                     point.sigma_m < kFarthestM && point.observations > 0;
+  if (!valid) refuse("a point is out of range; take the backup, or map the recording again");
+  return point;
+}
+
+class File {
+ public:
+  File(const std::string &path, int flags, mode_t mode) : file_(open(path.c_str(), flags | O_CLOEXEC, mode)) {}
+  ~File() {
+    if (file_ >= 0) close(file_);
+  }
+  File(const File &) = delete;
+  File &operator=(const File &) = delete;
+  int get() const { return file_; }
+
+ private:
+  int file_;
+};
+
+bool writeAll(int file, const std::vector<uint8_t> &bytes) {
+  for (size_t done = 0; done < bytes.size();) {
+    const ssize_t count = write(file, bytes.data() + done, bytes.size() - done);
+    if (count == 0 || (count < 0 && errno != EINTR)) return false;
+    if (count > 0) done += static_cast<size_t>(count);
+  }
+  return fsync(file) == 0;
+}
+
+std::vector<uint8_t> readAll(int file, size_t count) {
+  std::vector<uint8_t> bytes(count);
+  for (size_t done = 0; done < count;) {
+    const ssize_t got = read(file, bytes.data() + done, count - done);
+    if (got == 0 || (got < 0 && errno != EINTR)) refuse("it cannot be read to its end");
+    if (got > 0) done += static_cast<size_t>(got);
+  }
+  return bytes;
+}
+
+// A pipe must not hang, and what others may read is no secret any more.
+std::vector<uint8_t> readPrivate(const std::string &path) {
+  const File file(path, O_RDONLY | O_NONBLOCK, 0);
+  struct stat facts = {};
+  if (file.get() < 0 || fstat(file.get(), &facts) != 0)
+    refuse(std::string(std::strerror(errno)) + "; is the file there?");
+  if (!S_ISREG(facts.st_mode)) refuse("it is no file; give one that build --save-model wrote");
+  if (facts.st_mode & (S_IRWXG | S_IRWXO))
+    refuse("others may read it, and it tells where every point is; run: chmod 600 " + path);
+  const auto size = static_cast<uint64_t>(facts.st_size);
+  if (size < sizeof(Header) || size > sizeof(Header) + kMostPoints * uint64_t{kPointBytes})
+    refuse("this is no point model; give a file that build --save-model wrote");
+  return readAll(file.get(), size);
+}
+
+bool isModel(const std::string &path) {
+  const File file(path, O_RDONLY | O_NONBLOCK, 0);
+  char magic[sizeof kMagic] = {};
+  return file.get() >= 0 && read(file.get(), magic, sizeof magic) == sizeof magic &&
+         std::memcmp(magic, kMagic, sizeof magic) == 0;
+}
+
+template <typename Action>
+auto named(const std::string &path, const Action &action) {
+  try {
+    return action();
+  } catch (const std::runtime_error &error) {
+    throw std::runtime_error("point model " + path + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<uint8_t> encodeModel(const PointModel &model) {
+  if (model.points.size() > kMostPoints)
+    refuse("a point model has 16777216 points at most; map a part of the place");
+  const auto count = static_cast<uint32_t>(model.points.size());
+  std::vector<uint8_t> bytes(sizeof(Header) + count * kPointBytes);
+  uint8_t *at = bytes.data() + sizeof(Header);
+  for (const ModelPoint &point : model.points) {
+    for (int i = 0; i < 3; ++i) put(point.position_m[i], &at);
+    put(point.sigma_m, &at);
+    put(point.observations, &at);
+    put(point.descriptor.bytes, &at);
+  }
+  Header header = {{}, kVersion, kExtractorId, bytes.size(), count, 0};
+  std::memcpy(header.magic, kMagic, sizeof kMagic);
+  header.crc32 = crcOf(header, bytes.data() + sizeof header, bytes.size() - sizeof header);
+  std::memcpy(bytes.data(), &header, sizeof header);
+  return bytes;
+}
+
+PointModel decodeModel(const std::vector<uint8_t> &bytes) {
+  Header header;
+  if (bytes.size() < sizeof header) refuse("this is no point model; give a file that build --save-model wrote");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  checkHeader(header, bytes);
+  PointModel model;
+  model.points.reserve(header.point_count);
+  const uint8_t *at = bytes.data() + sizeof header;
+  for (uint32_t i = 0; i < header.point_count; ++i) model.points.push_back(pointAt(&at));
+  return model;
+}
+
+void checkModelTarget(const std::string &path) {
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) == 0 && !isModel(path))
+    refuse(path + " is there and is no point model; give --save-model another name");
+}
+
+void writeModelFile(const std::string &path, const PointModel &model) {
+  checkModelTarget(path);
+  const std::vector<uint8_t> bytes = encodeModel(model);
+  const std::string beside = path + ".part";
+  unlink(beside.c_str());
+  const File file(beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
+  if (file.get() >= 0 && writeAll(file.get(), bytes) && std::rename(beside.c_str(), path.c_str()) == 0) return;
+  const std::string why = std::strerror(errno);
+  if (file.get() >= 0) unlink(beside.c_str());
+  refuse("cannot write " + path + ": " + why + "; check that its folder is there, writable, and the disk not full");
+}
+
+PointModel readModelFile(const std::string &path) {
+  return named(path, [&] { return decodeModel(readPrivate(path)); });
+}
+
+}  // namespace sphc::host
