@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Accuracy of the whole pipeline on recordings, through the command line alone.
 
-    accuracy.py --spherecloud BIN --update [NAME...]   measures every row (of NAME) anew and rewrites accuracy.csv
-    accuracy.py --spherecloud BIN --check NAME         measures a part of NAME's rows; each figure must be as in accuracy.csv
+    accuracy.py --spherecloud BIN --update [NAME...]   measures every row (of NAME) anew and rewrites both files
+    accuracy.py --spherecloud BIN --check NAME         measures a part of NAME's rows; each figure must be the committed one
     accuracy.py --committed                            holds the files themselves: complete, above the floors, summed up
 
-accuracy.csv has a row for each map and way to localize in it; results are the same on every machine, so its figures are
-compared as printed.  accuracy_spread.csv follows from it: of each row the median and the worst over the keys.  The keys
-are known to all, so that rows can be compared; they protect nothing.
+accuracy_keys.csv has a row for each map and way to localize in it; results are the same on every machine, so its figures
+are compared as printed.  accuracy.csv follows from it: of each row the median and the worst over the keys.  The keys are
+known to all, so that rows can be compared; they protect nothing.
 """
 import argparse
 import collections
@@ -25,7 +25,7 @@ import time
 sys.dont_write_bytecode = True
 from recordings import HERE, Recording, absent, frames, run
 
-RESULTS, SPREAD = HERE / "accuracy.csv", HERE / "accuracy_spread.csv"
+RESULTS, SPREAD = HERE / "accuracy_keys.csv", HERE / "accuracy.csv"
 KEYS = [(HERE / "test_key.txt").read_text()] + [
     hashlib.sha256(b"spherecloud test key %d" % number).hexdigest() + "\n" for number in range(2, 13)]
 MODES = {
@@ -111,6 +111,8 @@ class Place:
             if not recording.is_there():
                 absent(recording.folder)
             recording.prepare()
+        self.model = workdir / "model"  # mapped once, published by every key
+        run([tool, "build", *self.recording.source("map"), "--save-model", self.model, "--map", workdir / "first.sphc", "--json"])
 
     def measure(self, made):
         """The rows of one map."""
@@ -119,7 +121,7 @@ class Place:
             file, key = folder / "room.sphc", folder / "key"
             key.write_text(KEYS[made.key - 1])
             key.chmod(0o600)
-            built = run([self.tool, "build", *self.recording.source("map"), "--map", file, "--eta", made.eta,
+            built = run([self.tool, "build", "--model", self.model, "--map", file, "--eta", made.eta,
                          "--fakes", made.fakes, "--key", key, "--ledger", folder / "ledger", "--json"])
             return [self.localize(made, name, mode, file, built["points"]) for name, mode in localizations(made)]
 
@@ -186,7 +188,7 @@ def write(path, rows):
 
 
 def wanted_rows():
-    """What accuracy.csv must hold, in its order."""
+    """What accuracy_keys.csv must hold, in its order."""
     return [identity(made, name, mode) for place in recordings() for made in maps_of(place)
             for name, mode in localizations(made)]
 
@@ -196,7 +198,7 @@ def keyed(row):
 
 
 def spread(rows):
-    """The median and the worst over the keys, of every row of accuracy.csv."""
+    """The median and the worst over the keys, of every row of accuracy_keys.csv."""
     groups = collections.defaultdict(list)
     for row in rows:
         groups[keyed(row)[:-1]].append(row)
@@ -224,7 +226,7 @@ def update(tool, names):
     def tell(words):
         print("[%5.0f s] %s" % (time.monotonic() - begin, words), flush=True)
 
-    rows = {keyed(row): row for row in read(RESULTS)}
+    rows = {keyed(row): row for row in read(RESULTS)} if RESULTS.exists() else {}
     for name in names or recordings():
         for row in measure(tool, name, list(maps_of(name)), tell):
             tell(" ".join(row.values()))
