@@ -1,18 +1,33 @@
 #!/bin/bash
-# The one test command: installs what is missing, builds, runs every test.  Ends with "N passed, N failed".
-# A step without test cases of its own, such as a build or the formatting check, counts as one.
+# The one test command: installs what is missing, builds, runs tests.  Ends with "N passed, N failed".
+#
+#   tests/run.sh [STAGE...]     without a stage: all
+#
+# Stages:
+#   all          everything below but quick, in this order
+#   quick        formatting, unit tests, layers, the golden session: what to run while working
+#   release      formatting; the release with gcc and all its tests, guests included
+#   device       the runtime alone, as firmware links it
+#   portability  the runtime by other compilers and flags and for other machines: the same bytes
+#   arm64        the drivers of cameras on a stock arm64 kernel in an emulator
+#   sanitized    clang with AddressSanitizer and UndefinedBehaviorSanitizer
+#   tsan         ThreadSanitizer on what has threads
+#
+# A test case counts as one; so does a step without test cases of its own, such as a build.  What was skipped is listed
+# and counts as neither.
 set -uo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root" || exit 1
 exec </dev/null
 jobs=$(nproc)
-passed=0 failed=0 begin=$SECONDS
-mkdir -p build
+passed=0 failed=0 skipped=0 begin=$SECONDS
+stages=(release device portability arm64 sanitized tsan)
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
-# OpenNI2 asks threads that have ended whether they live; as long as their stacks are kept it gets an answer.
-export GLIBC_TUNABLES=glibc.pthread.stack_cache_size=1073741824
+usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//p}' "$0"; }
+
+finished() { printf '   %d s so far\n' $((SECONDS - begin)); }
 
 # check NAME COMMAND...: one step; its output is shown when it fails
 check() {
@@ -29,7 +44,7 @@ check() {
     printf 'FAILED: %s\n' "$name"
   fi
   rm -f "$log"
-  printf '   %d s so far\n' $((SECONDS - begin))
+  finished
 }
 
 # build FOLDER TARGETS CMAKE-ARGUMENTS...: TARGETS is a list of words, "all" for everything
@@ -37,55 +52,118 @@ build() {
   local folder=$1 targets=$2
   shift 2
   # shellcheck disable=SC2086 # words on purpose
-  cmake -S . -B "$folder" -G Ninja "$@" && cmake --build "$folder" --parallel "$jobs" --target $targets
+  cmake -S . -B "$folder" -G Ninja -DSPHC_WERROR=ON "$@" &&
+    cmake --build "$folder" --parallel "$jobs" --target $targets
 }
 
-# tests NAME FOLDER CTEST-ARGUMENTS...: adds ctest's numbers up
+# tests NAME FOLDER CTEST-ARGUMENTS...: adds up the test cases that ctest's log tells of
 tests() {
-  local name=$1 folder=$2 numbers
+  local name=$1 folder=$2 numbers good bad left_out
   shift 2
   printf '\n== %s\n' "$name"
-  ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error "$@" >"$folder/ctest.log" 2>&1
-  grep -vE '^ *Start +[0-9]+:|[0-9]+/[0-9]+ Test +#[0-9]+: .* Passed +[0-9.]+ sec$' "$folder/ctest.log"
-  numbers=$(sed -nE 's/^[0-9]+% tests passed, ([0-9]+) tests failed out of ([0-9]+)$/\1 \2/p' "$folder/ctest.log")
-  if [ -n "$numbers" ]; then
-    failed=$((failed + ${numbers% *}))
-    passed=$((passed + ${numbers#* } - ${numbers% *}))
-  else
+  if ! [ -d "$folder" ]; then
+    printf 'FAILED: %s was not built\n' "$folder"
     failed=$((failed + 1))
+    return
   fi
-  printf '   %d s so far\n' $((SECONDS - begin))
+  rm -f "$folder/ctest.xml"
+  ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error --output-junit "$root/$folder/ctest.xml" \
+    --test-output-size-passed 1000000 --test-output-size-failed 1000000 "$@" >"$folder/ctest.log" 2>&1
+  grep -vE '^ *Start +[0-9]+:|[0-9]+/[0-9]+ Test +#[0-9]+: .* Passed +[0-9.]+ sec *$' "$folder/ctest.log"
+  numbers=$(python3 tests/count_cases.py "$folder/ctest.xml") || numbers="0 1 0"
+  read -r good bad left_out <<<"$numbers"
+  printf '%d passed, %d failed, %d skipped\n' "$good" "$bad" "$left_out"
+  passed=$((passed + good)) failed=$((failed + bad)) skipped=$((skipped + left_out))
+  finished
 }
-
-# Sanitizers by clang, so that its warnings are seen too; with a little optimisation they are fast enough.  Keeps asserts.
-sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
-  "-DCMAKE_CXX_FLAGS=-O1 -g1" "-DCMAKE_C_FLAGS=-O1 -g1")
 
 formatting() { git ls-files -z '*.h' '*.hpp' '*.c' '*.cpp' | xargs -0 clang-format --dry-run -Werror; }
 
-check "packages" toolchains/install_packages.sh build test guest
-check "python packages" toolchains/install_python_packages.sh build/python
-check "formatting" formatting
-check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
-tests "release: tests" build/release
-check "the runtime alone, as firmware links it" build build/device all -DCMAKE_BUILD_TYPE=Release -DSPHC_HOST=OFF \
-  -DSPHC_DRIVERS=OFF -DSPHC_EXAMPLES=OFF -DSPHC_TESTS=OFF
-arm64=$root/build/guest/arm64
-check "arm64: a kernel and libraries" tests/guest/fetch_arm64.sh "$arm64"
-check "arm64: build" build build/arm64 'vhci_camera guest_capture' -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_TOOLCHAIN_FILE=toolchains/aarch64-linux-gnu.cmake -DSPHC_SYSROOT="$arm64/sysroot" -DSPHC_HOST=OFF \
-  -DSPHC_EXAMPLES=OFF
-tests "arm64: on a stock kernel in an emulator" build/arm64
-# Without the command, its bench and its reports, which would take as long again; the presets asan and ubsan have them.
-check "clang, sanitizers for addresses and undefined behaviour: build" build build/sanitized all "${sanitized[@]}" \
-  -DSPHC_SANITIZE=address,undefined -DSPHC_COMMAND=OFF
-# The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
-tests "sanitizers for addresses and undefined behaviour: tests" build/sanitized -LE 'pipeline|memory' \
-  -E driver_contract_simulated
-threaded='driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
-check "thread sanitizer: build" build build/tsan "$threaded" "${sanitized[@]}" -DSPHC_SANITIZE=thread \
-  -DSPHC_COMMAND=OFF
-tests "thread sanitizer: the driver contract, the recorder, OpenNI2, rendering by threads" build/tsan \
-  -R 'DriverContract|Recorder|^(Opening|Frames|Unplugging|OniRecording)\.|SameConfigSameBytesWhateverTheThreads'
+prepare() {
+  check "packages" toolchains/install_packages.sh "$@"
+}
+
+stage_quick() {
+  prepare runtime build test
+  check "formatting" formatting
+  check "quick: build" build build/release 'tests_unit tests_golden' -DCMAKE_BUILD_TYPE=Release
+  tests "quick: unit tests, layers, the golden session" build/release -L '^(unit|layers|golden|quick)$'
+}
+
+stage_release() {
+  prepare runtime build openni2 test guest
+  check "python packages" toolchains/install_python_packages.sh build/python
+  check "formatting" formatting
+  check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
+  tests "release: tests" build/release
+}
+
+stage_device() {
+  prepare runtime
+  check "device: the runtime alone, as firmware links it" build build/device all -DCMAKE_BUILD_TYPE=Release -DSPHC_HOST=OFF \
+    -DSPHC_DRIVERS=OFF -DSPHC_EXAMPLES=OFF -DSPHC_TESTS=OFF
+}
+
+stage_portability() {
+  prepare runtime portability
+  check "portability: the same bytes from other compilers, flags and machines" tests/portability/variants.sh
+}
+
+stage_arm64() {
+  local arm64=$root/build/guest/arm64
+  prepare runtime build test guest
+  # The guest plays what the release's guests have recorded.
+  if ! [ -d build/release/tests/guest/recorded ]; then
+    check "arm64: the release, to record with" build build/release 'all' -DCMAKE_BUILD_TYPE=Release
+    tests "arm64: what the cameras play" build/release -R '^guest\.recording$'
+  fi
+  check "arm64: a kernel and libraries" tests/guest/fetch_arm64.sh "$arm64"
+  check "arm64: build" build build/arm64 'vhci_camera guest_capture' -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_TOOLCHAIN_FILE=toolchains/aarch64-linux-gnu.cmake -DSPHC_SYSROOT="$arm64/sysroot" -DSPHC_HOST=OFF \
+    -DSPHC_EXAMPLES=OFF
+  tests "arm64: on a stock kernel in an emulator" build/arm64
+}
+
+# Sanitizers by clang, so that its warnings are seen too; with a little optimisation they are fast enough.  Keeps asserts.
+# Without the command and the laboratory, which would take as long again; the presets asan and ubsan have them.
+sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
+  "-DCMAKE_CXX_FLAGS=-O1 -g1" "-DCMAKE_C_FLAGS=-O1 -g1" -DSPHC_COMMAND=OFF -DSPHC_LAB=OFF)
+
+stage_sanitized() {
+  prepare runtime build test
+  check "sanitized: build" build build/sanitized all "${sanitized[@]}" -DSPHC_SANITIZE=address,undefined
+  # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
+  tests "sanitized: tests" build/sanitized -LE 'pipeline|memory' -E driver_contract_simulated
+}
+
+stage_tsan() {
+  local programs='driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
+  prepare runtime build test
+  check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" -DSPHC_SANITIZE=thread
+  # The driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
+  GTEST_FILTER='*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
+    tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"
+}
+
+wanted=()
+for stage in "${@:-all}"; do
+  case " all quick ${stages[*]} " in
+    *" $stage "*) ;;
+    *)
+      case $stage in -h | --help) usage && exit 0 ;; esac
+      printf 'run.sh: there is no stage "%s"\n\n%s\n' "$stage" "$(usage)" >&2
+      exit 2
+      ;;
+  esac
+  if [ "$stage" = all ]; then wanted+=("${stages[@]}"); else wanted+=("$stage"); fi
+done
+
+mkdir -p build
+for stage in "${wanted[@]}"; do
+  "stage_$stage"
+done
+if [ $skipped != 0 ]; then
+  printf '\n%d skipped; SPHC_REQUIRE_DATA=1 makes it a failure where recordings are missing\n' $skipped
+fi
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" = 0 ]

@@ -99,22 +99,3 @@ function(sphc_module name)
     sphc_precompile(${name} Eigen/Core Eigen/Geometry ${arg_PRECOMPILE})
   endif()
 endfunction()
-
-# sphc_test(NAME SOURCES... LINKS... LABELS...): a GoogleTest program, one ctest entry a test case (with AddressSanitizer one a program).
-function(sphc_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;LABELS" ${ARGN})
-  add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE sphc_flags ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/sdk)
-  sphc_precompile(${name} gtest/gtest.h Eigen/Core Eigen/Geometry)
-  set(environment TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt)
-  if(SPHC_SANITIZE MATCHES "address") # a process a test case would take longer than most cases
-    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
-    # OpenNI2 asks threads that have ended whether they live, which wants their stacks to be kept.
-    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600
-      ENVIRONMENT GLIBC_TUNABLES=glibc.pthread.stack_cache_size=1073741824)
-  else()
-    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-      PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 300 ENVIRONMENT "${environment}")
-  endif()
-endfunction()

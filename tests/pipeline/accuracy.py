@@ -1,34 +1,33 @@
 #!/usr/bin/env python3
 """Accuracy of the whole pipeline on recordings, through the command line alone.
 
-    accuracy.py --spherecloud BIN --update       measures every row and rewrites accuracy.csv; review the diff
-    accuracy.py --spherecloud BIN --check NAME   measures the rows of NAME that have floors and holds them
+    accuracy.py --spherecloud BIN --update [NAME...]   measures every row (of NAME) anew and rewrites both files
+    accuracy.py --spherecloud BIN --check NAME         measures a part of NAME's rows; each figure must be the committed one
+    accuracy.py --committed                            holds the files themselves: complete, above the floors, summed up
 
-Real recordings are looked for in $SPHC_DATA, else in ../shared/data beside the repository; --check exits with 77
-(skipped) and says so where they are absent.  The key is fixed so that rows can be compared; it protects nothing.
+accuracy_keys.csv has a row for each map and way to localize in it; results are the same on every machine, so its figures
+are compared as printed.  accuracy.csv follows from it: of each row the median and the worst over the keys.  The keys are
+known to all, so that rows can be compared; they protect nothing.
 """
 import argparse
+import collections
+import concurrent.futures
 import csv
+import hashlib
 import json
 import os
 import pathlib
-import subprocess
+import statistics
 import sys
 import tempfile
+import time
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-LEDGER = HERE / "accuracy.csv"
-ETAS = (1.0, 0.5, 0.33, 0.25)
-SKIPPED = 77
+sys.dont_write_bytecode = True
+from recordings import HERE, Recording, absent, frames, run
 
-# Frames as (first, last, step).  "block": frames in turn go to the map and to the query, so many at a time.
-RECORDINGS = {
-    "simulated": dict(map=(0, 99, 1), query=(100, 199, 1)),
-    "redkitchen": dict(folder="redkitchen/seq-01", map=(0, 597, 3), query=(620, 799, 1)),
-    "hololens": dict(folder="hololens", map=(0, 198, 2), query=(1, 199, 2)),
-    "hololens_blocks": dict(folder="hololens", block=20),
-}
+RESULTS, SPREAD = HERE / "accuracy_keys.csv", HERE / "accuracy.csv"
+KEYS = [(HERE / "test_key.txt").read_text()] + [
+    hashlib.sha256(b"spherecloud test key %d" % number).hexdigest() + "\n" for number in range(2, 13)]
 MODES = {
     "single": ["--mode", "single"],
     "tracking": ["--mode", "tracking"],
@@ -55,150 +54,254 @@ FLOORS = {
     },
 }
 FLOOR_ETAS = {0.33: 0.0, 0.25: 4.0}  # how far below its floor the share may lie
-# No accepted pose may be further from the truth than this.
+# An accepted pose that is further from the truth than this is wrong.
 WORST_CM, WORST_DEG = 25.0, 10.0
-COLUMNS = ["recording", "fakes", "mode", "eta", "map_points", "frames", "localized_percent", "within_5cm_5deg_percent",
-           "median_cm", "p90_cm", "worst_cm", "median_deg", "p90_deg", "worst_deg", "matches", "inliers"]
+# Frames that a map must refuse: of another place all, of the rest of the walk those that do not see the map.
+REFUSED = {
+    "simulated_elsewhere": dict(map="simulated", query="other_room", elsewhere=True),
+    "redkitchen_elsewhere": dict(map="redkitchen", query="hololens", frames=(0, 198, 2), elsewhere=True),
+    "hololens_rest": dict(map="hololens", query="hololens2", elsewhere=False),
+}
+REFUSED_ETA = 0.33
+KEYED = ["recording", "fakes", "mode", "eta", "key"]
+COLUMNS = KEYED + ["map_points", "frames", "localized_percent", "within_5cm_5deg_percent", "median_cm", "p90_cm", "worst_cm",
+                   "median_deg", "p90_deg", "worst_deg", "wrong_accepted", "matches", "inliers"]
+
+# A map, all that is localized in it, and by which of the keys it is published.
+Map = collections.namedtuple("Map", "recording fakes eta key")
 
 
-def run(command):
-    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if result.returncode not in (0, 3):  # 3: ran, but nothing was localized
-        sys.exit("failed: %s\n%s%s" % (" ".join(map(str, command)), result.stdout, result.stderr))
-    return json.loads(result.stdout)
+def recordings():
+    return list(dict.fromkeys(recording for floors in FLOORS.values() for recording, _ in floors))
 
 
-def frames(selection):
-    first, last, step = selection
-    return ["--first", first, "--last", last, "--step", step]
+def maps_of(name):
+    """Every map of a recording that has rows: by the first key with more and fewer fakes too."""
+    for fakes, floors in FLOORS.items():
+        if any(recording == name for recording, _ in floors):
+            for eta in (1.0, 0.5, 0.33, 0.25):
+                for key in range(1, len(KEYS) + 1) if eta in FLOOR_ETAS else (1,):
+                    yield Map(name, fakes, eta, key)
 
 
-def every_other_block(source, folder, block, remainder):
-    """A TUM recording of every other `block` frames of another."""
-    folder.mkdir()
-    for name in ("rgb", "depth", "groundtruth.txt"):
-        (folder / name).symlink_to(source.resolve() / name)
-    for name in ("rgb.txt", "depth.txt"):
-        lines = [line for line in (source / name).read_text().splitlines() if not line.startswith("#")]
-        kept = [line for i, line in enumerate(lines) if i // block % 2 == remainder]
-        (folder / name).write_text("\n".join(kept) + "\n")
+def checked_maps(name):
+    """Those that are measured in every run of the tests."""
+    return [made for made in maps_of(name) if made.key == 1 and (name == "simulated" or made.eta in FLOOR_ETAS)]
 
 
-class Recording:
-    """Where a recording is, and how the command line is told of its frames."""
+def localizations(made):
+    """(name of the row, mode) of all that is localized in a map."""
+    own = [(recording, mode) for recording, mode in FLOORS[made.fakes] if recording == made.recording]
+    refused = [(name, "single") for name, spec in REFUSED.items() if spec["map"] == made.recording]
+    return own + (refused if made.eta == REFUSED_ETA else [])
+
+
+def identity(made, name, mode):
+    return (name, made.fakes, mode, "%.2f" % made.eta, str(made.key))
+
+
+class Place:
+    """A recording with its maps, and the frames that are localized in them."""
 
     def __init__(self, name, tool, workdir):
-        self.name, self.tool, self.workdir = name, tool, workdir
-        spec = RECORDINGS[name]
-        data = pathlib.Path(os.environ.get("SPHC_DATA", ROOT.parent / "shared" / "data"))
-        self.folder = data / spec["folder"] if "folder" in spec else workdir / name
-        self.spec = spec
-        self.maps = {}
+        self.tool, self.workdir = tool, workdir
+        self.recording = Recording(name, tool, workdir)
+        self.refused = {row: Recording(spec["query"], tool, workdir) for row, spec in REFUSED.items() if spec["map"] == name}
+        for recording in [self.recording, *self.refused.values()]:
+            if not recording.is_there():
+                absent(recording.folder)
+            recording.prepare()
+        self.model = workdir / "model"  # mapped once, published by every key
+        run([tool, "build", *self.recording.source("map"), "--save-model", self.model, "--map", workdir / "first.sphc", "--json"])
 
-    def prepare(self):
-        """False where the recording is absent."""
-        if "folder" in self.spec and not self.folder.is_dir():
-            return False
-        if "folder" not in self.spec:
-            run([self.tool, "simulate", "--out", self.folder, "--frames", 200, "--rate", 6.25, "--json"])
-        if "block" in self.spec:
-            for part, remainder in (("map", 0), ("query", 1)):
-                every_other_block(self.folder, self.workdir / (self.name + part), self.spec["block"], remainder)
-        return True
+    def measure(self, made):
+        """The rows of one map."""
+        with tempfile.TemporaryDirectory(dir=self.workdir) as folder:
+            folder = pathlib.Path(folder)
+            file, key = folder / "room.sphc", folder / "key"
+            key.write_text(KEYS[made.key - 1])
+            key.chmod(0o600)
+            built = run([self.tool, "build", "--model", self.model, "--map", file, "--eta", made.eta,
+                         "--fakes", made.fakes, "--key", key, "--ledger", folder / "ledger", "--json"])
+            return [self.localize(made, name, mode, file, built["points"]) for name, mode in localizations(made)]
 
-    def place(self, part):
-        """part: "map" or "query"."""
-        folder = self.workdir / (self.name + part) if "block" in self.spec else self.folder
-        calibration = HERE / "calibration" / (self.spec.get("folder", "").split("/")[0] + ".json")
-        return ["--recording", folder] + (["--calibration", calibration] if "folder" in self.spec else [])
+    def queries(self, name):
+        if name not in self.refused:
+            return self.recording.source("query")
+        spec = REFUSED[name]
+        return self.refused[name].place("query") + (frames(spec["frames"]) if "frames" in spec else [])
 
-    def source(self, part):
-        return self.place(part) + (frames(self.spec[part]) if part in self.spec else [])
-
-    def map(self, fakes, eta):
-        """The map file and what its builder says, made once."""
-        if (fakes, eta) not in self.maps:
-            file = self.workdir / ("%s_%s_%d.sphc" % (self.name, fakes, round(100 * eta)))
-            built = run([self.tool, "build", *self.source("map"), "--map", file, "--eta", eta,
-                         "--fakes", fakes, "--key", HERE / "test_key.txt", "--ledger", str(file) + ".ledger", "--json"])
-            self.maps[fakes, eta] = (file, built)
-        return self.maps[fakes, eta]
-
-    def measure(self, fakes, mode, eta):
-        file, built = self.map(fakes, eta)
-        found = run([self.tool, "localize", *self.source("query"), "--map", file, *MODES[mode],
-                     "--owner-note", str(file) + ".owner.json", "--json"])
-        translation, rotation = found["translation_error_m"], found["rotation_error_deg"]
-        value = lambda x, scale: "" if x is None else "%.3f" % (x * scale)
-        return {
-            "recording": self.name, "fakes": fakes, "mode": mode, "eta": "%.2f" % eta, "map_points": built["points"],
-            "frames": found["frames"], "localized_percent": "%.1f" % found["localized_percent"],
-            "within_5cm_5deg_percent": "%.1f" % found["within_5cm_5deg_percent"],
-            "median_cm": value(translation["median"], 100), "p90_cm": value(translation["p90"], 100),
-            "worst_cm": value(translation["worst"], 100), "median_deg": value(rotation["median"], 1),
-            "p90_deg": value(rotation["p90"], 1), "worst_deg": value(rotation["worst"], 1),
-            "matches": "%d" % found["median"]["matches"], "inliers": "%d" % found["median"]["inliers"],
-        }
+    def localize(self, made, name, mode, file, points):
+        answers = file.with_suffix(".frames")
+        found = run([self.tool, "localize", *self.queries(name), "--map", file, *MODES[mode], "--owner-note",
+                     str(file) + ".owner.json", "--frames-json", answers, "--json"])
+        accepted = [frame for frame in map(json.loads, answers.read_text().splitlines()) if frame["localized"]]
+        elsewhere = name in REFUSED and REFUSED[name]["elsewhere"]
+        return row_of(made, name, mode, points, found, sum(elsewhere or is_wrong(frame) for frame in accepted))
 
 
-def measured(name):
-    return [(fakes, mode) for fakes, floors in FLOORS.items() for recording, mode in floors if recording == name]
+def is_wrong(frame):
+    error = frame["error"]
+    return 100 * error["translation_m"] > WORST_CM or error["rotation_deg"] > WORST_DEG
 
 
-def update(tool):
-    rows = []
+def row_of(made, name, mode, points, found, wrong):
+    def figure(value, scale=1):
+        return "" if value is None else "%.3f" % (scale * value)
+
+    def count(value):
+        return "" if value is None else "%d" % value
+
+    translation, rotation = found["translation_error_m"], found["rotation_error_deg"]
+    return dict(zip(KEYED, identity(made, name, mode))) | {
+        "map_points": str(points), "frames": str(found["frames"]), "localized_percent": "%.1f" % found["localized_percent"],
+        "within_5cm_5deg_percent": "%.1f" % found["within_5cm_5deg_percent"],
+        "median_cm": figure(translation["median"], 100), "p90_cm": figure(translation["p90"], 100),
+        "worst_cm": figure(translation["worst"], 100), "median_deg": figure(rotation["median"]),
+        "p90_deg": figure(rotation["p90"]), "worst_deg": figure(rotation["worst"]), "wrong_accepted": str(wrong),
+        "matches": count(found["median"]["matches"]), "inliers": count(found["median"]["inliers"]),
+    }
+
+
+def measure(tool, name, maps, tell):
+    """All rows of the maps, each as soon as it is measured; a map at a time on every processor."""
     with tempfile.TemporaryDirectory() as folder:
-        for name in RECORDINGS:
-            recording = Recording(name, tool, pathlib.Path(folder))
-            if not recording.prepare():
-                sys.exit("%s is not there; all recordings are needed to rewrite the ledger" % recording.folder)
-            for fakes, mode in measured(name):
-                for eta in ETAS:
-                    rows.append(recording.measure(fakes, mode, eta))
-                    print(*rows[-1].values(), flush=True)
-    with LEDGER.open("w", newline="") as out:
-        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
+        tell("%s: %d maps" % (name, len(maps)))
+        place = Place(name, tool, pathlib.Path(folder))
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            for rows in pool.map(place.measure, maps):
+                yield from rows
+
+
+def read(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def write(path, rows):
+    part = path.with_suffix(".part")
+    with part.open("w", newline="") as out:
+        writer = csv.DictWriter(out, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
+    part.replace(path)
 
 
-def faults(row, floor, allowance):
+def wanted_rows():
+    """What accuracy_keys.csv must hold, in its order."""
+    return [identity(made, name, mode) for place in recordings() for made in maps_of(place)
+            for name, mode in localizations(made)]
+
+
+def keyed(row):
+    return tuple(row[column] for column in KEYED)
+
+
+def spread(rows):
+    """The median and the worst over the keys, of every row of accuracy_keys.csv."""
+    groups = collections.defaultdict(list)
+    for row in rows:
+        groups[keyed(row)[:-1]].append(row)
+    return [dict(zip(KEYED, group)) | summary(members) for group, members in groups.items()]
+
+
+def summary(rows):
+    def over_keys(column, worst):
+        values = [float(row[column]) for row in rows if row[column]]
+        places = 1 if column.endswith("percent") else 3
+        return ["%.*f" % (places, f(values)) if values else "" for f in (statistics.median, worst)]
+
+    found = {"keys": str(len(rows))}
+    for column, worst in (("localized_percent", min), ("within_5cm_5deg_percent", min), ("median_cm", max), ("p90_cm", max),
+                          ("worst_cm", max), ("median_deg", max), ("worst_deg", max)):
+        found[column + "_median"], found[column + "_worst"] = over_keys(column, worst)
+    found["frames"] = str(sum(int(row["frames"]) for row in rows))
+    found["wrong_accepted"] = str(sum(int(row["wrong_accepted"]) for row in rows))
+    return found
+
+
+def update(tool, names):
+    begin = time.monotonic()
+
+    def tell(words):
+        print("[%5.0f s] %s" % (time.monotonic() - begin, words), flush=True)
+
+    rows = {keyed(row): row for row in read(RESULTS)} if RESULTS.exists() else {}
+    for name in names or recordings():
+        for row in measure(tool, name, list(maps_of(name)), tell):
+            tell(" ".join(row.values()))
+            rows[keyed(row)] = row
+    kept = [rows[wanted] for wanted in wanted_rows() if wanted in rows]
+    write(RESULTS, kept)
+    write(SPREAD, spread(kept))
+    tell("%d rows in %s, %d in %s; review the difference" % (len(kept), RESULTS.name, len(spread(kept)), SPREAD.name))
+
+
+def faults(row):
+    """What is below its floor, wrong, or too far off."""
+    if int(row["wrong_accepted"]):
+        yield "%s wrong poses accepted" % row["wrong_accepted"]
+    floor = FLOORS[row["fakes"]].get((row["recording"], row["mode"]))
+    if floor is None or float(row["eta"]) not in FLOOR_ETAS:
+        return
     share, centimetres, degrees = floor
-    if float(row["within_5cm_5deg_percent"]) < share - allowance:
-        yield "within 5 cm and 5 deg: %s %%, floor %s %%" % (row["within_5cm_5deg_percent"], share - allowance)
-    for column, ceiling in (("median_cm", centimetres), ("median_deg", degrees), ("worst_cm", WORST_CM),
-                            ("worst_deg", WORST_DEG)):
+    share -= FLOOR_ETAS[float(row["eta"])]
+    if float(row["within_5cm_5deg_percent"]) < share:
+        yield "within 5 cm and 5 deg: %s %%, floor %s %%" % (row["within_5cm_5deg_percent"], share)
+    for column, ceiling in (("median_cm", centimetres), ("median_deg", degrees)):
         if ceiling is not None and not (row[column] and float(row[column]) <= ceiling):
             yield "%s: %s, ceiling %s" % (column, row[column], ceiling)
 
 
+def differences(row, committed):
+    if committed is None:
+        yield "no such row in %s" % RESULTS.name
+        return
+    for column, value in row.items():
+        if value != committed.get(column):
+            yield "%s: %s, in %s %s" % (column, value, RESULTS.name, committed.get(column))
+
+
 def check(tool, name):
-    found = []
-    with tempfile.TemporaryDirectory() as folder:
-        recording = Recording(name, tool, pathlib.Path(folder))
-        if not recording.prepare():
-            print("skipped: no recording at %s; set SPHC_DATA" % recording.folder)
-            sys.exit(SKIPPED)
-        for fakes, mode in measured(name):
-            for eta, allowance in FLOOR_ETAS.items():
-                row = recording.measure(fakes, mode, eta)
-                print(row, flush=True)
-                found += ["%s, %s, eta %s: %s" % (fakes, mode, eta, fault) for fault in
-                          faults(row, FLOORS[fakes][name, mode], allowance)]
+    committed = {keyed(row): row for row in read(RESULTS)}
+    found, begin = [], time.monotonic()
+    for row in measure(tool, name, checked_maps(name), lambda words: print(words, flush=True)):
+        print("%.0f s:" % (time.monotonic() - begin), *row.values(), flush=True)
+        found += ["%s: %s" % (" ".join(keyed(row)), fault)
+                  for fault in [*differences(row, committed.get(keyed(row))), *faults(row)]]
+    if found:
+        found.append("if the change is meant: cmake --build BUILD --target update_results, and look at the difference")
+    sys.exit("\n".join(found) if found else 0)
+
+
+def check_committed():
+    rows = read(RESULTS)
+    found = ["%s: %s" % (" ".join(keyed(row)), fault) for row in rows for fault in faults(row)]
+    wanted, present = wanted_rows(), [keyed(row) for row in rows]
+    found += ["%s: not in %s" % (" ".join(row), RESULTS.name) for row in wanted if row not in present]
+    found += ["%s: twice or needless in %s" % (" ".join(row), RESULTS.name)
+              for row, times in collections.Counter(present).items() if times > 1 or row not in wanted]
+    if spread(rows) != read(SPREAD):
+        found.append("%s is not what follows from %s" % (SPREAD.name, RESULTS.name))
     sys.exit("\n".join(found) if found else 0)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--spherecloud", required=True, help="the command")
+    parser.add_argument("--spherecloud", help="the command")
     group = parser.add_mutually_exclusive_group(required=True)
-    group.add_argument("--update", action="store_true")
-    group.add_argument("--check", choices=sorted(RECORDINGS))
+    group.add_argument("--update", nargs="*", choices=recordings(), metavar="NAME")
+    group.add_argument("--check", choices=recordings())
+    group.add_argument("--committed", action="store_true")
     arguments = parser.parse_args()
-    if arguments.update:
-        update(arguments.spherecloud)
-    else:
+    if not arguments.committed and not arguments.spherecloud:
+        parser.error("--spherecloud says what is measured")
+    if arguments.committed:
+        check_committed()
+    elif arguments.check:
         check(arguments.spherecloud, arguments.check)
+    else:
+        update(arguments.spherecloud, arguments.update)
 
 
 if __name__ == "__main__":

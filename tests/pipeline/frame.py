@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-from accuracy import HERE, RECORDINGS, Recording, frames
+from recordings import HERE, RECORDINGS, Recording, frames
 
 RESULTS = HERE / "frame.csv"
 ETA, POINTS = 0.33, 50000

@@ -1,0 +1,41 @@
+# How the programs of the tests are declared.
+find_package(GTest REQUIRED)
+
+# GoogleTest and Eigen are read once for all test programs.  It is a program, as they are: a library's code is compiled
+# with other flags.
+add_executable(sphc_test_headers test_headers.cpp)
+target_link_libraries(sphc_test_headers PRIVATE sphc_flags GTest::gtest GTest::gmock)
+set(SPHC_TEST_OPTIONS
+  $<$<CONFIG:Release>:-O1> # the tests' own code: what it calls is compiled as it ships
+  $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>
+  "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+target_compile_options(sphc_test_headers PRIVATE ${SPHC_TEST_OPTIONS})
+target_precompile_headers(sphc_test_headers PRIVATE
+  "$<$<COMPILE_LANGUAGE:CXX>:<gtest/gtest.h$<ANGLE-R>>" "$<$<COMPILE_LANGUAGE:CXX>:<gmock/gmock.h$<ANGLE-R>>"
+  "$<$<COMPILE_LANGUAGE:CXX>:<Eigen/Core$<ANGLE-R>>" "$<$<COMPILE_LANGUAGE:CXX>:<Eigen/Geometry$<ANGLE-R>>")
+
+# sphc_label(LABEL TARGETS...): what the tests of a label run.  `ninja tests_LABEL` builds it, ctest -L LABEL runs it.
+function(sphc_label label)
+  if(NOT TARGET tests_${label})
+    add_custom_target(tests_${label})
+  endif()
+  add_dependencies(tests_${label} ${ARGN})
+endfunction()
+
+# sphc_test(NAME SOURCES... LINKS... LABELS...): a GoogleTest program.  It is one entry of ctest, since a process for each
+# test case takes longer than most cases do; tests/run.sh counts the cases that it reports.
+function(sphc_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE sphc_flags ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/sdk)
+  target_compile_options(${name} PRIVATE ${SPHC_TEST_OPTIONS})
+  target_precompile_headers(${name} REUSE_FROM sphc_test_headers)
+  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+  # OpenNI2 asks threads that have ended whether they live, which wants their stacks to be kept.
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600 ENVIRONMENT
+    "GLIBC_TUNABLES=glibc.pthread.stack_cache_size=1073741824;TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt")
+  foreach(label ${arg_LABELS})
+    sphc_label(${label} ${name})
+  endforeach()
+endfunction()

@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""mirror.py finds sources without a test, and lines that are not needed."""
+import pathlib
+import tempfile
+import unittest
+
+import mirror
+
+
+class Mirror(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        for source in ("sdk/a/mirrored.cpp", "sdk/a/included.cpp", "sdk/a/alone.cpp", "drivers/d/alone.c"):
+            self.write(source, "")
+        self.write("tests/unit/a/mirrored_test.cpp", '#include "a/included.h"\n')
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def faults(self, listed):
+        self.write("mirror.txt", listed)
+        return list(mirror.faults(self.root, self.root / "mirror.txt"))
+
+    def test_a_source_without_a_test_is_named(self):
+        found = self.faults("")
+        self.assertEqual(["drivers/d/alone.c", "sdk/a/alone.cpp"], [fault.split(":")[0] for fault in found])
+
+    def test_a_line_names_its_test(self):
+        test = "unit/a/mirrored_test.cpp"
+        self.assertEqual([], self.faults("# words\nsdk/a/alone.cpp: %s\ndrivers/d: %s # more\n" % (test, test)))
+
+    def test_a_line_without_a_test_or_a_source_is_a_fault(self):
+        good = "sdk/a/alone.cpp: unit/a\ndrivers/d: unit/a\n"
+        for line in ("drivers/d/alone.c: unit/a/no_test.cpp", "sdk/a/mirrored.cpp: unit/a", "sdk/gone.cpp: unit/a"):
+            self.assertTrue(self.faults(good + line + "\n"), line)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,87 @@
+"""The recordings that accuracy.py and frame.py measure on, as the command line is told of them.
+
+Real ones are looked for in $SPHC_DATA, else in ../shared/data beside the repository.  Where they are absent a test is
+skipped, unless $SPHC_REQUIRE_DATA says that they must be there.
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SKIPPED = 77
+
+# Frames as (first, last, step).  "block": frames in turn go to the map and to the query, so many at a time.
+RECORDINGS = {
+    "simulated": dict(simulated=["--frames", 200, "--rate", 6.25], map=(0, 99, 1), query=(100, 199, 1)),
+    "redkitchen": dict(folder="redkitchen/seq-01", map=(0, 597, 3), query=(620, 799, 1)),
+    "hololens": dict(folder="hololens", map=(0, 198, 2), query=(1, 199, 2)),
+    "hololens_blocks": dict(folder="hololens", block=20),
+    # Queries alone.
+    "hololens2": dict(folder="hololens2", calibration="hololens"),
+    "other_room": dict(simulated=["--frames", 40, "--rate", 6.25, "--seed", 902, "--walk-seed", 902]),
+}
+
+
+def run(command):
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if result.returncode not in (0, 3):  # 3: ran, but nothing was localized
+        raise RuntimeError("failed: %s\n%s%s" % (" ".join(map(str, command)), result.stdout, result.stderr))
+    return json.loads(result.stdout)
+
+
+def frames(selection):
+    first, last, step = selection
+    return ["--first", first, "--last", last, "--step", step]
+
+
+def absent(folder):
+    """Ends a test whose recording is not there."""
+    if os.environ.get("SPHC_REQUIRE_DATA", "0") not in ("", "0"):
+        sys.exit("no recording at %s, and SPHC_REQUIRE_DATA says that it must be there" % folder)
+    print("skipped: no recording at %s; set SPHC_DATA" % folder)
+    sys.exit(SKIPPED)
+
+
+def every_other_block(source, folder, block, remainder):
+    """A TUM recording of every other `block` frames of another."""
+    folder.mkdir()
+    for name in ("rgb", "depth", "groundtruth.txt"):
+        (folder / name).symlink_to(source.resolve() / name)
+    for name in ("rgb.txt", "depth.txt"):
+        lines = [line for line in (source / name).read_text().splitlines() if not line.startswith("#")]
+        kept = [line for i, line in enumerate(lines) if i // block % 2 == remainder]
+        (folder / name).write_text("\n".join(kept) + "\n")
+
+
+class Recording:
+    """Where a recording is, and how the command line is told of its frames."""
+
+    def __init__(self, name, tool, workdir):
+        self.name, self.tool, self.workdir, self.spec = name, tool, workdir, RECORDINGS[name]
+        data = pathlib.Path(os.environ.get("SPHC_DATA", ROOT.parent / "shared" / "data"))
+        self.folder = data / self.spec["folder"] if "folder" in self.spec else workdir / name
+
+    def is_there(self):
+        return "simulated" in self.spec or self.folder.is_dir()
+
+    def prepare(self):
+        """Simulates it, or sorts its frames into blocks, where that is how it is made."""
+        if "simulated" in self.spec:
+            run([self.tool, "simulate", "--out", self.folder, *self.spec["simulated"], "--json"])
+        if "block" in self.spec:
+            for part, remainder in (("map", 0), ("query", 1)):
+                every_other_block(self.folder, self.workdir / (self.name + part), self.spec["block"], remainder)
+
+    def place(self, part):
+        """part: "map" or "query"."""
+        folder = self.workdir / (self.name + part) if "block" in self.spec else self.folder
+        if "simulated" in self.spec:
+            return ["--recording", folder]
+        calibration = self.spec.get("calibration", self.spec["folder"].split("/")[0])
+        return ["--recording", folder, "--calibration", HERE / "calibration" / (calibration + ".json")]
+
+    def source(self, part):
+        return self.place(part) + (frames(self.spec[part]) if part in self.spec else [])
