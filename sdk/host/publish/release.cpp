@@ -52,8 +52,8 @@ void refuseForeign(const Recognition *recognition, const PointModel &model) {
   throw std::runtime_error(
       percent(share) +
       " of the recording's points were released by another ledger (--against). A second, independent map of one "
-      "place exposes the points that both have. Update that ledger's map with --ledger, or publish with --new-place "
-      "only what it does not have, or say --i-understand");
+      "place exposes the points that both have. Update that ledger's map with --ledger, or publish with "
+      "--new-place only what it does not have, or say --i-understand");
 }
 
 void refuseChange(const Place &place, const ReleaseRequest &request) {
