@@ -130,7 +130,7 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
   "-DCMAKE_CXX_FLAGS=-O1 -g1" "-DCMAKE_C_FLAGS=-O1 -g1" -DSPHC_COMMAND=OFF -DSPHC_LAB=OFF)
 
 stage_sanitized() {
-  prepare runtime build test
+  prepare runtime build openni2 test
   check "sanitized: build" build build/sanitized all "${sanitized[@]}" -DSPHC_SANITIZE=address,undefined
   # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
   tests "sanitized: tests" build/sanitized -LE 'pipeline|memory' -E driver_contract_simulated
@@ -138,7 +138,7 @@ stage_sanitized() {
 
 stage_tsan() {
   local programs='driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
-  prepare runtime build test
+  prepare runtime build openni2 test
   check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" -DSPHC_SANITIZE=thread
   # The driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
