@@ -79,9 +79,8 @@ tests() {
 
 formatting() { git ls-files -z '*.h' '*.hpp' '*.c' '*.cpp' | xargs -0 clang-format --dry-run -Werror; }
 
-prepare() {
-  check "packages" toolchains/install_packages.sh "$@"
-}
+prepare() { check "packages" toolchains/install_packages.sh "$@"; }
+python_packages() { check "python packages" toolchains/install_python_packages.sh build/python; }
 
 stage_quick() {
   prepare runtime build test
@@ -92,7 +91,7 @@ stage_quick() {
 
 stage_release() {
   prepare runtime build openni2 test guest
-  check "python packages" toolchains/install_python_packages.sh build/python
+  python_packages
   check "formatting" formatting
   check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
   tests "release: tests" build/release
@@ -131,6 +130,7 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
 
 stage_sanitized() {
   prepare runtime build openni2 test
+  python_packages
   check "sanitized: build" build build/sanitized all "${sanitized[@]}" -DSPHC_SANITIZE=address,undefined
   # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
   tests "sanitized: tests" build/sanitized -LE 'pipeline|memory' -E driver_contract_simulated
