@@ -10,11 +10,14 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from statistics import mean
 
 FRAMES, RATE, ROOM = 20, 2.5, 907
 KEYS = range(1, 4)
-# At most these, whatever the key; docs/audit.md has what is measured.
-CEILINGS = {"real_or_fake.auc": 0.60, "inversion.of_papers": 0.9, "intersection.gain": 0.03, "triangulation.pose_found": 0}
+# At most these under every key; docs/audit.md has what is measured.
+CEILINGS = {"real_or_fake.auc": 0.60, "intersection.gain": 0.03, "triangulation.pose_found": 0}
+# Share of views that inverted pictures tell, at most, over all keys: a key has too few views to be judged alone.
+RETRIEVAL = 0.85
 
 
 def run(command, accepted=(0,)):
@@ -46,38 +49,57 @@ class Gate:
         return files
 
     def audit(self, files, release, accepted=(0,)):
-        limits = ["--limit=%s=%g" % item for item in CEILINGS.items()]
+        limits = ["--limit=%s=%g" % item for item in CEILINGS.items()] + ["--limit=inversion.of_papers=2"]
         found = run([self.tool, "audit", files[0], "--truth", files[1], "--recording", self.walk, "--queries", 2,
                      "--release", release, "--quick", "--json", *limits], accepted)
-        return {figure["name"]: figure for figure in json.loads(found.stdout)["figures"]}
+        told = json.loads(found.stdout)
+        pictures = {row["points"]: row["retrieval_coarse"] for row in told["inversions"]}
+        return {figure["name"]: figure for figure in told["figures"]}, pictures
 
 
 def values(figures):
     return ", ".join("%s %.3f" % (name, figure["value"]) for name, figure in figures.items() if "value" in figure)
 
 
+def faults_of_keys(gate):
+    """Second releases under each key hold, and so does what their pictures show."""
+    shown, unprotected = [], []
+    for key in KEYS:
+        room = "room%d" % key
+        first = gate.build(room, "half", key)[0]
+        published = first.rename(first.with_suffix(".first"))
+        figures, pictures = gate.audit(gate.build(room, "whole", key), published, accepted=(0, 4, 5))
+        print("key %d: %s" % (key, values(figures)), flush=True)
+        shown.append(figures["inversion.retrieval"]["value"])
+        unprotected.append(pictures["no fakes"])
+        for name, figure in figures.items():
+            if figure["verdict"] in ("BROKEN", "NOT MEASURED"):
+                yield "key %d: %s is %s, %s" % (key, name, figure["verdict"], figure.get("value"))
+    print("pictures told: %.2f of the views; without fakes %.2f" % (mean(shown), mean(unprotected)))
+    if mean(shown) > RETRIEVAL:
+        yield "inverted pictures tell %.2f of the views" % mean(shown)
+    if mean(unprotected) <= RETRIEVAL:
+        yield "a map without fakes would pass: its pictures tell %.2f of the views" % mean(unprotected)
+
+
+def faults_of_carelessness(gate):
+    """The paper's fakes, and a second map under another key: the same ceilings tell both.  The two maps have one centre,
+    so there is no pose between them to be found."""
+    careless = gate.build("careless2", "whole", 2, "--fakes", "gaussian")[0]
+    figures, _ = gate.audit(gate.build("careless1", "whole", 1, "--fakes", "gaussian"), careless, accepted=(4,))
+    print("careless: %s" % values(figures))
+    for name in ("real_or_fake.auc", "intersection.gain"):
+        if figures[name]["verdict"] != "BROKEN":
+            yield "a careless map passes %s with %s" % (name, figures[name].get("value"))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True, help="the command")
     tool = parser.parse_args().spherecloud
-    faults = []
     with tempfile.TemporaryDirectory() as folder:
         gate = Gate(tool, pathlib.Path(folder))
-        for key in KEYS:
-            name = "room%d" % key
-            first = gate.build(name, "half", key)[0]
-            published = first.rename(first.with_suffix(".first"))
-            figures = gate.audit(gate.build(name, "whole", key), published, accepted=(0, 4, 5))
-            print("key %d: %s" % (key, values(figures)), flush=True)
-            faults += ["key %d: %s is %s, %s" % (key, name, figure["verdict"], figure.get("value"))
-                       for name, figure in figures.items() if figure["verdict"] in ("BROKEN", "NOT MEASURED")]
-        # The paper's fakes, and a second map of the place under another key: the same ceilings tell both.
-        careless = gate.build("careless2", "whole", 2, "--fakes", "gaussian")[0]
-        figures = gate.audit(gate.build("careless1", "whole", 1, "--fakes", "gaussian"), careless, accepted=(4,))
-        print("careless: %s" % values(figures))
-        faults += ["a careless map passes %s with %s" % (name, figures[name]["value"])
-                   for name in ("real_or_fake.auc", "intersection.gain", "triangulation.pose_found")
-                   if figures[name]["verdict"] != "BROKEN"]
+        faults = [*faults_of_keys(gate), *faults_of_carelessness(gate)]
     sys.exit("\n".join(faults) if faults else 0)
 
 

@@ -107,8 +107,9 @@ size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Pl
                              " points to publish, too few for a map; record more frames, slower, in better light");
   if (place->points.size() + points.size() > kMapMaxPoints)
     throw std::runtime_error("the place has too many points for one map; make a map of a part of it");
-  SecretRandom random(derivedKey(request.key, "assignments of place " + std::to_string(place->number) +
-                                                  " release " + std::to_string(release)));
+  // The words are part of the key: with others the same key would give another, independent map of the place.
+  SecretRandom random(derivedKey(
+      request.key, "fates of place " + std::to_string(place->number) + " release " + std::to_string(release)));
   shuffle(&points, &random);
   std::vector<SpherePoint> directions;
   for (const ModelPoint &point : points) directions.push_back(seenFrom(place->centre_m, point));

@@ -13,7 +13,7 @@ namespace sphc::host {
 namespace {
 
 constexpr int kRotationSamples = 4000;
-constexpr size_t kLook = 400;         // pairs that a hypothesis is tried on before all of them are
+constexpr size_t kTrialPairs = 400;   // pairs that a hypothesis is tried on before all of them are
 constexpr double kCoarse_rad = 0.2;   // of a rotation that leaves parallax aside
 constexpr double kLeastParallax = 3;  // times the angle: less says nothing of distance
 constexpr double kShares[] = {0.05, 0.1, 0.2, 0.4,
@@ -48,7 +48,7 @@ const DirectionPair &drawn(const std::vector<DirectionPair> &pairs, size_t among
 
 // As if the centres were one: brings most pairs roughly together.
 Matrix3 coarseRotation(const std::vector<DirectionPair> &pairs, Random *random) {
-  const size_t look = std::min(pairs.size(), 2 * kLook);
+  const size_t trial = std::min(pairs.size(), 2 * kTrialPairs);
   Matrix3 best = Matrix3::Identity();
   size_t best_count = 0;
   for (int i = 0; i < kRotationSamples; ++i) {
@@ -58,8 +58,8 @@ Matrix3 coarseRotation(const std::vector<DirectionPair> &pairs, Random *random) 
       continue;
     const Matrix3 rotation = rotationOf(p, q);
     size_t count = 0;
-    for (size_t k = 0; k < look; ++k) {
-      const DirectionPair &pair = pairs[k * pairs.size() / look];
+    for (size_t k = 0; k < trial; ++k) {
+      const DirectionPair &pair = pairs[k * pairs.size() / trial];
       count += pair.b.dot(rotation * pair.a) > std::cos(kCoarse_rad);
     }
     if (count > best_count) best_count = count, best = rotation;
@@ -74,9 +74,9 @@ bool isEpipolar(const Matrix3 &e, const DirectionPair &pair, double sine) {
   return miss2 < sine * sine * plane_b.squaredNorm() && miss2 < sine * sine * plane_a.squaredNorm();
 }
 
-size_t support(const Matrix3 &e, const std::vector<DirectionPair> &pairs, size_t look, double sine) {
+size_t support(const Matrix3 &e, const std::vector<DirectionPair> &pairs, size_t trial, double sine) {
   size_t count = 0;
-  for (size_t k = 0; k < look; ++k) count += isEpipolar(e, pairs[k * pairs.size() / look], sine);
+  for (size_t k = 0; k < trial; ++k) count += isEpipolar(e, pairs[k * pairs.size() / trial], sine);
   return count;
 }
 
@@ -108,8 +108,8 @@ Matrix3 bestEssential(const std::vector<DirectionPair> &pairs, double angle_rad,
     return p.b.dot(rotation * p.a) > q.b.dot(rotation * q.a);
   });
   Matrix3 best = Matrix3::Zero();
-  size_t best_support = 0, best_look = 0;
-  const size_t look = std::min(pairs.size(), kLook);
+  size_t best_support = 0, best_trial = 0;
+  const size_t trial = std::min(pairs.size(), kTrialPairs);
   for (int i = 0; i < samples; ++i) {
     const double share = kShares[static_cast<size_t>(i) % std::size(kShares)];
     const size_t among = std::max<size_t>(5, static_cast<size_t>(share * static_cast<double>(sorted.size())));
@@ -119,9 +119,9 @@ Matrix3 bestEssential(const std::vector<DirectionPair> &pairs, double angle_rad,
       a[k] = pair.a, b[k] = pair.b;
     }
     for (const Matrix3 &e : fivePoint(a, b)) {
-      const size_t first_look = support(e, pairs, look, sine);
-      if (2 * first_look < best_look) continue;
-      best_look = std::max(best_look, first_look);
+      const size_t on_trial = support(e, pairs, trial, sine);
+      if (2 * on_trial < best_trial) continue;
+      best_trial = std::max(best_trial, on_trial);
       const size_t all = support(e, pairs, pairs.size(), sine);
       if (all > best_support) best_support = all, best = e;
     }

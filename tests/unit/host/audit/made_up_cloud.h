@@ -17,12 +17,12 @@ inline KnownCloud makeUpCloud(bool tell, uint64_t seed) {
   KnownCloud cloud;
   for (int cluster = 0; cluster < 12; ++cluster) {
     const Vector3 middle = test::randomDirection(&random);
-    const Descriptor look = test::randomDescriptor(&random);
+    const Descriptor common = test::randomDescriptor(&random);
     for (int i = 0; i < 30; ++i) {
       const bool real = i % 3 == 0;
       const Vector3 beside = (middle + 0.05 * test::normalVector(&random)).normalized();
       cloud.published.directions.push_back(real || !tell ? beside : test::randomDirection(&random));
-      cloud.published.descriptors.push_back(nearTo(look, &random));
+      cloud.published.descriptors.push_back(nearTo(common, &random));
       cloud.real.push_back(real);
     }
   }

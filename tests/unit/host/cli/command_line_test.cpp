@@ -52,18 +52,35 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
 
 INSTANTIATE_TEST_SUITE_P(
     EachMistake, UsageTest,
-    testing::Values(
-        "", "conquer", "live", "live --device simulated:", "record --out x.mcap",
-        "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
-        "live --device simulated: --map m --seconds -3", "live --device openni2: --color v4l2:x --map m",
-        "calibration", "calibration x --to kalibr", "calibration x --format what", "calibration x --color-size 640",
-        "info", "info a b", "convert a", "convert a b --to zip", "convert a b --to mcap",
-        "convert a b.mcap --jpeg 0", "audit", "audit m --limit x", "audit m --recording r", "simulate",
-        "simulate --out x --frames many", "build --recording r", "build --map m",
-        "build --map m --recording r --colmap c", "build --map m --colmap c", "build --map m --colmap c --images i",
-        "build --map m --colmap c --images i --scale 1 --gravity down", "advise --recording r --folds 1",
-        "build --recording r --map m --eta 1.5", "build --recording r --map m --against",
-        "localize --recording r --map m --step 0", "localize --recording r --map m --first 9 --last 3"));
+    testing::Values("", "conquer", "live", "live --device simulated:", "record --out x.mcap",
+                    "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
+                    "live --device simulated: --map m --seconds -3",
+                    "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
+                    "calibration x --format what", "calibration x --color-size 640", "info", "info a b",
+                    "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b.mcap --jpeg 0",
+                    "audit", "audit m --limit x", "audit m --recording r", "audit m --limit no.such=1",
+                    "audit m --allow-unmeasured luck", "build --map m --recording r --model p",
+                    "build --map m --model p --save-model q", "simulate", "simulate --out x --frames many",
+                    "build --recording r", "build --map m", "build --map m --recording r --colmap c",
+                    "build --map m --colmap c", "build --map m --colmap c --images i",
+                    "build --map m --colmap c --images i --scale 1 --gravity down",
+                    "advise --recording r --folds 1", "build --recording r --map m --eta 1.5",
+                    "build --recording r --map m --against", "localize --recording r --map m --step 0",
+                    "localize --recording r --map m --first 9 --last 3"));
+
+TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
+  const TempFolder folder;
+  writeTinyMap(folder / "m.sphc", 200);
+  const std::string audit =
+      "audit " + (folder / "m.sphc") + " --quick --json --limit file.order_sigma=1e9 --limit density.at_centre=0";
+  const Answer missing = runCommand(audit);
+  EXPECT_EQ(missing.exit_code, kExitAuditIncomplete) << missing.err;
+  EXPECT_THAT(missing.out, HasSubstr("\"real_or_fake.auc\""));
+  EXPECT_EQ(runCommand(audit + " --allow-unmeasured truth").exit_code, kExitAuditIncomplete);
+  EXPECT_EQ(runCommand(audit + " --allow-unmeasured truth --allow-unmeasured releases").exit_code, kExitDone);
+  EXPECT_EQ(runCommand(audit + " --allow-unmeasured truth --limit file.order_sigma=-1").exit_code,
+            kExitAuditFailed);
+}
 
 TEST(CommandLine, UsageNamesTheSubcommand) {
   EXPECT_THAT(runCommand("build").err, HasSubstr("Try: spherecloud build --help"));

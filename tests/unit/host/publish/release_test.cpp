@@ -111,6 +111,22 @@ TEST(Release, TheSameRecordingAndKeyGiveTheSameBytes) {
   EXPECT_EQ(again.place.releases.size(), 1u);
 }
 
+// Whoever lost a first release makes it again with its key, years later: what is drawn under a key stays for ever.
+TEST(Release, WhatAKeyDrawsNeverChanges) {
+  const PointModel room = test::madeUpRoom(100, 1);
+  const NewRelease made = makeRelease(room, releaseRequest());
+  std::vector<ptrdiff_t> first;  // the points that were published first, which gaussian leaves real
+  for (size_t i = 0; i < 6; ++i) {
+    const Descriptor &descriptor = made.place.points[i].seen.descriptor;
+    const auto point = std::find_if(room.points.begin(), room.points.end(), [&](const ModelPoint &p) {
+      return std::equal(p.descriptor.bytes, p.descriptor.bytes + kDescriptorBytes, descriptor.bytes);
+    });
+    first.push_back(point - room.points.begin());
+    EXPECT_TRUE(made.place.points[i].real);
+  }
+  EXPECT_THAT(first, testing::ElementsAre(42, 10, 77, 62, 4, 13));
+}
+
 TEST(Release, AnUpdateKeepsAllThatWasPublished) {
   const PointModel room = test::madeUpRoom(3000, 1);
   const NewRelease first = makeRelease(room, releaseRequest());
