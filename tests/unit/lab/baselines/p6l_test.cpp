@@ -49,8 +49,8 @@ double distanceToTruth(const Problem &p, const std::vector<Rigid> &poses) {
   return least;
 }
 
-// By how much a ray misses its line: their distance times the sine of the angle between them, relative to the size of
-// the scene (the terms that cancel in it).
+// By how much a ray misses its line: their distance times the sine of the angle between them, relative to the size
+// of the scene (the terms that cancel in it).
 double worstMiss(const Problem &p, const Rigid &pose) {
   double worst = 0, size_m = 0;
   for (int i = 0; i < kP6lLines; ++i) {
@@ -60,8 +60,8 @@ double worstMiss(const Problem &p, const Rigid &pose) {
   }
   return worst / (size_m + pose.translation_m.norm());
 }
-// The solver ends when its equations, divided by the size of their terms, are below 1e-10 (kPolished2).  Its size is
-// about the lines' middle, at most three times that of worstMiss.
+// The solver ends when its equations, divided by the size of their terms, are below 1e-10 (kPolished2).  Its size
+// is about the lines' middle, at most three times that of worstMiss.
 constexpr double kMostMiss = 3e-10;
 
 #ifdef NDEBUG
