@@ -45,7 +45,7 @@ run_logged() {
 configure_and_build() {
   # A compiler cache serves every checkout.
   export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-  # The command alone: a third of what the project has.
+  # The command alone.
   (cd "$root" && run_logged "$out/configure.log" cmake --preset release -B "$build" -DSPHC_TESTS=OFF -DSPHC_LAB=OFF \
     -DSPHC_EXAMPLES=OFF)
   NINJA_STATUS='      [%f/%t] ' run_logged "$out/build.log" cmake --build "$build" --target spherecloud_cli

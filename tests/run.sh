@@ -25,6 +25,9 @@ stages=(release device portability arm64 sanitized tsan)
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
+# OpenNI2 asks threads that have ended whether they live; as long as their stacks are kept it gets an answer.
+export GLIBC_TUNABLES=glibc.pthread.stack_cache_size=1073741824
+
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//p}' "$0"; }
 
 finished() { printf '   %d s so far\n' $((SECONDS - begin)); }
@@ -79,9 +82,8 @@ tests() {
 
 formatting() { git ls-files -z '*.h' '*.hpp' '*.c' '*.cpp' | xargs -0 clang-format --dry-run -Werror; }
 
-prepare() {
-  check "packages" toolchains/install_packages.sh "$@"
-}
+prepare() { check "packages" toolchains/install_packages.sh "$@"; }
+python_packages() { check "python packages" toolchains/install_python_packages.sh build/python; }
 
 stage_quick() {
   prepare runtime build test
@@ -92,7 +94,7 @@ stage_quick() {
 
 stage_release() {
   prepare runtime build openni2 test guest
-  check "python packages" toolchains/install_python_packages.sh build/python
+  python_packages
   check "formatting" formatting
   check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
   tests "release: tests" build/release
@@ -114,7 +116,8 @@ stage_arm64() {
   prepare runtime build test guest
   # The guest plays what the release's guests have recorded.
   if ! [ -d build/release/tests/guest/recorded ]; then
-    check "arm64: the release, to record with" build build/release 'all' -DCMAKE_BUILD_TYPE=Release
+    check "arm64: the release, to record with" build build/release 'make_recording replay_poses spherecloud_cli' \
+      -DCMAKE_BUILD_TYPE=Release
     tests "arm64: what the cameras play" build/release -R '^guest\.recording$'
   fi
   check "arm64: a kernel and libraries" tests/guest/fetch_arm64.sh "$arm64"
@@ -130,7 +133,8 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
   "-DCMAKE_CXX_FLAGS=-O1 -g1" "-DCMAKE_C_FLAGS=-O1 -g1" -DSPHC_COMMAND=OFF -DSPHC_LAB=OFF)
 
 stage_sanitized() {
-  prepare runtime build test
+  prepare runtime build openni2 test
+  python_packages
   check "sanitized: build" build build/sanitized all "${sanitized[@]}" -DSPHC_SANITIZE=address,undefined
   # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
   tests "sanitized: tests" build/sanitized -LE 'pipeline|memory' -E driver_contract_simulated
@@ -138,7 +142,7 @@ stage_sanitized() {
 
 stage_tsan() {
   local programs='driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
-  prepare runtime build test
+  prepare runtime build openni2 test
   check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" -DSPHC_SANITIZE=thread
   # The driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \

@@ -19,7 +19,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 DATA = pathlib.Path(os.environ.get("SPHC_DATA", HERE.parent.parent.parent / "shared" / "data"))
-LEDGER = HERE / "privacy.csv"
+RESULTS = HERE / "privacy.csv"
 ROOMS = range(901, 907)
 STRATEGIES = ("gaussian", "patchwork")
 
@@ -58,7 +58,7 @@ def main():
                 run([options.spherecloud, "build", *recording, "--map", stem.with_suffix(".sphc"), "--ledger", truth,
                      "--key", HERE / "test_key.txt", "--fakes", strategy, "--json"])
                 found = run([options.spherecloud, "audit", stem.with_suffix(".sphc"), "--truth", truth, *recording,
-                             "--figures", LEDGER, "--name", name, "--json"], accepted=(0, 4))
+                             "--figures", RESULTS, "--name", name, "--json"], accepted=(0, 4))
                 print(name, strategy, {f["name"]: round(f["value"], 3) for f in found["figures"] if "value" in f},
                       flush=True)
                 for row in found["inversions"]:
@@ -66,16 +66,16 @@ def main():
                     sums[0] += row["views"]
                     sums[1] += row["views"] * row["retrieval_coarse"]
                     sums[2] += row["views"] * row["retrieval_fine"]
-    with LEDGER.open(newline="") as ledger:
-        rows = [row for row in csv.reader(ledger) if row[:2] != ["audit", "all"]]
+    with RESULTS.open(newline="") as results:
+        rows = [row for row in csv.reader(results) if row[:2] != ["audit", "all"]]
     for (strategy, points), (views, coarse, fine) in pooled.items():
         for metric, hits in (("coarse", coarse), ("fine", fine)):
             share = hits / views
             error = (share * (1 - share) / views) ** 0.5
             rows.append(["audit", "all", strategy, "0.33", points, "retrieval_" + metric, "%.4g" % share])
             rows.append(["audit", "all", strategy, "0.33", points, "retrieval_%s_standard_error" % metric, "%.2g" % error])
-    with LEDGER.open("w", newline="") as ledger:
-        csv.writer(ledger, lineterminator="\n").writerows(rows)
+    with RESULTS.open("w", newline="") as results:
+        csv.writer(results, lineterminator="\n").writerows(rows)
 
 
 if __name__ == "__main__":
