@@ -414,7 +414,7 @@ typedef struct sphc_memory {
 /* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message);
 
-/* One named piece of the memory, for the byte ledger: `index` from 0 until SPHC_END.  `name` is static storage.
+/* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static storage.
  * [pure] */
 typedef struct sphc_memory_piece {
   const char *name; /* "features.pyramid" */
@@ -431,7 +431,8 @@ typedef struct sphc_localizer sphc_localizer;
 
 /* Makes a localizer in caller memory, for one map or a set of them (rooms), each with a frame of its own: it finds
  * out which one a frame shows.  `config` and the list are copied; `state`, `scratch` and the maps are borrowed
- * until sphc_localizer_fini.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT, CAPACITY. [pure] */
+ * until sphc_localizer_fini.  None of that memory may overlap another.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
+ * MEMORY_ALIGNMENT, CAPACITY. [pure] */
 SPHC_API sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
                                          const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
                                          sphc_localizer **localizer, sphc_message *message);
