@@ -70,7 +70,7 @@ std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality)
   return bytes;
 }
 
-std::vector<uint8_t> begun(replay::Kind kind) { return {static_cast<uint8_t>(static_cast<int>(kind) - 1)}; }
+std::vector<uint8_t> begun(recording::Kind kind) { return {static_cast<uint8_t>(static_cast<int>(kind) - 1)}; }
 
 }  // namespace
 
@@ -108,8 +108,8 @@ std::vector<std::vector<uint8_t>> messageSeeds() {
 std::vector<std::vector<uint8_t>> rvlSeeds() {
   std::vector<uint16_t> depth = depthPixels();
   depth.resize(300, 77);
-  std::vector<uint8_t> encoded(replay::rvlMostBytes(depth.size()));
-  encoded.resize(replay::encodeRvl(depth.data(), depth.size(), encoded.data()));
+  std::vector<uint8_t> encoded(recording::rvlMostBytes(depth.size()));
+  encoded.resize(recording::encodeRvl(depth.data(), depth.size(), encoded.data()));
   return {encoded};
 }
 

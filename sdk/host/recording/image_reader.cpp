@@ -1,19 +1,19 @@
 #include "image_reader.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "encoded_image.h"
 #include "failure.h"
+#include "file_reader.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 ImageReader::ImageReader(const Recording &recording, const sphc_calibration &calibration, sphc_format color_format)
     : recording_(recording),
       color_camera_(calibration.color_camera),
       depth_camera_(calibration.depth_camera),
       color_format_(color_format) {
-  if (recording.layout == SPHC_REPLAY_MCAP) messages_.emplace(recording.path);
+  if (recording.layout == Layout::kMcap) messages_.emplace(recording.path);
 }
 
 const sphc_camera &ImageReader::cameraOf(sphc_stream stream) const {
@@ -35,15 +35,9 @@ std::string ImageReader::nameOf(sphc_stream stream, const RecordedImage &image) 
 }
 
 ByteView ImageReader::load(const RecordedImage &image) {
-  std::ifstream file(recording_.path / image.file, std::ios::binary | std::ios::ate);
-  const std::streamoff bytes = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-  if (bytes < 0) throw Failure(SPHC_E_DEVICE, "cannot be read; is it there?");
-  constexpr std::streamoff kMostBytes = std::streamoff{1} << 30;
-  if (bytes == 0) throw Failure(SPHC_E_DEVICE, "is empty; remove the frame or copy the file again");
-  if (bytes > kMostBytes) throw Failure(SPHC_E_DEVICE, "is over 1 GiB: no image");
-  encoded_.resize(static_cast<size_t>(bytes));
-  file.seekg(0);
-  if (!file.read(reinterpret_cast<char *>(encoded_.data()), bytes)) throw Failure(SPHC_E_DEVICE, "cannot be read");
+  constexpr size_t kMostBytes = size_t{1} << 30;
+  readFile(recording_.path / image.file, kMostBytes, encoded_);
+  if (encoded_.empty()) throw Failure(SPHC_E_DEVICE, "is empty; remove the frame or copy the file again");
   return viewOf(encoded_);
 }
 
@@ -63,15 +57,15 @@ sphc_image ImageReader::read(sphc_stream stream, const RecordedImage &image, uin
     if (messages_)
       messages_->decoder.decode(image.place.kind, loadMessage(image.place), camera, format, pixels);
     else
-      decodeImage(load(image), camera, format, pixels);
+      decodeImage(load(image), imageTypeOf(image.file), camera, format, pixels);
   } catch (const Failure &failure) {
     throw Failure(failure.status(), nameOf(stream, image) + ": " + failure.what());
   }
-  if (stream == SPHC_STREAM_DEPTH && recording_.layout == SPHC_REPLAY_7SCENES) {  // where 65535 is a hole
+  if (stream == SPHC_STREAM_DEPTH && recording_.layout == Layout::kSevenScenes) {  // where 65535 is a hole
     uint16_t *depth = reinterpret_cast<uint16_t *>(pixels);
     std::replace(depth, depth + size_t{camera.width} * camera.height, uint16_t{65535}, uint16_t{0});
   }
   return {pixels, camera.width, camera.height, camera.width * bytesPerPixel(format), format};
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

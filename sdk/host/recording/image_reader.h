@@ -7,7 +7,7 @@
 #include "pixels.h"
 #include "recording.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class ImageReader {
  public:
@@ -43,4 +43,4 @@ class ImageReader {
   Bytes encoded_;  // of the last file; grows to the largest
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -6,12 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/replay.h"
+#include "calibration.h"
 #include "host/recording/mcap/messages.h"
 #include "host/recording/mcap/walk.h"
 #include "pose_track.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
+
+enum class Layout { kSevenScenes = 1, kTum = 2, kMcap = 3 };
+
+// Frames are chosen by the number of their colour image: of first to last every step-th.
+struct Selection {
+  uint32_t first = 0, last = UINT32_MAX;
+  uint32_t step = 1;
+};
 
 // Where an image is in an MCAP file.
 struct MessagePlace {
@@ -30,7 +38,7 @@ struct RecordedImage {
 };
 
 struct Recording {
-  sphc_replay_layout layout = 0;
+  Layout layout = Layout::kTum;
   std::filesystem::path path;        // of the folder or the MCAP file
   std::vector<RecordedImage> color;  // times increase
   std::vector<RecordedImage> depth;  // times increase
@@ -53,8 +61,8 @@ struct FramePair {
 // Finds the layout and reads lists and poses, no image; throws Failure.
 Recording openRecording(const std::filesystem::path &path);
 
-// Keeps the frames that the config chooses; throws Failure when it chooses none.
-void selectFrames(const sphc_replay_config &config, Recording &recording);
+// Keeps the frames that are chosen; throws Failure when that is none.
+void selectFrames(const Selection &selection, Recording &recording);
 
 // Each colour image with the depth image nearest in time, where there is one within the tolerance.
 std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_ns);
@@ -66,4 +74,4 @@ bool isTum(const std::filesystem::path &folder);
 Recording openTum(const std::filesystem::path &folder);
 Recording openMcap(const std::filesystem::path &file);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording
