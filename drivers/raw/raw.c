@@ -86,13 +86,16 @@ static sphc_status get_rig(const uint8_t *header, sphc_raw *raw, sphc_message *m
   if (sphc_camera_check(&raw->color_camera, message) != SPHC_OK) return SPHC_E_ARGUMENT;
   if (sphc_camera_check(&raw->depth_camera, message) != SPHC_OK) return SPHC_E_ARGUMENT;
   if (!get_rigid(header + 248, &raw->color_from_depth))
-    return refuse(message, SPHC_E_ARGUMENT, "raw recording: color_from_depth is no rigid transform; convert it again");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "raw recording: color_from_depth is no rigid transform; convert it again");
   if (!(raw->depth_unit_m >= 1e-6 && raw->depth_unit_m <= 0.1))
-    return refuse(message, SPHC_E_ARGUMENT, "raw recording: depth unit is not within 1e-6 to 0.1 m; convert it again");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "raw recording: depth unit is not within 1e-6 to 0.1 m; convert it again");
   return SPHC_OK;
 }
 
-sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_t file_bytes, sphc_message *message) {
+sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_t file_bytes,
+                          sphc_message *message) {
   uint8_t header[kHeaderBytes];
   if (!raw || !read) return refuse(message, SPHC_E_ARGUMENT, "raw or read is null");
   memset(raw, 0, sizeof *raw);
@@ -101,12 +104,15 @@ sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_
   if (read(user, 0, header, kHeaderBytes) != 0)
     return refuse(message, SPHC_E_DEVICE, "raw recording: the header cannot be read");
   if (memcmp(header, "SPHC-RAW", 8) != 0)
-    return refuse(message, SPHC_E_ARGUMENT, "no raw recording; make one with: spherecloud convert IN OUT.raw --to raw");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "no raw recording; make one with: spherecloud convert IN OUT.raw --to raw");
   if (get32(header + 8) != 1)
-    return refuse(message, SPHC_E_ARGUMENT, "raw recording: not of version 1, which this reader knows; convert it again");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "raw recording: not of version 1, which this reader knows; convert it again");
   if (get32(header + 20) != 0 || get32(header + 312) != 0 ||
       crc32_of(0, header, kHeaderBytes - 4) != get32(header + kHeaderBytes - 4))
-    return refuse(message, SPHC_E_ARGUMENT, "raw recording: the header has changed (checksum); copy the file again");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "raw recording: the header has changed (checksum); copy the file again");
   const sphc_status status = get_rig(header, raw, message);
   if (status != SPHC_OK) return status;
   raw->frame_bytes = kHeadBytes + depth_bytes(raw) + color_bytes(raw);
@@ -125,7 +131,8 @@ static uint64_t place_of(const sphc_raw *raw, uint32_t index) {
 
 static sphc_status get_head(const uint8_t *head, sphc_raw_frame *recorded, sphc_message *message) {
   if (crc32_of(0, head, kHeadBytes - 4) != get32(head + kHeadBytes - 4))
-    return refuse(message, SPHC_E_DEVICE, "raw recording: a frame's head has changed (checksum); copy the file again");
+    return refuse(message, SPHC_E_DEVICE,
+                  "raw recording: a frame's head has changed (checksum); copy the file again");
   memset(recorded, 0, sizeof *recorded);
   recorded->frame.struct_size = sizeof recorded->frame;
   recorded->frame.sequence = get32(head);
@@ -137,7 +144,8 @@ static sphc_status get_head(const uint8_t *head, sphc_raw_frame *recorded, sphc_
   return SPHC_OK;
 }
 
-sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_frame *recorded, sphc_message *message) {
+sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_frame *recorded,
+                               sphc_message *message) {
   uint8_t head[kHeadBytes];
   if (!raw || !recorded || index >= raw->frame_count)
     return refuse(message, SPHC_E_ARGUMENT, "raw or recorded is null, or there is no such frame");

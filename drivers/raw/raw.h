@@ -8,8 +8,8 @@
  *       sphc_localizer_process(localizer, &recorded.frame, &result);
  *     }
  *
- * The bytes come from wherever the caller has them: a file, flash, a wire.  docs/recording.md has the format.  All of
- * it is checked (sizes, cameras, checksums) before it is believed.  Conventions are those of spherecloud.h.
+ * The bytes come from wherever the caller has them: a file, flash, a wire.  docs/recording.md has the format.  All
+ * of it is checked (sizes, cameras, checksums) before it is believed.  Conventions are those of spherecloud.h.
  */
 #ifndef SPHERECLOUD_DRIVERS_RAW_RAW_H
 #define SPHERECLOUD_DRIVERS_RAW_RAW_H
@@ -43,15 +43,17 @@ typedef struct sphc_raw_frame {
 
 /* Reads and checks the header.  `file_bytes` is the length of the whole recording.  `message` may be null.
  * Errors: ARGUMENT (null, or no raw recording of this version, changed, cut), DEVICE (`read` failed). [pure] */
-sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_t file_bytes, sphc_message *message);
+sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_t file_bytes,
+                          sphc_message *message);
 
-/* Reads frame `index` into `memory` (2-byte aligned, at least raw->frame_bytes, borrowed by *recorded) and checks it.
- * Errors: ARGUMENT (null, index, memory), DEVICE (`read` failed, or the bytes have changed): another frame can be read.
- * [exclusive] of memory and of what `read` does. */
+/* Reads frame `index` into `memory` (2-byte aligned, at least raw->frame_bytes, borrowed by *recorded) and checks
+ * it. Errors: ARGUMENT (null, index, memory), DEVICE (`read` failed, or the bytes have changed): another frame can
+ * be read. [exclusive] of memory and of what `read` does. */
 sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memory, size_t memory_bytes,
                                 sphc_raw_frame *recorded, sphc_message *message);
 /* Times, number and pose alone, without images: frame.color.data and frame.depth.data are null. */
-sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_frame *recorded, sphc_message *message);
+sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_frame *recorded,
+                               sphc_message *message);
 
 #ifdef __cplusplus
 }

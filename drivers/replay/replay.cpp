@@ -11,6 +11,7 @@ using namespace sphc::recording;
 static_assert(static_cast<int>(Layout::kSevenScenes) == SPHC_REPLAY_7SCENES);
 static_assert(static_cast<int>(Layout::kTum) == SPHC_REPLAY_TUM);
 static_assert(static_cast<int>(Layout::kMcap) == SPHC_REPLAY_MCAP);
+static_assert(static_cast<int>(Layout::kRaw) == SPHC_REPLAY_RAW);
 
 struct sphc_replay {
   sphc_replay(const char *path, const ReaderOptions &options, const sphc_replay_config &config)
@@ -122,9 +123,7 @@ sphc_status sphc_replay_source(sphc_replay *replay, sphc_source *source) {
   return SPHC_OK;
 }
 
-uint32_t sphc_replay_frame_count(const sphc_replay *replay) {
-  return replay ? replay->reader.frameCount() : 0;
-}
+uint32_t sphc_replay_frame_count(const sphc_replay *replay) { return replay ? replay->reader.frameCount() : 0; }
 
 sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index, sphc_replay_frame_info *info) {
   if (!hasFrame(replay, index) || !info) return SPHC_E_ARGUMENT;

@@ -16,9 +16,9 @@ namespace sphc::contract {
 
 namespace {
 
-using ::testing::HasSubstr;
 using recording::RawWriter;
 using recording::RecordingReader;
+using ::testing::HasSubstr;
 
 constexpr size_t kHeaderBytes = 320, kHeadBytes = 88;
 
@@ -57,7 +57,8 @@ struct ReadFrame {
 ReadFrame read(const sphc_raw &raw, uint32_t index) {
   ReadFrame frame;
   frame.memory.resize((raw.frame_bytes + 1) / 2);
-  frame.status = sphc_raw_read_frame(&raw, index, frame.memory.data(), raw.frame_bytes, &frame.recorded, &frame.message);
+  frame.status =
+      sphc_raw_read_frame(&raw, index, frame.memory.data(), raw.frame_bytes, &frame.recorded, &frame.message);
   return frame;
 }
 
@@ -120,7 +121,9 @@ void expectSame(const std::string &recorded, Medium *medium, sphc_format format 
     EXPECT_TRUE(sameImage(raw.recorded.frame.depth, frame.depth)) << i;
     sphc_rigid pose;
     ASSERT_EQ(sphc_replay_pose(replay.get(), i, &pose) == SPHC_OK, raw.recorded.has_pose == 1);
-    if (raw.recorded.has_pose) EXPECT_EQ(std::memcmp(&raw.recorded.world_from_camera, &pose, sizeof pose), 0);
+    if (raw.recorded.has_pose) {
+      EXPECT_EQ(std::memcmp(&raw.recorded.world_from_camera, &pose, sizeof pose), 0);
+    }
     sphc_raw_frame head;
     ASSERT_EQ(sphc_raw_read_head(&opened.raw, i, &head, nullptr), SPHC_OK);
     EXPECT_EQ(head.frame.color_time_ns, frame.color_time_ns);
@@ -129,6 +132,25 @@ void expectSame(const std::string &recorded, Medium *medium, sphc_format format 
 }
 
 TEST_F(RawRecording, IsTheFolderToTheBit) { expectSame(folder_ / "walk", &medium_); }
+
+TEST_F(RawRecording, IsARecordingOfTheWorkstationToo) {
+  expectSame(folder_ / "walk.raw", &medium_);
+  const OpenReplay replay(folder_ / "walk.raw");
+  sphc_replay_info info{};
+  info.struct_size = sizeof info;
+  ASSERT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  EXPECT_EQ(info.layout, SPHC_REPLAY_RAW);
+  EXPECT_EQ(info.pose_count, 3u);
+  std::string bytes = medium_.bytes;
+  bytes[bytes.size() - 1] ^= 1;
+  folder_.write("changed.raw", bytes);
+  const OpenReplay changed(folder_ / "changed.raw");
+  sphc_frame frame;
+  sphc_message message = {};
+  EXPECT_EQ(sphc_replay_read_frame(changed.get(), 1, &frame, &message), SPHC_OK) << message.text;
+  EXPECT_EQ(sphc_replay_read_frame(changed.get(), 2, &frame, &message), SPHC_E_DEVICE);
+  EXPECT_THAT(message.text, ::testing::AllOf(HasSubstr("changed.raw (colour 2)"), HasSubstr("checksum")));
+}
 
 TEST_F(RawRecording, IsTheFileToTheBit) {
   writeTinyMcap(folder_ / "walk.mcap", 4, recorderConfig());

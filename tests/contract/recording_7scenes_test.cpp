@@ -248,7 +248,8 @@ TEST_F(SevenScenes, RefusesWhatIsNoRegularFile) {
   std::filesystem::create_directory(folder_ / "frame-000001.depth.png");
   {
     const OpenReplay replay = open();
-    const char *cause[] = {"frame-000000.color.png (colour 0): is a FIFO", "frame-000001.depth.png (depth 1): is a folder"};
+    const char *cause[] = {"frame-000000.color.png (colour 0): is a FIFO",
+                           "frame-000001.depth.png (depth 1): is a folder"};
     for (uint32_t i = 0; i < 2; ++i) {
       sphc_frame frame;
       sphc_message message{};

@@ -131,7 +131,8 @@ TEST_F(Tum, ReadsNothingOutsideItsFolder) {
   expectRefused(SPHC_E_ARGUMENT, "rgb.txt, line 3: /etc/passwd: the file's path is absolute");
   for (const char *file : {"way/secret.png", "rgb/link.png"}) {
     folder_.write("rgb.txt", good + "2.0 " + file + "\n");
-    expectRefused(SPHC_E_ARGUMENT, (std::string("rgb.txt, line 2: ") + file + ": the file is a link out of").c_str());
+    expectRefused(SPHC_E_ARGUMENT,
+                  (std::string("rgb.txt, line 2: ") + file + ": the file is a link out of").c_str());
   }
   // A link that stays inside is as good as a copy, and so is the folder itself under another name.
   std::filesystem::create_symlink(folder_ / "rgb/000000.png", folder_ / "rgb/inside.png");

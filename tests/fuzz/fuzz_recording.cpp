@@ -79,8 +79,8 @@ void message(const uint8_t *data, size_t bytes) {
   const size_t used = is_color ? 16 * 16 * 3 / 2 : 16 * 16;
   try {
     recording::MessageDecoder().decode(kind, recording::viewOf(exact), camera,
-                                    is_color ? SPHC_FORMAT_BGR8 : SPHC_FORMAT_DEPTH16,
-                                    reinterpret_cast<uint8_t *>(pixels.data()));
+                                       is_color ? SPHC_FORMAT_BGR8 : SPHC_FORMAT_DEPTH16,
+                                       reinterpret_cast<uint8_t *>(pixels.data()));
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_IMAGE) broken("the failure is the image's");
   }

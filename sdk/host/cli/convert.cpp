@@ -141,9 +141,8 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
 
 Result writeRaw(RecordingReader *reader, const std::string &file, const Console &console) {
   recording::RawWriter writer(file, reader->calibration(), SPHC_FORMAT_BGR8);
-  const Result result = copyFrames(reader, console, [&](const sphc_frame &frame, const sphc_rigid *pose) {
-    writer.add(frame, pose);
-  });
+  const Result result = copyFrames(
+      reader, console, [&](const sphc_frame &frame, const sphc_rigid *pose) { writer.add(frame, pose); });
   writer.finish();
   return result;
 }
@@ -167,8 +166,8 @@ Result convertFrames(const Options &options, const Console &console, Facts *fact
   const auto reader = openRecording(in);
   const recording::Recording &recording = reader->recording();
   *facts = {recording.is_cut, recording.layout == recording::Layout::kMcap,
-            static_cast<uint32_t>(recording.depth.size()),
-            static_cast<uint32_t>(recording.poses.poses().size()), recording.bad_chunk_count};
+            static_cast<uint32_t>(recording.depth.size()), static_cast<uint32_t>(recording.poses.poses().size()),
+            recording.bad_chunk_count};
   return options.target == Target::kRaw ? writeRaw(reader.get(), options.out, console)
                                         : write7Scenes(reader.get(), options.out, console);
 }
@@ -235,7 +234,8 @@ int convert(Options options, const Console &console) {
 
 const char kHelp[] =
     "Reads a recording in any layout (TUM, 7-Scenes, MCAP) and writes it in another, with its calibration and\n"
-    "poses.  Images stay the same to the bit, unless --jpeg is given.  A recording that was cut off becomes whole.\n"
+    "poses.  Images stay the same to the bit, unless --jpeg is given.  A recording that was cut off becomes "
+    "whole.\n"
     "Raw is for devices: frames as they are in memory, which drivers/raw reads without a library.";
 const char kExample[] =
     "Example:\n"

@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "host/recording/recording_reader.h"
 #include "host/evaluate/map_file.h"
+#include "host/recording/recording_reader.h"
 #include "host/report/run.h"
 
 namespace sphc::host {

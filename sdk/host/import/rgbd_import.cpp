@@ -67,8 +67,8 @@ class FrameDescriber {
 
 }  // namespace
 
-PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options, const Progress &progress,
-                      RgbdImportSummary *summary) {
+PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options,
+                      const Progress &progress, RgbdImportSummary *summary) {
   *summary = {};
   FrameDescriber describer(reader->calibration(), options);
   PointTracks tracks(options);

@@ -60,7 +60,6 @@ sphc_calibration parseText(std::string_view text, const std::string &name) {
   }
 }
 
-
 void requireGood(const sphc_calibration &calibration) {
   const std::string fault = calibrationFault(calibration);
   if (!fault.empty()) throw Failure(SPHC_E_ARGUMENT, fault);
@@ -104,7 +103,8 @@ std::string calibrationFault(const sphc_calibration &calibration) {
 sphc_calibration readCalibration(const std::filesystem::path &path) {
   const std::string name = shortPath(path.string());
   Bytes content;
-  if (!std::filesystem::exists(path))
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
     throw Failure(SPHC_E_DEVICE, name + ": no such calibration file; write one (docs/drivers.md) or give its path");
   try {
     readFile(path, kMostFileBytes, content);

@@ -7,8 +7,9 @@
 namespace sphc::recording {
 
 // Fills `pixels` with an image of the camera's size: DEPTH16, or colour in `format`.  Throws Failure without a
-// name: DEVICE when the bytes are of another type, corrupt or cut, IMAGE when the image does not fit the calibration.
-// Type and size are read from the header first: nothing larger than the camera's image is ever decoded.
+// name: DEVICE when the bytes are of another type, corrupt or cut, IMAGE when the image does not fit the
+// calibration. Type and size are read from the header first: nothing larger than the camera's image is ever
+// decoded.
 void decodeImage(ByteView encoded, ImageType type, const sphc_camera &camera, sphc_format format, uint8_t *pixels);
 
 class ImageEncoder {

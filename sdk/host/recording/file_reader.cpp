@@ -32,7 +32,8 @@ struct Descriptor {
 int openRegularFile(const std::filesystem::path &path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);  // a FIFO opens at once
   // A socket cannot be opened at all.
-  if (descriptor < 0 && errno == ENXIO) throw Failure(SPHC_E_DEVICE, "is a socket or a device; give a regular file");
+  if (descriptor < 0 && errno == ENXIO)
+    throw Failure(SPHC_E_DEVICE, "is a socket or a device; give a regular file");
   if (descriptor < 0)
     throw Failure(SPHC_E_DEVICE, "cannot be read: " + std::generic_category().message(errno) + "; is it there?");
   struct stat status;
@@ -53,11 +54,11 @@ void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &conte
     const ssize_t got = ::read(file.number, content.data() + filled, content.size() - filled);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0)
-      throw Failure(SPHC_E_DEVICE, "cannot be read: " + std::generic_category().message(errno) + "; check the disk");
+      throw Failure(SPHC_E_DEVICE,
+                    "cannot be read: " + std::generic_category().message(errno) + "; check the disk");
     if (got == 0) break;
     filled += static_cast<size_t>(got);
-    if (filled > most_bytes)
-      throw Failure(SPHC_E_ARGUMENT, "is over " + std::to_string(most_bytes >> 20) + " MiB");
+    if (filled > most_bytes) throw Failure(SPHC_E_ARGUMENT, "is over " + std::to_string(most_bytes >> 20) + " MiB");
     if (filled == content.size()) content.resize(filled + kPieceBytes);  // it grows while it is read
   }
   content.resize(filled);

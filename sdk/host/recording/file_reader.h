@@ -8,11 +8,12 @@
 
 namespace sphc::recording {
 
-// A descriptor of the regular file at `path`, to read; the caller closes it.  Throws Failure (DEVICE) without the name.
+// A descriptor of the regular file at `path`, to read; the caller closes it.  Throws Failure (DEVICE) without the
+// name.
 int openRegularFile(const std::filesystem::path &path);
 
-// `content` becomes the file's.  Throws Failure without the name: DEVICE when it cannot be read or is no regular file,
-// ARGUMENT when it is longer than `most_bytes`.
+// `content` becomes the file's.  Throws Failure without the name: DEVICE when it cannot be read or is no regular
+// file, ARGUMENT when it is longer than `most_bytes`.
 void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &content);
 // A list or another small text.  Throws Failure with the name.
 std::string readText(const std::filesystem::path &path);

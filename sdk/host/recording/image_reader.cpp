@@ -14,6 +14,7 @@ ImageReader::ImageReader(const Recording &recording, const sphc_calibration &cal
       depth_camera_(calibration.depth_camera),
       color_format_(color_format) {
   if (recording.layout == Layout::kMcap) messages_.emplace(recording.path);
+  if (recording.layout == Layout::kRaw) raw_.emplace(recording.path);
 }
 
 const sphc_camera &ImageReader::cameraOf(sphc_stream stream) const {
@@ -30,7 +31,7 @@ size_t ImageReader::bytesOf(sphc_stream stream) const {
 }
 
 std::string ImageReader::nameOf(sphc_stream stream, const RecordedImage &image) const {
-  return shortPath(messages_ ? recording_.path.string() : image.file) + " (" +
+  return shortPath(image.file.empty() ? recording_.path.string() : image.file) + " (" +
          (stream == SPHC_STREAM_COLOR ? "colour " : "depth ") + std::to_string(image.sequence) + ")";
 }
 
@@ -50,12 +51,21 @@ ByteView ImageReader::loadMessage(const MessagePlace &place) {
   return {bytes + (place.start - chunk.start), static_cast<size_t>(place.bytes)};
 }
 
+void ImageReader::readRaw(sphc_stream stream, uint32_t index, uint8_t *pixels) {
+  const sphc_frame &frame = raw_->load(index);
+  const sphc_image &image = stream == SPHC_STREAM_COLOR ? frame.color : frame.depth;
+  requireSize(image.width, image.height, cameraOf(stream), stream == SPHC_STREAM_COLOR);
+  packPixels(image, formatOf(stream), pixels);
+}
+
 sphc_image ImageReader::read(sphc_stream stream, const RecordedImage &image, uint8_t *pixels) {
   const sphc_camera &camera = cameraOf(stream);
   const sphc_format format = formatOf(stream);
   try {
     if (messages_)
       messages_->decoder.decode(image.place.kind, loadMessage(image.place), camera, format, pixels);
+    else if (raw_)
+      readRaw(stream, static_cast<uint32_t>(image.place.start), pixels);
     else
       decodeImage(load(image), imageTypeOf(image.file), camera, format, pixels);
   } catch (const Failure &failure) {

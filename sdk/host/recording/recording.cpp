@@ -23,7 +23,8 @@ size_t nearestInTime(const std::vector<RecordedImage> &images, int64_t time_ns) 
 }
 
 bool isChosen(const Selection &selection, uint32_t sequence) {
-  return sequence >= selection.first && sequence <= selection.last && (sequence - selection.first) % selection.step == 0;
+  return sequence >= selection.first && sequence <= selection.last &&
+         (sequence - selection.first) % selection.step == 0;
 }
 
 bool holdsSequences(const fs::path &folder) {
@@ -35,7 +36,7 @@ bool holdsSequences(const fs::path &folder) {
 }  // namespace
 
 Recording openRecording(const fs::path &folder) {
-  if (fs::is_regular_file(folder)) return openMcap(folder);
+  if (fs::is_regular_file(folder)) return isRaw(folder) ? openRaw(folder) : openMcap(folder);
   const std::string name = shortPath(folder.string());
   if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder or file; give a recording");
   if (isUnfinished(folder))

@@ -13,7 +13,7 @@
 
 namespace sphc::recording {
 
-enum class Layout { kSevenScenes = 1, kTum = 2, kMcap = 3 };
+enum class Layout { kSevenScenes = 1, kTum = 2, kMcap = 3, kRaw = 4 };
 
 // Frames are chosen by the number of their colour image: of first to last every step-th.
 struct Selection {
@@ -21,7 +21,7 @@ struct Selection {
   uint32_t step = 1;
 };
 
-// Where an image is in an MCAP file.
+// Where an image is in an MCAP file; in a raw one `start` is the number of its frame.
 struct MessagePlace {
   Kind kind;
   uint32_t chunk;  // index in Recording::chunks
@@ -39,14 +39,15 @@ struct RecordedImage {
 
 struct Recording {
   Layout layout = Layout::kTum;
-  std::filesystem::path path;        // of the folder or the MCAP file
+  std::filesystem::path path;        // of the folder or the file
   std::vector<RecordedImage> color;  // times increase
   std::vector<RecordedImage> depth;  // times increase
   PoseTrack poses;
   uint32_t bad_pose_count = 0;
 
+  sphc_calibration calibration = {};  // of a file that holds one
+
   // Of an MCAP file.
-  sphc_calibration calibration = {};
   std::vector<ChunkPlace> chunks;
   uint64_t lost_count = 0;
   uint32_t bad_chunk_count = 0;
@@ -72,6 +73,8 @@ bool is7Scenes(const std::filesystem::path &folder);
 Recording open7Scenes(const std::filesystem::path &folder);
 bool isTum(const std::filesystem::path &folder);
 Recording openTum(const std::filesystem::path &folder);
+bool isRaw(const std::filesystem::path &file);
+Recording openRaw(const std::filesystem::path &file);
 Recording openMcap(const std::filesystem::path &file);
 
 }  // namespace sphc::recording

@@ -17,9 +17,9 @@ namespace {
 constexpr uint64_t kMostSmallBytes = FileWindow::kMostBytes;  // of records that describe
 constexpr uint64_t kMostCalibrationBytes = 1 << 20;
 
-// One walk through the file's records.  Of a whole file, a chunk is checked when an image of it is read, and at once
-// when it holds poses, which nobody reads again; of a cut one every chunk is checked, because a power cut may leave
-// garbage at its end.
+// One walk through the file's records.  Of a whole file, a chunk is checked when an image of it is read, and at
+// once when it holds poses, which nobody reads again; of a cut one every chunk is checked, because a power cut may
+// leave garbage at its end.
 class McapScan {
  public:
   McapScan(const File &file, bool checks_all)

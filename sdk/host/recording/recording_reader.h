@@ -36,7 +36,9 @@ class RecordingReader {
   // The same where a bad frame is left out: none when it cannot be read, and why.
   std::optional<sphc_frame> tryRead(uint32_t index, std::string *why = nullptr);
   // Of the colour camera, at the colour time of a frame or at any; none where the recording has none.
-  std::optional<sphc_rigid> worldFromCamera(uint32_t index) const { return worldFromCameraAt(colorOf(index).time_ns); }
+  std::optional<sphc_rigid> worldFromCamera(uint32_t index) const {
+    return worldFromCameraAt(colorOf(index).time_ns);
+  }
   std::optional<sphc_rigid> worldFromCameraAt(int64_t time_ns) const;
 
  private:

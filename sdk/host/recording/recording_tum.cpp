@@ -18,7 +18,8 @@ namespace {
   throw Failure(SPHC_E_ARGUMENT, shortPath(path.string()) + ", line " + std::to_string(line) + ": " + cause);
 }
 
-// A list names files of its own folder: neither by a path from the root, nor upwards, nor through a link that leaves.
+// A list names files of its own folder: neither by a path from the root, nor upwards, nor through a link that
+// leaves.
 std::string pathFault(const fs::path &folder, const fs::path &file) {
   const std::string cure = "; copy the image into the folder and name it there";
   if (file.is_absolute()) return "the file's path is absolute" + cure;

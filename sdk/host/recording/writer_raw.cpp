@@ -38,7 +38,8 @@ void putRigid(Bytes &out, const sphc_rigid &rigid) {
 void putCrc(Bytes &out) { putLittle(out, static_cast<uint32_t>(crc32_z(0, out.data(), out.size()))); }
 
 fs::path unfinishedName(const fs::path &path) {
-  if (fs::exists(path)) throw Failure(SPHC_E_STATE, shortPath(path.string()) + ": is there already; give a new name");
+  if (fs::exists(path))
+    throw Failure(SPHC_E_STATE, shortPath(path.string()) + ": is there already; give a new name");
   return path.string() + ".unfinished";
 }
 
@@ -100,7 +101,8 @@ void RawWriter::add(const sphc_frame &frame, const sphc_rigid *world_from_camera
 void RawWriter::finish() {
   file_.writeAt(0, viewOf(header()));
   file_.sync();
-  if (fs::exists(path_)) throw Failure(SPHC_E_STATE, shortPath(path_.string()) + ": came to be meanwhile; remove it");
+  if (fs::exists(path_))
+    throw Failure(SPHC_E_STATE, shortPath(path_.string()) + ": came to be meanwhile; remove it");
   fs::rename(unfinished_, path_);
   is_finished_ = true;
   File::syncFolder(path_);

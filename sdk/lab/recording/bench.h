@@ -3,8 +3,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "host/recording/recording_reader.h"
 #include "host/recording/recorder.h"
+#include "host/recording/recording_reader.h"
 #include "lab/recording/codec.h"
 
 namespace sphc::host {

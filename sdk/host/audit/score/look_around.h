@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "host/recording/recording_reader.h"
 #include "host/audit/score/panorama.h"
+#include "host/recording/recording_reader.h"
 
 namespace sphc::host {
 

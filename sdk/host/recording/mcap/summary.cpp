@@ -18,9 +18,9 @@ class SummaryWriter {
   void write();
 
  private:
-  void look(const RecordPlace &record);
-  void lookAtChunk(const RecordPlace &record);
-  void lookAtMessageIndex(const RecordPlace &record);
+  void add(const RecordPlace &record);
+  void addChunk(const RecordPlace &record);
+  void addMessageIndex(const RecordPlace &record);
   void endChunkIndex();
   void copy(const RecordPlace &record, Bytes &group);
   void putAttachmentIndex(const RecordPlace &record);
@@ -62,7 +62,7 @@ void SummaryWriter::copy(const RecordPlace &record, Bytes &group) {
   file_.read(record.start, group.data() + before, group.size() - before);
 }
 
-void SummaryWriter::lookAtChunk(const RecordPlace &record) {
+void SummaryWriter::addChunk(const RecordPlace &record) {
   endChunkIndex();
   ChunkPlace place;
   if (!readChunk(window_, record, head_, place)) return;
@@ -75,7 +75,7 @@ void SummaryWriter::lookAtChunk(const RecordPlace &record) {
   last_ns_ = std::max(last_ns_, head_.last_ns);
 }
 
-void SummaryWriter::lookAtMessageIndex(const RecordPlace &record) {
+void SummaryWriter::addMessageIndex(const RecordPlace &record) {
   if (record.bytes < 6) return;
   const ByteView content = window_.at(record.content, 6);
   const uint16_t channel = loadLittle<uint16_t>(content.data);
@@ -135,7 +135,7 @@ void SummaryWriter::putMetadataIndex(const RecordPlace &record) {
   });
 }
 
-void SummaryWriter::look(const RecordPlace &record) {
+void SummaryWriter::add(const RecordPlace &record) {
   switch (record.op) {
     case Op::kSchema:
       ++schema_count_;
@@ -148,9 +148,9 @@ void SummaryWriter::look(const RecordPlace &record) {
     case Op::kMetadata:
       return putMetadataIndex(record);
     case Op::kChunk:
-      return lookAtChunk(record);
+      return addChunk(record);
     case Op::kMessageIndex:
-      return lookAtMessageIndex(record);
+      return addMessageIndex(record);
     default:
       return;
   }
@@ -193,7 +193,7 @@ void SummaryWriter::endGroup(Op op, uint64_t start) {
 }
 
 void SummaryWriter::write() {
-  walkRecords(window_, sizeof kMcapMagic, start_, [this](const RecordPlace &record) { look(record); });
+  walkRecords(window_, sizeof kMcapMagic, start_, [this](const RecordPlace &record) { add(record); });
   endChunkIndex();
   endGroup(Op::kChunkIndex, start_);
   Bytes statistics;
