@@ -7,6 +7,9 @@
 
 namespace sphc::replay {
 
+using recording::Failure;
+using recording::guarded;
+
 Player::Player(const Recording &recording, const sphc_calibration &calibration, const sphc_replay_config &config)
     : recording_(recording),
       reader_(recording, calibration, config.color_format),

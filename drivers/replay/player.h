@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "host/recording/image_reader.h"
-#include "host/recording/recording.h"
+#include "replay.h"
 
 namespace sphc::replay {
+
+using recording::ImageReader;
+using recording::RecordedImage;
+using recording::Recording;
 
 class Player {
  public:

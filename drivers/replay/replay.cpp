@@ -3,29 +3,22 @@
 #include <memory>
 
 #include "host/recording/failure.h"
-#include "host/recording/image_reader.h"
-#include "host/recording/recording.h"
+#include "host/recording/recording_reader.h"
 #include "player.h"
 
-using namespace sphc::replay;
-namespace fs = std::filesystem;
+using namespace sphc::recording;
+
+static_assert(static_cast<int>(Layout::kSevenScenes) == SPHC_REPLAY_7SCENES);
+static_assert(static_cast<int>(Layout::kTum) == SPHC_REPLAY_TUM);
+static_assert(static_cast<int>(Layout::kMcap) == SPHC_REPLAY_MCAP);
+static_assert(static_cast<int>(Layout::kRaw) == SPHC_REPLAY_RAW);
 
 struct sphc_replay {
-  sphc_replay(Recording &&opened, const sphc_calibration &its_calibration, const sphc_replay_config &its_config)
-      : config(its_config),
-        calibration(its_calibration),
-        recording(std::move(opened)),
-        frames(pairFrames(recording, config.pair_tolerance_ns)),
-        reader(recording, calibration, config.color_format),
-        player(recording, calibration, config) {}
+  sphc_replay(const char *path, const ReaderOptions &options, const sphc_replay_config &config)
+      : reader(path, options), player(reader.recording(), reader.calibration(), config) {}
 
-  sphc_replay_config config;
-  sphc_calibration calibration;
-  Recording recording;
-  std::vector<FramePair> frames;
-  ImageReader reader;  // of read_frame; the player has its own
-  std::vector<uint8_t> color_pixels, depth_pixels;
-  Player player;
+  RecordingReader reader;
+  sphc::replay::Player player;  // with buffers of its own
 };
 
 namespace {
@@ -48,24 +41,17 @@ void checkConfig(const sphc_replay_config &config) {
   require(config.pose_gap_ns >= 0, "pose_gap_ns: is negative");
 }
 
-sphc_calibration readCalibration(const Recording &recording, const char *path, sphc_message *message) {
-  if (!path && recording.calibration.struct_size != 0) return recording.calibration;
-  if (!path && recording.layout == SPHC_REPLAY_MCAP)
-    throw Failure(SPHC_E_ARGUMENT, shortPath(recording.path.string()) +
-                                       ": no calibration in it; give a calibration file (docs/drivers.md)");
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  sphc_message text{};
-  const std::string file = path ? path : (recording.path / "calibration.json").string();
-  const sphc_status status = sphc_calibration_read(file.c_str(), &calibration, message ? message : &text);
-  if (status < 0) throw Failure(status, message ? message->text : text.text);
-  return calibration;
+ReaderOptions optionsOf(const char *calibration_path, const sphc_replay_config &config) {
+  ReaderOptions options;
+  if (calibration_path) options.calibration = calibration_path;
+  options.selection = {config.first, config.last, config.step};
+  options.color_format = config.color_format;
+  options.pair_tolerance_ns = config.pair_tolerance_ns;
+  options.pose_gap_ns = config.pose_gap_ns;
+  return options;
 }
 
-// Null when the index is none.
-const FramePair *frameAt(const sphc_replay *replay, uint32_t index) {
-  return replay && index < replay->frames.size() ? &replay->frames[index] : nullptr;
-}
+bool hasFrame(const sphc_replay *replay, uint32_t index) { return replay && index < replay->reader.frameCount(); }
 
 }  // namespace
 
@@ -98,10 +84,7 @@ sphc_status sphc_replay_open(const char *path, const char *calibration_path, con
                     "config.struct_size is none this library knows; use sphc_replay_config_init");
     if (config) chosen = *config;
     checkConfig(chosen);
-    Recording recording = openRecording(path);
-    const sphc_calibration calibration = readCalibration(recording, calibration_path, message);
-    selectFrames(chosen, recording);
-    *replay = std::make_unique<sphc_replay>(std::move(recording), calibration, chosen).release();
+    *replay = std::make_unique<sphc_replay>(path, optionsOf(calibration_path, chosen), chosen).release();
     return SPHC_OK;
   });
 }
@@ -115,8 +98,8 @@ void sphc_replay_close(sphc_replay **replay) {
 sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *info) {
   if (!replay || !info) return SPHC_E_ARGUMENT;
   if (info->struct_size != sizeof *info) return SPHC_E_STRUCT_SIZE;
-  const Recording &recording = replay->recording;
-  info->layout = recording.layout;
+  const Recording &recording = replay->reader.recording();
+  info->layout = static_cast<sphc_replay_layout>(recording.layout);
   info->color_count = static_cast<uint32_t>(recording.color.size());
   info->depth_count = static_cast<uint32_t>(recording.depth.size());
   info->pose_count = static_cast<uint32_t>(recording.poses.poses().size());
@@ -130,7 +113,7 @@ sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *in
 sphc_status sphc_replay_calibration(const sphc_replay *replay, sphc_calibration *calibration) {
   if (!replay || !calibration) return SPHC_E_ARGUMENT;
   if (calibration->struct_size != sizeof *calibration) return SPHC_E_STRUCT_SIZE;
-  *calibration = replay->calibration;
+  *calibration = replay->reader.calibration();
   return SPHC_OK;
 }
 
@@ -140,20 +123,16 @@ sphc_status sphc_replay_source(sphc_replay *replay, sphc_source *source) {
   return SPHC_OK;
 }
 
-uint32_t sphc_replay_frame_count(const sphc_replay *replay) {
-  return replay ? static_cast<uint32_t>(replay->frames.size()) : 0;
-}
+uint32_t sphc_replay_frame_count(const sphc_replay *replay) { return replay ? replay->reader.frameCount() : 0; }
 
 sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index, sphc_replay_frame_info *info) {
-  const FramePair *frame = frameAt(replay, index);
-  if (!frame || !info) return SPHC_E_ARGUMENT;
+  if (!hasFrame(replay, index) || !info) return SPHC_E_ARGUMENT;
   if (info->struct_size != sizeof *info) return SPHC_E_STRUCT_SIZE;
-  const RecordedImage &color = replay->recording.color[frame->color];
-  sphc_rigid pose;
+  const RecordedImage &color = replay->reader.colorOf(index);
   info->sequence = color.sequence;
   info->color_time_ns = color.time_ns;
-  info->depth_time_ns = replay->recording.depth[frame->depth].time_ns;
-  info->has_pose = sphc_replay_pose(replay, index, &pose) == SPHC_OK;
+  info->depth_time_ns = replay->reader.depthOf(index).time_ns;
+  info->has_pose = replay->reader.worldFromCamera(index).has_value();
   info->reserved = 0;
   return SPHC_OK;
 }
@@ -161,37 +140,28 @@ sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index
 sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_frame *frame, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
     if (!replay || !frame) throw Failure(SPHC_E_ARGUMENT, "replay or frame is null");
-    const FramePair *pair = frameAt(replay, index);
-    if (!pair)
-      throw Failure(SPHC_E_ARGUMENT, "frame " + std::to_string(index) + ": there are " +
-                                         std::to_string(replay->frames.size()) + ", counted from 0");
-    const RecordedImage &color = replay->recording.color[pair->color];
-    const RecordedImage &depth = replay->recording.depth[pair->depth];
-    replay->color_pixels.resize(replay->reader.colorBytes());
-    replay->depth_pixels.resize(replay->reader.depthBytes());
-    const sphc_image color_image = replay->reader.read(SPHC_STREAM_COLOR, color, replay->color_pixels.data());
-    const sphc_image depth_image = replay->reader.read(SPHC_STREAM_DEPTH, depth, replay->depth_pixels.data());
-    *frame = {sizeof *frame, color.sequence, color.time_ns, depth.time_ns, color_image, depth_image, nullptr};
+    *frame = replay->reader.read(index);
     return SPHC_OK;
   });
 }
 
 sphc_status sphc_replay_pose(const sphc_replay *replay, uint32_t index, sphc_rigid *world_from_camera) {
-  const FramePair *frame = frameAt(replay, index);
-  if (!frame) return SPHC_E_ARGUMENT;
-  return sphc_replay_pose_at(replay, replay->recording.color[frame->color].time_ns, world_from_camera);
+  if (!hasFrame(replay, index)) return SPHC_E_ARGUMENT;
+  return sphc_replay_pose_at(replay, replay->reader.colorOf(index).time_ns, world_from_camera);
 }
 
 sphc_status sphc_replay_pose_at(const sphc_replay *replay, int64_t time_ns, sphc_rigid *world_from_camera) {
   if (!replay || !world_from_camera) return SPHC_E_ARGUMENT;
-  const bool found = replay->recording.poses.at(time_ns, replay->config.pose_gap_ns, *world_from_camera);
-  return found ? SPHC_OK : SPHC_NOT_LOCALIZED;
+  const std::optional<sphc_rigid> pose = replay->reader.worldFromCameraAt(time_ns);
+  if (!pose) return SPHC_NOT_LOCALIZED;
+  *world_from_camera = *pose;
+  return SPHC_OK;
 }
 
 sphc_status sphc_replay_recorded_pose(const sphc_replay *replay, uint32_t index, int64_t *time_ns,
                                       sphc_rigid *world_from_camera) {
   if (!replay || !time_ns || !world_from_camera) return SPHC_E_ARGUMENT;
-  const std::vector<TimedPose> &poses = replay->recording.poses.poses();
+  const std::vector<TimedPose> &poses = replay->reader.recording().poses.poses();
   if (index >= poses.size()) return SPHC_E_ARGUMENT;
   *time_ns = poses[index].time_ns;
   *world_from_camera = poses[index].pose;

@@ -1,9 +1,10 @@
 /* replay.h - plays a recording of colour and depth images back, as a source or frame by frame.
  *
- * A recording is one MCAP file, as recorder.h writes it (docs/recording.md), which holds its calibration, or a
- * folder in one of two layouts (docs/drivers.md): 7-Scenes  frame-NNNNNN.color.{jpg,png}, frame-NNNNNN.depth.png,
- * frame-NNNNNN.pose.txt; time = NNNNNN / 30 s TUM       rgb.txt, depth.txt, groundtruth.txt (optional); time as in
- * these lists and a calibration file, inside the folder (calibration.json) or elsewhere.
+ * A recording is one MCAP file or a raw file (docs/recording.md), which hold their calibration, or a folder in one
+ * of two layouts (docs/drivers.md) with a calibration file in it (calibration.json) or elsewhere:
+ *
+ *     7-Scenes  frame-NNNNNN.color.{jpg,png}, frame-NNNNNN.depth.png, frame-NNNNNN.pose.txt; time = NNNNNN / 30 s
+ *     TUM       rgb.txt, depth.txt, groundtruth.txt (optional); time as in these lists
  *
  *     sphc_replay_config config;
  *     sphc_replay_config_init(&config, sizeof config);
@@ -63,9 +64,9 @@ sphc_status sphc_replay_config_init(sphc_replay_config *config, size_t struct_si
 
 /* Opens the recording at `path`, a folder or a file.  `calibration_path` null: calibration.json in it.  `config`
  * null: the defaults; it is copied.  No image is read yet; an MCAP file that was cut off is read through for its
- * checksums. Errors: ARGUMENT (null, config, contents of the calibration or of a list), STRUCT_SIZE, DEVICE (folder
- * or file cannot be read, or the folder holds no recording); each with file, place, cause and cure in the message.
- * [pure]
+ * checksums, and so is one with poses. Errors: ARGUMENT (null, config, contents of the calibration or of a list),
+ * STRUCT_SIZE, DEVICE (folder or file cannot be read, or holds no finished recording); each with file, place, cause
+ * and cure in the message. [pure]
  */
 sphc_status sphc_replay_open(const char *path, const char *calibration_path, const sphc_replay_config *config,
                              sphc_replay **replay, sphc_message *message);
@@ -75,7 +76,7 @@ void sphc_replay_close(sphc_replay **replay);
 /* ---- what is in it ------------------------------------------------------------------------------------------ */
 
 typedef int32_t sphc_replay_layout;
-enum { SPHC_REPLAY_7SCENES = 1, SPHC_REPLAY_TUM = 2, SPHC_REPLAY_MCAP = 3 };
+enum { SPHC_REPLAY_7SCENES = 1, SPHC_REPLAY_TUM = 2, SPHC_REPLAY_MCAP = 3, SPHC_REPLAY_RAW = 4 };
 
 typedef struct sphc_replay_info {
   uint32_t struct_size;

@@ -5,9 +5,9 @@
  * Colour first, depth second; a node, or "card=NAME".  Ends after FRAMES pairs, or never.
  */
 #define _POSIX_C_SOURCE 200809L
+#include <drivers/replay/replay.h>
 #include <drivers/v4l2/v4l2.h>
 #include <fcntl.h>
-#include <host/recording/calibration.h>
 #include <spherecloud/spherecloud.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "drivers/libcamera/libcamera.h"
 #include "drivers/libcamera/plugin.h"
 #include "drivers/openni2/openni2.h"
+#include "drivers/raw/raw.h"
 #include "drivers/replay/replay.h"
 #include "drivers/sample/sample.h"
 #include "drivers/v4l2/v4l2.h"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstring>
@@ -124,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ParamString", "[290, 291,", "[\"290\", 291,", "depth_camera.params[0]", "must be a number"},
         Mistake{"ParamNan", "[290, 291,", "[NaN, 291,", "not valid JSON", "finite"},
         Mistake{"ParamInfinite", "[290, 291,", "[1e999, 291,", "not valid JSON", "finite"},
-        Mistake{"Focal", "[290, 291,", "[290, -291,", "depth_camera.params", "greater than 0"},
+        Mistake{"Focal", "[290, 291,", "[290, -291,", "depth_camera", "must be positive"},
         Mistake{"WidthNegative", "\"width\": 640", "\"width\": -640", "color_camera.width", "16 to 8192"},
         Mistake{"WidthFraction", "\"width\": 640", "\"width\": 640.5", "color_camera.width", "whole number"},
         Mistake{"HeightTooSmall", "\"height\": 240", "\"height\": 2", "depth_camera.height", "16 to 8192"},
@@ -137,6 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoTransform", "\"color_from_depth\"", "\"depth_from_color\"", "color_from_depth", "missing"},
         Mistake{"UnitZero", "\"depth_unit_m\": 0.001", "\"depth_unit_m\": 0", "depth_unit_m",
                 "0.001 for millimetres"},
+        Mistake{"UnitBeyondTheRuntimes", "\"depth_unit_m\": 0.001", "\"depth_unit_m\": 0.2", "depth_unit_m",
+                "to 0.1"},
+        Mistake{"ParamHuge", "[290, 291,", "[290, 2e6,", "depth_camera", "beyond 1e6"},
+        Mistake{"TranslationFar", "[0.02, -0.005, -0.0125]", "[0.02, -101, 0]", "color_from_depth.t_m",
+                "give metres"},
         Mistake{"UnitString", "\"depth_unit_m\": 0.001", "\"depth_unit_m\": \"mm\"", "depth_unit_m",
                 "must be a number"},
         Mistake{"Registered", "\"version\": 1", "\"version\": 1, \"depth_registered\": true", "depth_registered",
@@ -153,6 +159,40 @@ TEST(Calibration, ExplainsAFileThatIsNotThere) {
   EXPECT_EQ(sphc_calibration_read((folder / "rig.json").c_str(), &calibration, &message), SPHC_E_DEVICE);
   EXPECT_THAT(message.text, AllOf(HasSubstr("rig.json"), HasSubstr("no such"), HasSubstr("docs/drivers.md")));
   EXPECT_EQ(sphc_calibration_read(folder.path().c_str(), &calibration, &message), SPHC_E_DEVICE) << "a folder";
+  EXPECT_THAT(message.text, HasSubstr("is a folder"));
+}
+
+TEST(Calibration, RefusesWhatIsNoRegularFile) {
+  const TempFolder folder;
+  sphc_calibration calibration;
+  sphc_calibration_init(&calibration, sizeof calibration);
+  sphc_message message{};
+  ASSERT_EQ(mkfifo((folder / "rig.json").c_str(), 0600), 0);
+  EXPECT_EQ(sphc_calibration_read((folder / "rig.json").c_str(), &calibration, &message), SPHC_E_DEVICE);
+  EXPECT_THAT(message.text, AllOf(HasSubstr("rig.json"), HasSubstr("is a FIFO")));
+  EXPECT_EQ(sphc_calibration_read("/dev/zero", &calibration, &message), SPHC_E_DEVICE);
+  EXPECT_THAT(message.text, AllOf(HasSubstr("/dev/zero"), HasSubstr("is a device")));
+  folder.write("large.json", std::string((1 << 20) + 1, ' '));
+  EXPECT_EQ(sphc_calibration_read((folder / "large.json").c_str(), &calibration, &message), SPHC_E_ARGUMENT);
+  EXPECT_THAT(message.text, HasSubstr("over 1 MiB"));
+}
+
+// What the calibration takes, the runtime takes.
+TEST(Calibration, HasTheLimitsOfTheRuntime) {
+  sphc_config config;
+  ASSERT_EQ(sphc_config_init(&config, sizeof config), SPHC_OK);
+  sphc_calibration calibration = tinyCalibration();
+  for (const double unit : {0.99e-6, 1e-6, 0.1, 0.11}) {
+    calibration.depth_unit_m = unit;
+    config.color_camera = calibration.color_camera;
+    config.depth_camera = calibration.depth_camera;
+    config.color_from_depth = calibration.color_from_depth;
+    config.depth_unit_m = unit;
+    sphc_memory memory{};
+    sphc_message message{};
+    const bool runtime_takes_it = sphc_localizer_memory(&config, &memory, &message) == SPHC_OK;
+    EXPECT_EQ(sphc_calibration_check(&calibration, nullptr) == SPHC_OK, runtime_takes_it) << unit << message.text;
+  }
 }
 
 TEST(Calibration, ShortensALongPathInMessages) {
@@ -181,7 +221,7 @@ TEST(Calibration, RefusesToWriteWhatItWouldNotRead) {
   calibration.depth_camera.params[8] = std::numeric_limits<double>::quiet_NaN();
   sphc_message message{};
   EXPECT_EQ(sphc_calibration_write((folder / "c.json").c_str(), &calibration, &message), SPHC_E_ARGUMENT);
-  EXPECT_THAT(message.text, HasSubstr("depth_camera.params: not finite"));
+  EXPECT_THAT(message.text, HasSubstr("depth_camera: camera parameter 8 is not finite"));
   EXPECT_FALSE(std::filesystem::exists(folder / "c.json"));
   calibration = tinyCalibration();
   calibration.color_camera.param_count = 5;

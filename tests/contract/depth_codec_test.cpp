@@ -7,7 +7,7 @@
 #include "host/recording/mcap/depth_rvl.h"
 #include "host/recording/mcap/depth_zstd.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -117,4 +117,4 @@ TEST(DepthZstd, RefusesWhatIsTooShortOrTooMuch) {
 
 }  // namespace
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

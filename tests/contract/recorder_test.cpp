@@ -354,6 +354,44 @@ TEST_F(Recorder, AChangedByteIsNoticedAndTheRestIsRead) {
   expectTinyFrame(replay, 29);
 }
 
+// Nobody reads a pose's bytes again: its chunk is checked at once.
+TEST_F(Recorder, AChangedPoseIsNotBelieved) {
+  config_.chunk_bytes = 65536;
+  writeTinyMcap(file(), 30, config_);
+  std::string bytes = temp_.read("walk.mcap");
+  const sphc_rigid pose = tinyPose(3);
+  const size_t at = bytes.find(std::string(reinterpret_cast<const char *>(&pose.t_m[0]), 8));
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_LT(at, chunksOf(bytes)[0].end);
+  bytes[at + 6] ^= 1;
+  temp_.write("changed.mcap", bytes);
+  const OpenReplay before(file()), replay(temp_ / "changed.mcap");
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  EXPECT_EQ(infoOf(before).bad_chunk_count, 0u);
+  EXPECT_EQ(infoOf(replay).bad_chunk_count, 1u);
+  EXPECT_LT(infoOf(replay).pose_count, infoOf(before).pose_count);
+  sphc_rigid read;
+  ASSERT_EQ(sphc_replay_pose(before.get(), 3, &read), SPHC_OK);
+  EXPECT_EQ(sphc_replay_pose(replay.get(), 3, &read), SPHC_NOT_LOCALIZED);
+  ASSERT_EQ(sphc_replay_pose(replay.get(), 29, &read), SPHC_OK);
+  EXPECT_EQ(read.t_m[0], tinyPose(29).t_m[0]);
+}
+
+TEST_F(Recorder, AnAbandonedRecordingCountsAsCutAndKeepsAll) {
+  sphc_recorder *recorder = nullptr;
+  const sphc_calibration calibration = tinyCalibration();
+  ASSERT_EQ(sphc_recorder_open(file().c_str(), &calibration, &config_, &recorder, nullptr), SPHC_OK);
+  addTinyFrames(recorder, 5);
+  sphc_recorder_abandon(&recorder);
+  EXPECT_EQ(recorder, nullptr);
+  sphc_recorder_abandon(&recorder);
+  sphc_recorder_abandon(nullptr);
+  const OpenReplay replay(file());
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  EXPECT_EQ(infoOf(replay).is_cut, 1u);
+  EXPECT_EQ(infoOf(replay).color_count, 5u);
+}
+
 TEST_F(Recorder, AKilledRecordingIsReplayed) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);

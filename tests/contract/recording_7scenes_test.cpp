@@ -1,9 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "host/recording/failure.h"
+#include "host/recording/writer_7scenes.h"
 #include "temp_folder.h"
 #include "tiny_recording.h"
 
@@ -188,6 +192,104 @@ TEST_F(SevenScenes, RefusesAnImageOfAnotherSize) {
   sphc_message message{};
   EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_E_IMAGE);
   EXPECT_THAT(message.text, AllOf(HasSubstr("is 20 x 10"), HasSubstr("color_camera 48 x 32")));
+}
+
+// A quarter of a gigabyte is never made of a few bytes: the header's size decides before anything is decoded.
+TEST_F(SevenScenes, RefusesAHugeImageByItsHeader) {
+  addFrame(0);
+  addFrame(1, kPose, "jpg");
+  for (const char *name : {"frame-000000.color.png", "frame-000001.color.jpg"}) {
+    const bool is_png = std::string(name).find("png") != std::string::npos;
+    std::string image = folder_.read(name);
+    const size_t at = is_png ? 16 : image.find("\xff\xc0") + 5;  // of IHDR's width, of SOF0's height
+    ASSERT_LT(at, image.size());
+    const std::string side = "\x2e\xe0";  // 12000
+    const std::string wide = std::string(2, '\0') + side;
+    image.replace(at, is_png ? 8 : 4, is_png ? wide + wide : side + side);
+    folder_.write(name, image.substr(0, image.size() / 2));  // nor can it be: half of it is missing
+  }
+  const OpenReplay replay = open();
+  for (uint32_t i = 0; i < 2; ++i) {
+    sphc_frame frame;
+    sphc_message message{};
+    EXPECT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, &message), SPHC_E_IMAGE);
+    EXPECT_THAT(message.text, AllOf(HasSubstr("is 12000 x 12000"), HasSubstr("color_camera 48 x 32")));
+  }
+}
+
+TEST_F(SevenScenes, DecodesATypeUnderItsOwnNameAlone) {
+  for (uint32_t i = 0; i < 4; ++i) addFrame(i);
+  const cv::Mat image(kColorHeight, kColorWidth, CV_8UC3, cv::Scalar(1, 2, 3));
+  const auto bytesAs = [&](const char *extension) {
+    std::vector<uchar> bytes;
+    cv::imencode(extension, image, bytes);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  folder_.write("frame-000000.color.png", bytesAs(".jpg"));
+  folder_.write("frame-000001.color.png", bytesAs(".bmp"));
+  folder_.write("frame-000002.color.png", bytesAs(".tiff"));
+  std::filesystem::remove(folder_ / "frame-000003.color.png");
+  folder_.write("frame-000003.color.jpg", bytesAs(".png"));
+  const OpenReplay replay = open();
+  for (uint32_t i = 0; i < 4; ++i) {
+    sphc_frame frame;
+    sphc_message message{};
+    EXPECT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, &message), SPHC_E_DEVICE);
+    EXPECT_THAT(message.text, AllOf(HasSubstr(nameOf(i)), HasSubstr(i < 3 ? "is no PNG" : "is no JPEG")));
+  }
+}
+
+TEST_F(SevenScenes, RefusesWhatIsNoRegularFile) {
+  addFrame(0);
+  addFrame(1);
+  std::filesystem::remove(folder_ / "frame-000000.color.png");
+  std::filesystem::remove(folder_ / "frame-000001.depth.png");
+  ASSERT_EQ(mkfifo((folder_ / "frame-000000.color.png").c_str(), 0600), 0);
+  std::filesystem::create_directory(folder_ / "frame-000001.depth.png");
+  {
+    const OpenReplay replay = open();
+    const char *cause[] = {"frame-000000.color.png (colour 0): is a FIFO",
+                           "frame-000001.depth.png (depth 1): is a folder"};
+    for (uint32_t i = 0; i < 2; ++i) {
+      sphc_frame frame;
+      sphc_message message{};
+      EXPECT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, &message), SPHC_E_DEVICE);
+      EXPECT_THAT(message.text, HasSubstr(cause[i]));
+    }
+  }
+  std::filesystem::remove(folder_ / "frame-000000.pose.txt");
+  ASSERT_EQ(mkfifo((folder_ / "frame-000000.pose.txt").c_str(), 0600), 0);
+  const OpenReplay replay = open();
+  EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
+  EXPECT_THAT(replay.message(), HasSubstr("frame-000000.pose.txt: is a FIFO"));
+}
+
+TEST_F(SevenScenes, IsWrittenWholeOrCountsAsUnfinished) {
+  const std::string out = folder_ / "out";
+  const TinyImages images(7);
+  const sphc_frame frame = tinyFrame(7, images);
+  const sphc_rigid pose = tinyPose(7);
+  recording::SevenScenesWriter writer(out, tinyCalibration());
+  writer.add(frame, &pose);
+  EXPECT_THROW(writer.add(frame, &pose), recording::Failure) << "nothing is overwritten";
+  {
+    const OpenReplay replay(out);
+    EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
+    EXPECT_THAT(replay.message(), HasSubstr("not finished"));
+  }
+  EXPECT_THROW(recording::SevenScenesWriter(out, tinyCalibration()), recording::Failure);
+  writer.finish();
+  const OpenReplay replay(out);
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  sphc_frame read;
+  ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &read, nullptr), SPHC_OK);
+  EXPECT_EQ(read.sequence, 7u);
+  EXPECT_EQ(std::memcmp(read.color.data, images.color.data(), images.color.size()), 0);
+  EXPECT_EQ(std::memcmp(read.depth.data, images.depth.data(), images.depth.size() * 2), 0);
+  sphc_rigid read_pose;
+  ASSERT_EQ(sphc_replay_pose(replay.get(), 0, &read_pose), SPHC_OK);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(read_pose.q_wxyz[i], pose.q_wxyz[i], 1e-12);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(read_pose.t_m[i], pose.t_m[i]);
 }
 
 TEST_F(SevenScenes, RefusesTwoColoursOfOneFrame) {

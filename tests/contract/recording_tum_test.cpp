@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "temp_folder.h"
 #include "tiny_recording.h"
@@ -116,6 +117,44 @@ TEST_F(Tum, NamesTheLineThatIsWrong) {
   expectRefused(SPHC_E_ARGUMENT, "groundtruth.txt, line 1");
   std::filesystem::remove(folder_ / "depth.txt");
   expectRefused(SPHC_E_DEVICE, "depth.txt: cannot be read");
+}
+
+TEST_F(Tum, ReadsNothingOutsideItsFolder) {
+  const TempFolder elsewhere;
+  std::filesystem::copy(folder_ / "rgb/000000.png", elsewhere / "secret.png");
+  std::filesystem::create_directory_symlink(elsewhere.path(), folder_ / "way");
+  std::filesystem::create_symlink(elsewhere / "secret.png", folder_ / "rgb/link.png");
+  const std::string good = "1.0 rgb/000000.png\n";
+  folder_.write("rgb.txt", good + "2.0 rgb/../../secret.png\n");
+  expectRefused(SPHC_E_ARGUMENT, "rgb.txt, line 2: rgb/../../secret.png: the file's path goes upwards");
+  folder_.write("rgb.txt", "# x\n" + good + "2.0 /etc/passwd\n");
+  expectRefused(SPHC_E_ARGUMENT, "rgb.txt, line 3: /etc/passwd: the file's path is absolute");
+  for (const char *file : {"way/secret.png", "rgb/link.png"}) {
+    folder_.write("rgb.txt", good + "2.0 " + file + "\n");
+    expectRefused(SPHC_E_ARGUMENT,
+                  (std::string("rgb.txt, line 2: ") + file + ": the file is a link out of").c_str());
+  }
+  // A link that stays inside is as good as a copy, and so is the folder itself under another name.
+  std::filesystem::create_symlink(folder_ / "rgb/000000.png", folder_ / "rgb/inside.png");
+  folder_.write("rgb.txt", "1.0 rgb/inside.png\n");
+  std::filesystem::create_directory_symlink(folder_.path(), elsewhere / "alias");
+  const OpenReplay replay(elsewhere / "alias");
+  EXPECT_EQ(replay.status(), SPHC_OK) << replay.message();
+}
+
+TEST_F(Tum, RefusesWhatIsNoRegularFile) {
+  std::filesystem::remove(folder_ / "rgb/000001.png");
+  ASSERT_EQ(mkfifo((folder_ / "rgb/000001.png").c_str(), 0600), 0);
+  {
+    const OpenReplay replay = open();
+    sphc_frame frame;
+    sphc_message message{};
+    EXPECT_EQ(sphc_replay_read_frame(replay.get(), 1, &frame, &message), SPHC_E_DEVICE);
+    EXPECT_THAT(message.text, HasSubstr("rgb/000001.png (colour 1): is a FIFO"));
+  }
+  std::filesystem::remove(folder_ / "groundtruth.txt");
+  ASSERT_EQ(mkfifo((folder_ / "groundtruth.txt").c_str(), 0600), 0);
+  expectRefused(SPHC_E_DEVICE, "groundtruth.txt: is a FIFO");
 }
 
 TEST_F(Tum, ChoosesFramesByTheirPlaceAndDepthWithThem) {

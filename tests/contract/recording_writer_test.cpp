@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstring>
 #include <limits>
 
@@ -22,7 +25,8 @@ class RecordingWriter : public ::testing::Test {
     const sphc_calibration calibration = tinyCalibration();
     ASSERT_EQ(sphc_recording_create(folder().c_str(), &calibration, &writer_, &message_), SPHC_OK) << message_.text;
   }
-  void TearDown() override { sphc_recording_close(&writer_); }
+  void TearDown() override { sphc_recording_abandon(&writer_); }
+  sphc_status close() { return sphc_recording_close(&writer_, &message_); }
 
   std::string folder() const { return temp_ / "new"; }
   sphc_status addFrame(const sphc_frame &frame) { return sphc_recording_add_frame(writer_, &frame, &message_); }
@@ -56,11 +60,52 @@ TEST_F(RecordingWriter, WritesWhatReplayReadsBackBitForBit) {
   }
 }
 
-TEST_F(RecordingWriter, CanBeReadBeforeItIsClosed) {
+TEST_F(RecordingWriter, IsReadByNobodyUntilItIsClosed) {
   ASSERT_EQ(addFrame(tinyFrame(0, images_)), SPHC_OK);
+  {
+    const OpenReplay replay(folder());
+    EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
+    EXPECT_THAT(replay.message(), AllOf(HasSubstr("not finished"), HasSubstr("unfinished.txt")));
+  }
+  ASSERT_EQ(close(), SPHC_OK) << message_.text;
   const OpenReplay replay(folder());
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
   EXPECT_EQ(sphc_replay_frame_count(replay.get()), 1u);
+}
+
+TEST_F(RecordingWriter, AKilledOneIsRefusedUntilSomebodyRemovesTheMark) {
+  const std::string killed = temp_ / "killed";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const sphc_calibration calibration = tinyCalibration();
+    sphc_recording_writer *writer = nullptr;
+    sphc_recording_create(killed.c_str(), &calibration, &writer, nullptr);
+    for (uint32_t i = 0; i < 3; ++i) {
+      const TinyImages images(i);
+      const sphc_frame frame = tinyFrame(i, images);
+      sphc_recording_add_frame(writer, &frame, nullptr);
+    }
+    raise(SIGKILL);
+  }
+  int state = 0;
+  ASSERT_EQ(waitpid(child, &state, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(state));
+  EXPECT_EQ(OpenReplay(killed).status(), SPHC_E_DEVICE);
+  std::filesystem::remove(killed + "/unfinished.txt");
+  const OpenReplay replay(killed);
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  EXPECT_EQ(sphc_replay_frame_count(replay.get()), 3u);
+}
+
+TEST_F(RecordingWriter, AnAbandonedOneStaysUnfinished) {
+  ASSERT_EQ(addFrame(tinyFrame(0, images_)), SPHC_OK);
+  sphc_recording_abandon(&writer_);
+  EXPECT_EQ(writer_, nullptr);
+  EXPECT_EQ(OpenReplay(folder()).status(), SPHC_E_DEVICE);
+  const sphc_calibration calibration = tinyCalibration();
+  EXPECT_EQ(sphc_recording_create(folder().c_str(), &calibration, &writer_, &message_), SPHC_E_STATE);
+  EXPECT_THAT(message_.text, HasSubstr("unfinished recording"));
 }
 
 TEST_F(RecordingWriter, TakesEveryColourFormatAndStride) {
@@ -70,6 +115,7 @@ TEST_F(RecordingWriter, TakesEveryColourFormatAndStride) {
   frame = tinyFrame(1, images_);
   frame.color.format = SPHC_FORMAT_GRAY8;  // every third byte's neighbourhood: the content does not matter
   ASSERT_EQ(addFrame(frame), SPHC_OK);
+  ASSERT_EQ(close(), SPHC_OK) << message_.text;
   const OpenReplay replay(folder());
   sphc_frame read;
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &read, nullptr), SPHC_OK);
@@ -151,6 +197,9 @@ TEST_F(RecordingWriter, StopsAfterAWriteThatFailed) {
   EXPECT_EQ(addFrame(tinyFrame(0, images_)), SPHC_E_DEVICE);
   EXPECT_THAT(message_.text, HasSubstr("rgb/000000.png"));
   EXPECT_EQ(addFrame(tinyFrame(1, images_)), SPHC_E_STATE);
+  EXPECT_EQ(close(), SPHC_E_STATE) << "half a recording is not finished";
+  EXPECT_EQ(writer_, nullptr);
+  EXPECT_EQ(OpenReplay(folder()).status(), SPHC_E_DEVICE);
 }
 
 TEST_F(RecordingWriter, ChecksItsArguments) {
@@ -164,8 +213,10 @@ TEST_F(RecordingWriter, ChecksItsArguments) {
   sphc_frame frame = tinyFrame(0, images_);
   frame.struct_size = 4;
   EXPECT_EQ(addFrame(frame), SPHC_E_STRUCT_SIZE);
-  sphc_recording_close(nullptr);
-  sphc_recording_close(&none);
+  EXPECT_EQ(sphc_recording_close(nullptr, nullptr), SPHC_OK);
+  EXPECT_EQ(sphc_recording_close(&none, nullptr), SPHC_OK);
+  sphc_recording_abandon(nullptr);
+  sphc_recording_abandon(&none);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -60,4 +60,4 @@ TEST(TextField, ReadsNumbersOfEveryStyle) {
 
 }  // namespace
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -72,7 +72,7 @@ inline void writeTinyMcap(const std::string &path, uint32_t frames, const sphc_r
   EXPECT_EQ(recorder.close(), SPHC_OK) << recorder.message();
 }
 
-// The chunks of an MCAP file, found by a second, independent look at its bytes.
+// The chunks of an MCAP file, found by a second, independent reader.
 struct ChunkSpan {
   size_t start, end;
   uint32_t color, depth;  // images in it

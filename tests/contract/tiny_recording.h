@@ -81,7 +81,7 @@ inline void writeTinyRecording(const std::string &folder, uint32_t frames) {
     EXPECT_EQ(sphc_recording_add_frame(writer, &frame, &message), SPHC_OK) << message.text;
     EXPECT_EQ(sphc_recording_add_pose(writer, frame.color_time_ns, &pose, &message), SPHC_OK) << message.text;
   }
-  sphc_recording_close(&writer);
+  EXPECT_EQ(sphc_recording_close(&writer, &message), SPHC_OK) << message.text;
 }
 
 // An opened replay that closes itself.

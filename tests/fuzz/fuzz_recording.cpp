@@ -69,19 +69,19 @@ void recording(const uint8_t *data, size_t bytes) {
 // The kind of message, then the message.
 void message(const uint8_t *data, size_t bytes) {
   if (bytes == 0) return;
-  const auto kind = static_cast<replay::Kind>(1 + data[0] % 5);
+  const auto kind = static_cast<recording::Kind>(1 + data[0] % 5);
   const std::vector<uint8_t> exact(data + 1, data + bytes);
-  const bool is_color = replay::streamOf(kind) == SPHC_STREAM_COLOR;
+  const bool is_color = recording::streamOf(kind) == SPHC_STREAM_COLOR;
   sphc_camera camera = {};
   camera.width = 16;
   camera.height = 16;
   std::vector<uint16_t> pixels(16 * 16 * 2, 0xABCD);
   const size_t used = is_color ? 16 * 16 * 3 / 2 : 16 * 16;
   try {
-    replay::MessageDecoder().decode(kind, replay::viewOf(exact), camera,
-                                    is_color ? SPHC_FORMAT_BGR8 : SPHC_FORMAT_DEPTH16,
-                                    reinterpret_cast<uint8_t *>(pixels.data()));
-  } catch (const replay::Failure &failure) {
+    recording::MessageDecoder().decode(kind, recording::viewOf(exact), camera,
+                                       is_color ? SPHC_FORMAT_BGR8 : SPHC_FORMAT_DEPTH16,
+                                       reinterpret_cast<uint8_t *>(pixels.data()));
+  } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_IMAGE) broken("the failure is the image's");
   }
   if (std::any_of(pixels.begin() + static_cast<ptrdiff_t>(used), pixels.end(),
@@ -92,11 +92,11 @@ void message(const uint8_t *data, size_t bytes) {
 void rvl(const uint8_t *data, size_t bytes) {
   const std::vector<uint8_t> exact(data, data + bytes);
   std::vector<uint16_t> depth(300);
-  if (!replay::decodeRvl(replay::viewOf(exact), depth.data(), depth.size())) return;
-  std::vector<uint8_t> encoded(replay::rvlMostBytes(depth.size()));
+  if (!recording::decodeRvl(recording::viewOf(exact), depth.data(), depth.size())) return;
+  std::vector<uint8_t> encoded(recording::rvlMostBytes(depth.size()));
   std::vector<uint16_t> again(depth.size());
-  encoded.resize(replay::encodeRvl(depth.data(), depth.size(), encoded.data()));
-  if (!replay::decodeRvl(replay::viewOf(encoded), again.data(), again.size()) || again != depth)
+  encoded.resize(recording::encodeRvl(depth.data(), depth.size(), encoded.data()));
+  if (!recording::decodeRvl(recording::viewOf(encoded), again.data(), again.size()) || again != depth)
     broken("what was decoded can be encoded");
 }
 

@@ -63,6 +63,7 @@ TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Align) { walk("align", 3000); }
 TEST(Mutations, Recording) { walk("recording", 3000); }
+TEST(Mutations, RawRecording) { walk("rawRecording", 20000); }
 TEST(Mutations, Message) { walk("message", 20000); }
 TEST(Mutations, Rvl) { walk("rvl", 20000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }

@@ -10,6 +10,7 @@
 #include "host/recording/mcap/depth_zstd.h"
 #include "host/recording/mcap/messages.h"
 #include "host/recording/recorder.h"
+#include "host/recording/writer_raw.h"
 
 namespace sphc::fuzz {
 namespace {
@@ -38,17 +39,34 @@ sphc_calibration smallCalibration() {
   return calibration;
 }
 
+// A file that goes with its object, its name free.
+class SeedFile {
+ public:
+  SeedFile() : folder_((std::filesystem::temp_directory_path() / "sphc_XXXXXX").string()) {
+    if (!mkdtemp(folder_.data())) broken("there is a temporary folder");
+  }
+  ~SeedFile() { std::filesystem::remove_all(folder_); }
+  SeedFile(const SeedFile &) = delete;
+  SeedFile &operator=(const SeedFile &) = delete;
+  std::string path() const { return folder_ + "/seed"; }
+  std::vector<uint8_t> bytes() const {
+    std::ifstream stream(path(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+
+ private:
+  std::string folder_;
+};
+
 std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality) {
-  std::string folder = (std::filesystem::temp_directory_path() / "sphc_XXXXXX").string();
-  if (!mkdtemp(folder.data())) broken("there is a temporary folder");
-  const std::string path = folder + "/seed.mcap";
+  const SeedFile file;
   const sphc_calibration calibration = smallCalibration();
   sphc_recorder_config config;
   sphc_recorder_config_init(&config, sizeof config);
   config.depth_codec = codec;
   config.jpeg_quality = jpeg_quality;
   sphc_recorder *recorder = nullptr;
-  sphc_recorder_open(path.c_str(), &calibration, &config, &recorder, nullptr);
+  sphc_recorder_open(file.path().c_str(), &calibration, &config, &recorder, nullptr);
   const std::vector<uint16_t> depth = depthPixels();
   const std::vector<uint8_t> color = colorPixels();
   for (uint32_t i = 0; i < 6; ++i) {
@@ -64,13 +82,10 @@ std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality)
     sphc_recorder_add_pose(recorder, 1000 + 10 * i, &pose, nullptr);
   }
   sphc_recorder_close(&recorder, nullptr);
-  std::ifstream stream(path, std::ios::binary);
-  std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  std::filesystem::remove_all(folder);
-  return bytes;
+  return file.bytes();
 }
 
-std::vector<uint8_t> begun(replay::Kind kind) { return {static_cast<uint8_t>(static_cast<int>(kind) - 1)}; }
+std::vector<uint8_t> begun(recording::Kind kind) { return {static_cast<uint8_t>(static_cast<int>(kind) - 1)}; }
 
 }  // namespace
 
@@ -80,8 +95,31 @@ std::vector<std::vector<uint8_t>> recordingSeeds() {
   return {whole, recordedFile(SPHC_DEPTH_ZSTD, 90), recordedFile(SPHC_DEPTH_RAW, 0), cut};
 }
 
+std::vector<std::vector<uint8_t>> rawRecordingSeeds() {
+  const SeedFile file;
+  const std::vector<uint16_t> depth = depthPixels();
+  const std::vector<uint8_t> color = colorPixels();
+  recording::RawWriter writer(file.path(), smallCalibration(), SPHC_FORMAT_BGR8);
+  for (uint32_t i = 0; i < 2; ++i) {
+    const sphc_frame frame = {sizeof frame,
+                              i,
+                              1000 + 10 * i,
+                              1005 + 10 * i,
+                              {color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8},
+                              {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16},
+                              nullptr};
+    const sphc_rigid pose = {{1, 0, 0, 0}, {0.1 * i, 0, 0}};
+    writer.add(frame, i ? &pose : nullptr);
+  }
+  writer.finish();
+  std::vector<uint8_t> as_it_is = file.bytes(), repaired = as_it_is;
+  as_it_is.insert(as_it_is.begin(), uint8_t{1});
+  repaired.insert(repaired.begin(), uint8_t{0});
+  return {as_it_is, repaired};
+}
+
 std::vector<std::vector<uint8_t>> messageSeeds() {
-  using namespace replay;
+  using namespace recording;
   const std::vector<uint16_t> depth = depthPixels();
   const std::vector<uint8_t> color = colorPixels();
   const sphc_image color_image = {color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8};
@@ -108,8 +146,8 @@ std::vector<std::vector<uint8_t>> messageSeeds() {
 std::vector<std::vector<uint8_t>> rvlSeeds() {
   std::vector<uint16_t> depth = depthPixels();
   depth.resize(300, 77);
-  std::vector<uint8_t> encoded(replay::rvlMostBytes(depth.size()));
-  encoded.resize(replay::encodeRvl(depth.data(), depth.size(), encoded.data()));
+  std::vector<uint8_t> encoded(recording::rvlMostBytes(depth.size()));
+  encoded.resize(recording::encodeRvl(depth.data(), depth.size(), encoded.data()));
   return {encoded};
 }
 

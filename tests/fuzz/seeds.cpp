@@ -128,6 +128,7 @@ std::vector<Target> allTargets() {
 #endif
 #ifdef SPHC_FUZZ_RECORDINGS
   targets.push_back({"recording", recording, recordingSeeds()});
+  targets.push_back({"rawRecording", rawRecording, rawRecordingSeeds()});
   targets.push_back({"message", message, messageSeeds()});
   targets.push_back({"rvl", rvl, rvlSeeds()});
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});

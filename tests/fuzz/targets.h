@@ -19,6 +19,8 @@ void recording(const uint8_t *data, size_t bytes);
 void message(const uint8_t *data, size_t bytes);
 // A depth image in RVL.
 void rvl(const uint8_t *data, size_t bytes);
+// Whether to repair checksums, then a raw recording.
+void rawRecording(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
 // A frame of Motion JPEG.

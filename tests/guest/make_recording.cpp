@@ -100,7 +100,7 @@ void record(const std::string &folder) {
     const auto *depth_bytes = reinterpret_cast<const uint8_t *>(depth.data());
     all_depth.insert(all_depth.end(), depth_bytes, depth_bytes + kDepthBytes);
   }
-  sphc_recording_close(&writer);
+  check(sphc_recording_close(&writer, &message), message);
   sphc_simulated_close(&headset);
   writeFile(folder + kColorFile, all_color.data(), all_color.size());
   writeFile(folder + kDepthFile, all_depth.data(), all_depth.size());

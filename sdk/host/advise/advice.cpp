@@ -17,22 +17,15 @@ struct Block {
   uint32_t first_sequence, last_sequence;  // numbers of the recording
 };
 
-uint32_t sequenceOf(const sphc_replay *replay, uint32_t index) {
-  sphc_replay_frame_info info = {};
-  info.struct_size = sizeof info;
-  sphc_replay_get_frame_info(replay, index, &info);
-  return info.sequence;
-}
-
-std::vector<Block> blocksOf(const sphc_replay *replay, uint32_t folds) {
-  const uint32_t count = sphc_replay_frame_count(replay);
+std::vector<Block> blocksOf(const RecordingReader &reader, uint32_t folds) {
+  const uint32_t count = reader.frameCount();
   if (count < 2 * folds)
     throw std::runtime_error("the recording has " + std::to_string(count) + " frames, too few for " +
                              std::to_string(folds) + " folds of two; record more, or give --folds");
   std::vector<Block> blocks;
   for (uint32_t k = 0; k < folds; ++k) {
     const uint32_t first = k * count / folds, last = (k + 1) * count / folds - 1;
-    blocks.push_back({first, last, sequenceOf(replay, first), sequenceOf(replay, last)});
+    blocks.push_back({first, last, reader.colorOf(first).sequence, reader.colorOf(last).sequence});
   }
   return blocks;
 }
@@ -48,13 +41,13 @@ std::string whyFailed(const FrameRecord &frame) {
 class Trial {
  public:
   Trial(const AdviceOptions &options, const PointModel &model, const RecordingOptions &held_out)
-      : model_(model), replay_(openRecording(held_out)) {
-    input_.replay = replay_.get();
+      : model_(model), reader_(openRecording(held_out)) {
+    input_.reader = reader_.get();
     input_.config = spherecloud::defaultConfig();
     input_.config.mode = SPHC_MODE_SINGLE;
     input_.config.depth_min_m = options.import.depth_min_m;
     input_.config.depth_max_m = options.import.depth_max_m;
-    setCameras(calibrationOf(replay_.get()), &input_.config);
+    setCameras(reader_->calibration(), &input_.config);
   }
 
   std::vector<FrameRecord> frames(double eta) {
@@ -74,7 +67,7 @@ class Trial {
 
  private:
   const PointModel &model_;
-  Replay replay_;
+  std::unique_ptr<RecordingReader> reader_;
   LocalizeInput input_;
 };
 
@@ -113,11 +106,11 @@ void addFailures(const std::vector<FrameRecord> &frames, std::vector<Failure> *f
 }  // namespace
 
 Advice advise(const AdviceOptions &options, const std::function<void(uint32_t done, uint32_t total)> &progress) {
-  const Replay replay = openRecording(options.recording);
-  const std::vector<Block> blocks = blocksOf(replay.get(), options.folds);
+  const auto reader = openRecording(options.recording);
+  const std::vector<Block> blocks = blocksOf(*reader, options.folds);
   Advice advice;
   RgbdImportSummary summary;
-  const PointModel whole = importRgbd(replay.get(), options.import, nullptr, &summary);
+  const PointModel whole = importRgbd(reader.get(), options.import, nullptr, &summary);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);
   advice.coverage = coverageOf(advice.directions, kMostHoles);
@@ -128,7 +121,7 @@ Advice advise(const AdviceOptions &options, const std::function<void(uint32_t do
     progress(k + 1, options.folds + 1);
     RgbdImportOptions others = options.import;
     others.takes_part = [&block](uint32_t index) { return index < block.first || index > block.last; };
-    const PointModel model = importRgbd(replay.get(), others, nullptr, &summary);
+    const PointModel model = importRgbd(reader.get(), others, nullptr, &summary);
     RecordingOptions held_out = options.recording;
     held_out.first = block.first_sequence;
     held_out.last = block.last_sequence;

@@ -28,7 +28,7 @@ std::vector<Line> linesOf(std::string_view text) {
     std::string_view rest = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     Line line = {"line " + std::to_string(number), {}};
-    for (std::string_view word = replay::takeWord(rest); !word.empty(); word = replay::takeWord(rest))
+    for (std::string_view word = recording::takeWord(rest); !word.empty(); word = recording::takeWord(rest))
       line.words.push_back(word);
     if (!line.words.empty() && line.words[0][0] != '#') lines.push_back(std::move(line));
   }
@@ -37,7 +37,7 @@ std::vector<Line> linesOf(std::string_view text) {
 
 double number(const std::string &file, const Line &line, size_t index) {
   double value = 0;
-  if (!replay::parseDouble(line.words[index], value) || !std::isfinite(value))
+  if (!recording::parseDouble(line.words[index], value) || !std::isfinite(value))
     refuse(file, line.place,
            "word " + std::to_string(index + 1) + " is " + shown(line.words[index]) + "; must be a finite number");
   return value;
@@ -45,7 +45,7 @@ double number(const std::string &file, const Line &line, size_t index) {
 
 uint32_t pixels(const std::string &file, const Line &line, size_t index) {
   uint32_t value = 0;
-  if (!replay::parseUnsigned(line.words[index], value) || value < 16 || value > 8192)
+  if (!recording::parseUnsigned(line.words[index], value) || value < 16 || value > 8192)
     refuse(file, line.place,
            "width or height is " + shown(line.words[index]) + "; must be a whole number from 16 to 8192");
   return value;
@@ -74,7 +74,7 @@ sphc_rigid readPose(const std::string &file, const Line &line, size_t first) {
   double values[7];
   for (size_t i = 0; i < 7; ++i) values[i] = number(file, line, first + i);
   sphc_rigid pose = {{values[0], values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
-  if (!replay::normalizeQuaternion(pose.q_wxyz, 1e-3))
+  if (!recording::normalizeQuaternion(pose.q_wxyz, 1e-3))
     refuse(file, line.place,
            "word " + std::to_string(first + 1) + ": the quaternion is not of unit length; order QW QX QY QZ");
   return pose;

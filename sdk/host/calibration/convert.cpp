@@ -41,7 +41,7 @@ sphc_camera fitCamera(const sphc_camera &camera, const char *role, Format format
   if (formatHolds(format, camera)) return camera;
   if (!approximate)
     throw std::runtime_error(std::string(nameOf(format).name) + " cannot hold the " + role + " camera's model, " +
-                             replay::findModel(camera.model)->name +
+                             recording::findModel(camera.model)->name +
                              ", exactly; choose another format, or accept the nearest with --approximate");
   const std::vector<RaySample> samples = sampleCamera(camera);
   if (samples.empty())

@@ -76,7 +76,7 @@ CalibrationPart readCalibration(Format format, const TextFile &file, const TextF
 std::vector<TextFile> writeCalibration(Format format, const sphc_calibration &calibration) {
   switch (format) {
     case Format::kSpherecloud:
-      return {{"", replay::calibrationToJson(calibration)}};
+      return {{"", recording::calibrationToJson(calibration)}};
     case Format::kOpencv:
       return {{"", opencvText(calibration)}};
     case Format::kKalibr:

@@ -38,7 +38,8 @@ Eigen::MatrixXd jacobian(const std::vector<RaySample> &samples, const sphc_camer
 }
 
 sphc_camera firstGuess(WantedModel wanted, const sphc_camera &start) {
-  sphc_camera camera = {wanted.model, start.width, start.height, replay::findModel(wanted.model)->param_count, {}};
+  sphc_camera camera = {
+      wanted.model, start.width, start.height, recording::findModel(wanted.model)->param_count, {}};
   const bool related =
       (start.model == SPHC_CAMERA_KANNALA_BRANDT4) == (wanted.model == SPHC_CAMERA_KANNALA_BRANDT4);
   std::copy_n(start.params, related ? std::min(wanted.free_params, start.param_count) : 4, camera.params);

@@ -14,7 +14,7 @@ std::string rigidFromMatrix(const std::vector<double> &rotation, const std::vect
     return "has a translation of " + std::to_string(t_m.size()) + " numbers; must be 3, in metres";
   const std::vector<double> &r = rotation;
   const double rows[12] = {r[0], r[1], r[2], t_m[0], r[3], r[4], r[5], t_m[1], r[6], r[7], r[8], t_m[2]};
-  if (!replay::rigidFromMatrix(rows, *rigid))
+  if (!recording::rigidFromMatrix(rows, *rigid))
     return "is no rotation (rows of unit length at right angles, determinant 1): " + numbersText(rotation) +
            "; check the order of the numbers";
   return {};

@@ -15,7 +15,7 @@ constexpr size_t kMostNumbers = 64;
 bool collect(const YAML::Node &node, int depth, std::vector<double> *numbers) {
   if (node.IsScalar()) {
     double value = 0;
-    if (!replay::parseDouble(node.Scalar(), value) || !std::isfinite(value)) return false;
+    if (!recording::parseDouble(node.Scalar(), value) || !std::isfinite(value)) return false;
     numbers->push_back(value);
     return numbers->size() <= kMostNumbers;
   }
@@ -84,7 +84,7 @@ std::vector<double> YamlMap::numbers(const std::string &key, const std::string &
 uint32_t YamlMap::pixels(const std::string &key) const {
   const std::string value = text(key, "640");
   uint32_t result = 0;
-  if (!replay::parseUnsigned(value, result) || result < 16 || result > 8192)
+  if (!recording::parseUnsigned(value, result) || result < 16 || result > 8192)
     refuse(key, "is " + shown(value) + "; must be a whole number from 16 to 8192");
   return result;
 }

@@ -1,6 +1,8 @@
 // spherecloud convert: a recording into another layout.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "drivers/replay/replay.h"
 #include "host/base/checked_call.h"
@@ -10,16 +12,18 @@
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/recording_out.h"
-#include "host/recording/recording_writer.h"
+#include "host/frames/recording.h"
+#include "host/recording/writer_7scenes.h"
+#include "host/recording/writer_raw.h"
 
 namespace sphc::host {
 namespace {
 
-enum class Layout { kByName, kMcap, kTum, k7Scenes };
+enum class Target { kByName, kMcap, kTum, k7Scenes, kRaw };
 
 struct Options {
   std::string in, out, calibration;
-  Layout layout = Layout::kByName;
+  Target target = Target::kByName;
   sphc_recorder_config recorder = {};
 };
 
@@ -27,7 +31,18 @@ struct Result {
   uint32_t color = 0, depth = 0, poses = 0, unreadable = 0, unpaired = 0;
 };
 
-Replay open(const Options &options) {
+// What is told of a recording once it is converted.
+struct Facts {
+  bool is_cut, is_mcap;
+  uint32_t depth_count, pose_count, bad_chunk_count;
+};
+
+struct ReplayCloser {
+  void operator()(sphc_replay *replay) const { sphc_replay_close(&replay); }
+};
+using Replay = std::unique_ptr<sphc_replay, ReplayCloser>;
+
+Replay openStreams(const Options &options) {
   sphc_replay *replay = nullptr;
   const char *calibration = options.calibration.empty() ? nullptr : options.calibration.c_str();
   orThrow("cannot open the recording", [&](sphc_message *message) {
@@ -41,6 +56,13 @@ sphc_replay_info infoOf(const sphc_replay *replay) {
   info.struct_size = sizeof info;
   orThrow("recording", [&](sphc_message *) { return sphc_replay_get_info(replay, &info); });
   return info;
+}
+
+sphc_calibration calibrationOf(const sphc_replay *replay) {
+  sphc_calibration calibration = {};
+  calibration.struct_size = sizeof calibration;
+  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay, &calibration); });
+  return calibration;
 }
 
 // Poses up to a time; each goes once.
@@ -93,80 +115,112 @@ Result copyStreams(sphc_replay *replay, RecordingOut *out, const Console &consol
   return result;
 }
 
-// Frames of colour and depth under one number.
-Result copyFrames(sphc_replay *replay, const std::string &folder, const Console &console) {
-  const uint32_t count = sphc_replay_frame_count(replay);
+// Frames of colour and depth under one number: `add` takes a frame and its pose, which may be null.
+template <typename Add>
+Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
   ProgressBar bar("converting ");
   Result result;
-  result.unpaired = infoOf(replay).color_count - count;
-  uint32_t last = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    sphc_frame frame;
-    sphc_rigid pose;
-    sphc_message message = {};
-    bar.show(i, count);
-    if (sphc_replay_read_frame(replay, i, &frame, &message) != SPHC_OK) {
-      console.warn(std::string("left out: ") + message.text);
+  result.unpaired = static_cast<uint32_t>(reader->recording().color.size()) - reader->frameCount();
+  for (uint32_t i = 0; i < reader->frameCount(); ++i) {
+    bar.show(i, reader->frameCount());
+    std::string why;
+    const std::optional<sphc_frame> frame = reader->tryRead(i, &why);
+    if (!frame) {
+      console.warn("left out: " + why);
       ++result.unreadable;
       continue;
     }
-    if (i > 0 && frame.sequence <= last) frame.sequence = last + 1;  // a camera that came back counts anew
-    last = frame.sequence;
-    const bool has_pose = sphc_replay_pose(replay, i, &pose) == SPHC_OK;
-    orThrow("cannot write a frame", [&](sphc_message *why) {
-      return sphc_recording_write_7scenes(folder.c_str(), &frame, has_pose ? &pose : nullptr, why);
-    });
+    const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
+    add(*frame, pose ? &*pose : nullptr);
     ++result.color;
     ++result.depth;
-    result.poses += has_pose ? 1 : 0;
+    result.poses += pose ? 1 : 0;
   }
   return result;
 }
 
-Result convertTo7Scenes(sphc_replay *replay, const std::string &folder, const Console &console) {
-  std::filesystem::create_directory(folder);
-  const std::string file = folder + "/calibration.json";
-  if (std::filesystem::exists(file))
-    throw std::runtime_error(folder + " holds a recording already; give another folder");
-  const sphc_calibration calibration = calibrationOf(replay);
-  orThrow("cannot write the calibration",
-          [&](sphc_message *message) { return sphc_calibration_write(file.c_str(), &calibration, message); });
-  return copyFrames(replay, folder, console);
+Result writeRaw(RecordingReader *reader, const std::string &file, const Console &console) {
+  recording::RawWriter writer(file, reader->calibration(), SPHC_FORMAT_BGR8);
+  const Result result = copyFrames(
+      reader, console, [&](const sphc_frame &frame, const sphc_rigid *pose) { writer.add(frame, pose); });
+  writer.finish();
+  return result;
+}
+
+Result write7Scenes(RecordingReader *reader, const std::string &folder, const Console &console) {
+  recording::SevenScenesWriter writer(folder, reader->calibration());
+  uint32_t next = 0;
+  const Result result = copyFrames(reader, console, [&](sphc_frame frame, const sphc_rigid *pose) {
+    frame.sequence = std::max(frame.sequence, next);  // a camera that came back counts anew
+    next = frame.sequence + 1;
+    writer.add(frame, pose);
+  });
+  writer.finish();
+  return result;
+}
+
+Result convertFrames(const Options &options, const Console &console, Facts *facts) {
+  RecordingOptions in;
+  in.folder = options.in;
+  in.calibration = options.calibration;
+  const auto reader = openRecording(in);
+  const recording::Recording &recording = reader->recording();
+  *facts = {recording.is_cut, recording.layout == recording::Layout::kMcap,
+            static_cast<uint32_t>(recording.depth.size()), static_cast<uint32_t>(recording.poses.poses().size()),
+            recording.bad_chunk_count};
+  return options.target == Target::kRaw ? writeRaw(reader.get(), options.out, console)
+                                        : write7Scenes(reader.get(), options.out, console);
+}
+
+Result convertStreams(const Options &options, const Console &console, Facts *facts) {
+  const Replay replay = openStreams(options);
+  const sphc_replay_info info = infoOf(replay.get());
+  *facts = {info.is_cut != 0, info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count,
+            info.bad_chunk_count};
+  const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
+  const Result result = copyStreams(replay.get(), out.get(), console);
+  out->close();
+  return result;
 }
 
 // What the new layout does not keep.
-void tellLosses(const Options &options, const sphc_replay_info &info, const Result &result,
-                const Console &console) {
-  if (info.is_cut) console.warn("note: " + options.in + " was cut off; all of its whole chunks are kept");
-  if (info.bad_chunk_count)
-    console.warn("note: " + std::to_string(info.bad_chunk_count) + " parts with changed bytes are left out");
-  if (options.layout == Layout::k7Scenes)
+void tellLosses(const Options &options, const Facts &facts, const Result &result, const Console &console) {
+  const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
+  if (facts.is_cut) console.warn("note: " + options.in + " was cut off; all of its whole chunks are kept");
+  if (facts.bad_chunk_count)
+    console.warn("note: " + std::to_string(facts.bad_chunk_count) + " parts with changed bytes are left out");
+  if (options.target == Target::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
-  if (options.layout == Layout::k7Scenes && info.depth_count > result.depth)
-    console.warn("note: " + std::to_string(info.depth_count - result.depth) +
+  if (is_by_frame && facts.depth_count > result.depth)
+    console.warn("note: " + std::to_string(facts.depth_count - result.depth) +
                  " depth images that are no frame's are left out");
-  if (options.layout == Layout::k7Scenes && info.pose_count > result.poses)
-    console.warn("note: " + std::to_string(info.pose_count - result.poses) + " poses between frames are left out");
-  if (options.layout == Layout::kTum && info.layout == SPHC_REPLAY_MCAP)
+  if (is_by_frame && facts.pose_count > result.poses)
+    console.warn("note: " + std::to_string(facts.pose_count - result.poses) + " poses between frames are left out");
+  if (options.target == Target::kTum && facts.is_mcap)
     console.warn("note: the TUM layout has no sequence numbers, clocks and exposures");
   if (result.unpaired)
     console.warn("note: " + std::to_string(result.unpaired) + " colour images without depth are left out");
 }
 
+bool isRaw(const std::string &path) { return std::filesystem::path(path).extension() == ".raw"; }
+
+Target targetByName(const std::string &out) {
+  if (isMcap(out)) return Target::kMcap;
+  return isRaw(out) ? Target::kRaw : Target::kTum;
+}
+
 int convert(Options options, const Console &console) {
-  if (options.layout == Layout::kByName) options.layout = isMcap(options.out) ? Layout::kMcap : Layout::kTum;
-  if ((options.layout == Layout::kMcap) != isMcap(options.out))
-    throw UsageError("the name of a file ends with .mcap, that of a folder does not: " + options.out);
-  const Replay replay = open(options);
-  Result result;
-  if (options.layout == Layout::k7Scenes) {
-    result = convertTo7Scenes(replay.get(), options.out, console);
-  } else {
-    const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
-    result = copyStreams(replay.get(), out.get(), console);
-    out->close();
-  }
-  tellLosses(options, infoOf(replay.get()), result, console);
+  const Target by_name = targetByName(options.out);
+  if (options.target == Target::kByName) options.target = by_name;
+  const bool is_folder = options.target == Target::kTum || options.target == Target::k7Scenes;
+  if (is_folder ? by_name != Target::kTum : by_name != options.target)
+    throw UsageError("the name of a file ends with .mcap or .raw, as --to says, that of a folder with neither: " +
+                     options.out);
+  Facts facts = {};
+  const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
+  const Result result =
+      is_by_frame ? convertFrames(options, console, &facts) : convertStreams(options, console, &facts);
+  tellLosses(options, facts, result, console);
   console.say("Wrote " + options.out + ": " + std::to_string(result.color) + " colour images, " +
               std::to_string(result.depth) + " depth images, " + std::to_string(result.poses) + " poses.");
   console.give({{"recording", options.out},
@@ -180,12 +234,15 @@ int convert(Options options, const Console &console) {
 
 const char kHelp[] =
     "Reads a recording in any layout (TUM, 7-Scenes, MCAP) and writes it in another, with its calibration and\n"
-    "poses.  Images stay the same to the bit, unless --jpeg is given.  A recording that was cut off becomes whole.";
+    "poses.  Images stay the same to the bit, unless --jpeg is given.  A recording that was cut off becomes "
+    "whole.\n"
+    "Raw is for devices: frames as they are in memory, which drivers/raw reads without a library.";
 const char kExample[] =
     "Example:\n"
     "  spherecloud convert walk walk.mcap                 a folder into one file\n"
     "  spherecloud convert walk.mcap walk                 a file into a folder of the TUM layout\n"
     "  spherecloud convert walk.mcap seq-01 --to 7scenes  times become N / 30 s\n"
+    "  spherecloud convert walk.mcap walk.raw --to raw    to replay on a device\n"
     "  spherecloud convert seq-01 a.mcap --calibration kinect.json --jpeg 95";
 
 }  // namespace
@@ -197,14 +254,14 @@ Command convertCommand(CLI::App *root) {
   app->description("Turn a recording into another layout.\n\n" + std::string(kHelp));
   app->footer(kExample);
   app->add_option("in", options->in, "Recording: a folder or a .mcap file")->required()->type_name("IN");
-  app->add_option("out", options->out, "New folder, or new file X.mcap")->required()->type_name("OUT");
+  app->add_option("out", options->out, "New folder, or new file X.mcap or X.raw")->required()->type_name("OUT");
   app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")
       ->type_name("FILE");
-  const std::map<std::string, Layout> layouts = {
-      {"mcap", Layout::kMcap}, {"tum", Layout::kTum}, {"7scenes", Layout::k7Scenes}};
-  app->add_option("--to", options->layout, "Layout of OUT [mcap for a file, tum for a folder]")
-      ->transform(CLI::CheckedTransformer(layouts).description(""))
-      ->type_name("tum|7scenes|mcap");
+  const std::map<std::string, Target> targets = {
+      {"mcap", Target::kMcap}, {"tum", Target::kTum}, {"7scenes", Target::k7Scenes}, {"raw", Target::kRaw}};
+  app->add_option("--to", options->target, "Layout of OUT [by its name: mcap or raw for a file, tum for a folder]")
+      ->transform(CLI::CheckedTransformer(targets).description(""))
+      ->type_name("tum|7scenes|mcap|raw");
   const std::map<std::string, sphc_depth_codec> codecs = {
       {"raw", SPHC_DEPTH_RAW}, {"rvl", SPHC_DEPTH_RVL}, {"zstd", SPHC_DEPTH_ZSTD}};
   app->add_option("--depth-codec", options->recorder.depth_codec, "Of depth in a file, all without loss [zstd]")

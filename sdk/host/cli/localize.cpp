@@ -40,7 +40,7 @@ void readNotes(const Options &options, LocalizeInput *input, Run *run) {
   run->base = "world";
 }
 
-Run localize(const Options &options, sphc_replay *replay, const Console &console) {
+Run localize(const Options &options, RecordingReader *reader, const Console &console) {
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
   LocalizeInput input;
@@ -48,11 +48,11 @@ Run localize(const Options &options, sphc_replay *replay, const Console &console
     input.maps.push_back(openMapFile(path));
     run.maps.push_back(mapFacts(input.maps.back(), path));
   }
-  input.replay = replay;
+  input.reader = reader;
   input.play_odometry = options.odometry;
   input.config = options.config;
   input.keep_observations = !options.report.empty();
-  setCameras(calibrationOf(replay), &input.config);
+  setCameras(reader->calibration(), &input.config);
   readNotes(options, &input, &run);
   run.settings = describeConfig(input.config);
   ProgressBar bar("localizing");
@@ -62,13 +62,12 @@ Run localize(const Options &options, sphc_replay *replay, const Console &console
   return run;
 }
 
-cv::Mat imageOf(sphc_replay *replay, const FrameRecord &frame) {
-  sphc_frame image = {};
-  if (sphc_replay_read_frame(replay, frame.index, &image, nullptr) < 0) return {};
-  return bgrFromImage(image.color);
+cv::Mat imageOf(RecordingReader *reader, const FrameRecord &frame) {
+  const std::optional<sphc_frame> image = reader->tryRead(frame.index);
+  return image ? bgrFromImage(image->color) : cv::Mat();
 }
 
-void writeOutputs(const Options &options, const Run &run, sphc_replay *replay, const Console &console) {
+void writeOutputs(const Options &options, const Run &run, RecordingReader *reader, const Console &console) {
   if (!options.trajectory.empty()) {
     writeText(options.trajectory, tumTrajectory(run));
     console.say("Trajectory (" + run.base + "_from_camera): " + options.trajectory);
@@ -79,17 +78,17 @@ void writeOutputs(const Options &options, const Run &run, sphc_replay *replay, c
   }
   if (options.report.empty()) return;
   const ReportSummary report =
-      writeReport(options.report, run, [replay](const FrameRecord &frame) { return imageOf(replay, frame); });
+      writeReport(options.report, run, [reader](const FrameRecord &frame) { return imageOf(reader, frame); });
   if (!report.problem.empty()) console.warn("note: " + report.problem);
   console.say("Report with pictures: " + report.page);
 }
 
 int run(const Options &options, const Console &console) {
-  const Replay replay = openRecording(options.recording);
-  const Run done = localize(options, replay.get(), console);
+  const auto reader = openRecording(options.recording);
+  const Run done = localize(options, reader.get(), console);
   const Summary summary = summarize(done);
   console.say(tableText(tableRows(done, summary)));
-  writeOutputs(options, done, replay.get(), console);
+  writeOutputs(options, done, reader.get(), console);
   console.give(summaryJson(done, summary));
   if (summary.localized > 0) return kExitDone;
   console.warn(

@@ -89,7 +89,9 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
 
 void fillTruth(const LocalizeInput &input, FrameRecord *frame) {
   if (input.centres_in_world_m.empty()) return;
-  frame->has_truth = sphc_replay_pose(input.replay, frame->index, &frame->truth_base_from_camera) == SPHC_OK;
+  const std::optional<sphc_rigid> truth = input.reader->worldFromCamera(frame->index);
+  frame->has_truth = truth.has_value();
+  if (truth) frame->truth_base_from_camera = *truth;
   judge(frame);
 }
 
@@ -160,18 +162,18 @@ void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
                     const std::function<void(const std::string &)> &unreadable, Run *run) {
   measureMemory(input.config, run);
   spherecloud::Localizer localizer = makeLocalizer(input.config, input.maps);
-  PlayedOdometry odometry(input.replay);
+  PlayedOdometry odometry(input.reader);
   std::vector<sphc_observation> room(input.config.max_keypoints);
-  const uint32_t count = sphc_replay_frame_count(input.replay);
+  const uint32_t count = input.reader->frameCount();
   for (uint32_t i = 0; i < count; ++i) {
-    sphc_frame image = {};
-    sphc_message message = {};
-    if (sphc_replay_read_frame(input.replay, i, &image, &message) < 0) {
-      unreadable(message.text);
+    std::string why;
+    std::optional<sphc_frame> image = input.reader->tryRead(i, &why);
+    if (!image) {
+      unreadable(why);
       ++run->unreadable;
     } else {
-      if (input.play_odometry) image.prior = odometry.at(i);
-      run->frames.push_back(processFrame(input, image, i, &localizer, &room));
+      if (input.play_odometry) image->prior = odometry.at(i);
+      run->frames.push_back(processFrame(input, *image, i, &localizer, &room));
     }
     frame_done(i + 1, count);
   }

@@ -1,10 +1,10 @@
-// A recording through the localizer, by the C door alone, as a device would do it.
+// A recording through the localizer, by the C interface alone, as a device would do it.
 #pragma once
 #include <functional>
 #include <vector>
 
-#include "drivers/replay/replay.h"
 #include "host/evaluate/map_file.h"
+#include "host/recording/recording_reader.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -12,7 +12,7 @@ namespace sphc::host {
 using FrameDone = std::function<void(uint32_t done, uint32_t total)>;
 
 struct LocalizeInput {
-  sphc_replay *replay = nullptr;
+  recording::RecordingReader *reader = nullptr;
   std::vector<MapFile> maps;
   sphc_config config = {};  // cameras already set
   // Where each map's origin lies in the recording's world; empty: poses stay in their map's frame, without truth.

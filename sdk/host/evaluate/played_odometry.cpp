@@ -23,11 +23,12 @@ sphc_rigid disturbance(std::mt19937_64 *random) {
 }  // namespace
 
 const sphc_prior *PlayedOdometry::at(uint32_t index) {
-  sphc_rigid world_from_camera = {};
-  if (sphc_replay_pose(replay_, index, &world_from_camera) != SPHC_OK) {
+  const std::optional<sphc_rigid> recorded = reader_->worldFromCamera(index);
+  if (!recorded) {
     begun_ = false;
     return nullptr;
   }
+  const sphc_rigid &world_from_camera = *recorded;
   if (!begun_) {
     prior_ = {};
     prior_.struct_size = sizeof prior_;

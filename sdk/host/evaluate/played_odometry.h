@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-#include "drivers/replay/replay.h"
+#include "host/recording/recording_reader.h"
 
 namespace sphc::host {
 
@@ -12,13 +12,13 @@ class PlayedOdometry {
  public:
   static constexpr double kRotationSigmaRad = 0.1 * 3.14159265358979323846 / 180, kTranslationSigmaM = 0.002;
 
-  explicit PlayedOdometry(const sphc_replay *replay) : replay_(replay) {}
+  explicit PlayedOdometry(const recording::RecordingReader *reader) : reader_(reader) {}
 
   // Of frame `index`, in ascending order; null where the recording has no pose.  Valid until the next call.
   const sphc_prior *at(uint32_t index);
 
  private:
-  const sphc_replay *replay_;
+  const recording::RecordingReader *reader_;
   std::mt19937_64 random_{1};
   bool begun_ = false;
   sphc_rigid world_from_camera_ = {{1, 0, 0, 0}, {0, 0, 0}};

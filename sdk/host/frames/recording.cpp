@@ -13,39 +13,28 @@ std::string ordinal(uint32_t n) {
   return std::to_string(n) + ending;
 }
 
-Replay open(const RecordingOptions &options) {
-  sphc_replay_config config;
-  sphc_replay_config_init(&config, sizeof config);
-  config.first = options.first;
-  config.last = options.last;
-  config.step = options.step;
-  const char *calibration = options.calibration.empty() ? nullptr : options.calibration.c_str();
-  sphc_replay *replay = nullptr;
-  sphc_message why = {};
-  if (sphc_replay_open(options.folder.c_str(), calibration, &config, &replay, &why) != SPHC_OK)
-    throw std::runtime_error(std::string("cannot open the recording: ") + why.text);
-  return Replay(replay);
+recording::ReaderOptions readerOptions(const RecordingOptions &options) {
+  recording::ReaderOptions chosen;
+  chosen.calibration = options.calibration;
+  chosen.selection = {options.first, options.last, options.step};
+  return chosen;
 }
 
 }  // namespace
 
-sphc_calibration calibrationOf(const sphc_replay *replay) {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  if (sphc_replay_calibration(replay, &calibration) != SPHC_OK)
-    throw std::runtime_error("the recording's calibration cannot be read; check the calibration file");
-  return calibration;
-}
-
-Replay openRecording(const RecordingOptions &options) {
+std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) {
   if (options.last < options.first) throw UsageError("--last lies before --first; swap them");
-  Replay replay = open(options);
-  if (sphc_replay_frame_count(replay.get()) == 0) {
-    throw std::runtime_error("no frame of colour and depth in " + options.folder + " for " +
-                             describeSelection(options) +
-                             ": check --first, --last, --step, and that depth images are there");
+  if (options.step == 0) throw UsageError("--step is 0; give 1 or more");
+  std::unique_ptr<RecordingReader> reader;
+  try {
+    reader = std::make_unique<RecordingReader>(options.folder, readerOptions(options));
+  } catch (const std::exception &error) {
+    throw std::runtime_error(std::string("cannot open the recording: ") + error.what());
   }
-  return replay;
+  if (reader->frameCount() > 0) return reader;
+  throw std::runtime_error("no frame of colour and depth in " + options.folder + " for " +
+                           describeSelection(options) +
+                           ": check --first, --last, --step, and that depth images are there");
 }
 
 std::string describeSelection(const RecordingOptions &options) {

@@ -17,13 +17,13 @@ class Words {
       : place_(std::string(file) + ", line " + std::to_string(line)), text_(text) {}
 
   const std::string &place() const { return place_; }
-  bool done() const { return replay::trimmed(text_).empty(); }
-  std::string_view rest() const { return replay::trimmed(text_); }
-  std::string_view word() { return replay::takeWord(text_); }
+  bool done() const { return recording::trimmed(text_).empty(); }
+  std::string_view rest() const { return recording::trimmed(text_); }
+  std::string_view word() { return recording::takeWord(text_); }
   double number() {
     const std::string_view field = word();
     double value = 0;
-    if (!replay::parseDouble(field, value)) fail(field, "a number");
+    if (!recording::parseDouble(field, value)) fail(field, "a number");
     return value;
   }
   template <typename T>

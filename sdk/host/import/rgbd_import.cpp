@@ -67,25 +67,24 @@ class FrameDescriber {
 
 }  // namespace
 
-PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, const Progress &progress,
-                      RgbdImportSummary *summary) {
+PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options,
+                      const Progress &progress, RgbdImportSummary *summary) {
   *summary = {};
-  FrameDescriber describer(calibrationOf(replay), options);
+  FrameDescriber describer(reader->calibration(), options);
   PointTracks tracks(options);
-  const uint32_t total = sphc_replay_frame_count(replay);
+  const uint32_t total = reader->frameCount();
   for (uint32_t i = 0; i < total; ++i) {
     if (options.takes_part && !options.takes_part(i)) continue;
-    sphc_rigid pose;
-    sphc_frame frame;
-    sphc_message message;
-    if (sphc_replay_pose(replay, i, &pose) != SPHC_OK) {
+    const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
+    const std::optional<sphc_frame> frame = pose ? reader->tryRead(i) : std::nullopt;
+    if (!pose) {
       ++summary->frames_without_pose;
-    } else if (sphc_replay_read_frame(replay, i, &frame, &message) != SPHC_OK) {
+    } else if (!frame) {
       ++summary->frames_unreadable;
     } else {
-      const Rigid world_from_camera = rigidFromDoor(pose);
+      const Rigid world_from_camera = rigidFromDoor(*pose);
       uint32_t keypoints = 0;
-      const std::vector<Observation> observations = describer.describe(frame, world_from_camera, &keypoints);
+      const std::vector<Observation> observations = describer.describe(*frame, world_from_camera, &keypoints);
       summary->merged += tracks.add(describer.camera(), world_from_camera.inverse(), observations);
       summary->keypoints += keypoints;
       summary->lifted += observations.size();

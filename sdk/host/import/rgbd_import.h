@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "drivers/replay/replay.h"
 #include "host/import/point_model.h"
+#include "host/recording/recording_reader.h"
 
 namespace sphc::host {
 
@@ -28,9 +28,9 @@ struct RgbdImportSummary {
 // Told after each frame; may be empty.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
-// All frames of `replay` that have a pose take part.  Throws std::runtime_error, with cause and cure, when no map
-// can come of it.
-PointModel importRgbd(sphc_replay *replay, const RgbdImportOptions &options, const Progress &progress,
-                      RgbdImportSummary *summary);
+// All frames of the recording that have a pose take part.  Throws std::runtime_error, with cause and cure, when no
+// map can come of it.
+PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options,
+                      const Progress &progress, RgbdImportSummary *summary);
 
 }  // namespace sphc::host

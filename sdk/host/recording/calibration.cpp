@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "calibration_json.h"
 #include "failure.h"
+#include "file_reader.h"
+#include "file_writer.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -22,6 +23,10 @@ constexpr ModelName kModels[] = {
 };
 
 constexpr size_t kMostFileBytes = 1 << 20;
+// Limits of the runtime's config.
+constexpr double kMostSquaredError = 2e-3;  // of the quaternion's length
+constexpr double kMostOffsetM = 100;
+constexpr double kLeastUnitM = 1e-6, kMostUnitM = 0.1;
 
 std::string numberText(double value) {
   char text[32];
@@ -29,29 +34,19 @@ std::string numberText(double value) {
   return text;
 }
 
+// The runtime's own check, so that what is read here is taken there.
 std::string cameraFault(const sphc_camera &camera, const std::string &key) {
-  const ModelName *model = findModel(camera.model);
-  if (!model) return key + ".model: is " + std::to_string(camera.model) + "; known: " + modelNames();
-  if (camera.param_count != model->param_count)
-    return key + ".params: has " + std::to_string(camera.param_count) + " numbers; " + model->name + " takes " +
-           std::to_string(model->param_count) + ": " + model->params;
-  if (std::min(camera.width, camera.height) < 16 || std::max(camera.width, camera.height) > 8192)
-    return key + ": is " + std::to_string(camera.width) + " x " + std::to_string(camera.height) +
-           "; width and height must be 16 to 8192";
-  if (!std::all_of(camera.params, camera.params + camera.param_count, [](double x) { return std::isfinite(x); }))
-    return key + ".params: not finite; give numbers";
-  if (camera.params[0] <= 0 || camera.params[1] <= 0)
-    return key + ".params: fx " + numberText(camera.params[0]) + ", fy " + numberText(camera.params[1]) +
-           "; both must be greater than 0, in pixels";
-  return {};
+  sphc_message message = {};
+  return sphc_camera_check(&camera, &message) == SPHC_OK ? "" : key + ": " + message.text;
 }
 
 std::string rigidFault(const sphc_rigid &rigid) {
-  const auto finite = [](double x) { return std::isfinite(x); };
-  if (!std::all_of(rigid.t_m, rigid.t_m + 3, finite)) return "color_from_depth.t_m: not finite; give metres";
+  const auto is_near = [](double x) { return std::fabs(x) <= kMostOffsetM; };
+  if (!std::all_of(rigid.t_m, rigid.t_m + 3, is_near))
+    return "color_from_depth.t_m: not finite, or beyond " + numberText(kMostOffsetM) + " m; give metres";
   double squared = 0;
   for (const double x : rigid.q_wxyz) squared += x * x;
-  if (!(std::fabs(std::sqrt(squared) - 1.0) <= 1e-3))
+  if (!(std::fabs(squared - 1.0) <= kMostSquaredError))
     return "color_from_depth.q_wxyz: length " + numberText(std::sqrt(squared)) +
            "; must be 1 (order w x y z), divide by its length";
   return {};
@@ -65,17 +60,9 @@ sphc_calibration parseText(std::string_view text, const std::string &name) {
   }
 }
 
-std::string readFile(const char *path) {
-  std::ifstream stream(path, std::ios::binary);
-  const std::string name = shortPath(path);
-  if (!stream || !std::filesystem::is_regular_file(path))
-    throw Failure(SPHC_E_DEVICE, name + ": no such calibration file; write one (docs/drivers.md) or give its path");
-  std::string text(kMostFileBytes, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) throw Failure(SPHC_E_DEVICE, name + ": cannot be read");
-  if (!stream.eof()) throw Failure(SPHC_E_ARGUMENT, name + ": over 1 MiB: no calibration file");
-  text.resize(static_cast<size_t>(stream.gcount()));
-  return text;
+void requireGood(const sphc_calibration &calibration) {
+  const std::string fault = calibrationFault(calibration);
+  if (!fault.empty()) throw Failure(SPHC_E_ARGUMENT, fault);
 }
 
 sphc_status badSize(sphc_message *message) {
@@ -108,14 +95,34 @@ std::string calibrationFault(const sphc_calibration &calibration) {
   if (fault.empty()) fault = cameraFault(calibration.depth_camera, "depth_camera");
   if (fault.empty()) fault = rigidFault(calibration.color_from_depth);
   const double unit = calibration.depth_unit_m;
-  if (fault.empty() && !(unit >= 1e-6 && unit <= 1))
-    fault = "depth_unit_m: is " + numberText(unit) + "; must be 1e-6 to 1 (0.001 for millimetres)";
+  if (fault.empty() && !(unit >= kLeastUnitM && unit <= kMostUnitM))
+    fault = "depth_unit_m: is " + numberText(unit) + "; must be 1e-6 to 0.1 (0.001 for millimetres)";
   return fault;
 }
 
-}  // namespace sphc::replay
+sphc_calibration readCalibration(const std::filesystem::path &path) {
+  const std::string name = shortPath(path.string());
+  Bytes content;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw Failure(SPHC_E_DEVICE, name + ": no such calibration file; write one (docs/drivers.md) or give its path");
+  try {
+    readFile(path, kMostFileBytes, content);
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), name + ": no calibration file: " + failure.what());
+  }
+  return parseText(textOf(viewOf(content)), name);
+}
 
-using namespace sphc::replay;
+void writeCalibration(const std::filesystem::path &path, const sphc_calibration &calibration) {
+  requireGood(calibration);
+  const std::string text = calibrationToJson(calibration);
+  writeFile(path, {reinterpret_cast<const uint8_t *>(text.data()), text.size()});
+}
+
+}  // namespace sphc::recording
+
+using namespace sphc::recording;
 
 extern "C" {
 
@@ -133,8 +140,7 @@ sphc_status sphc_calibration_check(const sphc_calibration *calibration, sphc_mes
   return guarded(message, [&]() -> sphc_status {
     if (!calibration) throw Failure(SPHC_E_ARGUMENT, "calibration is null");
     if (calibration->struct_size != sizeof *calibration) return badSize(message);
-    const std::string fault = calibrationFault(*calibration);
-    if (!fault.empty()) throw Failure(SPHC_E_ARGUMENT, fault);
+    requireGood(*calibration);
     return SPHC_OK;
   });
 }
@@ -143,7 +149,7 @@ sphc_status sphc_calibration_read(const char *path, sphc_calibration *calibratio
   return guarded(message, [&]() -> sphc_status {
     if (!path || !calibration) throw Failure(SPHC_E_ARGUMENT, "path or calibration is null");
     if (calibration->struct_size != sizeof *calibration) return badSize(message);
-    *calibration = parseText(readFile(path), shortPath(path));
+    *calibration = readCalibration(path);
     return SPHC_OK;
   });
 }
@@ -163,10 +169,7 @@ sphc_status sphc_calibration_write(const char *path, const sphc_calibration *cal
     if (!path) throw Failure(SPHC_E_ARGUMENT, "path is null");
     const sphc_status status = sphc_calibration_check(calibration, message);
     if (status < 0) return status;
-    std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-    stream << calibrationToJson(*calibration) << std::flush;
-    if (!stream)
-      throw Failure(SPHC_E_DEVICE, shortPath(path) + ": cannot be written; is there room and permission?");
+    writeCalibration(path, *calibration);
     return SPHC_OK;
   });
 }

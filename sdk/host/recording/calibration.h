@@ -3,8 +3,8 @@
  * Conventions (frames, units, pixels, memory, failure, thread classes) are those of spherecloud.h.  These functions
  * read and write files and allocate while they run; no C++ exception leaves them.
  */
-#ifndef SPHERECLOUD_DRIVERS_REPLAY_CALIBRATION_H
-#define SPHERECLOUD_DRIVERS_REPLAY_CALIBRATION_H
+#ifndef SPHERECLOUD_HOST_RECORDING_CALIBRATION_H
+#define SPHERECLOUD_HOST_RECORDING_CALIBRATION_H
 
 #include <spherecloud/spherecloud.h>
 
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* What sphc_config needs to know about the cameras; pixel centres at 0.5 as everywhere in the door.
+/* What sphc_config needs to know about the cameras; pixel centres at 0.5 as in spherecloud.h.
  * Equal cameras with the identity between them: the depth image is already registered to colour. */
 typedef struct sphc_calibration {
   uint32_t struct_size;
@@ -28,8 +28,8 @@ typedef struct sphc_calibration {
 sphc_status sphc_calibration_init(sphc_calibration *calibration, size_t struct_size);
 
 /* SPHC_OK if it can be used: known camera models with the right param_count, finite parameters, fx and fy > 0,
- * sizes within 16 to 8192 pixels, unit quaternion (within 1e-3), depth unit within 1e-6 to 1 m. Errors: ARGUMENT,
- * STRUCT_SIZE. [pure] */
+ * sizes within 16 to 8192 pixels (sphc_camera_check), unit quaternion (within 1e-3), translation within 100 m,
+ * depth unit within 1e-6 to 0.1 m: the limits of sphc_config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 sphc_status sphc_calibration_check(const sphc_calibration *calibration, sphc_message *message);
 
 /* Reads a calibration file.  Set calibration->struct_size first (sphc_calibration_init does).
@@ -48,4 +48,4 @@ sphc_status sphc_calibration_write(const char *path, const sphc_calibration *cal
 #ifdef __cplusplus
 }
 #endif
-#endif /* SPHERECLOUD_DRIVERS_REPLAY_CALIBRATION_H */
+#endif /* SPHERECLOUD_HOST_RECORDING_CALIBRATION_H */

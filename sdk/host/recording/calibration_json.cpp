@@ -10,7 +10,7 @@
 #include "failure.h"
 #include "pose_track.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 using Json = nlohmann::ordered_json;
 
@@ -223,4 +223,4 @@ std::string calibrationToJson(const sphc_calibration &calibration) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

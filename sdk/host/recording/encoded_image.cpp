@@ -6,21 +6,19 @@
 
 #include "failure.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
 // libjpeg fills what a cut file lacks with grey and is content, libpng does without the end chunk: look for the end
 // mark.  Some cameras write a little behind it.
-bool isCut(ByteView file, const std::string &start, const std::string &end) {
+bool isCut(ByteView file, ImageType type) {
   constexpr size_t kTail = 1024;
-  if (file.size < start.size() || std::memcmp(file.data, start.data(), start.size()) != 0) return false;
+  const std::string end = type == ImageType::kPng ? "IEND" : "\xff\xd9";
   const uint8_t *const last = file.data + file.size;
   const auto same = [](uint8_t byte, char c) { return byte == static_cast<uint8_t>(c); };
   return std::search(last - std::min(kTail, file.size), last, end.begin(), end.end(), same) == last;
 }
-
-bool isCutImage(ByteView file) { return isCut(file, "\xff\xd8", "\xff\xd9") || isCut(file, "\x89PNG", "IEND"); }
 
 int decodeFlags(sphc_format format) {
   if (format == SPHC_FORMAT_DEPTH16) return cv::IMREAD_UNCHANGED;
@@ -45,9 +43,11 @@ void requireSize(uint32_t width, uint32_t height, const sphc_camera &camera, boo
                                   sizeText(camera.width, camera.height) + "; use this recording's calibration");
 }
 
-void decodeImage(ByteView encoded, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
-  if (isCutImage(encoded)) throw Failure(SPHC_E_DEVICE, "is cut short; remove the frame or copy the file again");
+void decodeImage(ByteView encoded, ImageType type, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
   const bool is_color = format != SPHC_FORMAT_DEPTH16;
+  const ImageSize size = imageSizeOf(encoded, type);
+  requireSize(size.width, size.height, camera, is_color);
+  if (isCut(encoded, type)) throw Failure(SPHC_E_DEVICE, "is cut short; remove the frame or copy the file again");
   // A header over our memory: the decoder writes there when size and type are the expected ones.
   cv::Mat decoded(static_cast<int>(camera.height), static_cast<int>(camera.width), typeOf(format), pixels);
   try {
@@ -86,4 +86,4 @@ ByteView ImageEncoder::jpeg(const sphc_image &image, uint32_t quality) {
   return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, static_cast<int>(quality)});
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -1,14 +1,16 @@
 // The bytes of PNG and JPEG files: made, and decoded into memory that is there already.
 #pragma once
 
-#include "host/recording/mcap/bytes.h"
+#include "image_header.h"
 #include "pixels.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 // Fills `pixels` with an image of the camera's size: DEPTH16, or colour in `format`.  Throws Failure without a
-// name: DEVICE when the bytes are corrupt or cut, IMAGE when the image does not fit the calibration.
-void decodeImage(ByteView encoded, const sphc_camera &camera, sphc_format format, uint8_t *pixels);
+// name: DEVICE when the bytes are of another type, corrupt or cut, IMAGE when the image does not fit the
+// calibration. Type and size are read from the header first: nothing larger than the camera's image is ever
+// decoded.
+void decodeImage(ByteView encoded, ImageType type, const sphc_camera &camera, sphc_format format, uint8_t *pixels);
 
 class ImageEncoder {
  public:
@@ -26,4 +28,4 @@ class ImageEncoder {
 // IMAGE unless the size is the camera's.
 void requireSize(uint32_t width, uint32_t height, const sphc_camera &camera, bool is_color);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <new>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 void setMessage(sphc_message *message, const char *text) noexcept {
   if (!message) return;
@@ -38,4 +38,4 @@ std::string shortPath(const std::string &path) {
   return path.size() <= kShown ? path : "..." + path.substr(path.size() - kShown + 3);
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class Failure : public std::runtime_error {
  public:
@@ -36,4 +36,4 @@ sphc_status guarded(sphc_message *message, Body &&body) noexcept {
   }
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -5,7 +5,7 @@
 
 #include "failure.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace fs = std::filesystem;
 
@@ -23,4 +23,4 @@ void writeFile(const fs::path &path, ByteView bytes) {
   failWrite(path);
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -5,10 +5,10 @@
 
 #include "host/recording/mcap/bytes.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 // Replaces one that is there.  Throws Failure.
 void writeFile(const std::filesystem::path &path, ByteView bytes);
 [[noreturn]] void failWrite(const std::filesystem::path &path);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -1,19 +1,20 @@
 #include "image_reader.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "encoded_image.h"
 #include "failure.h"
+#include "file_reader.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 ImageReader::ImageReader(const Recording &recording, const sphc_calibration &calibration, sphc_format color_format)
     : recording_(recording),
       color_camera_(calibration.color_camera),
       depth_camera_(calibration.depth_camera),
       color_format_(color_format) {
-  if (recording.layout == SPHC_REPLAY_MCAP) messages_.emplace(recording.path);
+  if (recording.layout == Layout::kMcap) messages_.emplace(recording.path);
+  if (recording.layout == Layout::kRaw) raw_.emplace(recording.path);
 }
 
 const sphc_camera &ImageReader::cameraOf(sphc_stream stream) const {
@@ -30,20 +31,14 @@ size_t ImageReader::bytesOf(sphc_stream stream) const {
 }
 
 std::string ImageReader::nameOf(sphc_stream stream, const RecordedImage &image) const {
-  return shortPath(messages_ ? recording_.path.string() : image.file) + " (" +
+  return shortPath(image.file.empty() ? recording_.path.string() : image.file) + " (" +
          (stream == SPHC_STREAM_COLOR ? "colour " : "depth ") + std::to_string(image.sequence) + ")";
 }
 
 ByteView ImageReader::load(const RecordedImage &image) {
-  std::ifstream file(recording_.path / image.file, std::ios::binary | std::ios::ate);
-  const std::streamoff bytes = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-  if (bytes < 0) throw Failure(SPHC_E_DEVICE, "cannot be read; is it there?");
-  constexpr std::streamoff kMostBytes = std::streamoff{1} << 30;
-  if (bytes == 0) throw Failure(SPHC_E_DEVICE, "is empty; remove the frame or copy the file again");
-  if (bytes > kMostBytes) throw Failure(SPHC_E_DEVICE, "is over 1 GiB: no image");
-  encoded_.resize(static_cast<size_t>(bytes));
-  file.seekg(0);
-  if (!file.read(reinterpret_cast<char *>(encoded_.data()), bytes)) throw Failure(SPHC_E_DEVICE, "cannot be read");
+  constexpr size_t kMostBytes = size_t{1} << 30;
+  readFile(recording_.path / image.file, kMostBytes, encoded_);
+  if (encoded_.empty()) throw Failure(SPHC_E_DEVICE, "is empty; remove the frame or copy the file again");
   return viewOf(encoded_);
 }
 
@@ -56,22 +51,31 @@ ByteView ImageReader::loadMessage(const MessagePlace &place) {
   return {bytes + (place.start - chunk.start), static_cast<size_t>(place.bytes)};
 }
 
+void ImageReader::readRaw(sphc_stream stream, uint32_t index, uint8_t *pixels) {
+  const sphc_frame &frame = raw_->load(index);
+  const sphc_image &image = stream == SPHC_STREAM_COLOR ? frame.color : frame.depth;
+  requireSize(image.width, image.height, cameraOf(stream), stream == SPHC_STREAM_COLOR);
+  packPixels(image, formatOf(stream), pixels);
+}
+
 sphc_image ImageReader::read(sphc_stream stream, const RecordedImage &image, uint8_t *pixels) {
   const sphc_camera &camera = cameraOf(stream);
   const sphc_format format = formatOf(stream);
   try {
     if (messages_)
       messages_->decoder.decode(image.place.kind, loadMessage(image.place), camera, format, pixels);
+    else if (raw_)
+      readRaw(stream, static_cast<uint32_t>(image.place.start), pixels);
     else
-      decodeImage(load(image), camera, format, pixels);
+      decodeImage(load(image), imageTypeOf(image.file), camera, format, pixels);
   } catch (const Failure &failure) {
     throw Failure(failure.status(), nameOf(stream, image) + ": " + failure.what());
   }
-  if (stream == SPHC_STREAM_DEPTH && recording_.layout == SPHC_REPLAY_7SCENES) {  // where 65535 is a hole
+  if (stream == SPHC_STREAM_DEPTH && recording_.layout == Layout::kSevenScenes) {  // where 65535 is a hole
     uint16_t *depth = reinterpret_cast<uint16_t *>(pixels);
     std::replace(depth, depth + size_t{camera.width} * camera.height, uint16_t{65535}, uint16_t{0});
   }
   return {pixels, camera.width, camera.height, camera.width * bytesPerPixel(format), format};
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -5,9 +5,10 @@
 
 #include "message_image.h"
 #include "pixels.h"
+#include "raw_file.h"
 #include "recording.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class ImageReader {
  public:
@@ -33,6 +34,7 @@ class ImageReader {
   size_t bytesOf(sphc_stream stream) const;
   std::string nameOf(sphc_stream stream, const RecordedImage &image) const;
   ByteView load(const RecordedImage &image);
+  void readRaw(sphc_stream stream, uint32_t index, uint8_t *pixels);
   ByteView loadMessage(const MessagePlace &place);
 
   const Recording &recording_;
@@ -40,7 +42,8 @@ class ImageReader {
   sphc_camera depth_camera_;
   sphc_format color_format_;
   std::optional<Messages> messages_;
-  Bytes encoded_;  // of the last file; grows to the largest
+  std::optional<RawFile> raw_;  // likewise
+  Bytes encoded_;               // of the last file; grows to the largest
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -5,7 +5,7 @@
 #include "host/recording/mcap/depth_rvl.h"
 #include "pixels.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -21,7 +21,7 @@ void MessageDecoder::decode(Kind kind, ByteView message, const sphc_camera &came
   CompressedMessage compressed;
   if (!readCompressedMessage(message, compressed)) failMalformed("CompressedImage");
   if (kind == Kind::kColorJpeg)
-    decodeImage(compressed.data, camera, format, pixels);
+    decodeImage(compressed.data, ImageType::kJpeg, camera, format, pixels);
   else
     decodeDepth(kind, compressed.data, camera, pixels);
 }
@@ -53,4 +53,4 @@ void MessageDecoder::decodeDepth(Kind kind, ByteView data, const sphc_camera &ca
   if (!is_whole) failMalformed(kind == Kind::kDepthRvl ? "RVL" : "zstd");
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

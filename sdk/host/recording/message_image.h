@@ -4,7 +4,7 @@
 #include "host/recording/mcap/depth_zstd.h"
 #include "host/recording/mcap/messages.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class MessageDecoder {
  public:
@@ -19,4 +19,4 @@ class MessageDecoder {
   DepthZstdDecoder zstd_;
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -4,7 +4,7 @@
 
 #include "failure.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -80,4 +80,4 @@ void packPixels(const sphc_image &image, sphc_format to, uint8_t *out) {
   }
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

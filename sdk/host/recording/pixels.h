@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 // 0 for a format that is none.
 uint32_t bytesPerPixel(sphc_format format);
@@ -22,4 +22,4 @@ void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_colo
 // colour.
 void packPixels(const sphc_image &image, sphc_format to, uint8_t *out);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sphc::replay {
+#include "failure.h"
+
+namespace sphc::recording {
 
 namespace {
 
@@ -101,6 +103,14 @@ bool normalizeQuaternion(double q_wxyz[4], double tolerance) {
   return true;
 }
 
+sphc_rigid checkedPose(const sphc_rigid &pose) {
+  sphc_rigid checked = pose;
+  if (!isFinite(checked)) throw Failure(SPHC_E_ARGUMENT, "pose: not finite");
+  if (!normalizeQuaternion(checked.q_wxyz, 1e-3))
+    throw Failure(SPHC_E_ARGUMENT, "pose: q_wxyz is not of unit length; divide by its length");
+  return checked;
+}
+
 bool rigidFromMatrix(const double rows[12], sphc_rigid &pose) {
   if (!std::all_of(rows, rows + 12, [](double x) { return std::isfinite(x); })) return false;
   double rotation[3][3];
@@ -112,4 +122,4 @@ bool rigidFromMatrix(const double rows[12], sphc_rigid &pose) {
   return normalizeQuaternion(pose.q_wxyz, 0.1);
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -15,7 +15,7 @@
 #include "pose_track.h"
 #include "recording_encoder.h"
 
-using namespace sphc::replay;
+using namespace sphc::recording;
 
 namespace {
 
@@ -86,6 +86,7 @@ struct sphc_recorder {
 
   sphc_status add(const sphc_capture &capture);
   sphc_status addPose(int64_t time_ns, const sphc_rigid &world_from_camera);
+  void drain();
   void close();
 
   // The caller's side.
@@ -195,10 +196,7 @@ sphc_status sphc_recorder::add(const sphc_capture &capture) {
 }
 
 sphc_status sphc_recorder::addPose(int64_t time_ns, const sphc_rigid &world_from_camera) {
-  sphc_rigid pose = world_from_camera;
-  if (!isFinite(pose)) throw Failure(SPHC_E_ARGUMENT, "pose: not finite");
-  if (!normalizeQuaternion(pose.q_wxyz, 1e-3))
-    throw Failure(SPHC_E_ARGUMENT, "pose: q_wxyz is not of unit length; divide by its length");
+  const sphc_rigid pose = checkedPose(world_from_camera);
   if (time_ns <= poses.last_ns) throw Failure(SPHC_E_ARGUMENT, "pose: " + timeFault(time_ns));
   poses = {time_ns, poses.last_sequence + 1};
   return push({SPHC_STREAM_NONE, poses.last_sequence, 1, time_ns, DropCause::kQueueFull}, [&](Slot &slot) {
@@ -282,7 +280,8 @@ void sphc_recorder::run() {
   }
 }
 
-void sphc_recorder::close() {
+// Ends the thread, and brings what was added into the file.
+void sphc_recorder::drain() {
   {
     const std::lock_guard lock(mutex);
     ends = true;
@@ -293,6 +292,10 @@ void sphc_recorder::close() {
   for (const Drop &drop : drops) encoder.addDrop(drop, drop.time_ns);
   encoder.sync();
   noteWritten();
+}
+
+void sphc_recorder::close() {
+  drain();
   encoder.finish(statistics);
 }
 
@@ -361,6 +364,16 @@ sphc_status sphc_recorder_close(sphc_recorder **recorder, sphc_message *message)
   delete *recorder;
   *recorder = nullptr;
   return status;
+}
+
+void sphc_recorder_abandon(sphc_recorder **recorder) {
+  if (!recorder || !*recorder) return;
+  guarded(nullptr, [&] {
+    (*recorder)->drain();
+    return SPHC_OK;
+  });
+  delete *recorder;
+  *recorder = nullptr;
 }
 
 }  // extern "C"

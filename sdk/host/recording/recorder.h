@@ -23,8 +23,8 @@
  *
  * Conventions are those of spherecloud.h.  No C++ exception leaves these functions.
  */
-#ifndef SPHERECLOUD_DRIVERS_REPLAY_RECORDER_H
-#define SPHERECLOUD_DRIVERS_REPLAY_RECORDER_H
+#ifndef SPHERECLOUD_HOST_RECORDING_RECORDER_H
+#define SPHERECLOUD_HOST_RECORDING_RECORDER_H
 
 #include <spherecloud/spherecloud.h>
 
@@ -93,7 +93,11 @@ sphc_status sphc_recorder_get_statistics(const sphc_recorder *recorder, sphc_rec
  * was written before is good. [exclusive] */
 sphc_status sphc_recorder_close(sphc_recorder **recorder, sphc_message *message);
 
+/* Writes what waits and frees the recorder, but gives the file no end: it counts as cut, as after a crash.  Accepts
+ * null and pointer to null; sets *recorder to null. [exclusive] */
+void sphc_recorder_abandon(sphc_recorder **recorder);
+
 #ifdef __cplusplus
 }
 #endif
-#endif /* SPHERECLOUD_DRIVERS_REPLAY_RECORDER_H */
+#endif /* SPHERECLOUD_HOST_RECORDING_RECORDER_H */

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "failure.h"
+#include "unfinished_folder.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace fs = std::filesystem;
 
@@ -21,8 +22,9 @@ size_t nearestInTime(const std::vector<RecordedImage> &images, int64_t time_ns) 
   return time_ns - images[index - 1].time_ns <= images[index].time_ns - time_ns ? index - 1 : index;
 }
 
-bool isChosen(const sphc_replay_config &config, uint32_t sequence) {
-  return sequence >= config.first && sequence <= config.last && (sequence - config.first) % config.step == 0;
+bool isChosen(const Selection &selection, uint32_t sequence) {
+  return sequence >= selection.first && sequence <= selection.last &&
+         (sequence - selection.first) % selection.step == 0;
 }
 
 bool holdsSequences(const fs::path &folder) {
@@ -34,9 +36,12 @@ bool holdsSequences(const fs::path &folder) {
 }  // namespace
 
 Recording openRecording(const fs::path &folder) {
-  if (fs::is_regular_file(folder)) return openMcap(folder);
+  if (fs::is_regular_file(folder)) return isRaw(folder) ? openRaw(folder) : openMcap(folder);
   const std::string name = shortPath(folder.string());
   if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder or file; give a recording");
+  if (isUnfinished(folder))
+    throw Failure(SPHC_E_DEVICE, name + ": was not finished (unfinished.txt is in it); write it again, or remove " +
+                                     "that file to read what is there");
   if (isTum(folder)) return openTum(folder);
   if (is7Scenes(folder)) return open7Scenes(folder);
   if (holdsSequences(folder))
@@ -46,19 +51,19 @@ Recording openRecording(const fs::path &folder) {
                                    "frame-000000.color.png and so on (7-Scenes)");
 }
 
-void selectFrames(const sphc_replay_config &config, Recording &recording) {
+void selectFrames(const Selection &selection, Recording &recording) {
   const uint32_t lowest = recording.color.front().sequence;
   const uint32_t highest = recording.color.back().sequence;
   std::vector<RecordedImage> depth;
   for (const RecordedImage &image : recording.depth)
-    if (isChosen(config, recording.color[nearestInTime(recording.color, image.time_ns)].sequence))
+    if (isChosen(selection, recording.color[nearestInTime(recording.color, image.time_ns)].sequence))
       depth.push_back(image);
   std::vector<RecordedImage> color;
   for (const RecordedImage &image : recording.color)
-    if (isChosen(config, image.sequence)) color.push_back(image);
+    if (isChosen(selection, image.sequence)) color.push_back(image);
   if (color.empty())
-    throw Failure(SPHC_E_ARGUMENT, "config: first " + std::to_string(config.first) + ", last " +
-                                       std::to_string(config.last) + ", step " + std::to_string(config.step) +
+    throw Failure(SPHC_E_ARGUMENT, "selection: first " + std::to_string(selection.first) + ", last " +
+                                       std::to_string(selection.last) + ", step " + std::to_string(selection.step) +
                                        " chooses no frame; the recording has numbers " + std::to_string(lowest) +
                                        " to " + std::to_string(highest));
   recording.color = std::move(color);
@@ -77,4 +82,4 @@ std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_
   return pairs;
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -6,14 +6,22 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/replay.h"
+#include "calibration.h"
 #include "host/recording/mcap/messages.h"
 #include "host/recording/mcap/walk.h"
 #include "pose_track.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
-// Where an image is in an MCAP file.
+enum class Layout { kSevenScenes = 1, kTum = 2, kMcap = 3, kRaw = 4 };
+
+// Frames are chosen by the number of their colour image: of first to last every step-th.
+struct Selection {
+  uint32_t first = 0, last = UINT32_MAX;
+  uint32_t step = 1;
+};
+
+// Where an image is in an MCAP file; in a raw one `start` is the number of its frame.
 struct MessagePlace {
   Kind kind;
   uint32_t chunk;  // index in Recording::chunks
@@ -30,15 +38,16 @@ struct RecordedImage {
 };
 
 struct Recording {
-  sphc_replay_layout layout = 0;
-  std::filesystem::path path;        // of the folder or the MCAP file
+  Layout layout = Layout::kTum;
+  std::filesystem::path path;        // of the folder or the file
   std::vector<RecordedImage> color;  // times increase
   std::vector<RecordedImage> depth;  // times increase
   PoseTrack poses;
   uint32_t bad_pose_count = 0;
 
+  sphc_calibration calibration = {};  // of a file that holds one
+
   // Of an MCAP file.
-  sphc_calibration calibration = {};
   std::vector<ChunkPlace> chunks;
   uint64_t lost_count = 0;
   uint32_t bad_chunk_count = 0;
@@ -53,8 +62,8 @@ struct FramePair {
 // Finds the layout and reads lists and poses, no image; throws Failure.
 Recording openRecording(const std::filesystem::path &path);
 
-// Keeps the frames that the config chooses; throws Failure when it chooses none.
-void selectFrames(const sphc_replay_config &config, Recording &recording);
+// Keeps the frames that are chosen; throws Failure when that is none.
+void selectFrames(const Selection &selection, Recording &recording);
 
 // Each colour image with the depth image nearest in time, where there is one within the tolerance.
 std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_ns);
@@ -64,6 +73,8 @@ bool is7Scenes(const std::filesystem::path &folder);
 Recording open7Scenes(const std::filesystem::path &folder);
 bool isTum(const std::filesystem::path &folder);
 Recording openTum(const std::filesystem::path &folder);
+bool isRaw(const std::filesystem::path &file);
+Recording openRaw(const std::filesystem::path &file);
 Recording openMcap(const std::filesystem::path &file);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -1,14 +1,13 @@
 // The layout of the 7-Scenes data set: one folder, three files a frame, numbered.
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "failure.h"
+#include "file_reader.h"
 #include "recording.h"
 #include "text_field.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace fs = std::filesystem;
 
@@ -48,8 +47,7 @@ void sortByNumber(const std::string &folder, std::vector<RecordedImage> &images)
 }
 
 bool readPose(const fs::path &path, sphc_rigid &pose) {
-  std::ifstream stream(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string content = readText(path);
   std::string_view rest = content;
   double matrix[16];
   for (double &value : matrix)
@@ -82,7 +80,7 @@ bool is7Scenes(const fs::path &folder) {
 
 Recording open7Scenes(const fs::path &folder) {
   Recording recording;
-  recording.layout = SPHC_REPLAY_7SCENES;
+  recording.layout = Layout::kSevenScenes;
   recording.path = folder;
   std::vector<RecordedImage> poses;
   for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
@@ -103,4 +101,4 @@ Recording open7Scenes(const fs::path &folder) {
   return recording;
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

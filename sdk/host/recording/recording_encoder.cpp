@@ -8,7 +8,7 @@
 #include "host/recording/mcap/depth_rvl.h"
 #include "pixels.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -112,4 +112,4 @@ void RecordingEncoder::finish(const sphc_recorder_statistics &statistics) {
   writer_.finish(records);
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -6,7 +6,7 @@
 #include "host/recording/mcap/writer.h"
 #include "recorder.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class RecordingEncoder {
  public:
@@ -39,4 +39,4 @@ class RecordingEncoder {
   bool is_synced_ = true;
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -8,7 +8,7 @@
 #include "failure.h"
 #include "recording.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace fs = std::filesystem;
 
@@ -17,8 +17,9 @@ namespace {
 constexpr uint64_t kMostSmallBytes = FileWindow::kMostBytes;  // of records that describe
 constexpr uint64_t kMostCalibrationBytes = 1 << 20;
 
-// One look through the file's records.  A whole file is believed, as each chunk is checked when an image of it is
-// read; a cut one has every chunk checked, because a power cut may leave garbage at its end.
+// One walk through the file's records.  Of a whole file, a chunk is checked when an image of it is read, and at
+// once when it holds poses, which nobody reads again; of a cut one every chunk is checked, because a power cut may
+// leave garbage at its end.
 class McapScan {
  public:
   McapScan(const File &file, bool checks_all)
@@ -28,10 +29,11 @@ class McapScan {
   bool inOrder() const { return in_order_; }
 
  private:
-  void look(const RecordPlace &record);
-  void lookAtChunk(const RecordPlace &record);
-  void lookAtMessage(const RecordPlace &record);
-  void lookAtSmallMessage(Kind kind, const MessageHead &head, ByteView data);
+  void readRecord(const RecordPlace &record);
+  void readChunkRecords(const RecordPlace &record);
+  void readMessage(const RecordPlace &record);
+  bool holdsTrueBytes();
+  void readSmallMessage(Kind kind, const MessageHead &head, ByteView data);
   void addImage(Kind kind, const MessageHead &head, const RecordPlace &record);
   void addPose(int64_t time_ns, sphc_rigid pose);
   void readCalibration(const RecordPlace &record);
@@ -42,6 +44,7 @@ class McapScan {
   ChunkReader chunks_;
   bool checks_all_;
   bool in_order_ = true;
+  std::optional<bool> chunk_is_true_;  // of the chunk being read, once its checksum was compared
   std::map<uint16_t, std::string> schemas_;
   std::map<uint16_t, Kind> kinds_;
   std::optional<CaptureNote> color_note_, depth_note_;  // of the image that comes next
@@ -53,12 +56,12 @@ std::optional<ByteView> McapScan::small(const RecordPlace &record) {
   return window_.at(record.content, static_cast<size_t>(record.bytes));
 }
 
-void McapScan::look(const RecordPlace &record) {
+void McapScan::readRecord(const RecordPlace &record) {
   const std::optional<ByteView> content = small(record);
   Schema schema;
   Channel channel;
   if (record.op == Op::kChunk) {
-    lookAtChunk(record);
+    readChunkRecords(record);
   } else if (record.op == Op::kAttachment) {
     readCalibration(record);
   } else if (record.op == Op::kSchema && content && readSchema(*content, schema)) {
@@ -68,7 +71,7 @@ void McapScan::look(const RecordPlace &record) {
   }
 }
 
-void McapScan::lookAtChunk(const RecordPlace &record) {
+void McapScan::readChunkRecords(const RecordPlace &record) {
   ChunkHead head;
   ChunkPlace place;
   if (!readChunk(window_, record, head, place) || (checks_all_ && !chunks_.load(place))) {
@@ -76,17 +79,27 @@ void McapScan::lookAtChunk(const RecordPlace &record) {
     return;
   }
   recording_.chunks.push_back(place);
+  chunk_is_true_.reset();
   const WalkEnd end =
       walkRecords(window_, place.start, place.start + place.bytes, [this](const RecordPlace &inner) {
         if (inner.op == Op::kMessage)
-          lookAtMessage(inner);
+          readMessage(inner);
         else if (inner.op != Op::kChunk && inner.op != Op::kAttachment)
-          look(inner);
+          readRecord(inner);
       });
   if (end != WalkEnd::kEdge) in_order_ = false;
 }
 
-void McapScan::lookAtMessage(const RecordPlace &record) {
+// The bytes of the chunk being read are those that were written.
+bool McapScan::holdsTrueBytes() {
+  if (!chunk_is_true_) {
+    chunk_is_true_ = chunks_.load(recording_.chunks.back()) != nullptr;
+    if (!*chunk_is_true_) ++recording_.bad_chunk_count;
+  }
+  return *chunk_is_true_;
+}
+
+void McapScan::readMessage(const RecordPlace &record) {
   if (record.bytes < kMessageHeadBytes) return;
   const uint64_t data_bytes = record.bytes - kMessageHeadBytes;
   const size_t shown = static_cast<size_t>(std::min(data_bytes, kMostSmallBytes - kMessageHeadBytes));
@@ -98,10 +111,10 @@ void McapScan::lookAtMessage(const RecordPlace &record) {
   if (isImage(known->second))
     addImage(known->second, head, record);
   else
-    lookAtSmallMessage(known->second, head, {bytes.data + kMessageHeadBytes, shown});
+    readSmallMessage(known->second, head, {bytes.data + kMessageHeadBytes, shown});
 }
 
-void McapScan::lookAtSmallMessage(Kind kind, const MessageHead &head, ByteView data) {
+void McapScan::readSmallMessage(Kind kind, const MessageHead &head, ByteView data) {
   CaptureNote note;
   Drop drop;
   sphc_rigid pose;
@@ -111,7 +124,7 @@ void McapScan::lookAtSmallMessage(Kind kind, const MessageHead &head, ByteView d
     depth_note_ = note;
   else if (kind == Kind::kDrops && readDrop(data, drop))
     recording_.lost_count += drop.count;
-  else if (kind == Kind::kPose && readPoseMessage(data, pose))
+  else if (kind == Kind::kPose && holdsTrueBytes() && readPoseMessage(data, pose))
     addPose(static_cast<int64_t>(head.time_ns), pose);
 }
 
@@ -157,9 +170,9 @@ void McapScan::readCalibration(const RecordPlace &record) {
 }
 
 Recording McapScan::run() {
-  recording_.layout = SPHC_REPLAY_MCAP;
+  recording_.layout = Layout::kMcap;
   const WalkEnd end = walkRecords(window_, sizeof kMcapMagic, window_.fileSize(),
-                                  [this](const RecordPlace &record) { look(record); });
+                                  [this](const RecordPlace &record) { readRecord(record); });
   recording_.is_cut = end != WalkEnd::kDataEnd;
   return std::move(recording_);
 }
@@ -183,4 +196,4 @@ Recording openMcap(const fs::path &path) {
   return recording;
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -1,14 +1,14 @@
 // The layout of the TUM RGB-D benchmark: lists of times and files.
-#include <fstream>
+#include <algorithm>
 #include <functional>
-#include <iterator>
 #include <string_view>
 
 #include "failure.h"
+#include "file_reader.h"
 #include "recording.h"
 #include "text_field.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace fs = std::filesystem;
 
@@ -18,10 +18,15 @@ namespace {
   throw Failure(SPHC_E_ARGUMENT, shortPath(path.string()) + ", line " + std::to_string(line) + ": " + cause);
 }
 
-std::string readText(const fs::path &path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Failure(SPHC_E_DEVICE, shortPath(path.string()) + ": cannot be read; is it there?");
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+// A list names files of its own folder: neither by a path from the root, nor upwards, nor through a link that
+// leaves.
+std::string pathFault(const fs::path &folder, const fs::path &file) {
+  const std::string cure = "; copy the image into the folder and name it there";
+  if (file.is_absolute()) return "the file's path is absolute" + cure;
+  if (std::find(file.begin(), file.end(), "..") != file.end()) return "the file's path goes upwards (..)" + cure;
+  const fs::path real = fs::weakly_canonical(folder / file);  // an image that is missing is told when it is read
+  const auto left = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first;
+  return left == folder.end() ? "" : "the file is a link out of the recording" + cure;
 }
 
 // Gives `parse` each line that is neither empty nor a comment; parse says false when the line is malformed.
@@ -42,11 +47,14 @@ void forEachLine(const fs::path &path, const char *expected, const LineParser &p
 
 std::vector<RecordedImage> readImageList(const fs::path &path) {
   std::vector<RecordedImage> images;
+  const fs::path folder = fs::canonical(path.parent_path());
   forEachLine(path, "seconds file", [&](std::string_view line, uint32_t number) {
     RecordedImage image{};
     if (!parseSeconds(takeWord(line), image.time_ns)) return false;
     image.file = trimmed(line);
     if (image.file.empty()) return false;
+    const std::string fault = pathFault(folder, image.file);
+    if (!fault.empty()) failLine(path, number, image.file.substr(0, 60) + ": " + fault);
     image.sequence = static_cast<uint32_t>(images.size());
     if (!images.empty() && image.time_ns <= images.back().time_ns)
       failLine(path, number, "time does not increase; sort the list and remove doubles");
@@ -83,7 +91,7 @@ bool isTum(const fs::path &folder) { return fs::exists(folder / "rgb.txt") || fs
 
 Recording openTum(const fs::path &folder) {
   Recording recording;
-  recording.layout = SPHC_REPLAY_TUM;
+  recording.layout = Layout::kTum;
   recording.path = folder;
   recording.color = readImageList(folder / "rgb.txt");
   recording.depth = readImageList(folder / "depth.txt");
@@ -91,4 +99,4 @@ Recording openTum(const fs::path &folder) {
   return recording;
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -1,18 +1,19 @@
 /* recording_writer.h - writes recordings of one file an image, which replay.h reads: the TUM layout with a
- * calibration file, and frames of the 7-Scenes layout.  To record live, see recorder.h.
+ * calibration file.  To record live, see recorder.h.
  *
  *     FOLDER/calibration.json
  *     FOLDER/rgb.txt, rgb/000000.png, ...      "seconds.nanoseconds rgb/000000.png" a line
  *     FOLDER/depth.txt, depth/000000.png, ...
  *     FOLDER/groundtruth.txt                   "time tx ty tz qx qy qz qw" a line, world_from_camera
  *
- * An image is complete on disk before its list names it, and every line is handed to the operating system at once:
- * a recording cut short by a crash of the program can be read up to there.
+ * Until sphc_recording_close a file unfinished.txt stands in the folder, and readers refuse it: half a recording is
+ * never taken for a whole one.  An image is complete before its list names it, and every line is handed to the
+ * operating system at once: after a crash, removing unfinished.txt makes what is there readable.
  *
  * Conventions are those of spherecloud.h.  These functions allocate and write files; no C++ exception leaves them.
  */
-#ifndef SPHERECLOUD_DRIVERS_REPLAY_RECORDING_WRITER_H
-#define SPHERECLOUD_DRIVERS_REPLAY_RECORDING_WRITER_H
+#ifndef SPHERECLOUD_HOST_RECORDING_RECORDING_WRITER_H
+#define SPHERECLOUD_HOST_RECORDING_RECORDING_WRITER_H
 
 #include <spherecloud/spherecloud.h>
 
@@ -33,8 +34,8 @@ sphc_status sphc_recording_create(const char *folder, const sphc_calibration *ca
 /* Appends an image: stream, time_ns and image of *capture; the rest is ignored.  Borrows.  Lossless PNG of fast
  * compression.  Times of a stream must increase and not be negative.  The image's size must be the calibration's.
  * Errors:
- * ARGUMENT (null, time, stream), STRUCT_SIZE, IMAGE: nothing is added, go on; DEVICE (disk full): what was added
- * stays readable, but every later call is SPHC_E_STATE. [exclusive] */
+ * ARGUMENT (null, time, stream), STRUCT_SIZE, IMAGE: nothing is added, go on; DEVICE (disk full): every later call
+ * is SPHC_E_STATE, and the recording stays unfinished. [exclusive] */
 sphc_status sphc_recording_add(sphc_recording_writer *writer, const sphc_capture *capture, sphc_message *message);
 
 /* Both images of a frame: sphc_recording_add of colour, then of depth. [exclusive] */
@@ -45,17 +46,15 @@ sphc_status sphc_recording_add_frame(sphc_recording_writer *writer, const sphc_f
 sphc_status sphc_recording_add_pose(sphc_recording_writer *writer, int64_t time_ns,
                                     const sphc_rigid *world_from_camera, sphc_message *message);
 
-/* Ends the recording and frees the writer.  Accepts null and pointer to null; sets *writer to null. [exclusive] */
-void sphc_recording_close(sphc_recording_writer **writer);
+/* Finishes the recording and frees the writer, also on an error.  Accepts null and pointer to null; sets *writer to
+ * null.  Errors: STATE (an earlier write failed; the recording stays unfinished), DEVICE. [exclusive] */
+sphc_status sphc_recording_close(sphc_recording_writer **writer, sphc_message *message);
 
-/* Writes one frame of the 7-Scenes layout into `folder`, which is there: frame-NNNNNN.color.png, .depth.png and,
- * unless `world_from_camera` (of the colour camera) is null, .pose.txt; NNNNNN is frame->sequence.  The layout
- * keeps neither times nor a calibration.  Errors: ARGUMENT, STRUCT_SIZE, IMAGE, STATE (the frame is there already),
- * DEVICE. [pure] */
-sphc_status sphc_recording_write_7scenes(const char *folder, const sphc_frame *frame,
-                                         const sphc_rigid *world_from_camera, sphc_message *message);
+/* Frees the writer and leaves the recording unfinished, as a crash would.  Accepts null and pointer to null; sets
+ * *writer to null. [exclusive] */
+void sphc_recording_abandon(sphc_recording_writer **writer);
 
 #ifdef __cplusplus
 }
 #endif
-#endif /* SPHERECLOUD_DRIVERS_REPLAY_RECORDING_WRITER_H */
+#endif /* SPHERECLOUD_HOST_RECORDING_RECORDING_WRITER_H */

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdio>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::string formatNumbers(std::initializer_list<double> numbers) {
   return line;
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

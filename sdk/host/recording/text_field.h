@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 // Takes the first word off `text`; empty when there is none.
 std::string_view takeWord(std::string_view &text);
@@ -25,4 +25,4 @@ std::string formatSeconds(int64_t time_ns);
 // The shortest digits that bring back the same bits, with a space between numbers.
 std::string formatNumbers(std::initializer_list<double> numbers);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -1,24 +1,20 @@
-// Writes the layout of the 7-Scenes data set.
-#include <cstdio>
-#include <filesystem>
+#include "writer_7scenes.h"
 
-#include "encoded_image.h"
+#include <cstdio>
+#include <string>
+
+#include "calibration_json.h"
 #include "failure.h"
 #include "file_writer.h"
+#include "pixels.h"
 #include "pose_track.h"
-#include "recording_writer.h"
 #include "text_field.h"
 
-using namespace sphc::replay;
+namespace sphc::recording {
+
 namespace fs = std::filesystem;
 
 namespace {
-
-fs::path frameFile(const char *folder, uint32_t number, const char *kind) {
-  char name[40];
-  std::snprintf(name, sizeof name, "frame-%06u.%s", number, kind);
-  return fs::path(folder) / name;
-}
 
 // Four rows of four.
 std::string matrixText(const sphc_rigid &pose) {
@@ -29,41 +25,36 @@ std::string matrixText(const sphc_rigid &pose) {
          formatNumbers({2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), t[2]}) + "\n0 0 0 1\n";
 }
 
-// Of any size.
-void checkOwnSize(const sphc_image &image, bool is_color) {
-  sphc_camera camera = {};
-  camera.width = image.width;
-  camera.height = image.height;
-  checkImage(image, camera, is_color);
-}
-
-void writeImage(const fs::path &path, const sphc_image &image, bool is_color) {
-  checkOwnSize(image, is_color);
-  ImageEncoder encoder;
-  writeFile(path, encoder.png(image));
+UnfinishedFolder beginFolder(const fs::path &folder, const sphc_calibration &calibration) {
+  requireNoRecording(folder, {"calibration.json", "rgb.txt", "depth.txt"});
+  UnfinishedFolder begun(folder);
+  writeCalibration(folder / "calibration.json", calibration);
+  return begun;
 }
 
 }  // namespace
 
-extern "C" {
+SevenScenesWriter::SevenScenesWriter(const fs::path &folder, const sphc_calibration &calibration)
+    : folder_(beginFolder(folder, calibration)), calibration_(calibration) {}
 
-sphc_status sphc_recording_write_7scenes(const char *folder, const sphc_frame *frame,
-                                         const sphc_rigid *world_from_camera, sphc_message *message) {
-  return guarded(message, [&]() -> sphc_status {
-    if (!folder || !frame) throw Failure(SPHC_E_ARGUMENT, "folder or frame is null");
-    if (frame->struct_size != sizeof *frame) throw Failure(SPHC_E_STRUCT_SIZE, "frame.struct_size");
-    if (world_from_camera && !isFinite(*world_from_camera)) throw Failure(SPHC_E_ARGUMENT, "pose: not finite");
-    const fs::path color = frameFile(folder, frame->sequence, "color.png");
-    if (fs::exists(color)) throw Failure(SPHC_E_STATE, shortPath(color.string()) + ": is there already; remove it");
-    checkOwnSize(frame->depth, false);  // before the colour image is written
-    writeImage(color, frame->color, true);
-    writeImage(frameFile(folder, frame->sequence, "depth.png"), frame->depth, false);
-    if (!world_from_camera) return SPHC_OK;
-    const std::string text = matrixText(*world_from_camera);
-    writeFile(frameFile(folder, frame->sequence, "pose.txt"),
-              {reinterpret_cast<const uint8_t *>(text.data()), text.size()});
-    return SPHC_OK;
-  });
+fs::path SevenScenesWriter::fileOf(uint32_t number, const char *kind) const {
+  char name[40];
+  std::snprintf(name, sizeof name, "frame-%06u.%s", number, kind);
+  return folder_.path() / name;
 }
 
-}  // extern "C"
+void SevenScenesWriter::add(const sphc_frame &frame, const sphc_rigid *world_from_camera) {
+  checkImage(frame.color, calibration_.color_camera, true);
+  checkImage(frame.depth, calibration_.depth_camera, false);
+  const std::string pose = world_from_camera ? matrixText(checkedPose(*world_from_camera)) : "";
+  const fs::path color = fileOf(frame.sequence, "color.png");
+  if (fs::exists(color)) throw Failure(SPHC_E_STATE, shortPath(color.string()) + ": is there already; remove it");
+  writeFile(color, encoder_.png(frame.color));
+  writeFile(fileOf(frame.sequence, "depth.png"), encoder_.png(frame.depth));
+  if (world_from_camera)
+    writeFile(fileOf(frame.sequence, "pose.txt"), {reinterpret_cast<const uint8_t *>(pose.data()), pose.size()});
+}
+
+void SevenScenesWriter::finish() { folder_.finish(); }
+
+}  // namespace sphc::recording

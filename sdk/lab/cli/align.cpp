@@ -42,21 +42,17 @@ std::vector<uint16_t> depthOf(const sphc_image &depth) {
 }
 
 AlignCase readCase(const Options &options) {
-  const Replay replay = openRecording(options.recording);
-  sphc_calibration calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
-  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay.get(), &calibration); });
+  const auto reader = openRecording(options.recording);
+  const sphc_calibration &calibration = reader->calibration();
   AlignCase c;
   c.name = std::to_string(calibration.depth_camera.width) + "x" + std::to_string(calibration.depth_camera.height);
   c.color = calibration.color_camera;
   c.depth = calibration.depth_camera;
   c.color_from_depth = calibration.color_from_depth;
   c.depth_unit_m = calibration.depth_unit_m;
-  const uint32_t count = sphc_replay_frame_count(replay.get());
+  const uint32_t count = reader->frameCount();
   for (uint32_t i = 0; i < count; ++i) {
-    sphc_frame frame = {};
-    orThrow("frame",
-            [&](sphc_message *message) { return sphc_replay_read_frame(replay.get(), i, &frame, message); });
+    const sphc_frame frame = reader->read(i);
     c.frames.push_back({grayOf(frame.color), depthOf(frame.depth)});
   }
   return c;

@@ -43,9 +43,9 @@ OwnedMap openOwnedMap(const std::string &path) {
 class FrameCommand {
  public:
   FrameCommand(const Options &options, const Console &console)
-      : options_(options), console_(console), replay_(openRecording(options.recording)) {
+      : options_(options), console_(console), reader_(openRecording(options.recording)) {
     config_ = spherecloud::defaultConfig();
-    setCameras(calibrationOf(replay_.get()), &config_);
+    setCameras(reader_->calibration(), &config_);
     if (!options.no_peers) preparePeers();
   }
 
@@ -83,24 +83,25 @@ class FrameCommand {
     RecordingOptions mapping = options_.mapping;
     mapping.folder = options_.recording.folder;
     mapping.calibration = options_.recording.calibration;
-    const Replay replay = openRecording(mapping);
-    const uint32_t count = sphc_replay_frame_count(replay.get());
+    const auto reader = openRecording(mapping);
+    const uint32_t count = reader->frameCount();
     ProgressBar bar("peers map ");
     for (uint32_t i = 0; i < count; ++i) {
       FrameCase frame;
-      if (readFrame(replay.get(), i, &frame))
+      if (readFrame(reader.get(), i, &frame))
         peers_->addMappingFrame(frame.image, frame.truth_camera_from_world.inverse());
       bar.show(i + 1, count);
     }
   }
 
   // False when the frame cannot be read or has no pose.
-  static bool readFrame(sphc_replay *replay, uint32_t index, FrameCase *frame) {
-    sphc_rigid world_from_camera;
-    if (sphc_replay_pose(replay, index, &world_from_camera) != SPHC_OK) return false;
-    if (sphc_replay_read_frame(replay, index, &frame->image, nullptr) != SPHC_OK) return false;
+  static bool readFrame(RecordingReader *reader, uint32_t index, FrameCase *frame) {
+    const std::optional<sphc_rigid> world_from_camera = reader->worldFromCamera(index);
+    const std::optional<sphc_frame> image = world_from_camera ? reader->tryRead(index) : std::nullopt;
+    if (!image) return false;
+    frame->image = *image;
     frame->index = index;
-    frame->truth_camera_from_world = rigidFromDoor(world_from_camera).inverse();
+    frame->truth_camera_from_world = rigidFromDoor(*world_from_camera).inverse();
     return true;
   }
 
@@ -119,12 +120,12 @@ class FrameCommand {
   FrameTable measureMap(const std::string &path) {
     const OwnedMap map = openOwnedMap(path);
     const std::vector<FrameVariant> variants = variantsFor(map);
-    sphc_replay *replay = replay_.get();
-    PlayedOdometry odometry(replay);
-    const FrameBenchInput input = {sphc_replay_frame_count(replay), options_.repeats,
-                                   [replay, &odometry](uint32_t i, FrameCase *frame) {
+    RecordingReader *reader = reader_.get();
+    PlayedOdometry odometry(reader);
+    const FrameBenchInput input = {reader->frameCount(), options_.repeats,
+                                   [reader, &odometry](uint32_t i, FrameCase *frame) {
                                      frame->odometry = odometry.at(i);
-                                     return readFrame(replay, i, frame);
+                                     return readFrame(reader, i, frame);
                                    }};
     ProgressBar bar("measuring ");
     FrameTable table = {
@@ -140,7 +141,7 @@ class FrameCommand {
 
   const Options &options_;
   const Console &console_;
-  Replay replay_;
+  std::unique_ptr<RecordingReader> reader_;
   sphc_config config_;
   std::unique_ptr<FramePeers> peers_;
 };

@@ -27,11 +27,10 @@ struct DepthFrames {
   std::vector<std::vector<uint16_t>> frames;
 };
 
-DepthFrames readDepth(sphc_replay *replay) {
+DepthFrames readDepth(RecordingReader *reader) {
   DepthFrames depth;
-  for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {
-    sphc_frame frame;
-    orThrow("frame", [&](sphc_message *message) { return sphc_replay_read_frame(replay, i, &frame, message); });
+  for (uint32_t i = 0; i < reader->frameCount(); ++i) {
+    const sphc_frame frame = reader->read(i);
     const auto *pixels = static_cast<const uint16_t *>(frame.depth.data);
     depth.width = frame.depth.width;
     depth.height = frame.depth.height;
@@ -63,15 +62,15 @@ int run(const Options &options, const Console &console) {
     chosen.folder = options.recordings[i];
     chosen.calibration = options.calibrations.empty() ? "" : options.calibrations[i];
     chosen.step = options.step;
-    const Replay replay = openRecording(chosen);
-    const DepthFrames depth = readDepth(replay.get());
+    const auto reader = openRecording(chosen);
+    const DepthFrames depth = readDepth(reader.get());
     {
       ProgressBar bar("measuring ");
       tables.push_back(runCodecBench(nameOf(chosen.folder), depth.width, depth.height, depth.frames,
                                      options.repeats,
                                      [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }));
     }
-    const RecorderCost cost = measureRecorder(replay.get(), options.folder);
+    const RecorderCost cost = measureRecorder(reader.get(), options.folder);
     console.say("\n" + codecText(tables.back()) + costText(cost));
     costs.push_back({{"recording", tables.back().name},
                      {"depth_cpu_percent", cost.depth_cpu_percent},

@@ -79,8 +79,8 @@ CompareInput recordCompareInput(const CompareRecordingOptions &options) {
     map.push_back(model.points[i].descriptor);
     input.place_of_id[i] = i;
   }
-  const Replay replay = openRecording(options.queries);
-  const std::vector<DescribedFrame> frames = describeFrames(replay.get());
+  const auto reader = openRecording(options.queries);
+  const std::vector<DescribedFrame> frames = describeFrames(reader.get());
   ProgressBar bar("matching  ");
   for (uint32_t i = 0; i < frames.size(); ++i) {
     input.true_points.queries.push_back(matchedQuery(frames[i], map, input.points_m, centre_m));

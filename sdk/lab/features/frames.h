@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "drivers/replay/replay.h"
+#include "host/recording/recording_reader.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/types/image_view.h"
@@ -26,6 +26,6 @@ struct GrayRecording {
 };
 
 // All chosen frames.  Throws std::runtime_error with cause and cure when one cannot be read.
-GrayRecording readGray(sphc_replay *replay);
+GrayRecording readGray(recording::RecordingReader *reader);
 
 }  // namespace sphc::host

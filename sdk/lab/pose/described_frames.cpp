@@ -61,19 +61,16 @@ class Describer {
 
 }  // namespace
 
-std::vector<DescribedFrame> describeFrames(sphc_replay *replay) {
-  Describer describer(calibrationOf(replay));
+std::vector<DescribedFrame> describeFrames(recording::RecordingReader *reader) {
+  Describer describer(reader->calibration());
   std::vector<DescribedFrame> frames;
-  for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {
-    sphc_rigid pose;
-    sphc_frame frame;
-    sphc_message message;
-    if (sphc_replay_pose(replay, i, &pose) != SPHC_OK) continue;
-    if (sphc_replay_read_frame(replay, i, &frame, &message) != SPHC_OK)
-      throw std::runtime_error("frame " + std::to_string(i) + " cannot be read: " + message.text);
+  for (uint32_t i = 0; i < reader->frameCount(); ++i) {
+    const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
+    if (!pose) continue;
+    const sphc_frame frame = reader->read(i);
     frames.push_back(describer.describe(frame));
     frames.back().name = std::to_string(frame.sequence);
-    frames.back().camera_from_world = rigidFromDoor(pose).inverse();
+    frames.back().camera_from_world = rigidFromDoor(*pose).inverse();
   }
   if (frames.empty())
     throw std::runtime_error("no frame to localize has a pose; without the truth nothing can be compared");

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/replay/replay.h"
+#include "host/recording/recording_reader.h"
 #include "lab/pose/file.h"
 #include "runtime/types/keypoint.h"
 
@@ -21,6 +21,6 @@ struct DescribedFrame {
 
 // All chosen frames that have a pose, by the library's own extractor (1000 keypoints) and aligner.  Throws
 // std::runtime_error with cause and cure when there is none.
-std::vector<DescribedFrame> describeFrames(sphc_replay *replay);
+std::vector<DescribedFrame> describeFrames(recording::RecordingReader *reader);
 
 }  // namespace sphc::host

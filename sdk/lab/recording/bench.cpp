@@ -70,21 +70,20 @@ void orFail(sphc_status status, const sphc_message &message) {
 }
 
 // Processor seconds a frame, without reading it.
-double record(sphc_replay *replay, const std::string &file, bool with_color) {
-  const sphc_calibration calibration = calibrationOf(replay);
+double record(RecordingReader *reader, const std::string &file, bool with_color) {
+  const sphc_calibration calibration = reader->calibration();
   sphc_recorder_config config;
   sphc_recorder_config_init(&config, sizeof config);
   config.wait_us = 60000000;
   sphc_message message = {};
   sphc_recorder *recorder = nullptr;
   orFail(sphc_recorder_open(file.c_str(), &calibration, &config, &recorder, &message), message);
-  const uint32_t count = sphc_replay_frame_count(replay);
+  const uint32_t count = reader->frameCount();
   double reading_s = 0;
   const double start = processCpuSeconds();
   for (uint32_t i = 0; i < count; ++i) {
-    sphc_frame frame;
     const double before = threadCpuSeconds();
-    orFail(sphc_replay_read_frame(replay, i, &frame, &message), message);
+    const sphc_frame frame = reader->read(i);
     reading_s += threadCpuSeconds() - before;
     const sphc_capture color = captureOf(frame, SPHC_STREAM_COLOR, i);
     const sphc_capture depth = captureOf(frame, SPHC_STREAM_DEPTH, i);
@@ -119,15 +118,15 @@ CodecTable runCodecBench(const std::string &name, uint32_t width, uint32_t heigh
   return table;
 }
 
-RecorderCost measureRecorder(sphc_replay *replay, const std::string &folder) {
+RecorderCost measureRecorder(recording::RecordingReader *reader, const std::string &folder) {
   constexpr double kRateHz = 30;
   const std::string file = folder + "/recorder_cost.mcap";
-  const double depth_s = record(replay, file, false);
+  const double depth_s = record(reader, file, false);
   std::filesystem::remove(file);
-  const double both_s = record(replay, file, true);
+  const double both_s = record(reader, file, true);
   const auto file_bytes = static_cast<double>(std::filesystem::file_size(file));
   std::filesystem::remove(file);
-  const double count = sphc_replay_frame_count(replay);
+  const double count = reader->frameCount();
   return {100 * kRateHz * depth_s, 100 * kRateHz * both_s, kRateHz * file_bytes / count};
 }
 

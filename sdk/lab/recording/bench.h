@@ -3,8 +3,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "drivers/replay/replay.h"
 #include "host/recording/recorder.h"
+#include "host/recording/recording_reader.h"
 #include "lab/recording/codec.h"
 
 namespace sphc::host {
@@ -34,8 +34,8 @@ struct RecorderCost {
   double both_cpu_percent = 0;   // likewise, colour (raw) and depth
   double bytes_per_second = 0;   // of the file, both at 30 Hz
 };
-// Records the replay's frames into `folder` and removes the files again; processor time of all threads.
-RecorderCost measureRecorder(sphc_replay *replay, const std::string &folder);
+// Records the recording's frames into `folder` and removes the files again; processor time of all threads.
+RecorderCost measureRecorder(recording::RecordingReader *reader, const std::string &folder);
 
 std::string codecText(const CodecTable &table);
 // No times, which are of one machine, but ratios.

@@ -13,8 +13,8 @@
 namespace sphc::host {
 namespace {
 
-using replay::DepthZstdDecoder;
-using replay::DepthZstdEncoder;
+using recording::DepthZstdDecoder;
+using recording::DepthZstdEncoder;
 
 DepthCodec ours(size_t pixels) {
   const auto encoder = std::make_shared<DepthZstdEncoder>(pixels);
@@ -25,18 +25,18 @@ DepthCodec ours(size_t pixels) {
             encoded->resize(encoder->encode(depth.data(), depth.size(), encoded->data(), encoded->size()));
           },
           [decoder](const EncodedDepth &encoded, std::vector<uint16_t> *depth) {
-            return decoder->decode(replay::viewOf(encoded), depth->data(), depth->size());
+            return decoder->decode(recording::viewOf(encoded), depth->data(), depth->size());
           }};
 }
 
 DepthCodec rvl() {
   return {"rvl",
           [](const std::vector<uint16_t> &depth, EncodedDepth *encoded) {
-            encoded->resize(replay::rvlMostBytes(depth.size()));
-            encoded->resize(replay::encodeRvl(depth.data(), depth.size(), encoded->data()));
+            encoded->resize(recording::rvlMostBytes(depth.size()));
+            encoded->resize(recording::encodeRvl(depth.data(), depth.size(), encoded->data()));
           },
           [](const EncodedDepth &encoded, std::vector<uint16_t> *depth) {
-            return replay::decodeRvl(replay::viewOf(encoded), depth->data(), depth->size());
+            return recording::decodeRvl(recording::viewOf(encoded), depth->data(), depth->size());
           }};
 }
 

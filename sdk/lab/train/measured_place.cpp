@@ -43,8 +43,8 @@ Description parse(const std::string &text) {
 // Frames whose axes are far enough from each other.
 class FrameReader {
  public:
-  FrameReader(sphc_replay *replay, const Camera &camera, const PointModel &model)
-      : replay_(replay),
+  FrameReader(RecordingReader *reader, const Camera &camera, const PointModel &model)
+      : reader_(reader),
         camera_(camera),
         features_(camera.width(), camera.height(), RgbdImportOptions().max_keypoints) {
     for (const ModelPoint &point : model.points) {
@@ -55,16 +55,15 @@ class FrameReader {
 
   void read(MeasuredPlace *place) {
     std::vector<Vector3> axes;
-    for (uint32_t i = 0; i < sphc_replay_frame_count(replay_); ++i) {
-      sphc_rigid pose;
-      sphc_frame frame;
-      sphc_message message;
-      if (sphc_replay_pose(replay_, i, &pose) != SPHC_OK) continue;
-      const Rigid world_from_camera = rigidFromDoor(pose);
+    for (uint32_t i = 0; i < reader_->frameCount(); ++i) {
+      const std::optional<sphc_rigid> pose = reader_->worldFromCamera(i);
+      if (!pose) continue;
+      const Rigid world_from_camera = rigidFromDoor(*pose);
       const Vector3 axis = world_from_camera.rotation.col(2);
-      if (!farFrom(axis, axes) || sphc_replay_read_frame(replay_, i, &frame, &message) != SPHC_OK) continue;
+      const std::optional<sphc_frame> frame = farFrom(axis, axes) ? reader_->tryRead(i) : std::nullopt;
+      if (!frame) continue;
       axes.push_back(axis);
-      const GrayView grey = grayOf(frame.color, &grey_);
+      const GrayView grey = grayOf(frame->color, &grey_);
       place->frame_truths.push_back(frameView(cv::Mat(grey.height, grey.width, CV_8U, grey_.data()), camera_));
       place->own_keypoints.push_back(ownKeypoints(grey));
       place->unprotected.push_back(see(positions_, descriptors_, {}, world_from_camera.inverse()));
@@ -91,7 +90,7 @@ class FrameReader {
     return see(rays, descriptors, {}, {});
   }
 
-  sphc_replay *replay_;
+  RecordingReader *reader_;
   Camera camera_;
   FrameFeatures features_;
   std::vector<uint8_t> grey_;
@@ -103,16 +102,16 @@ class FrameReader {
 
 MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
   const Description described = parse(description);
-  const Replay replay = openRecording(described.recording);
+  const auto reader = openRecording(described.recording);
   RgbdImportSummary summary;
-  const PointModel model = importRgbd(replay.get(), {}, {}, &summary);
+  const PointModel model = importRgbd(reader.get(), {}, {}, &summary);
   MeasuredPlace place;
   place.name = described.name;
   const Vector3 centre_m = centreOf(model.points);
   for (const ModelPoint &point : model.points) place.points.push_back(seenFrom(centre_m, point));
   shuffle(&place.points, random);
-  place.centre_views = viewsFromCentre(replay.get(), centre_m);
-  FrameReader(replay.get(), Camera(calibrationOf(replay.get()).color_camera), model).read(&place);
+  place.centre_views = viewsFromCentre(reader.get(), centre_m);
+  FrameReader(reader.get(), Camera(reader->calibration().color_camera), model).read(&place);
   return place;
 }
 

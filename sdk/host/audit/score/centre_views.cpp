@@ -82,32 +82,31 @@ Matrix3 turned(double yaw_deg, double pitch_deg) {
 
 }  // namespace
 
-Panorama panoramaFrom(sphc_replay *replay, const Vector3 &centre_m) {
-  const FramePainter painter(calibrationOf(replay), centre_m);
+Panorama panoramaFrom(recording::RecordingReader *reader, const Vector3 &centre_m) {
+  const FramePainter painter(reader->calibration(), centre_m);
   Panorama panorama;
   uint32_t painted = 0;
-  for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {
-    sphc_rigid pose;
-    sphc_frame frame;
-    sphc_message message;
-    if (sphc_replay_pose(replay, i, &pose) != SPHC_OK) continue;
-    if (sphc_replay_read_frame(replay, i, &frame, &message) != SPHC_OK) continue;
-    painter.paint(frame, rigidFromDoor(pose), &panorama);
+  for (uint32_t i = 0; i < reader->frameCount(); ++i) {
+    const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
+    if (!pose) continue;
+    const std::optional<sphc_frame> frame = reader->tryRead(i);
+    if (!frame) continue;
+    painter.paint(*frame, rigidFromDoor(*pose), &panorama);
     ++painted;
   }
   if (!painted) throw std::runtime_error("no frame of the recording has images and a pose; the truth needs both");
   return panorama;
 }
 
-std::vector<Matrix3> choosePoses(sphc_replay *replay, const Panorama &panorama, double apart_deg,
+std::vector<Matrix3> choosePoses(recording::RecordingReader *reader, const Panorama &panorama, double apart_deg,
                                  double seen_share) {
   const double apart = std::cos(apart_deg * kPi / 180);
   std::vector<Matrix3> chosen;
   for (const auto &aside : kAsideDeg) {
-    for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {
-      sphc_rigid pose;
-      if (sphc_replay_pose(replay, i, &pose) != SPHC_OK) continue;
-      const Matrix3 camera_from_map = turned(aside[0], aside[1]) * rigidFromDoor(pose).rotation.transpose();
+    for (uint32_t i = 0; i < reader->frameCount(); ++i) {
+      const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
+      if (!pose) continue;
+      const Matrix3 camera_from_map = turned(aside[0], aside[1]) * rigidFromDoor(*pose).rotation.transpose();
       const Vector3 axis = camera_from_map.row(2);
       bool is_near = false;
       for (const Matrix3 &other : chosen) is_near = is_near || axis.dot(Vector3(other.row(2))) > apart;
@@ -117,10 +116,10 @@ std::vector<Matrix3> choosePoses(sphc_replay *replay, const Panorama &panorama, 
   return chosen;
 }
 
-std::vector<InversionView> viewsFromCentre(sphc_replay *replay, const Vector3 &centre_m) {
-  const Panorama panorama = panoramaFrom(replay, centre_m);
+std::vector<InversionView> viewsFromCentre(recording::RecordingReader *reader, const Vector3 &centre_m) {
+  const Panorama panorama = panoramaFrom(reader, centre_m);
   std::vector<InversionView> views;
-  for (const Matrix3 &rotation : choosePoses(replay, panorama, kApartDeg, kSeenShare))
+  for (const Matrix3 &rotation : choosePoses(reader, panorama, kApartDeg, kSeenShare))
     views.push_back({rotation, panorama.view(rotation)});
   return views;
 }

@@ -2,20 +2,20 @@
 #pragma once
 #include <vector>
 
-#include "drivers/replay/replay.h"
 #include "host/audit/score/panorama.h"
+#include "host/recording/recording_reader.h"
 
 namespace sphc::host {
 
 // All frames with a pose.  Throws std::runtime_error, with cause and cure, where there are none.
-Panorama panoramaFrom(sphc_replay *replay, const Vector3 &centre_m);
+Panorama panoramaFrom(recording::RecordingReader *reader, const Vector3 &centre_m);
 
 // Rotations to look in, camera_from_map: upright like the recording's frames, axes at least `apart_deg` from each
 // other, and enough of the view known.
-std::vector<Matrix3> choosePoses(sphc_replay *replay, const Panorama &panorama, double apart_deg,
+std::vector<Matrix3> choosePoses(recording::RecordingReader *reader, const Panorama &panorama, double apart_deg,
                                  double seen_share);
 
 // Both: the views that are inverted.
-std::vector<InversionView> viewsFromCentre(sphc_replay *replay, const Vector3 &centre_m);
+std::vector<InversionView> viewsFromCentre(recording::RecordingReader *reader, const Vector3 &centre_m);
 
 }  // namespace sphc::host

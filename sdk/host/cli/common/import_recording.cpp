@@ -8,15 +8,15 @@
 namespace sphc::host {
 
 PointModel importRecording(const RecordingOptions &recording, const char *what) {
-  const Replay replay = openRecording(recording);
+  const auto reader = openRecording(recording);
   ProgressBar bar(what);
   RgbdImportSummary summary;
   return importRgbd(
-      replay.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+      reader.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
 }
 
 std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what) {
-  const uint32_t available = sphc_replay_frame_count(openRecording(recording).get());
+  const uint32_t available = openRecording(recording)->frameCount();
   std::vector<PointModel> models;
   ProgressBar bar(what);
   for (uint32_t k = 0; k < count && k < available; ++k) {

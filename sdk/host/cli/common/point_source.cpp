@@ -94,12 +94,12 @@ ImportedPoints fromColmap(const PointSource &source) {
 }
 
 ImportedPoints fromRecording(const PointSource &source) {
-  const Replay replay = openRecording(source.recording);
+  const auto reader = openRecording(source.recording);
   ProgressBar bar("mapping   ");
   ImportedPoints imported;
   RgbdImportSummary summary;
   imported.model = importRgbd(
-      replay.get(), source.import, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+      reader.get(), source.import, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
   imported.told = "Mapped " + std::to_string(summary.frames_used) + " frames (" +
                   describeSelection(source.recording) + "): " + std::to_string(summary.points_kept) +
                   " points kept, " + std::to_string(summary.points_dropped) + " dropped.";

@@ -1,7 +1,7 @@
 #include "host/cli/common/recording_out.h"
 
 #include "host/base/checked_call.h"
-#include "host/recording/recording_writer.h"
+#include "host/recording/writer_tum.h"
 
 namespace sphc::host {
 namespace {
@@ -13,7 +13,7 @@ class FileOut : public RecordingOut {
       return sphc_recorder_open(path.c_str(), &calibration, &config, &recorder_, message);
     });
   }
-  ~FileOut() override { sphc_recorder_close(&recorder_, nullptr); }
+  ~FileOut() override { sphc_recorder_abandon(&recorder_); }
 
   void add(const sphc_capture &capture) override {
     notDropped(orThrow("cannot record an image",
@@ -38,26 +38,16 @@ class FileOut : public RecordingOut {
 
 class FolderOut : public RecordingOut {
  public:
-  FolderOut(const std::string &path, const sphc_calibration &calibration) {
-    orThrow("cannot start the recording in " + path, [&](sphc_message *message) {
-      return sphc_recording_create(path.c_str(), &calibration, &writer_, message);
-    });
-  }
-  ~FolderOut() override { sphc_recording_close(&writer_); }
+  FolderOut(const std::string &path, const sphc_calibration &calibration) : writer_(path, calibration) {}
 
-  void add(const sphc_capture &capture) override {
-    orThrow("cannot write an image",
-            [&](sphc_message *message) { return sphc_recording_add(writer_, &capture, message); });
-  }
+  void add(const sphc_capture &capture) override { writer_.add(capture.stream, capture.time_ns, capture.image); }
   void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) override {
-    orThrow("cannot write a pose", [&](sphc_message *message) {
-      return sphc_recording_add_pose(writer_, time_ns, &world_from_camera, message);
-    });
+    writer_.addPose(time_ns, world_from_camera);
   }
-  void close() override { sphc_recording_close(&writer_); }
+  void close() override { writer_.finish(); }
 
  private:
-  sphc_recording_writer *writer_ = nullptr;
+  recording::TumWriter writer_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 using Bytes = std::vector<uint8_t>;
 
@@ -75,4 +75,4 @@ class ByteReader {
   bool ok_ = true;
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -3,7 +3,7 @@
 
 #include "bytes.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class CdrWriter {
  public:
@@ -72,4 +72,4 @@ class CdrReader {
   bool little_;
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

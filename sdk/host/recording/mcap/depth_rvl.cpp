@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -135,4 +135,4 @@ bool decodeRvl(ByteView encoded, uint16_t *depth, size_t count) {
   return true;
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -4,7 +4,7 @@
 
 #include "bytes.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 // Room that always suffices.
 constexpr size_t rvlMostBytes(size_t pixels) { return 3 * pixels + 16; }
@@ -15,4 +15,4 @@ size_t encodeRvl(const uint16_t *depth, size_t count, uint8_t *out);
 // Fills exactly `count` pixels; false when the bytes are too few or say something else.
 bool decodeRvl(ByteView encoded, uint16_t *depth, size_t count);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

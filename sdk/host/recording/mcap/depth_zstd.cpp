@@ -2,7 +2,7 @@
 
 #include <new>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -64,4 +64,4 @@ bool DepthZstdDecoder::decode(ByteView encoded, uint16_t *depth, size_t count) {
   return true;
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

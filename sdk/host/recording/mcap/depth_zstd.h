@@ -8,7 +8,7 @@
 
 #include "bytes.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class DepthZstdEncoder {
  public:
@@ -40,4 +40,4 @@ class DepthZstdDecoder {
   Bytes planes_;  // grows to the largest image
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

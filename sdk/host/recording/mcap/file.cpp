@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "host/recording/failure.h"
+#include "host/recording/file_reader.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -23,9 +24,12 @@ namespace {
 
 }  // namespace
 
-File::File(const std::filesystem::path &path)
-    : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), name_(shortPath(path.string())) {
-  if (descriptor_ < 0) fail(name_, "cannot be opened", "is it there, and readable?");
+File::File(const std::filesystem::path &path) : descriptor_(-1), name_(shortPath(path.string())) {
+  try {
+    descriptor_ = openRegularFile(path);
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), name_ + ": " + failure.what());
+  }
 }
 
 File File::create(const std::filesystem::path &path) {
@@ -71,6 +75,11 @@ void File::write(ByteView part) {
   }
 }
 
+void File::writeAt(uint64_t offset, ByteView part) {
+  const ssize_t done = ::pwrite(descriptor_, part.data, part.size, static_cast<off_t>(offset));
+  if (done != static_cast<ssize_t>(part.size)) fail(name_, "cannot be written", "make room on the disk");
+}
+
 void File::append(std::initializer_list<ByteView> parts) {
   const uint64_t before = size();
   try {
@@ -110,4 +119,4 @@ ByteView FileWindow::at(uint64_t offset, size_t size) {
   return {window_.data() + (offset - start_), size};
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

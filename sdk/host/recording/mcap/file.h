@@ -7,7 +7,7 @@
 
 #include "bytes.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class File {
  public:
@@ -26,6 +26,8 @@ class File {
   void read(uint64_t offset, uint8_t *out, size_t size) const;
   // Appends all of these bytes; when that fails, the file is as long as it was.
   void append(std::initializer_list<ByteView> parts);
+  // Over bytes that are there.
+  void writeAt(uint64_t offset, ByteView part);
   // What was written survives a power cut from now on.
   void sync();
   // Likewise that a new file is in its folder.
@@ -58,4 +60,4 @@ class FileWindow {
   std::array<uint8_t, kMostBytes> window_ = {};
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

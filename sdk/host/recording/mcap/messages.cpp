@@ -7,7 +7,7 @@
 #include "cdr.h"
 #include "records.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -256,4 +256,4 @@ void putZstdHead(uint8_t *out, uint32_t width, uint32_t height) {
   storeLittle(out + 4, height);
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -5,7 +5,7 @@
 
 #include "bytes.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 // A channel's number in a file that we write is that of its kind.
 enum class Kind : uint16_t {
@@ -85,4 +85,4 @@ constexpr size_t kZstdHeadBytes = 8;  // width, height
 void putRvlHead(uint8_t *out, uint32_t width, uint32_t height);
 void putZstdHead(uint8_t *out, uint32_t width, uint32_t height);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

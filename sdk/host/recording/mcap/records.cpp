@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -20,16 +20,6 @@ void putMap(Bytes &out, const TextMap &map) {
 
 }  // namespace
 
-Record::Record(Bytes &out, Op op) : out_(out), start_(out.size()) {
-  out_.push_back(static_cast<uint8_t>(op));
-  putLittle(out_, uint64_t{0});
-}
-
-Record::~Record() {
-  const uint64_t length = out_.size() - start_ - kRecordHeadBytes;
-  storeLittle(out_.data() + start_ + 1, length);
-}
-
 void putText(Bytes &out, std::string_view text) {
   putLittle(out, static_cast<uint32_t>(text.size()));
   append(out, text.data(), text.size());
@@ -41,59 +31,66 @@ std::string_view takeText(ByteReader &reader) {
 }
 
 void putHeader(Bytes &out, std::string_view profile, std::string_view library) {
-  const Record record(out, Op::kHeader);
-  putText(out, profile);
-  putText(out, library);
+  putRecord(out, Op::kHeader, [&] {
+    putText(out, profile);
+    putText(out, library);
+  });
 }
 
 void putSchema(Bytes &out, uint16_t id, std::string_view name, std::string_view encoding, std::string_view text) {
-  const Record record(out, Op::kSchema);
-  putLittle(out, id);
-  putText(out, name);
-  putText(out, encoding);
-  putText(out, text);
+  putRecord(out, Op::kSchema, [&] {
+    putLittle(out, id);
+    putText(out, name);
+    putText(out, encoding);
+    putText(out, text);
+  });
 }
 
 void putChannel(Bytes &out, uint16_t id, uint16_t schema, std::string_view topic, std::string_view encoding,
                 const TextMap &metadata) {
-  const Record record(out, Op::kChannel);
-  putLittle(out, id);
-  putLittle(out, schema);
-  putText(out, topic);
-  putText(out, encoding);
-  putMap(out, metadata);
+  putRecord(out, Op::kChannel, [&] {
+    putLittle(out, id);
+    putLittle(out, schema);
+    putText(out, topic);
+    putText(out, encoding);
+    putMap(out, metadata);
+  });
 }
 
 void putMessage(Bytes &out, uint16_t channel, uint32_t sequence, uint64_t time_ns, ByteView data) {
-  const Record record(out, Op::kMessage);
-  putLittle(out, channel);
-  putLittle(out, sequence);
-  putLittle(out, time_ns);
-  putLittle(out, time_ns);
-  append(out, data.data, data.size);
+  putRecord(out, Op::kMessage, [&] {
+    putLittle(out, channel);
+    putLittle(out, sequence);
+    putLittle(out, time_ns);
+    putLittle(out, time_ns);
+    append(out, data.data, data.size);
+  });
 }
 
 void putAttachment(Bytes &out, std::string_view name, std::string_view media_type, ByteView data) {
-  const Record record(out, Op::kAttachment);
-  const size_t start = out.size();
-  putLittle(out, uint64_t{0});
-  putLittle(out, uint64_t{0});
-  putText(out, name);
-  putText(out, media_type);
-  putLittle(out, uint64_t{data.size});
-  append(out, data.data, data.size);
-  putLittle(out, crcOf(out.data() + start, out.size() - start));
+  putRecord(out, Op::kAttachment, [&] {
+    const size_t start = out.size();
+    putLittle(out, uint64_t{0});
+    putLittle(out, uint64_t{0});
+    putText(out, name);
+    putText(out, media_type);
+    putLittle(out, uint64_t{data.size});
+    append(out, data.data, data.size);
+    putLittle(out, crcOf(out.data() + start, out.size() - start));
+  });
 }
 
 void putMetadata(Bytes &out, std::string_view name, const TextMap &metadata) {
-  const Record record(out, Op::kMetadata);
-  putText(out, name);
-  putMap(out, metadata);
+  putRecord(out, Op::kMetadata, [&] {
+    putText(out, name);
+    putMap(out, metadata);
+  });
 }
 
 void putDataEnd(Bytes &out) {
-  const Record record(out, Op::kDataEnd);
-  putLittle(out, uint32_t{0});  // no checksum of all: every chunk has its own
+  putRecord(out, Op::kDataEnd, [&] {
+    putLittle(out, uint32_t{0});  // no checksum of all: every chunk has its own
+  });
 }
 
 bool readSchema(ByteView content, Schema &schema) {
@@ -153,4 +150,4 @@ bool readChunkHead(ByteView content, ChunkHead &head, size_t &head_bytes) {
   return reader.ok();
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -7,7 +7,7 @@
 
 #include "bytes.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 constexpr uint8_t kMcapMagic[8] = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 
@@ -33,18 +33,15 @@ constexpr size_t kRecordHeadBytes = 9;    // operation, length
 constexpr size_t kMessageHeadBytes = 22;  // channel, sequence, log time, publish time
 constexpr size_t kChunkHeadBytes = 40;    // up to the records, when they are not compressed
 
-// Appends one record; its length is filled in when the object goes.
-class Record {
- public:
-  Record(Bytes &out, Op op);
-  ~Record();
-  Record(const Record &) = delete;
-  Record &operator=(const Record &) = delete;
-
- private:
-  Bytes &out_;
-  size_t start_;
-};
+// Appends one record: its head, what `put_content` appends, and then the length into its head.
+template <typename PutContent>
+void putRecord(Bytes &out, Op op, PutContent &&put_content) {
+  const size_t start = out.size();
+  out.push_back(static_cast<uint8_t>(op));
+  putLittle(out, uint64_t{0});
+  put_content();
+  storeLittle(out.data() + start + 1, uint64_t{out.size() - start - kRecordHeadBytes});
+}
 
 void putText(Bytes &out, std::string_view text);
 // Gives a view into what is read.
@@ -96,4 +93,4 @@ void putChunkHead(Bytes &out, const ChunkHead &head);
 // The content up to the records; head_bytes says how long that was.
 bool readChunkHead(ByteView content, ChunkHead &head, size_t &head_bytes);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -7,7 +7,7 @@
 
 #include "walk.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 
@@ -18,9 +18,9 @@ class SummaryWriter {
   void write();
 
  private:
-  void look(const RecordPlace &record);
-  void lookAtChunk(const RecordPlace &record);
-  void lookAtMessageIndex(const RecordPlace &record);
+  void add(const RecordPlace &record);
+  void addChunk(const RecordPlace &record);
+  void addMessageIndex(const RecordPlace &record);
   void endChunkIndex();
   void copy(const RecordPlace &record, Bytes &group);
   void putAttachmentIndex(const RecordPlace &record);
@@ -62,7 +62,7 @@ void SummaryWriter::copy(const RecordPlace &record, Bytes &group) {
   file_.read(record.start, group.data() + before, group.size() - before);
 }
 
-void SummaryWriter::lookAtChunk(const RecordPlace &record) {
+void SummaryWriter::addChunk(const RecordPlace &record) {
   endChunkIndex();
   ChunkPlace place;
   if (!readChunk(window_, record, head_, place)) return;
@@ -75,7 +75,7 @@ void SummaryWriter::lookAtChunk(const RecordPlace &record) {
   last_ns_ = std::max(last_ns_, head_.last_ns);
 }
 
-void SummaryWriter::lookAtMessageIndex(const RecordPlace &record) {
+void SummaryWriter::addMessageIndex(const RecordPlace &record) {
   if (record.bytes < 6) return;
   const ByteView content = window_.at(record.content, 6);
   const uint16_t channel = loadLittle<uint16_t>(content.data);
@@ -86,8 +86,7 @@ void SummaryWriter::lookAtMessageIndex(const RecordPlace &record) {
 
 void SummaryWriter::endChunkIndex() {
   if (chunk_.bytes == 0) return;
-  {
-    const Record record(pending_, Op::kChunkIndex);
+  putRecord(pending_, Op::kChunkIndex, [&] {
     putLittle(pending_, head_.first_ns);
     putLittle(pending_, head_.last_ns);
     putLittle(pending_, chunk_.start);
@@ -101,7 +100,7 @@ void SummaryWriter::endChunkIndex() {
     putText(pending_, "");
     putLittle(pending_, chunk_bytes_);
     putLittle(pending_, head_.uncompressed_bytes);
-  }
+  });
   if (pending_.size() > kFlushBytes) flush();
   index_offsets_.clear();
   chunk_ = {};
@@ -113,14 +112,15 @@ void SummaryWriter::putAttachmentIndex(const RecordPlace &record) {
   Attachment attachment;
   if (!readAttachment({content.data() + kRecordHeadBytes, content.size() - kRecordHeadBytes}, attachment)) return;
   ++attachment_count_;
-  const Record index(attachments_, Op::kAttachmentIndex);
-  putLittle(attachments_, record.start);
-  putLittle(attachments_, record.end() - record.start);
-  putLittle(attachments_, uint64_t{0});
-  putLittle(attachments_, uint64_t{0});
-  putLittle(attachments_, uint64_t{attachment.data.size});
-  putText(attachments_, attachment.name);
-  putText(attachments_, attachment.media_type);
+  putRecord(attachments_, Op::kAttachmentIndex, [&] {
+    putLittle(attachments_, record.start);
+    putLittle(attachments_, record.end() - record.start);
+    putLittle(attachments_, uint64_t{0});
+    putLittle(attachments_, uint64_t{0});
+    putLittle(attachments_, uint64_t{attachment.data.size});
+    putText(attachments_, attachment.name);
+    putText(attachments_, attachment.media_type);
+  });
 }
 
 void SummaryWriter::putMetadataIndex(const RecordPlace &record) {
@@ -128,13 +128,14 @@ void SummaryWriter::putMetadataIndex(const RecordPlace &record) {
   copy(record, content);
   ByteReader reader({content.data() + kRecordHeadBytes, content.size() - kRecordHeadBytes});
   ++metadata_count_;
-  const Record index(metadata_, Op::kMetadataIndex);
-  putLittle(metadata_, record.start);
-  putLittle(metadata_, record.end() - record.start);
-  putText(metadata_, takeText(reader));
+  putRecord(metadata_, Op::kMetadataIndex, [&] {
+    putLittle(metadata_, record.start);
+    putLittle(metadata_, record.end() - record.start);
+    putText(metadata_, takeText(reader));
+  });
 }
 
-void SummaryWriter::look(const RecordPlace &record) {
+void SummaryWriter::add(const RecordPlace &record) {
   switch (record.op) {
     case Op::kSchema:
       ++schema_count_;
@@ -147,9 +148,9 @@ void SummaryWriter::look(const RecordPlace &record) {
     case Op::kMetadata:
       return putMetadataIndex(record);
     case Op::kChunk:
-      return lookAtChunk(record);
+      return addChunk(record);
     case Op::kMessageIndex:
-      return lookAtMessageIndex(record);
+      return addMessageIndex(record);
     default:
       return;
   }
@@ -158,20 +159,21 @@ void SummaryWriter::look(const RecordPlace &record) {
 void SummaryWriter::putStatistics(Bytes &out) const {
   uint64_t messages = 0;
   for (const auto &[channel, count] : counts_) messages += count;
-  const Record record(out, Op::kStatistics);
-  putLittle(out, messages);
-  putLittle(out, schema_count_);
-  putLittle(out, channel_count_);
-  putLittle(out, attachment_count_);
-  putLittle(out, metadata_count_);
-  putLittle(out, chunk_count_);
-  putLittle(out, messages ? first_ns_ : 0);
-  putLittle(out, last_ns_);
-  putLittle(out, static_cast<uint32_t>(10 * counts_.size()));
-  for (const auto &[channel, count] : counts_) {
-    putLittle(out, channel);
-    putLittle(out, count);
-  }
+  putRecord(out, Op::kStatistics, [&] {
+    putLittle(out, messages);
+    putLittle(out, schema_count_);
+    putLittle(out, channel_count_);
+    putLittle(out, attachment_count_);
+    putLittle(out, metadata_count_);
+    putLittle(out, chunk_count_);
+    putLittle(out, messages ? first_ns_ : 0);
+    putLittle(out, last_ns_);
+    putLittle(out, static_cast<uint32_t>(10 * counts_.size()));
+    for (const auto &[channel, count] : counts_) {
+      putLittle(out, channel);
+      putLittle(out, count);
+    }
+  });
 }
 
 void SummaryWriter::putGroup(Op op, const Bytes &group) {
@@ -183,14 +185,15 @@ void SummaryWriter::putGroup(Op op, const Bytes &group) {
 void SummaryWriter::endGroup(Op op, uint64_t start) {
   flush();
   if (file_.size() == start) return;
-  const Record record(offsets_, Op::kSummaryOffset);
-  offsets_.push_back(static_cast<uint8_t>(op));
-  putLittle(offsets_, start);
-  putLittle(offsets_, file_.size() - start);
+  putRecord(offsets_, Op::kSummaryOffset, [&] {
+    offsets_.push_back(static_cast<uint8_t>(op));
+    putLittle(offsets_, start);
+    putLittle(offsets_, file_.size() - start);
+  });
 }
 
 void SummaryWriter::write() {
-  walkRecords(window_, sizeof kMcapMagic, start_, [this](const RecordPlace &record) { look(record); });
+  walkRecords(window_, sizeof kMcapMagic, start_, [this](const RecordPlace &record) { add(record); });
   endChunkIndex();
   endGroup(Op::kChunkIndex, start_);
   Bytes statistics;
@@ -216,4 +219,4 @@ void SummaryWriter::write() {
 
 void writeSummary(File &file) { SummaryWriter(file).write(); }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

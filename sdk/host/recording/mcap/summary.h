@@ -3,10 +3,10 @@
 
 #include "file.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 // Appends summary, footer and magic to a file that ends with its data section.  Learns all from the file itself, so
 // that recording needs no memory that grows.  Throws Failure.
 void writeSummary(File &file);
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
@@ -35,4 +35,4 @@ const uint8_t *ChunkReader::load(const ChunkPlace &place) {
   return bytes_.data();
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

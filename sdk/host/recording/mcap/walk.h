@@ -4,7 +4,7 @@
 #include "file.h"
 #include "records.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 struct RecordPlace {
   Op op;
@@ -61,4 +61,4 @@ class ChunkReader {
   uint64_t loaded_ = 0;
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

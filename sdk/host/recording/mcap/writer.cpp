@@ -7,7 +7,7 @@
 
 #include "summary.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 namespace {
 constexpr size_t kMostMessages = 4096;  // in a chunk
@@ -51,14 +51,15 @@ void McapWriter::putMessageIndexes() {
     const auto count = std::count_if(entries_.begin(), entries_.end(),
                                      [channel](const Entry &entry) { return entry.channel == channel; });
     if (count == 0) continue;
-    const Record record(index_, Op::kMessageIndex);
-    putLittle(index_, channel);
-    putLittle(index_, static_cast<uint32_t>(count * static_cast<ptrdiff_t>(kIndexEntryBytes)));
-    for (const Entry &entry : entries_) {
-      if (entry.channel != channel) continue;
-      putLittle(index_, entry.time_ns);
-      putLittle(index_, entry.offset);
-    }
+    putRecord(index_, Op::kMessageIndex, [&] {
+      putLittle(index_, channel);
+      putLittle(index_, static_cast<uint32_t>(count * static_cast<ptrdiff_t>(kIndexEntryBytes)));
+      for (const Entry &entry : entries_) {
+        if (entry.channel != channel) continue;
+        putLittle(index_, entry.time_ns);
+        putLittle(index_, entry.offset);
+      }
+    });
   }
 }
 
@@ -92,4 +93,4 @@ void McapWriter::finish(const Bytes &records) {
   }
 }
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

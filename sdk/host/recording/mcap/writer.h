@@ -5,7 +5,7 @@
 #include "messages.h"
 #include "records.h"
 
-namespace sphc::replay {
+namespace sphc::recording {
 
 class McapWriter {
  public:
@@ -40,4 +40,4 @@ class McapWriter {
   std::vector<Entry> entries_;  // of the messages in the chunk
 };
 
-}  // namespace sphc::replay
+}  // namespace sphc::recording

@@ -52,21 +52,20 @@ TEST_P(UsageTest, IsExitCodeTwoAndPointsToHelp) {
 
 INSTANTIATE_TEST_SUITE_P(
     EachMistake, UsageTest,
-    testing::Values("", "conquer", "live", "live --device simulated:", "record --out x.mcap",
-                    "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
-                    "live --device simulated: --map m --seconds -3",
-                    "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
-                    "calibration x --format what", "calibration x --color-size 640", "info", "info a b",
-                    "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b.mcap --jpeg 0",
-                    "audit", "audit m --limit x", "audit m --recording r", "audit m --limit no.such=1",
-                    "audit m --allow-unmeasured luck", "build --map m --recording r --model p",
-                    "build --map m --model p --save-model q", "simulate", "simulate --out x --frames many",
-                    "build --recording r", "build --map m", "build --map m --recording r --colmap c",
-                    "build --map m --colmap c", "build --map m --colmap c --images i",
-                    "build --map m --colmap c --images i --scale 1 --gravity down",
-                    "advise --recording r --folds 1", "build --recording r --map m --eta 1.5",
-                    "build --recording r --map m --against", "localize --recording r --map m --step 0",
-                    "localize --recording r --map m --first 9 --last 3"));
+    testing::Values(
+        "", "conquer", "live", "live --device simulated:", "record --out x.mcap",
+        "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
+        "live --device simulated: --map m --seconds -3", "live --device openni2: --color v4l2:x --map m",
+        "calibration", "calibration x --to kalibr", "calibration x --format what", "calibration x --color-size 640",
+        "info", "info a b", "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b --to raw",
+        "convert a b.raw --to tum", "convert a b.mcap --jpeg 0", "audit", "audit m --limit x",
+        "audit m --recording r", "audit m --limit no.such=1", "audit m --allow-unmeasured luck",
+        "build --map m --recording r --model p", "build --map m --model p --save-model q", "simulate",
+        "simulate --out x --frames many", "build --recording r", "build --map m",
+        "build --map m --recording r --colmap c", "build --map m --colmap c", "build --map m --colmap c --images i",
+        "build --map m --colmap c --images i --scale 1 --gravity down", "advise --recording r --folds 1",
+        "build --recording r --map m --eta 1.5", "build --recording r --map m --against",
+        "localize --recording r --map m --step 0", "localize --recording r --map m --first 9 --last 3"));
 
 TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
   const TempFolder folder;
@@ -172,6 +171,14 @@ TEST(Convert, GoesThroughEveryLayoutAndBack) {
   for (const char *name : {"calibration.json", "frame-000000.color.png", "frame-000001.depth.png"})
     EXPECT_TRUE(sameFiles(scenes + "/" + name, folder / ("seq-02/" + std::string(name)))) << name;
   EXPECT_EQ(runCommand("convert " + walk + " " + file).exit_code, kExitFailure) << "nothing is overwritten";
+
+  const std::string raw = folder / "walk.raw";
+  const Answer made = runCommand("convert --json " + walk + " " + raw + " --to raw");
+  ASSERT_EQ(made.exit_code, kExitDone) << made.err;
+  EXPECT_EQ(nlohmann::json::parse(made.out)["poses"], 2);
+  ASSERT_EQ(runCommand("convert " + raw + " " + (folder / "from_raw")).exit_code, kExitDone);
+  EXPECT_TRUE(sameFiles(walk, folder / "from_raw"));
+  EXPECT_EQ(runCommand("convert " + walk + " " + raw).exit_code, kExitFailure) << "nothing is overwritten";
 }
 
 const char kChain[] =

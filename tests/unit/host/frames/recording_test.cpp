@@ -16,8 +16,10 @@ TEST(Recording, OneThatIsNotThereIsNamed) {
       testing::AllOf(testing::StartsWith("cannot open the recording: "), testing::HasSubstr("/nonexistent")));
 }
 
-TEST(Recording, WithoutOneThereIsNoCalibration) {
-  EXPECT_THAT(test::refusal([] { calibrationOf(nullptr); }), testing::HasSubstr("calibration cannot be read"));
+TEST(Recording, AStepOfZeroChoosesNothing) {
+  RecordingOptions options;
+  options.step = 0;
+  EXPECT_THAT(test::refusal([&] { openRecording(options); }), testing::HasSubstr("--step"));
 }
 
 }  // namespace

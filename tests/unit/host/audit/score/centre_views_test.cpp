@@ -73,19 +73,17 @@ class PanoramaFrom : public testing::Test {
     sphc_message message;
     ASSERT_EQ(sphc_recording_create((folder_ / "ball").c_str(), &calibration, &writer, &message), SPHC_OK);
     for (int frame = 0; frame < 6; ++frame) writeFrame(frame, writer);
-    sphc_recording_close(&writer);
-    ASSERT_EQ(sphc_replay_open((folder_ / "ball").c_str(), nullptr, nullptr, &replay_, &message), SPHC_OK)
-        << message.text;
+    ASSERT_EQ(sphc_recording_close(&writer, &message), SPHC_OK);
+    reader_ = std::make_unique<recording::RecordingReader>(folder_ / "ball");
   }
-  ~PanoramaFrom() override { sphc_replay_close(&replay_); }
 
   contract::TempFolder folder_;
-  sphc_replay *replay_ = nullptr;
+  std::unique_ptr<recording::RecordingReader> reader_;
 };
 
 TEST_F(PanoramaFrom, PaintsWhatTheCentreWouldSee) {
   const Vector3 centre(-0.2, 0.1, 0.1);
-  const Panorama panorama = panoramaFrom(replay_, centre);
+  const Panorama panorama = panoramaFrom(reader_.get(), centre);
   const Matrix3 camera_from_map = Eigen::AngleAxisd(-25 * kDegree, Vector3::UnitY()).toRotationMatrix();
   const TruthView view = panorama.view(camera_from_map);
   EXPECT_GT(view.seenShare(), 0.95);  // but for a strip above, which no frame saw
@@ -104,8 +102,8 @@ TEST_F(PanoramaFrom, PaintsWhatTheCentreWouldSee) {
 }
 
 TEST_F(PanoramaFrom, PosesAreApartAndKnown) {
-  const Panorama panorama = panoramaFrom(replay_, Vector3::Zero());
-  const std::vector<Matrix3> poses = choosePoses(replay_, panorama, 20, 0.7);
+  const Panorama panorama = panoramaFrom(reader_.get(), Vector3::Zero());
+  const std::vector<Matrix3> poses = choosePoses(reader_.get(), panorama, 20, 0.7);
   EXPECT_GE(poses.size(), 3u);  // at 0, 24 and 48 degrees
   for (size_t i = 0; i < poses.size(); ++i) {
     EXPECT_GE(panorama.view(poses[i]).seenShare(), 0.7);

@@ -1,0 +1,78 @@
+#include "file_reader.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "failure.h"
+
+namespace sphc::recording {
+
+namespace {
+
+const char *kindOf(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISFIFO(mode)) return "a FIFO";
+  return S_ISSOCK(mode) ? "a socket" : "a device";
+}
+
+// Closes itself.
+struct Descriptor {
+  ~Descriptor() { ::close(number); }
+  int number;
+};
+
+}  // namespace
+
+int openRegularFile(const std::filesystem::path &path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);  // a FIFO opens at once
+  // A socket cannot be opened at all.
+  if (descriptor < 0 && errno == ENXIO)
+    throw Failure(SPHC_E_DEVICE, "is a socket or a device; give a regular file");
+  if (descriptor < 0)
+    throw Failure(SPHC_E_DEVICE, "cannot be read: " + std::generic_category().message(errno) + "; is it there?");
+  struct stat status;
+  if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)) return descriptor;
+  ::close(descriptor);
+  throw Failure(SPHC_E_DEVICE, std::string("is ") + kindOf(status.st_mode) + "; give a regular file");
+}
+
+void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &content) {
+  constexpr size_t kPieceBytes = 1 << 16;
+  const Descriptor file{openRegularFile(path)};
+  struct stat status = {};
+  ::fstat(file.number, &status);
+  size_t filled = 0;
+  // One byte more than it says, to see that it ends there.
+  content.resize(std::min(static_cast<size_t>(status.st_size), most_bytes) + 1);
+  for (;;) {
+    const ssize_t got = ::read(file.number, content.data() + filled, content.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0)
+      throw Failure(SPHC_E_DEVICE,
+                    "cannot be read: " + std::generic_category().message(errno) + "; check the disk");
+    if (got == 0) break;
+    filled += static_cast<size_t>(got);
+    if (filled > most_bytes) throw Failure(SPHC_E_ARGUMENT, "is over " + std::to_string(most_bytes >> 20) + " MiB");
+    if (filled == content.size()) content.resize(filled + kPieceBytes);  // it grows while it is read
+  }
+  content.resize(filled);
+}
+
+std::string readText(const std::filesystem::path &path) {
+  constexpr size_t kMostBytes = size_t{1} << 28;  // a list of a day at 30 Hz has 1e8 bytes
+  Bytes content;
+  try {
+    readFile(path, kMostBytes, content);
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), shortPath(path.string()) + ": " + failure.what());
+  }
+  return std::string(textOf(viewOf(content)));
+}
+
+}  // namespace sphc::recording

@@ -1,0 +1,21 @@
+// Files read whole, regular files alone: a FIFO or a device would wait for ever.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "host/recording/mcap/bytes.h"
+
+namespace sphc::recording {
+
+// A descriptor of the regular file at `path`, to read; the caller closes it.  Throws Failure (DEVICE) without the
+// name.
+int openRegularFile(const std::filesystem::path &path);
+
+// `content` becomes the file's.  Throws Failure without the name: DEVICE when it cannot be read or is no regular
+// file, ARGUMENT when it is longer than `most_bytes`.
+void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &content);
+// A list or another small text.  Throws Failure with the name.
+std::string readText(const std::filesystem::path &path);
+
+}  // namespace sphc::recording

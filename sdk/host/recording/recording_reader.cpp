@@ -1,0 +1,61 @@
+#include "recording_reader.h"
+
+#include "calibration_json.h"
+#include "failure.h"
+
+namespace sphc::recording {
+
+namespace {
+
+Recording openSelected(const std::filesystem::path &path, const Selection &selection) {
+  Recording recording = openRecording(path);
+  selectFrames(selection, recording);
+  return recording;
+}
+
+sphc_calibration calibrationFor(const Recording &recording, const std::filesystem::path &given) {
+  if (!given.empty()) return readCalibration(given);
+  if (recording.calibration.struct_size != 0) return recording.calibration;
+  if (recording.layout != Layout::kMcap) return readCalibration(recording.path / "calibration.json");
+  throw Failure(SPHC_E_ARGUMENT, shortPath(recording.path.string()) +
+                                     ": no calibration in it; give a calibration file (docs/drivers.md)");
+}
+
+}  // namespace
+
+RecordingReader::RecordingReader(const std::filesystem::path &path, const ReaderOptions &options)
+    : recording_(openSelected(path, options.selection)),
+      calibration_(calibrationFor(recording_, options.calibration)),
+      pose_gap_ns_(options.pose_gap_ns),
+      frames_(pairFrames(recording_, options.pair_tolerance_ns)),
+      images_(recording_, calibration_, options.color_format) {}
+
+sphc_frame RecordingReader::read(uint32_t index) {
+  if (index >= frameCount())
+    throw Failure(SPHC_E_ARGUMENT, "frame " + std::to_string(index) + ": there are " +
+                                       std::to_string(frameCount()) + ", counted from 0");
+  const RecordedImage &color = colorOf(index);
+  const RecordedImage &depth = depthOf(index);
+  color_pixels_.resize(images_.colorBytes());
+  depth_pixels_.resize(images_.depthBytes());
+  const sphc_image color_image = images_.read(SPHC_STREAM_COLOR, color, color_pixels_.data());
+  const sphc_image depth_image = images_.read(SPHC_STREAM_DEPTH, depth, depth_pixels_.data());
+  return {sizeof(sphc_frame), color.sequence, color.time_ns, depth.time_ns, color_image, depth_image, nullptr};
+}
+
+std::optional<sphc_frame> RecordingReader::tryRead(uint32_t index, std::string *why) {
+  try {
+    return read(index);
+  } catch (const Failure &failure) {
+    if (why) *why = failure.what();
+    return {};
+  }
+}
+
+std::optional<sphc_rigid> RecordingReader::worldFromCameraAt(int64_t time_ns) const {
+  sphc_rigid pose;
+  if (!recording_.poses.at(time_ns, pose_gap_ns_, pose)) return {};
+  return pose;
+}
+
+}  // namespace sphc::recording

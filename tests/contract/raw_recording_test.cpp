@@ -1,0 +1,325 @@
+// The raw recording: written by the workstation, read by the C reader of devices.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "drivers/raw/raw.h"
+#include "host/recording/failure.h"
+#include "host/recording/recording_reader.h"
+#include "host/recording/writer_raw.h"
+#include "temp_folder.h"
+#include "tests/support/session.h"
+#include "tiny_mcap.h"
+
+namespace sphc::contract {
+
+namespace {
+
+using recording::RawWriter;
+using recording::RecordingReader;
+using ::testing::HasSubstr;
+
+constexpr size_t kHeaderBytes = 320, kHeadBytes = 88;
+
+// The recording's bytes, wherever they are; `broken_at` is where the medium has a fault.
+struct Medium {
+  std::string bytes;
+  uint64_t broken_at = UINT64_MAX;
+};
+
+int readMedium(void *user, uint64_t offset, void *out, size_t bytes) {
+  const auto &medium = *static_cast<const Medium *>(user);
+  if (offset + bytes > medium.bytes.size() || offset + bytes > medium.broken_at) return 1;
+  std::memcpy(out, medium.bytes.data() + offset, bytes);
+  return 0;
+}
+
+struct Opened {
+  sphc_raw raw = {};
+  sphc_status status = SPHC_OK;
+  sphc_message message = {};
+};
+
+Opened open(Medium *medium) {
+  Opened opened;
+  opened.status = sphc_raw_open(&opened.raw, readMedium, medium, medium->bytes.size(), &opened.message);
+  return opened;
+}
+
+struct ReadFrame {
+  std::vector<uint16_t> memory;
+  sphc_raw_frame recorded = {};
+  sphc_status status = SPHC_OK;
+  sphc_message message = {};
+};
+
+ReadFrame read(const sphc_raw &raw, uint32_t index) {
+  ReadFrame frame;
+  frame.memory.resize((raw.frame_bytes + 1) / 2);
+  frame.status =
+      sphc_raw_read_frame(&raw, index, frame.memory.data(), raw.frame_bytes, &frame.recorded, &frame.message);
+  return frame;
+}
+
+void writeRaw(const std::string &from, const std::string &to, sphc_format format = SPHC_FORMAT_BGR8) {
+  recording::ReaderOptions options;
+  options.color_format = format;
+  RecordingReader reader(from, options);
+  RawWriter writer(to, reader.calibration(), format);
+  for (uint32_t i = 0; i < reader.frameCount(); ++i) {
+    const sphc_frame frame = reader.read(i);
+    const std::optional<sphc_rigid> pose = reader.worldFromCamera(i);
+    writer.add(frame, pose ? &*pose : nullptr);
+  }
+  writer.finish();
+}
+
+class RawRecording : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    writeTinyRecording(folder_ / "walk", 3);
+    writeRaw(folder_ / "walk", folder_ / "walk.raw");
+    medium_.bytes = folder_.read("walk.raw");
+  }
+
+  TempFolder folder_;
+  Medium medium_;
+};
+
+bool sameImage(const sphc_image &a, const sphc_image &b) {
+  return a.width == b.width && a.height == b.height && a.stride_bytes == b.stride_bytes && a.format == b.format &&
+         std::memcmp(a.data, b.data, size_t{a.height} * a.stride_bytes) == 0;
+}
+
+// Frames and poses are those that the replay driver gives, to the bit.
+void expectSame(const std::string &recorded, Medium *medium, sphc_format format = SPHC_FORMAT_BGR8) {
+  sphc_replay_config config = replayConfig();
+  config.color_format = format;
+  const OpenReplay replay(recorded, nullptr, &config);
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  const Opened opened = open(medium);
+  ASSERT_EQ(opened.status, SPHC_OK) << opened.message.text;
+  sphc_calibration calibration;
+  sphc_calibration_init(&calibration, sizeof calibration);
+  sphc_replay_calibration(replay.get(), &calibration);
+  EXPECT_EQ(std::memcmp(&opened.raw.color_camera, &calibration.color_camera, sizeof(sphc_camera)), 0);
+  EXPECT_EQ(std::memcmp(&opened.raw.depth_camera, &calibration.depth_camera, sizeof(sphc_camera)), 0);
+  EXPECT_EQ(std::memcmp(&opened.raw.color_from_depth, &calibration.color_from_depth, sizeof(sphc_rigid)), 0);
+  EXPECT_EQ(opened.raw.depth_unit_m, calibration.depth_unit_m);
+  ASSERT_EQ(opened.raw.frame_count, sphc_replay_frame_count(replay.get()));
+  for (uint32_t i = opened.raw.frame_count; i-- > 0;) {
+    const ReadFrame raw = read(opened.raw, i);
+    ASSERT_EQ(raw.status, SPHC_OK) << raw.message.text;
+    sphc_frame frame;
+    ASSERT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, nullptr), SPHC_OK);
+    EXPECT_EQ(raw.recorded.frame.struct_size, sizeof frame);
+    EXPECT_EQ(raw.recorded.frame.sequence, frame.sequence);
+    EXPECT_EQ(raw.recorded.frame.color_time_ns, frame.color_time_ns);
+    EXPECT_EQ(raw.recorded.frame.depth_time_ns, frame.depth_time_ns);
+    EXPECT_TRUE(sameImage(raw.recorded.frame.color, frame.color)) << i;
+    EXPECT_TRUE(sameImage(raw.recorded.frame.depth, frame.depth)) << i;
+    sphc_rigid pose;
+    ASSERT_EQ(sphc_replay_pose(replay.get(), i, &pose) == SPHC_OK, raw.recorded.has_pose == 1);
+    if (raw.recorded.has_pose) {
+      EXPECT_EQ(std::memcmp(&raw.recorded.world_from_camera, &pose, sizeof pose), 0);
+    }
+    sphc_raw_frame head;
+    ASSERT_EQ(sphc_raw_read_head(&opened.raw, i, &head, nullptr), SPHC_OK);
+    EXPECT_EQ(head.frame.color_time_ns, frame.color_time_ns);
+    EXPECT_EQ(head.frame.color.data, nullptr);
+  }
+}
+
+TEST_F(RawRecording, IsTheFolderToTheBit) { expectSame(folder_ / "walk", &medium_); }
+
+TEST_F(RawRecording, IsARecordingOfTheWorkstationToo) {
+  expectSame(folder_ / "walk.raw", &medium_);
+  const OpenReplay replay(folder_ / "walk.raw");
+  sphc_replay_info info{};
+  info.struct_size = sizeof info;
+  ASSERT_EQ(sphc_replay_get_info(replay.get(), &info), SPHC_OK);
+  EXPECT_EQ(info.layout, SPHC_REPLAY_RAW);
+  EXPECT_EQ(info.pose_count, 3u);
+  std::string bytes = medium_.bytes;
+  bytes[bytes.size() - 1] ^= 1;
+  folder_.write("changed.raw", bytes);
+  const OpenReplay changed(folder_ / "changed.raw");
+  sphc_frame frame;
+  sphc_message message = {};
+  EXPECT_EQ(sphc_replay_read_frame(changed.get(), 1, &frame, &message), SPHC_OK) << message.text;
+  EXPECT_EQ(sphc_replay_read_frame(changed.get(), 2, &frame, &message), SPHC_E_DEVICE);
+  EXPECT_THAT(message.text, ::testing::AllOf(HasSubstr("changed.raw (colour 2)"), HasSubstr("checksum")));
+}
+
+TEST_F(RawRecording, IsTheFileToTheBit) {
+  writeTinyMcap(folder_ / "walk.mcap", 4, recorderConfig());
+  for (const sphc_format format : {SPHC_FORMAT_BGR8, SPHC_FORMAT_RGB8, SPHC_FORMAT_GRAY8}) {
+    const std::string name = "walk" + std::to_string(format) + ".raw";
+    writeRaw(folder_ / "walk.mcap", folder_ / name, format);
+    Medium medium{folder_.read(name)};
+    expectSame(folder_ / "walk.mcap", &medium, format);
+  }
+}
+
+TEST_F(RawRecording, KnowsWhereThereIsNoPose) {
+  std::filesystem::remove(folder_ / "walk/groundtruth.txt");
+  writeRaw(folder_ / "walk", folder_ / "lost.raw");
+  Medium medium{folder_.read("lost.raw")};
+  expectSame(folder_ / "walk", &medium);
+  EXPECT_EQ(read(open(&medium).raw, 0).recorded.has_pose, 0u);
+}
+
+// The layout that docs/recording.md promises: a reader of somebody else's finds what it says where it says.
+TEST_F(RawRecording, HasTheDocumentedLayout) {
+  const auto number = [&](size_t at, size_t bytes) {
+    uint64_t value = 0;
+    for (size_t i = bytes; i-- > 0;) value = value << 8 | static_cast<uint8_t>(medium_.bytes[at + i]);
+    return value;
+  };
+  const size_t frame_bytes = kHeadBytes + kDepthWidth * kDepthHeight * 2 + kColorWidth * kColorHeight * 3;
+  ASSERT_EQ(medium_.bytes.size(), kHeaderBytes + 3 * frame_bytes);
+  EXPECT_EQ(medium_.bytes.substr(0, 8), "SPHC-RAW");
+  EXPECT_EQ(number(8, 4), 1u);
+  EXPECT_EQ(number(12, 4), 3u);
+  EXPECT_EQ(number(16, 4), static_cast<uint64_t>(SPHC_FORMAT_BGR8));
+  EXPECT_EQ(number(24 + 4, 4), kColorWidth);
+  EXPECT_EQ(number(136 + 8, 4), kDepthHeight);
+  const size_t second = kHeaderBytes + frame_bytes;
+  EXPECT_EQ(number(second, 4), 1u);
+  EXPECT_EQ(number(second + 4, 4), 1u);
+  EXPECT_EQ(number(second + 8, 8), static_cast<uint64_t>(kFirstNs + kPeriodNs));
+  EXPECT_EQ(number(second + kHeadBytes, 2), tinyDepth(1, 0, 0));
+  EXPECT_EQ(number(second + kHeadBytes + kDepthWidth * kDepthHeight * 2, 1), tinyColor(1, 0, 0, 0));
+}
+
+TEST_F(RawRecording, RefusesEveryTruncation) {
+  const std::string whole = medium_.bytes;
+  for (size_t bytes = 0; bytes < whole.size(); ++bytes) {
+    medium_.bytes = whole.substr(0, bytes);
+    const Opened opened = open(&medium_);
+    ASSERT_EQ(opened.status, SPHC_E_ARGUMENT) << bytes;
+    ASSERT_STRNE(opened.message.text, "");
+    ASSERT_EQ(opened.raw.read, nullptr);
+  }
+  medium_.bytes = whole + "x";
+  EXPECT_EQ(open(&medium_).status, SPHC_E_ARGUMENT) << "one byte more";
+}
+
+TEST_F(RawRecording, RefusesEveryFlippedBitOfTheHeader) {
+  for (size_t at = 0; at < kHeaderBytes; ++at)
+    for (int bit = 0; bit < 8; ++bit) {
+      medium_.bytes[at] ^= static_cast<char>(1 << bit);
+      const Opened opened = open(&medium_);
+      ASSERT_EQ(opened.status, SPHC_E_ARGUMENT) << at;
+      ASSERT_STRNE(opened.message.text, "");
+      medium_.bytes[at] ^= static_cast<char>(1 << bit);
+    }
+  EXPECT_EQ(open(&medium_).status, SPHC_OK);
+}
+
+TEST_F(RawRecording, NoticesEveryFlippedByteOfAFrameAndReadsTheOthers) {
+  const Opened opened = open(&medium_);
+  ASSERT_EQ(opened.status, SPHC_OK);
+  const size_t start = kHeaderBytes + opened.raw.frame_bytes;
+  for (size_t i = 0; i < opened.raw.frame_bytes; i += i < kHeadBytes ? 1 : 13) {
+    medium_.bytes[start + i] ^= 0x10;
+    const ReadFrame changed = read(opened.raw, 1);
+    ASSERT_EQ(changed.status, SPHC_E_DEVICE) << i;
+    ASSERT_THAT(changed.message.text, HasSubstr("checksum"));
+    medium_.bytes[start + i] ^= 0x10;
+  }
+  medium_.bytes[start + 40] ^= 1;
+  EXPECT_EQ(read(opened.raw, 0).status, SPHC_OK);
+  EXPECT_EQ(read(opened.raw, 2).status, SPHC_OK);
+}
+
+TEST_F(RawRecording, TellsAMediumThatFails) {
+  medium_.broken_at = 100;
+  EXPECT_EQ(open(&medium_).status, SPHC_E_DEVICE);
+  medium_.broken_at = kHeaderBytes + 1000;
+  const Opened opened = open(&medium_);
+  ASSERT_EQ(opened.status, SPHC_OK);
+  const ReadFrame frame = read(opened.raw, 0);
+  EXPECT_EQ(frame.status, SPHC_E_DEVICE);
+  EXPECT_THAT(frame.message.text, HasSubstr("cannot be read"));
+}
+
+TEST_F(RawRecording, ChecksItsArguments) {
+  sphc_raw raw;
+  EXPECT_EQ(sphc_raw_open(nullptr, readMedium, &medium_, medium_.bytes.size(), nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_raw_open(&raw, nullptr, &medium_, medium_.bytes.size(), nullptr), SPHC_E_ARGUMENT);
+  ASSERT_EQ(sphc_raw_open(&raw, readMedium, &medium_, medium_.bytes.size(), nullptr), SPHC_OK);
+  std::vector<uint16_t> memory(raw.frame_bytes);
+  sphc_raw_frame frame;
+  auto *const odd = reinterpret_cast<uint8_t *>(memory.data()) + 1;
+  EXPECT_EQ(sphc_raw_read_frame(&raw, 3, memory.data(), raw.frame_bytes, &frame, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_raw_read_frame(&raw, 0, memory.data(), raw.frame_bytes - 1, &frame, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_raw_read_frame(&raw, 0, odd, raw.frame_bytes, &frame, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_raw_read_frame(&raw, 0, nullptr, raw.frame_bytes, &frame, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_raw_read_frame(nullptr, 0, memory.data(), raw.frame_bytes, &frame, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_raw_read_head(&raw, 3, &frame, nullptr), SPHC_E_ARGUMENT);
+}
+
+TEST_F(RawRecording, IsWrittenWholeOrNotAtAll) {
+  const TinyImages images(0);
+  const sphc_frame frame = tinyFrame(0, images);
+  const std::string path = folder_ / "new.raw";
+  {
+    RawWriter writer(path, tinyCalibration(), SPHC_FORMAT_BGR8);
+    writer.add(frame, nullptr);
+    EXPECT_FALSE(std::filesystem::exists(path));
+    EXPECT_TRUE(std::filesystem::exists(path + ".unfinished"));
+    EXPECT_THROW(RawWriter(path, tinyCalibration(), SPHC_FORMAT_BGR8), recording::Failure) << "somebody writes it";
+  }
+  EXPECT_FALSE(std::filesystem::exists(path + ".unfinished")) << "given up";
+  EXPECT_THROW(RawWriter(folder_ / "walk.raw", tinyCalibration(), SPHC_FORMAT_BGR8), recording::Failure);
+  EXPECT_EQ(folder_.read("walk.raw"), medium_.bytes) << "nothing is overwritten";
+}
+
+// A frame from the raw recording gives the pose that the same frame from the replay driver gives, to the bit.
+TEST(RawRecordingPoses, AreThoseOfTheReplay) {
+  const TempFolder folder;
+  const sphc_config config = test::sceneConfig();
+  sphc_calibration calibration;
+  sphc_calibration_init(&calibration, sizeof calibration);
+  calibration.color_camera = config.color_camera;
+  calibration.depth_camera = config.depth_camera;
+  calibration.color_from_depth = config.color_from_depth;
+  calibration.depth_unit_m = config.depth_unit_m;
+  sphc_recording_writer *writer = nullptr;
+  sphc_message message = {};
+  ASSERT_EQ(sphc_recording_create((folder / "room").c_str(), &calibration, &writer, &message), SPHC_OK)
+      << message.text;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const auto scene = test::sceneFrame(config, i);
+    sphc_frame frame = scene->frame;
+    frame.color_time_ns = frame.depth_time_ns = 1 + i * kPeriodNs;
+    ASSERT_EQ(sphc_recording_add_frame(writer, &frame, &message), SPHC_OK) << message.text;
+  }
+  ASSERT_EQ(sphc_recording_close(&writer, &message), SPHC_OK);
+  writeRaw(folder / "room", folder / "room.raw");
+  Medium medium{folder.read("room.raw")};
+  const Opened opened = open(&medium);
+  const OpenReplay replay(folder / "room");
+  test::Session replayed(config), raw(config);
+  uint32_t localized = 0;
+  for (uint32_t i = 0; i < 3; ++i) {
+    sphc_frame frame;
+    ASSERT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, nullptr), SPHC_OK);
+    const ReadFrame recorded = read(opened.raw, i);
+    ASSERT_EQ(recorded.status, SPHC_OK) << recorded.message.text;
+    sphc_result a = {}, b = {};
+    a.struct_size = b.struct_size = sizeof a;
+    const sphc_status status = replayed.process(frame, &a);
+    EXPECT_EQ(raw.process(recorded.recorded.frame, &b), status);
+    EXPECT_EQ(std::memcmp(&a.camera_from_map, &b.camera_from_map, sizeof a.camera_from_map), 0);
+    EXPECT_EQ(std::memcmp(a.covariance, b.covariance, sizeof a.covariance), 0);
+    localized += status == SPHC_OK;
+  }
+  EXPECT_GE(localized, 2u);
+}
+
+}  // namespace
+
+}  // namespace sphc::contract
