@@ -16,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 
+from private_key import private_key
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LEDGER = HERE / "accuracy.csv"
@@ -120,7 +122,7 @@ class Recording:
         if (fakes, eta) not in self.maps:
             file = self.workdir / ("%s_%s_%d.sphc" % (self.name, fakes, round(100 * eta)))
             built = run([self.tool, "build", *self.source("map"), "--map", file, "--eta", eta,
-                         "--fakes", fakes, "--key", HERE / "test_key.txt", "--ledger", str(file) + ".ledger", "--json"])
+                         "--fakes", fakes, "--key", private_key(self.workdir), "--ledger", str(file) + ".ledger", "--json"])
             self.maps[fakes, eta] = (file, built)
         return self.maps[fakes, eta]
 

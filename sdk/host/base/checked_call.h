@@ -1,4 +1,4 @@
-// The C door and the drivers' C functions, for code that has exceptions.
+// The C interface and the drivers' C functions, for code that has exceptions.
 #pragma once
 #include <spherecloud/spherecloud.h>
 

@@ -7,6 +7,8 @@
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/new_recording.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/recording_out.h"
@@ -123,15 +125,16 @@ Result copyFrames(sphc_replay *replay, const std::string &folder, const Console 
   return result;
 }
 
-Result convertTo7Scenes(sphc_replay *replay, const std::string &folder, const Console &console) {
+Result convertTo7Scenes(sphc_replay *replay, const std::string &out, const Console &console) {
+  NewRecording recording(out, NewRecording::IfCut::kRemove);
+  const std::string &folder = recording.part(), file = folder + "/calibration.json";
   std::filesystem::create_directory(folder);
-  const std::string file = folder + "/calibration.json";
-  if (std::filesystem::exists(file))
-    throw std::runtime_error(folder + " holds a recording already; give another folder");
   const sphc_calibration calibration = calibrationOf(replay);
   orThrow("cannot write the calibration",
           [&](sphc_message *message) { return sphc_calibration_write(file.c_str(), &calibration, message); });
-  return copyFrames(replay, folder, console);
+  const Result result = copyFrames(replay, folder, console);
+  recording.finish();
+  return result;
 }
 
 // What the new layout does not keep.
@@ -157,6 +160,11 @@ int convert(Options options, const Console &console) {
   if (options.layout == Layout::kByName) options.layout = isMcap(options.out) ? Layout::kMcap : Layout::kTum;
   if ((options.layout == Layout::kMcap) != isMcap(options.out))
     throw UsageError("the name of a file ends with .mcap, that of a folder does not: " + options.out);
+  FileUse files(false);
+  files.reads("the recording", options.in);
+  files.reads("--calibration", options.calibration);
+  files.writesRecording("the new recording", options.out);
+  files.check();
   const Replay replay = open(options);
   Result result;
   if (options.layout == Layout::k7Scenes) {

@@ -28,7 +28,7 @@ struct ReleaseSummary {
   bool is_update = false;  // of a place in `own`
   bool is_same = false;    // the last release over again
   Similarity place_from_world;
-  size_t twins = 0;  // of other points of the recording, merged
+  size_t near_duplicates = 0;  // of other points of the recording, merged
   // What became of the others.
   size_t known = 0, ambiguous = 0, elsewhere = 0, held_back = 0, added = 0;
 };

@@ -1,14 +1,19 @@
 
+#include <iterator>
 #include <memory>
 
 #include "host/base/usage_error.h"
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/import_recording.h"
+#include "host/cli/common/number_checks.h"
 #include "host/publish/map_writer.h"
 #include "host/publish/resized_model.h"
 #include "host/publish/sphere_cloud.h"
 #include "host/report/file.h"
 #include "lab/cli/commands.h"
+#include "runtime/map/layout.h"
 
 namespace sphc::host {
 namespace {
@@ -22,6 +27,7 @@ struct Options {
   std::vector<uint32_t> points;
   SphereCloudOptions cloud;
   std::string out;
+  bool force = false;
 };
 
 std::vector<PointModel> importForeign(const Options &options) {
@@ -52,6 +58,12 @@ std::string writeMap(const Options &options, const PointModel &model) {
 }
 
 int run(const Options &options, const Console &console) {
+  FileUse files(options.force);
+  files.reads(options.recording);
+  for (const std::string &path : options.foreign) files.reads("--foreign", path);
+  for (const std::string &path : options.foreign_calibrations) files.reads("--foreign-calibration", path);
+  files.writesFolder("--out", options.out, holds({std::begin(kMapMagic), std::end(kMapMagic)}));
+  files.check();
   makeFolder(options.out);
   const PointModel own = importRecording(options.recording, "mapping   ");
   const std::vector<PointModel> foreign = importForeign(options);
@@ -95,7 +107,7 @@ void addOptions(CLI::App *app, Options *options) {
       ->type_name("FILE");
   app->add_option("--eta", options->cloud.eta, "Share of points that keep their true direction, (0, 1]")
       ->capture_default_str()
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(between(1e-6, 1))
       ->type_name("X");
   app->add_option("-o,--out", options->out, "Folder for the maps")->required()->type_name("DIR");
 }
@@ -108,6 +120,7 @@ Command mapCommand(CLI::App *root) {
   app->description("Maps of wanted sizes, to measure with.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

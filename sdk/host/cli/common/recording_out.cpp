@@ -1,6 +1,7 @@
 #include "host/cli/common/recording_out.h"
 
 #include "host/base/checked_call.h"
+#include "host/cli/common/new_recording.h"
 #include "host/recording/recording_writer.h"
 
 namespace sphc::host {
@@ -8,9 +9,10 @@ namespace {
 
 class FileOut : public RecordingOut {
  public:
-  FileOut(const std::string &path, const sphc_calibration &calibration, const sphc_recorder_config &config) {
+  FileOut(const std::string &path, const sphc_calibration &calibration, const sphc_recorder_config &config)
+      : recording_(path, NewRecording::IfCut::kRemove) {
     orThrow("cannot start the recording", [&](sphc_message *message) {
-      return sphc_recorder_open(path.c_str(), &calibration, &config, &recorder_, message);
+      return sphc_recorder_open(recording_.part().c_str(), &calibration, &config, &recorder_, message);
     });
   }
   ~FileOut() override { sphc_recorder_close(&recorder_, nullptr); }
@@ -27,20 +29,23 @@ class FileOut : public RecordingOut {
   void close() override {
     orThrow("cannot end the recording",
             [&](sphc_message *message) { return sphc_recorder_close(&recorder_, message); });
+    recording_.finish();
   }
 
  private:
   static void notDropped(sphc_status status) {
     if (status == SPHC_AGAIN) throw std::runtime_error("the disk took nothing for a minute; is it all right?");
   }
+  NewRecording recording_;
   sphc_recorder *recorder_ = nullptr;
 };
 
 class FolderOut : public RecordingOut {
  public:
-  FolderOut(const std::string &path, const sphc_calibration &calibration) {
+  FolderOut(const std::string &path, const sphc_calibration &calibration)
+      : recording_(path, NewRecording::IfCut::kRemove) {
     orThrow("cannot start the recording in " + path, [&](sphc_message *message) {
-      return sphc_recording_create(path.c_str(), &calibration, &writer_, message);
+      return sphc_recording_create(recording_.part().c_str(), &calibration, &writer_, message);
     });
   }
   ~FolderOut() override { sphc_recording_close(&writer_); }
@@ -54,9 +59,13 @@ class FolderOut : public RecordingOut {
       return sphc_recording_add_pose(writer_, time_ns, &world_from_camera, message);
     });
   }
-  void close() override { sphc_recording_close(&writer_); }
+  void close() override {
+    sphc_recording_close(&writer_);
+    recording_.finish();
+  }
 
  private:
+  NewRecording recording_;
   sphc_recording_writer *writer_ = nullptr;
 };
 
