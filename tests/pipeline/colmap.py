@@ -18,7 +18,8 @@ import subprocess
 import sys
 import tempfile
 
-HERE = pathlib.Path(__file__).resolve().parent
+from private_key import private_key
+
 SKIPPED = 77
 FRAMES = 24  # at 4 Hz; even ones are mapped, odd ones localized
 # Floors and ceilings.  COLMAP is another at each run: on so few images its camera path is bent by up to a centimetre, and
@@ -77,7 +78,7 @@ def check(tool, recording, folder, model, name, source):
     map_file = folder / (name + ".sphc")
     built = json.loads(run([tool, "build", "--colmap", model, *source, "--depth", recording / "depth", "--calibration",
                             recording / "calibration.json", "--map", map_file, "--ledger", folder / (name + ".ledger"), "--eta", 0.5, "--key",
-                            HERE / "test_key.txt", "--json"], folder))
+                            private_key(folder), "--json"], folder))
     trajectory = folder / (name + ".tum")
     found = json.loads(run([tool, "localize", "--recording", recording, "--first", 1, "--step", 2, "--map", map_file,
                             "--owner-note", str(map_file) + ".owner.json", "--trajectory", trajectory, "--mode",

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-HERE = pathlib.Path(__file__).resolve().parent
+from private_key import private_key
 
 
 def main():
@@ -22,7 +22,7 @@ def main():
         commands = [
             [tools.spherecloud, "simulate", "--out", recording, "--frames", 10, "--rate", 6.25],
             [tools.spherecloud, "build", "--recording", recording, "--step", 3, "--map", map_file, "--eta", 0.5,
-             "--key", HERE / "test_key.txt"],
+             "--key", private_key(folder)],
             [tools.poses, recording, map_file],
         ]
         for command in commands:

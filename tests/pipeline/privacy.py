@@ -17,6 +17,8 @@ import subprocess
 import sys
 import tempfile
 
+from private_key import private_key
+
 HERE = pathlib.Path(__file__).resolve().parent
 DATA = pathlib.Path(os.environ.get("SPHC_DATA", HERE.parent.parent.parent / "shared" / "data"))
 RESULTS = HERE / "privacy.csv"
@@ -56,7 +58,7 @@ def main():
                 stem = folder / ("%s_%s" % (name.replace(" ", ""), strategy))
                 truth = stem.with_suffix(".ledger")
                 run([options.spherecloud, "build", *recording, "--map", stem.with_suffix(".sphc"), "--ledger", truth,
-                     "--key", HERE / "test_key.txt", "--fakes", strategy, "--json"])
+                     "--key", private_key(folder), "--fakes", strategy, "--json"])
                 found = run([options.spherecloud, "audit", stem.with_suffix(".sphc"), "--truth", truth, *recording,
                              "--figures", RESULTS, "--name", name, "--json"], accepted=(0, 4))
                 print(name, strategy, {f["name"]: round(f["value"], 3) for f in found["figures"] if "value" in f},

@@ -4,6 +4,7 @@
 #include "host/advise/advice.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/report/coverage_picture.h"
@@ -19,6 +20,7 @@ constexpr size_t kMostFailuresTold = 12;
 struct Options {
   AdviceOptions advice;
   std::string picture;
+  bool force = false;
 };
 
 std::string holesText(const std::vector<Hole> &holes) {
@@ -80,6 +82,10 @@ void drawAdvice(const std::string &path, const Advice &advice) {
 }
 
 int run(const Options &options, const Console &console) {
+  FileUse files(options.force);
+  files.reads(options.advice.recording);
+  files.writes("--picture", options.picture, holds(kPictureMark));
+  files.check();
   ProgressBar bar("holding out");
   const Advice advice = advise(options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   tell(options, advice, console);
@@ -117,6 +123,7 @@ Command adviseCommand(CLI::App *root) {
       ->capture_default_str()
       ->check(CLI::Range(2, 100));
   app->add_option("--picture", options->picture, "Coverage as a map of the sky")->type_name("PNG");
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

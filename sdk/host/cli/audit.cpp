@@ -10,13 +10,13 @@
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/import_recording.h"
 #include "host/cli/common/privacy_results.h"
 #include "host/cli/common/progress.h"
 #include "host/evaluate/map_file.h"
 #include "host/publish/ledger.h"
 #include "host/report/table.h"
-#include "runtime/map/crc32.h"
 
 namespace sphc::host {
 namespace {
@@ -26,17 +26,26 @@ struct Options {
   RecordingOptions recording;
   std::vector<std::string> releases, limits, allow_unmeasured;
   uint32_t queries = 10;
-  bool quick = false;
+  bool quick = false, force = false;
 };
+
+FileUse fileUse(const Options &options) {
+  FileUse files(options.force);
+  files.reads("the map", options.map);
+  files.reads("--truth", options.truth);
+  files.reads(options.recording);
+  for (const std::string &release : options.releases) files.reads("--release", release);
+  files.reads("--networks", options.networks);
+  files.writesFolder("--report", options.report, holds("<title>Audit of "));
+  files.writes("--figures", options.figures, holds(kPrivacyHead));
+  return files;
+}
 
 // The place of the ledger that released this file.
 Place placeOf(const Options &options, const std::vector<uint8_t> &file) {
-  const uint32_t crc = crc32(0, file.data(), file.size());
   for (const Place &place : Ledger::openToRead(options.truth).places()) {
-    const auto &releases = place.releases;
-    const auto released = std::find_if(releases.begin(), releases.end(),
-                                       [crc](const Release &release) { return release.crc32 == crc; });
-    if (released == releases.end()) continue;
+    const Release *released = releaseOf(place, file);
+    if (!released) continue;
     Place then = place;
     then.points.resize(released->points);
     return then;
@@ -168,6 +177,7 @@ int run(const Options &options, const Console &console) {
   if (options.truth.empty() && !options.recording.folder.empty())
     throw UsageError("--recording tells nothing without --truth; give the ledger too");
   const AuditRules rules = rulesOf(options);
+  fileUse(options).check();
   const AuditInput input = inputOf(options);
   ProgressBar bar("auditing  ");
   const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
@@ -215,6 +225,7 @@ Command auditCommand(CLI::App *root) {
   app->add_option("--networks", options->networks, "Folder of the attackers' networks [the command's own]")
       ->type_name("FOLDER");
   app->add_flag("--quick", options->quick, "Fewer lines and views: within half a minute");
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

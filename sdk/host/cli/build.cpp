@@ -1,17 +1,22 @@
 // spherecloud build: from a recording with poses to a sphere-cloud file.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
+#include "host/base/write_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/point_source.h"
 #include "host/evaluate/map_file.h"
 #include "host/import/model_file.h"
 #include "host/publish/ledger.h"
 #include "host/publish/map_writer.h"
 #include "host/publish/release.h"
+#include "host/report/file.h"
 
 namespace sphc::host {
 namespace {
@@ -23,12 +28,68 @@ struct Options {
   std::optional<double> eta;
   std::string fakes;
   FakeOptions fake_options;
-  bool new_place = false, understood = false;
+  bool new_place = false, understood = false, force = false;
 };
 
 std::string ledgerPath(const Options &options) {
   if (!options.ledger.empty()) return options.ledger;
   return (std::filesystem::path(options.map).parent_path() / "spherecloud.ledger").string();
+}
+
+std::string notePath(const Options &options) { return options.map + ".owner.json"; }
+
+// Whether a place, where that is known, released the map file or the map of the note.
+bool didRelease(const Place &place, const std::string &map) { return releaseOf(place, readBytes(map)) != nullptr; }
+bool didReleaseNoted(const Place &place, const std::string &note) {
+  try {
+    const MapId id = readOwnerNote(note).map_id;
+    return std::any_of(place.releases.begin(), place.releases.end(),
+                       [&id](const Release &release) { return release.map_id == id; });
+  } catch (const std::runtime_error &) {  // no note
+    return false;
+  }
+}
+using DidRelease = bool(const Place &place, const std::string &path);
+
+// By any place of the ledger, which is not made for this.
+IsOurs releasedByLedger(const Options &options, DidRelease *did_release) {
+  return [ledger = ledgerPath(options), did_release](const std::string &path) {
+    if (!std::filesystem::exists(ledger)) return false;
+    const std::vector<Place> places = Ledger::openToRead(ledger).places();
+    return std::any_of(places.begin(), places.end(), [&](const Place &place) { return did_release(place, path); });
+  };
+}
+
+FileUse fileUse(const Options &options) {
+  FileUse files(options.force);
+  files.reads(options.source.recording);
+  files.reads("--colmap", options.source.colmap.model);
+  files.reads("--images", options.source.colmap.images);
+  files.reads("--database", options.source.colmap.database);
+  files.reads("--depth", options.source.colmap.depth);
+  files.reads("--model", options.source.model);
+  files.reads("--key", options.key);
+  for (const std::string &ledger : options.against) files.reads("--against", ledger);
+  files.writes("--map", options.map, releasedByLedger(options, didRelease));
+  files.writes("the owner's note", notePath(options), releasedByLedger(options, didReleaseNoted));
+  files.writes("--save-model", options.save_model, isModelFile);
+  files.keeps("--ledger", ledgerPath(options));
+  return files;
+}
+
+// Releases of one place replace each other; those of another place are another map.
+void checkSamePlace(const Options &options, const Place &place) {
+  const auto check = [&](const std::string &path, DidRelease *did_release) {
+    std::error_code error;
+    const bool is_file =
+        std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
+    if (is_file && !options.force && !did_release(place, path))
+      throw std::runtime_error(path + " belongs to another place of the ledger than this recording shows, place " +
+                               std::to_string(place.number) +
+                               "; choose another name for its map, or replace it with --force");
+  };
+  check(options.map, didRelease);
+  check(notePath(options), didReleaseNoted);
 }
 
 Ledger openLedger(const Options &options) {
@@ -72,16 +133,17 @@ Outcome build(const Options &options) {
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
   checkPointSource(options.source);
-  if (!options.save_model.empty()) checkModelTarget(options.save_model);
+  fileUse(options).check();
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source);
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
+  checkSamePlace(options, made.place);
   // The ledger first: what it does not know was never published.
   ledger.record(made.place);
-  outcome.note = options.map + ".owner.json";
+  outcome.note = notePath(options);
   writeFile(options.map, made.file);
   writeOwnerNote(outcome.note,
                  {made.place.releases.back().map_id, made.place.centre_m, made.place.eta, made.place.strategy});
@@ -195,6 +257,7 @@ void addReleaseOptions(CLI::App *app, Options *options) {
       ->group(group);
   app->add_flag("--i-understand", options->understood, "Publish known points anew, which exposes them")
       ->group(group);
+  addForceOption(app, &options->force);
 }
 
 void addOptions(CLI::App *app, Options *options) {
@@ -205,7 +268,7 @@ void addOptions(CLI::App *app, Options *options) {
       ->excludes(app->get_option("--model"))
       ->type_name("FILE");
   app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1] [1/3]")
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(between(1e-6, 1))
       ->type_name("X");
   CLI::Option *fakes =
       app->add_option("--fakes", options->fakes,
@@ -215,12 +278,12 @@ void addOptions(CLI::App *app, Options *options) {
           ->type_name("NAME");
   app->add_option("--patch-deg", options->fake_options.patch_deg, "Width of a patch of patchwork, degrees")
       ->capture_default_str()
-      ->check(CLI::Range(2.0, 60.0))
+      ->check(between(2, 60))
       ->needs(fakes)
       ->type_name("DEG");
   app->add_option("--sigma2", options->fake_options.sigma2, "Variance of the noise that makes gaussian fakes")
       ->capture_default_str()
-      ->check(CLI::Range(1e-9, 100.0))
+      ->check(between(1e-9, 100))
       ->needs(fakes)
       ->type_name("X");
   addReleaseOptions(app, options);

@@ -4,10 +4,13 @@
 #include <memory>
 
 #include "host/base/usage_error.h"
+#include "host/base/write_file.h"
 #include "host/calibration/compare.h"
 #include "host/calibration/convert.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/recording/calibration_json.h"
 #include "host/report/file.h"
 #include "host/report/table.h"
@@ -23,6 +26,7 @@ struct Options {
   std::vector<double> color_from_depth;
   double depth_unit_m = 0;
   JoinOptions join;
+  bool force = false;
 };
 
 std::vector<std::string> formatWords() {
@@ -121,13 +125,17 @@ nlohmann::ordered_json readJson(const ReadCalibration &read) {
   return json;
 }
 
-std::vector<std::string> writeFiles(const std::string &out, Format format, const sphc_calibration &calibration) {
-  if (nameOf(format).is_folder) makeFolder(out);
+std::vector<std::string> writeFiles(const Options &options, Format format, const sphc_calibration &calibration) {
+  const std::vector<TextFile> files = writeCalibration(format, calibration);
+  const std::string &out = options.out;
   std::vector<std::string> paths;
-  for (const TextFile &file : writeCalibration(format, calibration)) {
-    paths.push_back(file.name.empty() ? out : out + "/" + file.name);
-    writeText(paths.back(), file.text);
-  }
+  for (const TextFile &file : files) paths.push_back(file.name.empty() ? out : out + "/" + file.name);
+  if (nameOf(format).is_folder) makeFolder(out);
+  FileUse use(options.force);  // nobody can tell one that was written here from one that somebody measured
+  for (const std::string &path : options.files) use.reads("the calibration", path);
+  for (const std::string &path : paths) use.writes("--out", path, never());
+  use.check();
+  for (size_t i = 0; i < files.size(); ++i) writeFile(paths[i], files[i].text);
   if (format == Format::kColmap) paths.pop_back();  // rigs.txt is found beside cameras.txt
   return paths;
 }
@@ -164,7 +172,7 @@ std::vector<std::pair<std::string, PixelDifference>> parts(const CalibrationDiff
 nlohmann::ordered_json convert(const Options &options, Format format, const sphc_calibration &calibration,
                                const Console &console) {
   const sphc_calibration fitted = fitToFormat(calibration, format, options.join.approximate);
-  const std::vector<std::string> paths = writeFiles(options.out, format, fitted);
+  const std::vector<std::string> paths = writeFiles(options, format, fitted);
   const CalibrationDifference difference = roundTrip(paths, format, calibration);
   const bool exact = formatHolds(format, calibration.color_camera) && formatHolds(format, calibration.depth_camera);
   std::vector<Row> rows;
@@ -222,6 +230,7 @@ void addOptions(CLI::App *app, Options *options) {
   app->add_option("--to", options->to, "Format to write [spherecloud]")->check(CLI::IsMember(formatWords()));
   app->add_flag("--approximate", options->join.approximate,
                 "Take the nearest camera where a model cannot be held exactly");
+  addForceOption(app, &options->force);
   const char *group = "What files may leave open";
   app->add_option("--color", options->join.color, "Name of the colour camera in the files [color, or the first]")
       ->type_name("NAME")
@@ -245,7 +254,7 @@ void addOptions(CLI::App *app, Options *options) {
       ->group(group);
   app->add_option("--depth-unit", options->depth_unit_m,
                   "Metres per unit of the depth image [the file's, or 0.001]")
-      ->check(CLI::PositiveNumber)
+      ->check(between(1e-9, 1))
       ->type_name("M")
       ->group(group);
 }

@@ -9,6 +9,8 @@
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/new_recording.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/recording_out.h"
@@ -148,7 +150,8 @@ Result writeRaw(RecordingReader *reader, const std::string &file, const Console 
 }
 
 Result write7Scenes(RecordingReader *reader, const std::string &folder, const Console &console) {
-  recording::SevenScenesWriter writer(folder, reader->calibration());
+  NewRecording recording(folder, NewRecording::IfCut::kRemove);
+  recording::SevenScenesWriter writer(recording.part(), reader->calibration());
   uint32_t next = 0;
   const Result result = copyFrames(reader, console, [&](sphc_frame frame, const sphc_rigid *pose) {
     frame.sequence = std::max(frame.sequence, next);  // a camera that came back counts anew
@@ -156,6 +159,7 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
     writer.add(frame, pose);
   });
   writer.finish();
+  recording.finish();
   return result;
 }
 
@@ -216,6 +220,11 @@ int convert(Options options, const Console &console) {
   if (is_folder ? by_name != Target::kTum : by_name != options.target)
     throw UsageError("the name of a file ends with .mcap or .raw, as --to says, that of a folder with neither: " +
                      options.out);
+  FileUse files(false);
+  files.reads("the recording", options.in);
+  files.reads("--calibration", options.calibration);
+  files.writesRecording("the new recording", options.out);
+  files.check();
   Facts facts = {};
   const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
   const Result result =

@@ -3,6 +3,7 @@
 
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/evaluate/map_anatomy.h"
 #include "host/report/direction_picture.h"
 #include "host/report/picture_file.h"
@@ -13,7 +14,7 @@ namespace {
 
 struct Options {
   std::string map, picture;
-  bool no_picture = false;
+  bool no_picture = false, force = false;
 };
 
 std::string percentText(double value) { return fixed(value, 1) + " %"; }
@@ -59,14 +60,22 @@ nlohmann::ordered_json json(const MapFacts &facts, const MapAnatomy &anatomy) {
   return value;
 }
 
+std::string picturePath(const Options &options) {
+  if (options.no_picture) return "";
+  return options.picture.empty() ? options.map + ".directions.png" : options.picture;
+}
+
 int inspect(const Options &options, const Console &console) {
+  FileUse files(options.force);
+  files.reads("the map", options.map);
+  files.writes("--picture", picturePath(options), holds(kPictureMark));
+  files.check();
   const MapFile file = openMapFile(options.map);
   const MapFacts facts = mapFacts(file, options.map);
   const MapAnatomy anatomy = dissect(file, facts);
   tell(facts, anatomy, console);
   nlohmann::ordered_json value = json(facts, anatomy);
-  if (!options.no_picture) {
-    const std::string path = options.picture.empty() ? options.map + ".directions.png" : options.picture;
+  if (const std::string path = picturePath(options); !path.empty()) {
     double peak = 0;
     writePicture(path, drawDirections(facts.directions, &peak));
     console.say("Picture of the directions, as a map of the sky: " + path + "\n  (the brightest spot is " +
@@ -93,6 +102,7 @@ Command inspectCommand(CLI::App *root) {
   app->add_option("map", options->map, "Map file")->required()->type_name("FILE");
   app->add_option("--picture", options->picture, "Where the picture goes [FILE.directions.png]")->type_name("PNG");
   app->add_flag("--no-picture", options->no_picture, "No picture");
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return inspect(*options, console); }};
 }
 

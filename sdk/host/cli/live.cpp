@@ -5,6 +5,7 @@
 #include "host/base/checked_call.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
@@ -169,7 +170,8 @@ const char kExample[] =
     "  spherecloud live --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --map room.sphc\n"
     "  spherecloud live --color libcamera: --depth v4l2:card=ToF -c headset.json --map room.sphc --json\n"
     "  spherecloud live --device openni2: -c kinect.json --map room.sphc --seconds 60\n"
-    "Ctrl-C ends it.  A camera that is unplugged is waited for.  Exit status 3: not one frame was localized.";
+    "Ctrl-C or SIGTERM ends it.  A camera that is unplugged is waited for.  Exit status 3: not one frame was "
+    "localized.";
 
 }  // namespace
 
@@ -187,7 +189,7 @@ Command liveCommand(CLI::App *root) {
       ->take_all()
       ->type_name("FILE");
   app->add_option("--frames", options->frames, "End after so many frames; 0: never");
-  app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(CLI::NonNegativeNumber);
+  app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_flag("--every", options->every, "Look at every frame, however late; else the newest counts");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }

@@ -3,15 +3,18 @@
 #include <memory>
 
 #include "host/base/usage_error.h"
+#include "host/base/write_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
-#include "host/report/file.h"
 #include "host/report/json.h"
 #include "host/report/overlay.h"
+#include "host/report/page.h"
 #include "host/report/report.h"
 #include "host/report/statistics.h"
 #include "host/report/table.h"
@@ -24,9 +27,20 @@ struct Options {
   RecordingOptions recording;
   std::vector<std::string> maps, owner_notes;
   std::string trajectory, frames_json, report;
-  bool odometry = false;
+  bool odometry = false, force = false;
   sphc_config config = spherecloud::defaultConfig();
 };
+
+FileUse fileUse(const Options &options) {
+  FileUse files(options.force);
+  files.reads(options.recording);
+  for (const std::string &map : options.maps) files.reads("--map", map);
+  for (const std::string &note : options.owner_notes) files.reads("--owner-note", note);
+  files.writes("--trajectory", options.trajectory, holds(kTumHead));
+  files.writes("--frames-json", options.frames_json, holds("{\"sequence\":"));
+  files.writesFolder("--report", options.report, holds(kReportHead));
+  return files;
+}
 
 void readNotes(const Options &options, LocalizeInput *input, Run *run) {
   if (options.owner_notes.empty()) return;
@@ -69,11 +83,11 @@ cv::Mat imageOf(RecordingReader *reader, const FrameRecord &frame) {
 
 void writeOutputs(const Options &options, const Run &run, RecordingReader *reader, const Console &console) {
   if (!options.trajectory.empty()) {
-    writeText(options.trajectory, tumTrajectory(run));
+    writeFile(options.trajectory, tumTrajectory(run));
     console.say("Trajectory (" + run.base + "_from_camera): " + options.trajectory);
   }
   if (!options.frames_json.empty()) {
-    writeText(options.frames_json, framesJsonLines(run));
+    writeFile(options.frames_json, framesJsonLines(run));
     console.say("A JSON line a frame: " + options.frames_json);
   }
   if (options.report.empty()) return;
@@ -84,6 +98,7 @@ void writeOutputs(const Options &options, const Run &run, RecordingReader *reade
 }
 
 int run(const Options &options, const Console &console) {
+  fileUse(options).check();
   const auto reader = openRecording(options.recording);
   const Run done = localize(options, reader.get(), console);
   const Summary summary = summarize(done);
@@ -120,13 +135,14 @@ void addOutputs(CLI::App *app, Options *options) {
   app->add_option("--report", options->report, "Folder for report.html and pictures")
       ->type_name("DIR")
       ->group(group);
+  addForceOption(app, &options->force);
 }
 
 void addLocalizerOptions(CLI::App *app, sphc_config *config) {
   const auto add = [app](const char *name, auto &field, const char *text) {
-    app->add_option(name, field, text)->capture_default_str()->group("Localizer");
+    return app->add_option(name, field, text)->capture_default_str()->group("Localizer");
   };
-  add("--seed", config->seed, "Of the random samples; the same seed gives the same answers");
+  add("--seed", config->seed, "Of the random samples; the same seed gives the same answers")->check(withoutSign());
   add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096");
   add("--ratio", config->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
   add("--max-iterations", config->max_iterations, "Most samples drawn for a frame");

@@ -19,10 +19,14 @@ const char kExitCodes[] =
     "4 a limit of the audit is broken, 5 a limit of the audit was not measured.";
 
 std::vector<Command> declare(CLI::App *root) {
-  return {simulateCommand(root), buildCommand(root),   localizeCommand(root),    inspectCommand(root),
-          infoCommand(root),     convertCommand(root), recordCommand(root),      liveCommand(root),
-          devicesCommand(root),  doctorCommand(root),  calibrationCommand(root), auditCommand(root),
-          adviseCommand(root)};
+  return {
+#if SPHC_HAVE_SIMULATED  // else the build has no driver to record from
+    simulateCommand(root),
+#endif
+        buildCommand(root), localizeCommand(root), inspectCommand(root), infoCommand(root), convertCommand(root),
+        recordCommand(root), liveCommand(root), devicesCommand(root), doctorCommand(root), calibrationCommand(root),
+        auditCommand(root), adviseCommand(root)
+  };
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/new_recording.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/recording_out.h"
 #include "host/cli/common/rig_options.h"
 #include "host/live/interrupt.h"
@@ -29,10 +32,10 @@ struct RecorderCloser {
 };
 using Recorder = std::unique_ptr<sphc_recorder, RecorderCloser>;
 
-Recorder openRecorder(const Options &options, const sphc_calibration &calibration) {
+Recorder openRecorder(const std::string &path, const Options &options, const sphc_calibration &calibration) {
   sphc_recorder *recorder = nullptr;
   orThrow("cannot record", [&](sphc_message *message) {
-    return sphc_recorder_open(options.out.c_str(), &calibration, &options.recorder, &recorder, message);
+    return sphc_recorder_open(path.c_str(), &calibration, &options.recorder, &recorder, message);
   });
   return Recorder(recorder);
 }
@@ -86,28 +89,18 @@ void sayResult(const Options &options, const Tally &tally, const sphc_recorder_s
                 {"file_bytes", file_bytes}});
 }
 
-int run(const Options &options, const Console &console) {
-  checkRigOptions(options.rig);
-  if (!isMcap(options.out)) throw UsageError("--out: the name of the file ends with .mcap: " + options.out);
-  StatusLine line;
-  const auto tell = [&](const std::string &trouble) {
-    line.wipe();
-    console.warn(trouble);
-  };
-  Rig rig(options.rig, tell);
-  for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  Recorder recorder = openRecorder(options, calibrationOf(options.rig, rig));
-  Tally tally;
-  rig.watch([&](const sphc_capture &capture) {
+// Until the cameras end, a signal comes or the time is over.
+void recordAll(const Options &options, const Interrupt &interrupt, Rig *rig, sphc_recorder *recorder,
+               StatusLine *line, Tally *tally, const Rig::Tell &tell) {
+  rig->watch([recorder, tally, &options, &tell](const sphc_capture &capture) {
     sphc_message message = {};
-    const sphc_status status = sphc_recorder_add(recorder.get(), &capture, &message);
-    if (status == SPHC_OK) tally.count(capture);
+    const sphc_status status = sphc_recorder_add(recorder, &capture, &message);
+    if (status == SPHC_OK) tally->count(capture);
     if (status == SPHC_E_ARGUMENT) return tell(message.text);  // a time that does not grow
     const char *cure =
         status == SPHC_E_IMAGE ? "; choose that mode (--width, --height) or give its calibration" : "";
     if (status < 0) throw std::runtime_error(options.out + ": " + message.text + cure);
   });
-  const Interrupt interrupt;
   const auto begin = std::chrono::steady_clock::now();
   const auto is_over = [&] {
     return options.seconds > 0 &&
@@ -115,15 +108,43 @@ int run(const Options &options, const Console &console) {
   };
   while (!interrupt.came() && !is_over()) {
     sphc_pair pair = {};
-    const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
+    const Rig::Got got = rig->next(std::chrono::milliseconds(200), &pair);
     if (got == Rig::Got::kEnd) break;
-    if (got == Rig::Got::kPair) rig.release(pair);
-    line.show(statusText(statisticsOf(recorder.get()), tally));
+    if (got == Rig::Got::kPair) rig->release(pair);
+    line->show(statusText(statisticsOf(recorder), *tally));
   }
-  line.wipe();
-  const sphc_recorder_statistics statistics = statisticsOf(recorder.get());
-  sphc_recorder *ended = recorder.release();
-  orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });
+  line->wipe();
+}
+
+int run(const Options &options, const Console &console) {
+  checkRigOptions(options.rig);
+  if (!isMcap(options.out)) throw UsageError("--out: the name of the file ends with .mcap: " + options.out);
+  FileUse files(false);
+  files.reads(options.rig);
+  files.writesRecording("--out", options.out);
+  files.check();
+  StatusLine line;
+  const auto tell = [&](const std::string &trouble) {
+    line.wipe();
+    console.warn(trouble);
+  };
+  Rig rig(options.rig, tell);
+  for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
+  const Interrupt interrupt;  // from before there is a file
+  NewRecording recording(options.out, NewRecording::IfCut::kKeep);
+  Recorder recorder = openRecorder(recording.part(), options, calibrationOf(options.rig, rig));
+  Tally tally;
+  sphc_recorder_statistics statistics = {};
+  try {
+    recordAll(options, interrupt, &rig, recorder.get(), &line, &tally, tell);
+    statistics = statisticsOf(recorder.get());
+    sphc_recorder *ended = recorder.release();
+    orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });
+    recording.finish();
+  } catch (const std::exception &error) {
+    throw std::runtime_error(std::string(error.what()) + "; what was recorded until then is in " +
+                             recording.part());
+  }
   sayResult(options, tally, statistics, rig, console);
   return tally.color > 0 && tally.depth > 0 ? kExitDone : kExitFailure;
 }
@@ -132,7 +153,8 @@ const char kExample[] =
     "Example:\n"
     "  spherecloud record --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --out walk.mcap\n"
     "  spherecloud record --device openni2: -c kinect.json --out walk.mcap --seconds 60\n"
-    "Ctrl-C ends it.  The file plays everywhere a recording does, and opens in Foxglove.";
+    "Ctrl-C or SIGTERM ends it.  The file plays everywhere a recording does, and opens in Foxglove.  Its name is\n"
+    "walk.mcap.part until it is whole; after a crash that plays too, and `spherecloud convert` makes it whole.";
 
 }  // namespace
 
@@ -147,7 +169,7 @@ Command recordCommand(CLI::App *root) {
   app->footer(kExample);
   addRigOptions(app, &options->rig);
   app->add_option("-o,--out", options->out, "The file, ending in .mcap")->required()->type_name("FILE");
-  app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(CLI::NonNegativeNumber);
+  app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_option("--jpeg", options->recorder.jpeg_quality,
                   "Colour as JPEG of this quality, 1 to 100; 0: as it came")
       ->capture_default_str();

@@ -7,6 +7,8 @@
 #include "host/base/checked_call.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_out.h"
 #include "host/report/run.h"
@@ -91,6 +93,9 @@ void tellNext(const Options &options, const Console &console) {
 }
 
 int simulate(const Options &options, const Console &console) {
+  FileUse files(false);
+  files.writesRecording("--out", options.out);
+  files.check();
   const auto start = std::chrono::steady_clock::now();
   const Simulated simulated = openHeadset(options);
   const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
@@ -127,13 +132,21 @@ void addOptions(CLI::App *app, Options *options) {
       ->required()
       ->type_name("PATH");
   app->add_option("--frames", config.frame_count, "How many frames")->capture_default_str()->type_name("N");
-  app->add_option("--rate", config.frame_rate_hz, "Frames a second")->capture_default_str()->type_name("HZ");
+  app->add_option("--rate", config.frame_rate_hz, "Frames a second")
+      ->capture_default_str()
+      ->check(notNegative())
+      ->type_name("HZ");
   app->add_option("--lap", config.lap_s, "Seconds for a lap around the room")
       ->capture_default_str()
+      ->check(notNegative())
       ->type_name("S");
-  app->add_option("--seed", config.seed, "Another room for every number")->capture_default_str()->type_name("N");
+  app->add_option("--seed", config.seed, "Another room for every number")
+      ->capture_default_str()
+      ->check(withoutSign())
+      ->type_name("N");
   app->add_option("--walk-seed", config.walk_seed, "Another walk and noise for every number")
       ->capture_default_str()
+      ->check(withoutSign())
       ->type_name("N");
   app->add_option("--threads", config.threads, "At most so many; 0: all cores")
       ->capture_default_str()

@@ -1,4 +1,4 @@
-// A map file in memory, opened through the door.
+// A map file in memory, opened through the C interface.
 #pragma once
 #include <spherecloud/spherecloud.hpp>
 #include <string>

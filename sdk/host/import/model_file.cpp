@@ -6,10 +6,10 @@
 
 #include <cerrno>
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
+#include "host/base/write_file.h"
 #include "runtime/map/crc32.h"
 #include "runtime/stages/features/extractor.h"
 
@@ -90,15 +90,6 @@ class File {
   int file_;
 };
 
-bool writeAll(int file, const std::vector<uint8_t> &bytes) {
-  for (size_t done = 0; done < bytes.size();) {
-    const ssize_t count = write(file, bytes.data() + done, bytes.size() - done);
-    if (count == 0 || (count < 0 && errno != EINTR)) return false;
-    if (count > 0) done += static_cast<size_t>(count);
-  }
-  return fsync(file) == 0;
-}
-
 std::vector<uint8_t> readAll(int file, size_t count) {
   std::vector<uint8_t> bytes(count);
   for (size_t done = 0; done < count;) {
@@ -122,13 +113,6 @@ std::vector<uint8_t> readPrivate(const std::string &path) {
   if (size < sizeof(Header) || size > sizeof(Header) + kMostPoints * uint64_t{kPointBytes})
     refuse("this is no point model; give a file that build --save-model wrote");
   return readAll(file.get(), size);
-}
-
-bool isModel(const std::string &path) {
-  const File file(path, O_RDONLY | O_NONBLOCK, 0);
-  char magic[sizeof kMagic] = {};
-  return file.get() >= 0 && read(file.get(), magic, sizeof magic) == sizeof magic &&
-         std::memcmp(magic, kMagic, sizeof magic) == 0;
 }
 
 template <typename Action>
@@ -173,22 +157,18 @@ PointModel decodeModel(const std::vector<uint8_t> &bytes) {
   return model;
 }
 
-void checkModelTarget(const std::string &path) {
-  struct stat facts = {};
-  if (stat(path.c_str(), &facts) == 0 && !isModel(path))
-    refuse(path + " is there and is no point model; give --save-model another name");
+bool isModelFile(const std::string &path) {
+  const File file(path, O_RDONLY | O_NONBLOCK, 0);
+  char magic[sizeof kMagic] = {};
+  return file.get() >= 0 && read(file.get(), magic, sizeof magic) == sizeof magic &&
+         std::memcmp(magic, kMagic, sizeof magic) == 0;
 }
 
 void writeModelFile(const std::string &path, const PointModel &model) {
-  checkModelTarget(path);
-  const std::vector<uint8_t> bytes = encodeModel(model);
-  const std::string beside = path + ".part";
-  unlink(beside.c_str());
-  const File file(beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
-  if (file.get() >= 0 && writeAll(file.get(), bytes) && std::rename(beside.c_str(), path.c_str()) == 0) return;
-  const std::string why = std::strerror(errno);
-  if (file.get() >= 0) unlink(beside.c_str());
-  refuse("cannot write " + path + ": " + why + "; check that its folder is there, writable, and the disk not full");
+  struct stat facts = {};
+  if (stat(path.c_str(), &facts) == 0 && !isModelFile(path))
+    refuse(path + " is there and is no point model; give --save-model another name");
+  writeFile(path, encodeModel(model), Readers::kOwner);
 }
 
 PointModel readModelFile(const std::string &path) {

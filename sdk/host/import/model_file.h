@@ -18,7 +18,7 @@ PointModel decodeModel(const std::vector<uint8_t> &bytes);
 void writeModelFile(const std::string &path, const PointModel &model);
 // Throws std::runtime_error with cause and cure, also when others may read the file.
 PointModel readModelFile(const std::string &path);
-// Throws what writeModelFile would throw of a file that is there and is none of ours.
-void checkModelTarget(const std::string &path);
+// By its first bytes; false when it cannot be read.
+bool isModelFile(const std::string &path);
 
 }  // namespace sphc::host

@@ -12,6 +12,7 @@ namespace sphc::host {
 namespace {
 
 constexpr double kPixelSigma = 1.0, kPoseSigmaM = 0.002;
+constexpr double kSamePose = 1e-12;  // interpolating between equal poses rounds
 
 // The device's own stages, in memory from the workstation's heap.
 class FrameDescriber {
@@ -65,6 +66,39 @@ class FrameDescriber {
   SparseAligner aligner_;
 };
 
+// What the frames were like, and why no map comes of them.
+class Census {
+ public:
+  void pose(const sphc_rigid &pose) {
+    if (++poses_ == 1) first_ = pose;
+    for (int i = 0; i < 4; ++i) moved_ = moved_ || std::abs(pose.q_wxyz[i] - first_.q_wxyz[i]) > kSamePose;
+    for (int i = 0; i < 3; ++i) moved_ = moved_ || std::abs(pose.t_m[i] - first_.t_m[i]) > kSamePose;
+  }
+  void unreadable(const std::string &why) {
+    if (why_.empty()) why_ = why;
+  }
+
+  void check(const RgbdImportSummary &s) const {
+    const auto count = [](uint64_t n) { return std::to_string(n); };
+    if (s.frames_used == 0 && s.frames_unreadable > 0)
+      throw std::runtime_error("not one frame can be read: of " + count(s.frames_unreadable) +
+                               " with a pose the first says: " + why_);
+    if (s.frames_used == 0)
+      throw std::runtime_error(
+          "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
+          "groundtruth.txt)");
+    if (poses_ > 1 && !moved_)
+      throw std::runtime_error("all " + count(poses_) +
+                               " poses are the same; a map needs the pose that each frame was really taken from");
+  }
+
+ private:
+  sphc_rigid first_ = {};
+  uint32_t poses_ = 0;
+  bool moved_ = false;
+  std::string why_;
+};
+
 }  // namespace
 
 PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options,
@@ -72,16 +106,20 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
   *summary = {};
   FrameDescriber describer(reader->calibration(), options);
   PointTracks tracks(options);
+  Census census;
   const uint32_t total = reader->frameCount();
   for (uint32_t i = 0; i < total; ++i) {
     if (options.takes_part && !options.takes_part(i)) continue;
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
-    const std::optional<sphc_frame> frame = pose ? reader->tryRead(i) : std::nullopt;
+    std::string why;
+    const std::optional<sphc_frame> frame = pose ? reader->tryRead(i, &why) : std::nullopt;
     if (!pose) {
       ++summary->frames_without_pose;
     } else if (!frame) {
       ++summary->frames_unreadable;
+      census.unreadable(why);
     } else {
+      census.pose(*pose);
       const Rigid world_from_camera = rigidFromDoor(*pose);
       uint32_t keypoints = 0;
       const std::vector<Observation> observations = describer.describe(*frame, world_from_camera, &keypoints);
@@ -92,10 +130,7 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
     }
     if (progress) progress(i + 1, total);
   }
-  if (!summary->frames_used)
-    throw std::runtime_error(
-        "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
-        "groundtruth.txt)");
+  census.check(*summary);
   size_t dropped = 0;
   PointModel model = tracks.finish(&dropped);
   summary->points_kept = static_cast<uint32_t>(model.points.size());

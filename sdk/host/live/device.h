@@ -50,11 +50,4 @@ class Device {
 // Throws std::runtime_error with cause and cure.
 std::unique_ptr<Device> openDevice(const std::string &spec, const Wish &wish);
 
-// One file each; `address` is what stands behind the colon.
-std::unique_ptr<Device> openV4l2(const std::string &address, const Wish &wish);
-std::unique_ptr<Device> openLibcamera(const std::string &address, const Wish &wish);
-std::unique_ptr<Device> openOpenni2(const std::string &address, const Wish &wish);
-std::unique_ptr<Device> openReplay(const std::string &address, const Wish &wish);
-std::unique_ptr<Device> openSimulated(const std::string &address, const Wish &wish);
-
 }  // namespace sphc::host

@@ -1,6 +1,6 @@
 #include "drivers/replay/replay.h"
 #include "host/base/checked_call.h"
-#include "host/live/device.h"
+#include "host/live/device_kind.h"
 
 namespace sphc::host {
 namespace {
@@ -36,10 +36,12 @@ class ReplayDevice : public Device {
   sphc_replay *replay_ = nullptr;
 };
 
-}  // namespace
-
-std::unique_ptr<Device> openReplay(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
   return std::make_unique<ReplayDevice>(address, wish);
 }
+
+}  // namespace
+
+DeviceKind replayKind() { return {"replay", open, nullptr}; }
 
 }  // namespace sphc::host

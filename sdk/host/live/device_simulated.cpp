@@ -1,6 +1,6 @@
 #include "drivers/simulated/simulated.h"
 #include "host/base/checked_call.h"
-#include "host/live/device.h"
+#include "host/live/device_kind.h"
 
 namespace sphc::host {
 namespace {
@@ -33,10 +33,12 @@ class SimulatedDevice : public Device {
   sphc_simulated *simulated_ = nullptr;
 };
 
-}  // namespace
-
-std::unique_ptr<Device> openSimulated(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
   return std::make_unique<SimulatedDevice>(address, wish);
 }
+
+}  // namespace
+
+DeviceKind simulatedKind() { return {"simulated", open, nullptr}; }
 
 }  // namespace sphc::host

@@ -1,6 +1,9 @@
+#include <algorithm>
+#include <vector>
+
 #include "drivers/v4l2/v4l2.h"
 #include "host/base/checked_call.h"
-#include "host/live/device.h"
+#include "host/live/device_kind.h"
 #include "host/live/words.h"
 
 namespace sphc::host {
@@ -53,10 +56,34 @@ class V4l2Device : public Device {
   sphc_v4l2 *v4l2_ = nullptr;
 };
 
-}  // namespace
-
-std::unique_ptr<Device> openV4l2(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
   return std::make_unique<V4l2Device>(address, wish);
 }
+
+constexpr uint32_t kMost = 64;
+
+std::string offersOf(const sphc_v4l2_device &device) {
+  std::string text = device.can_color ? "colour" : "";
+  if (device.can_depth) text += text.empty() ? "depth" : " and depth";
+  if (text.empty()) text = "nothing that we read";
+  text += ":";
+  for (uint32_t i = 0; i < std::min(device.fourcc_count, 32u); ++i) text += " " + fourccText(device.fourccs[i]);
+  return text;
+}
+
+void find(Found *found) {
+  std::vector<sphc_v4l2_device> devices(kMost);
+  uint32_t count = 0;
+  if (sphc_v4l2_list(devices.data(), kMost, &count) < 0)
+    return found->notes.push_back("v4l2: the cameras cannot be listed; may this user read /dev and /sys?");
+  for (uint32_t i = 0; i < std::min(count, kMost); ++i) {
+    const sphc_v4l2_device &d = devices[i];
+    found->cameras.push_back({std::string("v4l2:") + d.node, d.card, offersOf(d), d.problem});
+  }
+}
+
+}  // namespace
+
+DeviceKind v4l2Kind() { return {"v4l2", open, find}; }
 
 }  // namespace sphc::host

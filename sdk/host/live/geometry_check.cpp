@@ -13,8 +13,12 @@ namespace sphc::host {
 namespace {
 
 constexpr size_t kFewestEdges = 300;
-constexpr double kClearly = 0.7;  // of the distance as calibrated
+constexpr double kClearly = 0.7;  // of the distance as calibrated, or by chance
+constexpr double kSurely = 0.5;   // of the distance by chance: five mistakes are tried, and one is lucky
 constexpr double kFine_px = 4;    // as calibrated
+constexpr double kFewestApart_px =
+    2;  // a median pixel nearer to an edge than this is in an image of nothing but edges
+constexpr uint32_t kChanceStep_px = 5;
 constexpr uint32_t kGap_px = 10;
 
 std::vector<uint8_t> grayOf(const sphc_image &image) {
@@ -94,12 +98,30 @@ std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth, Mistake mi
 
 void GeometryCheck::look(const sphc_image &color, const sphc_image &depth) {
   const std::vector<uint8_t> edges = imageEdges(grayOf(color), color.width, color.height);
+  const auto edge_count = static_cast<size_t>(std::count(edges.begin(), edges.end(), 1));
+  if (edge_count == 0) return;
+  image_edges_ += edge_count;
+  std::vector<uint8_t> any(edges.size());
+  for (size_t i = 0; i < any.size(); i += kChanceStep_px) any[i] = 1;
+  edgeDistances(any, edges, color.width, color.height, &chance_px_);
   for (int mistake = 0; mistake < kMistakes; ++mistake) {
     if (!canBe(static_cast<Mistake>(mistake))) continue;
     const std::vector<uint16_t> lies = aligned(depth, static_cast<Mistake>(mistake));
     edgeDistances(depthEdges(lies, color.width, color.height, kGap_px), edges, color.width, color.height,
                   &distances_px_[static_cast<size_t>(mistake)]);
   }
+}
+
+std::optional<Finding> GeometryCheck::nothingToTell() const {
+  if (image_edges_ < kFewestEdges)
+    return Finding{
+        Finding::Grade::kDoubtful, "geometry",
+        "too few edges in the image to tell; is it black, blank or out of focus? Show the cameras a room with "
+        "things in it"};
+  if (percentile(chance_px_, 0.5) < kFewestApart_px)
+    return Finding{Finding::Grade::kDoubtful, "geometry",
+                   "the image is edges all over, as noise is, so nothing can be told; more light, less gain"};
+  return std::nullopt;
 }
 
 Finding GeometryCheck::finding() const {
@@ -112,6 +134,8 @@ Finding GeometryCheck::finding() const {
       "or "
       "turn registration off",
       "color_from_depth the wrong way round; it should take points of the depth camera to the colour camera"};
+  if (const std::optional<Finding> nothing = nothingToTell()) return *nothing;
+  const double chance_px = percentile(chance_px_, 0.5);
   std::array<double, kMistakes> medians_px;
   for (size_t i = 0; i < kMistakes; ++i) {
     medians_px[i] = distances_px_[i].size() < kFewestEdges ? 1e9 : percentile(distances_px_[i], 0.5);
@@ -126,9 +150,14 @@ Finding GeometryCheck::finding() const {
   const std::string seen = too_few
                                ? "hardly an edge of depth lies in the image"
                                : "edges of depth lie " + fixed(calibrated_px, 1) + " px from edges of the image";
-  if (best != kNone && medians_px[best] < kClearly * calibrated_px)
+  if (best != kNone && medians_px[best] < kClearly * calibrated_px && medians_px[best] < kSurely * chance_px)
     return {Finding::Grade::kWrong, "geometry",
             seen + " as calibrated, and " + fixed(medians_px[best], 1) + " px if it is " + kNames[best]};
+  if (calibrated_px > kClearly * chance_px)
+    return {Finding::Grade::kWrong, "geometry",
+            seen + ", and any pixel does within " + fixed(chance_px, 1) +
+                " px: the two show different things. Is depth stale, late or mere noise, or the calibration of "
+                "other cameras?"};
   if (calibrated_px > kFine_px)
     return {Finding::Grade::kDoubtful, "geometry",
             seen + "; 1 to 3 px are usual: is this these cameras' calibration?"};

@@ -1,7 +1,8 @@
 // Does depth lie on the image as the calibration says?  Edges of depth should be edges of the image: they are
-// compared as calibrated, and under the usual mistakes.
+// compared as calibrated, under the usual mistakes, and with any pixel, which tells what chance does.
 #pragma once
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "host/live/finding.h"
@@ -22,10 +23,13 @@ class GeometryCheck {
 
   bool canBe(Mistake mistake) const;
   sphc_calibration calibrationOf(Mistake mistake) const;
+  std::optional<Finding> nothingToTell() const;
   std::vector<uint16_t> aligned(const sphc_image &depth, Mistake mistake) const;
 
   sphc_calibration calibration_;
   std::array<std::vector<double>, kMistakes> distances_px_;
+  std::vector<double> chance_px_;  // of any pixel
+  size_t image_edges_ = 0;
 };
 
 }  // namespace sphc::host

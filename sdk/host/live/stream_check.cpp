@@ -10,7 +10,8 @@ namespace sphc::host {
 namespace {
 
 using Grade = Finding::Grade;
-constexpr uint32_t kEvery = 7;  // pixels looked at
+constexpr uint32_t kEvery = 7;                                                   // pixels looked at
+constexpr uint64_t kFnvStart = 0xCBF29CE484222325u, kFnvPrime = 0x100000001B3u;  // Fowler, Noll and Vo's hash
 
 uint32_t pixelAt(const sphc_image &image, uint32_t x, uint32_t y) {
   const auto *row = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
@@ -44,16 +45,20 @@ void StreamCheck::look(const sphc_capture &capture) {
   last_ = capture;
   const sphc_image &image = capture.image;
   double sum = 0;
+  uint64_t hash = kFnvStart;
   uint32_t pixels = 0, measured = 0;
   for (uint32_t y = kEvery / 2; y < image.height; y += kEvery)
     for (uint32_t x = kEvery / 2; x < image.width; x += kEvery, ++pixels) {
       const uint32_t value = pixelAt(image, x, y);
       sum += value;
+      hash = (hash ^ value) * kFnvPrime;
       if (is_color_ || value == 0) continue;
       ++measured;
       if (count_ % 10 == 1) depths_m_.push_back(value * depth_unit_m_);
     }
   if (pixels == 0) return;
+  repeated_ += count_ > 1 && hash == last_pixels_;
+  last_pixels_ = hash;
   brightness_.push_back(sum / pixels);
   measured_share_.push_back(static_cast<double>(measured) / pixels);
 }
@@ -63,7 +68,19 @@ Findings StreamCheck::findings() const {
     return {{Grade::kWrong, is_color_ ? "colour" : "depth",
              "not one image came; is another program using the camera, or its shutter closed?"}};
   if (const std::optional<Finding> wrong = size()) return {*wrong};
-  return {rate(), clock(), is_color_ ? brightness() : depths()};
+  Findings findings = {rate(), clock(), is_color_ ? brightness() : depths()};
+  if (const std::optional<Finding> same = frozen()) findings.push_back(*same);
+  return findings;
+}
+
+// No sensor gives the same noise twice.
+std::optional<Finding> StreamCheck::frozen() const {
+  if (10 * repeated_ <= count_) return std::nullopt;
+  return Finding{
+      2 * repeated_ > count_ ? Grade::kWrong : Grade::kDoubtful, is_color_ ? "colour images" : "depth images",
+      std::to_string(repeated_) + " of " + std::to_string(count_) +
+          " are the ones before over again; the stream is stale: start the camera anew, or ask it for fewer "
+          "images a second"};
 }
 
 std::optional<Finding> StreamCheck::size() const {

@@ -18,6 +18,7 @@ class StreamCheck {
 
  private:
   Finding rate() const;
+  std::optional<Finding> frozen() const;  // where it is
   Finding clock() const;
   std::optional<Finding> size() const;  // where it is wrong
   Finding brightness() const;
@@ -27,7 +28,8 @@ class StreamCheck {
   sphc_camera camera_;
   double depth_unit_m_;
   sphc_capture first_ = {}, last_ = {};
-  uint32_t count_ = 0, lost_ = 0;
+  uint32_t count_ = 0, lost_ = 0, repeated_ = 0;
+  uint64_t last_pixels_ = 0;  // a hash of those looked at
   std::vector<double> periods_ms_, brightness_, depths_m_, measured_share_;
 };
 

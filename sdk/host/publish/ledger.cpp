@@ -5,11 +5,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 #include "host/publish/sqlite_statement.h"
+#include "runtime/map/crc32.h"
 
 namespace sphc::host {
 namespace {
@@ -34,11 +38,13 @@ CREATE TABLE point (place INTEGER NOT NULL, number INTEGER NOT NULL, x REAL NOT 
 }
 
 // SQLite gives its journal the mode of the file, so the file is made first.
-void makeFile(const std::string &path) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0600);
+// True where it was not there.
+bool makeFile(const std::string &path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file >= 0) close(file);
-  if (file < 0 && errno != EEXIST)
+  if (file < 0 && errno != EEXIST && errno != EISDIR)
     refuse(path, std::string("cannot be made: ") + std::strerror(errno) + "; choose another place with --ledger");
+  return file >= 0;
 }
 
 void checkMode(const std::string &path) {
@@ -46,6 +52,9 @@ void checkMode(const std::string &path) {
   if (stat(path.c_str(), &facts) != 0)
     refuse(path,
            std::string(std::strerror(errno)) + "; is the file there? Its name is the ledger's, not the map's");
+  if (!S_ISREG(facts.st_mode))
+    refuse(path, std::string(S_ISDIR(facts.st_mode) ? "this is a folder" : "this is a device or a pipe") +
+                     "; give the ledger itself, a file");
   if (facts.st_mode & (S_IRWXG | S_IRWXO))
     refuse(path, "others may read it, and it tells real points from fake ones; run: chmod 600 " + path);
 }
@@ -144,7 +153,14 @@ void writePlace(sqlite3 *database, const Place &place) {
 
 }  // namespace
 
-void Ledger::Closer::operator()(sqlite3 *database) const { sqlite3_close(database); }
+// Before the lock goes: nobody else can have recorded anything in it.
+void Ledger::Closer::operator()(sqlite3 *database) const {
+  if (!unrecorded.empty()) {
+    unlink(unrecorded.c_str());
+    unlink((unrecorded + "-journal").c_str());
+  }
+  sqlite3_close(database);
+}
 
 Ledger::Ledger(const std::string &path, int flags) : path_(path) {
   sqlite3 *database = nullptr;
@@ -185,10 +201,11 @@ void Ledger::read(const SecretKey *expected) {
 }
 
 Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
-  makeFile(path);
+  const bool is_new = makeFile(path);
   checkMode(path);
   Ledger ledger(path, SQLITE_OPEN_READWRITE);
   ledger.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE");
+  if (is_new) ledger.database_.get_deleter().unrecorded = path;
   if (valueOf(ledger.database_.get(), "SELECT count(*) FROM sqlite_master") == 0)
     ledger.make(key ? *key : newSecretKey());
   ledger.run("COMMIT");
@@ -235,6 +252,23 @@ void Ledger::record(const Place &place) {
     refuse(path_, error.what());
   }
   run("COMMIT");
+  database_.get_deleter().unrecorded.clear();
+}
+
+bool isLedger(const std::string &path) {
+  char head[72] = {};
+  std::ifstream file(path, std::ios::binary);
+  const char application[] = {kApplication >> 24, kApplication >> 16 & 0xFF, kApplication >> 8 & 0xFF,
+                              kApplication & 0xFF};
+  return file.read(head, sizeof head) && std::memcmp(head, "SQLite format 3", 16) == 0 &&
+         std::memcmp(head + 68, application, sizeof application) == 0;
+}
+
+const Release *releaseOf(const Place &place, const std::vector<uint8_t> &file) {
+  const uint32_t crc = crc32(0, file.data(), file.size());
+  const auto released = std::find_if(place.releases.begin(), place.releases.end(),
+                                     [crc](const Release &release) { return release.crc32 == crc; });
+  return released == place.releases.end() ? nullptr : &*released;
 }
 
 }  // namespace sphc::host

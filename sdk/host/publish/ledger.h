@@ -16,7 +16,7 @@ class Ledger {
  public:
   // Opens the ledger, or makes one with this key; only one program at a time has it open.  Throws
   // std::runtime_error with cause and cure, also when the ledger was made with another key or others may read the
-  // file.
+  // file.  One that was made, and in which nothing was recorded, is removed with this object.
   static Ledger openOrMake(const std::string &path, const SecretKey *key);
   // For a look at what somebody else released; throws when there is none.
   static Ledger openToRead(const std::string &path);
@@ -30,6 +30,7 @@ class Ledger {
 
  private:
   struct Closer {
+    std::string unrecorded;  // the file to remove; "": none
     void operator()(sqlite3 *database) const;
   };
   Ledger(const std::string &path, int flags);
@@ -41,5 +42,10 @@ class Ledger {
   std::unique_ptr<sqlite3, Closer> database_;
   SecretKey key_ = {};
 };
+
+// By its first bytes, whatever its mode.
+bool isLedger(const std::string &path);
+// The release of the place that this map file is; null where it is none.
+const Release *releaseOf(const Place &place, const std::vector<uint8_t> &file);
 
 }  // namespace sphc::host

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "host/base/write_file.h"
 #include "host/publish/descriptor_index.h"
 #include "runtime/map/crc32.h"
 #include "runtime/map/layout.h"
@@ -114,17 +115,6 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
   return file;
 }
 
-void writeFile(const std::string &path, const std::vector<uint8_t> &bytes) {
-  const std::string beside = path + ".part";
-  std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char *>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out || std::rename(beside.c_str(), path.c_str()) != 0) {
-    std::remove(beside.c_str());
-    throw std::runtime_error(path + " cannot be written; is the folder there and the disk not full?");
-  }
-}
-
 std::string hexText(const uint8_t *bytes, size_t count) {
   std::string text;
   char digits[3];
@@ -144,8 +134,7 @@ void writeOwnerNote(const std::string &path, const OwnerNote &note) {
       {"centre_in_world_m", {note.centre_in_world_m.x(), note.centre_in_world_m.y(), note.centre_in_world_m.z()}},
       {"eta", note.eta},
       {"strategy", note.strategy}};
-  const std::string text = json.dump(2) + "\n";
-  writeFile(path, std::vector<uint8_t>(text.begin(), text.end()));
+  writeFile(path, json.dump(2) + "\n", Readers::kOwner);
 }
 
 OwnerNote readOwnerNote(const std::string &path) {

@@ -13,8 +13,6 @@ namespace sphc::host {
 PackedDirection packDirection(const Vector3 &direction);
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id);
-// Whole or not at all: writes beside the target, then renames.  Throws std::runtime_error.
-void writeFile(const std::string &path, const std::vector<uint8_t> &bytes);
 
 // Two lower-case digits a byte, as map ids are written.
 std::string hexText(const uint8_t *bytes, size_t count);
@@ -26,6 +24,7 @@ struct OwnerNote {
   double eta;
   std::string strategy;
 };
+// Readable by its owner alone.
 void writeOwnerNote(const std::string &path, const OwnerNote &note);
 OwnerNote readOwnerNote(const std::string &path);  // throws std::runtime_error with cause and cure
 

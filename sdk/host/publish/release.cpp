@@ -99,9 +99,12 @@ size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Pl
   points.erase(std::remove_if(points.begin(), points.end(), at_centre), points.end());
   const size_t real = static_cast<size_t>(place->eta * static_cast<double>(points.size()));
   const uint32_t release = static_cast<uint32_t>(place->releases.size() + 1);
-  if (points.size() < kLeastBatch || real == 0)
+  if (points.size() < kLeastBatch)
     throw std::runtime_error("there are " + std::to_string(points.size()) +
                              " points to publish, too few for a map; record more frames, slower, in better light");
+  if (real == 0)
+    throw std::runtime_error("of " + std::to_string(points.size()) + " points an eta of " +
+                             std::to_string(place->eta) + " leaves not one real; give a larger --eta");
   if (place->points.size() + points.size() > kMapMaxPoints)
     throw std::runtime_error("the place has too many points for one map; make a map of a part of it");
   // The words are part of the key: with others the same key would give another, independent map of the place.

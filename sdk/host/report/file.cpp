@@ -18,16 +18,6 @@ void makeFolder(const std::string &path) {
   }
 }
 
-void writeText(const std::string &path, const std::string &text) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) {
-    throw std::runtime_error("cannot write " + path + ": " + std::strerror(errno) +
-                             "; check that its folder is there, writable, and the disk not full");
-  }
-}
-
 std::vector<uint8_t> readBytes(const std::string &path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {

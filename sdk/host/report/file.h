@@ -1,4 +1,4 @@
-// Small files, whole.  All throw std::runtime_error with cause and cure.
+// Folders and small files; base/write_file.h writes them.  Both throw std::runtime_error with cause and cure.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -7,7 +7,6 @@
 namespace sphc::host {
 
 void makeFolder(const std::string &path);
-void writeText(const std::string &path, const std::string &text);
 std::vector<uint8_t> readBytes(const std::string &path);
 
 }  // namespace sphc::host

@@ -7,18 +7,22 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "host/report/file.h"
+#include "host/base/write_file.h"
 
 extern char **environ;
 
 namespace sphc::host {
+
+const char kPlotHead[] = "# drawn by spherecloud\n";
+
 namespace {
 
 std::string terminals(const std::string &name, const std::string &script, PlotSize size) {
   const std::string box = std::to_string(size.width_px) + "," + std::to_string(size.height_px);
   const std::string large = std::to_string(2 * size.width_px) + "," + std::to_string(2 * size.height_px);
-  return "set terminal svg size " + box + " dynamic font 'Helvetica,Arial,sans-serif,13' background '#ffffff'\n" +
-         "set output '" + name + ".svg'\n" + script + "\nset terminal pngcairo size " + large +
+  return std::string(kPlotHead) + "set terminal svg size " + box +
+         " dynamic font 'Helvetica,Arial,sans-serif,13' background '#ffffff'\n" + "set output '" + name +
+         ".svg'\n" + script + "\nset terminal pngcairo size " + large +
          " font 'Sans,13' fontscale 1.6 linewidth 1.8 pointscale 1.6 background '#ffffff'\n" + "set output '" +
          name + ".png'\nreplot\n";
 }
@@ -54,7 +58,7 @@ const char kPlotLook[] =
     "set key textcolor rgb '#334155'\n";
 
 PlotResult plot(const std::string &folder, const std::string &name, const std::string &script, PlotSize size) {
-  writeText(folder + "/" + name + ".gp", terminals(name, script, size));
+  writeFile(folder + "/" + name + ".gp", terminals(name, script, size));
   for (const char *ending : {".svg", ".png"})
     std::filesystem::remove(folder + "/" + name + ending);  // of another run
   int status = 0;

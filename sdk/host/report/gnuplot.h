@@ -4,6 +4,7 @@
 
 namespace sphc::host {
 
+extern const char kPlotHead[];  // the first line of every script that is written here
 extern const char kPlotLook[];  // one look for all: borders, tics, grid, key
 
 enum class PlotResult { kDone, kNoGnuplot, kFailed };

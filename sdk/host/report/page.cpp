@@ -8,6 +8,9 @@
 #include "host/report/table.h"
 
 namespace sphc::host {
+
+const char kReportHead[] = "<title>SphereCloud report</title>";
+
 namespace {
 
 std::string card(const std::string &value, const std::string &name, const std::string &grade = "") {
@@ -173,9 +176,8 @@ std::string plotSection(const PageContent &content) {
 std::string reportPage(const Run &run, const Summary &s, const PageContent &content) {
   std::string html =
       "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>"
-      "<meta name='viewport' content='width=device-width,initial-scale=1'><title>SphereCloud report</title>"
-      "<style>" +
-      std::string(kPageStyle) + "</style></head>\n<body>\n";
+      "<meta name='viewport' content='width=device-width,initial-scale=1'>" +
+      std::string(kReportHead) + "<style>" + kPageStyle + "</style></head>\n<body>\n";
   html += "<header><div><h1>Where was the camera?</h1><p>" + escapeHtml(run.recording) + " in the sphere cloud " +
           escapeHtml(run.maps.front().path) +
           (run.maps.size() > 1 ? " and " + std::to_string(run.maps.size() - 1) + " more" : "") +

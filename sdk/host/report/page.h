@@ -23,6 +23,9 @@ struct PageContent {
   std::string plot_problem;  // why plots are missing, and the cure; empty when they are there
 };
 
+// Near the beginning of every page that is written here.
+extern const char kReportHead[];
+
 std::string reportPage(const Run &run, const Summary &summary, const PageContent &content);
 
 }  // namespace sphc::host

@@ -5,7 +5,10 @@
 
 namespace sphc::host {
 
-// In the format that the name's ending says.  Throws std::runtime_error with cause and cure.
+// What every PNG that is written here says of itself, near its beginning.
+extern const std::string kPictureMark;
+
+// As PNG.  Throws std::runtime_error with cause and cure.
 void writePicture(const std::string &path, const cv::Mat &picture);
 
 }  // namespace sphc::host

@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "host/base/write_file.h"
 #include "host/report/direction_picture.h"
 #include "host/report/encode.h"
 #include "host/report/file.h"
@@ -29,7 +30,7 @@ std::vector<uint8_t> writePicture(const std::string &path, const cv::Mat &pictur
   std::vector<uint8_t> encoded;
   if (!cv::imencode(std::filesystem::path(path).extension().string(), picture, encoded, options))
     throw std::runtime_error("cannot encode " + path + ": OpenCV has no encoder for this kind");
-  writeText(path, {encoded.begin(), encoded.end()});
+  writeFile(path, encoded);
   return encoded;
 }
 
@@ -123,10 +124,10 @@ ReportSummary writeReport(const std::string &folder, const Run &run, const Image
   addOverlays(folder, run, image_of_frame, &content);
   addPlots(folder, run, summary, &content);
   addDirections(folder, run, &content);
-  writeText(folder + "/frames.jsonl", framesJsonLines(run));
-  writeText(folder + "/summary.json", summaryJson(run, summary).dump(2) + "\n");
-  writeText(folder + "/trajectory.tum", tumTrajectory(run));
-  writeText(folder + "/report.html", reportPage(run, summary, content));
+  writeFile(folder + "/frames.jsonl", framesJsonLines(run));
+  writeFile(folder + "/summary.json", summaryJson(run, summary).dump(2) + "\n");
+  writeFile(folder + "/trajectory.tum", tumTrajectory(run));
+  writeFile(folder + "/report.html", reportPage(run, summary, content));
   return {folder + "/report.html", content.plot_problem};
 }
 

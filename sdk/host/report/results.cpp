@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "host/base/write_file.h"
 #include "host/report/file.h"
 
 namespace sphc::host {
@@ -34,7 +35,7 @@ void replaceRows(const std::string &path, const std::string &head, const std::st
   lines.insert(lines.begin() + place, rows.begin(), rows.end());
   std::string text;
   for (const std::string &line : lines) text += line + "\n";
-  writeText(path, text);
+  writeFile(path, text);
 }
 
 }  // namespace sphc::host

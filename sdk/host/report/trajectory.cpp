@@ -5,6 +5,8 @@
 
 namespace sphc::host {
 
+const char kTumHead[] = "# timestamp tx ty tz qx qy qz qw (";
+
 std::string tumLine(int64_t time_ns, const sphc_rigid &base_from_camera) {
   const double *t = base_from_camera.t_m, *q = base_from_camera.q_wxyz;
   const bool negative = time_ns < 0;
@@ -17,7 +19,7 @@ std::string tumLine(int64_t time_ns, const sphc_rigid &base_from_camera) {
 }
 
 std::string tumTrajectory(const Run &run) {
-  std::string text = "# timestamp tx ty tz qx qy qz qw (" + run.base + "_from_camera, metres)\n";
+  std::string text = kTumHead + run.base + "_from_camera, metres)\n";
   for (const FrameRecord &frame : run.frames) {
     if (frame.localized) text += tumLine(frame.time_ns, frame.base_from_camera);
   }

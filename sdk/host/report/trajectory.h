@@ -6,6 +6,9 @@
 
 namespace sphc::host {
 
+// How every trajectory that is written here begins.
+extern const char kTumHead[];
+
 std::string tumLine(int64_t time_ns, const sphc_rigid &base_from_camera);
 // The localized frames of a run, in order of time, under a line that says what the poses are.
 std::string tumTrajectory(const Run &run);

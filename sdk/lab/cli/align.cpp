@@ -2,10 +2,13 @@
 #include <memory>
 
 #include "host/base/checked_call.h"
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/report/file.h"
+#include "host/report/picture_file.h"
 #include "lab/align/bench.h"
 #include "lab/cli/commands.h"
 #include "lab/cli/options.h"
@@ -18,7 +21,7 @@ struct Options {
   RecordingOptions recording;
   uint32_t repeats = 5;
   std::string out, results;
-  bool no_peers = false;
+  bool no_peers = false, force = false;
 };
 
 std::vector<uint8_t> grayOf(const sphc_image &color) {
@@ -68,6 +71,11 @@ std::vector<AlignCase> casesOf(const Options &options, const Console &console) {
 }
 
 int run(const Options &options, const Console &console) {
+  FileUse files(options.force);
+  files.reads(options.recording);
+  files.writes("--results", options.results, holds(alignResults({})));
+  files.writesFolder("--out", options.out, holds(kPictureMark));
+  files.check();
   const int core = pinToOneCore();
   std::vector<AlignVariant> variants = {ourAligner(), plainLoop()};
   if (!options.no_peers) variants.push_back(openCvAligner());
@@ -83,7 +91,7 @@ int run(const Options &options, const Console &console) {
     console.say("\n" + alignText(tables.back()));
     if (!options.out.empty()) writeAlignPicture(c, options.out + "/align_" + c.name + ".png");
   }
-  if (!options.results.empty()) writeText(options.results, alignResults(tables));
+  if (!options.results.empty()) writeFile(options.results, alignResults(tables));
   if (!options.out.empty()) console.say("Wrote " + options.out + ".");
   console.give({{"core", core}, {"repeats", options.repeats}, {"tables", alignJson(tables)}});
   return kExitDone;
@@ -111,6 +119,7 @@ Command alignCommand(CLI::App *root) {
   app->add_flag("--no-peers", options->no_peers, "Without OpenCV");
   app->add_option("-o,--out", options->out, "Folder for pictures")->type_name("DIR");
   app->add_option("--results", options->results, "Write ratios and errors, no milliseconds")->type_name("FILE");
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

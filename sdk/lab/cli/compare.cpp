@@ -3,6 +3,8 @@
 
 #include "host/base/usage_error.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/privacy_results.h"
 #include "host/cli/common/progress.h"
 #include "host/report/file.h"
@@ -23,7 +25,7 @@ struct Options {
   std::vector<std::string> correspondences;
   PoseRunOptions runs;
   std::string name, out, results, privacy_results;
-  bool attack = false;
+  bool attack = false, force = false;
 };
 
 CompareInput readInput(Options options) {
@@ -86,6 +88,13 @@ int run(const Options &options, const Console &console) {
   if (!options.attack && (!options.privacy_results.empty() || !options.out.empty()))
     throw UsageError("--out and --privacy-results are for --attack");
   if (options.attack && !options.results.empty()) throw UsageError("--results is not for --attack");
+  FileUse files(options.force);
+  files.reads(options.recording.mapping);
+  for (const std::string &path : options.correspondences) files.reads("--correspondences", path);
+  files.writes("--results", options.results, holds(kCompareHead));
+  files.writes("--privacy-results", options.privacy_results, holds(kPrivacyHead));
+  files.writesFolder("--out", options.out, holds(kPlotHead));
+  files.check();
   const CompareInput input = readInput(options);
   if (options.attack)
     console.give(runAttack(input, options, console));
@@ -120,7 +129,7 @@ void addInputOptions(CLI::App *app, Options *options) {
       ->check(CLI::PositiveNumber)
       ->group(group);
   app->add_option("--eta", options->recording.etas, "Sphere clouds made of the recording [1 0.333]")
-      ->check(CLI::Range(1e-3, 1.0))
+      ->check(between(1e-3, 1))
       ->type_name("X");
   app->add_option("--correspondences", options->correspondences,
                   "Correspondence files of one place in place of a recording")
@@ -147,6 +156,7 @@ Command compareCommand(CLI::App *root) {
   app->description("Compare sphere clouds with the systems of the literature.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -2,7 +2,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/report/file.h"
 #include "lab/cli/commands.h"
@@ -18,7 +21,7 @@ struct Options {
   uint32_t times = 16, worlds = 6000;
   uint64_t seed = 1;
   std::string out, results;
-  bool fit = false;
+  bool fit = false, force = false;
 };
 
 // Files that differ in eta alone are one scene.
@@ -72,15 +75,21 @@ ConfidenceModel chooseModel(const Options &options, const std::vector<Confidence
 
 void writeResult(const Options &options, const std::vector<ConfidenceScene> &scenes, const ConfidenceModel &model,
                  const Console &console) {
-  if (!options.results.empty()) writeText(options.results, confidenceResults(scenes, model));
+  if (!options.results.empty()) writeFile(options.results, confidenceResults(scenes, model));
   if (options.out.empty()) return;
   makeFolder(options.out);
-  writeText(options.out + "/confidence.csv", confidenceCsv(scenes, model));
+  writeFile(options.out + "/confidence.csv", confidenceCsv(scenes, model));
   const Drawing drawing = drawConfidence(scenes, model);
   sayWritten(options.out, plot(options.out, drawing.name, drawing.script, drawing.size), console);
 }
 
 int run(const Options &options, const Console &console) {
+  FileUse files(options.force);
+  for (const std::string &path : options.files) files.reads("the rows", path);
+  for (const std::string &path : options.fitted) files.reads("--fitted", path);
+  files.writes("--results", options.results, holds(confidenceResults({}, {})));
+  files.writesFolder("--out", options.out, holds(kPlotHead));
+  files.check();
   const auto scenes = measure(options);
   const ConfidenceModel model = chooseModel(options, scenes, console);
   console.say(confidenceText(scenes, model));
@@ -116,7 +125,10 @@ void addOptions(CLI::App *app, Options *options) {
       ->capture_default_str()
       ->check(CLI::Range(10u, 1000000u))
       ->type_name("N");
-  app->add_option("--seed", options->seed, "Of the cases")->capture_default_str()->type_name("N");
+  app->add_option("--seed", options->seed, "Of the cases")
+      ->capture_default_str()
+      ->check(withoutSign())
+      ->type_name("N");
   app->add_option("-o,--out", options->out, "Folder for confidence.csv and the diagram")->type_name("DIR");
   app->add_option("--results", options->results, "Write the table as csv")->type_name("FILE");
 }
@@ -129,6 +141,7 @@ Command confidenceCommand(CLI::App *root) {
   app->description("Is the confidence of a pose what it says?\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -3,10 +3,11 @@
 #include <memory>
 
 #include "host/base/usage_error.h"
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
-#include "host/report/file.h"
 #include "lab/cli/commands.h"
 #include "lab/cli/options.h"
 #include "lab/cli/words.h"
@@ -21,7 +22,7 @@ struct Options {
   uint32_t step = 1;
   FeaturesOptions bench;
   std::string python = "python3", results;
-  bool no_peers = false;
+  bool no_peers = false, force = false;
 };
 
 // Present variants, of those asked for; names the absent.
@@ -60,6 +61,11 @@ int run(const Options &options, const Console &console) {
   if (!fits(options.calibrations.size()) || !fits(options.first.size()) || !fits(options.last.size()))
     throw UsageError(
         "give --calibration, --first and --last once for each --recording, in the same order, or never");
+  FileUse files(options.force);
+  for (const std::string &path : options.recordings) files.reads("--recording", path);
+  for (const std::string &path : options.calibrations) files.reads("--calibration", path);
+  files.writes("--results", options.results, holds(featuresResults({})));
+  files.check();
   const int core = pinToOneCore();
   console.say(pinnedText(core, "CPU time"));
   std::vector<FeaturesTable> tables;
@@ -67,7 +73,7 @@ int run(const Options &options, const Console &console) {
     tables.push_back(measure(options, i, console));
     console.say("\n" + featuresText(tables.back()));
   }
-  if (!options.results.empty()) writeText(options.results, featuresResults(tables));
+  if (!options.results.empty()) writeFile(options.results, featuresResults(tables));
   console.give({{"core", core}, {"repeats", options.bench.repeats}, {"tables", featuresJson(tables)}});
   return kExitDone;
 }
@@ -122,6 +128,7 @@ Command featuresCommand(CLI::App *root) {
   app->description("Keypoint extractors on the frames of a recording.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -2,7 +2,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/evaluate/localize_run.h"
@@ -25,7 +27,7 @@ struct Options {
   std::vector<std::string> maps, only;
   uint32_t repeats = 3;
   std::string name, python = "python3", out, results;
-  bool no_peers = false;
+  bool no_peers = false, force = false;
 };
 
 // A map with what only its owner knows.
@@ -147,14 +149,20 @@ class FrameCommand {
 };
 
 void writeResult(const Options &options, const std::vector<FrameTable> &tables, const Console &console) {
-  if (!options.results.empty()) writeText(options.results, frameResults(tables));
+  if (!options.results.empty()) writeFile(options.results, frameResults(tables));
   if (options.out.empty()) return;
   makeFolder(options.out);
-  writeText(options.out + "/frame.csv", frameCsv(tables));
+  writeFile(options.out + "/frame.csv", frameCsv(tables));
   sayWritten(options.out, writeDrawings(options.out, frameDrawings(tables)), console);
 }
 
 int run(Options options, const Console &console) {
+  FileUse files(options.force);
+  files.reads(options.recording);
+  for (const std::string &map : options.maps) files.reads("--map", map);
+  files.writes("--results", options.results, holds(frameResults({})));
+  files.writesFolder("--out", options.out, holds(kPlotHead));
+  files.check();
   const int core = pinToOneCore();
   if (options.name.empty()) options.name = std::filesystem::path(options.recording.folder).filename().string();
   console.say(pinnedText(core, "CPU time"));
@@ -221,6 +229,7 @@ Command frameCommand(CLI::App *root) {
   app->description("Whole frames, ours beside package peers.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

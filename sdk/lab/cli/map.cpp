@@ -1,15 +1,20 @@
 
+#include <iterator>
 #include <memory>
 
 #include "host/base/usage_error.h"
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/import_recording.h"
+#include "host/cli/common/number_checks.h"
 #include "host/publish/map_writer.h"
 #include "host/publish/recognition.h"
 #include "host/publish/release.h"
 #include "host/publish/resized_model.h"
 #include "host/report/file.h"
 #include "lab/cli/commands.h"
+#include "runtime/map/layout.h"
 
 namespace sphc::host {
 namespace {
@@ -23,6 +28,7 @@ struct Options {
   std::vector<uint32_t> points;
   double eta = 1.0 / 3;
   std::string out;
+  bool force = false;
 };
 
 std::vector<PointModel> importForeign(const Options &options) {
@@ -55,6 +61,12 @@ std::string writeMap(const Options &options, const PointModel &model) {
 }
 
 int run(const Options &options, const Console &console) {
+  FileUse files(options.force);
+  files.reads(options.recording);
+  for (const std::string &path : options.foreign) files.reads("--foreign", path);
+  for (const std::string &path : options.foreign_calibrations) files.reads("--foreign-calibration", path);
+  files.writesFolder("--out", options.out, holds({std::begin(kMapMagic), std::end(kMapMagic)}));
+  files.check();
   makeFolder(options.out);
   const PointModel own =
       withoutNearDuplicates(importRecording(options.recording, "mapping   "), kReleaseNearDuplicates);
@@ -99,7 +111,7 @@ void addOptions(CLI::App *app, Options *options) {
       ->type_name("FILE");
   app->add_option("--eta", options->eta, "Share of points that keep their true direction, (0, 1]")
       ->capture_default_str()
-      ->check(CLI::Range(1e-6, 1.0))
+      ->check(between(1e-6, 1))
       ->type_name("X");
   app->add_option("-o,--out", options->out, "Folder for the maps")->required()->type_name("DIR");
 }
@@ -112,6 +124,7 @@ Command mapCommand(CLI::App *root) {
   app->description("Maps of wanted sizes, to measure with.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

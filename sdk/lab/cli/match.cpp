@@ -4,7 +4,9 @@
 #include <cstring>
 #include <memory>
 
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/import_recording.h"
 #include "host/cli/common/progress.h"
 #include "host/publish/map_writer.h"
@@ -28,7 +30,7 @@ struct Options {
   uint32_t repeats = 5;
   std::vector<std::string> only;
   std::string python = "python3", out, results;
-  bool no_peers = false;
+  bool no_peers = false, force = false;
 };
 
 // `count` points of a model, evenly chosen, as seen from a centre.
@@ -68,14 +70,19 @@ std::vector<MatchVariant> variantsOf(const Options &options, const Console &cons
 }
 
 void writeResult(const Options &options, const std::vector<MatchTable> &tables, const Console &console) {
-  if (!options.results.empty()) writeText(options.results, matchResults(tables));
+  if (!options.results.empty()) writeFile(options.results, matchResults(tables));
   if (options.out.empty()) return;
   makeFolder(options.out);
-  writeText(options.out + "/match.csv", matchCsv(tables));
+  writeFile(options.out + "/match.csv", matchCsv(tables));
   sayWritten(options.out, writeMatchDrawings(options.out, tables), console);
 }
 
 int run(Options options, const Console &console) {
+  FileUse files(options.force);
+  files.reads(options.recording);
+  files.writes("--results", options.results, holds(matchResults({})));
+  files.writesFolder("--out", options.out, holds(kPlotHead));
+  files.check();
   options.queries.folder = options.recording.folder;
   options.queries.calibration = options.recording.calibration;
   const int core = pinToOneCore();
@@ -149,6 +156,7 @@ Command matchCommand(CLI::App *root) {
   app->description("Matchers of descriptors on maps of growing size.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -2,7 +2,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/progress.h"
 #include "host/report/file.h"
 #include "lab/cli/commands.h"
@@ -20,7 +22,7 @@ struct Options {
   std::vector<std::string> files;
   PoseRunOptions runs;
   std::string python = "python3", out, results;
-  bool no_peers = false, growth = false;
+  bool no_peers = false, growth = false, force = false;
 };
 
 std::vector<PoseVariant> allVariants(const Options &options) {
@@ -91,15 +93,20 @@ void append(const Options &options, const Input &input, DepthSource depth, const
 
 void writeResult(const Options &options, const Result &result, const Console &console) {
   if (!options.results.empty())
-    writeText(options.results, options.growth ? growthResults(result.growth) : benchResults(result.tables));
+    writeFile(options.results, options.growth ? growthResults(result.growth) : benchResults(result.tables));
   if (options.out.empty()) return;
   makeFolder(options.out);
-  if (!result.tables.empty()) writeText(options.out + "/pose.csv", benchCsv(result.tables));
-  if (!result.growth.empty()) writeText(options.out + "/pose_growth.csv", growthCsv(result.growth));
+  if (!result.tables.empty()) writeFile(options.out + "/pose.csv", benchCsv(result.tables));
+  if (!result.growth.empty()) writeFile(options.out + "/pose_growth.csv", growthCsv(result.growth));
   sayWritten(options.out, writeDrawings(options.out, poseDrawings(result.tables, result.growth)), console);
 }
 
 int runPose(const Options &options, const Console &console) {
+  FileUse files(options.force);
+  for (const std::string &path : options.files) files.reads("the rows", path);
+  files.writes("--results", options.results, holds(options.growth ? growthResults({}) : benchResults({})));
+  files.writesFolder("--out", options.out, holds(kPlotHead));
+  files.check();
   const int core = pinToOneCore();
   const auto variants = chosenByName(options.runs.only, allVariants(options));
   tellAbsent(variants, console);
@@ -153,6 +160,7 @@ Command poseCommand(CLI::App *root) {
   app->description("Pose estimators on correspondences with known poses.\n\n" + std::string(kHelp));
   app->footer(kExample);
   addOptions(app, options.get());
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return runPose(*options, console); }};
 }
 

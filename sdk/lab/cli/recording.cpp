@@ -4,10 +4,11 @@
 
 #include "host/base/checked_call.h"
 #include "host/base/usage_error.h"
+#include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
-#include "host/report/file.h"
 #include "host/report/run.h"
 #include "lab/cli/commands.h"
 #include "lab/cli/options.h"
@@ -20,6 +21,7 @@ struct Options {
   std::vector<std::string> recordings, calibrations;
   uint32_t step = 1, repeats = 3;
   std::string results, folder = ".";
+  bool force = false;
 };
 
 struct DepthFrames {
@@ -55,6 +57,12 @@ std::string costText(const RecorderCost &cost) {
 int run(const Options &options, const Console &console) {
   if (!options.calibrations.empty() && options.calibrations.size() != options.recordings.size())
     throw UsageError("give a --calibration for each --recording, or none");
+  FileUse files(options.force);
+  for (const std::string &path : options.recordings) files.reads("--recording", path);
+  for (const std::string &path : options.calibrations) files.reads("--calibration", path);
+  files.writes("--results", options.results, holds(codecResults({})));
+  files.writesRecording("--folder", options.folder + "/recorder_cost.mcap");
+  files.check();
   std::vector<CodecTable> tables;
   nlohmann::ordered_json costs = nlohmann::ordered_json::array();
   for (size_t i = 0; i < options.recordings.size(); ++i) {
@@ -77,7 +85,7 @@ int run(const Options &options, const Console &console) {
                      {"both_cpu_percent", cost.both_cpu_percent},
                      {"bytes_per_second", cost.bytes_per_second}});
   }
-  if (!options.results.empty()) writeText(options.results, codecResults(tables));
+  if (!options.results.empty()) writeFile(options.results, codecResults(tables));
   console.give({{"codecs", codecJson(tables)}, {"recorder", costs}});
   return kExitDone;
 }
@@ -117,6 +125,7 @@ Command recordingCommand(CLI::App *root) {
       ->capture_default_str()
       ->type_name("DIR");
   app->add_option("--results", options->results, "Write ratios, no milliseconds")->type_name("FILE");
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

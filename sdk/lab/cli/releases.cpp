@@ -4,7 +4,9 @@
 
 #include "host/audit/score/release_audit.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
 #include "host/cli/common/import_recording.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/privacy_results.h"
 #include "host/report/table.h"
 #include "lab/cli/commands.h"
@@ -17,6 +19,7 @@ struct Options {
   uint32_t more_last = 0, frames = 25;
   double eta = 1.0 / 3;
   std::string name, results, fakes = kDefaultFakes;
+  bool force = false;
 };
 
 void tell(const std::vector<PrivacyRow> &rows, const Console &console) {
@@ -32,6 +35,12 @@ void tell(const std::vector<PrivacyRow> &rows, const Console &console) {
 }
 
 int run(Options options, const Console &console) {
+  FileUse files(options.force);
+  files.reads(options.recording);
+  files.reads("--strangers", options.strangers.folder);
+  files.reads("--strangers-calibration", options.strangers.calibration);
+  files.writes("--results", options.results, holds(kPrivacyHead));
+  files.check();
   options.other.folder = options.recording.folder;
   options.other.calibration = options.recording.calibration;
   options.other.step = options.recording.step;
@@ -84,7 +93,7 @@ Command releasesCommand(CLI::App *root) {
       ->type_name("N");
   app->add_option("--eta", options->eta, "Share of points that stay real")
       ->capture_default_str()
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(between(0.01, 1))
       ->type_name("X");
   app->add_option("--fakes", options->fakes, "How fakes are made")
       ->capture_default_str()
@@ -92,6 +101,7 @@ Command releasesCommand(CLI::App *root) {
       ->type_name("NAME");
   app->add_option("--name", options->name, "Of the map, in the results [the recording's]")->type_name("NAME");
   app->add_option("--results", options->results, "Update these attacks' rows here")->type_name("CSV");
+  addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -23,7 +23,9 @@ import zlib
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 PIPELINE = ROOT / "tests" / "pipeline"
 sys.path.insert(0, str(ROOT / "tests" / "support"))
+sys.path.insert(0, str(PIPELINE))
 import read_map  # noqa: E402
+from private_key import private_key  # noqa: E402
 
 DATA = pathlib.Path(os.environ.get("SPHC_DATA", ROOT.parent / "shared" / "data"))
 ETA, STRANGER_KEYPOINTS, BYTES = 0.33, 64, 128
@@ -241,7 +243,7 @@ def build(tool, place, folder, part, eta):
     map_file = stem.with_suffix(".sphc")
     if not map_file.exists():
         run([tool, "build", *source(place, part), "--map", map_file, "--ledger", stem.with_suffix(".ledger"), "--eta", eta,
-             "--fakes", "gaussian", "--key", PIPELINE / "test_key.txt", "--json"])
+             "--fakes", "gaussian", "--key", private_key(folder), "--json"])
     stored = read_map.read(map_file.read_bytes()).descriptors
     return map_file, numpy.frombuffer(stored, numpy.uint8).reshape(-1, BYTES)
 

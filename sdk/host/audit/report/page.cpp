@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/audit/score/inversion_sheet.h"
+#include "host/base/write_file.h"
 #include "host/report/encode.h"
 #include "host/report/file.h"
 #include "host/report/page_style.h"
@@ -86,7 +87,7 @@ std::string writeAuditPage(const std::string &folder, const std::string &map, co
   if (!sheet.empty()) {
     std::vector<uint8_t> png;
     cv::imencode(".png", sheet, png);
-    writeText(folder + "/inversion.png", std::string(png.begin(), png.end()));
+    writeFile(folder + "/inversion.png", png);
     pictures =
         "<section><h2>What inversion shows</h2><p class=soft>Views from the centre. The network has never seen the "
         "place. A picture tells its place when it is more like its own truth than like that of any other view.</p>"
@@ -102,7 +103,7 @@ std::string writeAuditPage(const std::string &folder, const std::string &map, co
       (audit.quick ? "<p class=soft>A quick audit: fewer lines and views.</p>" : "") + figuresTable(audit) +
       "</section>" + pictures + "</main></html>\n";
   const std::string page = folder + "/audit.html";
-  writeText(page, html);
+  writeFile(page, html);
   return page;
 }
 

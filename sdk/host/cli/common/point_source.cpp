@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "host/base/usage_error.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/import/model_file.h"
 #include "host/report/run.h"
@@ -25,7 +26,7 @@ void addColmapOptions(CLI::App *app, PointSource *source) {
       ->type_name("FILE")
       ->group(group);
   app->add_option("--scale", colmap.metres_per_unit, "Metres a unit of the model")
-      ->check(CLI::Range(1e-9, 1e9))
+      ->check(between(1e-9, 1e9))
       ->type_name("X")
       ->group(group);
   app->add_option("--depth", colmap.depth,
@@ -42,15 +43,19 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
   const char *group = "Mapping";
   app->add_option("--max-keypoints", import->max_keypoints, "Strongest keypoints of a frame")
       ->capture_default_str()
+      ->check(CLI::Range(1u, 100000u))
       ->group(group);
   app->add_option("--min-observations", import->min_observations, "Frames that must agree on a point")
       ->capture_default_str()
+      ->check(CLI::Range(1u, 100000u))
       ->group(group);
   app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
       ->capture_default_str()
+      ->check(notNegative())
       ->group(group);
   app->add_option("--depth-max", import->depth_max_m, "Farthest depth used, metres")
       ->capture_default_str()
+      ->check(notNegative())
       ->group(group);
 }
 
@@ -93,13 +98,34 @@ ImportedPoints fromColmap(const PointSource &source) {
   return imported;
 }
 
+// Of a recording that gave no point at all: what stood in the way.
+void checkPoints(const RgbdImportSummary &summary, const RgbdImportOptions &options) {
+  if (summary.points_kept > 0) return;
+  if (summary.keypoints == 0)
+    throw std::runtime_error("the images show nothing to map, not one keypoint; are they black, blank or blurred?");
+  if (summary.lifted == 0)
+    throw std::runtime_error(
+        "none of " + std::to_string(summary.keypoints) + " keypoints has a depth of " +
+        fixed(options.depth_min_m, 2) + " to " + fixed(options.depth_max_m, 2) +
+        " m; is that the range of the room (--depth-min, --depth-max), and depth_unit_m of the "
+        "calibration right?");
+  throw std::runtime_error("all " + std::to_string(summary.points_dropped) + " points were seen in fewer than " +
+                           std::to_string(options.min_observations) +
+                           " frames; record more frames of each place, or give a smaller --min-observations");
+}
+
 ImportedPoints fromRecording(const PointSource &source) {
   const auto reader = openRecording(source.recording);
+  const uint32_t frames = reader->frameCount();
+  if (source.import.min_observations > frames)
+    throw UsageError("--min-observations " + std::to_string(source.import.min_observations) + ": there are " +
+                     std::to_string(frames) + " frames, so no point can be seen in as many");
   ProgressBar bar("mapping   ");
   ImportedPoints imported;
   RgbdImportSummary summary;
   imported.model = importRgbd(
       reader.get(), source.import, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+  checkPoints(summary, source.import);
   imported.told = "Mapped " + std::to_string(summary.frames_used) + " frames (" +
                   describeSelection(source.recording) + "): " + std::to_string(summary.points_kept) +
                   " points kept, " + std::to_string(summary.points_dropped) + " dropped.";
@@ -142,6 +168,8 @@ void checkPointSource(const PointSource &source) {
   const int sources = !source.recording.folder.empty() + !colmap.model.empty() + !source.model.empty();
   if (sources != 1) throw UsageError("--recording, --colmap or --model is required, one of the three");
   gravityFrom(source.gravity);
+  if (source.import.depth_min_m >= source.import.depth_max_m)
+    throw UsageError("--depth-min must be less than --depth-max, or no depth is left");
   if (colmap.model.empty()) return;
   if (colmap.images.empty() && colmap.database.empty())
     throw UsageError("--colmap wants --images, to describe them for the device, or --database");

@@ -5,11 +5,8 @@
 #include "host/report/results.h"
 
 namespace sphc::host {
-namespace {
 
-const char kHead[] = "attack,map,strategy,eta,variant,metric,value";
-
-}  // namespace
+const char kPrivacyHead[] = "attack,map,strategy,eta,variant,metric,value";
 
 void updatePrivacyResults(const std::string &path, const std::vector<PrivacyRow> &rows) {
   std::map<std::string, std::vector<std::string>> groups;
@@ -19,7 +16,7 @@ void updatePrivacyResults(const std::string &path, const std::vector<PrivacyRow>
     if (!groups.count(key)) keys.push_back(key);
     groups[key].push_back(lineOf(row));
   }
-  for (const std::string &key : keys) replaceRows(path, kHead, key, groups[key]);
+  for (const std::string &key : keys) replaceRows(path, kPrivacyHead, key, groups[key]);
 }
 
 }  // namespace sphc::host

@@ -7,6 +7,8 @@
 
 namespace sphc::host {
 
+extern const char kPrivacyHead[];  // its first line
+
 // Replaces the rows of the attacks, maps and strategies that `rows` are of; others stay.  Throws std::runtime_error
 // with cause and cure.
 void updatePrivacyResults(const std::string &path, const std::vector<PrivacyRow> &rows);

@@ -53,8 +53,11 @@ int parseAndRun(const Program &program, int argc, char **argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError &error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
-      return root.exit(error);  // --help, --version
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      const int status = root.exit(error);  // --help, --version
+      Console::checkOutput();
+      return status;
+    }
     return usage(root, error.what());
   }
   try {

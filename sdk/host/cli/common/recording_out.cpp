@@ -1,6 +1,7 @@
 #include "host/cli/common/recording_out.h"
 
 #include "host/base/checked_call.h"
+#include "host/cli/common/new_recording.h"
 #include "host/recording/writer_tum.h"
 
 namespace sphc::host {
@@ -8,9 +9,10 @@ namespace {
 
 class FileOut : public RecordingOut {
  public:
-  FileOut(const std::string &path, const sphc_calibration &calibration, const sphc_recorder_config &config) {
+  FileOut(const std::string &path, const sphc_calibration &calibration, const sphc_recorder_config &config)
+      : recording_(path, NewRecording::IfCut::kRemove) {
     orThrow("cannot start the recording", [&](sphc_message *message) {
-      return sphc_recorder_open(path.c_str(), &calibration, &config, &recorder_, message);
+      return sphc_recorder_open(recording_.part().c_str(), &calibration, &config, &recorder_, message);
     });
   }
   ~FileOut() override { sphc_recorder_abandon(&recorder_); }
@@ -27,26 +29,33 @@ class FileOut : public RecordingOut {
   void close() override {
     orThrow("cannot end the recording",
             [&](sphc_message *message) { return sphc_recorder_close(&recorder_, message); });
+    recording_.finish();
   }
 
  private:
   static void notDropped(sphc_status status) {
     if (status == SPHC_AGAIN) throw std::runtime_error("the disk took nothing for a minute; is it all right?");
   }
+  NewRecording recording_;
   sphc_recorder *recorder_ = nullptr;
 };
 
 class FolderOut : public RecordingOut {
  public:
-  FolderOut(const std::string &path, const sphc_calibration &calibration) : writer_(path, calibration) {}
+  FolderOut(const std::string &path, const sphc_calibration &calibration)
+      : recording_(path, NewRecording::IfCut::kRemove), writer_(recording_.part(), calibration) {}
 
   void add(const sphc_capture &capture) override { writer_.add(capture.stream, capture.time_ns, capture.image); }
   void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) override {
     writer_.addPose(time_ns, world_from_camera);
   }
-  void close() override { writer_.finish(); }
+  void close() override {
+    writer_.finish();
+    recording_.finish();
+  }
 
  private:
+  NewRecording recording_;
   recording::TumWriter writer_;
 };
 

@@ -13,7 +13,7 @@ class RecordingOut {
   virtual ~RecordingOut() = default;
   virtual void add(const sphc_capture &capture) = 0;
   virtual void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) = 0;
-  // Without it the recording counts as cut off, or unfinished.
+  // Gives the recording its name.  Without it nothing is left of it.
   virtual void close() = 0;
 };
 

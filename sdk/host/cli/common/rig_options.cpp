@@ -1,10 +1,10 @@
 #include "host/cli/common/rig_options.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "host/base/checked_call.h"
 #include "host/base/usage_error.h"
+#include "host/cli/common/number_checks.h"
 
 namespace sphc::host {
 
@@ -24,7 +24,7 @@ void addRigOptions(CLI::App *app, RigOptions *options) {
   add("--fps", options->wish.fps, "The same, images a second; 0: whatever the camera does")->capture_default_str();
   add("--tolerance-ms", options->tolerance_ms, "Colour and depth are a pair when taken at most so far apart")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1000.0));
+      ->check(between(0, 1000));
 }
 
 void checkRigOptions(const RigOptions &options) {
@@ -32,7 +32,6 @@ void checkRigOptions(const RigOptions &options) {
   const bool any_of_two = !options.color.empty() || !options.depth.empty();
   if (options.both.empty() ? !two : any_of_two)
     throw UsageError("give --device, or --color and --depth; `spherecloud devices` lists what is there");
-  if (std::isnan(options.tolerance_ms)) throw UsageError("--tolerance-ms: must be a number from 0 to 1000");
 }
 
 sphc_calibration calibrationOf(const RigOptions &options, const Rig &rig) {

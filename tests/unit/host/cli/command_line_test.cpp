@@ -55,14 +55,17 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         "", "conquer", "live", "live --device simulated:", "record --out x.mcap",
         "record --device simulated: --out x.txt", "live --device simulated: --map m --tolerance-ms nan",
-        "live --device simulated: --map m --seconds -3", "live --device openni2: --color v4l2:x --map m",
-        "calibration", "calibration x --to kalibr", "calibration x --format what", "calibration x --color-size 640",
-        "info", "info a b", "convert a", "convert a b --to zip", "convert a b --to mcap", "convert a b --to raw",
-        "convert a b.raw --to tum", "convert a b.mcap --jpeg 0", "audit", "audit m --limit x",
-        "audit m --recording r", "audit m --limit no.such=1", "audit m --allow-unmeasured luck",
-        "build --map m --recording r --model p", "build --map m --model p --save-model q", "simulate",
-        "simulate --out x --frames many", "build --recording r", "build --map m",
-        "build --map m --recording r --colmap c", "build --map m --colmap c", "build --map m --colmap c --images i",
+        "live --device simulated: --map m --seconds -3", "record --device simulated: --out x.mcap --seconds nan",
+        "live --device simulated: --map m --seconds inf", "localize --recording r --map m --seed -1",
+        "simulate --out x --seed -1", "simulate --out x --rate nan",
+        "live --device openni2: --color v4l2:x --map m", "calibration", "calibration x --to kalibr",
+        "calibration x --format what", "calibration x --color-size 640", "info", "info a b", "convert a",
+        "convert a b --to zip", "convert a b --to mcap", "convert a b --to raw", "convert a b.raw --to tum",
+        "convert a b.mcap --jpeg 0", "audit", "audit m --limit x", "audit m --recording r",
+        "audit m --limit no.such=1", "audit m --allow-unmeasured luck", "build --map m --recording r --model p",
+        "build --map m --model p --save-model q", "simulate", "simulate --out x --frames many",
+        "build --recording r", "build --map m", "build --map m --recording r --colmap c",
+        "build --map m --colmap c", "build --map m --colmap c --images i",
         "build --map m --colmap c --images i --scale 1 --gravity down", "advise --recording r --folds 1",
         "build --recording r --map m --eta 1.5", "build --recording r --map m --against",
         "localize --recording r --map m --step 0", "localize --recording r --map m --first 9 --last 3"));
@@ -279,7 +282,8 @@ void expectDiscipline(const TempFolder &folder, const std::string &build, const 
   const Answer other_eta = runCommand(build + "--eta 0.5 -m " + again);
   EXPECT_EQ(other_eta.exit_code, kExitFailure);
   EXPECT_THAT(other_eta.err, HasSubstr("--i-understand"));
-  const std::string elsewhere = build + "-m " + again + " --ledger " + (folder / "other") + " --against " + ledger;
+  const std::string elsewhere =
+      build + "-m " + again + " --ledger " + (folder / "other") + " --against " + ledger + " --force";
   EXPECT_THAT(runCommand(elsewhere).err, HasSubstr("released by another ledger"));
   EXPECT_THAT(runCommand(elsewhere + " --i-understand").err, HasSubstr("now exposed"));
   EXPECT_NE(std::system(("cmp -s " + map + " " + again).c_str()), 0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "host/base/write_file.h"
 #include "host/publish/map_writer.h"
 #include "host/report/file.h"
 

@@ -97,7 +97,7 @@ TEST_F(ModelFile, ReplacesAPointModelAndNothingElse) {
   const std::string other = folder_ + "/notes.txt";
   std::ofstream(other) << "what matters";
   EXPECT_THAT(test::refusal([&] { writeModelFile(other, {}); }), HasSubstr("is no point model"));
-  EXPECT_THAT(test::refusal([&] { checkModelTarget(folder_); }), HasSubstr("is no point model"));
+  EXPECT_THAT(test::refusal([&] { writeModelFile(folder_, {}); }), HasSubstr("is no point model"));
   std::string text;
   std::getline(std::ifstream(other), text);
   EXPECT_EQ(text, "what matters");

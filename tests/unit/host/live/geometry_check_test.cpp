@@ -6,13 +6,14 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <random>
 
 #include "drivers/simulated/simulated.h"
 
 namespace sphc::host {
 namespace {
 
-constexpr uint32_t kFrames = 4;
+constexpr uint32_t kFrames = 4;  // far apart
 
 struct Images {
   std::vector<uint8_t> color;
@@ -45,14 +46,19 @@ class GeometryCheckTest : public testing::Test {
   static void TearDownTestSuite() { images_.clear(); }
 
   using Spoil = std::function<void(std::vector<uint16_t> *depth)>;
+  using SpoilColor = std::function<void(std::vector<uint8_t> *color)>;
+  // `late`: so many frames, depth comes behind the image.
   Finding look(
-      const sphc_calibration &calibration, const Spoil &spoil = [](std::vector<uint16_t> *) {}) {
+      const sphc_calibration &calibration, const Spoil &spoil = [](std::vector<uint16_t> *) {},
+      const SpoilColor &spoil_color = [](std::vector<uint8_t> *) {}, size_t late = 0) {
     GeometryCheck check(calibration);
     const sphc_camera &c = calibration.color_camera, &d = calibration.depth_camera;
-    for (const Images &images : images_) {
-      std::vector<uint16_t> depth = images.depth;
+    for (size_t i = 0; i < images_.size(); ++i) {
+      std::vector<uint16_t> depth = images_[(i + late) % images_.size()].depth;
+      std::vector<uint8_t> color = images_[i].color;
       spoil(&depth);
-      check.look({images.color.data(), c.width, c.height, 3 * c.width, SPHC_FORMAT_RGB8},
+      spoil_color(&color);
+      check.look({color.data(), c.width, c.height, 3 * c.width, SPHC_FORMAT_RGB8},
                  {depth.data(), d.width, d.height, 2 * d.width, SPHC_FORMAT_DEPTH16});
     }
     return check.finding();
@@ -87,6 +93,39 @@ TEST_F(GeometryCheckTest, ABlankWallTellsNothing) {
       calibration_, [](std::vector<uint16_t> *depth) { std::fill(depth->begin(), depth->end(), uint16_t{2000}); });
   EXPECT_EQ(finding.grade, Finding::Grade::kDoubtful);
   EXPECT_NE(finding.text.find("too few edges"), std::string::npos) << finding.text;
+}
+
+TEST_F(GeometryCheckTest, ABlackImageTellsNothing) {
+  const Finding finding = look(
+      calibration_, [](std::vector<uint16_t> *) {},
+      [](std::vector<uint8_t> *color) { std::fill(color->begin(), color->end(), uint8_t{0}); });
+  EXPECT_EQ(finding.grade, Finding::Grade::kDoubtful);
+  EXPECT_NE(finding.text.find("too few edges in the image"), std::string::npos) << finding.text;
+}
+
+TEST_F(GeometryCheckTest, NoiseIsNotFine) {
+  std::mt19937 random(1);
+  const Finding colors = look(
+      calibration_, [](std::vector<uint16_t> *) {},
+      [&random](std::vector<uint8_t> *color) {
+        for (uint8_t &value : *color) value = static_cast<uint8_t>(random());
+      });
+  EXPECT_EQ(colors.grade, Finding::Grade::kDoubtful);
+  EXPECT_NE(colors.text.find("noise"), std::string::npos) << colors.text;
+  const Finding depths = look(calibration_, [&random](std::vector<uint16_t> *depth) {
+    for (uint16_t &value : *depth) value = static_cast<uint16_t>(500 + random() % 4000);
+  });
+  EXPECT_EQ(depths.grade, Finding::Grade::kWrong);
+  EXPECT_NE(depths.text.find("noise"), std::string::npos) << depths.text;
+}
+
+TEST_F(GeometryCheckTest, DepthOfAnotherTimeIsNamedAndNotCalledTurned) {
+  for (size_t late = 1; late < kFrames; ++late) {
+    const Finding finding = look(
+        calibration_, [](std::vector<uint16_t> *) {}, [](std::vector<uint8_t> *) {}, late);
+    EXPECT_EQ(finding.grade, Finding::Grade::kWrong);
+    EXPECT_NE(finding.text.find("stale"), std::string::npos) << finding.text;
+  }
 }
 
 }  // namespace

@@ -69,6 +69,13 @@ TEST_F(StreamCheckTest, FaultsAreNamed) {
   EXPECT_EQ(silent.findings()[0].grade, Grade::kWrong);
 }
 
+TEST_F(StreamCheckTest, TheSameImageOverAgainIsNamed) {
+  EXPECT_EQ(found(SPHC_STREAM_DEPTH, 1500, "depth images").grade, Grade::kWrong);
+  StreamCheck check(SPHC_STREAM_DEPTH, calibration_);
+  for (uint16_t i = 0; i < 20; ++i) feed(&check, SPHC_STREAM_DEPTH, static_cast<uint16_t>(1500 + i), 1);
+  for (const Finding &finding : check.findings()) EXPECT_NE(finding.what, "depth images");
+}
+
 TEST_F(StreamCheckTest, TimesThatAreNotTheMiddle) {
   capture_.time_point = SPHC_TIME_START;
   EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour clock").grade, Grade::kDoubtful);

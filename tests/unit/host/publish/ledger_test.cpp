@@ -112,7 +112,7 @@ TEST_F(LedgerTest, RoundTripAndGrowth) {
 }
 
 TEST_F(LedgerTest, ItsOwnerAloneMayReadIt) {
-  { const Ledger ledger = Ledger::openOrMake(path_, nullptr); }
+  Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
   struct stat status;
   ASSERT_EQ(stat(path_.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
@@ -122,11 +122,55 @@ TEST_F(LedgerTest, ItsOwnerAloneMayReadIt) {
 }
 
 TEST_F(LedgerTest, DrawsAKeyAndKeepsIt) {
-  const SecretKey drawn = Ledger::openOrMake(path_, nullptr).key(), other = {1};
+  SecretKey drawn = {};
+  {
+    Ledger ledger = Ledger::openOrMake(path_, nullptr);
+    drawn = ledger.key();
+    ledger.record(makePlace(1, 20));
+  }
+  const SecretKey other = {1};
   EXPECT_NE(drawn, SecretKey{});
   EXPECT_EQ(Ledger::openOrMake(path_, nullptr).key(), drawn);
   EXPECT_EQ(Ledger::openOrMake(path_, &drawn).key(), drawn);
   EXPECT_THAT(refusal(&other), HasSubstr("another key"));
+}
+
+// A build that failed must not leave a key behind that the next one has to take.
+TEST_F(LedgerTest, ANewOneThatRecordedNothingIsRemoved) {
+  const SecretKey first = {1}, second = {2};
+  { const Ledger ledger = Ledger::openOrMake(path_, &first); }
+  EXPECT_NE(access(path_.c_str(), F_OK), 0);
+  EXPECT_NE(access((path_ + "-journal").c_str(), F_OK), 0);
+  Ledger::openOrMake(path_, &second).record(makePlace(1, 20));
+  { const Ledger ledger = Ledger::openOrMake(path_, nullptr); }
+  EXPECT_EQ(Ledger::openToRead(path_).key(), second) << "one with places stays";
+}
+
+TEST_F(LedgerTest, AFolderIsNamedAsSuch) {
+  EXPECT_THROW(Ledger::openToRead(testing::TempDir()), std::runtime_error);
+  try {
+    Ledger::openOrMake(testing::TempDir(), nullptr);
+    ADD_FAILURE() << "accepted";
+  } catch (const std::runtime_error &error) {
+    EXPECT_THAT(error.what(), HasSubstr("this is a folder"));
+    EXPECT_THAT(error.what(), testing::Not(HasSubstr("chmod")));
+  }
+}
+
+TEST_F(LedgerTest, IsKnownByItsBytes) {
+  EXPECT_FALSE(isLedger(path_));
+  change("CREATE TABLE cats (name TEXT)");
+  EXPECT_FALSE(isLedger(path_));
+  unlink(path_.c_str());
+  Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
+  EXPECT_TRUE(isLedger(path_));
+}
+
+TEST(ReleaseOf, IsByTheBytesOfTheFile) {
+  Place place = makePlace(1, 20);
+  place.releases.push_back({{4}, 0x352441C2u, 20, 1});  // the CRC-32 of "abc"
+  EXPECT_EQ(releaseOf(place, {'a', 'b', 'c'}), &place.releases[1]);
+  EXPECT_EQ(releaseOf(place, {'a', 'b', 'd'}), nullptr);
 }
 
 TEST_F(LedgerTest, OneProgramAtATime) {

@@ -18,7 +18,10 @@ std::string pathOf(const char *name) {
   return testing::TempDir() + "sphc_key_" + std::to_string(getpid()) + "_" + name;
 }
 
-void write(const std::string &path, const std::string &text) { std::ofstream(path, std::ios::binary) << text; }
+void write(const std::string &path, const std::string &text) {
+  std::ofstream(path, std::ios::binary) << text;
+  chmod(path.c_str(), 0600);
+}
 
 TEST(SecretRandom, SameKeySameStreamOtherKeyOther) {
   SecretKey key = {1, 2, 3}, other = key;
@@ -90,6 +93,15 @@ TEST(SecretKeyFile, EachFaultIsExplained) {
   }
   write(path, digits + "\n");
   EXPECT_EQ(readSecretKey(path)[0], 0xAA);
+  for (const mode_t mode : {mode_t{0640}, mode_t{0604}}) {
+    chmod(path.c_str(), mode);
+    try {
+      readSecretKey(path);
+      ADD_FAILURE() << "others may read it";
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find("chmod 600 " + path), std::string::npos) << error.what();
+    }
+  }
   unlink(path.c_str());
   EXPECT_THROW(readSecretKey(path), std::runtime_error);
 }

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/report/file.h"
+#include "host/base/write_file.h"
 
 namespace sphc::host {
 namespace {
@@ -34,7 +34,7 @@ TEST_F(Results, IsMadeWhenThereIsNone) {
 }
 
 TEST_F(Results, RowsTakeThePlaceOfTheirOldOnes) {
-  writeText(path_, "what,value\na,1\na,2\nab,5\na,3\nb,1\n");
+  writeFile(path_, "what,value\na,1\na,2\nab,5\na,3\nb,1\n");
   replaceRows(path_, "what,value", "a,", {"a,9"});
   EXPECT_EQ(text(), "what,value\na,9\nab,5\nb,1\n");
   replaceRows(path_, "what,value", "c,", {"c,7", "c,8"});
@@ -42,7 +42,7 @@ TEST_F(Results, RowsTakeThePlaceOfTheirOldOnes) {
 }
 
 TEST_F(Results, AnotherFileIsLeftAlone) {
-  writeText(path_, "something else\n");
+  writeFile(path_, "something else\n");
   EXPECT_THROW(replaceRows(path_, "what,value", "a,", {"a,9"}), std::runtime_error);
   EXPECT_EQ(text(), "something else\n");
 }

@@ -69,6 +69,10 @@ TEST(Lab, MakesMapsOfWantedSizesAndTimesFramesOnThem) {
     EXPECT_GT(variant["state_bytes"], 0);
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "frame.csv"));
+  const std::string one = frame + (folder / "maps/map_500.sphc") + " --results ";
+  EXPECT_EQ(runLab(one + (folder / "maps/map_500.sphc")).exit_code, kExitUsage) << "an output is an input";
+  EXPECT_THAT(runLab(one + (folder / "maps/map_9000.sphc")).err, HasSubstr("--force"));
+  EXPECT_EQ(runLab(one + (folder / "frame.csv")).exit_code, kExitDone) << "its own results";
   const Answer none = runLab(frame + (folder / "maps/map_500.sphc") + " --only nobody");
   EXPECT_EQ(none.exit_code, kExitUsage);
   EXPECT_THAT(none.err, HasSubstr("'ours, tracking'"));

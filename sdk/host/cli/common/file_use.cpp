@@ -1,0 +1,167 @@
+#include "host/cli/common/file_use.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/usage_error.h"
+#include "host/cli/common/new_recording.h"
+#include "host/publish/ledger.h"
+
+namespace sphc::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Without links and dots, whether something is there or not.
+fs::path plain(const std::string &path) {
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
+  const fs::path normal = (error ? fs::absolute(path) : canonical).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();  // "walk/" is "walk"
+}
+
+bool areSame(const std::string &a, const std::string &b) {
+  std::error_code error;
+  return plain(a) == plain(b) || fs::equivalent(a, b, error);  // or two names of one file
+}
+
+bool liesIn(const std::string &inner, const std::string &folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return false;
+  const fs::path outer = plain(folder), path = plain(inner);
+  return std::mismatch(outer.begin(), outer.end(), path.begin(), path.end()).first == outer.end();
+}
+
+std::string headOf(const std::string &path) {
+  std::string head(4096, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<size_t>(file.gcount()));
+  return head;
+}
+
+[[noreturn]] void refuse(const std::string &option, const std::string &path, const std::string &why) {
+  throw std::runtime_error(option + ": " + path + " " + why);
+}
+
+void checkParent(const std::string &option, const std::string &path) {
+  std::error_code error;
+  const fs::path folder = plain(path).parent_path();
+  if (!fs::is_directory(folder, error))
+    refuse(option, path, "cannot be written: there is no folder " + folder.string());
+}
+
+}  // namespace
+
+IsOurs holds(const std::string &text) {
+  return [text](const std::string &path) { return headOf(path).find(text) != std::string::npos; };
+}
+
+IsOurs never() {
+  return [](const std::string &) { return false; };
+}
+
+void addForceOption(CLI::App *app, bool *force) {
+  app->add_flag("--force", *force, "Replace files that this command did not write");
+}
+
+void FileUse::reads(const std::string &option, const std::string &path) {
+  if (!path.empty()) inputs_.push_back({option, path});
+}
+
+void FileUse::reads(const RecordingOptions &recording) {
+  reads("--recording", recording.folder);
+  reads("--calibration", recording.calibration);
+}
+
+void FileUse::reads(const RigOptions &rig) {
+  reads("--calibration", rig.wish.calibration);
+  const auto camera = [this](const char *option, const std::string &spec) {
+    const size_t colon = spec.find(':');  // behind it a recording, a device's file, or a name that is no file
+    if (colon != std::string::npos) reads(option, spec.substr(colon + 1));
+  };
+  camera("--device", rig.both);
+  camera("--color", rig.color);
+  camera("--depth", rig.depth);
+}
+
+void FileUse::add(const std::string &option, const std::string &path, Kind kind, IsOurs is_ours) {
+  if (!path.empty()) outputs_.push_back({option, path, kind, std::move(is_ours)});
+}
+
+void FileUse::writes(const std::string &option, const std::string &path, IsOurs is_ours) {
+  add(option, path, Kind::kFile, std::move(is_ours));
+}
+
+void FileUse::writesFolder(const std::string &option, const std::string &path, IsOurs is_ours) {
+  add(option, path, Kind::kFolder, std::move(is_ours));
+}
+
+void FileUse::writesRecording(const std::string &option, const std::string &path) {
+  add(option, path, Kind::kRecording, never());
+}
+
+void FileUse::keeps(const std::string &option, const std::string &path) { add(option, path, Kind::kKept, never()); }
+
+void FileUse::check() const {
+  for (const Output &output : outputs_) {
+    for (const Input &input : inputs_) {
+      if (areSame(output.path, input.path))
+        throw UsageError(output.option + " would replace what " + input.option + " reads: " + output.path);
+      if (liesIn(output.path, input.path))
+        throw UsageError(output.option + " " + output.path + " lies in the folder that " + input.option +
+                         " reads; choose a place outside of it");
+    }
+    for (const Output *other = outputs_.data(); other != &output; ++other)
+      if (areSame(output.path, other->path))
+        throw UsageError(output.option + " and " + other->option + " are one file: " + output.path);
+  }
+  for (const Output &output : outputs_) {
+    if (output.kind == Kind::kFolder) checkFolder(output);
+    if (output.kind == Kind::kRecording) checkRecording(output);
+    if (output.kind == Kind::kFile || output.kind == Kind::kKept) checkFile(output);
+  }
+}
+
+void FileUse::checkFile(const Output &output) const {
+  std::error_code error;
+  const std::string &path = output.path;
+  checkParent(output.option, path);
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) return;
+  if (fs::is_directory(status)) refuse(output.option, path, "is a folder; give the name of a file");
+  if (output.kind == Kind::kKept || fs::is_character_file(status) || fs::is_fifo(status)) return;
+  if (!fs::is_regular_file(status)) refuse(output.option, path, "is no file that can be written");
+  if (isLedger(path)) refuse(output.option, path, "is a ledger, which is never replaced; choose another name");
+  if (force_ || fs::file_size(path, error) == 0 || output.is_ours(path)) return;
+  refuse(output.option, path,
+         "is there already, and this command did not write it; choose another name, or replace it with --force");
+}
+
+void FileUse::checkFolder(const Output &output) const {
+  std::error_code error;
+  const fs::file_status status = fs::status(output.path, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status)) refuse(output.option, output.path, "is a file; give a folder");
+  if (force_ || fs::is_empty(output.path, error)) return;
+  for (const fs::directory_entry &entry : fs::directory_iterator(output.path))
+    if (entry.is_regular_file(error) && output.is_ours(entry.path().string())) return;
+  refuse(output.option, output.path,
+         "holds files that this command did not write; choose another folder, or write into it with --force");
+}
+
+void FileUse::checkRecording(const Output &output) const {
+  std::error_code error;
+  const std::string &path = output.path, part = NewRecording::partOf(path);
+  checkParent(output.option, path);
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !(fs::is_directory(status) && fs::is_empty(path, error)))
+    refuse(output.option, path, "is there already, and recordings are never replaced; choose another name");
+  if (fs::exists(fs::symlink_status(part, error)))
+    refuse(output.option, part,
+           "is there, a recording that was cut off. Save what it holds with `spherecloud convert`, or remove it");
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,50 @@
+#include "host/cli/common/number_checks.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+
+namespace sphc::host {
+namespace {
+
+std::string textOf(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+CLI::Validator checkOf(double least, double most, const std::string &wanted) {
+  return CLI::Validator(
+      [least, most, wanted](const std::string &text) {
+        double value = 0;
+        const bool in_bounds =
+            CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= least && value <= most;
+        return in_bounds ? std::string() : text + " is not " + wanted;
+      },
+      "");
+}
+
+}  // namespace
+
+CLI::Validator between(double least, double most) {
+  return checkOf(least, most, "a number from " + textOf(least) + " to " + textOf(most));
+}
+
+CLI::Validator notNegative() { return checkOf(0, std::numeric_limits<double>::max(), "a number from 0 on"); }
+
+CLI::Validator withoutSign() {
+  return CLI::Validator(
+      [](const std::string &text) {
+        const bool has_digits_alone = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        errno = 0;
+        std::strtoull(text.c_str(), nullptr, 10);
+        const bool fits = errno == 0;
+        return has_digits_alone && fits ? std::string()
+                                        : text + " is not a whole number from 0 to 18446744073709551615";
+      },
+      "");
+}
+
+}  // namespace sphc::host

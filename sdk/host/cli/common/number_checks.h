@@ -1,0 +1,15 @@
+// What an option's number must be.  CLI11's own checks take "nan" for a number in every range, and -1 for the
+// largest number without a sign.
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace sphc::host {
+
+// Of a decimal number, in both bounds; infinity is in none.
+CLI::Validator between(double least, double most);
+// From 0 on: seconds, metres.
+CLI::Validator notNegative();
+// Of a whole number, as a seed.
+CLI::Validator withoutSign();
+
+}  // namespace sphc::host

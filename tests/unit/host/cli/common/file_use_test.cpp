@@ -1,0 +1,155 @@
+#include "host/cli/common/file_use.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/usage_error.h"
+#include "tests/unit/host/cli/command_runner.h"
+
+namespace sphc::host {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FileUseTest : public testing::Test {
+ protected:
+  FileUseTest() {
+    fs::create_directory(folder_ / "walk");
+    put("walk/rgb.txt", "# colour");
+    put("map", "a map");
+  }
+  void put(const std::string &name, const std::string &text) const { std::ofstream(folder_ / name) << text; }
+
+  // What is said of an output beside the inputs --recording walk and --map map.
+  std::string wrongUse(const std::string &output) const {
+    try {
+      use(output, false).check();
+    } catch (const UsageError &error) {
+      return error.what();
+    } catch (const std::runtime_error &error) {
+      return std::string("no wrong use: ") + error.what();
+    }
+    return "fine";
+  }
+  std::string refusal(const std::string &output, bool force = false) const {
+    try {
+      use(output, force).check();
+    } catch (const UsageError &error) {
+      return std::string("wrong use: ") + error.what();
+    } catch (const std::runtime_error &error) {
+      return error.what();
+    }
+    return "fine";
+  }
+  FileUse use(const std::string &output, bool force) const {
+    FileUse files(force);
+    files.reads("--recording", folder_ / "walk");
+    files.reads("--map", folder_ / "map");
+    files.writes("--out", output, holds("ours"));
+    return files;
+  }
+
+  const TempFolder folder_;
+};
+
+TEST_F(FileUseTest, ANewFileAndOneOfOursAreFine) {
+  EXPECT_EQ(refusal(folder_ / "new"), "fine");
+  put("mine", "this is ours");
+  EXPECT_EQ(refusal(folder_ / "mine"), "fine");
+  put("empty", "");
+  EXPECT_EQ(refusal(folder_ / "empty"), "fine");
+  EXPECT_EQ(refusal(""), "fine");
+}
+
+TEST_F(FileUseTest, AnOutputIsNeverAnInputWhateverItIsCalled) {
+  fs::create_symlink(folder_ / "map", folder_ / "link");
+  fs::create_hard_link(folder_ / "map", folder_ / "hard");
+  fs::create_directory_symlink(folder_ / "walk", folder_ / "way");
+  for (const std::string name : {"map", "link", "hard", "walk/../map", "./map"})
+    EXPECT_THAT(wrongUse(folder_ / name), HasSubstr("would replace what --map reads")) << name;
+  EXPECT_THAT(wrongUse(folder_ / "walk"), HasSubstr("would replace what --recording reads"));
+  EXPECT_THAT(wrongUse(folder_ / "walk/"), HasSubstr("would replace what --recording reads"));
+  for (const std::string name : {"walk/rgb.txt", "walk/new", "way/new", "walk/deep/new", "walk/./x/../new"})
+    EXPECT_THAT(wrongUse(folder_ / name), HasSubstr("lies in the folder that --recording reads")) << name;
+  EXPECT_EQ(refusal(folder_ / "walk2"), "fine");
+}
+
+TEST_F(FileUseTest, ForceIsForFilesOfOthersAlone) {
+  put("notes", "years of work");
+  EXPECT_THAT(refusal(folder_ / "notes"), HasSubstr("--force"));
+  EXPECT_EQ(refusal(folder_ / "notes", true), "fine");
+  EXPECT_THAT(refusal(folder_ / "map", true), HasSubstr("wrong use"));
+  put("a.ledger", std::string("SQLite format 3\0", 16) + std::string(52, 'x') + "SPLG and more");
+  EXPECT_THAT(refusal(folder_ / "a.ledger", true), HasSubstr("never replaced"));
+  fs::create_directory(folder_ / "other");
+  EXPECT_THAT(refusal(folder_ / "other", true), HasSubstr("is a folder"));
+  EXPECT_THAT(refusal(folder_ / "none/new", true), HasSubstr("there is no folder"));
+}
+
+TEST_F(FileUseTest, TwoOutputsAreTwoFiles) {
+  for (const std::string &second : {folder_ / "a", folder_ / "walk/../a"}) {
+    FileUse files(true);
+    files.writes("--map", folder_ / "a", never());
+    files.keeps("--ledger", second);
+    EXPECT_THROW(files.check(), UsageError) << second;
+  }
+}
+
+TEST_F(FileUseTest, WhatIsKeptIsThereAlready) {
+  put("a.ledger", "whatever");
+  FileUse files(false);
+  files.keeps("--ledger", folder_ / "a.ledger");
+  EXPECT_NO_THROW(files.check());
+}
+
+TEST_F(FileUseTest, AFolderIsOursByOneOfItsFiles) {
+  const auto refused = [&](const std::string &name, bool force) {
+    FileUse files(force);
+    files.reads("--map", folder_ / "map");
+    files.writesFolder("--report", folder_ / name, holds("a page of ours"));
+    try {
+      files.check();
+    } catch (const std::runtime_error &error) {
+      return std::string(error.what());
+    }
+    return std::string("fine");
+  };
+  EXPECT_EQ(refused("new", false), "fine");
+  fs::create_directory(folder_ / "empty");
+  EXPECT_EQ(refused("empty", false), "fine");
+  EXPECT_THAT(refused("walk", false), HasSubstr("--force"));
+  EXPECT_EQ(refused("walk", true), "fine");
+  put("walk/page.html", "<html> a page of ours");
+  EXPECT_EQ(refused("walk", false), "fine");
+  EXPECT_THAT(refused("map", false), HasSubstr("--map reads"));
+  put("file", "x");
+  EXPECT_THAT(refused("file", true), HasSubstr("is a file"));
+}
+
+TEST_F(FileUseTest, ARecordingIsNeverReplaced) {
+  const auto refused = [&](const std::string &name) {
+    FileUse files(true);
+    files.writesRecording("--out", folder_ / name);
+    try {
+      files.check();
+    } catch (const std::runtime_error &error) {
+      return std::string(error.what());
+    }
+    return std::string("fine");
+  };
+  EXPECT_EQ(refused("new.mcap"), "fine");
+  EXPECT_THAT(refused("map"), HasSubstr("never replaced"));
+  EXPECT_THAT(refused("walk"), HasSubstr("never replaced"));
+  fs::create_directory(folder_ / "empty");
+  EXPECT_EQ(refused("empty/"), "fine");
+  put("cut.mcap.part", "half");
+  EXPECT_THAT(refused("cut.mcap"), HasSubstr("cut off"));
+}
+
+}  // namespace
+}  // namespace sphc::host

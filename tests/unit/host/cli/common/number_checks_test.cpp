@@ -1,0 +1,25 @@
+#include "host/cli/common/number_checks.h"
+
+#include <gtest/gtest.h>
+
+namespace sphc::host {
+namespace {
+
+bool takes(const CLI::Validator &check, std::string text) { return check(text).empty(); }
+
+TEST(NumberChecks, ADecimalNumberInItsBounds) {
+  for (const char *text : {"0.5", "2", "1e0", "0.50"}) EXPECT_TRUE(takes(between(0.5, 2), text)) << text;
+  for (const char *text : {"nan", "-nan", "inf", "0.49", "2.01", "", "x", "1x"})
+    EXPECT_FALSE(takes(between(0.5, 2), text)) << text;
+  EXPECT_TRUE(takes(notNegative(), "1e9"));
+  for (const char *text : {"-1", "nan", "inf", "1e999"}) EXPECT_FALSE(takes(notNegative(), text)) << text;
+}
+
+TEST(NumberChecks, AWholeNumberHasNoSign) {
+  for (const char *text : {"0", "18446744073709551615"}) EXPECT_TRUE(takes(withoutSign(), text)) << text;
+  for (const char *text : {"-1", "+1", " 1", "1.5", "", "nan", "18446744073709551616"})
+    EXPECT_FALSE(takes(withoutSign(), text)) << text;
+}
+
+}  // namespace
+}  // namespace sphc::host

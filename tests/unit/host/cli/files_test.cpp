@@ -1,0 +1,215 @@
+// No command loses a file: what it reads, what others wrote, and what was there before it failed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "command_runner.h"
+#include "host/cli/common/exit_code.h"
+
+namespace sphc::host {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string textOf(const std::string &path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+unsigned modeOf(const std::string &path) {
+  struct stat facts = {};
+  return stat(path.c_str(), &facts) == 0 ? facts.st_mode & 0777 : 0;
+}
+
+// One walk and one map of it, made once.
+class FilesTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TempFolder>();
+    const Answer walk = runCommand("simulate --frames 3 --rate 3 --out " + at("walk"));
+    ASSERT_EQ(walk.exit_code, kExitDone) << walk.err;
+    const Answer map = runCommand("build -r " + at("walk") + " -m " + at("room.sphc"));
+    ASSERT_EQ(map.exit_code, kExitDone) << map.err;
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::string at(const std::string &name) { return *folder_ / name; }
+  static void put(const std::string &name, const std::string &text) { std::ofstream(at(name)) << text; }
+
+  // The command is refused with this status, says this, and changes not a byte of the file.
+  static void expectKept(const std::string &file, const std::string &command, int status, const std::string &told) {
+    const std::string before = textOf(file);
+    const Answer answer = runCommand(command);
+    EXPECT_EQ(answer.exit_code, status) << command;
+    EXPECT_THAT(answer.err, HasSubstr(told)) << command;
+    EXPECT_EQ(textOf(file), before) << command;
+  }
+
+  static std::unique_ptr<TempFolder> folder_;
+};
+std::unique_ptr<TempFolder> FilesTest::folder_;
+
+TEST_F(FilesTest, BuildReplacesItsOwnMapAlone) {
+  const std::string build = "build -r " + at("walk") + " -m ", ledger = at("spherecloud.ledger");
+  expectKept(ledger, build + ledger, kExitUsage, "are one file");
+  expectKept(ledger, build + ledger + " --ledger " + at("other.ledger") + " --force", kExitFailure, "is a ledger");
+  expectKept(at("walk/rgb.txt"), build + at("walk/rgb.txt"), kExitUsage,
+             "lies in the folder that --recording reads");
+  put("foreign.sphc", "a map of somebody else");
+  expectKept(at("foreign.sphc"), build + at("foreign.sphc"), kExitFailure, "--force");
+  put("new.sphc.owner.json", "notes");
+  expectKept(at("new.sphc.owner.json"), build + at("new.sphc"), kExitFailure, "the owner's note");
+  EXPECT_FALSE(fs::exists(at("other.ledger"))) << "a refused build made a ledger";
+  EXPECT_FALSE(fs::exists(at("new.sphc")));
+  // Another ledger did not release this map.
+  expectKept(at("room.sphc"), build + at("room.sphc") + " --ledger " + at("other.ledger"), kExitFailure, "--force");
+  EXPECT_EQ(runCommand(build + at("room.sphc")).exit_code, kExitDone) << "its own map";
+  EXPECT_EQ(runCommand(build + at("foreign.sphc") + " --force").exit_code, kExitDone);
+}
+
+TEST_F(FilesTest, AMapOfAnotherPlaceOfTheLedgerStays) {
+  const std::string build = "build -r " + at("walk") + " -m " + at("place2.sphc") + " --ledger " + at("two.ledger");
+  ASSERT_EQ(
+      runCommand("build -r " + at("walk") + " -m " + at("place1.sphc") + " --ledger " + at("two.ledger")).exit_code,
+      kExitDone);
+  expectKept(at("place1.sphc"),
+             "build -r " + at("walk") + " -m " + at("place1.sphc") + " --ledger " + at("two.ledger") +
+                 " --new-place --i-understand --eta 0.5",
+             kExitFailure, "another place of the ledger");
+  EXPECT_EQ(runCommand(build + " --new-place --i-understand --eta 0.5").exit_code, kExitDone);
+}
+
+TEST_F(FilesTest, AFailedBuildLeavesNoLedger) {
+  put("key1", std::string(64, '1'));
+  put("key2", std::string(64, '2'));
+  const std::string build =
+      "build -r " + at("walk") + " -m " + at("keyed.sphc") + " --ledger " + at("keyed.ledger");
+  EXPECT_THAT(runCommand(build + " --key " + at("key1")).err, HasSubstr("chmod 600 " + at("key1")));
+  for (const char *key : {"key1", "key2"}) fs::permissions(at(key), fs::perms(0600));
+  const Answer failed = runCommand(build + " --key " + at("key1") + " --depth-min 5.9");
+  EXPECT_EQ(failed.exit_code, kExitFailure);
+  EXPECT_FALSE(fs::exists(at("keyed.ledger")));
+  EXPECT_EQ(runCommand(build + " --key " + at("key2")).exit_code, kExitDone);
+  fs::create_directory(at("folder.ledger"));
+  const Answer folder =
+      runCommand("build -r " + at("walk") + " -m " + at("x.sphc") + " --ledger " + at("folder.ledger"));
+  EXPECT_THAT(folder.err, HasSubstr("is a folder"));
+}
+
+TEST_F(FilesTest, WhatIsPrivateIsReadByItsOwnerAlone) {
+  EXPECT_EQ(modeOf(at("room.sphc.owner.json")), 0600u);
+  EXPECT_EQ(modeOf(at("spherecloud.ledger")), 0600u);
+}
+
+TEST_F(FilesTest, LocalizeReplacesItsOwnOutputsAlone) {
+  const std::string localize = "localize -r " + at("walk") + " -m " + at("room.sphc");
+  expectKept(at("room.sphc"), localize + " --trajectory " + at("room.sphc"), kExitUsage, "--map reads");
+  expectKept(at("room.sphc"), localize + " --frames-json " + at("walk/../room.sphc"), kExitUsage, "--map reads");
+  expectKept(at("walk/groundtruth.txt"), localize + " --trajectory " + at("walk/groundtruth.txt"), kExitUsage,
+             "--recording reads");
+  put("truth.tum", "# my own truth\n0 1 2 3 0 0 0 1\n");
+  expectKept(at("truth.tum"), localize + " --trajectory " + at("truth.tum"), kExitFailure, "--force");
+  const std::string outputs =
+      localize + " --trajectory " + at("a.tum") + " --frames-json " + at("a.jsonl") + " --report " + at("report");
+  EXPECT_EQ(runCommand(localize + " --trajectory " + at("a") + " --frames-json " + at("a")).exit_code, kExitUsage);
+  for (int run = 0; run < 2; ++run) {
+    const Answer answer = runCommand(outputs);
+    EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
+  }
+  EXPECT_THAT(runCommand(localize + " --report " + at("walk")).err, HasSubstr("--recording reads"));
+  EXPECT_THAT(runCommand(localize + " --report " + at(".")).err, HasSubstr("--force"));
+}
+
+TEST_F(FilesTest, PicturesReplacePicturesAlone) {
+  const std::string inspect = "inspect " + at("room.sphc");
+  for (int run = 0; run < 2; ++run) EXPECT_EQ(runCommand(inspect).exit_code, kExitDone);
+  expectKept(at("room.sphc"), inspect + " --picture " + at("room.sphc"), kExitUsage, "reads");
+  put("holiday.png", "a picture of somebody");
+  expectKept(at("holiday.png"), inspect + " --picture " + at("holiday.png"), kExitFailure, "--force");
+  expectKept(at("holiday.png"), "advise -r " + at("walk") + " --picture " + at("holiday.png"), kExitFailure,
+             "--force");
+}
+
+TEST_F(FilesTest, CalibrationsAreReplacedByForceAlone) {
+  const std::string calibration = "calibration " + at("walk/calibration.json") + " --out ";
+  expectKept(at("walk/calibration.json"), calibration + at("walk/calibration.json"), kExitUsage, "reads");
+  ASSERT_EQ(runCommand(calibration + at("c.json")).exit_code, kExitDone);
+  expectKept(at("c.json"), calibration + at("c.json"), kExitFailure, "--force");
+  EXPECT_EQ(runCommand(calibration + at("c.json") + " --force").exit_code, kExitDone);
+}
+
+TEST_F(FilesTest, AuditKeepsTheLedger) {
+  const std::string audit = "audit " + at("room.sphc") + " --truth " + at("spherecloud.ledger") + " --figures ";
+  expectKept(at("spherecloud.ledger"), audit + at("spherecloud.ledger"), kExitUsage, "--truth reads");
+}
+
+TEST_F(FilesTest, RecordingsAreWholeOrNotThere) {
+  expectKept(at("walk/rgb.txt"), "convert " + at("walk") + " " + at("walk/in.mcap"), kExitUsage, "lies in");
+  expectKept(at("room.sphc"), "simulate --frames 1 --out " + at("room.sphc"), kExitFailure, "never replaced");
+  // As a killed program leaves it.
+  fs::copy(at("walk"), at("half.part"), fs::copy_options::recursive);
+  const Answer there = runCommand("simulate --frames 1 --out " + at("half"));
+  EXPECT_EQ(there.exit_code, kExitFailure);
+  EXPECT_THAT(there.err, HasSubstr("spherecloud convert"));
+  // A failure on the way.
+  fs::copy(at("walk"), at("bad"), fs::copy_options::recursive);
+  std::ofstream(at("bad/groundtruth.txt"), std::ios::app) << "0.5 0 0 0 0 0 0 1\n";
+  for (const char *to : {"to.mcap", "to"}) {
+    runCommand("convert " + at("bad") + " " + at(to));
+    EXPECT_FALSE(fs::exists(at(to + std::string(".part")))) << to;
+  }
+}
+
+// The signal comes once something is recorded; how long that takes does not matter.
+TEST_F(FilesTest, APoliteKillEndsARecordingAsCtrlCDoes) {
+  for (const std::string signal : {"TERM", "HUP"}) {
+    const std::string out = at(signal + ".mcap");
+    // More bytes than one image of colour has: both streams are in.
+    const std::string script =
+        "'" SPHC_COMMAND " record --device simulated: --json --out " + out + " >" + out +
+        ".json & child=$!; size=0; while kill -0 $child && [ $size -lt 2000000 ]; do sleep 0.1; "
+        "size=$(stat -c %s " +
+        out + ".part 2>/dev/null || echo 0); done; kill -" + signal + " $child; wait $child'";
+    const Answer answer = runProgram("sh -c", script);
+    EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
+    EXPECT_TRUE(fs::exists(out));
+    EXPECT_FALSE(fs::exists(out + ".part"));
+    EXPECT_THAT(textOf(out + ".json"), HasSubstr("\"color\""));
+    EXPECT_EQ(runCommand("convert " + out + " " + at(signal)).exit_code, kExitDone) << "the file is not whole";
+  }
+}
+
+TEST_F(FilesTest, AFullDiskIsNoSuccess) {
+  for (const std::string &command :
+       {"info --json " + at("room.sphc"), "info " + at("room.sphc"),
+        "localize --json -r " + at("walk") + " -m " + at("room.sphc"),
+        "calibration --json " + at("walk/calibration.json"), std::string("--version"), std::string("build --help"),
+        "live --json --map " + at("room.sphc") + " --device replay:" + at("walk")}) {
+    const Answer answer = runProgram("sh -c", "'" SPHC_COMMAND " " + command + " >/dev/full'");
+    EXPECT_EQ(answer.exit_code, kExitFailure) << command;
+    EXPECT_THAT(answer.err, HasSubstr("output cannot be written")) << command;
+  }
+}
+
+TEST_F(FilesTest, TheCauseIsTheRightOne) {
+  const std::string build = "build -r " + at("walk") + " -m " + at("cause.sphc") + " ";
+  for (const char *options : {"--depth-min 5 --depth-max 1", "--max-keypoints 0", "--min-observations 4",
+                              "--eta nan", "--depth-max nan", "--min-observations 0"})
+    EXPECT_EQ(runCommand(build + options).exit_code, kExitUsage) << options;
+  EXPECT_THAT(runCommand(build + "--min-observations 4").err, HasSubstr("there are 3 frames"));
+  EXPECT_THAT(runCommand(build + "--depth-min 50 --depth-max 60").err, HasSubstr("depth of 50.00 to 60.00 m"));
+  EXPECT_THAT(runCommand(build + "--eta 1e-6 --ledger " + at("cause.ledger")).err, HasSubstr("larger --eta"));
+  fs::copy(at("walk"), at("cut"), fs::copy_options::recursive);
+  for (const auto &image : fs::directory_iterator(at("cut/rgb"))) fs::resize_file(image.path(), 100);
+  const Answer cut = runCommand("build -r " + at("cut") + " -m " + at("cause.sphc"));
+  EXPECT_THAT(cut.err, HasSubstr("not one frame can be read"));
+  EXPECT_THAT(cut.err, testing::Not(HasSubstr("poses")));
+}
+
+}  // namespace
+}  // namespace sphc::host
