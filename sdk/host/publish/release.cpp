@@ -49,22 +49,19 @@ const Recognition *samePlace(const std::vector<Recognition> &recognitions, const
 void refuseForeign(const Recognition *recognition, const PointModel &model) {
   if (!recognition) return;
   const double share = static_cast<double>(recognition->known) / static_cast<double>(model.points.size());
-  throw std::runtime_error(percent(share) +
-                           " of the recording's points were released by another ledger (--against). A second, "
-                           "independent map of one place "
-                           "exposes what both have. Update that ledger's map with --ledger, or publish with "
-                           "--new-place only what it does "
-                           "not have, or say --i-understand");
+  throw std::runtime_error(
+      percent(share) +
+      " of the recording's points were released by another ledger (--against). A second, independent map of one "
+      "place exposes the points that both have. Update that ledger's map with --ledger, or publish with "
+      "--new-place only what it does not have, or say --i-understand");
 }
 
 void refuseChange(const Place &place, const ReleaseRequest &request) {
   char was[64];
   std::snprintf(was, sizeof was, "place %u was released with eta %.4g", place.number, place.eta);
   const char *cure =
-      "; the assignments of its points cannot change any more, since points that are real in two ways of hiding "
-      "them are "
-      "exposed. Leave the option out, or publish with --new-place only what is not released yet, or say "
-      "--i-understand";
+      ". Its published points stay as they are: two maps that hide the same points in two ways expose them. Leave "
+      "the option out, or publish with --new-place only what is not released yet, or say --i-understand";
   if (request.eta && std::abs(*request.eta - place.eta) > 1e-9) throw std::runtime_error(was + std::string(cure));
   if (request.strategy && request.strategy->name() != place.strategy)
     throw std::runtime_error(was + (" and fakes '" + place.strategy + "', not '" + request.strategy->name() + "'") +

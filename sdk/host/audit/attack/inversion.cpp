@@ -18,7 +18,7 @@ cv::dnn::Net readNet(const std::string &path) {
     return cv::dnn::readNetFromONNX(path);
   } catch (const cv::Exception &) {
     throw std::runtime_error("the network " + path +
-                             " cannot be read; it comes with the source, in sdk/host/audit/attack/networks");
+                             " cannot be read; install the command anew, or give --networks");
   }
 }
 

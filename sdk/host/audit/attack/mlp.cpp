@@ -11,8 +11,7 @@ namespace {
 constexpr float kFarthest = 5;  // deviations from the mean; as in train/real_or_fake/network.py
 
 [[noreturn]] void refuse(const std::string &what) {
-  throw std::runtime_error("the model " + what +
-                           "; models come with the source, in sdk/host/audit/attack/networks");
+  throw std::runtime_error("the model " + what + "; install the command anew, or give --networks");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "runtime/map/crc32.h"
 #include "tests/support/made_up_model.h"
 #include "tests/support/refusal.h"
+#include "tests/support/release_request.h"
 
 namespace sphc::host {
 namespace {
@@ -71,6 +72,13 @@ TEST_F(ModelFile, GivesBackWhatItWasGiven) {
   expectSame(readModelFile(path_), room);
   EXPECT_EQ(std::filesystem::file_size(path_), kHeaderBytes + 300 * kPointBytes);
   expectSame(decodeModel(encodeModel({})), {});
+}
+
+TEST_F(ModelFile, GivesTheSameMap) {
+  const PointModel room = test::madeUpRoom(300, 1);
+  writeModelFile(path_, room);
+  EXPECT_EQ(makeRelease(readModelFile(path_), test::releaseRequest()).file,
+            makeRelease(room, test::releaseRequest()).file);
 }
 
 TEST_F(ModelFile, IsTheOwnersAlone) {
