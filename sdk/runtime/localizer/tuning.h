@@ -1,6 +1,6 @@
 // Numbers of the localizer, each with its evidence.  "Chosen": by judgement, and never swept; the rows of
-// tests/pipeline/accuracy.csv stand for all of them together.  "Blocks": the hololens recording, frames in turn map and
-// query, 20 at a time, where maps show a place from elsewhere.
+// tests/pipeline/accuracy.csv stand for all of them together.  "Blocks": the hololens recording, frames in turn map
+// and query, 20 at a time, where maps show a place from elsewhere.
 #pragma once
 #include <cstdint>
 
@@ -19,7 +19,8 @@ constexpr uint32_t kFewestKeypoints = 32, kFewestLifted = 16, kFewestMatches = 6
 
 // Coarser keypoints are placed less exactly: their error grows in proportion to their scale beyond this.  Chosen.
 constexpr double kFineScalePx = 2;
-// Where a keypoint without depth is taken to lie, as far as the map's error goes.  Chosen: the order of a room's depths.
+// Where a keypoint without depth is taken to lie, as far as the map's error goes.  Chosen: the order of a room's
+// depths.
 constexpr double kRayM = 1;
 
 // ---- search: where in the maps to look ----
@@ -53,10 +54,10 @@ constexpr double kNearlyAsGood = 0.8, kSamePoseRad = degrees(5);
 
 // ---- judgement ----
 
-constexpr double kMostLogChance = -12;         // wrong poses on foreign maps were never seen below -6
-constexpr double kMostLogChanceExpected = -6;  // an expected pose is likely before it is looked at (decision 13)
-constexpr double kMostRotationSigmaRad = 0.05;       // doubted as below (decision 13)
-constexpr double kMostTranslationSigmaM = 0.10;      // the same
+constexpr double kMostLogChance = -12;           // wrong poses on foreign maps were never seen below -6
+constexpr double kMostLogChanceExpected = -6;    // an expected pose is likely before it is looked at (decision 13)
+constexpr double kMostRotationSigmaRad = 0.05;   // doubted as below (decision 13)
+constexpr double kMostTranslationSigmaM = 0.10;  // the same
 constexpr double kMostSigmaWithoutLeverageM = 0.15;  // all poses that it refuses on blocks were more than 5 cm off
 // Errors of the map and outliers among few inliers are not in the covariance: on blocks poses from 15 to 25 inliers
 // were off by 5 sigma, from 100 and more by less than 2.
@@ -65,7 +66,7 @@ constexpr double kInliersOfDoubt = 60;
 // ---- fusion: matches of several frames ----
 
 constexpr uint16_t kMostFramesTogether = 60;  // chosen: 2 s at 30 Hz
-constexpr double kVagueM = 0.06;  // chosen: sideways sigma beyond which a match is worth nothing
+constexpr double kVagueM = 0.06;              // chosen: sideways sigma beyond which a match is worth nothing
 
 // ---- tracking ----
 
@@ -76,6 +77,6 @@ constexpr double kTurnRate = 1, kSpeed = 0.7;                        // rad / s,
 constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: a pose is never better known
 constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
 constexpr uint64_t kNearNs = 100000000;                              // beside a frame, motion is steady for so long
-constexpr double kGateSigmas = 5;  // within which two poses agree
+constexpr double kGateSigmas = 5;                                    // within which two poses agree
 
 }  // namespace sphc::tuning
