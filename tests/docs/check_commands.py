@@ -13,7 +13,11 @@ from pathlib import Path
 from commands import help_texts, options_of
 from markdown import pages, report
 
-CALL = re.compile(r"(?:^|[\s/(])(spherecloud(?:-lab)?) +(?!-)([a-z]\S*)(.*)$")
+CALL = re.compile(r"(?:^|[\s/])(spherecloud(?:-lab)?) +(?!-)([a-z]\S*)(.*)$")
+BUILD_TOOL = re.compile(r"\s*(cmake|ninja)\b")
+OPTION = re.compile(r"--[a-z][a-z0-9-]*$")
+# Options of other programs that pages speak of by themselves.
+OTHERS = {"--wrap"}
 TARGET = re.compile(r"(?:\bninja(?: -C \S+)?|--target) +([a-z]\w+)")
 
 
@@ -23,18 +27,19 @@ def logical_lines(text):
 
 
 def named_calls(page):
-    """(line, text) wherever a page shows a command."""
+    """(line, text) wherever a page shows a command: lines of shell blocks, and code spans that begin with one."""
     for block in page.blocks:
         if not block.info or block.info in ("sh", "bash", "console"):
             for line in logical_lines(block.text):
                 yield block.line, line
     for line, text in page.spans():
-        yield line, text
+        if text.startswith(("spherecloud", "ninja ", "cmake ")):
+            yield line, text
 
 
 def call_faults(text, helps):
     """What is wrong with the calls of our commands in one line of text."""
-    match = CALL.search(text)
+    match = None if BUILD_TOOL.match(text) else CALL.search(text)
     if not match or match.group(1) not in helps:
         return []
     name, sub, rest = match.groups()
@@ -44,6 +49,14 @@ def call_faults(text, helps):
     options = options_of(known[f"{name} {sub}"])
     used = re.findall(r"(?<!\S)(--[A-Za-z][\w-]*|-[A-Za-z])(?=[\s=]|$)", re.sub(r"  +[^-\s].*$", "", rest))
     return [f"{name} {sub} has no option {option}" for option in used if option not in options]
+
+
+def bare_option_faults(page, helps):
+    """Options that a page names by themselves, such as `--map`: one of our commands must have each."""
+    known = OTHERS.union(*(options_of(text) for texts in helps.values() for text in texts.values()))
+    return [(line, f"no command has the option {words[0]}")
+            for line, words in ((line, re.split(r"[ =]", text)) for line, text in page.spans())
+            if OPTION.match(words[0]) and words[0] not in known]
 
 
 def targets_of(root):
@@ -66,6 +79,8 @@ def all_faults(root, commands):
             faults += [f"{where}:{line}: {words}" for words in call_faults(text, helps)]
             faults += [f"{where}:{line}: the build has no target {name}"
                        for name in TARGET.findall(text) if name not in targets]
+        if len(helps) == 2:  # with one command alone, the other's options are not known
+            faults += [f"{where}:{line}: {words}" for line, words in bare_option_faults(page, helps)]
     return faults
 
 

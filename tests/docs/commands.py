@@ -25,6 +25,8 @@ def help_texts(command):
     """The help of a command and of each of its subcommands, by the words that people type."""
     name, own = Path(command).name, run_help([command])
     texts = {name: own}
+    if not subcommands(own):
+        raise ValueError(f"{command} --help names no subcommand")
     for sub in subcommands(own):
         texts[f"{name} {sub}"] = run_help([command, sub])
     return texts
