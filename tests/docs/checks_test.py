@@ -36,7 +36,8 @@ class Checks(unittest.TestCase):
     def setUp(self):
         self.root = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.root)
-        (self.root / "sdk").symlink_to(ROOT / "sdk")
+        (self.root / "sdk" / "runtime" / "base").mkdir(parents=True)
+        (self.root / "sdk" / "include").symlink_to(ROOT / "sdk" / "include")
         self.write("tests/layers/layers.txt", "sdk/runtime/base | |\n")
         self.write("README.md", "# Project\n\n[index](docs/README.md)\n")
         self.write("docs/README.md", "# Index\n\n[one](one.md) [architecture](architecture.md) [decisions](decisions/README.md)\n")

@@ -97,8 +97,8 @@ class Page:
 def pages(root):
     """Every page of the project, read once."""
     root = Path(root)
-    found = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").rglob("*.md"))]
-    return [Page(path) for path in found if path.exists()]
+    folders = [path for name in ("docs", "sdk", "drivers", "examples", "tests") for path in (root / name).rglob("*.md")]
+    return [Page(path) for path in (root / "README.md", root / "CHANGELOG.md", *sorted(folders)) if path.exists()]
 
 
 def report(faults):
