@@ -43,7 +43,7 @@ class LayersTest(unittest.TestCase):
                                      '"runtime/stages/pose/p3p.h"', "<cmath>", '"p3p.h"'), [])
         self.assertEqual(self.faults("sdk/runtime/stages/match/x.cpp", '"runtime/map/map_view.h"'), [])
         self.assertEqual(self.faults("sdk/host/publish/x.cpp", '"host/import/point_model.h"', "<sodium.h>"), [])
-        self.assertEqual(self.faults("drivers/replay/x.cpp", "<spherecloud/spherecloud.h>", "<opencv2/core.hpp>"), [])
+        self.assertEqual(self.faults("sdk/host/recording/x.cpp", "<spherecloud/spherecloud.h>", "<opencv2/core.hpp>"), [])
 
     def test_upwards(self):
         self.assertFault("sdk/runtime/base/x.h", '"runtime/geometry/rigid.h"', "may not include")
