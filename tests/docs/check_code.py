@@ -20,28 +20,36 @@ C_HEADERS = "#include <spherecloud/spherecloud.h>\n#include <stdio.h>\n"
 CXX_HEADERS = "#include <spherecloud/spherecloud.hpp>\n#include <cstdio>\n"
 
 
-def source_of(block, headers):
+def is_c(block):
+    return block.info.split()[0] == "c"
+
+
+def is_fragment(block):
+    return "fragment" in block.info.split()
+
+
+def source_of(block):
     """The file that a block is compiled as."""
-    if "fragment" not in block.info.split():
+    if not is_fragment(block):
         return block.text
     context = block.before.split("\n") if block.before else []
     top = "".join(line + "\n" for line in context if line.startswith("#"))
-    declared = "".join("  " + line + "\n" for line in context if line and not line.startswith("#"))
-    return f"{headers}{top}int fragment(void);\nint fragment(void) {{\n{declared}{block.text}  return 0;\n}}\n"
+    declared = "".join(line + "\n" for line in context if not line.startswith("#"))
+    headers = C_HEADERS if is_c(block) else CXX_HEADERS
+    return f"{headers}{top}int fragment(void);\nint fragment(void) {{\n{declared}{block.text}return 0;\n}}\n"
+
+
+def command_of(block, root, compilers):
+    """How a block is compiled; its text comes by standard input."""
+    language = [compilers[0], "-std=c99", "-x", "c"] if is_c(block) else [compilers[1], "-std=c++17", "-x", "c++"]
+    relaxed = ["-Wno-unused"] if is_fragment(block) else []
+    return [*language, *STRICT, *relaxed, "-I", root / "sdk" / "include", "-I", root, "-I", root / "sdk", "-"]
 
 
 def compile_block(block, root, compilers):
     """What the compiler says against a block; empty: it compiles."""
-    is_c = block.info.split()[0] == "c"
-    command = [compilers[0], "-std=c99", "-x", "c"] if is_c else [compilers[1], "-std=c++17", "-x", "c++"]
-    if "fragment" in block.info.split():
-        command += ["-Wno-unused"]
-    command += STRICT + ["-I", str(root / "sdk" / "include"), "-I", str(root), "-I", str(root / "sdk"), "-"]
-    # -Wno-unused must come after -Wall to count.
-    command.sort(key=lambda word: word == "-Wno-unused")
-    command.remove("-")
-    run = subprocess.run(command + ["-"], input=source_of(block, C_HEADERS if is_c else CXX_HEADERS), text=True,
-                         capture_output=True, check=False)
+    run = subprocess.run(command_of(block, root, compilers), input=source_of(block), text=True, capture_output=True,
+                         check=False)
     return run.stderr if run.returncode else ""
 
 

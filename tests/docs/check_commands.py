@@ -18,7 +18,7 @@ BUILD_TOOL = re.compile(r"\s*(cmake|ninja)\b")
 OPTION = re.compile(r"--[a-z][a-z0-9-]*$")
 # Options of other programs that pages speak of by themselves.
 OTHERS = {"--wrap"}
-TARGET = re.compile(r"(?:\bninja(?: -C \S+)?|--target) +([a-z]\w+)")
+TARGETS = re.compile(r"(?:\bninja(?: -C \S+)?|--target)((?: +[a-z]\w+)+)")
 
 
 def logical_lines(text):
@@ -78,7 +78,7 @@ def all_faults(root, commands):
         for line, text in named_calls(page):
             faults += [f"{where}:{line}: {words}" for words in call_faults(text, helps)]
             faults += [f"{where}:{line}: the build has no target {name}"
-                       for name in TARGET.findall(text) if name not in targets]
+                       for names in TARGETS.findall(text) for name in names.split() if name not in targets]
         if len(helps) == 2:  # with one command alone, the other's options are not known
             faults += [f"{where}:{line}: {words}" for line, words in bare_option_faults(page, helps)]
     return faults

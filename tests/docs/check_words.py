@@ -7,8 +7,8 @@ import re
 import sys
 from pathlib import Path
 
-from markdown import pages, report
 from commands import help_texts
+from markdown import pages, report
 
 
 def private_words():
@@ -22,14 +22,16 @@ def private_words():
     return rows
 
 
+PRIVATE_WORDS = private_words()
+
+
 def faults_in(text, name):
     """Private words in a text; a word may be broken over two lines."""
     faults = []
     lines = text.split("\n")
+    words = [(pattern, use) for pattern, use, where in PRIVATE_WORDS if not (where and where.search(name))]
     for number, line in enumerate(lines, 1):
-        for pattern, use, where in private_words():
-            if where and where.search(name):
-                continue
+        for pattern, use in words:
             following = line + " " + (lines[number].lstrip() if number < len(lines) else "")
             for match in pattern.finditer(following):
                 if match.start() < len(line):
@@ -41,7 +43,9 @@ def all_faults(root, commands):
     root, faults = Path(root).resolve(), []
     for page in pages(root):
         faults += faults_in("\n".join(page.lines), str(page.path.relative_to(root)))
-    faults += faults_in((root / "NOTICE").read_text(encoding="utf-8"), "NOTICE") if (root / "NOTICE").exists() else []
+    notice = root / "NOTICE"
+    if notice.exists():
+        faults += faults_in(notice.read_text(encoding="utf-8"), notice.name)
     for command in commands:
         for name, text in help_texts(command).items():
             faults += faults_in(text, f"{name} --help")

@@ -135,9 +135,18 @@ class Checks(unittest.TestCase):
         self.page("`spherecloud bend --recording walk`\n")
         self.assert_fault(self.commands(), "has no subcommand bend")
 
+    def test_an_option_in_prose_that_is_gone(self):
+        """Only where both commands are known: an option of the prose may be either's."""
+        lab = self.write("spherecloud-lab", HELP)
+        lab.chmod(0o755)
+        self.page("Say `--recording walk`, or `--gone=1`.\n")
+        faults = check_commands.all_faults(self.root, [self.command(), lab])
+        self.assertEqual(faults, ["docs/one.md:1: no command has the option --gone"])
+
     def test_a_target_that_is_gone(self):
-        self.page("`ninja gone_results`\n")
-        self.assert_fault(self.commands(), "no target gone_results")
+        self.write("tests/CMakeLists.txt", "add_custom_target(kept_results)\n")
+        self.page("`ninja kept_results gone_results`\n")
+        self.assertEqual(self.commands(), ["docs/one.md:1: the build has no target gone_results"])
 
     def test_a_private_word(self):
         self.page("What goes through the\ndoor is checked.\n")

@@ -27,13 +27,13 @@ UNUSED = {"0023": "(the number was not used)"}
 
 def head(path):
     """(title, status, date) of a decision; an error names what its head lacks."""
-    lines = path.read_text(encoding="utf-8").split("\n") + [""] * 3
+    lines = [line for line in path.read_text(encoding="utf-8").split("\n") if line] + [""] * 2
     title = re.fullmatch(rf"# {path.name[:4]}: (.+)", lines[0])
     if not title:
         raise ValueError(f"{path.name}:1: not `# {path.name[:4]}: title`")
-    dated = re.match(r"Date: (\d{4}-\d{2}-\d{2})\. Status: ([^.]+)\.", lines[2])
+    dated = re.match(r"Date: (\d{4}-\d{2}-\d{2})\. Status: ([^.]+)\.", lines[1])
     if not dated:
-        raise ValueError(f"{path.name}:3: not `Date: YYYY-MM-DD. Status: ...`")
+        raise ValueError(f"{path.name}: its second line is not `Date: YYYY-MM-DD. Status: ...`")
     return title[1], dated[2], dated[1]
 
 

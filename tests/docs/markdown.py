@@ -2,8 +2,6 @@
 import re
 from pathlib import Path
 
-FENCE = re.compile(r"^(\s*)```(.*)$")
-INDENTED = re.compile(r"^ {4}\S")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 SPAN = re.compile(r"`([^`]+)`")
 
@@ -11,60 +9,50 @@ SPAN = re.compile(r"`([^`]+)`")
 class Block:
     """A code block: its language line, its text, its first line, and the comment `<!-- before: ... -->` above it."""
 
-    def __init__(self, info, line, before):
+    def __init__(self, info, line, before=""):
         self.info, self.line, self.before, self.text = info, line, before, ""
 
 
 class Page:
-    """A page, read once.  `prose` has the lines outside code blocks; in it, code blocks are empty lines."""
+    """A page, read once.  `prose` has all its lines, with empty ones for code blocks and comments."""
 
     def __init__(self, path):
         self.path = Path(path)
         self.lines = self.path.read_text(encoding="utf-8").split("\n")
         self.prose, self.blocks = [], []
-        self._read()
+        self._before = ""
+        while len(self.prose) < len(self.lines):
+            self._read_next()
 
-    def _read(self):
-        block, before, comment = None, "", None
-        for number, line in enumerate(self.lines, 1):
-            fence = FENCE.match(line)
-            if block is not None:
-                if fence and not fence.group(2).strip():
-                    block = None
-                else:
-                    block.text += line + "\n"
-                self.prose.append("")
-                continue
-            if comment is not None or line.startswith("<!--"):
-                comment = (comment or "") + line + "\n"
-                if "-->" in line:
-                    before, comment = self._context(comment), None
-                self.prose.append("")
-                continue
-            if fence:
-                block = Block(fence.group(2).strip(), number, before)
-                self.blocks.append(block)
-                before = ""
-                self.prose.append("")
-                continue
-            if INDENTED.match(line) and (number == 1 or not self.lines[number - 2].strip() or self._indented(number - 1)):
-                if not self._indented(number - 1):
-                    self.blocks.append(Block("", number, ""))
-                self.blocks[-1].text += line[4:] + "\n"
-                self.prose.append("")
-                continue
-            if line.strip():
-                before = ""
+    def _read_next(self):
+        """Takes the next block, comment or line of prose."""
+        begin = len(self.prose)
+        line = self.lines[begin]
+        if line.lstrip().startswith("```"):
+            end = self._find(begin + 1, lambda other: other.strip() == "```")
+            self._add_block(line.strip()[3:].strip(), begin, self.lines[begin + 1:end])
+        elif line.startswith("<!--"):
+            end = self._find(begin, lambda other: "-->" in other)
+            comment = "\n".join(self.lines[begin:end + 1])[len("<!--"):].split("-->")[0].strip()
+            self._before = comment[len("before:"):].strip() if comment.startswith("before:") else ""
+        elif line.startswith("    ") and line.strip() and (begin == 0 or not self.lines[begin - 1].strip()):
+            end = self._find(begin, lambda other: not other.startswith("    ")) - 1
+            self._add_block("", begin, [other[4:] for other in self.lines[begin:end + 1]])
+        else:
+            self._before = "" if line.strip() else self._before
             self.prose.append(line)
+            return
+        self.prose += [""] * (end + 1 - begin)
 
-    def _indented(self, number):
-        """Whether line `number` was taken for an indented code block."""
-        return number >= 1 and self.prose[number - 1] == "" and bool(INDENTED.match(self.lines[number - 1]))
+    def _find(self, begin, wanted):
+        """The first line from `begin` on that is wanted; the last one when none is."""
+        return next((i for i in range(begin, len(self.lines)) if wanted(self.lines[i])), len(self.lines) - 1)
 
-    @staticmethod
-    def _context(comment):
-        inner = comment.replace("<!--", "", 1).split("-->")[0].strip()
-        return inner[len("before:"):].strip() if inner.startswith("before:") else ""
+    def _add_block(self, info, begin, lines):
+        block = Block(info, begin + 1, self._before)
+        block.text = "".join(line + "\n" for line in lines)
+        self.blocks.append(block)
+        self._before = ""
 
     def links(self):
         """(line number, target) of every link."""
@@ -84,8 +72,8 @@ class Page:
         for line in self.prose:
             if not re.match(r"#+ ", line):
                 continue
-            words = LINK.sub(lambda match: match.group(0)[1:].split("](")[0], line.lstrip("#").strip())
-            name = re.sub(r"[^\w\- ]", "", words.replace("`", "").lower()).replace(" ", "-")
+            words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", line.lstrip("#").strip())
+            name = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
             unique, count = name, 0
             while unique in names:
                 count += 1
