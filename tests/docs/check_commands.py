@@ -18,7 +18,7 @@ BUILD_TOOL = re.compile(r"\s*(cmake|ninja)\b")
 OPTION = re.compile(r"--[a-z][a-z0-9-]*$")
 # Options of other programs that pages speak of by themselves.
 OTHERS = {"--wrap"}
-TARGETS = re.compile(r"(?:\bninja(?: -C \S+)?|--target)((?: +[a-z]\w+)+)")
+TARGETS = re.compile(r"(?:\bninja(?: -C \S+)?|--target)((?: [a-z]\w+)+)")
 
 
 def logical_lines(text):
