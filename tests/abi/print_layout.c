@@ -96,11 +96,9 @@ int main(void) {
   FIELD(sphc_config, depth_offset_sigma_m);
   FIELD(sphc_config, depth_slope_sigma);
   FIELD(sphc_config, min_inliers);
-  FIELD(sphc_config, cost);
   FIELD(sphc_config, deadline_us);
   FIELD(sphc_config, mode);
   FIELD(sphc_config, probes);
-  FIELD(sphc_config, reserved);
   FIELD(sphc_config, log);
   FIELD(sphc_config, log_user);
   FIELD(sphc_config, clock);
@@ -150,7 +148,7 @@ int main(void) {
   FIELD(sphc_observation, y_px);
   FIELD(sphc_observation, scale_px);
   FIELD(sphc_observation, depth_m);
-  FIELD(sphc_observation, map_index);
+  FIELD(sphc_observation, point_index);
   FIELD(sphc_observation, flags);
   WHOLE(sphc_capture);
   FIELD(sphc_capture, struct_size);

@@ -16,7 +16,7 @@ using sphc::test::Output;
 
 constexpr uint32_t kWidth = 64, kHeight = 48;
 
-class DoorAligner : public testing::Test {
+class CInterfaceAligner : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(sphc_aligner_config_init(&config_, sizeof config_), SPHC_OK);
@@ -38,7 +38,7 @@ class DoorAligner : public testing::Test {
   sphc_message message_ = {};
 };
 
-TEST_F(DoorAligner, AlignsIntoStridedImages) {
+TEST_F(CInterfaceAligner, AlignsIntoStridedImages) {
   ASSERT_EQ(init(), SPHC_OK);
   constexpr uint32_t kPad = 3;
   std::vector<uint16_t> depth((kWidth + kPad) * kHeight, 7);
@@ -70,7 +70,7 @@ TEST_F(DoorAligner, AlignsIntoStridedImages) {
   EXPECT_EQ(aligner_, nullptr);
 }
 
-TEST_F(DoorAligner, EachOutputMayBeNull) {
+TEST_F(CInterfaceAligner, EachOutputMayBeNull) {
   ASSERT_EQ(init(), SPHC_OK);
   const sphc_image raw = image();
   std::vector<uint16_t> depth(kWidth * kHeight), again(kWidth * kHeight);
@@ -87,7 +87,7 @@ TEST_F(DoorAligner, EachOutputMayBeNull) {
   EXPECT_EQ(mask, alone);
 }
 
-TEST_F(DoorAligner, ForbiddenConfigs) {
+TEST_F(CInterfaceAligner, ForbiddenConfigs) {
   struct Spoiled {
     const char *words;
     void (*spoil)(sphc_aligner_config *);
@@ -123,7 +123,7 @@ TEST_F(DoorAligner, ForbiddenConfigs) {
   EXPECT_TRUE(untouched.untouched());
 }
 
-TEST_F(DoorAligner, ForbiddenMemory) {
+TEST_F(CInterfaceAligner, ForbiddenMemory) {
   EXPECT_EQ(sphc_aligner_memory(nullptr, &bytes_, &alignment_, &message_), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_aligner_memory(&config_, nullptr, &alignment_, &message_), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_aligner_init(nullptr, bytes_, &config_, &aligner_, &message_), SPHC_E_ARGUMENT);
@@ -132,11 +132,15 @@ TEST_F(DoorAligner, ForbiddenMemory) {
   EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_ - 1, &config_, &aligner_, &message_), SPHC_E_MEMORY_SIZE);
   EXPECT_EQ(sphc_aligner_init(static_cast<uint8_t *>(memory_.data()) + 1, bytes_, &config_, &aligner_, &message_),
             SPHC_E_MEMORY_ALIGNMENT);
+  auto *inside = reinterpret_cast<sphc_aligner_config *>(static_cast<uint8_t *>(memory_.data()) + 64);
+  *inside = config_;
+  EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, inside, &aligner_, &message_), SPHC_E_ARGUMENT);
+  expectMentions(message_.text, "aligner memory overlaps the config");
   EXPECT_EQ(aligner_, nullptr);
   sphc_aligner_fini(nullptr);
 }
 
-TEST_F(DoorAligner, ForbiddenImages) {
+TEST_F(CInterfaceAligner, ForbiddenImages) {
   ASSERT_EQ(init(), SPHC_OK);
   std::vector<uint16_t> depth(kWidth * kHeight, 7);
   std::vector<uint8_t> mask(kWidth * kHeight, 7);
@@ -178,7 +182,7 @@ TEST_F(DoorAligner, ForbiddenImages) {
   EXPECT_EQ(sphc_aligner_process(aligner_, &raw, &good), SPHC_OK);  // and it goes on
 }
 
-TEST_F(DoorAligner, FromCpp) {
+TEST_F(CInterfaceAligner, FromCpp) {
   spherecloud::Aligner aligner;
   ASSERT_TRUE(spherecloud::Aligner::make(config_, &aligner).ok());
   std::vector<uint16_t> depth(kWidth * kHeight);

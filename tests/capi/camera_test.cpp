@@ -13,7 +13,7 @@ using sphc::test::Output;
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(DoorCamera, CheckExplains) {
+TEST(CInterfaceCamera, CheckExplains) {
   sphc_message message = {};
   sphc_camera camera = sphc::test::pinhole(640, 480, 500);
   EXPECT_EQ(sphc_camera_check(&camera, &message), SPHC_OK);
@@ -25,7 +25,7 @@ TEST(DoorCamera, CheckExplains) {
   expectMentions(message.text, "not finite");
 }
 
-TEST(DoorCamera, ProjectAndBack) {
+TEST(CInterfaceCamera, ProjectAndBack) {
   const sphc_camera camera = sphc::test::pinhole(640, 480, 500);
   const double point[3] = {0.2, -0.1, 2};
   double pixel[2], bearing[3];
@@ -37,7 +37,7 @@ TEST(DoorCamera, ProjectAndBack) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(bearing[i], point[i] / norm, 1e-12);
 }
 
-TEST(DoorCamera, FailureLeavesOutputsUntouched) {
+TEST(CInterfaceCamera, FailureLeavesOutputsUntouched) {
   const sphc_camera good = sphc::test::pinhole(640, 480, 500);
   sphc_camera bad = good;
   bad.param_count = 5;
@@ -60,7 +60,7 @@ TEST(DoorCamera, FailureLeavesOutputsUntouched) {
   EXPECT_TRUE(bearing.untouched());
 }
 
-TEST(DoorRigid, OutputMayBeAnInput) {
+TEST(CInterfaceRigid, OutputMayBeAnInput) {
   const sphc_rigid a = {{0.8, 0.6, 0, 0}, {1, 2, 3}}, b = {{0.6, 0, -0.8, 0}, {-1, 0.5, 2}};
   sphc_rigid ab, inverse, identity;
   sphc_rigid_compose(&a, &b, &ab);

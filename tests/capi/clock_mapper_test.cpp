@@ -9,7 +9,7 @@ using sphc::test::expectMentions;
 using sphc::test::GuardedMemory;
 using sphc::test::Output;
 
-class DoorClockMapper : public testing::Test {
+class CInterfaceClockMapper : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(sphc_clock_mapper_memory(&bytes_, &alignment_), SPHC_OK);
@@ -25,7 +25,7 @@ class DoorClockMapper : public testing::Test {
   sphc_message message_ = {};
 };
 
-TEST_F(DoorClockMapper, MapsThroughTheDoor) {
+TEST_F(CInterfaceClockMapper, MapsThroughTheCInterface) {
   ASSERT_EQ(init(), SPHC_OK);
   int64_t host_ns = 0;
   sphc_clock_mapping mapping = {};
@@ -45,7 +45,7 @@ TEST_F(DoorClockMapper, MapsThroughTheDoor) {
   EXPECT_EQ(mapper_, nullptr);
 }
 
-TEST_F(DoorClockMapper, RefusesWhatItCannotUse) {
+TEST_F(CInterfaceClockMapper, RefusesWhatItCannotUse) {
   EXPECT_EQ(sphc_clock_mapper_config_init(nullptr, sizeof config_), SPHC_E_ARGUMENT);
   Output<sphc_clock_mapper_config> untouched;
   EXPECT_EQ(sphc_clock_mapper_config_init(untouched.get(), sizeof config_ - 1), SPHC_E_STRUCT_SIZE);
@@ -66,7 +66,7 @@ TEST_F(DoorClockMapper, RefusesWhatItCannotUse) {
   EXPECT_EQ(mapper_, nullptr);
 }
 
-TEST_F(DoorClockMapper, NullsAndSizes) {
+TEST_F(CInterfaceClockMapper, NullsAndSizes) {
   ASSERT_EQ(init(), SPHC_OK);
   int64_t host_ns = 0;
   Output<sphc_clock_mapping> mapping;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tests/capi/bytes.h"
+#include "tests/support/map_bytes.h"
 #include "tests/support/session.h"
 
 namespace {
@@ -14,7 +15,7 @@ using sphc::test::GuardedMemory;
 using sphc::test::Output;
 using sphc::test::Session;
 
-class DoorFailure : public testing::Test {
+class CInterfaceFailure : public testing::Test {
  protected:
   void SetUp() override {
     frame_ = sphc::test::sceneFrame(config_, 0);
@@ -69,7 +70,7 @@ class DoorFailure : public testing::Test {
   GuardedMemory state_, scratch_;
 };
 
-TEST_F(DoorFailure, InitNulls) {
+TEST_F(CInterfaceFailure, InitNulls) {
   Init i = good();
   i.state = nullptr;
   expectRefused(i, SPHC_E_ARGUMENT, "state memory is null");
@@ -94,7 +95,7 @@ TEST_F(DoorFailure, InitNulls) {
   expectMentions(message.text, "localizer is null");
 }
 
-TEST_F(DoorFailure, InitMemoryTooSmall) {
+TEST_F(CInterfaceFailure, InitMemoryTooSmall) {
   Init i = good();
   --i.state_bytes;
   expectRefused(i, SPHC_E_MEMORY_SIZE, "state memory has");
@@ -104,7 +105,7 @@ TEST_F(DoorFailure, InitMemoryTooSmall) {
   expectRefused(i, SPHC_E_MEMORY_SIZE, "scratch memory has");
 }
 
-TEST_F(DoorFailure, InitMemoryMisaligned) {
+TEST_F(CInterfaceFailure, InitMemoryMisaligned) {
   for (size_t off : {1u, 8u, 32u}) {
     Init i = good();
     i.state = static_cast<uint8_t *>(i.state) + off;
@@ -114,7 +115,57 @@ TEST_F(DoorFailure, InitMemoryMisaligned) {
   }
 }
 
-TEST_F(DoorFailure, InitBadConfig) {
+TEST_F(CInterfaceFailure, InitMemoryOverlaps) {
+  const size_t state_end = (need_.state_bytes + 63) / 64 * 64;
+  GuardedMemory both(state_end + need_.scratch_bytes + 64, 64);
+  auto *begin = static_cast<uint8_t *>(both.data());
+  const std::vector<uint8_t> before = both.copy();
+  Init i = good();
+  i.state = begin;
+  for (size_t off : {size_t{0}, size_t{64}, state_end - 64}) {
+    i.scratch = begin + off;
+    expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps scratch");
+  }
+  i = good(), i.scratch = begin;
+  for (size_t off : {size_t{64}, (need_.scratch_bytes - 1) / 64 * 64}) {
+    i.state = begin + off;
+    expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps scratch");
+  }
+  EXPECT_EQ(both.copy(), before);
+  i = good(), i.state = begin, i.scratch = begin + state_end;  // side by side
+  sphc_localizer *made = nullptr;
+  EXPECT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, i.maps, i.map_count,
+                                &made, nullptr),
+            SPHC_OK);
+}
+
+TEST_F(CInterfaceFailure, InitMemoryOverlapsAMap) {
+  // A file, its view and the list of maps, each inside memory that would be written.
+  const std::vector<uint8_t> file = sphc::test::randomMap(50, 1);
+  GuardedMemory memory(need_.scratch_bytes, 64), view_memory(4096, 64);
+  std::memcpy(memory.data(), file.data(), file.size());
+  sphc_map *view = nullptr;
+  ASSERT_EQ(sphc_map_init(view_memory.data(), 4096, memory.data(), file.size(), &view, nullptr), SPHC_OK);
+  const sphc_map *maps[] = {view};
+  Init i = good();
+  i.maps = maps;
+  i.scratch = memory.data();
+  expectRefused(i, SPHC_E_ARGUMENT, "scratch memory overlaps the file of a map");
+  i = good(), i.state = memory.data(), i.maps = maps;
+  expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps the file of a map");
+
+  auto *inside = static_cast<uint8_t *>(memory.data()) + 1024;
+  ASSERT_EQ(sphc_map_init(inside, 4096, file.data(), file.size(), &view, nullptr), SPHC_OK);
+  maps[0] = view;
+  expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps the view of a map");
+
+  auto **list = reinterpret_cast<const sphc_map **>(inside);
+  list[0] = map_;
+  i.maps = list;
+  expectRefused(i, SPHC_E_ARGUMENT, "state memory overlaps the list of maps");
+}
+
+TEST_F(CInterfaceFailure, InitBadConfig) {
   sphc_config bad = config_;
   bad.struct_size = 4;
   Init i = good();
@@ -124,7 +175,7 @@ TEST_F(DoorFailure, InitBadConfig) {
   expectRefused(i, SPHC_E_ARGUMENT, "min_inliers");
 }
 
-TEST_F(DoorFailure, ProcessNulls) {
+TEST_F(CInterfaceFailure, ProcessNulls) {
   sphc_result result = {};
   result.struct_size = sizeof result;
   EXPECT_EQ(sphc_localizer_process(nullptr, &frame_->frame, &result), SPHC_E_ARGUMENT);
@@ -134,7 +185,7 @@ TEST_F(DoorFailure, ProcessNulls) {
   EXPECT_STRNE(sphc_localizer_message(nullptr), "");
 }
 
-TEST_F(DoorFailure, ProcessStructSizes) {
+TEST_F(CInterfaceFailure, ProcessStructSizes) {
   expectFrameRefused([](sphc_frame *f) { f->struct_size = 0; }, SPHC_E_STRUCT_SIZE, "frame.struct_size is 0");
   expectFrameRefused([](sphc_frame *f) { f->struct_size += 8; }, SPHC_E_STRUCT_SIZE, "frame.struct_size");
   Output<sphc_result> result;  // struct_size is a pattern
@@ -143,7 +194,7 @@ TEST_F(DoorFailure, ProcessStructSizes) {
   expectMentions(sphc_localizer_message(session_.localizer()), "result.struct_size");
 }
 
-TEST_F(DoorFailure, ProcessColorImage) {
+TEST_F(CInterfaceFailure, ProcessColorImage) {
   expectFrameRefused([](sphc_frame *f) { f->color.data = nullptr; }, SPHC_E_IMAGE,
                      "color image's data pointer is null");
   expectFrameRefused([](sphc_frame *f) { f->color.width = 319; }, SPHC_E_IMAGE, "319 x 240");
@@ -158,7 +209,7 @@ TEST_F(DoorFailure, ProcessColorImage) {
   expectFrameRefused([](sphc_frame *f) { f->color.format = -1; }, SPHC_E_IMAGE, "format -1");
 }
 
-TEST_F(DoorFailure, ProcessDepthImage) {
+TEST_F(CInterfaceFailure, ProcessDepthImage) {
   expectFrameRefused([](sphc_frame *f) { f->depth.data = nullptr; }, SPHC_E_IMAGE,
                      "depth image's data pointer is null");
   expectFrameRefused([](sphc_frame *f) { f->depth.data = static_cast<const uint8_t *>(f->depth.data) + 1; },
@@ -169,14 +220,14 @@ TEST_F(DoorFailure, ProcessDepthImage) {
   expectFrameRefused([](sphc_frame *f) { f->depth.format = SPHC_FORMAT_GRAY8; }, SPHC_E_IMAGE, "format 1");
 }
 
-TEST_F(DoorFailure, TheNextFrameGoesOn) {
+TEST_F(CInterfaceFailure, TheNextFrameGoesOn) {
   expectFrameRefused([](sphc_frame *f) { f->color.data = nullptr; }, SPHC_E_IMAGE, "null");
   sphc_result result = {};
   EXPECT_EQ(session_.process(frame_->frame, &result), SPHC_OK);
   EXPECT_STREQ(sphc_localizer_message(session_.localizer()), "");
 }
 
-TEST_F(DoorFailure, Observations) {
+TEST_F(CInterfaceFailure, Observations) {
   Output<uint32_t> count;
   sphc_observation one;
   EXPECT_EQ(sphc_localizer_observations(nullptr, &one, 1, count.get()), SPHC_E_ARGUMENT);

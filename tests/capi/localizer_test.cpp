@@ -12,7 +12,7 @@ using sphc::test::expectMentions;
 using sphc::test::GuardedMemory;
 using sphc::test::Session;
 
-class DoorLocalizer : public testing::Test {
+class CInterfaceLocalizer : public testing::Test {
  protected:
   sphc_config config_ = sphc::test::sceneConfig();
   Session session_{config_};
@@ -24,7 +24,7 @@ sphc_result clean() {
   return result;
 }
 
-TEST_F(DoorLocalizer, SameFramesSameBytes) {
+TEST_F(CInterfaceLocalizer, SameFramesSameBytes) {
   Session other(config_);
   for (uint32_t viewpoint : {0u, 2u, 1u, 2u}) {
     const auto frame = sphc::test::sceneFrame(config_, viewpoint);
@@ -38,7 +38,7 @@ TEST_F(DoorLocalizer, SameFramesSameBytes) {
   }
 }
 
-TEST_F(DoorLocalizer, ScratchMayBeSharedByLocalizersOfOneThread) {
+TEST_F(CInterfaceLocalizer, ScratchMayBeSharedByLocalizersOfOneThread) {
   sphc_message message;
   GuardedMemory state(session_.state().size(), 64);
   sphc_localizer *second = nullptr;
@@ -54,7 +54,7 @@ TEST_F(DoorLocalizer, ScratchMayBeSharedByLocalizersOfOneThread) {
   EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
 }
 
-TEST_F(DoorLocalizer, KeepsInsideItsMemory) {
+TEST_F(CInterfaceLocalizer, KeepsInsideItsMemory) {
   for (uint32_t viewpoint = 0; viewpoint < 4; ++viewpoint) {
     const auto frame = sphc::test::sceneFrame(config_, viewpoint);
     sphc_result result = clean();
@@ -64,7 +64,7 @@ TEST_F(DoorLocalizer, KeepsInsideItsMemory) {
   EXPECT_TRUE(session_.scratch().guardsIntact());
 }
 
-TEST_F(DoorLocalizer, ResultsFieldsAreFilled) {
+TEST_F(CInterfaceLocalizer, ResultsFieldsAreFilled) {
   const auto frame = sphc::test::sceneFrame(config_, 1);
   sphc_result result;
   std::memset(&result, 0xFF, sizeof result);
@@ -82,7 +82,7 @@ TEST_F(DoorLocalizer, ResultsFieldsAreFilled) {
   }
 }
 
-TEST_F(DoorLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
+TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
   config_.clock = [](void *user) { return *static_cast<int64_t *>(user) -= 1000000; };
   int64_t now = INT64_MAX;
   config_.clock_user = &now;
@@ -94,7 +94,7 @@ TEST_F(DoorLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_EQ(us, 0u);
 }
 
-TEST_F(DoorLocalizer, StagesAreTimedByTheCallersClock) {
+TEST_F(CInterfaceLocalizer, StagesAreTimedByTheCallersClock) {
   config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 1000000; };
   int64_t now = 0;
   config_.clock_user = &now;
@@ -105,7 +105,7 @@ TEST_F(DoorLocalizer, StagesAreTimedByTheCallersClock) {
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_GE(us, 1000u);
 }
 
-TEST_F(DoorLocalizer, ColorFormatsAgree) {
+TEST_F(CInterfaceLocalizer, ColorFormatsAgree) {
   const auto gray = sphc::test::sceneFrame(config_, 0);
   std::vector<uint8_t> rgb;
   for (uint8_t value : gray->images.gray) rgb.insert(rgb.end(), 3, value);
@@ -120,7 +120,7 @@ TEST_F(DoorLocalizer, ColorFormatsAgree) {
   EXPECT_EQ(std::memcmp(&results[1], &results[2], sizeof results[0]), 0);
 }
 
-TEST_F(DoorLocalizer, StridesWiderThanARow) {
+TEST_F(CInterfaceLocalizer, StridesWiderThanARow) {
   const auto tight = sphc::test::sceneFrame(config_, 0);
   constexpr uint32_t kColorStride = 333, kDepthStride = 2 * 211;
   std::vector<uint8_t> color(kColorStride * 240, 0xAA), depth(kDepthStride * 160, 0xBB);
@@ -135,7 +135,7 @@ TEST_F(DoorLocalizer, StridesWiderThanARow) {
   EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
 }
 
-TEST_F(DoorLocalizer, ObservationsTellWhatBecameOfEachKeypoint) {
+TEST_F(CInterfaceLocalizer, ObservationsTellWhatBecameOfEachKeypoint) {
   uint32_t count = 99;
   EXPECT_EQ(sphc_localizer_observations(session_.localizer(), nullptr, 0, &count), SPHC_OK);
   EXPECT_EQ(count, 0u);  // before the first frame
@@ -163,7 +163,7 @@ TEST_F(DoorLocalizer, ObservationsTellWhatBecameOfEachKeypoint) {
   EXPECT_EQ(few[4].flags, 0x77777777u);
 }
 
-TEST_F(DoorLocalizer, FiniTakesNothing) {
+TEST_F(CInterfaceLocalizer, FiniTakesNothing) {
   sphc_localizer_fini(nullptr);
   sphc_localizer *none = nullptr;
   sphc_localizer_fini(&none);

@@ -14,7 +14,7 @@ using sphc::test::expectMentions;
 using sphc::test::GuardedMemory;
 using sphc::test::Output;
 
-class DoorMap : public testing::Test {
+class CInterfaceMap : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(sphc_map_memory(&bytes_, &alignment_), SPHC_OK);
@@ -43,7 +43,7 @@ TEST(ReadFile, NamesAFolder) {
   expectMentions(status.text(), "folder");
 }
 
-TEST_F(DoorMap, OpensAndTellsWhatIsInIt) {
+TEST_F(CInterfaceMap, OpensAndTellsWhatIsInIt) {
   ASSERT_EQ(init(file_), SPHC_OK);
   sphc_map_info info = {};
   info.struct_size = sizeof info;
@@ -61,7 +61,7 @@ TEST_F(DoorMap, OpensAndTellsWhatIsInIt) {
   EXPECT_EQ(map_, nullptr);
 }
 
-TEST_F(DoorMap, NullArguments) {
+TEST_F(CInterfaceMap, NullArguments) {
   size_t size = 7;
   EXPECT_EQ(sphc_map_memory(nullptr, &size), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_map_memory(&size, nullptr), SPHC_E_ARGUMENT);
@@ -75,7 +75,7 @@ TEST_F(DoorMap, NullArguments) {
   EXPECT_EQ(sphc_map_init(memory_.data(), bytes_, file_.data(), 10, &map_, nullptr), SPHC_E_MAP_FORMAT);
 }
 
-TEST_F(DoorMap, MemoryTooSmallOrMisaligned) {
+TEST_F(CInterfaceMap, MemoryTooSmallOrMisaligned) {
   expectRefused(SPHC_E_MEMORY_SIZE,
                 sphc_map_init(memory_.data(), bytes_ - 1, file_.data(), file_.size(), &map_, &message_),
                 "are needed");
@@ -92,9 +92,19 @@ TEST_F(DoorMap, MemoryTooSmallOrMisaligned) {
                 "aligned to 8");
 }
 
-TEST_F(DoorMap, EmptyFile) { expectRefused(SPHC_E_MAP_FORMAT, init(std::vector<uint8_t>(1, 0x89)), "shorter"); }
+TEST_F(CInterfaceMap, MemoryInsideTheFile) {
+  const std::vector<uint8_t> before = file_;
+  void *inside = file_.data() + 64;
+  expectRefused(SPHC_E_ARGUMENT, sphc_map_init(inside, bytes_, file_.data(), file_.size(), &map_, &message_),
+                "map memory overlaps the map file's bytes");
+  EXPECT_EQ(file_, before);
+}
 
-TEST_F(DoorMap, FailureLeavesMemoryUntouched) {
+TEST_F(CInterfaceMap, EmptyFile) {
+  expectRefused(SPHC_E_MAP_FORMAT, init(std::vector<uint8_t>(1, 0x89)), "shorter");
+}
+
+TEST_F(CInterfaceMap, FailureLeavesMemoryUntouched) {
   const std::vector<uint8_t> before = memory_.copy();
   file_.back() ^= 1;
   expectRefused(SPHC_E_MAP_CHECKSUM, init(file_), "changed");
@@ -102,7 +112,7 @@ TEST_F(DoorMap, FailureLeavesMemoryUntouched) {
   EXPECT_TRUE(memory_.guardsIntact());
 }
 
-TEST_F(DoorMap, InfoAndDirectionRefuse) {
+TEST_F(CInterfaceMap, InfoAndDirectionRefuse) {
   ASSERT_EQ(init(file_), SPHC_OK);
   Output<sphc_map_info> info;
   EXPECT_EQ(sphc_map_get_info(nullptr, info.get()), SPHC_E_ARGUMENT);
@@ -117,7 +127,7 @@ TEST_F(DoorMap, InfoAndDirectionRefuse) {
   EXPECT_TRUE(direction.untouched());
 }
 
-TEST_F(DoorMap, FiniTakesNothing) {
+TEST_F(CInterfaceMap, FiniTakesNothing) {
   sphc_map_fini(nullptr);
   sphc_map_fini(&map_);
   EXPECT_EQ(map_, nullptr);

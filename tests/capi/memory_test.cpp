@@ -13,7 +13,7 @@ namespace {
 using sphc::test::expectMentions;
 using sphc::test::Output;
 
-TEST(DoorConfig, InitRefuses) {
+TEST(CInterfaceConfig, InitRefuses) {
   EXPECT_EQ(sphc_config_init(nullptr, sizeof(sphc_config)), SPHC_E_ARGUMENT);
   Output<sphc_config> config;
   for (size_t size : {size_t{0}, sizeof(sphc_config) - 8, sizeof(sphc_config) + 8})
@@ -21,7 +21,7 @@ TEST(DoorConfig, InitRefuses) {
   EXPECT_TRUE(config.untouched());
 }
 
-TEST(DoorConfig, DefaultsNeedOnlyCameras) {
+TEST(CInterfaceConfig, DefaultsNeedOnlyCameras) {
   sphc_config config;
   ASSERT_EQ(sphc_config_init(&config, sizeof config), SPHC_OK);
   sphc_memory need;
@@ -72,7 +72,7 @@ const Spoiled kSpoiled[] = {
     {"min_inliers", [](sphc_config *c) { c->min_inliers = UINT32_MAX; }},
 };
 
-TEST(DoorConfig, EveryBadFieldIsNamed) {
+TEST(CInterfaceConfig, EveryBadFieldIsNamed) {
   for (const Spoiled &spoiled : kSpoiled) {
     sphc_config config = sphc::test::sceneConfig();
     spoiled.spoil(&config);
@@ -88,7 +88,7 @@ TEST(DoorConfig, EveryBadFieldIsNamed) {
   }
 }
 
-TEST(DoorConfig, NullAndStructSize) {
+TEST(CInterfaceConfig, NullAndStructSize) {
   sphc_config config = sphc::test::sceneConfig();
   Output<sphc_memory> need;
   sphc_message message = {};
@@ -104,7 +104,7 @@ TEST(DoorConfig, NullAndStructSize) {
   EXPECT_TRUE(need.untouched());
 }
 
-TEST(DoorMemory, PiecesAddUpToTheWhole) {
+TEST(CInterfaceMemory, PiecesAddUpToTheWhole) {
   for (uint32_t keypoints : {64u, 400u, 4096u}) {
     sphc_config config = sphc::test::sceneConfig();
     config.max_keypoints = keypoints;
@@ -127,7 +127,7 @@ TEST(DoorMemory, PiecesAddUpToTheWhole) {
   }
 }
 
-TEST(DoorMemory, GrowsWithWhatIsAskedFor) {
+TEST(CInterfaceMemory, GrowsWithWhatIsAskedFor) {
   sphc_config config = sphc::test::sceneConfig();
   sphc_memory small, more_keypoints, larger_image;
   sphc_localizer_memory(&config, &small, nullptr);
@@ -141,7 +141,7 @@ TEST(DoorMemory, GrowsWithWhatIsAskedFor) {
 }
 
 // The extremes of the config can be asked about, whatever the machine has.
-TEST(DoorMemory, LargestConfig) {
+TEST(CInterfaceMemory, LargestConfig) {
   sphc_config config = sphc::test::sceneConfig();
   config.color_camera = sphc::test::pinhole(8192, 8192, 4000);
   config.max_keypoints = 4096;

@@ -9,7 +9,7 @@ using sphc::test::expectMentions;
 using sphc::test::GuardedMemory;
 using sphc::test::Output;
 
-class DoorPairer : public testing::Test {
+class CInterfacePairer : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(sphc_pairer_memory(&bytes_, &alignment_), SPHC_OK);
@@ -32,7 +32,7 @@ class DoorPairer : public testing::Test {
   sphc_message message_ = {};
 };
 
-TEST_F(DoorPairer, PairsThroughTheDoor) {
+TEST_F(CInterfacePairer, PairsThroughTheCInterface) {
   EXPECT_EQ(config_.slots, 4u);
   EXPECT_EQ(config_.tolerance_ns, 20000000);
   ASSERT_EQ(init(), SPHC_OK);
@@ -51,7 +51,7 @@ TEST_F(DoorPairer, PairsThroughTheDoor) {
   EXPECT_EQ(pairer_, nullptr);
 }
 
-TEST_F(DoorPairer, ForbiddenInits) {
+TEST_F(CInterfacePairer, ForbiddenInits) {
   EXPECT_EQ(sphc_pairer_config_init(nullptr, sizeof config_), SPHC_E_ARGUMENT);
   Output<sphc_pairer_config> untouched;
   EXPECT_EQ(sphc_pairer_config_init(untouched.get(), sizeof config_ - 1), SPHC_E_STRUCT_SIZE);
@@ -80,7 +80,7 @@ TEST_F(DoorPairer, ForbiddenInits) {
   EXPECT_EQ(pairer_, nullptr);
 }
 
-TEST_F(DoorPairer, ForbiddenCalls) {
+TEST_F(CInterfacePairer, ForbiddenCalls) {
   ASSERT_EQ(init(), SPHC_OK);
   sphc_capture color = capture(SPHC_STREAM_COLOR, 1);
   EXPECT_EQ(sphc_pairer_push(nullptr, &color), SPHC_E_ARGUMENT);

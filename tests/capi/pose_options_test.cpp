@@ -1,4 +1,4 @@
-// What a caller may tell the pose stage through the door: priors, deadline, cost, depth bias.
+// What a caller may tell the pose stage through the C interface: priors, deadline, depth bias.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 using sphc::test::expectMentions;
 using sphc::test::Session;
 
-class DoorPoseOptions : public testing::Test {
+class CInterfacePoseOptions : public testing::Test {
  protected:
   sphc_result localize(Session *session, uint32_t viewpoint, const sphc_prior *prior = nullptr) {
     const auto made = sphc::test::sceneFrame(config_, viewpoint);
@@ -49,7 +49,7 @@ double distanceM(const sphc_rigid &a, const sphc_rigid &b) {
   return std::hypot(a.t_m[0] - b.t_m[0], a.t_m[1] - b.t_m[1], a.t_m[2] - b.t_m[2]);
 }
 
-TEST_F(DoorPoseOptions, ARightPosePriorNeedsNoSamples) {
+TEST_F(CInterfacePoseOptions, ARightPosePriorNeedsNoSamples) {
   Session session(config_);
   const sphc_result cold = localize(&session, 1);
   ASSERT_EQ(status_, SPHC_OK);
@@ -61,7 +61,7 @@ TEST_F(DoorPoseOptions, ARightPosePriorNeedsNoSamples) {
   EXPECT_LT(distanceM(warm.camera_from_map, cold.camera_from_map), 0.005);
 }
 
-TEST_F(DoorPoseOptions, AWrongPosePriorCostsTimeNotTheAnswer) {
+TEST_F(CInterfacePoseOptions, AWrongPosePriorCostsTimeNotTheAnswer) {
   Session session(config_);
   const sphc_result cold = localize(&session, 1);
   sphc_prior prior = posePrior(cold.camera_from_map);
@@ -71,7 +71,7 @@ TEST_F(DoorPoseOptions, AWrongPosePriorCostsTimeNotTheAnswer) {
   EXPECT_LT(distanceM(warm.camera_from_map, cold.camera_from_map), 0.005);
 }
 
-TEST_F(DoorPoseOptions, TheVerticalHelps) {
+TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
   Session session(config_);
   const sphc_result cold = localize(&session, 1);
   sphc_prior prior = {};
@@ -90,7 +90,7 @@ TEST_F(DoorPoseOptions, TheVerticalHelps) {
   EXPECT_LT(distanceM(upright.camera_from_map, cold.camera_from_map), 0.005);
 }
 
-TEST_F(DoorPoseOptions, BadPriorsAreRefused) {
+TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   Session session(config_);
   const sphc_prior good = posePrior(localize(&session, 1).camera_from_map);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -121,12 +121,12 @@ TEST_F(DoorPoseOptions, BadPriorsAreRefused) {
   EXPECT_EQ(status_, SPHC_OK);  // and it goes on
 }
 
-TEST_F(DoorPoseOptions, ADeadlineNeedsAClock) {
+TEST_F(CInterfacePoseOptions, ADeadlineNeedsAClock) {
   config_.deadline_us = 1000;
   expectConfigRefused("config.clock");
 }
 
-TEST_F(DoorPoseOptions, ADeadlineThatHasPassedEndsTheSearch) {
+TEST_F(CInterfacePoseOptions, ADeadlineThatHasPassedEndsTheSearch) {
   int64_t now = 0;
   config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 10000000; };  // 10 ms a look
   config_.clock_user = &now;
@@ -138,7 +138,7 @@ TEST_F(DoorPoseOptions, ADeadlineThatHasPassedEndsTheSearch) {
   EXPECT_EQ(result.cut_short, 1u);
 }
 
-TEST_F(DoorPoseOptions, ADistantDeadlineChangesNothing) {
+TEST_F(CInterfacePoseOptions, ADistantDeadlineChangesNothing) {
   Session plain(config_);
   int64_t now = 0;
   config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 1000; };
@@ -150,19 +150,7 @@ TEST_F(DoorPoseOptions, ADistantDeadlineChangesNothing) {
   EXPECT_EQ(b.cut_short, 0u);
 }
 
-TEST_F(DoorPoseOptions, ThePapersCostLocalizesToo) {
-  Session whitened(config_);
-  config_.cost = SPHC_COST_PAPER;
-  Session paper(config_);
-  const sphc_result a = localize(&whitened, 1), b = localize(&paper, 1);
-  ASSERT_EQ(status_, SPHC_OK);
-  EXPECT_LT(distanceM(a.camera_from_map, b.camera_from_map), 0.03);
-  EXPECT_NE(std::memcmp(&a.camera_from_map, &b.camera_from_map, sizeof a.camera_from_map), 0);
-  config_.cost = 7;
-  expectConfigRefused("config.cost");
-}
-
-TEST_F(DoorPoseOptions, TheSensorsBiasIsLearntAndTold) {
+TEST_F(CInterfacePoseOptions, TheSensorsBiasIsLearntAndTold) {
   config_.depth_offset_sigma_m = 0.003;
   config_.depth_slope_sigma = 0.02;
   Session session(config_);
@@ -179,7 +167,7 @@ TEST_F(DoorPoseOptions, TheSensorsBiasIsLearntAndTold) {
   EXPECT_NE(later.depth.noise_scale, 1);
 }
 
-TEST_F(DoorPoseOptions, AKnownSensorIsNotDoubted) {
+TEST_F(CInterfacePoseOptions, AKnownSensorIsNotDoubted) {
   Session session(config_);
   for (uint32_t viewpoint : {0u, 1u, 2u}) localize(&session, viewpoint);
   const sphc_result result = localize(&session, 3);
@@ -187,7 +175,7 @@ TEST_F(DoorPoseOptions, AKnownSensorIsNotDoubted) {
   EXPECT_EQ(result.depth.noise_scale, 1);
 }
 
-TEST_F(DoorPoseOptions, HalfABiasPriorIsRefused) {
+TEST_F(CInterfacePoseOptions, HalfABiasPriorIsRefused) {
   config_.depth_slope_sigma = 0.02;
   expectConfigRefused("depth_offset_sigma_m");
 }

@@ -34,14 +34,14 @@ const Pinned kPinned[] = {SPHC_PIN(SPHC_OK, 0),
                           SPHC_PIN(SPHC_E_UNSUPPORTED, -50),
                           SPHC_PIN(SPHC_E_INTERNAL, -90)};
 
-TEST(DoorStatus, ValuesArePinnedAndNamed) {
+TEST(CInterfaceStatus, ValuesArePinnedAndNamed) {
   for (const Pinned &p : kPinned) {
     EXPECT_EQ(p.value, p.number) << p.name;
     EXPECT_STREQ(sphc_status_name(p.value), p.name);
   }
 }
 
-TEST(DoorStatus, UnknownOnesHaveANameToo) {
+TEST(CInterfaceStatus, UnknownOnesHaveANameToo) {
   std::set<int32_t> known;
   for (const Pinned &p : kPinned) known.insert(p.number);
   for (int32_t status = -200; status < 200; ++status)
@@ -50,7 +50,7 @@ TEST(DoorStatus, UnknownOnesHaveANameToo) {
     }
 }
 
-TEST(DoorStatus, OtherPinnedValues) {
+TEST(CInterfaceStatus, OtherPinnedValues) {
   EXPECT_EQ(SPHC_FORMAT_GRAY8, 1);
   EXPECT_EQ(SPHC_FORMAT_RGB8, 2);
   EXPECT_EQ(SPHC_FORMAT_BGR8, 3);
@@ -70,7 +70,7 @@ TEST(DoorStatus, OtherPinnedValues) {
   EXPECT_EQ(SPHC_STREAM_DEPTH, 2);
 }
 
-TEST(DoorStatus, Version) {
+TEST(CInterfaceStatus, Version) {
   EXPECT_EQ(sphc_abi(), SPHC_ABI);
   const std::string version = std::to_string(SPHC_VERSION_MAJOR) + "." + std::to_string(SPHC_VERSION_MINOR) + "." +
                               std::to_string(SPHC_VERSION_PATCH);

@@ -151,12 +151,6 @@ void addLocalizerOptions(CLI::App *app, sphc_config *config) {
       ->type_name("tracking|single")
       ->group("Localizer");
   add("--deadline-us", config->deadline_us, "A frame's search ends so long after it began; 0: no deadline");
-  const std::map<std::string, sphc_cost> costs = {{"whitened", SPHC_COST_WHITENED}, {"paper", SPHC_COST_PAPER}};
-  app->add_option("--cost", config->cost, "What poses minimise; paper is there to compare with")
-      ->transform(CLI::CheckedTransformer(costs).description(""))
-      ->default_str("whitened")
-      ->type_name("whitened|paper")
-      ->group("Localizer");
 }
 
 }  // namespace

@@ -151,7 +151,6 @@ std::vector<Setting> describeConfig(const sphc_config &config) {
           {"map_sigma_m", fixed(config.map_sigma_m, 4)},
           {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},
           {"depth_slope_sigma", fixed(config.depth_slope_sigma, 4)},
-          {"cost", config.cost == SPHC_COST_PAPER ? "paper" : "whitened"},
           {"deadline_us", std::to_string(config.deadline_us)},
           {"mode", config.mode == SPHC_MODE_TRACKING ? "tracking" : "single"},
           {"probes", std::to_string(config.probes)}};

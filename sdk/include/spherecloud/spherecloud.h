@@ -304,14 +304,6 @@ typedef void (*sphc_log_fn)(void *user, sphc_log_level level, const char *text, 
 /* Monotonic clock in nanoseconds, from the caller: the library makes no OS call. */
 typedef int64_t (*sphc_clock_fn)(void *user);
 
-/* What the pose stage minimises. */
-typedef int32_t sphc_cost;
-enum {
-  SPHC_COST_WHITENED = 0, /* distance of each lifted keypoint from its map ray, over its standard deviation */
-  SPHC_COST_PAPER = 1 /* epipolar error and relative depth error, lambda 1e-4; to compare with: slow, and without
-                         prior, deadline or learning */
-};
-
 /* Whether frames belong together. */
 typedef int32_t sphc_mode;
 enum {
@@ -353,13 +345,11 @@ typedef struct sphc_config {
   double depth_offset_sigma_m, depth_slope_sigma;
 
   uint32_t min_inliers; /* a pose with fewer is not given out */
-  sphc_cost cost;
   uint32_t deadline_us; /* search ends this long after the call began, with the best pose so far; 0: no deadline.
                            Needs `clock` */
   sphc_mode mode;
   uint32_t probes; /* cells of the map's index searched for each keypoint, 1 to 32: more cost time and find more;
                       0: all of the map */
-  uint32_t reserved;
 
   sphc_log_fn log; /* may be null */
   void *log_user;
@@ -424,7 +414,7 @@ typedef struct sphc_memory {
 /* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message);
 
-/* One named piece of the memory, for the byte ledger: `index` from 0 until SPHC_END.  `name` is static storage.
+/* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static storage.
  * [pure] */
 typedef struct sphc_memory_piece {
   const char *name; /* "features.pyramid" */
@@ -441,7 +431,8 @@ typedef struct sphc_localizer sphc_localizer;
 
 /* Makes a localizer in caller memory, for one map or a set of them (rooms), each with a frame of its own: it finds
  * out which one a frame shows.  `config` and the list are copied; `state`, `scratch` and the maps are borrowed
- * until sphc_localizer_fini.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT, CAPACITY. [pure] */
+ * until sphc_localizer_fini.  None of that memory may overlap another.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
+ * MEMORY_ALIGNMENT, CAPACITY. [pure] */
 SPHC_API sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
                                          const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
                                          sphc_localizer **localizer, sphc_message *message);
@@ -466,10 +457,10 @@ SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
 /* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
 enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };
 typedef struct sphc_observation {
-  float x_px, y_px;   /* in the colour image */
-  float scale_px;     /* standard deviation of the Gaussian it was found at */
-  float depth_m;      /* z in the colour camera; 0 unless LIFTED */
-  uint32_t map_index; /* of the matched point; valid when MATCHED */
+  float x_px, y_px;     /* in the colour image */
+  float scale_px;       /* standard deviation of the Gaussian it was found at */
+  float depth_m;        /* z in the colour camera; 0 unless LIFTED */
+  uint32_t point_index; /* of the matched map point, of the map that result.map_index names; valid when MATCHED */
   uint32_t flags;
 } sphc_observation;
 /* Copies up to `capacity` observations and sets *count to how many there are.  Before the first frame *count is 0.

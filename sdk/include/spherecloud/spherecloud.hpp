@@ -74,7 +74,7 @@ class [[nodiscard]] Status {
   }
 #endif
 
-  // For calls of the C door: status.set(sphc_...(..., status.message())).
+  // For calls of the C interface: status.set(sphc_...(..., status.message())).
   sphc_message *message() { return &message_; }
   Status &set(sphc_status code) {
     code_ = code;

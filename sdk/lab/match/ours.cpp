@@ -51,7 +51,7 @@ class OurSearch : public MatchSearch {
     std::vector<TopTwo> answer(case_.queries.size());
     for (size_t q = 0; q < answer.size(); ++q)
       if (match(q, 1, 1.0f) == 1)
-        answer[q] = {matches_[0].map_index, std::sqrt(matches_[0].distance2), std::sqrt(matches_[0].second2)};
+        answer[q] = {matches_[0].point_index, std::sqrt(matches_[0].distance2), std::sqrt(matches_[0].second2)};
     return answer;
   }
 

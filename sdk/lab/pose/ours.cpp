@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "lab/baselines/paper_estimator.h"
 #include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
-#include "runtime/stages/pose/paper_estimator.h"
 
 namespace sphc::host {
 namespace {

@@ -15,6 +15,7 @@ template <typename T>
 T absOf(T x) {
   return x < T(0) ? -x : x;
 }
+inline double hypotOf(double a, double b) { return sqrtOf(a * a + b * b); }
 inline bool isFinite(double x) { return absOf(x) <= 1.7976931348623157e308; }  // false for NaN too
 
 // Largest integer <= x, for |x| < 2^62.

@@ -3,6 +3,7 @@
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
 #include "runtime/capi/objects.h"
+#include "runtime/capi/translate.h"
 
 namespace {
 
@@ -105,6 +106,8 @@ sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_alig
   }
   const DenseConfig dense = denseConfig(*config);
   status = sphc::checkMemory(memory, memory_bytes, bytesOf(dense), sphc::kArenaAlignment, "aligner", message);
+  if (status == SPHC_OK)
+    status = sphc::checkApart({"aligner", memory, bytesOf(dense)}, {"the config", config, sizeof *config}, message);
   if (status != SPHC_OK) return status;
   auto *made = new (memory) sphc_aligner();
   Arena arena(static_cast<unsigned char *>(memory) + kObjectBytes);
@@ -126,8 +129,7 @@ sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth,
   sphc_status status = sphc::checkImage("depth", *depth, aligner->depth, true, &aligner->message);
   if (status == SPHC_OK) status = checkAligned(aligned, aligner->color.width, &aligner->message);
   if (status != SPHC_OK) return status;
-  aligner->aligner.process({static_cast<const uint16_t *>(depth->data), static_cast<int32_t>(depth->width),
-                            static_cast<int32_t>(depth->height), static_cast<int32_t>(depth->stride_bytes / 2)},
+  aligner->aligner.process(sphc::depthViewFrom(*depth),
                            {aligned->depth, aligned->mask, aligned->confidence, aligned->depth_stride_bytes / 2,
                             aligned->mask_stride_bytes, aligned->confidence_stride_bytes});
   return SPHC_OK;

@@ -1,6 +1,7 @@
 #include "runtime/capi/check.h"
 
 #include "runtime/base/message.h"
+#include "runtime/capi/objects.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/localizer/localizer.h"
@@ -30,7 +31,6 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
          inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
          inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
          inRange("min_inliers", c.min_inliers, 4, 4096, message) &&
-         inRange("cost", c.cost, SPHC_COST_WHITENED, SPHC_COST_PAPER, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
          inRange("probes", c.probes, 0, Localizer::kMostProbes, message);
 }
@@ -209,8 +209,6 @@ sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *
   }
   const sphc_status status = checkRig(c.color_camera, c.depth_camera, c.color_from_depth, message);
   if (status != SPHC_OK) return status;
-  for (double t : c.color_from_depth.t_m)
-    if (!inRange("color_from_depth.t_m", t, -100, 100, message)) return SPHC_E_ARGUMENT;
   const bool good = inRange("depth_unit_m", c.depth_unit_m, 1e-6, 0.1, message) &&
                     inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
                     inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
@@ -225,8 +223,7 @@ sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *
   return SPHC_E_ARGUMENT;
 }
 
-sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, uint32_t map_count,
-                       sphc_message *message) {
+sphc_status checkFrame(const sphc_frame *frame, const FrameLimits &limits, sphc_message *message) {
   if (!frame) {
     MessageWriter(message) << "frame is null";
     return SPHC_E_ARGUMENT;
@@ -236,9 +233,9 @@ sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, uint3
                            << static_cast<uint64_t>(sizeof(sphc_frame));
     return SPHC_E_STRUCT_SIZE;
   }
-  sphc_status status = checkImage("color", frame->color, config.color_camera, false, message);
-  if (status == SPHC_OK) status = checkImage("depth", frame->depth, config.depth_camera, true, message);
-  if (status == SPHC_OK && frame->prior) status = checkPrior(*frame->prior, map_count, message);
+  sphc_status status = checkImage("color", frame->color, limits.color, false, message);
+  if (status == SPHC_OK) status = checkImage("depth", frame->depth, limits.depth, true, message);
+  if (status == SPHC_OK && frame->prior) status = checkPrior(*frame->prior, limits.map_count, message);
   return status;
 }
 
@@ -270,6 +267,26 @@ sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t 
     return SPHC_E_MEMORY_SIZE;
   }
   return SPHC_OK;
+}
+
+sphc_status checkApart(const MemoryRange &written, const MemoryRange &other, sphc_message *message) {
+  const auto a = reinterpret_cast<uintptr_t>(written.begin), b = reinterpret_cast<uintptr_t>(other.begin);
+  const bool apart = a < b ? b - a >= written.bytes : a - b >= other.bytes;
+  if (apart) return SPHC_OK;
+  MessageWriter(message) << written.name << " memory overlaps " << other.name << "; give it bytes of its own";
+  return SPHC_E_ARGUMENT;
+}
+
+sphc_status checkApartFromMaps(const MemoryRange &written, const sphc_map *const *maps, uint32_t map_count,
+                               sphc_message *message) {
+  sphc_status status = checkApart(written, {"the list of maps", maps, map_count * sizeof *maps}, message);
+  for (uint32_t i = 0; i < map_count && status == SPHC_OK; ++i) {
+    const MapHeader &file = maps[i]->view.header();
+    status = checkApart(written, {"the view of a map", maps[i], sizeof *maps[i]}, message);
+    if (status == SPHC_OK)
+      status = checkApart(written, {"the file of a map", &file, static_cast<size_t>(file.file_bytes)}, message);
+  }
+  return status;
 }
 
 }  // namespace sphc

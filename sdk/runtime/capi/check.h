@@ -1,4 +1,4 @@
-// Validation of what comes through the door.
+// Validation of what comes through the C interface.
 #pragma once
 #include "spherecloud/spherecloud.h"
 
@@ -6,9 +6,12 @@ namespace sphc {
 
 // Copies a growing struct of any known size; what the caller's version lacks keeps its default.
 sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message);
-// Do a frame's images fit the config?
-sphc_status checkFrame(const sphc_frame *frame, const sphc_config &config, uint32_t map_count,
-                       sphc_message *message);
+// What a frame must fit.
+struct FrameLimits {
+  const sphc_camera &color, &depth;
+  uint32_t map_count;
+};
+sphc_status checkFrame(const sphc_frame *frame, const FrameLimits &limits, sphc_message *message);
 // Is every map of the list there, and are there not too many?
 sphc_status checkMaps(const sphc_map *const *maps, uint32_t map_count, sphc_message *message);
 // Can an aligner be made of it?
@@ -19,5 +22,15 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);
+// What the library writes to must not be read as something else.
+struct MemoryRange {
+  const char *name;
+  const void *begin;
+  size_t bytes;
+};
+sphc_status checkApart(const MemoryRange &written, const MemoryRange &other, sphc_message *message);
+// Is it apart from the maps: their views, their files and the list of them?
+sphc_status checkApartFromMaps(const MemoryRange &written, const sphc_map *const *maps, uint32_t map_count,
+                               sphc_message *message);
 
 }  // namespace sphc

@@ -3,15 +3,18 @@
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
 #include "runtime/capi/objects.h"
+#include "runtime/capi/translate.h"
 
 namespace {
 
 using sphc::Arena;
 using sphc::Localizer;
+using sphc::LocalizerConfig;
+using sphc::MemoryRange;
 
 constexpr size_t kObjectBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
 
-sphc_memory measure(const sphc_config &config) {
+sphc_memory measure(const LocalizerConfig &config) {
   Arena state, scratch;
   Localizer::layout(config, state, scratch, nullptr);
   return {kObjectBytes + state.used(), scratch.used(), sphc::kArenaAlignment};
@@ -32,13 +35,17 @@ struct PieceSearch {
   }
 };
 
-void clear(sphc_result *result, const sphc_frame &frame) {
-  const uint32_t struct_size = result->struct_size;
-  *result = {};
-  result->struct_size = struct_size;
-  result->sequence = frame.sequence;
-  result->time_ns = frame.color_time_ns;
-  result->camera_from_map.q_wxyz[0] = 1;
+void logResult(const sphc_localizer &localizer, const sphc_result &result) {
+  if (!localizer.log) return;
+  sphc_message text;
+  sphc::MessageWriter(&text) << "frame " << result.sequence << ": "
+                             << (result.outcome == SPHC_OUTCOME_LOCALIZED ? "localized" : "not localized")
+                             << ", outcome " << result.outcome << ", keypoints " << result.keypoints << ", lifted "
+                             << result.lifted << ", matches " << result.matches << ", inliers " << result.inliers
+                             << ", state " << result.state << ", map " << result.map_index;
+  size_t length = 0;
+  while (text.text[length]) ++length;
+  localizer.log(localizer.log_user, SPHC_LOG_DEBUG, text.text, length);
 }
 
 }  // namespace
@@ -74,7 +81,7 @@ sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory
     sphc::MessageWriter(message) << "memory is null";
     return SPHC_E_ARGUMENT;
   }
-  *memory = measure(checked);
+  *memory = measure(sphc::localizerConfigFrom(checked));
   return SPHC_OK;
 }
 
@@ -87,13 +94,14 @@ sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t inde
     *piece = {"localizer.object", kObjectBytes, 0, 0};
     return SPHC_OK;
   }
+  const LocalizerConfig own = sphc::localizerConfigFrom(checked);
   PieceSearch in_state = {index - 1, 0, false, piece, false};
   Arena state(&PieceSearch::visit, &in_state), unseen;
-  Localizer::layout(checked, state, unseen, nullptr);
+  Localizer::layout(own, state, unseen, nullptr);
   if (in_state.found) return SPHC_OK;
   PieceSearch in_scratch = {index - 1 - in_state.seen, 0, true, piece, false};
   Arena unseen_state, scratch(&PieceSearch::visit, &in_scratch);
-  Localizer::layout(checked, unseen_state, scratch, nullptr);
+  Localizer::layout(own, unseen_state, scratch, nullptr);
   return in_scratch.found ? SPHC_OK : SPHC_END;
 }
 
@@ -109,16 +117,27 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
     sphc::MessageWriter(message) << "localizer is null";
     return SPHC_E_ARGUMENT;
   }
-  const sphc_memory need = measure(checked);
+  const LocalizerConfig own = sphc::localizerConfigFrom(checked);
+  const sphc_memory need = measure(own);
   status = sphc::checkMemory(state, state_bytes, need.state_bytes, need.alignment, "state", message);
   if (status != SPHC_OK) return status;
   status = sphc::checkMemory(scratch, scratch_bytes, need.scratch_bytes, need.alignment, "scratch", message);
   if (status != SPHC_OK) return status;
+  const MemoryRange used_state = {"state", state, need.state_bytes},
+                    used_scratch = {"scratch", scratch, need.scratch_bytes};
+  status = sphc::checkApart(used_state, used_scratch, message);
+  if (status == SPHC_OK) status = sphc::checkApartFromMaps(used_state, maps, map_count, message);
+  if (status == SPHC_OK) status = sphc::checkApartFromMaps(used_scratch, maps, map_count, message);
+  if (status != SPHC_OK) return status;
 
   auto *made = new (state) sphc_localizer();
   Arena state_arena(static_cast<unsigned char *>(state) + kObjectBytes), scratch_arena(scratch);
-  Localizer::layout(checked, state_arena, scratch_arena, &made->localizer);
-  made->localizer.init(checked);
+  Localizer::layout(own, state_arena, scratch_arena, &made->localizer);
+  made->localizer.init(own);
+  made->color = checked.color_camera;
+  made->depth = checked.depth_camera;
+  made->log = checked.log;
+  made->log_user = checked.log_user;
   for (uint32_t i = 0; i < map_count; ++i) made->localizer.addMap(maps[i]->view);
   *localizer = made;
   return SPHC_OK;
@@ -135,16 +154,16 @@ void sphc_localizer_reset(sphc_localizer *localizer) {
 sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame, sphc_result *result) {
   if (!localizer) return SPHC_E_ARGUMENT;
   localizer->message.text[0] = '\0';
-  const sphc::Localizer &known = localizer->localizer;
-  const sphc_status status = sphc::checkFrame(frame, known.config(), known.mapCount(), &localizer->message);
+  const sphc_status status = sphc::checkFrame(
+      frame, {localizer->color, localizer->depth, localizer->localizer.mapCount()}, &localizer->message);
   if (status != SPHC_OK) return status;
   if (!result || result->struct_size != sizeof(sphc_result)) {
     sphc::MessageWriter(&localizer->message)
         << (result ? "set result.struct_size to sizeof(sphc_result) first" : "result is null");
     return result ? SPHC_E_STRUCT_SIZE : SPHC_E_ARGUMENT;
   }
-  clear(result, *frame);
-  localizer->localizer.process(*frame, result);
+  sphc::fillResult(localizer->localizer.process(sphc::frameFrom(*frame)), *frame, result);
+  logResult(*localizer, *result);
   return result->outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
 }
 
@@ -155,8 +174,8 @@ const char *sphc_localizer_message(const sphc_localizer *localizer) {
 sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
                                         uint32_t capacity, uint32_t *count) {
   if (!localizer || !count || (capacity && !observations)) return SPHC_E_ARGUMENT;
-  const sphc::Span<const sphc_observation> seen = localizer->localizer.observations();
-  for (uint32_t i = 0; i < capacity && i < seen.size(); ++i) observations[i] = seen[i];
+  const sphc::Span<const sphc::Observation> seen = localizer->localizer.observations();
+  for (uint32_t i = 0; i < capacity && i < seen.size(); ++i) observations[i] = sphc::observationFrom(seen[i]);
   *count = static_cast<uint32_t>(seen.size());
   return SPHC_OK;
 }

@@ -22,6 +22,9 @@ sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, s
   const sphc_status memory_status =
       sphc::checkMemory(memory, memory_bytes, sizeof(sphc_map), alignof(sphc_map), "map", message);
   if (memory_status != SPHC_OK) return memory_status;
+  const sphc_status apart_status =
+      sphc::checkApart({"map", memory, sizeof(sphc_map)}, {"the map file's bytes", file, file_bytes}, message);
+  if (apart_status != SPHC_OK) return apart_status;
   if (reinterpret_cast<uintptr_t>(file) % 8) {
     sphc::MessageWriter(message) << "the map file's bytes must be aligned to 8; malloc and mmap do so";
     return SPHC_E_MEMORY_ALIGNMENT;

@@ -1,4 +1,4 @@
-// What the door's opaque handles point to.
+// What the C interface's opaque handles point to.
 #pragma once
 #include "runtime/localizer/localizer.h"
 #include "runtime/map/map_view.h"
@@ -12,6 +12,9 @@ struct sphc_map {
 
 struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
+  sphc_camera color, depth;
+  sphc_log_fn log;
+  void *log_user;
   sphc_message message;
 };
 

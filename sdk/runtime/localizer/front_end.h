@@ -1,6 +1,8 @@
 // What a frame shows: its keypoints, how they look, and where in front of the camera they lie.
 #pragma once
 #include "runtime/base/arena.h"
+#include "runtime/localizer/config.h"
+#include "runtime/localizer/result.h"
 #include "runtime/stages/align/sparse.h"
 #include "runtime/stages/features/extractor.h"
 #include "runtime/types/correspondence.h"
@@ -9,21 +11,21 @@ namespace sphc {
 
 class FrontEnd {
  public:
-  static void layout(const sphc_config &config, Arena &state, Arena &scratch, FrontEnd *front);
-  void init(const sphc_config &config);
+  static void layout(const LocalizerConfig &config, Arena &state, Arena &scratch, FrontEnd *front);
+  void init(const LocalizerConfig &config);
 
-  void extract(const sphc_image &color);
+  void extract(const ColorView &color);
   // After extract.  Those with depth come first from then on, then those without.  `color_from_depth`: the cameras
   // at the time of each one's image.
-  void lift(const sphc_image &depth, const Rigid &color_from_depth);
+  void lift(ImageView<uint16_t> depth, const Rigid &color_from_depth);
 
   uint32_t keypointCount() const { return keypoint_count_; }
   uint32_t liftedCount() const { return lifted_count_; }
   Span<const Descriptor> descriptors() const { return descriptors_.first(keypoint_count_); }
   Span<const LiftedPoint> lifted() const { return lifted_.first(keypoint_count_); }
   // What is told of the keypoint behind a descriptor.
-  sphc_observation &observationOf(uint32_t query) { return observations_[keypoint_of_[query]]; }
-  Span<const sphc_observation> observations() const { return observations_.first(keypoint_count_); }
+  Observation &observationOf(uint32_t query) { return observations_[keypoint_of_[query]]; }
+  Span<const Observation> observations() const { return observations_.first(keypoint_count_); }
 
  private:
   bool liftOne(ImageView<uint16_t> depth, uint32_t keypoint, double *z_m);
@@ -33,7 +35,7 @@ class FrontEnd {
   FeatureExtractor extractor_;
   SparseAligner aligner_;
 
-  Span<sphc_observation> observations_;  // in state: readable until the next frame; in the order of keypoints
+  Span<Observation> observations_;  // in state: readable until the next frame; in the order of keypoints
   // In scratch.
   Span<uint8_t> gray_;
   Span<Keypoint> keypoints_;

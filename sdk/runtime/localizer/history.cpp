@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
+#include "runtime/localizer/tuning.h"
+
 namespace sphc {
-namespace {
-
-constexpr uint16_t kMostFrames = 60;
-constexpr double kVague_m = 0.06;  // sideways sigma beyond which a match is worth nothing
-
-}  // namespace
 
 void History::layout(uint32_t capacity, Arena &state, History *history) {
   const Span<OldMatch> matches = state.take<OldMatch>("localizer.history", capacity);
@@ -29,15 +25,15 @@ void History::advance(const Rigid &now_from_before, double rotation_sigma_rad, d
     const double cosine2 = std::min(1.0, cosine * cosine);
     lifted.sideways_m = sqrtOf(match.rest_variance + match.depth_variance * (1 - cosine2));
     lifted.along_m = sqrtOf(match.rest_variance + match.depth_variance * cosine2);
-    if (++match.age <= kMostFrames && lifted.sideways_m < kVague_m) matches_[kept++] = match;
+    if (++match.age <= tuning::kMostFramesTogether && lifted.sideways_m < tuning::kVagueM) matches_[kept++] = match;
   }
   count_ = kept;
 }
 
-void History::add(const LiftedPoint &lifted, uint32_t map_index, float quality) {
+void History::add(const LiftedPoint &lifted, uint32_t point_index, float quality) {
   uint32_t place = count_;
   for (uint32_t i = 0; i < count_ && place == count_; ++i)
-    if (matches_[i].map_index == map_index) place = i;
+    if (matches_[i].point_index == point_index) place = i;
   if (place == matches_.size()) {
     place = 0;
     for (uint32_t i = 1; i < count_; ++i)
@@ -46,7 +42,7 @@ void History::add(const LiftedPoint &lifted, uint32_t map_index, float quality) 
   if (place == count_) ++count_;
   const double depth_variance = lifted.along_m * lifted.along_m,
                rest_variance = lifted.sideways_m * lifted.sideways_m;
-  matches_[place] = {lifted, lifted.point_m.normalized(), depth_variance, rest_variance, map_index, quality, 0};
+  matches_[place] = {lifted, lifted.point_m.normalized(), depth_variance, rest_variance, point_index, quality, 0};
 }
 
 uint32_t History::frames() const {

@@ -11,7 +11,7 @@ struct OldMatch {
   LiftedPoint lifted;                    // in the camera of the latest frame
   Vector3 depth_ray;                     // unit, same camera: along which its depth was measured
   double depth_variance, rest_variance;  // m^2: along that ray; of all else, each way
-  uint32_t map_index;
+  uint32_t point_index;
   float quality;
   uint16_t age;  // frames ago
 };
@@ -26,7 +26,7 @@ class History {
   void advance(const Rigid &now_from_before, double rotation_sigma_rad, double translation_sigma_m);
   // A match of the latest frame.  It stands for its map point from now on: the same wrong match seen in many frames
   // is no evidence.  The oldest one makes room where there is none.
-  void add(const LiftedPoint &lifted, uint32_t map_index, float quality);
+  void add(const LiftedPoint &lifted, uint32_t point_index, float quality);
 
   Span<const OldMatch> matches() const { return matches_.first(count_); }
   // Frames that the matches come from.

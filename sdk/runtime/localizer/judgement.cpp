@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
+#include "runtime/localizer/tuning.h"
+
 namespace sphc {
 namespace {
 
-constexpr double kMostLogChance = -12;            // wrong poses on foreign maps were never seen below -6
-constexpr double kMostLogChanceExpected = -6;     // a pose that was expected is likely before it is looked at
-constexpr double kMostRotationSigma = 0.05;       // rad
-constexpr double kMostTranslationSigma = 0.10;    // m
-constexpr double kMostSigmaWithoutLevers = 0.15;  // m
-// Errors of the map and outliers among few inliers are not in the covariance: on real recordings poses from 15 to
-// 25 inliers were off by 5 sigma, from 100 and more by less than 2.
-constexpr double kInliersOfDoubt = 60;
+using namespace tuning;
 
 // Chernoff's bound on log P(at least `successes` of `trials`); for unequal chances too, given their mean.
 double logTail(double successes, double trials, double mean_chance) {
@@ -25,28 +20,26 @@ double logTail(double successes, double trials, double mean_chance) {
 }
 
 // Share of the solid angle that the inlier region covers, seen from the sphere centre.
-double inlierShare(const Correspondence &c, const Rigid &camera_from_map, double noise_scale, double threshold2,
-                   double solid_angle_sr) {
+double inlierShare(const Correspondence &c, const Rigid &camera_from_map, const InlierRegion &region) {
   const Vector3 offset = c.lifted.point_m - camera_from_map.translation_m;
   const double distance2 = offset.squaredNorm();
   const double along_view = offset.dot(c.lifted.point_m.normalized());
   const double cosine2 = along_view * along_view / distance2;  // between the map ray and the viewing ray
-  const double s = c.lifted.sideways_m, a = noise_scale * c.lifted.along_m;
-  const double area = kPi * threshold2 * s * sqrtOf(s * s * cosine2 + a * a * (1 - cosine2));
-  const double share = area / (distance2 * solid_angle_sr);
+  const double s = c.lifted.sideways_m, a = region.noise_scale * c.lifted.along_m;
+  const double area = kPi * region.threshold2 * s * sqrtOf(s * s * cosine2 + a * a * (1 - cosine2));
+  const double share = area / (distance2 * region.solid_angle_sr);
   return share < 1 ? share : 1;
 }
 
 }  // namespace
 
 double logChanceOfAgreement(Span<const Correspondence> correspondences, const Rigid &camera_from_map,
-                            uint32_t inliers, uint32_t free, double noise_scale, double inlier_threshold2,
-                            double solid_angle_sr) {
+                            uint32_t inliers, uint32_t free, const InlierRegion &region) {
   if (inliers <= free) return 0;
   double sum = 0, count = 0;
   for (const Correspondence &c : correspondences) {
     if (!c.lifted.hasDepth()) continue;
-    sum += inlierShare(c, camera_from_map, noise_scale, inlier_threshold2, solid_angle_sr);
+    sum += inlierShare(c, camera_from_map, region);
     ++count;
   }
   return logTail(inliers - free, count - free, sum / count);
@@ -54,22 +47,22 @@ double logChanceOfAgreement(Span<const Correspondence> correspondences, const Ri
 
 double doubtOf(uint32_t inliers) { return 1 + kInliersOfDoubt / inliers; }
 
-sphc_outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t min_inliers) {
+Outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t min_inliers) {
   const double first = evidence.log_chance_first, second = evidence.log_chance_second;
-  const bool expected = evidence.looks == Looks::kGuided;
+  const bool expected = evidence.source == MatchSource::kExpected;
   const double log_chance = expected ? std::max(first, second) : first + second;
   if (evidence.inliers < min_inliers || log_chance > (expected ? kMostLogChanceExpected : kMostLogChance))
-    return SPHC_OUTCOME_NO_CONSENSUS;
+    return Outcome::kNoConsensus;
   const double doubt = doubtOf(evidence.inliers), doubt2 = doubt * doubt;
   const double rotation2 = estimate.covariance.topLeftCorner<3, 3>().trace();
   // T = exp(xi) T_estimate moves the camera's place in the map by the translation part of xi alone.
   const double centre2 = estimate.covariance.bottomRightCorner<3, 3>().trace();
-  if (!(doubt2 * rotation2 < kMostRotationSigma * kMostRotationSigma) ||
-      !(doubt2 * centre2 < kMostTranslationSigma * kMostTranslationSigma))
-    return SPHC_OUTCOME_UNCERTAIN;
-  const double without2 = doubt2 * centre2 * evidence.vaguer * evidence.vaguer;
-  if (!(without2 < kMostSigmaWithoutLevers * kMostSigmaWithoutLevers)) return SPHC_OUTCOME_UNCERTAIN;
-  return SPHC_OUTCOME_LOCALIZED;
+  if (!(doubt2 * rotation2 < kMostRotationSigmaRad * kMostRotationSigmaRad) ||
+      !(doubt2 * centre2 < kMostTranslationSigmaM * kMostTranslationSigmaM))
+    return Outcome::kUncertain;
+  const double without2 = doubt2 * centre2 * evidence.centre_sigma_ratio * evidence.centre_sigma_ratio;
+  if (!(without2 < kMostSigmaWithoutLeverageM * kMostSigmaWithoutLeverageM)) return Outcome::kUncertain;
+  return Outcome::kLocalized;
 }
 
 }  // namespace sphc

@@ -1,27 +1,17 @@
 #include "runtime/localizer/tracker.h"
 
+#include "runtime/base/clock.h"
 #include "runtime/localizer/judgement.h"
+#include "runtime/localizer/tuning.h"
 
 namespace sphc {
 namespace {
 
-// How a head moves, 1 sigma: with the velocity known, and without.
-constexpr double kTurnAcceleration = 6, kAcceleration = 4;           // rad / s^2, m / s^2
-constexpr double kTurnRate = 1, kSpeed = 0.7;                        // rad / s, m / s
-constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: a pose is never better known
-constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
-constexpr uint64_t kNearNs = 100000000;                              // beside a frame, motion is steady for so long
-constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
-constexpr double kGateSigmas = 5;
+using namespace tuning;
 
-// Times may lie anywhere in their range, and so may not be subtracted as they are.
-uint64_t elapsedNs(int64_t since_ns, int64_t now_ns) {
-  return static_cast<uint64_t>(now_ns) - static_cast<uint64_t>(since_ns);
-}
+constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
 
 double seconds(uint64_t ns) { return 1e-9 * static_cast<double>(ns); }
-
-double hypotOf(double a, double b) { return sqrtOf(a * a + b * b); }
 
 double sigmaAnAxis(const Estimate &estimate, int first) {
   return doubtOf(estimate.inliers) * sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
@@ -55,7 +45,7 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
   time_ns_ = time_ns;
   begun_ = true;
   if (elapsedNs(pose_time_ns_, time_ns) > kForgetNs) has_pose_ = has_velocity_ = false;
-  if (elapsedNs(trusted_time_ns_, time_ns) > kForgetNs) state_ = SPHC_STATE_RELOCALIZING;
+  if (elapsedNs(trusted_time_ns_, time_ns) > kForgetNs) state_ = TrackingState::kRelocalizing;
 }
 
 bool Tracker::step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const {
@@ -110,17 +100,17 @@ bool Tracker::agrees(uint32_t map, const Rigid &camera_from_map) const {
 
 void Tracker::accept(uint32_t map, const Estimate &estimate) {
   if (agrees(map, estimate.camera_from_map))
-    state_ = SPHC_STATE_TRACKING;
-  else if (state_ == SPHC_STATE_TRACKING)
-    state_ = SPHC_STATE_LOST;
+    state_ = TrackingState::kTracking;
+  else if (state_ == TrackingState::kTracking)
+    state_ = TrackingState::kLost;
   const double dt = seconds(elapsedNs(pose_time_ns_, time_ns_));
-  has_velocity_ = state_ == SPHC_STATE_TRACKING && dt <= kSteadySeconds;
+  has_velocity_ = state_ == TrackingState::kTracking && dt <= kSteadySeconds;
   if (has_velocity_) {
     const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();
     turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
     velocity_m_s_ = moved.translation_m / dt;
   }
-  if (state_ == SPHC_STATE_TRACKING) trusted_time_ns_ = time_ns_;
+  if (state_ == TrackingState::kTracking) trusted_time_ns_ = time_ns_;
   has_pose_ = moved_known_ = true;
   map_ = map;
   pose_time_ns_ = time_ns_;
@@ -132,7 +122,7 @@ void Tracker::accept(uint32_t map, const Estimate &estimate) {
 }
 
 void Tracker::miss() {
-  if (state_ == SPHC_STATE_TRACKING) state_ = SPHC_STATE_LOST;
+  if (state_ == TrackingState::kTracking) state_ = TrackingState::kLost;
 }
 
 }  // namespace sphc

@@ -11,12 +11,12 @@
 //   TRACKING       a pose where it was expected              TRACKING
 //                  another pose, or none                     LOST
 //   LOST           a pose where it was expected              TRACKING
-//                  nothing trusted for kForgetNs                RELOCALIZING
+//                  nothing trusted for kForgetNs            RELOCALIZING
 //   any            a time that does not grow, or a gap of    RELOCALIZING
 //                  more than kForgetNs
 #pragma once
-#include "runtime/localizer/known.h"
-#include "runtime/types/estimate.h"
+#include "runtime/localizer/frame.h"
+#include "runtime/localizer/result.h"
 
 namespace sphc {
 
@@ -35,11 +35,11 @@ class Tracker {
   void advance(int64_t time_ns, const Odometry *odometry);
   // After advance: false where nothing can be said.
   bool predict(Prediction *prediction) const;
-  // After a look: what it brought.
+  // After it: what it brought.
   void accept(uint32_t map, const Estimate &estimate);
   void miss();
 
-  sphc_state state() const { return state_; }
+  TrackingState state() const { return state_; }
   bool hasOdometry() const { return has_odometry_; }
   // Motion of the camera since the frame before, by odometry; false where it is not known.
   bool step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const;
@@ -51,7 +51,7 @@ class Tracker {
  private:
   bool agrees(uint32_t map, const Rigid &camera_from_map) const;
 
-  sphc_state state_ = SPHC_STATE_RELOCALIZING;
+  TrackingState state_ = TrackingState::kRelocalizing;
   int64_t time_ns_ = 0;
   bool begun_ = false;
 

@@ -5,10 +5,10 @@
 namespace sphc {
 
 struct Match {
-  uint32_t query;      // index of the keypoint
-  uint32_t map_index;  // index of the map point
-  uint32_t distance2;  // squared L2 distance of the byte descriptors
-  uint32_t second2;    // of the runner-up
+  uint32_t query;        // index of the keypoint
+  uint32_t point_index;  // of the map point
+  uint32_t distance2;    // squared L2 distance of the byte descriptors
+  uint32_t second2;      // of the runner-up
 };
 
 }  // namespace sphc

@@ -67,17 +67,23 @@ HWY_ATTR uint32_t findExtrema(const DogRows &dog, int16_t threshold, int32_t fir
     bits[(x - first) / 8] |= static_cast<uint8_t>(beyond << ((x - first) % 8));
   }
 #else
-  for (int32_t x = first; x < end; x += static_cast<int32_t>(hn::Lanes(d))) {
+  const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
+  int32_t x = first;
+  for (; x + lanes <= end; x += lanes)
     hn::StoreMaskBits(d, beyondNearest(dog, threshold, x), bits + (x - first) / 8);
+  // What lies beyond a row's end is anybody's: no column there is beyond, up to the end of the last word.
+  __builtin_memset(bits + (x - first) / 8, 0, 64);
+  if (x < end) {
+    const auto inside = hn::FirstN(d, static_cast<size_t>(end - x));
+    hn::StoreMaskBits(d, hn::And(inside, beyondNearest(dog, threshold, x)), bits + (x - first) / 8);
   }
 #endif
   uint32_t count = 0;
-  for (int32_t x = first; x < end; x += 64) {
+  for (int32_t begin = first; begin < end; begin += 64) {
     uint64_t word;
-    __builtin_memcpy(&word, bits + (x - first) / 8, sizeof word);
-    if (end - x < 64) word &= (uint64_t{1} << (end - x)) - 1;
+    __builtin_memcpy(&word, bits + (begin - first) / 8, sizeof word);
     for (; word != 0; word &= word - 1) {
-      const int32_t at = x + __builtin_ctzll(word);
+      const int32_t at = begin + __builtin_ctzll(word);
       if (isBeyondAll(dog, at)) found[count++] = static_cast<uint16_t>(at);
     }
   }

@@ -157,12 +157,13 @@ uint32_t Matcher::select(size_t queries, float max_ratio, Span<Match> matches) {
       matches[n++] = {q, nearest_[q].best_index, nearest_[q].best2, nearest_[q].second2};
   // One query for each map point: the nearest.
   std::sort(matches.data(), matches.data() + n, [](const Match &a, const Match &b) {
-    if (a.map_index != b.map_index) return a.map_index < b.map_index;
+    if (a.point_index != b.point_index) return a.point_index < b.point_index;
     return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.query < b.query;
   });
-  n = static_cast<uint32_t>(std::unique(matches.data(), matches.data() + n,
-                                        [](const Match &a, const Match &b) { return a.map_index == b.map_index; }) -
-                            matches.data());
+  n = static_cast<uint32_t>(
+      std::unique(matches.data(), matches.data() + n,
+                  [](const Match &a, const Match &b) { return a.point_index == b.point_index; }) -
+      matches.data());
   std::sort(matches.data(), matches.data() + n, [](const Match &a, const Match &b) {
     const uint64_t left = uint64_t{a.distance2} * b.second2, right = uint64_t{b.distance2} * a.second2;
     return left != right ? left < right : a.query < b.query;

@@ -15,7 +15,7 @@ struct ConfidenceInputs {
       0;  // the same: of the camera's place in the map, which the translation part of xi moves alone
 };
 
-// `searched` gave the pose, and `refined` then made it better: the same when there was no second look.  Agreement
+// `searched` gave the pose, and `refined` then made it better: the same without guided re-matching.  Agreement
 // is taken from the first, which had the whole map to choose from, precision from the second.  Where depth was
 // noisier than stated, the sigmas grow by as much.
 ConfidenceInputs confidenceInputs(const Estimate &searched, const Estimate &refined);

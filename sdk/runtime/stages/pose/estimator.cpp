@@ -11,8 +11,8 @@ namespace {
 
 constexpr uint32_t kFewestRows = 4;
 constexpr double kMinimalThreshold2 = 30;  // minimal samples carry the noise of three points
-constexpr float kLocalLimit2 = 150;        // rows that local optimisation looks at
-constexpr float kFinalLimit2 = 60;         // rows that the final refinement looks at
+constexpr float kLocalLimit2 = 150;        // rows that local optimisation uses
+constexpr float kFinalLimit2 = 60;         // rows that the final refinement uses
 constexpr int kLocalSteps = 2, kFinalIterations = 12;
 constexpr double kLocalScale2 = 16;  // of the Geman-McClure loss
 // Wald's test on the gain seen so far: shares of the rows that a right pose gains at least, and slack in rows.
@@ -262,7 +262,7 @@ Rigid PoseEstimator::approach(const PoseQuery &query, const Rigid &start) {
   return pose;
 }
 
-// A flat scene has a second pose; the search ends with either, since both are beyond chance.
+// A planar scene has a second pose; the search ends with either, since both are beyond chance.
 void PoseEstimator::tryMirrored(const PoseQuery &query, Search *search) {
   Rigid mirrored;
   if (mirroredPose(query.correspondences, search->camera_from_map, kMinimalThreshold2, &mirrored))

@@ -1,6 +1,6 @@
 // The robust loop: batches of minimal samples, scoring with early exit, local optimisation when it can pay, final
 // refinement (LO-RANSAC: Chum, Matas, Kittler 2003; the paper's algorithm 2 with the whitened residual in place of
-// its cost, which paper_estimator.h keeps).
+// its cost).
 #pragma once
 #include "runtime/base/deadline.h"
 #include "runtime/stages/pose/refine.h"
@@ -32,7 +32,7 @@ class PoseEstimator {
   Estimate search(const PoseQuery &query);
   // Refines from a pose that is nearly right.
   Estimate refine(const PoseQuery &query, const Rigid &camera_from_map);
-  // The same from the other pose that a flat scene seen obliquely has; kNoConsensus when there is none.
+  // The same from the other pose that a planar scene seen obliquely has; kNoConsensus when there is none.
   Estimate refineMirrored(const PoseQuery &query, const Rigid &camera_from_map);
   // Says of a pose what refine would, and leaves it where it is.
   Estimate evaluate(const PoseQuery &query, const Rigid &camera_from_map);

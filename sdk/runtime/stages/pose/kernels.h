@@ -1,5 +1,5 @@
 // The inner loops of the pose stage.  Two sets of the same code: Highway's best for this machine, and one compiled
-// for single lanes, the scalar twin.  No multiply-add, exact roots and divisions, and a fixed order of summation:
+// for single lanes.  No multiply-add, exact roots and divisions, and a fixed order of summation:
 // every instruction set gives the same bits.
 #pragma once
 #include "runtime/geometry/rigid.h"

@@ -1,4 +1,4 @@
-// The scalar twin: the same kernels compiled for single lanes; for tests and for machines without SIMD.
+// The same kernels compiled for single lanes; for tests and for machines without SIMD.
 #define HWY_COMPILE_ONLY_SCALAR
 #include "runtime/stages/pose/equations-inl.h"
 #include "runtime/stages/pose/minimal-inl.h"

@@ -154,7 +154,7 @@ Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations
     const Vector8 step = solved(now, damping);
     if (!isFinite(step.sum())) break;
     const State next = moved(state, step);
-    if (isSmall(step, now)) {  // too small to be worth another look
+    if (isSmall(step, now)) {  // too small to be worth another step
       state = next;
       break;
     }

@@ -6,7 +6,7 @@
 namespace sphc {
 
 constexpr uint32_t kPoseLanes = 16;  // order of every summation is fixed by this, not by the machine's SIMD width
-constexpr uint32_t kPoseChunk = 64;  // rows between two looks at whether a pose is worth going on with
+constexpr uint32_t kPoseChunk = 64;  // rows, after which it is asked whether a pose is worth going on with
 
 // A row without depth has its unit bearing for a point and the stretch -1: any row can be taken for one by its
 // view, direction and weight |point|^2, which is of the angle.

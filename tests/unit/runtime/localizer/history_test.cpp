@@ -29,7 +29,7 @@ TEST_F(HistoryTest, PointsFollowTheCameraAndGetVaguer) {
   ASSERT_EQ(history_.matches().size(), 1u);
   const OldMatch &match = history_.matches()[0];
   EXPECT_LT((match.lifted.point_m - now_from_before * Vector3(0.5, 0, 2)).norm(), 1e-12);
-  EXPECT_EQ(match.map_index, 7u);
+  EXPECT_EQ(match.point_index, 7u);
   EXPECT_EQ(match.age, 1u);
   EXPECT_GT(match.lifted.sideways_m, 0.005);
   EXPECT_GT(match.lifted.along_m, 0.02);
@@ -73,7 +73,7 @@ TEST_F(HistoryTest, TheOldestMakesRoom) {
   history_.advance(Rigid(), 1e-4, 1e-4);
   for (uint32_t i = 0; i < kCapacity; ++i) history_.add(pointAt(0, 1), i, 0);
   EXPECT_EQ(history_.matches().size(), size_t{kCapacity});
-  for (const OldMatch &match : history_.matches()) EXPECT_NE(match.map_index, 100u);
+  for (const OldMatch &match : history_.matches()) EXPECT_NE(match.point_index, 100u);
 }
 
 TEST_F(HistoryTest, CountsFramesAndForgets) {

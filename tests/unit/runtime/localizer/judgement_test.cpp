@@ -21,46 +21,46 @@ Estimate sureEstimate(uint32_t inliers) {
 constexpr Evidence kStrong = {60, -40, -30};
 
 TEST(Judgement, StrongEvidenceIsBelieved) {
-  EXPECT_EQ(judgePose(kStrong, sureEstimate(60), 10), SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(judgePose(kStrong, sureEstimate(60), 10), Outcome::kLocalized);
 }
 
 TEST(Judgement, FewerThanTheConfigAsksForAreNot) {
-  EXPECT_EQ(judgePose(kStrong, sureEstimate(60), 61), SPHC_OUTCOME_NO_CONSENSUS);
+  EXPECT_EQ(judgePose(kStrong, sureEstimate(60), 61), Outcome::kNoConsensus);
 }
 
 TEST(Judgement, WhatChanceWouldDoIsNot) {
-  EXPECT_EQ(judgePose({60, 0, 0}, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
-  EXPECT_EQ(judgePose({60, -4, -3}, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
-  EXPECT_EQ(judgePose({60, 9, -15}, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);  // many poses were tried
+  EXPECT_EQ(judgePose({60, 0, 0}, sureEstimate(60), 10), Outcome::kNoConsensus);
+  EXPECT_EQ(judgePose({60, -4, -3}, sureEstimate(60), 10), Outcome::kNoConsensus);
+  EXPECT_EQ(judgePose({60, 9, -15}, sureEstimate(60), 10), Outcome::kNoConsensus);  // many poses were tried
 }
 
-TEST(Judgement, LooksThatShareTheirMatchesCountOnce) {
-  Evidence evidence = {60, -5, -20, Looks::kGuided};
-  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
+TEST(Judgement, EvidenceFromTheSameMatchesCountsOnce) {
+  Evidence evidence = {60, -5, -20, MatchSource::kExpected};
+  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), Outcome::kNoConsensus);
   evidence.log_chance_first = -20;
-  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), Outcome::kLocalized);
   evidence.log_chance_second = -5;
-  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), SPHC_OUTCOME_NO_CONSENSUS);
+  EXPECT_EQ(judgePose(evidence, sureEstimate(60), 10), Outcome::kNoConsensus);
 }
 
 TEST(Judgement, WhatRestsOnFewMatchesIsUncertain) {
   Estimate estimate = sureEstimate(20);
   estimate.covariance.bottomRightCorner<3, 3>() = 0.01 * 0.01 * Matrix3::Identity();
   Evidence evidence = {20, -40, -30};
-  EXPECT_EQ(judgePose(evidence, estimate, 10), SPHC_OUTCOME_LOCALIZED);
-  evidence.vaguer = 4;
-  EXPECT_EQ(judgePose(evidence, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(judgePose(evidence, estimate, 10), Outcome::kLocalized);
+  evidence.centre_sigma_ratio = 4;
+  EXPECT_EQ(judgePose(evidence, estimate, 10), Outcome::kUncertain);
 }
 
 TEST(Judgement, AVaguePoseIsUncertain) {
   Estimate estimate = sureEstimate(80);
   estimate.covariance(4, 4) = 0.07 * 0.07;
-  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), Outcome::kUncertain);
   estimate = sureEstimate(80);
   estimate.covariance(0, 0) = 0.04 * 0.04;
-  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), Outcome::kUncertain);
   estimate.covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), Outcome::kUncertain);
 }
 
 // What counts is the camera's place: with T = exp(xi) T_estimate a turn of the camera about itself is all rotation,
@@ -70,9 +70,9 @@ TEST(Judgement, ADistantOriginIsNoUncertainty) {
   estimate.camera_from_map.translation_m = Vector3(30, 0, 0);
   estimate.covariance.setZero();
   estimate.covariance.topLeftCorner<3, 3>() = 0.003 * 0.003 * Matrix3::Identity();
-  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), Outcome::kLocalized);
   estimate.covariance.bottomRightCorner<3, 3>() = 0.08 * 0.08 * Matrix3::Identity();
-  EXPECT_EQ(judgePose(kStrong, estimate, 10), SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(judgePose(kStrong, estimate, 10), Outcome::kUncertain);
 }
 
 TEST(Judgement, RandomOutliersAreNotAccepted) {
@@ -84,8 +84,7 @@ TEST(Judgement, RandomOutliersAreNotAccepted) {
     options.count = 20 + 6 * seed;
     const test::PoseWorld world = test::makePoseWorld(options);
     const Estimate estimate = estimator.search(world, seed);
-    EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED)
-        << estimate.inliers << " of " << options.count;
+    EXPECT_NE(estimator.judge(world, estimate), Outcome::kLocalized) << estimate.inliers << " of " << options.count;
   }
 }
 
@@ -93,29 +92,29 @@ TEST(Judgement, RandomOutliersAreNotAccepted) {
 // pose: still none of these, of which not one is right, may pass.
 TEST(Judgement, RandomDirectionsNearAnExpectedPoseAreNotAccepted) {
   test::TestEstimator estimator(400, 2000);
-  constexpr double kCap = 2.5 * kPi / 180;
+  constexpr double kCone = 2.5 * kPi / 180;
   for (uint64_t seed = 1; seed <= 300; ++seed) {
     test::PoseWorldOptions options;
     options.seed = seed;
     options.true_share = 0;
     options.count = 20 + 20 * (seed % 10);
-    options.cap_rad = kCap;
+    options.cap_rad = kCone;
     const test::PoseWorld world = test::makePoseWorld(options);
-    EXPECT_NE(estimator.judgeExpected(world, kCap), SPHC_OUTCOME_LOCALIZED) << seed;
+    EXPECT_NE(estimator.judgeExpected(world, kCone), Outcome::kLocalized) << seed;
   }
 }
 
 TEST(Judgement, ATruePoseNearTheExpectedOneIsAccepted) {
   test::TestEstimator estimator(400, 2000);
-  constexpr double kCap = 2.5 * kPi / 180;
+  constexpr double kCone = 2.5 * kPi / 180;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     test::PoseWorldOptions options;
     options.seed = seed;
     options.true_share = 0.7;
-    options.cap_rad = kCap;
+    options.cap_rad = kCone;
     options.centre_offset_m = Vector3(0, 0, 2);
     const test::PoseWorld world = test::makePoseWorld(options);
-    EXPECT_EQ(estimator.judgeExpected(world, kCap), SPHC_OUTCOME_LOCALIZED) << seed;
+    EXPECT_EQ(estimator.judgeExpected(world, kCone), Outcome::kLocalized) << seed;
   }
 }
 
@@ -126,7 +125,7 @@ TEST(Judgement, ATruePoseAmongOutliersIsAccepted) {
     options.seed = seed;
     options.true_share = 0.25;
     const test::PoseWorld world = test::makePoseWorld(options);
-    EXPECT_EQ(estimator.judge(world, estimator.search(world, seed)), SPHC_OUTCOME_LOCALIZED) << seed;
+    EXPECT_EQ(estimator.judge(world, estimator.search(world, seed)), Outcome::kLocalized) << seed;
   }
 }
 
@@ -136,12 +135,12 @@ TEST(Judgement, ChanceOfAgreement) {
   const test::PoseWorld world = test::makePoseWorld(options);
   const Span<const Correspondence> all = {world.correspondences.data(), world.correspondences.size()};
   const auto chance = [&](uint32_t inliers, uint32_t free, double solid_angle) {
-    return logChanceOfAgreement(all, world.camera_from_map, inliers, free, 1, 12, solid_angle);
+    return logChanceOfAgreement(all, world.camera_from_map, inliers, free, {1, 12, solid_angle});
   };
   EXPECT_EQ(chance(3, 3, 4 * kPi), 0);
   EXPECT_EQ(chance(0, 3, 4 * kPi), 0);
   EXPECT_LT(chance(100, 3, 4 * kPi), chance(50, 3, 4 * kPi));    // more agreement is rarer
-  EXPECT_LT(chance(100, 3, 4 * kPi), chance(100, 3, 0.1));       // in a narrower cap it is commoner
+  EXPECT_LT(chance(100, 3, 4 * kPi), chance(100, 3, 0.1));       // in a narrower cone it is commoner
   EXPECT_LT(chance(100, 0, 4 * kPi), chance(100, 30, 4 * kPi));  // what the pose was made from proves nothing
   EXPECT_EQ(chance(100, 3, 1e-12), 0);
   EXPECT_TRUE(isFinite(chance(300, 3, 4 * kPi)));

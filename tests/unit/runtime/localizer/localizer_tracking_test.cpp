@@ -135,7 +135,7 @@ TEST(LocalizerTracking, MatchesOfAFailureAreOfTheMapThatItNames) {
     uint32_t matched = 0;
     for (const sphc_observation &o : walk.observations()) {
       if (!(o.flags & SPHC_OBSERVATION_MATCHED)) continue;
-      EXPECT_LT(o.map_index, walk.pointsOf(result.map_index));
+      EXPECT_LT(o.point_index, walk.pointsOf(result.map_index));
       ++matched;
     }
     EXPECT_EQ(matched, result.matches);

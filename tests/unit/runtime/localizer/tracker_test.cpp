@@ -33,27 +33,27 @@ class TrackerTest : public testing::Test {
   }
   void track() {
     for (int i = 1; i <= 3; ++i) bring(i * kFrame, poseAt(0.01 * i));
-    ASSERT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+    ASSERT_EQ(tracker_.state(), TrackingState::kTracking);
   }
   Tracker tracker_;
 };
 
 TEST_F(TrackerTest, APoseIsTrustedOnceAnotherAgrees) {
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing);
   bring(kFrame, poseAt(0));
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing);
   bring(2 * kFrame, poseAt(2));  // not the same
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing);
   bring(3 * kFrame, poseAt(2.01));
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
 }
 
 TEST_F(TrackerTest, APoseInAnotherMapDoesNotAgree) {
   bring(kFrame, poseAt(0), 0);
   bring(2 * kFrame, poseAt(0), 1);
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing);
   bring(3 * kFrame, poseAt(0), 1);
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
 }
 
 TEST_F(TrackerTest, FewInliersExpectLess) {
@@ -77,24 +77,25 @@ TEST_F(TrackerTest, TimesMayLieAnywhere) {
   Prediction expected;
   for (int64_t time_ns : {kFirst, kLast, int64_t{0}, kLast, kFirst, kFirst + kFrame}) {
     bring(time_ns, poseAt(0));
-    EXPECT_EQ(tracker_.state(), time_ns == kFirst + kFrame ? SPHC_STATE_TRACKING : SPHC_STATE_RELOCALIZING);
+    EXPECT_EQ(tracker_.state(),
+              time_ns == kFirst + kFrame ? TrackingState::kTracking : TrackingState::kRelocalizing);
   }
 }
 
 TEST_F(TrackerTest, AMissLosesAndAnExpectedPoseFinds) {
   track();
   bringNone(4 * kFrame);
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_LOST);
+  EXPECT_EQ(tracker_.state(), TrackingState::kLost);
   bring(5 * kFrame, poseAt(0.05));
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
 }
 
 TEST_F(TrackerTest, APoseElsewhereLosesUntilItIsConfirmed) {
   track();
   bring(4 * kFrame, poseAt(3));
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_LOST);
+  EXPECT_EQ(tracker_.state(), TrackingState::kLost);
   bring(5 * kFrame, poseAt(3.01));
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_TRACKING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
 }
 
 TEST_F(TrackerTest, LostForASecondIsForgotten) {
@@ -102,11 +103,11 @@ TEST_F(TrackerTest, LostForASecondIsForgotten) {
   Prediction expected;
   for (int i = 4; i * kFrame - 3 * kFrame <= kSecond; ++i) {
     bringNone(i * kFrame);
-    EXPECT_EQ(tracker_.state(), SPHC_STATE_LOST) << i;
+    EXPECT_EQ(tracker_.state(), TrackingState::kLost) << i;
     EXPECT_TRUE(tracker_.predict(&expected)) << i;
   }
   bringNone(3 * kFrame + kSecond + kFrame);
-  EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING);
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing);
   EXPECT_FALSE(tracker_.predict(&expected));
 }
 
@@ -116,7 +117,7 @@ TEST_F(TrackerTest, TimeThatDoesNotGrowOrJumpsStartsAnew) {
     track();
     tracker_.advance(next, nullptr);
     Prediction expected;
-    EXPECT_EQ(tracker_.state(), SPHC_STATE_RELOCALIZING) << next;
+    EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing) << next;
     EXPECT_FALSE(tracker_.predict(&expected)) << next;
   }
 }

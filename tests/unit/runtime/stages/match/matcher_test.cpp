@@ -76,8 +76,8 @@ TEST_F(MatcherTest, FindsTheExactNearest) {
   const std::vector<Match> matches = matchExact(queries, 0.8f);
   ASSERT_EQ(matches.size(), kQueries);
   for (const Match &m : matches) {
-    EXPECT_EQ(m.map_index, 3 * m.query);
-    EXPECT_EQ(m.distance2, distance2Scalar(queries[m.query], points_[m.map_index].descriptor));
+    EXPECT_EQ(m.point_index, 3 * m.query);
+    EXPECT_EQ(m.distance2, distance2Scalar(queries[m.query], points_[m.point_index].descriptor));
     EXPECT_LE(m.distance2, m.second2);
   }
 }
@@ -116,7 +116,7 @@ TEST_F(MatcherTest, OneQueryForEachMapPointTheNearest) {
   const std::vector<Match> matches = matchExact(queries, 0.8f);
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].query, 1u);
-  EXPECT_EQ(matches[0].map_index, 5u);
+  EXPECT_EQ(matches[0].point_index, 5u);
 }
 
 TEST_F(MatcherTest, StrangersDoNotMatch) {
@@ -135,10 +135,10 @@ TEST_F(MatcherTest, GuidedLooksInsideTheCapAlone) {
   EXPECT_EQ(matchExact(queries, 0.8f).size(), 0u);
   const std::vector<Match> near = matchNear(queries, {Vector3(0.02, 0, 1).normalized()}, 3, 0.8f);
   ASSERT_EQ(near.size(), 1u);
-  EXPECT_EQ(near[0].map_index, 0u);
+  EXPECT_EQ(near[0].point_index, 0u);
   const std::vector<Match> twin = matchNear(queries, {Vector3(1, 0.02, 0).normalized()}, 3, 0.8f);
   ASSERT_EQ(twin.size(), 1u);
-  EXPECT_EQ(twin[0].map_index, 1u);
+  EXPECT_EQ(twin[0].point_index, 1u);
   EXPECT_EQ(matchNear(queries, {Vector3(0, -1, 0)}, 3, 0.8f).size(), 0u);
 }
 
@@ -186,7 +186,8 @@ class IndexedMatcherTest : public MatcherTest {
 };
 
 bool same(const Match &a, const Match &b) {
-  return a.query == b.query && a.map_index == b.map_index && a.distance2 == b.distance2 && a.second2 == b.second2;
+  return a.query == b.query && a.point_index == b.point_index && a.distance2 == b.distance2 &&
+         a.second2 == b.second2;
 }
 
 bool same(const std::vector<Match> &a, const std::vector<Match> &b) {
@@ -208,7 +209,7 @@ TEST_F(IndexedMatcherTest, MoreProbesFindMoreOfTheExactMatches) {
   for (const uint32_t probes : {0u, 1u, 4u, 16u, 32u}) {
     size_t found = 0;
     for (const Match &m : all(view_, queries(), 0.9f, probes))
-      for (const Match &other : exact) found += m.query == other.query && m.map_index == other.map_index;
+      for (const Match &other : exact) found += m.query == other.query && m.point_index == other.point_index;
     EXPECT_GE(found, before) << probes;
     before = found;
   }
@@ -230,7 +231,7 @@ TEST_F(IndexedMatcherTest, AQueryAloneFindsWhatItFindsAmongOthers) {
   ASSERT_GT(together.size(), kQueries / 4);
   for (const Match &m : together) {
     ASSERT_EQ(all(view_, {&queries_[m.query], 1}, 1.0f, 4).size(), 1u);
-    EXPECT_EQ(matches_[0].map_index, m.map_index);
+    EXPECT_EQ(matches_[0].point_index, m.point_index);
     EXPECT_EQ(matches_[0].second2, m.second2);
   }
 }

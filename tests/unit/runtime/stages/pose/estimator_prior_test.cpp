@@ -88,7 +88,7 @@ TEST(PosePrior, OfAFewFakesIsNotBelieved) {
     const test::PoseWorld world = worldAt(0, seed);
     const PosePrior prior = test::odometerPrior(world, 5 * kDegree, 0.2, seed);
     const Estimate estimate = searchWith(&estimator, world, &prior, seed);
-    believed += estimator.judge(world, estimate) == SPHC_OUTCOME_LOCALIZED;
+    believed += estimator.judge(world, estimate) == Outcome::kLocalized;
   }
   EXPECT_EQ(believed, 0);
 }

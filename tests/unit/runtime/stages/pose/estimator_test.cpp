@@ -223,7 +223,7 @@ TEST(Estimator, OneCorrespondenceManyTimesIsHarmless) {
   const Estimate estimate = estimator.search(world);
   EXPECT_LE(estimate.iterations, 512u);
   EXPECT_TRUE(estimate.ending != PoseEnding::kFound || isFinite(estimate.camera_from_map.rotation.sum()));
-  EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED);
+  EXPECT_NE(estimator.judge(world, estimate), Outcome::kLocalized);
 }
 
 TEST(Estimator, IterationsAreBoundedToABatch) {
@@ -242,7 +242,7 @@ TEST(Estimator, NoiseAloneIsNotLocalized) {
   for (uint64_t seed = 1; seed <= 100; ++seed) {
     const test::PoseWorld world = test::makeSensorWorld(sensorAt(0, seed));
     const Estimate estimate = estimator.search(world, seed);
-    EXPECT_NE(estimator.judge(world, estimate), SPHC_OUTCOME_LOCALIZED) << estimate.inliers;
+    EXPECT_NE(estimator.judge(world, estimate), Outcome::kLocalized) << estimate.inliers;
   }
 }
 
@@ -250,7 +250,7 @@ TEST(Estimator, NoiseAloneIsNotLocalized) {
 struct FakeClock {
   int64_t now_ns = 0;
   static int64_t read(void *user) { return static_cast<FakeClock *>(user)->now_ns += 1000; }
-  Deadline deadline(int64_t at_ns) { return {&read, this, at_ns}; }
+  Deadline deadline(int64_t at_ns) { return {{&read, this}, at_ns}; }
 };
 
 TEST(Estimator, ADeadlineThatHasPassedGivesNothing) {

@@ -109,7 +109,7 @@ TEST(PaperClaims, RandomDepthsSeldomGiveAPose) {
       c.lifted.point_m *= test::uniformIn(&random, 0.5, 5) / c.lifted.point_m.z();
     const Estimate estimate = estimator.search(world, seed);
     EXPECT_LT(estimate.inliers, 20u) << "of 300";
-    localized += estimator.judge(world, estimate) == SPHC_OUTCOME_LOCALIZED;
+    localized += estimator.judge(world, estimate) == Outcome::kLocalized;
   }
   RecordProperty("localized_of_40", localized);
   EXPECT_LE(localized, kWorlds / 4);

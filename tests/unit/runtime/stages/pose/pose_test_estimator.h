@@ -31,16 +31,16 @@ class TestEstimator {
     return estimator_.search(query);
   }
   PoseEstimator &get() { return estimator_; }
-  // As the localizer judges a first pose that no second look supports.
-  sphc_outcome judge(const PoseWorld &world, const Estimate &estimate) const {
+  // As the localizer judges a first pose that no guided re-matching supports.
+  Outcome judge(const PoseWorld &world, const Estimate &estimate) const {
     const double log_chance =
         logChanceOfAgreement({world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map,
-                             estimate.inliers, 3, 1, estimator_.inlierThreshold2(), 4 * kPi) +
+                             estimate.inliers, 3, {1, estimator_.inlierThreshold2(), 4 * kPi}) +
         logOf(static_cast<double>(estimate.iterations));
     return judgePose({estimate.inliers, log_chance, 0}, estimate, 10);
   }
   // As it judges a pose that was expected where the world's camera is.
-  sphc_outcome judgeExpected(const PoseWorld &world, double cap_rad) {
+  Outcome judgeExpected(const PoseWorld &world, double cone_rad) {
     PosePrior prior;
     prior.has_pose = true;
     prior.camera_from_map = world.camera_from_map;
@@ -51,9 +51,9 @@ class TestEstimator {
     const Estimate estimate = search(world, query);
     const double log_chance = logChanceOfAgreement(
         {world.correspondences.data(), world.correspondences.size()}, estimate.camera_from_map, estimate.inliers, 3,
-        1, estimator_.inlierThreshold2(), 2 * kPi * (1 - std::cos(cap_rad)));
+        {1, estimator_.inlierThreshold2(), 2 * kPi * (1 - std::cos(cone_rad))});
     const double tried = logOf(static_cast<double>(estimate.iterations) + 1);
-    return judgePose({estimate.inliers, log_chance + tried, log_chance, Looks::kGuided}, estimate, 10);
+    return judgePose({estimate.inliers, log_chance + tried, log_chance, MatchSource::kExpected}, estimate, 10);
   }
 
  private:

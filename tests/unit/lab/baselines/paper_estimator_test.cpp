@@ -1,4 +1,4 @@
-#include "runtime/stages/pose/paper_estimator.h"
+#include "lab/baselines/paper_estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
 
-namespace sphc {
+namespace sphc::host {
 namespace {
 
 PaperCostConfig configOf(double focal_px = 525) {
@@ -131,4 +131,4 @@ TEST(PaperEstimator, SameSeedSameBytes) {
 }
 
 }  // namespace
-}  // namespace sphc
+}  // namespace sphc::host

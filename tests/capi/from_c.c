@@ -1,4 +1,4 @@
-/* The door from plain C, through the shared library. */
+/* The C interface from plain C, through the shared library. */
 #include <spherecloud/spherecloud.h>
 #include <stdio.h>
 #include <string.h>

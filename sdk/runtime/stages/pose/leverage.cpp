@@ -1,4 +1,4 @@
-#include "runtime/stages/pose/lever.h"
+#include "runtime/stages/pose/leverage.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -48,28 +48,28 @@ double centreVariance(const Matrix6 &covariance) { return covariance.bottomRight
 
 }  // namespace
 
-Levers heaviestLevers(Span<const Correspondence> correspondences, const Estimate &estimate, uint32_t count) {
-  Levers levers;
+Leverage highestLeverage(Span<const Correspondence> correspondences, const Estimate &estimate, uint32_t count) {
+  Leverage leverage;
   const Matrix6 all = covarianceOf(correspondences, estimate);
   Matrix6 covariance = all;
-  while (levers.indices.size() < count) {
-    uint32_t heaviest = 0;
+  while (leverage.indices.size() < count) {
+    uint32_t highest = 0;
     Matrix36 row;
     Matrix6 most = Matrix6::Zero();
     for (uint32_t i = 0; i < correspondences.size(); ++i) {
-      const bool taken = std::find(levers.indices.begin(), levers.indices.end(), i) != levers.indices.end();
+      const bool taken = std::find(leverage.indices.begin(), leverage.indices.end(), i) != leverage.indices.end();
       if (taken || !rowOf(correspondences[i], estimate, &row)) continue;
       const Eigen::Matrix<double, 6, 3> gain = covariance * row.transpose();
       const Matrix3 rest = Matrix3::Identity() - row * gain;
       const Matrix6 growth = gain * rest.inverse() * gain.transpose();  // of the covariance without it
-      if (centreVariance(growth) > centreVariance(most)) heaviest = i, most = growth;
+      if (centreVariance(growth) > centreVariance(most)) highest = i, most = growth;
     }
     if (!(centreVariance(most) > 0)) break;
     covariance += most;
-    levers.indices.push(heaviest);
+    leverage.indices.push(highest);
   }
-  levers.vaguer = sqrtOf(centreVariance(covariance) / centreVariance(all));
-  return levers;
+  leverage.centre_sigma_ratio = sqrtOf(centreVariance(covariance) / centreVariance(all));
+  return leverage;
 }
 
 }  // namespace sphc

@@ -1,11 +1,11 @@
-#include "runtime/stages/pose/paper_estimator.h"
+#include "lab/baselines/paper_estimator.h"
 
 #include <Eigen/Cholesky>
 
 #include "runtime/base/random.h"
 #include "runtime/stages/pose/p3p.h"
 
-namespace sphc {
+namespace sphc::host {
 namespace {
 
 constexpr uint32_t kSampleSize = 3;
@@ -244,4 +244,4 @@ Estimate estimateWithPaperCost(const PaperCostConfig &config, Span<const Corresp
   return estimate;
 }
 
-}  // namespace sphc
+}  // namespace sphc::host

@@ -1,7 +1,7 @@
-// What the caller knows of a frame before it is looked at, in the library's own types.
+// What a localizer is given for each frame: images, and what the caller knows before they are looked at.
 #pragma once
+#include "runtime/types/image_view.h"
 #include "runtime/types/pose_prior.h"
-#include "spherecloud/spherecloud.h"
 
 namespace sphc {
 
@@ -18,7 +18,12 @@ struct Known {
   Odometry odometry;
 };
 
-// `given` may be null: nothing is known.
-Known knownFromDoor(const sphc_prior *given);
+// Everything is borrowed.
+struct FrameInput {
+  int64_t color_time_ns = 0, depth_time_ns = 0;  // mid-exposure
+  ColorView color;
+  ImageView<uint16_t> depth;
+  Known known;
+};
 
 }  // namespace sphc

@@ -5,7 +5,7 @@
 #include "runtime/types/correspondence.h"
 #include "runtime/types/estimate.h"
 
-namespace sphc {
+namespace sphc::host {
 
 struct PaperCostConfig {
   double focal_px = 0;
@@ -43,4 +43,4 @@ Rigid refineWithPaperCost(const PaperCostConfig &config, Span<const Corresponden
 Estimate estimateWithPaperCost(const PaperCostConfig &config, Span<const Correspondence> correspondences,
                                uint64_t seed);
 
-}  // namespace sphc
+}  // namespace sphc::host

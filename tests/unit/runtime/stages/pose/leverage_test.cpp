@@ -1,4 +1,4 @@
-#include "runtime/stages/pose/lever.h"
+#include "runtime/stages/pose/leverage.h"
 
 #include <gtest/gtest.h>
 
@@ -29,20 +29,20 @@ Patch patchAndTwo() {
   return patch;
 }
 
-Levers leversOf(const Patch &patch, uint32_t count) {
-  return heaviestLevers({patch.correspondences.data(), patch.correspondences.size()}, patch.estimate, count);
+Leverage leverageOf(const Patch &patch, uint32_t count) {
+  return highestLeverage({patch.correspondences.data(), patch.correspondences.size()}, patch.estimate, count);
 }
 
-TEST(Levers, AreTheMatchesThatHoldThePose) {
-  const Levers levers = leversOf(patchAndTwo(), 2);
-  ASSERT_EQ(levers.indices.size(), 2u);
-  EXPECT_GE(levers.indices[0], kOnPatch);
-  EXPECT_GE(levers.indices[1], kOnPatch);
-  EXPECT_NE(levers.indices[0], levers.indices[1]);
-  EXPECT_GT(levers.vaguer, 2);
+TEST(Leverage, IsThatOfTheMatchesThatHoldThePose) {
+  const Leverage leverage = leverageOf(patchAndTwo(), 2);
+  ASSERT_EQ(leverage.indices.size(), 2u);
+  EXPECT_GE(leverage.indices[0], kOnPatch);
+  EXPECT_GE(leverage.indices[1], kOnPatch);
+  EXPECT_NE(leverage.indices[0], leverage.indices[1]);
+  EXPECT_GT(leverage.centre_sigma_ratio, 2);
 }
 
-TEST(Levers, WithoutThemTheCovarianceIsAsLarge) {
+TEST(Leverage, WithoutThemTheCovarianceIsAsLarge) {
   test::TestEstimator estimator;
   Patch all = patchAndTwo();
   PoseQuery query;
@@ -54,18 +54,18 @@ TEST(Levers, WithoutThemTheCovarianceIsAsLarge) {
   Patch few = all;
   few.correspondences.resize(kOnPatch);
   const double ratio = sigma(few) / sigma(all);
-  EXPECT_NEAR(leversOf(all, 2).vaguer / ratio, 1, 0.02);
+  EXPECT_NEAR(leverageOf(all, 2).centre_sigma_ratio / ratio, 1, 0.02);
 }
 
-TEST(Levers, AWideSceneHasNone) {
+TEST(Leverage, AWideSceneHasLittle) {
   const test::PoseWorld world = test::makePoseWorld({});
   Estimate estimate;
   estimate.camera_from_map = world.camera_from_map;
-  const Levers levers =
-      heaviestLevers({world.correspondences.data(), world.correspondences.size()}, estimate, kMostLevers);
-  EXPECT_EQ(levers.indices.size(), size_t{kMostLevers});
-  EXPECT_LT(levers.vaguer, 1.1);
-  EXPECT_EQ(heaviestLevers({}, estimate, 3).indices.size(), 0u);
+  const Leverage leverage =
+      highestLeverage({world.correspondences.data(), world.correspondences.size()}, estimate, kMostHighLeverage);
+  EXPECT_EQ(leverage.indices.size(), size_t{kMostHighLeverage});
+  EXPECT_LT(leverage.centre_sigma_ratio, 1.1);
+  EXPECT_EQ(highestLeverage({}, estimate, 3).indices.size(), 0u);
 }
 
 }  // namespace

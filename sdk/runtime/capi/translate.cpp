@@ -1,0 +1,175 @@
+#include "runtime/capi/translate.h"
+
+#include <algorithm>
+
+namespace sphc {
+namespace {
+
+Vector3 vectorFrom(const double v[3]) { return Vector3(v[0], v[1], v[2]); }
+
+uint32_t microseconds(uint64_t ns) { return static_cast<uint32_t>(std::min<uint64_t>(ns / 1000, UINT32_MAX)); }
+
+DepthCalibration depthPriorFrom(const sphc_config &config) {
+  DepthCalibration prior;
+  prior.mid_m = config.depth_mid_m > 0 ? config.depth_mid_m : sqrtOf(config.depth_min_m * config.depth_max_m);
+  prior.covariance(0, 0) = config.depth_offset_sigma_m * config.depth_offset_sigma_m;
+  prior.covariance(1, 1) = config.depth_slope_sigma * config.depth_slope_sigma;
+  return prior;
+}
+
+ColorView colorViewFrom(const sphc_image &image) {
+  const ChannelOrder order = image.format == SPHC_FORMAT_RGB8   ? ChannelOrder::kRgb
+                             : image.format == SPHC_FORMAT_BGR8 ? ChannelOrder::kBgr
+                                                                : ChannelOrder::kGray;
+  return {static_cast<const uint8_t *>(image.data), static_cast<int32_t>(image.width),
+          static_cast<int32_t>(image.height), static_cast<int32_t>(image.stride_bytes), order};
+}
+
+PosePrior posePriorFrom(const sphc_prior &given) {
+  PosePrior prior;
+  prior.has_pose = given.flags & SPHC_PRIOR_POSE;
+  if (prior.has_pose) {
+    prior.camera_from_map = rigidFromDoor(given.camera_from_map);
+    prior.rotation_sigma_rad = given.rotation_sigma_rad;
+    prior.translation_sigma_m = given.translation_sigma_m;
+  }
+  prior.has_up = given.flags & SPHC_PRIOR_UP;
+  if (prior.has_up) {
+    prior.up_camera = vectorFrom(given.up_camera).normalized();
+    prior.up_map = vectorFrom(given.up_map).normalized();
+    prior.up_sigma_rad = given.up_sigma_rad;
+  }
+  return prior;
+}
+
+Known knownFrom(const sphc_prior &given) {
+  Known known;
+  known.map = given.map_index;
+  known.prior = posePriorFrom(given);
+  known.has_odometry = given.flags & SPHC_PRIOR_ODOMETRY;
+  if (known.has_odometry) {
+    known.odometry = {rigidFromDoor(given.odometry_from_camera), given.odometry_rotation_sigma_rad,
+                      given.odometry_translation_sigma_m};
+  }
+  return known;
+}
+
+sphc_depth_bias depthBiasFrom(const DepthCalibration &depth) {
+  return {depth.mid_m,
+          depth.mean[0],
+          depth.mean[1],
+          sqrtOf(depth.covariance(0, 0)),
+          sqrtOf(depth.covariance(1, 1)),
+          depth.noise_scale};
+}
+
+}  // namespace
+
+LocalizerConfig localizerConfigFrom(const sphc_config &config) {
+  LocalizerConfig own;
+  own.max_keypoints = config.max_keypoints;
+  own.max_iterations = config.max_iterations;
+  own.max_ratio = config.max_ratio;
+  own.probes = config.probes;
+  own.min_inliers = config.min_inliers;
+  own.seed = config.seed;
+  own.tracks = config.mode == SPHC_MODE_TRACKING;
+  own.color_camera = Camera(config.color_camera);
+  own.depth_camera = Camera(config.depth_camera);
+  own.color_from_depth = rigidFromDoor(config.color_from_depth);
+  own.depth_sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
+                      config.depth_sigma_per_m2};
+  own.depth_prior = depthPriorFrom(config);
+  own.pixel_sigma_px = config.pixel_sigma_px;
+  own.map_sigma_m = config.map_sigma_m;
+  own.clock = {config.clock, config.clock_user};
+  own.time_limit_ns = int64_t{config.deadline_us} * 1000;
+  return own;
+}
+
+FrameInput frameFrom(const sphc_frame &frame) {
+  FrameInput own;
+  own.color_time_ns = frame.color_time_ns;
+  own.depth_time_ns = frame.depth_time_ns;
+  own.color = colorViewFrom(frame.color);
+  own.depth = depthViewFrom(frame.depth);
+  if (frame.prior) own.known = knownFrom(*frame.prior);
+  return own;
+}
+
+ImageView<uint16_t> depthViewFrom(const sphc_image &image) {
+  return {static_cast<const uint16_t *>(image.data), static_cast<int32_t>(image.width),
+          static_cast<int32_t>(image.height), static_cast<int32_t>(image.stride_bytes / 2)};
+}
+
+sphc_outcome outcomeFrom(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kLocalized:
+      return SPHC_OUTCOME_LOCALIZED;
+    case Outcome::kFewKeypoints:
+      return SPHC_OUTCOME_FEW_KEYPOINTS;
+    case Outcome::kFewDepths:
+      return SPHC_OUTCOME_FEW_DEPTHS;
+    case Outcome::kFewMatches:
+      return SPHC_OUTCOME_FEW_MATCHES;
+    case Outcome::kNoConsensus:
+      return SPHC_OUTCOME_NO_CONSENSUS;
+    case Outcome::kUncertain:
+      return SPHC_OUTCOME_UNCERTAIN;
+    case Outcome::kDeadline:
+      return SPHC_OUTCOME_DEADLINE;
+  }
+  return SPHC_OUTCOME_NO_CONSENSUS;  // never
+}
+
+sphc_state stateFrom(TrackingState state) {
+  switch (state) {
+    case TrackingState::kRelocalizing:
+      return SPHC_STATE_RELOCALIZING;
+    case TrackingState::kTracking:
+      return SPHC_STATE_TRACKING;
+    case TrackingState::kLost:
+      return SPHC_STATE_LOST;
+  }
+  return SPHC_STATE_RELOCALIZING;  // never
+}
+
+sphc_observation observationFrom(const Observation &o) {
+  uint32_t flags = 0;
+  if (o.lifted) flags |= SPHC_OBSERVATION_LIFTED;
+  if (o.matched) flags |= SPHC_OBSERVATION_MATCHED;
+  if (o.inlier) flags |= SPHC_OBSERVATION_INLIER;
+  return {o.x_px, o.y_px, o.scale_px, o.depth_m, o.point_index, flags};
+}
+
+void fillResult(const LocalizerResult &answer, const sphc_frame &frame, sphc_result *result) {
+  const uint32_t struct_size = result->struct_size;
+  *result = {};
+  result->struct_size = struct_size;
+  result->sequence = frame.sequence;
+  result->time_ns = frame.color_time_ns;
+  result->outcome = outcomeFrom(answer.outcome);
+  result->keypoints = answer.keypoints;
+  result->lifted = answer.lifted;
+  result->matches = answer.matches;
+  result->inliers = answer.inliers;
+  result->iterations = answer.samples;
+  result->camera_from_map.q_wxyz[0] = 1;
+  if (answer.outcome == Outcome::kLocalized) result->camera_from_map = doorFromRigid(answer.camera_from_map);
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column)
+      result->covariance[6 * row + column] = answer.covariance(row, column);
+  result->features_us = microseconds(answer.times.features_ns);
+  result->align_us = microseconds(answer.times.align_ns);
+  result->match_us = microseconds(answer.times.match_ns);
+  result->pose_us = microseconds(answer.times.pose_ns);
+  result->confidence = answer.confidence;
+  result->cut_short = answer.cut_short;
+  result->state = stateFrom(answer.state);
+  result->map_index = answer.map;
+  result->frames = answer.frames;
+  result->guided = answer.guided;
+  result->depth = depthBiasFrom(answer.depth);
+}
+
+}  // namespace sphc

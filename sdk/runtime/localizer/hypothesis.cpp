@@ -1,0 +1,43 @@
+#include "runtime/localizer/hypothesis.h"
+
+namespace sphc {
+
+void MatchSet::layout(uint32_t max_keypoints, Arena &scratch, MatchSet *matches) {
+  MatchSet discarded;  // receives empty spans while measuring
+  MatchSet &m = matches ? *matches : discarded;
+  m.matches_ = scratch.take<Match>("localizer.matches", max_keypoints);
+  // of this frame, and of earlier ones
+  m.correspondences_ = scratch.take<Correspondence>("localizer.correspondences", size_t{2} * max_keypoints);
+}
+
+void MatchSet::assign(uint32_t count, const FrontEnd &front, const MapView &map) {
+  for (uint32_t i = 0; i < count; ++i) correspondences_[i] = correspondenceOf(matches_[i], front, map);
+  match_count_ = count_ = count;
+}
+
+void Hypothesis::begin(uint32_t map_index, uint32_t frame_count) {
+  Hypothesis fresh;
+  fresh.tried = true;
+  fresh.map = map_index;
+  fresh.frames = frame_count;
+  challenge(fresh);
+}
+
+void Hypothesis::challenge(const Hypothesis &other) {
+  const MatchSet own = matched;
+  *this = other;
+  matched = own;
+  matched.clear();
+}
+
+Correspondence correspondenceOf(const Match &match, const FrontEnd &front, const MapView &map) {
+  return {front.lifted()[match.query], directionOf(map, match.point_index),
+          1.0f - static_cast<float>(match.distance2) / static_cast<float>(match.second2 + 1)};
+}
+
+Vector3 directionOf(const MapView &map, uint32_t point_index) {
+  const Direction d = map.direction(point_index);
+  return Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z));
+}
+
+}  // namespace sphc

@@ -1,0 +1,52 @@
+// What a localizer answers.
+#pragma once
+#include <cstdint>
+
+#include "runtime/types/estimate.h"
+
+namespace sphc {
+
+enum class Outcome : uint8_t {
+  kLocalized,
+  kFewKeypoints,
+  kFewDepths,
+  kFewMatches,
+  kNoConsensus,  // no pose agrees with clearly more matches than chance would
+  kUncertain,    // a pose was found, but the matches pin it down too weakly
+  kDeadline
+};
+
+enum class TrackingState : uint8_t { kRelocalizing, kTracking, kLost };  // tracker.h draws the transitions
+
+// What became of one keypoint.
+struct Observation {
+  float x_px, y_px;      // in the colour image
+  float scale_px;        // standard deviation of the Gaussian it was found at
+  float depth_m;         // z in the colour camera; 0 unless lifted
+  uint32_t point_index;  // of the matched map point
+  bool lifted, matched, inlier;
+};
+
+struct StageTimes {
+  uint64_t features_ns = 0, align_ns = 0, match_ns = 0, pose_ns = 0;
+};
+
+struct LocalizerResult {
+  Outcome outcome = Outcome::kFewMatches;
+  TrackingState state = TrackingState::kRelocalizing;  // after this frame
+  uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0;
+  uint32_t samples = 0;    // minimal samples drawn, in all searches
+  bool cut_short = false;  // by the time limit
+  uint32_t map = 0;        // that the pose is in; without a pose the likeliest
+  uint32_t frames = 1;     // whose matches were put together
+  bool guided = false;     // found where it was expected
+  // Where the outcome is kLocalized; covariance of (rotation rad, translation m), camera frame, T = exp(xi)
+  // T_estimate.
+  Rigid camera_from_map;
+  Matrix6 covariance = Matrix6::Zero();
+  double confidence = 0;   // probability that the pose is within 5 cm and 5 degrees
+  DepthCalibration depth;  // with which the frame was looked at
+  StageTimes times;
+};
+
+}  // namespace sphc

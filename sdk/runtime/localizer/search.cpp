@@ -1,0 +1,126 @@
+#include "runtime/localizer/search.h"
+
+#include <algorithm>
+
+#include "runtime/localizer/tuning.h"
+
+namespace sphc {
+
+double coneOf(const Prediction &expected) {
+  const double sigma_rad = expected.rotation_sigma_rad + expected.translation_sigma_m / tuning::kTypicalDepthM;
+  return std::max(tuning::kLeastConeRad, tuning::kConeSigmas * sigma_rad);
+}
+
+double solidAngleOf(double cone_rad) {
+  double sine, cosine;
+  sinCos(cone_rad, &sine, &cosine);
+  return 2 * kPi * (1 - cosine);
+}
+
+namespace {
+
+Prediction predictionOf(const Known &known) {
+  return {known.map, known.prior.camera_from_map, known.prior.rotation_sigma_rad, known.prior.translation_sigma_m};
+}
+
+}  // namespace
+
+bool isNarrow(const Known &known) {
+  return known.prior.has_pose && coneOf(predictionOf(known)) < tuning::kMostConeRad;
+}
+
+bool expectedPose(const Known &known, const Tracker *tracker, Prediction *expected) {
+  if (isNarrow(known)) {
+    *expected = predictionOf(known);
+    return true;
+  }
+  return tracker && tracker->predict(expected) && coneOf(*expected) < tuning::kMostConeRad;
+}
+
+void Search::layout(uint32_t max_keypoints, Arena &scratch, Search *search) {
+  Search discarded;  // receives empty spans while measuring
+  Search &s = search ? *search : discarded;
+  s.predicted_ = scratch.take<Direction>("localizer.predicted", max_keypoints);
+  s.rays_ = scratch.take<Match>("localizer.rays", max_keypoints);
+  Matcher::layout(max_keypoints, scratch, search ? &s.matcher_ : nullptr);
+}
+
+void Search::init(const LocalizerConfig &config) {
+  max_ratio_ = config.max_ratio;
+  probes_ = config.probes;
+  clock_ = config.clock;
+}
+
+MapOrder Search::rankMaps(const FrontEnd &front, Work *work) {
+  MapOrder order;
+  const uint32_t voters = std::min(tuning::kVoters, front.liftedCount());
+  uint32_t votes[kMostMaps] = {}, most = 0;
+  for (uint32_t map = 0; map < mapCount() && mapCount() > 1; ++map) {
+    votes[map] = countVotes(front, map, voters, work);
+    most = std::max(most, votes[map]);
+  }
+  for (uint32_t rank = 0; rank < tuning::kMapsTried && rank < mapCount(); ++rank) {
+    uint32_t best = mapCount();
+    for (uint32_t map = 0; map < mapCount(); ++map) {
+      const bool taken = std::find(order.begin(), order.end(), map) != order.end();
+      if (!taken && (best == mapCount() || votes[map] > votes[best])) best = map;
+    }
+    if (rank > 0 && 2 * votes[best] < most) break;
+    order.push(best);
+  }
+  return order;
+}
+
+// How many of the keypoints find their like in the map?
+uint32_t Search::countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, Work *work) {
+  ask(front, map, voters, tuning::kVoteProbes, work);
+  return match(voters, rays_, work);
+}
+
+Search::Question Search::ask(const FrontEnd &front, uint32_t map, uint32_t keypoints, uint32_t probes, Work *work) {
+  const int64_t begin = clock_.now();
+  matcher_.ask(maps_[map], front.descriptors().first(keypoints), probes);
+  work->match_ns += elapsedNs(begin, clock_.now());
+  return {&front, &maps_[map]};
+}
+
+uint32_t Search::match(uint32_t keypoints, Span<Match> room, Work *work) {
+  const int64_t begin = clock_.now();
+  const uint32_t count =
+      probes_ ? matcher_.matchAll(keypoints, max_ratio_, room) : matcher_.matchExact(max_ratio_, room);
+  work->match_ns += elapsedNs(begin, clock_.now());
+  return count;
+}
+
+void Search::matchEverywhere(const Question &question, uint32_t keypoints, MatchSet *matched, Work *work) {
+  const uint32_t count = match(keypoints, matched->room(), work);
+  matched->assign(count, *question.front, *question.map);
+}
+
+void Search::matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad,
+                       Span<const Match> rays, MatchSet *matched, Work *work) {
+  const int64_t begin = clock_.now();
+  const FrontEnd &front = *question.front;
+  const uint32_t lifted = front.liftedCount();
+  const Rigid map_from_camera = camera_from_map.inverse();
+  for (uint32_t i = 0; i < lifted; ++i) {
+    const Vector3 d = (map_from_camera * front.lifted()[i].point_m).normalized();
+    predicted_[i] = {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())};
+  }
+  double sine, cosine;
+  sinCos(cone_rad, &sine, &cosine);
+  uint32_t count =
+      matcher_.matchNear(predicted_.first(lifted), static_cast<float>(cosine), max_ratio_, matched->room());
+  for (const Match &ray : rays) matched->room()[count++] = ray;
+  work->match_ns += elapsedNs(begin, clock_.now());
+  matched->assign(count, front, *question.map);
+}
+
+Span<const Match> Search::raysOf(const FrontEnd &front, const MatchSet &matched) {
+  uint32_t count = 0;
+  for (const Match &match : matched.matches())
+    if (match.query >= front.liftedCount()) rays_[count++] = match;
+  return rays_.first(count);
+}
+
+}  // namespace sphc

@@ -1,0 +1,70 @@
+// Where in the maps to look: which of them, and there everywhere or near where a pose predicts each keypoint.
+#pragma once
+#include "runtime/base/fixed_vector.h"
+#include "runtime/localizer/hypothesis.h"
+#include "runtime/localizer/tracker.h"
+#include "runtime/stages/match/matcher.h"
+
+namespace sphc {
+
+using MapOrder = FixedVector<uint32_t, kMostMaps>;
+
+// What a frame has cost so far.
+struct Work {
+  uint32_t samples = 0;  // minimal ones
+  uint64_t match_ns = 0;
+};
+
+// Half angle of the cone in which the matches of an expected pose are sought.
+double coneOf(const Prediction &expected);
+// In steradians, of a cone of this half angle.
+double solidAngleOf(double cone_rad);
+// Does the caller's pose narrow the search?
+bool isNarrow(const Known &known);
+// Where the camera should be: by the caller, else by earlier frames (`tracker` may be null); false where both say
+// too little to narrow the search.
+bool expectedPose(const Known &known, const Tracker *tracker, Prediction *expected);
+
+class Search {
+ public:
+  // A frame's keypoints, asked of one map; good until the next is made.
+  struct Question {
+    const FrontEnd *front = nullptr;
+    const MapView *map = nullptr;
+  };
+
+  static void layout(uint32_t max_keypoints, Arena &scratch, Search *search);
+  void init(const LocalizerConfig &config);
+  void addMap(const MapView &map) { maps_.push(map); }
+  uint32_t mapCount() const { return static_cast<uint32_t>(maps_.size()); }
+  const MapView &map(uint32_t index) const { return maps_[index]; }
+
+  // Which maps to search, the likeliest first.
+  MapOrder rankMaps(const FrontEnd &front, Work *work);
+
+  // About the first `keypoints`; in as many cells of the map's index.
+  Question ask(const FrontEnd &front, uint32_t map, uint32_t keypoints, uint32_t probes, Work *work);
+  // Matches the first `keypoints` with the whole map.
+  void matchEverywhere(const Question &question, uint32_t keypoints, MatchSet *matched, Work *work);
+  // Matches each keypoint with depth in a cone around where the pose predicts it.  Without depth a pose does not
+  // say where to look: those matches are `rays`, of matchEverywhere.
+  void matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad, Span<const Match> rays,
+                 MatchSet *matched, Work *work);
+  // Of these matches those of keypoints without depth; in memory of the search, until the next call.
+  Span<const Match> raysOf(const FrontEnd &front, const MatchSet &matched);
+
+ private:
+  uint32_t countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, Work *work);
+  uint32_t match(uint32_t keypoints, Span<Match> room, Work *work);
+
+  FixedVector<MapView, kMostMaps> maps_;
+  float max_ratio_ = 0;
+  uint32_t probes_ = 0;
+  Clock clock_;
+  Matcher matcher_;
+  // In scratch.
+  Span<Direction> predicted_;
+  Span<Match> rays_;  // and those of votes, which are only counted
+};
+
+}  // namespace sphc

@@ -1,0 +1,128 @@
+#include "runtime/localizer/verification.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/localizer/tuning.h"
+
+namespace sphc {
+
+using namespace tuning;
+
+namespace {
+
+static_assert(1 + kInliersBeyondChallenge / kInliersALeverage <= kMostHighLeverage, "so many may be left out");
+
+// Until a pose that was found is judged.
+Outcome outcomeOf(PoseEnding ending) {
+  if (ending == PoseEnding::kFewCorrespondences) return Outcome::kFewMatches;
+  return ending == PoseEnding::kDeadline ? Outcome::kDeadline : Outcome::kNoConsensus;
+}
+
+PoseQuery queryAbout(const PoseTask &task, const MatchSet &matched) {
+  PoseQuery query = task.query;
+  query.correspondences = matched.all();
+  return query;
+}
+
+void copyWithoutLeverage(const Hypothesis &from, MatchSet *matched) {
+  const auto begin = from.leverage.indices.begin(), end = from.leverage.indices.end();
+  const Span<const Correspondence> all = from.matched.all();
+  for (uint32_t i = 0; i < all.size(); ++i)
+    if (std::find(begin, end, i) == end) matched->add(all[i]);
+}
+
+}  // namespace
+
+void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!searchPose(task, found)) return;
+  rematch(task, found);
+  challengeWithoutLeverage(task, found, rival);
+  challengeMirrored(task, found, rival);
+}
+
+// False where there is nothing to verify.
+bool Verification::searchPose(const PoseTask &task, Hypothesis *hypothesis) const {
+  const PoseQuery query = queryAbout(task, hypothesis->matched);
+  if (query.correspondences.size() < kFewestMatches) return false;
+  const Estimate &found = hypothesis->searched = hypothesis->estimate = estimator_.search(query);
+  work_.samples += found.iterations;
+  hypothesis->outcome = outcomeOf(found.ending);
+  if (found.inliers <= kFewestMatches / 2) return false;
+  hypothesis->evidence.source = hypothesis->guided ? MatchSource::kExpected : MatchSource::kGlobal;
+  hypothesis->evidence.log_chance_first =
+      logChanceOfAgreement(query.correspondences, found.camera_from_map, found.inliers, 3,
+                           {query.depth.noise_scale, estimator_.inlierThreshold2(), task.solid_angle_sr}) +
+      logOf(static_cast<double>(found.iterations) + 1);
+  return true;
+}
+
+// A pose says where in the map each keypoint lies: match them again near there.  True points that lost the ratio
+// test against some distant near-duplicate come back, and fakes, which lie anywhere, drop out.
+void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
+  Estimate &estimate = hypothesis->estimate;
+  MatchSet &matched = hypothesis->matched;
+  for (double cone_rad : task.cones_rad) {
+    search_.matchNear(task.question, estimate.camera_from_map, cone_rad, task.rays, &matched, &work_);
+    if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &matched);
+    estimate = estimator_.refine(queryAbout(task, matched), estimate.camera_from_map);
+  }
+  const Span<const Correspondence> now = matched.ofThisFrame();
+  const auto agrees = [&](const Correspondence &c) { return estimator_.isInlier(c, estimate); };
+  const auto inliers = static_cast<uint32_t>(std::count_if(now.begin(), now.end(), agrees));
+  const double last_cone_rad = task.cones_rad[task.cones_rad.size() - 1];
+  Evidence &evidence = hypothesis->evidence;
+  evidence.inliers = estimate.inliers;
+  evidence.log_chance_second = logChanceOfAgreement(
+      now, estimate.camera_from_map, inliers, 3,
+      {task.query.depth.noise_scale, estimator_.inlierThreshold2(), solidAngleOf(last_cone_rad)});
+  findLeverage(hypothesis);
+  evidence.centre_sigma_ratio = hypothesis->leverage.centre_sigma_ratio;
+  hypothesis->outcome = judgePose(evidence, estimate, min_inliers_);
+}
+
+void Verification::findLeverage(Hypothesis *hypothesis) const {
+  const uint32_t inliers = hypothesis->estimate.inliers;
+  hypothesis->leverage = {};
+  if (inliers >= kInliersBeyondChallenge) return;
+  hypothesis->leverage =
+      highestLeverage(hypothesis->matched.all(), hypothesis->estimate, 1 + inliers / kInliersALeverage);
+}
+
+// A pose may rest on one or two wrong matches, far from the others, that turn it by degrees: the better of it and
+// what is found without them stays.
+void Verification::challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (found->leverage.centre_sigma_ratio < kRestsOnFew) return;
+  rival->challenge(*found);
+  copyWithoutLeverage(*found, &rival->matched);
+  rival->estimate = estimator_.search(queryAbout(task, rival->matched));
+  work_.samples += rival->estimate.iterations;
+  if (rival->estimate.inliers > kFewestMatches / 2) {
+    rematch(task, rival);
+    if (rival->estimate.gain > found->estimate.gain) {
+      std::swap(*found, *rival);
+      return;
+    }
+  }
+  rematch(task, found);  // it stood; once more, from where it is now (decision 25)
+}
+
+// A planar scene far from the centre has a second pose, which the few first matches may prefer.  Both are asked of
+// all that guided re-matching brought; where they are nearly alike, nobody can tell.
+void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!found->isLocalized() || found->guided) return;
+  rival->challenge(*found);
+  rival->estimate = estimator_.refineMirrored(queryAbout(task, found->matched), found->estimate.camera_from_map);
+  const double gain = found->estimate.gain;
+  const Rigid apart = rival->estimate.camera_from_map * found->estimate.camera_from_map.inverse();
+  if (rival->estimate.gain < kNearlyAsGood * gain || rotationAngle(apart.rotation) < kSamePoseRad) return;
+  rematch(task, rival);
+  const double rival_gain = rival->estimate.gain;
+  if (rival_gain > gain)
+    std::swap(*found, *rival);
+  else
+    rematch(task, found);  // as above
+  if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
+}
+
+}  // namespace sphc

@@ -1,0 +1,42 @@
+// From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
+// predicts, then verification against its rivals: what is found without its high-leverage observations, and the
+// second pose of a planar scene.
+#pragma once
+#include "runtime/localizer/fusion.h"
+#include "runtime/stages/pose/estimator.h"
+
+namespace sphc {
+
+// What the hypotheses of one search have in common.
+struct PoseTask {
+  Search::Question question;     // the frame and the map
+  Span<const Match> rays;        // matches of keypoints without depth
+  PoseQuery query;               // without the correspondences, which are the hypothesis's
+  double solid_angle_sr = 0;     // in which the first matches were looked for
+  Span<const double> cones_rad;  // of guided re-matching, one after another
+};
+
+class Verification {
+ public:
+  Verification(Search *search, PoseEstimator *estimator, const Fusion *fusion, uint32_t min_inliers, Work *work)
+      : search_(*search), estimator_(*estimator), fusion_(*fusion), min_inliers_(min_inliers), work_(*work) {}
+
+  // `found` has its first matches.  It becomes the best hypothesis they lead to, and judged; `rival` is memory for
+  // others.
+  void findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+
+ private:
+  bool searchPose(const PoseTask &task, Hypothesis *hypothesis) const;
+  void rematch(const PoseTask &task, Hypothesis *hypothesis) const;
+  void findLeverage(Hypothesis *hypothesis) const;
+  void challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+
+  Search &search_;
+  PoseEstimator &estimator_;
+  const Fusion &fusion_;
+  uint32_t min_inliers_;
+  Work &work_;
+};
+
+}  // namespace sphc
