@@ -85,13 +85,17 @@ def attack_by_map(rows, name, metric):
     return pivot(chosen, ["map", "strategy"], "variant", "value")
 
 
-def kib(text):
-    return f"{int(text) / 1024:.0f} KiB" if int(text) < 1024 * 1024 else f"{int(text) / 1048576:.2f} MiB"
+def readable(text):
+    """Bytes as people say them; nothing where the number says it."""
+    size = int(text)
+    if size < 4096:
+        return ""
+    return f"{size / 1024:.0f} KiB" if size < 1024 * 1024 else f"{size / 1048576:.2f} MiB"
 
 
 def memory(rows):
     """What each configuration takes as a whole, then the large pieces of the usual one."""
-    whole = [[row["configuration"], row["memory"], row["bytes"], kib(row["bytes"])] for row in rows
+    whole = [[row["configuration"], row["memory"], row["bytes"], readable(row["bytes"])] for row in rows
              if row["piece"] == "all"]
     usual = sorted((row for row in rows if row["configuration"] == "640x480/800 keypoints" and row["piece"] != "all"),
                    key=lambda row: -int(row["bytes"]))[:8]
@@ -128,6 +132,15 @@ def audit(rows):
         if whole:
             parts.append("All maps together:\n\n" + pivot(whole, ["variant"], "metric", "value"))
     return "\n".join(parts)
+
+
+def at_a_glance(rows):
+    """The default fakes at eta 1/3, each frame by itself: one row a recording."""
+    chosen = [row for row in rows if (row["fakes"], row["mode"], row["eta"]) == ("patchwork", "single", "0.33")]
+    columns = ["recording", "frames", "localized_percent", "within_5cm_5deg_percent", "median_cm", "median_deg", "worst_cm"]
+    if not chosen:
+        raise ValueError("accuracy.csv has no row of patchwork, single, 0.33")
+    return table(columns, [[row[name] for name in columns] for row in chosen])
 
 
 def sections(root):
@@ -206,7 +219,8 @@ def sections(root):
 
 
 def page(root):
-    parts = [INTRO]
+    glance = at_a_glance(read(Path(root) / "tests" / "pipeline" / "accuracy.csv"))
+    parts = [INTRO, f"## At a glance\n\nThe default settings (patchwork fakes, eta 1/3), each frame by itself:\n\n{glance}"]
     for title, file, target, words, tables in sections(Path(root)):
         parts.append(f"## {title}\n\n[`tests/{file}`](../tests/{file}), measured by `ninja {target}`. {words}\n\n{tables}")
     return "\n".join(parts)
