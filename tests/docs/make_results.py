@@ -220,7 +220,7 @@ def sections(root):
 
 def page(root):
     glance = at_a_glance(read(Path(root) / "tests" / "pipeline" / "accuracy.csv"))
-    parts = [INTRO, f"## At a glance\n\nThe default settings (patchwork fakes, eta 1/3), each frame by itself:\n\n{glance}"]
+    parts = [INTRO, f"## At a glance\n\nThe default fakes (patchwork, eta 1/3), each frame by itself:\n\n{glance}"]
     for title, file, target, words, tables in sections(Path(root)):
         parts.append(f"## {title}\n\n[`tests/{file}`](../tests/{file}), measured by `ninja {target}`. {words}\n\n{tables}")
     return "\n".join(parts)
