@@ -5,52 +5,60 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_C_STANDARD 99)
 set(CMAKE_C_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+get_property(SPHC_HAS_SHARED_LIBRARIES GLOBAL PROPERTY TARGET_SUPPORTS_SHARED_LIBS) # a bare machine has none
+set(CMAKE_POSITION_INDEPENDENT_CODE ${SPHC_HAS_SHARED_LIBRARIES})
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_C_VISIBILITY_PRESET hidden)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 find_program(SPHC_CCACHE ccache)
-if(SPHC_CCACHE)
+if(SPHC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${SPHC_CCACHE})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${SPHC_CCACHE})
 endif()
 
-add_library(sphc_flags INTERFACE)
-target_compile_options(sphc_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion
-  -ffp-contract=off # the same bytes on every machine: multiply-add only where the code says so
-  $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-  # Vectors of SVE cannot be members of structs.  Highway's NEON has the attribute +crypto, which gcc must see on
-  # constructors that it writes itself too; nothing here uses those instructions.
-  target_compile_definitions(sphc_flags INTERFACE
-    "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
-  # Without __ARM_FEATURE_FMA Eigen multiplies and adds one after the other, as it does on x86: the same bytes.
-  target_compile_options(sphc_flags INTERFACE -march=armv8-a+crypto -U__ARM_FEATURE_FMA)
+# Taste and instruction sets come before the user's CMAKE_<LANG>_FLAGS, which have the last word.
+set(flags "-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion")
+if(SPHC_WERROR)
+  string(APPEND flags " -Werror")
 endif()
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  # Highway's NEON has the attribute +crypto, which gcc must see on constructors that it writes itself too; nothing
+  # here uses those instructions.
+  string(APPEND flags " -march=armv8-a+crypto")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^arm" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  string(APPEND flags " -mfp16-format=ieee") # Highway names the type where the processor has it
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^i[3-6]86$")
+  string(APPEND flags " -msse2 -mfpmath=sse") # x87 computes with more digits than the others
+endif()
+set(CMAKE_C_FLAGS "${flags} ${CMAKE_C_FLAGS}")
+set(CMAKE_CXX_FLAGS "${flags} -Wnon-virtual-dtor -Woverloaded-virtual ${CMAKE_CXX_FLAGS}")
+
+# What the results hang on comes after the user's flags.
+add_library(sphc_flags INTERFACE)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+target_link_libraries(sphc_flags INTERFACE Eigen3::Eigen)
+# The same bytes on every machine (docs/platforms.md): multiply-add only where the code says so, and none of Eigen's
+# packets, whose order of summation is the machine's.  Types stay aligned as in libraries that were built with Eigen's
+# defaults.
+target_compile_options(sphc_flags INTERFACE -ffp-contract=off)
+target_compile_definitions(sphc_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+include(SphcSimd)
 if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
   target_link_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE})
   target_compile_options(sphc_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-pass-failed>) # loops asked to be vectors
-  # Vector kernels with sanitizers take clang minutes to compile: of x86's targets the narrowest and AVX2 are enough.
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    target_compile_definitions(sphc_flags INTERFACE
-      "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
-  endif()
 endif()
 
-# The device side: no exceptions, no RTTI; Eigen may neither allocate nor print.
+# The device side: no exceptions, no RTTI; Eigen may neither allocate nor print.  gcc's vectorizer of straight-line code
+# makes fused vfmaddsub for processors that have it, -ffp-contract=off or not.
 add_library(sphc_runtime_flags INTERFACE)
 target_link_libraries(sphc_runtime_flags INTERFACE sphc_flags)
 target_compile_options(sphc_runtime_flags INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>)
-
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy>=1.0)
+  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>
+  $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>)
 
 # Reading these takes longer than most of our files.  ccache needs the options, and CCACHE_SLOPPINESS as in tests/run.sh.
 set(SPHC_PRECOMPILE_FROM 4) # sources; fewer are not worth it
@@ -81,9 +89,7 @@ function(sphc_module name)
     add_library(${name} STATIC ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE sphc_flags PUBLIC ${arg_LINKS})
   endif()
-  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/sdk ${CMAKE_SOURCE_DIR}/sdk/include)
-  # Other people's headers are SYSTEM, so that our warnings speak of our code alone.
-  target_include_directories(${name} SYSTEM PRIVATE ${EIGEN3_INCLUDE_DIRS} /usr/include/eigen3)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/sdk ${PROJECT_SOURCE_DIR}/sdk/include)
   list(FILTER arg_SOURCES INCLUDE REGEX "_simd.cpp$")
   if(SPHC_SANITIZE MATCHES "address" AND arg_SOURCES) # with both sanitizers they take three times as long
     set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS -fno-sanitize=undefined
@@ -99,10 +105,9 @@ function(sphc_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINKS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE sphc_flags ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
-  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/sdk)
-  target_include_directories(${name} SYSTEM PRIVATE /usr/include/eigen3)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/sdk)
   sphc_precompile(${name} gtest/gtest.h Eigen/Core Eigen/Geometry)
-  set(environment TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/support/thread_sanitizer.txt)
+  set(environment TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt)
   if(SPHC_SANITIZE MATCHES "address") # a process a test case would take longer than most cases
     add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
     # OpenNI2 asks threads that have ended whether they live, which wants their stacks to be kept.

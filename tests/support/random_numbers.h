@@ -1,8 +1,8 @@
 // Random vectors, rotations and descriptors for tests; the same on every machine.
 #pragma once
-#include <cmath>
 #include <cstdint>
 
+#include "runtime/base/elementary.h"
 #include "runtime/base/random.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/types/keypoint.h"
@@ -12,8 +12,10 @@ namespace sphc::test {
 inline double uniformIn(Random *random, double low, double high) { return low + (high - low) * random->uniform(); }
 
 inline double normal(Random *random) {  // Box and Muller 1958
-  const double radius = std::sqrt(-2 * std::log(1 - random->uniform()));
-  return radius * std::cos(2 * kPi * random->uniform());
+  const double radius = sqrtOf(-2 * logOf(1 - random->uniform()));
+  double sine, cosine;
+  sinCos(2 * kPi * random->uniform(), &sine, &cosine);
+  return radius * cosine;
 }
 
 inline Vector3 normalVector(Random *random) {

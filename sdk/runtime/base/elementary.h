@@ -1,9 +1,16 @@
 // Elementary functions of our own: the same bits on every machine, which libm does not promise.
 // Built from + - * / and sqrt, which IEEE 754 rounds correctly.
 #pragma once
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+
+static_assert(FLT_EVAL_METHOD == 0,
+              "floats are kept with more digits than they have: on x86, compile with -msse2 -mfpmath=sse");
+#ifdef __FAST_MATH__
+#error "-ffast-math computes other numbers on every machine"
+#endif
 
 namespace sphc {
 

@@ -13,7 +13,7 @@ MessageWriter &MessageWriter::operator<<(const char *text) {
   return *this;
 }
 
-MessageWriter &MessageWriter::operator<<(uint64_t value) {
+MessageWriter &MessageWriter::writeUnsigned(uint64_t value) {
   char digits[20];
   int n = 0;
   do {
@@ -24,12 +24,12 @@ MessageWriter &MessageWriter::operator<<(uint64_t value) {
   return *this;
 }
 
-MessageWriter &MessageWriter::operator<<(int64_t value) {
+MessageWriter &MessageWriter::writeSigned(int64_t value) {
   if (value < 0) {
     put('-');
-    return *this << (~static_cast<uint64_t>(value) + 1);  // -INT64_MIN has no int64
+    return writeUnsigned(~static_cast<uint64_t>(value) + 1);  // -INT64_MIN has no int64
   }
-  return *this << static_cast<uint64_t>(value);
+  return writeUnsigned(static_cast<uint64_t>(value));
 }
 
 MessageWriter &MessageWriter::operator<<(double value) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "spherecloud/spherecloud.h"
 
@@ -14,15 +15,21 @@ class MessageWriter {
     if (target_) target_->text[0] = '\0';
   }
   MessageWriter &operator<<(const char *text);
-  MessageWriter &operator<<(uint64_t value);
-  MessageWriter &operator<<(int64_t value);
-  MessageWriter &operator<<(uint32_t value) { return *this << static_cast<uint64_t>(value); }
-  MessageWriter &operator<<(int32_t value) { return *this << static_cast<int64_t>(value); }
+  // Of any width: which of int, long and long long is which differs between machines.
+  template <typename Integer, typename = std::enable_if_t<std::is_integral_v<Integer>>>
+  MessageWriter &operator<<(Integer value) {
+    if constexpr (std::is_signed_v<Integer>)
+      return writeSigned(value);
+    else
+      return writeUnsigned(value);
+  }
   // Six significant digits, plain notation; "nan", "inf".
   MessageWriter &operator<<(double value);
 
  private:
   void put(char c);
+  MessageWriter &writeUnsigned(uint64_t value);
+  MessageWriter &writeSigned(int64_t value);
 
   sphc_message *target_;
   size_t length_ = 0;

@@ -62,11 +62,11 @@ void sphc_clock_mapper_fini(sphc_clock_mapper **mapper) {
 }
 
 sphc_status sphc_clock_mapper_add(sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t arrival_ns) {
-  return mapper ? mapper->mapper.add(source_time_ns, arrival_ns) : SPHC_E_ARGUMENT;
+  return mapper ? mapper->mapper.add(source_time_ns, arrival_ns) : sphc_status{SPHC_E_ARGUMENT};
 }
 
 sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t *host_time_ns) {
-  return mapper && host_time_ns ? mapper->mapper.map(source_time_ns, host_time_ns) : SPHC_E_ARGUMENT;
+  return mapper && host_time_ns ? mapper->mapper.map(source_time_ns, host_time_ns) : sphc_status{SPHC_E_ARGUMENT};
 }
 
 sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping) {

@@ -5,6 +5,10 @@
 
 #include "runtime/base/elementary.h"
 
+#ifndef EIGEN_DONT_VECTORIZE
+#error "Eigen's packets give every machine other last bits; a target links sphc_flags, which switches them off"
+#endif
+
 namespace sphc {
 
 using Vector2 = Eigen::Vector2d;

@@ -36,7 +36,7 @@ class Validator {
   template <typename T>
   Span<const T> elements(SectionType type) const {
     const MapSection &s = section(type - 1);  // they come in ascending order of type
-    return {reinterpret_cast<const T *>(file_ + s.offset), s.bytes / sizeof(T)};
+    return {reinterpret_cast<const T *>(file_ + s.offset), static_cast<size_t>(s.bytes) / sizeof(T)};
   }
 
  private:
@@ -137,7 +137,7 @@ class Validator {
       return fail(SPHC_E_MAP_FORMAT) << "map section " << i << " reaches beyond the file's end" << kRebuild;
     for (uint64_t at = *end; at < offset; ++at)
       if (file_[at]) return fail(SPHC_E_MAP_FORMAT) << "the map's padding is not zero at byte " << at << kRebuild;
-    if (crc32(0, file_ + s.offset, s.bytes) != s.crc32)
+    if (crc32(0, file_ + s.offset, static_cast<size_t>(s.bytes)) != s.crc32)
       return fail(SPHC_E_MAP_CHECKSUM) << "map section " << i << " was changed after writing" << kRebuild;
     *end = offset + s.bytes;
     return SPHC_OK;

@@ -28,7 +28,7 @@ uint32_t cellOf(const Candidate &c, const FeatureConfig &config) {
 void CandidateList::layout(const FeatureConfig &config, Arena &scratch, CandidateList *out) {
   CandidateList measured;
   CandidateList &self = out ? *out : measured;
-  self.kept_ = std::max(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
+  self.kept_ = std::max<size_t>(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
   self.items_ = scratch.take<Candidate>("features.candidates", 2 * self.kept_);
   self.ranks_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
   self.spare_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);

@@ -1,5 +1,6 @@
 // The scalar twin: the same kernels compiled for single lanes; for tests and for machines without SIMD.
-#define HWY_COMPILE_ONLY_SCALAR
+#include "runtime/base/single_lane.h"  // keep first
+
 #include "runtime/stages/features/blur-inl.h"
 #include "runtime/stages/features/descriptor-inl.h"
 #include "runtime/stages/features/extrema-inl.h"

@@ -83,7 +83,7 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
   }
   const int32_t width = self.widths_[0];
   const auto ring = [&](const char *name, int32_t rows) { return takePlane(scratch, name, width, rows, rows - 1); };
-  for (int32_t l : {0, kLevels - 2}) self.ring_[l] = ring("features.level_rings", kRingRows);
+  for (const int32_t l : {int32_t{0}, kLevels - 2}) self.ring_[l] = ring("features.level_rings", kRingRows);
   self.ring_[kLevels - 1] = ring("features.level_rings", 1);  // for its difference alone
   self.source_ = ring("features.source_ring", kRingRows);
   for (Plane &plane : self.differences_) plane = ring("features.differences", kDogRows);

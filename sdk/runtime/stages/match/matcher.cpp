@@ -44,7 +44,7 @@ void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
 void Matcher::ask(const MapView &map, Span<const Descriptor> queries, uint32_t probes) {
   map_ = &map;
   queries_ = queries;
-  probes_ = std::min(std::max(probes, 1u), std::min(kMaxProbes, map.cellCount()));
+  probes_ = std::min(std::max(probes, uint32_t{1}), std::min(kMaxProbes, map.cellCount()));
   ranks_ = std::max(probes_, std::min(kGuidedProbes, map.cellCount()));
   ranked_ = 0;
   widenRows(map.centroids(), wide_cells_, cell_length2_);

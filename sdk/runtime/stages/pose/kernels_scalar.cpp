@@ -1,5 +1,6 @@
 // The scalar twin: the same kernels compiled for single lanes; for tests and for machines without SIMD.
-#define HWY_COMPILE_ONLY_SCALAR
+#include "runtime/base/single_lane.h"  // keep first
+
 #include "runtime/stages/pose/equations-inl.h"
 #include "runtime/stages/pose/minimal-inl.h"
 #include "runtime/stages/pose/rows-inl.h"

@@ -1,0 +1,57 @@
+#!/bin/bash
+# variants.sh [NAME...] - the same bytes from the runtime as many compilers, flags and machines build it; all of them
+# without names.  The folder beside this file is built as a project of its own, that of somebody who uses the SDK by
+# add_subdirectory.  Ends with "N passed, N failed" and status 1 where any failed.
+set -uo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+cd "$root" || exit 1
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
+clang=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
+release=(-DCMAKE_BUILD_TYPE=Release)
+small=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG")
+debug=(-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 -DCMAKE_CXX_FLAGS_DEBUG=-O0) # asserts, no symbols
+flags() { printf -- '-DCMAKE_C_FLAGS=%s\n-DCMAKE_CXX_FLAGS=%s\n' "$1" "$1"; }
+machine() { printf -- '-DCMAKE_TOOLCHAIN_FILE=%s/toolchains/%s.cmake\n' "$root" "$1"; }
+
+# arguments NAME: sets `arguments` for cmake.
+arguments() {
+  case $1 in
+    scalar) arguments=("${small[@]}" -DSPHC_SIMD=scalar) ;;
+    x86-64-v3) mapfile -t arguments < <(flags -march=x86-64-v3) && arguments+=("${small[@]}" -DSPHC_SIMD=static) ;;
+    debug) arguments=("${debug[@]}" -DSPHC_SIMD=dispatch) ;;
+    clang) arguments=("${release[@]}" "${clang[@]}" -DSPHC_SIMD=dispatch) ;;
+    clang-debug) arguments=("${debug[@]}" "${clang[@]}" -DSPHC_SIMD=static) ;;
+    aarch64) mapfile -t arguments < <(machine aarch64-linux-gnu) && arguments+=("${release[@]}") ;;
+    armhf) # a compiler that may use NEON
+      mapfile -t arguments < <(machine arm-linux-gnueabihf && flags '-mfpu=neon-vfpv4 -mfp16-format=ieee')
+      arguments+=("${release[@]}") ;;
+    riscv64) mapfile -t arguments < <(machine riscv64-linux-gnu) && arguments+=("${release[@]}") ;;
+    i686) mapfile -t arguments < <(machine i686-linux-gnu) && arguments+=("${release[@]}") ;;
+    newlib) mapfile -t arguments < <(machine arm-none-eabi) && arguments+=("${release[@]}") ;;
+    *) echo "no variant \"$1\"; there are: $all" && return 1 ;;
+  esac
+}
+all="scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 newlib"
+
+variant() {
+  local folder=build/portability/$1 arguments
+  arguments "$1" && cmake -S "$here" -B "$folder" -G Ninja -DSPHC_WERROR=ON "${arguments[@]}" &&
+    cmake --build "$folder" --parallel "$(nproc)" && ctest --test-dir "$folder" --output-on-failure --no-tests=error
+}
+
+passed=0 failed=0
+mkdir -p build/portability
+# shellcheck disable=SC2048,SC2086 # words on purpose
+for name in ${*:-$all}; do
+  begin=$SECONDS
+  if variant "$name" >"build/portability/$name.log" 2>&1; then
+    passed=$((passed + 1)) verdict=equal
+  else
+    failed=$((failed + 1)) verdict=FAILED
+    tail -n 60 "build/portability/$name.log"
+  fi
+  printf '%-12s %s, %d s\n' "$name" $verdict $((SECONDS - begin))
+done
+printf '%d passed, %d failed\n' "$passed" "$failed"
+[ "$failed" = 0 ]
