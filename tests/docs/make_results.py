@@ -14,14 +14,15 @@ INTRO = """# Results
 
 <!-- Made by tests/docs/make_results.py; edit that, or the CSV files, and run `ninja results_page`. -->
 
-This page is made from the committed CSV files by `ninja results_page`, and the test `docs.results_are_current` fails when it
-is stale. Each section names its file and the build target that measures it again.
+This page is made from the committed CSV files by `ninja results_page`, and the test `docs.results_are_current` fails
+when it is stale. Each section names its file and the build target that measures it again.
 
-- *simulated* is the headset of [drivers_simulated.md](drivers_simulated.md). *redkitchen* is from the data set 7-Scenes, *hololens* is a
-  walk through three rooms with a HoloLens. In *hololens_blocks* each block of frames is localized by a map of the other blocks.
+- *simulated* is the headset of [drivers_simulated.md](drivers_simulated.md). *redkitchen* is from the data set
+  7-Scenes, *hololens* is a walk through three rooms with a HoloLens. In *hololens_blocks* each block of frames is
+  localized by a map of the other blocks.
 - *gaussian* are the paper's fakes, *patchwork* the default ([fakes.md](fakes.md)). *eta* is the share of real points.
-- A table has ratios of times and no milliseconds, since machines differ. [testing.md](testing.md#results) says which files a test compares
-  with what it measures.
+- A table has ratios of times and no milliseconds, since machines differ. [testing.md](testing.md#results) says which
+  files a test compares with what it measures.
 """
 
 
@@ -85,13 +86,17 @@ def attack_by_map(rows, name, metric):
     return pivot(chosen, ["map", "strategy"], "variant", "value")
 
 
-def kib(text):
-    return f"{int(text) / 1024:.0f} KiB" if int(text) < 1024 * 1024 else f"{int(text) / 1048576:.2f} MiB"
+def readable(text):
+    """Bytes as people say them; nothing where the number says it."""
+    size = int(text)
+    if size < 4096:
+        return ""
+    return f"{size / 1024:.0f} KiB" if size < 1024 * 1024 else f"{size / 1048576:.2f} MiB"
 
 
 def memory(rows):
     """What each configuration takes as a whole, then the large pieces of the usual one."""
-    whole = [[row["configuration"], row["memory"], row["bytes"], kib(row["bytes"])] for row in rows
+    whole = [[row["configuration"], row["memory"], row["bytes"], readable(row["bytes"])] for row in rows
              if row["piece"] == "all"]
     usual = sorted((row for row in rows if row["configuration"] == "640x480/800 keypoints" and row["piece"] != "all"),
                    key=lambda row: -int(row["bytes"]))[:8]
@@ -130,85 +135,121 @@ def audit(rows):
     return "\n".join(parts)
 
 
-def sections(root):
-    """(title, file, target, what the figures are, the tables)"""
-    pipeline, memory_folder = root / "tests" / "pipeline", root / "tests" / "memory"
-    privacy = read(pipeline / "privacy.csv")
+def at_a_glance(rows):
+    """The default fakes at eta 1/3, each frame by itself: one row a recording."""
+    chosen = [row for row in rows if (row["fakes"], row["mode"], row["eta"]) == ("patchwork", "single", "0.33")]
+    columns = ["recording", "frames", "localized_percent", "within_5cm_5deg_percent", "median_cm", "median_deg", "worst_cm"]
+    if not chosen:
+        raise ValueError("accuracy.csv has no row of patchwork, single, 0.33")
+    return table(columns, [[row[name] for name in columns] for row in chosen])
+
+
+def localization(pipeline):
+    """(title, file, target, what the figures are, the tables): the localizer and its stages."""
+    def rows(name):
+        return read(pipeline / name)
+
     return [
         ("Accuracy", "pipeline/accuracy.csv", "update_results",
-         "Whole recordings through `spherecloud localize`, 800 keypoints a frame. Percentages are of all frames; errors are of the "
-         "frames that were localized. Method: [localizer.md](localizer.md).",
-         flat(read(pipeline / "accuracy.csv"), ["recording"])),
+         "Whole recordings through `spherecloud localize`, 800 keypoints a frame. Percentages are of all frames; errors are\n"
+         "of the frames that were localized. Method: [localizer.md](localizer.md).",
+         flat(rows("accuracy.csv"), ["recording"])),
         ("Whole frames", "pipeline/frame.csv", "frame_results",
-         "The localizer beside pipelines of packages on an open point map of the same place, at eta 33 %, in one interleaved run. "
-         "`times faster than peer`: the time of `opencv sift, faiss ivf 16` over this one's. The group *scaling* has maps of redkitchen of growing "
-         "size. Method: [bench.md](bench.md#whole-frames).",
-         flat(read(pipeline / "frame.csv"), ["recording"])),
+         "The localizer beside pipelines of packages on an open point map of the same place, at eta 33 %, in one interleaved\n"
+         "run. `times faster than peer`: the time of `opencv sift, faiss ivf 16` over this one's. The group *scaling* has\n"
+         "maps of redkitchen of growing size. Method: [bench.md](bench.md#whole-frames).",
+         flat(rows("frame.csv"), ["recording"])),
         ("Features", "pipeline/features.csv", "features_results",
-         "Keypoints and matches of pairs of frames 8 and 20 apart; *verified* ones agree with the recorded poses. Method: "
-         "[bench.md](bench.md#features), [features.md](features.md).",
-         flat(read(pipeline / "features.csv"), ["recording"])),
+         "Keypoints and matches of pairs of frames 8 and 20 apart; *verified* ones agree with the recorded poses.\n"
+         "Method: [bench.md](bench.md#features), [features.md](features.md).",
+         flat(rows("features.csv"), ["recording"])),
         ("Alignment", "pipeline/align.csv", "align_results",
-         "redkitchen. `edge px`: median distance from depth edges to image edges. Method: [bench.md](bench.md#alignment), "
+         "redkitchen. `edge px`: median distance from depth edges to image edges. Method: [bench.md](bench.md#alignment),\n"
          "[alignment.md](alignment.md).",
-         flat(read(pipeline / "align.csv"), ["depth"])),
+         flat(rows("align.csv"), ["depth"])),
         ("Matching", "pipeline/match.csv", "match_results",
-         "1000 queries of redkitchen on maps of growing size. `times faster than ivf`: than the fastest `faiss ivf` row of at least the same "
-         "`ratio set recall`. Method: [bench.md](bench.md#matching), [matching.md](matching.md).",
-         flat(read(pipeline / "match.csv"), ["points"])),
+         "1000 queries of redkitchen on maps of growing size. `times faster than ivf`: than the fastest `faiss ivf` row of\n"
+         "at least the same `ratio set recall`. Method: [bench.md](bench.md#matching), [matching.md](matching.md).",
+         flat(rows("match.csv"), ["points"])),
         ("Pose", "pipeline/pose.csv", "pose_results",
-         "Estimators on the same correspondences with known poses. *tof*: depth of the sensor; *oracle*: depth of the true points. "
-         "PoseLib, OpenCV and OpenGV get the true points and no fake. Method: [bench.md](bench.md#pose), [pose.md](pose.md).",
-         flat(read(pipeline / "pose.csv"), ["file", "depth"])),
+         "Estimators on the same correspondences with known poses. *tof*: depth of the sensor; *oracle*: depth of the true\n"
+         "points. PoseLib, OpenCV and OpenGV get the true points and no fake. Method: [bench.md](bench.md#pose),\n"
+         "[pose.md](pose.md).",
+         flat(rows("pose.csv"), ["file", "depth"])),
         ("Growth of the pose stage", "pipeline/pose_growth.csv", "pose_growth_results",
          "PoseLib's time over the variant's, of the same run. Method: [bench.md](bench.md#growth).",
-         growth(read(pipeline / "pose_growth.csv"))),
+         growth(rows("pose_growth.csv"))),
+    ]
+
+
+def others(pipeline):
+    """Confidence, the systems of the literature, recordings."""
+    def rows(name):
+        return read(pipeline / name)
+
+    return [
         ("Confidence", "pipeline/confidence.csv", "confidence_results",
-         "How often poses are right against the confidence that was stated. `ece`: expected calibration error, over 10 bins. Method: "
-         "[confidence.md](confidence.md).",
-         flat(read(pipeline / "confidence.csv"), [])),
+         "How often poses are right against the confidence that was stated. `ece`: expected calibration error, over 10\n"
+         "bins. Method: [confidence.md](confidence.md).",
+         flat(rows("confidence.csv"), [])),
         ("Baselines", "pipeline/compare.csv", "compare_results",
-         "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the library at eta 33 %. "
-         "Method: [baselines.md](baselines.md).",
-         flat(read(pipeline / "compare.csv"), ["input", "depth"])),
+         "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the\n"
+         "library at eta 33 %. Method: [baselines.md](baselines.md).",
+         flat(rows("compare.csv"), ["input", "depth"])),
         ("Recording codecs", "pipeline/recording.csv", "recording_results",
-         "Depth codecs: how much smaller than raw, and time to encode over that of the default. Method: [recording.md](recording.md).",
-         flat(read(pipeline / "recording.csv"), ["recording", "width", "height"])),
+         "Depth codecs: how much smaller than raw, and time to encode over that of the default.\n"
+         "Method: [recording.md](recording.md).",
+         flat(rows("recording.csv"), ["recording", "width", "height"])),
+        ("Descriptors", "pipeline/descriptors.csv", "descriptors_results",
+         "Coarser descriptors, and descriptors under a key: what localization loses and what a stranger can still tell.\n"
+         "Method: [descriptors.md](descriptors.md).",
+         flat(rows("descriptors.csv"), ["place"])),
+    ]
+
+
+def privacy(rows):
+    """What attacks won."""
+    releases = ("intersection", "triangulation", "leaks", "presence", "querying client")
+    return [
         ("Density attack", "pipeline/privacy.csv", "density_results",
          "Points recovered from lines alone. Method: [baselines.md](baselines.md#the-density-attack).",
-         attack(privacy, "density")),
+         attack(rows, "density")),
         ("Real or fake", "pipeline/privacy.csv", "audit_results",
-         "AUC by cue and classifier (0.5 is chance), then the precision of the share eta that scores highest (chance: eta). "
+         "AUC by cue and classifier (0.5 is chance), then the precision of the share eta that scores highest (chance: eta).\n"
          "Method: [real_or_fake.md](real_or_fake.md).",
-         attack_by_map(privacy, "real_or_fake", "auc") + "\nPrecision:\n\n"
-         + attack_by_map(privacy, "real_or_fake", "precision_at_eta")),
+         attack_by_map(rows, "real_or_fake", "auc") + "\nPrecision:\n\n"
+         + attack_by_map(rows, "real_or_fake", "precision_at_eta")),
         ("Image inversion", "pipeline/privacy.csv", "audit_results",
-         "Pictures painted from the sphere centre, before near-duplicates were merged and with one network; the audit below has maps as they "
-         "are published today. Method: [inversion.md](inversion.md).",
-         attack(privacy, "inversion")),
+         "Pictures painted from the sphere centre, before near-duplicates were merged and with one network; the audit below\n"
+         "has maps as they are published today. Method: [inversion.md](inversion.md).",
+         attack(rows, "inversion")),
         ("Audit", "pipeline/privacy.csv", "audit_results",
          "Every map under `spherecloud audit`. Method: [audit.md](audit.md).",
-         audit(privacy)),
+         audit(rows)),
         ("Several releases", "pipeline/privacy.csv", "releases_results",
-         "One place released several times, without discipline (*undisciplined*) and through the owner's ledger (*released*). Method: "
-         "[release.md](release.md).",
-         "\n".join(f"### {name[0].upper()}{name[1:]}\n\n{attack(privacy, name)}"
-                   for name in ("intersection", "triangulation", "leaks", "presence", "querying client"))),
-        ("Descriptors", "pipeline/descriptors.csv", "descriptors_results",
-         "Coarser descriptors, and descriptors under a key: what localization loses and what a stranger can still tell. Method: "
-         "[descriptors.md](descriptors.md).",
-         flat(read(pipeline / "descriptors.csv"), ["place"])),
-        ("Memory", "memory/bytes.csv", "memory_results",
-         "What a caller hands over. Method: [memory.md](memory.md).", memory(read(memory_folder / "bytes.csv"))),
-        ("Stack", "memory/stack.csv", "memory_results",
-         "A ceiling for each call; the tests fail above it.", flat(read(memory_folder / "stack.csv"), [])),
+         "One place released several times, without discipline (*undisciplined*) and through the owner's ledger\n"
+         "(*released*). Method: [release.md](release.md).",
+         "\n".join(f"### {name[0].upper()}{name[1:]}\n\n{attack(rows, name)}" for name in releases)),
+    ]
+
+
+def memory_sections(folder):
+    return [
+        ("Memory", "memory/bytes.csv", "memory_results", "What a caller hands over. Method: [memory.md](memory.md).",
+         memory(read(folder / "bytes.csv"))),
+        ("Stack", "memory/stack.csv", "memory_results", "A ceiling for each call; the tests fail above it.",
+         flat(read(folder / "stack.csv"), [])),
     ]
 
 
 def page(root):
-    parts = [INTRO]
-    for title, file, target, words, tables in sections(Path(root)):
-        parts.append(f"## {title}\n\n[`tests/{file}`](../tests/{file}), measured by `ninja {target}`. {words}\n\n{tables}")
+    pipeline = Path(root) / "tests" / "pipeline"
+    parts = [INTRO, f"## At a glance\n\nThe default fakes (patchwork, eta 1/3), each frame by itself:\n\n"
+                    f"{at_a_glance(read(pipeline / 'accuracy.csv'))}"]
+    sections = (localization(pipeline) + others(pipeline) + privacy(read(pipeline / "privacy.csv"))
+                + memory_sections(Path(root) / "tests" / "memory"))
+    for title, file, target, words, tables in sections:
+        parts.append(f"## {title}\n\n[`tests/{file}`](../tests/{file}), measured by `ninja {target}`.\n{words}\n\n{tables}")
     return "\n".join(parts)
 
 
