@@ -63,8 +63,9 @@ def targets_of(root):
     """Names of all targets that some CMake file may make."""
     made = re.compile(r"(?:add_custom_target|add_executable|add_library|sphc_module)\(\s*(\w+)")
     folders = ("sdk", "drivers", "examples", "tests")
-    files = [path for folder in folders for path in (root / folder).rglob("CMakeLists.txt")]
-    return {name for path in files for name in made.findall(path.read_text(encoding="utf-8"))}
+    texts = [path.read_text(encoding="utf-8") for folder in folders for path in (root / folder).rglob("CMakeLists.txt")]
+    labels = {f"tests_{label}" for text in texts for label in re.findall(r"sphc_label\(\s*(\w+)", text)}
+    return labels.union(*(made.findall(text) for text in texts))
 
 
 def all_faults(root, commands):

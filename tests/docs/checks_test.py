@@ -144,9 +144,10 @@ class Checks(unittest.TestCase):
         self.assertEqual(faults, ["docs/one.md:1: no command has the option --gone"])
 
     def test_a_target_that_is_gone(self):
-        self.write("tests/CMakeLists.txt", "add_custom_target(kept_results)\n")
-        self.page("`ninja kept_results gone_results`\n")
-        self.assertEqual(self.commands(), ["docs/one.md:1: the build has no target gone_results"])
+        self.write("tests/CMakeLists.txt", "add_custom_target(kept_results)\nsphc_label(unit some_test)\n")
+        self.page("`ninja kept_results gone_results tests_unit tests_gone`\n")
+        self.assertEqual(self.commands(), ["docs/one.md:1: the build has no target " + name
+                                           for name in ("gone_results", "tests_gone")])
 
     def test_a_private_word(self):
         self.page("What goes through the\ndoor is checked.\n")

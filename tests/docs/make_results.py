@@ -138,9 +138,10 @@ def audit(rows):
 def at_a_glance(rows):
     """The default fakes at eta 1/3, each frame by itself: one row a recording."""
     chosen = [row for row in rows if (row["fakes"], row["mode"], row["eta"]) == ("patchwork", "single", "0.33")]
-    columns = ["recording", "frames", "localized_percent", "within_5cm_5deg_percent", "median_cm", "median_deg", "worst_cm"]
     if not chosen:
         raise ValueError("accuracy.csv has no row of patchwork, single, 0.33")
+    shown = ("recording", "keys", "frames", "localized", "within", "median_cm", "median_deg", "worst_cm", "wrong_accepted")
+    columns = [name for name in chosen[0] if name.startswith(shown)]
     return table(columns, [[row[name] for name in columns] for row in chosen])
 
 
@@ -152,7 +153,9 @@ def localization(pipeline):
     return [
         ("Accuracy", "pipeline/accuracy.csv", "update_results",
          "Whole recordings through `spherecloud localize`, 800 keypoints a frame. Percentages are of all frames; errors are\n"
-         "of the frames that were localized. Method: [localizer.md](localizer.md).",
+         "of the frames that were localized. Where a row has several keys, a column that ends in *median* or *worst* is over the\n"
+         "keys. Frames of *..._elsewhere* are of another place, and those of *..._rest* of the rest of the walk: most of them\n"
+         "must be refused. Method: [testing.md](testing.md#accuracy), [localizer.md](localizer.md).",
          flat(rows("accuracy.csv"), ["recording"])),
         ("Whole frames", "pipeline/frame.csv", "frame_results",
          "The localizer beside pipelines of packages on an open point map of the same place, at eta 33 %, in one interleaved\n"
