@@ -28,6 +28,16 @@ class Accuracy(unittest.TestCase):
                        {"wrong_accepted": "1"}):
             self.assertEqual(1, len(list(accuracy.faults(row(**change)))), change)
 
+    def test_over_keys_the_median_and_the_worst_have_floors_of_their_own(self):
+        def found(*shares, wrong="0"):
+            rows = [row(key=str(key), within_5cm_5deg_percent=share, wrong_accepted=wrong) for key, share in enumerate(shares, 1)]
+            return list(accuracy.faults_over_keys(accuracy.spread(rows)[0]))
+
+        self.assertEqual([], found("99.0", "100.0", "94.0"))
+        self.assertEqual(["within_5cm_5deg_percent_worst: 93.9, limit 94.0"], found("99.0", "100.0", "93.9"))
+        self.assertEqual(["within_5cm_5deg_percent_median: 96.9, limit 97.0"], found("96.9", "96.9", "100.0"))
+        self.assertEqual(["3 wrong poses accepted of 300 frames"], found("99.0", "100.0", "99.0", wrong="1"))
+
     def test_wrong_is_beyond_25_cm_or_10_deg(self):
         for centimetres, degrees, wrong in ((24.9, 9.9, False), (25.1, 0, True), (0, 10.1, True)):
             frame = {"error": {"translation_m": centimetres / 100, "rotation_deg": degrees}}

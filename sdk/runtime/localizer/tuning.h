@@ -1,6 +1,6 @@
-// Numbers that were chosen by measurement, each with its evidence.  "Blocks": the hololens recording, frames in
-// turn map and query, 20 at a time, where maps show a place from elsewhere; its figures, and those of the other
-// recordings, stand in tests/pipeline/accuracy.csv.
+// Numbers of the localizer, each with its evidence.  "Chosen": by judgement, and never swept; the rows of
+// tests/pipeline/accuracy.csv stand for all of them together.  "Blocks": the hololens recording, frames in turn map
+// and query, 20 at a time, where maps show a place from elsewhere.
 #pragma once
 #include <cstdint>
 
@@ -12,53 +12,52 @@ constexpr double degrees(double value) { return value * kPi / 180; }
 
 // ---- what a frame needs at least ----
 
-// Below these the pose stage has too little for three matches and a test of chance.
+// Chosen: below these there is too little for three matches and a test of chance.
 constexpr uint32_t kFewestKeypoints = 32, kFewestLifted = 16, kFewestMatches = 6;
 
 // ---- lifting ----
 
-// Coarser keypoints are placed less exactly: their error grows with half their scale beyond this.
+// Coarser keypoints are placed less exactly: their error grows in proportion to their scale beyond this.  Chosen.
 constexpr double kFineScalePx = 2;
-// Where a keypoint without depth is taken to lie, as far as the map's error goes: a typical depth's order.
+// Where a keypoint without depth is taken to lie, as far as the map's error goes.  Chosen: the order of a room's
+// depths.
 constexpr double kRayM = 1;
 
 // ---- search: where in the maps to look ----
 
 // The search cone of an expected pose: so many sigmas, but no less than a cone in which agreement still proves
-// something (a narrower one is filled by the inlier regions: decision 13), and beyond the most the whole map costs
-// no more and finds as much.
+// something (a narrower one is filled by the inlier regions: decision 13), and beyond the most the whole map is
+// searched.  Chosen.
 constexpr double kConeSigmas = 3, kLeastConeRad = degrees(2.5), kMostConeRad = degrees(10);
-constexpr double kTypicalDepthM = 2;  // of rooms: turns an error of the camera's place into an angle
-// Keypoints with depth that are asked first: on redkitchen they tell the pose in most frames, in a third of the
-// time.
+constexpr double kTypicalDepthM = 2;  // chosen; turns an error of the camera's place into an angle
+// Keypoints with depth that are asked first: they often tell the pose already.  Chosen.
 constexpr uint32_t kStrongest = 200;
 // Guided re-matching leans towards the pose it was made with: where not all matches were asked, the first ones must
-// leave no doubt.  Log of the chance; wrong poses on foreign maps were never seen below -6.
+// leave no doubt.  Log of the chance; wrong poses on foreign maps were never seen below -6, the rest is margin.
 constexpr double kBeyondDoubt = -30;
 // Which map?  Of so many keypoints, how many find their like in each, in so many cells of the index; the best maps
-// are then searched, but none with less than half of the first's.  Decided on pairs of rooms of all recordings.
+// are then searched, but none with less than half of the first's.  Chosen.
 constexpr uint32_t kVoters = 200, kVoteProbes = 4, kMapsTried = 3;
 
 // ---- verification ----
 
 // Half angles of the cones of guided re-matching, one after another: the first is generous towards a pose of three
-// noisy matches; the second leaves out most fakes, and narrower ones lost true matches.
+// noisy matches, the second leaves out most fakes.  Chosen.
 constexpr double kConesOfSearchedPose[] = {degrees(4), degrees(2.5)}, kConesOfExpectedPose[] = {degrees(2.5)};
 // A pose whose camera centre would be so many times vaguer without its high-leverage observations rests on them: on
-// blocks one that rested on two stood 37 cm off at a stated 2 cm (decision 13).
+// blocks one that rested on such stood 37 cm off at a stated 2 cm (decision 13).
 constexpr double kRestsOnFew = 1.8;
-// One in so many inliers may be left out; among more than these a few that are wrong have no say.
+// One in so many inliers may be left out; among more than these a few that are wrong have no say.  Chosen.
 constexpr uint32_t kInliersALeverage = 12, kInliersBeyondChallenge = 60;
-// Of a flat scene's two poses the right one gained 1.6 times what the other did, or more, on real recordings.
+// Of a planar scene's two poses the right one gained 1.6 times what the other did, or more, on real recordings.
 constexpr double kNearlyAsGood = 0.8, kSamePoseRad = degrees(5);
 
 // ---- judgement ----
 
-constexpr double kMostLogChance = -12;         // wrong poses on foreign maps were never seen below -6
-constexpr double kMostLogChanceExpected = -6;  // an expected pose is likely before it is looked at (decision 13)
-constexpr double kMostRotationSigmaRad =
-    0.05;  // doubted as below: what leaves most poses within 5 cm and 5 degrees
-constexpr double kMostTranslationSigmaM = 0.10;      // the same
+constexpr double kMostLogChance = -12;           // wrong poses on foreign maps were never seen below -6
+constexpr double kMostLogChanceExpected = -6;    // an expected pose is likely before it is looked at (decision 13)
+constexpr double kMostRotationSigmaRad = 0.05;   // doubted as below (decision 13)
+constexpr double kMostTranslationSigmaM = 0.10;  // the same
 constexpr double kMostSigmaWithoutLeverageM = 0.15;  // all poses that it refuses on blocks were more than 5 cm off
 // Errors of the map and outliers among few inliers are not in the covariance: on blocks poses from 15 to 25 inliers
 // were off by 5 sigma, from 100 and more by less than 2.
@@ -66,18 +65,18 @@ constexpr double kInliersOfDoubt = 60;
 
 // ---- fusion: matches of several frames ----
 
-constexpr uint16_t kMostFramesTogether = 60;  // 2 s at 30 Hz, after which steps of odometry have added up
-constexpr double kVagueM = 0.06;  // sideways sigma beyond which a match is worth nothing: a few inlier regions
+constexpr uint16_t kMostFramesTogether = 60;  // chosen: 2 s at 30 Hz
+constexpr double kVagueM = 0.06;              // chosen: sideways sigma beyond which a match is worth nothing
 
 // ---- tracking ----
 
-// How a head moves, 1 sigma: with the velocity known, and without.  Larger than in any recording at hand, since a
-// camera that is not where it was expected costs a search of the whole map.
+// How a head moves, 1 sigma: with the velocity known, and without.  Chosen, and so is
+// all that follows.
 constexpr double kTurnAcceleration = 6, kAcceleration = 4;           // rad / s^2, m / s^2
 constexpr double kTurnRate = 1, kSpeed = 0.7;                        // rad / s, m / s
 constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: a pose is never better known
 constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
 constexpr uint64_t kNearNs = 100000000;                              // beside a frame, motion is steady for so long
-constexpr double kGateSigmas = 5;  // within which two poses agree: true ones are lost once in a million
+constexpr double kGateSigmas = 5;                                    // within which two poses agree
 
 }  // namespace sphc::tuning

@@ -99,12 +99,8 @@ void Verification::challengeWithoutLeverage(const PoseTask &task, Hypothesis *fo
   work_.samples += rival->estimate.iterations;
   if (rival->estimate.inliers > kFewestMatches / 2) {
     rematch(task, rival);
-    if (rival->estimate.gain > found->estimate.gain) {
-      std::swap(*found, *rival);
-      return;
-    }
+    if (rival->estimate.gain > found->estimate.gain) std::swap(*found, *rival);
   }
-  rematch(task, found);  // it stood; once more, from where it is now (decision 25)
 }
 
 // A planar scene far from the centre has a second pose, which the few first matches may prefer.  Both are asked of
@@ -118,10 +114,7 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   if (rival->estimate.gain < kNearlyAsGood * gain || rotationAngle(apart.rotation) < kSamePoseRad) return;
   rematch(task, rival);
   const double rival_gain = rival->estimate.gain;
-  if (rival_gain > gain)
-    std::swap(*found, *rival);
-  else
-    rematch(task, found);  // as above
+  if (rival_gain > gain) std::swap(*found, *rival);
   if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
 }
 
