@@ -414,8 +414,8 @@ typedef struct sphc_memory {
 /* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message);
 
-/* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static storage.
- * [pure] */
+/* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static
+ * storage. [pure] */
 typedef struct sphc_memory_piece {
   const char *name; /* "features.pyramid" */
   size_t bytes;
