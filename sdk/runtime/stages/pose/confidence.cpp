@@ -8,7 +8,7 @@ namespace {
 constexpr double kTolerableM = 0.05, kTolerableRad = 5 * kPi / 180;
 constexpr double kPinnedDown = 3;  // so many inliers agree with any pose that was made from them
 
-// As `spherecloud bench confidence --fit` prints it for the files that docs/confidence.md names.
+// As `spherecloud-lab confidence --fit` prints it for the files that docs/confidence.md names.
 constexpr ConfidenceModel kModel = {-5.8707, {1.5177, 2.7420, 4.5797, 1.9555}};
 
 double clamped(double value, double low, double high) { return value < low ? low : value > high ? high : value; }

@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+"""The checks of the docs can fail: each is given a small tree with one fault, and the same tree without it.
+
+    checks_test.py --cc CC --cxx CXX
+"""
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_code
+import check_commands
+import check_links
+import check_words
+import make_decisions
+import make_results
+import tutorial
+from commands import help_texts
+from markdown import Page
+
+ROOT = Path(__file__).resolve().parents[2]
+COMPILERS = ("cc", "c++")
+
+HELP = """#!/bin/sh
+case "$1" in
+  build) printf 'Usage: spherecloud build [OPTIONS]\\n  -r,--recording PATH  A folder\\n  -h,--help  This\\n' ;;
+  *) printf 'Usage: spherecloud\\n\\nSubcommands:\\n  build    Make a map.\\n\\nExit status: 0\\n' ;;
+esac
+"""
+
+
+class Checks(unittest.TestCase):
+    def setUp(self):
+        self.root = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.root)
+        (self.root / "sdk" / "runtime" / "base").mkdir(parents=True)
+        (self.root / "sdk" / "include").symlink_to(ROOT / "sdk" / "include")
+        self.write("tests/layers/layers.txt", "sdk/runtime/base | |\n")
+        self.write("README.md", "# Project\n\n[index](docs/README.md)\n")
+        self.write("docs/README.md", "# Index\n\n[one](one.md) [architecture](architecture.md) [decisions](decisions/README.md)\n")
+        self.write("docs/architecture.md", "# Folders\n\n`sdk/runtime/base`\n")
+        self.write("docs/decisions/README.md", "# Decisions\n\n[0001](0001-first.md)\n")
+        self.write("docs/decisions/0001-first.md", "# 0001: First\n\nDate: 2026-01-02. Status: accepted.\n")
+        self.page("# One\n\n## A heading\n\nWords.\n")
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def page(self, text):
+        self.write("docs/one.md", text)
+
+    def command(self):
+        path = self.write("spherecloud", HELP)
+        path.chmod(0o755)
+        return path
+
+    def links(self):
+        return check_links.all_faults(self.root)
+
+    def code(self):
+        return check_code.faults_of(self.root, COMPILERS)
+
+    def commands(self):
+        return check_commands.all_faults(self.root, [self.command()])
+
+    def words(self):
+        return check_words.all_faults(self.root, [self.command()])
+
+    def assert_fault(self, faults, words):
+        self.assertTrue(any(words in fault for fault in faults), faults)
+
+    def test_a_good_tree_has_no_fault(self):
+        self.page("# One\n\n## A heading\n\n[here](#a-heading) [there](architecture.md#folders)\n\n"
+                  "```c\n#include <spherecloud/spherecloud.h>\nint f(void);\nint f(void) { return SPHC_OK; }\n```\n\n"
+                  "<!-- before:\nint x = 0;\n-->\n```c fragment\nx = SPHC_AGAIN;\n```\n\n`spherecloud build --recording walk`\n")
+        self.assertEqual(self.links() + self.code() + self.commands() + self.words(), [])
+
+    def test_a_dead_link(self):
+        self.page("[gone](gone.md)\n")
+        self.assert_fault(self.links(), "no file gone.md")
+
+    def test_a_dead_anchor(self):
+        self.page("# One\n\n[there](architecture.md#gone) [here](#nowhere)\n")
+        self.assert_fault(self.links(), "no heading #gone")
+        self.assert_fault(self.links(), "no heading #nowhere")
+
+    def test_a_heading_in_a_code_block_is_no_anchor(self):
+        self.page("# One\n\n```sh\n# shell comment\n```\n\n[here](#shell-comment)\n")
+        self.assert_fault(self.links(), "no heading #shell-comment")
+
+    def test_a_path_that_moved(self):
+        self.page("The file `sdk/gone/file.h`.\n")
+        self.assert_fault(self.links(), "no file or folder sdk/gone/file.h")
+
+    def test_a_page_that_nothing_leads_to(self):
+        self.write("docs/lost.md", "# Lost\n")
+        self.assert_fault(self.links(), "lost.md: not reachable")
+        self.assert_fault(self.links(), "lost.md is not listed")
+
+    def test_a_page_that_is_listed_twice(self):
+        self.write("docs/README.md", (self.root / "docs/README.md").read_text() + "[again](one.md)\n")
+        self.assert_fault(self.links(), "one.md is listed 2 times")
+
+    def test_a_folder_without_a_row(self):
+        self.write("tests/layers/layers.txt", "sdk/runtime/map | |\n")
+        self.assert_fault(self.links(), "no row for sdk/runtime/map")
+
+    def test_code_that_does_not_compile(self):
+        self.page("```c\nint f(void);\nint f(void) { return sphc_gone(); }\n```\n")
+        self.assert_fault(self.code(), "does not compile")
+
+    def test_a_fragment_that_does_not_compile(self):
+        self.page("```c fragment\nsphc_localizer_process(1);\n```\n")
+        self.assert_fault(self.code(), "does not compile")
+
+    def test_cpp_that_does_not_compile(self):
+        self.page("```cpp fragment\nsphc::Gone gone;\n```\n")
+        self.assert_fault(self.code(), "does not compile")
+
+    def test_an_option_that_is_gone(self):
+        self.page("```\nspherecloud build --gone walk\n```\n")
+        self.assert_fault(self.commands(), "has no option --gone")
+
+    def test_an_option_in_a_line_that_goes_on(self):
+        self.page("```sh\nspherecloud build --recording walk \\\n    --gone\n```\n")
+        self.assert_fault(self.commands(), "has no option --gone")
+
+    def test_a_subcommand_that_is_gone(self):
+        self.page("`spherecloud bend --recording walk`\n")
+        self.assert_fault(self.commands(), "has no subcommand bend")
+
+    def test_an_option_in_prose_that_is_gone(self):
+        """Only where both commands are known: an option of the prose may be either's."""
+        lab = self.write("spherecloud-lab", HELP)
+        lab.chmod(0o755)
+        self.page("Say `--recording walk`, or `--gone=1`.\n")
+        faults = check_commands.all_faults(self.root, [self.command(), lab])
+        self.assertEqual(faults, ["docs/one.md:1: no command has the option --gone"])
+
+    def test_a_target_that_is_gone(self):
+        self.write("tests/CMakeLists.txt", "add_custom_target(kept_results)\nsphc_label(unit some_test)\n")
+        self.page("`ninja kept_results gone_results tests_unit tests_gone`\n")
+        self.assertEqual(self.commands(), ["docs/one.md:1: the build has no target " + name
+                                           for name in ("gone_results", "tests_gone")])
+
+    def test_a_private_word(self):
+        self.page("What goes through the\ndoor is checked.\n")
+        self.assert_fault(self.words(), "the door")
+
+    def test_a_private_word_of_a_command(self):
+        command = self.command()
+        command.write_text(HELP.replace("A folder", "A second look"), encoding="utf-8")
+        self.assert_fault(check_words.all_faults(self.root, [command]), "spherecloud build --help")
+
+    def test_the_help_of_every_subcommand_is_read(self):
+        self.assertEqual(list(help_texts(self.command())), ["spherecloud", "spherecloud build"])
+
+    def test_a_command_without_subcommands_is_an_error(self):
+        silent = self.write("spherecloud", "#!/bin/sh\necho nothing\n")
+        silent.chmod(0o755)
+        with self.assertRaises(ValueError):
+            help_texts(silent)
+
+    def test_the_heads_of_decisions(self):
+        folder = self.root / "docs" / "decisions"
+        self.assertIn("| [0001](0001-first.md) | First | accepted | 2026-01-02 |", make_decisions.index(folder))
+        for text in ("# 1. First\n\nDate: 2026-01-02. Status: accepted.\n", "# 0001: First\n\nAccepted.\n"):
+            self.write("docs/decisions/0001-first.md", text)
+            with self.assertRaises(ValueError):
+                make_decisions.index(folder)
+
+    def test_a_figure_that_moved_changes_the_page(self):
+        for folder in ("pipeline", "memory"):
+            shutil.copytree(ROOT / "tests" / folder, self.root / "tests" / folder, ignore=shutil.ignore_patterns("*.cpp"))
+        self.assertEqual(make_results.page(self.root), make_results.page(ROOT))
+        stack = self.root / "tests" / "memory" / "stack.csv"
+        stack.write_text(stack.read_text().replace("sphc_map_init,", "sphc_map_init,9"), encoding="utf-8")
+        self.assertNotEqual(make_results.page(self.root), make_results.page(ROOT))
+
+    def test_every_row_of_a_file_is_in_its_table(self):
+        text = make_results.flat([{"place": "a", "value": "1"}, {"place": "b", "value": "2"}], ["place"])
+        self.assertEqual(text, "### a\n\n| value |\n| --- |\n| 1 |\n\n### b\n\n| value |\n| --- |\n| 2 |\n")
+
+    def test_the_tutorial_prints_something_else(self):
+        shown = ["state 1 KiB", "frame 0 at 1.00 0.00 0.00 m, confidence 1.0"]
+        self.assertEqual(tutorial.differs(["state 2 KiB", "frame 0 at 1.01 0.00 0.00 m, confidence 0.9"], shown), "")
+        self.assertIn("within", tutorial.differs(["state 1 KiB", "frame 0 at 1.10 0.00 0.00 m, confidence 1.0"], shown))
+        self.assertIn("instead", tutorial.differs(["state 1 KiB", "frame 0 has no pose: dark"], shown))
+        self.assertIn("lines", tutorial.differs(shown[:1], shown))
+
+    def test_indented_blocks_are_code(self):
+        self.page("Words:\n\n    spherecloud build --gone\n\nMore.\n")
+        self.assertEqual([block.text for block in Page(self.root / "docs/one.md").blocks], ["spherecloud build --gone\n"])
+        self.assert_fault(self.commands(), "has no option --gone")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cc", default="cc")
+    parser.add_argument("--cxx", default="c++")
+    options = parser.parse_args()
+    COMPILERS = (options.cc, options.cxx)
+    os.environ["LC_ALL"] = "C"
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,273 @@
+#!/usr/bin/env python3
+"""Writes docs/results.md from the committed results: tests/pipeline/*.csv and tests/memory/*.csv.
+
+    make_results.py ROOT            writes the page
+    make_results.py ROOT --check    compares it with the page that is there
+
+Figures stand in the CSV files and on this page, and on no other: pages of methods link to its sections.
+"""
+import csv
+import sys
+from pathlib import Path
+
+INTRO = """# Results
+
+<!-- Made by tests/docs/make_results.py; edit that, or the CSV files, and run `ninja results_page`. -->
+
+This page is made from the committed CSV files by `ninja results_page`, and the test `docs.results_are_current` fails
+when it is stale. Each section names its file and the build target that measures it again.
+
+- *simulated* is the headset of [drivers_simulated.md](drivers_simulated.md). *redkitchen* is from the data set
+  7-Scenes, *hololens* is a walk through three rooms with a HoloLens. In *hololens_blocks* each block of frames is
+  localized by a map of the other blocks.
+- *gaussian* are the paper's fakes, *patchwork* the default ([fakes.md](fakes.md)). *eta* is the share of real points.
+- A table has ratios of times and no milliseconds, since machines differ. [testing.md](testing.md#results) says which
+  files a test compares with what it measures.
+"""
+
+
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def cell(text):
+    return text.replace("|", "\\|")
+
+
+def label(column):
+    return cell(column.replace("_", " "))
+
+
+def table(columns, rows):
+    """A Markdown table; the columns are names, the rows lists of text."""
+    lines = ["| " + " | ".join(map(label, columns)) + " |", "|" + " --- |" * len(columns)]
+    return "\n".join(lines + ["| " + " | ".join(map(cell, row)) + " |" for row in rows]) + "\n"
+
+
+def groups(rows, columns):
+    """Rows by their values in these columns, in the order of the file."""
+    found = {}
+    for row in rows:
+        found.setdefault(tuple(row[column] for column in columns), []).append(row)
+    return found
+
+
+def flat(rows, by, level="###"):
+    """A table for each value of the columns `by`, with all other columns that are not empty."""
+    parts = []
+    for values, members in groups(rows, by).items():
+        columns = [name for name in members[0] if name not in by and any(row[name] for row in members)]
+        if by:
+            parts.append(f"{level} {', '.join(values)}\n")
+        parts.append(table(columns, [[row[name] for name in columns] for row in members]))
+    return "\n".join(parts)
+
+
+def pivot(rows, by, across, value):
+    """A table with a row for each value of the columns `by`, and a column for each value of `across`."""
+    columns = list(dict.fromkeys(row[across] for row in rows))
+    by = [name for name in by if any(row[name] for row in rows)]
+    body = []
+    for values, members in groups(rows, by).items():
+        known = {row[across]: row[value] for row in members}
+        body.append([*values, *(known.get(name, "") for name in columns)])
+    return table([*by, *columns], body)
+
+
+def attack(rows, name):
+    chosen = [row for row in rows if row["attack"] == name]
+    return pivot(chosen, ["map", "strategy", "eta", "variant"], "metric", "value")
+
+
+def attack_by_map(rows, name, metric):
+    """One metric of an attack: a row for each map and strategy, a column for each variant."""
+    chosen = [row for row in rows if row["attack"] == name and row["metric"] == metric]
+    return pivot(chosen, ["map", "strategy"], "variant", "value")
+
+
+def readable(text):
+    """Bytes as people say them; nothing where the number says it."""
+    size = int(text)
+    if size < 4096:
+        return ""
+    return f"{size / 1024:.0f} KiB" if size < 1024 * 1024 else f"{size / 1048576:.2f} MiB"
+
+
+def memory(rows):
+    """What each configuration takes as a whole, then the large pieces of the usual one."""
+    whole = [[row["configuration"], row["memory"], row["bytes"], readable(row["bytes"])] for row in rows
+             if row["piece"] == "all"]
+    usual = sorted((row for row in rows if row["configuration"] == "640x480/800 keypoints" and row["piece"] != "all"),
+                   key=lambda row: -int(row["bytes"]))[:8]
+    other = [row for row in rows if row["piece"] not in ("all",) and row["memory"] == "map file"]
+    return "\n".join([
+        table(["configuration", "memory", "bytes", ""], whole),
+        "The largest pieces of 640 x 480 with 800 keypoints:\n",
+        table(["memory", "piece", "bytes"], [[row["memory"], row["piece"], row["bytes"]] for row in usual]),
+        "A map file:\n",
+        table(["piece", "bytes"], [[row["piece"], row["bytes"]] for row in other])])
+
+
+def growth(rows):
+    """Time of the pose stage against the number of correspondences, and against eta: ratios to the peer's."""
+    parts = []
+    for axis in dict.fromkeys(row["axis"] for row in rows):
+        chosen = [row for row in rows if row["axis"] == axis]
+        parts.append(f"### By {axis.replace('_', ' ')}\n")
+        parts.append(pivot(chosen, ["file", "depth", "how", "x"], "variant", "times_faster_than_poselib"))
+    return "\n".join(parts)
+
+
+def audit(rows):
+    """One table a strategy: figures down, maps across."""
+    chosen = [row for row in rows if row["attack"] == "audit"]
+    parts = []
+    for (strategy,), members in groups(chosen, ["strategy"]).items():
+        single = [row for row in members if row["map"] != "all"]
+        # The variant counts views or repeats eta, which differ from map to map; the rest names what was attacked.
+        for row in single:
+            row["of"] = "" if row["variant"].endswith("views") or row["variant"].startswith("eta is") else row["variant"]
+        parts.append(f"### {strategy}\n\n" + pivot(single, ["metric", "of"], "map", "value"))
+        whole = [row for row in members if row["map"] == "all"]
+        if whole:
+            parts.append("All maps together:\n\n" + pivot(whole, ["variant"], "metric", "value"))
+    return "\n".join(parts)
+
+
+def at_a_glance(rows):
+    """The default fakes at eta 1/3, each frame by itself: one row a recording."""
+    chosen = [row for row in rows if (row["fakes"], row["mode"], row["eta"]) == ("patchwork", "single", "0.33")]
+    if not chosen:
+        raise ValueError("accuracy.csv has no row of patchwork, single, 0.33")
+    shown = ("recording", "keys", "frames", "localized", "within", "median_cm", "median_deg", "worst_cm", "wrong_accepted")
+    columns = [name for name in chosen[0] if name.startswith(shown)]
+    return table(columns, [[row[name] for name in columns] for row in chosen])
+
+
+def localization(pipeline):
+    """(title, file, target, what the figures are, the tables): the localizer and its stages."""
+    def rows(name):
+        return read(pipeline / name)
+
+    return [
+        ("Accuracy", "pipeline/accuracy.csv", "update_results",
+         "Whole recordings through `spherecloud localize`, 800 keypoints a frame. Percentages are of all frames; errors are\n"
+         "of the frames that were localized. Where a row has several keys, a column that ends in *median* or *worst* is over the\n"
+         "keys. Frames of *..._elsewhere* are of another place, and those of *..._rest* of the rest of the walk: most of them\n"
+         "must be refused. Method: [testing.md](testing.md#accuracy), [localizer.md](localizer.md).",
+         flat(rows("accuracy.csv"), ["recording"])),
+        ("Whole frames", "pipeline/frame.csv", "frame_results",
+         "The localizer beside pipelines of packages on an open point map of the same place, at eta 33 %, in one interleaved\n"
+         "run. `times faster than peer`: the time of `opencv sift, faiss ivf 16` over this one's. The group *scaling* has\n"
+         "maps of redkitchen of growing size. Method: [bench.md](bench.md#whole-frames).",
+         flat(rows("frame.csv"), ["recording"])),
+        ("Features", "pipeline/features.csv", "features_results",
+         "Keypoints and matches of pairs of frames 8 and 20 apart; *verified* ones agree with the recorded poses.\n"
+         "Method: [bench.md](bench.md#features), [features.md](features.md).",
+         flat(rows("features.csv"), ["recording"])),
+        ("Alignment", "pipeline/align.csv", "align_results",
+         "redkitchen. `edge px`: median distance from depth edges to image edges. Method: [bench.md](bench.md#alignment),\n"
+         "[alignment.md](alignment.md).",
+         flat(rows("align.csv"), ["depth"])),
+        ("Matching", "pipeline/match.csv", "match_results",
+         "1000 queries of redkitchen on maps of growing size. `times faster than ivf`: than the fastest `faiss ivf` row of\n"
+         "at least the same `ratio set recall`. Method: [bench.md](bench.md#matching), [matching.md](matching.md).",
+         flat(rows("match.csv"), ["points"])),
+        ("Pose", "pipeline/pose.csv", "pose_results",
+         "Estimators on the same correspondences with known poses. *tof*: depth of the sensor; *oracle*: depth of the true\n"
+         "points. PoseLib, OpenCV and OpenGV get the true points and no fake. Method: [bench.md](bench.md#pose),\n"
+         "[pose.md](pose.md).",
+         flat(rows("pose.csv"), ["file", "depth"])),
+        ("Growth of the pose stage", "pipeline/pose_growth.csv", "pose_growth_results",
+         "PoseLib's time over the variant's, of the same run. Method: [bench.md](bench.md#growth).",
+         growth(rows("pose_growth.csv"))),
+    ]
+
+
+def others(pipeline):
+    """Confidence, the systems of the literature, recordings."""
+    def rows(name):
+        return read(pipeline / name)
+
+    return [
+        ("Confidence", "pipeline/confidence.csv", "confidence_results",
+         "How often poses are right against the confidence that was stated. `ece`: expected calibration error, over 10\n"
+         "bins. Method: [confidence.md](confidence.md).",
+         flat(rows("confidence.csv"), [])),
+        ("Baselines", "pipeline/compare.csv", "compare_results",
+         "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the\n"
+         "library at eta 33 %. Method: [baselines.md](baselines.md).",
+         flat(rows("compare.csv"), ["input", "depth"])),
+        ("Recording codecs", "pipeline/recording.csv", "recording_results",
+         "Depth codecs: how much smaller than raw, and time to encode over that of the default.\n"
+         "Method: [recording.md](recording.md).",
+         flat(rows("recording.csv"), ["recording", "width", "height"])),
+        ("Descriptors", "pipeline/descriptors.csv", "descriptors_results",
+         "Coarser descriptors, and descriptors under a key: what localization loses and what a stranger can still tell.\n"
+         "Method: [descriptors.md](descriptors.md).",
+         flat(rows("descriptors.csv"), ["place"])),
+    ]
+
+
+def privacy(rows):
+    """What attacks won."""
+    releases = ("intersection", "triangulation", "leaks", "presence", "querying client")
+    return [
+        ("Density attack", "pipeline/privacy.csv", "density_results",
+         "Points recovered from lines alone. Method: [baselines.md](baselines.md#the-density-attack).",
+         attack(rows, "density")),
+        ("Real or fake", "pipeline/privacy.csv", "audit_results",
+         "AUC by cue and classifier (0.5 is chance), then the precision of the share eta that scores highest (chance: eta).\n"
+         "Method: [real_or_fake.md](real_or_fake.md).",
+         attack_by_map(rows, "real_or_fake", "auc") + "\nPrecision:\n\n"
+         + attack_by_map(rows, "real_or_fake", "precision_at_eta")),
+        ("Image inversion", "pipeline/privacy.csv", "audit_results",
+         "Pictures painted from the sphere centre, before near-duplicates were merged and with one network; the audit below\n"
+         "has maps as they are published today. Method: [inversion.md](inversion.md).",
+         attack(rows, "inversion")),
+        ("Audit", "pipeline/privacy.csv", "audit_results",
+         "Every map under `spherecloud audit`. Method: [audit.md](audit.md).",
+         audit(rows)),
+        ("Several releases", "pipeline/privacy.csv", "releases_results",
+         "One place released several times, without discipline (*undisciplined*) and through the owner's ledger\n"
+         "(*released*). Method: [release.md](release.md).",
+         "\n".join(f"### {name[0].upper()}{name[1:]}\n\n{attack(rows, name)}" for name in releases)),
+    ]
+
+
+def memory_sections(folder):
+    return [
+        ("Memory", "memory/bytes.csv", "memory_results", "What a caller hands over. Method: [memory.md](memory.md).",
+         memory(read(folder / "bytes.csv"))),
+        ("Stack", "memory/stack.csv", "memory_results", "A ceiling for each call; the tests fail above it.",
+         flat(read(folder / "stack.csv"), [])),
+    ]
+
+
+def page(root):
+    pipeline = Path(root) / "tests" / "pipeline"
+    parts = [INTRO, f"## At a glance\n\nThe default fakes (patchwork, eta 1/3), each frame by itself:\n\n"
+                    f"{at_a_glance(read(pipeline / 'accuracy.csv'))}"]
+    sections = (localization(pipeline) + others(pipeline) + privacy(read(pipeline / "privacy.csv"))
+                + memory_sections(Path(root) / "tests" / "memory"))
+    for title, file, target, words, tables in sections:
+        parts.append(f"## {title}\n\n[`tests/{file}`](../tests/{file}), measured by `ninja {target}`.\n{words}\n\n{tables}")
+    return "\n".join(parts)
+
+
+def main():
+    root = Path(sys.argv[1])
+    path, text = root / "docs" / "results.md", page(root)
+    if "--check" not in sys.argv[2:]:
+        path.write_text(text, encoding="utf-8")
+        return 0
+    if path.exists() and path.read_text(encoding="utf-8") == text:
+        print("docs/results.md says what the CSV files say")
+        return 0
+    print("docs/results.md is stale: run `ninja results_page`, look at the difference and commit it")
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
