@@ -196,8 +196,17 @@ void Ledger::read(const SecretKey *expected) {
   } catch (const std::runtime_error &error) {
     refuse(path_, error.what());
   }
+  if (expected && *expected != key_ && valueOf(database_.get(), "SELECT count(*) FROM place") == 0)
+    return takeKey(*expected);
   if (expected && *expected != key_)
     refuse(path_, "it was made with another key. A place keeps its key: leave --key out; a ledger has its own");
+}
+
+// Nothing was released with the old one: a build was killed before.
+void Ledger::takeKey(const SecretKey &key) {
+  SqliteStatement update(database_.get(), "UPDATE owner SET secret_key = ?");
+  update.bind(key.data(), key.size()).run();
+  key_ = key;
 }
 
 Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {

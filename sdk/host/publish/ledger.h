@@ -15,7 +15,7 @@ namespace sphc::host {
 class Ledger {
  public:
   // Opens the ledger, or makes one with this key; only one program at a time has it open.  Throws
-  // std::runtime_error with cause and cure, also when the ledger was made with another key or others may read the
+  // std::runtime_error with cause and cure, also when places were released with another key or others may read the
   // file.  One that was made, and in which nothing was recorded, is removed with this object.
   static Ledger openOrMake(const std::string &path, const SecretKey *key);
   // For a look at what somebody else released; throws when there is none.
@@ -37,6 +37,7 @@ class Ledger {
   void run(const char *statement);
   void make(const SecretKey &key);
   void read(const SecretKey *expected);
+  void takeKey(const SecretKey &key);
 
   std::string path_;
   std::unique_ptr<sqlite3, Closer> database_;

@@ -146,6 +146,19 @@ TEST_F(LedgerTest, ANewOneThatRecordedNothingIsRemoved) {
   EXPECT_EQ(Ledger::openToRead(path_).key(), second) << "one with places stays";
 }
 
+TEST_F(LedgerTest, OneThatAKilledBuildLeftTakesTheNextKey) {
+  const SecretKey first = {1}, second = {2};
+  const std::string killed = path_ + "_killed";
+  {
+    const Ledger ledger = Ledger::openOrMake(killed, &first);
+    std::ofstream(path_, std::ios::binary) << std::ifstream(killed, std::ios::binary).rdbuf();
+    chmod(path_.c_str(), 0600);
+  }
+  Ledger::openOrMake(path_, &second).record(makePlace(1, 20));
+  EXPECT_EQ(Ledger::openToRead(path_).key(), second);
+  EXPECT_THAT(refusal(&first), HasSubstr("another key"));
+}
+
 TEST_F(LedgerTest, AFolderIsNamedAsSuch) {
   EXPECT_THROW(Ledger::openToRead(testing::TempDir()), std::runtime_error);
   try {
