@@ -57,24 +57,32 @@ TEST(Triangulation, AnotherCentreGivesThePointsAway) {
   EXPECT_GT(score.both_real.precision(), 0.9);
 }
 
+// The sample that wins decides how exact the pose is, and rounding decides which one wins: hence a spread over
+// keys.
 TEST(Triangulation, ALargeShiftGivesThemToMillimetres) {
   const PointModel room = test::madeUpRoom(2000, 1);
   PointModel half = room;
   std::sort(half.points.begin(), half.points.end(),
             [](const ModelPoint &p, const ModelPoint &q) { return p.position_m.x() < q.position_m.x(); });
   half.points.resize(1400);
-  const test::MadeUpRelease a = test::released(room, 1, kEta),
-                            b = test::released(test::seenAgain(half, 1, test::otherWorld(), 0, 0), 2, kEta);
-  const Vector3 centre_b = test::otherWorld().inverse() * b.place.centre_m;
-  const double centres_m = (a.place.centre_m - centre_b).norm();
-  ASSERT_GT(centres_m, 0.2);
-  const Triangulation attack = triangulateReleases(a.map, b.map, quick());
-  ASSERT_TRUE(attack.found);
-  EXPECT_LT(rotationAngle(attack.b_from_a * test::otherWorld().rotation.transpose()), 1e-3);
-  const TriangulationScore score = scoreTriangulation(attack, a.truth, b.truth, centres_m);
-  EXPECT_GT(score.both_real.precision(), 0.97);
-  EXPECT_NEAR(static_cast<double>(score.both_real.real) / 1400, kEta * kEta, 0.05);
-  EXPECT_LT(score.median_error_m, 0.002);
+  std::vector<double> errors_m;
+  for (uint8_t key = 1; key <= 23; key += 2) {
+    const test::MadeUpRelease a = test::released(room, key, kEta),
+                              b = test::released(test::seenAgain(half, 1, test::otherWorld(), 0, 0), key + 1, kEta);
+    const Vector3 centre_b = test::otherWorld().inverse() * b.place.centre_m;
+    const double centres_m = (a.place.centre_m - centre_b).norm();
+    ASSERT_GT(centres_m, 0.2);
+    const Triangulation attack = triangulateReleases(a.map, b.map, quick());
+    ASSERT_TRUE(attack.found) << int{key};
+    EXPECT_LT(rotationAngle(attack.b_from_a * test::otherWorld().rotation.transpose()), 3e-3) << int{key};
+    const TriangulationScore score = scoreTriangulation(attack, a.truth, b.truth, centres_m);
+    EXPECT_GT(score.both_real.precision(), 0.97) << int{key};
+    EXPECT_NEAR(static_cast<double>(score.both_real.real) / 1400, kEta * kEta, 0.05) << int{key};
+    errors_m.push_back(score.median_error_m);
+  }
+  std::sort(errors_m.begin(), errors_m.end());
+  EXPECT_LT(errors_m[errors_m.size() / 2], 0.003);
+  EXPECT_LT(errors_m.back(), 0.01);
 }
 
 TEST(Triangulation, UpdatesHaveNoParallax) {
