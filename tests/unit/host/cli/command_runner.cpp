@@ -3,12 +3,8 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
-#include <cmath>
-#include <filesystem>
-
-#include "host/base/write_file.h"
-#include "host/publish/map_writer.h"
 #include "host/report/file.h"
+#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {
@@ -20,13 +16,6 @@ std::string textOf(const std::string &path) {
 
 }  // namespace
 
-TempFolder::TempFolder() {
-  char path[] = "/tmp/sphc_cli_XXXXXX";
-  if (mkdtemp(path)) path_ = path;
-}
-
-TempFolder::~TempFolder() { std::filesystem::remove_all(path_); }
-
 Answer runCommand(const std::string &arguments) { return runProgram(SPHC_COMMAND, arguments); }
 
 Answer runProgram(const std::string &program, const std::string &arguments) {
@@ -35,20 +24,6 @@ Answer runProgram(const std::string &program, const std::string &arguments) {
       program + " " + arguments + " >" + (folder / "out") + " 2>" + (folder / "err") + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
-}
-
-void writeTinyMap(const std::string &path, uint32_t points) {
-  SphereCloud cloud;
-  for (uint32_t i = 0; i < points; ++i) {
-    // A spiral from pole to pole: even, and without doubles.
-    const double z = (2.0 * i + 1) / points - 1, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
-    SpherePoint point = {{r * std::cos(turn), r * std::sin(turn), z}, {}};
-    for (size_t k = 0; k < kDescriptorBytes; ++k) {
-      point.descriptor.bytes[k] = static_cast<uint8_t>(20 + (i * 7 + k * (i + 3)) % 50);
-    }
-    cloud.points.push_back(point);
-  }
-  writeFile(path, encodeMap(cloud, MapId{1, 2, 3}));
 }
 
 }  // namespace sphc::host

@@ -9,6 +9,7 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/host/cli/command_runner.h"
+#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {

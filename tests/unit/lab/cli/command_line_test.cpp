@@ -7,6 +7,7 @@
 
 #include "host/cli/common/exit_code.h"
 #include "tests/unit/host/cli/command_runner.h"
+#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "host/base/usage_error.h"
-#include "tests/unit/host/cli/command_runner.h"
+#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "tests/unit/host/cli/command_runner.h"
+#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {
