@@ -14,8 +14,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from check_commands import logical_lines
-from markdown import Page
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "pipeline"))
+from private_key import private_key  # noqa: E402
+from check_commands import logical_lines  # noqa: E402
+from markdown import Page  # noqa: E402
 
 POSE = re.compile(r"frame (\d+) at (\S+) (\S+) (\S+) m")
 TOLERANCE_M = 0.05  # the simulated images may differ in a bit between C libraries
@@ -66,7 +68,7 @@ def follow(root, build, compiler, folder):
         if command.startswith(("toolchains/", "cmake ")):
             continue  # BUILD has them
         if " build --recording" in command:
-            command += f" --key {root / 'tests' / 'pipeline' / 'test_key.txt'}"
+            command += f" --key {private_key(folder)}"
         printed = run(re.sub(r"^cc ", f"{compiler} -Werror ", command), folder)
         print(command, printed, sep="\n")
         if shown:

@@ -6,6 +6,7 @@ skipped, unless $SPHC_REQUIRE_DATA says that they must be there.
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -47,13 +48,14 @@ def absent(folder):
 
 def every_other_block(source, folder, block, remainder):
     """A TUM recording of every other `block` frames of another."""
-    folder.mkdir()
-    for name in ("rgb", "depth", "groundtruth.txt"):
-        (folder / name).symlink_to(source.resolve() / name)
-    for name in ("rgb.txt", "depth.txt"):
-        lines = [line for line in (source / name).read_text().splitlines() if not line.startswith("#")]
+    for name in ("rgb", "depth"):
+        lines = [line for line in (source / (name + ".txt")).read_text().splitlines() if not line.startswith("#")]
         kept = [line for i, line in enumerate(lines) if i // block % 2 == remainder]
-        (folder / name).write_text("\n".join(kept) + "\n")
+        (folder / name).mkdir(parents=True)
+        (folder / (name + ".txt")).write_text("\n".join(kept) + "\n")
+        for line in kept:
+            shutil.copyfile(source / line.split()[1], folder / line.split()[1])
+    shutil.copyfile(source / "groundtruth.txt", folder / "groundtruth.txt")
 
 
 class Recording:

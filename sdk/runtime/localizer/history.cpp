@@ -46,7 +46,8 @@ void History::add(const LiftedPoint &lifted, uint32_t point_index, float quality
 }
 
 uint32_t History::frames() const {
-  uint64_t seen = 0;  // a bit an age
+  static_assert(tuning::kMostFramesTogether < 64, "a bit an age");
+  uint64_t seen = 0;
   for (const OldMatch &match : matches()) seen |= uint64_t{1} << match.age;
   uint32_t frames = 0;
   for (; seen; seen &= seen - 1) ++frames;
