@@ -1,4 +1,4 @@
-// From libcamera's timestamps to the door's times, all on CLOCK_MONOTONIC.
+// From libcamera's timestamps to the C interface's times, all on CLOCK_MONOTONIC.
 #pragma once
 
 #include <spherecloud/spherecloud.h>

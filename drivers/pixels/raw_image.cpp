@@ -6,7 +6,7 @@ namespace sphc::pixels {
 
 namespace {
 
-constexpr uint32_t kMaxSide = 8192;  // the door's limit too
+constexpr uint32_t kMaxSide = 8192;  // the C interface's limit too
 constexpr uint32_t kMaxStrideBytes = 1u << 20;
 
 bool isYuv(Layout layout) { return layout == Layout::Yuyv || layout == Layout::Uyvy || layout == Layout::Nv12; }

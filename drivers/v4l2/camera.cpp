@@ -24,7 +24,7 @@ int64_t periodNs(const Mode &mode) {
   return mode.period_denominator ? int64_t{mode.period_numerator} * 1000000000 / mode.period_denominator : 0;
 }
 
-// Layouts that are the door's already.
+// Layouts that are the C interface's already.
 bool isReadyMade(const Mode &mode, sphc_format format) {
   if (mode.pixel_format.is_jpeg) return false;
   const pixels::Layout layout = mode.pixel_format.layout;

@@ -14,7 +14,7 @@ namespace {
 
 using pixels::explain;
 
-constexpr uint32_t kMinSide = 16, kMaxSide = 8192;  // the door's
+constexpr uint32_t kMinSide = 16, kMaxSide = 8192;  // the C interface's
 constexpr uint32_t kMaxBufferBytes = 1u << 28;
 
 struct Candidates {

@@ -1,4 +1,4 @@
-/* Prints where each field of the door's structs lies: struct,field,offset,bytes. */
+/* Prints where each field of the C interface's structs lies: struct,field,offset,bytes. */
 #include <spherecloud/spherecloud.h>
 #include <stddef.h>
 #include <stdio.h>

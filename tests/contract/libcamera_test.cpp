@@ -1,4 +1,4 @@
-// What the libcamera driver does with what a camera gives, through its door, on a fake plug-in.
+// What the libcamera driver does with what a camera gives, through its interface, on a fake plug-in.
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -95,7 +95,7 @@ def resolve(root, source, name):
 def check_outside(row, source, name):
     if source.startswith("sdk/include/"):
         fine = STD_C_MIN if source.endswith(".h") else STD_C_MIN | STD_CPP_DOOR
-        return None if name in fine else f"<{name}> may not stand in the door"
+        return None if name in fine else f"<{name}> may not stand in the C interface"
     if "any" in row.libraries:
         return None
     for library, pattern in LIBRARIES.items():

@@ -60,7 +60,7 @@ class LayersTest(unittest.TestCase):
         self.assertFault("sdk/host/audit/attack/x.cpp", '"host/import/point_model.h"', "may not include")
         self.assertFault("sdk/host/audit/attack/x.cpp", '"host/publish/map_writer.h"', "may not include")
 
-    def test_door_users(self):
+    def test_interface_users(self):
         self.assertFault("drivers/sample/x.cpp", '"runtime/base/span.h"', "may not include")
         self.assertFault("drivers/sample/x.cpp", '"drivers/replay/replay.h"', "may not include")
         self.assertFault("examples/x.c", '"runtime/base/span.h"', "may not include")
@@ -81,8 +81,8 @@ class LayersTest(unittest.TestCase):
         for header in ("<vector>", "<thread>", "<iostream>", "<cstdio>", "<stdexcept>", "<memory>"):
             self.assertFault("sdk/runtime/base/x.h", header, "no place on the device")
 
-    def test_door(self):
-        self.assertFault("sdk/include/spherecloud/x.h", "<stdio.h>", "door")
+    def test_interface(self):
+        self.assertFault("sdk/include/spherecloud/x.h", "<stdio.h>", "C interface")
         self.assertFault("sdk/include/spherecloud/x.h", '"runtime/base/span.h"', "may not include")
 
     def test_unknown_folder(self):

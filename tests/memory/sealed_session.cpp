@@ -1,4 +1,4 @@
-// A whole session through the door while the heap is sealed: from sphc_map_init to sphc_map_fini nothing may
+// A whole session through the C interface while the heap is sealed: from sphc_map_init to sphc_map_fini nothing may
 // allocate. sealed_session --break CALL makes a forbidden call instead, to show that the seal holds.
 #include <cstdio>
 #include <cstdlib>

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kFocalPx = 525, kHalfWidth = 0.6, kHalfHeight = 0.45, kNearM = 0.6, kFarM = 4;
 
-// Evenly spread over the cap.
-Vector3 directionNear(const Vector3 &axis, double cap_rad, Random *random) {
+// Evenly spread over the cone.
+Vector3 directionNear(const Vector3 &axis, double cone_rad, Random *random) {
   const Vector3 any = randomDirection(random);
-  if (cap_rad >= kPi) return any;
-  const double cosine = 1 - (1 - std::cos(cap_rad)) * random->uniform();
+  if (cone_rad >= kPi) return any;
+  const double cosine = 1 - (1 - std::cos(cone_rad)) * random->uniform();
   const Vector3 across = (any - any.dot(axis) * axis).normalized();
   return cosine * axis + std::sqrt(1 - cosine * cosine) * across;
 }
@@ -53,7 +53,7 @@ PoseWorld makePoseWorld(const PoseWorldOptions &options) {
     Correspondence c;
     c.lifted = {measured(points[i], options, &random), options.stated_sideways_m, options.stated_depth_sigma_m};
     const Vector3 exact = (map_from_camera * points[i]).normalized();
-    const Vector3 fake = directionNear(exact, options.cap_rad, &random);
+    const Vector3 fake = directionNear(exact, options.cone_rad, &random);
     world.is_true.push_back(i < true_count);
     c.direction = i < true_count ? exact : fake;
     world.correspondences.push_back(c);

@@ -12,7 +12,7 @@ struct PoseWorldOptions {
   uint64_t seed = 1;
   size_t count = 300;         // correspondences, true and false together
   double true_share = 1;      // of them whose direction is that of their point; the rest point anywhere
-  double cap_rad = kPi;       // within so much of it
+  double cone_rad = kPi;      // within so much of it
   double depth_sigma_m = 0;   // noise along the view that is really there
   double pixel_sigma_px = 0;  // noise across it
   double stated_depth_sigma_m = 0.01, stated_sideways_m = 0.005;  // what the correspondences say of their noise

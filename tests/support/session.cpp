@@ -50,7 +50,7 @@ sphc_config sceneConfig() {
 std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint, uint32_t room) {
   auto made = std::make_unique<SceneFrame>();
   made->images = renderScene(config.color_camera, config.depth_camera, sceneViewpoint(viewpoint),
-                             rigidFromDoor(config.color_from_depth), room);
+                             rigidFromC(config.color_from_depth), room);
   const sphc_camera &c = config.color_camera, &d = config.depth_camera;
   made->frame = {};
   made->frame.struct_size = sizeof(sphc_frame);
@@ -98,7 +98,7 @@ sphc_status Session::process(const sphc_frame &frame, sphc_result *result) {
 }
 
 double Session::errorM(const sphc_result &result, uint32_t viewpoint) const {
-  const Rigid map_from_camera = rigidFromDoor(result.camera_from_map).inverse();
+  const Rigid map_from_camera = rigidFromC(result.camera_from_map).inverse();
   const Vector3 centre = map_from_camera.translation_m + rooms_[result.map_index].scene.centre_in_world_m;
   return (centre - sceneViewpoint(viewpoint).inverse().translation_m).norm();
 }

@@ -1,4 +1,4 @@
-// A whole session through the door on the test room: map, config, memory, frames.
+// A whole session through the C interface on the test room: map, config, memory, frames.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -1,4 +1,4 @@
-// COLMAP's camera models, to the door's.  COLMAP's principal points are ours: pixel centres at 0.5.
+// COLMAP's camera models, to the C interface's.  COLMAP's principal points are ours: pixel centres at 0.5.
 #pragma once
 #include <string>
 #include <string_view>
@@ -15,7 +15,7 @@ struct ColmapCameraModel {
   std::vector<int> slots;  // what its parameters are
 };
 
-// Null for a model that the door has none for.
+// Null for a model that the C interface has none for.
 const ColmapCameraModel *findColmapModel(int id);
 const ColmapCameraModel *findColmapModel(std::string_view name);
 // For messages: all names, with commas.

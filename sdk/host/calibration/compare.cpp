@@ -63,7 +63,7 @@ struct DepthToColor {
   Rigid color_from_depth;
 
   explicit DepthToColor(const sphc_calibration &c)
-      : color(c.color_camera), depth(c.depth_camera), color_from_depth(rigidFromDoor(c.color_from_depth)) {}
+      : color(c.color_camera), depth(c.depth_camera), color_from_depth(rigidFromC(c.color_from_depth)) {}
 
   bool project(const Vector2 &depth_px, double z_m, Vector2 *color_px) const {
     Vector2 ray;

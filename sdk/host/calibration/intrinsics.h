@@ -1,4 +1,4 @@
-// Intrinsics by name, to and from the door's camera models.
+// Intrinsics by name, to and from the C interface's camera models.
 #pragma once
 #include <array>
 #include <cstdint>

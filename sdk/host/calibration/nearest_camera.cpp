@@ -14,13 +14,14 @@ constexpr int kMostSteps = 200;
 constexpr double kRelativeStep = 1e-6;
 
 // Differences in pixels, x and y of each sample; a ray that the camera does not see counts as a whole image away.
-Eigen::VectorXd residuals(const std::vector<RaySample> &samples, const sphc_camera &door) {
-  const Camera camera(door);
+Eigen::VectorXd residuals(const std::vector<RaySample> &samples, const sphc_camera &camera_c) {
+  const Camera camera(camera_c);
   Eigen::VectorXd result(2 * samples.size());
   for (size_t i = 0; i < samples.size(); ++i) {
     Vector2 pixel;
     const bool seen = camera.project({samples[i].ray.x(), samples[i].ray.y(), 1}, &pixel);
-    result.segment<2>(2 * i) = seen ? Vector2(pixel - samples[i].pixel_px) : Vector2(door.width, door.height);
+    result.segment<2>(2 * i) =
+        seen ? Vector2(pixel - samples[i].pixel_px) : Vector2(camera_c.width, camera_c.height);
   }
   return result;
 }
@@ -48,14 +49,14 @@ sphc_camera firstGuess(WantedModel wanted, const sphc_camera &start) {
 
 }  // namespace
 
-std::vector<RaySample> sampleCamera(const sphc_camera &door) {
-  const Camera camera(door);
+std::vector<RaySample> sampleCamera(const sphc_camera &camera_c) {
+  const Camera camera(camera_c);
   std::vector<RaySample> samples;
   for (int row = 0; row < kGridRows; ++row) {
     for (int column = 0; column < kGridColumns; ++column) {
       RaySample sample;
-      sample.pixel_px = {0.5 + column * (door.width - 1.0) / (kGridColumns - 1),
-                         0.5 + row * (door.height - 1.0) / (kGridRows - 1)};
+      sample.pixel_px = {0.5 + column * (camera_c.width - 1.0) / (kGridColumns - 1),
+                         0.5 + row * (camera_c.height - 1.0) / (kGridRows - 1)};
       if (camera.unproject(sample.pixel_px, &sample.ray)) samples.push_back(sample);
     }
   }

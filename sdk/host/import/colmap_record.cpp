@@ -29,9 +29,9 @@ void addColmapCamera(const std::string &place, uint32_t id, const ColmapCameraMo
 
 void addColmapImage(const std::string &place, uint32_t id, const double pose[7], ColmapImage image,
                     ColmapModel *model) {
-  const sphc_rigid door = {{pose[0], pose[1], pose[2], pose[3]}, {pose[4], pose[5], pose[6]}};
-  if (!isValidRigid(door)) refuse("COLMAP model", place, "its pose is none; the file is damaged");
-  image.camera_from_model = rigidFromDoor(door);
+  const sphc_rigid rigid_c = {{pose[0], pose[1], pose[2], pose[3]}, {pose[4], pose[5], pose[6]}};
+  if (!isValidRigid(rigid_c)) refuse("COLMAP model", place, "its pose is none; the file is damaged");
+  image.camera_from_model = rigidFromC(rigid_c);
   if (!isSane(image.camera_from_model.translation_m))
     refuse("COLMAP model", place, "lies absurdly far away; the file is damaged");
   for (const Vector2 &pixel : image.keypoints_px)

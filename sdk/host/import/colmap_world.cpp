@@ -67,7 +67,7 @@ class DepthImages {
     const DepthSensor sensor = {calibration_.depth_unit_m, kNearestM, kFarthestM, kMappingNoise.sigma_m,
                                 kMappingNoise.sigma_per_m2};
     const SparseAligner aligner(Camera(color), Camera(separate_ ? calibration_.depth_camera : color),
-                                rigidFromDoor(calibration_.color_from_depth), sensor);
+                                rigidFromC(calibration_.color_from_depth), sensor);
     const ImageView<uint16_t> view = {depth.ptr<uint16_t>(), depth.cols, depth.rows,
                                       static_cast<int32_t>(depth.step1())};
     for (const auto &[pixel, units] : depths) {

@@ -21,8 +21,8 @@ class FrameDescriber {
       : camera_(calibration.color_camera), features_(camera_.width(), camera_.height(), options.max_keypoints) {
     const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m,
                                 kMappingNoise.sigma_m, kMappingNoise.sigma_per_m2};
-    aligner_ = SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromDoor(calibration.color_from_depth),
-                             sensor);
+    aligner_ =
+        SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromC(calibration.color_from_depth), sensor);
   }
 
   const Camera &camera() const { return camera_; }
@@ -120,7 +120,7 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
       census.unreadable(why);
     } else {
       census.pose(*pose);
-      const Rigid world_from_camera = rigidFromDoor(*pose);
+      const Rigid world_from_camera = rigidFromC(*pose);
       uint32_t keypoints = 0;
       const std::vector<Observation> observations = describer.describe(*frame, world_from_camera, &keypoints);
       summary->merged += tracks.add(describer.camera(), world_from_camera.inverse(), observations);

@@ -21,7 +21,7 @@ std::vector<Highlight> chooseHighlights(const Run &run);
 // `color` (8-bit BGR) enlarged twofold and muted, keypoints grey, matched ones orange, inliers green, legend below.
 cv::Mat drawOverlay(const cv::Mat &color, const FrameRecord &frame);
 
-// An image of the door as OpenCV's BGR; copies.  Throws std::runtime_error for a depth image.
+// An image of the C interface as OpenCV's BGR; copies.  Throws std::runtime_error for a depth image.
 cv::Mat bgrFromImage(const sphc_image &image);
 
 }  // namespace sphc::host

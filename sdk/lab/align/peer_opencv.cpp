@@ -15,7 +15,7 @@ cv::Mat matrixOf(const sphc_camera &camera) {  // OpenCV's pixel centres are who
 
 AlignFunction make(const AlignCase &c) {
   cv::setNumThreads(1);
-  const Rigid rigid = rigidFromDoor(c.color_from_depth);
+  const Rigid rigid = rigidFromC(c.color_from_depth);
   cv::Mat transform = cv::Mat::eye(4, 4, CV_64F);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) transform.at<double>(i, j) = rigid.rotation(i, j);

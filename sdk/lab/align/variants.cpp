@@ -43,7 +43,7 @@ AlignFunction makeLoop(const AlignCase &c) {
     Rigid color_from_depth;
     std::vector<Vector2> rays;
   };
-  auto loop = std::make_shared<Loop>(Loop{Camera(c.color), Camera(c.depth), rigidFromDoor(c.color_from_depth), {}});
+  auto loop = std::make_shared<Loop>(Loop{Camera(c.color), Camera(c.depth), rigidFromC(c.color_from_depth), {}});
   for (uint32_t y = 0; y < c.depth.height; ++y) {
     for (uint32_t x = 0; x < c.depth.width; ++x) {
       Vector2 ray(0, 0);
@@ -97,7 +97,7 @@ std::function<SparseTime(const AlignFrame &)> sparseLift(const AlignCase &c, uin
   lifting->memory = spherecloud::AlignedBuffer(measure.used(), kArenaAlignment);
   Arena arena(lifting->memory.data());
   SparseAligner::layout(width, height, arena, &lifting->aligner);
-  lifting->aligner.init(Camera(c.color), Camera(c.depth), rigidFromDoor(c.color_from_depth),
+  lifting->aligner.init(Camera(c.color), Camera(c.depth), rigidFromC(c.color_from_depth),
                         {c.depth_unit_m, kNearM, kFarM, 0.004, 0.002});
   Random random(1);
   for (uint32_t i = 0; i < keypoints; ++i)

@@ -103,7 +103,7 @@ class FrameCommand {
     if (!image) return false;
     frame->image = *image;
     frame->index = index;
-    frame->truth_camera_from_world = rigidFromDoor(*world_from_camera).inverse();
+    frame->truth_camera_from_world = rigidFromC(*world_from_camera).inverse();
     return true;
   }
 

@@ -12,7 +12,7 @@ GrayRecording readGray(recording::RecordingReader *reader) {
     grayOf(reader->read(i).color, &gray.pixels);
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     gray.has_pose = pose.has_value();
-    if (pose) gray.world_from_camera = rigidFromDoor(*pose);
+    if (pose) gray.world_from_camera = rigidFromC(*pose);
     recording.frames.push_back(std::move(gray));
   }
   return recording;

@@ -24,7 +24,7 @@ struct FeaturesVariant {
   std::string absent;                                  // then: why, and the cure
 };
 
-// The library's own, for images of this size: SIMD and the scalar twin.
+// The library's own, for images of this size: SIMD and the scalar version.
 std::vector<FeaturesVariant> ourFeatures(int32_t width, int32_t height);
 // Those of others, as packages offer them; one that is not installed is absent, with the cure.
 std::vector<FeaturesVariant> openCvFeatures();

@@ -50,7 +50,7 @@ class Bench {
     FrameAnswer answer;
     answer.pose.found = result.outcome == SPHC_OUTCOME_LOCALIZED;
     const Rigid map_from_world = {Matrix3::Identity(), -centre_m_};
-    answer.pose.camera_from_map = rigidFromDoor(result.camera_from_map) * map_from_world;
+    answer.pose.camera_from_map = rigidFromC(result.camera_from_map) * map_from_world;
     answer.pose.iterations = result.iterations;
     answer.pose.inliers = result.inliers;
     answer.pose.seconds = seconds;

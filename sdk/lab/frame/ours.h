@@ -1,4 +1,4 @@
-// The library as a variant of the frame bench, by its door alone.
+// The library as a variant of the frame bench, by its C interface alone.
 #pragma once
 #include <spherecloud/spherecloud.hpp>
 

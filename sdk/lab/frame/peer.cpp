@@ -137,7 +137,7 @@ void FramePeers::begin(const sphc_config &config, const std::vector<std::string>
                       {"mapping_keypoints", kMappingKeypoints},
                       {"color", cameraJson(config.color_camera)},
                       {"depth", cameraJson(config.depth_camera)},
-                      {"color_from_depth", rigidJson(rigidFromDoor(config.color_from_depth))},
+                      {"color_from_depth", rigidJson(rigidFromC(config.color_from_depth))},
                       {"depth_unit_m", config.depth_unit_m},
                       {"depth_min_m", config.depth_min_m},
                       {"depth_max_m", config.depth_max_m}});

@@ -56,15 +56,15 @@ void compareWithIvf(std::vector<MatchRow> *rows) {
     for (const MatchRow &peer : *rows)
       if (peer.name.rfind(kIvfPrefix, 0) == 0 && peer.quality.ratio_recall >= row.quality.ratio_recall)
         best_ms = std::min(best_ms, peer.time_ms);
-    const bool comparable = row.cap_degrees == 0 && std::isfinite(best_ms);
+    const bool comparable = row.cone_degrees == 0 && std::isfinite(best_ms);
     row.times_faster_than_ivf = comparable ? best_ms / row.time_ms : std::numeric_limits<double>::quiet_NaN();
   }
 }
 
 }  // namespace
 
-std::vector<TopTwo> exactTopTwo(const MatchCase &c, double cap_degrees, double *candidates) {
-  const float cosine = cosineOf(cap_degrees);
+std::vector<TopTwo> exactTopTwo(const MatchCase &c, double cone_degrees, double *candidates) {
+  const float cosine = cosineOf(cone_degrees);
   std::vector<Direction> directions;
   for (uint32_t i = 0; i < c.map.pointCount(); ++i) directions.push_back(c.map.direction(i));
   std::vector<TopTwo> answer(c.queries.size());
@@ -72,7 +72,7 @@ std::vector<TopTwo> exactTopTwo(const MatchCase &c, double cap_degrees, double *
   for (size_t q = 0; q < c.queries.size(); ++q) {
     uint32_t best = UINT32_MAX, second = UINT32_MAX;
     for (uint32_t i = 0; i < c.map.pointCount(); ++i) {
-      if (cap_degrees > 0 && !(dot(directions[i], c.expected[q]) > cosine)) continue;
+      if (cone_degrees > 0 && !(dot(directions[i], c.expected[q]) > cosine)) continue;
       ++compared;
       const uint32_t distance2 = squaredDistance(c.map.descriptor(i), c.queries[q]);
       if (distance2 < best) {
@@ -129,16 +129,16 @@ MatchTable runMatchBench(const MatchCase &c, const std::vector<MatchVariant> &va
       if (repeat == 0 || runner.seconds[0] < kSlowSeconds) runner.seconds.push_back(runner.search->seconds());
     if (done) done(repeat + 1, repeats);
   }
-  std::map<double, std::pair<std::vector<TopTwo>, double>> exact;  // by cap
+  std::map<double, std::pair<std::vector<TopTwo>, double>> exact;  // by cone
   for (const Runner &runner : runners) {
-    const double cap = runner.variant->cap_degrees;
-    if (!exact.count(cap)) exact[cap].first = exactTopTwo(c, cap, &exact[cap].second);
+    const double cone = runner.variant->cone_degrees;
+    if (!exact.count(cone)) exact[cone].first = exactTopTwo(c, cone, &exact[cone].second);
     MatchRow row;
     row.name = runner.variant->name;
-    row.cap_degrees = cap;
-    row.candidates = cap > 0 ? exact[cap].second : 0;
+    row.cone_degrees = cone;
+    row.candidates = cone > 0 ? exact[cone].second : 0;
     row.time_ms = 1e3 * median(runner.seconds);
-    row.quality = judgeMatches(c, runner.search->answer(), exact[cap].first);
+    row.quality = judgeMatches(c, runner.search->answer(), exact[cone].first);
     table.rows.push_back(row);
   }
   compareWithIvf(&table.rows);

@@ -11,9 +11,9 @@ namespace sphc::host {
 constexpr double kUnrelatedDistance = 300;
 constexpr double kMatchRatio = 0.8;
 
-// The two nearest points of each query, by comparing with every one; in a cap around where it is expected, unless
-// `cap_degrees` is 0.  `candidates`: points compared with a query, mean.
-std::vector<TopTwo> exactTopTwo(const MatchCase &c, double cap_degrees, double *candidates);
+// The two nearest points of each query, by comparing with every one; in a cone around where it is expected, unless
+// `cone_degrees` is 0.  `candidates`: points compared with a query, mean.
+std::vector<TopTwo> exactTopTwo(const MatchCase &c, double cone_degrees, double *candidates);
 
 // An answer held against the exact one.
 struct MatchQuality {
@@ -26,8 +26,8 @@ MatchQuality judgeMatches(const MatchCase &c, const std::vector<TopTwo> &answer,
 
 struct MatchRow {
   std::string name;
-  double cap_degrees = 0;
-  double candidates = 0;  // for guided: points in the cap, mean
+  double cone_degrees = 0;
+  double candidates = 0;  // for guided: points in the cone, mean
   double time_ms = 0;     // median
   MatchQuality quality;
   double times_faster_than_ivf = 0;  // than the fastest faiss IVF of at least this ratio_recall; NaN without

@@ -19,18 +19,18 @@ namespace {
 
 constexpr float kRatio = 0.8f;
 constexpr uint32_t kProbes[] = {4, 8, 16, 32};
-constexpr double kCapDegrees[] = {3, 6};
+constexpr double kConeDegrees[] = {3, 6};
 
-// How a search is asked: the whole map exactly (no probes), through the index, or in caps.
+// How a search is asked: the whole map exactly (no probes), through the index, or in cones.
 struct Way {
   uint32_t probes = 0;
-  double cap_degrees = 0;
+  double cone_degrees = 0;
 };
 
 class OurSearch : public MatchSearch {
  public:
   OurSearch(const MatchCase &c, const Way &way)
-      : case_(c), way_(way), cap_cosine_(static_cast<float>(std::cos(way.cap_degrees * kPi / 180))) {
+      : case_(c), way_(way), cone_cosine_(static_cast<float>(std::cos(way.cone_degrees * kPi / 180))) {
     Arena measure;
     const auto count = static_cast<uint32_t>(c.queries.size());
     Matcher::layout(count, measure, nullptr);
@@ -64,14 +64,14 @@ class OurSearch : public MatchSearch {
     const Span<const Descriptor> queries(&case_.queries[first], count);
     const Span<Match> matches(matches_.data(), matches_.size());
     matcher_.ask(case_.map, queries, way_.probes);
-    if (way_.cap_degrees > 0)
-      return matcher_.matchNear({&case_.expected[first], count}, cap_cosine_, ratio, matches);
+    if (way_.cone_degrees > 0)
+      return matcher_.matchNear({&case_.expected[first], count}, cone_cosine_, ratio, matches);
     return way_.probes > 0 ? matcher_.matchAll(count, ratio, matches) : matcher_.matchExact(ratio, matches);
   }
 
   const MatchCase &case_;
   Way way_;
-  float cap_cosine_;
+  float cone_cosine_;
   std::vector<Line> memory_;
   Matcher matcher_;
   std::vector<Match> matches_;
@@ -80,7 +80,7 @@ class OurSearch : public MatchSearch {
 MatchVariant variantOf(const std::string &name, const Way &way) {
   MatchVariant variant;
   variant.name = name;
-  variant.cap_degrees = way.cap_degrees;
+  variant.cone_degrees = way.cone_degrees;
   variant.prepare = [way](const MatchCase &c) { return std::make_unique<OurSearch>(c, way); };
   return variant;
 }
@@ -91,7 +91,7 @@ std::vector<MatchVariant> ourMatchVariants() {
   std::vector<MatchVariant> variants = {variantOf(kExactName, {})};
   for (const uint32_t probes : kProbes)
     variants.push_back(variantOf("ours, " + std::to_string(probes) + " probes", {probes, 0}));
-  for (const double degrees : kCapDegrees)
+  for (const double degrees : kConeDegrees)
     variants.push_back(
         variantOf("ours, guided " + std::to_string(static_cast<int>(degrees)) + " deg", {0, degrees}));
   return variants;

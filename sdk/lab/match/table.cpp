@@ -14,7 +14,7 @@ std::string figures(const MatchTable &table, const MatchRow &row) {
   const MatchQuality &q = row.quality;
   return ratioText(row.times_faster_than_ivf, "") + "," + fixed(q.recall1, 4) + "," + fixed(q.ratio_recall, 4) +
          "," + std::to_string(q.accepted) + "," + std::to_string(q.correct) + "," +
-         (row.cap_degrees > 0 ? fixed(row.candidates, 1) : "") + "," + fixed(table.bytes_per_point, 2) + "\n";
+         (row.cone_degrees > 0 ? fixed(row.candidates, 1) : "") + "," + fixed(table.bytes_per_point, 2) + "\n";
 }
 
 const char kFigureNames[] =
@@ -33,7 +33,7 @@ std::string matchTableText(const MatchTable &table) {
     lines.push_back({row.name, fixed(row.time_ms, 3), ratioText(row.times_faster_than_ivf, "-"),
                      fixed(row.quality.recall1, 3), fixed(row.quality.ratio_recall, 3),
                      std::to_string(row.quality.accepted), std::to_string(row.quality.correct),
-                     row.cap_degrees > 0 ? fixed(row.candidates, 0) : "-"});
+                     row.cone_degrees > 0 ? fixed(row.candidates, 0) : "-"});
   return std::to_string(table.queries) + " queries, " + std::to_string(table.points) + " points in " +
          std::to_string(table.cells) + " cells, " + fixed(table.bytes_per_point, 1) +
          " bytes a point, file made in " + fixed(table.build_seconds, 1) + " s\n" + alignedText(lines);

@@ -25,7 +25,7 @@ class MatchSearch {
 
 struct MatchVariant {
   std::string name;
-  double cap_degrees = 0;  // guided: looks in a cap of this half angle; 0: in the whole map
+  double cone_degrees = 0;  // guided: looks in a cone of this half angle; 0: in the whole map
   size_t largest_map = SIZE_MAX;
   std::function<std::unique_ptr<MatchSearch>(const MatchCase &)> prepare;  // empty: absent
   std::string absent;                                                      // then: why, and the cure

@@ -19,8 +19,8 @@ class Describer {
       : camera_(calibration.color_camera), features_(camera_.width(), camera_.height(), kKeypoints) {
     DepthSensor sensor = kSensor;
     sensor.unit_m = calibration.depth_unit_m;
-    aligner_ = SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromDoor(calibration.color_from_depth),
-                             sensor);
+    aligner_ =
+        SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromC(calibration.color_from_depth), sensor);
   }
 
   DescribedFrame describe(const sphc_frame &frame) {
@@ -70,7 +70,7 @@ std::vector<DescribedFrame> describeFrames(recording::RecordingReader *reader) {
     const sphc_frame frame = reader->read(i);
     frames.push_back(describer.describe(frame));
     frames.back().name = std::to_string(frame.sequence);
-    frames.back().camera_from_world = rigidFromDoor(*pose).inverse();
+    frames.back().camera_from_world = rigidFromC(*pose).inverse();
   }
   if (frames.empty())
     throw std::runtime_error("no frame to localize has a pose; without the truth nothing can be compared");

@@ -58,7 +58,7 @@ class FrameReader {
     for (uint32_t i = 0; i < reader_->frameCount(); ++i) {
       const std::optional<sphc_rigid> pose = reader_->worldFromCamera(i);
       if (!pose) continue;
-      const Rigid world_from_camera = rigidFromDoor(*pose);
+      const Rigid world_from_camera = rigidFromC(*pose);
       const Vector3 axis = world_from_camera.rotation.col(2);
       const std::optional<sphc_frame> frame = farFrom(axis, axes) ? reader_->tryRead(i) : std::nullopt;
       if (!frame) continue;

@@ -18,7 +18,7 @@ DenseConfig denseConfig(const sphc_aligner_config &config) {
   DenseConfig dense;
   dense.color = sphc::Camera(config.color_camera);
   dense.depth = sphc::Camera(config.depth_camera);
-  dense.color_from_depth = sphc::rigidFromDoor(config.color_from_depth);
+  dense.color_from_depth = sphc::rigidFromC(config.color_from_depth);
   dense.sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                   config.depth_sigma_per_m2};
   dense.out_unit_m = config.aligned_unit_m > 0 ? config.aligned_unit_m : config.depth_unit_m;

@@ -34,14 +34,14 @@ sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_
 }
 
 void sphc_rigid_compose(const sphc_rigid *c_from_b, const sphc_rigid *b_from_a, sphc_rigid *c_from_a) {
-  *c_from_a = sphc::doorFromRigid(sphc::rigidFromDoor(*c_from_b) * sphc::rigidFromDoor(*b_from_a));
+  *c_from_a = sphc::rigidToC(sphc::rigidFromC(*c_from_b) * sphc::rigidFromC(*b_from_a));
 }
 
 void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_b) {
-  *a_from_b = sphc::doorFromRigid(sphc::rigidFromDoor(*b_from_a).inverse());
+  *a_from_b = sphc::rigidToC(sphc::rigidFromC(*b_from_a).inverse());
 }
 
 void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]) {
-  const Vector3 x = sphc::rigidFromDoor(*b_from_a) * Vector3(x_a[0], x_a[1], x_a[2]);
+  const Vector3 x = sphc::rigidFromC(*b_from_a) * Vector3(x_a[0], x_a[1], x_a[2]);
   for (int i = 0; i < 3; ++i) x_b[i] = x[i];
 }

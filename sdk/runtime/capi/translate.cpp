@@ -29,7 +29,7 @@ PosePrior posePriorFrom(const sphc_prior &given) {
   PosePrior prior;
   prior.has_pose = given.flags & SPHC_PRIOR_POSE;
   if (prior.has_pose) {
-    prior.camera_from_map = rigidFromDoor(given.camera_from_map);
+    prior.camera_from_map = rigidFromC(given.camera_from_map);
     prior.rotation_sigma_rad = given.rotation_sigma_rad;
     prior.translation_sigma_m = given.translation_sigma_m;
   }
@@ -48,7 +48,7 @@ Known knownFrom(const sphc_prior &given) {
   known.prior = posePriorFrom(given);
   known.has_odometry = given.flags & SPHC_PRIOR_ODOMETRY;
   if (known.has_odometry) {
-    known.odometry = {rigidFromDoor(given.odometry_from_camera), given.odometry_rotation_sigma_rad,
+    known.odometry = {rigidFromC(given.odometry_from_camera), given.odometry_rotation_sigma_rad,
                       given.odometry_translation_sigma_m};
   }
   return known;
@@ -76,7 +76,7 @@ LocalizerConfig localizerConfigFrom(const sphc_config &config) {
   own.tracks = config.mode == SPHC_MODE_TRACKING;
   own.color_camera = Camera(config.color_camera);
   own.depth_camera = Camera(config.depth_camera);
-  own.color_from_depth = rigidFromDoor(config.color_from_depth);
+  own.color_from_depth = rigidFromC(config.color_from_depth);
   own.depth_sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                       config.depth_sigma_per_m2};
   own.depth_prior = depthPriorFrom(config);
@@ -155,7 +155,7 @@ void fillResult(const LocalizerResult &answer, const sphc_frame &frame, sphc_res
   result->inliers = answer.inliers;
   result->iterations = answer.samples;
   result->camera_from_map.q_wxyz[0] = 1;
-  if (answer.outcome == Outcome::kLocalized) result->camera_from_map = doorFromRigid(answer.camera_from_map);
+  if (answer.outcome == Outcome::kLocalized) result->camera_from_map = rigidToC(answer.camera_from_map);
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column)
       result->covariance[6 * row + column] = answer.covariance(row, column);

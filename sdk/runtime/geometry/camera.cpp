@@ -80,17 +80,17 @@ bool checkCamera(const sphc_camera &camera, sphc_message *message) {
   return true;
 }
 
-Camera::Camera(const sphc_camera &door) : door_(door) {
-  for (uint32_t i = door_.param_count; i < 12; ++i) door_.params[i] = 0;
+Camera::Camera(const sphc_camera &parameters) : parameters_(parameters) {
+  for (uint32_t i = parameters_.param_count; i < 12; ++i) parameters_.params[i] = 0;
   max_radius2_ = findMaxRadius2();
 }
 
 // Radial distortion folds back on itself beyond some radius, or has a pole; rays past either have no pixel of their
 // own.
 double Camera::findMaxRadius2() const {
-  const double *k = door_.params + 4;
-  if (door_.model == SPHC_CAMERA_PINHOLE) return kWidestRay2;
-  const bool fisheye = door_.model == SPHC_CAMERA_KANNALA_BRANDT4;
+  const double *k = parameters_.params + 4;
+  if (parameters_.model == SPHC_CAMERA_PINHOLE) return kWidestRay2;
+  const bool fisheye = parameters_.model == SPHC_CAMERA_KANNALA_BRANDT4;
   const double last = fisheye ? 89 * kPi / 180 : 8;  // radians, or tan of 83 degrees
   double valid = 0;
   for (int step = 1; step <= kDomainSteps; ++step) {
@@ -108,7 +108,7 @@ double Camera::findMaxRadius2() const {
 
 Vector2 Camera::distort(const Vector2 &ray, Eigen::Matrix2d *derivative) const {
   const double x = ray.x(), y = ray.y(), r2 = x * x + y * y;
-  const double *k = door_.params + 4;
+  const double *k = parameters_.params + 4;
   const double p1 = k[2], p2 = k[3];
   const double radial = brownRadial(k, r2);
   if (derivative) {
@@ -124,13 +124,14 @@ bool Camera::project(const Vector3 &point_m, Vector2 *pixel_px) const {
   Vector2 ray(point_m.x() / point_m.z(), point_m.y() / point_m.z());
   const double r2 = ray.squaredNorm();
   if (!(r2 <= max_radius2_)) return false;
-  if (door_.model == SPHC_CAMERA_KANNALA_BRANDT4) {
+  if (parameters_.model == SPHC_CAMERA_KANNALA_BRANDT4) {
     const double r = sqrtOf(r2);
-    if (r > 1e-12) ray *= kannalaBrandt(door_.params + 4, atan2Of(r, 1)) / r;
-  } else if (door_.model != SPHC_CAMERA_PINHOLE) {
+    if (r > 1e-12) ray *= kannalaBrandt(parameters_.params + 4, atan2Of(r, 1)) / r;
+  } else if (parameters_.model != SPHC_CAMERA_PINHOLE) {
     ray = distort(ray, nullptr);
   }
-  *pixel_px = {door_.params[0] * ray.x() + door_.params[2], door_.params[1] * ray.y() + door_.params[3]};
+  *pixel_px = {parameters_.params[0] * ray.x() + parameters_.params[2],
+               parameters_.params[1] * ray.y() + parameters_.params[3]};
   return isFinite(pixel_px->x()) && isFinite(pixel_px->y());
 }
 
@@ -156,11 +157,11 @@ bool Camera::undistortKannalaBrandt(const Vector2 &distorted, Vector2 *ray) cons
   const double target = sqrtOf(distorted.squaredNorm());
   if (target < 1e-12) return *ray = distorted, true;
   double low = 0, high = atan2Of(sqrtOf(max_radius2_), 1), theta = target < high ? target : high;
-  if (kannalaBrandt(door_.params + 4, high) < target) return false;
+  if (kannalaBrandt(parameters_.params + 4, high) < target) return false;
   for (int i = 0; i < 40; ++i) {  // Newton, kept inside the shrinking bracket
-    const double error = kannalaBrandt(door_.params + 4, theta) - target;
+    const double error = kannalaBrandt(parameters_.params + 4, theta) - target;
     (error > 0 ? high : low) = theta;
-    double next = theta - error / kannalaBrandtDerivative(door_.params + 4, theta);
+    double next = theta - error / kannalaBrandtDerivative(parameters_.params + 4, theta);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     if (absOf(next - theta) < 1e-15) break;
     theta = next;
@@ -173,17 +174,17 @@ bool Camera::undistortKannalaBrandt(const Vector2 &distorted, Vector2 *ray) cons
 
 bool Camera::unproject(const Vector2 &pixel_px, Vector2 *ray) const {
   if (!isFinite(pixel_px.x()) || !isFinite(pixel_px.y())) return false;
-  const Vector2 distorted((pixel_px.x() - door_.params[2]) / door_.params[0],
-                          (pixel_px.y() - door_.params[3]) / door_.params[1]);
-  if (door_.model == SPHC_CAMERA_KANNALA_BRANDT4) return undistortKannalaBrandt(distorted, ray);
-  if (door_.model != SPHC_CAMERA_PINHOLE) return undistortBrown(distorted, ray);
+  const Vector2 distorted((pixel_px.x() - parameters_.params[2]) / parameters_.params[0],
+                          (pixel_px.y() - parameters_.params[3]) / parameters_.params[1]);
+  if (parameters_.model == SPHC_CAMERA_KANNALA_BRANDT4) return undistortKannalaBrandt(distorted, ray);
+  if (parameters_.model != SPHC_CAMERA_PINHOLE) return undistortBrown(distorted, ray);
   if (!(distorted.squaredNorm() <= kWidestRay2)) return false;
   *ray = distorted;
   return true;
 }
 
 bool Camera::operator==(const Camera &other) const {
-  const sphc_camera &a = door_, &b = other.door_;
+  const sphc_camera &a = parameters_, &b = other.parameters_;
   bool same = a.model == b.model && a.width == b.width && a.height == b.height && a.param_count == b.param_count;
   for (uint32_t i = 0; same && i < a.param_count; ++i) same = a.params[i] == b.params[i];
   return same;

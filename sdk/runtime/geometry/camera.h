@@ -1,4 +1,4 @@
-// Camera models of the door: pinhole, Brown-Conrady with 5 and 8 coefficients, Kannala-Brandt with 4.
+// Camera models of the C interface: pinhole, Brown-Conrady with 5 and 8 coefficients, Kannala-Brandt with 4.
 #pragma once
 #include "runtime/geometry/rotation.h"
 #include "spherecloud/spherecloud.h"
@@ -11,8 +11,8 @@ bool checkCamera(const sphc_camera &camera, sphc_message *message);
 class Camera {
  public:
   Camera() = default;
-  // `door` has passed checkCamera.
-  explicit Camera(const sphc_camera &door);
+  // `parameters` has passed checkCamera.
+  explicit Camera(const sphc_camera &parameters);
 
   // Pixel of a point in camera coordinates; false behind the camera or beyond the invertible field of view.
   bool project(const Vector3 &point_m, Vector2 *pixel_px) const;
@@ -22,14 +22,14 @@ class Camera {
   // The same pixels for the same points.
   bool operator==(const Camera &other) const;
 
-  double fx() const { return door_.params[0]; }
-  double fy() const { return door_.params[1]; }
+  double fx() const { return parameters_.params[0]; }
+  double fy() const { return parameters_.params[1]; }
   double focal() const { return 0.5 * (fx() + fy()); }
-  int32_t width() const { return static_cast<int32_t>(door_.width); }
-  int32_t height() const { return static_cast<int32_t>(door_.height); }
-  bool isPinhole() const { return door_.model == SPHC_CAMERA_PINHOLE; }
+  int32_t width() const { return static_cast<int32_t>(parameters_.width); }
+  int32_t height() const { return static_cast<int32_t>(parameters_.height); }
+  bool isPinhole() const { return parameters_.model == SPHC_CAMERA_PINHOLE; }
   // As given, unused parameters 0.
-  const sphc_camera &parameters() const { return door_; }
+  const sphc_camera &parameters() const { return parameters_; }
   // Largest x^2 + y^2 of a ray (x, y, 1) that has a pixel.
   double maxRadius2() const { return max_radius2_; }
 
@@ -40,7 +40,7 @@ class Camera {
   bool undistortKannalaBrandt(const Vector2 &distorted, Vector2 *ray) const;
   double findMaxRadius2() const;
 
-  sphc_camera door_ = {};
+  sphc_camera parameters_ = {};
   double max_radius2_ = 0;  // largest x^2 + y^2 of a ray up to which the distortion is one to one
 };
 

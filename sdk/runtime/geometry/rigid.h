@@ -16,9 +16,9 @@ struct Rigid {
   Rigid inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation_m)}; }
 };
 
-Rigid rigidFromDoor(const sphc_rigid &door);
-sphc_rigid doorFromRigid(const Rigid &rigid);
+Rigid rigidFromC(const sphc_rigid &rigid_c);
+sphc_rigid rigidToC(const Rigid &rigid);
 // Finite, and the quaternion's length within 1e-3 of 1.
-bool isValidRigid(const sphc_rigid &door);
+bool isValidRigid(const sphc_rigid &rigid_c);
 
 }  // namespace sphc

@@ -35,7 +35,7 @@ class FramePainter {
   FramePainter(const sphc_calibration &calibration, const Vector3 &centre_m)
       : color_(calibration.color_camera),
         depth_(calibration.depth_camera),
-        color_from_depth_(rigidFromDoor(calibration.color_from_depth)),
+        color_from_depth_(rigidFromC(calibration.color_from_depth)),
         depth_unit_m_(calibration.depth_unit_m),
         rays_(raysOf(depth_)),
         centre_m_(centre_m) {}
@@ -91,7 +91,7 @@ Panorama panoramaFrom(recording::RecordingReader *reader, const Vector3 &centre_
     if (!pose) continue;
     const std::optional<sphc_frame> frame = reader->tryRead(i);
     if (!frame) continue;
-    painter.paint(*frame, rigidFromDoor(*pose), &panorama);
+    painter.paint(*frame, rigidFromC(*pose), &panorama);
     ++painted;
   }
   if (!painted) throw std::runtime_error("no frame of the recording has images and a pose; the truth needs both");
@@ -106,7 +106,7 @@ std::vector<Matrix3> choosePoses(recording::RecordingReader *reader, const Panor
     for (uint32_t i = 0; i < reader->frameCount(); ++i) {
       const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
       if (!pose) continue;
-      const Matrix3 camera_from_map = turned(aside[0], aside[1]) * rigidFromDoor(*pose).rotation.transpose();
+      const Matrix3 camera_from_map = turned(aside[0], aside[1]) * rigidFromC(*pose).rotation.transpose();
       const Vector3 axis = camera_from_map.row(2);
       bool is_near = false;
       for (const Matrix3 &other : chosen) is_near = is_near || axis.dot(Vector3(other.row(2))) > apart;

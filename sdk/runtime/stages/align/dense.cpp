@@ -20,12 +20,13 @@ constexpr double kLeastShadowPx = 0.5, kMostShadowPx = 256;
 int32_t padded(int32_t count) { return (count + kRowPadding - 1) / kRowPadding * kRowPadding; }
 
 LensF lensF(const Camera &camera) {
-  const sphc_camera &door = camera.parameters();
+  const sphc_camera &parameters = camera.parameters();
   LensF lens = {};
-  lens.model = door.model;
-  lens.fx = static_cast<float>(door.params[0]), lens.fy = static_cast<float>(door.params[1]);
-  lens.cx = static_cast<float>(door.params[2] - 0.5), lens.cy = static_cast<float>(door.params[3] - 0.5);
-  for (int i = 0; i < 8; ++i) lens.k[i] = static_cast<float>(door.params[4 + i]);
+  lens.model = parameters.model;
+  lens.fx = static_cast<float>(parameters.params[0]), lens.fy = static_cast<float>(parameters.params[1]);
+  lens.cx = static_cast<float>(parameters.params[2] - 0.5),
+  lens.cy = static_cast<float>(parameters.params[3] - 0.5);
+  for (int i = 0; i < 8; ++i) lens.k[i] = static_cast<float>(parameters.params[4 + i]);
   lens.max_radius2 = static_cast<float>(camera.maxRadius2());
   lens.width = static_cast<float>(camera.width()), lens.height = static_cast<float>(camera.height());
   return lens;

@@ -30,7 +30,7 @@ class DenseAligner {
  public:
   // `aligner` is null while measuring.
   static void layout(const DenseConfig &config, Arena &arena, DenseAligner *aligner);
-  // Once, after layout with memory: makes the tables.  `kernels`: the scalar twin gives the same bits.
+  // Once, after layout with memory: makes the tables.  `kernels`: the scalar version gives the same bits.
   void init(const DenseConfig &config, const AlignKernels &kernels = simdAlignKernels());
   // `depth` has the size of the depth camera's image.
   void process(ImageView<uint16_t> depth, const AlignedImages &out);

@@ -1,5 +1,5 @@
 // The inner loops of alignment.  Two sets of the same code: Highway's best for this machine, and one compiled for
-// single lanes, the scalar twin.  No multiply-add, exact roots and divisions, sums in a fixed order: every
+// single lanes, the scalar version.  No multiply-add, exact roots and divisions, sums in a fixed order: every
 // instruction set gives the same bits.
 #pragma once
 #include <cstdint>
@@ -42,7 +42,7 @@ constexpr int32_t kKindShift = 8;
 struct LensF {
   sphc_camera_model model;
   float fx, fy, cx, cy;
-  float k[8];  // distortion, the door's order
+  float k[8];  // distortion, the C interface's order
   float max_radius2;
   float width, height;
 };

@@ -62,7 +62,7 @@ bool CandidateList::isSameStructure(const Place &a, const Place &b) {
   return larger <= kSameScale * smaller && dx * dx + dy * dy < kSamePlace * kSamePlace * smaller * smaller;
 }
 
-// Whoever has a stronger twin is one, whether or not that one stays: so the order of looking does not matter.
+// Whoever has a stronger near-duplicate is one itself, whether or not that one stays, so the order does not matter.
 void CandidateList::markNearDuplicates() {
   listPlaces();
   for (size_t i = 0; i < size_; ++i) {

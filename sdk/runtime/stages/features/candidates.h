@@ -35,8 +35,8 @@ class CandidateList {
     items_[size_++] = candidate;
     if (size_ == items_.size()) cut();
   }
-  // Removes twins and keeps at most max_keypoints: first the strongest of every grid cell up to the cell's quota,
-  // then the strongest of the rest.  Highest response first.
+  // Removes near-duplicates and keeps at most max_keypoints: first the strongest of every grid cell up to the
+  // cell's quota, then the strongest of the rest.  Highest response first.
   Span<Candidate> choose(const FeatureConfig &config);
 
  private:
@@ -44,7 +44,7 @@ class CandidateList {
   void listPlaces();
   void markNearDuplicates();
   static bool isSameStructure(const Place &a, const Place &b);
-  // Of those that are no twins: by strength, highest first, into ranks_.  Returns how many.
+  // Of those that are no near-duplicates: by strength, highest first, into ranks_.  Returns how many.
   size_t rankByStrength();
   size_t chooseByCell(size_t ranked, const FeatureConfig &config);
 

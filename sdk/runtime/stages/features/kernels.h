@@ -1,5 +1,5 @@
 // The loops in which the time goes.  Two sets of the same code: Highway's best for this machine, and one compiled
-// for single lanes, the scalar twin.  Pixels are 16-bit integers; where floats are used, no multiply-add, exact
+// for single lanes, the scalar version.  Pixels are 16-bit integers; where floats are used, no multiply-add, exact
 // roots and divisions, and a fixed order of summation: every instruction set gives the same bytes.
 #pragma once
 #include <cstdint>

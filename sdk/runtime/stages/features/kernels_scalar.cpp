@@ -1,4 +1,4 @@
-// The scalar twin: the same kernels compiled for single lanes; for tests and for machines without SIMD.
+// The scalar version: the same kernels compiled for single lanes; for tests and for machines without SIMD.
 #include "runtime/base/single_lane.h"  // keep first
 
 #include "runtime/stages/features/blur-inl.h"

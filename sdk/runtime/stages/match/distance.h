@@ -65,7 +65,7 @@ void widenRows(Span<const Descriptor> rows, Span<WideRow> wide, Span<uint32_t> l
 // rows infinitely far.
 void rankCells(const CellTable &table, const Descriptor &query, Span<Ranked> groups, Span<Ranked> cells);
 
-// The scalar twins, for tests and for machines without SIMD.
+// The scalar version, for tests and for machines without SIMD.
 uint32_t distance2Scalar(const Descriptor &a, const Descriptor &b);
 void searchRangeScalar(Span<const Descriptor> map, uint32_t begin, uint32_t end, Span<const Descriptor> queries,
                        Span<const uint32_t> chosen, Span<NearestTwo> nearest);

@@ -1,4 +1,4 @@
-// The SIMD twins of distance.cpp; Highway compiles this file once for each instruction set and picks at run time.
+// The SIMD version of distance.cpp; Highway compiles this file once for each instruction set and picks at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "runtime/stages/match/distance_simd.cpp"
 #include <hwy/foreach_target.h>  // keep before highway.h

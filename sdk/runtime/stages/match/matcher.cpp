@@ -6,7 +6,7 @@ namespace sphc {
 namespace {
 
 constexpr uint32_t kTile = 128;  // map descriptors that stay in the nearest cache while all queries pass over them
-constexpr uint32_t kGuidedProbes = 8;  // as good as more, since the cap has left out most that mislead
+constexpr uint32_t kGuidedProbes = 8;  // as good as more, since the cone has left out most that mislead
 constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in them, before they are compared
 
 constexpr uint32_t kNobody = UINT32_MAX;
@@ -113,25 +113,25 @@ uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches) {
   return select(queries_.size(), max_ratio, matches);
 }
 
-uint32_t Matcher::matchNear(Span<const Direction> expected, float cap_cosine, float max_ratio,
+uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio,
                             Span<Match> matches) {
   begin(expected.size());
   rankUpTo(expected.size());
-  cones_.prepare(map_->sectorSide(), cap_cosine);
-  for (size_t q = 0; q < expected.size(); ++q) searchNear(q, {expected[q], cap_cosine}, &nearest_[q]);
+  cones_.prepare(map_->sectorSide(), cone_cosine);
+  for (size_t q = 0; q < expected.size(); ++q) searchNear(q, {expected[q], cone_cosine}, &nearest_[q]);
   return select(expected.size(), max_ratio, matches);
 }
 
-void Matcher::searchNear(size_t q, const Cap &cap, NearestTwo *nearest) const {
+void Matcher::searchNear(size_t q, const SearchCone &cone, NearestTwo *nearest) const {
   const MapView &map = *map_;
   const Descriptor &query = queries_[q];
   SectorRun runs[SectorCones::kMaxRuns];
-  const uint32_t run_count = cones_.touched(cap.axis, {runs, SectorCones::kMaxRuns});
+  const uint32_t run_count = cones_.touched(cone.axis, {runs, SectorCones::kMaxRuns});
   DirectionRun gathered[kGathered];
   uint32_t candidates[kCandidates], gathered_count = 0, room = kCandidates;
   const auto compare = [&] {
     // behind the directions lie the descriptors, so reading a few more is safe
-    const uint32_t count = findInside(map.directions().data(), {gathered, gathered_count}, cap, candidates);
+    const uint32_t count = findInside(map.directions().data(), {gathered, gathered_count}, cone, candidates);
     searchCandidates(map.descriptors(), {candidates, count}, query, nearest);
     gathered_count = 0;
     room = kCandidates;

@@ -30,9 +30,9 @@ class Matcher {
   // Nearest neighbours of all queries over the whole map: what matchAll approaches.
   uint32_t matchExact(float max_ratio, Span<Match> matches);
 
-  // Nearest neighbours of the first queries, as many as `expected`, among the map points within a cap around each
+  // Nearest neighbours of the first queries, as many as `expected`, among the map points within a cone around each
   // one's expected direction (unit, map frame).
-  uint32_t matchNear(Span<const Direction> expected, float cap_cosine, float max_ratio, Span<Match> matches);
+  uint32_t matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches);
 
  private:
   void begin(size_t queries);
@@ -40,7 +40,7 @@ class Matcher {
   void rankUpTo(size_t count);
   Span<const uint16_t> cellsOf(size_t query) const { return {&probed_[query * ranks_], ranks_}; }
   void listByCell(size_t count);
-  void searchNear(size_t query, const Cap &cap, NearestTwo *nearest) const;
+  void searchNear(size_t query, const SearchCone &cone, NearestTwo *nearest) const;
   uint32_t select(size_t queries, float max_ratio, Span<Match> matches);
 
   // What was asked.

@@ -25,9 +25,9 @@ void SectorCones::layout(Arena &scratch, SectorCones *cones) {
     *part = scratch.take<float>("match.sectors", kMaxSectors);
 }
 
-void SectorCones::prepare(uint32_t side, float cap_cosine) {
+void SectorCones::prepare(uint32_t side, float cone_cosine) {
   count_ = side * side;
-  const float cap_sine = sineOf(cap_cosine);
+  const float cone_sine = sineOf(cone_cosine);
   for (uint32_t s = 0; s < count_; ++s) {
     const uint32_t row = s / side, column = s % side;
     const Direction middle = cornerOf(2 * row + 1, 2 * column + 1, 2 * side);
@@ -40,7 +40,7 @@ void SectorCones::prepare(uint32_t side, float cap_cosine) {
       cosine = std::min(cosine, dot(middle, cornerOf(row + corner / 2, column + corner % 2, side)));
     cosine -= kMargin * (sineOf(cosine) + kMargin);
     // cos(a + b); beyond 180 degrees the two meet wherever they are
-    least_[s] = cosine <= -cap_cosine ? -2.0f : cosine * cap_cosine - sineOf(cosine) * cap_sine - 1e-6f;
+    least_[s] = cosine <= -cone_cosine ? -2.0f : cosine * cone_cosine - sineOf(cosine) * cone_sine - 1e-6f;
   }
 }
 

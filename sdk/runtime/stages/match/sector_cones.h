@@ -1,7 +1,7 @@
-// Which sectors of the map's grid of directions a cap on the sphere touches.
+// Which sectors of the map's grid of directions a cone on the sphere touches.
 #pragma once
 #include "runtime/base/arena.h"
-#include "runtime/stages/match/cap.h"
+#include "runtime/stages/match/search_cone.h"
 
 namespace sphc {
 
@@ -16,14 +16,14 @@ class SectorCones {
   static constexpr uint32_t kMaxRuns = kMaxSectors / 2;
 
   static void layout(Arena &scratch, SectorCones *cones);
-  // For a grid of side x side sectors (runtime/map/sector.h) and caps of one size.
-  void prepare(uint32_t side, float cap_cosine);
-  // The sectors that the cap around a unit direction may touch, none that it touches left out; returns how many
+  // For a grid of side x side sectors (runtime/map/sector.h) and cones of one size.
+  void prepare(uint32_t side, float cone_cosine);
+  // The sectors that the cone around a unit direction may touch, none that it touches left out; returns how many
   // runs, at most kMaxRuns.
   uint32_t touched(const Direction &axis, Span<SectorRun> runs) const;
 
  private:
-  // A cone around each sector: its axis, and the cosine from which a cap around a direction touches it.
+  // A cone around each sector: its axis, and the cosine from which a cone around a direction touches it.
   Span<float> x_, y_, z_, least_;
   uint32_t count_ = 0;
 };

@@ -21,7 +21,7 @@ std::vector<uint8_t> bytesOf(const sphc_image &image) {
   return bytes;
 }
 
-// What the device sent as frame `number`, as the door should have it.
+// What the device sent as frame `number`, as the C interface should have it.
 std::vector<uint8_t> expected(pixels::Layout layout, uint32_t padding, uint32_t number, sphc_format format) {
   const uint32_t stride = pixels::rowBytes(layout, kWidth) + padding;
   std::vector<uint8_t> raw(stride * kHeight * (layout == pixels::Layout::Nv12 ? 3 : 2) / 2);

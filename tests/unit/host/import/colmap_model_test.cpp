@@ -89,7 +89,7 @@ TEST(ColmapBinary, ALengthBeyondTheFileIsRefusedBeforeMemoryIsTaken) {
   EXPECT_THAT(refusal(files), HasSubstr("more than the file can hold"));
 }
 
-TEST(ColmapBinary, ACameraModelThatTheDoorHasNoneForIsNamed) {
+TEST(ColmapBinary, ACameraModelThatTheInterfaceHasNoneForIsNamed) {
   ColmapFiles files = binaryFiles(tinyColmapModel(1));
   files.cameras[12] = 7;  // FOV
   EXPECT_THAT(refusal(files), HasSubstr("number 7; known here: SIMPLE_PINHOLE"));

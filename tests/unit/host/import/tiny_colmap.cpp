@@ -75,7 +75,7 @@ ColmapFiles binaryFiles(const ColmapModel &model) {
   }
   put(&files.images, uint64_t{model.images.size()});
   for (const auto &[id, image] : model.images) {
-    const sphc_rigid pose = doorFromRigid(image.camera_from_model);
+    const sphc_rigid pose = rigidToC(image.camera_from_model);
     put(&files.images, id);
     for (double q : pose.q_wxyz) put(&files.images, q);
     for (double t : pose.t_m) put(&files.images, t);
@@ -114,7 +114,7 @@ ColmapFiles textFiles(const ColmapModel &model) {
   }
   images << "# Image list with two lines of data per image:\n";
   for (const auto &[id, image] : model.images) {
-    const sphc_rigid pose = doorFromRigid(image.camera_from_model);
+    const sphc_rigid pose = rigidToC(image.camera_from_model);
     images << id;
     for (double q : pose.q_wxyz) images << " " << q;
     for (double t : pose.t_m) images << " " << t;

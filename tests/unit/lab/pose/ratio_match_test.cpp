@@ -28,7 +28,7 @@ TEST(RatioMatch, FindsTheNearest) {
   EXPECT_EQ(matches[1].point, 31u);
 }
 
-TEST(RatioMatch, TwinsAreRefused) {
+TEST(RatioMatch, NearDuplicatesAreRefused) {
   std::vector<Descriptor> points = randomDescriptors(10);
   points.push_back(points[3]);
   EXPECT_TRUE(matchByRatio({near(points[3], 1)}, points, 0.8).empty());

@@ -24,10 +24,10 @@ TEST(Rigid, ComposeAppliesTheRightOneFirst) {
   }
 }
 
-TEST(Rigid, ThroughTheDoorAndBack) {
+TEST(Rigid, ToTheInterfaceAndBack) {
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
-    const Rigid rigid = randomRigid(&random), back = rigidFromDoor(doorFromRigid(rigid));
+    const Rigid rigid = randomRigid(&random), back = rigidFromC(rigidToC(rigid));
     EXPECT_LT((back.rotation - rigid.rotation).norm(), 1e-13);
     EXPECT_EQ(back.translation_m, rigid.translation_m);
   }

@@ -98,7 +98,7 @@ TEST(Judgement, RandomDirectionsNearAnExpectedPoseAreNotAccepted) {
     options.seed = seed;
     options.true_share = 0;
     options.count = 20 + 20 * (seed % 10);
-    options.cap_rad = kCone;
+    options.cone_rad = kCone;
     const test::PoseWorld world = test::makePoseWorld(options);
     EXPECT_NE(estimator.judgeExpected(world, kCone), Outcome::kLocalized) << seed;
   }
@@ -111,7 +111,7 @@ TEST(Judgement, ATruePoseNearTheExpectedOneIsAccepted) {
     test::PoseWorldOptions options;
     options.seed = seed;
     options.true_share = 0.7;
-    options.cap_rad = kCone;
+    options.cone_rad = kCone;
     options.centre_offset_m = Vector3(0, 0, 2);
     const test::PoseWorld world = test::makePoseWorld(options);
     EXPECT_EQ(estimator.judgeExpected(world, kCone), Outcome::kLocalized) << seed;

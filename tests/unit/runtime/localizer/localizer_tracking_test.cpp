@@ -33,7 +33,7 @@ class Walk {
     if (odometry_) {
       prior.struct_size = sizeof prior;
       prior.flags = SPHC_PRIOR_ODOMETRY;
-      prior.odometry_from_camera = doorFromRigid(sceneViewpoint(viewpoint).inverse());
+      prior.odometry_from_camera = rigidToC(sceneViewpoint(viewpoint).inverse());
       prior.odometry_rotation_sigma_rad = 1e-3;
       prior.odometry_translation_sigma_m = 1e-3;
       frame.prior = &prior;
@@ -172,7 +172,7 @@ double errorWithDepthBefore(bool times_are_told) {
   for (uint32_t i = 0; i < 8; ++i) {
     const auto made = test::sceneFrame(config, i);
     made->images.depth_mm = test::renderScene(config.color_camera, config.depth_camera,
-                                              test::sceneViewpoint(i - 0.3), rigidFromDoor(config.color_from_depth))
+                                              test::sceneViewpoint(i - 0.3), rigidFromC(config.color_from_depth))
                                 .depth_mm;
     sphc_frame frame = made->frame;
     frame.depth.data = made->images.depth_mm.data();
@@ -181,7 +181,7 @@ double errorWithDepthBefore(bool times_are_told) {
     sphc_prior prior = {};
     prior.struct_size = sizeof prior;
     prior.flags = SPHC_PRIOR_ODOMETRY;
-    prior.odometry_from_camera = doorFromRigid(test::sceneViewpoint(i).inverse());
+    prior.odometry_from_camera = rigidToC(test::sceneViewpoint(i).inverse());
     prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
     frame.prior = &prior;
     sphc_result result = {};

@@ -52,7 +52,7 @@ void writeFrame(int frame, sphc_recording_writer *writer) {
                              {color.data(), kWidth, kHeight, kWidth * 3, SPHC_FORMAT_BGR8},
                              {depth.data(), kWidth, kHeight, kWidth * 2, SPHC_FORMAT_DEPTH16},
                              nullptr};
-  const sphc_rigid pose = doorFromRigid(world_from_camera);
+  const sphc_rigid pose = rigidToC(world_from_camera);
   sphc_message message;
   ASSERT_EQ(sphc_recording_add_frame(writer, &images, &message), SPHC_OK) << message.text;
   ASSERT_EQ(sphc_recording_add_pose(writer, time_ns, &pose, &message), SPHC_OK) << message.text;
@@ -67,7 +67,7 @@ class PanoramaFrom : public testing::Test {
     calibration.color_camera = {
         SPHC_CAMERA_PINHOLE, kWidth, kHeight, 4, {kFocalPx, kFocalPx, kWidth / 2.0, kHeight / 2.0}};
     calibration.depth_camera = calibration.color_camera;
-    calibration.color_from_depth = doorFromRigid({});
+    calibration.color_from_depth = rigidToC({});
     calibration.depth_unit_m = 0.001;
     sphc_recording_writer *writer = nullptr;
     sphc_message message;

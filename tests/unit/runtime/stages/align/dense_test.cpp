@@ -117,7 +117,7 @@ TEST(Dense, APlaneStaysOneUnderEveryCameraModel) {
   }
 }
 
-TEST(Dense, TheScalarTwinGivesTheSameBytes) {
+TEST(Dense, TheScalarVersionGivesTheSameBytes) {
   Random random(5);
   for (const Pair &pair : cameraPairs()) {
     SCOPED_TRACE(pair.name);

@@ -10,8 +10,8 @@
 namespace sphc {
 namespace {
 
-// The twins of the dense kernels are compared as a whole, in dense_test.cpp.
-TEST(AlignKernels, PatchSumsOfBothTwins) {
+// The scalar and the SIMD dense kernels are compared as a whole, in dense_test.cpp.
+TEST(AlignKernels, PatchSumsOfBothVersions) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
     uint16_t raw[kFitSide][kFitLanes];
@@ -31,7 +31,7 @@ TEST(AlignKernels, PatchSumsOfBothTwins) {
   }
 }
 
-TEST(AlignKernels, NearestRowOfBothTwins) {
+TEST(AlignKernels, NearestRowOfBothVersions) {
   Random random(2);
   for (int count : {1, 7, 16, 33, 100}) {
     std::vector<uint16_t> raw(static_cast<size_t>(count)), simd(raw.size(), 60000);

@@ -1,4 +1,4 @@
-// Each kernel against its scalar twin, bit for bit, and against what it is said to compute.
+// Each kernel against its scalar version, bit for bit, and against what it is said to compute.
 #include "runtime/stages/features/kernels.h"
 
 #include <gtest/gtest.h>

@@ -44,7 +44,7 @@ TEST(Repeatability, InstructionSetsAgree) {
   EXPECT_GE(tried, 1);
 }
 
-TEST(Repeatability, ScalarTwinAgrees) {
+TEST(Repeatability, ScalarVersionAgrees) {
   for (const TestImage &image : {spots(333, 211, 1), noise(160, 121, 2), noise(37, 300, 3)}) {
     for (const int32_t first_octave : {0, -1}) {
       FeatureConfig config = configFor(image);

@@ -92,7 +92,7 @@ TEST_F(MatcherTest, BestRatioFirst) {
               1.0 * matches[i].distance2 / matches[i].second2);
 }
 
-TEST_F(MatcherTest, TwinsFailTheRatioTest) {
+TEST_F(MatcherTest, NearDuplicatesFailTheRatioTest) {
   points_[1].descriptor = points_[0].descriptor;
   const std::vector<Descriptor> queries = {jittered(points_[0].descriptor, 3, &random_)};
   EXPECT_EQ(matchExact(queries, 0.8f).size(), 0u);
@@ -127,8 +127,8 @@ TEST_F(MatcherTest, StrangersDoNotMatch) {
 
 TEST_F(MatcherTest, NoQueries) { EXPECT_EQ(matchExact({}, 0.8f).size(), 0u); }
 
-TEST_F(MatcherTest, GuidedLooksInsideTheCapAlone) {
-  // A distant twin spoils the ratio test of the whole map; the cap of 3 degrees leaves it out.
+TEST_F(MatcherTest, GuidedMatchesInsideTheConeAlone) {
+  // A distant near-duplicate spoils the ratio test of the whole map; the cone of 3 degrees leaves it out.
   points_[0].direction = Vector3(0, 0, 1);
   points_[1] = {Vector3(1, 0, 0), points_[0].descriptor};
   const std::vector<Descriptor> queries = {jittered(points_[0].descriptor, 3, &random_)};
@@ -136,13 +136,13 @@ TEST_F(MatcherTest, GuidedLooksInsideTheCapAlone) {
   const std::vector<Match> near = matchNear(queries, {Vector3(0.02, 0, 1).normalized()}, 3, 0.8f);
   ASSERT_EQ(near.size(), 1u);
   EXPECT_EQ(near[0].point_index, 0u);
-  const std::vector<Match> twin = matchNear(queries, {Vector3(1, 0.02, 0).normalized()}, 3, 0.8f);
-  ASSERT_EQ(twin.size(), 1u);
-  EXPECT_EQ(twin[0].point_index, 1u);
+  const std::vector<Match> second = matchNear(queries, {Vector3(1, 0.02, 0).normalized()}, 3, 0.8f);
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].point_index, 1u);
   EXPECT_EQ(matchNear(queries, {Vector3(0, -1, 0)}, 3, 0.8f).size(), 0u);
 }
 
-TEST_F(MatcherTest, GuidedEqualsExhaustiveWithinTheCap) {
+TEST_F(MatcherTest, GuidedEqualsExhaustiveWithinTheCone) {
   std::vector<Descriptor> queries;
   std::vector<Vector3> expected;
   for (uint32_t q = 0; q < kQueries; ++q) {

@@ -14,10 +14,10 @@ namespace {
 
 class SectorConesTest : public testing::Test {
  protected:
-  std::vector<SectorRun> touched(const Cap &cap) {
+  std::vector<SectorRun> touched(const SearchCone &cone) {
     std::vector<SectorRun> runs(SectorCones::kMaxRuns);
-    cones_.prepare(side_, cap.cosine);
-    runs.resize(cones_.touched(cap.axis, {runs.data(), runs.size()}));
+    cones_.prepare(side_, cone.cosine);
+    runs.resize(cones_.touched(cone.axis, {runs.data(), runs.size()}));
     return runs;
   }
 
@@ -39,7 +39,7 @@ bool holds(const std::vector<SectorRun> &runs, uint32_t sector) {
   return false;
 }
 
-// Whatever lies inside the cap lies in a sector that was named: poles, folds and corners too.
+// Whatever lies inside the cone lies in a sector that was named: poles, folds and corners too.
 TEST_F(SectorConesTest, NoSectorOfAPointInsideIsLeftOut) {
   Random random(1);
   for (const uint32_t side : {1u, 2u, 4u, 8u, 16u, 32u}) {
@@ -49,9 +49,10 @@ TEST_F(SectorConesTest, NoSectorOfAPointInsideIsLeftOut) {
           i % 3 ? test::randomDirection(&random)
                 : (Vector3(i % 2, i % 5 > 2, i % 7 > 3 ? -1 : 1) + 0.01 * test::normalVector(&random)).normalized();
       const double angle = test::uniformIn(&random, 0.001, i % 4 ? 0.2 : kPi);
-      const Cap cap = {{static_cast<float>(axis.x()), static_cast<float>(axis.y()), static_cast<float>(axis.z())},
-                       static_cast<float>(std::cos(angle))};
-      const std::vector<SectorRun> runs = touched(cap);
+      const SearchCone cone = {
+          {static_cast<float>(axis.x()), static_cast<float>(axis.y()), static_cast<float>(axis.z())},
+          static_cast<float>(std::cos(angle))};
+      const std::vector<SectorRun> runs = touched(cone);
       for (int k = 0; k < 200; ++k) {
         const Vector3 near = (axis + angle * test::normalVector(&random)).normalized();
         const double sum = near.cwiseAbs().sum();
@@ -64,7 +65,7 @@ TEST_F(SectorConesTest, NoSectorOfAPointInsideIsLeftOut) {
         const PackedDirection packed = {static_cast<uint16_t>(32768 + std::lround(u * 32767)),
                                         static_cast<uint16_t>(32768 + std::lround(v * 32767))};
         const Direction d = unpackDirection(packed);
-        const bool inside = d.x * cap.axis.x + d.y * cap.axis.y + d.z * cap.axis.z > cap.cosine;
+        const bool inside = d.x * cone.axis.x + d.y * cone.axis.y + d.z * cone.axis.z > cone.cosine;
         ASSERT_TRUE(!inside || holds(runs, sectorOf(packed, side)))
             << side << " " << axis.transpose() << " " << angle;
       }

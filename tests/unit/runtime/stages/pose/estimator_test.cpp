@@ -133,13 +133,13 @@ TEST(Estimator, SameSeedSameBytes) {
   expectSameBytes(a, second.search(world, queryWithBias(9)));
 }
 
-TEST(Estimator, TheScalarTwinFindsTheSameBytes) {
-  test::TestEstimator ours, twin(4096, 20000, &scalarPoseKernels());
+TEST(Estimator, TheScalarVersionFindsTheSameBytes) {
+  test::TestEstimator ours, scalar(4096, 20000, &scalarPoseKernels());
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     test::SensorWorldOptions options = sensorAt(0.25, seed);
     options.depthless_share = 0.2;
     const test::PoseWorld world = test::makeSensorWorld(options);
-    expectSameBytes(ours.search(world, queryWithBias(seed)), twin.search(world, queryWithBias(seed)));
+    expectSameBytes(ours.search(world, queryWithBias(seed)), scalar.search(world, queryWithBias(seed)));
   }
 }
 

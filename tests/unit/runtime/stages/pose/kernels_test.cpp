@@ -1,4 +1,4 @@
-// Every instruction set gives the scalar twin's bits.
+// Every instruction set gives the scalar version's bits.
 #include "runtime/stages/pose/kernels.h"
 
 #include <gtest/gtest.h>
@@ -79,18 +79,18 @@ void onRandomProblems(const Check &check) {
   });
 }
 
-TEST(Kernels, PrepareGivesTheTwinsBits) {
+TEST(Kernels, PrepareGivesTheScalarBits) {
   onRandomProblems([](const Problem &problem) {
-    test::OwnedRows ours(problem.correspondences), twin(problem.correspondences);
+    test::OwnedRows ours(problem.correspondences), scalar(problem.correspondences);
     const DepthCorrection correction = {-0.01f, 0.02f, 2.0f, 1.3f};
     simdPoseKernels().prepare(&ours.rows, correction);
-    scalarPoseKernels().prepare(&twin.rows, correction);
+    scalarPoseKernels().prepare(&scalar.rows, correction);
     for (uint32_t f = 0; f < kPoseFieldCount; ++f)
-      EXPECT_TRUE(sameBits(ours.rows.field[f], twin.rows.field[f], ours.rows.padded)) << "field " << f;
+      EXPECT_TRUE(sameBits(ours.rows.field[f], scalar.rows.field[f], ours.rows.padded)) << "field " << f;
   });
 }
 
-TEST(Kernels, ScoreGivesTheTwinsBits) {
+TEST(Kernels, ScoreGivesTheScalarBits) {
   onRandomProblems([](const Problem &problem) {
     const test::OwnedRows owned(problem.correspondences, scalarPoseKernels());
     const PoseF pose = poseF(problem.pose);
@@ -99,48 +99,48 @@ TEST(Kernels, ScoreGivesTheTwinsBits) {
     for (const ScoreLimits &limits : {ScoreLimits{1 / 12.0f, -1, 0, 0}, ScoreLimits{1 / 12.0f, 0.95f * count, 0, 0},
                                       ScoreLimits{1 / 12.0f, -1, 0.9f, 2}}) {
       const Score ours = simdPoseKernels().score(owned.rows, pose, limits);
-      const Score twin = scalarPoseKernels().score(owned.rows, pose, limits);
-      EXPECT_TRUE(sameBits(&ours.gain, &twin.gain, 1));
-      EXPECT_TRUE(sameBits(&ours.seen, &twin.seen, 1));
+      const Score scalar = scalarPoseKernels().score(owned.rows, pose, limits);
+      EXPECT_TRUE(sameBits(&ours.gain, &scalar.gain, 1));
+      EXPECT_TRUE(sameBits(&ours.seen, &scalar.seen, 1));
     }
   });
 }
 
-TEST(Kernels, ResidualsGiveTheTwinsBits) {
+TEST(Kernels, ResidualsGiveTheScalarBits) {
   onRandomProblems([](const Problem &problem) {
     const test::OwnedRows owned(problem.correspondences, scalarPoseKernels());
     const uint32_t padded = owned.rows.padded;
-    std::vector<float> ours(padded), twin(padded);
+    std::vector<float> ours(padded), scalar(padded);
     for (const bool with_bias : {false, true}) {
       const NormalTask task = taskAt(problem.pose, with_bias);
       simdPoseKernels().residuals(owned.rows, task, ours.data());
-      scalarPoseKernels().residuals(owned.rows, task, twin.data());
-      EXPECT_TRUE(sameBits(ours.data(), twin.data(), padded));
+      scalarPoseKernels().residuals(owned.rows, task, scalar.data());
+      EXPECT_TRUE(sameBits(ours.data(), scalar.data(), padded));
       simdPoseKernels().plane_residuals(owned.rows, task, ours.data());
-      scalarPoseKernels().plane_residuals(owned.rows, task, twin.data());
-      EXPECT_TRUE(sameBits(ours.data(), twin.data(), padded));
+      scalarPoseKernels().plane_residuals(owned.rows, task, scalar.data());
+      EXPECT_TRUE(sameBits(ours.data(), scalar.data(), padded));
     }
   });
 }
 
-void expectSameSums(const NormalSums &ours, const NormalSums &twin) {
-  EXPECT_TRUE(sameBits(ours.matrix, twin.matrix, kNormalEntries));
-  EXPECT_TRUE(sameBits(ours.gradient, twin.gradient, kPoseUnknowns));
-  EXPECT_TRUE(sameBits(&ours.cost, &twin.cost, 1));
+void expectSameSums(const NormalSums &ours, const NormalSums &scalar) {
+  EXPECT_TRUE(sameBits(ours.matrix, scalar.matrix, kNormalEntries));
+  EXPECT_TRUE(sameBits(ours.gradient, scalar.gradient, kPoseUnknowns));
+  EXPECT_TRUE(sameBits(&ours.cost, &scalar.cost, 1));
 }
 
-TEST(Kernels, EquationsGiveTheTwinsBits) {
+TEST(Kernels, EquationsGiveTheScalarBits) {
   onRandomProblems([](const Problem &problem) {
     const test::OwnedRows owned(problem.correspondences, scalarPoseKernels());
-    NormalSums ours, twin;
+    NormalSums ours, scalar;
     for (const bool with_bias : {false, true}) {
       const NormalTask task = taskAt(problem.pose, with_bias);
       simdPoseKernels().lifted_equations(owned.rows, task, &ours);
-      scalarPoseKernels().lifted_equations(owned.rows, task, &twin);
-      expectSameSums(ours, twin);
+      scalarPoseKernels().lifted_equations(owned.rows, task, &scalar);
+      expectSameSums(ours, scalar);
       simdPoseKernels().plane_equations(owned.rows, task, &ours);
-      scalarPoseKernels().plane_equations(owned.rows, task, &twin);
-      expectSameSums(ours, twin);
+      scalarPoseKernels().plane_equations(owned.rows, task, &scalar);
+      expectSameSums(ours, scalar);
     }
   });
 }
@@ -158,35 +158,35 @@ MinimalBatch batchOf(const Problem &problem) {
   return batch;
 }
 
-void expectSamePoses(const PoseBatch &ours, const PoseBatch &twin, uint32_t *valid) {
-  EXPECT_TRUE(sameBits(&ours.valid[0][0], &twin.valid[0][0], kMaxSolutions * kMinimalBatch));
+void expectSamePoses(const PoseBatch &ours, const PoseBatch &scalar, uint32_t *valid) {
+  EXPECT_TRUE(sameBits(&ours.valid[0][0], &scalar.valid[0][0], kMaxSolutions * kMinimalBatch));
   for (uint32_t solution = 0; solution < kMaxSolutions; ++solution)
     for (uint32_t sample = 0; sample < kMinimalBatch; ++sample) {
       if (ours.valid[solution][sample] == 0.0f) continue;
       ++*valid;
-      const PoseF a = ours.pose(solution, sample), b = twin.pose(solution, sample);
+      const PoseF a = ours.pose(solution, sample), b = scalar.pose(solution, sample);
       EXPECT_TRUE(sameBits(a.r, b.r, 9));
       EXPECT_TRUE(sameBits(a.t, b.t, 3));
     }
 }
 
-TEST(Kernels, SolversGiveTheTwinsBits) {
+TEST(Kernels, SolversGiveTheScalarBits) {
   onEveryTarget([] {
     Random random(2);
     uint32_t valid = 0, valid_upright = 0;
     for (int trial = 0; trial < 200; ++trial) {
       const MinimalBatch batch = batchOf(randomProblem(3 * kMinimalBatch, &random));
-      PoseBatch ours, twin;
+      PoseBatch ours, scalar;
       simdPoseKernels().solve_p3p(batch, &ours);
-      scalarPoseKernels().solve_p3p(batch, &twin);
-      expectSamePoses(ours, twin, &valid);
+      scalarPoseKernels().solve_p3p(batch, &scalar);
+      expectSamePoses(ours, scalar, &valid);
       UprightFrames frames;
       const Rigid from_map = {test::randomRotation(&random), {}}, from_camera = {test::randomRotation(&random), {}};
       std::memcpy(frames.upright_from_map, poseF(from_map).r, sizeof frames.upright_from_map);
       std::memcpy(frames.upright_from_camera, poseF(from_camera).r, sizeof frames.upright_from_camera);
       simdPoseKernels().solve_upright(batch, frames, &ours);
-      scalarPoseKernels().solve_upright(batch, frames, &twin);
-      expectSamePoses(ours, twin, &valid_upright);
+      scalarPoseKernels().solve_upright(batch, frames, &scalar);
+      expectSamePoses(ours, scalar, &valid_upright);
     }
     EXPECT_GT(valid, 200 * kMinimalBatch / 2);
     EXPECT_GT(valid_upright, 200 * kMinimalBatch / 4);
