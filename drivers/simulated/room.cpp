@@ -191,7 +191,7 @@ RoomPlan layOut(Builder &b) {
   plan.half = {rng.real(2.85, 3.2), rng.real(2.4, 2.7), rng.real(1.35, 1.45)};
   const double ceiling = 2 * plan.half.z;
   buildShell(b, plan);
-  // Each looks into the room: y to the middle, x = y cross z.
+  // All of them face the room: y to the middle, x = y cross z.
   Wall walls[4];
   const Vec3d middles[4] = {{0, -plan.half.y, 0}, {plan.half.x, 0, 0}, {0, plan.half.y, 0}, {-plan.half.x, 0, 0}};
   std::vector<int> order{0, 1, 2, 3};

@@ -88,7 +88,7 @@ std::string howToRead(const Summary &s) { return std::string(kHowToRead) + (s.wi
 const char kOverlayIntro[] = R"(<p class='soft'>
 <span class='key' style='border-color:#a3a3a3'></span>keypoint &nbsp;
 <span class='key' style='border-color:#f59e0b'></span>looks like a point of the map but does not fit the pose
-(often a fake point: they carry real looks) &nbsp;
+(often a fake point: they carry real descriptors) &nbsp;
 <span class='key' style='border-color:#22c55e'></span>fits the pose.
 Green rings spread over the whole image pin the pose down best. Click a picture to enlarge it.</p>)";
 

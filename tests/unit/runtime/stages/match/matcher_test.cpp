@@ -254,7 +254,7 @@ TEST_F(IndexedMatcherTest, CallsAboutTheSameQueriesDoNotDisturbEachOther) {
   EXPECT_TRUE(same(whole, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
 }
 
-TEST_F(IndexedMatcherTest, GuidedIsExactInTheCapWhateverItsSectors) {
+TEST_F(IndexedMatcherTest, GuidedIsExactInTheConeWhateverItsSectors) {
   useCells(8);
   std::vector<Direction> expected;
   queries_.clear();
