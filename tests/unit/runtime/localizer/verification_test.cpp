@@ -7,6 +7,7 @@
 #include "runtime/localizer/tuning.h"
 #include "runtime/stages/pose/mirrored.h"
 #include "tests/support/pose_world.h"
+#include "tests/support/random_numbers.h"
 #include "tests/unit/runtime/localizer/room_parts.h"
 
 namespace sphc {
@@ -255,6 +256,72 @@ TEST_F(FewFarPointsTest, APoseThatRestsOnThemIsAskedForAgainWithoutThem) {
     EXPECT_GT(parts_.work.samples, found().searched.iterations) << viewpoint;
     EXPECT_EQ(found().outcome, Outcome::kUncertain) << viewpoint;
   }
+}
+
+// Every byte by `amount` up or down, so that descriptors are known to lie so far apart.
+Descriptor shifted(Descriptor descriptor, int amount, Random *random) {
+  for (uint8_t &byte : descriptor.bytes) {
+    const bool up = byte < amount || (byte <= 255 - amount && random->below(2));
+    byte = static_cast<uint8_t>(up ? byte + amount : byte - amount);
+  }
+  return descriptor;
+}
+
+constexpr double kMovedM = 0.4;
+
+// One point in twenty has moved, all of these together: a small core that agrees with itself.  Of the others each
+// has a look-alike elsewhere, so that it passes the ratio test at 0.89 and not before; or they are not in the map.
+std::vector<test::WorldPoint> movedCore(bool with_others) {
+  Random random(5);
+  std::vector<test::WorldPoint> points;
+  uint32_t number = 0;
+  for (const test::WorldPoint &point : pointsOfTheRoom()) {
+    if (number++ % 20 == 0) {
+      points.push_back(point);
+      points.back().position_m += Vector3(kMovedM, 0, 0);
+    } else if (with_others) {
+      points.push_back(point);
+      points.back().descriptor = shifted(point.descriptor, 8, &random);
+      points.push_back(
+          {Vector3(0, 0, 1) + 3 * test::randomDirection(&random), shifted(point.descriptor, 9, &random)});
+    }
+  }
+  return points;
+}
+
+class MovedCoreTest : public VerificationTest {
+ protected:
+  explicit MovedCoreTest(bool with_others = true)
+      : VerificationTest(mapOf(movedCore(with_others), Vector3(0, 0, 1))) {}
+};
+
+class MovedCoreAloneTest : public MovedCoreTest {
+ protected:
+  MovedCoreAloneTest() : MovedCoreTest(false) {}
+};
+
+// Nothing contradicts it.
+TEST_F(MovedCoreAloneTest, IsFoundAgainAndBelieved) {
+  verify(seen(0));
+  EXPECT_LT(found().estimate.inliers, kInliersBeyondConfirmation);
+  EXPECT_EQ(found().outcome, Outcome::kLocalized);
+  EXPECT_NEAR(errorM(0), kMovedM, 0.05);
+}
+
+TEST_F(MovedCoreTest, APoseThatALooserSearchContradictsIsNotBelieved) {
+  verify(seen(0));
+  EXPECT_LT(found().estimate.inliers, kInliersBeyondConfirmation);
+  EXPECT_NEAR(errorM(0), kMovedM, 0.05);
+  EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
+  EXPECT_EQ(found().outcome, Outcome::kUncertain);
+}
+
+// Where a pose was expected, that speaks for it.
+TEST_F(MovedCoreTest, AnExpectedPoseNeedsNoConfirmation) {
+  const PoseTask task = seen(0);
+  found().guided = true;
+  verify(task);
+  EXPECT_EQ(found().outcome, Outcome::kLocalized);
 }
 
 }  // namespace
