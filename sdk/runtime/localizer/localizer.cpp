@@ -28,8 +28,8 @@ void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
   result->guided = best.guided;
   if (!best.isLocalized()) return;
   result->camera_from_map = best.estimate.camera_from_map;
-  result->covariance = best.estimate.covariance;
-  result->confidence = confidenceOf(confidenceInputs(best.searched, best.estimate));
+  result->covariance = statedCovariance(best.estimate);
+  result->confidence = confidenceOf(result->covariance);
 }
 
 }  // namespace

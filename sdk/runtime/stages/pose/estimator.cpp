@@ -30,6 +30,7 @@ constexpr uint32_t kSmallSearch = 8;                        // near an expected 
 constexpr float kAgreeingPlane2 = 4;
 constexpr double kMostlyDepth = 4, kMedianOfSquare = 0.4549;
 constexpr uint32_t kFewestForNoise = 16;
+constexpr double kResidualFreedom = 2, kExpectedInliers = 4;  // degrees of a residual; weight of what is expected
 
 // A rotation again, after many small turns in finite precision.
 Rigid cleaned(const Rigid &pose) {
@@ -343,6 +344,13 @@ double PoseEstimator::noiseRatio(const NormalTask &kernel, const Rigid &pose) {
   return median > 0 && median < static_cast<double>(kFinalLimit2) ? sqrtOf(median / kMedianOfSquare) : 0;
 }
 
+// Mean squared residual of the inliers over its expectation, drawn to 1 by a few inliers that are as expected: the
+// a-posteriori variance of unit weight (Mikhail and Ackermann, "Observations and Least Squares", 1976).
+double PoseEstimator::unitVariance(const Estimate &estimate) const {
+  const double squared = config_.inlier_threshold2 * (estimate.inliers - estimate.gain);
+  return (squared / kResidualFreedom + kExpectedInliers) / (estimate.inliers + kExpectedInliers);
+}
+
 Estimate PoseEstimator::evaluate(const PoseQuery &query, const Rigid &camera_from_map) {
   Estimate estimate;
   load(query);
@@ -380,6 +388,7 @@ void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterat
     estimate->gain += 1 - static_cast<double>(squared_[i]) / config_.inlier_threshold2;
   }
   estimate->lifted = lifted_.count;
+  estimate->unit_variance = unitVariance(*estimate);
   estimate->noise_ratio = noiseRatio(kernel, estimate->camera_from_map);
   estimate->ending = PoseEnding::kFound;
 }
