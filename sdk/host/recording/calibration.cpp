@@ -61,9 +61,10 @@ std::string imageSideCure() {
          std::to_string(SPHC_CAMERA_MAX_PX);
 }
 
-void requireGood(const sphc_rig &rig) {
+const sphc_rig &requireGood(const sphc_rig &rig) {
   sphc_message message = {};
   if (sphc_rig_check(&rig, &message) < 0) throw Failure(SPHC_E_ARGUMENT, message.text);
+  return rig;
 }
 
 sphc_rig readCalibration(const std::filesystem::path &path) {

@@ -25,8 +25,8 @@ std::string modelNames();
 bool isImageSide(double value);
 std::string imageSideCure();
 
-// Throws Failure with sphc_rig_check's message.
-void requireGood(const sphc_rig &rig);
+// The rig, where it can be used; else throws Failure with sphc_rig_check's message.
+const sphc_rig &requireGood(const sphc_rig &rig);
 
 // Throw Failure with the file's name.  What is written reads back to the bit.
 sphc_rig readCalibration(const std::filesystem::path &path);

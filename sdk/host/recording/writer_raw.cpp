@@ -48,10 +48,9 @@ fs::path unfinishedName(const fs::path &path) {
 RawWriter::RawWriter(const fs::path &path, const sphc_rig &calibration, sphc_format color_format)
     : path_(path),
       unfinished_(unfinishedName(path)),
-      calibration_(calibration),
+      calibration_(requireGood(calibration)),
       color_format_(color_format),
       file_(File::create(unfinished_)) {
-  requireGood(calibration_);
   file_.append({viewOf(header())});
 }
 
