@@ -60,11 +60,10 @@ sphc_replay_info infoOf(const sphc_replay *replay) {
   return info;
 }
 
-sphc_calibration calibrationOf(const sphc_replay *replay) {
-  sphc_calibration calibration = {};
-  calibration.struct_size = sizeof calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay, &calibration); });
-  return calibration;
+sphc_rig calibrationOf(const sphc_replay *replay) {
+  sphc_rig rig;
+  orThrow("calibration", [&](sphc_message *) { return sphc_replay_rig(replay, &rig); });
+  return rig;
 }
 
 // Poses up to a time; each goes once.

@@ -51,7 +51,7 @@ Findings lookAt(const Options &options, const Console &console) {
     findings.push_back({Grade::kDoubtful, "capture", trouble});
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  const sphc_calibration calibration = calibrationOf(options.rig, rig);
+  const sphc_rig calibration = calibrationOf(options.rig, rig);
   StreamCheck color(SPHC_STREAM_COLOR, calibration), depth(SPHC_STREAM_DEPTH, calibration);
   GeometryCheck geometry(calibration);
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? color : depth).look(c); });

@@ -32,7 +32,7 @@ struct RecorderCloser {
 };
 using Recorder = std::unique_ptr<sphc_recorder, RecorderCloser>;
 
-Recorder openRecorder(const std::string &path, const Options &options, const sphc_calibration &calibration) {
+Recorder openRecorder(const std::string &path, const Options &options, const sphc_rig &calibration) {
   sphc_recorder *recorder = nullptr;
   orThrow("cannot record", [&](sphc_message *message) {
     return sphc_recorder_open(path.c_str(), &calibration, &options.recorder, &recorder, message);

@@ -34,9 +34,8 @@ void checkRigOptions(const RigOptions &options) {
     throw UsageError("give --device, or --color and --depth; `spherecloud devices` lists what is there");
 }
 
-sphc_calibration calibrationOf(const RigOptions &options, const Rig &rig) {
-  sphc_calibration calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
+sphc_rig calibrationOf(const RigOptions &options, const Rig &rig) {
+  sphc_rig calibration;
   const std::string &path = options.wish.calibration;
   if (!path.empty())
     orThrow("calibration",
