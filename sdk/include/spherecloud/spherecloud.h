@@ -411,7 +411,8 @@ typedef struct sphc_result {
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
-  double confidence;  /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED */
+  double confidence;  /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
+                       * bounds sphc_result_confidence */
   uint32_t cut_short; /* 1: the deadline ended the search; more time might have found better */
   sphc_state state;   /* after this frame */
   uint32_t map_index; /* of the map that camera_from_map is in; where there is no pose, the likeliest */
@@ -473,6 +474,10 @@ SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sph
 /* Text about the last failure of sphc_localizer_process on this instance, "" if it did not fail; owned by the
  * instance, valid until its next call. [exclusive] */
 SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
+
+/* The probability that the camera is within so many metres and radians of the pose.  0 where there is no pose, for
+ * a bound that is not above 0, and for a null result.  From the result's covariance; docs/confidence.md. [pure] */
+SPHC_API double sphc_result_confidence(const sphc_result *result, double translation_m, double rotation_rad);
 
 /* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
 enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };

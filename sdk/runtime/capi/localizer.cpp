@@ -170,6 +170,12 @@ const char *sphc_localizer_message(const sphc_localizer *localizer) {
   return localizer ? localizer->message.text : "localizer is null";
 }
 
+double sphc_result_confidence(const sphc_result *result, double translation_m, double rotation_rad) {
+  if (!result || result->outcome != SPHC_OUTCOME_LOCALIZED) return 0;
+  const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(result->covariance);
+  return sphc::Localizer::confidenceWithin(covariance, translation_m, rotation_rad);
+}
+
 sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
                                         uint32_t capacity, uint32_t *count) {
   if (!localizer || !count || (capacity && !observations)) return SPHC_E_ARGUMENT;

@@ -61,6 +61,10 @@ void Localizer::reset() {
   fusion_.clear();
 }
 
+double Localizer::confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad) {
+  return confidenceOf(covariance, {translation_m, rotation_rad});
+}
+
 LocalizerResult Localizer::process(const FrameInput &frame) {
   LocalizerResult result;
   result.depth = calibrator_.current();
