@@ -32,7 +32,7 @@ ConfidenceInputs confidenceInputs(const Estimate &searched, const Estimate &refi
   return inputs;
 }
 
-// Each is held where more of it says nothing more.
+// Each input is limited to the range in which more of it says more.
 bool confidenceFeatures(const ConfidenceInputs &inputs, ConfidenceFeatures *features) {
   const double rotation = inputs.rotation_sigma_rad / kTolerableRad, centre = inputs.centre_sigma_m / kTolerableM;
   for (double input : {inputs.gain_share, inputs.inliers, inputs.gain_per_inlier, rotation, centre})
