@@ -273,7 +273,8 @@ Command convertCommand(CLI::App *root) {
       ->type_name("tum|7scenes|mcap|raw");
   const std::map<std::string, sphc_depth_codec> codecs = {
       {"raw", SPHC_DEPTH_RAW}, {"rvl", SPHC_DEPTH_RVL}, {"zstd", SPHC_DEPTH_ZSTD}};
-  app->add_option("--depth-codec", options->recorder.depth_codec, "Codec of depth in a file; all are lossless [zstd]")
+  app->add_option("--depth-codec", options->recorder.depth_codec,
+                  "Codec of depth in a file; all are lossless [zstd]")
       ->transform(CLI::CheckedTransformer(codecs).description(""))
       ->type_name("zstd|rvl|raw");
   app->add_option("--jpeg", options->recorder.jpeg_quality, "Colour in a file as JPEG of this quality [raw]")

@@ -1,4 +1,4 @@
-// spherecloud inspect: in detail at a map file.
+// spherecloud inspect: a map file in detail.
 #include <memory>
 
 #include "host/cli/commands.h"
