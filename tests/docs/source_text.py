@@ -37,12 +37,15 @@ def kept(text, spans):
     return "".join(blank)
 
 
+PYTHON_TEXT = (tokenize.COMMENT, tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING))
+
+
 def python_spans(text):
     starts = [0]
     for line in text.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type in (tokenize.COMMENT, tokenize.STRING):
+        if token.type in PYTHON_TEXT:
             (first, column), (last, end) = token.start, token.end
             yield starts[first - 1] + column, starts[last - 1] + end
 

@@ -156,7 +156,7 @@ std::string scientific(double value) {
 
 Row differenceRow(const std::string &name, const PixelDifference &d) {
   std::string note = "rms " + scientific(d.rms_px) + " of " + std::to_string(d.samples);
-  if (d.lost > 0) note += "; " + std::to_string(d.lost) + " more are seen no longer";
+  if (d.lost > 0) note += "; " + std::to_string(d.lost) + " more points have lost their pixel";
   return {name, scientific(d.largest_px), note};
 }
 
@@ -195,7 +195,7 @@ nlohmann::ordered_json convert(const Options &options, Format format, const sphc
 
 int calibration(const Options &options, const Console &console) {
   if (options.out.empty() && !options.to.empty())
-    throw UsageError("--to says a format, but --out no file; give both");
+    throw UsageError("--to names a format, but --out names no file; give both");
   const ReadCalibration read = readCalibrationFiles(options.files, formatOf(options.format), joinOptions(options));
   show(read, console);
   nlohmann::ordered_json json = readJson(read);

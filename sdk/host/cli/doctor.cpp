@@ -36,7 +36,7 @@ Findings lookAround() {
   for (const std::string &note : found.notes) findings.push_back({Grade::kDoubtful, "driver", note});
   if (found.cameras.empty())
     findings.push_back({Grade::kWrong, "cameras",
-                        "none is there; is it plugged in, does `dmesg` see it, may this user read /dev/video*?"});
+                        "none was found; is it plugged in, does `dmesg` see it, may this user read /dev/video*?"});
   return findings;
 }
 
@@ -118,7 +118,7 @@ Command doctorCommand(CLI::App *root) {
       "says, or would do so\nif it were mirrored, turned or registered already.");
   app->footer(kExample);
   addRigOptions(app, &options->rig);
-  app->add_option("--frames", options->frames, "Pairs to look at")
+  app->add_option("--frames", options->frames, "Pairs to check")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));
   return {app, [options](const Console &console) { return run(*options, console); }};

@@ -118,7 +118,7 @@ void recordAll(const Options &options, const Interrupt &interrupt, Rig *rig, sph
 
 int run(const Options &options, const Console &console) {
   checkRigOptions(options.rig);
-  if (!isMcap(options.out)) throw UsageError("--out: the name of the file ends with .mcap: " + options.out);
+  if (!isMcap(options.out)) throw UsageError("--out: the file's name must end with .mcap: " + options.out);
   FileUse files(false);
   files.reads(options.rig);
   files.writesRecording("--out", options.out);

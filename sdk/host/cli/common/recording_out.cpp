@@ -34,7 +34,8 @@ class FileOut : public RecordingOut {
 
  private:
   static void notDropped(sphc_status status) {
-    if (status == SPHC_AGAIN) throw std::runtime_error("the disk took nothing for a minute; is it all right?");
+    if (status == SPHC_AGAIN)
+      throw std::runtime_error("the disk took nothing for a minute; is it full, or failing?");
   }
   NewRecording recording_;
   sphc_recorder *recorder_ = nullptr;

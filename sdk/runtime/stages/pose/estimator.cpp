@@ -92,7 +92,7 @@ void PoseEstimator::layout(const EstimatorConfig &config, Arena &scratch, PoseEs
   e.kernels_ = config.kernels ? config.kernels : &simdPoseKernels();
 }
 
-// Lifted rows far from where they were: any first part of them is then a fair sample, whatever their order meant.
+// Moves lifted rows far from where they were: any first part of them is then a fair sample, whatever the order was.
 // Steps of the golden ratio, made coprime to the count, visit every place once.
 void PoseEstimator::load(const PoseQuery &query) {
   lifted_.count = planes_.count = 0;
@@ -130,8 +130,8 @@ void PoseEstimator::keepNear(const RefineTask &task, const Rigid &pose, float li
   near_.pad();
 }
 
-// Rows without depth, and those whose depth is far off (an edge between near and far, a mirror, a fake): of these
-// the epipolar plane is still worth something.
+// Keeps rows without depth, and those whose depth is far off (an edge between near and far, a mirror, a fake):
+// their epipolar planes still tell something.
 void PoseEstimator::keepNearPlanes(const RefineTask &task, const Rigid &pose, float limit2) {
   const NormalTask kernel = normalTask(task, pose, Vector2::Zero());
   near_planes_.count = 0;
@@ -202,8 +202,8 @@ uint32_t PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate
   return kMinimalBatch;
 }
 
-// Chance cannot explain it: such an agreement is the pose, and there is no other.  Chernoff's bound, over all poses
-// tried, at the inlier threshold, whose region is by so much smaller than that of minimal samples.
+// Is the agreement more than chance explains?  Then it is the pose, and there is no other.  Chernoff's bound over
+// all poses tried, at the inlier threshold, whose region is so much smaller than that of minimal samples.
 bool PoseEstimator::isBeyondChance(const Search &search) const {
   const double wide_chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
   const double chance = wide_chance * config_.inlier_threshold2 / kMinimalThreshold2;

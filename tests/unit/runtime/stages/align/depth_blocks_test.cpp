@@ -43,7 +43,7 @@ TEST_F(DepthBlocksTest, NothingWithinReachIsNearer) {
       if (at(u, v)) nearest_of_all = std::min(nearest_of_all, at(u, v));
       for (int32_t y = std::max(0, v - DepthBlocks::kReachPx); y <= v + DepthBlocks::kReachPx && y < kHeight; ++y)
         for (int32_t x = std::max(0, u - DepthBlocks::kReachPx); x <= u + DepthBlocks::kReachPx && x < kWidth; ++x)
-          if (at(x, y)) ASSERT_LE(nearest, at(x, y)) << u << " " << v;
+          ASSERT_LE(nearest, at(x, y) ? at(x, y) : DepthBlocks::kNone) << u << " " << v;
     }
   }
   EXPECT_EQ(blocks_.nearest(), nearest_of_all);

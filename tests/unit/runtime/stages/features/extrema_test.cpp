@@ -53,8 +53,12 @@ TEST(Extrema, ASpotIsFoundBetweenItsPixelsAtItsScale) {
 }
 
 TEST(Extrema, ADarkSpotCountsAsABrightOne) {
-  const TestImage image = spotAt(48.5, 40.5, 2, -45);
-  EXPECT_EQ(extremaOf(image, configFor(image)).size(), 1u);
+  const TestImage image = draw(96, 96, [](double x, double y) {
+    return 200 - 150 * std::exp(-0.125 * ((x - 48.5) * (x - 48.5) + (y - 40.5) * (y - 40.5)));
+  });
+  const auto found = extremaOf(image, configFor(image));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(static_cast<double>(found[0].x) + 0.5, 48.5, 0.05);
 }
 
 TEST(Extrema, FaintSpotsAreLeftOut) {
@@ -68,11 +72,11 @@ TEST(Extrema, FaintSpotsAreLeftOut) {
 }
 
 TEST(Extrema, StraightEdgesAreLeftOut) {
-  const TestImage image = spotAt(48.5, 48.5, 2, 150, 4);
+  const TestImage image = spotAt(48.5, 48.5, 2, 150, 2);
   FeatureConfig config = configFor(image);
-  config.edge_ratio = 100;
+  config.edge_ratio = 30;
   EXPECT_GT(extremaOf(image, config).size(), 0u);
-  config.edge_ratio = 3;
+  config.edge_ratio = 1.5f;
   EXPECT_EQ(extremaOf(image, config).size(), 0u);
 }
 
