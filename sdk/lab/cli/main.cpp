@@ -13,8 +13,8 @@ const char kFooter[] = "Exit status: 0 done, 1 failure (the message has cause an
 
 std::vector<Command> declare(CLI::App *root) {
   return {alignCommand(root),     compareCommand(root), confidenceCommand(root), featuresCommand(root),
-          frameCommand(root),     mapCommand(root),     matchCommand(root),      poseCommand(root),
-          recordingCommand(root), releasesCommand(root)};
+          frameCommand(root),     mapCommand(root),     matchCommand(root),      negativeCommand(root),
+          poseCommand(root),      recordingCommand(root), releasesCommand(root)};
 }
 
 }  // namespace
