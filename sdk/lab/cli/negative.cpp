@@ -32,7 +32,9 @@ int run(const Options &options, const Console &console) {
   std::vector<MapFile> maps;
   maps.push_back(openMapFile(options.map));
   const Vector3 centre = centreByNote(options.map + ".owner.json", maps[0], options.map);
-  NegativeInput input = {readSequences(reader.get(), options.sequences), &maps, {centre.x(), centre.y(), centre.z()},
+  NegativeInput input = {readSequences(reader.get(), options.sequences),
+                         &maps,
+                         {centre.x(), centre.y(), centre.z()},
                          options.elsewhere};
   ProgressBar bar("breaking ");
   const std::vector<NegativeRow> rows =
@@ -60,7 +62,9 @@ Command negativeCommand(CLI::App *root) {
   app->description("Are broken sensors believed?\n\n" + std::string(kHelp));
   app->footer(kExample);
   addRecordingOptions(app, &options->recording);
-  app->add_option("-m,--map", options->map, "Map file, with its owner's note beside it")->required()->type_name("FILE");
+  app->add_option("-m,--map", options->map, "Map file, with its owner's note beside it")
+      ->required()
+      ->type_name("FILE");
   app->add_option("--sequences", options->sequences, "At most so many, spread over the recording")
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000u))

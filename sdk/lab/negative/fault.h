@@ -11,9 +11,9 @@ namespace sphc::host {
 struct SensorFault {
   std::string name;
   std::function<void(Sequence *)> apply;
-  uint32_t named_by = 0;        // SPHC_FAULT_ bits of which any names it; 0: nothing is wrong
-  bool with_odometry = false;   // is odometry given?
-  bool is_elsewhere = false;    // no pose is right: the views show another place
+  uint32_t named_by = 0;       // SPHC_FAULT_ bits of which any names it; 0: nothing is wrong
+  bool with_odometry = false;  // is odometry given?
+  bool is_elsewhere = false;   // no pose is right: the views show another place
 };
 
 // A kind each.

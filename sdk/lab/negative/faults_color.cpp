@@ -18,7 +18,8 @@ void show(const Window &window, Sequence *s) {
       for (uint32_t x = 0; x < w; ++x) {
         const auto u = static_cast<uint32_t>(window.x * w + window.width * x + 0.5) % w,
                    v = static_cast<uint32_t>(window.y * h + window.height * y + 0.5) % h;
-        for (uint32_t k = 0; k < c; ++k) shot.color[(size_t{y} * w + x) * c + k] = before[(size_t{v} * w + u) * c + k];
+        for (uint32_t k = 0; k < c; ++k)
+          shot.color[(size_t{y} * w + x) * c + k] = before[(size_t{v} * w + u) * c + k];
       }
   }
 }

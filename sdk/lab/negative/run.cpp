@@ -26,7 +26,8 @@ PoseError errorOf(const sphc_rigid &camera_from_map, const std::array<double, 3>
 
 class FaultRun {
  public:
-  FaultRun(const NegativeInput &input, const SensorFault &fault, sphc_mode mode) : input_(input), fault_(fault), mode_(mode) {
+  FaultRun(const NegativeInput &input, const SensorFault &fault, sphc_mode mode)
+      : input_(input), fault_(fault), mode_(mode) {
     row_.fault = fault.name;
     row_.mode = mode == SPHC_MODE_SINGLE ? "single" : "tracking";
   }

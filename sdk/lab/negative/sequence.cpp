@@ -12,7 +12,8 @@ template <typename T>
 std::vector<T> pixelsOf(const sphc_image &image, size_t values_a_row) {
   std::vector<T> pixels(values_a_row * image.height);
   for (uint32_t y = 0; y < image.height; ++y)
-    std::memcpy(&pixels[y * values_a_row], static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes,
+    std::memcpy(&pixels[y * values_a_row],
+                static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes,
                 values_a_row * sizeof(T));
   return pixels;
 }

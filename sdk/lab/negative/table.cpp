@@ -18,12 +18,13 @@ std::string namesOf(uint32_t faults) {
 }  // namespace
 
 std::string negativeText(const std::vector<NegativeRow> &rows) {
-  std::string text = "fault                               mode      tried  accepted  wrong  sure  named  sequences\n";
+  std::string text =
+      "fault                               mode      tried  accepted  wrong  sure  named  sequences\n";
   for (const NegativeRow &row : rows) {
     char line[256];
     std::snprintf(line, sizeof line, "%-35s %-8s %6u %9u %6u %5u %6u  %u of %u  %s\n", row.fault.c_str(),
-                  row.mode.c_str(), row.tried, row.accepted, row.wrong, row.wrong_sure, row.named, row.sequences_named,
-                  row.sequences, namesOf(row.seen).c_str());
+                  row.mode.c_str(), row.tried, row.accepted, row.wrong, row.wrong_sure, row.named,
+                  row.sequences_named, row.sequences, namesOf(row.seen).c_str());
     text += line;
   }
   return text;

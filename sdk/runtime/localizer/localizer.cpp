@@ -14,9 +14,9 @@ namespace {
 
 // What is doubted, and how far; docs/consistency.md has the evidence.
 constexpr Faults kDoubts = kDepthScale | kDepthBias;
-constexpr double kDoubtedConfidence = 0.25;      // at most
-constexpr double kBiasSigmas = 4;                // of the prior
-constexpr double kVerticalSigmas = 4, kLeastVerticalRad = degrees(1.5);
+constexpr double kDoubtedConfidence = 0.25;  // at most
+constexpr double kBiasSigmas = 2.5;          // of the prior
+constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
 
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }
 
@@ -94,13 +94,14 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   }
   const Rigid color_from_depth = colorFromDepth(frame);
   front_.lift(frame.depth, color_from_depth);
-  result.faults = consistency_.look(
-      {front_.gray(), frame.depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns});
+  result.faults =
+      consistency_.look({front_.gray(), frame.depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns});
   const int64_t aligned = config_.clock.now();
   Work work;
   answer(frame.known, deadlineFrom(begin), &result.faults, &work);
   fillAnswer(best_, &result);
-  if (result.faults & kDoubts) result.confidence = std::min(result.confidence, kDoubtedConfidence);
+  if (result.faults & kDoubts || consistency_.isDoubtful())
+    result.confidence = std::min(result.confidence, kDoubtedConfidence);
   observe();
   learn();
   result.keypoints = front_.keypointCount();
@@ -260,8 +261,8 @@ Faults Localizer::judgeTravel(const Known &known) {
   if (best_.map != travel_map_) travel_.reset();
   travel_map_ = best_.map;
   const double sigma_m = sqrtOf(best_.estimate.covariance.bottomRightCorner<3, 3>().trace() / 3);
-  travel_.add(best_.estimate.camera_from_map.inverse().translation_m, known.odometry.odometry_from_camera.translation_m,
-              sigma_m);
+  travel_.add(best_.estimate.camera_from_map.inverse().translation_m,
+              known.odometry.odometry_from_camera.translation_m, sigma_m);
   return travel_.isScaled() ? kDepthScale : 0;
 }
 

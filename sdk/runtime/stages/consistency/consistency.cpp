@@ -7,20 +7,22 @@ namespace {
 
 // ---- values of one image; docs/consistency.md has the evidence ----
 
-constexpr double kMeasuredShare = 0.1;    // of the samples: fewer say nothing
+constexpr double kMeasuredShare = 0.1;     // of the samples: fewer say nothing
 constexpr double kOutOfRangeShare = 0.98;  // of the measurements
 constexpr uint32_t kFewValues = 3;
 constexpr uint32_t kFewestSlanted = 15;
-constexpr double kMostBend = 1.2, kBendOfFew = 7;  // the latter over the root of how many places there are
+// How far the values may be bent, the second over the root of how many places there are: in frame after frame, and
+// in one alone.
+constexpr double kMostBend = 1.2, kMostBendOfFew = 7, kSureBend = 2, kSureBendOfFew = 10;
 
 // ---- edges ----
 
 // (mean rank - kHalfway) * sqrt(edges): mostly above 0.5 where the two agree, and below 0 where they do not.
 constexpr double kHalfway = 0.57;
 constexpr uint32_t kFewestEdges = 6;
-constexpr double kSurelyOff = -0.75;  // in one frame
+constexpr double kSurelyOff = -0.85, kDoubtfullyOff = 0;  // in one frame
 // Summed over frames (Page's cumulative sum): how far below kUsual each is.
-constexpr double kUsual = 0.35, kMostAStep = 1, kAlarm = 2.2, kAllClear = 1, kMostDoubt = 4;
+constexpr double kUsual = 0.35, kMostAStep = 1, kDoubtful = 0.8, kAlarm = 2.2, kAllClear = 1, kMostDoubt = 4;
 
 }  // namespace
 
@@ -39,7 +41,7 @@ void Consistency::init(const ConsistencyConfig &config) {
 void Consistency::reset() {
   stillness_.reset();
   doubt_ = 0;
-  disagreed_ = false;
+  disagreed_ = doubtful_ = bent_ = false;
 }
 
 Faults Consistency::look(const ConsistencyView &view) {
@@ -50,7 +52,9 @@ Faults Consistency::look(const ConsistencyView &view) {
   Faults faults = judgeValues();
   if (config_.follows)
     faults |= stillness_.look(samples_.values(), view.depth_time_ns, view.gray, view.color_time_ns);
+  doubtful_ = false;
   if (edgesDisagree()) faults |= kDepthColorDisagree;
+  if (isBent()) faults |= kDepthBent;
   return faults;
 }
 
@@ -59,21 +63,31 @@ Faults Consistency::judgeValues() const {
   if (values_.measured < least) return 0;
   if (values_.measured - values_.in_range > kOutOfRangeShare * values_.measured) return kDepthRange;
   if (values_.in_range > least && values_.distinct <= kFewValues) return kDepthConstant;
-  if (values_.slanted < kFewestSlanted) return 0;
-  const double most = kMostBend + kBendOfFew / sqrtOf(static_cast<double>(values_.slanted));
-  return values_.bend > most ? kDepthBent : 0;
+  return 0;
+}
+
+bool Consistency::isBent() {
+  const bool bent_before = bent_;
+  bent_ = false;
+  if (values_.slanted < kFewestSlanted) return false;
+  const double root = sqrtOf(static_cast<double>(values_.slanted));
+  bent_ = values_.bend > kMostBend + kMostBendOfFew / root;
+  doubtful_ = doubtful_ || bent_;
+  return values_.bend > kSureBend + kSureBendOfFew / root || (config_.follows && bent_ && bent_before);
 }
 
 bool Consistency::edgesDisagree() {
   double score = 0;
   const bool tells = agreement_.edges >= kFewestEdges;
   if (tells) score = (agreement_.middle() - kHalfway) * sqrtOf(static_cast<double>(agreement_.edges));
+  doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   if (tells) {
     const double step = std::min(kMostAStep, std::max(-kMostAStep, kUsual - score));
     doubt_ = std::min(kMostDoubt, std::max(0.0, doubt_ + step));
     if (score < kSurelyOff) doubt_ = std::max(doubt_, kAlarm);
   }
+  doubtful_ = doubtful_ || doubt_ >= kDoubtful;
   disagreed_ = doubt_ >= (disagreed_ ? kAllClear : kAlarm);
   return disagreed_;
 }

@@ -29,6 +29,8 @@ class Consistency {
   void init(const ConsistencyConfig &config);
   // Every frame; what is wrong with it.
   Faults look(const ConsistencyView &view);
+  // After look: too little for a fault, but enough not to be sure of a pose.
+  bool isDoubtful() const { return doubtful_; }
   // Forgets earlier frames.
   void reset();
 
@@ -39,6 +41,7 @@ class Consistency {
  private:
   Faults judgeValues() const;
   bool edgesDisagree();
+  bool isBent();
 
   ConsistencyConfig config_;
   DepthSamples samples_;
@@ -46,8 +49,9 @@ class Consistency {
   Stillness stillness_;
   DepthValues values_;
   EdgeAgreement agreement_;
-  double doubt_ = 0;         // of edges, summed over frames
-  bool disagreed_ = false;   // at the frame before
+  double doubt_ = 0;        // of edges, summed over frames
+  bool disagreed_ = false;  // at the frame before
+  bool doubtful_ = false, bent_ = false;
 };
 
 }  // namespace sphc

@@ -26,8 +26,8 @@ struct DepthEdges::Walk {
     const int32_t x = along_y ? line : i, y = along_y ? i : line;
     const int32_t cell = y * kRows / depth.height * kColumns + x * kColumns / depth.width;
     const float beyond = 0.5f * static_cast<float>(toward_far * step);
-    return {static_cast<float>(x) + 0.5f + (along_y ? 0 : beyond), static_cast<float>(y) + 0.5f + (along_y ? beyond : 0),
-            near, static_cast<uint16_t>(cell), along_y};
+    return {static_cast<float>(x) + 0.5f + (along_y ? 0 : beyond),
+            static_cast<float>(y) + 0.5f + (along_y ? beyond : 0), near, static_cast<uint16_t>(cell), along_y};
   }
 };
 

@@ -5,9 +5,10 @@
 namespace sphc {
 namespace {
 
-constexpr int32_t kReach = 4;       // samples from the middle of a place to its ends
-constexpr float kSlanted2 = 0.006f;  // squared relative change of the inverse depth over the reach
-constexpr float kSmooth = 0.05f;    // relative deviation of the samples between from a straight line
+constexpr int32_t kSmoothPx = 2, kSurfaceShare = 20;  // pixels around a sample, within 1 / 20 of it, are averaged
+constexpr int32_t kReach = 4;                         // samples from the middle of a place to its ends
+constexpr float kSlanted2 = 0.006f;                   // squared relative change of the inverse depth over the reach
+constexpr float kSmooth = 0.05f;  // relative deviation of the samples between from a straight line
 
 float middleOf(float a, float b, float c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
 
@@ -29,7 +30,8 @@ void DepthSamples::init(const Camera &camera, const DepthSensor &sensor) {
       Vector2 ray = Vector2::Zero();
       const Vector2 px = {(column + 0.5) * camera.width() / kColumns, (row + 0.5) * camera.height() / kRows};
       if (!camera.unproject(px, &ray)) ray = Vector2::Zero();
-      rays_[static_cast<size_t>(row * kColumns + column)] = {static_cast<float>(ray.x()), static_cast<float>(ray.y())};
+      rays_[static_cast<size_t>(row * kColumns + column)] = {static_cast<float>(ray.x()),
+                                                             static_cast<float>(ray.y())};
     }
   }
 }
@@ -38,13 +40,14 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   DepthValues found;
   uint16_t seen[DepthValues::kMostDistinct] = {};
   for (int32_t row = 0; row < kRows; ++row) {
-    const uint16_t *line = depth.row((2 * row + 1) * depth.height / (2 * kRows));
+    const int32_t y = (2 * row + 1) * depth.height / (2 * kRows);
     for (int32_t column = 0; column < kColumns; ++column) {
       const size_t at = static_cast<size_t>(row * kColumns + column);
-      const uint16_t value = values_[at] = line[(2 * column + 1) * depth.width / (2 * kColumns)];
+      const int32_t x = (2 * column + 1) * depth.width / (2 * kColumns);
+      const uint16_t value = values_[at] = depth.row(y)[x];
       const double z = value * sensor_.unit_m;
       const bool in_range = value != 0 && z >= sensor_.min_m && z <= sensor_.max_m;
-      inverse_[at] = in_range ? static_cast<float>(1 / z) : 0;
+      inverse_[at] = in_range ? smoothInverse(depth, x, y) : 0;
       ++found.samples;
       found.measured += value != 0;
       found.in_range += in_range;
@@ -61,12 +64,27 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   return found;
 }
 
+// One over the mean depth of the pixels around that are on the surface of the middle one.
+float DepthSamples::smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const {
+  const int32_t middle = depth.row(y)[x], most = middle / kSurfaceShare;
+  int32_t sum = 0, count = 0;
+  for (int32_t v = std::max(0, y - kSmoothPx); v <= std::min(depth.height - 1, y + kSmoothPx); ++v)
+    for (int32_t u = std::max(0, x - kSmoothPx); u <= std::min(depth.width - 1, x + kSmoothPx); ++u) {
+      const int32_t value = depth.row(v)[u];
+      if (absOf(value - middle) > most) continue;
+      sum += value;
+      ++count;
+    }
+  return static_cast<float>(count / (sum * sensor_.unit_m));
+}
+
 // Are the samples between the middle of a place and its ends where a smooth surface has them?
 bool DepthSamples::isSmooth(size_t at, size_t step) const {
   const float w = inverse_[at], before = inverse_[at - kReach * step], after = inverse_[at + kReach * step];
   const float half_before = inverse_[at - kReach / 2 * step], half_after = inverse_[at + kReach / 2 * step];
   if (!(w > 0 && before > 0 && after > 0 && half_before > 0 && half_after > 0)) return false;
-  return absOf(half_before - 0.5f * (before + w)) < kSmooth * w && absOf(half_after - 0.5f * (after + w)) < kSmooth * w;
+  return absOf(half_before - 0.5f * (before + w)) < kSmooth * w &&
+         absOf(half_after - 0.5f * (after + w)) < kSmooth * w;
 }
 
 void DepthSamples::addBend(int32_t column, int32_t row, DepthValues *found) {

@@ -1,5 +1,5 @@
-// Do edges of depth lie on edges of the image?  Where they do not, the two show different things, or the calibration
-// is another's.
+// Do edges of depth lie on edges of the image?  Where they do not, the two show different things, or the
+// calibration is another's.
 #pragma once
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"

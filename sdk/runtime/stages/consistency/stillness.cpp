@@ -9,6 +9,7 @@ constexpr int32_t kColumns = 32, kRows = 24;  // samples of grey
 constexpr int32_t kGrayNoise = 12;            // levels
 constexpr int32_t kDepthNoiseShare = 50;      // 1 / 50 of the measurement
 constexpr uint32_t kFewestMeasured = 100;
+constexpr int64_t kFrozenNs = 60000000;  // cameras that run freely give one image twice now and then
 
 }  // namespace
 
@@ -53,13 +54,11 @@ Stillness::Change Stillness::compareGray(GrayView gray) {
 Faults Stillness::look(Span<const uint16_t> depth, int64_t depth_time_ns, GrayView gray, int64_t color_time_ns) {
   const Change of_depth = compareDepth(depth), of_gray = compareGray(gray);
   // An image that is said to be the one of before may well be.
-  const bool new_depth = has_before_ && depth_time_ns != depth_time_ns_,
-             new_color = has_before_ && color_time_ns != color_time_ns_;
+  if (!has_before_ || !of_depth.isStill()) depth_time_ns_ = depth_time_ns;
+  if (!has_before_ || !of_gray.isStill()) color_time_ns_ = color_time_ns;
   has_before_ = true;
-  depth_time_ns_ = depth_time_ns;
-  color_time_ns_ = color_time_ns;
-  if (new_depth && of_depth.isStill() && of_gray.isMotion()) return kDepthFrozen;
-  if (new_color && of_gray.isStill() && of_depth.isMotion()) return kColorFrozen;
+  if (depth_time_ns - depth_time_ns_ > kFrozenNs && of_gray.isMotion()) return kDepthFrozen;
+  if (color_time_ns - color_time_ns_ > kFrozenNs && of_depth.isMotion()) return kColorFrozen;
   return 0;
 }
 

@@ -19,14 +19,14 @@ class Stillness {
   struct Change {
     uint32_t compared = 0, changed = 0, moved = 0;  // moved: by more than noise
     bool isStill() const { return compared > 0 && changed == 0; }
-    bool isMotion() const { return compared > 0 && 5 * moved > compared; }
+    bool isMotion() const { return compared > 0 && 10 * moved > compared; }
   };
   Change compareDepth(Span<const uint16_t> depth);
   Change compareGray(GrayView gray);
 
   Span<uint16_t> depth_;
   Span<uint8_t> gray_;
-  int64_t depth_time_ns_ = 0, color_time_ns_ = 0;
+  int64_t depth_time_ns_ = 0, color_time_ns_ = 0;  // when each image last changed
   bool has_before_ = false;
 };
 

@@ -5,9 +5,9 @@
 namespace sphc {
 namespace {
 
-constexpr uint32_t kFewest = 10;
-constexpr double kFarM = 0.12;      // root mean square of places about their mean
-constexpr double kMostOff = 0.06;   // of the logarithm of the scale
+constexpr uint32_t kFewest = 5;
+constexpr double kFarM = 0.08;     // root mean square of places about their mean
+constexpr double kMostOff = 0.06;  // of the logarithm of the scale
 constexpr double kSigmas = 4;
 constexpr double kHonest = 2;       // errors of poses over their stated ones
 constexpr double kIndependent = 4;  // one place in so many: neighbours share their errors

@@ -1,5 +1,5 @@
-// Poses against odometry: how far the camera went, by each.  A common scale of all depths scales the camera's way in
-// a sphere cloud and nothing else, so this is the only place where it shows.
+// Poses against odometry: how far the camera went, by each.  A common scale of all depths scales the camera's way
+// in a sphere cloud and nothing else, so this is the only place where it shows.
 #pragma once
 #include "runtime/geometry/rotation.h"
 
