@@ -76,6 +76,7 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->frames_together = result.frames;
   frame->guided = result.guided != 0;
   frame->depth = result.depth;
+  frame->faults = result.faults;
   if (!frame->localized) return;
   frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);

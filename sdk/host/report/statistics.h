@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "host/report/fault_words.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -33,8 +34,9 @@ struct Summary {
   uint32_t frames = 0, localized = 0;
   uint32_t tracking = 0, guided = 0;  // frames after which the pose was trusted; found where it was expected
   uint32_t with_truth = 0, good = 0;  // good: within 5 cm and 5 deg, of the frames with truth
-  std::array<uint32_t, SPHC_OUTCOME_DEADLINE + 1> outcomes = {};
-  Spread rotation_deg, translation_m;  // of the localized frames with truth
+  std::array<uint32_t, SPHC_OUTCOME_CONTRADICTION + 1> outcomes = {};
+  std::array<uint32_t, kFaultWords.size()> faults = {};  // frames that name each
+  Spread rotation_deg, translation_m;                    // of the localized frames with truth
   std::array<double, kStageCount> stage_median_ms = {};
   std::array<double, kStageCount> stage_p90_ms = {};
   double median_inliers = 0, median_matches = 0, median_keypoints = 0;

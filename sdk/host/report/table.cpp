@@ -14,6 +14,13 @@ std::string ofTotal(uint32_t count, uint32_t total) {
   return std::to_string(count) + " of " + std::to_string(total);
 }
 
+void addFaults(const Summary &s, std::vector<Row> *rows) {
+  for (size_t i = 0; i < s.faults.size(); ++i)
+    if (s.faults[i])
+      rows->push_back(
+          {std::string("FAULT: ") + kFaultWords[i].name, share(s.faults[i], s.frames), kFaultWords[i].cure});
+}
+
 void addErrors(const Summary &s, std::vector<Row> *rows) {
   if (s.with_truth == 0) {
     rows->push_back({"error against the truth", "not known", "give --owner-note, and a recording with poses"});
@@ -55,6 +62,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   if (s.tracking > 0)
     rows.push_back({"tracking", share(s.tracking, s.frames),
                     ofTotal(s.guided, s.frames) + " were found where they were expected"});
+  addFaults(s, &rows);
   addErrors(s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});

@@ -385,8 +385,27 @@ enum {
   SPHC_OUTCOME_FEW_MATCHES = 3,   /* too few look like anything in the map: another place, or much changed */
   SPHC_OUTCOME_NO_CONSENSUS = 4,  /* no pose agrees with clearly more matches than chance would */
   SPHC_OUTCOME_UNCERTAIN = 5,     /* a pose was found but the matches pin it down too weakly: degenerate geometry */
-  SPHC_OUTCOME_DEADLINE = 6       /* no pose before config.deadline_us */
+  SPHC_OUTCOME_DEADLINE = 6,      /* no pose before config.deadline_us */
+  SPHC_OUTCOME_CONTRADICTION = 7  /* the frame contradicts itself, and no pose is given; result.faults says how */
 };
+
+/* What is wrong with a frame or with what it was told, as far as that shows; bits of result.faults.  Those before
+ * DEPTH_SCALE take the pose away (SPHC_OUTCOME_CONTRADICTION).  Streams and edges over frames are compared in
+ * SPHC_MODE_TRACKING.  docs/consistency.md has causes and cures. */
+enum {
+  SPHC_FAULT_DEPTH_RANGE = 1u,    /* depth is measured, but nearly none between depth_min_m and depth_max_m */
+  SPHC_FAULT_DEPTH_CONSTANT = 2u, /* one depth everywhere */
+  SPHC_FAULT_DEPTH_BENT = 4u,     /* planes are bent: inverted depth, or disparity in its place */
+  SPHC_FAULT_DEPTH_FROZEN = 8u,   /* the same depth image again while the colour image moves */
+  SPHC_FAULT_COLOR_FROZEN = 16u,  /* the same colour image again while depth moves */
+  SPHC_FAULT_DEPTH_COLOR_DISAGREE = 32u, /* edges of depth are not where the image has edges: late or mirrored
+                                           depth, another calibration, an image that was cropped or scaled */
+  SPHC_FAULT_DEPTH_SCALE = 64u,          /* poses go farther, or less far, than odometry; confidence is below 0.5 */
+  SPHC_FAULT_DEPTH_BIAS = 128u, /* result.depth is beyond 2.5 of the config's sigmas; confidence is below 0.5 */
+  SPHC_FAULT_VERTICAL_DISAGREES = 256u /* UP is not the pose's vertical; the pose was found without it */
+};
+/* "SPHC_FAULT_DEPTH_RANGE" and so on for one bit; "SPHC_FAULT_?" for any other value; static storage. [pure] */
+SPHC_API const char *sphc_fault_name(uint32_t fault);
 
 /* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
  * is noise_scale times the one in the config. */
@@ -411,14 +430,14 @@ typedef struct sphc_result {
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
-  double confidence;  /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
-                       * bounds sphc_result_confidence */
-  uint32_t cut_short; /* 1: the deadline ended the search; more time might have found better */
-  sphc_state state;   /* after this frame */
-  uint32_t map_index; /* of the map that camera_from_map is in; where there is no pose, the likeliest */
-  uint32_t frames;    /* whose matches the pose was found from: 1, or more where odometry put some together */
-  uint32_t guided;    /* 1: found where it was expected, without a search of the whole map */
-  uint32_t reserved;
+  double confidence;     /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
+                          * bounds sphc_result_confidence */
+  uint32_t cut_short;    /* 1: the deadline ended the search; more time might have found better */
+  sphc_state state;      /* after this frame */
+  uint32_t map_index;    /* of the map that camera_from_map is in; where there is no pose, the likeliest */
+  uint32_t frames;       /* whose matches the pose was found from: 1, or more where odometry put some together */
+  uint32_t guided;       /* 1: found where it was expected, without a search of the whole map */
+  uint32_t faults;       /* SPHC_FAULT_ bits; 0: nothing was found */
   sphc_depth_bias depth; /* what the frame was looked at with */
 } sphc_result;
 

@@ -118,9 +118,18 @@ sphc_outcome outcomeFrom(Outcome outcome) {
       return SPHC_OUTCOME_UNCERTAIN;
     case Outcome::kDeadline:
       return SPHC_OUTCOME_DEADLINE;
+    case Outcome::kContradiction:
+      return SPHC_OUTCOME_CONTRADICTION;
   }
   return SPHC_OUTCOME_NO_CONSENSUS;  // never
 }
+
+// The bits are the interface's.
+static_assert(kDepthRange == SPHC_FAULT_DEPTH_RANGE && kDepthConstant == SPHC_FAULT_DEPTH_CONSTANT &&
+              kDepthBent == SPHC_FAULT_DEPTH_BENT && kDepthFrozen == SPHC_FAULT_DEPTH_FROZEN &&
+              kColorFrozen == SPHC_FAULT_COLOR_FROZEN && kDepthColorDisagree == SPHC_FAULT_DEPTH_COLOR_DISAGREE &&
+              kDepthScale == SPHC_FAULT_DEPTH_SCALE && kDepthBias == SPHC_FAULT_DEPTH_BIAS &&
+              kVerticalDisagrees == SPHC_FAULT_VERTICAL_DISAGREES);
 
 sphc_state stateFrom(TrackingState state) {
   switch (state) {
@@ -169,6 +178,7 @@ void fillResult(const LocalizerResult &answer, const sphc_frame &frame, sphc_res
   result->map_index = answer.map;
   result->frames = answer.frames;
   result->guided = answer.guided;
+  result->faults = answer.faults;
   result->depth = depthBiasFrom(answer.depth);
 }
 

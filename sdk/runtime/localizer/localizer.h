@@ -9,6 +9,7 @@
 #include "runtime/localizer/search.h"
 #include "runtime/localizer/tracker.h"
 #include "runtime/localizer/verification.h"
+#include "runtime/stages/consistency/consistency.h"
 #include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
 
@@ -39,6 +40,7 @@ class Localizer {
  private:
   Rigid colorFromDepth(const FrameInput &frame) const;
   Deadline deadlineFrom(int64_t begin_ns) const;
+  void answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void locate(const Known &known, const Deadline &deadline, Work *work);
   void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
   void searchEverywhere(const Known &known, const Deadline &deadline, Work *work);
@@ -47,6 +49,8 @@ class Localizer {
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
   bool isDone(const Deadline &deadline) const;
+  bool verticalDisagrees(const Known &known);
+  Faults judgeTravel(const Known &known);
   void observe();
   void learn();
 
@@ -57,6 +61,9 @@ class Localizer {
   DepthCalibrator calibrator_;
   Tracker tracker_;
   Fusion fusion_;
+  Consistency consistency_;
+  Travel travel_;
+  uint32_t travel_map_ = 0;
   Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch
 };
 
