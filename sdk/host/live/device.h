@@ -4,7 +4,7 @@
 //     libcamera:   libcamera:ID                              the first camera, or this one; colour
 //     openni2:   openni2:URI   openni2:walk.oni              the first device, or this one; colour and depth
 //     replay:walk   replay:walk.mcap                         a recording, as fast as it was recorded
-//     simulated:                                             the simulated headset, as fast as it renders
+//     simulated:   simulated:feet,tiles,seed=7               the simulated headset, as fast as it renders
 #pragma once
 #include <spherecloud/spherecloud.h>
 

@@ -41,7 +41,9 @@ TEST(SimulatedConfig, OpenNamesTheFieldAndTheCure) {
       {"depth_scale", [&](auto &c) { c.depth_scale = nan; }},
       {"depth_sigma_m", [](auto &c) { c.depth_sigma_m = -1; }},
       {"depth_max_m", [](auto &c) { c.depth_max_m = std::numeric_limits<double>::infinity(); }},
-      {"reserved", [](auto &c) { c.reserved = 1; }},
+      {"with", [](auto &c) { c.with = 1u << 20; }},
+      {"with", [](auto &c) { c.with = SPHC_SIMULATED_DAY | SPHC_SIMULATED_NIGHT; }},
+      {"walk_start_s", [](auto &c) { c.walk_start_s = -1; }},
   };
   for (const auto &c : cases) {
     sphc_simulated_config config = defaults();
