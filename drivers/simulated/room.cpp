@@ -271,14 +271,9 @@ RoomPlan layOut(Builder &b, uint32_t with) {
   RoomPlan plan;
   plan.half = {rng.real(2.85, 3.2), rng.real(2.4, 2.7), rng.real(1.35, 1.45)};
   const double ceiling = 2 * plan.half.z;
-<<<<<<< HEAD
-  buildShell(b, plan);
-  // All of them face the room: y to the middle, x = y cross z.
-=======
   const uint64_t doubles_seed = (with & SPHC_SIMULATED_DOUBLES) != 0 ? rng.next() | 1 : 0;
   buildShell(b, plan, with);
-  // Each looks into the room: y to the middle, x = y cross z.
->>>>>>> nasty
+  // All of them face the room: y to the middle, x = y cross z.
   Wall walls[4];
   const Vec3d middles[4] = {{0, -plan.half.y, 0}, {plan.half.x, 0, 0}, {0, plan.half.y, 0}, {-plan.half.x, 0, 0}};
   std::vector<int> order{0, 1, 2, 3};
