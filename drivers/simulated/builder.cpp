@@ -19,6 +19,11 @@ Place at(const Place &place, double x, double y, double z, double yaw) {
 
 void Builder::add(Kind kind, const Place &place, const Vec3d &center, const Vec3d &half, const Mat3d &turn,
                   const Finish faces[kMaxFaces]) {
+  if (left_out_) {
+    // The others keep the numbers that they would have drawn.
+    for (int face = 0; face < faceCount(kind); ++face) rng_.next();
+    return;
+  }
   Shape shape;
   shape.kind = kind;
   shape.local_from_world = toFloat(transposed(yawRotation(place.yaw) * turn));
@@ -32,6 +37,19 @@ void Builder::add(Kind kind, const Place &place, const Vec3d &center, const Vec3
                     rng_.next()});
   }
   shapes.push_back(shape);
+}
+
+void Builder::solid(Kind kind, const Vec3d &center, const Mat3d &turn, const Vec3d &half,
+                    const Finish faces[kMaxFaces]) {
+  add(kind, Place{}, center, half, turn, faces);
+}
+
+Place Builder::rearrange(const Place &place, double slack_m) {
+  const double lot = arrangement_.real();
+  const double x = arrangement_.real(-slack_m, slack_m), y = arrangement_.real(-slack_m, slack_m);
+  const double yaw = arrangement_.real(-1.2, 1.2);
+  if (lot < 0.25) left_out_ = true;
+  return lot < 0.5 || slack_m == 0 ? place : at(place, x, y, 0, yaw);
 }
 
 void Builder::box(const Place &place, Vec3d center, Vec3d half, Finish all) {

@@ -30,11 +30,32 @@ struct Finish {
 
 class Builder {
  public:
-  explicit Builder(uint64_t seed) : rng_(seed) {}
+  // `arrangement_seed`: other than 0 says where things that people move are instead.
+  Builder(uint64_t seed, uint64_t arrangement_seed)
+      : rng_(seed), arrangement_(hash64(seed, arrangement_seed)), rearranged_(arrangement_seed != 0) {}
   Rng &rng() { return rng_; }
 
   // A new piece: what is added from here on shares its kinds of wood and cloth.
   void newStyle() { style_ = rng_.next(); }
+
+  // What `add` adds follows from `seed` alone: twice with one seed gives the same piece twice.
+  template <class Add>
+  void repeatably(uint64_t seed, const Add &add) {
+    const Rng outer = rng_;
+    rng_ = Rng(seed);
+    add();
+    rng_ = outer;
+  }
+
+  // add(place) adds something that people move.  Rearranged, it may stand up to `slack_m` from there and turned, or
+  // be left out; all other things stay as they were.
+  template <class Add>
+  void movable(const Place &place, double slack_m, const Add &add) {
+    const bool outer = left_out_;
+    const Place moved = rearranged_ ? rearrange(place, slack_m) : place;
+    add(moved);
+    left_out_ = outer;
+  }
 
   // Half extents in metres; the centre is in the place's coordinates.
   void box(const Place &place, Vec3d center, Vec3d half, Finish all);
@@ -53,6 +74,9 @@ class Builder {
   // The room itself; materials of its six inner faces in the order of `Shape`'s faces.
   void room(const Vec3d &half, const Finish faces[kMaxFaces]);
 
+  // A solid as it is: world_from_solid is `turn` and `center`.
+  void solid(Kind kind, const Vec3d &center, const Mat3d &turn, const Vec3d &half, const Finish faces[kMaxFaces]);
+
   std::vector<Shape> shapes;
   std::vector<Job> jobs;
   TexturePool pool;
@@ -61,7 +85,11 @@ class Builder {
   void add(Kind kind, const Place &place, const Vec3d &center, const Vec3d &half, const Mat3d &turn,
            const Finish faces[kMaxFaces]);
 
-  Rng rng_;
+  // Where a thing is after the rearrangement; sets left_out_ where it is gone.
+  Place rearrange(const Place &place, double slack_m);
+
+  Rng rng_, arrangement_;
+  bool rearranged_, left_out_ = false;
   uint64_t style_ = 0;
 };
 

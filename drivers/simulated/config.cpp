@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "drivers/simulated/with.h"
+
 namespace sphc::simulated {
 namespace {
 
@@ -52,13 +54,13 @@ sphc_status checkConfig(const sphc_simulated_config *config, sphc_message *messa
       {"start_time_ns", static_cast<double>(c.start_time_ns), 0, 2305843009213693952.0},
       {"threads", static_cast<double>(c.threads), 0, 64},
       {"exposure_s", c.exposure_s, 0, 0.05},
-      {"reserved", static_cast<double>(c.reserved), 0, 0},
       {"depth_scale", c.depth_scale, 0.8, 1.2},
       {"depth_offset_m", c.depth_offset_m, -0.5, 0.5},
       {"depth_wiggle_m", c.depth_wiggle_m, 0, 0.1},
       {"depth_sigma_m", c.depth_sigma_m, 0, 1},
       {"depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1},
       {"depth_max_m", c.depth_max_m, 0.5, 60},
+      {"walk_start_s", c.walk_start_s, 0, 1e6},
   };
   for (const auto &n : numbers) {
     if (checkNumber(n.name, n.value, n.low, n.high, message) != SPHC_OK) return SPHC_E_ARGUMENT;
@@ -73,6 +75,7 @@ sphc_status checkConfig(const sphc_simulated_config *config, sphc_message *messa
   for (const auto &s : switches) {
     if (checkSwitch(s.name, s.value, message) != SPHC_OK) return SPHC_E_ARGUMENT;
   }
+  if (checkWith(c.with, message) != SPHC_OK) return SPHC_E_ARGUMENT;
   // Frames must come in order of time: colour, depth, colour, depth (or the other way round throughout).
   const double half_period_ns = 0.5e9 / c.frame_rate_hz;
   if (!(std::fabs(static_cast<double>(c.depth_delay_ns)) < half_period_ns)) {

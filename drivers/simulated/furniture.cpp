@@ -9,6 +9,7 @@ constexpr Finish kWood{Material::kWood, 0.0037f};
 constexpr Finish kHiddenWood{Material::kWood, 0.02f};
 constexpr Finish kCloth{Material::kFabric, 0.003f};
 constexpr Finish kBlack{Material::kMetal, 0.004f};
+constexpr double kChairSlack = 0.25;
 
 void legs(Builder &b, const Place &place, double half_x, double half_y, double height, double radius) {
   for (int i = 0; i < 4; ++i) {
@@ -42,6 +43,17 @@ void smallBox(Builder &b, const Place &place) {
   b.box(at(place, 0, 0, 0, b.rng().real(-0.4, 0.4)), {0, 0, half.z}, half, {material, 0.002f});
 }
 
+void addThing(Builder &b, const Place &place) {
+  switch (b.rng().index(3)) {
+    case 0:
+      return vase(b, place);
+    case 1:
+      return pileOfBooks(b, place);
+    default:
+      return smallBox(b, place);
+  }
+}
+
 }  // namespace
 
 void addBooks(Builder &b, const Place &place, double x0, double x1, double front, double z, double room) {
@@ -55,8 +67,10 @@ void addBooks(Builder &b, const Place &place, double x0, double x1, double front
     if (x + 2 * half > x1) break;
     const double height = room * b.rng().real(0.62, 0.95), depth = b.rng().real(0.08, 0.1);
     const double back = b.rng().real(0, 0.02);
-    b.boxWithFront(place, {x + half, front - back - depth, z + 0.5 * height}, {half, depth, 0.5 * height},
-                   {Material::kPaper, 0.008f}, {Material::kSpine, 0.0015f});
+    b.movable(place, 0, [&](const Place &own) {
+      b.boxWithFront(own, {x + half, front - back - depth, z + 0.5 * height}, {half, depth, 0.5 * height},
+                     {Material::kPaper, 0.008f}, {Material::kSpine, 0.0015f});
+    });
     x += 2 * half + 0.001;
   }
 }
@@ -143,7 +157,8 @@ void addDesk(Builder &b, const Place &place, double width) {
   b.boxWithTop(place, {-0.1, 0.42, 0.757}, {0.2, 0.07, 0.009}, kBlack, {Material::kMagazine, 0.002f});
   addBooks(b, at(place, 0, 0), 0.25, half - 0.04, 0.24, 0.748, 0.27);
   addClutter(b, at(place, -half + 0.2, 0.35, 0.748), 0.3, 0.2, 2);
-  addChair(b, at(place, 0.0, 0.72, 0, 3.1415927 + b.rng().real(-0.4, 0.4)));
+  const Place chair = at(place, 0.0, 0.72, 0, 3.1415927 + b.rng().real(-0.4, 0.4));
+  b.movable(chair, kChairSlack, [&](const Place &own) { addChair(b, own); });
 }
 
 void addChair(Builder &b, const Place &place) {
@@ -162,9 +177,12 @@ void addDiningSet(Builder &b, const Place &place) {
   const Place middle = at(place, 0, 0.55);
   b.boxWithTop(middle, {0, 0, 0.74}, {0.65, 0.4, 0.018}, kWood, {Material::kFabric, 0.0025f});
   legs(b, middle, 0.58, 0.33, 0.72, 0.03);
-  addChair(b, at(middle, -0.82, 0, 0, -1.57 + b.rng().real(-0.2, 0.2)));
-  addChair(b, at(middle, 0.82, 0, 0, 1.57 + b.rng().real(-0.2, 0.2)));
-  addChair(b, at(middle, b.rng().real(-0.25, 0.25), 0.42, 0, 3.14 + b.rng().real(-0.3, 0.3)));
+  const auto chair = [&](const Place &place_there) {
+    b.movable(place_there, kChairSlack, [&](const Place &own) { addChair(b, own); });
+  };
+  chair(at(middle, -0.82, 0, 0, -1.57 + b.rng().real(-0.2, 0.2)));
+  chair(at(middle, 0.82, 0, 0, 1.57 + b.rng().real(-0.2, 0.2)));
+  chair(at(middle, b.rng().real(-0.25, 0.25), 0.42, 0, 3.14 + b.rng().real(-0.3, 0.3)));
   addClutter(b, at(middle, 0, 0, 0.758), 1.1, 0.5, 6);
 }
 
@@ -235,6 +253,17 @@ void addCoffeeTable(Builder &b, const Place &place) {
   addClutter(b, at(place, 0, 0, 0.162), 0.6, 0.3, 2);
 }
 
+void addMirror(Builder &b, const Place &place, double width, double height) {
+  b.newStyle();
+  constexpr double kFoot = 0.08;
+  const double half_w = 0.5 * width, half_h = 0.5 * (height - kFoot);
+  b.boxWithFront(place, {0, 0.01, kFoot + half_h}, {half_w, 0.01, half_h}, kHiddenWood, {Material::kMirror, 0.02f});
+  for (const double side : {-1.0, 1.0}) {
+    b.box(place, {side * half_w, 0.016, kFoot + half_h}, {0.025, 0.016, half_h + 0.025}, kWood);
+    b.box(place, {0, 0.016, kFoot + half_h + side * half_h}, {half_w, 0.015, 0.025}, kWood);
+  }
+}
+
 void addCarpet(Builder &b, const Place &place, double half_x, double half_y) {
   b.boxWithTop(place, {0, 0, 0.005}, {half_x, half_y, 0.005}, {Material::kFabric, 0.01f},
                {Material::kCarpet, 0.003f});
@@ -269,16 +298,7 @@ void addClutter(Builder &b, const Place &place, double width, double depth, int 
     const double x = width * ((i + 0.5) / count - 0.5);
     const double slack = std::max(0.0, 0.5 * depth - 0.08);
     const Place spot = at(place, x, b.rng().real(-slack, slack));
-    switch (b.rng().index(3)) {
-      case 0:
-        vase(b, spot);
-        break;
-      case 1:
-        pileOfBooks(b, spot);
-        break;
-      default:
-        smallBox(b, spot);
-    }
+    b.movable(spot, 0.07, [&](const Place &own) { addThing(b, own); });
   }
 }
 

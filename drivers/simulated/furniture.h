@@ -15,6 +15,7 @@ void addDiningSet(Builder &builder, const Place &place);
 void addDoor(Builder &builder, const Place &place);
 void addBoxes(Builder &builder, const Place &place);
 void addWindow(Builder &builder, const Place &place, double width);  // no floor space needed
+void addMirror(Builder &builder, const Place &place, double width, double height);
 void addPicture(Builder &builder, const Place &place, double width, double height, double middle_height);
 void addClock(Builder &builder, const Place &place, double middle_height);
 void addWallShelf(Builder &builder, const Place &place, double width, double height);

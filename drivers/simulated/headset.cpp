@@ -9,9 +9,9 @@ namespace sphc::simulated {
 namespace {
 
 // z at the centre of every pixel.
-void oracle(const Scene &scene, const sphc_camera &camera, const RayTable &rays, const Pose &pose, uint32_t threads,
-            float *depth_m) {
-  const Raster raster(scene, camera, rays, {pose, pose, pose, pose});
+void oracle(const Scene &scene, const std::vector<Shape> &shapes, const sphc_camera &camera, const RayTable &rays,
+            const Pose &pose, uint32_t threads, float *depth_m) {
+  const Raster raster(scene, shapes, camera, rays, {pose, pose, pose, pose});
   parallelFor(raster.tileRows(), threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       if (column % kLanes != 0) return;
@@ -58,6 +58,8 @@ sphc_rigid colorFromDepth() {
   return {{w * scale, x * scale, y * scale, z * scale}, {0.0382, -0.0041, 0.0063}};
 }
 
+sphc_rig rig() { return {colorCamera(), depthCamera(), colorFromDepth(), SPHC_SIMULATED_DEPTH_UNIT_M}; }
+
 Headset::Headset(const sphc_simulated_config &config)
     : config_(config),
       color_(colorCamera()),
@@ -65,29 +67,37 @@ Headset::Headset(const sphc_simulated_config &config)
       color_from_depth_(poseOf(colorFromDepth())),
       color_rays_(color_),
       depth_rays_(depth_),
-      scene_(makeScene(config.seed, config.threads)),
-      walk_(scene_, config.walk_seed, config.lap_s) {}
+      scene_(makeScene(config)),
+      walk_(scene_, config.walk_seed, config.lap_s, (config.with & SPHC_SIMULATED_FEET) != 0) {}
 
 int64_t Headset::colorTime(uint32_t index) const {
   return config_.start_time_ns + std::llround(static_cast<double>(index) * 1e9 / config_.frame_rate_hz);
 }
 
 Pose Headset::colorPoseAfter(int64_t time_ns, double offset_s) const {
-  return walk_.at(static_cast<double>(time_ns - config_.start_time_ns) * 1e-9 + offset_s);
+  return walk_.at(walkTime(time_ns) + offset_s);
 }
 
 Pose Headset::depthPose(int64_t time_ns) const { return compose(colorPose(time_ns), color_from_depth_); }
 
 uint64_t Headset::noiseSeed(uint32_t index, uint64_t stream) const {
-  return hash64(hash64(config_.seed, config_.walk_seed), 2 * static_cast<uint64_t>(index) + stream);
+  // Counted from the begin of the walk, so that lap two has the noise of lap two wherever frame 0 is.
+  const auto skipped = static_cast<uint64_t>(std::llround(config_.walk_start_s * config_.frame_rate_hz));
+  return hash64(hash64(config_.seed, config_.walk_seed), 2 * (skipped + index) + stream);
+}
+
+std::vector<Shape> Headset::shapesAt(int64_t time_ns) const {
+  std::vector<Shape> shapes = scene_.shapes;
+  scene_.actors.move(walk_, walkTime(time_ns), shapes);
+  return shapes;
 }
 
 void Headset::oracleColor(int64_t time_ns, float *depth_m) const {
-  oracle(scene_, color_, color_rays_, colorPose(time_ns), config_.threads, depth_m);
+  oracle(scene_, shapesAt(time_ns), color_, color_rays_, colorPose(time_ns), config_.threads, depth_m);
 }
 
 void Headset::oracleDepth(int64_t time_ns, float *depth_m) const {
-  oracle(scene_, depth_, depth_rays_, depthPose(time_ns), config_.threads, depth_m);
+  oracle(scene_, shapesAt(time_ns), depth_, depth_rays_, depthPose(time_ns), config_.threads, depth_m);
 }
 
 }  // namespace sphc::simulated

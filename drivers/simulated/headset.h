@@ -15,6 +15,7 @@ constexpr uint32_t kDepthWidth = SPHC_SIMULATED_DEPTH_WIDTH, kDepthHeight = SPHC
 sphc_camera colorCamera();
 sphc_camera depthCamera();
 sphc_rigid colorFromDepth();
+sphc_rig rig();
 
 class Headset {
  public:
@@ -24,6 +25,10 @@ class Headset {
   const sphc_simulated_config &config() const { return config_; }
   int64_t colorTime(uint32_t index) const;
   int64_t depthTime(uint32_t index) const { return colorTime(index) + config_.depth_delay_ns; }
+  // Seconds after the begin of the walk.
+  double walkTime(int64_t time_ns) const {
+    return static_cast<double>(time_ns - config_.start_time_ns) * 1e-9 + config_.walk_start_s;
+  }
   Pose colorPose(int64_t time_ns) const { return colorPoseAfter(time_ns, 0); }
 
   void renderColor(uint32_t index, uint8_t *rgb) const;
@@ -35,6 +40,8 @@ class Headset {
   // The pose `offset_s` after a time: fractions of an exposure are finer than the clock.
   Pose colorPoseAfter(int64_t time_ns, double offset_s) const;
   Pose depthPose(int64_t time_ns) const;
+  // The solids, where they are at a time.
+  std::vector<Shape> shapesAt(int64_t time_ns) const;
   void renderIdealDepth(uint32_t index, uint16_t *depth) const;
   uint64_t noiseSeed(uint32_t index, uint64_t stream) const;
 

@@ -40,8 +40,16 @@ inline float log2Approximate(float x) {
 
 // Rounding: the cast cuts, and the value is never negative.
 constexpr float kHalf = 0.5f;
-inline uint8_t develop(float light, float noise) {
-  const float noisy = light + noise * std::sqrt(kReadNoise * kReadNoise + kShotNoise * light);
+struct Sensor {
+  float read_sq, shot;
+};
+// `level`: the light that there is; the gain that makes up for the rest raises the noise.
+Sensor sensorAt(float level) {
+  const float read = kReadNoise / level;
+  return {read * read, kShotNoise / level};
+}
+inline uint8_t develop(const Sensor &sensor, float light, float noise) {
+  const float noisy = light + noise * std::sqrt(sensor.read_sq + sensor.shot * light);
   return static_cast<uint8_t>(255.0f * std::sqrt(std::clamp(noisy, 0.0f, 1.0f)) + kHalf);
 }
 
@@ -55,14 +63,17 @@ float exposureAt(double time_s) {
 void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
   static const Squares kSquares;
   const int64_t time_ns = colorTime(index);
+  const double exposure_s = config_.exposure_s * static_cast<double>(scene_.lighting.exposure_time);
   Pose poses[kLanes];
   for (uint32_t i = 0; i < kLanes; ++i) {
     const double part = (i + 0.5) / kLanes - 0.5;
-    poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? part * config_.exposure_s : 0);
+    poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? part * exposure_s : 0);
   }
-  const Raster raster(scene_, color_, color_rays_, poses);
+  const std::vector<Shape> shapes = shapesAt(time_ns);
+  const Raster raster(scene_, shapes, color_, color_rays_, poses);
   const float gain =
-      config_.exposure_drift != 0 ? exposureAt(static_cast<double>(time_ns - config_.start_time_ns) * 1e-9) : 1.0f;
+      (config_.exposure_drift != 0 ? exposureAt(walkTime(time_ns)) : 1.0f) * scene_.lighting.brightness;
+  const Sensor sensor = sensorAt(scene_.lighting.level);
   const uint64_t seed = noiseSeed(index, 0);
   const float noise = config_.color_noise != 0 ? 1.0f : 0.0f;
   // A ray stands for half a pixel on a side; a little sharper than that keeps fine texture.
@@ -95,9 +106,9 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
       const float scale = gain * vignette / kLanes;
       const uint64_t pixel = static_cast<uint64_t>(row) * kColorWidth + column;
       uint8_t *out = rgb + 3 * pixel;
-      out[0] = develop(sum.r * scale, noise * gaussian(hash64(seed + 3 * pixel)));
-      out[1] = develop(sum.g * scale, noise * gaussian(hash64(seed + 3 * pixel + 1)));
-      out[2] = develop(sum.b * scale, noise * gaussian(hash64(seed + 3 * pixel + 2)));
+      out[0] = develop(sensor, sum.r * scale, noise * gaussian(hash64(seed + 3 * pixel)));
+      out[1] = develop(sensor, sum.g * scale, noise * gaussian(hash64(seed + 3 * pixel + 1)));
+      out[2] = develop(sensor, sum.b * scale, noise * gaussian(hash64(seed + 3 * pixel + 2)));
     });
   });
 }

@@ -88,7 +88,8 @@ void Headset::renderIdealDepth(uint32_t index, uint16_t *depth) const {
 void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
   if (config_.ideal_depth != 0) return renderIdealDepth(index, depth);
   const Pose pose = depthPose(depthTime(index));
-  const Raster raster(scene_, depth_, depth_rays_, {pose, pose, pose, pose});
+  const std::vector<Shape> shapes = shapesAt(depthTime(index));
+  const Raster raster(scene_, shapes, depth_, depth_rays_, {pose, pose, pose, pose});
   const uint64_t seed = noiseSeed(index, 1);
   const auto focal = static_cast<float>(depth_.params[0]);
   const auto far_m = static_cast<float>(config_.depth_max_m);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "drivers/simulated/with.h"
+
 namespace sphc::simulated {
 namespace {
 
 constexpr float kLift = 0.006f;  // a ray leaves its surface this far, so that it does not meet it again
 constexpr int kOpenRays = 11;
-constexpr Vec3f kLampColor{1.0f, 0.93f, 0.8f}, kSkyColor{0.85f, 0.93f, 1.05f};
+constexpr float kHanging = 1.9f;  // a shade higher than this is the ceiling lamp's
 
 // Directions around a normal, cosine-weighted: a golden-angle spiral over the disc, lifted to the hemisphere.
 Vec3f openDirection(const Vec3f &normal, int i) {
@@ -60,15 +62,33 @@ float windowLight(const Bvh &bvh, const RoomPlan &plan, const Vec3f &point, cons
   return sum / 6;
 }
 
+// The sun, 35 degrees high and to one side of the window.
+float sunLight(const Bvh &bvh, const RoomPlan &plan, const Vec3f &point, const Vec3f &normal) {
+  constexpr float kHalfHeight = 0.6f;
+  const Vec3f side = cross(plan.window_normal, Vec3f{0, 0, 1});
+  const Vec3f to_sun = normalized(plan.window_normal * -1.0f + side * 0.35f + Vec3f{0, 0, 0.75f});
+  const float cosine = dot(to_sun, normal), inward = -dot(to_sun, plan.window_normal);
+  const float way = dot(point - plan.window, plan.window_normal) / inward;
+  if (cosine <= 0 || way <= 0) return 0;
+  const Vec3f through = point + to_sun * way - plan.window;
+  if (std::fabs(dot(through, side)) > plan.window_half_m || std::fabs(through.z) > kHalfHeight) return 0;
+  return bvh.blocked(point, to_sun, 0, way) ? 0 : cosine;
+}
+
 // Square root of the light at a point of a face: texels are square roots too.
-Vec3f rootLight(const Bvh &bvh, const RoomPlan &plan, const Vec3f &point, const Vec3f &normal) {
+Vec3f rootLight(const Bvh &bvh, const RoomPlan &plan, const Lighting &lighting, const Vec3f &point,
+                const Vec3f &normal) {
+  constexpr Vec3f kSunColor{1.1f, 1.0f, 0.85f};
   const float open = openness(bvh, point, normal);
   float lamps = 0;
-  for (size_t i = 0; i < plan.lamps.size(); ++i)
-    lamps += plan.strength[i] * lampLight(bvh, point, normal, plan.lamps[i]);
-  const float sky = 1.7f * windowLight(bvh, plan, point, normal);
-  const float ambient = 0.14f + 0.46f * open * open;
-  const Vec3f light = kLampColor * (ambient + 0.72f * lamps) + kSkyColor * sky;
+  for (const Lamp &lamp : plan.lamps) {
+    const float strength = lamp.strength * (lamp.hangs ? lighting.hanging : lighting.standing);
+    if (strength > 0) lamps += strength * lampLight(bvh, point, normal, lamp.position);
+  }
+  const float sky = lighting.sky * 1.7f * windowLight(bvh, plan, point, normal);
+  const float ambient = lighting.ambient * (0.14f + 0.46f * open * open);
+  Vec3f light = lighting.lamp_color * (ambient + 0.72f * lamps) + lighting.sky_color * sky;
+  if (lighting.sun > 0) light = light + kSunColor * (lighting.sun * sunLight(bvh, plan, point, normal));
   const auto root = [](float x) { return std::sqrt(std::min(x, 1.35f)); };
   return {root(light.x), root(light.y), root(light.z)};
 }
@@ -85,8 +105,50 @@ Vec3f mixed(const Vec3f &a, const Vec3f &b, float t) { return a + (b - a) * t; }
 
 }  // namespace
 
-void shade(const Bvh &bvh, const RoomPlan &plan, const Shape &shape, int face, const Texture &texture,
-           Texel *texels) {
+Lighting lightingOf(uint32_t with) {
+  Lighting light;
+  if ((with & SPHC_SIMULATED_DAY) != 0) {
+    light.lamp_color = {0.9f, 0.96f, 1.04f};  // what is left of it is reflected sky
+    light.hanging = light.standing = 0;
+    light.ambient = 0.7f;
+    light.sky = 2.2f;
+    light.sun = 0.9f;
+    light.outdoors = 1.15f;
+  } else if ((with & SPHC_SIMULATED_NIGHT) != 0) {
+    light.lamp_color = {1.0f, 0.74f, 0.45f};
+    light.hanging = light.sky = 0;
+    light.standing = 4;
+    light.ambient = 0.3f;
+    light.outdoors = 0.12f;
+    light.level = 0.25f;
+    light.brightness = 0.85f;
+    light.exposure_time = 1.5f;
+  } else if ((with & SPHC_SIMULATED_DARK) != 0) {
+    light.lamp_color = {0.75f, 0.88f, 1.1f};
+    light.hanging = light.standing = 0;
+    light.ambient = 0.45f;
+    light.sky = 0.5f;
+    light.outdoors = 0.45f;
+    light.level = 0.08f;
+    light.brightness = 0.5f;
+    light.exposure_time = 2;
+  }
+  return light;
+}
+
+void glow(const Lighting &lighting, const Shape &shape, Material material, const Texture &texture, Texel *texels) {
+  // A lampshade is brightest where its own lamp is on.
+  const float lamp = shape.center.z > kHanging ? lighting.hanging : lighting.standing;
+  const float light = isOutdoors(material) ? lighting.outdoors : std::clamp(lamp, 0.3f * lighting.ambient, 1.0f);
+  if (light == 1) return;
+  const float root = std::sqrt(light);
+  for (size_t i = 0; i < static_cast<size_t>(texture.width) * texture.height; ++i) {
+    texels[i] = dim(texels[i], {root, root, root});
+  }
+}
+
+void shade(const Bvh &bvh, const RoomPlan &plan, const Lighting &lighting, const Shape &shape, int face,
+           const Texture &texture, Texel *texels) {
   constexpr float kPitch = 0.12f;
   float width_m = 0, height_m = 0;
   faceSize(shape, face, &width_m, &height_m);
@@ -108,7 +170,7 @@ void shade(const Bvh &bvh, const RoomPlan &plan, const Shape &shape, int face, c
       const float v = even ? 0.5f : 0.02f + 0.96f * static_cast<float>(j) / static_cast<float>(rows - 1);
       Vec3f unit, normal;
       facePoint(shape, face, u, v, &unit, &normal);
-      grid[cell(i, j)] = rootLight(bvh, plan, worldPoint(shape, unit) + normal * kLift, normal);
+      grid[cell(i, j)] = rootLight(bvh, plan, lighting, worldPoint(shape, unit) + normal * kLift, normal);
     }
   }
   const float to_column = static_cast<float>(columns - 1) / static_cast<float>(texture.width);

@@ -2,7 +2,12 @@
 
 namespace sphc::simulated {
 
-bool isBright(Material material) { return material == Material::kWindow || material == Material::kLampshade; }
+bool isBright(Material material) { return isOutdoors(material) || material == Material::kLampshade; }
+
+bool isOutdoors(Material material) {
+  return material == Material::kWindow || material == Material::kStreet || material == Material::kLawn ||
+         material == Material::kSky;
+}
 
 void paint(Canvas &canvas, Material material, uint64_t style_seed, uint64_t seed) {
   Rng rng(seed), style(style_seed);
@@ -55,6 +60,31 @@ void paint(Canvas &canvas, Material material, uint64_t style_seed, uint64_t seed
       return paintClock(canvas, rng);
     case Material::kMagazine:
       return paintMagazine(canvas, rng);
+    case Material::kFittedCarpet:
+      return paintFittedCarpet(canvas, rng);
+    case Material::kParquet:
+      return paintParquet(canvas, rng);
+    case Material::kTiles:
+      return paintTiles(canvas, rng);
+    case Material::kBare:
+      return paintBare(canvas, rng);
+    case Material::kMirror:
+      return canvas.fill([](float, float) { return Ink{0.7f, 0.72f, 0.72f, 0.1f}; });
+    case Material::kStreet:
+      return paintStreet(canvas, rng);
+    case Material::kLawn:
+      return paintLawn(canvas, rng);
+    case Material::kSky:
+      return paintSky(canvas);
+    case Material::kSkin:
+      return paintSkin(canvas, rng);
+    case Material::kHead:
+      return paintHead(canvas, rng);
+    case Material::kTrousers:
+      style = Rng(hash64(style_seed));  // of another cloth than the shirt
+      return paintFabric(canvas, style, rng);
+    case Material::kShoe:
+      return paintShoe(canvas, rng);
   }
 }
 

@@ -30,13 +30,26 @@ enum class Material : uint8_t {
   kMetal,
   kClock,
   kMagazine,
+  kFittedCarpet,
+  kParquet,
+  kTiles,
+  kBare,
+  kMirror,
+  kStreet,
+  kLawn,
+  kSky,
+  kSkin,
+  kHead,
+  kShoe,
+  kTrousers,
 };
 
 // Paints the whole canvas.  `style` decides the kind of cloth or wood, which the parts of one piece share; `seed`
 // the details.  The same arguments on the same canvas give the same texels.
 void paint(Canvas &canvas, Material material, uint64_t style, uint64_t seed);
-// Whether the surface shines by itself, so that light and shadow do not change it.
+// Whether the surface shines by itself, so that light and shadow in the room do not change it.
 bool isBright(Material material);
+bool isOutdoors(Material material);
 
 // The painters, each in the file named for its kind.
 void paintBrick(Canvas &canvas, Rng &rng);
@@ -62,5 +75,15 @@ void paintLeaves(Canvas &canvas, Rng &rng);
 void paintLampshade(Canvas &canvas, Rng &rng);
 void paintMetal(Canvas &canvas, Rng &rng);
 void paintClock(Canvas &canvas, Rng &rng);
+void paintFittedCarpet(Canvas &canvas, Rng &rng);
+void paintParquet(Canvas &canvas, Rng &rng);
+void paintTiles(Canvas &canvas, Rng &rng);
+void paintBare(Canvas &canvas, Rng &rng);
+void paintStreet(Canvas &canvas, Rng &rng);
+void paintLawn(Canvas &canvas, Rng &rng);
+void paintSky(Canvas &canvas);
+void paintSkin(Canvas &canvas, Rng &rng);
+void paintHead(Canvas &canvas, Rng &rng);
+void paintShoe(Canvas &canvas, Rng &rng);
 
 }  // namespace sphc::simulated

@@ -116,6 +116,12 @@ void paintPlaster(Canvas &canvas, Rng &rng) {
   for (int i = 0; i < static_cast<int>(canvas.width() * 2); ++i) crack(canvas, rng, dark);
 }
 
+void paintBare(Canvas &canvas, Rng &rng) {
+  const uint32_t seed = noiseSeed(rng);
+  const Ink base = mix(tasteful(rng), {0.9f, 0.89f, 0.86f, 0.7f}, 0.85f);
+  canvas.fill([&](float x, float y) { return base * (1 + 0.012f * fbm(x * 0.8f, y * 0.8f, 2, seed)); });
+}
+
 void paintCeiling(Canvas &canvas, Rng &rng) {
   const uint32_t seed = noiseSeed(rng);
   canvas.fill([&](float x, float y) {

@@ -70,6 +70,27 @@ void paintPlanks(Canvas &canvas, Rng &rng, float plank_width_m, float plank_leng
   }
 }
 
+void paintParquet(Canvas &canvas, Rng &rng) {
+  constexpr float kBlock = 0.3f, kStrips = 6, kStrip = kBlock / kStrips;
+  const Grain grain = randomGrain(rng, rng);
+  canvas.fill([&](float x, float y) {
+    const int32_t column = floorInt(x / kBlock), row = floorInt(y / kBlock);
+    const float bx = x - static_cast<float>(column) * kBlock, by = y - static_cast<float>(row) * kBlock;
+    const bool turned = ((column + row) & 1) != 0;
+    const float along = turned ? by : bx, across_all = turned ? bx : by;
+    const int32_t strip = floorInt(across_all / kStrip);
+    const float across = across_all - static_cast<float>(strip) * kStrip;
+    // Blocks are equal: a strip's wood follows from its place in the block alone.
+    const uint32_t id = hash32(strip, turned ? 1 : 0, grain.seed);
+    Grain own = grain;
+    own.seed = id;
+    own.ink = own.ink * (0.8f + 0.35f * unitFloat(id));
+    const float gap = std::min(std::min(across, kStrip - across), std::min(along, kBlock - along));
+    const float wear = 1 + 0.05f * fbm(x * 1.1f, y * 1.1f, 3, grain.seed + 7);
+    return wood(own, along, across) * (wear * (0.35f + 0.65f * smooth(0.0f, 0.002f, gap)));
+  });
+}
+
 void paintWood(Canvas &canvas, Rng &style, Rng &rng) {
   const Grain grain = randomGrain(style, rng);
   const bool upright = canvas.height() > canvas.width();

@@ -5,13 +5,20 @@
 
 namespace sphc::simulated {
 
-struct RoomPlan {
-  Vec3d half{};                 // of the room; the floor is at z = 0, the ceiling at 2 half.z
-  std::vector<Vec3f> lamps;     // where light comes from
-  std::vector<float> strength;  // of each
-  Vec3f window{}, window_normal{};
+struct Lamp {
+  Vec3f position{};
+  float strength = 0;
+  bool hangs = false;  // from the ceiling; else it stands on the floor
 };
 
-RoomPlan layOut(Builder &builder);
+struct RoomPlan {
+  Vec3d half{};  // of the room; the floor is at z = 0, the ceiling at 2 half.z
+  std::vector<Lamp> lamps;
+  Vec3f window{}, window_normal{};
+  float window_half_m = 0;  // half of its width
+};
+
+// `with`: what makes it hard, as in sphc_simulated_config.
+RoomPlan layOut(Builder &builder, uint32_t with);
 
 }  // namespace sphc::simulated

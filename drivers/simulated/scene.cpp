@@ -3,35 +3,76 @@
 #include <algorithm>
 #include <utility>
 
-#include "drivers/simulated/light.h"
 #include "drivers/simulated/parallel.h"
 
 namespace sphc::simulated {
+namespace {
 
-Scene makeScene(uint64_t seed, uint32_t threads) {
-  Builder builder(seed);
+// The room stands on the first floor of a house, in a street of this size.
+void addOutdoors(Builder &builder) {
+  constexpr Vec3d kHalf{28, 28, 12}, kCenter{0, 0, 8};
+  const Finish house{Material::kStreet, 0.04f};
+  const Finish faces[kMaxFaces] = {house, house, house, house, {Material::kLawn, 0.1f}, {Material::kSky, 2}};
+  builder.solid(Kind::kRoom, kCenter, yawRotation(0), kHalf, faces);
+}
+
+std::vector<Portal> portalsOf(const std::vector<Job> &jobs, bool clear_windows) {
+  std::vector<Portal> portals;
+  for (const Job &job : jobs) {
+    const bool mirrors = job.material == Material::kMirror;
+    if (mirrors || (clear_windows && job.material == Material::kWindow)) portals.push_back({job.shape, mirrors});
+  }
+  return portals;
+}
+
+}  // namespace
+
+Scene buildScene(const sphc_simulated_config &config, std::vector<Job> &jobs) {
+  Builder builder(config.seed, config.arrangement_seed);
   Scene scene;
-  scene.plan = layOut(builder);
+  scene.plan = layOut(builder, config.with);
+  scene.lighting = lightingOf(config.with);
+  scene.fixed_count = static_cast<uint32_t>(builder.shapes.size());
+  scene.actors = Actors(builder, config.with);
+  const bool clear_windows = (config.with & SPHC_SIMULATED_WINDOW) != 0;
+  if (clear_windows) addOutdoors(builder);
   scene.shapes = std::move(builder.shapes);
   scene.pool = std::move(builder.pool);
+  scene.portals = portalsOf(builder.jobs, clear_windows);
+  jobs = std::move(builder.jobs);
+  if (clear_windows) {
+    scene.outdoors.push_back(scene.shapes.back());
+    scene.shapes.pop_back();
+  }
+  return scene;
+}
+
+Scene makeScene(const sphc_simulated_config &config) {
+  std::vector<Job> jobs;
+  Scene scene = buildScene(config, jobs);
   scene.pool.allocate();
-  const Bvh bvh(scene.shapes);
+  const std::vector<Shape> fixed(scene.shapes.begin(), scene.shapes.begin() + scene.fixed_count);
+  const Bvh bvh(fixed);
   // Largest first, so that no thread is left with a wall at the end.
-  std::vector<Job> jobs = std::move(builder.jobs);
   const auto area = [&](const Job &job) {
     const Texture &texture = scene.pool.texture(job.texture);
     return static_cast<uint64_t>(texture.width) * texture.height;
   };
   std::stable_sort(jobs.begin(), jobs.end(), [&](const Job &a, const Job &b) { return area(a) > area(b); });
-  parallelFor(static_cast<uint32_t>(jobs.size()), threads, [&](uint32_t i) {
+  parallelFor(static_cast<uint32_t>(jobs.size()), config.threads, [&](uint32_t i) {
     const Job &job = jobs[i];
-    const Shape &shape = scene.shapes[job.shape];
+    const Shape &shape = job.shape < scene.shapes.size() ? scene.shapes[job.shape] : scene.outdoors[0];
     const Texture &texture = scene.pool.texture(job.texture);
     float width_m = 0, height_m = 0;
     faceSize(shape, job.face, &width_m, &height_m);
     Canvas canvas(scene.pool.texels(job.texture), texture.width, texture.height, width_m, height_m);
     paint(canvas, job.material, job.style, job.seed);
-    if (!isBright(job.material)) shade(bvh, scene.plan, shape, job.face, texture, scene.pool.texels(job.texture));
+    Texel *texels = scene.pool.texels(job.texture);
+    if (isBright(job.material)) {
+      glow(scene.lighting, shape, job.material, texture, texels);
+    } else {
+      shade(bvh, scene.plan, scene.lighting, shape, job.face, texture, texels);
+    }
     scene.pool.buildPyramid(job.texture);
   });
   return scene;
@@ -39,7 +80,7 @@ Scene makeScene(uint64_t seed, uint32_t threads) {
 
 float clearance(const Scene &scene, const Vec3f &point) {
   float nearest = kFar;
-  for (const Shape &shape : scene.shapes) nearest = std::min(nearest, distanceTo(shape, point));
+  for (uint32_t i = 0; i < scene.fixed_count; ++i) nearest = std::min(nearest, distanceTo(scene.shapes[i], point));
   return nearest;
 }
 

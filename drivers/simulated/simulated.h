@@ -3,7 +3,7 @@
  *
  *     sphc_simulated_config_init, change what you like
  *     sphc_simulated_open                         builds and paints the room: a few seconds
- *     sphc_simulated_cameras                      the calibration that sphc_config wants
+ *     sphc_simulated_rig                          the cameras, for sphc_config
  *     sphc_simulated_source                       captures in order of time, as any driver gives them
  *     sphc_simulated_pose_at, _oracle_depth       the truth
  *     sphc_simulated_close
@@ -37,6 +37,24 @@ extern "C" {
 #define SPHC_SIMULATED_DEPTH_UNIT_M 0.001 /* metres per unit of the depth image */
 #define SPHC_SIMULATED_LOAN_LIMIT 8u      /* captures that may be out on loan at once */
 
+/* What makes the world hard, for sphc_simulated_config.with.  One floor and one light at a time. */
+enum {
+  SPHC_SIMULATED_HANDS = 1u << 0, /* the holder's hands come into view and leave it */
+  SPHC_SIMULATED_FEET = 1u << 1,  /* the holder looks down at the own feet, three times a lap, at the same places */
+  SPHC_SIMULATED_PEOPLE = 1u << 2,  /* three people walk around in the room */
+  SPHC_SIMULATED_CARPET = 1u << 3,  /* floor: wall-to-wall carpet, a pattern of 9 cm that repeats exactly */
+  SPHC_SIMULATED_PARQUET = 1u << 4, /* floor: blocks of six strips that repeat after 60 cm */
+  SPHC_SIMULATED_TILES = 1u << 5,   /* floor: equal tiles of 25 cm */
+  SPHC_SIMULATED_BARE = 1u << 6,    /* walls and ceiling of one colour with nothing on them */
+  SPHC_SIMULATED_DOUBLES =
+      1u << 7, /* each piece of furniture stands there twice, one poster hangs up to eight times */
+  SPHC_SIMULATED_MIRROR = 1u << 8, /* a mirror of the height of a door: both cameras see the room in it */
+  SPHC_SIMULATED_WINDOW = 1u << 9, /* a large window with a street far behind it, where depth has no measurement */
+  SPHC_SIMULATED_DAY = 1u << 10,   /* light: lamps off, a bright sky and the sun through the window */
+  SPHC_SIMULATED_NIGHT = 1u << 11, /* light: one floor lamp, warm and dim, black windows; more noise */
+  SPHC_SIMULATED_DARK = 1u << 12   /* light: lamps off at dusk; much noise, longer exposure */
+};
+
 typedef struct sphc_simulated_config {
   uint32_t struct_size;
   uint32_t frame_count;   /* colour frames, and as many depth frames; 1 to 1000000; default 960 */
@@ -59,13 +77,18 @@ typedef struct sphc_simulated_config {
    * comes back (dark or grazing surfaces are worse).  z is in metres along the ToF camera's axis. */
   uint32_t ideal_depth;  /* 1: z at the pixel centre, rounded to the unit: no noise, bias, mixed or missing pixels;
                             the five numbers below are then unused; default 0 */
-  uint32_t reserved;     /* 0 */
+  uint32_t with;         /* what makes the world hard: SPHC_SIMULATED_HANDS | ...; default 0 */
   double depth_scale;    /* 0.8 to 1.2; default 1.001 */
   double depth_offset_m; /* -0.5 to 0.5; default 0.001 */
   double depth_wiggle_m; /* 0 to 0.1; default 0.0015 */
   double depth_sigma_m;  /* 0 to 1; default 0.0013 */
   double depth_sigma_per_m2; /* 0 to 1; default 0.0007 */
   double depth_max_m;        /* no measurement beyond this distance from the camera; 0.5 to 60; default 6 */
+
+  /* Between a map and a query. */
+  uint64_t arrangement_seed; /* other than 0: of what people move (chairs, boxes, plants, books, small things,
+                                pictures) about half stands elsewhere and a quarter is gone; default 0 */
+  double walk_start_s;       /* where on the walk frame 0 is; 0 to 1e6; lap_s is the begin of lap two; default 0 */
 } sphc_simulated_config;
 
 typedef struct sphc_simulated sphc_simulated;
@@ -73,6 +96,10 @@ typedef struct sphc_simulated sphc_simulated;
 /* Fills *config with the defaults above and sets struct_size.  ARGUMENT: config is null.  STRUCT_SIZE: the size is
  * none this library knows. [pure] */
 sphc_status sphc_simulated_config_init(sphc_simulated_config *config, size_t struct_size);
+
+/* The bits of names as in "feet,people,tiles", in any order; "" gives 0.  *with is written on success.  ARGUMENT: a
+ * null pointer, or a name that is none (which, and all there are). [pure] */
+sphc_status sphc_simulated_parse_with(const char *names, uint32_t *with, sphc_message *message);
 
 /* Builds and paints the room.  `config` is copied.  On success *simulated is owned by the caller, who closes it.
  * Errors: ARGUMENT (which field, the value seen and the range), STRUCT_SIZE, MEMORY_SIZE (out of memory), INTERNAL.
@@ -91,10 +118,9 @@ void sphc_simulated_close(sphc_simulated **simulated);
  * begins again from frame 0.  Errors of this call: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_simulated_source(sphc_simulated *simulated, sphc_source *source);
 
-/* The exact calibration: colour is BROWN5, depth KANNALA_BRANDT4; the same for every seed.  Each output may be
- * null. ARGUMENT: the handle is null. [shared] */
-sphc_status sphc_simulated_cameras(const sphc_simulated *simulated, sphc_camera *color, sphc_camera *depth,
-                                   sphc_rigid *color_from_depth);
+/* The exact calibration: colour is BROWN5, depth KANNALA_BRANDT4; the same for every seed.  ARGUMENT: a null
+ * pointer. [shared] */
+sphc_status sphc_simulated_rig(const sphc_simulated *simulated, sphc_rig *rig);
 
 /* How many colour frames the source gives (config.frame_count); 0 for null. [shared] */
 uint32_t sphc_simulated_frame_count(const sphc_simulated *simulated);
@@ -110,7 +136,8 @@ sphc_status sphc_simulated_pose_at(const sphc_simulated *simulated, int64_t time
 
 /* Exact z depth in metres, along the colour camera's axis, at the centre of every colour pixel at this time;
  * row-major, COLOR_WIDTH x COLOR_HEIGHT floats in caller memory.  No noise, no blur.  0 never happens: the room is
- * closed. Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
+ * closed.  In a mirror it is the depth of what is seen there, behind the glass of a window that of the street.
+ * Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_oracle_depth(const sphc_simulated *simulated, int64_t time_ns, float *depth_m);
 
 /* The same for the ToF camera: z along its own axis, DEPTH_WIDTH x DEPTH_HEIGHT floats. [shared] */

@@ -12,7 +12,8 @@ constexpr float kWantedClearance = 0.6f;
 
 }  // namespace
 
-Walk::Walk(const Scene &scene, uint64_t seed, double lap_s) : lap_s_(lap_s) {
+Walk::Walk(const Scene &scene, uint64_t seed, double lap_s, bool glances)
+    : lap_s_(lap_s), glance_(glances ? 28 * kDegree : 0) {
   half_x_ = std::min(1.35, scene.plan.half.x - 1.65);
   half_y_ = std::min(0.95, scene.plan.half.y - 1.5);
   draw(seed);
@@ -54,8 +55,17 @@ double Walk::sum(const Wave *waves, int count, double turn) const {
   return total;
 }
 
+double Walk::turnAt(double time_s) const { return std::fmod(time_s / (2 * lap_s_), 1.0) * 2 * kPi; }
+
+double Walk::angleAt(double turn) const { return start_ + direction_ * (2 * turn + sum(advance_, kWaves, turn)); }
+
+Vec3d Walk::ahead(double time_s, double lead, double reach) const {
+  const double angle = angleAt(turnAt(time_s)) + direction_ * lead;
+  return {half_x_ * reach * std::cos(angle), half_y_ * reach * std::sin(angle), 0};
+}
+
 Vec3d Walk::position(double turn) const {
-  const double angle = start_ + direction_ * (2 * turn + sum(advance_, kWaves, turn));
+  const double angle = angleAt(turn);
   const double reach = 1 + sum(radius_, kWaves, turn);
   const double bob = 0.012 * std::sin(step_cycles_ * turn);
   return {half_x_ * reach * std::cos(angle), half_y_ * reach * std::sin(angle),
@@ -63,13 +73,13 @@ Vec3d Walk::position(double turn) const {
 }
 
 Pose Walk::at(double time_s) const {
-  const double turn = std::fmod(time_s / (2 * lap_s_), 1.0) * 2 * kPi;
-  const double angle = start_ + direction_ * (2 * turn + sum(advance_, kWaves, turn));
+  const double turn = turnAt(time_s);
+  const double angle = angleAt(turn);
   // Ahead along the lap, turned inwards so as to look across the room.
   const double yaw = angle + direction_ * (0.5 * kPi + gaze_mean_ + sum(gaze_, kWaves, turn)) +
                      0.4 * kDegree * std::sin(0.5 * step_cycles_ * turn);
-  const double pitch =
-      -9 * kDegree + sum(pitch_, kWaves, turn) + 0.35 * kDegree * std::sin(step_cycles_ * turn + 1);
+  const double pitch = -9 * kDegree + sum(pitch_, kWaves, turn) +
+                       0.35 * kDegree * std::sin(step_cycles_ * turn + 1) - glance_ * (1 - std::cos(6 * turn));
   const double roll = 1.2 * kDegree * std::sin(0.5 * step_cycles_ * turn + roll_phase_) + 0.02 * std::sin(3 * turn);
   const Vec3d forward{std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
   const Vec3d level_right{std::sin(yaw), -std::cos(yaw), 0};

@@ -118,7 +118,7 @@ bool isOver(const Options &options, const Tally &tally, std::chrono::steady_cloc
 
 void sayTally(const Tally &tally, const Rig &rig, const Console &console) {
   const sphc_pairer_counts counts = rig.counts();
-  console.say("Frames looked at: " + std::to_string(tally.frames) +
+  console.say("Frames processed: " + std::to_string(tally.frames) +
               ", localized: " + std::to_string(tally.localized) +
               (tally.skipped ? ", skipped: " + std::to_string(tally.skipped) : ""));
   for (size_t i = 0; i < kFaultWords.size(); ++i)
@@ -199,7 +199,7 @@ Command liveCommand(CLI::App *root) {
       ->type_name("FILE");
   app->add_option("--frames", options->frames, "End after so many frames; 0: never");
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
-  app->add_flag("--every", options->every, "Look at every frame, however late; else the newest counts");
+  app->add_flag("--every", options->every, "Process every frame, however late; else only the newest");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -1,4 +1,5 @@
 // spherecloud simulate: a recording of the simulated headset's walk.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   std::string out;
   sphc_simulated_config config = {};
+  std::string with;
   bool ideal_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
 };
 
@@ -33,21 +35,19 @@ Simulated openHeadset(const Options &options) {
   config.color_noise = options.no_noise ? 0 : 1;
   config.motion_blur = options.no_blur ? 0 : 1;
   config.exposure_drift = options.no_exposure_drift ? 0 : 1;
+  orThrow("--with", [&](sphc_message *message) {
+    return sphc_simulated_parse_with(options.with.c_str(), &config.with, message);
+  });
   sphc_simulated *simulated = nullptr;
   orThrow("cannot make the simulated headset",
           [&](sphc_message *message) { return sphc_simulated_open(&config, &simulated, message); });
   return Simulated(simulated);
 }
 
-sphc_calibration calibrationOf(const sphc_simulated *simulated) {
-  sphc_calibration calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
-  orThrow("cameras", [&](sphc_message *) {
-    return sphc_simulated_cameras(simulated, &calibration.color_camera, &calibration.depth_camera,
-                                  &calibration.color_from_depth);
-  });
-  calibration.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
-  return calibration;
+sphc_rig calibrationOf(const sphc_simulated *simulated) {
+  sphc_rig rig;
+  orThrow("cameras", [&](sphc_message *) { return sphc_simulated_rig(simulated, &rig); });
+  return rig;
 }
 
 // One capture to disk, with the exact pose when it is a colour image.
@@ -83,8 +83,8 @@ void record(sphc_simulated *simulated, RecordingOut *out) {
 
 // Which frames belong to which lap, so that the hint after the run can be copied.
 void tellNext(const Options &options, const Console &console) {
-  const double lap_frames = options.config.lap_s * options.config.frame_rate_hz;
-  const auto second_lap = static_cast<uint32_t>(std::lround(lap_frames));
+  const double lap_frames = (options.config.lap_s - options.config.walk_start_s) * options.config.frame_rate_hz;
+  const auto second_lap = static_cast<uint32_t>(std::lround(std::max(lap_frames, 0.0)));
   if (second_lap == 0 || second_lap >= options.config.frame_count) return;
   console.say("Lap one is frames 0 to " + std::to_string(second_lap - 1) +
               ": make a map of it with\n  spherecloud build --recording " + options.out + " --last " +
@@ -122,9 +122,21 @@ const char kExample[] =
     "  spherecloud simulate --out walk            200 frames, two laps of 100\n"
     "  spherecloud simulate --out walk30 --frames 960 --rate 30 --seed 7\n"
     "  spherecloud simulate --out walk.mcap       the same in one file\n"
+    "  spherecloud simulate --out hard --with feet,people,tiles,doubles\n"
+    "  spherecloud simulate --out later --from 16 --frames 100 --arrangement 2   lap two, things moved\n"
     "What comes out: a folder in the TUM layout, with calibration.json, rgb/, depth/ and groundtruth.txt; or one\n"
     "MCAP file with all of that.\n"
     "The same options give the same bytes on every machine.";
+
+const char kWithHelp[] =
+    "What makes the world hard, joined by commas:\n"
+    "  hands, feet     the wearer's own, where the view goes down or they are raised\n"
+    "  people          three walk around\n"
+    "  carpet, parquet, tiles   a floor that repeats exactly\n"
+    "  bare            walls and ceiling with nothing on them\n"
+    "  doubles         each piece of furniture twice, one poster several times\n"
+    "  mirror, window  depth goes on behind the glass: to the image, to nothing\n"
+    "  day, night, dark   the sun alone, a floor lamp alone, hardly any light";
 
 void addOptions(CLI::App *app, Options *options) {
   sphc_simulated_config &config = options->config;
@@ -148,6 +160,17 @@ void addOptions(CLI::App *app, Options *options) {
       ->capture_default_str()
       ->check(withoutSign())
       ->type_name("N");
+  app->add_option("--with", options->with, kWithHelp)->type_name("NAMES");
+  app->add_option("--arrangement", config.arrangement_seed,
+                  "Another arrangement of what people move (chairs, boxes, plants, books, small things, pictures)\n"
+                  "for every number: half stands elsewhere, a quarter is gone; 0: as the room has it")
+      ->capture_default_str()
+      ->check(withoutSign())
+      ->type_name("N");
+  app->add_option("--from", config.walk_start_s, "Seconds on the walk at which frame 0 is; 16 is lap two")
+      ->capture_default_str()
+      ->check(notNegative())
+      ->type_name("S");
   app->add_option("--threads", config.threads, "At most so many; 0: all cores")
       ->capture_default_str()
       ->type_name("N");

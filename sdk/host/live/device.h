@@ -4,7 +4,7 @@
 //     libcamera:   libcamera:ID                              the first camera, or this one; colour
 //     openni2:   openni2:URI   openni2:walk.oni              the first device, or this one; colour and depth
 //     replay:walk   replay:walk.mcap                         a recording, as fast as it was recorded
-//     simulated:                                             the simulated headset, as fast as it renders
+//     simulated:   simulated:feet,tiles,seed=7               the simulated headset, as fast as it renders
 #pragma once
 #include <spherecloud/spherecloud.h>
 
@@ -39,7 +39,7 @@ class Device {
   // What went wrong so far, in words; "" where nothing did.
   virtual std::string troubles() const { return ""; }
   // False where the device does not know its cameras.
-  virtual bool calibration(sphc_calibration * /*calibration*/) const { return false; }
+  virtual bool calibration(sphc_rig * /*calibration*/) const { return false; }
   // Frames wait until they are asked for, so none need be skipped.
   virtual bool waits() const { return false; }
 

@@ -1,3 +1,5 @@
+#include <charconv>
+
 #include "drivers/simulated/simulated.h"
 #include "host/base/checked_call.h"
 #include "host/live/device_kind.h"
@@ -5,14 +7,50 @@
 namespace sphc::host {
 namespace {
 
+uint64_t numberOf(const std::string &item, const std::string &text) {
+  uint64_t number = 0;
+  const char *end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || rest != end)
+    throw std::runtime_error("simulated: " + item + " has no number; write as in seed=7");
+  return number;
+}
+
+// An address is a list: names of what makes the world hard, and seed=N, walk-seed=N, arrangement=N.
+sphc_simulated_config configOf(const std::string &address) {
+  sphc_simulated_config config;
+  sphc_simulated_config_init(&config, sizeof config);
+  std::string names;
+  for (size_t begin = 0; begin < address.size();) {
+    const size_t end = std::min(address.find(',', begin), address.size());
+    const std::string item = address.substr(begin, end - begin);
+    const size_t equals = item.find('=');
+    const std::string key = item.substr(0, equals);
+    const auto value = [&] { return numberOf(item, item.substr(equals + 1)); };
+    if (equals == std::string::npos) {
+      names += (names.empty() ? "" : ",") + item;
+    } else if (key == "seed") {
+      config.seed = value();
+    } else if (key == "walk-seed") {
+      config.walk_seed = value();
+    } else if (key == "arrangement") {
+      config.arrangement_seed = value();
+    } else {
+      throw std::runtime_error("simulated: " + key + " is unknown; there are seed=, walk-seed=, arrangement=");
+    }
+    begin = end + 1;
+  }
+  orThrow("simulated:",
+          [&](sphc_message *message) { return sphc_simulated_parse_with(names.c_str(), &config.with, message); });
+  return config;
+}
+
 class SimulatedDevice : public Device {
  public:
   SimulatedDevice(const std::string &address, const Wish &wish) {
-    if (!address.empty()) throw std::runtime_error("simulated: stands alone; leave out " + address);
     if (!wish.color || !wish.depth)
       throw std::runtime_error("simulated: gives both streams; say --device simulated:");
-    sphc_simulated_config config;
-    sphc_simulated_config_init(&config, sizeof config);
+    const sphc_simulated_config config = configOf(address);
     orThrow("simulated:",
             [&](sphc_message *message) { return sphc_simulated_open(&config, &simulated_, message); });
     source_.struct_size = sizeof source_;
@@ -21,11 +59,8 @@ class SimulatedDevice : public Device {
   ~SimulatedDevice() override { sphc_simulated_close(&simulated_); }
 
   std::string describe() const override { return "simulated headset"; }
-  bool calibration(sphc_calibration *calibration) const override {
-    sphc_calibration_init(calibration, sizeof *calibration);
-    calibration->depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
-    return sphc_simulated_cameras(simulated_, &calibration->color_camera, &calibration->depth_camera,
-                                  &calibration->color_from_depth) == SPHC_OK;
+  bool calibration(sphc_rig *calibration) const override {
+    return sphc_simulated_rig(simulated_, calibration) == SPHC_OK;
   }
   bool waits() const override { return true; }
 

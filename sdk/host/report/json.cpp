@@ -85,6 +85,7 @@ Json summaryJson(const Run &run, const Summary &s) {
   json["with_truth"] = s.with_truth;
   json["within_5cm_5deg"] = s.good;
   json["within_5cm_5deg_percent"] = s.with_truth ? Json(percent(s.good, s.with_truth)) : Json(nullptr);
+  json["wrong_accepted"] = s.with_truth ? Json(s.wrong) : Json(nullptr);
   json["rotation_error_deg"] = spreadJson(s.rotation_deg);
   json["translation_error_m"] = spreadJson(s.translation_m);
   if (const auto graded = gradedFrames(run); !graded.empty())

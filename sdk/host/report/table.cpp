@@ -27,6 +27,9 @@ void addErrors(const Summary &s, std::vector<Row> *rows) {
     return;
   }
   rows->push_back({"within 5 cm and 5 deg", share(s.good, s.with_truth), ofTotal(s.good, s.with_truth)});
+  if (s.wrong)
+    rows->push_back(
+        {"WRONG POSES GIVEN OUT", std::to_string(s.wrong), "further than 25 cm or 10 deg from the truth"});
   if (std::isnan(s.rotation_deg.median)) return;
   const auto add = [rows](const char *name, const Spread &spread, double scale, const char *unit) {
     rows->push_back({std::string(name) + " error, median", fixed(scale * spread.median, 2) + " " + unit,

@@ -6,7 +6,6 @@ namespace sphc::host {
 
 Command alignCommand(CLI::App *root);
 Command compareCommand(CLI::App *root);
-Command confidenceCommand(CLI::App *root);
 Command featuresCommand(CLI::App *root);
 Command frameCommand(CLI::App *root);
 Command mapCommand(CLI::App *root);

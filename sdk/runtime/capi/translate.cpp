@@ -74,10 +74,10 @@ LocalizerConfig localizerConfigFrom(const sphc_config &config) {
   own.min_inliers = config.min_inliers;
   own.seed = config.seed;
   own.tracks = config.mode == SPHC_MODE_TRACKING;
-  own.color_camera = Camera(config.color_camera);
-  own.depth_camera = Camera(config.depth_camera);
-  own.color_from_depth = rigidFromC(config.color_from_depth);
-  own.depth_sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
+  own.color_camera = Camera(config.rig.color_camera);
+  own.depth_camera = Camera(config.rig.depth_camera);
+  own.color_from_depth = rigidFromC(config.rig.color_from_depth);
+  own.depth_sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                       config.depth_sigma_per_m2};
   own.depth_prior = depthPriorFrom(config);
   own.pixel_sigma_px = config.pixel_sigma_px;

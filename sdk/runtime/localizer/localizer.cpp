@@ -45,8 +45,8 @@ void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
   result->guided = best.guided;
   if (!best.isLocalized()) return;
   result->camera_from_map = best.estimate.camera_from_map;
-  result->covariance = best.estimate.covariance;
-  result->confidence = confidenceOf(confidenceInputs(best.searched, best.estimate));
+  result->covariance = statedCovariance(best.estimate);
+  result->confidence = confidenceOf(result->covariance);
 }
 
 }  // namespace
@@ -80,6 +80,10 @@ void Localizer::reset() {
   fusion_.clear();
   consistency_.reset();
   travel_.reset();
+}
+
+double Localizer::confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad) {
+  return confidenceOf(covariance, {translation_m, rotation_rad});
 }
 
 LocalizerResult Localizer::process(const FrameInput &frame) {

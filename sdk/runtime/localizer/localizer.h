@@ -30,6 +30,9 @@ class Localizer {
   // Forgets where the camera was; what was learnt of the depth sensor stays.
   void reset();
 
+  // The probability that a pose of this covariance, of a result, has errors within these bounds.
+  static double confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad);
+
   uint32_t mapCount() const { return search_.mapCount(); }
   // Of the last frame.
   Span<const Observation> observations() const { return front_.observations(); }

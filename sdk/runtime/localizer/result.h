@@ -48,7 +48,7 @@ struct LocalizerResult {
   Rigid camera_from_map;
   Matrix6 covariance = Matrix6::Zero();
   double confidence = 0;   // probability that the pose is within 5 cm and 5 degrees
-  DepthCalibration depth;  // with which the frame was looked at
+  DepthCalibration depth;  // that the frame was processed with
   StageTimes times;
 };
 

@@ -41,7 +41,9 @@ TEST(SimulatedConfig, OpenNamesTheFieldAndTheCure) {
       {"depth_scale", [&](auto &c) { c.depth_scale = nan; }},
       {"depth_sigma_m", [](auto &c) { c.depth_sigma_m = -1; }},
       {"depth_max_m", [](auto &c) { c.depth_max_m = std::numeric_limits<double>::infinity(); }},
-      {"reserved", [](auto &c) { c.reserved = 1; }},
+      {"with", [](auto &c) { c.with = 1u << 20; }},
+      {"with", [](auto &c) { c.with = SPHC_SIMULATED_DAY | SPHC_SIMULATED_NIGHT; }},
+      {"walk_start_s", [](auto &c) { c.walk_start_s = -1; }},
   };
   for (const auto &c : cases) {
     sphc_simulated_config config = defaults();
@@ -73,7 +75,8 @@ TEST(SimulatedConfig, NullHandlesAreRefused) {
   source.struct_size = sizeof source;
   uint8_t byte = 0;
   EXPECT_EQ(sphc_simulated_pose_at(nullptr, 0, &pose), SPHC_E_ARGUMENT);
-  EXPECT_EQ(sphc_simulated_cameras(nullptr, nullptr, nullptr, nullptr), SPHC_E_ARGUMENT);
+  sphc_rig rig;
+  EXPECT_EQ(sphc_simulated_rig(nullptr, &rig), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_simulated_frame_times(nullptr, 0, &time_ns, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_simulated_source(nullptr, &source), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_simulated_render_color(nullptr, 0, &byte), SPHC_E_ARGUMENT);

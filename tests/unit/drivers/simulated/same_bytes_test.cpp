@@ -19,8 +19,7 @@ Images render(const Handle &handle, uint32_t index) {
   return images;
 }
 
-TEST(SimulatedHeadset, SameConfigSameBytesWhateverTheThreads) {
-  sphc_simulated_config config = defaults();
+void expectSameBytes(sphc_simulated_config config) {
   config.seed = 5;
   config.threads = 1;
   const Handle one(config);
@@ -34,6 +33,26 @@ TEST(SimulatedHeadset, SameConfigSameBytesWhateverTheThreads) {
   EXPECT_EQ(a150.rgb, b150.rgb);
   EXPECT_EQ(a150.depth, b150.depth);
   EXPECT_NE(a0.rgb, a150.rgb);
+}
+
+TEST(SimulatedHeadset, SameConfigSameBytesWhateverTheThreads) { expectSameBytes(defaults()); }
+
+TEST(SimulatedHeadset, SameBytesInAHardWorld) {
+  sphc_simulated_config config = defaults();
+  config.with = SPHC_SIMULATED_HANDS | SPHC_SIMULATED_FEET | SPHC_SIMULATED_PEOPLE | SPHC_SIMULATED_TILES |
+                SPHC_SIMULATED_DOUBLES | SPHC_SIMULATED_MIRROR | SPHC_SIMULATED_WINDOW | SPHC_SIMULATED_NIGHT;
+  config.arrangement_seed = 3;
+  expectSameBytes(config);
+}
+
+TEST(SimulatedHeadset, AWalkMayBeginWithItsSecondLap) {
+  sphc_simulated_config config = defaults();
+  const Handle whole(config);
+  config.walk_start_s = config.lap_s;
+  const Handle second(config);
+  const Images a = render(whole, 100), b = render(second, 0);
+  EXPECT_EQ(a.rgb, b.rgb);
+  EXPECT_EQ(a.depth, b.depth);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class RigTest : public testing::Test {
 TEST_F(RigTest, GivesEveryPairOfARecordingAndThenItsEnd) {
   const auto rig = open();
   EXPECT_TRUE(rig->waits());
-  sphc_calibration calibration = {};
+  sphc_rig calibration = {};
   ASSERT_TRUE(rig->calibration(&calibration));
   EXPECT_EQ(calibration.color_camera.width, contract::kColorWidth);
   uint32_t captures = 0, pairs = 0;
@@ -108,6 +108,9 @@ TEST_F(RigTest, SaysWhatCannotBeOpenedAndTheCure) {
   EXPECT_NE(says("v4l2:/dev/no-such-camera", color).find("/dev/no-such-camera"), std::string::npos);
   EXPECT_NE(says("libcamera:", both).find("--depth v4l2:"), std::string::npos);
   EXPECT_NE(says("simulated:", color).find("--device simulated:"), std::string::npos);
+  EXPECT_NE(says("simulated:foot", both).find("feet,people"), std::string::npos);
+  EXPECT_NE(says("simulated:feet,room=3", both).find("room is unknown; there are seed="), std::string::npos);
+  EXPECT_NE(says("simulated:seed=x", both).find("seed=7"), std::string::npos);
   EXPECT_NE(says("replay:/no/such/walk", both).find("/no/such/walk"), std::string::npos);
 }
 

@@ -12,9 +12,9 @@ namespace {
 Sequence madeSequence() {
   Sequence sequence;
   const sphc_camera camera = {SPHC_CAMERA_PINHOLE, 32, 16, 4, {30, 30, 16, 8}};
-  sequence.calibration.color_camera = sequence.calibration.depth_camera = camera;
-  sequence.calibration.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
-  sequence.calibration.depth_unit_m = 0.001;
+  sequence.rig.color_camera = sequence.rig.depth_camera = camera;
+  sequence.rig.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
+  sequence.rig.depth_unit_m = 0.001;
   for (uint32_t i = 0; i < 12; ++i) {
     Shot shot;
     for (uint32_t pixel = 0; pixel < 32 * 16; ++pixel) {
@@ -29,8 +29,7 @@ Sequence madeSequence() {
 }
 
 bool isSame(const Sequence &a, const Sequence &b) {
-  if (a.shots.size() != b.shots.size() || std::memcmp(&a.calibration, &b.calibration, sizeof a.calibration) != 0)
-    return false;
+  if (a.shots.size() != b.shots.size() || std::memcmp(&a.rig, &b.rig, sizeof a.rig) != 0) return false;
   for (size_t i = 0; i < a.shots.size(); ++i)
     if (a.shots[i].color != b.shots[i].color || a.shots[i].depth != b.shots[i].depth ||
         a.shots[i].prior.flags != b.shots[i].prior.flags)
