@@ -1,4 +1,4 @@
-// What the measurements of one depth image say of the sensor, without a look at the colour image.
+// What the measurements of one depth image say of the sensor, the colour image left out.
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/geometry/camera.h"
