@@ -71,6 +71,15 @@ TEST(CInterfaceStatus, OtherPinnedValues) {
   EXPECT_EQ(SPHC_STREAM_DEPTH, 2);
 }
 
+TEST(CInterfaceStatus, EachFaultHasAName) {
+  EXPECT_STREQ(sphc_fault_name(SPHC_FAULT_DEPTH_RANGE), "SPHC_FAULT_DEPTH_RANGE");
+  EXPECT_STREQ(sphc_fault_name(SPHC_FAULT_VERTICAL_DISAGREES), "SPHC_FAULT_VERTICAL_DISAGREES");
+  for (uint32_t bit = SPHC_FAULT_DEPTH_RANGE; bit <= SPHC_FAULT_VERTICAL_DISAGREES; bit <<= 1)
+    EXPECT_STRNE(sphc_fault_name(bit), "SPHC_FAULT_?") << bit;
+  EXPECT_STREQ(sphc_fault_name(0), "SPHC_FAULT_?");
+  EXPECT_STREQ(sphc_fault_name(512), "SPHC_FAULT_?");
+}
+
 TEST(CInterfaceStatus, Version) {
   EXPECT_EQ(sphc_abi(), SPHC_ABI);
   const std::string version = std::to_string(SPHC_VERSION_MAJOR) + "." + std::to_string(SPHC_VERSION_MINOR) + "." +

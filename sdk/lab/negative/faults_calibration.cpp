@@ -4,7 +4,7 @@ namespace sphc::host {
 namespace {
 
 std::function<void(Sequence *)> shift(int axis, double metres) {
-  return [axis, metres](Sequence *s) { s->calibration.color_from_depth.t_m[axis] += metres; };
+  return [axis, metres](Sequence *s) { s->rig.color_from_depth.t_m[axis] += metres; };
 }
 
 void scaleFocal(double factor, sphc_camera *camera) {
@@ -13,13 +13,13 @@ void scaleFocal(double factor, sphc_camera *camera) {
 }
 
 std::function<void(Sequence *)> focalOfColor(double factor) {
-  return [factor](Sequence *s) { scaleFocal(factor, &s->calibration.color_camera); };
+  return [factor](Sequence *s) { scaleFocal(factor, &s->rig.color_camera); };
 }
 
 std::function<void(Sequence *)> focalOfBoth(double factor) {
   return [factor](Sequence *s) {
-    scaleFocal(factor, &s->calibration.color_camera);
-    scaleFocal(factor, &s->calibration.depth_camera);
+    scaleFocal(factor, &s->rig.color_camera);
+    scaleFocal(factor, &s->rig.depth_camera);
   };
 }
 

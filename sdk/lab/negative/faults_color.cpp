@@ -38,10 +38,10 @@ void mirrorBoth(Sequence *s) {
     mirror(s->colorWidth(), s->colorHeight(), s->channels(), &shot.color);
     mirror(s->depthWidth(), s->depthHeight(), 1, &shot.depth);
   }
-  sphc_calibration &calibration = s->calibration;
-  for (sphc_camera *camera : {&calibration.color_camera, &calibration.depth_camera})
+  sphc_rig &rig = s->rig;
+  for (sphc_camera *camera : {&rig.color_camera, &rig.depth_camera})
     camera->params[2] = camera->width - camera->params[2];
-  sphc_rigid &pose = calibration.color_from_depth;  // x -> -x on both sides
+  sphc_rigid &pose = rig.color_from_depth;  // x -> -x on both sides
   pose.q_wxyz[2] = -pose.q_wxyz[2];
   pose.q_wxyz[3] = -pose.q_wxyz[3];
   pose.t_m[0] = -pose.t_m[0];

@@ -17,19 +17,19 @@ void changeValues(Sequence *sequence, const Change &change) {
 uint16_t saturated(double value) { return static_cast<uint16_t>(std::min(65535.0, std::max(1.0, value))); }
 
 void makeConstant(Sequence *sequence) {
-  const double units = 2 / sequence->calibration.depth_unit_m;
+  const double units = 2 / sequence->rig.depth_unit_m;
   for (Shot &shot : sequence->shots) std::fill(shot.depth.begin(), shot.depth.end(), saturated(units));
 }
 
 // Far becomes near, and near far, in a range of 0.25 to 6 m.
 void invert(Sequence *sequence) {
-  const double sum = 6.25 / sequence->calibration.depth_unit_m;
+  const double sum = 6.25 / sequence->rig.depth_unit_m;
   changeValues(sequence, [sum](double value) { return saturated(std::max(sum - value, 0.04 * sum)); });
 }
 
 // As much as the sensor's own range: a number of disparity where a depth should be.
 void makeDisparity(Sequence *sequence) {
-  const double units = 1 / sequence->calibration.depth_unit_m;
+  const double units = 1 / sequence->rig.depth_unit_m;
   changeValues(sequence, [units](double value) { return saturated(2 * units * units / value); });
 }
 

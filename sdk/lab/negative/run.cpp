@@ -47,7 +47,7 @@ class FaultRun {
   void runSequence(const Sequence &sequence) {
     if (sequence.shots.empty()) return;
     sphc_config config = spherecloud::defaultConfig();
-    setCameras(sequence.calibration, &config);
+    setCameras(sequence.rig, &config);
     config.mode = mode_;
     spherecloud::Localizer localizer = makeLocalizer(config, *input_.maps);
     const uint32_t named_before = row_.named;

@@ -42,7 +42,7 @@ std::vector<Sequence> readSequences(recording::RecordingReader *reader, uint32_t
   std::vector<Sequence> sequences;
   for (uint32_t i = 0; i < count; ++i) {
     Sequence sequence;
-    sequence.calibration = reader->calibration();
+    sequence.rig = reader->calibration();
     const uint32_t first = i * there / count * kSequenceFrames;
     for (uint32_t index = first; index < std::min(frames, first + kSequenceFrames); ++index)
       addShot(reader, index, &odometry, &sequence);

@@ -3,7 +3,6 @@
 #include <optional>
 #include <vector>
 
-#include "host/recording/calibration.h"
 #include "host/recording/recording_reader.h"
 
 namespace sphc::host {
@@ -17,15 +16,15 @@ struct Shot {
 };
 
 struct Sequence {
-  sphc_calibration calibration = {};
+  sphc_rig rig = {};
   sphc_format color_format = SPHC_FORMAT_BGR8;
   std::vector<Shot> shots;
 
   uint32_t channels() const { return color_format == SPHC_FORMAT_GRAY8 ? 1 : 3; }
-  uint32_t colorWidth() const { return calibration.color_camera.width; }
-  uint32_t colorHeight() const { return calibration.color_camera.height; }
-  uint32_t depthWidth() const { return calibration.depth_camera.width; }
-  uint32_t depthHeight() const { return calibration.depth_camera.height; }
+  uint32_t colorWidth() const { return rig.color_camera.width; }
+  uint32_t colorHeight() const { return rig.color_camera.height; }
+  uint32_t depthWidth() const { return rig.depth_camera.width; }
+  uint32_t depthHeight() const { return rig.depth_camera.height; }
 };
 
 constexpr uint32_t kSequenceFrames = 30;

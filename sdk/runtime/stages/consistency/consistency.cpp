@@ -11,9 +11,7 @@ constexpr double kMeasuredShare = 0.1;     // of the samples: fewer say nothing
 constexpr double kOutOfRangeShare = 0.98;  // of the measurements
 constexpr uint32_t kFewValues = 3;
 constexpr uint32_t kFewestSlanted = 15;
-// How far the values may be bent, the second over the root of how many places there are: in frame after frame, and
-// in one alone.
-constexpr double kMostBend = 1.2, kMostBendOfFew = 7, kSureBend = 2, kSureBendOfFew = 10;
+constexpr double kMostBend = 0.7, kSureBend = 1.2;  // in frame after frame, and in one alone
 
 // ---- edges ----
 
@@ -70,10 +68,9 @@ bool Consistency::isBent() {
   const bool bent_before = bent_;
   bent_ = false;
   if (values_.slanted < kFewestSlanted) return false;
-  const double root = sqrtOf(static_cast<double>(values_.slanted));
-  bent_ = values_.bend > kMostBend + kMostBendOfFew / root;
+  bent_ = values_.bend > kMostBend;
   doubtful_ = doubtful_ || bent_;
-  return values_.bend > kSureBend + kSureBendOfFew / root || (config_.follows && bent_ && bent_before);
+  return values_.bend > kSureBend || (config_.follows && bent_ && bent_before);
 }
 
 bool Consistency::edgesDisagree() {

@@ -10,7 +10,11 @@ constexpr int32_t kReach = 4;                         // samples from the middle
 constexpr float kSlanted2 = 0.006f;                   // squared relative change of the inverse depth over the reach
 constexpr float kSmooth = 0.05f;  // relative deviation of the samples between from a straight line
 
-float middleOf(float a, float b, float c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
+// The least of three of one sign, else 0.
+float leastOf(float a, float b, float c) {
+  const float least = std::min(a, std::min(b, c)), most = std::max(a, std::max(b, c));
+  return least > 0 ? least : std::min(most, 0.0f);
+}
 
 }  // namespace
 
@@ -58,9 +62,9 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   for (int32_t row = kReach; row < kRows - kReach; ++row)
     for (int32_t column = kReach; column < kColumns - kReach; ++column) addBend(column, row, &found);
   if (!found.slanted) return found;
-  const auto begin = bends_.begin(), quantile = begin + found.slanted / 5;
-  std::nth_element(begin, quantile, begin + found.slanted);
-  found.bend = static_cast<double>(*quantile);
+  const auto begin = bends_.begin(), middle = begin + found.slanted / 2;
+  std::nth_element(begin, middle, begin + found.slanted);
+  found.bend = static_cast<double>(*middle);
   return found;
 }
 
@@ -104,11 +108,11 @@ void DepthSamples::addBend(int32_t column, int32_t row, DepthValues *found) {
   const auto off = [&](size_t i) {
     return inverse_[i] - w - a * (rays_[i].x - rays_[at].x) - b * (rays_[i].y - rays_[at].y);
   };
-  // A corner lies in one of the three second differences of a line, and the middle one is of a surface.
+  // A corner bends two of the three second differences of a line at most; a surface that is bent, all.
   const auto bendAlong = [&](size_t step) {
     const size_t half = kReach / 2 * step;
     const float before = off(at - half), after = off(at + half);
-    return 4 * middleOf(off(at - 2 * half) - 2 * before, before + after, off(at + 2 * half) - 2 * after);
+    return 4 * leastOf(off(at - 2 * half) - 2 * before, before + after, off(at + 2 * half) - 2 * after);
   };
   bends_[found->slanted++] = (bendAlong(across) + bendAlong(down)) / (w * slope2);
 }

@@ -1,4 +1,4 @@
-// What the measurements of one depth image say of the sensor, without a look at the colour image.
+// What the measurements of one depth image say of the sensor, the colour image left out.
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/geometry/camera.h"
@@ -14,9 +14,9 @@ struct DepthValues {
   uint32_t in_range = 0;  // of these
   uint32_t distinct = 0;  // different measurements in range, counted up to kMostDistinct
   uint32_t slanted = 0;   // places of a smooth surface that is slanted to the view
-  // Second differences of the inverse depth times the inverse depth, over its squared slope: a fifth of these
-  // places has less.  The inverse depth of a plane is linear in the rays, so 0; 2 where the values are inverse
-  // depths, more where they are a constant less the depth.  Not the median: rooms are full of concave corners.
+  // Their median bend, without corners: second differences of the inverse depth times the inverse depth, over its
+  // squared slope.  The inverse depth of a plane is linear in the rays, so 0; 2 where the values are inverse
+  // depths, more where they are a constant less the depth.
   double bend = 0;
 };
 

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""Are broken sensors believed?  Maps of recordings under several keys, and spherecloud-lab negative on their queries.
+
+    negative.py --spherecloud BIN --lab BIN [--keys N] [--sequences N] [NAME...]      rewrites negative.csv, for review
+"""
+import argparse
+import csv
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from accuracy import KEYS, REFUSED, Place
+from recordings import HERE, frames, run
+
+RESULTS = HERE / "negative.csv"
+NAMES = ["simulated", "redkitchen", "hololens"]
+ETA = 0.33
+COUNTS = ["tried", "accepted", "wrong", "wrong_sure", "named", "sequences", "sequences_named"]
+COLUMNS = ["recording", "fakes", "mode", "fault", "keys"] + COUNTS + ["worst_m", "worst_deg", "seen"]
+
+
+def publish(tool, place, folder, fakes, key):
+    """A map of the place, with the owner's note beside it."""
+    file, secret = folder / "room.sphc", folder / "key"
+    secret.write_text(KEYS[key])
+    secret.chmod(0o600)
+    run([tool, "build", "--model", place.model, "--map", file, "--eta", ETA, "--fakes", fakes, "--key", secret,
+         "--ledger", folder / "ledger", "--json"])
+    return file
+
+
+def elsewhere_of(place):
+    """Sources of frames that show another place."""
+    for name, other in place.refused.items():
+        if REFUSED[name]["elsewhere"]:
+            yield other.place("query") + (frames(REFUSED[name]["frames"]) if "frames" in REFUSED[name] else [])
+
+
+def rows_of(lab, place, file, sequences):
+    for row in run([lab, "negative", *place.recording.source("query"), "--map", file, "--sequences", sequences, "--json"]):
+        yield row
+    for source in elsewhere_of(place):
+        for row in run([lab, "negative", *source, "--map", file, "--sequences", sequences, "--elsewhere", "--json"]):
+            yield row | {"fault": "another place"}
+
+
+def add(sums, key, row):
+    known = sums.setdefault(key, dict.fromkeys(COUNTS, 0) | {"worst_m": 0, "worst_deg": 0, "seen": set(), "keys": 0})
+    for name in COUNTS:
+        known[name] += row[name]
+    for name in ("worst_m", "worst_deg"):
+        known[name] = max(known[name], row[name] or 0)
+    known["seen"] |= set(row["seen"].split())
+    known["keys"] += 1
+
+
+def measure(arguments):
+    sums = {}
+    for name in arguments.names or NAMES:
+        with tempfile.TemporaryDirectory() as folder:
+            place = Place(name, arguments.spherecloud, pathlib.Path(folder))
+            for fakes in ("patchwork", "gaussian"):
+                for key in range(arguments.keys):
+                    with tempfile.TemporaryDirectory(dir=folder) as own:
+                        file = publish(arguments.spherecloud, place, pathlib.Path(own), fakes, key)
+                        for row in rows_of(arguments.lab, place, file, arguments.sequences):
+                            add(sums, (name, fakes, row["mode"], row["fault"]), row)
+                    print(name, fakes, "key", key + 1, flush=True)
+    return sums
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--spherecloud", required=True)
+    parser.add_argument("--lab", required=True)
+    parser.add_argument("--keys", type=int, default=3)
+    parser.add_argument("--sequences", type=int, default=2)
+    parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")
+    sums = measure(parser.parse_args())
+    with RESULTS.open("w", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for key, row in sums.items():
+            writer.writerow([*key, row["keys"], *(row[name] for name in COUNTS), "%.3f" % row["worst_m"],
+                             "%.2f" % row["worst_deg"], " ".join(sorted(row["seen"]))])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+
+#include "lab/negative/fault.h"
+
+namespace sphc::host {
+namespace {
+
+// Twelve small shots at 10 Hz, each another one; what is done to them is the same for large ones.
+Sequence madeSequence() {
+  Sequence sequence;
+  const sphc_camera camera = {SPHC_CAMERA_PINHOLE, 32, 16, 4, {30, 30, 16, 8}};
+  sequence.rig.color_camera = sequence.rig.depth_camera = camera;
+  sequence.rig.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
+  sequence.rig.depth_unit_m = 0.001;
+  for (uint32_t i = 0; i < 12; ++i) {
+    Shot shot;
+    for (uint32_t pixel = 0; pixel < 32 * 16; ++pixel) {
+      shot.depth.push_back(static_cast<uint16_t>(900 + 7 * pixel + 100 * i));
+      for (uint32_t k = 0; k < 3; ++k) shot.color.push_back(static_cast<uint8_t>(5 * pixel + 3 * k + 11 * i));
+    }
+    shot.color_time_ns = shot.depth_time_ns = int64_t{100000000} * i;
+    shot.world_from_camera = sphc_rigid{{1, 0, 0, 0}, {0.01 * i, 0, 0}};
+    sequence.shots.push_back(shot);
+  }
+  return sequence;
+}
+
+bool isSame(const Sequence &a, const Sequence &b) {
+  if (a.shots.size() != b.shots.size() || std::memcmp(&a.rig, &b.rig, sizeof a.rig) != 0) return false;
+  for (size_t i = 0; i < a.shots.size(); ++i)
+    if (a.shots[i].color != b.shots[i].color || a.shots[i].depth != b.shots[i].depth ||
+        a.shots[i].prior.flags != b.shots[i].prior.flags)
+      return false;
+  return true;
+}
+
+TEST(SensorFaults, EachHasANameAndBreaksSomething) {
+  std::set<std::string> names;
+  for (const SensorFault &fault : allFaults()) {
+    EXPECT_TRUE(names.insert(fault.name).second) << fault.name;
+    Sequence broken = madeSequence();
+    fault.apply(&broken);
+    const bool is_healthy = fault.name == "healthy" || fault.name == "healthy, odometry";
+    EXPECT_EQ(isSame(broken, madeSequence()), is_healthy) << fault.name;
+    for (const Shot &shot : broken.shots) {
+      EXPECT_EQ(shot.color.size(), size_t{32} * 16 * 3) << fault.name;
+      EXPECT_EQ(shot.depth.size(), size_t{32} * 16) << fault.name;
+    }
+  }
+}
+
+TEST(SensorFaults, LateDepthIsThatOfEarlierFrames) {
+  for (const SensorFault &fault : depthFaults()) {
+    if (fault.name != "depth 0.3 s late") continue;
+    const Sequence healthy = madeSequence();
+    Sequence broken = healthy;
+    fault.apply(&broken);
+    ASSERT_EQ(broken.shots.size(), 9u);
+    for (size_t i = 0; i < broken.shots.size(); ++i) {
+      EXPECT_EQ(broken.shots[i].depth, healthy.shots[i].depth) << i;
+      EXPECT_EQ(broken.shots[i].color, healthy.shots[i + 3].color) << i;
+    }
+  }
+}
+
+TEST(SensorFaults, TwoMirrorsShowThePlace) {
+  for (const SensorFault &fault : colorFaults()) {
+    if (!fault.is_elsewhere) continue;
+    Sequence twice = madeSequence();
+    fault.apply(&twice);
+    fault.apply(&twice);
+    EXPECT_TRUE(isSame(twice, madeSequence()));
+  }
+}
+
+}  // namespace
+}  // namespace sphc::host
