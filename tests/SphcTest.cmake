@@ -22,10 +22,11 @@ function(sphc_label label)
   add_dependencies(tests_${label} ${ARGN})
 endfunction()
 
-# sphc_test(NAME SOURCES... LINKS... LABELS...): a GoogleTest program.  It is one entry of ctest, since a process for each
+# sphc_test(NAME SOURCES... LINKS... LABELS... [COST]): a GoogleTest program.  The longest have a COST, in seconds or so: they
+# begin first, so that no core waits at the end.  A program is one entry of ctest, since a process for each
 # test case takes longer than most cases do; tests/run.sh counts the cases that it reports.
 function(sphc_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "" "COST" "SOURCES;LINKS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE sphc_flags ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/sdk)
@@ -35,6 +36,9 @@ function(sphc_test name)
   # OpenNI2 asks threads that have ended whether they live, which wants their stacks to be kept.
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600 ENVIRONMENT
     "GLIBC_TUNABLES=glibc.pthread.stack_cache_size=1073741824;TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt")
+  if(arg_COST)
+    set_tests_properties(${name} PROPERTIES COST ${arg_COST})
+  endif()
   foreach(label ${arg_LABELS})
     sphc_label(${label} ${name})
   endforeach()

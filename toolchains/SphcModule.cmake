@@ -48,6 +48,12 @@ include(SphcSimd)
 if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
+  if(SPHC_SANITIZE MATCHES "address" AND SPHC_SANITIZE MATCHES "undefined")
+    # With both, clang optimises next to nothing of Eigen, and the tests take many times as long.  The option's old name
+    # is the one that ccache 4.7 knows to name a file.
+    target_compile_options(sphc_flags INTERFACE
+      "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:-fsanitize-blacklist=${CMAKE_CURRENT_LIST_DIR}/sanitizer_ignorelist.txt>")
+  endif()
   target_link_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE})
   target_compile_options(sphc_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-pass-failed>) # loops asked to be vectors
 endif()
@@ -59,43 +65,65 @@ target_link_libraries(sphc_runtime_flags INTERFACE sphc_flags)
 target_compile_options(sphc_runtime_flags INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>
   $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>)
+add_library(sphc_runtime_code INTERFACE) # of the runtime's own files
+target_link_libraries(sphc_runtime_code INTERFACE sphc_runtime_flags)
+target_compile_definitions(sphc_runtime_code INTERFACE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO)
 
-# Reading these takes longer than most of our files.  ccache needs the options, and CCACHE_SLOPPINESS as in tests/run.sh.
-set(SPHC_PRECOMPILE_FROM 4) # sources; fewer are not worth it
-function(sphc_precompile target)
-  get_target_property(sources ${target} SOURCES)
-  list(LENGTH sources count)
-  if(count LESS SPHC_PRECOMPILE_FROM)
-    return()
-  endif()
-  list(TRANSFORM ARGN REPLACE "(.+)" "$<$<COMPILE_LANGUAGE:CXX>:<\\1$<ANGLE-R>>" OUTPUT_VARIABLE headers)
-  target_precompile_headers(${target} PRIVATE ${headers})
-  target_compile_options(${target} PRIVATE
-    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>
-    "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+# Reading other people's headers takes longer than most of our files.  Modules that are compiled alike share one library of
+# precompiled headers.  ccache needs the options, and CCACHE_SLOPPINESS as in tests/run.sh.
+set(SPHC_HEADERS_OPTIONS
+  $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>
+  "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")
+set(SPHC_HEADERS_SOURCE ${CMAKE_CURRENT_LIST_DIR}/headers.cpp)
+
+# sphc_headers(NAME FLAGS... OPTIONS... HEADERS...): FLAGS and OPTIONS are those of the modules.
+function(sphc_headers name)
+  cmake_parse_arguments(arg "" "" "FLAGS;OPTIONS;HEADERS" ${ARGN})
+  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${SPHC_HEADERS_SOURCE})
+  target_link_libraries(${name} PRIVATE ${arg_FLAGS})
+  target_compile_options(${name} PRIVATE ${arg_OPTIONS} ${SPHC_HEADERS_OPTIONS})
+  list(TRANSFORM arg_HEADERS REPLACE "(.+)" "$<$<COMPILE_LANGUAGE:CXX>:<\\1$<ANGLE-R>>" OUTPUT_VARIABLE headers)
+  target_precompile_headers(${name} PRIVATE ${headers})
 endfunction()
 
-# sphc_module(NAME SOURCES... [RUNTIME] [LINKS...] [PRECOMPILE...]): a folder is a target.
+sphc_headers(sphc_host_headers FLAGS sphc_flags HEADERS Eigen/Core Eigen/Geometry)
+if(SPHC_SANITIZE)
+  set(SPHC_PRECOMPILE_RUNTIME ON)
+else()
+  # Off where it ships: firmware's files show that they include what they need.  The code is the same.
+  option(SPHC_PRECOMPILE_RUNTIME "The runtime reads Eigen precompiled" OFF)
+endif()
+if(SPHC_PRECOMPILE_RUNTIME)
+  sphc_headers(sphc_runtime_headers FLAGS sphc_runtime_code HEADERS Eigen/Core Eigen/Geometry)
+endif()
+
+# sphc_module(NAME SOURCES... [RUNTIME] [LINKS...] [HEADERS...]): a folder is a target.
 # RUNTIME modules are objects gathered into the one library `spherecloud`; others are static libraries.
-# PRECOMPILE: headers of other people that most of the sources include.
+# HEADERS: a library of precompiled headers, where it is not that of all.
 function(sphc_module name)
-  cmake_parse_arguments(arg "RUNTIME" "" "SOURCES;LINKS;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(arg "RUNTIME" "HEADERS" "SOURCES;LINKS" ${ARGN})
   if(arg_RUNTIME)
     add_library(${name} OBJECT ${arg_SOURCES})
-    target_link_libraries(${name} PUBLIC sphc_runtime_flags PRIVATE ${arg_LINKS})
-    target_compile_definitions(${name} PRIVATE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO)
+    target_link_libraries(${name} PUBLIC sphc_runtime_flags PRIVATE sphc_runtime_code ${arg_LINKS})
     set_property(GLOBAL APPEND PROPERTY SPHC_RUNTIME_OBJECTS ${name})
   else()
     add_library(${name} STATIC ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE sphc_flags PUBLIC ${arg_LINKS})
   endif()
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/sdk ${PROJECT_SOURCE_DIR}/sdk/include)
+  string(FIND "${arg_SOURCES}" ".cpp" has_cpp)
   list(FILTER arg_SOURCES INCLUDE REGEX "_simd.cpp$")
   if(SPHC_SANITIZE MATCHES "address" AND arg_SOURCES) # with both sanitizers they take three times as long
     set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS -fno-sanitize=undefined
       SKIP_PRECOMPILE_HEADERS ON)
   endif()
-  if(SPHC_SANITIZE OR NOT arg_RUNTIME) # firmware's files show that they include what they need
-    sphc_precompile(${name} Eigen/Core Eigen/Geometry ${arg_PRECOMPILE})
+  if(NOT arg_HEADERS AND NOT arg_RUNTIME)
+    set(arg_HEADERS sphc_host_headers)
+  elseif(arg_RUNTIME AND SPHC_PRECOMPILE_RUNTIME)
+    set(arg_HEADERS sphc_runtime_headers)
+  endif()
+  if(arg_HEADERS AND has_cpp GREATER -1)
+    target_precompile_headers(${name} REUSE_FROM ${arg_HEADERS})
+    target_compile_options(${name} PRIVATE ${SPHC_HEADERS_OPTIONS})
   endif()
 endfunction()

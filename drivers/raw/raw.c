@@ -66,32 +66,25 @@ static int get_rigid(const uint8_t *bytes, sphc_rigid *rigid) {
 }
 
 static size_t color_bytes(const sphc_raw *raw) {
-  const size_t pixels = (size_t)raw->color_camera.width * raw->color_camera.height;
+  const size_t pixels = (size_t)raw->rig.color_camera.width * raw->rig.color_camera.height;
   return raw->color_format == SPHC_FORMAT_GRAY8 ? pixels : 3 * pixels;
 }
 
 static size_t depth_bytes(const sphc_raw *raw) {
-  return (size_t)2 * raw->depth_camera.width * raw->depth_camera.height;
+  return (size_t)2 * raw->rig.depth_camera.width * raw->rig.depth_camera.height;
 }
 
 static sphc_status get_rig(const uint8_t *header, sphc_raw *raw, sphc_message *message) {
   raw->frame_count = get32(header + 12);
   raw->color_format = (sphc_format)get32(header + 16);
-  get_camera(header + 24, &raw->color_camera);
-  get_camera(header + 24 + kCameraBytes, &raw->depth_camera);
-  raw->depth_unit_m = get_double(header + 304);
+  get_camera(header + 24, &raw->rig.color_camera);
+  get_camera(header + 24 + kCameraBytes, &raw->rig.depth_camera);
+  get_rigid(header + 248, &raw->rig.color_from_depth);
+  raw->rig.depth_unit_m = get_double(header + 304);
   if (raw->color_format != SPHC_FORMAT_GRAY8 && raw->color_format != SPHC_FORMAT_RGB8 &&
       raw->color_format != SPHC_FORMAT_BGR8)
     return refuse(message, SPHC_E_ARGUMENT, "raw recording: colour format is not known; convert it again");
-  if (sphc_camera_check(&raw->color_camera, message) != SPHC_OK) return SPHC_E_ARGUMENT;
-  if (sphc_camera_check(&raw->depth_camera, message) != SPHC_OK) return SPHC_E_ARGUMENT;
-  if (!get_rigid(header + 248, &raw->color_from_depth))
-    return refuse(message, SPHC_E_ARGUMENT,
-                  "raw recording: color_from_depth is no rigid transform; convert it again");
-  if (!(raw->depth_unit_m >= 1e-6 && raw->depth_unit_m <= 0.1))
-    return refuse(message, SPHC_E_ARGUMENT,
-                  "raw recording: depth unit is not within 1e-6 to 0.1 m; convert it again");
-  return SPHC_OK;
+  return sphc_rig_check(&raw->rig, message);
 }
 
 sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_t file_bytes,
@@ -172,7 +165,7 @@ sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memor
     const uint16_t value = (uint16_t)(at[0] | at[1] << 8);
     memcpy(at, &value, 2);
   }
-  const sphc_camera *d = &raw->depth_camera, *c = &raw->color_camera;
+  const sphc_camera *d = &raw->rig.depth_camera, *c = &raw->rig.color_camera;
   const sphc_image depth_image = {depth, d->width, d->height, 2 * d->width, SPHC_FORMAT_DEPTH16};
   const uint32_t channels = raw->color_format == SPHC_FORMAT_GRAY8 ? 1 : 3;
   const sphc_image color_image = {color, c->width, c->height, c->width * channels, raw->color_format};

@@ -29,9 +29,7 @@ typedef struct sphc_raw {
   void *user;
   uint32_t frame_count;
   sphc_format color_format; /* of all colour images; rows without padding */
-  sphc_camera color_camera, depth_camera;
-  sphc_rigid color_from_depth;
-  double depth_unit_m;
+  sphc_rig rig;
   size_t frame_bytes; /* of memory that sphc_raw_read_frame needs */
 } sphc_raw;
 

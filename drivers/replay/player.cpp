@@ -10,7 +10,7 @@ namespace sphc::replay {
 using recording::Failure;
 using recording::guarded;
 
-Player::Player(const Recording &recording, const sphc_calibration &calibration, const sphc_replay_config &config)
+Player::Player(const Recording &recording, const sphc_rig &calibration, const sphc_replay_config &config)
     : recording_(recording),
       reader_(recording, calibration, config.color_format),
       mode_(config.mode),

@@ -16,7 +16,7 @@ using recording::Recording;
 class Player {
  public:
   // Borrows the recording.
-  Player(const Recording &recording, const sphc_calibration &calibration, const sphc_replay_config &config);
+  Player(const Recording &recording, const sphc_rig &calibration, const sphc_replay_config &config);
 
   sphc_status start();
   sphc_status acquire(uint32_t timeout_us, sphc_capture &capture);

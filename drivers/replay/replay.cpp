@@ -110,10 +110,9 @@ sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *in
   return SPHC_OK;
 }
 
-sphc_status sphc_replay_calibration(const sphc_replay *replay, sphc_calibration *calibration) {
-  if (!replay || !calibration) return SPHC_E_ARGUMENT;
-  if (calibration->struct_size != sizeof *calibration) return SPHC_E_STRUCT_SIZE;
-  *calibration = replay->reader.calibration();
+sphc_status sphc_replay_rig(const sphc_replay *replay, sphc_rig *rig) {
+  if (!replay || !rig) return SPHC_E_ARGUMENT;
+  *rig = replay->reader.calibration();
   return SPHC_OK;
 }
 

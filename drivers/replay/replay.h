@@ -90,8 +90,8 @@ typedef struct sphc_replay_info {
 } sphc_replay_info;
 /* Set info->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *info);
-/* Set calibration->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
-sphc_status sphc_replay_calibration(const sphc_replay *replay, sphc_calibration *calibration);
+/* The cameras, by the recording's calibration.  Errors: ARGUMENT. [shared] */
+sphc_status sphc_replay_rig(const sphc_replay *replay, sphc_rig *rig);
 
 /* ---- as a source -------------------------------------------------------------------------------------------- */
 

@@ -58,6 +58,8 @@ sphc_rigid colorFromDepth() {
   return {{w * scale, x * scale, y * scale, z * scale}, {0.0382, -0.0041, 0.0063}};
 }
 
+sphc_rig rig() { return {colorCamera(), depthCamera(), colorFromDepth(), SPHC_SIMULATED_DEPTH_UNIT_M}; }
+
 Headset::Headset(const sphc_simulated_config &config)
     : config_(config),
       color_(colorCamera()),

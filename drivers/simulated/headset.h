@@ -15,6 +15,7 @@ constexpr uint32_t kDepthWidth = SPHC_SIMULATED_DEPTH_WIDTH, kDepthHeight = SPHC
 sphc_camera colorCamera();
 sphc_camera depthCamera();
 sphc_rigid colorFromDepth();
+sphc_rig rig();
 
 class Headset {
  public:

@@ -273,7 +273,7 @@ RoomPlan layOut(Builder &b, uint32_t with) {
   const double ceiling = 2 * plan.half.z;
   const uint64_t doubles_seed = (with & SPHC_SIMULATED_DOUBLES) != 0 ? rng.next() | 1 : 0;
   buildShell(b, plan, with);
-  // Each looks into the room: y to the middle, x = y cross z.
+  // All of them face the room: y to the middle, x = y cross z.
   Wall walls[4];
   const Vec3d middles[4] = {{0, -plan.half.y, 0}, {plan.half.x, 0, 0}, {0, plan.half.y, 0}, {-plan.half.x, 0, 0}};
   std::vector<int> order{0, 1, 2, 3};

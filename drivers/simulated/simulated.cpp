@@ -67,12 +67,9 @@ sphc_status sphc_simulated_source(sphc_simulated *simulated, sphc_source *source
   return SPHC_OK;
 }
 
-sphc_status sphc_simulated_cameras(const sphc_simulated *simulated, sphc_camera *color, sphc_camera *depth,
-                                   sphc_rigid *color_from_depth) {
-  if (simulated == nullptr) return SPHC_E_ARGUMENT;
-  if (color != nullptr) *color = sphc::simulated::colorCamera();
-  if (depth != nullptr) *depth = sphc::simulated::depthCamera();
-  if (color_from_depth != nullptr) *color_from_depth = sphc::simulated::colorFromDepth();
+sphc_status sphc_simulated_rig(const sphc_simulated *simulated, sphc_rig *rig) {
+  if (simulated == nullptr || rig == nullptr) return SPHC_E_ARGUMENT;
+  *rig = sphc::simulated::rig();
   return SPHC_OK;
 }
 

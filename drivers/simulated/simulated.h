@@ -3,7 +3,7 @@
  *
  *     sphc_simulated_config_init, change what you like
  *     sphc_simulated_open                         builds and paints the room: a few seconds
- *     sphc_simulated_cameras                      the calibration that sphc_config wants
+ *     sphc_simulated_rig                          the cameras, for sphc_config
  *     sphc_simulated_source                       captures in order of time, as any driver gives them
  *     sphc_simulated_pose_at, _oracle_depth       the truth
  *     sphc_simulated_close
@@ -118,10 +118,9 @@ void sphc_simulated_close(sphc_simulated **simulated);
  * begins again from frame 0.  Errors of this call: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_simulated_source(sphc_simulated *simulated, sphc_source *source);
 
-/* The exact calibration: colour is BROWN5, depth KANNALA_BRANDT4; the same for every seed.  Each output may be
- * null. ARGUMENT: the handle is null. [shared] */
-sphc_status sphc_simulated_cameras(const sphc_simulated *simulated, sphc_camera *color, sphc_camera *depth,
-                                   sphc_rigid *color_from_depth);
+/* The exact calibration: colour is BROWN5, depth KANNALA_BRANDT4; the same for every seed.  ARGUMENT: a null
+ * pointer. [shared] */
+sphc_status sphc_simulated_rig(const sphc_simulated *simulated, sphc_rig *rig);
 
 /* How many colour frames the source gives (config.frame_count); 0 for null. [shared] */
 uint32_t sphc_simulated_frame_count(const sphc_simulated *simulated);

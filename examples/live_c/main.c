@@ -56,14 +56,11 @@ static sphc_map *open_map(const char *path) {
   return map;
 }
 
-static sphc_localizer *make_localizer(const sphc_map *map, const sphc_calibration *cameras) {
+static sphc_localizer *make_localizer(const sphc_map *map, const sphc_rig *rig) {
   sphc_config config;
   sphc_localizer *localizer = NULL;
   check(sphc_config_init(&config, sizeof config), "config");
-  config.color_camera = cameras->color_camera;
-  config.depth_camera = cameras->depth_camera;
-  config.color_from_depth = cameras->color_from_depth;
-  config.depth_unit_m = cameras->depth_unit_m;
+  config.rig = *rig;
   check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &map, 1, &localizer, &message),
         "localizer");
   return localizer;
@@ -100,12 +97,12 @@ static void localize(sphc_localizer *localizer, const sphc_pair *pair) {
 
 int main(int argc, char **argv) {
   if (argc < 5) return fprintf(stderr, "usage: %s COLOR DEPTH CALIBRATION MAP [FRAMES]\n", argv[0]), 2;
-  sphc_calibration cameras = {.struct_size = sizeof cameras};
-  check(sphc_calibration_read(argv[3], &cameras, &message), argv[3]);
+  sphc_rig rig;
+  check(sphc_calibration_read(argv[3], &rig, &message), argv[3]);
   sphc_map *map = open_map(argv[4]);
-  sphc_localizer *localizer = make_localizer(map, &cameras);
-  struct camera color = open_camera(argv[1], SPHC_STREAM_COLOR, &cameras.color_camera);
-  struct camera depth = open_camera(argv[2], SPHC_STREAM_DEPTH, &cameras.depth_camera);
+  sphc_localizer *localizer = make_localizer(map, &rig);
+  struct camera color = open_camera(argv[1], SPHC_STREAM_COLOR, &rig.color_camera);
+  struct camera depth = open_camera(argv[2], SPHC_STREAM_DEPTH, &rig.depth_camera);
   sphc_pairer_config config;
   sphc_pairer *pairer = NULL;
   check(sphc_pairer_config_init(&config, sizeof config), "pairer config");

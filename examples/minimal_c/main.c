@@ -35,14 +35,9 @@ static sphc_map *open_map(const char *path) {
 }
 
 static sphc_localizer *make_localizer(const sphc_map *map, const sphc_replay *replay) {
-  sphc_calibration cameras = {.struct_size = sizeof cameras};
-  check(sphc_replay_calibration(replay, &cameras), "calibration");
   sphc_config config;
   check(sphc_config_init(&config, sizeof config), "config");
-  config.color_camera = cameras.color_camera;
-  config.depth_camera = cameras.depth_camera;
-  config.color_from_depth = cameras.color_from_depth;
-  config.depth_unit_m = cameras.depth_unit_m;
+  check(sphc_replay_rig(replay, &config.rig), "rig");
   sphc_localizer *localizer = NULL;
   check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &map, 1, &localizer, &message),
         "init");

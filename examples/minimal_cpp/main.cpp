@@ -23,14 +23,8 @@ Replay openReplay(const char *folder) {
 }
 
 sphc_config configFor(const sphc_replay *replay) {
-  sphc_calibration cameras = {};
-  cameras.struct_size = sizeof cameras;
-  spherecloud::Status(sphc_replay_calibration(replay, &cameras)).orThrow();
   sphc_config config = spherecloud::defaultConfig();
-  config.color_camera = cameras.color_camera;
-  config.depth_camera = cameras.depth_camera;
-  config.color_from_depth = cameras.color_from_depth;
-  config.depth_unit_m = cameras.depth_unit_m;
+  spherecloud::Status(sphc_replay_rig(replay, &config.rig)).orThrow();
   return config;
 }
 

@@ -21,6 +21,11 @@ int main(void) {
   FIELD(sphc_camera, height);
   FIELD(sphc_camera, param_count);
   FIELD(sphc_camera, params);
+  WHOLE(sphc_rig);
+  FIELD(sphc_rig, color_camera);
+  FIELD(sphc_rig, depth_camera);
+  FIELD(sphc_rig, color_from_depth);
+  FIELD(sphc_rig, depth_unit_m);
   WHOLE(sphc_image);
   FIELD(sphc_image, data);
   FIELD(sphc_image, width);
@@ -59,10 +64,7 @@ int main(void) {
   WHOLE(sphc_aligner_config);
   FIELD(sphc_aligner_config, struct_size);
   FIELD(sphc_aligner_config, reserved);
-  FIELD(sphc_aligner_config, color_camera);
-  FIELD(sphc_aligner_config, depth_camera);
-  FIELD(sphc_aligner_config, color_from_depth);
-  FIELD(sphc_aligner_config, depth_unit_m);
+  FIELD(sphc_aligner_config, rig);
   FIELD(sphc_aligner_config, depth_min_m);
   FIELD(sphc_aligner_config, depth_max_m);
   FIELD(sphc_aligner_config, depth_sigma_m);
@@ -82,10 +84,7 @@ int main(void) {
   FIELD(sphc_config, max_iterations);
   FIELD(sphc_config, max_ratio);
   FIELD(sphc_config, seed);
-  FIELD(sphc_config, color_camera);
-  FIELD(sphc_config, depth_camera);
-  FIELD(sphc_config, color_from_depth);
-  FIELD(sphc_config, depth_unit_m);
+  FIELD(sphc_config, rig);
   FIELD(sphc_config, depth_min_m);
   FIELD(sphc_config, depth_max_m);
   FIELD(sphc_config, depth_sigma_m);

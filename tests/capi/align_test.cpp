@@ -20,9 +20,9 @@ class CInterfaceAligner : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(sphc_aligner_config_init(&config_, sizeof config_), SPHC_OK);
-    config_.color_camera = sphc::test::pinhole(kWidth, kHeight, 50);
-    config_.depth_camera = sphc::test::pinhole(40, 30, 30);
-    config_.color_from_depth.t_m[0] = -0.05;
+    config_.rig.color_camera = sphc::test::pinhole(kWidth, kHeight, 50);
+    config_.rig.depth_camera = sphc::test::pinhole(40, 30, 30);
+    config_.rig.color_from_depth.t_m[0] = -0.05;
     ASSERT_EQ(sphc_aligner_memory(&config_, &bytes_, &alignment_, &message_), SPHC_OK);
     memory_ = GuardedMemory(bytes_, alignment_);
     raw_.assign(40 * 30, 1500);
@@ -93,12 +93,12 @@ TEST_F(CInterfaceAligner, ForbiddenConfigs) {
     void (*spoil)(sphc_aligner_config *);
   };
   const Spoiled all[] = {
-      {"color_camera", [](sphc_aligner_config *c) { c->color_camera.model = 9; }},
-      {"depth_camera", [](sphc_aligner_config *c) { c->depth_camera.params[0] = std::nan(""); }},
-      {"color_from_depth", [](sphc_aligner_config *c) { c->color_from_depth.q_wxyz[0] = 2; }},
-      {"color_from_depth", [](sphc_aligner_config *c) { c->color_from_depth.t_m[1] = std::nan(""); }},
-      {"color_from_depth.t_m", [](sphc_aligner_config *c) { c->color_from_depth.t_m[1] = 1e9; }},
-      {"depth_unit_m", [](sphc_aligner_config *c) { c->depth_unit_m = 0; }},
+      {"color_camera", [](sphc_aligner_config *c) { c->rig.color_camera.model = 9; }},
+      {"depth_camera", [](sphc_aligner_config *c) { c->rig.depth_camera.params[0] = std::nan(""); }},
+      {"color_from_depth", [](sphc_aligner_config *c) { c->rig.color_from_depth.q_wxyz[0] = 2; }},
+      {"color_from_depth", [](sphc_aligner_config *c) { c->rig.color_from_depth.t_m[1] = std::nan(""); }},
+      {"color_from_depth.t_m", [](sphc_aligner_config *c) { c->rig.color_from_depth.t_m[1] = 1e9; }},
+      {"depth_unit_m", [](sphc_aligner_config *c) { c->rig.depth_unit_m = 0; }},
       {"depth_max_m", [](sphc_aligner_config *c) { c->depth_max_m = c->depth_min_m; }},
       {"depth_sigma_m", [](sphc_aligner_config *c) { c->depth_sigma_m = std::nan(""); }},
       {"aligned_unit_m", [](sphc_aligner_config *c) { c->aligned_unit_m = std::nan(""); }},

@@ -22,7 +22,7 @@ TEST(CInterfaceCamera, CheckExplains) {
   EXPECT_EQ(sphc_camera_check(nullptr, nullptr), SPHC_E_ARGUMENT);
   camera.params[2] = kNan;
   EXPECT_EQ(sphc_camera_check(&camera, &message), SPHC_E_ARGUMENT);
-  expectMentions(message.text, "not finite");
+  expectMentions(message.text, "camera.params[2] is nan; a parameter must be finite");
 }
 
 TEST(CInterfaceCamera, ProjectAndBack) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -80,6 +81,23 @@ TEST_F(CInterfaceLocalizer, ResultsFieldsAreFilled) {
     for (int column = 0; column < row; ++column)
       EXPECT_NEAR(result.covariance[6 * row + column], result.covariance[6 * column + row], 1e-12);
   }
+}
+
+TEST_F(CInterfaceLocalizer, ConfidenceIsAskedWithinOtherBounds) {
+  const auto frame = sphc::test::sceneFrame(config_, 1);
+  sphc_result result = clean();
+  ASSERT_EQ(session_.process(frame->frame, &result), SPHC_OK);
+  const double degrees = sphc::kPi / 180;
+  EXPECT_DOUBLE_EQ(sphc_result_confidence(&result, 0.05, 5 * degrees), result.confidence);
+  EXPECT_LT(sphc_result_confidence(&result, 0.001, 5 * degrees), result.confidence);
+  EXPECT_LT(sphc_result_confidence(&result, 0.05, 0.01 * degrees), result.confidence);
+  for (double none : {0.0, -1.0, std::nan("")}) {
+    EXPECT_EQ(sphc_result_confidence(&result, none, degrees), 0);
+    EXPECT_EQ(sphc_result_confidence(&result, 0.05, none), 0);
+  }
+  EXPECT_EQ(sphc_result_confidence(nullptr, 0.05, degrees), 0);
+  result.outcome = SPHC_OUTCOME_UNCERTAIN;
+  EXPECT_EQ(sphc_result_confidence(&result, 0.05, degrees), 0);
 }
 
 TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {

@@ -28,7 +28,7 @@ TEST(CInterfaceConfig, DefaultsNeedOnlyCameras) {
   sphc_message message;
   EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_E_ARGUMENT);
   expectMentions(message.text, "color_camera");
-  config.color_camera = config.depth_camera = sphc::test::pinhole(640, 480, 500);
+  config.rig.color_camera = config.rig.depth_camera = sphc::test::pinhole(640, 480, 500);
   EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_OK);
 }
 
@@ -46,16 +46,16 @@ const Spoiled kSpoiled[] = {
     {"max_ratio", [](sphc_config *c) { c->max_ratio = 0; }},
     {"max_ratio", [](sphc_config *c) { c->max_ratio = 1.5f; }},
     {"max_ratio is nan", [](sphc_config *c) { c->max_ratio = std::numeric_limits<float>::quiet_NaN(); }},
-    {"color_camera: camera model", [](sphc_config *c) { c->color_camera.model = 0; }},
-    {"depth_camera: camera model", [](sphc_config *c) { c->depth_camera.model = 0; }},
-    {"color_camera", [](sphc_config *c) { c->color_camera.params[0] = kNan; }},
-    {"depth_camera", [](sphc_config *c) { c->depth_camera.params[3] = kInf; }},
-    {"depth_camera", [](sphc_config *c) { c->depth_camera.width = 8193; }},
-    {"color_from_depth", [](sphc_config *c) { c->color_from_depth.q_wxyz[0] = 0; }},
-    {"color_from_depth", [](sphc_config *c) { c->color_from_depth.q_wxyz[1] = kNan; }},
-    {"color_from_depth", [](sphc_config *c) { c->color_from_depth.t_m[2] = kInf; }},
-    {"depth_unit_m", [](sphc_config *c) { c->depth_unit_m = 0; }},
-    {"depth_unit_m is nan", [](sphc_config *c) { c->depth_unit_m = kNan; }},
+    {"color_camera.model is 0", [](sphc_config *c) { c->rig.color_camera.model = 0; }},
+    {"depth_camera.model is 0", [](sphc_config *c) { c->rig.depth_camera.model = 0; }},
+    {"color_camera", [](sphc_config *c) { c->rig.color_camera.params[0] = kNan; }},
+    {"depth_camera", [](sphc_config *c) { c->rig.depth_camera.params[3] = kInf; }},
+    {"depth_camera", [](sphc_config *c) { c->rig.depth_camera.width = 8193; }},
+    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.q_wxyz[0] = 0; }},
+    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.q_wxyz[1] = kNan; }},
+    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.t_m[2] = kInf; }},
+    {"depth_unit_m", [](sphc_config *c) { c->rig.depth_unit_m = 0; }},
+    {"depth_unit_m is nan", [](sphc_config *c) { c->rig.depth_unit_m = kNan; }},
     {"depth_min_m", [](sphc_config *c) { c->depth_min_m = 0; }},
     {"depth_min_m", [](sphc_config *c) { c->depth_min_m = kNan; }},
     {"depth_max_m", [](sphc_config *c) { c->depth_max_m = c->depth_min_m; }},
@@ -133,7 +133,7 @@ TEST(CInterfaceMemory, GrowsWithWhatIsAskedFor) {
   sphc_localizer_memory(&config, &small, nullptr);
   config.max_keypoints *= 2;
   sphc_localizer_memory(&config, &more_keypoints, nullptr);
-  config.color_camera.width *= 2;
+  config.rig.color_camera.width *= 2;
   sphc_localizer_memory(&config, &larger_image, nullptr);
   EXPECT_LT(small.scratch_bytes, more_keypoints.scratch_bytes);
   EXPECT_LT(more_keypoints.scratch_bytes, larger_image.scratch_bytes);
@@ -143,12 +143,12 @@ TEST(CInterfaceMemory, GrowsWithWhatIsAskedFor) {
 // The extremes of the config can be asked about, whatever the machine has.
 TEST(CInterfaceMemory, LargestConfig) {
   sphc_config config = sphc::test::sceneConfig();
-  config.color_camera = sphc::test::pinhole(8192, 8192, 4000);
+  config.rig.color_camera = sphc::test::pinhole(8192, 8192, 4000);
   config.max_keypoints = 4096;
   sphc_memory need;
   EXPECT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
   EXPECT_GT(need.scratch_bytes, size_t{8192} * 8192);
-  config.color_camera = config.depth_camera = sphc::test::pinhole(16, 16, 10);
+  config.rig.color_camera = config.rig.depth_camera = sphc::test::pinhole(16, 16, 10);
   config.max_keypoints = 64;
   EXPECT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
 }

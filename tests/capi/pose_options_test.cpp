@@ -128,7 +128,7 @@ TEST_F(CInterfacePoseOptions, ADeadlineNeedsAClock) {
 
 TEST_F(CInterfacePoseOptions, ADeadlineThatHasPassedEndsTheSearch) {
   int64_t now = 0;
-  config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 10000000; };  // 10 ms a look
+  config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 10000000; };  // 10 ms a reading
   config_.clock_user = &now;
   config_.deadline_us = 1000;
   Session session(config_);

@@ -10,6 +10,7 @@
 #include "host/recording/writer_raw.h"
 #include "temp_folder.h"
 #include "tests/support/session.h"
+#include "tests/support/spoiled_rigs.h"
 #include "tiny_mcap.h"
 
 namespace sphc::contract {
@@ -100,13 +101,9 @@ void expectSame(const std::string &recorded, Medium *medium, sphc_format format 
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
   const Opened opened = open(medium);
   ASSERT_EQ(opened.status, SPHC_OK) << opened.message.text;
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  sphc_replay_calibration(replay.get(), &calibration);
-  EXPECT_EQ(std::memcmp(&opened.raw.color_camera, &calibration.color_camera, sizeof(sphc_camera)), 0);
-  EXPECT_EQ(std::memcmp(&opened.raw.depth_camera, &calibration.depth_camera, sizeof(sphc_camera)), 0);
-  EXPECT_EQ(std::memcmp(&opened.raw.color_from_depth, &calibration.color_from_depth, sizeof(sphc_rigid)), 0);
-  EXPECT_EQ(opened.raw.depth_unit_m, calibration.depth_unit_m);
+  sphc_rig rig;
+  ASSERT_EQ(sphc_replay_rig(replay.get(), &rig), SPHC_OK);
+  EXPECT_EQ(std::memcmp(&opened.raw.rig, &rig, sizeof rig), 0);
   ASSERT_EQ(opened.raw.frame_count, sphc_replay_frame_count(replay.get()));
   for (uint32_t i = opened.raw.frame_count; i-- > 0;) {
     const ReadFrame raw = read(opened.raw, i);
@@ -218,6 +215,29 @@ TEST_F(RawRecording, RefusesEveryFlippedBitOfTheHeader) {
   EXPECT_EQ(open(&medium_).status, SPHC_OK);
 }
 
+uint32_t crcOf(const std::string &bytes) {
+  uint32_t crc = ~0u;
+  for (const char c : bytes) {
+    crc ^= static_cast<uint8_t>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xEDB88320u : crc >> 1;
+  }
+  return ~crc;
+}
+
+TEST_F(RawRecording, RefusesARigAsAllDo) {
+  const sphc_rig good = open(&medium_).raw.rig;
+  for (const test::SpoiledRig &spoiled : test::spoiledRigs()) {
+    sphc_rig rig = good;
+    spoiled.spoil(&rig);
+    std::memcpy(medium_.bytes.data() + 24, &rig, sizeof rig);  // laid out as in memory, on little-endian machines
+    const uint32_t crc = crcOf(medium_.bytes.substr(0, kHeaderBytes - 4));
+    std::memcpy(medium_.bytes.data() + kHeaderBytes - 4, &crc, sizeof crc);
+    const Opened opened = open(&medium_);
+    EXPECT_EQ(opened.status, SPHC_E_ARGUMENT);
+    EXPECT_STREQ(opened.message.text, spoiled.message);
+  }
+}
+
 TEST_F(RawRecording, NoticesEveryFlippedByteOfAFrameAndReadsTheOthers) {
   const Opened opened = open(&medium_);
   ASSERT_EQ(opened.status, SPHC_OK);
@@ -281,15 +301,9 @@ TEST_F(RawRecording, IsWrittenWholeOrNotAtAll) {
 TEST(RawRecordingPoses, AreThoseOfTheReplay) {
   const TempFolder folder;
   const sphc_config config = test::sceneConfig();
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  calibration.color_camera = config.color_camera;
-  calibration.depth_camera = config.depth_camera;
-  calibration.color_from_depth = config.color_from_depth;
-  calibration.depth_unit_m = config.depth_unit_m;
   sphc_recording_writer *writer = nullptr;
   sphc_message message = {};
-  ASSERT_EQ(sphc_recording_create((folder / "room").c_str(), &calibration, &writer, &message), SPHC_OK)
+  ASSERT_EQ(sphc_recording_create((folder / "room").c_str(), &config.rig, &writer, &message), SPHC_OK)
       << message.text;
   for (uint32_t i = 0; i < 3; ++i) {
     const auto scene = test::sceneFrame(config, i);

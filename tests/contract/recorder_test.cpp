@@ -82,10 +82,10 @@ TEST_P(RecorderCodecs, WhatIsRecordedIsReplayedBitForBit) {
     const sphc_rigid expected = tinyPose(i);
     EXPECT_EQ(std::memcmp(&pose, &expected, sizeof pose), 0);
   }
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  ASSERT_EQ(sphc_replay_calibration(replay.get(), &calibration), SPHC_OK);
-  const sphc_calibration expected = tinyCalibration();
+  sphc_rig calibration;
+  sphc_rig_init(&calibration);
+  ASSERT_EQ(sphc_replay_rig(replay.get(), &calibration), SPHC_OK);
+  const sphc_rig expected = tinyCalibration();
   EXPECT_EQ(std::memcmp(&calibration, &expected, sizeof calibration), 0);
 }
 INSTANTIATE_TEST_SUITE_P(Each, RecorderCodecs, ::testing::Values(SPHC_DEPTH_RAW, SPHC_DEPTH_RVL, SPHC_DEPTH_ZSTD));
@@ -379,7 +379,7 @@ TEST_F(Recorder, AChangedPoseIsNotBelieved) {
 
 TEST_F(Recorder, AnAbandonedRecordingCountsAsCutAndKeepsAll) {
   sphc_recorder *recorder = nullptr;
-  const sphc_calibration calibration = tinyCalibration();
+  const sphc_rig calibration = tinyCalibration();
   ASSERT_EQ(sphc_recorder_open(file().c_str(), &calibration, &config_, &recorder, nullptr), SPHC_OK);
   addTinyFrames(recorder, 5);
   sphc_recorder_abandon(&recorder);

@@ -24,7 +24,7 @@ constexpr const char *kNanPose = "nan nan nan nan\n-1.#IND 0 0 0\ninf 0 0 0\n0 0
 class SevenScenes : public ::testing::Test {
  protected:
   void SetUp() override {
-    const sphc_calibration calibration = tinyCalibration();
+    const sphc_rig calibration = tinyCalibration();
     ASSERT_EQ(sphc_calibration_write((folder_ / "calibration.json").c_str(), &calibration, nullptr), SPHC_OK);
   }
 

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 class RecordingWriter : public ::testing::Test {
  protected:
   void SetUp() override {
-    const sphc_calibration calibration = tinyCalibration();
+    const sphc_rig calibration = tinyCalibration();
     ASSERT_EQ(sphc_recording_create(folder().c_str(), &calibration, &writer_, &message_), SPHC_OK) << message_.text;
   }
   void TearDown() override { sphc_recording_abandon(&writer_); }
@@ -78,7 +78,7 @@ TEST_F(RecordingWriter, AKilledOneIsRefusedUntilSomebodyRemovesTheMark) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    const sphc_calibration calibration = tinyCalibration();
+    const sphc_rig calibration = tinyCalibration();
     sphc_recording_writer *writer = nullptr;
     sphc_recording_create(killed.c_str(), &calibration, &writer, nullptr);
     for (uint32_t i = 0; i < 3; ++i) {
@@ -103,7 +103,7 @@ TEST_F(RecordingWriter, AnAbandonedOneStaysUnfinished) {
   sphc_recording_abandon(&writer_);
   EXPECT_EQ(writer_, nullptr);
   EXPECT_EQ(OpenReplay(folder()).status(), SPHC_E_DEVICE);
-  const sphc_calibration calibration = tinyCalibration();
+  const sphc_rig calibration = tinyCalibration();
   EXPECT_EQ(sphc_recording_create(folder().c_str(), &calibration, &writer_, &message_), SPHC_E_STATE);
   EXPECT_THAT(message_.text, HasSubstr("unfinished recording"));
 }
@@ -185,7 +185,7 @@ TEST_F(RecordingWriter, RefusesPosesThatAreNone) {
 }
 
 TEST_F(RecordingWriter, OverwritesNothing) {
-  const sphc_calibration calibration = tinyCalibration();
+  const sphc_rig calibration = tinyCalibration();
   sphc_recording_writer *second = nullptr;
   EXPECT_EQ(sphc_recording_create(folder().c_str(), &calibration, &second, &message_), SPHC_E_STATE);
   EXPECT_EQ(second, nullptr);
@@ -203,10 +203,10 @@ TEST_F(RecordingWriter, StopsAfterAWriteThatFailed) {
 }
 
 TEST_F(RecordingWriter, ChecksItsArguments) {
-  const sphc_calibration calibration{};
+  const sphc_rig calibration{};
   sphc_recording_writer *none = nullptr;
   EXPECT_EQ(sphc_recording_create(nullptr, &calibration, &none, nullptr), SPHC_E_ARGUMENT);
-  EXPECT_EQ(sphc_recording_create("x", &calibration, &none, nullptr), SPHC_E_STRUCT_SIZE);
+  EXPECT_EQ(sphc_recording_create("x", &calibration, &none, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_recording_add(nullptr, nullptr, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_recording_add_frame(writer_, nullptr, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_recording_add_pose(writer_, 0, nullptr, nullptr), SPHC_E_ARGUMENT);

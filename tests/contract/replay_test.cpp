@@ -75,11 +75,12 @@ TEST_F(Replay, AsksForACalibration) {
 
 TEST_F(Replay, GivesItsCalibration) {
   const OpenReplay replay(folder());
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  ASSERT_EQ(sphc_replay_calibration(replay.get(), &calibration), SPHC_OK);
-  const sphc_calibration expected = tinyCalibration();
-  EXPECT_EQ(std::memcmp(&calibration, &expected, sizeof calibration), 0);
+  sphc_rig rig;
+  ASSERT_EQ(sphc_replay_rig(replay.get(), &rig), SPHC_OK);
+  const sphc_rig expected = tinyCalibration();
+  EXPECT_EQ(std::memcmp(&rig, &expected, sizeof rig), 0);
+  EXPECT_EQ(sphc_replay_rig(replay.get(), nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_replay_rig(nullptr, &rig), SPHC_E_ARGUMENT);
 }
 
 TEST_F(Replay, DecodesTheFormatAskedFor) {

@@ -34,7 +34,7 @@ inline sphc_capture tinyCapture(uint32_t i, sphc_stream stream, const TinyImages
 class OpenRecorder {
  public:
   OpenRecorder(const std::string &path, const sphc_recorder_config &config) {
-    const sphc_calibration calibration = tinyCalibration();
+    const sphc_rig calibration = tinyCalibration();
     status_ = sphc_recorder_open(path.c_str(), &calibration, &config, &recorder_, &message_);
   }
   ~OpenRecorder() { close(); }

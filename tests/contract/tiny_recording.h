@@ -21,9 +21,9 @@ constexpr int64_t kPeriodNs = 10000000;  // 100 Hz, so that real-time tests are 
 constexpr int64_t kDepthLagNs = 1000003;
 constexpr int64_t kFirstNs = 1305031102175304123;  // more digits than a double holds
 
-inline sphc_calibration tinyCalibration() {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
+inline sphc_rig tinyCalibration() {
+  sphc_rig calibration;
+  sphc_rig_init(&calibration);
   calibration.color_camera = {SPHC_CAMERA_PINHOLE, kColorWidth, kColorHeight, 4, {50.25, 50.125, 24, 16}};
   calibration.depth_camera = {
       SPHC_CAMERA_BROWN5, kDepthWidth, kDepthHeight, 9, {40, 41, 20, 12, 0.1, -0.01, 0, 0, 1e-3}};
@@ -70,7 +70,7 @@ inline sphc_frame tinyFrame(uint32_t i, const TinyImages &images) {
 }
 
 inline void writeTinyRecording(const std::string &folder, uint32_t frames) {
-  const sphc_calibration calibration = tinyCalibration();
+  const sphc_rig calibration = tinyCalibration();
   sphc_recording_writer *writer = nullptr;
   sphc_message message{};
   ASSERT_EQ(sphc_recording_create(folder.c_str(), &calibration, &writer, &message), SPHC_OK) << message.text;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""No private word (private_words.txt) stands in the docs or in what the built commands print as help.
+"""No private word (private_words.txt) stands in the docs, in what the built commands print as help, or in the comments
+and string literals of the sources.  allowed_words.txt has the places where one may stand, each with its reason.
 
     check_words.py ROOT [COMMAND...]
 """
@@ -9,17 +10,22 @@ from pathlib import Path
 
 from commands import help_texts
 from markdown import pages, report
+from source_text import said, sources
+
+HERE = Path(__file__).parent
+
+
+def rows_of(path):
+    """The fields of each line that is no comment; the first one may have a "|" in it."""
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if line.strip() and not line.startswith("#"):
+            yield [field.strip() for field in line.rsplit("|", 2)]
 
 
 def private_words():
     """(pattern, the word to use, pattern of files where it may stand or None)"""
-    rows = []
-    for line in (Path(__file__).parent / "private_words.txt").read_text(encoding="utf-8").splitlines():
-        if not line.strip() or line.startswith("#"):
-            continue
-        pattern, use, where = (field.strip() for field in line.rsplit("|", 2))
-        rows.append((re.compile(pattern, re.IGNORECASE), use, re.compile(where) if where else None))
-    return rows
+    return [(re.compile(pattern, re.IGNORECASE), use, re.compile(where) if where else None)
+            for pattern, use, where in rows_of(HERE / "private_words.txt")]
 
 
 PRIVATE_WORDS = private_words()
@@ -39,8 +45,22 @@ def faults_in(text, name):
     return faults
 
 
-def all_faults(root, commands):
-    root, faults = Path(root).resolve(), []
+def source_faults(root, allowed):
+    """Of sources.  `allowed`: (file, words that may stand there or "*", reason)."""
+    faults, used = [], set()
+    for name, path in sources(root):
+        text = said(path)
+        for fault in faults_in(text, name):
+            line = " ".join(text.split("\n")[int(fault.split(":")[1]) - 1:][:2])
+            reasons = {(file, words) for file, words, _ in allowed if file == name and (words == "*" or words in line)}
+            used |= reasons
+            faults += [] if reasons else [fault]
+    needless = [(file, words) for file, words, _ in allowed if (file, words) not in used]
+    return faults + [f"allowed_words.txt: {file} needs no \"{words}\"" for file, words in needless]
+
+
+def all_faults(root, commands, allowed=()):
+    root, faults = Path(root).resolve(), source_faults(Path(root).resolve(), allowed)
     for page in pages(root):
         faults += faults_in("\n".join(page.lines), str(page.path.relative_to(root)))
     notice = root / "NOTICE"
@@ -53,4 +73,4 @@ def all_faults(root, commands):
 
 
 if __name__ == "__main__":
-    sys.exit(report(all_faults(sys.argv[1], sys.argv[2:])))
+    sys.exit(report(all_faults(sys.argv[1], sys.argv[2:], list(rows_of(HERE / "allowed_words.txt")))))

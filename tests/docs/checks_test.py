@@ -158,6 +158,23 @@ class Checks(unittest.TestCase):
         command.write_text(HELP.replace("A folder", "A second look"), encoding="utf-8")
         self.assert_fault(check_words.all_faults(self.root, [command]), "spherecloud build --help")
 
+    def test_a_private_word_of_a_source(self):
+        source = self.write("sdk/a.cpp", "int twins;  // a name\nint x = 0; // for each\n// look at it, a second\n// look\n")
+        self.assertEqual(["sdk/a.cpp:3"], [fault.split(": ")[0] for fault in self.words()])
+        source.write_text('char c = \'"\'; const char *s = "its \\"twins\\"";\n', encoding="utf-8")
+        self.assert_fault(self.words(), "twins")
+        self.write("tests/b.py", "x = 'fates'\ncaps = 1\n")
+        self.write("tests/CMakeLists.txt", "set(cap 1) # the door\n")
+        self.assertEqual(["sdk/a.cpp:1", "tests/CMakeLists.txt:1", "tests/b.py:1"],
+                         [fault.split(": ")[0] for fault in self.words()])
+
+    def test_a_private_word_that_may_stand(self):
+        self.write("sdk/a.cpp", 'const char *kKey = "fates of place";\n')
+        allowed = [("sdk/a.cpp", "fates of place", "derives a key")]
+        self.assertEqual(check_words.all_faults(self.root, [self.command()], allowed), [])
+        needless = allowed + [("sdk/a.cpp", "twins", "none there")]
+        self.assert_fault(check_words.all_faults(self.root, [self.command()], needless), "needs no \"twins\"")
+
     def test_the_help_of_every_subcommand_is_read(self):
         self.assertEqual(list(help_texts(self.command())), ["spherecloud", "spherecloud build"])
 

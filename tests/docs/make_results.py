@@ -191,10 +191,11 @@ def others(pipeline):
         return read(pipeline / name)
 
     return [
-        ("Confidence", "pipeline/confidence.csv", "confidence_results",
-         "How often poses are right against the confidence that was stated. `ece`: expected calibration error, over 10\n"
-         "bins. Method: [confidence.md](confidence.md).",
-         flat(rows("confidence.csv"), [])),
+        ("Confidence", "pipeline/confidence.csv", "update_results",
+         "The poses of the accuracy rows, pooled over the keys: how often they are right, what they said, and their errors\n"
+         "over the stated sigmas. `ece`: expected calibration error. *Sure*: a confidence of 0.99 or more. Method:\n"
+         "[confidence.md](confidence.md).",
+         flat(rows("confidence.csv"), ["recording", "fakes", "mode"])),
         ("Baselines", "pipeline/compare.csv", "compare_results",
          "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the\n"
          "library at eta 33 %. Method: [baselines.md](baselines.md).",

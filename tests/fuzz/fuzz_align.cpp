@@ -13,7 +13,7 @@ sphc_aligner_config configFrom(const uint8_t *data, size_t bytes) {
   sphc_aligner_config config = {};
   std::memcpy(&config, data, bytes < sizeof config ? bytes : sizeof config);
   config.struct_size = sizeof config;
-  for (sphc_camera *camera : {&config.color_camera, &config.depth_camera}) {
+  for (sphc_camera *camera : {&config.rig.color_camera, &config.rig.depth_camera}) {
     camera->width = 16 + camera->width % (kWidth - 15);
     camera->height = 16 + camera->height % (kHeight - 15);
   }
@@ -22,7 +22,7 @@ sphc_aligner_config configFrom(const uint8_t *data, size_t bytes) {
 
 void check(const sphc_aligner_config &config, const std::vector<uint16_t> &depth, const std::vector<uint8_t> &mask,
            const std::vector<uint8_t> &confidence) {
-  for (size_t i = 0; i < size_t{config.color_camera.width} * config.color_camera.height; ++i) {
+  for (size_t i = 0; i < size_t{config.rig.color_camera.width} * config.rig.color_camera.height; ++i) {
     if (mask[i] > SPHC_ALIGNED_OCCLUDED) broken("a pixel is one of four kinds");
     const bool has = mask[i] == SPHC_ALIGNED_MEASURED || mask[i] == SPHC_ALIGNED_FILLED;
     if (!has && (depth[i] || confidence[i])) broken("a pixel without depth has depth 0 and confidence 0");
@@ -46,16 +46,16 @@ void align(const uint8_t *data, size_t bytes) {
   if (sphc_aligner_init(memory.data(), need, &config, &aligner, &message) != SPHC_OK)
     broken("what can be measured can be made");
   // The rest of the bytes are pixels, again and again.
-  std::vector<uint16_t> raw(size_t{config.depth_camera.width} * config.depth_camera.height);
+  std::vector<uint16_t> raw(size_t{config.rig.depth_camera.width} * config.rig.depth_camera.height);
   const size_t rest = bytes > sizeof config ? bytes - sizeof config : 0;
   for (size_t i = 0; i < raw.size() && rest > 1; ++i)
     std::memcpy(&raw[i], data + sizeof config + (2 * i) % (rest - 1), sizeof raw[i]);
-  const uint32_t width = config.color_camera.width;
-  const size_t pixels = size_t{width} * config.color_camera.height;
+  const uint32_t width = config.rig.color_camera.width;
+  const size_t pixels = size_t{width} * config.rig.color_camera.height;
   std::vector<uint16_t> depth(pixels);
   std::vector<uint8_t> mask(pixels), confidence(pixels);
-  const sphc_image image = {raw.data(), config.depth_camera.width, config.depth_camera.height,
-                            2 * config.depth_camera.width, SPHC_FORMAT_DEPTH16};
+  const sphc_image image = {raw.data(), config.rig.depth_camera.width, config.rig.depth_camera.height,
+                            2 * config.rig.depth_camera.width, SPHC_FORMAT_DEPTH16};
   const sphc_aligned aligned = {sizeof aligned, 2 * width,        width, width, depth.data(),
                                 mask.data(),    confidence.data()};
   if (sphc_aligner_process(aligner, &image, &aligned) != SPHC_OK) broken("a fitting image is aligned");

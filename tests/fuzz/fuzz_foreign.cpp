@@ -15,9 +15,9 @@ void readAndJoin(Format format, const TextFile &file, const TextFile *rigs) {
   JoinOptions options;
   options.approximate = true;
   options.registered = part.cameras.size() == 1;
-  const sphc_calibration joined = joinParts({part}, options);
+  const sphc_rig joined = joinParts({part}, options);
   sphc_message message = {};
-  if (sphc_calibration_check(&joined, &message) != SPHC_OK) broken("what is joined passes the check");
+  if (sphc_rig_check(&joined, &message) != SPHC_OK) broken("what is joined passes the check");
   if (formatHolds(format, joined.color_camera) && formatHolds(format, joined.depth_camera) &&
       writeCalibration(format, joined).empty())
     broken("what a format holds is written");

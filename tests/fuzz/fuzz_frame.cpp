@@ -10,8 +10,8 @@ namespace {
 // Small images, so that a run is short.
 sphc_config smallConfig() {
   sphc_config config = test::sceneConfig();
-  config.color_camera = test::pinhole(96, 72, 80);
-  config.depth_camera = test::pinhole(48, 40, 36);
+  config.rig.color_camera = test::pinhole(96, 72, 80);
+  config.rig.depth_camera = test::pinhole(48, 40, 36);
   config.max_keypoints = 64;
   config.max_iterations = 200;
   return config;

@@ -24,8 +24,8 @@ void readAll(const sphc_map *map, size_t bytes) {
 // Small, so that a run is short; every keypoint matches something.
 sphc_config smallConfig() {
   sphc_config config = test::sceneConfig();
-  config.color_camera = test::pinhole(128, 96, 107);
-  config.depth_camera = test::pinhole(64, 48, 48);
+  config.rig.color_camera = test::pinhole(128, 96, 107);
+  config.rig.depth_camera = test::pinhole(64, 48, 48);
   config.max_keypoints = 64;
   config.max_iterations = 50;
   config.max_ratio = 1;

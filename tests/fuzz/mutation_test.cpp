@@ -79,8 +79,8 @@ TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end
   const std::vector<Target> targets = allTargets();
   const Target &target = *std::find_if(targets.begin(), targets.end(),
                                        [](const Target &each) { return std::string(each.name) == "calibration"; });
-  sphc_calibration parsed;
-  sphc_calibration_init(&parsed, sizeof parsed);
+  sphc_rig parsed;
+  sphc_rig_init(&parsed);
   sphc_message message = {};
   EXPECT_EQ(sphc_calibration_parse(reinterpret_cast<const char *>(target.seeds[0].data()), target.seeds[0].size(),
                                    "seed", &parsed, &message),

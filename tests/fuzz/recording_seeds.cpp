@@ -31,9 +31,9 @@ std::vector<uint8_t> colorPixels() {
   return color;
 }
 
-sphc_calibration smallCalibration() {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
+sphc_rig smallCalibration() {
+  sphc_rig calibration;
+  sphc_rig_init(&calibration);
   calibration.color_camera = {SPHC_CAMERA_PINHOLE, kSide, kSide, 4, {20, 20, 8, 8}};
   calibration.depth_camera = calibration.color_camera;
   return calibration;
@@ -60,7 +60,7 @@ class SeedFile {
 
 std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality) {
   const SeedFile file;
-  const sphc_calibration calibration = smallCalibration();
+  const sphc_rig calibration = smallCalibration();
   sphc_recorder_config config;
   sphc_recorder_config_init(&config, sizeof config);
   config.depth_codec = codec;

@@ -49,14 +49,14 @@ std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
 std::vector<uint8_t> alignSeed(sphc_camera_model model, const std::vector<double> &distortion) {
   sphc_aligner_config config;
   sphc_aligner_config_init(&config, sizeof config);
-  config.color_camera = test::pinhole(24, 20, 20);  // of the fuzzed sizes, 16 + these, folded
-  config.depth_camera = test::pinhole(17, 16, 15);
-  for (sphc_camera *camera : {&config.color_camera, &config.depth_camera}) {
+  config.rig.color_camera = test::pinhole(24, 20, 20);  // of the fuzzed sizes, 16 + these, folded
+  config.rig.depth_camera = test::pinhole(17, 16, 15);
+  for (sphc_camera *camera : {&config.rig.color_camera, &config.rig.depth_camera}) {
     camera->model = model;
     camera->param_count = static_cast<uint32_t>(4 + distortion.size());
     std::copy(distortion.begin(), distortion.end(), camera->params + 4);
   }
-  config.color_from_depth.t_m[0] = -0.05;
+  config.rig.color_from_depth.t_m[0] = -0.05;
   const auto *start = reinterpret_cast<const uint8_t *>(&config);
   std::vector<uint8_t> seed(start, start + sizeof config);
   for (uint32_t i = 0; i < 200; ++i) {

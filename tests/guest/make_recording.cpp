@@ -64,17 +64,10 @@ void record(const std::string &folder) {
   check(sphc_simulated_open(&config, &headset, &message), message);
 
   Cameras cameras{};
-  cameras.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
-  sphc_simulated_cameras(headset, &cameras.color, &cameras.depth, &cameras.color_from_depth);
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
-  calibration.color_camera = cameras.color;
-  calibration.depth_camera = cameras.depth;
-  calibration.color_from_depth = cameras.color_from_depth;
-  calibration.depth_unit_m = cameras.depth_unit_m;
+  sphc_simulated_rig(headset, &cameras.rig);
   std::filesystem::remove_all(folder + kWalkFolder);
   sphc_recording_writer *writer = nullptr;
-  check(sphc_recording_create((folder + kWalkFolder).c_str(), &calibration, &writer, &message), message);
+  check(sphc_recording_create((folder + kWalkFolder).c_str(), &cameras.rig, &writer, &message), message);
 
   std::vector<uint8_t> rgb(kColorWidth * kColorHeight * 3), all_color, all_depth;
   std::vector<uint16_t> depth(kDepthWidth * kDepthHeight);

@@ -12,12 +12,8 @@ class PoseLog {
   explicit PoseLog(const std::string &folder) {
     spherecloud::readFile((folder + kMapFile).c_str(), &file_).orThrow();
     spherecloud::Map::open(file_.data(), file_.size(), &map_).orThrow();
-    const Cameras cameras = readCameras(folder);
     sphc_config config = spherecloud::defaultConfig();
-    config.color_camera = cameras.color;
-    config.depth_camera = cameras.depth;
-    config.color_from_depth = cameras.color_from_depth;
-    config.depth_unit_m = cameras.depth_unit_m;
+    config.rig = readCameras(folder).rig;
     spherecloud::Localizer::make(config, map_, &localizer_).orThrow();
   }
 

@@ -26,9 +26,7 @@ constexpr const char *kWalkFolder = "/walk";      // the recording, with frames 
 
 // Only between programs of one build: no format for anyone else.
 struct Cameras {
-  sphc_camera color, depth;
-  sphc_rigid color_from_depth;
-  double depth_unit_m;
+  sphc_rig rig;
   uint32_t sequence[kFrames];
   int64_t color_time_ns[kFrames], depth_time_ns[kFrames];
 };

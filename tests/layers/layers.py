@@ -14,7 +14,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 COMPUTED = re.compile(r"^\s*#\s*include\s+[^<\"\s]")
 
 STD_C_MIN = {"stddef.h", "stdint.h"}
-STD_CPP_DOOR = {"cstdio", "cstddef", "cstdint", "memory", "new", "stdexcept", "string", "utility", "vector", "optional", "array"}
+STD_CPP_INTERFACE = {"cstdio", "cstddef", "cstdint", "memory", "new", "stdexcept", "string", "utility", "vector", "optional", "array"}
 STD_C = {"assert.h", "errno.h", "float.h", "inttypes.h", "limits.h", "math.h", "signal.h", "stdbool.h", "stddef.h",
          "stdint.h", "stdio.h", "stdlib.h", "string.h", "time.h"}
 POSIX = re.compile(r"^(sys/.+|linux/.+|unistd\.h|fcntl\.h|dirent\.h|poll\.h|pthread\.h|dlfcn\.h|termios\.h)$")
@@ -94,7 +94,7 @@ def resolve(root, source, name):
 
 def check_outside(row, source, name):
     if source.startswith("sdk/include/"):
-        fine = STD_C_MIN if source.endswith(".h") else STD_C_MIN | STD_CPP_DOOR
+        fine = STD_C_MIN if source.endswith(".h") else STD_C_MIN | STD_CPP_INTERFACE
         return None if name in fine else f"<{name}> may not stand in the C interface"
     if "any" in row.libraries:
         return None

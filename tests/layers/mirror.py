@@ -3,15 +3,17 @@
 
     mirror.py ROOT [LIST]     prints each source without one; exit code 1 when there is one
 
-A source a/b.cpp has its test in tests/unit/a/b_test.cpp (sdk/ left out).  Otherwise some test includes its header a/b.h,
-or the list, mirror.txt beside this file, says which test runs it: "source-or-folder: test".  A line of the list that is
-not needed, or names no file, is a fault too.
+A source a/b.cpp has its test in tests/unit/a/b_test.cpp (sdk/ left out); b_scalar.cpp and b_simd.cpp, the same code for
+several instruction sets, share that of b.  sdk/runtime/capi/b.cpp may have it in tests/capi/b_test.cpp, by the C interface.
+Otherwise some test includes its header a/b.h, or the list, mirror.txt beside this file, says which test runs it:
+"source-or-folder: test".  A line of the list that is not needed, or names no file, is a fault too.
 """
 import pathlib
 import re
 import sys
 
 SOURCES = (".c", ".cpp")
+C_INTERFACE = pathlib.PurePath("runtime/capi")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -38,8 +40,9 @@ def inside(source):
 
 def is_mirrored(root, source, includes):
     path = inside(source)
-    mirror = root / "tests" / "unit" / path.parent / (path.stem + "_test.cpp")
-    return mirror.is_file() or any(str(path.with_suffix(suffix)) in includes for suffix in (".h", ".hpp"))
+    test = re.sub("_(scalar|simd)$", "", path.stem) + "_test.cpp"
+    folders = [pathlib.Path("unit") / path.parent] + ([pathlib.Path("capi")] if path.parent == C_INTERFACE else [])
+    return any((root / "tests" / folder / test).is_file() for folder in folders) or any(str(path.with_suffix(suffix)) in includes for suffix in (".h", ".hpp"))
 
 
 def read_list(path):

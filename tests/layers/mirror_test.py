@@ -29,6 +29,18 @@ class Mirror(unittest.TestCase):
         found = self.faults("")
         self.assertEqual(["drivers/d/alone.c", "sdk/a/alone.cpp"], [fault.split(":")[0] for fault in found])
 
+    def test_instruction_sets_share_a_test(self):
+        for source in ("sdk/a/mirrored_simd.cpp", "sdk/a/mirrored_scalar.cpp", "sdk/a/alone_simd.cpp"):
+            self.write(source, "")
+        self.assertIn("sdk/a/alone_simd.cpp", "".join(self.faults("")))
+        self.assertNotIn("mirrored", "".join(self.faults("")))
+
+    def test_the_c_interface_is_tested_by_itself(self):
+        self.write("sdk/runtime/capi/b.cpp", "")
+        self.write("sdk/a/b.cpp", "")
+        self.write("tests/capi/b_test.cpp", "")
+        self.assertEqual(["sdk/a/b.cpp"], [f.split(":")[0] for f in self.faults("sdk/a/alone.cpp: unit/a\ndrivers/d: unit/a\n")])
+
     def test_a_line_names_its_test(self):
         test = "unit/a/mirrored_test.cpp"
         self.assertEqual([], self.faults("# words\nsdk/a/alone.cpp: %s\ndrivers/d: %s # more\n" % (test, test)))

@@ -11,8 +11,8 @@ namespace {
 void printConfiguration(uint32_t width, uint32_t height, uint32_t keypoints) {
   sphc_config config;
   sphc_config_init(&config, sizeof config);
-  config.color_camera = sphc::test::pinhole(width, height, 0.8 * width);
-  config.depth_camera = sphc::test::pinhole(320, 288, 220);
+  config.rig.color_camera = sphc::test::pinhole(width, height, 0.8 * width);
+  config.rig.depth_camera = sphc::test::pinhole(320, 288, 220);
   config.max_keypoints = keypoints;
   const std::string name =
       std::to_string(width) + "x" + std::to_string(height) + "/" + std::to_string(keypoints) + " keypoints";
@@ -45,10 +45,10 @@ int main() {
   std::printf("any,clock mapper,all,%zu\n", bytes);
   sphc_aligner_config aligner;
   sphc_aligner_config_init(&aligner, sizeof aligner);
-  aligner.color_camera = aligner.depth_camera = sphc::test::pinhole(640, 480, 500);
+  aligner.rig.color_camera = aligner.rig.depth_camera = sphc::test::pinhole(640, 480, 500);
   sphc_aligner_memory(&aligner, &bytes, &alignment, nullptr);
   std::printf("640x480 from 640x480,aligner,all,%zu\n", bytes);
-  aligner.depth_camera = sphc::test::pinhole(320, 288, 220);
+  aligner.rig.depth_camera = sphc::test::pinhole(320, 288, 220);
   sphc_aligner_memory(&aligner, &bytes, &alignment, nullptr);
   std::printf("640x480 from 320x288,aligner,all,%zu\n", bytes);
   const size_t of_64 = sphc::test::randomMap(64, 1).size(), of_1088 = sphc::test::randomMap(1088, 1).size();

@@ -59,17 +59,15 @@ int main() {
     sphc_localizer_init(session.state().data(), session.state().size(), session.scratch().data(),
                         session.scratch().size(), &config, maps, 1, &second, nullptr);
   });
-  sphc_aligner_config rig;
-  sphc_aligner_config_init(&rig, sizeof rig);
-  rig.color_camera = config.color_camera;
-  rig.depth_camera = config.depth_camera;
-  rig.color_from_depth = config.color_from_depth;
+  sphc_aligner_config aligning;
+  sphc_aligner_config_init(&aligning, sizeof aligning);
+  aligning.rig = config.rig;
   size_t bytes = 0, alignment = 0;
-  sphc_aligner_memory(&rig, &bytes, &alignment, nullptr);
+  sphc_aligner_memory(&aligning, &bytes, &alignment, nullptr);
   sphc::test::GuardedMemory aligner_memory(bytes, alignment);
   sphc_aligner *aligner = nullptr;
   print("sphc_aligner_init",
-        [&] { sphc_aligner_init(aligner_memory.data(), aligner_memory.size(), &rig, &aligner, nullptr); });
+        [&] { sphc_aligner_init(aligner_memory.data(), aligner_memory.size(), &aligning, &aligner, nullptr); });
   const sphc_aligned nowhere = {sizeof nowhere, 0, 0, 0, nullptr, nullptr, nullptr};
   print("sphc_aligner_process", [&] { sphc_aligner_process(aligner, &frame->frame.depth, &nowhere); });
   sphc_map_memory(&bytes, &alignment);

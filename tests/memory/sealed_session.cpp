@@ -29,9 +29,9 @@ int breakSeal(const char *call) {
 
 struct Everything {
   sphc_config config = sphc::test::sceneConfig();
-  sphc::test::SceneMap map = sphc::test::makeSceneMap(config.color_camera, config.max_keypoints, 3, 0.5);
+  sphc::test::SceneMap map = sphc::test::makeSceneMap(config.rig.color_camera, config.max_keypoints, 3, 0.5);
   std::vector<std::unique_ptr<sphc::test::SceneFrame>> frames;
-  sphc_aligner_config rig = {};
+  sphc_aligner_config aligning = {};
   GuardedMemory map_memory, state, scratch, pairer_memory, aligner_memory;
   std::vector<sphc_observation> observations = std::vector<sphc_observation>(config.max_keypoints);
 
@@ -43,11 +43,9 @@ struct Everything {
     map_memory = GuardedMemory(bytes, alignment);
     sphc_pairer_memory(&bytes, &alignment);
     pairer_memory = GuardedMemory(bytes, alignment);
-    sphc_aligner_config_init(&rig, sizeof rig);
-    rig.color_camera = config.color_camera;
-    rig.depth_camera = config.depth_camera;
-    rig.color_from_depth = config.color_from_depth;
-    sphc_aligner_memory(&rig, &bytes, &alignment, nullptr);
+    sphc_aligner_config_init(&aligning, sizeof aligning);
+    aligning.rig = config.rig;
+    sphc_aligner_memory(&aligning, &bytes, &alignment, nullptr);
     aligner_memory = GuardedMemory(bytes, alignment);
     sphc_memory need = {};
     sphc_localizer_memory(&config, &need, nullptr);
@@ -83,8 +81,8 @@ bool runAligner(Everything *e) {
   sphc_message message = {};
   size_t bytes = 0, alignment = 0;
   const sphc_aligned nowhere = {sizeof nowhere, 0, 0, 0, nullptr, nullptr, nullptr};
-  const bool ok = sphc_aligner_memory(&e->rig, &bytes, &alignment, &message) == SPHC_OK &&
-                  sphc_aligner_init(e->aligner_memory.data(), e->aligner_memory.size(), &e->rig, &aligner,
+  const bool ok = sphc_aligner_memory(&e->aligning, &bytes, &alignment, &message) == SPHC_OK &&
+                  sphc_aligner_init(e->aligner_memory.data(), e->aligner_memory.size(), &e->aligning, &aligner,
                                     &message) == SPHC_OK &&
                   sphc_aligner_process(aligner, &e->frames[0]->frame.depth, &nowhere) == SPHC_OK &&
                   sphc_aligner_process(aligner, &e->frames[0]->frame.color, &nowhere) == SPHC_E_IMAGE;

@@ -5,7 +5,7 @@
     accuracy.py --spherecloud BIN --check NAME         measures a part of NAME's rows; each figure must be the committed one
     accuracy.py --committed                            holds the files themselves: complete, above the floors, summed up
 
-accuracy_keys.csv has a row for each map and way to localize in it; results are the same on every machine, so its figures
+confidence.csv has what the same poses say of themselves (confidence.py); accuracy_keys.csv has a row for each map and way to localize in it; results are the same on every machine, so its figures
 are compared as printed.  accuracy.csv follows from it: of each row the median and the worst over the keys.  The keys are
 known to all, so that rows can be compared; they protect nothing.
 """
@@ -23,9 +23,10 @@ import tempfile
 import time
 
 sys.dont_write_bytecode = True
+import confidence
 from recordings import HERE, Recording, absent, frames, run
 
-RESULTS, SPREAD = HERE / "accuracy_keys.csv", HERE / "accuracy.csv"
+RESULTS, SPREAD, CONFIDENCE = HERE / "accuracy_keys.csv", HERE / "accuracy.csv", HERE / "confidence.csv"
 KEYS = [(HERE / "test_key.txt").read_text()] + [
     hashlib.sha256(b"spherecloud test key %d" % number).hexdigest() + "\n" for number in range(2, 13)]
 MODES = {
@@ -44,6 +45,9 @@ FLOORS = {
         ("hololens_blocks", "single"): (41.0, None, None),
         ("hololens_blocks", "tracking"): (41.0, None, None),
         ("hololens_blocks", "odometry"): (41.0, None, None),
+        ("redkitchen_thin", "single"): (84.0, 2.0, None),
+        ("redkitchen_reversed", "single"): (45.0, None, None),
+        ("hololens2_blocks", "single"): (74.0, None, None),
     },
     "patchwork": {
         ("simulated", "single"): (99.0, 1.0, 0.3),
@@ -51,14 +55,17 @@ FLOORS = {
         ("redkitchen", "tracking"): (97.0, 1.5, None),
         ("hololens", "single"): (94.0, 1.2, None),
         ("hololens_blocks", "single"): (37.0, None, None),
+        ("redkitchen_thin", "single"): (78.0, 2.0, None),
+        ("redkitchen_reversed", "single"): (50.0, None, None),
+        ("hololens2_blocks", "single"): (66.0, None, None),
     },
 }
 FLOOR_ETAS = {0.33: 0.0, 0.25: 4.0}  # how far below its floor the share may lie
 # An accepted pose that is further from the truth than this is wrong.  The first key has none.
 WORST_CM, WORST_DEG = 25.0, 10.0
 # The floors are the first key's, which is a lucky one.  Over all keys the median and the worst may lie so far below, and so
-# many of all frames may be wrong: what was first measured over keys, to be lowered as the localizer gets better.
-MEDIAN_ALLOWANCE, WORST_ALLOWANCE, MOST_WRONG = 5.0, 10.0, 0.0025
+# many of all frames may be wrong.
+MEDIAN_ALLOWANCE, WORST_ALLOWANCE, MOST_WRONG = 5.0, 10.0, 0.0005
 # Frames that a map must refuse: of another place all, of the rest of the walk those that do not see the map.
 REFUSED = {
     "simulated_elsewhere": dict(map="simulated", query="other_room", elsewhere=True),
@@ -118,7 +125,7 @@ class Place:
         run([tool, "build", *self.recording.source("map"), "--save-model", self.model, "--map", workdir / "first.sphc", "--json"])
 
     def measure(self, made):
-        """The rows of one map."""
+        """Of one map the rows, each with the poses behind it."""
         with tempfile.TemporaryDirectory(dir=self.workdir) as folder:
             folder = pathlib.Path(folder)
             file, key = folder / "room.sphc", folder / "key"
@@ -139,8 +146,13 @@ class Place:
         found = run([self.tool, "localize", *self.queries(name), "--map", file, *MODES[mode], "--owner-note",
                      str(file) + ".owner.json", "--frames-json", answers, "--json"])
         accepted = [frame for frame in map(json.loads, answers.read_text().splitlines()) if frame["localized"]]
-        elsewhere = name in REFUSED and REFUSED[name]["elsewhere"]
-        return row_of(made, name, mode, points, found, sum(elsewhere or is_wrong(frame) for frame in accepted))
+        elsewhere = is_elsewhere(name)
+        row = row_of(made, name, mode, points, found, sum(elsewhere or is_wrong(frame) for frame in accepted))
+        return row, [] if elsewhere else [confidence.pose_of(frame) for frame in accepted]
+
+
+def is_elsewhere(name):
+    return name in REFUSED and REFUSED[name]["elsewhere"]
 
 
 def is_wrong(frame):
@@ -200,6 +212,11 @@ def keyed(row):
     return tuple(row[column] for column in KEYED)
 
 
+def keyed_alike(row):
+    """The same whatever the key."""
+    return tuple(row[column] for column in confidence.KEYED)
+
+
 def spread(rows):
     """The median and the worst over the keys, of every row of accuracy_keys.csv."""
     groups = collections.defaultdict(list)
@@ -230,14 +247,19 @@ def update(tool, names):
         print("[%5.0f s] %s" % (time.monotonic() - begin, words), flush=True)
 
     rows = {keyed(row): row for row in read(RESULTS)} if RESULTS.exists() else {}
+    stated = {keyed_alike(row): row for row in read(CONFIDENCE)} if CONFIDENCE.exists() else {}
     for name in names or recordings():
-        for row in measure(tool, name, list(maps_of(name)), tell):
+        poses = collections.defaultdict(list)
+        for row, found in measure(tool, name, list(maps_of(name)), tell):
             tell(" ".join(row.values()))
             rows[keyed(row)] = row
+            poses[keyed_alike(row)] += found
+        stated.update((key, confidence.row_of(key, found)) for key, found in poses.items() if found)
         # After each recording, so that an interrupted run loses one at most.
         kept = [rows[wanted] for wanted in wanted_rows() if wanted in rows]
         write(RESULTS, kept)
         write(SPREAD, spread(kept))
+        write(CONFIDENCE, [stated[wanted] for wanted in dict.fromkeys(map(keyed_alike, kept)) if wanted in stated])
         tell("%s has %d of %d rows, %s %d; review the difference" % (
             RESULTS.name, len(kept), len(wanted_rows()), SPREAD.name, len(spread(kept))))
 
@@ -284,7 +306,7 @@ def differences(row, committed):
 def check(tool, name):
     committed = {keyed(row): row for row in read(RESULTS)}
     found, begin = [], time.monotonic()
-    for row in measure(tool, name, checked_maps(name), lambda words: print(words, flush=True)):
+    for row, _ in measure(tool, name, checked_maps(name), lambda words: print(words, flush=True)):
         print("%.0f s:" % (time.monotonic() - begin), *row.values(), flush=True)
         found += ["%s: %s" % (" ".join(keyed(row)), fault)
                   for fault in [*differences(row, committed.get(keyed(row))), *faults(row)]]
@@ -302,6 +324,12 @@ def check_committed():
     found += ["%s: not in %s" % (" ".join(row), RESULTS.name) for row in wanted if row not in present]
     found += ["%s: twice or needless in %s" % (" ".join(row), RESULTS.name)
               for row, times in collections.Counter(present).items() if times > 1 or row not in wanted]
+    stated = read(CONFIDENCE)
+    found += ["%s: %s" % (" ".join(keyed_alike(row)), fault) for row in stated for fault in confidence.faults(row)]
+    # Where poses were given out there is a row for them, and no other.
+    with_poses = {keyed_alike(row) for row in rows if float(row["localized_percent"]) and not is_elsewhere(row["recording"])}
+    found += ["%s: in one of %s and %s alone" % (" ".join(key), RESULTS.name, CONFIDENCE.name)
+              for key in sorted(with_poses ^ {keyed_alike(row) for row in stated})]
     if spread(rows) != read(SPREAD):
         found.append("%s is not what follows from %s" % (SPREAD.name, RESULTS.name))
     sys.exit("\n".join(found) if found else 0)

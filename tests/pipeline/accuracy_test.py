@@ -4,6 +4,7 @@ import copy
 import unittest
 
 import accuracy
+import confidence
 
 
 def row(**changes):
@@ -57,6 +58,33 @@ class Accuracy(unittest.TestCase):
                 for recording in [*accuracy.recordings(), *accuracy.REFUSED]}
         self.assertEqual({12}, {len(numbers) for numbers in keys.values()})
         self.assertEqual(12, len(set(accuracy.KEYS)))
+
+
+class Confidence(unittest.TestCase):
+    @staticmethod
+    def poses(count, said, right):
+        return [confidence.Pose(said, number < right, number / 100, number / 50) for number in range(count)]
+
+    def row(self, *poses):
+        return confidence.row_of(("room", "patchwork", "single", "0.33"), sum(poses, []))
+
+    def test_what_is_said_and_what_is(self):
+        row = self.row(self.poses(100, 0.75, 75), self.poses(100, 0.995, 100))
+        self.assertEqual(("200", "87.50", "100", "100.00"), (row["poses"], row["right_percent"], row["sure_poses"],
+                                                             row["sure_right_percent"]))
+        self.assertEqual("0.0025", row["ece"])
+        self.assertEqual(("0.49", "0.89"), (row["translation_over_sigma_median"], row["translation_over_sigma_p90"]))
+        self.assertEqual([], list(confidence.faults(row)))
+
+    def test_too_sure_is_a_fault(self):
+        self.assertEqual(1, len(list(confidence.faults(self.row(self.poses(300, 0.99, 296))))))
+        self.assertEqual(1, len(list(confidence.faults(self.row(self.poses(300, 0.9, 200))))))
+        self.assertEqual([], list(confidence.faults(self.row(self.poses(100, 0.9, 50)))))  # too few to tell
+
+    def test_a_frame_of_the_command(self):
+        frame = {"confidence": 0.5, "error": {"translation_m": 0.02, "rotation_deg": 6},
+                 "sigma": {"translation_m": 0.01, "rotation_deg": 3}}
+        self.assertEqual(confidence.Pose(0.5, False, 2, 2), confidence.pose_of(frame))
 
 
 if __name__ == "__main__":

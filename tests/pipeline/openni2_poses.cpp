@@ -36,15 +36,9 @@ std::vector<uint64_t> readMap(const char *path) {
 }
 
 sphc_config configOf(const sphc_replay *replay) {
-  sphc_calibration calibration = {};
-  calibration.struct_size = sizeof calibration;
-  sphc_replay_calibration(replay, &calibration);
   sphc_config config;
   sphc_config_init(&config, sizeof config);
-  config.color_camera = calibration.color_camera;
-  config.depth_camera = calibration.depth_camera;
-  config.color_from_depth = calibration.color_from_depth;
-  config.depth_unit_m = calibration.depth_unit_m;
+  sphc_replay_rig(replay, &config.rig);
   return config;
 }
 
@@ -150,8 +144,8 @@ void showAll(const sphc_source &recording, Pipeline *camera) {
 sphc_openni2 *openCamera(const sphc_config &config) {
   sphc_openni2_config wanted;
   sphc_openni2_config_init(&wanted, sizeof wanted);
-  wanted.color = {config.color_camera.width, config.color_camera.height, 0};
-  wanted.depth = {config.depth_camera.width, config.depth_camera.height, 0};
+  wanted.color = {config.rig.color_camera.width, config.rig.color_camera.height, 0};
+  wanted.depth = {config.rig.depth_camera.width, config.rig.depth_camera.height, 0};
   wanted.stall_us = 60000000;
   sphc_openni2 *camera = nullptr;
   sphc_message message = {};

@@ -20,6 +20,10 @@ RECORDINGS = {
     "redkitchen": dict(folder="redkitchen/seq-01", map=(0, 597, 3), query=(620, 799, 1)),
     "hololens": dict(folder="hololens", map=(0, 198, 2), query=(1, 199, 2)),
     "hololens_blocks": dict(folder="hololens", block=20),
+    # Hard ones: a thin map, one that shows the place from elsewhere, and one of views that hardly overlap.
+    "redkitchen_thin": dict(folder="redkitchen/seq-01", map=(0, 597, 20), query=(620, 799, 1)),
+    "redkitchen_reversed": dict(folder="redkitchen/seq-01", map=(620, 799, 6), query=(0, 597, 3)),
+    "hololens2_blocks": dict(folder="hololens2", calibration="hololens", block=20),
     # Queries alone.
     "hololens2": dict(folder="hololens2", calibration="hololens"),
     "other_room": dict(simulated=["--frames", 40, "--rate", 6.25, "--seed", 902, "--walk-seed", 902]),

@@ -209,9 +209,9 @@ static void replay_steps(session *s, const char *name, sphc_mode mode, const ste
   line l = {"", 0};
   if (!works(s, "config", sphc_config_init(&config, sizeof config))) return;
   config.mode = mode;
-  config.color_camera = pinhole(&replay_color_camera);
-  config.depth_camera = pinhole(&depth_camera);
-  config.color_from_depth.t_m[0] = baseline_um / 1e6;
+  config.rig.color_camera = pinhole(&replay_color_camera);
+  config.rig.depth_camera = pinhole(&depth_camera);
+  config.rig.color_from_depth.t_m[0] = baseline_um / 1e6;
   config.max_keypoints = 400;
   config.max_iterations = 5000;
   config.depth_sigma_m = 0.002;
@@ -276,9 +276,9 @@ static void replay_aligner(session *s) {
     sphc_aligned aligned = {0};
     line l = {"", 0};
     if (!works(s, "aligner config", sphc_aligner_config_init(&config, sizeof config))) return;
-    config.color_camera = distorted[which];
-    config.depth_camera = distorted[2];
-    config.color_from_depth.t_m[0] = baseline_um / 1e6;
+    config.rig.color_camera = distorted[which];
+    config.rig.depth_camera = distorted[2];
+    config.rig.color_from_depth.t_m[0] = baseline_um / 1e6;
     if (!works(s, "aligner",
                sphc_aligner_init(scratch_memory, sizeof scratch_memory, &config, &aligner, &s->message)))
       return;

@@ -36,7 +36,7 @@ all="scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 newlib"
 
 variant() {
   local folder=build/portability/$1 arguments
-  arguments "$1" && cmake -S "$here" -B "$folder" -G Ninja -DSPHC_WERROR=ON "${arguments[@]}" &&
+  arguments "$1" && cmake -S "$here" -B "$folder" -G Ninja -DSPHC_WERROR=ON -DSPHC_PRECOMPILE_RUNTIME=ON "${arguments[@]}" &&
     cmake --build "$folder" --parallel "$(nproc)" && ctest --test-dir "$folder" --output-on-failure --no-tests=error
 }
 

@@ -15,7 +15,7 @@ namespace sphc::test {
 namespace {
 
 constexpr int64_t kSecondNs = 1000000000;
-constexpr int64_t kLookNs = 1000;  // what a look at the clock takes
+constexpr int64_t kLookNs = 1000;  // what reading the clock takes
 
 template <size_t kSize>
 void setText(__u8 (&to)[kSize], const std::string &text) {

@@ -35,9 +35,9 @@ bool GuardedMemory::guardsIntact() const {
 sphc_config sceneConfig() {
   sphc_config config;
   sphc_config_init(&config, sizeof config);
-  config.color_camera = pinhole(320, 240, 250);
-  config.depth_camera = pinhole(200, 160, 140);
-  config.color_from_depth.t_m[0] = 0.04;
+  config.rig.color_camera = pinhole(320, 240, 250);
+  config.rig.depth_camera = pinhole(200, 160, 140);
+  config.rig.color_from_depth.t_m[0] = 0.04;
   config.mode = SPHC_MODE_SINGLE;
   config.max_keypoints = 400;
   config.max_iterations = 5000;
@@ -49,9 +49,9 @@ sphc_config sceneConfig() {
 
 std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint, uint32_t room) {
   auto made = std::make_unique<SceneFrame>();
-  made->images = renderScene(config.color_camera, config.depth_camera, sceneViewpoint(viewpoint),
-                             rigidFromC(config.color_from_depth), room);
-  const sphc_camera &c = config.color_camera, &d = config.depth_camera;
+  made->images = renderScene(config.rig.color_camera, config.rig.depth_camera, sceneViewpoint(viewpoint),
+                             rigidFromC(config.rig.color_from_depth), room);
+  const sphc_camera &c = config.rig.color_camera, &d = config.rig.depth_camera;
   made->frame = {};
   made->frame.struct_size = sizeof(sphc_frame);
   made->frame.sequence = viewpoint;
@@ -67,7 +67,7 @@ void Session::openMap(const sphc_config &config, double eta, uint32_t room) {
   size_t bytes = 0, alignment = 0;
   require(sphc_map_memory(&bytes, &alignment), message);
   rooms_.push_back(
-      {makeSceneMap(config.color_camera, config.max_keypoints, 3, eta, room), GuardedMemory(bytes, alignment)});
+      {makeSceneMap(config.rig.color_camera, config.max_keypoints, 3, eta, room), GuardedMemory(bytes, alignment)});
   Room &made = rooms_.back();
   sphc_map *map = nullptr;
   require(sphc_map_init(made.memory.data(), bytes, made.scene.file.data(), made.scene.file.size(), &map, &message),

@@ -9,6 +9,7 @@
 #include "host/calibration/nearest_camera.h"
 #include "host/calibration/number_text.h"
 #include "host/calibration/rigid_matrix.h"
+#include "host/recording/calibration_json.h"
 
 namespace sphc::host {
 namespace {
@@ -62,8 +63,7 @@ class Value {
   }
   uint32_t pixels() const {
     const double value = number();
-    if (!(value >= 16 && value <= 8192) || value != std::floor(value))
-      fail("must be a whole number from 16 to 8192");
+    if (!recording::isImageSide(value)) fail(recording::imageSideCure());
     return static_cast<uint32_t>(value);
   }
   std::string text() const {
@@ -187,7 +187,7 @@ CalibrationPart readAzureKinect(const TextFile &file) {
   return part;
 }
 
-std::string azureKinectText(const sphc_calibration &calibration) {
+std::string azureKinectText(const sphc_rig &calibration) {
   const sphc_rigid identity = {{1, 0, 0, 0}, {0, 0, 0}};
   Json json;
   json["CalibrationInformation"]["Cameras"] = {

@@ -9,6 +9,7 @@
 #include "host/calibration/intrinsics.h"
 #include "host/calibration/number_text.h"
 #include "host/calibration/rigid_matrix.h"
+#include "host/recording/calibration_json.h"
 #include "host/recording/pose_track.h"
 #include "host/recording/text_field.h"
 
@@ -45,9 +46,8 @@ double number(const std::string &file, const Line &line, size_t index) {
 
 uint32_t pixels(const std::string &file, const Line &line, size_t index) {
   uint32_t value = 0;
-  if (!recording::parseUnsigned(line.words[index], value) || value < 16 || value > 8192)
-    refuse(file, line.place,
-           "width or height is " + shown(line.words[index]) + "; must be a whole number from 16 to 8192");
+  if (!recording::parseUnsigned(line.words[index], value) || !recording::isImageSide(value))
+    refuse(file, line.place, "width or height is " + shown(line.words[index]) + "; " + recording::imageSideCure());
   return value;
 }
 
@@ -141,7 +141,7 @@ CalibrationPart readColmap(const TextFile &cameras, const TextFile *rigs) {
   return part;
 }
 
-std::vector<TextFile> colmapTexts(const sphc_calibration &calibration) {
+std::vector<TextFile> colmapTexts(const sphc_rig &calibration) {
   const sphc_rigid depth_from_color = inverse(calibration.color_from_depth);
   std::vector<double> pose(depth_from_color.q_wxyz, depth_from_color.q_wxyz + 4);
   pose.insert(pose.end(), depth_from_color.t_m, depth_from_color.t_m + 3);

@@ -62,7 +62,7 @@ struct DepthToColor {
   Camera color, depth;
   Rigid color_from_depth;
 
-  explicit DepthToColor(const sphc_calibration &c)
+  explicit DepthToColor(const sphc_rig &c)
       : color(c.color_camera), depth(c.depth_camera), color_from_depth(rigidFromC(c.color_from_depth)) {}
 
   bool project(const Vector2 &depth_px, double z_m, Vector2 *color_px) const {
@@ -96,7 +96,7 @@ uint32_t CalibrationDifference::lost() const {
   return sum;
 }
 
-CalibrationDifference compareCalibrations(const sphc_calibration &first, const sphc_calibration &second) {
+CalibrationDifference compareCalibrations(const sphc_rig &first, const sphc_rig &second) {
   const DepthToColor a(first), b(second);
   CalibrationDifference result;
   result.color = compareCameras(a.color, b.color);

@@ -22,6 +22,6 @@ struct CalibrationDifference {
   double largestPx() const;
   uint32_t lost() const;
 };
-CalibrationDifference compareCalibrations(const sphc_calibration &first, const sphc_calibration &second);
+CalibrationDifference compareCalibrations(const sphc_rig &first, const sphc_rig &second);
 
 }  // namespace sphc::host

@@ -72,8 +72,8 @@ ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std:
   return result;
 }
 
-sphc_calibration fitToFormat(const sphc_calibration &calibration, Format format, bool approximate) {
-  sphc_calibration result = calibration;
+sphc_rig fitToFormat(const sphc_rig &calibration, Format format, bool approximate) {
+  sphc_rig result = calibration;
   result.color_camera = fitCamera(calibration.color_camera, "colour", format, approximate);
   result.depth_camera = fitCamera(calibration.depth_camera, "depth", format, approximate);
   return result;

@@ -14,7 +14,7 @@ struct ReadFile {
   Format format;
 };
 struct ReadCalibration {
-  sphc_calibration calibration;
+  sphc_rig calibration;
   std::vector<ReadFile> files;
 };
 // A folder stands for the cameras.txt in it.  `format`: of all files; none: each tells by itself.
@@ -23,6 +23,6 @@ ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std:
 
 // The calibration with cameras that the format holds.  Where it does not hold one: throws, or with `approximate`
 // takes the nearest that it holds.
-sphc_calibration fitToFormat(const sphc_calibration &calibration, Format format, bool approximate);
+sphc_rig fitToFormat(const sphc_rig &calibration, Format format, bool approximate);
 
 }  // namespace sphc::host

@@ -10,8 +10,8 @@ namespace {
 bool contains(const TextFile &file, const char *word) { return file.text.find(word) != std::string::npos; }
 
 CalibrationPart readOwn(const TextFile &file) {
-  sphc_calibration calibration;
-  sphc_calibration_init(&calibration, sizeof calibration);
+  sphc_rig calibration;
+  sphc_rig_init(&calibration);
   sphc_message message = {};
   if (sphc_calibration_parse(file.text.data(), file.text.size(), file.name.c_str(), &calibration, &message) < 0)
     throw std::runtime_error(message.text);
@@ -73,7 +73,7 @@ CalibrationPart readCalibration(Format format, const TextFile &file, const TextF
   refuse(file.name, "the file", "unknown format");
 }
 
-std::vector<TextFile> writeCalibration(Format format, const sphc_calibration &calibration) {
+std::vector<TextFile> writeCalibration(Format format, const sphc_rig &calibration) {
   switch (format) {
     case Format::kSpherecloud:
       return {{"", recording::calibrationToJson(calibration)}};

@@ -26,7 +26,7 @@ bool formatHolds(Format format, const sphc_camera &camera);
 
 // `rigs`: COLMAP's rigs.txt; null if there is none, and for all others.
 CalibrationPart readCalibration(Format format, const TextFile &file, const TextFile *rigs);
-std::vector<TextFile> writeCalibration(Format format, const sphc_calibration &calibration);
+std::vector<TextFile> writeCalibration(Format format, const sphc_rig &calibration);
 
 CalibrationPart readOpencv(const TextFile &file);
 CalibrationPart readKalibr(const TextFile &file);
@@ -35,12 +35,12 @@ CalibrationPart readColmap(const TextFile &cameras, const TextFile *rigs);
 CalibrationPart readAzureKinect(const TextFile &file);
 
 // One text; ROS and COLMAP files by their names in the folder.
-std::string opencvText(const sphc_calibration &calibration);
+std::string opencvText(const sphc_rig &calibration);
 // Keys R and T alone.
 std::string opencvExtrinsics(const sphc_rigid &depth_from_color);
-std::string kalibrText(const sphc_calibration &calibration);
-std::vector<TextFile> rosTexts(const sphc_calibration &calibration);
-std::vector<TextFile> colmapTexts(const sphc_calibration &calibration);
-std::string azureKinectText(const sphc_calibration &calibration);
+std::string kalibrText(const sphc_rig &calibration);
+std::vector<TextFile> rosTexts(const sphc_rig &calibration);
+std::vector<TextFile> colmapTexts(const sphc_rig &calibration);
+std::string azureKinectText(const sphc_rig &calibration);
 
 }  // namespace sphc::host

@@ -110,10 +110,10 @@ void requireExact(const NamedCamera &named, bool approximate) {
 
 }  // namespace
 
-sphc_calibration joinParts(const std::vector<CalibrationPart> &parts, const JoinOptions &options) {
+sphc_rig joinParts(const std::vector<CalibrationPart> &parts, const JoinOptions &options) {
   std::vector<Candidate> all;
-  sphc_calibration result;
-  sphc_calibration_init(&result, sizeof result);
+  sphc_rig result;
+  sphc_rig_init(&result);
   for (size_t i = 0; i < parts.size(); ++i) {
     for (const NamedCamera &named : parts[i].cameras) all.push_back({&named, i, all.size()});
     if (parts[i].depth_unit_m) result.depth_unit_m = *parts[i].depth_unit_m;
@@ -138,9 +138,7 @@ sphc_calibration joinParts(const std::vector<CalibrationPart> &parts, const Join
   if (options.depth_unit_m) result.depth_unit_m = *options.depth_unit_m;
 
   sphc_message message = {};
-  if (sphc_calibration_check(&result, &message) < 0 || sphc_camera_check(&result.color_camera, &message) < 0 ||
-      sphc_camera_check(&result.depth_camera, &message) < 0)
-    throw std::runtime_error(message.text);
+  if (sphc_rig_check(&result, &message) < 0) throw std::runtime_error(message.text);
   return result;
 }
 

@@ -23,6 +23,6 @@ struct JoinOptions {
 };
 
 // Throws std::runtime_error with cause and cure.
-sphc_calibration joinParts(const std::vector<CalibrationPart> &parts, const JoinOptions &options);
+sphc_rig joinParts(const std::vector<CalibrationPart> &parts, const JoinOptions &options);
 
 }  // namespace sphc::host

@@ -7,6 +7,7 @@
 #include "host/calibration/number_text.h"
 #include "host/calibration/rigid_matrix.h"
 #include "host/calibration/yaml_map.h"
+#include "host/recording/calibration_json.h"
 
 namespace sphc::host {
 namespace {
@@ -22,9 +23,8 @@ sphc_camera readCamera(const YamlMap &map) {
   if (k.size() != 4)
     map.refuse("intrinsics", "has " + std::to_string(k.size()) + " numbers; pinhole takes 4: fu fv pu pv");
   const std::vector<double> size = map.numbers("resolution", "[640, 480]");
-  const auto in_range = [](double x) { return x >= 16 && x <= 8192; };
-  if (size.size() != 2 || !std::all_of(size.begin(), size.end(), in_range))
-    map.refuse("resolution", "must be [width, height], each from 16 to 8192");
+  if (size.size() != 2 || !std::all_of(size.begin(), size.end(), recording::isImageSide))
+    map.refuse("resolution", "must be [width, height]; each " + recording::imageSideCure());
   const Intrinsics intrinsics = {k[0],
                                  k[1],
                                  k[2] + kZeroCentered,
@@ -88,7 +88,7 @@ CalibrationPart readKalibr(const TextFile &file) {
   return part;
 }
 
-std::string kalibrText(const sphc_calibration &calibration) {
+std::string kalibrText(const sphc_rig &calibration) {
   const RigidMatrix m = matrixFromRigid(inverse(calibration.color_from_depth));
   std::string text = "# cam0: colour, cam1: depth\n" + cameraText("cam0", calibration.color_camera) +
                      cameraText("cam1", calibration.depth_camera) + "  T_cn_cnm1:\n";

@@ -75,7 +75,7 @@ NearestCamera nearestCamera(const std::vector<RaySample> &samples, WantedModel w
     const Eigen::VectorXd change = normal.ldlt().solve(j.transpose() * error);
     sphc_camera moved = camera;
     for (uint32_t i = 0; i < wanted.free_params; ++i) moved.params[i] -= change[i];
-    const bool usable = change.allFinite() && checkCamera(moved, nullptr);
+    const bool usable = change.allFinite() && checkCamera(moved, "camera", nullptr);
     const Eigen::VectorXd moved_error = usable ? residuals(samples, moved) : error;
     const bool better = moved_error.squaredNorm() < error.squaredNorm();
     damping *= better ? 0.1 : 10;

@@ -10,6 +10,7 @@
 #include "host/calibration/intrinsics.h"
 #include "host/calibration/number_text.h"
 #include "host/calibration/rigid_matrix.h"
+#include "host/recording/calibration_json.h"
 
 namespace sphc::host {
 namespace {
@@ -71,7 +72,7 @@ class Reader {
     const cv::FileNode node = storage_[key];
     if (node.empty()) return 0;
     const double value = node.isInt() ? node.real() : -1;
-    if (!(value >= 16 && value <= 8192)) fail(key, "must be a whole number from 16 to 8192");
+    if (!recording::isImageSide(value)) fail(key, recording::imageSideCure());
     return static_cast<uint32_t>(value);
   }
 
@@ -172,7 +173,7 @@ std::string opencvExtrinsics(const sphc_rigid &depth_from_color) {
          matrixText("T", 3, m.t_m);
 }
 
-std::string opencvText(const sphc_calibration &calibration) {
+std::string opencvText(const sphc_rig &calibration) {
   return "%YAML:1.0\n---\n" + cameraText("1", calibration.color_camera) +
          cameraText("2", calibration.depth_camera) + opencvExtrinsics(inverse(calibration.color_from_depth));
 }

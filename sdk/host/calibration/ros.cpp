@@ -63,7 +63,7 @@ CalibrationPart readRos(const TextFile &file) {
              "is " + shown(model) + "; known here: plumb_bob, rational_polynomial, equidistant");
 }
 
-std::vector<TextFile> rosTexts(const sphc_calibration &calibration) {
+std::vector<TextFile> rosTexts(const sphc_rig &calibration) {
   return {{"color.yaml", cameraText("color", calibration.color_camera)},
           {"depth.yaml", cameraText("depth", calibration.depth_camera)},
           // camera_info has no place for it; in the keys of OpenCV's stereo sample

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "host/calibration/fault.h"
+#include "host/recording/calibration_json.h"
 #include "host/recording/text_field.h"
 
 namespace sphc::host {
@@ -84,8 +85,8 @@ std::vector<double> YamlMap::numbers(const std::string &key, const std::string &
 uint32_t YamlMap::pixels(const std::string &key) const {
   const std::string value = text(key, "640");
   uint32_t result = 0;
-  if (!recording::parseUnsigned(value, result) || result < 16 || result > 8192)
-    refuse(key, "is " + shown(value) + "; must be a whole number from 16 to 8192");
+  if (!recording::parseUnsigned(value, result) || !recording::isImageSide(result))
+    refuse(key, "is " + shown(value) + "; " + recording::imageSideCure());
   return result;
 }
 

@@ -66,7 +66,7 @@ std::vector<uint8_t> readMap(const std::string &path) {
 std::string networksOf(const Options &options) {
   if (!options.networks.empty() && !std::filesystem::is_directory(options.networks))
     throw std::runtime_error("--networks " + options.networks +
-                             " is no folder; give the one with *.onnx and *.json");
+                             " is not a folder; give the one with *.onnx and *.json");
   return options.networks.empty() ? auditNetworks() : options.networks;
 }
 
@@ -221,7 +221,7 @@ Command auditCommand(CLI::App *root) {
       ->type_name("NAME");
   app->add_option("--report", options->report, "Folder for a page with pictures")->type_name("FOLDER");
   app->add_option("--figures", options->figures, "Write the figures into this table too")->type_name("CSV");
-  app->add_option("--name", options->name, "Of the map, in that table [the file's]")->type_name("NAME");
+  app->add_option("--name", options->name, "Name of the map in that table [the file's]")->type_name("NAME");
   app->add_option("--networks", options->networks, "Folder of the attackers' networks [the command's own]")
       ->type_name("FOLDER");
   app->add_flag("--quick", options->quick, "Fewer lines and views: within half a minute");

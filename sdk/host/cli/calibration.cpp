@@ -94,7 +94,7 @@ Row cameraRow(const std::string &name, const sphc_camera &camera) {
 
 void show(const ReadCalibration &read, const Console &console) {
   for (const ReadFile &file : read.files) console.say(file.path + " (" + nameOf(file.format).name + ")");
-  const sphc_calibration &c = read.calibration;
+  const sphc_rig &c = read.calibration;
   console.say(tableText({cameraRow("colour", c.color_camera),
                          cameraRow("depth", c.depth_camera),
                          {"baseline", fixed(1000 * baselineM(c.color_from_depth), 2) + " mm",
@@ -111,7 +111,7 @@ nlohmann::ordered_json cameraJson(const sphc_camera &camera) {
 }
 
 nlohmann::ordered_json readJson(const ReadCalibration &read) {
-  const sphc_calibration &c = read.calibration;
+  const sphc_rig &c = read.calibration;
   const sphc_rigid &rigid = c.color_from_depth;
   nlohmann::ordered_json json;
   for (const ReadFile &file : read.files)
@@ -125,7 +125,7 @@ nlohmann::ordered_json readJson(const ReadCalibration &read) {
   return json;
 }
 
-std::vector<std::string> writeFiles(const Options &options, Format format, const sphc_calibration &calibration) {
+std::vector<std::string> writeFiles(const Options &options, Format format, const sphc_rig &calibration) {
   const std::vector<TextFile> files = writeCalibration(format, calibration);
   const std::string &out = options.out;
   std::vector<std::string> paths;
@@ -141,8 +141,7 @@ std::vector<std::string> writeFiles(const Options &options, Format format, const
 }
 
 // What was written, read again: how far from what it was made of.
-CalibrationDifference roundTrip(const std::vector<std::string> &paths, Format format,
-                                const sphc_calibration &calibration) {
+CalibrationDifference roundTrip(const std::vector<std::string> &paths, Format format, const sphc_rig &calibration) {
   JoinOptions options;
   options.depth_unit_m = calibration.depth_unit_m;
   const std::optional<Format> forced = paths.size() == 1 ? std::optional<Format>(format) : std::nullopt;
@@ -157,7 +156,7 @@ std::string scientific(double value) {
 
 Row differenceRow(const std::string &name, const PixelDifference &d) {
   std::string note = "rms " + scientific(d.rms_px) + " of " + std::to_string(d.samples);
-  if (d.lost > 0) note += "; " + std::to_string(d.lost) + " more are seen no longer";
+  if (d.lost > 0) note += "; " + std::to_string(d.lost) + " more points have lost their pixel";
   return {name, scientific(d.largest_px), note};
 }
 
@@ -169,9 +168,9 @@ std::vector<std::pair<std::string, PixelDifference>> parts(const CalibrationDiff
   return result;
 }
 
-nlohmann::ordered_json convert(const Options &options, Format format, const sphc_calibration &calibration,
+nlohmann::ordered_json convert(const Options &options, Format format, const sphc_rig &calibration,
                                const Console &console) {
-  const sphc_calibration fitted = fitToFormat(calibration, format, options.join.approximate);
+  const sphc_rig fitted = fitToFormat(calibration, format, options.join.approximate);
   const std::vector<std::string> paths = writeFiles(options, format, fitted);
   const CalibrationDifference difference = roundTrip(paths, format, calibration);
   const bool exact = formatHolds(format, calibration.color_camera) && formatHolds(format, calibration.depth_camera);
@@ -196,7 +195,7 @@ nlohmann::ordered_json convert(const Options &options, Format format, const sphc
 
 int calibration(const Options &options, const Console &console) {
   if (options.out.empty() && !options.to.empty())
-    throw UsageError("--to says a format, but --out no file; give both");
+    throw UsageError("--to names a format, but --out names no file; give both");
   const ReadCalibration read = readCalibrationFiles(options.files, formatOf(options.format), joinOptions(options));
   show(read, console);
   nlohmann::ordered_json json = readJson(read);

@@ -60,11 +60,10 @@ sphc_replay_info infoOf(const sphc_replay *replay) {
   return info;
 }
 
-sphc_calibration calibrationOf(const sphc_replay *replay) {
-  sphc_calibration calibration = {};
-  calibration.struct_size = sizeof calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_replay_calibration(replay, &calibration); });
-  return calibration;
+sphc_rig calibrationOf(const sphc_replay *replay) {
+  sphc_rig rig;
+  orThrow("calibration", [&](sphc_message *) { return sphc_replay_rig(replay, &rig); });
+  return rig;
 }
 
 // Poses up to a time; each goes once.
@@ -197,7 +196,7 @@ void tellLosses(const Options &options, const Facts &facts, const Result &result
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
   if (is_by_frame && facts.depth_count > result.depth)
     console.warn("note: " + std::to_string(facts.depth_count - result.depth) +
-                 " depth images that are no frame's are left out");
+                 " depth images that belong to no frame are left out");
   if (is_by_frame && facts.pose_count > result.poses)
     console.warn("note: " + std::to_string(facts.pose_count - result.poses) + " poses between frames are left out");
   if (options.target == Target::kTum && facts.is_mcap)
@@ -218,7 +217,7 @@ int convert(Options options, const Console &console) {
   if (options.target == Target::kByName) options.target = by_name;
   const bool is_folder = options.target == Target::kTum || options.target == Target::k7Scenes;
   if (is_folder ? by_name != Target::kTum : by_name != options.target)
-    throw UsageError("the name of a file ends with .mcap or .raw, as --to says, that of a folder with neither: " +
+    throw UsageError("a file's name must end with .mcap or .raw, as --to says, and a folder's name with neither: " +
                      options.out);
   FileUse files(false);
   files.reads("the recording", options.in);
@@ -273,7 +272,8 @@ Command convertCommand(CLI::App *root) {
       ->type_name("tum|7scenes|mcap|raw");
   const std::map<std::string, sphc_depth_codec> codecs = {
       {"raw", SPHC_DEPTH_RAW}, {"rvl", SPHC_DEPTH_RVL}, {"zstd", SPHC_DEPTH_ZSTD}};
-  app->add_option("--depth-codec", options->recorder.depth_codec, "Of depth in a file, all without loss [zstd]")
+  app->add_option("--depth-codec", options->recorder.depth_codec,
+                  "Codec of depth in a file; all are lossless [zstd]")
       ->transform(CLI::CheckedTransformer(codecs).description(""))
       ->type_name("zstd|rvl|raw");
   app->add_option("--jpeg", options->recorder.jpeg_quality, "Colour in a file as JPEG of this quality [raw]")

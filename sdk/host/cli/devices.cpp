@@ -7,7 +7,7 @@ namespace sphc::host {
 namespace {
 
 void say(const Found &found, const Console &console) {
-  if (found.cameras.empty()) console.say("No camera is there. `spherecloud doctor` tells what to look at.");
+  if (found.cameras.empty()) console.say("No camera was found. `spherecloud doctor` tells what to check.");
   for (const FoundCamera &camera : found.cameras) {
     console.say(camera.spec);
     console.say("    " + camera.name + ", " + camera.offers);

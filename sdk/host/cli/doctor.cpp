@@ -36,7 +36,7 @@ Findings lookAround() {
   for (const std::string &note : found.notes) findings.push_back({Grade::kDoubtful, "driver", note});
   if (found.cameras.empty())
     findings.push_back({Grade::kWrong, "cameras",
-                        "none is there; is it plugged in, does `dmesg` see it, may this user read /dev/video*?"});
+                        "none was found; is it plugged in, does `dmesg` see it, may this user read /dev/video*?"});
   return findings;
 }
 
@@ -51,7 +51,7 @@ Findings lookAt(const Options &options, const Console &console) {
     findings.push_back({Grade::kDoubtful, "capture", trouble});
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  const sphc_calibration calibration = calibrationOf(options.rig, rig);
+  const sphc_rig calibration = calibrationOf(options.rig, rig);
   StreamCheck color(SPHC_STREAM_COLOR, calibration), depth(SPHC_STREAM_DEPTH, calibration);
   GeometryCheck geometry(calibration);
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? color : depth).look(c); });
@@ -118,7 +118,7 @@ Command doctorCommand(CLI::App *root) {
       "says, or would do so\nif it were mirrored, turned or registered already.");
   app->footer(kExample);
   addRigOptions(app, &options->rig);
-  app->add_option("--frames", options->frames, "Pairs to look at")
+  app->add_option("--frames", options->frames, "Pairs to check")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));
   return {app, [options](const Console &console) { return run(*options, console); }};

@@ -1,4 +1,4 @@
-// spherecloud inspect: a close look at a map file.
+// spherecloud inspect: a map file in detail.
 #include <memory>
 
 #include "host/cli/commands.h"
@@ -93,7 +93,7 @@ Command inspectCommand(CLI::App *root) {
   auto options = std::make_shared<Options>();
   CLI::App *app = root->add_subcommand("inspect");
   app->description(
-      "A close look at a map file, with a picture.\n\nChecks a map file and shows what an outsider can see in it: "
+      "Show a map file in detail, with a picture.\n\nChecks a map file and shows what an outsider can see in it: "
       "where its bytes go, how its directions\n"
       "are spread, what its descriptors are like, and a picture of the sky of directions.");
   app->footer(

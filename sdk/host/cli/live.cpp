@@ -12,6 +12,7 @@
 #include "host/live/interrupt.h"
 #include "host/live/rate.h"
 #include "host/live/status_line.h"
+#include "host/report/fault_words.h"
 
 namespace sphc::host {
 namespace {
@@ -28,9 +29,11 @@ struct Tally {
   uint32_t frames = 0, localized = 0, skipped = 0;
   double total_ms = 0;
   Rate color, depth, poses;
+  std::array<uint32_t, kFaultWords.size()> faults = {};  // frames that name each
 };
 
 std::string poseText(const sphc_result &result) {
+  if (result.faults) return "FAULT: " + faultNames(result.faults);
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return "no pose";
   const sphc_rigid pose = spherecloud::inverse(result.camera_from_map);
   char text[96];
@@ -57,6 +60,7 @@ nlohmann::ordered_json frameJson(const sphc_pair &pair, const sphc_result &resul
                                 {"localized", result.outcome == SPHC_OUTCOME_LOCALIZED},
                                 {"outcome", result.outcome},
                                 {"map", result.map_index},
+                                {"faults", faultNames(result.faults)},
                                 {"inliers", result.inliers},
                                 {"ms", std::round(1000 * ms) / 1000}};
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return out;
@@ -100,6 +104,7 @@ void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spher
   ++tally->frames;
   tally->localized += result.outcome == SPHC_OUTCOME_LOCALIZED;
   tally->total_ms += ms;
+  for (size_t i = 0; i < kFaultWords.size(); ++i) tally->faults[i] += (result.faults & kFaultWords[i].fault) != 0;
   tally->poses.count();
   console.giveLine(frameJson(pair, result, ms));
   line->show(statusText(*tally, result, rig, ms));
@@ -113,9 +118,13 @@ bool isOver(const Options &options, const Tally &tally, std::chrono::steady_cloc
 
 void sayTally(const Tally &tally, const Rig &rig, const Console &console) {
   const sphc_pairer_counts counts = rig.counts();
-  console.say("Frames looked at: " + std::to_string(tally.frames) +
+  console.say("Frames processed: " + std::to_string(tally.frames) +
               ", localized: " + std::to_string(tally.localized) +
               (tally.skipped ? ", skipped: " + std::to_string(tally.skipped) : ""));
+  for (size_t i = 0; i < kFaultWords.size(); ++i)
+    if (tally.faults[i])
+      console.say("FAULT in " + std::to_string(tally.faults[i]) + " frames, " + kFaultWords[i].name + ": " +
+                  kFaultWords[i].cure);
   if (tally.frames > 0) console.say("Time a frame: " + fixed(tally.total_ms / tally.frames, 2) + " ms, mean");
   console.say(
       "Without a partner: " + std::to_string(counts.too_far + counts.overtaken + counts.full + counts.ended) +
@@ -190,7 +199,7 @@ Command liveCommand(CLI::App *root) {
       ->type_name("FILE");
   app->add_option("--frames", options->frames, "End after so many frames; 0: never");
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
-  app->add_flag("--every", options->every, "Look at every frame, however late; else the newest counts");
+  app->add_flag("--every", options->every, "Process every frame, however late; else only the newest");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

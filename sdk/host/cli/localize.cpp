@@ -142,7 +142,8 @@ void addLocalizerOptions(CLI::App *app, sphc_config *config) {
   const auto add = [app](const char *name, auto &field, const char *text) {
     return app->add_option(name, field, text)->capture_default_str()->group("Localizer");
   };
-  add("--seed", config->seed, "Of the random samples; the same seed gives the same answers")->check(withoutSign());
+  add("--seed", config->seed, "Seed of the random samples; the same seed gives the same answers")
+      ->check(withoutSign());
   add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096");
   add("--ratio", config->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
   add("--max-iterations", config->max_iterations, "Most samples drawn for a frame");

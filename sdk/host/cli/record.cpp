@@ -32,7 +32,7 @@ struct RecorderCloser {
 };
 using Recorder = std::unique_ptr<sphc_recorder, RecorderCloser>;
 
-Recorder openRecorder(const std::string &path, const Options &options, const sphc_calibration &calibration) {
+Recorder openRecorder(const std::string &path, const Options &options, const sphc_rig &calibration) {
   sphc_recorder *recorder = nullptr;
   orThrow("cannot record", [&](sphc_message *message) {
     return sphc_recorder_open(path.c_str(), &calibration, &options.recorder, &recorder, message);
@@ -118,7 +118,7 @@ void recordAll(const Options &options, const Interrupt &interrupt, Rig *rig, sph
 
 int run(const Options &options, const Console &console) {
   checkRigOptions(options.rig);
-  if (!isMcap(options.out)) throw UsageError("--out: the name of the file ends with .mcap: " + options.out);
+  if (!isMcap(options.out)) throw UsageError("--out: the file's name must end with .mcap: " + options.out);
   FileUse files(false);
   files.reads(options.rig);
   files.writesRecording("--out", options.out);

@@ -44,15 +44,10 @@ Simulated openHeadset(const Options &options) {
   return Simulated(simulated);
 }
 
-sphc_calibration calibrationOf(const sphc_simulated *simulated) {
-  sphc_calibration calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
-  orThrow("cameras", [&](sphc_message *) {
-    return sphc_simulated_cameras(simulated, &calibration.color_camera, &calibration.depth_camera,
-                                  &calibration.color_from_depth);
-  });
-  calibration.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
-  return calibration;
+sphc_rig calibrationOf(const sphc_simulated *simulated) {
+  sphc_rig rig;
+  orThrow("cameras", [&](sphc_message *) { return sphc_simulated_rig(simulated, &rig); });
+  return rig;
 }
 
 // One capture to disk, with the exact pose when it is a colour image.

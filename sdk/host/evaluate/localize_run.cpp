@@ -76,6 +76,7 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->frames_together = result.frames;
   frame->guided = result.guided != 0;
   frame->depth = result.depth;
+  frame->faults = result.faults;
   if (!frame->localized) return;
   frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);
@@ -119,11 +120,8 @@ FrameRecord processFrame(const LocalizeInput &input, const sphc_frame &image, ui
 
 }  // namespace
 
-void setCameras(const sphc_calibration &calibration, sphc_config *config) {
-  config->color_camera = calibration.color_camera;
-  config->depth_camera = calibration.depth_camera;
-  config->color_from_depth = calibration.color_from_depth;
-  config->depth_unit_m = calibration.depth_unit_m;
+void setCameras(const sphc_rig &rig, sphc_config *config) {
+  config->rig = rig;
   config->clock = steadyNanoseconds;
 }
 
@@ -137,8 +135,8 @@ spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vecto
 }
 
 std::vector<Setting> describeConfig(const sphc_config &config) {
-  return {{"colour camera", describeCamera(config.color_camera)},
-          {"depth camera", describeCamera(config.depth_camera)},
+  return {{"colour camera", describeCamera(config.rig.color_camera)},
+          {"depth camera", describeCamera(config.rig.depth_camera)},
           {"seed", std::to_string(config.seed)},
           {"max_keypoints", std::to_string(config.max_keypoints)},
           {"max_ratio", fixed(static_cast<double>(config.max_ratio), 3)},
@@ -146,7 +144,7 @@ std::vector<Setting> describeConfig(const sphc_config &config) {
           {"min_inliers", std::to_string(config.min_inliers)},
           {"depth_min_m", fixed(config.depth_min_m, 3)},
           {"depth_max_m", fixed(config.depth_max_m, 3)},
-          {"depth_unit_m", fixed(config.depth_unit_m, 6)},
+          {"depth_unit_m", fixed(config.rig.depth_unit_m, 6)},
           {"depth_sigma_m", fixed(config.depth_sigma_m, 4)},
           {"depth_sigma_per_m2", fixed(config.depth_sigma_per_m2, 4)},
           {"pixel_sigma_px", fixed(config.pixel_sigma_px, 2)},

@@ -21,8 +21,8 @@ struct LocalizeInput {
   bool keep_observations = false;
 };
 
-// Cameras, depth unit and clock into a config whose other fields stay.
-void setCameras(const sphc_calibration &calibration, sphc_config *config);
+// Rig and clock into a config whose other fields stay.
+void setCameras(const sphc_rig &rig, sphc_config *config);
 // Throws std::runtime_error with cause and cure.
 spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vector<MapFile> &maps);
 std::vector<Setting> describeConfig(const sphc_config &config);

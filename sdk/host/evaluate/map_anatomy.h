@@ -1,4 +1,4 @@
-// A close look at a map: what its bytes are, how its directions lie, what its descriptors are like.
+// A map in detail: what its bytes are, how its directions lie, what its descriptors are like.
 #pragma once
 #include <string>
 #include <vector>

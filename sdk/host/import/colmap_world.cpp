@@ -49,7 +49,7 @@ fs::path depthPath(const std::string &folder, const std::string &name) {
 class DepthImages {
  public:
   DepthImages(const std::string &folder, const std::string &calibration) : folder_(folder) {
-    sphc_calibration_init(&calibration_, sizeof calibration_);
+    sphc_rig_init(&calibration_);
     if (calibration.empty()) return;
     separate_ = true;
     sphc_message message = {};
@@ -93,7 +93,7 @@ class DepthImages {
   }
 
   std::string folder_;
-  sphc_calibration calibration_;
+  sphc_rig calibration_;
   bool separate_ = false;
 };
 

@@ -17,7 +17,7 @@ constexpr double kSamePose = 1e-12;  // interpolating between equal poses rounds
 // The device's own stages, in memory from the workstation's heap.
 class FrameDescriber {
  public:
-  FrameDescriber(const sphc_calibration &calibration, const RgbdImportOptions &options)
+  FrameDescriber(const sphc_rig &calibration, const RgbdImportOptions &options)
       : camera_(calibration.color_camera), features_(camera_.width(), camera_.height(), options.max_keypoints) {
     const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m,
                                 kMappingNoise.sigma_m, kMappingNoise.sigma_per_m2};

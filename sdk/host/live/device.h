@@ -39,7 +39,7 @@ class Device {
   // What went wrong so far, in words; "" where nothing did.
   virtual std::string troubles() const { return ""; }
   // False where the device does not know its cameras.
-  virtual bool calibration(sphc_calibration * /*calibration*/) const { return false; }
+  virtual bool calibration(sphc_rig * /*calibration*/) const { return false; }
   // Frames wait until they are asked for, so none need be skipped.
   virtual bool waits() const { return false; }
 

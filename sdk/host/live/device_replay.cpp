@@ -25,9 +25,8 @@ class ReplayDevice : public Device {
   ~ReplayDevice() override { sphc_replay_close(&replay_); }
 
   std::string describe() const override { return "recording " + address_; }
-  bool calibration(sphc_calibration *calibration) const override {
-    calibration->struct_size = sizeof *calibration;
-    return sphc_replay_calibration(replay_, calibration) == SPHC_OK;
+  bool calibration(sphc_rig *calibration) const override {
+    return sphc_replay_rig(replay_, calibration) == SPHC_OK;
   }
   bool waits() const override { return true; }
 

@@ -59,11 +59,8 @@ class SimulatedDevice : public Device {
   ~SimulatedDevice() override { sphc_simulated_close(&simulated_); }
 
   std::string describe() const override { return "simulated headset"; }
-  bool calibration(sphc_calibration *calibration) const override {
-    sphc_calibration_init(calibration, sizeof *calibration);
-    calibration->depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
-    return sphc_simulated_cameras(simulated_, &calibration->color_camera, &calibration->depth_camera,
-                                  &calibration->color_from_depth) == SPHC_OK;
+  bool calibration(sphc_rig *calibration) const override {
+    return sphc_simulated_rig(simulated_, calibration) == SPHC_OK;
   }
   bool waits() const override { return true; }
 

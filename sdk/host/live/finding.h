@@ -1,4 +1,4 @@
-// What a look at cameras found.
+// What an inspection of cameras found.
 #pragma once
 #include <string>
 #include <vector>

@@ -46,7 +46,7 @@ std::vector<uint16_t> flipped(const sphc_image &depth, bool left_right, bool up_
 
 }  // namespace
 
-GeometryCheck::GeometryCheck(const sphc_calibration &calibration) : calibration_(calibration) {}
+GeometryCheck::GeometryCheck(const sphc_rig &calibration) : calibration_(calibration) {}
 
 bool GeometryCheck::canBe(Mistake mistake) const {
   const sphc_camera &color = calibration_.color_camera, &depth = calibration_.depth_camera;
@@ -55,8 +55,8 @@ bool GeometryCheck::canBe(Mistake mistake) const {
   return mistake != kInverse || !registered;
 }
 
-sphc_calibration GeometryCheck::calibrationOf(Mistake mistake) const {
-  sphc_calibration calibration = calibration_;
+sphc_rig GeometryCheck::calibrationOf(Mistake mistake) const {
+  sphc_rig calibration = calibration_;
   if (mistake == kRegistered) {
     calibration.depth_camera = calibration.color_camera;
     calibration.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
@@ -66,13 +66,9 @@ sphc_calibration GeometryCheck::calibrationOf(Mistake mistake) const {
 }
 
 std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth, Mistake mistake) const {
-  const sphc_calibration calibration = calibrationOf(mistake);
   sphc_aligner_config config;
   sphc_aligner_config_init(&config, sizeof config);
-  config.color_camera = calibration.color_camera;
-  config.depth_camera = calibration.depth_camera;
-  config.color_from_depth = calibration.color_from_depth;
-  config.depth_unit_m = calibration.depth_unit_m;
+  config.rig = calibrationOf(mistake);
   size_t bytes = 0, alignment = 0;
   orThrow("aligner",
           [&](sphc_message *message) { return sphc_aligner_memory(&config, &bytes, &alignment, message); });
@@ -86,11 +82,11 @@ std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth, Mistake mi
   sphc_image image = depth;
   image.data = turned.data();
   image.stride_bytes = 2 * image.width;
-  std::vector<uint16_t> out(size_t{config.color_camera.width} * config.color_camera.height);
+  std::vector<uint16_t> out(size_t{config.rig.color_camera.width} * config.rig.color_camera.height);
   sphc_aligned wanted = {};
   wanted.struct_size = sizeof wanted;
   wanted.depth = out.data();
-  wanted.depth_stride_bytes = 2 * config.color_camera.width;
+  wanted.depth_stride_bytes = 2 * config.rig.color_camera.width;
   const sphc_status status = sphc_aligner_process(aligner, &image, &wanted);
   if (status < 0) throw std::runtime_error(std::string("depth: ") + sphc_aligner_message(aligner));
   return out;

@@ -12,7 +12,7 @@ namespace sphc::host {
 
 class GeometryCheck {
  public:
-  explicit GeometryCheck(const sphc_calibration &calibration);
+  explicit GeometryCheck(const sphc_rig &calibration);
 
   // A pair of images of the calibration's sizes.
   void look(const sphc_image &color, const sphc_image &depth);
@@ -22,11 +22,11 @@ class GeometryCheck {
   enum Mistake { kNone, kMirrored, kUpsideDown, kTurned, kRegistered, kInverse, kMistakes };
 
   bool canBe(Mistake mistake) const;
-  sphc_calibration calibrationOf(Mistake mistake) const;
+  sphc_rig calibrationOf(Mistake mistake) const;
   std::optional<Finding> nothingToTell() const;
   std::vector<uint16_t> aligned(const sphc_image &depth, Mistake mistake) const;
 
-  sphc_calibration calibration_;
+  sphc_rig calibration_;
   std::array<std::vector<double>, kMistakes> distances_px_;
   std::vector<double> chance_px_;  // of any pixel
   size_t image_edges_ = 0;

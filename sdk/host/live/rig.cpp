@@ -230,7 +230,7 @@ sphc_pairer_counts Rig::counts() const {
   return now;
 }
 
-bool Rig::calibration(sphc_calibration *calibration) const {
+bool Rig::calibration(sphc_rig *calibration) const {
   return cameras_.size() == 1 && cameras_[0].device && cameras_[0].device->calibration(calibration);
 }
 

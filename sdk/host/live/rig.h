@@ -43,7 +43,7 @@ class Rig {
   std::vector<std::string> descriptions() const;
   std::string troubles() const;
   sphc_pairer_counts counts() const;
-  bool calibration(sphc_calibration *calibration) const;
+  bool calibration(sphc_rig *calibration) const;
   bool waits() const;
 
  private:

@@ -30,7 +30,7 @@ const char *pointName(sphc_time_point point) {
 
 }  // namespace
 
-StreamCheck::StreamCheck(sphc_stream stream, const sphc_calibration &calibration)
+StreamCheck::StreamCheck(sphc_stream stream, const sphc_rig &calibration)
     : is_color_(stream == SPHC_STREAM_COLOR),
       camera_(is_color_ ? calibration.color_camera : calibration.depth_camera),
       depth_unit_m_(calibration.depth_unit_m) {}

@@ -10,7 +10,7 @@ namespace sphc::host {
 
 class StreamCheck {
  public:
-  StreamCheck(sphc_stream stream, const sphc_calibration &calibration);
+  StreamCheck(sphc_stream stream, const sphc_rig &calibration);
 
   void look(const sphc_capture &capture);
   // Of this stream alone; nothing else is said where not one capture came.

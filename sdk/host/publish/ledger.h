@@ -18,7 +18,7 @@ class Ledger {
   // std::runtime_error with cause and cure, also when places were released with another key or others may read the
   // file.  One that was made, and in which nothing was recorded, is removed with this object.
   static Ledger openOrMake(const std::string &path, const SecretKey *key);
-  // For a look at what somebody else released; throws when there is none.
+  // Reads what somebody else released; throws when there is none.
   static Ledger openToRead(const std::string &path);
 
   const SecretKey &key() const { return key_; }

@@ -73,8 +73,8 @@ class ObjectReader {
 
   uint32_t pixels(const char *key) {
     const Json &value = require(key, "640");
-    if (!value.is_number_unsigned() || value.get<uint64_t>() > 8192 || value.get<uint64_t>() < 16)
-      fail(path(key), "is " + shown(value) + "; must be a whole number from 16 to 8192");
+    if (!value.is_number_unsigned() || !isImageSide(value.get<double>()))
+      fail(path(key), "is " + shown(value) + "; " + imageSideCure());
     return value.get<uint32_t>();
   }
 
@@ -151,31 +151,31 @@ double readPixelShift(ObjectReader &reader) {
   return 0.5 - center;
 }
 
-bool isRegistered(const sphc_calibration &calibration) {
-  const sphc_camera &a = calibration.color_camera;
-  const sphc_camera &b = calibration.depth_camera;
+bool isRegistered(const sphc_rig &rig) {
+  const sphc_camera &a = rig.color_camera;
+  const sphc_camera &b = rig.depth_camera;
   constexpr sphc_rigid kIdentity = {{1, 0, 0, 0}, {0, 0, 0}};
-  const sphc_rigid &rigid = calibration.color_from_depth;
+  const sphc_rigid &color_from_depth = rig.color_from_depth;
   return a.model == b.model && a.width == b.width && a.height == b.height &&
          std::equal(a.params, a.params + 12, b.params) &&
-         std::equal(rigid.q_wxyz, rigid.q_wxyz + 4, kIdentity.q_wxyz) &&
-         std::equal(rigid.t_m, rigid.t_m + 3, kIdentity.t_m);
+         std::equal(color_from_depth.q_wxyz, color_from_depth.q_wxyz + 4, kIdentity.q_wxyz) &&
+         std::equal(color_from_depth.t_m, color_from_depth.t_m + 3, kIdentity.t_m);
 }
 
 // Depth camera and transform; "depth_registered": true stands for both.
-void readDepthSide(ObjectReader &reader, double pixel_shift, sphc_calibration &calibration) {
+void readDepthSide(ObjectReader &reader, double pixel_shift, sphc_rig &rig) {
   const Json *registered = reader.find("depth_registered");
   if (registered && !registered->is_boolean()) fail("depth_registered", "must be true or false");
   const bool is_registered = registered && registered->get<bool>();
-  calibration.depth_camera = calibration.color_camera;
-  calibration.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
+  rig.depth_camera = rig.color_camera;
+  rig.color_from_depth = {{1, 0, 0, 0}, {0, 0, 0}};
   if (!is_registered || reader.find("depth_camera"))
-    calibration.depth_camera = readCamera(
-        reader.require("depth_camera", "color_camera, or \"depth_registered\": true"), "depth_camera", pixel_shift);
+    rig.depth_camera = readCamera(reader.require("depth_camera", "color_camera, or \"depth_registered\": true"),
+                                  "depth_camera", pixel_shift);
   if (!is_registered || reader.find("color_from_depth"))
-    calibration.color_from_depth = readRigid(
+    rig.color_from_depth = readRigid(
         reader.require("color_from_depth", "{\"q_wxyz\": [1, 0, 0, 0], \"t_m\": [0, 0, 0]}"), "color_from_depth");
-  if (is_registered && !isRegistered(calibration))
+  if (is_registered && !isRegistered(rig))
     fail("depth_registered", "true, but depth_camera or color_from_depth differ; remove them or say false");
 }
 
@@ -190,36 +190,33 @@ Json cameraToJson(const sphc_camera &camera) {
 
 }  // namespace
 
-sphc_calibration calibrationFromJson(std::string_view text) {
+sphc_rig calibrationFromJson(std::string_view text) {
   const Json json = parseJson(text);
   ObjectReader reader(json, "");
   readHeader(reader);
   const double pixel_shift = readPixelShift(reader);
-  sphc_calibration calibration{};
-  calibration.struct_size = sizeof calibration;
-  calibration.color_camera =
-      readCamera(reader.require("color_camera", "docs/drivers.md"), "color_camera", pixel_shift);
-  readDepthSide(reader, pixel_shift, calibration);
-  calibration.depth_unit_m = reader.number("depth_unit_m", "0.001");
+  sphc_rig rig{};
+  rig.color_camera = readCamera(reader.require("color_camera", "docs/drivers.md"), "color_camera", pixel_shift);
+  readDepthSide(reader, pixel_shift, rig);
+  rig.depth_unit_m = reader.number("depth_unit_m", "0.001");
   reader.refuseOthers();
-  const std::string fault = calibrationFault(calibration);
-  if (!fault.empty()) throw Failure(SPHC_E_ARGUMENT, fault);
-  normalizeQuaternion(calibration.color_from_depth.q_wxyz, 1.0);
-  return calibration;
+  requireGood(rig);
+  normalizeQuaternion(rig.color_from_depth.q_wxyz, 1.0);
+  return rig;
 }
 
-std::string calibrationToJson(const sphc_calibration &calibration) {
-  const sphc_rigid &rigid = calibration.color_from_depth;
+std::string calibrationToJson(const sphc_rig &rig) {
+  const sphc_rigid &rigid = rig.color_from_depth;
   Json json;
   json["format"] = "spherecloud-calibration";
   json["version"] = 1;
   json["pixel_center"] = 0.5;
-  json["color_camera"] = cameraToJson(calibration.color_camera);
-  json["depth_camera"] = cameraToJson(calibration.depth_camera);
+  json["color_camera"] = cameraToJson(rig.color_camera);
+  json["depth_camera"] = cameraToJson(rig.depth_camera);
   json["color_from_depth"]["q_wxyz"] = std::vector<double>(rigid.q_wxyz, rigid.q_wxyz + 4);
   json["color_from_depth"]["t_m"] = std::vector<double>(rigid.t_m, rigid.t_m + 3);
-  json["depth_unit_m"] = calibration.depth_unit_m;
-  if (isRegistered(calibration)) json["depth_registered"] = true;
+  json["depth_unit_m"] = rig.depth_unit_m;
+  if (isRegistered(rig)) json["depth_registered"] = true;
   return json.dump(2) + "\n";
 }
 

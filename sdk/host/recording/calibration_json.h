@@ -21,15 +21,19 @@ const ModelName *findModel(std::string_view name);
 // "pinhole, brown5, ..."
 std::string modelNames();
 
-// What is wrong with it and how to cure it, as "key: text"; empty when nothing is.
-std::string calibrationFault(const sphc_calibration &calibration);
+// A width or height that a camera can have, and what to say of another.
+bool isImageSide(double value);
+std::string imageSideCure();
+
+// The rig, where it can be used; else throws Failure with sphc_rig_check's message.
+const sphc_rig &requireGood(const sphc_rig &rig);
 
 // Throw Failure with the file's name.  What is written reads back to the bit.
-sphc_calibration readCalibration(const std::filesystem::path &path);
-void writeCalibration(const std::filesystem::path &path, const sphc_calibration &calibration);
+sphc_rig readCalibration(const std::filesystem::path &path);
+void writeCalibration(const std::filesystem::path &path, const sphc_rig &rig);
 
 // Throws Failure; its text begins with the key.
-sphc_calibration calibrationFromJson(std::string_view text);
-std::string calibrationToJson(const sphc_calibration &calibration);
+sphc_rig calibrationFromJson(std::string_view text);
+std::string calibrationToJson(const sphc_rig &rig);
 
 }  // namespace sphc::recording

@@ -8,7 +8,7 @@
 
 namespace sphc::recording {
 
-ImageReader::ImageReader(const Recording &recording, const sphc_calibration &calibration, sphc_format color_format)
+ImageReader::ImageReader(const Recording &recording, const sphc_rig &calibration, sphc_format color_format)
     : recording_(recording),
       color_camera_(calibration.color_camera),
       depth_camera_(calibration.depth_camera),

@@ -13,7 +13,7 @@ namespace sphc::recording {
 class ImageReader {
  public:
   // Borrows the recording.
-  ImageReader(const Recording &recording, const sphc_calibration &calibration, sphc_format color_format);
+  ImageReader(const Recording &recording, const sphc_rig &calibration, sphc_format color_format);
 
   size_t colorBytes() const { return bytesOf(SPHC_STREAM_COLOR); }
   size_t depthBytes() const { return bytesOf(SPHC_STREAM_DEPTH); }

@@ -72,7 +72,7 @@ void checkConfig(const sphc_recorder_config &config) {
   require(config.chunk_bytes >= 65536 && config.chunk_bytes <= (1u << 28), "chunk_bytes: must be 65536 to 2^28");
 }
 
-size_t slotBytes(const sphc_calibration &calibration) {
+size_t slotBytes(const sphc_rig &calibration) {
   const sphc_camera &color = calibration.color_camera;
   const sphc_camera &depth = calibration.depth_camera;
   return std::max(size_t{color.width} * color.height * 3, size_t{depth.width} * depth.height * 2);
@@ -81,7 +81,7 @@ size_t slotBytes(const sphc_calibration &calibration) {
 }  // namespace
 
 struct sphc_recorder {
-  sphc_recorder(const char *path, const sphc_calibration &its_calibration, const sphc_recorder_config &its_config);
+  sphc_recorder(const char *path, const sphc_rig &its_calibration, const sphc_recorder_config &its_config);
   ~sphc_recorder();
 
   sphc_status add(const sphc_capture &capture);
@@ -101,7 +101,7 @@ struct sphc_recorder {
   void fail();
   void noteWritten();
 
-  const sphc_calibration calibration;
+  const sphc_rig calibration;
   const sphc_recorder_config config;
   RecordingEncoder encoder;  // the thread's, until it is joined
 
@@ -121,7 +121,7 @@ struct sphc_recorder {
   std::thread thread;
 };
 
-sphc_recorder::sphc_recorder(const char *path, const sphc_calibration &its_calibration,
+sphc_recorder::sphc_recorder(const char *path, const sphc_rig &its_calibration,
                              const sphc_recorder_config &its_config)
     : calibration(its_calibration),
       config(its_config),
@@ -313,12 +313,11 @@ sphc_status sphc_recorder_config_init(sphc_recorder_config *config, size_t struc
   return SPHC_OK;
 }
 
-sphc_status sphc_recorder_open(const char *path, const sphc_calibration *calibration,
-                               const sphc_recorder_config *config, sphc_recorder **recorder,
-                               sphc_message *message) {
+sphc_status sphc_recorder_open(const char *path, const sphc_rig *rig, const sphc_recorder_config *config,
+                               sphc_recorder **recorder, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
     if (!path || !recorder) throw Failure(SPHC_E_ARGUMENT, "path or recorder is null");
-    const sphc_status status = sphc_calibration_check(calibration, message);
+    const sphc_status status = sphc_rig_check(rig, message);
     if (status < 0) return status;
     sphc_recorder_config chosen;
     sphc_recorder_config_init(&chosen, sizeof chosen);
@@ -326,7 +325,7 @@ sphc_status sphc_recorder_open(const char *path, const sphc_calibration *calibra
       throw Failure(SPHC_E_STRUCT_SIZE, "config.struct_size; sphc_recorder_config_init sets it");
     if (config) chosen = *config;
     checkConfig(chosen);
-    *recorder = std::make_unique<sphc_recorder>(path, *calibration, chosen).release();
+    *recorder = std::make_unique<sphc_recorder>(path, *rig, chosen).release();
     return SPHC_OK;
   });
 }

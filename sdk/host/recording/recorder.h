@@ -59,10 +59,10 @@ typedef struct sphc_recorder_config {
 sphc_status sphc_recorder_config_init(sphc_recorder_config *config, size_t struct_size);
 
 /* Starts a recording in the new file `path` and a thread.  `config` null: the defaults; it is copied, and so is the
- * calibration, which is written.  Errors: ARGUMENT (null, config, calibration), STRUCT_SIZE, STATE (the file is
+ * rig, which is written.  Errors: ARGUMENT (null, config, sphc_rig_check), STRUCT_SIZE, STATE (the file is
  * there already; nothing is overwritten), DEVICE (cannot be written). [pure] */
-sphc_status sphc_recorder_open(const char *path, const sphc_calibration *calibration,
-                               const sphc_recorder_config *config, sphc_recorder **recorder, sphc_message *message);
+sphc_status sphc_recorder_open(const char *path, const sphc_rig *rig, const sphc_recorder_config *config,
+                               sphc_recorder **recorder, sphc_message *message);
 
 /* Adds a capture.  Borrows.  The image's size must be the calibration's; times of a stream must increase and not be
  * negative.  SPHC_AGAIN: the queue stayed full for wait_us; the capture is dropped, counted and listed in the file.

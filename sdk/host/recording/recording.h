@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,7 @@ struct Recording {
   PoseTrack poses;
   uint32_t bad_pose_count = 0;
 
-  sphc_calibration calibration = {};  // of a file that holds one
+  std::optional<sphc_rig> calibration;  // of a file that holds one
 
   // Of an MCAP file.
   std::vector<ChunkPlace> chunks;

@@ -14,18 +14,18 @@ namespace {
 
 size_t pixelsOf(const sphc_camera &camera) { return size_t{camera.width} * camera.height; }
 
-size_t mostDepthBytes(const sphc_calibration &calibration) {
+size_t mostDepthBytes(const sphc_rig &calibration) {
   const size_t pixels = pixelsOf(calibration.depth_camera);
   return std::max(kRvlHeadBytes + rvlMostBytes(pixels), kZstdHeadBytes + DepthZstdEncoder::mostBytes(pixels));
 }
 
-size_t mostMessageBytes(const sphc_calibration &calibration) {
+size_t mostMessageBytes(const sphc_rig &calibration) {
   return kMostMessageHeadBytes + std::max(3 * pixelsOf(calibration.color_camera), mostDepthBytes(calibration));
 }
 
 }  // namespace
 
-RecordingEncoder::RecordingEncoder(const std::filesystem::path &path, const sphc_calibration &calibration,
+RecordingEncoder::RecordingEncoder(const std::filesystem::path &path, const sphc_rig &calibration,
                                    const sphc_recorder_config &config)
     : config_(config),
       writer_(path, config.chunk_bytes, mostMessageBytes(calibration)),

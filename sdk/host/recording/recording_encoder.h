@@ -11,7 +11,7 @@ namespace sphc::recording {
 class RecordingEncoder {
  public:
   // Makes the file, its head with the calibration, and all memory.  Throws Failure, as all of these do.
-  RecordingEncoder(const std::filesystem::path &path, const sphc_calibration &calibration,
+  RecordingEncoder(const std::filesystem::path &path, const sphc_rig &calibration,
                    const sphc_recorder_config &config);
 
   // The image is packed and was checked.

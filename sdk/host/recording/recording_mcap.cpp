@@ -157,7 +157,7 @@ void McapScan::addPose(int64_t time_ns, sphc_rigid pose) {
 }
 
 void McapScan::readCalibration(const RecordPlace &record) {
-  if (record.bytes > kMostCalibrationBytes || recording_.calibration.struct_size != 0) return;
+  if (record.bytes > kMostCalibrationBytes || recording_.calibration) return;
   Bytes content(static_cast<size_t>(record.bytes));
   file_.read(record.content, content.data(), content.size());
   Attachment attachment;

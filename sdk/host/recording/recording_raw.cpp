@@ -19,16 +19,6 @@ RecordedImage imageOf(const sphc_frame &frame, int64_t time_ns, uint32_t index) 
   return image;
 }
 
-sphc_calibration calibrationOf(const sphc_raw &raw) {
-  sphc_calibration calibration = {};
-  calibration.struct_size = sizeof calibration;
-  calibration.color_camera = raw.color_camera;
-  calibration.depth_camera = raw.depth_camera;
-  calibration.color_from_depth = raw.color_from_depth;
-  calibration.depth_unit_m = raw.depth_unit_m;
-  return calibration;
-}
-
 // False when the times go back.  Two frames may share a depth image.
 bool addFrame(const sphc_raw_frame &recorded, uint32_t index, Recording &recording) {
   const sphc_frame &frame = recorded.frame;
@@ -50,7 +40,7 @@ Recording openRaw(const fs::path &path) {
   Recording recording;
   recording.layout = Layout::kRaw;
   recording.path = path;
-  recording.calibration = calibrationOf(file.raw());
+  recording.calibration = file.raw().rig;
   for (uint32_t i = 0; i < file.raw().frame_count; ++i)
     if (!addFrame(file.head(i), i, recording))
       throw Failure(SPHC_E_ARGUMENT, name + ", frame " + std::to_string(i) + ": times go back; convert it again");

@@ -13,9 +13,9 @@ Recording openSelected(const std::filesystem::path &path, const Selection &selec
   return recording;
 }
 
-sphc_calibration calibrationFor(const Recording &recording, const std::filesystem::path &given) {
+sphc_rig calibrationFor(const Recording &recording, const std::filesystem::path &given) {
   if (!given.empty()) return readCalibration(given);
-  if (recording.calibration.struct_size != 0) return recording.calibration;
+  if (recording.calibration) return *recording.calibration;
   if (recording.layout != Layout::kMcap) return readCalibration(recording.path / "calibration.json");
   throw Failure(SPHC_E_ARGUMENT, shortPath(recording.path.string()) +
                                      ": no calibration in it; give a calibration file (docs/drivers.md)");

@@ -26,7 +26,7 @@ class RecordingReader {
   RecordingReader &operator=(const RecordingReader &) = delete;
 
   const Recording &recording() const { return recording_; }
-  const sphc_calibration &calibration() const { return calibration_; }
+  const sphc_rig &calibration() const { return calibration_; }
 
   uint32_t frameCount() const { return static_cast<uint32_t>(frames_.size()); }
   const RecordedImage &colorOf(uint32_t index) const { return recording_.color[frames_.at(index).color]; }
@@ -43,7 +43,7 @@ class RecordingReader {
 
  private:
   Recording recording_;
-  sphc_calibration calibration_;
+  sphc_rig calibration_;
   int64_t pose_gap_ns_;
   std::vector<FramePair> frames_;
   ImageReader images_;

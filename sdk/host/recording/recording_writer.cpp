@@ -8,7 +8,7 @@
 using namespace sphc::recording;
 
 struct sphc_recording_writer {
-  sphc_recording_writer(const char *folder, const sphc_calibration &calibration) : writer(folder, calibration) {}
+  sphc_recording_writer(const char *folder, const sphc_rig &calibration) : writer(folder, calibration) {}
 
   TumWriter writer;
   bool is_broken = false;  // a list may end in half a line: no more lines
@@ -33,13 +33,13 @@ sphc_status append(sphc_recording_writer *writer, sphc_message *message, Body &&
 
 extern "C" {
 
-sphc_status sphc_recording_create(const char *folder, const sphc_calibration *calibration,
-                                  sphc_recording_writer **writer, sphc_message *message) {
+sphc_status sphc_recording_create(const char *folder, const sphc_rig *rig, sphc_recording_writer **writer,
+                                  sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
     if (!folder || !writer) throw Failure(SPHC_E_ARGUMENT, "folder or writer is null");
-    const sphc_status status = sphc_calibration_check(calibration, message);
+    const sphc_status status = sphc_rig_check(rig, message);
     if (status < 0) return status;
-    *writer = std::make_unique<sphc_recording_writer>(folder, *calibration).release();
+    *writer = std::make_unique<sphc_recording_writer>(folder, *rig).release();
     return SPHC_OK;
   });
 }

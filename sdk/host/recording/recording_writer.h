@@ -25,11 +25,11 @@ extern "C" {
 
 typedef struct sphc_recording_writer sphc_recording_writer;
 
-/* Starts a recording in `folder`, which is made if need be (its parent must be there).  `calibration` is copied and
- * written.  Errors: ARGUMENT (null, calibration), STRUCT_SIZE, STATE (the folder holds a recording already; nothing
- * is overwritten), DEVICE (cannot be written). [pure] */
-sphc_status sphc_recording_create(const char *folder, const sphc_calibration *calibration,
-                                  sphc_recording_writer **writer, sphc_message *message);
+/* Starts a recording in `folder`, which is made if need be (its parent must be there).  `rig` is copied and
+ * written. Errors: ARGUMENT (null, sphc_rig_check), STATE (the folder holds a recording already; nothing is
+ * overwritten), DEVICE (cannot be written). [pure] */
+sphc_status sphc_recording_create(const char *folder, const sphc_rig *rig, sphc_recording_writer **writer,
+                                  sphc_message *message);
 
 /* Appends an image: stream, time_ns and image of *capture; the rest is ignored.  Borrows.  Lossless PNG of fast
  * compression.  Times of a stream must increase and not be negative.  The image's size must be the calibration's.

@@ -11,7 +11,7 @@ namespace sphc::recording {
 class SevenScenesWriter {
  public:
   // Makes the folder; its parent is there.  STATE when it holds a recording.
-  SevenScenesWriter(const std::filesystem::path &folder, const sphc_calibration &calibration);
+  SevenScenesWriter(const std::filesystem::path &folder, const sphc_rig &calibration);
   // frame-NNNNNN.color.png, .depth.png and, unless the pose (of the colour camera) is null, .pose.txt; NNNNNN is
   // frame.sequence, which no frame had before.  The layout keeps no times.
   void add(const sphc_frame &frame, const sphc_rigid *world_from_camera);
@@ -21,7 +21,7 @@ class SevenScenesWriter {
   std::filesystem::path fileOf(uint32_t number, const char *kind) const;
 
   UnfinishedFolder folder_;
-  sphc_calibration calibration_;
+  sphc_rig calibration_;
   ImageEncoder encoder_;
 };
 

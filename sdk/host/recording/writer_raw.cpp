@@ -45,14 +45,12 @@ fs::path unfinishedName(const fs::path &path) {
 
 }  // namespace
 
-RawWriter::RawWriter(const fs::path &path, const sphc_calibration &calibration, sphc_format color_format)
+RawWriter::RawWriter(const fs::path &path, const sphc_rig &calibration, sphc_format color_format)
     : path_(path),
       unfinished_(unfinishedName(path)),
-      calibration_(calibration),
+      calibration_(requireGood(calibration)),
       color_format_(color_format),
       file_(File::create(unfinished_)) {
-  const std::string fault = calibrationFault(calibration_);
-  if (!fault.empty()) throw Failure(SPHC_E_ARGUMENT, fault);
   file_.append({viewOf(header())});
 }
 

@@ -12,7 +12,7 @@ namespace sphc::recording {
 class RawWriter {
  public:
   // STATE when there is a file of this name.
-  RawWriter(const std::filesystem::path &path, const sphc_calibration &calibration, sphc_format color_format);
+  RawWriter(const std::filesystem::path &path, const sphc_rig &calibration, sphc_format color_format);
   // Removes what is not finished.
   ~RawWriter();
   RawWriter(const RawWriter &) = delete;
@@ -26,7 +26,7 @@ class RawWriter {
   Bytes header() const;
 
   std::filesystem::path path_, unfinished_;
-  sphc_calibration calibration_;
+  sphc_rig calibration_;
   sphc_format color_format_;
   File file_;
   uint32_t frame_count_ = 0;

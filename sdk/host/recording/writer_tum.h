@@ -35,7 +35,7 @@ class TimedList {
 class TumWriter {
  public:
   // Makes the folder; its parent is there.  STATE when it holds a recording.
-  TumWriter(const std::filesystem::path &folder, const sphc_calibration &calibration);
+  TumWriter(const std::filesystem::path &folder, const sphc_rig &calibration);
   // Times of a stream increase.  The image is borrowed.
   void add(sphc_stream stream, int64_t time_ns, const sphc_image &image);
   void addFrame(const sphc_frame &frame);  // both images or none
@@ -47,7 +47,7 @@ class TumWriter {
   void checkImageOf(sphc_stream stream, const sphc_image &image) const;
 
   UnfinishedFolder folder_;
-  sphc_calibration calibration_;
+  sphc_rig calibration_;
   TimedList color_, depth_, poses_;
   ImageEncoder encoder_;
 };

@@ -5,7 +5,7 @@
 namespace sphc::host {
 
 extern const char kPlotHead[];  // the first line of every script that is written here
-extern const char kPlotLook[];  // one look for all: borders, tics, grid, key
+extern const char kPlotLook[];  // one style for all: borders, tics, grid, key
 
 enum class PlotResult { kDone, kNoGnuplot, kFailed };
 

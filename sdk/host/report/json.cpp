@@ -33,7 +33,8 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
                {"state", stateName(frame.state)},
                {"map", frame.map},
                {"guided", frame.guided},
-               {"frames_together", frame.frames_together}};
+               {"frames_together", frame.frames_together},
+               {"faults", faultNames(frame.faults)}};
   if (frame.localized) {
     json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
     json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
@@ -80,9 +81,11 @@ Json summaryJson(const Run &run, const Summary &s) {
   for (size_t i = 0; i < s.outcomes.size(); ++i) {
     json["outcomes"][outcomeName(static_cast<sphc_outcome>(i))] = s.outcomes[i];
   }
+  for (size_t i = 0; i < s.faults.size(); ++i) json["faults"][kFaultWords[i].name] = s.faults[i];
   json["with_truth"] = s.with_truth;
   json["within_5cm_5deg"] = s.good;
   json["within_5cm_5deg_percent"] = s.with_truth ? Json(percent(s.good, s.with_truth)) : Json(nullptr);
+  json["wrong_accepted"] = s.with_truth ? Json(s.wrong) : Json(nullptr);
   json["rotation_error_deg"] = spreadJson(s.rotation_deg);
   json["translation_error_m"] = spreadJson(s.translation_m);
   if (const auto graded = gradedFrames(run); !graded.empty())

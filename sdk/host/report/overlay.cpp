@@ -94,6 +94,11 @@ std::vector<Highlight> chooseHighlights(const Run &run) {
   if (!order.empty()) chosen.push_back({"best", "Best pose", order.front()});
   if (order.size() > 2) chosen.push_back({"median", "Median pose", order[order.size() / 2]});
   if (order.size() > 1) chosen.push_back({"worst", "Worst accepted pose", order.back()});
+  // Others that are wrong.
+  constexpr size_t kMostWrong = 3;
+  for (size_t i : worstFrames(run, kMostWrong))
+    if (isWrong(run.frames[i]) && (order.size() < 2 || i != order.back()))
+      chosen.push_back({"wrong_" + std::to_string(run.frames[i].sequence), "Wrong pose", i});
   std::vector<size_t> lost;
   for (size_t i = 0; i < run.frames.size(); ++i) {
     if (!run.frames[i].localized) lost.push_back(i);

@@ -85,10 +85,38 @@ Run again with <code>--owner-note</code> on a recording that has poses.</p>)";
 
 std::string howToRead(const Summary &s) { return std::string(kHowToRead) + (s.with_truth ? "" : kNoTruth); }
 
+std::string warningOf(const Summary &s) {
+  if (!s.wrong) return "";
+  return "<p class='wrong'><b>" + std::to_string(s.wrong) +
+         (s.wrong == 1 ? " wrong pose was" : " wrong poses were") +
+         " given out</b>: further than 25 cm or 10 degrees from the truth. The list \"Worst poses\" below has "
+         "them.</p>\n";
+}
+
+// The poses furthest from the truth, with what the localizer said of them.
+std::string worstPosesTable(const Run &run) {
+  constexpr size_t kShown = 8;
+  std::string html =
+      "<table><thead><tr><th>frame</th><th>off</th><th></th><th>stated "
+      "sigma</th><th>confidence</th><th>inliers</th>"
+      "</tr></thead><tbody>\n";
+  const std::vector<size_t> worst = worstFrames(run, kShown);
+  for (size_t index : worst) {
+    const FrameRecord &frame = run.frames[index];
+    html += std::string("<tr") + (isWrong(frame) ? " class='wrong'" : "") + "><td>" +
+            std::to_string(frame.sequence) + "</td><td class='value'>" + fixed(100 * frame.translation_error_m, 1) +
+            " cm</td><td class='value'>" + fixed(frame.rotation_error_deg, 2) + "°</td><td class='value'>" +
+            fixed(100 * frame.sigma_translation_m, 1) + " cm, " + fixed(frame.sigma_rotation_deg, 2) +
+            "°</td><td class='value'>" + (frame.confidence ? fixed(*frame.confidence, 2) : "") +
+            "</td><td class='value'>" + std::to_string(frame.inliers) + "</td></tr>\n";
+  }
+  return worst.empty() ? "" : html + "</tbody></table>\n";
+}
+
 const char kOverlayIntro[] = R"(<p class='soft'>
 <span class='key' style='border-color:#a3a3a3'></span>keypoint &nbsp;
 <span class='key' style='border-color:#f59e0b'></span>looks like a point of the map but does not fit the pose
-(often a fake point: they carry real looks) &nbsp;
+(often a fake point: they carry real descriptors) &nbsp;
 <span class='key' style='border-color:#22c55e'></span>fits the pose.
 Green rings spread over the whole image pin the pose down best. Click a picture to enlarge it.</p>)";
 
@@ -182,11 +210,12 @@ std::string reportPage(const Run &run, const Summary &s, const PageContent &cont
           escapeHtml(run.maps.front().path) +
           (run.maps.size() > 1 ? " and " + std::to_string(run.maps.size() - 1) + " more" : "") +
           "</p></div></header>\n<main>\n";
-  html += cards(run, s);
+  html += cards(run, s) + warningOf(s);
   html += section("What you are looking at", howToRead(s));
   html += section("In pictures", plotSection(content));
   if (!content.overlays.empty())
     html += section("What the camera saw", kOverlayIntro + figures(content.overlays, "overlays"));
+  if (const std::string worst = worstPosesTable(run); !worst.empty()) html += section("Worst poses", worst);
   html += section("Figures", tableOf(tableRows(run, s)) +
                                  "<div class='columns'><div><h3>What became of the frames</h3>" + outcomeTable(s) +
                                  "</div><div><h3>Where the bytes go</h3>" + memoryTable(run) + "</div></div>");

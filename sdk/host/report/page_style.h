@@ -38,6 +38,8 @@ tr + tr td, thead + tbody td { border-top:1px solid var(--line); }
 td.value { font-variant-numeric:tabular-nums; white-space:nowrap; font-weight:600; }
 .columns { display:grid; grid-template-columns:repeat(auto-fit,minmax(320px,1fr)); gap:1.4rem 2.4rem; margin-top:1.2rem; }
 .key { display:inline-block; width:.75em; height:.75em; border-radius:50%; border:2.5px solid; margin:0 .25em 0 .1em; }
+.wrong { background:#fee2e2; color:#7f1d1d; }
+p.wrong { border-left:4px solid var(--bad); padding:.7rem 1rem; border-radius:8px; }
 .warn { background:#fef3c7; border-left:4px solid var(--fair); padding:.7rem 1rem; border-radius:8px; }
 code { font-size:.9em; background:var(--ground); padding:.08em .35em; border-radius:5px; word-break:break-all; }
 footer { color:var(--soft); font-size:.85rem; margin-top:1.4rem; }

@@ -20,6 +20,8 @@ const char *outcomeName(sphc_outcome outcome) {
       return "uncertain";
     case SPHC_OUTCOME_DEADLINE:
       return "deadline";
+    case SPHC_OUTCOME_CONTRADICTION:
+      return "contradiction";
     default:
       return "unknown";
   }
@@ -41,6 +43,8 @@ const char *outcomeAdvice(sphc_outcome outcome) {
       return "a pose was found, but the matches pin it down too weakly";
     case SPHC_OUTCOME_DEADLINE:
       return "no pose before the deadline";
+    case SPHC_OUTCOME_CONTRADICTION:
+      return "the frame contradicts itself; the table of faults says how";
     default:
       return "an outcome this report does not know";
   }

@@ -24,6 +24,7 @@ struct FrameRecord {
   uint32_t map = 0;                            // of the run's maps
   uint32_t frames_together = 1;                // whose matches the pose was found from
   bool guided = false;                         // found where it was expected
+  uint32_t faults = 0;                         // SPHC_FAULT_ bits that the result names
 
   sphc_depth_bias depth = {};  // what the localizer took the depth sensor for
 

@@ -25,6 +25,7 @@ void summarizeErrors(const Run &run, Summary *summary) {
     if (!frame.has_truth) continue;
     ++summary->with_truth;
     if (isGood(frame)) ++summary->good;
+    if (isWrong(frame)) ++summary->wrong;
     if (!frame.localized) continue;
     rotations.push_back(frame.rotation_error_deg);
     translations.push_back(frame.translation_error_m);
@@ -70,6 +71,11 @@ bool isGood(const FrameRecord &frame) {
          frame.rotation_error_deg <= kGoodRotationDeg;
 }
 
+bool isWrong(const FrameRecord &frame) {
+  return frame.localized && frame.has_truth &&
+         (frame.translation_error_m > kWrongTranslationM || frame.rotation_error_deg > kWrongRotationDeg);
+}
+
 double stageMs(const FrameRecord &frame, Stage stage) {
   const std::array<uint32_t, kStageCount> us = {frame.features_us, frame.align_us, frame.match_us, frame.pose_us,
                                                 frame.total_us};
@@ -77,6 +83,20 @@ double stageMs(const FrameRecord &frame, Stage stage) {
 }
 
 double percent(uint32_t count, uint32_t total) { return total == 0 ? 0 : 100.0 * count / total; }
+
+std::vector<size_t> worstFrames(const Run &run, size_t most) {
+  // Centimetres and degrees alike, as in the bounds.
+  const auto off = [&run](size_t i) {
+    const FrameRecord &frame = run.frames[i];
+    return std::max(frame.translation_error_m / kWrongTranslationM, frame.rotation_error_deg / kWrongRotationDeg);
+  };
+  std::vector<size_t> order;
+  for (size_t i = 0; i < run.frames.size(); ++i)
+    if (run.frames[i].localized && run.frames[i].has_truth) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&off](size_t a, size_t b) { return off(a) > off(b); });
+  order.resize(std::min(most, order.size()));
+  return order;
+}
 
 Summary summarize(const Run &run) {
   Summary summary;
@@ -87,6 +107,7 @@ Summary summarize(const Run &run) {
     if (frame.localized && frame.guided) ++summary.guided;
     const size_t outcome = static_cast<size_t>(frame.outcome);
     if (outcome < summary.outcomes.size()) ++summary.outcomes[outcome];
+    for (size_t i = 0; i < kFaultWords.size(); ++i) summary.faults[i] += (frame.faults & kFaultWords[i].fault) != 0;
   }
   summarizeErrors(run, &summary);
   for (size_t i = 0; i < kStageCount; ++i) {

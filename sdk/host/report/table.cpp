@@ -14,12 +14,22 @@ std::string ofTotal(uint32_t count, uint32_t total) {
   return std::to_string(count) + " of " + std::to_string(total);
 }
 
+void addFaults(const Summary &s, std::vector<Row> *rows) {
+  for (size_t i = 0; i < s.faults.size(); ++i)
+    if (s.faults[i])
+      rows->push_back(
+          {std::string("FAULT: ") + kFaultWords[i].name, share(s.faults[i], s.frames), kFaultWords[i].cure});
+}
+
 void addErrors(const Summary &s, std::vector<Row> *rows) {
   if (s.with_truth == 0) {
     rows->push_back({"error against the truth", "not known", "give --owner-note, and a recording with poses"});
     return;
   }
   rows->push_back({"within 5 cm and 5 deg", share(s.good, s.with_truth), ofTotal(s.good, s.with_truth)});
+  if (s.wrong)
+    rows->push_back(
+        {"WRONG POSES GIVEN OUT", std::to_string(s.wrong), "further than 25 cm or 10 deg from the truth"});
   if (std::isnan(s.rotation_deg.median)) return;
   const auto add = [rows](const char *name, const Spread &spread, double scale, const char *unit) {
     rows->push_back({std::string(name) + " error, median", fixed(scale * spread.median, 2) + " " + unit,
@@ -55,6 +65,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   if (s.tracking > 0)
     rows.push_back({"tracking", share(s.tracking, s.frames),
                     ofTotal(s.guided, s.frames) + " were found where they were expected"});
+  addFaults(s, &rows);
   addErrors(s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});

@@ -9,7 +9,7 @@
  * A session, in the order of the calls:
  *
  *     sphc_map_memory, sphc_map_init              view a map file that you loaded or mapped, one for each room
- *     sphc_config_init, set the cameras           describe the headset
+ *     sphc_config_init, set the rig               describe the headset
  *     sphc_localizer_memory, sphc_localizer_init  hand over memory once
  *     sphc_localizer_process ...                  a frame in, a pose out; never allocates
  *     sphc_localizer_fini, sphc_map_fini
@@ -28,7 +28,7 @@
  * Failure.  status < 0: outputs are untouched, except a message that explains.
  *
  * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do).
- * Atoms (sphc_rigid, sphc_camera, sphc_image) never change.
+ * Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image) never change.
  *
  * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
  * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
@@ -145,6 +145,14 @@ typedef struct sphc_camera {
   double params[12];    /* unused ones are 0 */
 } sphc_camera;
 
+/* The colour and the depth camera of a headset: what a calibration file holds, and what everything that needs
+ * cameras takes.  Identity with equal cameras: the depth image is already registered to colour. */
+typedef struct sphc_rig {
+  sphc_camera color_camera, depth_camera; /* any of the models, distortion included */
+  sphc_rigid color_from_depth;
+  double depth_unit_m; /* metres per unit of the depth image */
+} sphc_rig;
+
 typedef struct sphc_image {
   const void *data; /* caller memory; top-left pixel */
   uint32_t width, height;
@@ -152,16 +160,32 @@ typedef struct sphc_image {
   sphc_format format;
 } sphc_image;
 
-/* ---- camera and rigid transform functions ---- */
+/* ---- camera, rig and rigid transform functions ---- */
 
-/* SPHC_OK if the camera can be used: known model, right param_count, finite parameters, fx and fy > 0, size within
- * 16 to 8192 pixels.  Else SPHC_E_ARGUMENT. [pure] */
+/* The limits of sphc_camera_check and sphc_rig_check; there are no others. */
+#define SPHC_CAMERA_MIN_PX 16u         /* width and height */
+#define SPHC_CAMERA_MAX_PX 8192u       /* the same */
+#define SPHC_CAMERA_MAX_PARAM 1e6      /* of a parameter, either sign; of real cameras they are far below */
+#define SPHC_RIG_MAX_OFFSET_M 100.0    /* of a part of color_from_depth.t_m, either sign */
+#define SPHC_RIG_MAX_LENGTH_ERROR 1e-3 /* of color_from_depth.q_wxyz, whose length is 1 */
+#define SPHC_RIG_MIN_UNIT_M 1e-6       /* depth_unit_m */
+#define SPHC_RIG_MAX_UNIT_M 0.1        /* the same */
+
+/* SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the limits, fx and
+ * fy > 0.  Else SPHC_E_ARGUMENT; the message names field, cause and cure. [pure] */
 SPHC_API sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message);
 /* Pixel of a point given in camera coordinates.  SPHC_E_ARGUMENT if it is not in front of the camera or lies beyond
  * the range in which the distortion is invertible. [pure] */
 SPHC_API sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]);
 /* Unit bearing (camera coordinates) of a pixel.  SPHC_E_ARGUMENT if no bearing projects there. [pure] */
 SPHC_API sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]);
+
+/* Identity and millimetres; the cameras stay zero and must be set.  Does nothing for null. [pure] */
+SPHC_API void sphc_rig_init(sphc_rig *rig);
+/* SPHC_OK if the rig can be used: both cameras pass sphc_camera_check, transform and unit are within the limits.
+ * Else SPHC_E_ARGUMENT; the message names field, cause and cure.  Whatever takes a rig calls this: a rig that one
+ * takes, all take. [pure] */
+SPHC_API sphc_status sphc_rig_check(const sphc_rig *rig, sphc_message *message);
 
 /* c_from_a = c_from_b * b_from_a; the quaternion is normalised.  c_from_a may be one of the inputs. [pure] */
 SPHC_API void sphc_rigid_compose(const sphc_rigid *c_from_b, const sphc_rigid *b_from_a, sphc_rigid *c_from_a);
@@ -201,8 +225,8 @@ typedef struct sphc_frame {
   uint32_t sequence;     /* the caller's own number; comes back in the result */
   int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
   int64_t depth_time_ns;
-  sphc_image color;        /* GRAY8, RGB8 or BGR8; the size in config.color_camera */
-  sphc_image depth;        /* DEPTH16; the size in config.depth_camera */
+  sphc_image color;        /* GRAY8, RGB8 or BGR8; the size in config.rig.color_camera */
+  sphc_image depth;        /* DEPTH16; the size in config.rig.depth_camera */
   const sphc_prior *prior; /* null: nothing is known but what earlier frames told */
 } sphc_frame;
 
@@ -248,13 +272,11 @@ enum {
 typedef struct sphc_aligner_config {
   uint32_t struct_size;
   uint32_t reserved;
-  sphc_camera color_camera, depth_camera; /* any of the models, distortion included */
-  sphc_rigid color_from_depth;
-  double depth_unit_m;             /* metres per unit of the depth image */
+  sphc_rig rig;
   double depth_min_m, depth_max_m; /* measurements outside are ignored */
   /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; for the confidence. */
   double depth_sigma_m, depth_sigma_per_m2;
-  double aligned_unit_m; /* metres per unit of the aligned image; 0: depth_unit_m */
+  double aligned_unit_m; /* metres per unit of the aligned image; 0: rig.depth_unit_m */
 } sphc_aligner_config;
 
 /* Where an aligned image goes: caller memory, of the colour camera's size.  Each pointer may be null. */
@@ -271,7 +293,7 @@ typedef struct sphc_aligned {
 } sphc_aligned;
 
 typedef struct sphc_aligner sphc_aligner;
-/* Defaults: those of sphc_config_init; the cameras stay zero and must be set.  SPHC_E_STRUCT_SIZE when the size is
+/* Defaults: those of sphc_config_init; the cameras stay zero: set the rig.  SPHC_E_STRUCT_SIZE when the size is
  * none this library knows. [pure] */
 SPHC_API sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size);
 /* What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel of the
@@ -283,7 +305,8 @@ SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, size
  * MEMORY_ALIGNMENT. [pure] */
 SPHC_API sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_aligner_config *config,
                                        sphc_aligner **aligner, sphc_message *message);
-/* Aligns one depth image (DEPTH16, the size in config.depth_camera; borrowed).  Set aligned->struct_size first.
+/* Aligns one depth image (DEPTH16, the size in config.rig.depth_camera; borrowed).  Set aligned->struct_size
+ * first.
  * The same image gives the same bytes on every machine.  Failures: ARGUMENT, STRUCT_SIZE, IMAGE
  * (sphc_aligner_message explains); the aligner can go on with the next image.  Bounded time, no allocation, no OS
  * call. [exclusive] */
@@ -327,11 +350,8 @@ typedef struct sphc_config {
   float max_ratio;    /* Lowe's ratio test, on distances; 0.1 to 1 */
   uint64_t seed;      /* same seed, map, config and frames: same bytes in the results */
 
-  sphc_camera color_camera;
-  sphc_camera depth_camera;
-  sphc_rigid color_from_depth; /* identity with equal cameras: depth is already registered to colour */
+  sphc_rig rig;
 
-  double depth_unit_m;             /* metres per unit of the depth image */
   double depth_min_m, depth_max_m; /* measurements outside are ignored */
   /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
   double depth_sigma_m, depth_sigma_per_m2;
@@ -365,8 +385,27 @@ enum {
   SPHC_OUTCOME_FEW_MATCHES = 3,   /* too few look like anything in the map: another place, or much changed */
   SPHC_OUTCOME_NO_CONSENSUS = 4,  /* no pose agrees with clearly more matches than chance would */
   SPHC_OUTCOME_UNCERTAIN = 5,     /* a pose was found but the matches pin it down too weakly: degenerate geometry */
-  SPHC_OUTCOME_DEADLINE = 6       /* no pose before config.deadline_us */
+  SPHC_OUTCOME_DEADLINE = 6,      /* no pose before config.deadline_us */
+  SPHC_OUTCOME_CONTRADICTION = 7  /* the frame contradicts itself, and no pose is given; result.faults says how */
 };
+
+/* What is wrong with a frame or with what it was told, as far as that shows; bits of result.faults.  Those before
+ * DEPTH_SCALE take the pose away (SPHC_OUTCOME_CONTRADICTION).  Streams and edges over frames are compared in
+ * SPHC_MODE_TRACKING.  docs/consistency.md has causes and cures. */
+enum {
+  SPHC_FAULT_DEPTH_RANGE = 1u,    /* depth is measured, but nearly none between depth_min_m and depth_max_m */
+  SPHC_FAULT_DEPTH_CONSTANT = 2u, /* one depth everywhere */
+  SPHC_FAULT_DEPTH_BENT = 4u,     /* planes are bent: inverted depth, or disparity in its place */
+  SPHC_FAULT_DEPTH_FROZEN = 8u,   /* the same depth image again while the colour image moves */
+  SPHC_FAULT_COLOR_FROZEN = 16u,  /* the same colour image again while depth moves */
+  SPHC_FAULT_DEPTH_COLOR_DISAGREE = 32u, /* edges of depth are not where the image has edges: late or mirrored
+                                           depth, another calibration, an image that was cropped or scaled */
+  SPHC_FAULT_DEPTH_SCALE = 64u,          /* poses go farther, or less far, than odometry; confidence is below 0.5 */
+  SPHC_FAULT_DEPTH_BIAS = 128u, /* result.depth is beyond 2.5 of the config's sigmas; confidence is below 0.5 */
+  SPHC_FAULT_VERTICAL_DISAGREES = 256u /* UP is not the pose's vertical; the pose was found without it */
+};
+/* "SPHC_FAULT_DEPTH_RANGE" and so on for one bit; "SPHC_FAULT_?" for any other value; static storage. [pure] */
+SPHC_API const char *sphc_fault_name(uint32_t fault);
 
 /* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
  * is noise_scale times the one in the config. */
@@ -391,18 +430,19 @@ typedef struct sphc_result {
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
-  double confidence;  /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED */
-  uint32_t cut_short; /* 1: the deadline ended the search; more time might have found better */
-  sphc_state state;   /* after this frame */
-  uint32_t map_index; /* of the map that camera_from_map is in; where there is no pose, the likeliest */
-  uint32_t frames;    /* whose matches the pose was found from: 1, or more where odometry put some together */
-  uint32_t guided;    /* 1: found where it was expected, without a search of the whole map */
-  uint32_t reserved;
+  double confidence;     /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
+                          * bounds sphc_result_confidence */
+  uint32_t cut_short;    /* 1: the deadline ended the search; more time might have found better */
+  sphc_state state;      /* after this frame */
+  uint32_t map_index;    /* of the map that camera_from_map is in; where there is no pose, the likeliest */
+  uint32_t frames;       /* whose matches the pose was found from: 1, or more where odometry put some together */
+  uint32_t guided;       /* 1: found where it was expected, without a search of the whole map */
+  uint32_t faults;       /* SPHC_FAULT_ bits; 0: nothing was found */
   sphc_depth_bias depth; /* what the frame was looked at with */
 } sphc_result;
 
-/* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero and must
- * be set.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
+/* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero: set
+ * the rig.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
 SPHC_API sphc_status sphc_config_init(sphc_config *config, size_t struct_size);
 
 typedef struct sphc_memory {
@@ -453,6 +493,10 @@ SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sph
 /* Text about the last failure of sphc_localizer_process on this instance, "" if it did not fail; owned by the
  * instance, valid until its next call. [exclusive] */
 SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
+
+/* The probability that the camera is within so many metres and radians of the pose.  0 where there is no pose, for
+ * a bound that is not above 0, and for a null result.  From the result's covariance; docs/confidence.md. [pure] */
+SPHC_API double sphc_result_confidence(const sphc_result *result, double translation_m, double rotation_rad);
 
 /* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
 enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };

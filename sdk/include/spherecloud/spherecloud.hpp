@@ -4,7 +4,7 @@
 //     spherecloud::readFile("room.sphc", &file);
 //     spherecloud::Map map;
 //     spherecloud::Map::open(file.data(), file.size(), &map);
-//     sphc_config config = spherecloud::defaultConfig(); // then set the cameras
+//     sphc_config config = spherecloud::defaultConfig(); // then set config.rig
 //     spherecloud::Localizer localizer;
 //     spherecloud::Localizer::make(config, map, &localizer);
 //     sphc_result result = spherecloud::emptyResult();
@@ -372,6 +372,13 @@ inline sphc_frame frame(std::uint32_t sequence, std::int64_t color_time_ns, cons
 }
 
 inline sphc_rigid identity() { return {{1, 0, 0, 0}, {0, 0, 0}}; }
+
+// Identity and millimetres; the cameras are to be set.
+inline sphc_rig defaultRig() {
+  sphc_rig rig = {};
+  sphc_rig_init(&rig);
+  return rig;
+}
 
 // compose(c_from_b, b_from_a) is c_from_a.
 inline sphc_rigid compose(const sphc_rigid &c_from_b, const sphc_rigid &b_from_a) {

@@ -32,13 +32,14 @@ void gather(const AlignCase &c, const std::vector<uint8_t> &edges, std::vector<d
       static_cast<double>(depth.size()) - static_cast<double>(std::count(depth.begin(), depth.end(), 0));
   const auto &mask = g->last.mask;
   g->occluded += static_cast<double>(std::count(mask.begin(), mask.end(), uint8_t{SPHC_ALIGNED_OCCLUDED}));
-  edgeDistances(depthEdges(depth, c.color.width, c.color.height, kGapPx), edges, c.color.width, c.color.height,
-                &g->distances);
+  edgeDistances(depthEdges(depth, c.color().width, c.color().height, kGapPx), edges, c.color().width,
+                c.color().height, &g->distances);
 }
 
 AlignRow summarize(const AlignCase &c, const Gathered &g, double ours_ms) {
   AlignRow row = g.row;
-  const double pixels = static_cast<double>(c.color.width) * c.color.height * static_cast<double>(c.frames.size());
+  const double pixels =
+      static_cast<double>(c.color().width) * c.color().height * static_cast<double>(c.frames.size());
   row.median_ms = percentile(g.milliseconds, 0.5);
   row.p99_ms = percentile(g.milliseconds, 0.99);
   row.times_slower = row.median_ms / ours_ms;
@@ -54,15 +55,15 @@ std::string number(double value, int digits) { return std::isfinite(value) ? fix
 }  // namespace
 
 std::vector<uint16_t> laidOver(const AlignCase &c, const AlignFrame &frame) {
-  const double scale = static_cast<double>(c.depth.width) / c.color.width;
-  const double above = 0.5 * (c.depth.height - scale * c.color.height);
-  std::vector<uint16_t> depth(size_t{c.color.width} * c.color.height);
-  for (uint32_t y = 0; y < c.color.height; ++y) {
+  const double scale = static_cast<double>(c.depth().width) / c.color().width;
+  const double above = 0.5 * (c.depth().height - scale * c.color().height);
+  std::vector<uint16_t> depth(size_t{c.color().width} * c.color().height);
+  for (uint32_t y = 0; y < c.color().height; ++y) {
     const double v = (y + 0.5) * scale + above;
-    if (v < 0 || v >= c.depth.height) continue;
-    for (uint32_t x = 0; x < c.color.width; ++x)
-      depth[size_t{y} * c.color.width + x] =
-          frame.depth[static_cast<size_t>(v) * c.depth.width + static_cast<size_t>((x + 0.5) * scale)];
+    if (v < 0 || v >= c.depth().height) continue;
+    for (uint32_t x = 0; x < c.color().width; ++x)
+      depth[size_t{y} * c.color().width + x] =
+          frame.depth[static_cast<size_t>(v) * c.depth().width + static_cast<size_t>((x + 0.5) * scale)];
   }
   return depth;
 }
@@ -93,11 +94,11 @@ AlignTable runAlignBench(const AlignCase &c, const std::vector<AlignVariant> &va
       seconds.back().push_back(time.seconds);
       if (repeat == 0) table.lifted_mean += time.lifted / static_cast<double>(c.frames.size());
     }
-    const std::vector<uint8_t> edges = imageEdges(frame.gray, c.color.width, c.color.height);
+    const std::vector<uint8_t> edges = imageEdges(frame.gray, c.color().width, c.color().height);
     for (size_t v = 0; v < all.size(); ++v) gather(c, edges, seconds[v], &all[v]);
     sparse_ms.push_back(1e3 * percentile(seconds.back(), 0.5));
-    edgeDistances(depthEdges(laidOver(c, frame), c.color.width, c.color.height, kGapPx), edges, c.color.width,
-                  c.color.height, &before);
+    edgeDistances(depthEdges(laidOver(c, frame), c.color().width, c.color().height, kGapPx), edges, c.color().width,
+                  c.color().height, &before);
     if (done) done(static_cast<uint32_t>(f + 1), static_cast<uint32_t>(c.frames.size()));
   }
   table.edge_before_px = percentile(before, 0.5);

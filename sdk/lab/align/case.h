@@ -15,10 +15,11 @@ struct AlignFrame {
 
 struct AlignCase {
   std::string name;
-  sphc_camera color = {}, depth = {};
-  sphc_rigid color_from_depth = {};
-  double depth_unit_m = 0.001;
+  sphc_rig rig = {};
   std::vector<AlignFrame> frames;
+
+  const sphc_camera &color() const { return rig.color_camera; }
+  const sphc_camera &depth() const { return rig.depth_camera; }
 };
 
 // The same seen by a sensor of 320 x 288 pixels: every second pixel of every second row, 0 above and below.  Throws

@@ -11,15 +11,15 @@ const cv::Vec3b kEdge(0, 0, 255);
 const cv::Vec3b kKinds[] = {{0, 0, 0}, {90, 160, 90}, {220, 170, 60}, {0, 0, 255}};  // SPHC_ALIGNED_, blue first
 
 cv::Mat drawEdges(const AlignCase &c, const std::vector<uint8_t> &gray, const std::vector<uint16_t> &depth) {
-  cv::Mat picture(static_cast<int>(c.color.height), static_cast<int>(c.color.width), CV_8UC3);
-  const auto edges = depthEdges(depth, c.color.width, c.color.height, 10);
+  cv::Mat picture(static_cast<int>(c.color().height), static_cast<int>(c.color().width), CV_8UC3);
+  const auto edges = depthEdges(depth, c.color().width, c.color().height, 10);
   for (size_t i = 0; i < gray.size(); ++i)
     picture.ptr<cv::Vec3b>()[i] = edges[i] ? kEdge : cv::Vec3b(gray[i], gray[i], gray[i]);
   return picture;
 }
 
 cv::Mat drawMask(const AlignCase &c, const AlignedFrame &aligned) {
-  cv::Mat picture(static_cast<int>(c.color.height), static_cast<int>(c.color.width), CV_8UC3);
+  cv::Mat picture(static_cast<int>(c.color().height), static_cast<int>(c.color().width), CV_8UC3);
   for (size_t i = 0; i < aligned.mask.size(); ++i) picture.ptr<cv::Vec3b>()[i] = kKinds[aligned.mask[i]];
   return picture;
 }

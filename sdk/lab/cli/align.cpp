@@ -46,13 +46,10 @@ std::vector<uint16_t> depthOf(const sphc_image &depth) {
 
 AlignCase readCase(const Options &options) {
   const auto reader = openRecording(options.recording);
-  const sphc_calibration &calibration = reader->calibration();
+  const sphc_rig &calibration = reader->calibration();
   AlignCase c;
   c.name = std::to_string(calibration.depth_camera.width) + "x" + std::to_string(calibration.depth_camera.height);
-  c.color = calibration.color_camera;
-  c.depth = calibration.depth_camera;
-  c.color_from_depth = calibration.color_from_depth;
-  c.depth_unit_m = calibration.depth_unit_m;
+  c.rig = calibration;
   const uint32_t count = reader->frameCount();
   for (uint32_t i = 0; i < count; ++i) {
     const sphc_frame frame = reader->read(i);
@@ -63,7 +60,8 @@ AlignCase readCase(const Options &options) {
 
 std::vector<AlignCase> casesOf(const Options &options, const Console &console) {
   std::vector<AlignCase> cases = {readCase(options)};
-  if (cases[0].depth.width == 640 && cases[0].depth.height == 480)
+  const sphc_camera depth = cases[0].depth();
+  if (depth.width == 640 && depth.height == 480)
     cases.push_back(tofCase(cases[0]));
   else
     console.warn("note: no 320 x 288 table; it is made of depth images of 640 x 480 only");

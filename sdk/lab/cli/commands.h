@@ -6,11 +6,11 @@ namespace sphc::host {
 
 Command alignCommand(CLI::App *root);
 Command compareCommand(CLI::App *root);
-Command confidenceCommand(CLI::App *root);
 Command featuresCommand(CLI::App *root);
 Command frameCommand(CLI::App *root);
 Command mapCommand(CLI::App *root);
 Command matchCommand(CLI::App *root);
+Command negativeCommand(CLI::App *root);
 Command poseCommand(CLI::App *root);
 Command recordingCommand(CLI::App *root);
 Command releasesCommand(CLI::App *root);

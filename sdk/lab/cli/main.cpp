@@ -12,8 +12,8 @@ const char kAbout[] =
 const char kFooter[] = "Exit status: 0 done, 1 failure (the message has cause and cure), 2 wrong use.";
 
 std::vector<Command> declare(CLI::App *root) {
-  return {alignCommand(root),     compareCommand(root), confidenceCommand(root), featuresCommand(root),
-          frameCommand(root),     mapCommand(root),     matchCommand(root),      poseCommand(root),
+  return {alignCommand(root),     compareCommand(root), featuresCommand(root), frameCommand(root),
+          mapCommand(root),       matchCommand(root),   negativeCommand(root), poseCommand(root),
           recordingCommand(root), releasesCommand(root)};
 }
 

@@ -135,10 +135,10 @@ void FramePeers::begin(const sphc_config &config, const std::vector<std::string>
                       {"variants", chosen_},
                       {"keypoints", config.max_keypoints},
                       {"mapping_keypoints", kMappingKeypoints},
-                      {"color", cameraJson(config.color_camera)},
-                      {"depth", cameraJson(config.depth_camera)},
-                      {"color_from_depth", rigidJson(rigidFromC(config.color_from_depth))},
-                      {"depth_unit_m", config.depth_unit_m},
+                      {"color", cameraJson(config.rig.color_camera)},
+                      {"depth", cameraJson(config.rig.depth_camera)},
+                      {"color_from_depth", rigidJson(rigidFromC(config.rig.color_from_depth))},
+                      {"depth_unit_m", config.rig.depth_unit_m},
                       {"depth_min_m", config.depth_min_m},
                       {"depth_max_m", config.depth_max_m}});
 }

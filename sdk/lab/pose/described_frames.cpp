@@ -15,7 +15,7 @@ constexpr uint32_t kKeypoints = 1000;
 
 class Describer {
  public:
-  explicit Describer(const sphc_calibration &calibration)
+  explicit Describer(const sphc_rig &calibration)
       : camera_(calibration.color_camera), features_(camera_.width(), camera_.height(), kKeypoints) {
     DepthSensor sensor = kSensor;
     sensor.unit_m = calibration.depth_unit_m;

@@ -71,7 +71,7 @@ void orFail(sphc_status status, const sphc_message &message) {
 
 // Processor seconds a frame, without reading it.
 double record(RecordingReader *reader, const std::string &file, bool with_color) {
-  const sphc_calibration calibration = reader->calibration();
+  const sphc_rig calibration = reader->calibration();
   sphc_recorder_config config;
   sphc_recorder_config_init(&config, sizeof config);
   config.wait_us = 60000000;

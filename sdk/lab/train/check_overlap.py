@@ -21,7 +21,7 @@ import read_map  # noqa: E402
 
 KEYPOINTS = 250
 RATIO = .8
-TWIN = np.cos(np.radians(3))
+DUPLICATE = np.cos(np.radians(3))
 TOGETHER = np.cos(np.radians(4))
 TRIES = 200
 FOUND = 12
@@ -43,7 +43,7 @@ class Place:
         rows = np.arange(len(few))
         few = np.take_along_axis(few, np.take_along_axis(distance, few, 1).argsort(1), 1)
         best = few[:, 0]
-        other = np.einsum("nkd,nd->nk", self.direction[few], self.direction[best]) < TWIN
+        other = np.einsum("nkd,nd->nk", self.direction[few], self.direction[best]) < DUPLICATE
         has_other = other.any(1)
         second = np.where(has_other, few[rows, other.argmax(1)], few[:, -1])
         good = distance[rows, best] < RATIO ** 2 * distance[rows, second]

@@ -15,7 +15,7 @@ class MessageWriter {
     if (target_) target_->text[0] = '\0';
   }
   MessageWriter &operator<<(const char *text);
-  // Of any width: which of int, long and long long is which differs between machines.
+  // Of any width: machines differ in what int, long and long long are.
   template <typename Integer, typename = std::enable_if_t<std::is_integral_v<Integer>>>
   MessageWriter &operator<<(Integer value) {
     if constexpr (std::is_signed_v<Integer>)

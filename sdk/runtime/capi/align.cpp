@@ -16,12 +16,12 @@ constexpr size_t kObjectBytes = sizeof(sphc_aligner);  // a multiple of the aren
 
 DenseConfig denseConfig(const sphc_aligner_config &config) {
   DenseConfig dense;
-  dense.color = sphc::Camera(config.color_camera);
-  dense.depth = sphc::Camera(config.depth_camera);
-  dense.color_from_depth = sphc::rigidFromC(config.color_from_depth);
-  dense.sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
+  dense.color = sphc::Camera(config.rig.color_camera);
+  dense.depth = sphc::Camera(config.rig.depth_camera);
+  dense.color_from_depth = sphc::rigidFromC(config.rig.color_from_depth);
+  dense.sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                   config.depth_sigma_per_m2};
-  dense.out_unit_m = config.aligned_unit_m > 0 ? config.aligned_unit_m : config.depth_unit_m;
+  dense.out_unit_m = config.aligned_unit_m > 0 ? config.aligned_unit_m : config.rig.depth_unit_m;
   return dense;
 }
 
@@ -74,8 +74,7 @@ sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_
   sphc_config_init(&defaults, sizeof defaults);
   *config = {};
   config->struct_size = static_cast<uint32_t>(struct_size);
-  config->color_from_depth = defaults.color_from_depth;
-  config->depth_unit_m = defaults.depth_unit_m;
+  config->rig = defaults.rig;
   config->depth_min_m = defaults.depth_min_m;
   config->depth_max_m = defaults.depth_max_m;
   config->depth_sigma_m = defaults.depth_sigma_m;
@@ -113,8 +112,8 @@ sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_alig
   Arena arena(static_cast<unsigned char *>(memory) + kObjectBytes);
   DenseAligner::layout(dense, arena, &made->aligner);
   made->aligner.init(dense);
-  made->color = config->color_camera;
-  made->depth = config->depth_camera;
+  made->color = config->rig.color_camera;
+  made->depth = config->rig.depth_camera;
   *aligner = made;
   return SPHC_OK;
 }

@@ -9,14 +9,14 @@ using sphc::Vector3;
 
 sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message) {
   if (!camera) {
-    sphc::MessageWriter(message) << "camera is null";
+    sphc::MessageWriter(message) << "camera is null; give one";
     return SPHC_E_ARGUMENT;
   }
-  return sphc::checkCamera(*camera, message) ? SPHC_OK : SPHC_E_ARGUMENT;
+  return sphc::checkCamera(*camera, "camera", message) ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
 sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]) {
-  if (!camera || !point_m || !pixel_px || !sphc::checkCamera(*camera, nullptr)) return SPHC_E_ARGUMENT;
+  if (!camera || !point_m || !pixel_px || !sphc::checkCamera(*camera, "camera", nullptr)) return SPHC_E_ARGUMENT;
   Vector2 pixel;
   if (!Camera(*camera).project({point_m[0], point_m[1], point_m[2]}, &pixel)) return SPHC_E_ARGUMENT;
   pixel_px[0] = pixel.x();
@@ -25,7 +25,7 @@ sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[
 }
 
 sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]) {
-  if (!camera || !pixel_px || !bearing || !sphc::checkCamera(*camera, nullptr)) return SPHC_E_ARGUMENT;
+  if (!camera || !pixel_px || !bearing || !sphc::checkCamera(*camera, "camera", nullptr)) return SPHC_E_ARGUMENT;
   Vector2 ray;
   if (!Camera(*camera).unproject({pixel_px[0], pixel_px[1]}, &ray)) return SPHC_E_ARGUMENT;
   const Vector3 unit = Vector3(ray.x(), ray.y(), 1).normalized();

@@ -2,7 +2,6 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/objects.h"
-#include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/localizer/localizer.h"
 
@@ -20,7 +19,6 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
   return inRange("max_keypoints", c.max_keypoints, 64, 4096, message) &&
          inRange("max_iterations", c.max_iterations, 1, 1e6, message) &&
          inRange("max_ratio", static_cast<double>(c.max_ratio), 0.1, 1, message) &&
-         inRange("depth_unit_m", c.depth_unit_m, 1e-6, 0.1, message) &&
          inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
          inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
          inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
@@ -128,28 +126,6 @@ uint32_t bytesPerPixel(sphc_format format) {
   }
 }
 
-// The two cameras and the transform between them.
-sphc_status checkRig(const sphc_camera &color, const sphc_camera &depth, const sphc_rigid &color_from_depth,
-                     sphc_message *message) {
-  sphc_message camera_message;
-  const struct {
-    const char *name;
-    const sphc_camera &camera;
-  } cameras[] = {{"color_camera: ", color}, {"depth_camera: ", depth}};
-  for (const auto &entry : cameras) {
-    if (checkCamera(entry.camera, &camera_message)) continue;
-    MessageWriter(message) << "config." << entry.name << camera_message.text;
-    return SPHC_E_ARGUMENT;
-  }
-  for (double t : color_from_depth.t_m)
-    if (!inRange("color_from_depth.t_m", t, -100, 100, message)) return SPHC_E_ARGUMENT;
-  if (isValidRigid(color_from_depth)) return SPHC_OK;
-  MessageWriter(message)
-      << "config.color_from_depth is not a rigid transform: its quaternion must have unit length "
-         "and all numbers must be finite";
-  return SPHC_E_ARGUMENT;
-}
-
 }  // namespace
 
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
@@ -190,7 +166,7 @@ sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_messag
     return SPHC_E_STRUCT_SIZE;
   }
   *copy = *config;
-  const sphc_status status = checkRig(copy->color_camera, copy->depth_camera, copy->color_from_depth, message);
+  const sphc_status status = sphc_rig_check(&copy->rig, message);
   if (status != SPHC_OK) return status;
   return checkNumbers(*copy, message) && checkTogether(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;
 }
@@ -207,16 +183,16 @@ sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *
                            << "; call sphc_aligner_config_init first";
     return SPHC_E_STRUCT_SIZE;
   }
-  const sphc_status status = checkRig(c.color_camera, c.depth_camera, c.color_from_depth, message);
+  const sphc_status status = sphc_rig_check(&c.rig, message);
   if (status != SPHC_OK) return status;
-  const bool good = inRange("depth_unit_m", c.depth_unit_m, 1e-6, 0.1, message) &&
-                    inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
+  const bool good = inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
                     inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
                     inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
                     inRange("depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1, message) &&
-                    (c.aligned_unit_m == 0 || inRange("aligned_unit_m", c.aligned_unit_m, 1e-6, 0.1, message));
+                    (c.aligned_unit_m == 0 || inRange("aligned_unit_m", c.aligned_unit_m, SPHC_RIG_MIN_UNIT_M,
+                                                      SPHC_RIG_MAX_UNIT_M, message));
   if (!good) return SPHC_E_ARGUMENT;
-  const double unit_m = c.aligned_unit_m > 0 ? c.aligned_unit_m : c.depth_unit_m;
+  const double unit_m = c.aligned_unit_m > 0 ? c.aligned_unit_m : c.rig.depth_unit_m;
   if (c.depth_max_m <= 62000 * unit_m) return SPHC_OK;
   MessageWriter(message) << "config.depth_max_m is " << c.depth_max_m << ", but 16 bits of aligned_unit_m reach "
                          << 62000 * unit_m << " m; raise the unit or lower the range";

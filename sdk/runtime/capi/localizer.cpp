@@ -58,8 +58,7 @@ sphc_status sphc_config_init(sphc_config *config, size_t struct_size) {
   config->max_keypoints = 800;
   config->max_iterations = 20000;
   config->max_ratio = 0.85f;
-  config->color_from_depth.q_wxyz[0] = 1;
-  config->depth_unit_m = 0.001;
+  sphc_rig_init(&config->rig);
   config->depth_min_m = 0.25;
   config->depth_max_m = 6;
   config->depth_sigma_m = 0.004;
@@ -134,8 +133,8 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   Arena state_arena(static_cast<unsigned char *>(state) + kObjectBytes), scratch_arena(scratch);
   Localizer::layout(own, state_arena, scratch_arena, &made->localizer);
   made->localizer.init(own);
-  made->color = checked.color_camera;
-  made->depth = checked.depth_camera;
+  made->color = checked.rig.color_camera;
+  made->depth = checked.rig.depth_camera;
   made->log = checked.log;
   made->log_user = checked.log_user;
   for (uint32_t i = 0; i < map_count; ++i) made->localizer.addMap(maps[i]->view);
@@ -169,6 +168,12 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *
 
 const char *sphc_localizer_message(const sphc_localizer *localizer) {
   return localizer ? localizer->message.text : "localizer is null";
+}
+
+double sphc_result_confidence(const sphc_result *result, double translation_m, double rotation_rad) {
+  if (!result || result->outcome != SPHC_OUTCOME_LOCALIZED) return 0;
+  const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(result->covariance);
+  return sphc::Localizer::confidenceWithin(covariance, translation_m, rotation_rad);
 }
 
 sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,

@@ -53,3 +53,28 @@ const char *sphc_status_name(sphc_status status) {
       return "SPHC_?";
   }
 }
+
+const char *sphc_fault_name(uint32_t fault) {
+  switch (fault) {
+    case SPHC_FAULT_DEPTH_RANGE:
+      return "SPHC_FAULT_DEPTH_RANGE";
+    case SPHC_FAULT_DEPTH_CONSTANT:
+      return "SPHC_FAULT_DEPTH_CONSTANT";
+    case SPHC_FAULT_DEPTH_BENT:
+      return "SPHC_FAULT_DEPTH_BENT";
+    case SPHC_FAULT_DEPTH_FROZEN:
+      return "SPHC_FAULT_DEPTH_FROZEN";
+    case SPHC_FAULT_COLOR_FROZEN:
+      return "SPHC_FAULT_COLOR_FROZEN";
+    case SPHC_FAULT_DEPTH_COLOR_DISAGREE:
+      return "SPHC_FAULT_DEPTH_COLOR_DISAGREE";
+    case SPHC_FAULT_DEPTH_SCALE:
+      return "SPHC_FAULT_DEPTH_SCALE";
+    case SPHC_FAULT_DEPTH_BIAS:
+      return "SPHC_FAULT_DEPTH_BIAS";
+    case SPHC_FAULT_VERTICAL_DISAGREES:
+      return "SPHC_FAULT_VERTICAL_DISAGREES";
+    default:
+      return "SPHC_FAULT_?";
+  }
+}

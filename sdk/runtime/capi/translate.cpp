@@ -74,10 +74,10 @@ LocalizerConfig localizerConfigFrom(const sphc_config &config) {
   own.min_inliers = config.min_inliers;
   own.seed = config.seed;
   own.tracks = config.mode == SPHC_MODE_TRACKING;
-  own.color_camera = Camera(config.color_camera);
-  own.depth_camera = Camera(config.depth_camera);
-  own.color_from_depth = rigidFromC(config.color_from_depth);
-  own.depth_sensor = {config.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
+  own.color_camera = Camera(config.rig.color_camera);
+  own.depth_camera = Camera(config.rig.depth_camera);
+  own.color_from_depth = rigidFromC(config.rig.color_from_depth);
+  own.depth_sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                       config.depth_sigma_per_m2};
   own.depth_prior = depthPriorFrom(config);
   own.pixel_sigma_px = config.pixel_sigma_px;
@@ -118,9 +118,18 @@ sphc_outcome outcomeFrom(Outcome outcome) {
       return SPHC_OUTCOME_UNCERTAIN;
     case Outcome::kDeadline:
       return SPHC_OUTCOME_DEADLINE;
+    case Outcome::kContradiction:
+      return SPHC_OUTCOME_CONTRADICTION;
   }
   return SPHC_OUTCOME_NO_CONSENSUS;  // never
 }
+
+// The bits are the interface's.
+static_assert(kDepthRange == SPHC_FAULT_DEPTH_RANGE && kDepthConstant == SPHC_FAULT_DEPTH_CONSTANT &&
+              kDepthBent == SPHC_FAULT_DEPTH_BENT && kDepthFrozen == SPHC_FAULT_DEPTH_FROZEN &&
+              kColorFrozen == SPHC_FAULT_COLOR_FROZEN && kDepthColorDisagree == SPHC_FAULT_DEPTH_COLOR_DISAGREE &&
+              kDepthScale == SPHC_FAULT_DEPTH_SCALE && kDepthBias == SPHC_FAULT_DEPTH_BIAS &&
+              kVerticalDisagrees == SPHC_FAULT_VERTICAL_DISAGREES);
 
 sphc_state stateFrom(TrackingState state) {
   switch (state) {
@@ -169,6 +178,7 @@ void fillResult(const LocalizerResult &answer, const sphc_frame &frame, sphc_res
   result->map_index = answer.map;
   result->frames = answer.frames;
   result->guided = answer.guided;
+  result->faults = answer.faults;
   result->depth = depthBiasFrom(answer.depth);
 }
 

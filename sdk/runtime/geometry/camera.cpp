@@ -5,8 +5,6 @@
 namespace sphc {
 namespace {
 
-constexpr double kMostParameter = 1e6;  // pixels and coefficients of real cameras are far below
-
 constexpr double kWidestRay2 = 57.0 * 57.0;  // tan(89 deg)^2
 constexpr int kDomainSteps = 512;
 
@@ -49,32 +47,37 @@ double kannalaBrandtDerivative(const double *k, double theta) {
   return 1 + t2 * (3 * k[0] + t2 * (5 * k[1] + t2 * (7 * k[2] + t2 * 9 * k[3])));
 }
 
+bool checkSide(uint32_t side, const char *name, const char *field, sphc_message *message) {
+  if (side >= SPHC_CAMERA_MIN_PX && side <= SPHC_CAMERA_MAX_PX) return true;
+  MessageWriter(message) << name << field << " is " << side << "; it must be " << SPHC_CAMERA_MIN_PX << " to "
+                         << SPHC_CAMERA_MAX_PX << " pixels";
+  return false;
+}
+
 }  // namespace
 
-bool checkCamera(const sphc_camera &camera, sphc_message *message) {
+bool checkCamera(const sphc_camera &camera, const char *name, sphc_message *message) {
   const uint32_t count = paramCount(camera.model);
   if (!count) {
-    MessageWriter(message) << "camera model " << camera.model << " is not known; use an SPHC_CAMERA_ value";
+    MessageWriter(message) << name << ".model is " << camera.model
+                           << ", which is not known; use an SPHC_CAMERA_ value";
     return false;
   }
   if (camera.param_count != count) {
-    MessageWriter(message) << "camera model " << camera.model << " takes " << count << " parameters, not "
-                           << camera.param_count;
+    MessageWriter(message) << name << ".param_count is " << camera.param_count << "; model " << camera.model
+                           << " takes " << count;
     return false;
   }
-  if (camera.width < 16 || camera.width > 8192 || camera.height < 16 || camera.height > 8192) {
-    MessageWriter(message) << "camera size " << camera.width << " x " << camera.height
-                           << " is outside 16 to 8192 pixels";
+  if (!checkSide(camera.width, name, ".width", message) || !checkSide(camera.height, name, ".height", message))
     return false;
-  }
   for (uint32_t i = 0; i < 12; ++i) {
-    if (absOf(camera.params[i]) <= kMostParameter) continue;
-    MessageWriter(message) << "camera parameter " << i << " is not finite, or beyond 1e6; check the calibration";
-    return false;
-  }
-  if (!(camera.params[0] > 0) || !(camera.params[1] > 0)) {
-    MessageWriter(message) << "camera focal lengths " << camera.params[0] << ", " << camera.params[1]
-                           << " must be positive (pixels)";
+    const double param = camera.params[i];
+    const bool is_focal = i < 2;
+    if (absOf(param) <= SPHC_CAMERA_MAX_PARAM && (param > 0 || !is_focal)) continue;
+    MessageWriter(message) << name << ".params[" << i << "] is " << param << "; "
+                           << (is_focal ? "a focal length must be positive and at most "
+                                        : "a parameter must be finite and not beyond ")
+                           << SPHC_CAMERA_MAX_PARAM << ": check the calibration";
     return false;
   }
   return true;

@@ -5,8 +5,9 @@
 
 namespace sphc {
 
-// False, with a message, when the camera cannot be used; see sphc_camera_check.
-bool checkCamera(const sphc_camera &camera, sphc_message *message);
+// False, with a message, when the camera cannot be used; see sphc_camera_check.  The message calls the camera
+// `name`.
+bool checkCamera(const sphc_camera &camera, const char *name, sphc_message *message);
 
 class Camera {
  public:

@@ -1,4 +1,4 @@
-// What a localizer is given for each frame: images, and what the caller knows before they are looked at.
+// What a localizer is given for each frame: images, and what the caller knows before they are processed.
 #pragma once
 #include "runtime/types/image_view.h"
 #include "runtime/types/pose_prior.h"

@@ -53,6 +53,7 @@ void FrontEnd::extract(const ColorView &color) {
     gray.data = gray_.data();
     gray.stride = color.width;
   }
+  gray_view_ = gray;
   keypoint_count_ = extractor_.extract(gray, keypoints_, descriptors_);
   lifted_count_ = 0;
 }

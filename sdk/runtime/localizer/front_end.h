@@ -1,4 +1,4 @@
-// What a frame shows: its keypoints, how they look, and where in front of the camera they lie.
+// What a frame shows: its keypoints, their descriptors, and where in front of the camera they lie.
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/localizer/config.h"
@@ -19,6 +19,8 @@ class FrontEnd {
   // at the time of each one's image.
   void lift(ImageView<uint16_t> depth, const Rigid &color_from_depth);
 
+  // The image of the last extract, as it was processed.
+  GrayView gray() const { return gray_view_; }
   uint32_t keypointCount() const { return keypoint_count_; }
   uint32_t liftedCount() const { return lifted_count_; }
   Span<const Descriptor> descriptors() const { return descriptors_.first(keypoint_count_); }
@@ -43,6 +45,7 @@ class FrontEnd {
   Span<LiftedPoint> lifted_;
   Span<uint32_t> keypoint_of_;
   uint32_t keypoint_count_ = 0, lifted_count_ = 0;
+  GrayView gray_view_;  // gray_, or the caller's image where that is grey
 };
 
 }  // namespace sphc

@@ -1,5 +1,6 @@
 #include "runtime/localizer/localizer.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/localizer/tuning.h"
@@ -11,11 +12,27 @@ using namespace tuning;
 
 namespace {
 
+// What is doubted, and how far; docs/consistency.md has the evidence.
+constexpr Faults kDoubts = kDepthScale | kDepthBias;
+constexpr double kDoubtedConfidence = 0.25;  // at most
+constexpr double kBiasSigmas = 2.5;          // of the prior
+constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
+
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }
 
 // Where nothing localizes, the last global search of the likeliest map stands for the frame.
 bool replaces(const Hypothesis &candidate, const Hypothesis &best) {
   return candidate.isLocalized() || !best.tried || best.guided || candidate.map == best.map;
+}
+
+double angleBetween(const Vector3 &a, const Vector3 &b) { return atan2Of(a.cross(b).norm(), a.dot(b)); }
+
+// Has more been learnt of the depth sensor than a sound one could have?
+bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior) {
+  if (prior.isKnown()) return false;
+  const Vector2 off = learnt.mean - prior.mean;
+  return off[0] * off[0] > kBiasSigmas * kBiasSigmas * prior.covariance(0, 0) ||
+         off[1] * off[1] > kBiasSigmas * kBiasSigmas * prior.covariance(1, 1);
 }
 
 void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
@@ -28,8 +45,8 @@ void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
   result->guided = best.guided;
   if (!best.isLocalized()) return;
   result->camera_from_map = best.estimate.camera_from_map;
-  result->covariance = best.estimate.covariance;
-  result->confidence = confidenceOf(confidenceInputs(best.searched, best.estimate));
+  result->covariance = statedCovariance(best.estimate);
+  result->confidence = confidenceOf(result->covariance);
 }
 
 }  // namespace
@@ -47,6 +64,7 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   MatchSet::layout(n, scratch, localizer ? &localizer->candidate_.matched : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->rival_.matched : nullptr);
   PoseEstimator::layout(estimator, scratch, localizer ? &localizer->estimator_ : nullptr);
+  Consistency::layout(state, scratch, localizer ? &localizer->consistency_ : nullptr);
 }
 
 void Localizer::init(const LocalizerConfig &config) {
@@ -54,11 +72,18 @@ void Localizer::init(const LocalizerConfig &config) {
   front_.init(config);
   search_.init(config);
   calibrator_.init(config.depth_prior);
+  consistency_.init({config.color_camera, config.depth_camera, config.depth_sensor, config.tracks});
 }
 
 void Localizer::reset() {
   tracker_.reset();
   fusion_.clear();
+  consistency_.reset();
+  travel_.reset();
+}
+
+double Localizer::confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad) {
+  return confidenceOf(covariance, {translation_m, rotation_rad});
 }
 
 LocalizerResult Localizer::process(const FrameInput &frame) {
@@ -71,11 +96,16 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
     tracker_.advance(frame.color_time_ns, frame.known.has_odometry ? &frame.known.odometry : nullptr);
     fusion_.advance(tracker_);
   }
-  front_.lift(frame.depth, colorFromDepth(frame));
+  const Rigid color_from_depth = colorFromDepth(frame);
+  front_.lift(frame.depth, color_from_depth);
+  result.faults =
+      consistency_.look({front_.gray(), frame.depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns});
   const int64_t aligned = config_.clock.now();
   Work work;
-  locate(frame.known, deadlineFrom(begin), &work);
+  answer(frame.known, deadlineFrom(begin), &result.faults, &work);
   fillAnswer(best_, &result);
+  if (result.faults & kDoubts || consistency_.isDoubtful())
+    result.confidence = std::min(result.confidence, kDoubtedConfidence);
   observe();
   learn();
   result.keypoints = front_.keypointCount();
@@ -100,7 +130,25 @@ Deadline Localizer::deadlineFrom(int64_t begin_ns) const {
   return config_.time_limit_ns ? Deadline::after(config_.clock, begin_ns, config_.time_limit_ns) : Deadline();
 }
 
-// Makes best_ what the frame is answered with.
+// Makes best_ what the frame is answered with: by what can be believed of it.
+void Localizer::answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work) {
+  if (*faults & kContradictions) {
+    best_.challenge({});
+    best_.outcome = Outcome::kContradiction;
+    return;
+  }
+  locate(known, deadline, work);
+  if (verticalDisagrees(known)) {
+    *faults |= kVerticalDisagrees;
+    Known rest = known;
+    rest.prior.has_up = false;
+    locate(rest, deadline, work);
+  }
+  *faults |= judgeTravel(known);
+  if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
+}
+
+// Makes best_ what is found with all that is known.
 void Localizer::locate(const Known &known, const Deadline &deadline, Work *work) {
   best_.challenge({});
   if (front_.keypointCount() < kFewestKeypoints) {
@@ -194,6 +242,33 @@ PoseQuery Localizer::queryFor(const PosePrior &prior, const Deadline &deadline) 
 }
 
 bool Localizer::isDone(const Deadline &deadline) const { return best_.isLocalized() || deadline.passed(); }
+
+// Is the vertical that was given another than the one of the pose that the matches alone speak for?
+bool Localizer::verticalDisagrees(const Known &known) {
+  if (!best_.isLocalized() || !known.prior.has_up || known.map != best_.map) return false;
+  const PosePrior nothing;
+  PoseQuery query = queryFor(nothing, Deadline());
+  query.correspondences = best_.matched.all();
+  const Estimate alone = estimator_.refine(query, best_.estimate.camera_from_map);
+  if (alone.inliers < config_.min_inliers) return false;
+  const double turn_sigma = sqrtOf(alone.covariance.topLeftCorner<3, 3>().trace() / 3) * doubtOf(alone.inliers);
+  return angleBetween(alone.camera_from_map.rotation * known.prior.up_map, known.prior.up_camera) >
+         std::max(kLeastVerticalRad, kVerticalSigmas * hypotOf(turn_sigma, known.prior.up_sigma_rad));
+}
+
+// A common scale of all depths shows in how far the camera goes, and only there.
+Faults Localizer::judgeTravel(const Known &known) {
+  Rigid step;
+  double unused_rad, unused_m;
+  if (!config_.tracks || !tracker_.step(&step, &unused_rad, &unused_m)) travel_.reset();
+  if (!config_.tracks || !known.has_odometry || !best_.isLocalized()) return 0;
+  if (best_.map != travel_map_) travel_.reset();
+  travel_map_ = best_.map;
+  const double sigma_m = sqrtOf(best_.estimate.covariance.bottomRightCorner<3, 3>().trace() / 3);
+  travel_.add(best_.estimate.camera_from_map.inverse().translation_m,
+              known.odometry.odometry_from_camera.translation_m, sigma_m);
+  return travel_.isScaled() ? kDepthScale : 0;
+}
 
 // Tells of each keypoint what became of it.
 void Localizer::observe() {

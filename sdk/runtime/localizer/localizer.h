@@ -9,6 +9,7 @@
 #include "runtime/localizer/search.h"
 #include "runtime/localizer/tracker.h"
 #include "runtime/localizer/verification.h"
+#include "runtime/stages/consistency/consistency.h"
 #include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
 
@@ -29,6 +30,9 @@ class Localizer {
   // Forgets where the camera was; what was learnt of the depth sensor stays.
   void reset();
 
+  // The probability that a pose of this covariance, of a result, has errors within these bounds.
+  static double confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad);
+
   uint32_t mapCount() const { return search_.mapCount(); }
   // Of the last frame.
   Span<const Observation> observations() const { return front_.observations(); }
@@ -36,6 +40,7 @@ class Localizer {
  private:
   Rigid colorFromDepth(const FrameInput &frame) const;
   Deadline deadlineFrom(int64_t begin_ns) const;
+  void answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void locate(const Known &known, const Deadline &deadline, Work *work);
   void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
   void searchEverywhere(const Known &known, const Deadline &deadline, Work *work);
@@ -44,6 +49,8 @@ class Localizer {
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
   bool isDone(const Deadline &deadline) const;
+  bool verticalDisagrees(const Known &known);
+  Faults judgeTravel(const Known &known);
   void observe();
   void learn();
 
@@ -54,6 +61,9 @@ class Localizer {
   DepthCalibrator calibrator_;
   Tracker tracker_;
   Fusion fusion_;
+  Consistency consistency_;
+  Travel travel_;
+  uint32_t travel_map_ = 0;
   Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch
 };
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "runtime/types/estimate.h"
+#include "runtime/types/fault.h"
 
 namespace sphc {
 
@@ -13,7 +14,8 @@ enum class Outcome : uint8_t {
   kFewMatches,
   kNoConsensus,  // no pose agrees with clearly more matches than chance would
   kUncertain,    // a pose was found, but the matches pin it down too weakly
-  kDeadline
+  kDeadline,
+  kContradiction  // the frame contradicts itself; the faults say how
 };
 
 enum class TrackingState : uint8_t { kRelocalizing, kTracking, kLost };  // tracker.h draws the transitions
@@ -33,6 +35,7 @@ struct StageTimes {
 
 struct LocalizerResult {
   Outcome outcome = Outcome::kFewMatches;
+  Faults faults = 0;
   TrackingState state = TrackingState::kRelocalizing;  // after this frame
   uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0;
   uint32_t samples = 0;    // minimal samples drawn, in all searches
@@ -45,7 +48,7 @@ struct LocalizerResult {
   Rigid camera_from_map;
   Matrix6 covariance = Matrix6::Zero();
   double confidence = 0;   // probability that the pose is within 5 cm and 5 degrees
-  DepthCalibration depth;  // with which the frame was looked at
+  DepthCalibration depth;  // that the frame was processed with
   StageTimes times;
 };
 

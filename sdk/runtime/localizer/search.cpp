@@ -74,7 +74,7 @@ MapOrder Search::rankMaps(const FrontEnd &front, Work *work) {
 // How many of the keypoints find their like in the map?
 uint32_t Search::countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, Work *work) {
   ask(front, map, voters, tuning::kVoteProbes, work);
-  return match(voters, rays_, work);
+  return match(voters, max_ratio_, rays_, work);
 }
 
 Search::Question Search::ask(const FrontEnd &front, uint32_t map, uint32_t keypoints, uint32_t probes, Work *work) {
@@ -84,16 +84,17 @@ Search::Question Search::ask(const FrontEnd &front, uint32_t map, uint32_t keypo
   return {&front, &maps_[map]};
 }
 
-uint32_t Search::match(uint32_t keypoints, Span<Match> room, Work *work) {
+uint32_t Search::match(uint32_t keypoints, float max_ratio, Span<Match> room, Work *work) {
   const int64_t begin = clock_.now();
   const uint32_t count =
-      probes_ ? matcher_.matchAll(keypoints, max_ratio_, room) : matcher_.matchExact(max_ratio_, room);
+      probes_ ? matcher_.matchAll(keypoints, max_ratio, room) : matcher_.matchExact(max_ratio, room);
   work->match_ns += elapsedNs(begin, clock_.now());
   return count;
 }
 
-void Search::matchEverywhere(const Question &question, uint32_t keypoints, MatchSet *matched, Work *work) {
-  const uint32_t count = match(keypoints, matched->room(), work);
+void Search::matchEverywhere(const Question &question, uint32_t keypoints, float max_ratio, MatchSet *matched,
+                             Work *work) {
+  const uint32_t count = match(keypoints, max_ratio, matched->room(), work);
   matched->assign(count, *question.front, *question.map);
 }
 

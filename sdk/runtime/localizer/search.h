@@ -38,14 +38,19 @@ class Search {
   void addMap(const MapView &map) { maps_.push(map); }
   uint32_t mapCount() const { return static_cast<uint32_t>(maps_.size()); }
   const MapView &map(uint32_t index) const { return maps_[index]; }
+  float maxRatio() const { return max_ratio_; }
 
   // Which maps to search, the likeliest first.
   MapOrder rankMaps(const FrontEnd &front, Work *work);
 
   // About the first `keypoints`; in as many cells of the map's index.
   Question ask(const FrontEnd &front, uint32_t map, uint32_t keypoints, uint32_t probes, Work *work);
-  // Matches the first `keypoints` with the whole map.
-  void matchEverywhere(const Question &question, uint32_t keypoints, MatchSet *matched, Work *work);
+  // Matches the first `keypoints` with the whole map, by the configured ratio or by another.
+  void matchEverywhere(const Question &question, uint32_t keypoints, MatchSet *matched, Work *work) {
+    matchEverywhere(question, keypoints, max_ratio_, matched, work);
+  }
+  void matchEverywhere(const Question &question, uint32_t keypoints, float max_ratio, MatchSet *matched,
+                       Work *work);
   // Matches each keypoint with depth in a cone around where the pose predicts it.  Without depth a pose does not
   // say where to look: those matches are `rays`, of matchEverywhere.
   void matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad, Span<const Match> rays,
@@ -55,7 +60,7 @@ class Search {
 
  private:
   uint32_t countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, Work *work);
-  uint32_t match(uint32_t keypoints, Span<Match> room, Work *work);
+  uint32_t match(uint32_t keypoints, float max_ratio, Span<Match> room, Work *work);
 
   FixedVector<MapView, kMostMaps> maps_;
   float max_ratio_ = 0;

@@ -31,7 +31,7 @@ class Tracker {
  public:
   static constexpr uint64_t kForgetNs = 1000000000;
 
-  // Before each frame is looked at.  `odometry` may be null.
+  // Before each frame is processed.  `odometry` may be null.
   void advance(int64_t time_ns, const Odometry *odometry);
   // After advance: false where nothing can be said.
   bool predict(Prediction *prediction) const;

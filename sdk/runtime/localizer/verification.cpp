@@ -32,13 +32,21 @@ void copyWithoutLeverage(const Hypothesis &from, MatchSet *matched) {
     if (std::find(begin, end, i) == end) matched->add(all[i]);
 }
 
+bool areNear(const Rigid &a, const Rigid &b, const ConfirmingSearch &way) {
+  const Vector3 shift_m = a.inverse().translation_m - b.inverse().translation_m;
+  return shift_m.norm() < way.most_shift_m &&
+         rotationAngle(a.rotation * b.rotation.transpose()) < way.most_turn_rad;
+}
+
 }  // namespace
 
 void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!searchPose(task, found)) return;
   rematch(task, found);
+  searchAgain(task, found, rival);
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
+  confirm(task, found, rival);
 }
 
 // False where there is nothing to verify.
@@ -116,6 +124,50 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   const double rival_gain = rival->estimate.gain;
   if (rival_gain > gain) std::swap(*found, *rival);
   if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
+}
+
+// Few matches may agree by more than uniform chance where textures resemble themselves; a pose that was looked for
+// where it was expected has the expectation to speak for it.
+bool Verification::isDoubtful(const Hypothesis &found) const {
+  return found.isLocalized() && !found.guided && found.estimate.inliers < kInliersBeyondConfirmation;
+}
+
+// Among the matches of all keypoints at another ratio, in another order: nothing of the first search is in it.
+// `other` becomes the task of these matches; false where they lead to no pose.
+bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis,
+                                      PoseTask *other) const {
+  const FrontEnd &front = *task.question.front;
+  *other = task;
+  other->query.seed += kOtherSeed;
+  search_.matchEverywhere(task.question, front.keypointCount(), max_ratio, &hypothesis->matched, &work_);
+  other->rays = search_.raysOf(front, hypothesis->matched);
+  if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &hypothesis->matched);
+  return searchPose(*other, hypothesis);
+}
+
+// The first search took the strongest keypoints, or ended with the first pose that chance could not explain: where
+// few matches agree, the better of it and what a second search finds stays.
+void Verification::searchAgain(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!isDoubtful(*found) || task.query.deadline.passed()) return;
+  PoseTask other;
+  rival->begin(found->map, found->frames);
+  if (!searchOtherMatches(task, search_.maxRatio(), rival, &other)) return;
+  rematch(other, rival);
+  if (rival->estimate.gain > found->estimate.gain) std::swap(*found, *rival);
+}
+
+// A looser ratio test brings other true matches and other wrong ones.  The right pose is found among them again;
+// one that agrees by chance drowns.
+void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!isDoubtful(*found)) return;
+  for (const ConfirmingSearch &way : kConfirmingSearches) {
+    if (task.query.deadline.passed()) break;
+    PoseTask other;
+    rival->begin(found->map, found->frames);
+    if (!searchOtherMatches(task, std::max(way.max_ratio, search_.maxRatio()), rival, &other)) continue;
+    if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, way)) return;
+  }
+  found->outcome = Outcome::kUncertain;
 }
 
 }  // namespace sphc

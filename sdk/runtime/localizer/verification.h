@@ -1,6 +1,7 @@
 // From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
-// predicts, then verification against its rivals: what is found without its high-leverage observations, and the
-// second pose of a planar scene.
+// predicts, then verification against its rivals: what another search finds, what is found without its
+// high-leverage observations, and the second pose of a planar scene.  In the end an independent search must confirm
+// it.
 #pragma once
 #include "runtime/localizer/fusion.h"
 #include "runtime/stages/pose/estimator.h"
@@ -29,6 +30,10 @@ class Verification {
   bool searchPose(const PoseTask &task, Hypothesis *hypothesis) const;
   void rematch(const PoseTask &task, Hypothesis *hypothesis) const;
   void findLeverage(Hypothesis *hypothesis) const;
+  bool isDoubtful(const Hypothesis &found) const;
+  bool searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis, PoseTask *other) const;
+  void searchAgain(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  void confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
 

@@ -19,6 +19,7 @@ struct Estimate {
   Matrix6 covariance = Matrix6::Zero();  // of (rotation rad, translation m), camera frame, T = exp(xi) T_estimate
   DepthCalibration depth;                // the query's, after this frame
   double noise_ratio = 0;                // depth noise seen over expected; 0: too little to tell
+  double unit_variance = 1;              // of inliers: squared whitened residual over what was expected
   double gain = 0;                       // sum over inliers of 1 - residual^2 / threshold^2
   uint32_t inliers = 0;
   uint32_t lifted = 0;      // correspondences with depth

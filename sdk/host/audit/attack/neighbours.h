@@ -1,4 +1,4 @@
-// The nearest others of every point: by direction, and by looks.
+// The nearest others of every point: by direction, and by descriptor.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

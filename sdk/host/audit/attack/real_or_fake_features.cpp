@@ -62,7 +62,7 @@ ArrayXf addDensity(const Neighbours &beside, Columns *columns) {
   return -spacing.col(15);
 }
 
-// Distances of looks to the neighbours in direction.
+// Distances of descriptors to those of the neighbours in direction.
 void addLooksBeside(const std::vector<Descriptor> &descriptors, const Neighbours &beside, Columns *columns) {
   ArrayXXf distances(beside.indices.rows(), kBeside);
   for (Index i = 0; i < distances.rows(); ++i)

@@ -32,7 +32,7 @@ std::vector<Vector3> raysOf(const Camera &camera) {
 
 class FramePainter {
  public:
-  FramePainter(const sphc_calibration &calibration, const Vector3 &centre_m)
+  FramePainter(const sphc_rig &calibration, const Vector3 &centre_m)
       : color_(calibration.color_camera),
         depth_(calibration.depth_camera),
         color_from_depth_(rigidFromC(calibration.color_from_depth)),

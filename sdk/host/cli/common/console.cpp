@@ -32,7 +32,7 @@ void Console::checkOutput() {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return;
   throw std::runtime_error(std::string("the output cannot be written: ") + std::strerror(errno) +
-                           "; is the disk full, or what reads it gone?");
+                           "; is the disk full, or did the program that reads it end?");
 }
 
 }  // namespace sphc::host

@@ -172,7 +172,7 @@ void checkPointSource(const PointSource &source) {
     throw UsageError("--depth-min must be less than --depth-max, or no depth is left");
   if (colmap.model.empty()) return;
   if (colmap.images.empty() && colmap.database.empty())
-    throw UsageError("--colmap wants --images, to describe them for the device, or --database");
+    throw UsageError("--colmap needs --images, to describe them for the device, or --database");
   if (!colmap.metres_per_unit && colmap.depth.empty())
     throw UsageError(
         "a COLMAP model has no scale: give --scale, metres a unit, or --depth, a folder of depth images");

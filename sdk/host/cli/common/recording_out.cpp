@@ -9,7 +9,7 @@ namespace {
 
 class FileOut : public RecordingOut {
  public:
-  FileOut(const std::string &path, const sphc_calibration &calibration, const sphc_recorder_config &config)
+  FileOut(const std::string &path, const sphc_rig &calibration, const sphc_recorder_config &config)
       : recording_(path, NewRecording::IfCut::kRemove) {
     orThrow("cannot start the recording", [&](sphc_message *message) {
       return sphc_recorder_open(recording_.part().c_str(), &calibration, &config, &recorder_, message);
@@ -34,7 +34,8 @@ class FileOut : public RecordingOut {
 
  private:
   static void notDropped(sphc_status status) {
-    if (status == SPHC_AGAIN) throw std::runtime_error("the disk took nothing for a minute; is it all right?");
+    if (status == SPHC_AGAIN)
+      throw std::runtime_error("the disk took nothing for a minute; is it full, or failing?");
   }
   NewRecording recording_;
   sphc_recorder *recorder_ = nullptr;
@@ -42,7 +43,7 @@ class FileOut : public RecordingOut {
 
 class FolderOut : public RecordingOut {
  public:
-  FolderOut(const std::string &path, const sphc_calibration &calibration)
+  FolderOut(const std::string &path, const sphc_rig &calibration)
       : recording_(path, NewRecording::IfCut::kRemove), writer_(recording_.part(), calibration) {}
 
   void add(const sphc_capture &capture) override { writer_.add(capture.stream, capture.time_ns, capture.image); }
@@ -66,7 +67,7 @@ bool isMcap(const std::string &path) {
   return path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_calibration &calibration,
+std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_rig &calibration,
                                               const sphc_recorder_config &config) {
   if (isMcap(path)) return std::make_unique<FileOut>(path, calibration, config);
   return std::make_unique<FolderOut>(path, calibration);

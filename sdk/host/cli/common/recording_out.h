@@ -20,7 +20,7 @@ class RecordingOut {
 bool isMcap(const std::string &path);  // by its ending
 
 // `config` is that of a file.
-std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_calibration &calibration,
+std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_rig &calibration,
                                               const sphc_recorder_config &config);
 
 // Nothing is dropped: adding waits for the disk.

@@ -19,7 +19,7 @@ void addRigOptions(CLI::App *app, RigOptions *options) {
   add("--depth", options->depth, "and a depth camera: v4l2:/dev/video2")->type_name("CAMERA");
   add("-c,--calibration", options->wish.calibration, "Calibration file; `spherecloud calibration` makes one")
       ->type_name("FILE");
-  add("--width", options->wish.width, "Of V4L2 and libcamera images, pixels")->capture_default_str();
+  add("--width", options->wish.width, "Size of V4L2 and libcamera images, pixels")->capture_default_str();
   add("--height", options->wish.height, "The same")->capture_default_str();
   add("--fps", options->wish.fps, "The same, images a second; 0: whatever the camera does")->capture_default_str();
   add("--tolerance-ms", options->tolerance_ms, "Colour and depth are a pair when taken at most so far apart")
@@ -34,9 +34,8 @@ void checkRigOptions(const RigOptions &options) {
     throw UsageError("give --device, or --color and --depth; `spherecloud devices` lists what is there");
 }
 
-sphc_calibration calibrationOf(const RigOptions &options, const Rig &rig) {
-  sphc_calibration calibration;
-  orThrow("calibration", [&](sphc_message *) { return sphc_calibration_init(&calibration, sizeof calibration); });
+sphc_rig calibrationOf(const RigOptions &options, const Rig &rig) {
+  sphc_rig calibration;
   const std::string &path = options.wish.calibration;
   if (!path.empty())
     orThrow("calibration",

@@ -38,8 +38,8 @@ void fetchAhead(const uint32_t *index, int32_t count, int32_t stride, const int3
   for (int32_t i = 0; i < count; i += kEvery) hwy::Prefetch(pixels + index[i] + int64_t{kRowsAhead} * stride);
 }
 
-// The nearest sample of each pixel stays.  Four quarters of the row in turn, as neighbours often fall into one
-// pixel and would wait for each other; without a branch, as which of two is nearer is not foreseen.
+// The nearest sample of each pixel stays.  Four quarters of the row take turns, since neighbours often fall into
+// one pixel and would wait for each other.  There is no branch, since no processor foresees which of two is nearer.
 void lowerPixels(const ProjectedRow &row, int32_t *__restrict pixels) {
   const uint32_t *__restrict index = row.index;
   const int32_t *__restrict key = row.key;
@@ -294,7 +294,7 @@ uint16_t DenseAligner::beside(const uint16_t *pixel, int64_t step, int32_t steps
   return 0;
 }
 
-// From the last pixels of something near, the row's `columns`, towards the colour camera's side.
+// Marks what near things hide.  `columns`: their last pixels in the row, on the colour camera's side.
 void DenseAligner::castShadows(const ImageView<uint16_t> &depth, int32_t y, const int32_t *columns, int32_t count) {
   const uint16_t *row = depth.row(y);
   const double gap_scale = config_.depth.focal() / config_.sensor.unit_m;
@@ -320,7 +320,7 @@ void DenseAligner::castShadows(const ImageView<uint16_t> &depth, int32_t y, cons
   }
 }
 
-// What lies behind the sample, from its depth to that of the surface behind, along the ray of the depth camera.
+// Marks the ray of the depth camera behind a sample, from its depth to that of the surface behind.
 void DenseAligner::castShadow(const Vector2 &ray, size_t at, double near_m, double far_m) {
   const Vector3 turned = config_.color_from_depth.rotation * Vector3(ray.x(), ray.y(), 1);
   const Vector3 &origin = config_.color_from_depth.translation_m;
@@ -355,7 +355,7 @@ void DenseAligner::markShadow(const Vector2 &px, const Vector2 &half) {
   }
 }
 
-// A row of the z-buffers, which are emptied behind it.
+// Reads a row of the z-buffers and empties it.
 void DenseAligner::decode(int32_t y) {
   const DecodedRow row = decodedRow(y);
   if (y >= 0 && y < height_) {
@@ -374,7 +374,7 @@ void DenseAligner::decode(int32_t y) {
 
 void DenseAligner::resolve(int32_t y, const AlignedImages &out) {
   const auto from = [](DecodedRow row, int32_t x) { return DecodedRow{row.depth + x, row.state + x}; };
-  // Whole vectors go where they belong; what is left, and what nobody asked for, by way of rows of our own.
+  // Whole vectors go to the caller's rows; the rest, and outputs that the caller left out, to rows of our own.
   const int32_t whole = width_ / kRowPadding * kRowPadding, rest = width_ - whole;
   uint16_t *depth = out.depth ? out.depth + y * out.depth_stride : depth_row_.data();
   uint8_t *mask = out.mask ? out.mask + y * out.mask_stride : mask_row_.data();

@@ -43,7 +43,7 @@ void DepthBlocks::build(ImageView<uint16_t> depth, const DepthSensor &sensor) {
   for (int32_t row = 0; row < rows_; ++row) {
     for (uint16_t &nearest : line_) nearest = kNone;
     const int32_t end = (row + 1) * kReachPx < depth.height ? (row + 1) * kReachPx : depth.height;
-    // From the first in range on; what is out of range, 0 too, wraps around to beyond the last.
+    // Measurements count from the first in range; those out of range, 0 too, wrap around beyond the last.
     for (int32_t v = row * kReachPx; v < end; ++v)
       kernels.nearest_row(depth.row(v), range.first, depth.width, line_.data());
     for (int32_t column = 0; column < columns_; ++column) {

@@ -1,4 +1,4 @@
-// How near anything is, block by block of a depth image: what a ray need not be looked at for.
+// The smallest depth around each block of a depth image: a ray that is nearer than that can skip the block.
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/types/depth_sensor.h"
@@ -8,7 +8,7 @@ namespace sphc {
 
 class DepthBlocks {
  public:
-  // Within so many pixels of the one asked for, along either axis, nothing is nearer than nearest() says.
+  // No measurement within so many pixels along either axis is nearer than nearest(u, v) says.
   static constexpr int32_t kReachPx = 16;
   static constexpr uint16_t kNone = 0xFFFF;
 

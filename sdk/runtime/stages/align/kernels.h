@@ -33,7 +33,7 @@ constexpr int32_t kShadowed = 0x7FFFFFFE;     // none, and the depth camera cann
 constexpr int32_t kRowPadding = 16;           // pixels before and after the rows of tables and buffers
 constexpr int32_t kOnePixel = 0x10001;        // the shape of a footprint
 constexpr float kFootprintsPerPixel = 16.0f;  // half widths of footprints are bytes in 1/16 px
-// A measurement is kept as raw - 1, so that none is beyond all others.
+// A measurement is kept as raw - 1, so that no measurement, a raw 0, becomes the largest value.
 constexpr uint16_t kNotSensed = 0xFFFF;
 // A pixel's mask is the high byte of its state, its confidence the low one.
 constexpr int32_t kKindShift = 8;

@@ -57,7 +57,7 @@ HWY_ATTR void spreadRow(const ProjectedRow &in, int32_t stride, int32_t *plane) 
   for (int32_t i = 4 * quarter; i < in.count; ++i) put(i);
 }
 
-// Of what is empty it is beyond all others.
+// The depth of an empty pixel is larger than any other.
 HWY_ATTR HWY_INLINE VK depthOf(VK key) {
   return hn::ShiftRight<kDepthShift>(hn::And(key, hn::Set(Key(), kFilledBit - 1)));
 }

@@ -131,7 +131,7 @@ bool SparseAligner::findSurface(ImageView<uint16_t> depth, const Vector2 &ray, V
       step = place == Walk::kOutside ? step + 1 : next(walk, step, px);
       continue;
     }
-    // The last measurement that it was above; a step outside the image forgets those before.
+    // Finds the last measurement that the ray passed in front of; a step outside the image forgets those before.
     place = Walk::kHole;
     int last_step = step;
     while (last_step > 0 && place == Walk::kHole)

@@ -30,9 +30,9 @@ class SparseAligner {
     DepthBlocks::layout(depth_width, depth_height, scratch, aligner ? &aligner->blocks_ : nullptr);
   }
   void init(const Camera &color, const Camera &depth, const Rigid &color_from_depth, const DepthSensor &sensor);
-  // Of the frames that follow, where the cameras are not as they were built.
+  // Replaces the transform of init for the frames that follow.
   void setPose(const Rigid &color_from_depth);
-  // Looks through a depth image, so that rays can be followed in strides.  Call before lift for every new image.
+  // Reads a depth image, so that rays can be followed in strides.  Call it for every new image, before lift.
   void prepare(ImageView<uint16_t> depth);
 
   // Point seen at a colour pixel, in the colour camera's frame, and 1 sigma of its z; false where the depth camera

@@ -49,7 +49,7 @@ sphc_status ClockMapper::add(int64_t source_ns, int64_t arrival_ns) {
   return SPHC_AGAIN;
 }
 
-// Nothing arrives early, and nothing is late again and again.
+// Samples that arrive early, or late again and again, say that a clock jumped.
 ClockMapper::Fit ClockMapper::judge(int64_t source_ns, const Sample &sample) {
   const double step_s = seconds(difference(source_ns, last_source_ns_)), jump_s = seconds(config_.jump_ns);
   const double off_s = sample.late_s - lateAt(sample.source_s);

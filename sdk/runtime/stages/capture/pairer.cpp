@@ -63,7 +63,7 @@ sphc_status Pairer::pop(sphc_pair *pair, sphc_capture *dropped) {
     return drop(&rest, ended_ ? SPHC_DROP_ENDED : SPHC_DROP_FULL, dropped);
   }
   const sphc_capture &color = color_.slots[0];
-  // Depth captures that are older than a better one are nobody's partner: every later colour is further away still.
+  // A depth capture older than a better one finds no partner: every later colour capture is further away still.
   if (depth_.count > 1 && distanceNs(depth_.slots[1], color) <= distanceNs(depth_.slots[0], color))
     return drop(&depth_, SPHC_DROP_OVERTAKEN, dropped);
   if (canStillImprove()) return SPHC_AGAIN;

@@ -62,7 +62,7 @@ bool CandidateList::isSameStructure(const Place &a, const Place &b) {
   return larger <= kSameScale * smaller && dx * dx + dy * dy < kSamePlace * kSamePlace * smaller * smaller;
 }
 
-// Whoever has a stronger near-duplicate is one itself, whether or not that one stays, so the order does not matter.
+// A candidate with a stronger one beside it is a near-duplicate, even where that one goes too; order plays no part.
 void CandidateList::markNearDuplicates() {
   listPlaces();
   for (size_t i = 0; i < size_; ++i) {

@@ -58,7 +58,7 @@ HWY_INLINE bool isBeyondAll(const DogRows &dog, int32_t x) {
 HWY_ATTR uint32_t findExtrema(const DogRows &dog, int16_t threshold, int32_t first, int32_t end,
                               uint16_t *HWY_RESTRICT found) {
   const ExtremaTag d;
-  // A bit a column, first all of them: what has just been written in pieces is slow to read as a whole.
+  // One bit a column.  All are written before any is read: a word just written in pieces is slow to read.
   alignas(64) uint8_t bits[(2 * kMaxImageSide + 512) / 8];
 #if HWY_TARGET == HWY_SCALAR
   __builtin_memset(bits, 0, sizeof bits);
@@ -71,7 +71,7 @@ HWY_ATTR uint32_t findExtrema(const DogRows &dog, int16_t threshold, int32_t fir
   int32_t x = first;
   for (; x + lanes <= end; x += lanes)
     hn::StoreMaskBits(d, beyondNearest(dog, threshold, x), bits + (x - first) / 8);
-  // What lies beyond a row's end is anybody's: no column there is beyond, up to the end of the last word.
+  // Samples behind the row's end have any value, so no column there counts, up to the end of the last word.
   __builtin_memset(bits + (x - first) / 8, 0, 64);
   if (x < end) {
     const auto inside = hn::FirstN(d, static_cast<size_t>(end - x));

@@ -132,7 +132,7 @@ void ScaleSpace::step(int32_t y) {
   }
 }
 
-// Of the image; or every second pixel of the level with twice the base's blur: pixel i here is pixel 2 i there.
+// Takes the row from the image, or every second pixel of the level with twice the base's blur.
 void ScaleSpace::firstRow(int32_t y) {
   if (octave_ > 0) {
     row_kernels_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * y), level_[0].row(y), width_);

@@ -31,6 +31,7 @@ void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
   Matcher discarded;  // receives empty spans while measuring
   Matcher &m = matcher ? *matcher : discarded;
   m.nearest_ = scratch.take<NearestTwo>("match.nearest", max_queries);
+  m.nearby_ = scratch.take<NearestTwo>("match.nearest", max_queries);
   m.probed_ = scratch.take<uint16_t>("match.probed", size_t{max_queries} * kMaxProbes);
   m.starts_ = scratch.take<uint32_t>("match.askers", kMapMaxCells + 1);
   m.askers_ = scratch.take<uint32_t>("match.askers", size_t{max_queries} * kMaxProbes);
@@ -46,15 +47,11 @@ void Matcher::ask(const MapView &map, Span<const Descriptor> queries, uint32_t p
   queries_ = queries;
   probes_ = std::min(std::max(probes, uint32_t{1}), std::min(kMaxProbes, map.cellCount()));
   ranks_ = std::max(probes_, std::min(kGuidedProbes, map.cellCount()));
-  ranked_ = 0;
+  ranked_ = found_ = 0;
   widenRows(map.centroids(), wide_cells_, cell_length2_);
   widenRows(map.groupCentroids(), wide_groups_, group_length2_);
   table_ = {wide_groups_.first(map.groupCount()), wide_cells_.first(map.cellCount()), map.groupBegins(),
             group_length2_, cell_length2_};
-}
-
-void Matcher::begin(size_t queries) {
-  for (NearestTwo &n : nearest_.first(queries)) n = kStart;
 }
 
 // The cells nearest to a query, nearest first, by way of the groups that they are in.
@@ -92,7 +89,27 @@ void Matcher::listByCell(size_t count) {
 }
 
 uint32_t Matcher::matchAll(size_t count, float max_ratio, Span<Match> matches) {
-  begin(count);
+  if (exact_ || found_ != count) searchAll(count);
+  return select(nearest_.first(count), max_ratio, matches);
+}
+
+uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches) {
+  if (!exact_ || found_ != queries_.size()) searchExact();
+  return select(nearest_.first(queries_.size()), max_ratio, matches);
+}
+
+uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio,
+                            Span<Match> matches) {
+  const Span<NearestTwo> nearby = nearby_.first(expected.size());
+  std::fill(nearby.begin(), nearby.end(), kStart);
+  rankUpTo(expected.size());
+  cones_.prepare(map_->sectorSide(), cone_cosine);
+  for (size_t q = 0; q < expected.size(); ++q) searchNear(q, {expected[q], cone_cosine}, &nearby[q]);
+  return select(nearby, max_ratio, matches);
+}
+
+void Matcher::searchAll(size_t count) {
+  std::fill_n(nearest_.begin(), count, kStart);
   rankUpTo(count);
   listByCell(count);
   for (uint32_t c = 0; c < map_->cellCount(); ++c) {
@@ -101,25 +118,18 @@ uint32_t Matcher::matchAll(size_t count, float max_ratio, Span<Match> matches) {
     const IndexRange points = map_->cell(c);
     searchRange(map_->descriptors(), points.begin, points.end, queries_, askers, nearest_);
   }
-  return select(count, max_ratio, matches);
+  found_ = count;
+  exact_ = false;
 }
 
-uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches) {
-  begin(queries_.size());
+void Matcher::searchExact() {
+  std::fill_n(nearest_.begin(), queries_.size(), kStart);
   const Span<uint32_t> all = askers_.first(queries_.size());
   for (size_t q = 0; q < queries_.size(); ++q) all[q] = static_cast<uint32_t>(q);
   for (uint32_t first = 0; first < map_->pointCount(); first += kTile)
     searchRange(map_->descriptors(), first, std::min(first + kTile, map_->pointCount()), queries_, all, nearest_);
-  return select(queries_.size(), max_ratio, matches);
-}
-
-uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio,
-                            Span<Match> matches) {
-  begin(expected.size());
-  rankUpTo(expected.size());
-  cones_.prepare(map_->sectorSide(), cone_cosine);
-  for (size_t q = 0; q < expected.size(); ++q) searchNear(q, {expected[q], cone_cosine}, &nearest_[q]);
-  return select(expected.size(), max_ratio, matches);
+  found_ = queries_.size();
+  exact_ = true;
 }
 
 void Matcher::searchNear(size_t q, const SearchCone &cone, NearestTwo *nearest) const {
@@ -150,11 +160,11 @@ void Matcher::searchNear(size_t q, const SearchCone &cone, NearestTwo *nearest) 
   compare();
 }
 
-uint32_t Matcher::select(size_t queries, float max_ratio, Span<Match> matches) {
+uint32_t Matcher::select(Span<const NearestTwo> nearest, float max_ratio, Span<Match> matches) {
   uint32_t n = 0;
-  for (uint32_t q = 0; q < queries; ++q)
-    if (passesRatio(nearest_[q], max_ratio))
-      matches[n++] = {q, nearest_[q].best_index, nearest_[q].best2, nearest_[q].second2};
+  for (uint32_t q = 0; q < nearest.size(); ++q)
+    if (passesRatio(nearest[q], max_ratio))
+      matches[n++] = {q, nearest[q].best_index, nearest[q].best2, nearest[q].second2};
   // One query for each map point: the nearest.
   std::sort(matches.data(), matches.data() + n, [](const Match &a, const Match &b) {
     if (a.point_index != b.point_index) return a.point_index < b.point_index;

@@ -10,7 +10,8 @@
 namespace sphc {
 
 // ask, then any of the other calls about the same queries: which cells of the map's index are nearest to a query is
-// found out once, when it is first needed.  They write to `matches`, which has room for every query: at most one
+// found out once, when it is first needed, and so are the neighbours in the whole map: another ratio costs no other
+// search.  They write to `matches`, which has room for every query: at most one
 // query for each map point, best ratio first; they return how many.  `max_ratio` is of Lowe's test, on distances.
 // One matcher serves any number of maps, one after another.
 class Matcher {
@@ -35,13 +36,14 @@ class Matcher {
   uint32_t matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches);
 
  private:
-  void begin(size_t queries);
+  void searchAll(size_t count);
+  void searchExact();
   void chooseCells(const Descriptor &query, Span<uint16_t> cells) const;
   void rankUpTo(size_t count);
   Span<const uint16_t> cellsOf(size_t query) const { return {&probed_[query * ranks_], ranks_}; }
   void listByCell(size_t count);
   void searchNear(size_t query, const SearchCone &cone, NearestTwo *nearest) const;
-  uint32_t select(size_t queries, float max_ratio, Span<Match> matches);
+  static uint32_t select(Span<const NearestTwo> nearest, float max_ratio, Span<Match> matches);
 
   // What was asked.
   const MapView *map_ = nullptr;
@@ -49,7 +51,10 @@ class Matcher {
   uint32_t probes_ = 0, ranks_ = 0;  // cells that matchAll looks at; that are ranked
   size_t ranked_ = 0;                // queries that are
 
-  Span<NearestTwo> nearest_;
+  Span<NearestTwo> nearest_;  // of the first `found_` queries in the whole map
+  Span<NearestTwo> nearby_;   // in the cones
+  size_t found_ = 0;
+  bool exact_ = false;     // over all points, not through the index
   Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`
   Span<uint32_t> askers_;

@@ -1,4 +1,4 @@
-// The SIMD version of cone.cpp: the same operations in the same order, a direction a lane.
+// The SIMD version of search_cone.cpp: the same operations in the same order, a direction a lane.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "runtime/stages/match/search_cone_simd.cpp"
 #include <hwy/foreach_target.h>  // keep before highway.h

@@ -1,57 +1,39 @@
 #include "runtime/stages/pose/confidence.h"
 
+#include <algorithm>
+
 #include "runtime/base/elementary.h"
 
 namespace sphc {
 namespace {
 
-constexpr double kTolerableM = 0.05, kTolerableRad = 5 * kPi / 180;
-constexpr double kPinnedDown = 3;  // so many inliers agree with any pose that was made from them
+// Errors are so many times those of independent matches, kMany with many inliers and more with few.  Fitted on half
+// of the recordings, with which the other half agrees within a tenth (docs/confidence.md).
+constexpr double kMany = 0.9, kFew = 60, kFewerThan = 30;
+// The odds that errors are within bounds fall with this power of the sigma; and what they are where both are equal.
+constexpr double kPower = 3.5, kLogOddsAtBound = 0.1;
+constexpr double kLeastRatio = 0.02, kMostRatio = 10;  // between these it was measured
 
-// As `spherecloud-lab confidence --fit` prints it for the files that docs/confidence.md names.
-constexpr ConfidenceModel kModel = {-5.8707, {1.5177, 2.7420, 4.5797, 1.9555}};
-
-double clamped(double value, double low, double high) { return value < low ? low : value > high ? high : value; }
-double logWithin(double value, double low, double high) { return logOf(clamped(value, low, high)); }
-
-// A variance below zero is no variance.
-double sigmaOf(double variance) { return variance >= 0 ? sqrtOf(variance) : __builtin_nan(""); }
+double rootTrace(const Matrix6 &covariance, int first) {
+  const double trace = covariance.block<3, 3>(first, first).trace();
+  return trace >= 0 ? sqrtOf(trace) : __builtin_nan("");
+}
 
 }  // namespace
 
-const ConfidenceModel &confidenceModel() { return kModel; }
-
-ConfidenceInputs confidenceInputs(const Estimate &searched, const Estimate &refined) {
-  const double noise = refined.noise_ratio > 1 ? refined.noise_ratio : 1;
-  ConfidenceInputs inputs;
-  inputs.gain_share = searched.lifted > 0 ? searched.gain / searched.lifted : 0;
-  inputs.inliers = searched.inliers;
-  inputs.gain_per_inlier = searched.inliers > 0 ? searched.gain / searched.inliers : 0;
-  inputs.rotation_sigma_rad = noise * sigmaOf(refined.covariance.topLeftCorner<3, 3>().trace());
-  inputs.centre_sigma_m = noise * sigmaOf(refined.covariance.bottomRightCorner<3, 3>().trace());
-  return inputs;
+Matrix6 statedCovariance(const Estimate &estimate) {
+  const double scale = kMany + kFew / (estimate.inliers + kFewerThan);
+  return scale * scale * estimate.unit_variance * estimate.covariance;
 }
 
-// Each is held where more of it says nothing more.
-bool confidenceFeatures(const ConfidenceInputs &inputs, ConfidenceFeatures *features) {
-  const double rotation = inputs.rotation_sigma_rad / kTolerableRad, centre = inputs.centre_sigma_m / kTolerableM;
-  for (double input : {inputs.gain_share, inputs.inliers, inputs.gain_per_inlier, rotation, centre})
-    if (input != input) return false;
-  *features = {{logWithin(inputs.gain_share, 0.01, 1), logWithin(inputs.inliers - kPinnedDown, 0.3, 20),
-                clamped(inputs.gain_per_inlier, 0, 1),
-                -logWithin(rotation > centre ? rotation : centre, 0.02, 10)}};
-  return true;
-}
-
-double confidenceFrom(const ConfidenceModel &model, const ConfidenceFeatures &features) {
-  double logit = model.intercept;
-  for (int k = 0; k < kConfidenceFeatures; ++k) logit += model.weight[k] * features.value[k];
-  return 1 / (1 + expOf(-clamped(logit, -30, 30)));
-}
-
-double confidenceOf(const ConfidenceInputs &inputs) {
-  ConfidenceFeatures features;
-  return confidenceFeatures(inputs, &features) ? confidenceFrom(kModel, features) : 0;
+double confidenceOf(const Matrix6 &covariance, const ErrorBounds &bounds) {
+  if (!(bounds.translation_m > 0) || !(bounds.rotation_rad > 0)) return 0;
+  const double turn = rootTrace(covariance, 0) / bounds.rotation_rad;
+  // T = exp(xi) T_estimate moves the camera's place in the map by the translation part of xi alone.
+  const double shift = rootTrace(covariance, 3) / bounds.translation_m;
+  if (turn != turn || shift != shift) return 0;
+  const double ratio = std::min(std::max(std::max(turn, shift), kLeastRatio), kMostRatio);
+  return 1 / (1 + expOf(kPower * logOf(ratio) - kLogOddsAtBound));
 }
 
 }  // namespace sphc

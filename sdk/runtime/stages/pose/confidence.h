@@ -1,41 +1,22 @@
-// The probability that a pose is within 5 cm and 5 degrees of the truth: logistic regression on what the search and
-// the refinement tell of themselves.  docs/confidence.md says what it was fitted on, and how well it holds
-// elsewhere.
+// How large the errors of a pose are, and the probability that they stay within bounds.  docs/confidence.md says
+// what it was fitted on, and how well it holds elsewhere.
 #pragma once
 #include "runtime/types/estimate.h"
 
 namespace sphc {
 
-struct ConfidenceInputs {
-  double gain_share = 0;          // Estimate::gain over correspondences with depth
-  double inliers = 0;             // correspondences
-  double gain_per_inlier = 0;     // 0.83 on average where the noise is as stated, less where agreement is chance
-  double rotation_sigma_rad = 0;  // root of the covariance's trace
-  double centre_sigma_m =
-      0;  // the same: of the camera's place in the map, which the translation part of xi moves alone
+// The covariance of a pose as its errors really are.  That of the estimate takes the matches for independent and
+// the noise for what was stated; this one knows how far the inliers scatter (the a-posteriori variance of unit
+// weight), and that few inliers hide outliers and errors of the map.
+Matrix6 statedCovariance(const Estimate &estimate);
+
+// Within which a pose counts as right.
+struct ErrorBounds {
+  double translation_m = 0.05, rotation_rad = 5 * kPi / 180;
 };
 
-// `searched` gave the pose, and `refined` then made it better: the same without guided re-matching.  Agreement
-// is taken from the first, which had the whole map to choose from, precision from the second.  Where depth was
-// noisier than stated, the sigmas grow by as much.
-ConfidenceInputs confidenceInputs(const Estimate &searched, const Estimate &refined);
-
-// In [0, 1] whatever the inputs; 0 when one is not a number.  Never falls when gain_share, inliers or
-// gain_per_inlier grow, or a sigma shrinks.
-double confidenceOf(const ConfidenceInputs &inputs);
-
-// For fitting: what the model weighs, each larger for a better pose, and its weights, none negative.
-constexpr int kConfidenceFeatures = 4;
-struct ConfidenceFeatures {
-  double value[kConfidenceFeatures];
-};
-struct ConfidenceModel {
-  double intercept;
-  double weight[kConfidenceFeatures];
-};
-const ConfidenceModel &confidenceModel();
-// False when an input is not a number.
-bool confidenceFeatures(const ConfidenceInputs &inputs, ConfidenceFeatures *features);
-double confidenceFrom(const ConfidenceModel &model, const ConfidenceFeatures &features);
+// In [0, 1] whatever the inputs; 0 when one is not a number or a bound is not above 0.  Never falls when the
+// covariance shrinks or a bound grows.  `covariance` as stated above.
+double confidenceOf(const Matrix6 &covariance, const ErrorBounds &bounds = {});
 
 }  // namespace sphc

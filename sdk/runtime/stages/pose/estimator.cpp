@@ -30,6 +30,7 @@ constexpr uint32_t kSmallSearch = 8;                        // near an expected 
 constexpr float kAgreeingPlane2 = 4;
 constexpr double kMostlyDepth = 4, kMedianOfSquare = 0.4549;
 constexpr uint32_t kFewestForNoise = 16;
+constexpr double kResidualFreedom = 2, kExpectedInliers = 4;  // degrees of a residual; weight of what is expected
 
 // A rotation again, after many small turns in finite precision.
 Rigid cleaned(const Rigid &pose) {
@@ -91,7 +92,7 @@ void PoseEstimator::layout(const EstimatorConfig &config, Arena &scratch, PoseEs
   e.kernels_ = config.kernels ? config.kernels : &simdPoseKernels();
 }
 
-// Lifted rows far from where they were: any first part of them is then a fair sample, whatever their order meant.
+// Moves lifted rows far from where they were: any first part of them is then a fair sample, whatever the order was.
 // Steps of the golden ratio, made coprime to the count, visit every place once.
 void PoseEstimator::load(const PoseQuery &query) {
   lifted_.count = planes_.count = 0;
@@ -129,8 +130,8 @@ void PoseEstimator::keepNear(const RefineTask &task, const Rigid &pose, float li
   near_.pad();
 }
 
-// Rows without depth, and those whose depth is far off (an edge between near and far, a mirror, a fake): of these
-// the epipolar plane is still worth something.
+// Keeps rows without depth, and those whose depth is far off (an edge between near and far, a mirror, a fake):
+// their epipolar planes still tell something.
 void PoseEstimator::keepNearPlanes(const RefineTask &task, const Rigid &pose, float limit2) {
   const NormalTask kernel = normalTask(task, pose, Vector2::Zero());
   near_planes_.count = 0;
@@ -201,8 +202,8 @@ uint32_t PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate
   return kMinimalBatch;
 }
 
-// Chance cannot explain it: such an agreement is the pose, and there is no other.  Chernoff's bound, over all poses
-// tried, at the inlier threshold, whose region is by so much smaller than that of minimal samples.
+// Is the agreement more than chance explains?  Then it is the pose, and there is no other.  Chernoff's bound over
+// all poses tried, at the inlier threshold, whose region is so much smaller than that of minimal samples.
 bool PoseEstimator::isBeyondChance(const Search &search) const {
   const double wide_chance = search.chance_gain / (search.chance_seen + 1) + kLeastChance;
   const double chance = wide_chance * config_.inlier_threshold2 / kMinimalThreshold2;
@@ -343,6 +344,13 @@ double PoseEstimator::noiseRatio(const NormalTask &kernel, const Rigid &pose) {
   return median > 0 && median < static_cast<double>(kFinalLimit2) ? sqrtOf(median / kMedianOfSquare) : 0;
 }
 
+// Mean squared residual of the inliers over its expectation, drawn to 1 by a few inliers that are as expected: the
+// a-posteriori variance of unit weight (Mikhail and Ackermann, "Observations and Least Squares", 1976).
+double PoseEstimator::unitVariance(const Estimate &estimate) const {
+  const double squared = config_.inlier_threshold2 * (estimate.inliers - estimate.gain);
+  return (squared / kResidualFreedom + kExpectedInliers) / (estimate.inliers + kExpectedInliers);
+}
+
 Estimate PoseEstimator::evaluate(const PoseQuery &query, const Rigid &camera_from_map) {
   Estimate estimate;
   load(query);
@@ -380,6 +388,7 @@ void PoseEstimator::polish(const PoseQuery &query, const Rigid &pose, int iterat
     estimate->gain += 1 - static_cast<double>(squared_[i]) / config_.inlier_threshold2;
   }
   estimate->lifted = lifted_.count;
+  estimate->unit_variance = unitVariance(*estimate);
   estimate->noise_ratio = noiseRatio(kernel, estimate->camera_from_map);
   estimate->ending = PoseEnding::kFound;
 }

@@ -68,6 +68,7 @@ class PoseEstimator {
   uint32_t samplesFor(const PoseQuery &query, const Search &search) const;
   RefineTask task(const PoseQuery &query, double scale2) const;
   bool tellsOfDepth(const PoseRows &rows, uint32_t row, const Rigid &pose) const;
+  double unitVariance(const Estimate &estimate) const;
   double noiseRatio(const NormalTask &kernel, const Rigid &pose);
   void finish(const PoseQuery &query, const Rigid &start, Estimate *estimate);
   void polish(const PoseQuery &query, const Rigid &pose, int iterations, Estimate *estimate);

@@ -75,7 +75,8 @@ TEST(SimulatedConfig, NullHandlesAreRefused) {
   source.struct_size = sizeof source;
   uint8_t byte = 0;
   EXPECT_EQ(sphc_simulated_pose_at(nullptr, 0, &pose), SPHC_E_ARGUMENT);
-  EXPECT_EQ(sphc_simulated_cameras(nullptr, nullptr, nullptr, nullptr), SPHC_E_ARGUMENT);
+  sphc_rig rig;
+  EXPECT_EQ(sphc_simulated_rig(nullptr, &rig), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_simulated_frame_times(nullptr, 0, &time_ns, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_simulated_source(nullptr, &source), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_simulated_render_color(nullptr, 0, &byte), SPHC_E_ARGUMENT);

@@ -17,7 +17,7 @@ class SimulatedTruth : public testing::Test {
     sphc_simulated_config config = defaults();
     config.seed = 3;
     handle_ = new Handle(config);
-    ASSERT_EQ(sphc_simulated_cameras(handle_->get(), &color_, &depth_, &color_from_depth_), SPHC_OK);
+    ASSERT_EQ(sphc_simulated_rig(handle_->get(), &rig_), SPHC_OK);
   }
   static void TearDownTestSuite() {
     delete handle_;
@@ -45,12 +45,10 @@ class SimulatedTruth : public testing::Test {
   }
 
   static Handle *handle_;
-  static sphc_camera color_, depth_;
-  static sphc_rigid color_from_depth_;
+  static sphc_rig rig_;
 };
 Handle *SimulatedTruth::handle_ = nullptr;
-sphc_camera SimulatedTruth::color_, SimulatedTruth::depth_;
-sphc_rigid SimulatedTruth::color_from_depth_;
+sphc_rig SimulatedTruth::rig_;
 
 // One room, hence one test: every test case runs in a process of its own.
 TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
@@ -81,21 +79,21 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
     const std::vector<float> za = oracle(a_ns), zb = oracle(b_ns);
     std::vector<double> errors;
     int inside = 0;
-    for (uint32_t y = 8; y < color_.height; y += 16) {
-      for (uint32_t x = 8; x < color_.width; x += 16) {
+    for (uint32_t y = 8; y < rig_.color_camera.height; y += 16) {
+      for (uint32_t x = 8; x < rig_.color_camera.width; x += 16) {
         const double pixel_px[2] = {x + 0.5, y + 0.5};
         double xy[2], there_px[2];
-        unproject(color_, pixel_px, xy);
-        const double z = static_cast<double>(za[y * color_.width + x]);
+        unproject(rig_.color_camera, pixel_px, xy);
+        const double z = static_cast<double>(za[y * rig_.color_camera.width + x]);
         EXPECT_GT(z, 0.3);
         const Vec3d world = a.rotation * Vec3d{xy[0] * z, xy[1] * z, z} + a.center;
         const Vec3d in_b = transposed(b.rotation) * (world - b.center);
         if (in_b.z < 0.1) continue;
-        project(color_, in_b.x / in_b.z, in_b.y / in_b.z, there_px);
+        project(rig_.color_camera, in_b.x / in_b.z, in_b.y / in_b.z, there_px);
         if (!(there_px[0] > 0 && there_px[0] < 640 && there_px[1] > 0 && there_px[1] < 480)) continue;
         ++inside;
         const auto column = static_cast<uint32_t>(there_px[0]), row = static_cast<uint32_t>(there_px[1]);
-        errors.push_back(std::fabs(static_cast<double>(zb[row * color_.width + column]) - in_b.z));
+        errors.push_back(std::fabs(static_cast<double>(zb[row * rig_.color_camera.width + column]) - in_b.z));
       }
     }
     EXPECT_GT(inside, 500) << "the laps see the same places";
@@ -132,19 +130,19 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
     const std::vector<float> z_color = oracle(time_ns);
     std::vector<float> z_depth(kDepthPixels);
     ASSERT_EQ(sphc_simulated_oracle_tof_depth(handle_->get(), time_ns, z_depth.data()), SPHC_OK);
-    const Pose color_from_depth = poseOf(color_from_depth_);
+    const Pose color_from_depth = poseOf(rig_.color_from_depth);
     std::vector<double> errors;
-    for (uint32_t y = 4; y < depth_.height; y += 8) {
-      for (uint32_t x = 4; x < depth_.width; x += 8) {
+    for (uint32_t y = 4; y < rig_.depth_camera.height; y += 8) {
+      for (uint32_t x = 4; x < rig_.depth_camera.width; x += 8) {
         const double pixel_px[2] = {x + 0.5, y + 0.5};
         double xy[2], there_px[2];
-        unproject(depth_, pixel_px, xy);
-        const double z = static_cast<double>(z_depth[y * depth_.width + x]);
+        unproject(rig_.depth_camera, pixel_px, xy);
+        const double z = static_cast<double>(z_depth[y * rig_.depth_camera.width + x]);
         const Vec3d p = color_from_depth.rotation * Vec3d{xy[0] * z, xy[1] * z, z} + color_from_depth.center;
-        project(color_, p.x / p.z, p.y / p.z, there_px);
+        project(rig_.color_camera, p.x / p.z, p.y / p.z, there_px);
         if (!(there_px[0] > 0 && there_px[0] < 640 && there_px[1] > 0 && there_px[1] < 480)) continue;
         const auto column = static_cast<uint32_t>(there_px[0]), row = static_cast<uint32_t>(there_px[1]);
-        errors.push_back(std::fabs(static_cast<double>(z_color[row * color_.width + column]) - p.z));
+        errors.push_back(std::fabs(static_cast<double>(z_color[row * rig_.color_camera.width + column]) - p.z));
       }
     }
     EXPECT_GT(errors.size(), 500u);

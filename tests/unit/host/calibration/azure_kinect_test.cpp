@@ -6,7 +6,7 @@ namespace sphc::host {
 namespace {
 
 TEST(AzureKinect, ReadsRawCalibration) {
-  const sphc_calibration joined = joinParts({readAzureKinect({"k.json", kAzureKinectFile})}, {});
+  const sphc_rig joined = joinParts({readAzureKinect({"k.json", kAzureKinectFile})}, {});
   expectCamera(joined.depth_camera, SPHC_CAMERA_BROWN8, 1024, 1024,
                {0.4925 * 1024, 0.4926 * 1024, 0.51 * 1024, 0.49 * 1024, 0.5, -2.6, 3.0e-5, -2.5e-5, 1.49, 0.38,
                 -2.44, 1.42});
@@ -22,7 +22,7 @@ TEST(AzureKinect, SizesChooseTheMode) {
   JoinOptions options;
   options.color_size = {1280, 720};
   options.depth_size = {320, 288};
-  const sphc_calibration joined = joinParts({readAzureKinect({"k.json", kAzureKinectFile})}, options);
+  const sphc_rig joined = joinParts({readAzureKinect({"k.json", kAzureKinectFile})}, options);
   const double color_cx = 0.5 * 1280 - 0.5, color_cy = 0.48 * 960 - 120 - 0.5;
   expectProjectsAsOpencv(joined.color_camera, {0.6 * 1280, 0.8 * 960, color_cx, color_cy},
                          {0.6, -2.7, -0.0001, -0.0004, 1.6, 0.48, -2.5, 1.5});
@@ -43,7 +43,7 @@ TEST(AzureKinect, AnotherModelIsTakenOnlyWhenToldSo) {
   EXPECT_THROW(joinParts({part}, {}), std::runtime_error);
   JoinOptions options;
   options.approximate = true;
-  const sphc_calibration near = joinParts({part}, options);
+  const sphc_rig near = joinParts({part}, options);
   // As the model is defined: p1 = 3e-5, p2 = -2.5e-5, with half of OpenCV's cross terms.
   const double x = 0.4, y = -0.3, r2 = 0.25, p1 = 3.0e-5, p2 = -2.5e-5;
   const double radial = (1 + r2 * (0.5 + r2 * (-2.6 + r2 * 1.49))) / (1 + r2 * (0.38 + r2 * (-2.44 + r2 * 1.42)));
@@ -59,7 +59,7 @@ TEST(AzureKinect, AnotherModelIsTakenOnlyWhenToldSo) {
 TEST(AzureKinect, WithoutTangentialPartTheOtherModelIsTheSame) {
   std::string text = changed(kAzureKinectFile, "ModelBrownConrady", "ModelRational6KT");
   text = changed(text, "-2.5e-5, 3.0e-5", "0.0, 0.0");
-  const sphc_calibration joined = joinParts({readAzureKinect({"k.json", text})}, {});
+  const sphc_rig joined = joinParts({readAzureKinect({"k.json", text})}, {});
   expectCamera(joined.depth_camera, SPHC_CAMERA_BROWN8, 1024, 1024,
                {0.4925 * 1024, 0.4926 * 1024, 0.51 * 1024, 0.49 * 1024, 0.5, -2.6, 0, 0, 1.49, 0.38, -2.44, 1.42});
 }

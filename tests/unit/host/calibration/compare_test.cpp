@@ -5,9 +5,9 @@
 namespace sphc::host {
 namespace {
 
-sphc_calibration example() {
-  sphc_calibration c;
-  sphc_calibration_init(&c, sizeof c);
+sphc_rig example() {
+  sphc_rig c;
+  sphc_rig_init(&c);
   c.color_camera = {SPHC_CAMERA_PINHOLE, 640, 480, 4, {500, 500, 320, 240}};
   c.depth_camera = {SPHC_CAMERA_PINHOLE, 320, 240, 4, {250, 250, 160, 120}};
   c.color_from_depth.t_m[0] = 0.02;
@@ -22,7 +22,7 @@ TEST(Compare, TheSameIsTheSame) {
 }
 
 TEST(Compare, AMovedPrincipalPointIsSeenWhereItActs) {
-  sphc_calibration moved = example();
+  sphc_rig moved = example();
   moved.color_camera.params[2] += 0.5;
   const CalibrationDifference difference = compareCalibrations(example(), moved);
   EXPECT_NEAR(difference.color.largest_px, 0.5, 1e-9);
@@ -32,7 +32,7 @@ TEST(Compare, AMovedPrincipalPointIsSeenWhereItActs) {
 }
 
 TEST(Compare, ABaselineCountsByDepth) {
-  sphc_calibration moved = example();
+  sphc_rig moved = example();
   moved.color_from_depth.t_m[0] += 0.001;
   const CalibrationDifference difference = compareCalibrations(example(), moved);
   EXPECT_LT(difference.color.largest_px, 1e-9);
@@ -41,7 +41,7 @@ TEST(Compare, ABaselineCountsByDepth) {
 }
 
 TEST(Compare, WhatIsSeenNoLongerIsCounted) {
-  sphc_calibration folded = example();
+  sphc_rig folded = example();
   folded.color_camera = {SPHC_CAMERA_BROWN5, 640, 480, 9, {500, 500, 320, 240, -2, 0, 0, 0, 0}};
   const CalibrationDifference difference = compareCalibrations(example(), folded);
   EXPECT_GT(difference.color.lost, 100u);

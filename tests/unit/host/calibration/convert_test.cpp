@@ -39,9 +39,9 @@ const sphc_camera kCameras[] = {
     {SPHC_CAMERA_BROWN8, 1280, 720, 12, {614, 613, 639, 366, 0.5, -2.6, 0.0008, -0.0003, 1.49, 0.38, -2.44, 1.42}},
     {SPHC_CAMERA_KANNALA_BRANDT4, 320, 288, 8, {160.1, 160.2, 161.3, 144.7, 0.05, -0.02, 0.004, -0.0005}}};
 
-sphc_calibration calibrationOf(const sphc_camera &color, const sphc_camera &depth) {
-  sphc_calibration c;
-  sphc_calibration_init(&c, sizeof c);
+sphc_rig calibrationOf(const sphc_camera &color, const sphc_camera &depth) {
+  sphc_rig c;
+  sphc_rig_init(&c);
   c.color_camera = color;
   c.depth_camera = depth;
   const double q[4] = {0.96, 0.08, -0.24, 0.12};
@@ -51,7 +51,7 @@ sphc_calibration calibrationOf(const sphc_camera &color, const sphc_camera &dept
   return c;
 }
 
-sphc_calibration writtenAndRead(Format format, const sphc_calibration &calibration) {
+sphc_rig writtenAndRead(Format format, const sphc_rig &calibration) {
   const Folder folder;
   std::vector<std::string> paths;
   for (const TextFile &file : writeCalibration(format, calibration))
@@ -73,7 +73,7 @@ TEST_P(RoundTrip, IsExactForWhatTheFormatHolds) {
     for (const sphc_camera &depth : kCameras) {
       if (!formatHolds(format, color) || !formatHolds(format, depth)) continue;
       ++held;
-      const sphc_calibration calibration = calibrationOf(color, depth);
+      const sphc_rig calibration = calibrationOf(color, depth);
       const CalibrationDifference difference =
           compareCalibrations(calibration, writtenAndRead(format, calibration));
       EXPECT_LT(difference.largestPx(), 1e-6) << color.model << " " << depth.model;
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Each, RoundTrip, testing::Range<size_t>(0, 6), [](const
 });
 
 TEST(Fit, RefusesWhatTheFormatCannotHoldUnlessToldSo) {
-  const sphc_calibration calibration = calibrationOf(kCameras[3], kCameras[4]);
+  const sphc_rig calibration = calibrationOf(kCameras[3], kCameras[4]);
   for (const Format format : {Format::kKalibr, Format::kAzureKinect}) {
     try {
       fitToFormat(calibration, format, false);
@@ -100,7 +100,7 @@ TEST(Fit, RefusesWhatTheFormatCannotHoldUnlessToldSo) {
     } catch (const std::runtime_error &error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("--approximate"));
     }
-    const sphc_calibration fitted = fitToFormat(calibration, format, true);
+    const sphc_rig fitted = fitToFormat(calibration, format, true);
     const CalibrationDifference difference = compareCalibrations(calibration, fitted);
     EXPECT_LT(difference.color.largest_px, 10);  // of a lens that bends as strongly as an Azure Kinect's
     EXPECT_LT(difference.depth.largest_px, 1);

@@ -23,7 +23,7 @@ TEST(Join, FilesInTheOrderColourDepthExtrinsics) {
                         depth = readRos({"depth.yaml", kRosDepthFile});
   CalibrationPart extrinsics;
   extrinsics.second_from_first = kBaseline;
-  const sphc_calibration joined = joinParts({color, depth, extrinsics}, {});
+  const sphc_rig joined = joinParts({color, depth, extrinsics}, {});
   EXPECT_EQ(joined.color_camera.width, 640u);
   EXPECT_EQ(joined.depth_camera.width, 320u);
   expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {-0.1, 0, 0});
@@ -38,7 +38,7 @@ TEST(Join, NamesSwapTheCamerasAndTheTransform) {
   JoinOptions options;
   options.color = "tof";
   options.depth = "narrow_stereo";
-  const sphc_calibration joined = joinParts({color, depth, extrinsics}, options);
+  const sphc_rig joined = joinParts({color, depth, extrinsics}, options);
   EXPECT_EQ(joined.color_camera.width, 320u);
   expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {0.1, 0, 0});
 }
@@ -49,7 +49,7 @@ TEST(Join, OptionsSayWhatFilesLeaveOpen) {
   JoinOptions options;
   options.color_from_depth = kBaseline;
   options.depth_unit_m = 0.00025;
-  const sphc_calibration joined = joinParts({color, depth}, options);
+  const sphc_rig joined = joinParts({color, depth}, options);
   expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {0.1, 0, 0});
   EXPECT_EQ(joined.depth_unit_m, 0.00025);
 }
@@ -57,7 +57,7 @@ TEST(Join, OptionsSayWhatFilesLeaveOpen) {
 TEST(Join, RegisteredDepthNeedsOneCamera) {
   JoinOptions options;
   options.registered = true;
-  const sphc_calibration joined = joinParts({readRos({"color.yaml", kRosColorFile})}, options);
+  const sphc_rig joined = joinParts({readRos({"color.yaml", kRosColorFile})}, options);
   EXPECT_EQ(joined.depth_camera.params[4], joined.color_camera.params[4]);
   expectRigid(joined.color_from_depth, {1, 0, 0, 0}, {0, 0, 0});
 }
@@ -100,9 +100,9 @@ TEST(Join, SaysWhatIsMissing) {
 
 TEST(Join, AnImpossibleCameraIsRefusedWhateverTheFormat) {
   CalibrationPart part = readKalibr({"f", changed(kKalibrFile, "461.629", "-461.629")});
-  EXPECT_THAT(refusal({part}, {}), testing::HasSubstr("focal lengths -461.629"));
+  EXPECT_THAT(refusal({part}, {}), testing::HasSubstr("params[0] is -461.629; a focal length must be positive"));
   part = readKalibr({"f", changed(kKalibrFile, "461.629", "1.0e9")});
-  EXPECT_THAT(refusal({part}, {}), testing::HasSubstr("beyond 1e6"));
+  EXPECT_THAT(refusal({part}, {}), testing::HasSubstr("at most 1000000"));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(Kalibr, ReadsAChain) {
 }
 
 TEST(Kalibr, TheTransformTakesPointsOfTheCameraBefore) {
-  const sphc_calibration joined = joinParts({readKalibr({"camchain.yaml", kKalibrFile})}, {});
+  const sphc_rig joined = joinParts({readKalibr({"camchain.yaml", kKalibrFile})}, {});
   // x_1 = R x_0 + t, so x_0 = R^T (x_1 - t): colour is cam0.
   const double s = std::sqrt(0.5);
   expectRigid(joined.color_from_depth, {s, 0, 0, -s}, {-0.02, -0.11, -0.003});

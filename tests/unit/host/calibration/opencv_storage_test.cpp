@@ -55,7 +55,7 @@ TEST_P(PeerFormat, IsRead) {
 INSTANTIATE_TEST_SUITE_P(Each, PeerFormat, testing::Values("x.yml", "x.json", "x.xml"));
 
 TEST(OpencvStorage, OpencvReadsWhatWeWrite) {
-  const sphc_calibration joined = joinParts({readOpencv({"stereo.yml", kOpencvStereoFile})}, {});
+  const sphc_rig joined = joinParts({readOpencv({"stereo.yml", kOpencvStereoFile})}, {});
   const cv::FileStorage storage(opencvText(joined), cv::FileStorage::READ | cv::FileStorage::MEMORY);
   cv::Mat m1, d2, r, t;
   storage["M1"] >> m1;

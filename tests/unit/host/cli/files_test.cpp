@@ -55,6 +55,33 @@ class FilesTest : public testing::Test {
 };
 std::unique_ptr<TempFolder> FilesTest::folder_;
 
+// A private model stands for the recording that it was made of: with one key the map has the same bytes.
+TEST_F(FilesTest, AMapOfASavedModelIsTheMapMadeAtOnce) {
+  const std::string key = at("model.key"), model = at("walk.model"), by_key = " --key " + key + " --ledger ";
+  put("model.key", std::string(64, 'a'));
+  fs::permissions(key, fs::perms::owner_read | fs::perms::owner_write);
+  const Answer at_once = runCommand("build -r " + at("walk") + " -m " + at("at_once.sphc") + by_key +
+                                    at("at_once.ledger") + " --save-model " + model);
+  ASSERT_EQ(at_once.exit_code, kExitDone) << at_once.err;
+  EXPECT_EQ(modeOf(model), 0600u);
+  const Answer later =
+      runCommand("build --model " + model + " -m " + at("later.sphc") + by_key + at("later.ledger"));
+  ASSERT_EQ(later.exit_code, kExitDone) << later.err;
+  EXPECT_EQ(textOf(at("later.sphc")), textOf(at("at_once.sphc")));
+  // and the key is what the map depends on
+  put("model.key", std::string(64, 'b'));
+  const Answer other =
+      runCommand("build --model " + model + " -m " + at("other.sphc") + by_key + at("other_key.ledger"));
+  ASSERT_EQ(other.exit_code, kExitDone) << other.err;
+  EXPECT_NE(textOf(at("other.sphc")), textOf(at("at_once.sphc")));
+}
+
+TEST_F(FilesTest, AModelIsSavedOverNothingElse) {
+  const std::string build = "build -r " + at("walk") + " -m " + at("room.sphc") + " --save-model ";
+  expectKept(at("room.sphc"), build + at("room.sphc"), kExitUsage, "are one file");
+  expectKept(at("spherecloud.ledger"), build + at("spherecloud.ledger") + " --force", kExitUsage, "are one file");
+}
+
 TEST_F(FilesTest, BuildReplacesItsOwnMapAlone) {
   const std::string build = "build -r " + at("walk") + " -m ", ledger = at("spherecloud.ledger");
   expectKept(ledger, build + ledger, kExitUsage, "are one file");

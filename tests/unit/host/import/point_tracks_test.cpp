@@ -142,12 +142,12 @@ TEST(PointTracks, OutliersDoNotMoveAPoint) {
 TEST(PointTracks, OtherDescriptorsOrOtherDepthsStayApart) {
   World world(4, 40);
   const auto first = world.observe(0, 0.002);
-  auto other_look = first, other_depth = first;
-  for (Observation &o : other_look) o.descriptor = test::randomDescriptor(&world.random);
+  auto other_descriptors = first, other_depth = first;
+  for (Observation &o : other_descriptors) o.descriptor = test::randomDescriptor(&world.random);
   for (Observation &o : other_depth) o.depth_m *= 1.5, o.position_m *= 1.5;
   PointTracks tracks({});
   tracks.add(camera(), World::cameraFromWorld(0), first);
-  EXPECT_EQ(tracks.add(camera(), World::cameraFromWorld(0), other_look), 0u);
+  EXPECT_EQ(tracks.add(camera(), World::cameraFromWorld(0), other_descriptors), 0u);
   EXPECT_EQ(tracks.add(camera(), World::cameraFromWorld(0), other_depth), 0u);
 }
 

@@ -30,9 +30,7 @@ class GeometryCheckTest : public testing::Test {
     config.frame_rate_hz = 0.5;  // far apart
     sphc_simulated *simulated = nullptr;
     ASSERT_EQ(sphc_simulated_open(&config, &simulated, nullptr), SPHC_OK);
-    sphc_calibration_init(&calibration_, sizeof calibration_);
-    sphc_simulated_cameras(simulated, &calibration_.color_camera, &calibration_.depth_camera,
-                           &calibration_.color_from_depth);
+    ASSERT_EQ(sphc_simulated_rig(simulated, &calibration_), SPHC_OK);
     for (uint32_t i = 0; i < kFrames; ++i) {
       Images images;
       images.color.resize(size_t{3} * calibration_.color_camera.width * calibration_.color_camera.height);
@@ -49,7 +47,7 @@ class GeometryCheckTest : public testing::Test {
   using SpoilColor = std::function<void(std::vector<uint8_t> *color)>;
   // `late`: so many frames, depth comes behind the image.
   Finding look(
-      const sphc_calibration &calibration, const Spoil &spoil = [](std::vector<uint16_t> *) {},
+      const sphc_rig &calibration, const Spoil &spoil = [](std::vector<uint16_t> *) {},
       const SpoilColor &spoil_color = [](std::vector<uint8_t> *) {}, size_t late = 0) {
     GeometryCheck check(calibration);
     const sphc_camera &c = calibration.color_camera, &d = calibration.depth_camera;
@@ -64,10 +62,10 @@ class GeometryCheckTest : public testing::Test {
     return check.finding();
   }
 
-  static sphc_calibration calibration_;
+  static sphc_rig calibration_;
   static std::vector<Images> images_;
 };
-sphc_calibration GeometryCheckTest::calibration_;
+sphc_rig GeometryCheckTest::calibration_;
 std::vector<Images> GeometryCheckTest::images_;
 
 TEST_F(GeometryCheckTest, ATrueCalibrationIsFine) {

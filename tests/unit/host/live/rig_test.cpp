@@ -40,7 +40,7 @@ class RigTest : public testing::Test {
 TEST_F(RigTest, GivesEveryPairOfARecordingAndThenItsEnd) {
   const auto rig = open();
   EXPECT_TRUE(rig->waits());
-  sphc_calibration calibration = {};
+  sphc_rig calibration = {};
   ASSERT_TRUE(rig->calibration(&calibration));
   EXPECT_EQ(calibration.color_camera.width, contract::kColorWidth);
   uint32_t captures = 0, pairs = 0;

@@ -13,7 +13,7 @@ constexpr uint32_t kWidth = 64, kHeight = 48;
 class StreamCheckTest : public testing::Test {
  protected:
   StreamCheckTest() {
-    sphc_calibration_init(&calibration_, sizeof calibration_);
+    sphc_rig_init(&calibration_);
     calibration_.color_camera =
         calibration_.depth_camera = {SPHC_CAMERA_PINHOLE, kWidth, kHeight, 4, {50, 50, 32, 24}};
   }
@@ -43,7 +43,7 @@ class StreamCheckTest : public testing::Test {
     return {Grade::kFine, "", ""};
   }
 
-  sphc_calibration calibration_;
+  sphc_rig calibration_;
   sphc_capture capture_ = {};
 };
 

@@ -193,7 +193,7 @@ TEST_F(LedgerTest, OneProgramAtATime) {
 
 TEST_F(LedgerTest, WhatIsNoLedgerIsRefused) {
   EXPECT_THROW(Ledger::openToRead(path_), std::runtime_error);
-  EXPECT_NE(access(path_.c_str(), F_OK), 0) << "a look made a file";
+  EXPECT_NE(access(path_.c_str(), F_OK), 0) << "reading made a file";
   std::ofstream(path_) << "no database, and long enough that nobody takes it for the beginning of one "
                        << std::string(200, 'x');
   chmod(path_.c_str(), 0600);

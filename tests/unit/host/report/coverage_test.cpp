@@ -11,7 +11,7 @@ namespace {
 
 using Directions = std::vector<std::array<double, 3>>;
 
-// Everywhere, or without a cap of `hole_deg` around +x.
+// Everywhere, or without a cone of `hole_deg` around +x.
 Directions spread(double hole_deg) {
   Directions directions;
   for (int pitch = -88; pitch <= 88; pitch += 4)
@@ -36,8 +36,8 @@ TEST(Coverage, AHoleIsFoundWithItsSize) {
   EXPECT_NEAR(coverage.holes[0].yaw_deg, 0, 4);
   EXPECT_NEAR(coverage.holes[0].pitch_deg, 0, 4);
   EXPECT_NEAR(coverage.holes[0].radius_deg, 40, 5);
-  const double cap = (1 - std::cos(36 * M_PI / 180)) / 2;  // what is more than 5 degrees inside, about
-  EXPECT_NEAR(coverage.covered_share, 1 - cap, 0.02);
+  const double hole = (1 - std::cos(36 * M_PI / 180)) / 2;  // what is more than 5 degrees inside, about
+  EXPECT_NEAR(coverage.covered_share, 1 - hole, 0.02);
 }
 
 TEST(Coverage, OneDirectionIsTheLeastEven) {

@@ -22,6 +22,12 @@ TEST(Highlights, AreBestMedianWorstAndLost) {
             (std::vector<std::string>{"best:3", "median:4", "worst:1", "not_localized_1:2", "not_localized_2:5"}));
 }
 
+TEST(Highlights, ShowTheWrongPoses) {
+  host::Run run;
+  run.frames = {goodFrame(1, 0.30, 0), goodFrame(2, 0.01, 0), goodFrame(3, 0.40, 0), goodFrame(4, 0.02, 11)};
+  EXPECT_EQ(names(run), (std::vector<std::string>{"best:2", "median:1", "worst:3", "wrong_1:1", "wrong_4:4"}));
+}
+
 TEST(Highlights, GoByInliersWithoutTruth) {
   host::Run run;
   run.frames = {goodFrame(1, 0, 0), goodFrame(2, 0, 0)};

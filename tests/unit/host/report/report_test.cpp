@@ -52,6 +52,16 @@ TEST_F(ReportTest, IsOnePageThatNeedsNothingElse) {
   }
 }
 
+TEST_F(ReportTest, WarnsOfWrongPosesAndListsTheWorst) {
+  std::string page = write();
+  EXPECT_THAT(page, Not(HasSubstr("<p class='wrong'>")));
+  EXPECT_THAT(page, HasSubstr("<h2>Worst poses</h2>"));
+  run_.frames.push_back(goodFrame(123, 0.5, 3));
+  page = write();
+  EXPECT_THAT(page, HasSubstr("<p class='wrong'><b>1 wrong pose was given out</b>"));
+  EXPECT_THAT(page, HasSubstr("<tr class='wrong'><td>123</td><td class='value'>50.0 cm</td>"));
+}
+
 TEST_F(ReportTest, SaysSoWithoutGnuplot) {
   const char *path = getenv("PATH");
   const std::string saved = path ? path : "";

@@ -54,6 +54,23 @@ TEST(Summary, FiveDegreesCountToo) {
   EXPECT_FALSE(isGood(goodFrame(1, 0.06, 0.1)));
 }
 
+TEST(Summary, WrongIsGivenOutAndFarFromTheTruth) {
+  host::Run run;
+  run.frames = {goodFrame(1, 0.24, 9.9), goodFrame(2, 0.26, 0), goodFrame(3, 0.01, 10.1), lostFrame(4)};
+  run.frames.push_back(goodFrame(5, 3, 90));
+  run.frames.back().has_truth = false;
+  EXPECT_EQ(summarize(run).wrong, 2u);
+}
+
+TEST(Summary, WorstFramesAreThoseFurthestOffInEitherMeasure) {
+  host::Run run;
+  run.frames = {goodFrame(1, 0.10, 0), goodFrame(2, 0.02, 20), lostFrame(3), goodFrame(4, 0.30, 1),
+                goodFrame(5, 0, 0)};
+  EXPECT_EQ(worstFrames(run, 3), (std::vector<size_t>{1, 3, 0}));
+  EXPECT_EQ(worstFrames(run, 9).size(), 4u);
+  EXPECT_TRUE(worstFrames(host::Run(), 3).empty());
+}
+
 TEST(Summary, OfAnEmptyRunHasNoErrors) {
   const Summary summary = summarize(host::Run());
   EXPECT_EQ(summary.frames, 0u);

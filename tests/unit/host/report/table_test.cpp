@@ -24,6 +24,15 @@ TEST(Table, HoldsTheFiguresAPersonAsksFor) {
   EXPECT_THAT(text, HasSubstr("3.00 MB"));
 }
 
+TEST(Table, WarnsOfWrongPosesAlone) {
+  host::Run run;
+  run.maps.resize(1);
+  run.frames = {goodFrame(1, 0.01, 0.5)};
+  EXPECT_THAT(tableText(tableRows(run, summarize(run))), testing::Not(HasSubstr("WRONG")));
+  run.frames.push_back(goodFrame(2, 0.30, 0.5));
+  EXPECT_THAT(tableText(tableRows(run, summarize(run))), HasSubstr("WRONG POSES GIVEN OUT"));
+}
+
 TEST(Table, SaysHowToGetErrorsWhenThereAreNone) {
   host::Run run;
   run.frames = {goodFrame(1, 0.01, 0.5)};

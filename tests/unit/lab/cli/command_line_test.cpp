@@ -27,7 +27,7 @@ TEST_P(LabHelpTest, TeachesByExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, LabHelpTest,
-                         testing::Values("align", "compare", "confidence", "features", "frame", "map", "match",
+                         testing::Values("align", "compare", "features", "frame", "map", "match",
                                          "pose", "recording", "releases"));
 
 class LabUsageTest : public testing::TestWithParam<const char *> {};

@@ -64,8 +64,8 @@ struct Wall {
 
 sphc_config wallConfig() {
   sphc_config config = spherecloud::defaultConfig();
-  config.color_camera = {SPHC_CAMERA_PINHOLE, kWidth, kHeight, 4, {300, 300, 160, 120}};
-  config.depth_camera = config.color_camera;
+  config.rig.color_camera = {SPHC_CAMERA_PINHOLE, kWidth, kHeight, 4, {300, 300, 160, 120}};
+  config.rig.depth_camera = config.rig.color_camera;
   return config;
 }
 
@@ -94,7 +94,7 @@ TEST(FramePeers, AFrameThatWasMappedIsFoundWhereItWasTaken) {
 TEST(FramePeers, AFisheyeIsRefusedWithTheCure) {
   FramePeers peers(peerPython());
   sphc_config config = wallConfig();
-  config.color_camera = {SPHC_CAMERA_KANNALA_BRANDT4, kWidth, kHeight, 8, {300, 300, 160, 120, 0, 0, 0, 0}};
+  config.rig.color_camera = {SPHC_CAMERA_KANNALA_BRANDT4, kWidth, kHeight, 8, {300, 300, 160, 120, 0, 0, 0, 0}};
   EXPECT_THROW(peers.begin(config, {}), std::runtime_error);
 }
 

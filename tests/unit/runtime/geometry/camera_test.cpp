@@ -39,7 +39,7 @@ const std::vector<Named> &cameras() {
 TEST(Camera, AllTestCamerasAreUsable) {
   for (const Named &c : cameras()) {
     sphc_message message = {};
-    EXPECT_TRUE(checkCamera(c.camera, &message)) << c.name << message.text;
+    EXPECT_TRUE(checkCamera(c.camera, "camera", &message)) << c.name << message.text;
   }
 }
 
@@ -163,20 +163,20 @@ TEST(Camera, CheckNamesTheFault) {
     const char *words;
   };
   const Case cases[] = {
-      {[](sphc_camera *c) { c->model = 0; }, "model 0"},
-      {[](sphc_camera *c) { c->model = 99; }, "model 99"},
-      {[](sphc_camera *c) { c->param_count = 4; }, "takes 9 parameters, not 4"},
-      {[](sphc_camera *c) { c->width = 15; }, "15 x 480"},
-      {[](sphc_camera *c) { c->height = 8193; }, "640 x 8193"},
-      {[](sphc_camera *c) { c->params[8] = std::numeric_limits<double>::quiet_NaN(); }, "parameter 8"},
-      {[](sphc_camera *c) { c->params[0] = 0; }, "focal"},
-      {[](sphc_camera *c) { c->params[1] = -5; }, "focal"},
+      {[](sphc_camera *c) { c->model = 0; }, "left.model is 0"},
+      {[](sphc_camera *c) { c->model = 99; }, "left.model is 99"},
+      {[](sphc_camera *c) { c->param_count = 4; }, "left.param_count is 4; model 2 takes 9"},
+      {[](sphc_camera *c) { c->width = 15; }, "left.width is 15; it must be 16 to 8192 pixels"},
+      {[](sphc_camera *c) { c->height = 8193; }, "left.height is 8193; it must be 16 to 8192 pixels"},
+      {[](sphc_camera *c) { c->params[8] = std::numeric_limits<double>::quiet_NaN(); }, "left.params[8] is nan"},
+      {[](sphc_camera *c) { c->params[0] = 0; }, "left.params[0] is 0; a focal length must be positive"},
+      {[](sphc_camera *c) { c->params[1] = -5; }, "left.params[1] is -5; a focal length must be positive"},
   };
   for (const Case &c : cases) {
     sphc_camera camera = cameras()[1].camera;
     c.spoil(&camera);
     sphc_message message = {};
-    EXPECT_FALSE(checkCamera(camera, &message));
+    EXPECT_FALSE(checkCamera(camera, "left", &message));
     EXPECT_NE(std::string(message.text).find(c.words), std::string::npos) << message.text;
   }
 }

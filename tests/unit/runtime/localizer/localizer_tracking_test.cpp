@@ -171,9 +171,10 @@ double errorWithDepthBefore(bool times_are_told) {
   double sum_m = 0;
   for (uint32_t i = 0; i < 8; ++i) {
     const auto made = test::sceneFrame(config, i);
-    made->images.depth_mm = test::renderScene(config.color_camera, config.depth_camera,
-                                              test::sceneViewpoint(i - 0.3), rigidFromC(config.color_from_depth))
-                                .depth_mm;
+    made->images.depth_mm =
+        test::renderScene(config.rig.color_camera, config.rig.depth_camera, test::sceneViewpoint(i - 0.3),
+                          rigidFromC(config.rig.color_from_depth))
+            .depth_mm;
     sphc_frame frame = made->frame;
     frame.depth.data = made->images.depth_mm.data();
     frame.color_time_ns = frame.depth_time_ns = (i + 1) * kStepNs;

@@ -62,8 +62,8 @@ void writeFrame(int frame, sphc_recording_writer *writer) {
 class PanoramaFrom : public testing::Test {
  protected:
   void SetUp() override {
-    sphc_calibration calibration;
-    sphc_calibration_init(&calibration, sizeof calibration);
+    sphc_rig calibration;
+    sphc_rig_init(&calibration);
     calibration.color_camera = {
         SPHC_CAMERA_PINHOLE, kWidth, kHeight, 4, {kFocalPx, kFocalPx, kWidth / 2.0, kHeight / 2.0}};
     calibration.depth_camera = calibration.color_camera;

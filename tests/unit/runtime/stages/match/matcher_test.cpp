@@ -254,7 +254,20 @@ TEST_F(IndexedMatcherTest, CallsAboutTheSameQueriesDoNotDisturbEachOther) {
   EXPECT_TRUE(same(whole, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
 }
 
-TEST_F(IndexedMatcherTest, GuidedIsExactInTheCapWhateverItsSectors) {
+// The neighbours are the same; only the test of the ratio is made again.
+TEST_F(IndexedMatcherTest, AnotherRatioGivesWhatAskingAnewGives) {
+  const auto loose = all(view_, queries(), 0.95f, 2), strict = all(view_, queries(), 0.3f, 2),
+             exact = exactly(0.95f);
+  ASSERT_GT(loose.size(), strict.size());
+  ASSERT_FALSE(same(loose, exact)) << "so few probes miss something";
+  matcher_.ask(view_, queries(), 2);
+  EXPECT_TRUE(same(strict, taken(matcher_.matchAll(kQueries, 0.3f, room()))));
+  EXPECT_TRUE(same(loose, taken(matcher_.matchAll(kQueries, 0.95f, room()))));
+  EXPECT_TRUE(same(exact, taken(matcher_.matchExact(0.95f, room()))));
+  EXPECT_TRUE(same(loose, taken(matcher_.matchAll(kQueries, 0.95f, room()))));
+}
+
+TEST_F(IndexedMatcherTest, GuidedIsExactInTheConeWhateverItsSectors) {
   useCells(8);
   std::vector<Direction> expected;
   queries_.clear();

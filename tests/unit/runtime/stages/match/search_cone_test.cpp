@@ -27,7 +27,7 @@ std::vector<PackedDirection> directions() {
   return packed;
 }
 
-SearchCone randomCap(Random *random) {
+SearchCone randomCone(Random *random) {
   const Vector3 axis = test::randomDirection(random);
   return {{static_cast<float>(axis.x()), static_cast<float>(axis.y()), static_cast<float>(axis.z())},
           static_cast<float>(std::cos(test::uniformIn(random, 0, kPi)))};
@@ -43,7 +43,7 @@ TEST(SearchCone, SimdEqualsScalar) {
       runs.push_back({begin, begin + random.below(40)});
     }
     if (round == 0) runs = {{0, kCount}};
-    const SearchCone cone = randomCap(&random);
+    const SearchCone cone = randomCone(&random);
     std::vector<uint32_t> simd(kCount + 240), scalar(kCount + 240);
     simd.resize(findInside(packed.data(), {runs.data(), runs.size()}, cone, simd.data()));
     scalar.resize(findInsideScalar(packed.data(), {runs.data(), runs.size()}, cone, scalar.data()));
@@ -57,7 +57,7 @@ TEST(SearchCone, InsideIsWhatTheUnpackedDirectionSays) {
   const DirectionRun all = {0, kCount};
   size_t found = 0;
   for (int round = 0; round < 50; ++round) {
-    const SearchCone cone = randomCap(&random);
+    const SearchCone cone = randomCone(&random);
     std::vector<uint32_t> inside(kCount);
     inside.resize(findInside(packed.data(), {&all, 1}, cone, inside.data()));
     std::vector<bool> is_inside(kCount);

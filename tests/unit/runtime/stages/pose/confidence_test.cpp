@@ -13,124 +13,89 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Estimate goodEstimate() {
+Matrix6 covarianceOf(double rotation_sigma_rad, double translation_sigma_m) {
+  const double turn2 = rotation_sigma_rad * rotation_sigma_rad / 3;
+  const double shift2 = translation_sigma_m * translation_sigma_m / 3;
+  return (Vector6() << turn2, turn2, turn2, shift2, shift2, shift2).finished().asDiagonal();
+}
+
+Estimate estimateOf(uint32_t inliers, double unit_variance) {
   Estimate estimate;
-  estimate.ending = PoseEnding::kFound;
-  estimate.lifted = 200;
-  estimate.inliers = 80;
-  estimate.gain = 65;
-  estimate.covariance = Vector6(1e-6, 1e-6, 1e-6, 1e-5, 1e-5, 1e-5).asDiagonal();
+  estimate.inliers = inliers;
+  estimate.unit_variance = unit_variance;
+  estimate.covariance = covarianceOf(0.002, 0.01);
   return estimate;
 }
 
-double confidenceOf(const Estimate &estimate) { return sphc::confidenceOf(confidenceInputs(estimate, estimate)); }
+TEST(StatedCovariance, GrowsWithTheScatterOfTheInliers) {
+  const Matrix6 as_expected = statedCovariance(estimateOf(80, 1)), wider = statedCovariance(estimateOf(80, 2.5));
+  EXPECT_TRUE(wider.isApprox(2.5 * as_expected));
+}
 
-using Field = double ConfidenceInputs::*;
-struct Direction {
-  Field field;
-  double sign;  // of the change that must not lower the confidence
-  double low, high;
-};
-const Direction kDirections[] = {{&ConfidenceInputs::gain_share, 1, 0, 1},
-                                 {&ConfidenceInputs::inliers, 1, 0, 100},
-                                 {&ConfidenceInputs::gain_per_inlier, 1, 0, 1},
-                                 {&ConfidenceInputs::rotation_sigma_rad, -1, 0, 0.5},
-                                 {&ConfidenceInputs::centre_sigma_m, -1, 0, 0.5}};
-
-ConfidenceInputs randomInputs(Random *random) {
-  ConfidenceInputs inputs;
-  for (const Direction &d : kDirections) inputs.*d.field = test::uniformIn(random, d.low, d.high);
-  return inputs;
+TEST(StatedCovariance, FewInliersAreWorthLessThanTheySay) {
+  double before = kInfinity;
+  for (uint32_t inliers : {10u, 20u, 50u, 100u, 1000u}) {
+    const double scale =
+        std::sqrt(statedCovariance(estimateOf(inliers, 1))(3, 3) / covarianceOf(0.002, 0.01)(3, 3));
+    EXPECT_LT(scale, before) << inliers;
+    EXPECT_GT(scale, 0.9) << inliers;
+    before = scale;
+  }
+  EXPECT_LT(before, 1);
 }
 
 TEST(Confidence, IsHighForAGoodPoseAndLowForABadOne) {
-  EXPECT_GT(confidenceOf(goodEstimate()), 0.98);
-  Estimate bad = goodEstimate();
-  bad.inliers = 5;
-  bad.gain = 2.5;
-  bad.covariance *= 100;
-  EXPECT_LT(confidenceOf(bad), 0.05);
+  EXPECT_GT(confidenceOf(covarianceOf(0.005, 0.01)), 0.99);
+  EXPECT_NEAR(confidenceOf(covarianceOf(0.005, 0.05)), 0.5, 0.05);
+  EXPECT_LT(confidenceOf(covarianceOf(0.005, 0.2)), 0.02);
+  EXPECT_LT(confidenceOf(covarianceOf(0.4, 0.01)), 0.02);
 }
 
-TEST(Confidence, NeverFallsWhenAnInputGetsBetter) {
+TEST(Confidence, NeverFallsWhenASigmaShrinksOrABoundGrows) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
-    const ConfidenceInputs worse = randomInputs(&random);
-    for (const Direction &d : kDirections) {
-      ConfidenceInputs better = worse;
-      better.*d.field += d.sign * (d.high - d.low) * random.uniform();
-      EXPECT_GE(sphc::confidenceOf(better), sphc::confidenceOf(worse));
-    }
+    const double turn = test::uniformIn(&random, 0, 0.5), shift = test::uniformIn(&random, 0, 0.5);
+    const double confidence = confidenceOf(covarianceOf(turn, shift)), less = random.uniform();
+    EXPECT_GE(confidenceOf(covarianceOf(less * turn, shift)), confidence);
+    EXPECT_GE(confidenceOf(covarianceOf(turn, less * shift)), confidence);
+    ErrorBounds wider;
+    wider.translation_m *= 1 + less;
+    wider.rotation_rad *= 1 + less;
+    EXPECT_GE(confidenceOf(covarianceOf(turn, shift), wider), confidence);
   }
 }
 
-TEST(Confidence, EveryInputCounts) {
-  const ConfidenceInputs middling = {0.15, 7, 0.6, 0.02, 0.03};
-  for (const Direction &d : kDirections) {
-    ConfidenceInputs better = middling, worse = middling;
-    better.*d.field *= d.sign > 0 ? 1.5 : 1 / 20.0;
-    worse.*d.field *= d.sign > 0 ? 1 / 1.5 : 20.0;
-    EXPECT_GT(sphc::confidenceOf(better), sphc::confidenceOf(worse));
-  }
+TEST(Confidence, IsOfTheWorseOfTurnAndShift) {
+  const double both = confidenceOf(covarianceOf(0.03, 0.03));
+  EXPECT_EQ(confidenceOf(covarianceOf(0.001, 0.03)), both);  // 3 cm of 5 is worse than 1.7 degrees of 5
+  EXPECT_GT(confidenceOf(covarianceOf(0.03, 0.001)), both);
 }
 
-TEST(Confidence, NoiseBeyondWhatWasStatedLowersIt) {
-  Estimate noisy = goodEstimate();
-  noisy.inliers = 12;
-  noisy.gain = 9;
-  const double as_stated = confidenceOf(noisy);
-  noisy.noise_ratio = 3;
-  EXPECT_LT(confidenceOf(noisy), as_stated);
-  noisy.noise_ratio = 0.3;  // less noise is not believed
-  EXPECT_EQ(confidenceOf(noisy), as_stated);
+TEST(Confidence, OtherBoundsAreAskedInTheirOwnMeasure) {
+  const double standard = confidenceOf(covarianceOf(0.01, 0.02));
+  EXPECT_NEAR(confidenceOf(covarianceOf(0.02, 0.04), {0.10, 10 * kPi / 180}), standard, 1e-12);
+  EXPECT_LT(confidenceOf(covarianceOf(0.01, 0.02), {0.01, 5 * kPi / 180}), 0.2);
 }
 
 TEST(Confidence, IsAProbabilityWhateverTheInputs) {
-  const double values[] = {-kInfinity, -1e300, -1, -1e-300, 0, 1e-300, 0.5, 1, 1e300, kInfinity};
-  for (const Direction &d : kDirections) {
-    for (double value : values) {
-      ConfidenceInputs inputs = {0.3, 20, 0.8, 0.01, 0.01};
-      inputs.*d.field = value;
-      const double confidence = sphc::confidenceOf(inputs);
+  for (double value : {0.0, 1e-300, 1e-9, 0.5, 1.0, 1e9, 1e150}) {
+    for (const Matrix6 &covariance : {covarianceOf(value, 0.01), covarianceOf(0.01, value)}) {
+      const double confidence = confidenceOf(covariance);
       EXPECT_TRUE(confidence >= 0 && confidence <= 1) << value;
     }
   }
 }
 
 TEST(Confidence, WhatIsNotANumberIsNoConfidence) {
-  for (const Direction &d : kDirections) {
-    ConfidenceInputs inputs = {0.3, 20, 0.8, 0.01, 0.01};
-    inputs.*d.field = kNan;
-    EXPECT_EQ(sphc::confidenceOf(inputs), 0);
-  }
   for (double broken : {kNan, -kInfinity, -1.0}) {
     for (int i : {0, 4}) {
-      Estimate estimate = goodEstimate();
-      estimate.covariance(i, i) = broken;
-      EXPECT_EQ(confidenceOf(estimate), 0) << broken;
+      Matrix6 covariance = covarianceOf(0.001, 0.001);
+      covariance(i, i) = broken;
+      EXPECT_EQ(confidenceOf(covariance), 0) << broken;
     }
+    EXPECT_EQ(confidenceOf(covarianceOf(0.001, 0.001), {broken, 1}), 0) << broken;
+    EXPECT_EQ(confidenceOf(covarianceOf(0.001, 0.001), {1, broken}), 0) << broken;
   }
-}
-
-TEST(Confidence, OfNothingIsLow) {
-  EXPECT_LT(confidenceOf(Estimate()), 0.05);
-  EXPECT_LT(sphc::confidenceOf(ConfidenceInputs()), 0.05);
-}
-
-// A camera that turns about itself: T = exp(omega, 0) T_estimate leaves -R^T t where it was.
-TEST(Confidence, LooksAtTheCameraNotAtTheMapsOrigin) {
-  Estimate estimate = goodEstimate();
-  estimate.camera_from_map.translation_m = {0, 0, 10};
-  const Rigid turn = {rotationFromVector({0.01, 0.02, -0.01}), Vector3::Zero()};
-  EXPECT_NEAR(
-      ((turn * estimate.camera_from_map).inverse().translation_m - estimate.camera_from_map.inverse().translation_m)
-          .norm(),
-      0, 1e-12);
-  estimate.covariance.setZero();
-  estimate.covariance.topLeftCorner<3, 3>() = 1e-4 * Matrix3::Identity();
-  const ConfidenceInputs inputs = confidenceInputs(estimate, estimate);
-  EXPECT_NEAR(inputs.centre_sigma_m, 0, 1e-9);
-  EXPECT_NEAR(inputs.rotation_sigma_rad, std::sqrt(3e-4), 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+#include "host/report/fault_words.h"
+
+#include <spherecloud/spherecloud.h>
+
+namespace sphc::host {
+
+const std::array<FaultWords, 9> kFaultWords = {{
+    {SPHC_FAULT_DEPTH_RANGE, "depth out of range",
+     "nearly every measurement lies outside depth_min_m to depth_max_m: is depth_unit_m right, is the sensor "
+     "covered?"},
+    {SPHC_FAULT_DEPTH_CONSTANT, "depth constant",
+     "one depth everywhere: restart the depth sensor, look at its driver"},
+    {SPHC_FAULT_DEPTH_BENT, "depth bent",
+     "planes are not plane: the stream may be inverted, or disparity; the driver should give depth along the axis"},
+    {SPHC_FAULT_DEPTH_FROZEN, "depth frozen", "the same depth image again and again: restart the depth stream"},
+    {SPHC_FAULT_COLOR_FROZEN, "colour frozen", "the same colour image again and again: restart the colour stream"},
+    {SPHC_FAULT_DEPTH_COLOR_DISAGREE, "depth and colour disagree",
+     "edges of depth are not where the image has edges: is one of them late, mirrored, turned, cropped or scaled, "
+     "is "
+     "the calibration that of these cameras? `spherecloud doctor` compares them"},
+    {SPHC_FAULT_DEPTH_SCALE, "depth scale",
+     "poses go farther, or less far, than odometry: is depth_unit_m right, was the map made with another scale?"},
+    {SPHC_FAULT_DEPTH_BIAS, "depth bias",
+     "the bias that was learnt is more than a sound sensor has: calibrate the cameras again"},
+    {SPHC_FAULT_VERTICAL_DISAGREES, "vertical disagrees",
+     "the vertical that was given is not the pose's: check the frame and the sigma of the inertial sensor"},
+}};
+
+std::string faultNames(uint32_t faults) {
+  std::string names;
+  for (const FaultWords &words : kFaultWords)
+    if (faults & words.fault) names += (names.empty() ? "" : ", ") + std::string(words.name);
+  return names;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,95 @@
+#include "runtime/stages/consistency/consistency.h"
+
+#include <algorithm>
+
+namespace sphc {
+namespace {
+
+// ---- values of one image; docs/consistency.md has the evidence ----
+
+constexpr double kMeasuredShare = 0.1;     // of the samples: fewer say nothing
+constexpr double kOutOfRangeShare = 0.98;  // of the measurements
+constexpr uint32_t kFewValues = 3;
+constexpr uint32_t kFewestSlanted = 15;
+// How far the values may be bent, the second over the root of how many places there are: in frame after frame, and
+// in one alone.
+constexpr double kMostBend = 1.2, kMostBendOfFew = 7, kSureBend = 2, kSureBendOfFew = 10;
+
+// ---- edges ----
+
+// (mean rank - kHalfway) * sqrt(edges): mostly above 0.5 where the two agree, and below 0 where they do not.
+constexpr double kHalfway = 0.57;
+constexpr uint32_t kFewestEdges = 6;
+constexpr double kSurelyOff = -0.85, kDoubtfullyOff = 0;  // in one frame
+// Summed over frames (Page's cumulative sum): how far below kUsual each is.
+constexpr double kUsual = 0.35, kMostAStep = 1, kDoubtful = 0.8, kAlarm = 2.2, kAllClear = 1, kMostDoubt = 4;
+
+}  // namespace
+
+void Consistency::layout(Arena &state, Arena &scratch, Consistency *consistency) {
+  DepthSamples::layout(state, consistency ? &consistency->samples_ : nullptr);
+  Stillness::layout(DepthSamples::kCount, state, consistency ? &consistency->stillness_ : nullptr);
+  DepthEdges::layout(scratch, consistency ? &consistency->edges_ : nullptr);
+}
+
+void Consistency::init(const ConsistencyConfig &config) {
+  config_ = config;
+  samples_.init(config.depth_camera, config.depth_sensor);
+  reset();
+}
+
+void Consistency::reset() {
+  stillness_.reset();
+  doubt_ = 0;
+  disagreed_ = doubtful_ = bent_ = false;
+}
+
+Faults Consistency::look(const ConsistencyView &view) {
+  values_ = samples_.look(view.depth);
+  edges_.find(view.depth, config_.depth_sensor);
+  agreement_ = agreementOf(edges_.edges(), config_.depth_sensor.unit_m, view.gray, config_.color_camera,
+                           config_.depth_camera, view.color_from_depth);
+  Faults faults = judgeValues();
+  if (config_.follows)
+    faults |= stillness_.look(samples_.values(), view.depth_time_ns, view.gray, view.color_time_ns);
+  doubtful_ = false;
+  if (edgesDisagree()) faults |= kDepthColorDisagree;
+  if (isBent()) faults |= kDepthBent;
+  return faults;
+}
+
+Faults Consistency::judgeValues() const {
+  const double least = kMeasuredShare * values_.samples;
+  if (values_.measured < least) return 0;
+  if (values_.measured - values_.in_range > kOutOfRangeShare * values_.measured) return kDepthRange;
+  if (values_.in_range > least && values_.distinct <= kFewValues) return kDepthConstant;
+  return 0;
+}
+
+bool Consistency::isBent() {
+  const bool bent_before = bent_;
+  bent_ = false;
+  if (values_.slanted < kFewestSlanted) return false;
+  const double root = sqrtOf(static_cast<double>(values_.slanted));
+  bent_ = values_.bend > kMostBend + kMostBendOfFew / root;
+  doubtful_ = doubtful_ || bent_;
+  return values_.bend > kSureBend + kSureBendOfFew / root || (config_.follows && bent_ && bent_before);
+}
+
+bool Consistency::edgesDisagree() {
+  double score = 0;
+  const bool tells = agreement_.edges >= kFewestEdges;
+  if (tells) score = (agreement_.middle() - kHalfway) * sqrtOf(static_cast<double>(agreement_.edges));
+  doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
+  if (!config_.follows) return tells && score < kSurelyOff;
+  if (tells) {
+    const double step = std::min(kMostAStep, std::max(-kMostAStep, kUsual - score));
+    doubt_ = std::min(kMostDoubt, std::max(0.0, doubt_ + step));
+    if (score < kSurelyOff) doubt_ = std::max(doubt_, kAlarm);
+  }
+  doubtful_ = doubtful_ || doubt_ >= kDoubtful;
+  disagreed_ = doubt_ >= (disagreed_ ? kAllClear : kAlarm);
+  return disagreed_;
+}
+
+}  // namespace sphc

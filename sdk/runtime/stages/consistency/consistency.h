@@ -1,0 +1,57 @@
+// Does a frame contradict itself, or the frames before it?  A sensor that is broken, late, or not the one of the
+// calibration makes poses that are sure and wrong.
+#pragma once
+#include "runtime/stages/consistency/depth_edges.h"
+#include "runtime/stages/consistency/depth_values.h"
+#include "runtime/stages/consistency/edge_agreement.h"
+#include "runtime/stages/consistency/stillness.h"
+#include "runtime/stages/consistency/travel.h"
+
+namespace sphc {
+
+struct ConsistencyConfig {
+  Camera color_camera, depth_camera;
+  DepthSensor depth_sensor = {};
+  bool follows = false;  // do frames follow each other?  Else each is looked at alone
+};
+
+struct ConsistencyView {
+  GrayView gray;
+  ImageView<uint16_t> depth;
+  Rigid color_from_depth;  // at the times of the images
+  int64_t color_time_ns = 0, depth_time_ns = 0;
+};
+
+class Consistency {
+ public:
+  static void layout(Arena &state, Arena &scratch, Consistency *consistency);
+  // Once, after layout with memory.
+  void init(const ConsistencyConfig &config);
+  // Every frame; what is wrong with it.
+  Faults look(const ConsistencyView &view);
+  // After look: too little for a fault, but enough not to be sure of a pose.
+  bool isDoubtful() const { return doubtful_; }
+  // Forgets earlier frames.
+  void reset();
+
+  // Of the last frame.
+  const DepthValues &values() const { return values_; }
+  const EdgeAgreement &agreement() const { return agreement_; }
+
+ private:
+  Faults judgeValues() const;
+  bool edgesDisagree();
+  bool isBent();
+
+  ConsistencyConfig config_;
+  DepthSamples samples_;
+  DepthEdges edges_;
+  Stillness stillness_;
+  DepthValues values_;
+  EdgeAgreement agreement_;
+  double doubt_ = 0;        // of edges, summed over frames
+  bool disagreed_ = false;  // at the frame before
+  bool doubtful_ = false, bent_ = false;
+};
+
+}  // namespace sphc

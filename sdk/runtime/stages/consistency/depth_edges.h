@@ -1,0 +1,37 @@
+// Occluding edges of a depth image: where something near hides something far.
+#pragma once
+#include "runtime/base/arena.h"
+#include "runtime/types/depth_sensor.h"
+#include "runtime/types/image_view.h"
+
+namespace sphc {
+
+struct DepthEdge {
+  float x_px, y_px;  // where the near side ends, centre of the top-left pixel (0.5, 0.5)
+  uint16_t near;     // its measurement, sensor units
+  uint16_t cell;     // of the image, in which it lies
+  bool along_y;      // the depth changes down the image, else across it
+};
+
+// Edges spread over the image: the first that is met in each cell of a grid, across the image and down it.
+class DepthEdges {
+ public:
+  static constexpr int32_t kColumns = 32, kRows = 24;  // of the grid of cells
+  static constexpr size_t kCapacity = size_t{2} * kColumns * kRows;
+
+  static void layout(Arena &scratch, DepthEdges *edges);
+  // Reads some lines of the image across and down.
+  void find(ImageView<uint16_t> depth, const DepthSensor &sensor);
+  Span<const DepthEdge> edges() const { return edges_.first(count_); }
+
+ private:
+  struct Walk;
+  void walk(const Walk &walk);
+  void keep(const DepthEdge &edge);
+
+  Span<DepthEdge> edges_;
+  Span<uint8_t> taken_;  // of each cell: has an edge across, down
+  size_t count_ = 0;
+};
+
+}  // namespace sphc

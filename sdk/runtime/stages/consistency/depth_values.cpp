@@ -1,0 +1,116 @@
+#include "runtime/stages/consistency/depth_values.h"
+
+#include <algorithm>
+
+namespace sphc {
+namespace {
+
+constexpr int32_t kSmoothPx = 2, kSurfaceShare = 20;  // pixels around a sample, within 1 / 20 of it, are averaged
+constexpr int32_t kReach = 4;                         // samples from the middle of a place to its ends
+constexpr float kSlanted2 = 0.006f;                   // squared relative change of the inverse depth over the reach
+constexpr float kSmooth = 0.05f;  // relative deviation of the samples between from a straight line
+
+float middleOf(float a, float b, float c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
+
+}  // namespace
+
+void DepthSamples::layout(Arena &state, DepthSamples *samples) {
+  DepthSamples discarded;
+  DepthSamples &s = samples ? *samples : discarded;
+  s.rays_ = state.take<Ray>("consistency.rays", kCount);
+  s.values_ = state.take<uint16_t>("consistency.samples", kCount);
+  s.inverse_ = state.take<float>("consistency.samples", kCount);
+  s.bends_ = state.take<float>("consistency.samples", kCount);
+}
+
+void DepthSamples::init(const Camera &camera, const DepthSensor &sensor) {
+  sensor_ = sensor;
+  for (int32_t row = 0; row < kRows; ++row) {
+    for (int32_t column = 0; column < kColumns; ++column) {
+      Vector2 ray = Vector2::Zero();
+      const Vector2 px = {(column + 0.5) * camera.width() / kColumns, (row + 0.5) * camera.height() / kRows};
+      if (!camera.unproject(px, &ray)) ray = Vector2::Zero();
+      rays_[static_cast<size_t>(row * kColumns + column)] = {static_cast<float>(ray.x()),
+                                                             static_cast<float>(ray.y())};
+    }
+  }
+}
+
+DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
+  DepthValues found;
+  uint16_t seen[DepthValues::kMostDistinct] = {};
+  for (int32_t row = 0; row < kRows; ++row) {
+    const int32_t y = (2 * row + 1) * depth.height / (2 * kRows);
+    for (int32_t column = 0; column < kColumns; ++column) {
+      const size_t at = static_cast<size_t>(row * kColumns + column);
+      const int32_t x = (2 * column + 1) * depth.width / (2 * kColumns);
+      const uint16_t value = values_[at] = depth.row(y)[x];
+      const double z = value * sensor_.unit_m;
+      const bool in_range = value != 0 && z >= sensor_.min_m && z <= sensor_.max_m;
+      inverse_[at] = in_range ? smoothInverse(depth, x, y) : 0;
+      ++found.samples;
+      found.measured += value != 0;
+      found.in_range += in_range;
+      if (!in_range || found.distinct == DepthValues::kMostDistinct) continue;
+      if (std::find(seen, seen + found.distinct, value) == seen + found.distinct) seen[found.distinct++] = value;
+    }
+  }
+  for (int32_t row = kReach; row < kRows - kReach; ++row)
+    for (int32_t column = kReach; column < kColumns - kReach; ++column) addBend(column, row, &found);
+  if (!found.slanted) return found;
+  const auto begin = bends_.begin(), quantile = begin + found.slanted / 5;
+  std::nth_element(begin, quantile, begin + found.slanted);
+  found.bend = static_cast<double>(*quantile);
+  return found;
+}
+
+// One over the mean depth of the pixels around that are on the surface of the middle one.
+float DepthSamples::smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const {
+  const int32_t middle = depth.row(y)[x], most = middle / kSurfaceShare;
+  int32_t sum = 0, count = 0;
+  for (int32_t v = std::max(0, y - kSmoothPx); v <= std::min(depth.height - 1, y + kSmoothPx); ++v)
+    for (int32_t u = std::max(0, x - kSmoothPx); u <= std::min(depth.width - 1, x + kSmoothPx); ++u) {
+      const int32_t value = depth.row(v)[u];
+      if (absOf(value - middle) > most) continue;
+      sum += value;
+      ++count;
+    }
+  return static_cast<float>(count / (sum * sensor_.unit_m));
+}
+
+// Are the samples between the middle of a place and its ends where a smooth surface has them?
+bool DepthSamples::isSmooth(size_t at, size_t step) const {
+  const float w = inverse_[at], before = inverse_[at - kReach * step], after = inverse_[at + kReach * step];
+  const float half_before = inverse_[at - kReach / 2 * step], half_after = inverse_[at + kReach / 2 * step];
+  if (!(w > 0 && before > 0 && after > 0 && half_before > 0 && half_after > 0)) return false;
+  return absOf(half_before - 0.5f * (before + w)) < kSmooth * w &&
+         absOf(half_after - 0.5f * (after + w)) < kSmooth * w;
+}
+
+void DepthSamples::addBend(int32_t column, int32_t row, DepthValues *found) {
+  const size_t at = static_cast<size_t>(row * kColumns + column), across = 1, down = kColumns;
+  if (!isSmooth(at, across) || !isSmooth(at, down)) return;
+  const size_t l = at - kReach * across, r = at + kReach * across, u = at - kReach * down, d = at + kReach * down;
+  const float w = inverse_[at];
+  // The plane's slope by rays; a lens bends lines of pixels, so each direction is cleared of the other's part.
+  const float wide = rays_[r].x - rays_[l].x, high = rays_[d].y - rays_[u].y;
+  if (!(wide > 0 && high > 0)) return;
+  const float b0 = (inverse_[d] - inverse_[u]) / high;
+  const float a = (inverse_[r] - inverse_[l] - b0 * (rays_[r].y - rays_[l].y)) / wide;
+  const float b = (inverse_[d] - inverse_[u] - a * (rays_[d].x - rays_[u].x)) / high;
+  const float slope_x = 0.5f * a * wide / w, slope_y = 0.5f * b * high / w;
+  const float slope2 = slope_x * slope_x + slope_y * slope_y;
+  if (slope2 < kSlanted2) return;
+  const auto off = [&](size_t i) {
+    return inverse_[i] - w - a * (rays_[i].x - rays_[at].x) - b * (rays_[i].y - rays_[at].y);
+  };
+  // A corner lies in one of the three second differences of a line, and the middle one is of a surface.
+  const auto bendAlong = [&](size_t step) {
+    const size_t half = kReach / 2 * step;
+    const float before = off(at - half), after = off(at + half);
+    return 4 * middleOf(off(at - 2 * half) - 2 * before, before + after, off(at + 2 * half) - 2 * after);
+  };
+  bends_[found->slanted++] = (bendAlong(across) + bendAlong(down)) / (w * slope2);
+}
+
+}  // namespace sphc

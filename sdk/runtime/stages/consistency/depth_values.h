@@ -1,0 +1,51 @@
+// What the measurements of one depth image say of the sensor, without a look at the colour image.
+#pragma once
+#include "runtime/base/arena.h"
+#include "runtime/geometry/camera.h"
+#include "runtime/types/depth_sensor.h"
+#include "runtime/types/image_view.h"
+
+namespace sphc {
+
+struct DepthValues {
+  static constexpr uint32_t kMostDistinct = 8;
+  uint32_t samples = 0;
+  uint32_t measured = 0;  // not 0
+  uint32_t in_range = 0;  // of these
+  uint32_t distinct = 0;  // different measurements in range, counted up to kMostDistinct
+  uint32_t slanted = 0;   // places of a smooth surface that is slanted to the view
+  // Second differences of the inverse depth times the inverse depth, over its squared slope: a fifth of these
+  // places has less.  The inverse depth of a plane is linear in the rays, so 0; 2 where the values are inverse
+  // depths, more where they are a constant less the depth.  Not the median: rooms are full of concave corners.
+  double bend = 0;
+};
+
+// Reads a grid of samples.
+class DepthSamples {
+ public:
+  static constexpr int32_t kColumns = 40, kRows = 30;
+  static constexpr size_t kCount = size_t{kColumns} * kRows;
+
+  static void layout(Arena &state, DepthSamples *samples);
+  // After layout with memory: makes the table of rays.
+  void init(const Camera &camera, const DepthSensor &sensor);
+  DepthValues look(ImageView<uint16_t> depth);
+  // Measurements of the last look, row by row; 0 where there is none.
+  Span<const uint16_t> values() const { return values_; }
+
+ private:
+  struct Ray {
+    float x, y;
+  };
+  void addBend(int32_t column, int32_t row, DepthValues *found);
+  float smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const;
+  bool isSmooth(size_t at, size_t step) const;
+
+  DepthSensor sensor_ = {};
+  Span<Ray> rays_;
+  Span<uint16_t> values_;
+  Span<float> inverse_;  // 1 / m; 0 where there is no measurement in range
+  Span<float> bends_;
+};
+
+}  // namespace sphc

@@ -1,0 +1,65 @@
+#include "runtime/stages/consistency/stillness.h"
+
+#include "runtime/base/elementary.h"
+
+namespace sphc {
+namespace {
+
+constexpr int32_t kColumns = 32, kRows = 24;  // samples of grey
+constexpr int32_t kGrayNoise = 12;            // levels
+constexpr int32_t kDepthNoiseShare = 50;      // 1 / 50 of the measurement
+constexpr uint32_t kFewestMeasured = 100;
+constexpr int64_t kFrozenNs = 60000000;  // cameras that run freely give one image twice now and then
+
+}  // namespace
+
+void Stillness::layout(size_t depth_samples, Arena &state, Stillness *stillness) {
+  Stillness discarded;
+  Stillness &s = stillness ? *stillness : discarded;
+  s.depth_ = state.take<uint16_t>("consistency.before", depth_samples);
+  s.gray_ = state.take<uint8_t>("consistency.before", size_t{kColumns} * kRows);
+}
+
+// Each takes in what is new.
+Stillness::Change Stillness::compareDepth(Span<const uint16_t> depth) {
+  Change change;
+  for (size_t i = 0; i < depth.size(); ++i) {
+    const int32_t before = depth_[i], now = depth[i];
+    depth_[i] = depth[i];
+    if (before == 0 && now == 0) continue;
+    ++change.compared;
+    change.changed += now != before;
+    change.moved += before && now && kDepthNoiseShare * absOf(now - before) > before;
+  }
+  if (change.compared < kFewestMeasured) change.compared = 0;
+  return change;
+}
+
+Stillness::Change Stillness::compareGray(GrayView gray) {
+  Change change;
+  for (int32_t row = 0; row < kRows; ++row) {
+    const uint8_t *line = gray.row((2 * row + 1) * gray.height / (2 * kRows));
+    for (int32_t column = 0; column < kColumns; ++column) {
+      uint8_t &kept = gray_[static_cast<size_t>(row * kColumns + column)];
+      const uint8_t now = line[(2 * column + 1) * gray.width / (2 * kColumns)];
+      ++change.compared;
+      change.changed += now != kept;
+      change.moved += absOf(int32_t{now} - int32_t{kept}) > kGrayNoise;
+      kept = now;
+    }
+  }
+  return change;
+}
+
+Faults Stillness::look(Span<const uint16_t> depth, int64_t depth_time_ns, GrayView gray, int64_t color_time_ns) {
+  const Change of_depth = compareDepth(depth), of_gray = compareGray(gray);
+  // An image that is said to be the one of before may well be.
+  if (!has_before_ || !of_depth.isStill()) depth_time_ns_ = depth_time_ns;
+  if (!has_before_ || !of_gray.isStill()) color_time_ns_ = color_time_ns;
+  has_before_ = true;
+  if (depth_time_ns - depth_time_ns_ > kFrozenNs && of_gray.isMotion()) return kDepthFrozen;
+  if (color_time_ns - color_time_ns_ > kFrozenNs && of_depth.isMotion()) return kColorFrozen;
+  return 0;
+}
+
+}  // namespace sphc

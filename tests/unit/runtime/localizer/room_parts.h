@@ -1,0 +1,101 @@
+// What a localizer is composed of, each part open to a test: in the test room, and in memory of its own.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "runtime/capi/translate.h"
+#include "runtime/localizer/verification.h"
+#include "tests/support/arena_memory.h"
+#include "tests/support/session.h"
+
+namespace sphc::test {
+
+class RoomParts {
+ public:
+  // A share `eta` of the points of each room's map is real.
+  explicit RoomParts(double eta = 0.5, uint32_t rooms = 1) : RoomParts(roomMaps(eta, rooms)) {}
+  explicit RoomParts(std::vector<SceneMap> maps)
+      : maps_(std::move(maps)),
+        config(localizerConfigFrom(sceneConfig())),
+        memory_([this](Arena &arena, bool real) { layout(arena, real); }) {
+    front.init(config);
+    search.init(config);
+    for (const SceneMap &map : maps_) {
+      MapView view;
+      EXPECT_EQ(MapView::open(map.file.data(), map.file.size(), kExtractorId, &view, nullptr), SPHC_OK);
+      search.addMap(view);
+    }
+  }
+  RoomParts(const RoomParts &) = delete;
+  RoomParts &operator=(const RoomParts &) = delete;
+
+  // Makes a frame of this viewpoint the one that is asked about.  Its depth has a hole at the left, so that some
+  // keypoints are rays.
+  void see(uint32_t viewpoint, uint32_t room = 0) {
+    const auto made = sceneFrame(sceneConfig(), viewpoint, room);
+    const auto width = static_cast<ptrdiff_t>(made->frame.depth.width);
+    for (auto row = made->images.depth_mm.begin(); row != made->images.depth_mm.end(); row += width)
+      std::fill_n(row, width / 8, uint16_t{0});
+    const FrameInput frame = frameFrom(made->frame);
+    front.extract(frame.color);
+    front.lift(frame.depth, config.color_from_depth);
+  }
+  // The truth.
+  Rigid cameraFromMap(uint32_t viewpoint, uint32_t room = 0) const {
+    return sceneViewpoint(viewpoint) * Rigid{Matrix3::Identity(), maps_[room].centre_in_world_m};
+  }
+  Search::Question askAll(uint32_t map = 0) {
+    return search.ask(front, map, front.keypointCount(), config.probes, &work);
+  }
+  // The angle between a match's map point and where the keypoint lies when the camera is there.
+  double angleOff(const Correspondence &c, const Rigid &camera_from_map) const {
+    const Vector3 expected = (camera_from_map.inverse() * c.lifted.point_m).normalized();
+    return std::acos(std::min(1.0, expected.dot(c.direction.normalized())));
+  }
+
+ private:
+  // Made once: that takes a third of a second each.
+  static std::vector<SceneMap> roomMaps(double eta, uint32_t rooms) {
+    static std::map<std::pair<double, uint32_t>, SceneMap> made;
+    const sphc_config config = sceneConfig();
+    std::vector<SceneMap> maps;
+    for (uint32_t room = 0; room < rooms; ++room) {
+      SceneMap &map = made[{eta, room}];
+      if (map.file.empty()) map = makeSceneMap(config.color_camera, config.max_keypoints, 3, eta, room);
+      maps.push_back(map);
+    }
+    return maps;
+  }
+  void layout(Arena &arena, bool real) {
+    Fusion::layout(config.max_keypoints, arena, real ? &fusion : nullptr);
+    FrontEnd::layout(config, arena, arena, real ? &front : nullptr);
+    Search::layout(config.max_keypoints, arena, real ? &search : nullptr);
+    for (Hypothesis *hypothesis : {&found, &rival})
+      MatchSet::layout(config.max_keypoints, arena, real ? &hypothesis->matched : nullptr);
+    EstimatorConfig of_estimator;
+    of_estimator.capacity = 2 * config.max_keypoints;
+    of_estimator.max_iterations = config.max_iterations;
+    PoseEstimator::layout(of_estimator, arena, real ? &estimator : nullptr);
+  }
+
+  std::vector<SceneMap> maps_;
+
+ public:
+  LocalizerConfig config;
+  FrontEnd front;
+  Search search;
+  PoseEstimator estimator;
+  Fusion fusion;
+  Hypothesis found, rival;
+  Work work;
+
+ private:
+  ArenaMemory memory_;
+};
+
+}  // namespace sphc::test

@@ -1,0 +1,92 @@
+#include "runtime/stages/consistency/consistency.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/runtime/stages/consistency/made_view.h"
+
+namespace sphc {
+namespace {
+
+constexpr int64_t kStepNs = 100000000;
+
+TEST(Consistency, AHealthyFrameHasNoFault) {
+  HeldConsistency held(false);
+  const MadeView view;
+  EXPECT_EQ(held.consistency.look(view.view()), Faults{0});
+  EXPECT_FALSE(held.consistency.isDoubtful());
+  EXPECT_GT(held.consistency.agreement().edges, 20u);
+  EXPECT_GT(held.consistency.agreement().middle(), 0.7);
+}
+
+TEST(Consistency, NamesDepthThatIsConstant) {
+  HeldConsistency held(false);
+  MadeView view;
+  std::fill(view.depth().begin(), view.depth().end(), uint16_t{2000});
+  EXPECT_EQ(held.consistency.look(view.view()) & kDepthConstant, kDepthConstant);
+}
+
+TEST(Consistency, NamesDepthOutOfRange) {
+  HeldConsistency held(false);
+  MadeView view;
+  std::fill(view.depth().begin(), view.depth().end(), uint16_t{65535});
+  EXPECT_EQ(held.consistency.look(view.view()), kDepthRange);
+}
+
+TEST(Consistency, ABlindSensorIsNoContradiction) {
+  HeldConsistency held(false);
+  MadeView view;
+  std::fill(view.depth().begin(), view.depth().end(), uint16_t{0});
+  EXPECT_EQ(held.consistency.look(view.view()), Faults{0});
+}
+
+// A wall alone: its inverse depth is linear, and no longer so once far and near are swapped.
+TEST(Consistency, NamesDepthThatIsInverted) {
+  for (const bool inverted : {false, true}) {
+    HeldConsistency held(false);
+    MadeView view;
+    for (int32_t y = 0; y < MadeView::kHeight; ++y)
+      for (int32_t x = 0; x < MadeView::kWidth; ++x) {
+        const double z = 1e6 / (500 - 1.2 * (x - 160));
+        view.depth()[static_cast<size_t>(y * MadeView::kWidth + x)] =
+            static_cast<uint16_t>(inverted ? 6250 - z : z);
+      }
+    EXPECT_EQ(held.consistency.look(view.view()) & kDepthBent, inverted ? kDepthBent : 0) << inverted;
+  }
+}
+
+TEST(Consistency, EdgesThatLieElsewhereAreNamedInTheEnd) {
+  HeldConsistency held(true);
+  Faults faults = 0;
+  for (int32_t i = 0; i < 8; ++i) faults = held.consistency.look(MadeView(3 * i, 3 * i + 14).view(i * kStepNs));
+  EXPECT_EQ(faults & kDepthColorDisagree, kDepthColorDisagree);
+  held.consistency.reset();
+  EXPECT_EQ(held.consistency.look(MadeView().view(9 * kStepNs)) & kDepthColorDisagree, Faults{0});
+}
+
+TEST(Consistency, NamesAStreamThatStandsStill) {
+  HeldConsistency depth_stands(true), color_stands(true);
+  Faults of_depth = 0, of_color = 0;
+  for (int32_t i = 0; i < 4; ++i) {
+    of_depth = depth_stands.consistency.look(MadeView(15 * i, 0).view(i * kStepNs));
+    of_color = color_stands.consistency.look(MadeView(0, 15 * i).view(i * kStepNs));
+  }
+  EXPECT_EQ(of_depth & kDepthFrozen, kDepthFrozen);
+  EXPECT_EQ(of_color & kColorFrozen, kColorFrozen);
+}
+
+TEST(Consistency, ACameraThatRestsIsNoFault) {
+  HeldConsistency held(true);
+  for (int32_t i = 0; i < 4; ++i) EXPECT_EQ(held.consistency.look(MadeView().view(i * kStepNs)), Faults{0}) << i;
+}
+
+// Nothing is kept from frame to frame where each is looked at alone.
+TEST(Consistency, AloneAFrameHasNoBefore) {
+  HeldConsistency held(false);
+  const Faults first = held.consistency.look(MadeView(0, 14).view(0));
+  for (int32_t i = 1; i < 6; ++i) EXPECT_EQ(held.consistency.look(MadeView(0, 14).view(i * kStepNs)), first) << i;
+}
+
+}  // namespace
+}  // namespace sphc

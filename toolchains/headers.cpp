@@ -1,0 +1,1 @@
+// The file of a library that is there for its precompiled headers.
