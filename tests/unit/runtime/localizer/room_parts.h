@@ -66,7 +66,7 @@ class RoomParts {
     std::vector<SceneMap> maps;
     for (uint32_t room = 0; room < rooms; ++room) {
       SceneMap &map = made[{eta, room}];
-      if (map.file.empty()) map = makeSceneMap(config.color_camera, config.max_keypoints, 3, eta, room);
+      if (map.file.empty()) map = makeSceneMap(config.rig.color_camera, config.max_keypoints, 3, eta, room);
       maps.push_back(map);
     }
     return maps;
