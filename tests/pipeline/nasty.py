@@ -146,7 +146,8 @@ def row_of(world, variant, rooms):
 
 
 def tell(world, seed, variant, frame, commands):
-    print("WRONG %s room %d, map of %s frames, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, sigma %.1f cm, %d of %d matches, %s" % (
+    print("WRONG %s room %d, map of %s frames, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, sigma %.1f cm, "
+          "%d of %d matches, %s" % (
         world, seed, *variant, frame["sequence"], *errors(frame), frame["confidence"],
         100 * frame["sigma"]["translation_m"], frame["inliers"], frame["matches"], frame["state"]))
     print("".join("    %s\n" % command for command in commands), flush=True)
