@@ -69,10 +69,10 @@ constexpr uint64_t kOtherSeed = 0x9E3779B97F4A7C15u;  // any
 
 // ---- judgement ----
 
-constexpr double kMostLogChance = -12;           // wrong poses on foreign maps were never seen below -6
-constexpr double kMostLogChanceExpected = -6;    // an expected pose is likely beforehand (decision 13)
-constexpr double kMostRotationSigmaRad = 0.05;   // doubted as below (decision 13)
-constexpr double kMostTranslationSigmaM = 0.10;  // the same
+constexpr double kMostLogChance = -12;               // wrong poses on foreign maps were never seen below -6
+constexpr double kMostLogChanceExpected = -6;        // an expected pose is likely beforehand (decision 13)
+constexpr double kMostRotationSigmaRad = 0.05;       // doubted as below (decision 13)
+constexpr double kMostTranslationSigmaM = 0.10;      // the same
 constexpr double kMostSigmaWithoutLeverageM = 0.15;  // all poses that it refuses on blocks were more than 5 cm off
 // Errors of the map and outliers among few inliers are not in the covariance: on blocks poses from 15 to 25 inliers
 // were off by 5 sigma, from 100 and more by less than 2.

@@ -1,5 +1,7 @@
 #include "runtime/stages/consistency/stillness.h"
 
+#include <algorithm>
+
 #include "runtime/base/elementary.h"
 
 namespace sphc {
@@ -37,6 +39,7 @@ Stillness::Change Stillness::compareDepth(Span<const uint16_t> depth) {
 
 Stillness::Change Stillness::compareGray(GrayView gray) {
   Change change;
+  uint8_t darkest = UINT8_MAX, brightest = 0;
   for (int32_t row = 0; row < kRows; ++row) {
     const uint8_t *line = gray.row((2 * row + 1) * gray.height / (2 * kRows));
     for (int32_t column = 0; column < kColumns; ++column) {
@@ -46,8 +49,13 @@ Stillness::Change Stillness::compareGray(GrayView gray) {
       change.changed += now != kept;
       change.moved += absOf(int32_t{now} - int32_t{kept}) > kGrayNoise;
       kept = now;
+      darkest = std::min(darkest, now);
+      brightest = std::max(brightest, now);
     }
   }
+  const bool shows = brightest - darkest > kGrayNoise;
+  if (!shows || !gray_shows_) change.compared = 0;  // in the dark nothing stands still, and light is no motion
+  gray_shows_ = shows;
   return change;
 }
 

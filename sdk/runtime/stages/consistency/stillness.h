@@ -28,6 +28,7 @@ class Stillness {
   Span<uint8_t> gray_;
   int64_t depth_time_ns_ = 0, color_time_ns_ = 0;  // when each image last changed
   bool has_before_ = false;
+  bool gray_shows_ = false;  // the last image showed something
 };
 
 }  // namespace sphc

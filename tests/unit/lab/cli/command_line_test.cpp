@@ -27,8 +27,8 @@ TEST_P(LabHelpTest, TeachesByExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, LabHelpTest,
-                         testing::Values("align", "compare", "features", "frame", "map", "match",
-                                         "pose", "recording", "releases"));
+                         testing::Values("align", "compare", "features", "frame", "map", "match", "pose",
+                                         "recording", "releases"));
 
 class LabUsageTest : public testing::TestWithParam<const char *> {};
 

@@ -172,7 +172,8 @@ std::vector<test::WorldPoint> pointsOfTheRoom() {
   std::vector<test::WorldPoint> points;
   for (uint32_t view = 0; view < 3; ++view) {
     const Rigid camera_from_world = test::sceneViewpoint(view);
-    const auto images = test::renderScene(config.rig.color_camera, config.rig.color_camera, camera_from_world, Rigid());
+    const auto images =
+        test::renderScene(config.rig.color_camera, config.rig.color_camera, camera_from_world, Rigid());
     describer.describe(images, camera_from_world, &points);
   }
   return points;
@@ -270,7 +271,8 @@ Descriptor shifted(Descriptor descriptor, int amount, Random *random) {
 constexpr double kMovedM = 0.4;
 
 // One point in twenty has moved, all of these together: a small core that agrees with itself.  Of the others each
-// has a near-duplicate elsewhere, so that it passes the ratio test at 0.89 and not before; or they are not in the map.
+// has a near-duplicate elsewhere, so that it passes the ratio test at 0.89 and not before; or they are not in the
+// map.
 std::vector<test::WorldPoint> movedCore(bool with_others) {
   Random random(5);
   std::vector<test::WorldPoint> points;

@@ -81,6 +81,16 @@ TEST(Consistency, ACameraThatRestsIsNoFault) {
   for (int32_t i = 0; i < 4; ++i) EXPECT_EQ(held.consistency.look(MadeView().view(i * kStepNs)), Faults{0}) << i;
 }
 
+// The light went out and on again.
+TEST(Consistency, LightIsNoMotion) {
+  HeldConsistency held(true);
+  for (int32_t i = 0; i < 6; ++i) {
+    MadeView view;
+    if (i % 3 == 1) std::fill(view.gray().begin(), view.gray().end(), uint8_t{9});
+    EXPECT_EQ(held.consistency.look(view.view(i * kStepNs)) & (kDepthFrozen | kColorFrozen), Faults{0}) << i;
+  }
+}
+
 // Nothing is kept from frame to frame where each is looked at alone.
 TEST(Consistency, AloneAFrameHasNoBefore) {
   HeldConsistency held(false);
