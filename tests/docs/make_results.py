@@ -196,6 +196,14 @@ def others(pipeline):
          "over the stated sigmas. `ece`: expected calibration error. *Sure*: a confidence of 0.99 or more. Method:\n"
          "[confidence.md](confidence.md).",
          flat(rows("confidence.csv"), ["recording", "fakes", "mode"])),
+        ("Hard worlds", "pipeline/nasty.csv", "nasty_results",
+         "Simulated rooms that combine what makes real ones hard. Wrong: beyond 25 cm or 10 deg. Method:\n"
+         "[testing.md](testing.md#hard-worlds).",
+         flat(rows("nasty.csv"), ["world"])),
+        ("Broken sensors", "pipeline/negative.csv", "negative_results",
+         "Sequences of 30 frames, broken in every way. Wrong: beyond 25 cm or 10 deg; sure: with a confidence above 0.5.\n"
+         "`named`: frames whose result names a fault. Method: [consistency.md](consistency.md).",
+         flat(rows("negative.csv"), ["recording", "fakes", "mode"])),
         ("Baselines", "pipeline/compare.csv", "compare_results",
          "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the\n"
          "library at eta 33 %. Method: [baselines.md](baselines.md).",
