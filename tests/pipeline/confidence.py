@@ -13,7 +13,7 @@ COLUMNS = KEYED + ["poses", "right_percent", "confidence_percent", "ece", "sure_
                    "translation_over_sigma_median", "translation_over_sigma_p90", "rotation_over_sigma_median",
                    "rotation_over_sigma_p90"]
 # Of the poses that are sure so many are right at least; the expected calibration error of so many poses at most.
-LEAST_SURE_RIGHT, MOST_ECE, FEWEST_POSES = 99.0, 0.12, 200
+LEAST_SURE_RIGHT, MOST_ECE, FEWEST_POSES = 99.0, 0.18, 200
 
 Pose = collections.namedtuple("Pose", "confidence right translation_over_sigma rotation_over_sigma")
 
