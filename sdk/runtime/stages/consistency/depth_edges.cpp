@@ -51,7 +51,7 @@ void DepthEdges::find(ImageView<uint16_t> depth, const DepthSensor &sensor) {
     walk.along_y = along_y;
     walk.length = along_y ? depth.height : depth.width;
     const int32_t lines = along_y ? depth.width : depth.height, cells = along_y ? kColumns : kRows;
-    const int32_t every = std::max(1, lines / (cells * kLinesOfACell));
+    const int32_t every = std::max(int32_t{1}, lines / (cells * kLinesOfACell));
     for (walk.line = every / 2; walk.line < lines; walk.line += every) this->walk(walk);
   }
 }

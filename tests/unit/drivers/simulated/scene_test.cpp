@@ -41,7 +41,8 @@ class Bare {
         if (column % kTile != 8 || row % kTile != 8) return;
         const Ray2 ray = rays_.center(column, row);
         const Hits hits = raster.cast(list, {{ray, ray, ray, ray}});
-        const Vec3f direction = toFloat(pose.rotation * Vec3d{double{ray.x}, double{ray.y}, 1});
+        const Vec3f direction =
+            toFloat(pose.rotation * Vec3d{static_cast<double>(ray.x), static_cast<double>(ray.y), 1});
         seen.push_back({toFloat(pose.center), direction, hits.lane[0]});
       });
     }

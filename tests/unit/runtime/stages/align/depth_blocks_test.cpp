@@ -35,11 +35,9 @@ TEST_F(DepthBlocksTest, NothingWithinReachIsNearer) {
     depth = random.below(400) ? uint16_t{0} : static_cast<uint16_t>(600 + random.below(3000));
   build();
   uint16_t nearest_of_all = DepthBlocks::kNone;
-  bool somewhere_none = false;
   for (int32_t v = 0; v < kHeight; ++v) {
     for (int32_t u = 0; u < kWidth; ++u) {
       const uint16_t nearest = blocks_.nearest(u, v);
-      somewhere_none |= nearest == DepthBlocks::kNone;
       if (at(u, v)) nearest_of_all = std::min(nearest_of_all, at(u, v));
       for (int32_t y = std::max(0, v - DepthBlocks::kReachPx); y <= v + DepthBlocks::kReachPx && y < kHeight; ++y)
         for (int32_t x = std::max(0, u - DepthBlocks::kReachPx); x <= u + DepthBlocks::kReachPx && x < kWidth; ++x)
