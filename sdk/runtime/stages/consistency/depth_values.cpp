@@ -72,8 +72,8 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
 float DepthSamples::smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const {
   const int32_t middle = depth.row(y)[x], most = middle / kSurfaceShare;
   int32_t sum = 0, count = 0;
-  for (int32_t v = std::max(0, y - kSmoothPx); v <= std::min(depth.height - 1, y + kSmoothPx); ++v)
-    for (int32_t u = std::max(0, x - kSmoothPx); u <= std::min(depth.width - 1, x + kSmoothPx); ++u) {
+  for (int32_t v = std::max(int32_t{0}, y - kSmoothPx); v <= std::min(depth.height - 1, y + kSmoothPx); ++v)
+    for (int32_t u = std::max(int32_t{0}, x - kSmoothPx); u <= std::min(depth.width - 1, x + kSmoothPx); ++u) {
       const int32_t value = depth.row(v)[u];
       if (absOf(value - middle) > most) continue;
       sum += value;

@@ -26,7 +26,7 @@ TEST_F(HypothesisTest, ACorrespondenceIsTheKeypointThePointAndHowClearTheMatchWa
   EXPECT_EQ(c.lifted.point_m, parts_.front.lifted()[5].point_m);
   EXPECT_EQ(c.lifted.along_m, parts_.front.lifted()[5].along_m);
   const Direction d = map().direction(17);
-  EXPECT_EQ(c.direction, Vector3(double{d.x}, double{d.y}, double{d.z}));
+  EXPECT_EQ(c.direction, Vector3(static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)));
   EXPECT_FLOAT_EQ(c.quality, 0.75f);  // 1 - 300 / (1199 + 1)
 }
 
