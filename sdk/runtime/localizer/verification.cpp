@@ -132,7 +132,7 @@ bool Verification::isDoubtful(const Hypothesis &found) const {
   return found.isLocalized() && !found.guided && found.estimate.inliers < kInliersBeyondConfirmation;
 }
 
-// Among the matches of all keypoints at another ratio, in another order: nothing of the first search is in it.
+// Searches among the matches that all keypoints have at this ratio, in another order than the first search did.
 // `other` becomes the task of these matches; false where they lead to no pose.
 bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis,
                                       PoseTask *other) const {

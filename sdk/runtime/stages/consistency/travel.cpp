@@ -38,17 +38,18 @@ Travel::Spread Travel::spread() const {
   return spread;
 }
 
-double Travel::scale() const {
-  if (count_ < kFewest) return 0;
-  const Spread s = spread();
+double Travel::scale() const { return count_ < kFewest ? 0 : scaleOf(spread()); }
+
+double Travel::scaleOf(const Spread &s) {
   if (!(s.map2 > kFarM * kFarM || s.odometry2 > kFarM * kFarM) || !(s.odometry2 > 1e-6)) return 0;
   return sqrtOf(s.map2 / s.odometry2);
 }
 
 bool Travel::isScaled() const {
-  const double scale = this->scale();
-  if (!(scale > 0)) return false;
+  if (count_ < kFewest) return false;
   const Spread s = spread();
+  const double scale = scaleOf(s);
+  if (!(scale > 0)) return false;
   const double off = absOf(logOf(scale));
   const double sigma = sqrtOf(s.sigma2 * kIndependent / (s.odometry2 * count_));
   return off > kMostOff && off > kSigmas * sigma;

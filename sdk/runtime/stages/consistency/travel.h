@@ -25,6 +25,7 @@ class Travel {
     double map2 = 0, odometry2 = 0, sigma2 = 0;  // means of squares, m^2
   };
   Spread spread() const;
+  static double scaleOf(const Spread &spread);
 
   Place places_[kCapacity];
   uint32_t count_ = 0, next_ = 0;
