@@ -40,6 +40,8 @@ int main(void) {
   FIELD(sphc_frame, color);
   FIELD(sphc_frame, depth);
   FIELD(sphc_frame, prior);
+  FIELD(sphc_frame, deadline_us);
+  FIELD(sphc_frame, reserved);
   WHOLE(sphc_prior);
   FIELD(sphc_prior, struct_size);
   FIELD(sphc_prior, flags);
@@ -95,9 +97,9 @@ int main(void) {
   FIELD(sphc_config, depth_offset_sigma_m);
   FIELD(sphc_config, depth_slope_sigma);
   FIELD(sphc_config, min_inliers);
-  FIELD(sphc_config, deadline_us);
   FIELD(sphc_config, mode);
   FIELD(sphc_config, probes);
+  FIELD(sphc_config, reserved);
   FIELD(sphc_config, log);
   FIELD(sphc_config, log_user);
   FIELD(sphc_config, clock);
@@ -119,7 +121,7 @@ int main(void) {
   FIELD(sphc_result, match_us);
   FIELD(sphc_result, pose_us);
   FIELD(sphc_result, confidence);
-  FIELD(sphc_result, cut_short);
+  FIELD(sphc_result, cuts);
   FIELD(sphc_result, state);
   FIELD(sphc_result, map_index);
   FIELD(sphc_result, frames);

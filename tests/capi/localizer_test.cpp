@@ -104,9 +104,9 @@ TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
   config_.clock = [](void *user) { return *static_cast<int64_t *>(user) -= 1000000; };
   int64_t now = INT64_MAX;
   config_.clock_user = &now;
-  config_.deadline_us = 1000;
   Session timed(config_);
   const auto frame = sphc::test::sceneFrame(config_, 0);
+  frame->frame.deadline_us = 1000;
   sphc_result result = clean();
   EXPECT_EQ(timed.process(frame->frame, &result), SPHC_OK);
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_EQ(us, 0u);

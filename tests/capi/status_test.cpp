@@ -80,6 +80,14 @@ TEST(CInterfaceStatus, EachFaultHasAName) {
   EXPECT_STREQ(sphc_fault_name(512), "SPHC_FAULT_?");
 }
 
+TEST(CInterfaceStatus, EachCutHasAName) {
+  EXPECT_STREQ(sphc_cut_name(SPHC_CUT_FEATURES), "SPHC_CUT_FEATURES");
+  for (uint32_t bit = SPHC_CUT_FEATURES; bit <= SPHC_CUT_VERIFICATION; bit <<= 1)
+    EXPECT_STRNE(sphc_cut_name(bit), "SPHC_CUT_?") << bit;
+  EXPECT_STREQ(sphc_cut_name(0), "SPHC_CUT_?");
+  EXPECT_STREQ(sphc_cut_name(16), "SPHC_CUT_?");
+}
+
 TEST(CInterfaceStatus, Version) {
   EXPECT_EQ(sphc_abi(), SPHC_ABI);
   const std::string version = std::to_string(SPHC_VERSION_MAJOR) + "." + std::to_string(SPHC_VERSION_MINOR) + "." +

@@ -66,7 +66,15 @@ struct TinyImages {
 
 inline sphc_frame tinyFrame(uint32_t i, const TinyImages &images) {
   const int64_t time_ns = kFirstNs + i * kPeriodNs;
-  return {sizeof(sphc_frame), i, time_ns, time_ns + kDepthLagNs, images.colorImage(), images.depthImage(), nullptr};
+  return {sizeof(sphc_frame),
+          i,
+          time_ns,
+          time_ns + kDepthLagNs,
+          images.colorImage(),
+          images.depthImage(),
+          nullptr,
+          0,
+          0};
 }
 
 inline void writeTinyRecording(const std::string &folder, uint32_t frames) {

@@ -107,7 +107,9 @@ std::vector<std::vector<uint8_t>> rawRecordingSeeds() {
                               1005 + 10 * i,
                               {color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8},
                               {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16},
-                              nullptr};
+                              nullptr,
+                              0,
+                              0};
     const sphc_rigid pose = {{1, 0, 0, 0}, {0.1 * i, 0, 0}};
     writer.add(frame, i ? &pose : nullptr);
   }

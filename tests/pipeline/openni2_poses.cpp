@@ -96,7 +96,9 @@ class Pipeline {
                               pair.depth.time_ns,
                               pair.color.image,
                               pair.depth.image,
-                              nullptr};
+                              nullptr,
+                              0,
+                              0};
     sphc_result result;
     std::memset(&result, 0, sizeof result);
     result.struct_size = sizeof result;

@@ -61,6 +61,7 @@ nlohmann::ordered_json frameJson(const sphc_pair &pair, const sphc_result &resul
                                 {"outcome", result.outcome},
                                 {"map", result.map_index},
                                 {"faults", faultNames(result.faults)},
+                                {"cuts", cutNames(result.cuts)},
                                 {"inliers", result.inliers},
                                 {"ms", std::round(1000 * ms) / 1000}};
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return out;

@@ -29,6 +29,7 @@ struct Options {
   std::string trajectory, frames_json, report;
   bool odometry = false, force = false;
   sphc_config config = spherecloud::defaultConfig();
+  uint32_t deadline_us = 0;
 };
 
 FileUse fileUse(const Options &options) {
@@ -63,12 +64,14 @@ Run localize(const Options &options, RecordingReader *reader, const Console &con
     run.maps.push_back(mapFacts(input.maps.back(), path));
   }
   input.reader = reader;
+  input.deadline_us = options.deadline_us;
   input.play_odometry = options.odometry;
   input.config = options.config;
   input.keep_observations = !options.report.empty();
   setCameras(reader->calibration(), &input.config);
   readNotes(options, &input, &run);
   run.settings = describeConfig(input.config);
+  run.settings.push_back({"deadline_us", std::to_string(options.deadline_us)});
   ProgressBar bar("localizing");
   localizeFrames(
       input, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); },
@@ -166,7 +169,6 @@ void addLocalizerOptions(CLI::App *app, sphc_config *config) {
       ->default_str("tracking")
       ->type_name("tracking|single")
       ->group("Localizer");
-  add("--deadline-us", config->deadline_us, "A frame's search ends so long after it began; 0: no deadline");
 }
 
 }  // namespace
@@ -191,6 +193,11 @@ Command localizeCommand(CLI::App *root) {
                 "Give the localizer the recording's poses as odometry, each step disturbed by 0.1 deg and 2 mm");
   addOutputs(app, options.get());
   addLocalizerOptions(app, &options->config);
+  app->add_option("--deadline-us", options->deadline_us,
+                  "Time for a frame, after which the best pose so far is given out; 0: no deadline")
+      ->capture_default_str()
+      ->check(withoutSign())
+      ->group("Localizer");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -77,6 +77,7 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->guided = result.guided != 0;
   frame->depth = result.depth;
   frame->faults = result.faults;
+  frame->cuts = result.cuts;
   if (!frame->localized) return;
   frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);
@@ -151,7 +152,6 @@ std::vector<Setting> describeConfig(const sphc_config &config) {
           {"map_sigma_m", fixed(config.map_sigma_m, 4)},
           {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},
           {"depth_slope_sigma", fixed(config.depth_slope_sigma, 4)},
-          {"deadline_us", std::to_string(config.deadline_us)},
           {"mode", config.mode == SPHC_MODE_TRACKING ? "tracking" : "single"},
           {"probes", std::to_string(config.probes)}};
 }
@@ -170,6 +170,7 @@ void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
       unreadable(why);
       ++run->unreadable;
     } else {
+      image->deadline_us = input.deadline_us;
       if (input.play_odometry) image->prior = odometry.at(i);
       run->frames.push_back(processFrame(input, *image, i, &localizer, &room));
     }

@@ -17,6 +17,7 @@ struct LocalizeInput {
   sphc_config config = {};  // cameras already set
   // Where each map's origin lies in the recording's world; empty: poses stay in their map's frame, without truth.
   std::vector<std::array<double, 3>> centres_in_world_m;
+  uint32_t deadline_us = 0;    // of each frame; 0: none
   bool play_odometry = false;  // the recording's own poses, each step disturbed
   bool keep_observations = false;
 };

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "host/base/write_file.h"
-#include "host/publish/descriptor_index.h"
 #include "runtime/map/crc32.h"
 #include "runtime/map/layout.h"
 #include "runtime/map/packed_direction.h"
@@ -60,6 +59,20 @@ std::vector<T> inOrder(const std::vector<T> &items, const std::vector<uint32_t> 
   return sorted;
 }
 
+std::vector<PackedDirection> directionsOf(const SphereCloud &cloud) {
+  std::vector<PackedDirection> directions;
+  directions.reserve(cloud.points.size());
+  for (const SpherePoint &point : cloud.points) directions.push_back(packDirection(point.direction));
+  return directions;
+}
+
+std::vector<Descriptor> descriptorsOf(const SphereCloud &cloud) {
+  std::vector<Descriptor> descriptors;
+  descriptors.reserve(cloud.points.size());
+  for (const SpherePoint &point : cloud.points) descriptors.push_back(point.descriptor);
+  return descriptors;
+}
+
 MapId unhex(const std::string &text) {
   MapId id = {};
   if (text.size() != 2 * id.size() || text.find_first_not_of("0123456789abcdef") != std::string::npos)
@@ -78,20 +91,14 @@ PackedDirection packDirection(const Vector3 &direction) {
 }
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id) {
-  std::vector<PackedDirection> directions;
-  std::vector<Descriptor> descriptors;
-  directions.reserve(cloud.points.size());
-  descriptors.reserve(cloud.points.size());
-  for (const SpherePoint &point : cloud.points) {
-    directions.push_back(packDirection(point.direction));
-    descriptors.push_back(point.descriptor);
-  }
+  return encodeMap(cloud, map_id, makeIndex(descriptorsOf(cloud), directionsOf(cloud)));
+}
 
-  const DescriptorIndex index = makeIndex(descriptors, directions);
+std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id, const DescriptorIndex &index) {
   std::vector<uint8_t> file;
   Sections sections(&file);
-  sections.add(kSectionDirections, inOrder(directions, index.order));
-  sections.add(kSectionDescriptors, inOrder(descriptors, index.order));
+  sections.add(kSectionDirections, inOrder(directionsOf(cloud), index.order));
+  sections.add(kSectionDescriptors, inOrder(descriptorsOf(cloud), index.order));
   sections.add(kSectionRuns, index.runs);
   sections.add(kSectionCentroids, index.centroids);
   sections.add(kSectionGroups, index.groups);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/publish/descriptor_index.h"
 #include "host/publish/place.h"
 #include "host/publish/sphere_cloud.h"
 
@@ -13,6 +14,8 @@ namespace sphc::host {
 PackedDirection packDirection(const Vector3 &direction);
 
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id);
+// With an index of the caller's.
+std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id, const DescriptorIndex &index);
 
 // Two lower-case digits a byte, as map ids are written.
 std::string hexText(const uint8_t *bytes, size_t count);

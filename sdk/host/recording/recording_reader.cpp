@@ -40,7 +40,8 @@ sphc_frame RecordingReader::read(uint32_t index) {
   depth_pixels_.resize(images_.depthBytes());
   const sphc_image color_image = images_.read(SPHC_STREAM_COLOR, color, color_pixels_.data());
   const sphc_image depth_image = images_.read(SPHC_STREAM_DEPTH, depth, depth_pixels_.data());
-  return {sizeof(sphc_frame), color.sequence, color.time_ns, depth.time_ns, color_image, depth_image, nullptr};
+  return {
+      sizeof(sphc_frame), color.sequence, color.time_ns, depth.time_ns, color_image, depth_image, nullptr, 0, 0};
 }
 
 std::optional<sphc_frame> RecordingReader::tryRead(uint32_t index, std::string *why) {

@@ -34,7 +34,8 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
                {"map", frame.map},
                {"guided", frame.guided},
                {"frames_together", frame.frames_together},
-               {"faults", faultNames(frame.faults)}};
+               {"faults", faultNames(frame.faults)},
+               {"cuts", cutNames(frame.cuts)}};
   if (frame.localized) {
     json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
     json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
@@ -82,6 +83,7 @@ Json summaryJson(const Run &run, const Summary &s) {
     json["outcomes"][outcomeName(static_cast<sphc_outcome>(i))] = s.outcomes[i];
   }
   for (size_t i = 0; i < s.faults.size(); ++i) json["faults"][kFaultWords[i].name] = s.faults[i];
+  json["cut"] = s.cut;
   json["with_truth"] = s.with_truth;
   json["within_5cm_5deg"] = s.good;
   json["within_5cm_5deg_percent"] = s.with_truth ? Json(percent(s.good, s.with_truth)) : Json(nullptr);

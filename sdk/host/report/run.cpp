@@ -1,6 +1,7 @@
 #include "host/report/run.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace sphc::host {
 
@@ -48,6 +49,17 @@ const char *outcomeAdvice(sphc_outcome outcome) {
     default:
       return "an outcome this report does not know";
   }
+}
+
+std::string cutNames(uint32_t cuts) {
+  constexpr std::pair<uint32_t, const char *> kNames[] = {{SPHC_CUT_FEATURES, "features"},
+                                                          {SPHC_CUT_MATCHES, "matches"},
+                                                          {SPHC_CUT_SEARCH, "search"},
+                                                          {SPHC_CUT_VERIFICATION, "verification"}};
+  std::string names;
+  for (const auto &[cut, name] : kNames)
+    if (cuts & cut) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
 }
 
 const char *stateName(sphc_state state) {

@@ -25,6 +25,7 @@ struct FrameRecord {
   uint32_t frames_together = 1;                // whose matches the pose was found from
   bool guided = false;                         // found where it was expected
   uint32_t faults = 0;                         // SPHC_FAULT_ bits that the result names
+  uint32_t cuts = 0;                           // SPHC_CUT_ bits: what the deadline left out
 
   sphc_depth_bias depth = {};  // what the localizer took the depth sensor for
 
@@ -74,6 +75,8 @@ uint64_t mapBytes(const Run &run);
 // "few matches" and so on: a word or two for tables, and a sentence with the likely cause.
 const char *outcomeName(sphc_outcome outcome);
 const char *outcomeAdvice(sphc_outcome outcome);
+// "features, search"; "" of none.
+std::string cutNames(uint32_t cuts);
 const char *stateName(sphc_state state);
 
 // "12345" as "12.3 kB"; powers of 1000.

@@ -105,6 +105,7 @@ Summary summarize(const Run &run) {
     if (frame.localized) ++summary.localized;
     if (frame.state == SPHC_STATE_TRACKING) ++summary.tracking;
     if (frame.localized && frame.guided) ++summary.guided;
+    if (frame.cuts) ++summary.cut;
     const size_t outcome = static_cast<size_t>(frame.outcome);
     if (outcome < summary.outcomes.size()) ++summary.outcomes[outcome];
     for (size_t i = 0; i < kFaultWords.size(); ++i) summary.faults[i] += (frame.faults & kFaultWords[i].fault) != 0;

@@ -37,6 +37,7 @@ double stageMs(const FrameRecord &frame, Stage stage);
 struct Summary {
   uint32_t frames = 0, localized = 0;
   uint32_t tracking = 0, guided = 0;  // frames after which the pose was trusted; found where it was expected
+  uint32_t cut = 0;                   // frames of which the deadline left something out
   uint32_t with_truth = 0, good = 0;  // good: within 5 cm and 5 deg, of the frames with truth
   uint32_t wrong = 0;                 // beyond 25 cm or 10 deg, of the localized ones with truth
   std::array<uint32_t, SPHC_OUTCOME_CONTRADICTION + 1> outcomes = {};

@@ -65,6 +65,9 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   if (s.tracking > 0)
     rows.push_back({"tracking", share(s.tracking, s.frames),
                     ofTotal(s.guided, s.frames) + " were found where they were expected"});
+  if (s.cut > 0)
+    rows.push_back(
+        {"cut by the deadline", share(s.cut, s.frames), "--frames-json says of each frame what was left out"});
   addFaults(s, &rows);
   addErrors(s, &rows);
   addCalibration(run, &rows);

@@ -228,6 +228,10 @@ typedef struct sphc_frame {
   sphc_image color;        /* GRAY8, RGB8 or BGR8; the size in config.rig.color_camera */
   sphc_image depth;        /* DEPTH16; the size in config.rig.depth_camera */
   const sphc_prior *prior; /* null: nothing is known but what earlier frames told */
+  /* The frame is to be answered so long after the call began, with the best pose so far; 0: no deadline.  Needs
+   * config.clock, and counts in its time.  result.cuts says what was left out for it; docs/localizer.md. */
+  uint32_t deadline_us;
+  uint32_t reserved;
 } sphc_frame;
 
 /* ---- map: an immutable view of borrowed bytes ---- */
@@ -365,15 +369,14 @@ typedef struct sphc_config {
   double depth_offset_sigma_m, depth_slope_sigma;
 
   uint32_t min_inliers; /* a pose with fewer is not given out */
-  uint32_t deadline_us; /* search ends this long after the call began, with the best pose so far; 0: no deadline.
-                           Needs `clock` */
   sphc_mode mode;
   uint32_t probes; /* cells of the map's index searched for each keypoint, 1 to 32: more cost time and find more;
                       0: all of the map */
+  uint32_t reserved;
 
   sphc_log_fn log; /* may be null */
   void *log_user;
-  sphc_clock_fn clock; /* may be null: stage times are then 0 */
+  sphc_clock_fn clock; /* may be null: stage times are then 0, and no frame has a deadline */
   void *clock_user;
 } sphc_config;
 
@@ -385,7 +388,7 @@ enum {
   SPHC_OUTCOME_FEW_MATCHES = 3,   /* too few look like anything in the map: another place, or much changed */
   SPHC_OUTCOME_NO_CONSENSUS = 4,  /* no pose agrees with clearly more matches than chance would */
   SPHC_OUTCOME_UNCERTAIN = 5,     /* a pose was found but the matches pin it down too weakly: degenerate geometry */
-  SPHC_OUTCOME_DEADLINE = 6,      /* no pose before config.deadline_us */
+  SPHC_OUTCOME_DEADLINE = 6,      /* no pose before frame.deadline_us; result.cuts says what was left out */
   SPHC_OUTCOME_CONTRADICTION = 7  /* the frame contradicts itself, and no pose is given; result.faults says how */
 };
 
@@ -406,6 +409,18 @@ enum {
 };
 /* "SPHC_FAULT_DEPTH_RANGE" and so on for one bit; "SPHC_FAULT_?" for any other value; static storage. [pure] */
 SPHC_API const char *sphc_fault_name(uint32_t fault);
+
+/* What was left out of a frame for its deadline, bits of result.cuts: more time might have found a pose, or a
+ * better one. */
+enum {
+  SPHC_CUT_FEATURES = 1u, /* fine scales of the image, or the weakest keypoints */
+  SPHC_CUT_MATCHES = 2u,  /* keypoints, of which some were not compared with the map */
+  SPHC_CUT_SEARCH = 4u,   /* samples, or searches that might have followed */
+  SPHC_CUT_VERIFICATION =
+      8u /* steps that refine, challenge or confirm a pose; what they must confirm is UNCERTAIN */
+};
+/* "SPHC_CUT_FEATURES" and so on for one bit; "SPHC_CUT_?" for any other value; static storage. [pure] */
+SPHC_API const char *sphc_cut_name(uint32_t cut);
 
 /* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
  * is noise_scale times the one in the config. */
@@ -432,7 +447,7 @@ typedef struct sphc_result {
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
   double confidence;     /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
                           * bounds sphc_result_confidence */
-  uint32_t cut_short;    /* 1: the deadline ended the search; more time might have found better */
+  uint32_t cuts;         /* SPHC_CUT_ bits; 0: nothing was left out */
   sphc_state state;      /* after this frame */
   uint32_t map_index;    /* of the map that camera_from_map is in; where there is no pose, the likeliest */
   uint32_t frames;       /* whose matches the pose was found from: 1, or more where odometry put some together */
@@ -486,7 +501,7 @@ SPHC_API void sphc_localizer_reset(sphc_localizer *localizer);
  * not grow, or a gap of more than 1 s, starts anew.  Set result->struct_size first.  SPHC_OK: localized, *result
  * filled. SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT,
  * STRUCT_SIZE, IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame. Bounded time,
- * no allocation, no OS call. [exclusive] */
+ * by frame.deadline_us too; no allocation, no OS call. [exclusive] */
 SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame,
                                             sphc_result *result);
 

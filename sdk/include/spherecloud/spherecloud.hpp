@@ -368,7 +368,7 @@ inline sphc_image image(const void *data, std::uint32_t width, std::uint32_t hei
 
 inline sphc_frame frame(std::uint32_t sequence, std::int64_t color_time_ns, const sphc_image &color,
                         std::int64_t depth_time_ns, const sphc_image &depth) {
-  return {sizeof(sphc_frame), sequence, color_time_ns, depth_time_ns, color, depth, nullptr};
+  return {sizeof(sphc_frame), sequence, color_time_ns, depth_time_ns, color, depth, nullptr, 0, 0};
 }
 
 inline sphc_rigid identity() { return {{1, 0, 0, 0}, {0, 0, 0}}; }

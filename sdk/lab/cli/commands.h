@@ -6,6 +6,7 @@ namespace sphc::host {
 
 Command alignCommand(CLI::App *root);
 Command compareCommand(CLI::App *root);
+Command deadlineCommand(CLI::App *root);
 Command featuresCommand(CLI::App *root);
 Command frameCommand(CLI::App *root);
 Command mapCommand(CLI::App *root);

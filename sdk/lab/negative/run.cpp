@@ -6,11 +6,6 @@
 #include "host/evaluate/localize_run.h"
 
 namespace sphc::host {
-namespace {
-
-struct PoseError {
-  double translation_m = 0, rotation_deg = 0;
-};
 
 PoseError errorOf(const sphc_rigid &camera_from_map, const std::array<double, 3> &centre_in_world_m,
                   const sphc_rigid &truth_world_from_camera) {
@@ -23,6 +18,8 @@ PoseError errorOf(const sphc_rigid &camera_from_map, const std::array<double, 3>
   const double *q = off.q_wxyz;
   return {std::sqrt(apart2), 2 * std::atan2(std::hypot(q[1], q[2], q[3]), std::abs(q[0])) * 180 / M_PI};
 }
+
+namespace {
 
 class FaultRun {
  public:

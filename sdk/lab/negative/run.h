@@ -11,6 +11,12 @@ namespace sphc::host {
 constexpr double kWrongM = 0.25, kWrongDeg = 10;  // beyond either a pose is wrong
 constexpr double kSureConfidence = 0.5;
 
+struct PoseError {
+  double translation_m = 0, rotation_deg = 0;
+};
+PoseError errorOf(const sphc_rigid &camera_from_map, const std::array<double, 3> &centre_in_world_m,
+                  const sphc_rigid &truth_world_from_camera);
+
 struct NegativeRow {
   std::string fault, mode;
   uint32_t tried = 0, accepted = 0;

@@ -34,11 +34,6 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
 }
 
 bool checkTogether(const sphc_config &c, sphc_message *message) {
-  if (c.deadline_us && !c.clock) {
-    MessageWriter(message) << "config.deadline_us is " << c.deadline_us
-                           << " but config.clock is null; give a clock or no deadline";
-    return false;
-  }
   constexpr double kLeast = 1e-6;  // smaller ones would square to nothing
   const bool known = c.depth_offset_sigma_m == 0 && c.depth_slope_sigma == 0;
   if (!known && (c.depth_offset_sigma_m < kLeast || c.depth_slope_sigma < kLeast)) {
@@ -208,6 +203,11 @@ sphc_status checkFrame(const sphc_frame *frame, const FrameLimits &limits, sphc_
     MessageWriter(message) << "frame.struct_size is " << frame->struct_size << ", this library knows "
                            << static_cast<uint64_t>(sizeof(sphc_frame));
     return SPHC_E_STRUCT_SIZE;
+  }
+  if (frame->deadline_us && !limits.has_clock) {
+    MessageWriter(message) << "frame.deadline_us is " << frame->deadline_us
+                           << " but config.clock is null; give a clock or no deadline";
+    return SPHC_E_ARGUMENT;
   }
   sphc_status status = checkImage("color", frame->color, limits.color, false, message);
   if (status == SPHC_OK) status = checkImage("depth", frame->depth, limits.depth, true, message);

@@ -10,6 +10,7 @@ sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_messag
 struct FrameLimits {
   const sphc_camera &color, &depth;
   uint32_t map_count;
+  bool has_clock;
 };
 sphc_status checkFrame(const sphc_frame *frame, const FrameLimits &limits, sphc_message *message);
 // Is every map of the list there, and are there not too many?

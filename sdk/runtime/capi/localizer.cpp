@@ -135,6 +135,7 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   made->localizer.init(own);
   made->color = checked.rig.color_camera;
   made->depth = checked.rig.depth_camera;
+  made->has_clock = checked.clock != nullptr;
   made->log = checked.log;
   made->log_user = checked.log_user;
   for (uint32_t i = 0; i < map_count; ++i) made->localizer.addMap(maps[i]->view);
@@ -154,7 +155,8 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *
   if (!localizer) return SPHC_E_ARGUMENT;
   localizer->message.text[0] = '\0';
   const sphc_status status = sphc::checkFrame(
-      frame, {localizer->color, localizer->depth, localizer->localizer.mapCount()}, &localizer->message);
+      frame, {localizer->color, localizer->depth, localizer->localizer.mapCount(), localizer->has_clock},
+      &localizer->message);
   if (status != SPHC_OK) return status;
   if (!result || result->struct_size != sizeof(sphc_result)) {
     sphc::MessageWriter(&localizer->message)

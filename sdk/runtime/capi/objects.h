@@ -13,6 +13,7 @@ struct sphc_map {
 struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
   sphc_camera color, depth;
+  bool has_clock;
   sphc_log_fn log;
   void *log_user;
   sphc_message message;

@@ -78,3 +78,18 @@ const char *sphc_fault_name(uint32_t fault) {
       return "SPHC_FAULT_?";
   }
 }
+
+const char *sphc_cut_name(uint32_t cut) {
+  switch (cut) {
+    case SPHC_CUT_FEATURES:
+      return "SPHC_CUT_FEATURES";
+    case SPHC_CUT_MATCHES:
+      return "SPHC_CUT_MATCHES";
+    case SPHC_CUT_SEARCH:
+      return "SPHC_CUT_SEARCH";
+    case SPHC_CUT_VERIFICATION:
+      return "SPHC_CUT_VERIFICATION";
+    default:
+      return "SPHC_CUT_?";
+  }
+}

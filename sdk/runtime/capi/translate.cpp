@@ -83,7 +83,6 @@ LocalizerConfig localizerConfigFrom(const sphc_config &config) {
   own.pixel_sigma_px = config.pixel_sigma_px;
   own.map_sigma_m = config.map_sigma_m;
   own.clock = {config.clock, config.clock_user};
-  own.time_limit_ns = int64_t{config.deadline_us} * 1000;
   return own;
 }
 
@@ -94,6 +93,7 @@ FrameInput frameFrom(const sphc_frame &frame) {
   own.color = colorViewFrom(frame.color);
   own.depth = depthViewFrom(frame.depth);
   if (frame.prior) own.known = knownFrom(*frame.prior);
+  own.time_limit_ns = int64_t{frame.deadline_us} * 1000;
   return own;
 }
 
@@ -130,6 +130,8 @@ static_assert(kDepthRange == SPHC_FAULT_DEPTH_RANGE && kDepthConstant == SPHC_FA
               kColorFrozen == SPHC_FAULT_COLOR_FROZEN && kDepthColorDisagree == SPHC_FAULT_DEPTH_COLOR_DISAGREE &&
               kDepthScale == SPHC_FAULT_DEPTH_SCALE && kDepthBias == SPHC_FAULT_DEPTH_BIAS &&
               kVerticalDisagrees == SPHC_FAULT_VERTICAL_DISAGREES);
+static_assert(kCutFeatures == SPHC_CUT_FEATURES && kCutMatches == SPHC_CUT_MATCHES &&
+              kCutSearch == SPHC_CUT_SEARCH && kCutVerification == SPHC_CUT_VERIFICATION);
 
 sphc_state stateFrom(TrackingState state) {
   switch (state) {
@@ -173,7 +175,7 @@ void fillResult(const LocalizerResult &answer, const sphc_frame &frame, sphc_res
   result->match_us = microseconds(answer.times.match_ns);
   result->pose_us = microseconds(answer.times.pose_ns);
   result->confidence = answer.confidence;
-  result->cut_short = answer.cut_short;
+  result->cuts = answer.cuts;
   result->state = stateFrom(answer.state);
   result->map_index = answer.map;
   result->frames = answer.frames;

@@ -27,7 +27,6 @@ struct LocalizerConfig {
   double map_sigma_m = 0;        // error of a map point across its direction
 
   Clock clock;
-  int64_t time_limit_ns = 0;  // of a frame; 0: none
 };
 
 }  // namespace sphc

@@ -24,6 +24,7 @@ struct FrameInput {
   ColorView color;
   ImageView<uint16_t> depth;
   Known known;
+  int64_t time_limit_ns = 0;  // from the beginning of its processing; 0: none
 };
 
 }  // namespace sphc

@@ -9,6 +9,7 @@
 namespace sphc {
 namespace {
 
+constexpr uint32_t kLiftGrain = 16;    // keypoints between two looks at the clock
 constexpr double kUselessSigma = 1e3;  // of a keypoint where the camera model has no bearing
 
 FeatureConfig featureConfig(const LocalizerConfig &config) {
@@ -45,7 +46,7 @@ void FrontEnd::init(const LocalizerConfig &config) {
   extractor_.init();
 }
 
-void FrontEnd::extract(const ColorView &color) {
+void FrontEnd::extract(const ColorView &color, const Deadline &deadline) {
   GrayView gray = {color.data, color.width, color.height, color.stride};
   if (color.order != ChannelOrder::kGray) {
     const auto convert = color.order == ChannelOrder::kRgb ? rgbToGray : bgrToGray;
@@ -54,15 +55,22 @@ void FrontEnd::extract(const ColorView &color) {
     gray.stride = color.width;
   }
   gray_view_ = gray;
-  keypoint_count_ = extractor_.extract(gray, keypoints_, descriptors_);
+  keypoint_count_ = extractor_.extract(gray, keypoints_, descriptors_, deadline);
+  cut_ = extractor_.wasCut();
   lifted_count_ = 0;
 }
 
-void FrontEnd::lift(ImageView<uint16_t> depth, const Rigid &color_from_depth) {
+void FrontEnd::lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, const Deadline &deadline) {
   aligner_.setPose(color_from_depth);
   aligner_.prepare(depth);
   lifted_count_ = 0;
+  Watch watch(deadline, kLiftGrain);
   for (uint32_t k = 0; k < keypoint_count_; ++k) {
+    if (watch.passed(1)) {
+      keypoint_count_ = k;
+      cut_ = true;
+      break;
+    }
     observations_[k] = {keypoints_[k].x_px, keypoints_[k].y_px, keypoints_[k].scale_px, 0, 0, false, false, false};
     keypoint_of_[k] = k;
     double z_m = 0;

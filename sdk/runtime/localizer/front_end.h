@@ -14,10 +14,13 @@ class FrontEnd {
   static void layout(const LocalizerConfig &config, Arena &state, Arena &scratch, FrontEnd *front);
   void init(const LocalizerConfig &config);
 
-  void extract(const ColorView &color);
+  // What a deadline leaves out is the finest of the image, and the weakest keypoints.
+  void extract(const ColorView &color, const Deadline &deadline = {});
   // After extract.  Those with depth come first from then on, then those without.  `color_from_depth`: the cameras
   // at the time of each one's image.
-  void lift(ImageView<uint16_t> depth, const Rigid &color_from_depth);
+  void lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, const Deadline &deadline = {});
+  // Did a deadline leave something out?
+  bool wasCut() const { return cut_; }
 
   // The image of the last extract, as it was processed.
   GrayView gray() const { return gray_view_; }
@@ -45,6 +48,7 @@ class FrontEnd {
   Span<LiftedPoint> lifted_;
   Span<uint32_t> keypoint_of_;
   uint32_t keypoint_count_ = 0, lifted_count_ = 0;
+  bool cut_ = false;
   GrayView gray_view_;  // gray_, or the caller's image where that is grey
 };
 

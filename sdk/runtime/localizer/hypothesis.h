@@ -42,6 +42,7 @@ struct Hypothesis {
   Estimate estimate;  // after guided re-matching
   Evidence evidence;
   Leverage leverage;
+  bool is_verified = true;  // false where a deadline left out what might have spoken against it
   MatchSet matched;
 
   bool isLocalized() const { return outcome == Outcome::kLocalized; }

@@ -39,7 +39,6 @@ void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
   result->outcome = best.outcome;
   result->matches = static_cast<uint32_t>(best.matched.matches().size());
   result->inliers = best.estimate.inliers;
-  result->cut_short = best.searched.cut_short;
   result->map = best.map;
   result->frames = best.frames;
   result->guided = best.guided;
@@ -90,20 +89,22 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   LocalizerResult result;
   result.depth = calibrator_.current();
   const int64_t begin = config_.clock.now();
-  front_.extract(frame.color);
+  const Deadline deadline = deadlineFrom(begin, frame.time_limit_ns).afterShare(kUntilEnd);
+  front_.extract(frame.color, deadline.afterShare(kFeaturesShare));
   const int64_t extracted = config_.clock.now();
   if (config_.tracks) {
     tracker_.advance(frame.color_time_ns, frame.known.has_odometry ? &frame.known.odometry : nullptr);
     fusion_.advance(tracker_);
   }
   const Rigid color_from_depth = colorFromDepth(frame);
-  front_.lift(frame.depth, color_from_depth);
+  front_.lift(frame.depth, color_from_depth, deadline.afterShare(kLiftShare));
   result.faults =
       consistency_.look({front_.gray(), frame.depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns});
   const int64_t aligned = config_.clock.now();
   Work work;
-  answer(frame.known, deadlineFrom(begin), &result.faults, &work);
+  answer(frame.known, deadline, &result.faults, &work);
   fillAnswer(best_, &result);
+  result.cuts = (front_.wasCut() ? kCutFeatures : Cuts{0}) | work.cuts;
   if (result.faults & kDoubts || consistency_.isDoubtful())
     result.confidence = std::min(result.confidence, kDoubtedConfidence);
   observe();
@@ -126,8 +127,8 @@ Rigid Localizer::colorFromDepth(const FrameInput &frame) const {
   return moved * config_.color_from_depth;
 }
 
-Deadline Localizer::deadlineFrom(int64_t begin_ns) const {
-  return config_.time_limit_ns ? Deadline::after(config_.clock, begin_ns, config_.time_limit_ns) : Deadline();
+Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {
+  return limit_ns ? Deadline::after(config_.clock, begin_ns, limit_ns) : Deadline();
 }
 
 // Makes best_ what the frame is answered with: by what can be believed of it.
@@ -151,21 +152,16 @@ void Localizer::answer(const Known &known, const Deadline &deadline, Faults *fau
 // Makes best_ what is found with all that is known.
 void Localizer::locate(const Known &known, const Deadline &deadline, Work *work) {
   best_.challenge({});
-  if (front_.keypointCount() < kFewestKeypoints) {
-    best_.outcome = Outcome::kFewKeypoints;
-    return;
-  }
-  if (front_.liftedCount() < kFewestLifted) {
-    best_.outcome = Outcome::kFewDepths;
+  const bool few = front_.keypointCount() < kFewestKeypoints;
+  if (few || front_.liftedCount() < kFewestLifted) {
+    best_.outcome = front_.wasCut() ? Outcome::kDeadline : few ? Outcome::kFewKeypoints : Outcome::kFewDepths;
     return;
   }
   Prediction expected;
   if (expectedPose(known, config_.tracks ? &tracker_ : nullptr, &expected))
     searchNear(known, expected, deadline, work);
-  if (!isDone(deadline)) searchEverywhere(known, deadline, work);
-  if (best_.isLocalized() || !deadline.passed()) return;
-  best_.outcome = Outcome::kDeadline;
-  best_.searched.cut_short = true;
+  if (!isDone(deadline, work)) searchEverywhere(known, deadline, work);
+  if (!best_.isLocalized() && work->cuts) best_.outcome = Outcome::kDeadline;
 }
 
 void Localizer::searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work) {
@@ -179,20 +175,22 @@ void Localizer::searchNear(const Known &known, const Prediction &expected, const
   const double cone_rad = coneOf(expected);
   // matching near a direction has probes of its own
   const Search::Question question = search_.ask(front_, expected.map, front_.liftedCount(), 1, work);
-  search_.matchNear(question, expected.camera_from_map, cone_rad, {}, &candidate_.matched, work);
-  solve({question, {}, queryFor(prior, deadline), solidAngleOf(cone_rad), {kConesOfExpectedPose, 1}}, work);
+  const Deadline own = deadline.afterShare(kNearShare);
+  search_.matchNear(question, expected.camera_from_map, cone_rad, {}, own.afterShare(kMatchShare),
+                    &candidate_.matched, work);
+  solve({question, {}, queryFor(prior, own), solidAngleOf(cone_rad), {kConesOfExpectedPose, 1}}, work);
   propose();
 }
 
 void Localizer::searchEverywhere(const Known &known, const Deadline &deadline, Work *work) {
-  const MapOrder order = search_.rankMaps(front_, work);
+  const MapOrder order = search_.rankMaps(front_, deadline.afterShare(kMatchShare), work);
   const bool fuses = config_.tracks && tracker_.hasOdometry();
   const uint32_t remembered = fusion_.mapToRemember(order);
   for (uint32_t map : order) {
     PosePrior prior = priorFor(known, map);
     if (isNarrow(known)) prior.has_pose = false;  // a search there has failed
     searchMap(map, fuses && map == remembered, queryFor(prior, deadline), work);
-    if (isDone(deadline)) return;
+    if (isDone(deadline, work)) return;
   }
 }
 
@@ -204,18 +202,21 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
       search_.ask(front_, map, all, config_.probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
   if (config_.probes > 0 && lifted > kStrongest) {
     candidate_.begin(map);
-    search_.matchEverywhere(task.question, kStrongest, &candidate_.matched, work);
+    task.query.deadline = query.deadline.afterShare(kStrongestShare);
+    search_.matchEverywhere(task.question, kStrongest, task.query.deadline.afterShare(kMatchShare),
+                            &candidate_.matched, work);
     solve(task, work);  // in guided re-matching all take part
+    task.query.deadline = query.deadline;
     const bool beyond_doubt = candidate_.evidence.log_chance_first < kBeyondDoubt;
     if ((candidate_.isLocalized() && beyond_doubt) || query.deadline.passed()) return propose();
   }
   candidate_.begin(map);
-  search_.matchEverywhere(task.question, all, &candidate_.matched, work);
+  search_.matchEverywhere(task.question, all, query.deadline.afterShare(kMatchShare), &candidate_.matched, work);
   task.rays = search_.raysOf(front_, candidate_.matched);
   const bool has_others = remembers && fusion_.remember(map, candidate_.matched);
   solve(task, work);
   propose();
-  if (!has_others || isDone(query.deadline)) return;
+  if (!has_others || isDone(query.deadline, work)) return;
   candidate_.begin(map, fusion_.frames());
   fusion_.addTo(*task.question.map, &candidate_.matched);
   solve(task, work);
@@ -241,7 +242,13 @@ PoseQuery Localizer::queryFor(const PosePrior &prior, const Deadline &deadline) 
   return query;
 }
 
-bool Localizer::isDone(const Deadline &deadline) const { return best_.isLocalized() || deadline.passed(); }
+// Is the frame localized, or no time left for another search?
+bool Localizer::isDone(const Deadline &deadline, Work *work) const {
+  if (best_.isLocalized()) return true;
+  if (!deadline.passed()) return false;
+  work->cuts |= kCutSearch;
+  return true;
+}
 
 // Is the vertical that was given another than the one of the pose that the matches alone speak for?
 bool Localizer::verticalDisagrees(const Known &known) {

@@ -39,7 +39,7 @@ class Localizer {
 
  private:
   Rigid colorFromDepth(const FrameInput &frame) const;
-  Deadline deadlineFrom(int64_t begin_ns) const;
+  Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
   void answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void locate(const Known &known, const Deadline &deadline, Work *work);
   void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
@@ -48,7 +48,7 @@ class Localizer {
   void solve(const PoseTask &task, Work *work);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
-  bool isDone(const Deadline &deadline) const;
+  bool isDone(const Deadline &deadline, Work *work) const;
   bool verticalDisagrees(const Known &known);
   Faults judgeTravel(const Known &known);
   void observe();

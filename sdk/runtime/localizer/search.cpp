@@ -51,12 +51,12 @@ void Search::init(const LocalizerConfig &config) {
   clock_ = config.clock;
 }
 
-MapOrder Search::rankMaps(const FrontEnd &front, Work *work) {
+MapOrder Search::rankMaps(const FrontEnd &front, const Deadline &deadline, Work *work) {
   MapOrder order;
   const uint32_t voters = std::min(tuning::kVoters, front.liftedCount());
   uint32_t votes[kMostMaps] = {}, most = 0;
   for (uint32_t map = 0; map < mapCount() && mapCount() > 1; ++map) {
-    votes[map] = countVotes(front, map, voters, work);
+    votes[map] = countVotes(front, map, voters, deadline.afterShare(1.0 / (mapCount() + 1 - map)), work);
     most = std::max(most, votes[map]);
   }
   for (uint32_t rank = 0; rank < tuning::kMapsTried && rank < mapCount(); ++rank) {
@@ -72,9 +72,10 @@ MapOrder Search::rankMaps(const FrontEnd &front, Work *work) {
 }
 
 // How many of the keypoints find their like in the map?
-uint32_t Search::countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, Work *work) {
+uint32_t Search::countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, const Deadline &deadline,
+                            Work *work) {
   ask(front, map, voters, tuning::kVoteProbes, work);
-  return match(voters, max_ratio_, rays_, work);
+  return match(voters, max_ratio_, deadline, rays_, work);
 }
 
 Search::Question Search::ask(const FrontEnd &front, uint32_t map, uint32_t keypoints, uint32_t probes, Work *work) {
@@ -84,22 +85,29 @@ Search::Question Search::ask(const FrontEnd &front, uint32_t map, uint32_t keypo
   return {&front, &maps_[map]};
 }
 
-uint32_t Search::match(uint32_t keypoints, float max_ratio, Span<Match> room, Work *work) {
+uint32_t Search::match(uint32_t keypoints, float max_ratio, const Deadline &deadline, Span<Match> room,
+                       Work *work) {
   const int64_t begin = clock_.now();
-  const uint32_t count =
-      probes_ ? matcher_.matchAll(keypoints, max_ratio, room) : matcher_.matchExact(max_ratio, room);
-  work->match_ns += elapsedNs(begin, clock_.now());
+  const uint32_t count = probes_ ? matcher_.matchAll(keypoints, max_ratio, room, deadline)
+                                 : matcher_.matchExact(max_ratio, room, deadline);
+  account(begin, work);
   return count;
 }
 
-void Search::matchEverywhere(const Question &question, uint32_t keypoints, float max_ratio, MatchSet *matched,
-                             Work *work) {
-  const uint32_t count = match(keypoints, max_ratio, matched->room(), work);
+// What the matcher did since.
+void Search::account(int64_t begin_ns, Work *work) const {
+  work->match_ns += elapsedNs(begin_ns, clock_.now());
+  if (matcher_.wasCut()) work->cuts |= kCutMatches;
+}
+
+void Search::matchEverywhere(const Question &question, uint32_t keypoints, float max_ratio,
+                             const Deadline &deadline, MatchSet *matched, Work *work) {
+  const uint32_t count = match(keypoints, max_ratio, deadline, matched->room(), work);
   matched->assign(count, *question.front, *question.map);
 }
 
 void Search::matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad,
-                       Span<const Match> rays, MatchSet *matched, Work *work) {
+                       Span<const Match> rays, const Deadline &deadline, MatchSet *matched, Work *work) {
   const int64_t begin = clock_.now();
   const FrontEnd &front = *question.front;
   const uint32_t lifted = front.liftedCount();
@@ -110,10 +118,10 @@ void Search::matchNear(const Question &question, const Rigid &camera_from_map, d
   }
   double sine, cosine;
   sinCos(cone_rad, &sine, &cosine);
-  uint32_t count =
-      matcher_.matchNear(predicted_.first(lifted), static_cast<float>(cosine), max_ratio_, matched->room());
+  uint32_t count = matcher_.matchNear(predicted_.first(lifted), static_cast<float>(cosine), max_ratio_,
+                                      matched->room(), deadline);
   for (const Match &ray : rays) matched->room()[count++] = ray;
-  work->match_ns += elapsedNs(begin, clock_.now());
+  account(begin, work);
   matched->assign(count, front, *question.map);
 }
 

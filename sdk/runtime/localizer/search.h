@@ -4,6 +4,7 @@
 #include "runtime/localizer/hypothesis.h"
 #include "runtime/localizer/tracker.h"
 #include "runtime/stages/match/matcher.h"
+#include "runtime/types/cut.h"
 
 namespace sphc {
 
@@ -13,6 +14,7 @@ using MapOrder = FixedVector<uint32_t, kMostMaps>;
 struct Work {
   uint32_t samples = 0;  // minimal ones
   uint64_t match_ns = 0;
+  Cuts cuts = 0;
 };
 
 // Half angle of the cone in which the matches of an expected pose are sought.
@@ -41,26 +43,28 @@ class Search {
   float maxRatio() const { return max_ratio_; }
 
   // Which maps to search, the likeliest first.
-  MapOrder rankMaps(const FrontEnd &front, Work *work);
+  MapOrder rankMaps(const FrontEnd &front, const Deadline &deadline, Work *work);
 
   // About the first `keypoints`; in as many cells of the map's index.
   Question ask(const FrontEnd &front, uint32_t map, uint32_t keypoints, uint32_t probes, Work *work);
   // Matches the first `keypoints` with the whole map, by the configured ratio or by another.
-  void matchEverywhere(const Question &question, uint32_t keypoints, MatchSet *matched, Work *work) {
-    matchEverywhere(question, keypoints, max_ratio_, matched, work);
+  void matchEverywhere(const Question &question, uint32_t keypoints, const Deadline &deadline, MatchSet *matched,
+                       Work *work) {
+    matchEverywhere(question, keypoints, max_ratio_, deadline, matched, work);
   }
-  void matchEverywhere(const Question &question, uint32_t keypoints, float max_ratio, MatchSet *matched,
-                       Work *work);
+  void matchEverywhere(const Question &question, uint32_t keypoints, float max_ratio, const Deadline &deadline,
+                       MatchSet *matched, Work *work);
   // Matches each keypoint with depth in a cone around where the pose predicts it.  Without depth a pose does not
   // say where to look: those matches are `rays`, of matchEverywhere.
   void matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad, Span<const Match> rays,
-                 MatchSet *matched, Work *work);
+                 const Deadline &deadline, MatchSet *matched, Work *work);
   // Of these matches those of keypoints without depth; in memory of the search, until the next call.
   Span<const Match> raysOf(const FrontEnd &front, const MatchSet &matched);
 
  private:
-  uint32_t countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, Work *work);
-  uint32_t match(uint32_t keypoints, float max_ratio, Span<Match> room, Work *work);
+  uint32_t countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, const Deadline &deadline, Work *work);
+  uint32_t match(uint32_t keypoints, float max_ratio, const Deadline &deadline, Span<Match> room, Work *work);
+  void account(int64_t begin_ns, Work *work) const;
 
   FixedVector<MapView, kMostMaps> maps_;
   float max_ratio_ = 0;

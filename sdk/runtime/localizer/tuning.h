@@ -23,6 +23,17 @@ constexpr double kFineScalePx = 2;
 // depths.
 constexpr double kRayM = 1;
 
+// ---- a deadline: shares of the time that is left, each at the beginning of its part ----
+
+// The end is kept for what follows the search: telling what became of keypoints, and learning.
+constexpr double kUntilEnd = 0.95;
+constexpr double kFeaturesShare = 0.6, kLiftShare = 0.4;
+// Of a search near an expected pose, after which the whole map is searched; of a first search by few keypoints; of
+// a map among several.
+constexpr double kNearShare = 0.6, kStrongestShare = 0.7, kMatchShare = 0.5;
+// Within verification: of a search, and of matching.
+constexpr double kSearchShare = 0.5, kRematchShare = 0.5;
+
 // ---- search: where in the maps to look ----
 
 // The search cone of an expected pose: so many sigmas, but no less than a cone in which agreement still proves

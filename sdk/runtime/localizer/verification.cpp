@@ -47,14 +47,24 @@ void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis 
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
   confirm(task, found, rival);
+  if (found->isLocalized() && !found->is_verified) found->outcome = Outcome::kUncertain;
+}
+
+// Before a step of verification: is there no time for it?
+bool Verification::isCut(const PoseTask &task) const {
+  if (!task.query.deadline.passed()) return false;
+  work_.cuts |= kCutVerification;
+  return true;
 }
 
 // False where there is nothing to verify.
 bool Verification::searchPose(const PoseTask &task, Hypothesis *hypothesis) const {
-  const PoseQuery query = queryAbout(task, hypothesis->matched);
+  PoseQuery query = queryAbout(task, hypothesis->matched);
   if (query.correspondences.size() < kFewestMatches) return false;
+  query.deadline = task.query.deadline.afterShare(kSearchShare);
   const Estimate &found = hypothesis->searched = hypothesis->estimate = estimator_.search(query);
   work_.samples += found.iterations;
+  if (found.cut_short) work_.cuts |= kCutSearch;
   hypothesis->outcome = outcomeOf(found.ending);
   if (found.inliers <= kFewestMatches / 2) return false;
   hypothesis->evidence.source = hypothesis->guided ? MatchSource::kExpected : MatchSource::kGlobal;
@@ -71,7 +81,9 @@ void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
   Estimate &estimate = hypothesis->estimate;
   MatchSet &matched = hypothesis->matched;
   for (double cone_rad : task.cones_rad) {
-    search_.matchNear(task.question, estimate.camera_from_map, cone_rad, task.rays, &matched, &work_);
+    if (isCut(task)) break;
+    search_.matchNear(task.question, estimate.camera_from_map, cone_rad, task.rays,
+                      task.query.deadline.afterShare(kRematchShare), &matched, &work_);
     if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &matched);
     estimate = estimator_.refine(queryAbout(task, matched), estimate.camera_from_map);
   }
@@ -84,23 +96,30 @@ void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
   evidence.log_chance_second = logChanceOfAgreement(
       now, estimate.camera_from_map, inliers, 3,
       {task.query.depth.noise_scale, estimator_.inlierThreshold2(), solidAngleOf(last_cone_rad)});
-  findLeverage(hypothesis);
+  findLeverage(task, hypothesis);
   evidence.centre_sigma_ratio = hypothesis->leverage.centre_sigma_ratio;
   hypothesis->outcome = judgePose(evidence, estimate, min_inliers_);
 }
 
-void Verification::findLeverage(Hypothesis *hypothesis) const {
+void Verification::findLeverage(const PoseTask &task, Hypothesis *hypothesis) const {
   const uint32_t inliers = hypothesis->estimate.inliers;
   hypothesis->leverage = {};
   if (inliers >= kInliersBeyondChallenge) return;
-  hypothesis->leverage =
-      highestLeverage(hypothesis->matched.all(), hypothesis->estimate, 1 + inliers / kInliersALeverage);
+  hypothesis->leverage = highestLeverage(hypothesis->matched.all(), hypothesis->estimate,
+                                         1 + inliers / kInliersALeverage, task.query.deadline);
+  if (hypothesis->leverage.is_known) return;
+  work_.cuts |= kCutVerification;
+  hypothesis->is_verified = false;
 }
 
 // A pose may rest on one or two wrong matches, far from the others, that turn it by degrees: the better of it and
 // what is found without them stays.
 void Verification::challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (found->leverage.centre_sigma_ratio < kRestsOnFew) return;
+  if (isCut(task)) {
+    found->is_verified = false;
+    return;
+  }
   rival->challenge(*found);
   copyWithoutLeverage(*found, &rival->matched);
   rival->estimate = estimator_.search(queryAbout(task, rival->matched));
@@ -120,6 +139,10 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   const double gain = found->estimate.gain;
   const Rigid apart = rival->estimate.camera_from_map * found->estimate.camera_from_map.inverse();
   if (rival->estimate.gain < kNearlyAsGood * gain || rotationAngle(apart.rotation) < kSamePoseRad) return;
+  if (isCut(task)) {
+    found->is_verified = false;
+    return;
+  }
   rematch(task, rival);
   const double rival_gain = rival->estimate.gain;
   if (rival_gain > gain) std::swap(*found, *rival);
@@ -139,7 +162,8 @@ bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hyp
   const FrontEnd &front = *task.question.front;
   *other = task;
   other->query.seed += kOtherSeed;
-  search_.matchEverywhere(task.question, front.keypointCount(), max_ratio, &hypothesis->matched, &work_);
+  search_.matchEverywhere(task.question, front.keypointCount(), max_ratio,
+                          task.query.deadline.afterShare(kRematchShare), &hypothesis->matched, &work_);
   other->rays = search_.raysOf(front, hypothesis->matched);
   if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &hypothesis->matched);
   return searchPose(*other, hypothesis);
@@ -148,7 +172,7 @@ bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hyp
 // The first search took the strongest keypoints, or ended with the first pose that chance could not explain: where
 // few matches agree, the better of it and what a second search finds stays.
 void Verification::searchAgain(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  if (!isDoubtful(*found) || task.query.deadline.passed()) return;
+  if (!isDoubtful(*found) || isCut(task)) return;
   PoseTask other;
   rival->begin(found->map, found->frames);
   if (!searchOtherMatches(task, search_.maxRatio(), rival, &other)) return;
@@ -161,7 +185,7 @@ void Verification::searchAgain(const PoseTask &task, Hypothesis *found, Hypothes
 void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!isDoubtful(*found)) return;
   for (const ConfirmingSearch &way : kConfirmingSearches) {
-    if (task.query.deadline.passed()) break;
+    if (isCut(task)) break;
     PoseTask other;
     rival->begin(found->map, found->frames);
     if (!searchOtherMatches(task, std::max(way.max_ratio, search_.maxRatio()), rival, &other)) continue;

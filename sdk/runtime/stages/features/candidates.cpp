@@ -87,8 +87,7 @@ size_t CandidateList::rankByStrength() {
 }
 
 // Of the ranked, moves those that are chosen to the front; returns how many.
-size_t CandidateList::chooseByCell(size_t ranked, const FeatureConfig &config) {
-  const size_t limit = config.max_keypoints;
+size_t CandidateList::chooseByCell(size_t ranked, const FeatureConfig &config, size_t limit) {
   const float share = static_cast<float>(limit) / (kCellsAcross * kCellsDown);
   const uint32_t quota = static_cast<uint32_t>(config.cell_quota * share) + 1;
   uint32_t in_cell[kCellsAcross * kCellsDown] = {};
@@ -105,9 +104,9 @@ size_t CandidateList::chooseByCell(size_t ranked, const FeatureConfig &config) {
   return chosen;
 }
 
-Span<Candidate> CandidateList::choose(const FeatureConfig &config) {
+Span<Candidate> CandidateList::choose(const FeatureConfig &config, size_t limit) {
   markNearDuplicates();
-  const size_t count = chooseByCell(rankByStrength(), config);
+  const size_t count = chooseByCell(rankByStrength(), config, limit);
   for (size_t i = 0; i < count; ++i) ranks_[i].key = ~keyOf(items_[ranks_[i].index].response);
   radixSort(ranks_.data(), spare_.data(), count);
   for (size_t i = 0; i < count; ++i) chosen_[i] = items_[ranks_[i].index];

@@ -35,9 +35,10 @@ class CandidateList {
     items_[size_++] = candidate;
     if (size_ == items_.size()) cut();
   }
-  // Removes near-duplicates and keeps at most max_keypoints: first the strongest of every grid cell up to the
-  // cell's quota, then the strongest of the rest.  Highest response first.
-  Span<Candidate> choose(const FeatureConfig &config);
+  size_t size() const { return size_; }
+  // Removes near-duplicates and keeps at most `limit`, which max_keypoints bounds: first the strongest of every
+  // grid cell up to the cell's quota, then the strongest of the rest.  Highest response first.
+  Span<Candidate> choose(const FeatureConfig &config, size_t limit);
 
  private:
   void cut();
@@ -46,7 +47,7 @@ class CandidateList {
   static bool isSameStructure(const Place &a, const Place &b);
   // Of those that are no near-duplicates: by strength, highest first, into ranks_.  Returns how many.
   size_t rankByStrength();
-  size_t chooseByCell(size_t ranked, const FeatureConfig &config);
+  size_t chooseByCell(size_t ranked, const FeatureConfig &config, size_t limit);
 
   Span<Candidate> items_, chosen_;
   Span<SortKey> ranks_, spare_;

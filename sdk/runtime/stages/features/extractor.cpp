@@ -1,5 +1,7 @@
 #include "runtime/stages/features/extractor.h"
 
+#include <algorithm>
+
 #include "runtime/stages/features/orientation.h"
 
 namespace sphc {
@@ -7,6 +9,15 @@ namespace {
 
 constexpr uint32_t kMostKeypoints = 65536;
 constexpr float kPixelCenter = 0.5f;  // array index 0 is the pixel centred at 0.5
+
+// Under a deadline.  Shares of the time: of all for the sweep; of that for the finest octave swept, three quarters
+// of whose pixels it has.  What an octave costs that is skimmed, of sweeping it.
+constexpr double kSweepShare = 0.7, kFinestShare = 0.85, kSkimmedCost = 0.15;
+// After this share of its rows an octave must not have used more than this share of its time.
+constexpr int32_t kProbedRows = 4;  // one in so many
+constexpr double kMostForProbed = 0.35;
+constexpr uint32_t kPixelGrain = 4096, kDescribeGrain = 16;  // between two looks at the clock
+constexpr double kFewestKeypoints = 64;
 
 }  // namespace
 
@@ -35,28 +46,97 @@ void FeatureExtractor::init(const FeatureKernels &kernels) {
   describer_.init();
 }
 
-uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors) {
+uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors,
+                                   const Deadline &deadline) {
   SPHC_ASSERT(gray.width == config_.width && gray.height == config_.height);
-  candidates_.clear();
-  for (int32_t o = 0; o < space_.octaves(); ++o) sweepOctave(o, gray);
-  const Span<Candidate> chosen = candidates_.choose(config_);
+  cut_ = false;
+  sweep(gray, deadline);
+  if (cut_ && deadline.passed()) return 0;
+  const double fitting = keypoints_pace_.fitting(deadline, config_.max_keypoints);
+  const uint32_t limit =
+      std::min(static_cast<uint32_t>(std::max(fitting, kFewestKeypoints)), config_.max_keypoints);
+  const Span<Candidate> chosen = candidates_.choose(config_, limit);
+  cut_ = cut_ || (limit < config_.max_keypoints && chosen.size() == limit);
   uint32_t count = 0;
+  const int64_t begin = deadline.clock.now();
+  Watch watch(deadline, kDescribeGrain);
   for (const Candidate &candidate : chosen) {
-    if (count == config_.max_keypoints) break;
-    count +=
-        describe(candidate, config_.max_keypoints - count, keypoints.data() + count, descriptors.data() + count);
+    if (count == limit) break;
+    if (watch.passed(1)) {
+      cut_ = true;
+      break;
+    }
+    count += describe(candidate, limit - count, keypoints.data() + count, descriptors.data() + count);
   }
+  if (deadline.isSet()) keypoints_pace_.learn(count, elapsedNs(begin, deadline.clock.now()));
   return count;
 }
 
-void FeatureExtractor::sweepOctave(int32_t octave, GrayView gray) {
+// All octaves, or those from the finest on that fits: what a sweep that falls behind has found is forgotten, for it
+// would show the top of the image alone.
+void FeatureExtractor::sweep(GrayView gray, const Deadline &deadline) {
+  int32_t finest = finestWithin(deadline.afterShare(kSweepShare));
+  while (!sweepFrom(finest, gray, deadline.afterShare(kSweepShare)) && finest + 1 < space_.octaves() &&
+         !deadline.passed())
+    ++finest;
+  cut_ = cut_ || finest > 0;
+}
+
+int32_t FeatureExtractor::finestWithin(const Deadline &deadline) const {
+  if (!deadline.isSet()) return 0;
+  const double fitting = pixels_pace_.fitting(deadline, 1e18);
+  double all = 0;
+  for (int32_t o = 0; o < space_.octaves(); ++o) all += pixelsOf(o);
+  int32_t finest = 0;
+  for (double skimmed = 0; finest + 1 < space_.octaves() && all + kSkimmedCost * skimmed > fitting; ++finest) {
+    all -= pixelsOf(finest);
+    skimmed += pixelsOf(finest);
+  }
+  return finest;
+}
+
+// False where the finest of these octaves does not end in time.
+bool FeatureExtractor::sweepFrom(int32_t finest, GrayView gray, const Deadline &deadline) {
+  candidates_.clear();
+  Watch watch(deadline, kPixelGrain);
+  for (int32_t o = 0; o < finest; ++o)
+    if (!skimOctave(o, gray, &watch)) return !(cut_ = true);
+  const int64_t begin = deadline.clock.now();
+  double pixels = 0;
+  const bool in_time = sweepOctave(finest, gray, deadline.afterShare(kFinestShare), &pixels);
+  bool all = in_time;
+  for (int32_t o = finest + 1; o < space_.octaves() && all; ++o) all = sweepOctave(o, gray, deadline, &pixels);
+  if (deadline.isSet()) pixels_pace_.learn(pixels, elapsedNs(begin, deadline.clock.now()));
+  cut_ = cut_ || !all;
+  return in_time;
+}
+
+bool FeatureExtractor::skimOctave(int32_t octave, GrayView gray, Watch *watch) {
+  space_.beginOctave(octave, gray);
+  const int32_t steps = space_.skimCount();
+  for (int32_t y = 0; y < steps; y += kRowsAtOnce) {
+    if (watch->passed(static_cast<uint32_t>(space_.width(octave)))) return false;
+    space_.skim(y);
+  }
+  return true;
+}
+
+// False where it does not end in time.  Adds the pixels done.
+bool FeatureExtractor::sweepOctave(int32_t octave, GrayView gray, const Deadline &deadline, double *pixels) {
   space_.beginOctave(octave, gray);
   finder_.beginOctave(octave, space_.width(octave), space_.height(octave));
-  const int32_t steps = space_.stepCount();
-  for (int32_t y = 0; y < steps; y += kRowsAtOnce) {
+  Watch watch(deadline, kPixelGrain);
+  const Deadline probe = deadline.afterShare(kMostForProbed);
+  const int32_t steps = space_.stepCount(), probed = steps / kProbedRows / kRowsAtOnce * kRowsAtOnce;
+  int32_t y = 0;
+  for (; y < steps; y += kRowsAtOnce) {
+    if (watch.passed(static_cast<uint32_t>(kRowsAtOnce * space_.width(octave)))) break;
+    if (y == probed && probe.passed()) break;
     space_.step(y);
     for (int32_t i = 0; i < kRowsAtOnce; ++i) finder_.step(*kernels_, space_, y + i, &candidates_);
   }
+  *pixels += pixelsOf(octave) * std::min(y, steps) / steps;
+  return y >= steps;
 }
 
 uint32_t FeatureExtractor::describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints,

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "runtime/base/arena.h"
+#include "runtime/base/pace.h"
 #include "runtime/base/span.h"
 #include "runtime/stages/features/candidates.h"
 #include "runtime/stages/features/config.h"
@@ -20,6 +21,9 @@ namespace sphc {
 constexpr uint32_t kExtractorId = 2;
 
 class FeatureExtractor {
+  // Of sweeping and describing, before anything was timed.  Chosen: twice what a desktop's core takes.
+  static constexpr double kGuessedPixelNs = 15, kGuessedKeypointNs = 3000;
+
  public:
   // True where the configuration is one that layout() may be asked about.
   static bool accepts(const FeatureConfig &config);
@@ -31,11 +35,22 @@ class FeatureExtractor {
 
   // `gray` has the configured size; `keypoints` and `descriptors` have room for max_keypoints.  Returns how many
   // were found, highest response first.  Scratch keeps nothing from call to call; the same image gives the same
-  // bytes.
-  uint32_t extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors);
+  // bytes, but where a deadline cuts: then the finest octaves are left out, for they cost most, and the weakest
+  // keypoints.  How much fits is known from what earlier calls with a deadline took.
+  uint32_t extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors,
+                   const Deadline &deadline = {});
+  // Did the deadline leave something out of the last call?
+  bool wasCut() const { return cut_; }
 
  private:
-  void sweepOctave(int32_t octave, GrayView gray);
+  int32_t finestWithin(const Deadline &deadline) const;
+  bool sweepFrom(int32_t finest, GrayView gray, const Deadline &deadline);
+  bool skimOctave(int32_t octave, GrayView gray, Watch *watch);
+  bool sweepOctave(int32_t octave, GrayView gray, const Deadline &deadline, double *pixels);
+  void sweep(GrayView gray, const Deadline &deadline);
+  double pixelsOf(int32_t octave) const {
+    return static_cast<double>(space_.width(octave)) * space_.height(octave);
+  }
   uint32_t describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints, Descriptor *descriptors);
 
   FeatureConfig config_;
@@ -45,6 +60,8 @@ class FeatureExtractor {
   CandidateList candidates_;
   GaussianTable gaussian_;
   Describer describer_;
+  Pace pixels_pace_{kGuessedPixelNs}, keypoints_pace_{kGuessedKeypointNs};
+  bool cut_ = false;
 };
 
 }  // namespace sphc

@@ -104,6 +104,9 @@ void ScaleSpace::init(const FeatureKernels &kernels) {
     kernels_[l] = gaussian(sqrtOf(here * here - below * below));
     base_lags_[l] = base_lags_[l - 1] + kernels_[l].radius;
   }
+  const double skimmed = sigmaAt(kScales);
+  skim_kernels_[0] = gaussian(skimmed);
+  skim_kernels_[1] = gaussian(sqrtOf(skimmed * skimmed - kBaseSigma * kBaseSigma));
   SPHC_ASSERT(base_lags_[kLevels - 1] - base_lags_[1] + 2 * kRefineReach + 2 + kRowsAtOnce <= kDogRows);
 }
 
@@ -132,6 +135,12 @@ void ScaleSpace::step(int32_t y) {
   }
 }
 
+void ScaleSpace::skim(int32_t y) {
+  for (int32_t i = 0; i < kRowsAtOnce && y + i < height_; ++i) firstRow(y + i);
+  const Plane &from = octave_ == 0 ? source_ : level_[0];
+  blurInto(skimKernel(), from, kept_[octave_][kScales - 1], nullptr, y - skimLag(), 1);
+}
+
 // Takes the row from the image, or every second pixel of the level with twice the base's blur.
 void ScaleSpace::firstRow(int32_t y) {
   if (octave_ > 0) {
@@ -144,10 +153,10 @@ void ScaleSpace::firstRow(int32_t y) {
   }
 }
 
-// Rows y and the next.
+// So many rows from y on.
 void ScaleSpace::blurInto(const Kernel &kernel, const Plane &from, const Plane &to, const Plane *difference,
-                          int32_t y) {
-  const int32_t first = y < 0 ? 0 : y, end = y + kRowsAtOnce < height_ ? y + kRowsAtOnce : height_;
+                          int32_t y, int32_t rows) {
+  const int32_t first = y < 0 ? 0 : y, end = y + rows < height_ ? y + rows : height_;
   if (end <= first) return;
   BlurTask task;
   task.radius = kernel.radius;

@@ -42,9 +42,14 @@ class ScaleSpace {
   int32_t stepCount() const { return height_ + lag(kLevels - 1) + kRefineReach + 2; }
   int32_t lag(int32_t level) const { return lags_[level]; }
 
+  // In place of a sweep: makes no more of the octave than the next one is made from.  Steps y = 0, kRowsAtOnce, ...
+  // below skimCount().
+  void skim(int32_t y);
+  int32_t skimCount() const { return height_ + skimLag(); }
+
   // Level layer + 1 less level layer, in the octave of the sweep: the rows around the one searched.
   const Plane &difference(int32_t layer) const { return differences_[layer]; }
-  // Levels 1 .. kScales of any octave done.
+  // Levels 1 .. kScales of any octave swept.
   const Plane &kept(int32_t octave, int32_t level) const { return kept_[octave][level - 1]; }
 
  private:
@@ -56,11 +61,16 @@ class ScaleSpace {
   static int32_t octaveCount(const FeatureConfig &config);
 
   void firstRow(int32_t y);
-  void blurInto(const Kernel &kernel, const Plane &from, const Plane &to, const Plane *difference, int32_t y);
+  void blurInto(const Kernel &kernel, const Plane &from, const Plane &to, const Plane *difference, int32_t y,
+                int32_t rows = kRowsAtOnce);
+  const Kernel &skimKernel() const { return skim_kernels_[octave_ == 0 ? 0 : 1]; }
+  // Even: only every second row of the level is made.
+  int32_t skimLag() const { return skimKernel().radius & ~1; }
 
   int32_t first_octave_ = 0, octaves_ = 0;
   int32_t widths_[kMaxOctaves] = {}, heights_[kMaxOctaves] = {};
   Kernel base_kernel_ = {}, kernels_[kLevels] = {};  // kernels_[l] makes level l from level l - 1
+  Kernel skim_kernels_[2] = {};  // make level kScales: of the first octave from the source, of others from level 0
   int32_t base_lags_[kLevels] = {}, lags_[kLevels] = {};
 
   Plane kept_[kMaxOctaves][kScales];

@@ -8,6 +8,9 @@ namespace {
 constexpr uint32_t kTile = 128;  // map descriptors that stay in the nearest cache while all queries pass over them
 constexpr uint32_t kGuidedProbes = 8;  // as good as more, since the cone has left out most that mislead
 constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in them, before they are compared
+// Under a deadline: comparisons between two looks at the clock; how many of them the ranking of a query's cells, or
+// the search for its sectors, is worth; queries that are answered together.
+constexpr uint32_t kGrain = 4096, kRanking = 128, kTogether = 64, kTogetherExact = 16;
 
 constexpr uint32_t kNobody = UINT32_MAX;
 constexpr uint16_t kNoCell = UINT16_MAX;
@@ -67,15 +70,19 @@ void Matcher::chooseCells(const Descriptor &query, Span<uint16_t> cells) const {
     cells[k] = ranked[k].index == kNobody ? kNoCell : static_cast<uint16_t>(ranked[k].index);
 }
 
-void Matcher::rankUpTo(size_t count) {
-  for (; ranked_ < count; ++ranked_) chooseCells(queries_[ranked_], {&probed_[ranked_ * ranks_], ranks_});
+bool Matcher::rankUpTo(size_t count, Watch *watch) {
+  for (; ranked_ < count; ++ranked_) {
+    if (watch->passed(kRanking)) return false;
+    chooseCells(queries_[ranked_], {&probed_[ranked_ * ranks_], ranks_});
+  }
+  return true;
 }
 
 // Turns "cells of a query" into "queries of a cell", in the order of the queries.
-void Matcher::listByCell(size_t count) {
+void Matcher::listByCell(size_t first, size_t last) {
   const Span<uint32_t> starts = starts_.first(map_->cellCount() + 1);
   std::fill(starts.begin(), starts.end(), 0u);
-  for (size_t q = 0; q < count; ++q)
+  for (size_t q = first; q < last; ++q)
     for (const uint16_t cell : cellsOf(q).first(probes_))
       if (cell != kNoCell) ++starts[cell];
   uint32_t sum = 0;
@@ -83,58 +90,82 @@ void Matcher::listByCell(size_t count) {
     sum += start;
     start = sum;
   }
-  for (size_t q = count; q > 0; --q)  // backwards, so that the starts end where they should
+  for (size_t q = last; q > first; --q)  // backwards, so that the starts end where they should
     for (const uint16_t cell : cellsOf(q - 1).first(probes_))
       if (cell != kNoCell) askers_[--starts[cell]] = static_cast<uint32_t>(q - 1);
 }
 
-uint32_t Matcher::matchAll(size_t count, float max_ratio, Span<Match> matches) {
-  if (exact_ || found_ != count) searchAll(count);
-  return select(nearest_.first(count), max_ratio, matches);
+uint32_t Matcher::matchAll(size_t count, float max_ratio, Span<Match> matches, const Deadline &deadline) {
+  search(count, false, deadline);
+  return select(nearest_.first(std::min(found_, count)), max_ratio, matches);
 }
 
-uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches) {
-  if (!exact_ || found_ != queries_.size()) searchExact();
-  return select(nearest_.first(queries_.size()), max_ratio, matches);
+uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches, const Deadline &deadline) {
+  search(queries_.size(), true, deadline);
+  return select(nearest_.first(found_), max_ratio, matches);
 }
 
-uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio,
-                            Span<Match> matches) {
-  const Span<NearestTwo> nearby = nearby_.first(expected.size());
-  std::fill(nearby.begin(), nearby.end(), kStart);
-  rankUpTo(expected.size());
+uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches,
+                            const Deadline &deadline) {
+  Watch watch(deadline, kGrain);
+  rankUpTo(expected.size(), &watch);
   cones_.prepare(map_->sectorSide(), cone_cosine);
-  for (size_t q = 0; q < expected.size(); ++q) searchNear(q, {expected[q], cone_cosine}, &nearby[q]);
-  return select(nearby, max_ratio, matches);
+  size_t answered = 0;
+  for (; answered < std::min(ranked_, expected.size()); ++answered) {
+    nearby_[answered] = kStart;
+    if (!searchNear(answered, {expected[answered], cone_cosine}, &watch, &nearby_[answered])) break;
+  }
+  cut_ = answered < expected.size();
+  return select(nearby_.first(answered), max_ratio, matches);
 }
 
-void Matcher::searchAll(size_t count) {
-  std::fill_n(nearest_.begin(), count, kStart);
-  rankUpTo(count);
-  listByCell(count);
+// A query is answered in full or not at all: the nearest point that was seen so far is none to be matched.
+void Matcher::search(size_t count, bool exact, const Deadline &deadline) {
+  if (exact_ != exact) found_ = 0;
+  exact_ = exact;
+  Watch watch(deadline, kGrain);
+  const size_t together = !deadline.isSet() ? count : exact ? kTogetherExact : kTogether;
+  while (found_ < count) {
+    const size_t last = std::min(count, found_ + together);
+    std::fill(nearest_.begin() + found_, nearest_.begin() + last, kStart);
+    if (!(exact ? searchPoints(found_, last, &watch) : searchCells(found_, last, &watch))) break;
+    found_ = last;
+  }
+  cut_ = found_ < count;
+}
+
+bool Matcher::searchCells(size_t first, size_t last, Watch *watch) {
+  if (!rankUpTo(last, watch)) return false;
+  listByCell(first, last);
   for (uint32_t c = 0; c < map_->cellCount(); ++c) {
     const Span<const uint32_t> askers(askers_.data() + starts_[c], starts_[c + 1] - starts_[c]);
-    if (askers.empty()) continue;
-    const IndexRange points = map_->cell(c);
-    searchRange(map_->descriptors(), points.begin, points.end, queries_, askers, nearest_);
+    if (!askers.empty() && !searchRun(map_->cell(c), askers, watch)) return false;
   }
-  found_ = count;
-  exact_ = false;
+  return true;
 }
 
-void Matcher::searchExact() {
-  std::fill_n(nearest_.begin(), queries_.size(), kStart);
-  const Span<uint32_t> all = askers_.first(queries_.size());
-  for (size_t q = 0; q < queries_.size(); ++q) all[q] = static_cast<uint32_t>(q);
-  for (uint32_t first = 0; first < map_->pointCount(); first += kTile)
-    searchRange(map_->descriptors(), first, std::min(first + kTile, map_->pointCount()), queries_, all, nearest_);
-  found_ = queries_.size();
-  exact_ = true;
+bool Matcher::searchPoints(size_t first, size_t last, Watch *watch) {
+  const Span<uint32_t> all = askers_.first(last - first);
+  for (size_t q = first; q < last; ++q) all[q - first] = static_cast<uint32_t>(q);
+  return searchRun({0, map_->pointCount()}, all, watch);
 }
 
-void Matcher::searchNear(size_t q, const SearchCone &cone, NearestTwo *nearest) const {
+// False where the deadline passed meanwhile.
+bool Matcher::searchRun(IndexRange points, Span<const uint32_t> askers, Watch *watch) {
+  const auto count = static_cast<uint32_t>(askers.size());
+  for (uint32_t at = points.begin; at < points.end; at += kTile) {
+    const uint32_t end = std::min(at + kTile, points.end);
+    if (watch->passed(count * (end - at))) return false;
+    searchRange(map_->descriptors(), at, end, queries_, askers, nearest_);
+  }
+  return true;
+}
+
+// False where the deadline passed meanwhile.
+bool Matcher::searchNear(size_t q, const SearchCone &cone, Watch *watch, NearestTwo *nearest) const {
   const MapView &map = *map_;
   const Descriptor &query = queries_[q];
+  if (watch->passed(kRanking)) return false;
   SectorRun runs[SectorCones::kMaxRuns];
   const uint32_t run_count = cones_.touched(cone.axis, {runs, SectorCones::kMaxRuns});
   DirectionRun gathered[kGathered];
@@ -151,6 +182,7 @@ void Matcher::searchNear(size_t q, const SearchCone &cone, NearestTwo *nearest) 
       const IndexRange points = map.sectors(cell, runs[r].first, runs[r].last);
       for (uint32_t at = points.begin; at < points.end;) {
         const uint32_t end = std::min(at + room, points.end);
+        if (watch->passed(end - at)) return false;
         gathered[gathered_count++] = {at, end};
         room -= end - at;
         at = end;
@@ -158,6 +190,7 @@ void Matcher::searchNear(size_t q, const SearchCone &cone, NearestTwo *nearest) 
       }
     }
   compare();
+  return true;
 }
 
 uint32_t Matcher::select(Span<const NearestTwo> nearest, float max_ratio, Span<Match> matches) {

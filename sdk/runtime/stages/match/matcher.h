@@ -2,6 +2,7 @@
 // only to points in the direction where the pose expects them.
 #pragma once
 #include "runtime/base/arena.h"
+#include "runtime/base/deadline.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/match/distance.h"
 #include "runtime/stages/match/sector_cones.h"
@@ -13,7 +14,9 @@ namespace sphc {
 // found out once, when it is first needed, and so are the neighbours in the whole map: another ratio costs no other
 // search.  They write to `matches`, which has room for every query: at most one
 // query for each map point, best ratio first; they return how many.  `max_ratio` is of Lowe's test, on distances.
-// One matcher serves any number of maps, one after another.
+// Queries are answered in their order.  Those that a deadline leaves unanswered have no match; between two looks at
+// the clock lie a bounded number of comparisons, whatever the map is like. One matcher serves any number of maps,
+// one after another.
 class Matcher {
  public:
   static constexpr uint32_t kMaxProbes = 32;
@@ -26,23 +29,30 @@ class Matcher {
   void ask(const MapView &map, Span<const Descriptor> queries, uint32_t probes);
 
   // Nearest neighbours of the first `count` queries in their nearest cells.
-  uint32_t matchAll(size_t count, float max_ratio, Span<Match> matches);
+  uint32_t matchAll(size_t count, float max_ratio, Span<Match> matches, const Deadline &deadline = {});
 
   // Nearest neighbours of all queries over the whole map: what matchAll approaches.
-  uint32_t matchExact(float max_ratio, Span<Match> matches);
+  uint32_t matchExact(float max_ratio, Span<Match> matches, const Deadline &deadline = {});
 
   // Nearest neighbours of the first queries, as many as `expected`, among the map points within a cone around each
   // one's expected direction (unit, map frame).
-  uint32_t matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches);
+  uint32_t matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches,
+                     const Deadline &deadline = {});
+
+  // Did the deadline leave queries of the last call unanswered?
+  bool wasCut() const { return cut_; }
 
  private:
-  void searchAll(size_t count);
-  void searchExact();
+  // Neighbours in the whole map of the first `count` queries: of those that have none yet.
+  void search(size_t count, bool exact, const Deadline &deadline);
+  bool searchCells(size_t first, size_t last, Watch *watch);
+  bool searchPoints(size_t first, size_t last, Watch *watch);
+  bool searchRun(IndexRange points, Span<const uint32_t> askers, Watch *watch);
   void chooseCells(const Descriptor &query, Span<uint16_t> cells) const;
-  void rankUpTo(size_t count);
+  bool rankUpTo(size_t count, Watch *watch);
   Span<const uint16_t> cellsOf(size_t query) const { return {&probed_[query * ranks_], ranks_}; }
-  void listByCell(size_t count);
-  void searchNear(size_t query, const SearchCone &cone, NearestTwo *nearest) const;
+  void listByCell(size_t first, size_t last);
+  bool searchNear(size_t query, const SearchCone &cone, Watch *watch, NearestTwo *nearest) const;
   static uint32_t select(Span<const NearestTwo> nearest, float max_ratio, Span<Match> matches);
 
   // What was asked.
@@ -54,7 +64,8 @@ class Matcher {
   Span<NearestTwo> nearest_;  // of the first `found_` queries in the whole map
   Span<NearestTwo> nearby_;   // in the cones
   size_t found_ = 0;
-  bool exact_ = false;     // over all points, not through the index
+  bool exact_ = false;  // over all points, not through the index
+  bool cut_ = false;
   Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`
   Span<uint32_t> askers_;

@@ -10,6 +10,9 @@ namespace sphc {
 namespace {
 
 constexpr uint32_t kFewestRows = 4;
+// Under a deadline: rows that are scored between two looks at the clock; rows that a sample costs beside its
+// scores.
+constexpr uint32_t kGrain = 2048, kSampling = 256;
 constexpr double kMinimalThreshold2 = 30;  // minimal samples carry the noise of three points
 constexpr float kLocalLimit2 = 150;        // rows that local optimisation uses
 constexpr float kFinalLimit2 = 60;         // rows that the final refinement uses
@@ -149,6 +152,7 @@ RefineTask PoseEstimator::task(const PoseQuery &query, double scale2) const {
   task.kernels = kernels_;
   task.lifted = &near_;
   task.prior = query.prior;
+  task.deadline = query.deadline;
   task.depth.mid_m = query.depth.mid_m;
   task.scale2 = scale2;
   return task;
@@ -175,10 +179,12 @@ bool PoseEstimator::isNear(const PosePrior &prior, const Rigid &pose) {
 }
 
 // Returns how many of the samples were looked at, before there were `most` in all or enough in this round.
-uint32_t PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search) {
+uint32_t PoseEstimator::scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Watch *watch,
+                                   Search *search) {
   const float count = static_cast<float>(lifted_.count);
   for (uint32_t sample = 0; sample < kMinimalBatch; ++sample) {
     if (search->samples >= most || search->samples - search->begin >= search->needed) return sample;
+    if (watch->passed(lifted_.count + kSampling)) return kMinimalBatch;
     ++search->samples;
     for (uint32_t solution = 0; solution < kMaxSolutions; ++solution) {
       if (poses_->valid[solution][sample] == 0.0f) continue;
@@ -235,17 +241,16 @@ void PoseEstimator::sampleAndScore(const PoseQuery &query, const PosePrior *gate
   sampler_.start(lifted_, quality_.first(lifted_.count), sampleSize(query), query.seed + (gate ? 1 : 0));
   search->begin = search->samples;
   search->needed = config_.max_iterations;
+  Watch watch(query.deadline, kGrain);
   do {
-    if (query.deadline.passed()) {
-      estimate->cut_short = true;
-      break;
-    }
+    if (watch.passed(kSampling)) break;
     sampler_.draw(batch_);
     if (upright)
       kernels_->solve_upright(*batch_, frames, poses_);
     else
       kernels_->solve_p3p(*batch_, poses_);
-  } while (scoreBatch(query, gate, most, search) == kMinimalBatch);
+  } while (scoreBatch(query, gate, most, &watch, search) == kMinimalBatch);
+  if (watch.hasPassed()) estimate->cut_short = true;
 }
 
 bool PoseEstimator::isSupported(float gain) const {
@@ -292,7 +297,7 @@ Estimate PoseEstimator::search(const PoseQuery &query) {
   if (!prior || !verifyPrior(query, &state)) {
     if (prior) sampleAndScore(query, prior, config_.max_iterations / kSmallSearch, &state, &estimate);
     if (!isSupported(state.gain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
-    if (state.gain > 0) tryMirrored(query, &state);
+    if (state.gain > 0 && !estimate.cut_short) tryMirrored(query, &state);
   }
   estimate.iterations = state.samples;
   estimate.hypotheses = state.hypotheses;

@@ -58,7 +58,7 @@ class PoseEstimator {
   void tryMirrored(const PoseQuery &query, Search *search);
   void sampleAndScore(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search,
                       Estimate *estimate);
-  uint32_t scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Search *search);
+  uint32_t scoreBatch(const PoseQuery &query, const PosePrior *gate, uint32_t most, Watch *watch, Search *search);
   void optimise(const PoseQuery &query, const Rigid &minimal, Search *search);
   static bool isNear(const PosePrior &prior, const Rigid &pose);
   void keepNear(const RefineTask &task, const Rigid &pose, float limit2);

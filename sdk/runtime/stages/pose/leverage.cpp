@@ -10,6 +10,7 @@
 namespace sphc {
 namespace {
 
+constexpr uint32_t kGrain = 64;  // correspondences between two looks at the clock
 constexpr double kVague = 1e-3;  // information about a motion that nothing pins down
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
@@ -48,8 +49,10 @@ double centreVariance(const Matrix6 &covariance) { return covariance.bottomRight
 
 }  // namespace
 
-Leverage highestLeverage(Span<const Correspondence> correspondences, const Estimate &estimate, uint32_t count) {
+Leverage highestLeverage(Span<const Correspondence> correspondences, const Estimate &estimate, uint32_t count,
+                         const Deadline &deadline) {
   Leverage leverage;
+  Watch watch(deadline, kGrain);
   const Matrix6 all = covarianceOf(correspondences, estimate);
   Matrix6 covariance = all;
   while (leverage.indices.size() < count) {
@@ -57,6 +60,10 @@ Leverage highestLeverage(Span<const Correspondence> correspondences, const Estim
     Matrix36 row;
     Matrix6 most = Matrix6::Zero();
     for (uint32_t i = 0; i < correspondences.size(); ++i) {
+      if (watch.passed(1)) {
+        leverage.is_known = false;
+        return leverage;
+      }
       const bool taken = std::find(leverage.indices.begin(), leverage.indices.end(), i) != leverage.indices.end();
       if (taken || !rowOf(correspondences[i], estimate, &row)) continue;
       const Eigen::Matrix<double, 6, 3> gain = covariance * row.transpose();

@@ -1,6 +1,7 @@
 // Robust least squares on the pose, the depth bias a nuisance: Gauss-Newton with Levenberg damping and the
 // Geman-McClure loss, which lets go of outliers altogether (fake directions leak into slower-dying losses).
 #pragma once
+#include "runtime/base/deadline.h"
 #include "runtime/stages/pose/kernels.h"
 #include "runtime/types/depth_calibration.h"
 #include "runtime/types/estimate.h"
@@ -18,6 +19,7 @@ struct RefineTask {
   const PoseRows *lifted;
   const PoseRows *planes;  // rows taken for their epipolar planes; null: none
   const PosePrior *prior;  // its vertical is a soft term; null: none
+  Deadline deadline;
   DepthCalibration depth;  // around zero: the rows have been corrected by its mean; known: not estimated
   double scale2;           // squared residual at which a row has lost three quarters of its weight
 };
@@ -36,7 +38,7 @@ NormalTask normalTask(const RefineTask &task, const Rigid &pose, const Vector2 &
 double finalInformation(double squared);
 // Gauss-Newton steps without looking back, and without the depth bias: local optimisation.
 Rigid improvePose(const RefineTask &task, const Rigid &start, int steps);
-// To convergence, at most `iterations`.
+// To convergence, at most `iterations`, and no longer than until the deadline.
 Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations);
 
 }  // namespace sphc

@@ -86,12 +86,12 @@ class SearchTest : public testing::Test {
  protected:
   std::vector<uint32_t> rank(uint32_t room) {
     parts_.see(0, room);
-    const MapOrder order = parts_.search.rankMaps(parts_.front, &parts_.work);
+    const MapOrder order = parts_.search.rankMaps(parts_.front, {}, &parts_.work);
     return {order.begin(), order.end()};
   }
   MatchSet &matched() { return parts_.found.matched; }
   Span<const Match> everywhere(uint32_t keypoints, uint32_t map = 0) {
-    parts_.search.matchEverywhere(parts_.askAll(map), keypoints, &matched(), &parts_.work);
+    parts_.search.matchEverywhere(parts_.askAll(map), keypoints, {}, &matched(), &parts_.work);
     return matched().matches();
   }
 
@@ -112,7 +112,7 @@ TEST_F(SearchTest, WithoutASignOnlySoManyAreTried) {
   parts_.see(0);
   const std::vector<uint16_t> nothing(200 * 160);
   parts_.front.lift({nothing.data(), 200, 160, 200}, parts_.config.color_from_depth);
-  const MapOrder order = parts_.search.rankMaps(parts_.front, &parts_.work);
+  const MapOrder order = parts_.search.rankMaps(parts_.front, {}, &parts_.work);
   EXPECT_EQ((std::vector<uint32_t>(order.begin(), order.end())), (std::vector<uint32_t>{0, 1, 2}));
 }
 
@@ -122,7 +122,7 @@ TEST_F(SearchTest, OneMapNeedsNoVote) {
   int64_t now = 0;
   alone.config.clock = {tick, &now};
   alone.search.init(alone.config);
-  EXPECT_EQ(alone.search.rankMaps(alone.front, &alone.work).size(), 1u);
+  EXPECT_EQ(alone.search.rankMaps(alone.front, {}, &alone.work).size(), 1u);
   EXPECT_EQ(alone.work.match_ns, 0u);
 }
 
@@ -152,7 +152,7 @@ TEST_F(SearchTest, NearAPoseEveryMatchIsInItsCone) {
   const Rigid truth = parts_.cameraFromMap(1);
   const auto question = parts_.askAll();
   for (const double cone_rad : {degrees(1), degrees(4)}) {
-    parts_.search.matchNear(question, truth, cone_rad, {}, &matched(), &parts_.work);
+    parts_.search.matchNear(question, truth, cone_rad, {}, {}, &matched(), &parts_.work);
     EXPECT_GT(matched().all().size(), 50u);
     for (const Correspondence &c : matched().all()) EXPECT_LT(parts_.angleOff(c, truth), cone_rad + 1e-4);
     for (const Match &match : matched().matches()) EXPECT_LT(match.query, parts_.front.liftedCount());
@@ -165,9 +165,9 @@ TEST_F(SearchTest, NearAPoseTheRaysStandBehind) {
   ASSERT_LT(lifted, parts_.front.keypointCount()) << "the frame has no keypoint without depth";
   const Match rays[] = {{lifted, 5, 10, 40}};
   const auto question = parts_.askAll();
-  parts_.search.matchNear(question, parts_.cameraFromMap(1), degrees(2), {}, &matched(), &parts_.work);
+  parts_.search.matchNear(question, parts_.cameraFromMap(1), degrees(2), {}, {}, &matched(), &parts_.work);
   const size_t without = matched().matches().size();
-  parts_.search.matchNear(question, parts_.cameraFromMap(1), degrees(2), {rays, 1}, &matched(), &parts_.work);
+  parts_.search.matchNear(question, parts_.cameraFromMap(1), degrees(2), {rays, 1}, {}, &matched(), &parts_.work);
   ASSERT_EQ(matched().matches().size(), without + 1);
   EXPECT_EQ(matched().matches()[without].point_index, 5u);
   EXPECT_FALSE(matched().all()[without].lifted.hasDepth());
@@ -192,9 +192,9 @@ TEST_F(SearchTest, MatchingTakesTimeByTheCallersClock) {
   parts_.see(0);
   const auto question = parts_.askAll();
   EXPECT_EQ(parts_.work.match_ns, 1000u);
-  parts_.search.matchEverywhere(question, 40, &matched(), &parts_.work);
+  parts_.search.matchEverywhere(question, 40, {}, &matched(), &parts_.work);
   EXPECT_EQ(parts_.work.match_ns, 2000u);
-  parts_.search.matchNear(question, parts_.cameraFromMap(0), degrees(2), {}, &matched(), &parts_.work);
+  parts_.search.matchNear(question, parts_.cameraFromMap(0), degrees(2), {}, {}, &matched(), &parts_.work);
   EXPECT_EQ(parts_.work.match_ns, 3000u);
 }
 

@@ -35,7 +35,7 @@ class VerificationTest : public testing::Test {
     const PoseTask task = this->task();
     found().begin(0);
     parts_.search.matchEverywhere(task.question, std::min(keypoints, parts_.front.keypointCount()),
-                                  &found().matched, &parts_.work);
+                                  {}, &found().matched, &parts_.work);
     return task;
   }
   void verify(const PoseTask &task) {
@@ -151,7 +151,7 @@ TEST_F(VerificationTest, EarlierFramesTakePartWhereTheyWerePutTogether) {
   const double alone = found().evidence.log_chance_second;
   const PoseTask task = seen(0, 0, 60);
   found().begin(0, 2);
-  parts_.search.matchEverywhere(task.question, 60, &found().matched, &parts_.work);
+  parts_.search.matchEverywhere(task.question, 60, {}, &found().matched, &parts_.work);
   verify(task);
   EXPECT_EQ(found().frames, 2u);
   EXPECT_GT(found().matched.all().size(), found().matched.matches().size());

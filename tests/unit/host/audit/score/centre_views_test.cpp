@@ -51,7 +51,9 @@ void writeFrame(int frame, sphc_recording_writer *writer) {
                              time_ns,
                              {color.data(), kWidth, kHeight, kWidth * 3, SPHC_FORMAT_BGR8},
                              {depth.data(), kWidth, kHeight, kWidth * 2, SPHC_FORMAT_DEPTH16},
-                             nullptr};
+                             nullptr,
+                             0,
+                             0};
   const sphc_rigid pose = rigidToC(world_from_camera);
   sphc_message message;
   ASSERT_EQ(sphc_recording_add_frame(writer, &images, &message), SPHC_OK) << message.text;

@@ -27,7 +27,7 @@ class Candidates {
   void push(float x, float y, float response, int8_t octave = 0, float sigma = 2) {
     list_.push({response, response * sigma, x, y, 1, octave, 1, false});
   }
-  Span<Candidate> choose() { return list_.choose(config_); }
+  Span<Candidate> choose() { return list_.choose(config_, config_.max_keypoints); }
 
  private:
   FeatureConfig config_;

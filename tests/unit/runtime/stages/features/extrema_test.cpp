@@ -29,7 +29,7 @@ std::vector<Candidate> extremaOf(const TestImage &image, const FeatureConfig &co
     space.step(y);
     for (int32_t i = 0; i < kRowsAtOnce; ++i) finder.step(kernels, space, y + i, &found);
   }
-  const Span<Candidate> chosen = found.choose(config);
+  const Span<Candidate> chosen = found.choose(config, config.max_keypoints);
   return {chosen.begin(), chosen.end()};
 }
 

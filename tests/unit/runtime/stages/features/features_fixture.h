@@ -110,14 +110,14 @@ class TestExtractor {
     extractor_.init(kernels);
   }
 
-  Features operator()(const TestImage &image) {
+  Features operator()(const TestImage &image, const Deadline &deadline = {}) {
     Features out;
     Keypoint marker = {};
     marker.x_px = -1;
     out.keypoints.assign(config_.max_keypoints + 1, marker);
     out.descriptors.resize(config_.max_keypoints + 1);
     const uint32_t count = extractor_.extract(image.view(), {out.keypoints.data(), config_.max_keypoints},
-                                              {out.descriptors.data(), config_.max_keypoints});
+                                              {out.descriptors.data(), config_.max_keypoints}, deadline);
     outputs_intact_ = count <= config_.max_keypoints && out.keypoints.back().x_px == -1;
     out.keypoints.resize(count);
     out.descriptors.resize(count);
@@ -125,6 +125,7 @@ class TestExtractor {
   }
 
   bool sound() { return used_as_measured_ && outputs_intact_ && state_.intact() && scratch_.intact(); }
+  bool wasCut() const { return extractor_.wasCut(); }
   size_t stateBytes() const { return state_.bytes(); }
   size_t scratchBytes() const { return scratch_.bytes(); }
 

@@ -68,6 +68,29 @@ TEST(ScaleSpace, AFlatImageStaysFlat) {
       EXPECT_NEAR(space.at(octave, level, space.space.width(octave) / 2, 3), 90, 0.2);
 }
 
+// An octave is made from one that was only skimmed as from one that was swept.
+TEST(ScaleSpace, SkimmingMakesWhatTheNextOctaveNeeds) {
+  const TestImage image = spots(161, 119, 5);
+  for (const int32_t first_octave : {0, -1}) {
+    FeatureConfig config = configFor(image);
+    config.first_octave = first_octave;
+    TestSpace swept(config), skimmed(config);
+    swept.sweep(image);
+    ScaleSpace &space = skimmed.space;
+    const int32_t last = 2;
+    for (int32_t octave = 0; octave < last; ++octave) {
+      space.beginOctave(octave, image.view());
+      for (int32_t y = 0; y < space.skimCount(); y += kRowsAtOnce) space.skim(y);
+    }
+    space.beginOctave(last, image.view());
+    for (int32_t y = 0; y < space.stepCount(); y += kRowsAtOnce) space.step(y);
+    for (int32_t level = 1; level <= kScales; ++level)
+      for (int32_t y = 0; y < space.height(last); ++y)
+        for (int32_t x = 0; x < space.width(last); ++x)
+          ASSERT_NEAR(skimmed.at(last, level, x, y), swept.at(last, level, x, y), 1.5) << x << ", " << y;
+  }
+}
+
 // A soft spot of sigma s, blurred by b, is one of sqrt(s^2 + b^2), and lower by the ratio of their areas.
 TEST(ScaleSpace, LevelsAreBlurredAsTheySay) {
   constexpr double kSpot = 4;

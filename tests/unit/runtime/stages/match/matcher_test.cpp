@@ -9,6 +9,7 @@
 #include "runtime/stages/features/extractor.h"
 #include "tests/support/map_bytes.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/stepping_clock.h"
 
 namespace sphc {
 namespace {
@@ -234,6 +235,104 @@ TEST_F(IndexedMatcherTest, AQueryAloneFindsWhatItFindsAmongOthers) {
     EXPECT_EQ(matches_[0].point_index, m.point_index);
     EXPECT_EQ(matches_[0].second2, m.second2);
   }
+}
+
+TEST_F(IndexedMatcherTest, FewQueriesThenMoreIsAllAtOnce) {
+  const auto at_once = all(view_, queries(), 0.9f, 8);
+  matcher_.ask(view_, queries(), 8);
+  matcher_.matchAll(17, 0.9f, room());
+  matcher_.matchAll(90, 0.9f, room());
+  EXPECT_TRUE(same(at_once, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
+}
+
+// Against the clock: time is the number of looks at it.
+class MatcherDeadline : public IndexedMatcherTest {
+ protected:
+  Deadline after(int64_t looks) { return clock_.deadline(clock_.now_ns + looks); }
+  // Of the queries that were answered, what they find without a deadline.
+  void expectPartOf(const std::vector<Match> &whole, const std::vector<Match> &part) {
+    uint32_t last = 0;
+    for (const Match &m : part) {
+      last = std::max(last, m.query);
+      EXPECT_TRUE(std::any_of(whole.begin(), whole.end(), [&](const Match &other) { return same(m, other); }));
+    }
+    uint32_t before = 0;
+    for (const Match &m : whole) before += m.query <= last;
+    EXPECT_TRUE(part.empty() || part.size() == before);
+  }
+
+  test::SteppingClock clock_{1};
+};
+
+TEST_F(MatcherDeadline, QueriesAreAnsweredInFullOrNotAtAll) {
+  for (const uint32_t cells : {1u, 40u})
+    for (const bool exact : {false, true}) {
+      useCells(cells);
+      const auto match = [&](const Deadline &deadline) {
+        matcher_.ask(view_, queries(), 8);
+        return taken(exact ? matcher_.matchExact(1, room(), deadline)
+                           : matcher_.matchAll(kQueries, 1, room(), deadline));
+      };
+      const auto whole = match({});
+      EXPECT_FALSE(matcher_.wasCut());
+      size_t before = 0;
+      bool cut = true;
+      for (int64_t looks = 1; cut; ++looks) {
+        const uint64_t reads = clock_.reads;
+        const auto part = match(after(looks));
+        cut = matcher_.wasCut();
+        EXPECT_LE(clock_.reads, reads + static_cast<uint64_t>(looks)) << "it went on";
+        EXPECT_GE(part.size(), before);
+        expectPartOf(whole, part);
+        before = part.size();
+        ASSERT_LT(looks, 1000);
+      }
+      EXPECT_EQ(before, whole.size());
+    }
+}
+
+TEST_F(MatcherDeadline, GuidedMatchingToo) {
+  std::vector<Direction> expected;
+  for (uint32_t q = 0; q < kQueries; ++q) {
+    const Vector3 &d = points_[3 * q].direction;
+    expected.push_back({static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())});
+  }
+  useCells(1);
+  const auto match = [&](const Deadline &deadline) {
+    matcher_.ask(view_, queries(), 8);
+    return taken(matcher_.matchNear({expected.data(), expected.size()}, -1, 1, room(), deadline));
+  };
+  const auto whole = match({});
+  ASSERT_GT(whole.size(), kQueries / 2);
+  bool cut = true;
+  for (int64_t looks = 1; cut; ++looks) {
+    expectPartOf(whole, match(after(looks)));
+    cut = matcher_.wasCut();
+    ASSERT_LT(looks, 1000);
+  }
+}
+
+// Of a map whose points all lie in one cell every query looks at all, and still the clock is read in time.
+TEST_F(MatcherDeadline, BetweenTwoLooksLieFewComparisons) {
+  for (int i = 0; i < 20000; ++i) points_.push_back({test::randomDirection(&random_), test::randomDescriptor(&random_)});
+  useCells(1);
+  constexpr uint64_t kMostComparisons = 64 * 128;
+  for (const bool exact : {false, true}) {
+    matcher_.ask(view_, queries(), 8);
+    const uint64_t reads = clock_.reads;
+    const Deadline distant = after(int64_t{1} << 40);
+    exact ? matcher_.matchExact(1, room(), distant) : matcher_.matchAll(kQueries, 1, room(), distant);
+    EXPECT_GE((clock_.reads - reads) * kMostComparisons, uint64_t{kQueries} * points_.size()) << exact;
+  }
+}
+
+TEST_F(MatcherDeadline, WhatWasLeftOutIsFoundWhenThereIsTimeAgain) {
+  const auto whole = all(view_, queries(), 0.9f, 8);
+  matcher_.ask(view_, queries(), 8);
+  matcher_.matchAll(kQueries, 0.9f, room(), after(2));
+  EXPECT_TRUE(matcher_.wasCut());
+  EXPECT_TRUE(same(whole, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
+  EXPECT_FALSE(matcher_.wasCut());
 }
 
 // What is found out about a query for one call serves the others, in any order.

@@ -9,6 +9,7 @@
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/sensor_world.h"
+#include "tests/support/stepping_clock.h"
 #include "tests/unit/runtime/stages/pose/pose_test_estimator.h"
 
 namespace sphc {
@@ -246,17 +247,10 @@ TEST(Estimator, NoiseAloneIsNotLocalized) {
   }
 }
 
-// A clock that goes on by a microsecond whenever it is looked at.
-struct FakeClock {
-  int64_t now_ns = 0;
-  static int64_t read(void *user) { return static_cast<FakeClock *>(user)->now_ns += 1000; }
-  Deadline deadline(int64_t at_ns) { return {{&read, this}, at_ns}; }
-};
-
 TEST(Estimator, ADeadlineThatHasPassedGivesNothing) {
   test::TestEstimator estimator;
   const test::PoseWorld world = test::makeSensorWorld(sensorAt(0.33, 1));
-  FakeClock clock;
+  test::SteppingClock clock(1000);
   PoseQuery query;
   query.deadline = clock.deadline(0);
   const Estimate estimate = estimator.search(world, query);
@@ -270,7 +264,7 @@ TEST(Estimator, ADeadlineGivesTheBestSoFar) {
   int found = 0, cut = 0;
   for (uint64_t seed = 1; seed <= 50; ++seed) {
     const test::PoseWorld world = test::makeSensorWorld(sensorAt(0.15, seed));
-    FakeClock clock;
+    test::SteppingClock clock(1000);
     PoseQuery query;
     query.seed = seed;
     query.deadline = clock.deadline(10 * 1000);
@@ -290,7 +284,7 @@ TEST(Estimator, ADeadlineGivesTheBestSoFar) {
 TEST(Estimator, ALateDeadlineChangesNothing) {
   test::TestEstimator estimator;
   const test::PoseWorld world = test::makeSensorWorld(sensorAt(0.33, 2));
-  FakeClock clock;
+  test::SteppingClock clock(1000);
   PoseQuery query, with;
   with.deadline = clock.deadline(int64_t{1} << 60);
   expectSameBytes(estimator.search(world, query), estimator.search(world, with));

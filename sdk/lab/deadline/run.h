@@ -1,0 +1,32 @@
+// Frames under deadlines: do they end in time, and how many poses are left?
+#pragma once
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "host/evaluate/map_file.h"
+#include "lab/negative/sequence.h"
+
+namespace sphc::host {
+
+constexpr uint32_t kLateUs = 300;  // after its deadline a frame is late
+
+struct DeadlineInput {
+  std::vector<Sequence> sequences;  // one after another
+  const std::vector<MapFile> *maps = nullptr;
+  std::array<double, 3> centre_in_world_m = {};
+  sphc_config config = {};  // without rig and clock
+  uint32_t repeats = 1;
+};
+
+struct DeadlineRow {
+  uint32_t deadline_us = 0;  // 0: none
+  uint32_t frames = 0, in_time = 0;
+  double median_us = 0, worst_us = 0;  // processor time of a frame
+  uint32_t right = 0, wrong = 0;       // within 5 cm and 5 deg; beyond 25 cm or 10 deg
+  uint32_t features_cut = 0, matches_cut = 0, search_cut = 0, verification_cut = 0;  // frames
+};
+
+DeadlineRow runDeadline(const DeadlineInput &input, uint32_t deadline_us);
+
+}  // namespace sphc::host

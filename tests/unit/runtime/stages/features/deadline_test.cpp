@@ -1,0 +1,116 @@
+// The feature stage against the clock: time is the number of looks at it.
+#include <gtest/gtest.h>
+
+#include "tests/support/stepping_clock.h"
+#include "tests/unit/runtime/stages/features/features_fixture.h"
+
+namespace sphc {
+namespace {
+
+constexpr int64_t kStepNs = 1000;
+
+bool same(const Features &a, const Features &b) {
+  return a.keypoints.size() == b.keypoints.size() &&
+         std::memcmp(a.keypoints.data(), b.keypoints.data(), a.keypoints.size() * sizeof(Keypoint)) == 0 &&
+         std::memcmp(a.descriptors.data(), b.descriptors.data(), a.descriptors.size() * sizeof(Descriptor)) == 0;
+}
+
+double finestScale(const Features &features) {
+  double finest = 1e9;
+  for (const Keypoint &k : features.keypoints) finest = std::min(finest, static_cast<double>(k.scale_px));
+  return finest;
+}
+
+class FeatureDeadline : public testing::Test {
+ protected:
+  // After some images with so much time each, when the pace is known.
+  Features within(int64_t looks) {
+    for (int i = 0; i < 6; ++i) found_ = extractor_(image_, clock_.deadline(clock_.now_ns + looks * kStepNs));
+    return found_;
+  }
+  uint64_t looksOfAll() {
+    within(1000000);
+    const uint64_t before = clock_.reads;
+    extractor_(image_, clock_.deadline(clock_.now_ns + 1000000 * kStepNs));
+    return clock_.reads - before;
+  }
+
+  TestImage image_ = spots(320, 240, 7);
+  TestExtractor extractor_{configFor(image_, 300)};
+  test::SteppingClock clock_{kStepNs};
+  Features found_;
+};
+
+TEST_F(FeatureDeadline, ADistantOneChangesNothing) {
+  const Features plain = extractor_(image_);
+  EXPECT_TRUE(same(plain, within(1000000)));
+  EXPECT_FALSE(extractor_.wasCut());
+  EXPECT_EQ(plain.keypoints.size(), 300u);
+}
+
+TEST_F(FeatureDeadline, WithoutOneNoClockIsReadAndNothingIsKept) {
+  const Features plain = extractor_(image_);
+  within(60);
+  const uint64_t before = clock_.reads;
+  EXPECT_TRUE(same(plain, extractor_(image_)));
+  EXPECT_EQ(clock_.reads, before);
+  EXPECT_FALSE(extractor_.wasCut());
+}
+
+TEST_F(FeatureDeadline, ThePassedOneGivesNothing) {
+  const uint64_t before = clock_.reads;
+  EXPECT_EQ(extractor_(image_, clock_.deadline(clock_.now_ns)).keypoints.size(), 0u);
+  EXPECT_TRUE(extractor_.wasCut());
+  EXPECT_LT(clock_.reads - before, 30u);
+}
+
+// Whatever the time, the stage goes on for a few looks after it, and says that it was cut.
+TEST_F(FeatureDeadline, EndsSoonAfterEveryOne) {
+  const auto all = static_cast<int64_t>(looksOfAll());
+  for (int64_t looks = 1; looks < all; looks += 3) {
+    const int64_t end_ns = clock_.now_ns + looks * kStepNs;
+    extractor_(image_, clock_.deadline(end_ns));
+    EXPECT_LE(clock_.now_ns, end_ns + 25 * kStepNs) << looks;
+    EXPECT_TRUE(extractor_.sound());
+  }
+}
+
+TEST_F(FeatureDeadline, TheFinestScalesAreLeftOutFirst) {
+  const auto all = static_cast<int64_t>(looksOfAll());
+  const Features plain = extractor_(image_), half = within(all / 2);
+  EXPECT_TRUE(extractor_.wasCut());
+  EXPECT_LT(finestScale(plain), 1.6);
+  EXPECT_GT(finestScale(half), 1.9);
+  EXPECT_GT(half.keypoints.size(), 50u);
+}
+
+// Without the octave before them, the others are made from an image that was blurred at once: nearly the same one.
+TEST_F(FeatureDeadline, CoarseKeypointsAreWhereTheyWere) {
+  const auto all = static_cast<int64_t>(looksOfAll());
+  const Features plain = extractor_(image_), half = within(all / 2);
+  uint32_t found_again = 0;
+  for (const Keypoint &k : half.keypoints)
+    for (const Keypoint &other : plain.keypoints)
+      if (std::hypot(k.x_px - other.x_px, k.y_px - other.y_px) < 0.25f * k.scale_px &&
+          std::abs(k.scale_px - other.scale_px) < 0.1f * k.scale_px) {
+        ++found_again;
+        break;
+      }
+  uint32_t coarse = 0;
+  for (const Keypoint &k : plain.keypoints) coarse += k.scale_px > 3;
+  EXPECT_GT(found_again, 0.8 * coarse);
+}
+
+TEST_F(FeatureDeadline, NoiseEverywhereIsCutToo) {
+  image_ = noise(320, 240, 3);
+  const auto all = static_cast<int64_t>(looksOfAll());
+  for (const int64_t looks : {all / 8, all / 4, all / 2}) {
+    const int64_t end_ns = clock_.now_ns + looks * kStepNs;
+    extractor_(image_, clock_.deadline(end_ns));
+    EXPECT_TRUE(extractor_.wasCut());
+    EXPECT_LE(clock_.now_ns, end_ns + 25 * kStepNs);
+  }
+}
+
+}  // namespace
+}  // namespace sphc
