@@ -13,6 +13,8 @@ struct Deadline {
     return {clock, begin_ns > INT64_MAX - allowed_ns ? INT64_MAX : begin_ns + allowed_ns};
   }
   bool isSet() const { return clock.read; }
+  // 0 where there is none.
+  uint64_t leftNs() const { return isSet() ? elapsedNs(clock.now(), time_ns) : 0; }
   bool passed() const { return isSet() && clock.now() >= time_ns; }
   // Where a share, less than 1, of the time that is left has gone; none where there is none.
   Deadline afterShare(double share) const {

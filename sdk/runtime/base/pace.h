@@ -13,7 +13,7 @@ class Pace {
   // How many units fit?  `most` without a deadline.
   double fitting(const Deadline &deadline, double most) const {
     if (!deadline.isSet()) return most;
-    const double fitting = static_cast<double>(elapsedNs(deadline.clock.now(), deadline.time_ns)) / unit_ns_;
+    const double fitting = static_cast<double>(deadline.leftNs()) / unit_ns_;
     return fitting < most ? fitting : most;
   }
   // Slow at most by half a time: a frame may have been interrupted by other work of the device.

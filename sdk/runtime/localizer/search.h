@@ -54,6 +54,10 @@ class Search {
   }
   void matchEverywhere(const Question &question, uint32_t keypoints, float max_ratio, const Deadline &deadline,
                        MatchSet *matched, Work *work);
+  // Of the first `keypoints`, as many as matchEverywhere can answer by then; or those that it has answered.
+  uint32_t answerable(uint32_t keypoints, const Deadline &deadline) const {
+    return matcher_.answerable(keypoints, deadline);
+  }
   // Matches each keypoint with depth in a cone around where the pose predicts it.  Without depth a pose does not
   // say where to look: those matches are `rays`, of matchEverywhere.
   void matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad, Span<const Match> rays,

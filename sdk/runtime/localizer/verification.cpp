@@ -41,9 +41,10 @@ bool areNear(const Rigid &a, const Rigid &b, const ConfirmingSearch &way) {
 }  // namespace
 
 void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  const uint64_t left_ns = task.query.deadline.leftNs();
   if (!searchPose(task, found)) return;
   rematch(task, found);
-  searchAgain(task, found, rival);
+  searchAgain(task, left_ns - std::min(left_ns, task.query.deadline.leftNs()), found, rival);
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
   confirm(task, found, rival);
@@ -80,10 +81,12 @@ bool Verification::searchPose(const PoseTask &task, Hypothesis *hypothesis) cons
 void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
   Estimate &estimate = hypothesis->estimate;
   MatchSet &matched = hypothesis->matched;
-  for (double cone_rad : task.cones_rad) {
+  const Deadline own = task.query.deadline.afterShare(kRematchShare);
+  for (size_t cone = 0; cone < task.cones_rad.size(); ++cone) {
     if (isCut(task)) break;
-    search_.matchNear(task.question, estimate.camera_from_map, cone_rad, task.rays,
-                      task.query.deadline.afterShare(kRematchShare), &matched, &work_);
+    const bool is_last = cone + 1 == task.cones_rad.size();
+    search_.matchNear(task.question, estimate.camera_from_map, task.cones_rad[cone], task.rays,
+                      is_last ? own : own.afterShare(kFirstConeShare), &matched, &work_);
     if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &matched);
     estimate = estimator_.refine(queryAbout(task, matched), estimate.camera_from_map);
   }
@@ -162,20 +165,30 @@ bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hyp
   const FrontEnd &front = *task.question.front;
   *other = task;
   other->query.seed += kOtherSeed;
-  search_.matchEverywhere(task.question, front.keypointCount(), max_ratio,
-                          task.query.deadline.afterShare(kRematchShare), &hypothesis->matched, &work_);
+  const Deadline own = task.query.deadline.afterShare(kMatchShare);
+  const uint32_t keypoints = search_.answerable(front.keypointCount(), own);
+  if (keypoints < front.keypointCount()) work_.cuts |= kCutMatches;
+  search_.matchEverywhere(task.question, keypoints, max_ratio, own, &hypothesis->matched, &work_);
   other->rays = search_.raysOf(front, hypothesis->matched);
   if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &hypothesis->matched);
   return searchPose(*other, hypothesis);
 }
 
 // The first search took the strongest keypoints, or ended with the first pose that chance could not explain: where
-// few matches agree, the better of it and what a second search finds stays.
-void Verification::searchAgain(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+// few matches agree, the better of it and what a second search finds stays.  That takes what the first one did, so
+// confirmation goes before it where time is short.
+void Verification::searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found,
+                               Hypothesis *rival) const {
   if (!isDoubtful(*found) || isCut(task)) return;
-  PoseTask other;
+  const Deadline &deadline = task.query.deadline;
+  if (deadline.isSet() && kAgainShare * static_cast<double>(deadline.leftNs()) < static_cast<double>(spent_ns)) {
+    work_.cuts |= kCutVerification;
+    return;
+  }
+  PoseTask own = task, other;
+  own.query.deadline = deadline.afterShare(kAgainShare);
   rival->begin(found->map, found->frames);
-  if (!searchOtherMatches(task, search_.maxRatio(), rival, &other)) return;
+  if (!searchOtherMatches(own, search_.maxRatio(), rival, &other)) return;
   rematch(other, rival);
   if (rival->estimate.gain > found->estimate.gain) std::swap(*found, *rival);
 }

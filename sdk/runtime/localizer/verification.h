@@ -33,7 +33,7 @@ class Verification {
   bool isCut(const PoseTask &task) const;
   bool isDoubtful(const Hypothesis &found) const;
   bool searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis, PoseTask *other) const;
-  void searchAgain(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  void searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found, Hypothesis *rival) const;
   void confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;

@@ -18,6 +18,8 @@ constexpr int32_t kProbedRows = 4;  // one in so many
 constexpr double kMostForProbed = 0.35;
 constexpr uint32_t kPixelGrain = 4096, kDescribeGrain = 16;  // between two looks at the clock
 constexpr double kFewestKeypoints = 64;
+constexpr int32_t kMostSkimmed =
+    2;  // octaves: a few keypoints tell no pose, and those that are skimmed take time too
 
 }  // namespace
 
@@ -75,9 +77,9 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
 // All octaves, or those from the finest on that fits: what a sweep that falls behind has found is forgotten, for it
 // would show the top of the image alone.
 void FeatureExtractor::sweep(GrayView gray, const Deadline &deadline) {
+  const int32_t coarsest = std::min(kMostSkimmed, space_.octaves() - 1);
   int32_t finest = finestWithin(deadline.afterShare(kSweepShare));
-  while (!sweepFrom(finest, gray, deadline.afterShare(kSweepShare)) && finest + 1 < space_.octaves() &&
-         !deadline.passed())
+  while (!sweepFrom(finest, gray, deadline.afterShare(kSweepShare)) && finest < coarsest && !deadline.passed())
     ++finest;
   cut_ = cut_ || finest > 0;
 }
@@ -86,11 +88,12 @@ int32_t FeatureExtractor::finestWithin(const Deadline &deadline) const {
   if (!deadline.isSet()) return 0;
   const double fitting = pixels_pace_.fitting(deadline, 1e18);
   double all = 0;
-  for (int32_t o = 0; o < space_.octaves(); ++o) all += pixelsOf(o);
+  for (int32_t o = 0; o < space_.octaves(); ++o) all += sweptPixels(o);
   int32_t finest = 0;
-  for (double skimmed = 0; finest + 1 < space_.octaves() && all + kSkimmedCost * skimmed > fitting; ++finest) {
-    all -= pixelsOf(finest);
-    skimmed += pixelsOf(finest);
+  for (double skimmed = 0;
+       finest < std::min(kMostSkimmed, space_.octaves() - 1) && all + kSkimmedCost * skimmed > fitting; ++finest) {
+    all -= sweptPixels(finest);
+    skimmed += sweptPixels(finest);
   }
   return finest;
 }
@@ -135,7 +138,7 @@ bool FeatureExtractor::sweepOctave(int32_t octave, GrayView gray, const Deadline
     space_.step(y);
     for (int32_t i = 0; i < kRowsAtOnce; ++i) finder_.step(*kernels_, space_, y + i, &candidates_);
   }
-  *pixels += pixelsOf(octave) * std::min(y, steps) / steps;
+  *pixels += static_cast<double>(space_.width(octave)) * std::min(y, steps);
   return y >= steps;
 }
 

@@ -21,8 +21,8 @@ namespace sphc {
 constexpr uint32_t kExtractorId = 2;
 
 class FeatureExtractor {
-  // Of sweeping and describing, before anything was timed.  Chosen: twice what a desktop's core takes.
-  static constexpr double kGuessedPixelNs = 15, kGuessedKeypointNs = 3000;
+  // Of sweeping and describing, before anything was timed: a little more than a desktop's core takes.
+  static constexpr double kGuessedPixelNs = 6, kGuessedKeypointNs = 1500;
 
  public:
   // True where the configuration is one that layout() may be asked about.
@@ -48,8 +48,9 @@ class FeatureExtractor {
   bool skimOctave(int32_t octave, GrayView gray, Watch *watch);
   bool sweepOctave(int32_t octave, GrayView gray, const Deadline &deadline, double *pixels);
   void sweep(GrayView gray, const Deadline &deadline);
-  double pixelsOf(int32_t octave) const {
-    return static_cast<double>(space_.width(octave)) * space_.height(octave);
+  // Rows before an octave's first and after its last cost as much as its own.
+  double sweptPixels(int32_t octave) const {
+    return static_cast<double>(space_.width(octave)) * space_.stepCount(octave);
   }
   uint32_t describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints, Descriptor *descriptors);
 

@@ -120,18 +120,14 @@ void ScaleSpace::beginOctave(int32_t octave, GrayView gray) {
   width_ = widths_[octave];
   height_ = heights_[octave];
   gray_ = gray;
-  // In the first octave level 0 is itself blurred from the source rows and follows them.
-  for (int32_t l = 0; l < kLevels; ++l) {
-    lags_[l] = base_lags_[l] + (octave == 0 ? base_kernel_.radius : 0);
-    level_[l] = l >= 1 && l <= kScales ? kept_[octave][l - 1] : ring_[l];
-  }
+  for (int32_t l = 0; l < kLevels; ++l) level_[l] = l >= 1 && l <= kScales ? kept_[octave][l - 1] : ring_[l];
 }
 
 void ScaleSpace::step(int32_t y) {
   for (int32_t i = 0; i < kRowsAtOnce && y + i < height_; ++i) firstRow(y + i);
-  if (octave_ == 0) blurInto(base_kernel_, source_, level_[0], nullptr, y - lags_[0]);
+  if (octave_ == 0) blurInto(base_kernel_, source_, level_[0], nullptr, y - lag(0));
   for (int32_t l = 1; l < kLevels; ++l) {
-    blurInto(kernels_[l], level_[l - 1], level_[l], &differences_[l - 1], y - lags_[l]);
+    blurInto(kernels_[l], level_[l - 1], level_[l], &differences_[l - 1], y - lag(l));
   }
 }
 

@@ -39,8 +39,11 @@ class ScaleSpace {
   // Sweep step y = 0, kRowsAtOnce, ... below stepCount() computes rows y - lag(level) and the next of every level,
   // where there are any, and of the difference between it and the level below.
   void step(int32_t y);
-  int32_t stepCount() const { return height_ + lag(kLevels - 1) + kRefineReach + 2; }
-  int32_t lag(int32_t level) const { return lags_[level]; }
+  int32_t stepCount() const { return stepCount(octave_); }
+  int32_t stepCount(int32_t octave) const {
+    return heights_[octave] + lagIn(octave, kLevels - 1) + kRefineReach + 2;
+  }
+  int32_t lag(int32_t level) const { return lagIn(octave_, level); }
 
   // In place of a sweep: makes no more of the octave than the next one is made from.  Steps y = 0, kRowsAtOnce, ...
   // below skimCount().
@@ -53,6 +56,11 @@ class ScaleSpace {
   const Plane &kept(int32_t octave, int32_t level) const { return kept_[octave][level - 1]; }
 
  private:
+  // In the first octave level 0 is itself blurred from the source rows and follows them.
+  int32_t lagIn(int32_t octave, int32_t level) const {
+    return base_lags_[level] + (octave == 0 ? base_kernel_.radius : 0);
+  }
+
   struct Kernel {
     int16_t weights[kMaxBlurRadius + 1];  // of kOneQ15
     int32_t radius;
@@ -71,7 +79,7 @@ class ScaleSpace {
   int32_t widths_[kMaxOctaves] = {}, heights_[kMaxOctaves] = {};
   Kernel base_kernel_ = {}, kernels_[kLevels] = {};  // kernels_[l] makes level l from level l - 1
   Kernel skim_kernels_[2] = {};  // make level kScales: of the first octave from the source, of others from level 0
-  int32_t base_lags_[kLevels] = {}, lags_[kLevels] = {};
+  int32_t base_lags_[kLevels] = {};
 
   Plane kept_[kMaxOctaves][kScales];
   Plane source_, ring_[kLevels], differences_[kDogLayers];

@@ -10,7 +10,7 @@ constexpr uint32_t kGuidedProbes = 8;  // as good as more, since the cone has le
 constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in them, before they are compared
 // Under a deadline: comparisons between two looks at the clock; how many of them the ranking of a query's cells, or
 // the search for its sectors, is worth; queries that are answered together.
-constexpr uint32_t kGrain = 4096, kRanking = 128, kTogether = 64, kTogetherExact = 16;
+constexpr uint32_t kGrain = 4096, kRanking = 128, kTogether = 32, kTogetherExact = 16;
 
 constexpr uint32_t kNobody = UINT32_MAX;
 constexpr uint16_t kNoCell = UINT16_MAX;
@@ -108,11 +108,11 @@ uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches, const Deadlin
 uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches,
                             const Deadline &deadline) {
   Watch watch(deadline, kGrain);
-  rankUpTo(expected.size(), &watch);
   cones_.prepare(map_->sectorSide(), cone_cosine);
   size_t answered = 0;
-  for (; answered < std::min(ranked_, expected.size()); ++answered) {
+  for (; answered < expected.size(); ++answered) {
     nearby_[answered] = kStart;
+    if (!rankUpTo(answered + 1, &watch)) break;
     if (!searchNear(answered, {expected[answered], cone_cosine}, &watch, &nearby_[answered])) break;
   }
   cut_ = answered < expected.size();
@@ -124,6 +124,8 @@ void Matcher::search(size_t count, bool exact, const Deadline &deadline) {
   if (exact_ != exact) found_ = 0;
   exact_ = exact;
   Watch watch(deadline, kGrain);
+  const size_t begin = found_;
+  const int64_t begin_ns = deadline.clock.now();
   const size_t together = !deadline.isSet() ? count : exact ? kTogetherExact : kTogether;
   while (found_ < count) {
     const size_t last = std::min(count, found_ + together);
@@ -132,6 +134,14 @@ void Matcher::search(size_t count, bool exact, const Deadline &deadline) {
     found_ = last;
   }
   cut_ = found_ < count;
+  if (deadline.isSet())
+    queries_pace_.learn(static_cast<double>(found_ - begin), elapsedNs(begin_ns, deadline.clock.now()));
+}
+
+uint32_t Matcher::answerable(uint32_t count, const Deadline &deadline) const {
+  if (count <= found_) return count;
+  const double rest = count - static_cast<double>(found_);
+  return queries_pace_.fitting(deadline, rest) < rest ? static_cast<uint32_t>(found_) : count;
 }
 
 bool Matcher::searchCells(size_t first, size_t last, Watch *watch) {

@@ -2,7 +2,7 @@
 // only to points in the direction where the pose expects them.
 #pragma once
 #include "runtime/base/arena.h"
-#include "runtime/base/deadline.h"
+#include "runtime/base/pace.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/match/distance.h"
 #include "runtime/stages/match/sector_cones.h"
@@ -20,6 +20,7 @@ namespace sphc {
 class Matcher {
  public:
   static constexpr uint32_t kMaxProbes = 32;
+  static constexpr double kGuessedQueryNs = 7000;  // before anything was timed
 
   // Depends on no map.
   static void layout(uint32_t max_queries, Arena &scratch, Matcher *matcher);
@@ -41,6 +42,9 @@ class Matcher {
 
   // Did the deadline leave queries of the last call unanswered?
   bool wasCut() const { return cut_; }
+  // Of the first `count` queries, how many should matchAll or matchExact be asked about so as to answer all of
+  // these? Those that are answered, where there is no time for the others, as far as earlier calls tell.
+  uint32_t answerable(uint32_t count, const Deadline &deadline) const;
 
  private:
   // Neighbours in the whole map of the first `count` queries: of those that have none yet.
@@ -66,6 +70,7 @@ class Matcher {
   size_t found_ = 0;
   bool exact_ = false;  // over all points, not through the index
   bool cut_ = false;
+  Pace queries_pace_{kGuessedQueryNs};
   Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`
   Span<uint32_t> askers_;
