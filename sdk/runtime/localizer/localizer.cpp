@@ -198,13 +198,13 @@ void Localizer::searchEverywhere(const Known &known, const Deadline &deadline, W
 // frames too.
 void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work) {
   const uint32_t lifted = front_.liftedCount(), all = front_.keypointCount();
-  PoseTask task = {
-      search_.ask(front_, map, all, config_.probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
+  const Deadline first = query.deadline.afterShare(kStrongestShare), first_match = first.afterShare(kMatchShare);
+  const uint32_t probes = search_.probesWithin(std::min(lifted, kStrongest), first_match, work);
+  PoseTask task = {search_.ask(front_, map, all, probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
   if (config_.probes > 0 && lifted > kStrongest) {
     candidate_.begin(map);
-    task.query.deadline = query.deadline.afterShare(kStrongestShare);
-    search_.matchEverywhere(task.question, kStrongest, task.query.deadline.afterShare(kMatchShare),
-                            &candidate_.matched, work);
+    task.query.deadline = first;
+    search_.matchEverywhere(task.question, kStrongest, first_match, &candidate_.matched, work);
     solve(task, work);  // in guided re-matching all take part
     task.query.deadline = query.deadline;
     const bool beyond_doubt = candidate_.evidence.log_chance_first < kBeyondDoubt;

@@ -85,6 +85,12 @@ Search::Question Search::ask(const FrontEnd &front, uint32_t map, uint32_t keypo
   return {&front, &maps_[map]};
 }
 
+uint32_t Search::probesWithin(uint32_t keypoints, const Deadline &deadline, Work *work) const {
+  const uint32_t probes = probes_ ? matcher_.probesWithin(keypoints, probes_, deadline) : 0;
+  if (probes < probes_) work->cuts |= kCutMatches;
+  return probes;
+}
+
 uint32_t Search::match(uint32_t keypoints, float max_ratio, const Deadline &deadline, Span<Match> room,
                        Work *work) {
   const int64_t begin = clock_.now();

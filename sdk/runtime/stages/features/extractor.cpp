@@ -12,7 +12,7 @@ constexpr float kPixelCenter = 0.5f;  // array index 0 is the pixel centred at 0
 
 // Under a deadline.  Shares of the time: of all for the sweep; of that for the finest octave swept, three quarters
 // of whose pixels it has.  What an octave costs that is skimmed, of sweeping it.
-constexpr double kSweepShare = 0.7, kFinestShare = 0.85, kSkimmedCost = 0.15;
+constexpr double kSweepShare = 0.8, kFinestShare = 0.85, kSkimmedCost = 0.15;
 // After this share of its rows an octave must not have used more than this share of its time.
 constexpr int32_t kProbedRows = 4;  // one in so many
 constexpr double kMostForProbed = 0.35;

@@ -10,7 +10,9 @@ constexpr uint32_t kGuidedProbes = 8;  // as good as more, since the cone has le
 constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in them, before they are compared
 // Under a deadline: comparisons between two looks at the clock; how many of them the ranking of a query's cells, or
 // the search for its sectors, is worth; queries that are answered together.
-constexpr uint32_t kGrain = 4096, kRanking = 128, kTogether = 32, kTogetherExact = 16;
+constexpr uint32_t kGrain = 4096, kRanking = 128, kTogether = 16, kTogetherExact = 16;
+
+constexpr uint32_t kFewestProbes = 3;  // in time: fewer find too little
 
 constexpr uint32_t kNobody = UINT32_MAX;
 constexpr uint16_t kNoCell = UINT16_MAX;
@@ -134,14 +136,22 @@ void Matcher::search(size_t count, bool exact, const Deadline &deadline) {
     found_ = last;
   }
   cut_ = found_ < count;
-  if (deadline.isSet())
-    queries_pace_.learn(static_cast<double>(found_ - begin), elapsedNs(begin_ns, deadline.clock.now()));
+  if (!deadline.isSet()) return;
+  const double probed = static_cast<double>(found_ - begin) * probes_;
+  probes_pace_.learn(probed, elapsedNs(begin_ns, deadline.clock.now()));
+}
+
+uint32_t Matcher::probesWithin(uint32_t count, uint32_t most, const Deadline &deadline) const {
+  const double all = static_cast<double>(count) * most, fitting = probes_pace_.fitting(deadline, all);
+  uint32_t probes = most;
+  while (probes > kFewestProbes && static_cast<double>(count) * probes > fitting) probes /= 2;
+  return probes;
 }
 
 uint32_t Matcher::answerable(uint32_t count, const Deadline &deadline) const {
   if (count <= found_) return count;
   const double rest = count - static_cast<double>(found_);
-  return queries_pace_.fitting(deadline, rest) < rest ? static_cast<uint32_t>(found_) : count;
+  return probes_pace_.fitting(deadline, rest * probes_) < rest * probes_ ? static_cast<uint32_t>(found_) : count;
 }
 
 bool Matcher::searchCells(size_t first, size_t last, Watch *watch) {

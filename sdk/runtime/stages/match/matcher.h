@@ -20,7 +20,6 @@ namespace sphc {
 class Matcher {
  public:
   static constexpr uint32_t kMaxProbes = 32;
-  static constexpr double kGuessedQueryNs = 7000;  // before anything was timed
 
   // Depends on no map.
   static void layout(uint32_t max_queries, Arena &scratch, Matcher *matcher);
@@ -45,8 +44,11 @@ class Matcher {
   // Of the first `count` queries, how many should matchAll or matchExact be asked about so as to answer all of
   // these? Those that are answered, where there is no time for the others, as far as earlier calls tell.
   uint32_t answerable(uint32_t count, const Deadline &deadline) const;
+  // Cells that so many queries can be looked for in by then, `most` or a half or a quarter of them.
+  uint32_t probesWithin(uint32_t count, uint32_t most, const Deadline &deadline) const;
 
  private:
+  static constexpr double kGuessedProbeNs = 900;  // before anything was timed: about what a desktop's core takes
   // Neighbours in the whole map of the first `count` queries: of those that have none yet.
   void search(size_t count, bool exact, const Deadline &deadline);
   bool searchCells(size_t first, size_t last, Watch *watch);
@@ -70,7 +72,7 @@ class Matcher {
   size_t found_ = 0;
   bool exact_ = false;  // over all points, not through the index
   bool cut_ = false;
-  Pace queries_pace_{kGuessedQueryNs};
+  Pace probes_pace_{kGuessedProbeNs};  // of queries times their probes
   Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`
   Span<uint32_t> askers_;
