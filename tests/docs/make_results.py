@@ -204,6 +204,10 @@ def others(pipeline):
          "Sequences of 30 frames, broken in every way. Wrong: beyond 25 cm or 10 deg; sure: with a confidence above 0.5.\n"
          "`named`: frames whose result names a fault. Method: [consistency.md](consistency.md).",
          flat(rows("negative.csv"), ["recording", "fakes", "mode"])),
+        ("Deadlines", "pipeline/deadline.csv", "deadline_results",
+         "Frames that end within their deadline and 0.3 ms, in processor time, and what is left of the poses. A deadline of 0 is none.\n"
+         "Right: within 5 cm and 5 deg; wrong: beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#a-deadline).",
+         flat(rows("deadline.csv"), ["recording", "case"])),
         ("Baselines", "pipeline/compare.csv", "compare_results",
          "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the\n"
          "library at eta 33 %. Method: [baselines.md](baselines.md).",

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Do frames end by their deadlines, and how many poses are left?  Maps of recordings, and spherecloud-lab deadline on their
+queries, on white noise, and on maps whose points all lie in one cell.
+
+    deadline.py --spherecloud BIN --lab BIN [NAME...]      rewrites deadline.csv, for review
+"""
+import argparse
+import csv
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from accuracy import Place
+from negative import publish
+from recordings import HERE, run
+
+RESULTS = HERE / "deadline.csv"
+NAMES = ["redkitchen", "hololens"]
+FRAMES = 360  # of a row, about; more than 1000 of each deadline
+COUNTS = ["features_cut", "matches_cut", "search_cut", "verification_cut"]
+COLUMNS = ["recording", "case", "deadline_us", "frames", "in_time_percent", "median_us", "worst_us", "right", "right_percent_of_free",
+           "wrong"] + COUNTS
+# Options of the bench, and how many frames a row has.
+CASES = {
+    "single": (["--half"], FRAMES),
+    "tracking": (["--half", "--tracking"], FRAMES // 2),
+    "noise": (["--noise"], FRAMES // 2),
+    "one cell": (["--one-cell", "--deadline-us", 3000, "--deadline-us", 20000], 100),
+    "one cell, exact, 4096 keypoints": (["--one-cell", "--probes", 0, "--max-keypoints", 4096, "--deadline-us", 3000,
+                                         "--deadline-us", 20000], 20),
+}
+
+
+def rows_of(lab, place, file, options, frames):
+    source = [lab, "deadline", *place.recording.source("query"), "--map", file, "--json"]
+    once = run([*source, "--deadline-us", 100])[0]["frames"]  # how many a pass has
+    measured = run([*source, *options, "--repeat", max(1, frames // once)])
+    free = measured[0]["right"]
+    for row in measured:
+        share = "%.1f" % (100 * row["right"] / free) if free else ""
+        yield row | {"in_time_percent": "%.2f" % (100 * row["in_time"] / row["frames"]), "right_percent_of_free": share}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--spherecloud", required=True)
+    parser.add_argument("--lab", required=True)
+    parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")
+    arguments = parser.parse_args()
+    table = []
+    for name in arguments.names or NAMES:
+        with tempfile.TemporaryDirectory() as folder:
+            place = Place(name, arguments.spherecloud, pathlib.Path(folder))
+            file = publish(arguments.spherecloud, place, pathlib.Path(folder), "patchwork", 0)
+            for case, (options, frames) in CASES.items():
+                for row in rows_of(arguments.lab, place, file, options, frames):
+                    table.append([name, case] + [row[column] for column in COLUMNS[2:]])
+                print(name, case, flush=True)
+    with RESULTS.open("w", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        writer.writerows(table)
+
+
+if __name__ == "__main__":
+    main()
