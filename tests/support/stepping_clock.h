@@ -1,4 +1,4 @@
-// A clock that goes on whenever it is read, so that time is the number of looks at it.
+// A clock that goes on whenever it is read, so that time is the number of times it is read.
 #pragma once
 #include "runtime/base/deadline.h"
 

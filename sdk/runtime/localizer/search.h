@@ -57,6 +57,9 @@ class Search {
   // How many cells to ask for of each of so many keypoints, so that they are answered by then; the configured
   // number where there is time.
   uint32_t probesWithin(uint32_t keypoints, const Deadline &deadline, Work *work) const;
+  bool hasTimeNear(uint32_t keypoints, const Deadline &deadline) const {
+    return matcher_.hasTimeNear(keypoints, deadline);
+  }
   // Of the first `keypoints`, as many as matchEverywhere can answer by then; or those that it has answered.
   uint32_t answerable(uint32_t keypoints, const Deadline &deadline) const {
     return matcher_.answerable(keypoints, deadline);

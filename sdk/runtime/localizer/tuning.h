@@ -27,13 +27,13 @@ constexpr double kRayM = 1;
 
 // The end is kept for what follows the search: telling what became of keypoints, and learning.
 constexpr double kUntilEnd = 0.95;
-constexpr double kFeaturesShare = 0.4, kLiftShare = 0.4;
+constexpr double kFeaturesShare = 0.38, kLiftShare = 0.4;
 // Of a search near an expected pose, after which the whole map is searched; of a first search by few keypoints; of
 // a map among several.
 constexpr double kNearShare = 0.6, kStrongestShare = 0.9, kMatchShare = 0.5;
 // Within verification: of a robust search; of guided re-matching, and of that of its first cone; of a second search
 // and its re-matching.  What is left is for confirmation.
-constexpr double kSearchShare = 0.6, kRematchShare = 0.6, kFirstConeShare = 0.65, kAgainShare = 0.5;
+constexpr double kSearchShare = 0.6, kRematchShare = 0.8, kFirstConeShare = 0.65, kAgainShare = 0.5;
 
 // ---- search: where in the maps to look ----
 

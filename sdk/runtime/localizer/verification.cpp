@@ -82,9 +82,16 @@ void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
   Estimate &estimate = hypothesis->estimate;
   MatchSet &matched = hypothesis->matched;
   const Deadline own = task.query.deadline.afterShare(kRematchShare);
-  for (size_t cone = 0; cone < task.cones_rad.size(); ++cone) {
-    if (isCut(task)) break;
-    const bool is_last = cone + 1 == task.cones_rad.size();
+  const auto cones = static_cast<uint32_t>(task.cones_rad.size());
+  // The narrow cone alone where there is no time for all.
+  const bool has_time = search_.hasTimeNear(cones * task.question.front->liftedCount(), own);
+  if (!has_time) work_.cuts |= kCutVerification;
+  for (uint32_t cone = has_time ? 0 : cones - 1; cone < cones; ++cone) {
+    if (isCut(task)) {
+      hypothesis->is_verified = false;
+      break;
+    }
+    const bool is_last = cone + 1 == cones;
     search_.matchNear(task.question, estimate.camera_from_map, task.cones_rad[cone], task.rays,
                       is_last ? own : own.afterShare(kFirstConeShare), &matched, &work_);
     if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &matched);

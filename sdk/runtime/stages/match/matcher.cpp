@@ -12,7 +12,7 @@ constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in t
 // the search for its sectors, is worth; queries that are answered together.
 constexpr uint32_t kGrain = 4096, kRanking = 128, kTogether = 16, kTogetherExact = 16;
 
-constexpr uint32_t kFewestProbes = 3;  // in time: fewer find too little
+constexpr uint32_t kFewestProbes = 4;  // in time: fewer find too little
 
 constexpr uint32_t kNobody = UINT32_MAX;
 constexpr uint16_t kNoCell = UINT16_MAX;
@@ -110,6 +110,7 @@ uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches, const Deadlin
 uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches,
                             const Deadline &deadline) {
   Watch watch(deadline, kGrain);
+  const int64_t begin_ns = deadline.clock.now();
   cones_.prepare(map_->sectorSide(), cone_cosine);
   size_t answered = 0;
   for (; answered < expected.size(); ++answered) {
@@ -118,6 +119,7 @@ uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, f
     if (!searchNear(answered, {expected[answered], cone_cosine}, &watch, &nearby_[answered])) break;
   }
   cut_ = answered < expected.size();
+  if (deadline.isSet()) near_pace_.learn(static_cast<double>(answered), elapsedNs(begin_ns, deadline.clock.now()));
   return select(nearby_.first(answered), max_ratio, matches);
 }
 

@@ -44,11 +44,15 @@ class Matcher {
   // Of the first `count` queries, how many should matchAll or matchExact be asked about so as to answer all of
   // these? Those that are answered, where there is no time for the others, as far as earlier calls tell.
   uint32_t answerable(uint32_t count, const Deadline &deadline) const;
+  // Is there time to match so many queries near where they are expected?
+  bool hasTimeNear(uint32_t count, const Deadline &deadline) const {
+    return !(near_pace_.fitting(deadline, count) < count);
+  }
   // Cells that so many queries can be looked for in by then, `most` or a half or a quarter of them.
   uint32_t probesWithin(uint32_t count, uint32_t most, const Deadline &deadline) const;
 
  private:
-  static constexpr double kGuessedProbeNs = 900;  // before anything was timed: about what a desktop's core takes
+  static constexpr double kGuessedProbeNs = 900, kGuessedNearNs = 1500;  // before anything was timed
   // Neighbours in the whole map of the first `count` queries: of those that have none yet.
   void search(size_t count, bool exact, const Deadline &deadline);
   bool searchCells(size_t first, size_t last, Watch *watch);
@@ -72,6 +76,7 @@ class Matcher {
   size_t found_ = 0;
   bool exact_ = false;  // over all points, not through the index
   bool cut_ = false;
+  Pace near_pace_{kGuessedNearNs};
   Pace probes_pace_{kGuessedProbeNs};  // of queries times their probes
   Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
   Span<uint32_t> starts_;  // of each cell's queries in `askers_`

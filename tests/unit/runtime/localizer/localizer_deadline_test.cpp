@@ -1,4 +1,4 @@
-// Whole frames against the clock: time is the number of looks at it, so the same frame is cut at every place.
+// Whole frames against the clock: time is the number of times it is read, so the same frame is cut at every place.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -34,8 +34,8 @@ class VerificationTest : public testing::Test {
     parts_.see(viewpoint, room);
     const PoseTask task = this->task();
     found().begin(0);
-    parts_.search.matchEverywhere(task.question, std::min(keypoints, parts_.front.keypointCount()),
-                                  {}, &found().matched, &parts_.work);
+    parts_.search.matchEverywhere(task.question, std::min(keypoints, parts_.front.keypointCount()), {},
+                                  &found().matched, &parts_.work);
     return task;
   }
   void verify(const PoseTask &task) {

@@ -1,4 +1,4 @@
-// The feature stage against the clock: time is the number of looks at it.
+// The feature stage against the clock: time is the number of times it is read.
 #include <gtest/gtest.h>
 
 #include "tests/support/stepping_clock.h"

@@ -245,7 +245,7 @@ TEST_F(IndexedMatcherTest, FewQueriesThenMoreIsAllAtOnce) {
   EXPECT_TRUE(same(at_once, taken(matcher_.matchAll(kQueries, 0.9f, room()))));
 }
 
-// Against the clock: time is the number of looks at it.
+// Against the clock: time is the number of times it is read.
 class MatcherDeadline : public IndexedMatcherTest {
  protected:
   Deadline after(int64_t looks) { return clock_.deadline(clock_.now_ns + looks); }
@@ -314,7 +314,8 @@ TEST_F(MatcherDeadline, GuidedMatchingToo) {
 
 // Of a map whose points all lie in one cell every query looks at all, and still the clock is read in time.
 TEST_F(MatcherDeadline, BetweenTwoLooksLieFewComparisons) {
-  for (int i = 0; i < 20000; ++i) points_.push_back({test::randomDirection(&random_), test::randomDescriptor(&random_)});
+  for (int i = 0; i < 20000; ++i)
+    points_.push_back({test::randomDirection(&random_), test::randomDescriptor(&random_)});
   useCells(1);
   constexpr uint64_t kMostComparisons = 64 * 128;
   for (const bool exact : {false, true}) {
