@@ -260,6 +260,7 @@ TEST(Estimator, ADeadlineThatHasPassedGivesNothing) {
 }
 
 TEST(Estimator, ADeadlineGivesTheBestSoFar) {
+  constexpr uint32_t kLooks = 40;
   test::TestEstimator estimator;
   int found = 0, cut = 0;
   for (uint64_t seed = 1; seed <= 50; ++seed) {
@@ -267,9 +268,9 @@ TEST(Estimator, ADeadlineGivesTheBestSoFar) {
     test::SteppingClock clock(1000);
     PoseQuery query;
     query.seed = seed;
-    query.deadline = clock.deadline(10 * 1000);
+    query.deadline = clock.deadline(kLooks * 1000);
     const Estimate estimate = estimator.search(world, query);
-    EXPECT_LE(estimate.iterations, 10 * kMinimalBatch);
+    EXPECT_LE(estimate.iterations, kLooks * kMinimalBatch);
     EXPECT_TRUE(estimate.ending == PoseEnding::kFound || estimate.ending == PoseEnding::kDeadline);
     cut += estimate.cut_short;
     found += isFound(estimate, world);
