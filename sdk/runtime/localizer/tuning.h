@@ -78,6 +78,12 @@ constexpr double kMostSigmaWithoutLeverageM = 0.15;  // all poses that it refuse
 // were off by 5 sigma, from 100 and more by less than 2.
 constexpr double kInliersOfDoubt = 60;
 
+// ---- doubt; docs/consistency.md has the evidence ----
+
+constexpr double kBiasSigmas = 2.5;  // of the prior
+constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
+constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubtfulEdges = 0.25;
+
 // ---- fusion: matches of several frames ----
 
 constexpr uint16_t kMostFramesTogether = 60;  // chosen: 2 s at 30 Hz
