@@ -29,7 +29,7 @@ step() {
 # Without multiply-add, as processors before 2013; and as the first of x86-64.
 for without in -AVX2,-FMA,-FMA4,-AVX512F -AVX2,-FMA,-FMA4,-AVX512F,-AVX,-SSE4_2,-SSE4_1,-SSSE3; do
   step "the whole suite, hwcaps=$without" env GLIBC_TUNABLES="glibc.cpu.hwcaps=$without" \
-    OPENCV_CPU_DISABLE=AVX512_SKX,AVX2,FP16,AVX ctest --test-dir "$build" -j "$(nproc)" -LE guest --output-on-failure
+    OPENCV_CPU_DISABLE=AVX512-SKX,AVX2,FP16,AVX ctest --test-dir "$build" -j "$(nproc)" -LE guest --output-on-failure
 done
 
 mapfile -t programs < <(find "$build/tests/unit" -type f -executable -name '*unit_*' -o -type f -executable -name '*_test' |
