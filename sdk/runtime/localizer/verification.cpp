@@ -32,10 +32,10 @@ void copyWithoutLeverage(const Hypothesis &from, MatchSet *matched) {
     if (std::find(begin, end, i) == end) matched->add(all[i]);
 }
 
-bool areNear(const Rigid &a, const Rigid &b, const ConfirmingSearch &way) {
+bool areNear(const Rigid &a, const Rigid &b, const PoseBounds &bounds) {
   const Vector3 shift_m = a.inverse().translation_m - b.inverse().translation_m;
-  return shift_m.norm() < way.most_shift_m &&
-         rotationAngle(a.rotation * b.rotation.transpose()) < way.most_turn_rad;
+  return shift_m.norm() < bounds.most_shift_m &&
+         rotationAngle(a.rotation * b.rotation.transpose()) < bounds.most_turn_rad;
 }
 
 }  // namespace
@@ -47,6 +47,7 @@ void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis 
   searchAgain(task, left_ns - std::min(left_ns, task.query.deadline.leftNs()), found, rival);
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
+  challengeByOthers(task, found, rival);
   confirm(task, found, rival);
   if (found->isLocalized() && !found->is_verified) found->outcome = Outcome::kUncertain;
 }
@@ -159,10 +160,48 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
 }
 
+// Keypoints that do not speak for the pose may speak for another one as clearly: where things stand in the room
+// twice, or where some of what is seen goes with the camera, as its holder's feet do.
+void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
+  if (isCut(task)) {
+    found->is_verified = false;
+    return;
+  }
+  PoseTask other = task;
+  other.query.seed += kOtherSeed;
+  other.query.deadline = task.query.deadline.afterShare(kAgainShare);
+  other.query.most_samples = kSamplesOfOthers;
+  other.rays = {};
+  rival->begin(found->map);
+  uint32_t taken = 0;
+  for (uint32_t i = 0; i < found->matched.matches().size(); ++i)
+    if (estimator_.isInlier(found->matched.ofThisFrame()[i], found->estimate))
+      rival->matched.room()[taken++] = found->matched.matches()[i];
+  const uint32_t keypoints = answerable(other);
+  search_.matchOthers(task.question, keypoints, rival->matched.room().first(taken), other.query.deadline,
+                      &rival->matched, &work_);
+  if (!searchPose(other, rival) || rival->evidence.log_chance_first > kMostLogChanceOfRival) return;
+  rematch(other, rival);
+  const double gain = found->estimate.gain, rival_gain = rival->estimate.gain;
+  if (!rival->isLocalized() || areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePose))
+    return;
+  if (rival_gain > gain) std::swap(*found, *rival);
+  if (std::min(gain, rival_gain) > kAmbiguous * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
+}
+
 // Few matches may agree by more than uniform chance where textures resemble themselves; a pose that was looked for
 // where it was expected has the expectation to speak for it.
 bool Verification::isDoubtful(const Hypothesis &found) const {
   return found.isLocalized() && !found.guided && found.estimate.inliers < kInliersBeyondConfirmation;
+}
+
+// Of all keypoints, how many can be matched everywhere in a share of the time that is left?
+uint32_t Verification::answerable(const PoseTask &task) const {
+  const uint32_t all = task.question.front->keypointCount();
+  const uint32_t keypoints = search_.answerable(all, task.query.deadline.afterShare(kMatchShare));
+  if (keypoints < all) work_.cuts |= kCutMatches;
+  return keypoints;
 }
 
 // Searches among the matches that all keypoints have at this ratio, in another order than the first search did.
@@ -172,10 +211,8 @@ bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hyp
   const FrontEnd &front = *task.question.front;
   *other = task;
   other->query.seed += kOtherSeed;
-  const Deadline own = task.query.deadline.afterShare(kMatchShare);
-  const uint32_t keypoints = search_.answerable(front.keypointCount(), own);
-  if (keypoints < front.keypointCount()) work_.cuts |= kCutMatches;
-  search_.matchEverywhere(task.question, keypoints, max_ratio, own, &hypothesis->matched, &work_);
+  search_.matchEverywhere(task.question, answerable(task), max_ratio, task.query.deadline, &hypothesis->matched,
+                          &work_);
   other->rays = search_.raysOf(front, hypothesis->matched);
   if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &hypothesis->matched);
   return searchPose(*other, hypothesis);
@@ -209,7 +246,7 @@ void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *
     PoseTask other;
     rival->begin(found->map, found->frames);
     if (!searchOtherMatches(task, std::max(way.max_ratio, search_.maxRatio()), rival, &other)) continue;
-    if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, way)) return;
+    if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, way.agreement)) return;
   }
   found->outcome = Outcome::kUncertain;
 }
