@@ -17,7 +17,8 @@ class DoubtTest : public testing::Test {
     parts_.see(0);
     found().begin(0);
     found().outcome = Outcome::kLocalized;
-    parts_.search.matchEverywhere(parts_.askAll(), parts_.front.keypointCount(), &found().matched, &parts_.work);
+    parts_.search.matchEverywhere(parts_.askAll(), parts_.front.keypointCount(), {}, &found().matched,
+                                  &parts_.work);
     PoseQuery query = this->query();
     query.correspondences = found().matched.all();
     found().estimate = parts_.estimator.refine(query, parts_.cameraFromMap(0));

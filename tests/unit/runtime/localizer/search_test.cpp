@@ -188,10 +188,11 @@ TEST_F(SearchTest, RaysAreTheMatchesOfKeypointsWithoutDepth) {
 TEST_F(SearchTest, OthersAreTheMatchesOfKeypointsThatAreNotTaken) {
   parts_.see(0);
   const auto question = parts_.askAll();
-  parts_.search.matchEverywhere(question, parts_.front.keypointCount(), &matched(), &parts_.work);
+  parts_.search.matchEverywhere(question, parts_.front.keypointCount(), {}, &matched(), &parts_.work);
   std::vector<Match> all(matched().matches().begin(), matched().matches().end()), taken, others;
   for (size_t i = 0; i < all.size(); ++i) (i % 3 ? taken : others).push_back(all[i]);
-  parts_.search.matchOthers(question, {taken.data(), taken.size()}, &matched(), &parts_.work);
+  parts_.search.matchOthers(question, parts_.front.keypointCount(), {taken.data(), taken.size()}, {}, &matched(),
+                            &parts_.work);
   ASSERT_EQ(matched().matches().size(), others.size());
   for (size_t i = 0; i < others.size(); ++i) {
     EXPECT_EQ(matched().matches()[i].query, others[i].query);

@@ -249,7 +249,7 @@ class ThinRoomTest : public VerificationTest {
     parts_.seeHalves(upper, lower);
     const PoseTask task = this->task();
     found().begin(0);
-    parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), &found().matched, &parts_.work);
+    parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), {}, &found().matched, &parts_.work);
     verify(task);
   }
 };
