@@ -2,7 +2,7 @@
 """Do frames end by their deadlines, and how many poses are left?  Maps of recordings, and spherecloud-lab deadline on their
 queries, on white noise, and on maps whose points all lie in one cell.
 
-    deadline.py --spherecloud BIN --lab BIN [NAME...]      rewrites deadline.csv, for review
+    deadline.py --spherecloud BIN --lab BIN [--frames N] [--case C] [NAME...]      rewrites deadline.csv, for review
 """
 import argparse
 import csv
@@ -17,18 +17,17 @@ from recordings import HERE, run
 
 RESULTS = HERE / "deadline.csv"
 NAMES = ["redkitchen", "hololens"]
-FRAMES = 360  # of a row, about; more than 1000 of each deadline
 COUNTS = ["features_cut", "matches_cut", "search_cut", "verification_cut"]
 COLUMNS = ["recording", "case", "deadline_us", "frames", "in_time_percent", "median_us", "worst_us", "right", "right_percent_of_free",
            "wrong"] + COUNTS
-# Options of the bench, and how many frames a row has.
+# Options of the bench, and how many frames a row has, of those asked for.
 CASES = {
-    "single": (["--half"], FRAMES),
-    "tracking": (["--half", "--tracking"], FRAMES // 2),
-    "noise": (["--noise"], FRAMES // 2),
-    "one cell": (["--one-cell", "--deadline-us", 3000, "--deadline-us", 20000], 100),
+    "single": (["--half"], 1),
+    "tracking": (["--half", "--tracking"], 2),
+    "noise": (["--noise"], 2),
+    "one cell": (["--one-cell", "--deadline-us", 3000, "--deadline-us", 20000], 4),
     "one cell, exact, 4096 keypoints": (["--one-cell", "--probes", 0, "--max-keypoints", 4096, "--deadline-us", 3000,
-                                         "--deadline-us", 20000], 20),
+                                         "--deadline-us", 20000], 4),
 }
 
 
@@ -46,6 +45,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--lab", required=True)
+    parser.add_argument("--frames", type=int, default=360, help="of a row, about; whole passes of the recording")
+    parser.add_argument("--case", choices=CASES, action="append", help="these alone")
     parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")
     arguments = parser.parse_args()
     table = []
@@ -53,8 +54,9 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             place = Place(name, arguments.spherecloud, pathlib.Path(folder))
             file = publish(arguments.spherecloud, place, pathlib.Path(folder), "patchwork", 0)
-            for case, (options, frames) in CASES.items():
-                for row in rows_of(arguments.lab, place, file, options, frames):
+            for case in arguments.case or CASES:
+                options, part = CASES[case]
+                for row in rows_of(arguments.lab, place, file, options, arguments.frames // part):
                     table.append([name, case] + [row[column] for column in COLUMNS[2:]])
                 print(name, case, flush=True)
     with RESULTS.open("w", newline="") as out:
