@@ -97,6 +97,15 @@ if(SPHC_PRECOMPILE_RUNTIME)
   sphc_headers(sphc_runtime_headers FLAGS sphc_runtime_code HEADERS Eigen/Core Eigen/Geometry)
 endif()
 
+# sphc_unity(TARGET): where many are compiled and none is edited, several files of a folder are read as one.  Never the
+# runtime, which ships as it is tested.
+set(SPHC_UNITY_BATCH 8) # a core's memory
+function(sphc_unity target)
+  if(SPHC_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${SPHC_UNITY_BATCH})
+  endif()
+endfunction()
+
 # sphc_module(NAME SOURCES... [RUNTIME] [LINKS...] [HEADERS...]): a folder is a target.
 # RUNTIME modules are objects gathered into the one library `spherecloud`; others are static libraries.
 # HEADERS: a library of precompiled headers, where it is not that of all.
@@ -109,6 +118,9 @@ function(sphc_module name)
   else()
     add_library(${name} STATIC ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE sphc_flags PUBLIC ${arg_LINKS})
+  endif()
+  if(NOT arg_RUNTIME)
+    sphc_unity(${name})
   endif()
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/sdk ${PROJECT_SOURCE_DIR}/sdk/include)
   string(FIND "${arg_SOURCES}" ".cpp" has_cpp)
