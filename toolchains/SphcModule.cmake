@@ -97,13 +97,23 @@ if(SPHC_PRECOMPILE_RUNTIME)
   sphc_headers(sphc_runtime_headers FLAGS sphc_runtime_code HEADERS Eigen/Core Eigen/Geometry)
 endif()
 
-# sphc_unity(TARGET): where many are compiled and none is edited, several files of a folder are read as one.  Never the
-# runtime, which ships as it is tested.
-set(SPHC_UNITY_BATCH 8) # a core's memory
+# sphc_unity(TARGET): where much is compiled and nothing edited, up to eight files of a folder are read as one.  Never the
+# runtime's, which ship as they are tested.
+set(SPHC_UNITY_FILES 8) # more take a core's share of the memory
 function(sphc_unity target)
-  if(SPHC_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${SPHC_UNITY_BATCH})
+  if(NOT SPHC_UNITY)
+    return()
   endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  foreach(source ${sources})
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "in_${folder}" folder)
+    math(EXPR batch "0${${folder}} / ${SPHC_UNITY_FILES}")
+    math(EXPR ${folder} "0${${folder}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${batch})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
 # sphc_module(NAME SOURCES... [RUNTIME] [LINKS...] [HEADERS...]): a folder is a target.
