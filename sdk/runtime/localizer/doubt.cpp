@@ -37,9 +37,10 @@ bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior
          off[1] * off[1] > kBiasSigmas * kBiasSigmas * prior.covariance(1, 1);
 }
 
-double doubted(double confidence, Faults faults, bool edges_are_doubtful) {
+double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful) {
   if (faults & (kDepthScale | kDepthBias)) return std::min(confidence, kMostConfidenceOfFaults);
-  return edges_are_doubtful ? std::min(confidence, kMostConfidenceOfDoubtfulEdges) : confidence;
+  const bool doubtful = edges_are_doubtful && inliers < kInliersBeyondDoubtfulEdges;
+  return doubtful ? std::min(confidence, kMostConfidenceOfDoubtfulEdges) : confidence;
 }
 
 bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found) {

@@ -15,8 +15,8 @@ bool verticalDisagrees(const Known &known, const Hypothesis &found, PoseQuery qu
 // Has more been learnt of the depth sensor than a sound one could have?
 bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior);
 
-// The confidence of a pose that these faults and, of edges, a doubt too small for a fault leave.
-double doubted(double confidence, Faults faults, bool edges_are_doubtful);
+// The confidence of a pose of so many inliers that these faults and, of edges, a doubt too small for a fault leave.
+double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful);
 
 // A common scale of all depths shows in how far the camera goes, and only there.
 class TravelCheck {

@@ -89,7 +89,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   Work work;
   answer(frame.known, deadlineFrom(begin), &result.faults, &work);
   fillAnswer(best_, &result);
-  result.confidence = doubted(result.confidence, result.faults, consistency_.isDoubtful());
+  result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
   learn();
   result.keypoints = front_.keypointCount();

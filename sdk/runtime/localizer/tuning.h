@@ -82,7 +82,10 @@ constexpr double kInliersOfDoubt = 60;
 
 constexpr double kBiasSigmas = 2.5;  // of the prior
 constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
-constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubtfulEdges = 0.25;
+constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubtfulEdges = 0.5;
+// A pose of so many inliers is not doubted for its edges alone: of poses that late, mirrored or displaced depth made
+// wrong and sure the median has 49, and one in six has so many.
+constexpr uint32_t kInliersBeyondDoubtfulEdges = 100;
 
 // ---- fusion: matches of several frames ----
 

@@ -108,12 +108,14 @@ TEST(Doubt, ABiasFarOutsideItsPriorIsBeyondIt) {
 }
 
 TEST(Doubt, LowersTheConfidenceAndNeverRaisesIt) {
-  EXPECT_EQ(doubted(0.9, 0, false), 0.9);
-  EXPECT_EQ(doubted(0.9, kDepthConstant, false), 0.9);  // which takes the pose away
-  EXPECT_EQ(doubted(0.9, kDepthScale, false), kMostConfidenceOfFaults);
-  EXPECT_EQ(doubted(0.9, kDepthBias, false), kMostConfidenceOfFaults);
-  EXPECT_EQ(doubted(0.9, 0, true), kMostConfidenceOfDoubtfulEdges);
-  EXPECT_EQ(doubted(0.1, kDepthScale, true), 0.1);
+  constexpr uint32_t kFew = 30, kMany = kInliersBeyondDoubtfulEdges;
+  EXPECT_EQ(doubted(0.9, kFew, 0, false), 0.9);
+  EXPECT_EQ(doubted(0.9, kFew, kDepthConstant, false), 0.9);  // which takes the pose away
+  EXPECT_EQ(doubted(0.9, kMany, kDepthScale, false), kMostConfidenceOfFaults);
+  EXPECT_EQ(doubted(0.9, kMany, kDepthBias, false), kMostConfidenceOfFaults);
+  EXPECT_EQ(doubted(0.9, kFew, 0, true), kMostConfidenceOfDoubtfulEdges);
+  EXPECT_EQ(doubted(0.9, kMany, 0, true), 0.9);
+  EXPECT_EQ(doubted(0.1, kFew, kDepthScale, true), 0.1);
 }
 
 }  // namespace
