@@ -12,7 +12,8 @@ template <int kSize>
 void expectInverse() {
   Eigen::MatrixXd root(kSize, kSize);
   for (int i = 0; i < kSize * kSize; ++i) root(i) = (7 * i * i + 3 * i) % 23 - 11;
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(kSize, kSize), matrix = root * root.transpose() + identity;
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(kSize, kSize),
+                        matrix = root * root.transpose() + identity;
   const Eigen::MatrixXd inverse = symmetricInverse<kSize>(matrix);
   EXPECT_LT((inverse - matrix.inverse()).norm(), 1e-9 * inverse.norm()) << "against LU";
   EXPECT_LT((inverse * matrix - identity).norm(), 1e-9);
