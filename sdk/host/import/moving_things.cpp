@@ -23,6 +23,11 @@ constexpr double kMostDropped = 1.0 / 3;  // more is no movement
 constexpr double kArmM = 0.8, kBodyRadiusM = 0.6, kNeckM = 0.4;
 constexpr double kElsewhereM = 0.25;  // hands and feet go along with a camera that went so far
 
+bool didSee(const Vector3 &camera_m, const TrackedPoint &tracked) {
+  return std::find(tracked.cameras_m.begin(), tracked.cameras_m.end(), camera_m) != tracked.cameras_m.end();
+}
+
+// Of points with the views that did not make them.
 double medianDisagreement(const DepthViews &views, const std::vector<TrackedPoint> &points) {
   std::array<uint64_t, 250> histogram = {};
   uint64_t total = 0;
@@ -30,7 +35,7 @@ double medianDisagreement(const DepthViews &views, const std::vector<TrackedPoin
   for (size_t i = 0; i < points.size(); i += step)
     for (size_t k = 0; k < views.count(); ++k) {
       Sight sight;
-      if (!views.look(k, points[i].point.position_m, &sight)) continue;
+      if (didSee(views.camera_m(k), points[i]) || !views.look(k, points[i].point.position_m, &sight)) continue;
       const double off = sight.off_m / sight.depth_m;
       if (!(off < kComparable)) continue;
       ++histogram[static_cast<size_t>(off / kComparable * static_cast<double>(histogram.size()))];
@@ -52,7 +57,7 @@ class Judge {
         margin_per_m_(std::max(kMarginPerM, kMarginOfDisagreement * disagreement)) {}
 
   Verdict judge(const TrackedPoint &tracked) const {
-    const bool within_reach = isWithinReach(tracked);
+    const Vector3 *holder_m = holderNear(tracked);
     uint32_t confirmed = 0, confirmed_elsewhere = 0, contradicted = 0;
     for (size_t k = 0; k < views_.count(); ++k) {
       Sight sight;
@@ -61,24 +66,22 @@ class Judge {
       if (sight.beyond_m > margin_m) ++contradicted;
       if (sight.off_m > margin_m) continue;
       ++confirmed;
-      if (within_reach && isElsewhere(views_.camera_m(k), tracked)) ++confirmed_elsewhere;
+      if (holder_m && (views_.camera_m(k) - *holder_m).norm() > kElsewhereM) ++confirmed_elsewhere;
     }
     if (kConfirmationsPerContradiction * contradicted > confirmed) return Verdict::kSeenThrough;
-    return within_reach && !confirmed_elsewhere ? Verdict::kWithinReach : Verdict::kStays;
+    return holder_m && confirmed_elsewhere == 0 ? Verdict::kWithinReach : Verdict::kStays;
   }
 
  private:
-  bool isWithinReach(const TrackedPoint &tracked) const {
-    return std::any_of(tracked.cameras_m.begin(), tracked.cameras_m.end(), [&](const Vector3 &camera_m) {
+  // A camera that saw the point and whose holder it may be part of; null where there is none.
+  const Vector3 *holderNear(const TrackedPoint &tracked) const {
+    for (const Vector3 &camera_m : tracked.cameras_m) {
       const Vector3 offset = tracked.point.position_m - camera_m;
       const double below = offset.dot(down_);
-      return offset.norm() < kArmM || (below > kNeckM && (offset - below * down_).norm() < kBodyRadiusM);
-    });
-  }
-  // Is the camera far from all that saw the point?
-  static bool isElsewhere(const Vector3 &camera_m, const TrackedPoint &tracked) {
-    return std::all_of(tracked.cameras_m.begin(), tracked.cameras_m.end(),
-                       [&](const Vector3 &other_m) { return (camera_m - other_m).norm() > kElsewhereM; });
+      if (offset.norm() < kArmM || (below > kNeckM && (offset - below * down_).norm() < kBodyRadiusM))
+        return &camera_m;
+    }
+    return nullptr;
   }
 
   const DepthViews &views_;
