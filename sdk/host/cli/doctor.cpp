@@ -4,6 +4,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/rig_options.h"
+#include "host/live/consistency_check.h"
 #include "host/live/found.h"
 #include "host/live/geometry_check.h"
 #include "host/live/interrupt.h"
@@ -54,6 +55,7 @@ Findings lookAt(const Options &options, const Console &console) {
   const sphc_rig calibration = calibrationOf(options.rig, rig);
   StreamCheck color(SPHC_STREAM_COLOR, calibration), depth(SPHC_STREAM_DEPTH, calibration);
   GeometryCheck geometry(calibration);
+  ConsistencyCheck consistency(calibration);
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? color : depth).look(c); });
   std::vector<double> apart_ms;
   const Interrupt interrupt;
@@ -67,8 +69,9 @@ Findings lookAt(const Options &options, const Console &console) {
     geometry_fits =
         fits(pair.color.image, calibration.color_camera) && fits(pair.depth.image, calibration.depth_camera);
     if (geometry_fits && apart_ms.size() % kEveryPair == 0) geometry.look(pair.color.image, pair.depth.image);
-    apart_ms.push_back(
-        1e-6 * static_cast<double>(sphc_capture_middle_ns(&pair.color) - sphc_capture_middle_ns(&pair.depth)));
+    const int64_t color_ns = sphc_capture_middle_ns(&pair.color), depth_ns = sphc_capture_middle_ns(&pair.depth);
+    if (geometry_fits) consistency.look(pair.color.image, color_ns, pair.depth.image, depth_ns);
+    apart_ms.push_back(1e-6 * static_cast<double>(color_ns - depth_ns));
     rig.release(pair);
     line.show("looking: " + std::to_string(apart_ms.size()) + " of " + std::to_string(options.frames));
   }
@@ -76,7 +79,9 @@ Findings lookAt(const Options &options, const Console &console) {
     for (Finding &finding : stream->findings()) findings.push_back(std::move(finding));
   const sphc_pairer_counts counts = rig.counts();
   findings.push_back(pairsFinding(apart_ms, counts.too_far + counts.overtaken + counts.full));
-  if (!apart_ms.empty() && geometry_fits) findings.push_back(geometry.finding());
+  if (apart_ms.empty() || !geometry_fits) return findings;
+  for (Finding &finding : consistency.findings()) findings.push_back(std::move(finding));
+  findings.push_back(geometry.finding());
   return findings;
 }
 
@@ -112,10 +117,10 @@ Command doctorCommand(CLI::App *root) {
   CLI::App *app = root->add_subcommand("doctor");
   app->description(
       "Say what is wrong with cameras, and the cure.\n\nWithout cameras: what is plugged in, and may be opened.  "
-      "With "
-      "cameras: rates, losses, clocks,\nsizes, light, depth, and whether depth lies on the image as the "
-      "calibration "
-      "says, or would do so\nif it were mirrored, turned or registered already.");
+      "With cameras: rates, losses, clocks,\nsizes, light, depth, whether frames contradict themselves, and "
+      "whether "
+      "depth lies on the image\nas the calibration says, or would do so if it were mirrored, turned or registered "
+      "already.");
   app->footer(kExample);
   addRigOptions(app, &options->rig);
   app->add_option("--frames", options->frames, "Pairs to check")

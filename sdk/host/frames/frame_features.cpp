@@ -3,17 +3,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/frames/heap_arena.h"
+
 namespace sphc::host {
-namespace {
-
-void *aligned(std::vector<uint8_t> *memory, size_t bytes) {
-  memory->resize(bytes + kArenaAlignment);
-  const auto address = reinterpret_cast<uintptr_t>(memory->data());
-  return memory->data() + (kArenaAlignment - address % kArenaAlignment) % kArenaAlignment;
-}
-
-}  // namespace
-
 FrameFeatures::FrameFeatures(int32_t width, int32_t height, uint32_t max_keypoints, const FeatureKernels &kernels)
     : keypoints_(max_keypoints), descriptors_(max_keypoints) {
   FeatureConfig config;
@@ -26,7 +18,7 @@ FrameFeatures::FrameFeatures(int32_t width, int32_t height, uint32_t max_keypoin
                              " pixels cannot be had; 16 to 8192 pixels a side and 1 to 65536 keypoints can");
   Arena state_size, scratch_size;
   FeatureExtractor::layout(config, state_size, scratch_size, nullptr);
-  Arena state(aligned(&state_, state_size.used())), scratch(aligned(&scratch_, scratch_size.used()));
+  Arena state = heapFor(state_size, &state_), scratch = heapFor(scratch_size, &scratch_);
   FeatureExtractor::layout(config, state, scratch, &extractor_);
   extractor_.init(kernels);
 }

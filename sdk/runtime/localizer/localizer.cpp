@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/localizer/doubt.h"
 #include "runtime/localizer/tuning.h"
 #include "runtime/stages/pose/confidence.h"
 
@@ -12,27 +13,11 @@ using namespace tuning;
 
 namespace {
 
-// What is doubted, and how far; docs/consistency.md has the evidence.
-constexpr Faults kDoubts = kDepthScale | kDepthBias;
-constexpr double kDoubtedConfidence = 0.25;  // at most
-constexpr double kBiasSigmas = 2.5;          // of the prior
-constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
-
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }
 
 // Where nothing localizes, the last global search of the likeliest map stands for the frame.
 bool replaces(const Hypothesis &candidate, const Hypothesis &best) {
   return candidate.isLocalized() || !best.tried || best.guided || candidate.map == best.map;
-}
-
-double angleBetween(const Vector3 &a, const Vector3 &b) { return atan2Of(a.cross(b).norm(), a.dot(b)); }
-
-// Has more been learnt of the depth sensor than a sound one could have?
-bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior) {
-  if (prior.isKnown()) return false;
-  const Vector2 off = learnt.mean - prior.mean;
-  return off[0] * off[0] > kBiasSigmas * kBiasSigmas * prior.covariance(0, 0) ||
-         off[1] * off[1] > kBiasSigmas * kBiasSigmas * prior.covariance(1, 1);
 }
 
 void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
@@ -104,8 +89,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   Work work;
   answer(frame.known, deadlineFrom(begin), &result.faults, &work);
   fillAnswer(best_, &result);
-  if (result.faults & kDoubts || consistency_.isDoubtful())
-    result.confidence = std::min(result.confidence, kDoubtedConfidence);
+  result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
   learn();
   result.keypoints = front_.keypointCount();
@@ -138,13 +122,14 @@ void Localizer::answer(const Known &known, const Deadline &deadline, Faults *fau
     return;
   }
   locate(known, deadline, work);
-  if (verticalDisagrees(known)) {
+  const PosePrior nothing;
+  if (verticalDisagrees(known, best_, queryFor(nothing, Deadline()), config_.min_inliers, &estimator_)) {
     *faults |= kVerticalDisagrees;
     Known rest = known;
     rest.prior.has_up = false;
     locate(rest, deadline, work);
   }
-  *faults |= judgeTravel(known);
+  if (config_.tracks && travel_.isScaled(known, tracker_, best_)) *faults |= kDepthScale;
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
 }
 
@@ -242,33 +227,6 @@ PoseQuery Localizer::queryFor(const PosePrior &prior, const Deadline &deadline) 
 }
 
 bool Localizer::isDone(const Deadline &deadline) const { return best_.isLocalized() || deadline.passed(); }
-
-// Is the vertical that was given another than the one of the pose that the matches alone speak for?
-bool Localizer::verticalDisagrees(const Known &known) {
-  if (!best_.isLocalized() || !known.prior.has_up || known.map != best_.map) return false;
-  const PosePrior nothing;
-  PoseQuery query = queryFor(nothing, Deadline());
-  query.correspondences = best_.matched.all();
-  const Estimate alone = estimator_.refine(query, best_.estimate.camera_from_map);
-  if (alone.inliers < config_.min_inliers) return false;
-  const double turn_sigma = sqrtOf(alone.covariance.topLeftCorner<3, 3>().trace() / 3) * doubtOf(alone.inliers);
-  return angleBetween(alone.camera_from_map.rotation * known.prior.up_map, known.prior.up_camera) >
-         std::max(kLeastVerticalRad, kVerticalSigmas * hypotOf(turn_sigma, known.prior.up_sigma_rad));
-}
-
-// A common scale of all depths shows in how far the camera goes, and only there.
-Faults Localizer::judgeTravel(const Known &known) {
-  Rigid step;
-  double unused_rad, unused_m;
-  if (!config_.tracks || !tracker_.step(&step, &unused_rad, &unused_m)) travel_.reset();
-  if (!config_.tracks || !known.has_odometry || !best_.isLocalized()) return 0;
-  if (best_.map != travel_map_) travel_.reset();
-  travel_map_ = best_.map;
-  const double sigma_m = sqrtOf(best_.estimate.covariance.bottomRightCorner<3, 3>().trace() / 3);
-  travel_.add(best_.estimate.camera_from_map.inverse().translation_m,
-              known.odometry.odometry_from_camera.translation_m, sigma_m);
-  return travel_.isScaled() ? kDepthScale : 0;
-}
 
 // Tells of each keypoint what became of it.
 void Localizer::observe() {

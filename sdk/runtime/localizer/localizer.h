@@ -2,6 +2,7 @@
 // map to look, and the whole maps are searched where it fails.
 #pragma once
 #include "runtime/localizer/config.h"
+#include "runtime/localizer/doubt.h"
 #include "runtime/localizer/frame.h"
 #include "runtime/localizer/front_end.h"
 #include "runtime/localizer/fusion.h"
@@ -49,8 +50,6 @@ class Localizer {
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
   bool isDone(const Deadline &deadline) const;
-  bool verticalDisagrees(const Known &known);
-  Faults judgeTravel(const Known &known);
   void observe();
   void learn();
 
@@ -62,8 +61,7 @@ class Localizer {
   Tracker tracker_;
   Fusion fusion_;
   Consistency consistency_;
-  Travel travel_;
-  uint32_t travel_map_ = 0;
+  TravelCheck travel_;
   Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch
 };
 

@@ -41,6 +41,7 @@ void Search::layout(uint32_t max_keypoints, Arena &scratch, Search *search) {
   Search discarded;  // receives empty spans while measuring
   Search &s = search ? *search : discarded;
   s.predicted_ = scratch.take<Direction>("localizer.predicted", max_keypoints);
+  s.is_taken_ = scratch.take<uint8_t>("localizer.taken", max_keypoints);
   s.rays_ = scratch.take<Match>("localizer.rays", max_keypoints);
   Matcher::layout(max_keypoints, scratch, search ? &s.matcher_ : nullptr);
 }
@@ -96,6 +97,18 @@ void Search::matchEverywhere(const Question &question, uint32_t keypoints, float
                              Work *work) {
   const uint32_t count = match(keypoints, max_ratio, matched->room(), work);
   matched->assign(count, *question.front, *question.map);
+}
+
+void Search::matchOthers(const Question &question, Span<const Match> taken, MatchSet *matched, Work *work) {
+  const uint32_t keypoints = question.front->keypointCount();
+  std::fill_n(is_taken_.begin(), keypoints, uint8_t{0});
+  for (const Match &match : taken) is_taken_[match.query] = 1;
+  const Span<Match> room = matched->room();
+  uint32_t kept = 0;
+  const uint32_t count = match(keypoints, max_ratio_, room, work);
+  for (uint32_t i = 0; i < count; ++i)
+    if (!is_taken_[room[i].query]) room[kept++] = room[i];
+  matched->assign(kept, *question.front, *question.map);
 }
 
 void Search::matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad,

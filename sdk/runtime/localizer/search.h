@@ -55,6 +55,8 @@ class Search {
   // say where to look: those matches are `rays`, of matchEverywhere.
   void matchNear(const Question &question, const Rigid &camera_from_map, double cone_rad, Span<const Match> rays,
                  MatchSet *matched, Work *work);
+  // Everywhere by the configured ratio, but for the keypoints of these matches.
+  void matchOthers(const Question &question, Span<const Match> taken, MatchSet *matched, Work *work);
   // Of these matches those of keypoints without depth; in memory of the search, until the next call.
   Span<const Match> raysOf(const FrontEnd &front, const MatchSet &matched);
 
@@ -69,7 +71,8 @@ class Search {
   Matcher matcher_;
   // In scratch.
   Span<Direction> predicted_;
-  Span<Match> rays_;  // and those of votes, which are only counted
+  Span<uint8_t> is_taken_;  // of each keypoint
+  Span<Match> rays_;        // and those of votes, which are only counted
 };
 
 }  // namespace sphc

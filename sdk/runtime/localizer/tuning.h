@@ -52,6 +52,20 @@ constexpr uint32_t kInliersALeverage = 12, kInliersBeyondChallenge = 60;
 // Of a planar scene's two poses the right one gained 1.6 times what the other did, or more, on real recordings.
 constexpr double kNearlyAsGood = 0.8, kSamePoseRad = degrees(5);
 
+// What two poses that are the same may differ by.
+struct PoseBounds {
+  double most_shift_m, most_turn_rad;
+};
+
+// A pose is challenged by the keypoints that do not speak for it.  In simulated rooms with equal furniture, or with
+// the holder's feet in map and query, 8 wrong poses of up to 80 inliers all had a rival of 0.55 to 2.2 times their
+// gain; of 1311 right poses on real recordings one had (decision 42).
+constexpr uint32_t kInliersBeyondOthers = 100;
+constexpr double kAmbiguous = 0.5;
+constexpr PoseBounds kSamePose = {0.15, degrees(8)};
+constexpr uint32_t kSamplesOfOthers = 2000;
+constexpr double kMostLogChanceOfRival = -6;  // of its first matches; of the eight it was -12 and less
+
 // ---- confirmation: a second, independent search must find a doubtful pose again ----
 
 // Poses of a search in the whole map are doubtful below so many inliers: all wrong poses that were accepted on real
@@ -62,9 +76,9 @@ constexpr uint32_t kInliersBeyondConfirmation = 50;
 // right ones from 67.1 to 66.9 %.  The first alone costs 1.3 points of these, two that agree cost ten.
 struct ConfirmingSearch {
   float max_ratio;
-  double most_shift_m, most_turn_rad;  // between the two poses
+  PoseBounds agreement;
 };
-constexpr ConfirmingSearch kConfirmingSearches[] = {{0.90f, 0.05, degrees(2.5)}, {0.95f, 0.10, degrees(5)}};
+constexpr ConfirmingSearch kConfirmingSearches[] = {{0.90f, {0.05, degrees(2.5)}}, {0.95f, {0.10, degrees(5)}}};
 constexpr uint64_t kOtherSeed = 0x9E3779B97F4A7C15u;  // any
 
 // ---- judgement ----
@@ -77,6 +91,15 @@ constexpr double kMostSigmaWithoutLeverageM = 0.15;  // all poses that it refuse
 // Errors of the map and outliers among few inliers are not in the covariance: on blocks poses from 15 to 25 inliers
 // were off by 5 sigma, from 100 and more by less than 2.
 constexpr double kInliersOfDoubt = 60;
+
+// ---- doubt; docs/consistency.md has the evidence ----
+
+constexpr double kBiasSigmas = 2.5;  // of the prior
+constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
+constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubtfulEdges = 0.5;
+// A pose of so many inliers is not doubted for its edges alone: of poses that late, mirrored or displaced depth
+// made wrong and sure the median has 49, and one in six has so many.
+constexpr uint32_t kInliersBeyondDoubtfulEdges = 100;
 
 // ---- fusion: matches of several frames ----
 

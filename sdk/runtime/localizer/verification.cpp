@@ -32,10 +32,10 @@ void copyWithoutLeverage(const Hypothesis &from, MatchSet *matched) {
     if (std::find(begin, end, i) == end) matched->add(all[i]);
 }
 
-bool areNear(const Rigid &a, const Rigid &b, const ConfirmingSearch &way) {
+bool areNear(const Rigid &a, const Rigid &b, const PoseBounds &bounds) {
   const Vector3 shift_m = a.inverse().translation_m - b.inverse().translation_m;
-  return shift_m.norm() < way.most_shift_m &&
-         rotationAngle(a.rotation * b.rotation.transpose()) < way.most_turn_rad;
+  return shift_m.norm() < bounds.most_shift_m &&
+         rotationAngle(a.rotation * b.rotation.transpose()) < bounds.most_turn_rad;
 }
 
 }  // namespace
@@ -46,6 +46,7 @@ void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis 
   searchAgain(task, found, rival);
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
+  challengeByOthers(task, found, rival);
   confirm(task, found, rival);
 }
 
@@ -126,6 +127,30 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
 }
 
+// Keypoints that do not speak for the pose may speak for another one as clearly: where things stand in the room
+// twice, or where some of what is seen goes with the camera, as its holder's feet do.
+void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
+  if (task.query.deadline.passed()) return;
+  PoseTask other = task;
+  other.query.seed += kOtherSeed;
+  other.query.most_samples = kSamplesOfOthers;
+  other.rays = {};
+  rival->begin(found->map);
+  uint32_t taken = 0;
+  for (uint32_t i = 0; i < found->matched.matches().size(); ++i)
+    if (estimator_.isInlier(found->matched.ofThisFrame()[i], found->estimate))
+      rival->matched.room()[taken++] = found->matched.matches()[i];
+  search_.matchOthers(task.question, rival->matched.room().first(taken), &rival->matched, &work_);
+  if (!searchPose(other, rival) || rival->evidence.log_chance_first > kMostLogChanceOfRival) return;
+  rematch(other, rival);
+  const double gain = found->estimate.gain, rival_gain = rival->estimate.gain;
+  if (!rival->isLocalized() || areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePose))
+    return;
+  if (rival_gain > gain) std::swap(*found, *rival);
+  if (std::min(gain, rival_gain) > kAmbiguous * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
+}
+
 // Few matches may agree by more than uniform chance where textures resemble themselves; a pose that was looked for
 // where it was expected has the expectation to speak for it.
 bool Verification::isDoubtful(const Hypothesis &found) const {
@@ -165,7 +190,7 @@ void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *
     PoseTask other;
     rival->begin(found->map, found->frames);
     if (!searchOtherMatches(task, std::max(way.max_ratio, search_.maxRatio()), rival, &other)) continue;
-    if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, way)) return;
+    if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, way.agreement)) return;
   }
   found->outcome = Outcome::kUncertain;
 }

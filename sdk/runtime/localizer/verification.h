@@ -1,7 +1,7 @@
 // From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
 // predicts, then verification against its rivals: what another search finds, what is found without its
-// high-leverage observations, and the second pose of a planar scene.  In the end an independent search must confirm
-// it.
+// high-leverage observations, the second pose of a planar scene, and what the other keypoints speak for.  In the
+// end an independent search must confirm it.
 #pragma once
 #include "runtime/localizer/fusion.h"
 #include "runtime/stages/pose/estimator.h"
@@ -33,6 +33,7 @@ class Verification {
   bool isDoubtful(const Hypothesis &found) const;
   bool searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis, PoseTask *other) const;
   void searchAgain(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  void challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;

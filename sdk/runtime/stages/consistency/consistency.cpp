@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/base/clock.h"
+
 namespace sphc {
 namespace {
 
@@ -19,8 +21,10 @@ constexpr double kMostBend = 0.7, kSureBend = 1.2;  // in frame after frame, and
 constexpr double kHalfway = 0.57;
 constexpr uint32_t kFewestEdges = 6;
 constexpr double kSurelyOff = -0.85, kDoubtfullyOff = 0;  // in one frame
-// Summed over frames (Page's cumulative sum): how far below kUsual each is.
+// Summed over frames (Page's cumulative sum): how far below kUsual each is.  Frames that follow each other within less
+// than kAnotherView see much the same edges, and count for a part of one.
 constexpr double kUsual = 0.35, kMostAStep = 1, kDoubtful = 0.8, kAlarm = 2.2, kAllClear = 1, kMostDoubt = 4;
+constexpr double kAnotherViewNs = 3e8;
 
 }  // namespace
 
@@ -39,6 +43,7 @@ void Consistency::init(const ConsistencyConfig &config) {
 void Consistency::reset() {
   stillness_.reset();
   doubt_ = 0;
+  told_time_ns_ = INT64_MIN / 2;
   disagreed_ = doubtful_ = bent_ = false;
 }
 
@@ -51,7 +56,7 @@ Faults Consistency::look(const ConsistencyView &view) {
   if (config_.follows)
     faults |= stillness_.look(samples_.values(), view.depth_time_ns, view.gray, view.color_time_ns);
   doubtful_ = false;
-  if (edgesDisagree()) faults |= kDepthColorDisagree;
+  if (edgesDisagree(view.color_time_ns)) faults |= kDepthColorDisagree;
   if (isBent()) faults |= kDepthBent;
   return faults;
 }
@@ -73,16 +78,17 @@ bool Consistency::isBent() {
   return values_.bend > kSureBend || (config_.follows && bent_ && bent_before);
 }
 
-bool Consistency::edgesDisagree() {
+bool Consistency::edgesDisagree(int64_t time_ns) {
   double score = 0;
   const bool tells = agreement_.edges >= kFewestEdges;
   if (tells) score = (agreement_.middle() - kHalfway) * sqrtOf(static_cast<double>(agreement_.edges));
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   if (tells) {
-    const double step = std::min(kMostAStep, std::max(-kMostAStep, kUsual - score));
-    doubt_ = std::min(kMostDoubt, std::max(0.0, doubt_ + step));
-    if (score < kSurelyOff) doubt_ = std::max(doubt_, kAlarm);
+    const double views = std::min(1.0, static_cast<double>(elapsedNs(told_time_ns_, time_ns)) / kAnotherViewNs);
+    const double step = std::min(kMostAStep, std::max(-kMostAStep, kUsual - score)) * views;
+    doubt_ = std::min(kMostDoubt, std::max(0.0, doubt_ + (score < kSurelyOff ? kMostAStep : step)));
+    told_time_ns_ = time_ns;
   }
   doubtful_ = doubtful_ || doubt_ >= kDoubtful;
   disagreed_ = doubt_ >= (disagreed_ ? kAllClear : kAlarm);

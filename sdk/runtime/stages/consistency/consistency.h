@@ -40,7 +40,7 @@ class Consistency {
 
  private:
   Faults judgeValues() const;
-  bool edgesDisagree();
+  bool edgesDisagree(int64_t time_ns);
   bool isBent();
 
   ConsistencyConfig config_;
@@ -49,7 +49,8 @@ class Consistency {
   Stillness stillness_;
   DepthValues values_;
   EdgeAgreement agreement_;
-  double doubt_ = 0;        // of edges, summed over frames
+  double doubt_ = 0;          // of edges, summed over frames
+  int64_t told_time_ns_ = 0;  // of the last frame whose edges told something
   bool disagreed_ = false;  // at the frame before
   bool doubtful_ = false, bent_ = false;
 };

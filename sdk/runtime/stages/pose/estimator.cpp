@@ -290,8 +290,9 @@ Estimate PoseEstimator::search(const PoseQuery &query) {
   Search state;
   const PosePrior *prior = query.prior && query.prior->has_pose ? query.prior : nullptr;
   if (!prior || !verifyPrior(query, &state)) {
-    if (prior) sampleAndScore(query, prior, config_.max_iterations / kSmallSearch, &state, &estimate);
-    if (!isSupported(state.gain)) sampleAndScore(query, nullptr, config_.max_iterations, &state, &estimate);
+    const uint32_t most = std::min(config_.max_iterations, query.most_samples);
+    if (prior) sampleAndScore(query, prior, most / kSmallSearch, &state, &estimate);
+    if (!isSupported(state.gain)) sampleAndScore(query, nullptr, most, &state, &estimate);
     if (state.gain > 0) tryMirrored(query, &state);
   }
   estimate.iterations = state.samples;

@@ -21,6 +21,7 @@ struct PoseQuery {
   const PosePrior *prior = nullptr;  // may be null
   DepthCalibration depth;            // what is known of the sensor
   uint64_t seed = 0;
+  uint32_t most_samples = UINT32_MAX;  // of a search; never more than the estimator's
   Deadline deadline;
 };
 

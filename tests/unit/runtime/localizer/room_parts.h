@@ -36,12 +36,23 @@ class RoomParts {
 
   // Makes a frame of this viewpoint the one that is asked about.  Its depth has a hole at the left, so that some
   // keypoints are rays.
-  void see(uint32_t viewpoint, uint32_t room = 0) {
-    const auto made = sceneFrame(sceneConfig(), viewpoint, room);
-    const auto width = static_cast<ptrdiff_t>(made->frame.depth.width);
-    for (auto row = made->images.depth_mm.begin(); row != made->images.depth_mm.end(); row += width)
+  void see(uint32_t viewpoint, uint32_t room = 0) { see(*sceneFrame(sceneConfig(), viewpoint, room)); }
+  // The upper half as one viewpoint sees it, the lower half as another one does.
+  void seeHalves(uint32_t upper, uint32_t lower) {
+    const auto made = sceneFrame(sceneConfig(), upper), other = sceneFrame(sceneConfig(), lower);
+    const auto copyLowerHalf = [](const auto &from, auto *to) {
+      const auto half = static_cast<ptrdiff_t>(from.size() / 2);
+      std::copy(from.begin() + half, from.end(), to->begin() + half);
+    };
+    copyLowerHalf(other->images.gray, &made->images.gray);
+    copyLowerHalf(other->images.depth_mm, &made->images.depth_mm);
+    see(*made);
+  }
+  void see(SceneFrame &made) {
+    const auto width = static_cast<ptrdiff_t>(made.frame.depth.width);
+    for (auto row = made.images.depth_mm.begin(); row != made.images.depth_mm.end(); row += width)
       std::fill_n(row, width / 8, uint16_t{0});
-    const FrameInput frame = frameFrom(made->frame);
+    const FrameInput frame = frameFrom(made.frame);
     front.extract(frame.color);
     front.lift(frame.depth, config.color_from_depth);
   }

@@ -185,6 +185,21 @@ TEST_F(SearchTest, RaysAreTheMatchesOfKeypointsWithoutDepth) {
   EXPECT_EQ(rays[0].point_index, 2u);
 }
 
+TEST_F(SearchTest, OthersAreTheMatchesOfKeypointsThatAreNotTaken) {
+  parts_.see(0);
+  const auto question = parts_.askAll();
+  parts_.search.matchEverywhere(question, parts_.front.keypointCount(), &matched(), &parts_.work);
+  std::vector<Match> all(matched().matches().begin(), matched().matches().end()), taken, others;
+  for (size_t i = 0; i < all.size(); ++i) (i % 3 ? taken : others).push_back(all[i]);
+  parts_.search.matchOthers(question, {taken.data(), taken.size()}, &matched(), &parts_.work);
+  ASSERT_EQ(matched().matches().size(), others.size());
+  for (size_t i = 0; i < others.size(); ++i) {
+    EXPECT_EQ(matched().matches()[i].query, others[i].query);
+    EXPECT_EQ(matched().matches()[i].point_index, others[i].point_index);
+  }
+  EXPECT_EQ(matched().all().size(), others.size());
+}
+
 TEST_F(SearchTest, MatchingTakesTimeByTheCallersClock) {
   int64_t now = 0;
   parts_.config.clock = {tick, &now};

@@ -235,6 +235,35 @@ TEST_F(VaguePlanarTest, NobodyCanTellTwoPosesThatAreNearlyAsGood) {
   }
 }
 
+// So few points that neither half of a frame is beyond doubt.
+class ThinRoomTest : public VerificationTest {
+ protected:
+  ThinRoomTest() : VerificationTest(mapOf(thinned(), Vector3(0, 0, 1))) {}
+  static std::vector<test::WorldPoint> thinned() {
+    const std::vector<test::WorldPoint> all = pointsOfTheRoom();
+    std::vector<test::WorldPoint> kept;
+    for (size_t i = 0; i < all.size(); i += 5) kept.push_back(all[i]);
+    return kept;
+  }
+  void verifyHalves(uint32_t upper, uint32_t lower) {
+    parts_.seeHalves(upper, lower);
+    const PoseTask task = this->task();
+    found().begin(0);
+    parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), &found().matched, &parts_.work);
+    verify(task);
+  }
+};
+
+TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
+  verifyHalves(0, 0);
+  EXPECT_TRUE(found().isLocalized());
+  verifyHalves(0, 4);
+  ASSERT_LT(found().estimate.inliers, kInliersBeyondOthers);
+  EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
+  EXPECT_EQ(found().outcome, Outcome::kUncertain);
+  EXPECT_LT(std::min(errorM(0), errorM(4)), 0.02);
+}
+
 // A small patch, and far beside it one or two points more.
 class FewFarPointsTest : public VerificationTest {
  protected:

@@ -65,6 +65,20 @@ TEST(Consistency, EdgesThatLieElsewhereAreNamedInTheEnd) {
   EXPECT_EQ(held.consistency.look(MadeView().view(9 * kStepNs)) & kDepthColorDisagree, Faults{0});
 }
 
+// Else the same few edges that lie badly would be counted thirty times a second.
+TEST(Consistency, FramesThatFollowAtOnceCountForAPartOfOne) {
+  const auto framesUntilNamed = [](int64_t step_ns) {
+    HeldConsistency held(true);
+    for (int32_t i = 0; i < 100; ++i)
+      if (held.consistency.look(MadeView(3 * i, 3 * i + 8).view(i * step_ns)) & kDepthColorDisagree) return i;
+    return 100;
+  };
+  const int32_t slow = framesUntilNamed(1000000000), quick = framesUntilNamed(33000000);
+  EXPECT_LT(slow, 10);
+  EXPECT_GT(quick, 4 * slow);
+  EXPECT_LT(quick, 100);
+}
+
 TEST(Consistency, NamesAStreamThatStandsStill) {
   HeldConsistency depth_stands(true), color_stands(true);
   Faults of_depth = 0, of_color = 0;

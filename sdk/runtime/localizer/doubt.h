@@ -1,0 +1,33 @@
+// What speaks against a pose beside its matches: the vertical, odometry, and what the depth sensor was said to be.
+#pragma once
+#include "runtime/localizer/hypothesis.h"
+#include "runtime/localizer/tracker.h"
+#include "runtime/stages/consistency/travel.h"
+#include "runtime/stages/pose/estimator.h"
+
+namespace sphc {
+
+// Is the vertical that was given another than the one of the pose that the matches alone speak for?  `query` has no
+// prior; its correspondences are set here.
+bool verticalDisagrees(const Known &known, const Hypothesis &found, PoseQuery query, uint32_t min_inliers,
+                       PoseEstimator *estimator);
+
+// Has more been learnt of the depth sensor than a sound one could have?
+bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior);
+
+// The confidence of a pose of so many inliers that these faults and, of edges, a doubt too small for a fault leave.
+double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful);
+
+// A common scale of all depths shows in how far the camera goes, and only there.
+class TravelCheck {
+ public:
+  void reset() { travel_.reset(); }
+  // Every frame that follows another; `tracker` knows of the frame.
+  bool isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found);
+
+ private:
+  Travel travel_;
+  uint32_t map_ = 0;
+};
+
+}  // namespace sphc

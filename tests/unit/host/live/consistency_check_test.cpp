@@ -1,0 +1,87 @@
+#include "host/live/consistency_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "drivers/simulated/simulated.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr uint32_t kFrames = 8;
+constexpr int64_t kPeriodNs = 100000000;
+
+struct Images {
+  std::vector<uint8_t> color;
+  std::vector<uint16_t> depth;
+};
+
+// A walk through the simulated room, rendered once.
+class ConsistencyCheckTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    sphc_simulated_config config;
+    sphc_simulated_config_init(&config, sizeof config);
+    config.frame_count = kFrames;
+    config.frame_rate_hz = 1e9 / kPeriodNs;
+    sphc_simulated *simulated = nullptr;
+    ASSERT_EQ(sphc_simulated_open(&config, &simulated, nullptr), SPHC_OK);
+    ASSERT_EQ(sphc_simulated_rig(simulated, &rig_), SPHC_OK);
+    for (uint32_t i = 0; i < kFrames; ++i) {
+      Images images;
+      images.color.resize(size_t{3} * rig_.color_camera.width * rig_.color_camera.height);
+      images.depth.resize(size_t{rig_.depth_camera.width} * rig_.depth_camera.height);
+      sphc_simulated_render_color(simulated, i, images.color.data());
+      sphc_simulated_render_depth(simulated, i, images.depth.data());
+      images_.push_back(std::move(images));
+    }
+    sphc_simulated_close(&simulated);
+  }
+  static void TearDownTestSuite() { images_.clear(); }
+
+  using Spoil = std::function<void(uint32_t i, Images *images)>;
+  Findings look(const Spoil &spoil) {
+    ConsistencyCheck check(rig_);
+    const sphc_camera &c = rig_.color_camera, &d = rig_.depth_camera;
+    for (uint32_t i = 0; i < kFrames; ++i) {
+      Images images = images_[i];
+      spoil(i, &images);
+      check.look({images.color.data(), c.width, c.height, 3 * c.width, SPHC_FORMAT_RGB8}, i * kPeriodNs,
+                 {images.depth.data(), d.width, d.height, 2 * d.width, SPHC_FORMAT_DEPTH16}, i * kPeriodNs);
+    }
+    return check.findings();
+  }
+
+  static inline sphc_rig rig_ = {};
+  static inline std::vector<Images> images_;
+};
+
+TEST_F(ConsistencyCheckTest, SoundCamerasDoNotContradictThemselves) {
+  const Findings findings = look([](uint32_t, Images *) {});
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].grade, Finding::Grade::kFine);
+}
+
+TEST_F(ConsistencyCheckTest, AFrozenStreamIsNamedWithItsCure) {
+  const Findings findings = look([](uint32_t, Images *images) { images->depth = images_[0].depth; });
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0].what, "depth frozen");
+  EXPECT_EQ(findings[0].grade, Finding::Grade::kWrong);
+  EXPECT_NE(findings[0].text.find("restart the depth stream"), std::string::npos) << findings[0].text;
+}
+
+TEST_F(ConsistencyCheckTest, EveryFaultIsOneFinding) {
+  const Findings findings = look([](uint32_t i, Images *images) {
+    std::fill(images->depth.begin(), images->depth.end(), i % 2 ? 1000 : 65000);
+  });
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].what, "depth out of range");
+  EXPECT_EQ(findings[1].what, "depth constant");
+}
+
+TEST_F(ConsistencyCheckTest, WithoutAPairNothingIsSaid) { EXPECT_TRUE(ConsistencyCheck(rig_).findings().empty()); }
+
+}  // namespace
+}  // namespace sphc::host

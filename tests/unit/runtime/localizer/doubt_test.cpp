@@ -1,0 +1,122 @@
+#include "runtime/localizer/doubt.h"
+
+#include <gtest/gtest.h>
+
+#include "runtime/localizer/tuning.h"
+#include "tests/unit/runtime/localizer/room_parts.h"
+
+namespace sphc {
+namespace {
+
+using namespace tuning;
+
+// A pose of the test room, from true matches.
+class DoubtTest : public testing::Test {
+ protected:
+  DoubtTest() {
+    parts_.see(0);
+    found().begin(0);
+    found().outcome = Outcome::kLocalized;
+    parts_.search.matchEverywhere(parts_.askAll(), parts_.front.keypointCount(), &found().matched, &parts_.work);
+    PoseQuery query = this->query();
+    query.correspondences = found().matched.all();
+    found().estimate = parts_.estimator.refine(query, parts_.cameraFromMap(0));
+  }
+  PoseQuery query() const {
+    PoseQuery query;
+    query.prior = &nothing_;
+    query.depth = parts_.config.depth_prior;
+    return query;
+  }
+  // The vertical that the pose itself says, turned by so much.
+  Known knownVertical(double off_rad) {
+    Known known;
+    known.prior.has_up = true;
+    known.prior.up_map = Vector3::UnitZ();
+    known.prior.up_camera = Eigen::AngleAxisd(off_rad, Vector3::UnitX()).toRotationMatrix() *
+                            parts_.cameraFromMap(0).rotation * known.prior.up_map;
+    known.prior.up_sigma_rad = 1e-3;
+    return known;
+  }
+  bool disagrees(const Known &known) { return verticalDisagrees(known, found(), query(), 10, &parts_.estimator); }
+  Hypothesis &found() { return parts_.found; }
+
+  const PosePrior nothing_;
+  test::RoomParts parts_;
+};
+
+TEST_F(DoubtTest, AVerticalThatIsOffByDegreesDisagrees) {
+  EXPECT_FALSE(disagrees(knownVertical(0)));
+  EXPECT_FALSE(disagrees(knownVertical(degrees(0.5))));
+  EXPECT_TRUE(disagrees(knownVertical(degrees(5))));
+}
+
+TEST_F(DoubtTest, WithoutAPoseOrAVerticalNothingDisagrees) {
+  Known known = knownVertical(degrees(5));
+  known.map = 1;
+  EXPECT_FALSE(disagrees(known)) << "the vertical of another map";
+  known = knownVertical(degrees(5));
+  known.prior.has_up = false;
+  EXPECT_FALSE(disagrees(known));
+  found().outcome = Outcome::kUncertain;
+  EXPECT_FALSE(disagrees(knownVertical(degrees(5))));
+}
+
+// Walks along x, a second and a decimetre a step by odometry.
+class TravelCheckTest : public DoubtTest {
+ protected:
+  bool walk(uint32_t steps, double scale) {
+    bool scaled = false;
+    for (uint32_t i = 0; i < steps; ++i, ++step_) {
+      Known known;
+      known.has_odometry = true;
+      known.odometry.odometry_from_camera.translation_m = {0.1 * step_, 0, 0};
+      tracker_.advance(int64_t{100000000} * step_, &known.odometry);
+      found().estimate.camera_from_map = {Matrix3::Identity(), {-0.1 * scale * step_, 0, 0}};
+      scaled = check_.isScaled(known, tracker_, found());
+    }
+    return scaled;
+  }
+  Tracker tracker_;
+  TravelCheck check_;
+  uint32_t step_ = 1;
+};
+
+TEST_F(TravelCheckTest, PosesThatGoFartherThanOdometryAreScaled) {
+  EXPECT_FALSE(walk(30, 1));
+  check_.reset();
+  EXPECT_TRUE(walk(30, 1.3));
+}
+
+TEST_F(TravelCheckTest, AnotherMapBeginsAnotherWay) {
+  EXPECT_TRUE(walk(30, 1.3));
+  found().map = 1;
+  EXPECT_FALSE(walk(1, 1.3));
+}
+
+TEST(Doubt, ABiasFarOutsideItsPriorIsBeyondIt) {
+  DepthCalibration prior;
+  prior.mean = Vector2::Zero();
+  prior.covariance = Vector2(4e-4, 1e-4).asDiagonal();
+  DepthCalibration learnt = prior;
+  learnt.mean = {0.04, 0.02};  // 2 sigmas
+  EXPECT_FALSE(isBeyondPrior(learnt, prior));
+  learnt.mean[1] = 0.03;
+  EXPECT_TRUE(isBeyondPrior(learnt, prior));
+  prior.covariance.setZero();
+  EXPECT_FALSE(isBeyondPrior(learnt, prior)) << "of a sensor that is known nothing is learnt";
+}
+
+TEST(Doubt, LowersTheConfidenceAndNeverRaisesIt) {
+  constexpr uint32_t kFew = 30, kMany = kInliersBeyondDoubtfulEdges;
+  EXPECT_EQ(doubted(0.9, kFew, 0, false), 0.9);
+  EXPECT_EQ(doubted(0.9, kFew, kDepthConstant, false), 0.9);  // which takes the pose away
+  EXPECT_EQ(doubted(0.9, kMany, kDepthScale, false), kMostConfidenceOfFaults);
+  EXPECT_EQ(doubted(0.9, kMany, kDepthBias, false), kMostConfidenceOfFaults);
+  EXPECT_EQ(doubted(0.9, kFew, 0, true), kMostConfidenceOfDoubtfulEdges);
+  EXPECT_EQ(doubted(0.9, kMany, 0, true), 0.9);
+  EXPECT_EQ(doubted(0.1, kFew, kDepthScale, true), 0.1);
+}
+
+}  // namespace
+}  // namespace sphc
