@@ -92,12 +92,15 @@ stage_quick() {
   tests "quick: unit tests, layers, the golden session" build/release -L '^(unit|layers|golden|quick)$'
 }
 
+# Where nobody edits between two builds, several files are compiled as one.  The folder build/release is the developer's.
+unity=-DSPHC_UNITY=ON
+
 stage_release() {
   prepare runtime build openni2 test guest
   python_packages
   check "formatting" formatting
-  check "release: build" build build/release all -DCMAKE_BUILD_TYPE=Release
-  tests "release: tests" build/release
+  check "release: build" build build/unity all -DCMAKE_BUILD_TYPE=Release $unity
+  tests "release: tests" build/unity
 }
 
 stage_device() {
@@ -115,15 +118,15 @@ stage_arm64() {
   local arm64=$root/build/guest/arm64
   prepare runtime build test guest
   # The guest plays what the release's guests have recorded.
-  if ! [ -d build/release/tests/guest/recorded ]; then
-    check "arm64: the release, to record with" build build/release 'make_recording replay_poses spherecloud_cli' \
-      -DCMAKE_BUILD_TYPE=Release
-    tests "arm64: what the cameras play" build/release -R '^guest\.recording$'
+  if ! [ -d build/unity/tests/guest/recorded ]; then
+    check "arm64: the release, to record with" build build/unity 'make_recording replay_poses spherecloud_cli' \
+      -DCMAKE_BUILD_TYPE=Release $unity
+    tests "arm64: what the cameras play" build/unity -R '^guest\.recording$'
   fi
   check "arm64: a kernel and libraries" tests/guest/fetch_arm64.sh "$arm64"
   check "arm64: build" build build/arm64 'vhci_camera guest_capture' -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE=toolchains/aarch64-linux-gnu.cmake -DSPHC_SYSROOT="$arm64/sysroot" -DSPHC_HOST=OFF \
-    -DSPHC_EXAMPLES=OFF
+    -DSPHC_EXAMPLES=OFF -DSPHC_GUEST_RECORDED="$root/build/unity/tests/guest/recorded"
   tests "arm64: on a stock kernel in an emulator" build/arm64
 }
 
@@ -135,7 +138,7 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
 stage_sanitized() {
   prepare runtime build openni2 test
   python_packages
-  check "sanitized: build" build build/sanitized all "${sanitized[@]}" -DSPHC_SANITIZE=address,undefined
+  check "sanitized: build" build build/sanitized all "${sanitized[@]}" $unity -DSPHC_SANITIZE=address,undefined
   # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
   tests "sanitized: tests" build/sanitized -LE 'pipeline|memory' -E driver_contract_simulated
 }
@@ -143,7 +146,7 @@ stage_sanitized() {
 stage_tsan() {
   local programs='driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
   prepare runtime build openni2 test
-  check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" -DSPHC_SANITIZE=thread
+  check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" $unity -DSPHC_SANITIZE=thread
   # The driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"

@@ -97,6 +97,25 @@ if(SPHC_PRECOMPILE_RUNTIME)
   sphc_headers(sphc_runtime_headers FLAGS sphc_runtime_code HEADERS Eigen/Core Eigen/Geometry)
 endif()
 
+# sphc_unity(TARGET): where much is compiled and nothing edited, up to eight files of a folder are read as one.  Never the
+# runtime's, which ship as they are tested.
+set(SPHC_UNITY_FILES 8) # more take a core's share of the memory
+function(sphc_unity target)
+  if(NOT SPHC_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  foreach(source ${sources})
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "in_${folder}" folder)
+    math(EXPR batch "0${${folder}} / ${SPHC_UNITY_FILES}")
+    math(EXPR ${folder} "0${${folder}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${batch})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 # sphc_module(NAME SOURCES... [RUNTIME] [LINKS...] [HEADERS...]): a folder is a target.
 # RUNTIME modules are objects gathered into the one library `spherecloud`; others are static libraries.
 # HEADERS: a library of precompiled headers, where it is not that of all.
@@ -109,6 +128,9 @@ function(sphc_module name)
   else()
     add_library(${name} STATIC ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE sphc_flags PUBLIC ${arg_LINKS})
+  endif()
+  if(NOT arg_RUNTIME)
+    sphc_unity(${name})
   endif()
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/sdk ${PROJECT_SOURCE_DIR}/sdk/include)
   string(FIND "${arg_SOURCES}" ".cpp" has_cpp)

@@ -9,7 +9,6 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kStepsPerSecond = 1.7;  // as the one with the headset walks
 constexpr float kTexel = 0.0025f;
 

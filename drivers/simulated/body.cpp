@@ -5,9 +5,6 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr Mat3d kUpright{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
 // A rotation that turns z along a direction and leaves x to the side as far as it can.
 Mat3d pointing(const Vec3d &direction) {
   const Vec3d z = normalized(direction);

@@ -3,8 +3,6 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr Mat3d kUpright{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
 // place_from_solid for a solid whose z axis leans towards -y by `tilt`.
 Mat3d leaning(double tilt) {
   const double c = std::cos(tilt), s = std::sin(tilt);

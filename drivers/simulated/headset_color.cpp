@@ -11,7 +11,8 @@ namespace sphc::simulated {
 namespace {
 
 // Four rays a pixel, on a turned square, each at its own quarter of the exposure.
-constexpr float kOffsets[kLanes][2] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
+constexpr float kColorOffsets[kLanes][2] = {
+    {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
 
 // Full scale is 1.  A tone of 0.3 gets a noise of 0.0079, about 2 of 255 after the gamma.
 constexpr float kReadNoise = 0.0016f, kShotNoise = 2e-4f;
@@ -39,7 +40,6 @@ inline float log2Approximate(float x) {
 }
 
 // Rounding: the cast cuts, and the value is never negative.
-constexpr float kHalf = 0.5f;
 struct Sensor {
   float read_sq, shot;
 };
@@ -50,7 +50,7 @@ Sensor sensorAt(float level) {
 }
 inline uint8_t develop(const Sensor &sensor, float light, float noise) {
   const float noisy = light + noise * std::sqrt(sensor.read_sq + sensor.shot * light);
-  return static_cast<uint8_t>(255.0f * std::sqrt(std::clamp(noisy, 0.0f, 1.0f)) + kHalf);
+  return static_cast<uint8_t>(255.0f * std::sqrt(std::clamp(noisy, 0.0f, 1.0f)) + 0.5f);
 }
 
 // Brightness over time: the room is bright and dark by turns and the exposure control is slow.
@@ -84,7 +84,7 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
       Light sum;
       Rays rays;
       for (uint32_t i = 0; i < kLanes; ++i) {
-        rays.lane[i] = color_rays_.at(column, row, kOffsets[i][0], kOffsets[i][1]);
+        rays.lane[i] = color_rays_.at(column, row, kColorOffsets[i][0], kColorOffsets[i][1]);
       }
       const Hits hits = raster.cast(list, rays);
       for (uint32_t i = 0; i < kLanes; ++i) {

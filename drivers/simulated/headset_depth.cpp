@@ -10,7 +10,7 @@ namespace sphc::simulated {
 namespace {
 
 // Rays a pixel: its light is the sum of theirs, and at an edge so is its range.
-constexpr float kOffsets[kLanes][2] = {{-0.32f, -0.14f}, {0.14f, -0.32f}, {-0.14f, 0.32f}, {0.32f, 0.14f}};
+constexpr float kDepthOffsets[kLanes][2] = {{-0.32f, -0.14f}, {0.14f, -0.32f}, {-0.14f, 0.32f}, {0.32f, 0.14f}};
 
 // Returned light: reflectance times cosine over squared distance.  Below kBlind nothing is measured; up to kDim
 // ever more is.
@@ -32,7 +32,8 @@ Echo listen(const Scene &scene, const Raster &raster, const RayTable &rays, floa
   Echo echo;
   float nearest = kFar, farthest = 0, weighted = 0;
   Rays four;
-  for (uint32_t i = 0; i < kLanes; ++i) four.lane[i] = rays.at(column, row, kOffsets[i][0], kOffsets[i][1]);
+  for (uint32_t i = 0; i < kLanes; ++i)
+    four.lane[i] = rays.at(column, row, kDepthOffsets[i][0], kDepthOffsets[i][1]);
   const Hits hits = raster.cast(list, four);
   for (uint32_t i = 0; i < kLanes; ++i) {
     const Hit &hit = hits.lane[i];

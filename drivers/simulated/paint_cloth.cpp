@@ -1,10 +1,9 @@
 // paint_cloth.cpp - carpet, upholstery, curtains, lampshade, leaves.
 #include "drivers/simulated/paint.h"
+#include "drivers/simulated/vec.h"
 
 namespace sphc::simulated {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 // A motif of the carpet: nested shapes of the palette, drawn by chance.
 void motif(Canvas &canvas, Rng &rng, float x, float y, float radius, const Ink palette[5]) {
@@ -126,7 +125,7 @@ void paintLeaves(Canvas &canvas, Rng &rng) {
   const float w = canvas.width(), h = canvas.height();
   const int count = static_cast<int>(w * h * 1600);
   for (int i = 0; i < count; ++i) {
-    const float x = rng.uniform(0, w), y = rng.uniform(0, h), a = rng.uniform(0, 2 * kPi);
+    const float x = rng.uniform(0, w), y = rng.uniform(0, h), a = rng.uniform(0, 2 * kFloatPi);
     const float length = rng.uniform(0.02f, 0.06f), c = std::cos(a), s = std::sin(a);
     const Ink leaf = hsv(rng.uniform(0.2f, 0.38f), rng.uniform(0.45f, 0.8f), rng.uniform(0.2f, 0.7f), 0.7f);
     const auto distance = [&](float px, float py) {

@@ -1,11 +1,10 @@
 // paint_print.cpp - things with pictures and letters on them: pictures, books, magazines, boxes, the screen, the
 // clock.
 #include "drivers/simulated/paint.h"
+#include "drivers/simulated/vec.h"
 
 namespace sphc::simulated {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 void paper(Canvas &canvas, Rng &rng, const Ink &base, float contrast) {
   const auto seed = static_cast<uint32_t>(rng.next());
@@ -265,7 +264,7 @@ void paintClock(Canvas &canvas, Rng &rng) {
   const Ink ink{0.1f, 0.08f, 0.1f, 0.2f};
   canvas.ring(c, c, 0.46f * w, 0.06f * w, randomInk(rng, 0.3f, 0.8f, 0.2f, 0.5f));
   for (int i = 0; i < 60; ++i) {
-    const float a = static_cast<float>(i) * kPi / 30, inner = i % 5 == 0 ? 0.36f : 0.4f;
+    const float a = static_cast<float>(i) * kFloatPi / 30, inner = i % 5 == 0 ? 0.36f : 0.4f;
     canvas.line(c + inner * w * std::sin(a), c - inner * w * std::cos(a), c + 0.42f * w * std::sin(a),
                 c - 0.42f * w * std::cos(a), i % 5 == 0 ? 0.02f * w : 0.006f * w, ink);
     if (i % 5 != 0) continue;
@@ -274,7 +273,7 @@ void paintClock(Canvas &canvas, Rng &rng) {
                 c - 0.29f * w * std::cos(a) - 0.04f * w, 0.085f * w, hour, ink);
   }
   for (const float length : {0.2f, 0.32f}) {
-    const float a = rng.uniform(0, 2 * kPi);
+    const float a = rng.uniform(0, 2 * kFloatPi);
     canvas.line(c, c, c + length * w * std::sin(a), c - length * w * std::cos(a), 0.025f * w, ink);
   }
 }

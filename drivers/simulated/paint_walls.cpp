@@ -1,17 +1,16 @@
 // paint_walls.cpp - brick, wallpaper, plaster, ceiling.
 #include "drivers/simulated/paint.h"
+#include "drivers/simulated/vec.h"
 
 namespace sphc::simulated {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 uint32_t noiseSeed(Rng &rng) { return static_cast<uint32_t>(rng.next()); }
 
 // A crack: a line that wanders and thins out.
 void crack(Canvas &canvas, Rng &rng, const Ink &ink) {
   float x = rng.uniform(0, canvas.width()), y = rng.uniform(0, canvas.height());
-  float angle = rng.uniform(0, 2 * kPi);
+  float angle = rng.uniform(0, 2 * kFloatPi);
   const int steps = 12 + rng.index(30);
   for (int i = 0; i < steps; ++i) {
     angle += rng.uniform(-0.6f, 0.6f);
@@ -27,7 +26,7 @@ void crack(Canvas &canvas, Rng &rng, const Ink &ink) {
 // One flower-like motif of the wallpaper; no two are quite alike.
 void flower(Canvas &canvas, Rng &rng, float x, float y, float radius, const Ink &petal, const Ink &heart) {
   const auto petals = static_cast<float>(4 + rng.index(5));
-  const float turn = rng.uniform(0, 2 * kPi), depth = rng.uniform(0.2f, 0.5f);
+  const float turn = rng.uniform(0, 2 * kFloatPi), depth = rng.uniform(0.2f, 0.5f);
   const float squash = rng.uniform(0.75f, 1.3f);
   const auto distance = [&](float px, float py) {
     const float ex = px - x, ey = (py - y) * squash;
@@ -38,7 +37,7 @@ void flower(Canvas &canvas, Rng &rng, float x, float y, float radius, const Ink 
   canvas.figure(x - reach, y - reach, x + reach, y + reach, distance, petal, 0.9f);
   canvas.disc(x, y, radius * rng.uniform(0.15f, 0.4f), heart);
   for (int i = rng.index(4); i > 0; --i) {
-    const float a = rng.uniform(0, 2 * kPi), l = radius * rng.uniform(1.1f, 2.0f);
+    const float a = rng.uniform(0, 2 * kFloatPi), l = radius * rng.uniform(1.1f, 2.0f);
     canvas.line(x + radius * std::cos(a), y + radius * std::sin(a), x + l * std::cos(a + 0.4f),
                 y + l * std::sin(a + 0.4f), rng.uniform(0.003f, 0.008f), heart, 0.8f);
   }
@@ -83,7 +82,7 @@ void paintWallpaper(Canvas &canvas, Rng &rng) {
       hsv(hue + rng.uniform(-0.08f, 0.08f), rng.uniform(0.2f, 0.45f), rng.uniform(0.55f, 0.8f), 0.6f);
   const float period = rng.uniform(0.12f, 0.3f);
   canvas.fill([&](float x, float y) {
-    const float wave = std::sin(2 * kPi * (x + 0.012f * std::sin(9 * y)) / period);
+    const float wave = std::sin(2 * kFloatPi * (x + 0.012f * std::sin(9 * y)) / period);
     const float fade = 1 + 0.1f * fbm(x * 1.1f, y * 1.1f, 4, seed) + 0.06f * fbm(x * 60, y * 60, 3, seed + 1, 0.8f);
     return mix(base, stripe, smooth(-0.15f, 0.15f, wave)) * fade;
   });

@@ -6,8 +6,6 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-
 float component(const Vec3f &v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 Vec3f axisVector(int axis, float value) {
   return {axis == 0 ? value : 0.0f, axis == 1 ? value : 0.0f, axis == 2 ? value : 0.0f};
@@ -82,11 +80,11 @@ Contact cylinderContact(const Vec3f &p) {
     const float side = p.z > 0 ? 1.0f : -1.0f;
     return {p.z > 0 ? 1 : 2, 0.5f + 0.5f * p.x, 0.5f - 0.5f * side * p.y, {0, 0, side}};
   }
-  return {0, 0.5f + std::atan2(p.y, p.x) / (2 * kPi), 0.5f - 0.5f * p.z, {p.x, p.y, 0}};
+  return {0, 0.5f + std::atan2(p.y, p.x) / (2 * kFloatPi), 0.5f - 0.5f * p.z, {p.x, p.y, 0}};
 }
 
 Contact ellipsoidContact(const Vec3f &p) {
-  return {0, 0.5f + std::atan2(p.y, p.x) / (2 * kPi), 0.5f - 0.5f * std::clamp(p.z, -1.0f, 1.0f), p};
+  return {0, 0.5f + std::atan2(p.y, p.x) / (2 * kFloatPi), 0.5f - 0.5f * std::clamp(p.z, -1.0f, 1.0f), p};
 }
 
 }  // namespace
@@ -143,7 +141,7 @@ void facePoint(const Shape &shape, int face, float u, float v, Vec3f *point, Vec
     *normal = worldNormal(shape, axisVector(axis, positive ? 1.0f : -1.0f));
     return;
   }
-  const float angle = (u - 0.5f) * 2 * kPi;
+  const float angle = (u - 0.5f) * 2 * kFloatPi;
   if (shape.kind == Kind::kEllipsoid) {
     const float z = 1 - 2 * v;
     const float r = std::sqrt(std::max(0.0f, 1 - z * z));
@@ -161,7 +159,7 @@ void facePoint(const Shape &shape, int face, float u, float v, Vec3f *point, Vec
 
 void faceSize(const Shape &shape, int face, float *width_m, float *height_m) {
   const Vec3f &h = shape.half;
-  const float around = kPi * (h.x + h.y);
+  const float around = kFloatPi * (h.x + h.y);
   if (shape.kind == Kind::kCylinder) {
     *width_m = face == 0 ? around : 2 * h.x;
     *height_m = face == 0 ? 2 * h.z : 2 * h.y;

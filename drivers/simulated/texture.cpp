@@ -6,7 +6,7 @@ namespace sphc::simulated {
 namespace {
 
 constexpr uint64_t kEven = 0x00FF00FF00FF00FFu;
-constexpr uint64_t kHalf = 0x0080008000800080u;
+constexpr uint64_t kHalves = 0x0080008000800080u;
 
 // The four bytes of a texel in four lanes of 16 bits, so that one multiplication scales all of them.
 inline uint64_t spread(Texel texel) {
@@ -20,7 +20,7 @@ inline Texel gather(uint64_t x) {
 }
 // a + (b - a) * weight / 256; no lane overflows since 255 * 256 + 128 < 65536.
 inline uint64_t mix(uint64_t a, uint64_t b, uint32_t weight) {
-  return ((a * (256 - weight) + b * weight + kHalf) >> 8) & kEven;
+  return ((a * (256 - weight) + b * weight + kHalves) >> 8) & kEven;
 }
 
 inline uint32_t levelWidth(uint32_t width, int level) { return std::max(width >> level, 1u); }

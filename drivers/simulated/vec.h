@@ -7,6 +7,9 @@
 
 namespace sphc::simulated {
 
+constexpr double kPi = 3.14159265358979323846;
+constexpr float kFloatPi = 3.14159265f;
+
 template <class T>
 struct Vec3 {
   T x{}, y{}, z{};
@@ -56,6 +59,7 @@ struct Mat3 {
 };
 using Mat3f = Mat3<float>;
 using Mat3d = Mat3<double>;
+constexpr Mat3d kUpright{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 template <class T>
 constexpr Vec3<T> operator*(const Mat3<T> &m, const Vec3<T> &v) {

@@ -6,7 +6,6 @@
 namespace sphc::simulated {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180;
 constexpr float kWantedClearance = 0.6f;
 

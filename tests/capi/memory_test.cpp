@@ -36,7 +36,7 @@ struct Spoiled {
   const char *words;  // that the message must have
   void (*spoil)(sphc_config *config);
 };
-const double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+const double kNotANumber = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
 const Spoiled kSpoiled[] = {
     {"max_keypoints is 63", [](sphc_config *c) { c->max_keypoints = 63; }},
@@ -48,26 +48,26 @@ const Spoiled kSpoiled[] = {
     {"max_ratio is nan", [](sphc_config *c) { c->max_ratio = std::numeric_limits<float>::quiet_NaN(); }},
     {"color_camera.model is 0", [](sphc_config *c) { c->rig.color_camera.model = 0; }},
     {"depth_camera.model is 0", [](sphc_config *c) { c->rig.depth_camera.model = 0; }},
-    {"color_camera", [](sphc_config *c) { c->rig.color_camera.params[0] = kNan; }},
+    {"color_camera", [](sphc_config *c) { c->rig.color_camera.params[0] = kNotANumber; }},
     {"depth_camera", [](sphc_config *c) { c->rig.depth_camera.params[3] = kInf; }},
     {"depth_camera", [](sphc_config *c) { c->rig.depth_camera.width = 8193; }},
     {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.q_wxyz[0] = 0; }},
-    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.q_wxyz[1] = kNan; }},
+    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.q_wxyz[1] = kNotANumber; }},
     {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.t_m[2] = kInf; }},
     {"depth_unit_m", [](sphc_config *c) { c->rig.depth_unit_m = 0; }},
-    {"depth_unit_m is nan", [](sphc_config *c) { c->rig.depth_unit_m = kNan; }},
+    {"depth_unit_m is nan", [](sphc_config *c) { c->rig.depth_unit_m = kNotANumber; }},
     {"depth_min_m", [](sphc_config *c) { c->depth_min_m = 0; }},
-    {"depth_min_m", [](sphc_config *c) { c->depth_min_m = kNan; }},
+    {"depth_min_m", [](sphc_config *c) { c->depth_min_m = kNotANumber; }},
     {"depth_max_m", [](sphc_config *c) { c->depth_max_m = c->depth_min_m; }},
     {"depth_max_m is inf", [](sphc_config *c) { c->depth_max_m = kInf; }},
     {"depth_sigma_m", [](sphc_config *c) { c->depth_sigma_m = 0; }},
-    {"depth_sigma_m", [](sphc_config *c) { c->depth_sigma_m = kNan; }},
+    {"depth_sigma_m", [](sphc_config *c) { c->depth_sigma_m = kNotANumber; }},
     {"depth_sigma_per_m2", [](sphc_config *c) { c->depth_sigma_per_m2 = -0.1; }},
-    {"depth_sigma_per_m2", [](sphc_config *c) { c->depth_sigma_per_m2 = kNan; }},
+    {"depth_sigma_per_m2", [](sphc_config *c) { c->depth_sigma_per_m2 = kNotANumber; }},
     {"pixel_sigma_px", [](sphc_config *c) { c->pixel_sigma_px = 0; }},
     {"pixel_sigma_px", [](sphc_config *c) { c->pixel_sigma_px = kInf; }},
     {"map_sigma_m", [](sphc_config *c) { c->map_sigma_m = -1; }},
-    {"map_sigma_m", [](sphc_config *c) { c->map_sigma_m = kNan; }},
+    {"map_sigma_m", [](sphc_config *c) { c->map_sigma_m = kNotANumber; }},
     {"min_inliers", [](sphc_config *c) { c->min_inliers = 3; }},
     {"min_inliers", [](sphc_config *c) { c->min_inliers = UINT32_MAX; }},
 };

@@ -7,14 +7,14 @@
 namespace sphc::test {
 namespace {
 
-constexpr double kFocalPx = 525;
+constexpr double kSensorFocalPx = 525;
 
 struct Errors {
   double sideways_m, along_m;
 };
 
 Errors errorsAt(const SensorWorldOptions &options, const Vector3 &point, double depth_noise) {
-  const double z = point.z(), across = options.pixel_sigma_px * z / kFocalPx;
+  const double z = point.z(), across = options.pixel_sigma_px * z / kSensorFocalPx;
   const double sigma_z = depth_noise * (options.depth_sigma_m + options.depth_sigma_per_m2 * z * z);
   const double along = sigma_z * point.norm() / z;
   const double map2 = options.map_sigma_m * options.map_sigma_m;
@@ -23,7 +23,7 @@ Errors errorsAt(const SensorWorldOptions &options, const Vector3 &point, double 
 
 // What the pixel and the depth sensor make of a point; the map's error is not theirs.
 Vector3 measured(const SensorWorldOptions &options, const Vector3 &point, Random *random) {
-  const double z = point.z(), across = options.pixel_sigma_px * z / kFocalPx;
+  const double z = point.z(), across = options.pixel_sigma_px * z / kSensorFocalPx;
   const double along = (options.depth_sigma_m + options.depth_sigma_per_m2 * z * z) * point.norm() / z;
   const Vector3 view = point.normalized(), noise = normalVector(random);
   const Vector3 seen = point + across * (noise - noise.dot(view) * view) + along * noise.dot(view) * view;

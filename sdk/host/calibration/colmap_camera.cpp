@@ -8,28 +8,31 @@
 namespace sphc::host {
 namespace {
 
-enum Slot { kF, kFx, kFy, kCx, kCy, kFirstDistortion };  // distortion slots: OpenCV's order
+enum Slot { kSlotF, kSlotFx, kSlotFy, kSlotCx, kSlotCy, kFirstDistortion };  // distortion slots: OpenCV's order
 
 int distortion(int index) { return kFirstDistortion + index; }
 
 const std::vector<ColmapCameraModel> &models() {
   static const std::vector<ColmapCameraModel> kModels = {
-      {0, "SIMPLE_PINHOLE", false, {kF, kCx, kCy}},
-      {1, "PINHOLE", false, {kFx, kFy, kCx, kCy}},
-      {2, "SIMPLE_RADIAL", false, {kF, kCx, kCy, distortion(0)}},
-      {3, "RADIAL", false, {kF, kCx, kCy, distortion(0), distortion(1)}},
-      {4, "OPENCV", false, {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3)}},
+      {0, "SIMPLE_PINHOLE", false, {kSlotF, kSlotCx, kSlotCy}},
+      {1, "PINHOLE", false, {kSlotFx, kSlotFy, kSlotCx, kSlotCy}},
+      {2, "SIMPLE_RADIAL", false, {kSlotF, kSlotCx, kSlotCy, distortion(0)}},
+      {3, "RADIAL", false, {kSlotF, kSlotCx, kSlotCy, distortion(0), distortion(1)}},
+      {4,
+       "OPENCV",
+       false,
+       {kSlotFx, kSlotFy, kSlotCx, kSlotCy, distortion(0), distortion(1), distortion(2), distortion(3)}},
       {6,
        "FULL_OPENCV",
        false,
-       {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3), distortion(4),
-        distortion(5), distortion(6), distortion(7)}},
-      {8, "SIMPLE_RADIAL_FISHEYE", true, {kF, kCx, kCy, distortion(0)}},
-      {9, "RADIAL_FISHEYE", true, {kF, kCx, kCy, distortion(0), distortion(1)}},
+       {kSlotFx, kSlotFy, kSlotCx, kSlotCy, distortion(0), distortion(1), distortion(2), distortion(3),
+        distortion(4), distortion(5), distortion(6), distortion(7)}},
+      {8, "SIMPLE_RADIAL_FISHEYE", true, {kSlotF, kSlotCx, kSlotCy, distortion(0)}},
+      {9, "RADIAL_FISHEYE", true, {kSlotF, kSlotCx, kSlotCy, distortion(0), distortion(1)}},
       {5,
        "OPENCV_FISHEYE",
        true,
-       {kFx, kFy, kCx, kCy, distortion(0), distortion(1), distortion(2), distortion(3)}}};
+       {kSlotFx, kSlotFy, kSlotCx, kSlotCy, distortion(0), distortion(1), distortion(2), distortion(3)}}};
   return kModels;
 }
 
@@ -59,9 +62,10 @@ sphc_camera colmapCamera(const ColmapCameraModel &model, uint32_t width, uint32_
                          const std::vector<double> &params) {
   std::array<double, kFirstDistortion + 8> values{};
   for (size_t i = 0; i < model.slots.size(); ++i) values[model.slots[i]] = params[i];
-  if (model.slots[0] == kF) values[kFx] = values[kFy] = values[kF];
+  if (model.slots[0] == kSlotF) values[kSlotFx] = values[kSlotFy] = values[kSlotF];
   const Intrinsics intrinsics = {
-      values[kFx], values[kFy], values[kCx] + kCornerCentered, values[kCy] + kCornerCentered, width, height};
+      values[kSlotFx], values[kSlotFy], values[kSlotCx] + kCornerCentered, values[kSlotCy] + kCornerCentered,
+      width,           height};
   const double *k = values.data() + kFirstDistortion;
   return model.fisheye ? fisheyeCamera(intrinsics, {k[0], k[1], k[2], k[3]})
                        : brownCamera(intrinsics, {k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7]});

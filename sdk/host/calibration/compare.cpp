@@ -9,7 +9,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr int kGridColumns = 65, kGridRows = 49;
+constexpr int kComparedColumns = 65, kComparedRows = 49;
 
 class Tally {
  public:
@@ -37,10 +37,10 @@ class Tally {
 // Centres of pixels, corner to corner.
 template <typename Visit>
 void overGrid(const Camera &camera, Visit visit) {
-  for (int row = 0; row < kGridRows; ++row) {
-    for (int column = 0; column < kGridColumns; ++column) {
-      visit(Vector2(0.5 + column * (camera.width() - 1.0) / (kGridColumns - 1),
-                    0.5 + row * (camera.height() - 1.0) / (kGridRows - 1)));
+  for (int row = 0; row < kComparedRows; ++row) {
+    for (int column = 0; column < kComparedColumns; ++column) {
+      visit(Vector2(0.5 + column * (camera.width() - 1.0) / (kComparedColumns - 1),
+                    0.5 + row * (camera.height() - 1.0) / (kComparedRows - 1)));
     }
   }
 }

@@ -56,7 +56,7 @@ sphc_rigid readTransform(const YamlMap &map, const std::string &key) {
   return rigid;
 }
 
-std::string cameraText(const std::string &name, const sphc_camera &camera) {
+std::string kalibrCamera(const std::string &name, const sphc_camera &camera) {
   const std::vector<double> k = matrixFromCamera(camera, kZeroCentered);
   std::vector<double> distortion = opencvDistortion(camera);
   distortion.resize(4);
@@ -90,8 +90,8 @@ CalibrationPart readKalibr(const TextFile &file) {
 
 std::string kalibrText(const sphc_rig &calibration) {
   const RigidMatrix m = matrixFromRigid(inverse(calibration.color_from_depth));
-  std::string text = "# cam0: colour, cam1: depth\n" + cameraText("cam0", calibration.color_camera) +
-                     cameraText("cam1", calibration.depth_camera) + "  T_cn_cnm1:\n";
+  std::string text = "# cam0: colour, cam1: depth\n" + kalibrCamera("cam0", calibration.color_camera) +
+                     kalibrCamera("cam1", calibration.depth_camera) + "  T_cn_cnm1:\n";
   for (int i = 0; i < 3; ++i)
     text +=
         "  - [" + numbersText({m.rotation[3 * i], m.rotation[3 * i + 1], m.rotation[3 * i + 2], m.t_m[i]}) + "]\n";

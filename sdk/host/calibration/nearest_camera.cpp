@@ -9,7 +9,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr int kGridColumns = 33, kGridRows = 25;
+constexpr int kSampledColumns = 33, kSampledRows = 25;
 constexpr int kMostSteps = 200;
 constexpr double kRelativeStep = 1e-6;
 
@@ -52,11 +52,11 @@ sphc_camera firstGuess(WantedModel wanted, const sphc_camera &start) {
 std::vector<RaySample> sampleCamera(const sphc_camera &camera_c) {
   const Camera camera(camera_c);
   std::vector<RaySample> samples;
-  for (int row = 0; row < kGridRows; ++row) {
-    for (int column = 0; column < kGridColumns; ++column) {
+  for (int row = 0; row < kSampledRows; ++row) {
+    for (int column = 0; column < kSampledColumns; ++column) {
       RaySample sample;
-      sample.pixel_px = {0.5 + column * (camera_c.width - 1.0) / (kGridColumns - 1),
-                         0.5 + row * (camera_c.height - 1.0) / (kGridRows - 1)};
+      sample.pixel_px = {0.5 + column * (camera_c.width - 1.0) / (kSampledColumns - 1),
+                         0.5 + row * (camera_c.height - 1.0) / (kSampledRows - 1)};
       if (camera.unproject(sample.pixel_px, &sample.ray)) samples.push_back(sample);
     }
   }

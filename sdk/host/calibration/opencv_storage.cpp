@@ -15,7 +15,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr size_t kMostNumbers = 64;
+constexpr size_t kMostElements = 64;
 
 // OpenCV prints what it throws; we say it once, with the file's name.
 class QuietOpencv {
@@ -56,7 +56,7 @@ class Reader {
     const cv::FileNode node = storage_[key];
     if (node.empty()) fail(key, "missing; add it, as OpenCV's calibration samples write it");
     const cv::FileNode data = node.isMap() ? node["data"] : node;
-    if (!data.isSeq() || data.size() > kMostNumbers) fail(key, "must be a matrix with rows, cols and data");
+    if (!data.isSeq() || data.size() > kMostElements) fail(key, "must be a matrix with rows, cols and data");
     std::vector<double> result;
     for (const cv::FileNode value : data) {
       if (!value.isInt() && !value.isReal()) fail(key, "holds something that is no number");
@@ -140,17 +140,17 @@ CalibrationPart read(const TextFile &file) {
   return part;
 }
 
-std::string matrixText(const std::string &key, int rows, const std::vector<double> &data) {
+std::string opencvMatrix(const std::string &key, int rows, const std::vector<double> &data) {
   return key + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
          "\n   cols: " + std::to_string(data.size() / static_cast<size_t>(rows)) + "\n   dt: d\n   data: [ " +
          numbersText(data) + " ]\n";
 }
 
-std::string cameraText(const std::string &n, const sphc_camera &camera) {
+std::string opencvCamera(const std::string &n, const sphc_camera &camera) {
   return "image_width" + n + ": " + std::to_string(camera.width) + "\nimage_height" + n + ": " +
          std::to_string(camera.height) + "\nfisheye_model" + n + ": " + (isFisheye(camera) ? "1" : "0") + "\n" +
-         matrixText("M" + n, 3, matrixFromCamera(camera, kZeroCentered)) +
-         matrixText("D" + n, 1, opencvDistortion(camera));
+         opencvMatrix("M" + n, 3, matrixFromCamera(camera, kZeroCentered)) +
+         opencvMatrix("D" + n, 1, opencvDistortion(camera));
 }
 
 }  // namespace
@@ -169,13 +169,13 @@ CalibrationPart readOpencv(const TextFile &file) {
 
 std::string opencvExtrinsics(const sphc_rigid &depth_from_color) {
   const RigidMatrix m = matrixFromRigid(depth_from_color);
-  return "# x_2 = R x_1 + T, metres; 1: colour, 2: depth\n" + matrixText("R", 3, m.rotation) +
-         matrixText("T", 3, m.t_m);
+  return "# x_2 = R x_1 + T, metres; 1: colour, 2: depth\n" + opencvMatrix("R", 3, m.rotation) +
+         opencvMatrix("T", 3, m.t_m);
 }
 
 std::string opencvText(const sphc_rig &calibration) {
-  return "%YAML:1.0\n---\n" + cameraText("1", calibration.color_camera) +
-         cameraText("2", calibration.depth_camera) + opencvExtrinsics(inverse(calibration.color_from_depth));
+  return "%YAML:1.0\n---\n" + opencvCamera("1", calibration.color_camera) +
+         opencvCamera("2", calibration.depth_camera) + opencvExtrinsics(inverse(calibration.color_from_depth));
 }
 
 }  // namespace sphc::host

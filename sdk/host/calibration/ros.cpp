@@ -18,19 +18,19 @@ struct Distortion {
 constexpr std::array<Distortion, 3> kDistortions = {
     {{"plumb_bob", 5}, {"rational_polynomial", 8}, {"equidistant", 4}}};
 
-std::string matrixText(const std::string &key, size_t rows, size_t cols, const std::vector<double> &data) {
+std::string rosMatrix(const std::string &key, size_t rows, size_t cols, const std::vector<double> &data) {
   return key + ":\n  rows: " + std::to_string(rows) + "\n  cols: " + std::to_string(cols) + "\n  data: [" +
          numbersText(data) + "]\n";
 }
 
-std::string cameraText(const std::string &name, const sphc_camera &camera) {
+std::string rosCamera(const std::string &name, const sphc_camera &camera) {
   const std::vector<double> k = matrixFromCamera(camera, kZeroCentered), d = opencvDistortion(camera);
   const char *model = isFisheye(camera) ? "equidistant" : d.size() == 8 ? "rational_polynomial" : "plumb_bob";
   return "image_width: " + std::to_string(camera.width) + "\nimage_height: " + std::to_string(camera.height) +
-         "\ncamera_name: " + name + "\n" + matrixText("camera_matrix", 3, 3, k) + "distortion_model: " + model +
-         "\n" + matrixText("distortion_coefficients", 1, d.size(), d) +
-         matrixText("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}) +
-         matrixText("projection_matrix", 3, 4, {k[0], 0, k[2], 0, 0, k[4], k[5], 0, 0, 0, 1, 0});
+         "\ncamera_name: " + name + "\n" + rosMatrix("camera_matrix", 3, 3, k) + "distortion_model: " + model +
+         "\n" + rosMatrix("distortion_coefficients", 1, d.size(), d) +
+         rosMatrix("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+         rosMatrix("projection_matrix", 3, 4, {k[0], 0, k[2], 0, 0, k[4], k[5], 0, 0, 0, 1, 0});
 }
 
 }  // namespace
@@ -64,8 +64,8 @@ CalibrationPart readRos(const TextFile &file) {
 }
 
 std::vector<TextFile> rosTexts(const sphc_rig &calibration) {
-  return {{"color.yaml", cameraText("color", calibration.color_camera)},
-          {"depth.yaml", cameraText("depth", calibration.depth_camera)},
+  return {{"color.yaml", rosCamera("color", calibration.color_camera)},
+          {"depth.yaml", rosCamera("depth", calibration.depth_camera)},
           // camera_info has no place for it; in the keys of OpenCV's stereo sample
           {"extrinsics.yaml", "%YAML:1.0\n---\n" + opencvExtrinsics(inverse(calibration.color_from_depth))}};
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kMostFailuresTold = 12;
 
-struct Options {
+struct AdviseOptions {
   AdviceOptions advice;
   std::string picture;
   bool force = false;
@@ -40,7 +40,7 @@ std::string failuresText(const std::vector<Failure> &failures) {
   return text.empty() ? "  none\n" : text;
 }
 
-void tell(const Options &options, const Advice &advice, const Console &console) {
+void tell(const AdviseOptions &options, const Advice &advice, const Console &console) {
   std::vector<Row> rows = {
       {"points", std::to_string(advice.points), "before fakes replace most of their directions"},
       {"sphere covered", fixed(100 * advice.coverage.covered_share, 0) + " %", "within 5 deg of a point"},
@@ -81,7 +81,7 @@ void drawAdvice(const std::string &path, const Advice &advice) {
   writePicture(path, drawCoverage(advice.directions, advice.coverage.holes, views));
 }
 
-int run(const Options &options, const Console &console) {
+int run(const AdviseOptions &options, const Console &console) {
   FileUse files(options.force);
   files.reads(options.advice.recording);
   files.writes("--picture", options.picture, holds(kPictureMark));
@@ -98,13 +98,13 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kAdviseHelp[] =
     "Maps a recording several times, each time without a block of neighbouring frames, and localizes that block "
     "by\n"
     "the real localizer: what a device may expect that comes by later.  Tells which directions have no points, "
     "how\n"
     "recall falls with eta, and which frames fail and why.  Everything it says is private: it is for the owner.";
-const char kExample[] =
+const char kAdviseExample[] =
     "Example:\n"
     "  spherecloud advise --recording walk --last 99 --picture advice.png\n"
     "A frame fails for few keypoints (blank walls, blur, dark), few depths (too near, too far, dark surfaces) or "
@@ -114,10 +114,10 @@ const char kExample[] =
 }  // namespace
 
 Command adviseCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AdviseOptions>();
   CLI::App *app = root->add_subcommand("advise");
-  app->description("Look at a recording before its map is released.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Look at a recording before its map is released.\n\n" + std::string(kAdviseHelp));
+  app->footer(kAdviseExample);
   addRecordingOptions(app, &options->advice.recording);
   app->add_option("--folds", options->advice.folds, "Blocks of frames held out in turn")
       ->capture_default_str()

@@ -21,7 +21,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct AuditOptions {
   std::string map, truth, report, figures, name, networks;
   RecordingOptions recording;
   std::vector<std::string> releases, limits, allow_unmeasured;
@@ -29,7 +29,7 @@ struct Options {
   bool quick = false, force = false;
 };
 
-FileUse fileUse(const Options &options) {
+FileUse fileUse(const AuditOptions &options) {
   FileUse files(options.force);
   files.reads("the map", options.map);
   files.reads("--truth", options.truth);
@@ -42,7 +42,7 @@ FileUse fileUse(const Options &options) {
 }
 
 // The place of the ledger that released this file.
-Place placeOf(const Options &options, const std::vector<uint8_t> &file) {
+Place placeOf(const AuditOptions &options, const std::vector<uint8_t> &file) {
   for (const Place &place : Ledger::openToRead(options.truth).places()) {
     const Release *released = releaseOf(place, file);
     if (!released) continue;
@@ -54,7 +54,7 @@ Place placeOf(const Options &options, const std::vector<uint8_t> &file) {
                            "; give the ledger it was built with, and the file as it was built");
 }
 
-std::vector<InversionView> viewsOf(const Options &options, const Place &place) {
+std::vector<InversionView> viewsOf(const AuditOptions &options, const Place &place) {
   return viewsFromCentre(openRecording(options.recording).get(), place.centre_m);
 }
 
@@ -63,14 +63,14 @@ std::vector<uint8_t> readMap(const std::string &path) {
   return readMapFile(path);
 }
 
-std::string networksOf(const Options &options) {
+std::string networksOf(const AuditOptions &options) {
   if (!options.networks.empty() && !std::filesystem::is_directory(options.networks))
     throw std::runtime_error("--networks " + options.networks +
                              " is not a folder; give the one with *.onnx and *.json");
   return options.networks.empty() ? auditNetworks() : options.networks;
 }
 
-AuditInput inputOf(const Options &options) {
+AuditInput inputOf(const AuditOptions &options) {
   AuditInput input;
   input.file = readMap(options.map);
   input.quick = options.quick;
@@ -85,7 +85,7 @@ AuditInput inputOf(const Options &options) {
   return input;
 }
 
-AuditRules rulesOf(const Options &options) {
+AuditRules rulesOf(const AuditOptions &options) {
   AuditRules rules;
   rules.allow_unmeasured = options.allow_unmeasured;
   for (const std::string &text : options.limits) {
@@ -109,7 +109,7 @@ AuditRules rulesOf(const Options &options) {
 }
 
 // For a table of results.
-std::vector<PrivacyRow> rowsOf(const Options &options, const MapAudit &audit, const AuditInput &input) {
+std::vector<PrivacyRow> rowsOf(const AuditOptions &options, const MapAudit &audit, const AuditInput &input) {
   const std::string name = options.name.empty() ? std::filesystem::path(options.map).stem().string() : options.name;
   std::vector<PrivacyRow> rows;
   for (const AuditFigure &figure : audit.figures) {
@@ -173,7 +173,7 @@ int exitCodeOf(AuditOutcome outcome) {
   return kExitAuditIncomplete;
 }
 
-int run(const Options &options, const Console &console) {
+int run(const AuditOptions &options, const Console &console) {
   if (options.truth.empty() && !options.recording.folder.empty())
     throw UsageError("--recording tells nothing without --truth; give the ledger too");
   const AuditRules rules = rulesOf(options);
@@ -188,11 +188,11 @@ int run(const Options &options, const Console &console) {
   return exitCodeOf(audit.outcome());
 }
 
-const char kHelp[] =
+const char kAuditHelp[] =
     "Runs the attacks that are known against a map file and scores them by what its owner knows: density of\n"
     "lines, real against fake, inverted pictures, other releases, a querying client.  Ends with status 4 when a\n"
     "limit is broken, and with 5 when a limit was not measured, so that a release stops there.";
-const char kExample[] =
+const char kAuditExample[] =
     "Example:\n"
     "  spherecloud audit room.sphc --truth spherecloud.ledger --recording walk --last 99 --report audit\n"
     "  spherecloud audit room.sphc --quick --allow-unmeasured truth --allow-unmeasured releases\n"
@@ -203,10 +203,10 @@ const char kExample[] =
 }  // namespace
 
 Command auditCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AuditOptions>();
   CLI::App *app = root->add_subcommand("audit");
-  app->description("Attack a map before others do.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Attack a map before others do.\n\n" + std::string(kAuditHelp));
+  app->footer(kAuditExample);
   app->add_option("map", options->map, "Map file")->required()->type_name("MAP");
   app->add_option("--truth", options->truth, "Ledger that released the map")->type_name("FILE");
   addRecordingOptions(app, &options->recording);

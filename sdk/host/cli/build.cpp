@@ -21,7 +21,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct BuildOptions {
   PointSource source;
   std::string map, key, ledger, save_model;
   std::vector<std::string> against;
@@ -31,12 +31,12 @@ struct Options {
   bool new_place = false, understood = false, force = false;
 };
 
-std::string ledgerPath(const Options &options) {
+std::string ledgerPath(const BuildOptions &options) {
   if (!options.ledger.empty()) return options.ledger;
   return (std::filesystem::path(options.map).parent_path() / "spherecloud.ledger").string();
 }
 
-std::string notePath(const Options &options) { return options.map + ".owner.json"; }
+std::string notePath(const BuildOptions &options) { return options.map + ".owner.json"; }
 
 // Whether a place, where that is known, released the map file or the map of the note.
 bool didRelease(const Place &place, const std::string &map) { return releaseOf(place, readBytes(map)) != nullptr; }
@@ -52,7 +52,7 @@ bool didReleaseNoted(const Place &place, const std::string &note) {
 using DidRelease = bool(const Place &place, const std::string &path);
 
 // By any place of the ledger, which is not made for this.
-IsOurs releasedByLedger(const Options &options, DidRelease *did_release) {
+IsOurs releasedByLedger(const BuildOptions &options, DidRelease *did_release) {
   return [ledger = ledgerPath(options), did_release](const std::string &path) {
     if (!std::filesystem::exists(ledger)) return false;
     const std::vector<Place> places = Ledger::openToRead(ledger).places();
@@ -60,7 +60,7 @@ IsOurs releasedByLedger(const Options &options, DidRelease *did_release) {
   };
 }
 
-FileUse fileUse(const Options &options) {
+FileUse fileUse(const BuildOptions &options) {
   FileUse files(options.force);
   files.reads(options.source.recording);
   files.reads("--colmap", options.source.colmap.model);
@@ -78,7 +78,7 @@ FileUse fileUse(const Options &options) {
 }
 
 // Releases of one place replace each other; those of another place are another map.
-void checkSamePlace(const Options &options, const Place &place) {
+void checkSamePlace(const BuildOptions &options, const Place &place) {
   const auto check = [&](const std::string &path, DidRelease *did_release) {
     std::error_code error;
     const bool is_file =
@@ -92,20 +92,20 @@ void checkSamePlace(const Options &options, const Place &place) {
   check(notePath(options), didReleaseNoted);
 }
 
-Ledger openLedger(const Options &options) {
+Ledger openLedger(const BuildOptions &options) {
   if (options.key.empty()) return Ledger::openOrMake(ledgerPath(options), nullptr);
   const SecretKey key = readSecretKey(options.key);
   return Ledger::openOrMake(ledgerPath(options), &key);
 }
 
-std::vector<Place> placesOfOthers(const Options &options) {
+std::vector<Place> placesOfOthers(const BuildOptions &options) {
   std::vector<Place> places;
   for (const std::string &path : options.against)
     for (Place &place : Ledger::openToRead(path).places()) places.push_back(std::move(place));
   return places;
 }
 
-ReleaseRequest requestOf(const Options &options, const Ledger &ledger, const FakeStrategy *strategy) {
+ReleaseRequest requestOf(const BuildOptions &options, const Ledger &ledger, const FakeStrategy *strategy) {
   ReleaseRequest request;
   request.own = ledger.places();
   request.foreign = placesOfOthers(options);
@@ -128,7 +128,7 @@ struct Outcome {
   double seconds = 0;
 };
 
-Outcome build(const Options &options) {
+Outcome build(const BuildOptions &options) {
   const auto start = std::chrono::steady_clock::now();
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
@@ -168,7 +168,7 @@ std::string releaseText(const Outcome &outcome) {
   return text + "; " + count(release.near_duplicates, " near-duplicates merged.");
 }
 
-void tell(const Options &options, const Outcome &outcome, const Console &console) {
+void tell(const BuildOptions &options, const Outcome &outcome, const Console &console) {
   for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
   console.say(outcome.import.told + " " + fixed(outcome.seconds, 1) + " s.");
   console.say(releaseText(outcome));
@@ -204,7 +204,7 @@ nlohmann::ordered_json releaseJson(const Outcome &outcome) {
             {"t_m", {t.x(), t.y(), t.z()}}}}};
 }
 
-int run(const Options &options, const Console &console) {
+int run(const BuildOptions &options, const Console &console) {
   const Outcome outcome = build(options);
   const MapId &map_id = outcome.place.releases.back().map_id;
   if (options.understood) console.warn("note: --i-understand: points that other maps hold too are now exposed");
@@ -224,11 +224,11 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kBuildHelp[] =
     "Makes a sphere cloud, the map that a device carries, from frames with known poses: finds points seen in\n"
     "several frames, keeps of each only its direction from one centre, turns most of them into fakes, shuffles.\n"
     "A place that the ledger knows is updated: what was published of it stays as it is, new points are added.";
-const char kExample[] =
+const char kBuildExample[] =
     "Example:\n"
     "  spherecloud build --recording walk --last 99 --map room.sphc\n"
     "  spherecloud build --colmap sparse/0 --images images --depth depth --calibration kinect.json --map "
@@ -242,7 +242,7 @@ const char kExample[] =
     "  spherecloud.ledger      the secret key, and what was ever released: keep it, back it up, never ship it\n"
     "Never publish two independent maps of one place: docs/release.md.";
 
-void addReleaseOptions(CLI::App *app, Options *options) {
+void addReleaseOptions(CLI::App *app, BuildOptions *options) {
   const char *group = "Release";
   app->add_option("--ledger", options->ledger, "What was released [spherecloud.ledger in the map's folder]")
       ->type_name("FILE")
@@ -260,7 +260,7 @@ void addReleaseOptions(CLI::App *app, Options *options) {
   addForceOption(app, &options->force);
 }
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, BuildOptions *options) {
   addPointSourceOptions(app, &options->source);
   app->add_option("-m,--map", options->map, "Map file to write")->required()->type_name("FILE");
   app->add_option("--save-model", options->save_model,
@@ -292,10 +292,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command buildCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BuildOptions>();
   CLI::App *app = root->add_subcommand("build");
-  app->description("Make a map from a recording with poses.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Make a map from a recording with poses.\n\n" + std::string(kBuildHelp));
+  app->footer(kBuildExample);
   addOptions(app, options.get());
   return {app, [options](const Console &console) { return run(*options, console); }};
 }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kExactPx = 1e-6;
 
-struct Options {
+struct CalibrationOptions {
   std::vector<std::string> files;
   std::string format, to, out, color_size, depth_size;
   std::vector<double> color_from_depth;
@@ -51,7 +51,7 @@ ImageSize sizeOf(const std::string &option, const std::string &text) {
   return size;
 }
 
-JoinOptions joinOptions(const Options &options) {
+JoinOptions joinOptions(const CalibrationOptions &options) {
   JoinOptions join = options.join;
   if (!options.color_size.empty()) join.color_size = sizeOf("--color-size", options.color_size);
   if (!options.depth_size.empty()) join.depth_size = sizeOf("--depth-size", options.depth_size);
@@ -125,7 +125,7 @@ nlohmann::ordered_json readJson(const ReadCalibration &read) {
   return json;
 }
 
-std::vector<std::string> writeFiles(const Options &options, Format format, const sphc_rig &calibration) {
+std::vector<std::string> writeFiles(const CalibrationOptions &options, Format format, const sphc_rig &calibration) {
   const std::vector<TextFile> files = writeCalibration(format, calibration);
   const std::string &out = options.out;
   std::vector<std::string> paths;
@@ -168,7 +168,7 @@ std::vector<std::pair<std::string, PixelDifference>> parts(const CalibrationDiff
   return result;
 }
 
-nlohmann::ordered_json convert(const Options &options, Format format, const sphc_rig &calibration,
+nlohmann::ordered_json convert(const CalibrationOptions &options, Format format, const sphc_rig &calibration,
                                const Console &console) {
   const sphc_rig fitted = fitToFormat(calibration, format, options.join.approximate);
   const std::vector<std::string> paths = writeFiles(options, format, fitted);
@@ -193,7 +193,7 @@ nlohmann::ordered_json convert(const Options &options, Format format, const sphc
   return json;
 }
 
-int calibration(const Options &options, const Console &console) {
+int calibration(const CalibrationOptions &options, const Console &console) {
   if (options.out.empty() && !options.to.empty())
     throw UsageError("--to names a format, but --out names no file; give both");
   const ReadCalibration read = readCalibrationFiles(options.files, formatOf(options.format), joinOptions(options));
@@ -206,11 +206,11 @@ int calibration(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kCalibrationHelp[] =
     "Reads calibration files of OpenCV, Kalibr, ROS, COLMAP, Azure Kinect or this SDK, shows what they say, and\n"
     "writes it in another of these formats.  What was written is read again and compared: the round-trip error.\n"
     "Files with one camera: first that of colour, then that of depth, then one with R and T.";
-const char kExample[] =
+const char kCalibrationExample[] =
     "Example:\n"
     "  spherecloud calibration camchain.yaml\n"
     "  spherecloud calibration camchain.yaml --out calibration.json\n"
@@ -219,7 +219,7 @@ const char kExample[] =
     "kinect.yml\n"
     "docs/calibration.md has what each format can hold, and what is assumed of it.";
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, CalibrationOptions *options) {
   app->add_option("files", options->files, "Calibration files; a folder stands for its cameras.txt")
       ->required()
       ->type_name("FILE");
@@ -261,10 +261,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command calibrationCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrationOptions>();
   CLI::App *app = root->add_subcommand("calibration");
-  app->description("Show and convert calibration files.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Show and convert calibration files.\n\n" + std::string(kCalibrationHelp));
+  app->footer(kCalibrationExample);
   addOptions(app, options.get());
   return {app, [options](const Console &console) { return calibration(*options, console); }};
 }

@@ -23,7 +23,7 @@ namespace {
 
 enum class Target { kByName, kMcap, kTum, k7Scenes, kRaw };
 
-struct Options {
+struct ConvertOptions {
   std::string in, out, calibration;
   Target target = Target::kByName;
   sphc_recorder_config recorder = {};
@@ -44,7 +44,7 @@ struct ReplayCloser {
 };
 using Replay = std::unique_ptr<sphc_replay, ReplayCloser>;
 
-Replay openStreams(const Options &options) {
+Replay openStreams(const ConvertOptions &options) {
   sphc_replay *replay = nullptr;
   const char *calibration = options.calibration.empty() ? nullptr : options.calibration.c_str();
   orThrow("cannot open the recording", [&](sphc_message *message) {
@@ -162,7 +162,7 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
   return result;
 }
 
-Result convertFrames(const Options &options, const Console &console, Facts *facts) {
+Result convertFrames(const ConvertOptions &options, const Console &console, Facts *facts) {
   RecordingOptions in;
   in.folder = options.in;
   in.calibration = options.calibration;
@@ -175,7 +175,7 @@ Result convertFrames(const Options &options, const Console &console, Facts *fact
                                         : write7Scenes(reader.get(), options.out, console);
 }
 
-Result convertStreams(const Options &options, const Console &console, Facts *facts) {
+Result convertStreams(const ConvertOptions &options, const Console &console, Facts *facts) {
   const Replay replay = openStreams(options);
   const sphc_replay_info info = infoOf(replay.get());
   *facts = {info.is_cut != 0, info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count,
@@ -187,7 +187,7 @@ Result convertStreams(const Options &options, const Console &console, Facts *fac
 }
 
 // What the new layout does not keep.
-void tellLosses(const Options &options, const Facts &facts, const Result &result, const Console &console) {
+void tellLosses(const ConvertOptions &options, const Facts &facts, const Result &result, const Console &console) {
   const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
   if (facts.is_cut) console.warn("note: " + options.in + " was cut off; all of its whole chunks are kept");
   if (facts.bad_chunk_count)
@@ -212,7 +212,7 @@ Target targetByName(const std::string &out) {
   return isRaw(out) ? Target::kRaw : Target::kTum;
 }
 
-int convert(Options options, const Console &console) {
+int convert(ConvertOptions options, const Console &console) {
   const Target by_name = targetByName(options.out);
   if (options.target == Target::kByName) options.target = by_name;
   const bool is_folder = options.target == Target::kTum || options.target == Target::k7Scenes;
@@ -240,12 +240,12 @@ int convert(Options options, const Console &console) {
   return result.unreadable ? kExitFailure : kExitDone;
 }
 
-const char kHelp[] =
+const char kConvertHelp[] =
     "Reads a recording in any layout (TUM, 7-Scenes, MCAP) and writes it in another, with its calibration and\n"
     "poses.  Images stay the same to the bit, unless --jpeg is given.  A recording that was cut off becomes "
     "whole.\n"
     "Raw is for devices: frames as they are in memory, which drivers/raw reads without a library.";
-const char kExample[] =
+const char kConvertExample[] =
     "Example:\n"
     "  spherecloud convert walk walk.mcap                 a folder into one file\n"
     "  spherecloud convert walk.mcap walk                 a file into a folder of the TUM layout\n"
@@ -256,11 +256,11 @@ const char kExample[] =
 }  // namespace
 
 Command convertCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertOptions>();
   options->recorder = patientRecorderConfig();
   CLI::App *app = root->add_subcommand("convert");
-  app->description("Turn a recording into another layout.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Turn a recording into another layout.\n\n" + std::string(kConvertHelp));
+  app->footer(kConvertExample);
   app->add_option("in", options->in, "Recording: a folder or a .mcap file")->required()->type_name("IN");
   app->add_option("out", options->out, "New folder, or new file X.mcap or X.raw")->required()->type_name("OUT");
   app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")

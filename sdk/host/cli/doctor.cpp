@@ -17,7 +17,7 @@ namespace {
 using Grade = Finding::Grade;
 constexpr uint32_t kEveryPair = 5;  // of the pairs, those whose geometry is looked at
 
-struct Options {
+struct DoctorOptions {
   RigOptions rig;
   uint32_t frames = 60;
 };
@@ -45,7 +45,7 @@ bool fits(const sphc_image &image, const sphc_camera &camera) {
   return image.width == camera.width && image.height == camera.height;
 }
 
-Findings lookAt(const Options &options, const Console &console) {
+Findings lookAt(const DoctorOptions &options, const Console &console) {
   StatusLine line;
   Findings findings;
   Rig rig(options.rig, [&](const std::string &trouble) {
@@ -85,7 +85,7 @@ Findings lookAt(const Options &options, const Console &console) {
   return findings;
 }
 
-int run(const Options &options, const Console &console) {
+int run(const DoctorOptions &options, const Console &console) {
   const bool has_cameras = !options.rig.both.empty() || !options.rig.color.empty() || !options.rig.depth.empty();
   if (has_cameras) checkRigOptions(options.rig);
   const Findings findings = has_cameras ? lookAt(options, console) : lookAround();
@@ -103,7 +103,7 @@ int run(const Options &options, const Console &console) {
   return wrong ? kExitFailure : kExitDone;
 }
 
-const char kExample[] =
+const char kDoctorExample[] =
     "Example:\n"
     "  spherecloud doctor                                              this machine\n"
     "  spherecloud doctor --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json\n"
@@ -113,7 +113,7 @@ const char kExample[] =
 }  // namespace
 
 Command doctorCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DoctorOptions>();
   CLI::App *app = root->add_subcommand("doctor");
   app->description(
       "Say what is wrong with cameras, and the cure.\n\nWithout cameras: what is plugged in, and may be opened.  "
@@ -121,7 +121,7 @@ Command doctorCommand(CLI::App *root) {
       "whether "
       "depth lies on the image\nas the calibration says, or would do so if it were mirrored, turned or registered "
       "already.");
-  app->footer(kExample);
+  app->footer(kDoctorExample);
   addRigOptions(app, &options->rig);
   app->add_option("--frames", options->frames, "Pairs to check")
       ->capture_default_str()

@@ -12,7 +12,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct InspectOptions {
   std::string map, picture;
   bool no_picture = false, force = false;
 };
@@ -60,12 +60,12 @@ nlohmann::ordered_json json(const MapFacts &facts, const MapAnatomy &anatomy) {
   return value;
 }
 
-std::string picturePath(const Options &options) {
+std::string picturePath(const InspectOptions &options) {
   if (options.no_picture) return "";
   return options.picture.empty() ? options.map + ".directions.png" : options.picture;
 }
 
-int inspect(const Options &options, const Console &console) {
+int inspect(const InspectOptions &options, const Console &console) {
   FileUse files(options.force);
   files.reads("the map", options.map);
   files.writes("--picture", picturePath(options), holds(kPictureMark));
@@ -90,7 +90,7 @@ int inspect(const Options &options, const Console &console) {
 }  // namespace
 
 Command inspectCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectOptions>();
   CLI::App *app = root->add_subcommand("inspect");
   app->description(
       "Show a map file in detail, with a picture.\n\nChecks a map file and shows what an outsider can see in it: "

@@ -17,7 +17,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct LiveOptions {
   RigOptions rig;
   std::vector<std::string> maps;
   uint32_t frames = 0;
@@ -25,7 +25,7 @@ struct Options {
   bool every = false;
 };
 
-struct Tally {
+struct LiveTally {
   uint32_t frames = 0, localized = 0, skipped = 0;
   double total_ms = 0;
   Rate color, depth, poses;
@@ -42,7 +42,7 @@ std::string poseText(const sphc_result &result) {
   return text;
 }
 
-std::string statusText(const Tally &tally, const sphc_result &result, const Rig &rig, double ms) {
+std::string statusText(const LiveTally &tally, const sphc_result &result, const Rig &rig, double ms) {
   const sphc_pairer_counts counts = rig.counts();
   char text[256];
   std::snprintf(text, sizeof text, "%-12s %s | %u inliers, %.1f ms | %.0f + %.0f in, %.0f poses/s | lost %llu",
@@ -93,7 +93,7 @@ uint32_t skipToNewest(Rig *rig, sphc_pair *pair) {
 }
 
 void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spherecloud::Localizer *localizer,
-            StatusLine *line, Tally *tally) {
+            StatusLine *line, LiveTally *tally) {
   sphc_result result = spherecloud::emptyResult();
   const auto begin = std::chrono::steady_clock::now();
   const spherecloud::Status status = localizer->process(frameOf(pair), &result);
@@ -110,13 +110,13 @@ void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spher
   line->show(statusText(*tally, result, rig, ms));
 }
 
-bool isOver(const Options &options, const Tally &tally, std::chrono::steady_clock::time_point begin) {
+bool isOver(const LiveOptions &options, const LiveTally &tally, std::chrono::steady_clock::time_point begin) {
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return (options.frames > 0 && tally.frames >= options.frames) ||
          (options.seconds > 0 && elapsed_s >= options.seconds);
 }
 
-void sayTally(const Tally &tally, const Rig &rig, const Console &console) {
+void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
   const sphc_pairer_counts counts = rig.counts();
   console.say("Frames processed: " + std::to_string(tally.frames) +
               ", localized: " + std::to_string(tally.localized) +
@@ -134,7 +134,7 @@ void sayTally(const Tally &tally, const Rig &rig, const Console &console) {
   if (!troubles.empty()) console.say(troubles);
 }
 
-int run(const Options &options, const Console &console) {
+int run(const LiveOptions &options, const Console &console) {
   checkRigOptions(options.rig);
   std::vector<MapFile> maps;
   for (const std::string &path : options.maps) maps.push_back(openMapFile(path));
@@ -147,7 +147,7 @@ int run(const Options &options, const Console &console) {
   sphc_config config = spherecloud::defaultConfig();
   setCameras(calibrationOf(options.rig, rig), &config);
   spherecloud::Localizer localizer = makeLocalizer(config, maps);
-  Tally tally;
+  LiveTally tally;
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? tally.color : tally.depth).count(); });
   const bool every = options.every || rig.waits();
   const Interrupt interrupt;
@@ -174,7 +174,7 @@ int run(const Options &options, const Console &console) {
   return tally.localized > 0 ? kExitDone : kExitNotLocalized;
 }
 
-const char kExample[] =
+const char kLiveExample[] =
     "Example:\n"
     "  spherecloud live --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --map room.sphc\n"
     "  spherecloud live --color libcamera: --depth v4l2:card=ToF -c headset.json --map room.sphc --json\n"
@@ -185,12 +185,12 @@ const char kExample[] =
 }  // namespace
 
 Command liveCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LiveOptions>();
   CLI::App *app = root->add_subcommand("live");
   app->description(
       "Capture, pair, localize: where is the camera now?\n\nOn a terminal one line shows the pose, its confidence, "
       "rates and losses; with --json a line of\nJSON comes for every frame.");
-  app->footer(kExample);
+  app->footer(kLiveExample);
   addRigOptions(app, &options->rig);
   app->add_option("-m,--map", options->maps, "Map file; repeat for more rooms")
       ->required()

@@ -23,7 +23,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct LocalizeOptions {
   RecordingOptions recording;
   std::vector<std::string> maps, owner_notes;
   std::string trajectory, frames_json, report;
@@ -31,7 +31,7 @@ struct Options {
   sphc_config config = spherecloud::defaultConfig();
 };
 
-FileUse fileUse(const Options &options) {
+FileUse fileUse(const LocalizeOptions &options) {
   FileUse files(options.force);
   files.reads(options.recording);
   for (const std::string &map : options.maps) files.reads("--map", map);
@@ -42,7 +42,7 @@ FileUse fileUse(const Options &options) {
   return files;
 }
 
-void readNotes(const Options &options, LocalizeInput *input, Run *run) {
+void readNotes(const LocalizeOptions &options, LocalizeInput *input, Run *run) {
   if (options.owner_notes.empty()) return;
   if (options.owner_notes.size() != options.maps.size())
     throw UsageError("--owner-note: give one for each --map, in the same order, or none");
@@ -54,7 +54,7 @@ void readNotes(const Options &options, LocalizeInput *input, Run *run) {
   run->base = "world";
 }
 
-Run localize(const Options &options, RecordingReader *reader, const Console &console) {
+Run localize(const LocalizeOptions &options, RecordingReader *reader, const Console &console) {
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
   LocalizeInput input;
@@ -81,7 +81,7 @@ cv::Mat imageOf(RecordingReader *reader, const FrameRecord &frame) {
   return image ? bgrFromImage(image->color) : cv::Mat();
 }
 
-void writeOutputs(const Options &options, const Run &run, RecordingReader *reader, const Console &console) {
+void writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReader *reader, const Console &console) {
   if (!options.trajectory.empty()) {
     writeFile(options.trajectory, tumTrajectory(run));
     console.say("Trajectory (" + run.base + "_from_camera): " + options.trajectory);
@@ -97,7 +97,7 @@ void writeOutputs(const Options &options, const Run &run, RecordingReader *reade
   console.say("Report with pictures: " + report.page);
 }
 
-int run(const Options &options, const Console &console) {
+int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
   const Run done = localize(options, reader.get(), console);
@@ -112,11 +112,11 @@ int run(const Options &options, const Console &console) {
   return kExitNotLocalized;
 }
 
-const char kHelp[] =
+const char kLocalizeHelp[] =
     "Gives every frame of a recording to the localizer, together with a map, and tells where the camera was.\n"
     "Frames go through the same C interface as on a device.  With the owner's note the answers come in the\n"
     "recording's world and are compared with its poses; without it they are in the map's own frame.";
-const char kExample[] =
+const char kLocalizeExample[] =
     "Example:\n"
     "  spherecloud localize --recording walk --first 100 --map room.sphc\n"
     "  spherecloud localize --recording walk --first 100 --map room.sphc \\\n"
@@ -126,7 +126,7 @@ const char kExample[] =
     "What comes out: one table; with --report a folder with report.html and pictures; with --trajectory a path\n"
     "that evo reads (evo_traj tum path.tum).  Exit status 3: it ran, but not one frame was localized.";
 
-void addOutputs(CLI::App *app, Options *options) {
+void addOutputs(CLI::App *app, LocalizeOptions *options) {
   const char *group = "Output";
   app->add_option("--trajectory", options->trajectory, "Localized poses in TUM format")
       ->type_name("FILE")
@@ -172,10 +172,10 @@ void addLocalizerOptions(CLI::App *app, sphc_config *config) {
 }  // namespace
 
 Command localizeCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LocalizeOptions>();
   CLI::App *app = root->add_subcommand("localize");
-  app->description("Find where the camera was, in a map.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Find where the camera was, in a map.\n\n" + std::string(kLocalizeHelp));
+  app->footer(kLocalizeExample);
   addRecordingOptions(app, &options->recording);
   app->add_option("-m,--map", options->maps, "Map file; repeat for more rooms")
       ->required()

@@ -20,7 +20,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct RecordOptions {
   RigOptions rig;
   std::string out;
   double seconds = 0;
@@ -32,7 +32,7 @@ struct RecorderCloser {
 };
 using Recorder = std::unique_ptr<sphc_recorder, RecorderCloser>;
 
-Recorder openRecorder(const std::string &path, const Options &options, const sphc_rig &calibration) {
+Recorder openRecorder(const std::string &path, const RecordOptions &options, const sphc_rig &calibration) {
   sphc_recorder *recorder = nullptr;
   orThrow("cannot record", [&](sphc_message *message) {
     return sphc_recorder_open(path.c_str(), &calibration, &options.recorder, &recorder, message);
@@ -48,7 +48,7 @@ sphc_recorder_statistics statisticsOf(const sphc_recorder *recorder) {
 }
 
 // What was given to the recorder.
-struct Tally {
+struct RecordTally {
   uint64_t color = 0, depth = 0, raw_bytes = 0;
   Rate color_rate, depth_rate;
 
@@ -60,7 +60,7 @@ struct Tally {
   }
 };
 
-std::string statusText(const sphc_recorder_statistics &s, const Tally &tally) {
+std::string statusText(const sphc_recorder_statistics &s, const RecordTally &tally) {
   char text[160];
   std::snprintf(text, sizeof text, "%llu colour (%.0f/s), %llu depth (%.0f/s), %s; dropped %llu, never came %llu",
                 static_cast<unsigned long long>(tally.color), tally.color_rate.hz(),
@@ -70,8 +70,8 @@ std::string statusText(const sphc_recorder_statistics &s, const Tally &tally) {
   return text;
 }
 
-void sayResult(const Options &options, const Tally &tally, const sphc_recorder_statistics &s, const Rig &rig,
-               const Console &console) {
+void sayResult(const RecordOptions &options, const RecordTally &tally, const sphc_recorder_statistics &s,
+               const Rig &rig, const Console &console) {
   const uint64_t file_bytes = std::filesystem::file_size(options.out);
   console.say("Wrote " + options.out + ": " + std::to_string(tally.color) + " colour and " +
               std::to_string(tally.depth) + " depth images, " + humanBytes(static_cast<double>(file_bytes)) +
@@ -90,8 +90,8 @@ void sayResult(const Options &options, const Tally &tally, const sphc_recorder_s
 }
 
 // Until the cameras end, a signal comes or the time is over.
-void recordAll(const Options &options, const Interrupt &interrupt, Rig *rig, sphc_recorder *recorder,
-               StatusLine *line, Tally *tally, const Rig::Tell &tell) {
+void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *rig, sphc_recorder *recorder,
+               StatusLine *line, RecordTally *tally, const Rig::Tell &tell) {
   rig->watch([recorder, tally, &options, &tell](const sphc_capture &capture) {
     sphc_message message = {};
     const sphc_status status = sphc_recorder_add(recorder, &capture, &message);
@@ -116,7 +116,7 @@ void recordAll(const Options &options, const Interrupt &interrupt, Rig *rig, sph
   line->wipe();
 }
 
-int run(const Options &options, const Console &console) {
+int run(const RecordOptions &options, const Console &console) {
   checkRigOptions(options.rig);
   if (!isMcap(options.out)) throw UsageError("--out: the file's name must end with .mcap: " + options.out);
   FileUse files(false);
@@ -133,7 +133,7 @@ int run(const Options &options, const Console &console) {
   const Interrupt interrupt;  // from before there is a file
   NewRecording recording(options.out, NewRecording::IfCut::kKeep);
   Recorder recorder = openRecorder(recording.part(), options, calibrationOf(options.rig, rig));
-  Tally tally;
+  RecordTally tally;
   sphc_recorder_statistics statistics = {};
   try {
     recordAll(options, interrupt, &rig, recorder.get(), &line, &tally, tell);
@@ -149,7 +149,7 @@ int run(const Options &options, const Console &console) {
   return tally.color > 0 && tally.depth > 0 ? kExitDone : kExitFailure;
 }
 
-const char kExample[] =
+const char kRecordExample[] =
     "Example:\n"
     "  spherecloud record --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --out walk.mcap\n"
     "  spherecloud record --device openni2: -c kinect.json --out walk.mcap --seconds 60\n"
@@ -159,14 +159,14 @@ const char kExample[] =
 }  // namespace
 
 Command recordCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RecordOptions>();
   sphc_recorder_config_init(&options->recorder, sizeof options->recorder);
   options->rig.wish.color_images = true;
   CLI::App *app = root->add_subcommand("record");
   app->description(
       "Record cameras into one file that survives a crash.\n\nEvery image is kept as it came, paired or not; what "
       "was lost or dropped is listed in the file.");
-  app->footer(kExample);
+  app->footer(kRecordExample);
   addRigOptions(app, &options->rig);
   app->add_option("-o,--out", options->out, "The file, ending in .mcap")->required()->type_name("FILE");
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());

@@ -17,7 +17,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string out;
   sphc_simulated_config config = {};
   std::string with;
@@ -29,7 +29,7 @@ struct SimulatedCloser {
 };
 using Simulated = std::unique_ptr<sphc_simulated, SimulatedCloser>;
 
-Simulated openHeadset(const Options &options) {
+Simulated openHeadset(const SimulateOptions &options) {
   sphc_simulated_config config = options.config;
   config.ideal_depth = options.ideal_depth ? 1 : 0;
   config.color_noise = options.no_noise ? 0 : 1;
@@ -82,7 +82,7 @@ void record(sphc_simulated *simulated, RecordingOut *out) {
 }
 
 // Which frames belong to which lap, so that the hint after the run can be copied.
-void tellNext(const Options &options, const Console &console) {
+void tellNext(const SimulateOptions &options, const Console &console) {
   const double lap_frames = (options.config.lap_s - options.config.walk_start_s) * options.config.frame_rate_hz;
   const auto second_lap = static_cast<uint32_t>(std::lround(std::max(lap_frames, 0.0)));
   if (second_lap == 0 || second_lap >= options.config.frame_count) return;
@@ -92,7 +92,7 @@ void tellNext(const Options &options, const Console &console) {
               std::to_string(second_lap) + " on, can then be localized in it.");
 }
 
-int simulate(const Options &options, const Console &console) {
+int simulate(const SimulateOptions &options, const Console &console) {
   FileUse files(false);
   files.writesRecording("--out", options.out);
   files.check();
@@ -113,11 +113,11 @@ int simulate(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kSimulateHelp[] =
     "Records a walk of a headset that exists only in memory: a furnished room, a colour camera and a\n"
     "time-of-flight camera with their usual faults, and exact poses.  The walk has two laps around the room;\n"
     "lap two sees the same places from elsewhere, so map one and query the other.";
-const char kExample[] =
+const char kSimulateExample[] =
     "Example:\n"
     "  spherecloud simulate --out walk            200 frames, two laps of 100\n"
     "  spherecloud simulate --out walk30 --frames 960 --rate 30 --seed 7\n"
@@ -138,7 +138,7 @@ const char kWithHelp[] =
     "  mirror, window  depth goes on behind the glass: to the image, to nothing\n"
     "  day, night, dark   the sun alone, a floor lamp alone, hardly any light";
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, SimulateOptions *options) {
   sphc_simulated_config &config = options->config;
   app->add_option("-o,--out", options->out, "Folder to make, or file X.mcap; must not be a recording yet")
       ->required()
@@ -183,13 +183,13 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command simulateCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   sphc_simulated_config_init(&options->config, sizeof options->config);
   options->config.frame_count = 200;  // the driver's own walk, two laps, with few enough frames to be done soon
   options->config.frame_rate_hz = 6.25;
   CLI::App *app = root->add_subcommand("simulate");
-  app->description("Record a walk of the simulated headset.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Record a walk of the simulated headset.\n\n" + std::string(kSimulateHelp));
+  app->footer(kSimulateExample);
   addOptions(app, options.get());
   return {app, [options](const Console &console) { return simulate(*options, console); }};
 }

@@ -16,7 +16,7 @@ int64_t steadyNanoseconds(void *) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-void check(const std::string &what, const spherecloud::Status &status) {
+void checkDone(const std::string &what, const spherecloud::Status &status) {
   if (status.failed()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
 }
 
@@ -102,7 +102,7 @@ FrameRecord processFrame(const LocalizeInput &input, const sphc_frame &image, ui
   const int64_t start = steadyNanoseconds(nullptr);
   const spherecloud::Status status = localizer->process(image, &result);
   const int64_t end = steadyNanoseconds(nullptr);
-  check("frame " + std::to_string(image.sequence), status);
+  checkDone("frame " + std::to_string(image.sequence), status);
   FrameRecord frame;
   frame.index = index;
   frame.sequence = image.sequence;
@@ -129,8 +129,8 @@ spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vecto
   spherecloud::Localizer localizer;
   std::vector<const sphc_map *> views;
   for (const MapFile &file : maps) views.push_back(file.map.get());
-  check("cannot make the localizer",
-        spherecloud::Localizer::make(config, views.data(), static_cast<uint32_t>(views.size()), &localizer));
+  checkDone("cannot make the localizer",
+            spherecloud::Localizer::make(config, views.data(), static_cast<uint32_t>(views.size()), &localizer));
   return localizer;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t kMapAlignment = 64;
 
-void check(const std::string &what, const spherecloud::Status &status) {
+void checkUsable(const std::string &what, const spherecloud::Status &status) {
   if (!status.ok()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
 }
 
@@ -28,8 +28,9 @@ void checkIsFile(const std::string &path) {
 MapFile openMapFile(const std::string &path) {
   checkIsFile(path);
   MapFile file;
-  check("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
-  check("cannot use the map " + path, spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
+  checkUsable("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
+  checkUsable("cannot use the map " + path,
+              spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
   return file;
 }
 
@@ -37,7 +38,7 @@ MapFile openMapBytes(const std::vector<uint8_t> &bytes) {
   MapFile file;
   file.bytes = spherecloud::AlignedBuffer(bytes.size(), kMapAlignment);
   std::memcpy(file.bytes.data(), bytes.data(), bytes.size());
-  check("cannot use the map", spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
+  checkUsable("cannot use the map", spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
   return file;
 }
 

@@ -54,7 +54,7 @@ class Bytes {
   size_t at_ = 0;
 };
 
-void readCameras(const std::string &text, ColmapModel *model) {
+void readBinaryCameras(const std::string &text, ColmapModel *model) {
   Bytes bytes("cameras.bin", text);
   for (uint64_t count = bytes.takeCount(24); count > 0; --count) {
     const std::string place = "cameras.bin, " + bytes.place();
@@ -72,7 +72,7 @@ void readCameras(const std::string &text, ColmapModel *model) {
   bytes.expectEnd();
 }
 
-void readImages(const std::string &text, ColmapModel *model) {
+void readBinaryImages(const std::string &text, ColmapModel *model) {
   Bytes bytes("images.bin", text);
   for (uint64_t count = bytes.takeCount(73); count > 0; --count) {
     const std::string place = "images.bin, " + bytes.place();
@@ -94,7 +94,7 @@ void readImages(const std::string &text, ColmapModel *model) {
   bytes.expectEnd();
 }
 
-void readPoints(const std::string &text, ColmapModel *model) {
+void readBinaryPoints(const std::string &text, ColmapModel *model) {
   Bytes bytes("points3D.bin", text);
   for (uint64_t count = bytes.takeCount(51); count > 0; --count) {
     const std::string place = "points3D.bin, " + bytes.place();
@@ -116,9 +116,9 @@ void readPoints(const std::string &text, ColmapModel *model) {
 
 ColmapModel parseColmapBinary(const ColmapFiles &files) {
   ColmapModel model;
-  readCameras(files.cameras, &model);
-  readImages(files.images, &model);
-  readPoints(files.points, &model);
+  readBinaryCameras(files.cameras, &model);
+  readBinaryImages(files.images, &model);
+  readBinaryPoints(files.points, &model);
   return model;
 }
 

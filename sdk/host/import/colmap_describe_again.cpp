@@ -8,20 +8,20 @@
 namespace sphc::host {
 namespace {
 
-constexpr int kCellPx = 8;
+constexpr int kSearchCellPx = 8;
 
 // The feature stage's keypoints of one image, to be found by place.
 class KeypointGrid {
  public:
   KeypointGrid(const FrameFeatures &features, int width, int height)
-      : features_(features), across_(width / kCellPx + 1), down_(height / kCellPx + 1) {
+      : features_(features), across_(width / kSearchCellPx + 1), down_(height / kSearchCellPx + 1) {
     cells_.resize(static_cast<size_t>(across_ * down_));
     for (uint32_t i = 0; i < features.count(); ++i) cells_[cellOf(features.pixel(i))].push_back(i);
   }
 
   // Nearest within reach, or -1.
   int64_t nearest(const Vector2 &pixel, double reach) const {
-    const int x = static_cast<int>(pixel.x()) / kCellPx, y = static_cast<int>(pixel.y()) / kCellPx;
+    const int x = static_cast<int>(pixel.x()) / kSearchCellPx, y = static_cast<int>(pixel.y()) / kSearchCellPx;
     int64_t best = -1;
     double best2 = reach * reach;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, down_ - 1); ++v)
@@ -35,8 +35,8 @@ class KeypointGrid {
 
  private:
   size_t cellOf(const Vector2 &pixel) const {
-    return static_cast<size_t>(static_cast<int>(pixel.y()) / kCellPx * across_ +
-                               static_cast<int>(pixel.x()) / kCellPx);
+    return static_cast<size_t>(static_cast<int>(pixel.y()) / kSearchCellPx * across_ +
+                               static_cast<int>(pixel.x()) / kSearchCellPx);
   }
 
   const FrameFeatures &features_;

@@ -14,8 +14,8 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kPixelSigma = 1.0;
-constexpr double kFarthestM = 100;  // from the cameras that saw it; what lies beyond tells a direction, no place
+constexpr double kColmapPixelSigma = 1.0;
+constexpr double kReachM = 100;  // from the cameras that saw it; what lies beyond tells a direction, no place
 
 // Of a triangulated point, by the pixels that saw it; metres.
 double sigmaOf(const ColmapModel &model, const ColmapPoint &point, double metres_per_unit) {
@@ -24,7 +24,7 @@ double sigmaOf(const ColmapModel &model, const ColmapPoint &point, double metres
     const ColmapImage &image = model.images.at(o.image);
     const Vector3 in_camera = image.camera_from_model * point.position;
     const Vector3 view = image.camera_from_model.rotation.transpose() * in_camera.normalized();
-    const double across = kPixelSigma * in_camera.norm() / Camera(model.cameras.at(image.camera)).focal();
+    const double across = kColmapPixelSigma * in_camera.norm() / Camera(model.cameras.at(image.camera)).focal();
     information += (Matrix3::Identity() - view * view.transpose()) / (across * across);
   }
   return metres_per_unit * std::sqrt(information.inverse().trace() / 3);
@@ -33,7 +33,7 @@ double sigmaOf(const ColmapModel &model, const ColmapPoint &point, double metres
 bool isNear(const ColmapModel &model, const ColmapPoint &point, double metres_per_unit) {
   for (const ColmapObservation &o : point.track) {
     const Vector3 in_camera = model.images.at(o.image).camera_from_model * point.position;
-    if (!(in_camera.z() > 0 && metres_per_unit * in_camera.norm() < kFarthestM)) return false;
+    if (!(in_camera.z() > 0 && metres_per_unit * in_camera.norm() < kReachM)) return false;
   }
   return true;
 }

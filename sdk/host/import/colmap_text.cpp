@@ -74,7 +74,7 @@ class Lines {
   size_t number_ = 0;
 };
 
-void readCameras(const std::string &text, ColmapModel *model) {
+void readTextCameras(const std::string &text, ColmapModel *model) {
   Lines lines("cameras.txt", text);
   for (Words words("cameras.txt", 0, ""); lines.nextFull(&words);) {
     const uint32_t id = words.integer<uint32_t>();
@@ -91,7 +91,7 @@ void readCameras(const std::string &text, ColmapModel *model) {
   }
 }
 
-void readImages(const std::string &text, ColmapModel *model) {
+void readTextImages(const std::string &text, ColmapModel *model) {
   Lines lines("images.txt", text);
   for (Words words("images.txt", 0, ""); lines.nextFull(&words);) {
     const std::string place = words.place();
@@ -112,7 +112,7 @@ void readImages(const std::string &text, ColmapModel *model) {
   }
 }
 
-void readPoints(const std::string &text, ColmapModel *model) {
+void readTextPoints(const std::string &text, ColmapModel *model) {
   Lines lines("points3D.txt", text);
   for (Words words("points3D.txt", 0, ""); lines.nextFull(&words);) {
     const uint64_t id = words.integer<uint64_t>();
@@ -132,9 +132,9 @@ void readPoints(const std::string &text, ColmapModel *model) {
 
 ColmapModel parseColmapText(const ColmapFiles &files) {
   ColmapModel model;
-  readCameras(files.cameras, &model);
-  readImages(files.images, &model);
-  readPoints(files.points, &model);
+  readTextCameras(files.cameras, &model);
+  readTextImages(files.images, &model);
+  readTextPoints(files.points, &model);
   return model;
 }
 

@@ -20,7 +20,7 @@ constexpr char kMagic[8] = {'S', 'P', 'H', 'C', 'P', 'R', 'I', 'V'};
 constexpr uint32_t kVersion = 1;
 constexpr size_t kPointBytes = 4 * sizeof(double) + sizeof(uint32_t) + kDescriptorBytes;
 constexpr uint32_t kMostPoints = 1u << 24;
-constexpr double kFarthestM = 1e6;
+constexpr double kFarthestPointM = 1e6;
 static_assert(kPointBytes == 164 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "docs/private_model.md");
 
 struct Header {
@@ -70,8 +70,8 @@ ModelPoint pointAt(const uint8_t **at) {
   take(at, &point.sigma_m);
   take(at, &point.observations);
   take(at, &point.descriptor.bytes);
-  const bool valid = point.position_m.allFinite() && point.position_m.norm() < kFarthestM && point.sigma_m >= 0 &&
-                     point.sigma_m < kFarthestM && point.observations > 0;
+  const bool valid = point.position_m.allFinite() && point.position_m.norm() < kFarthestPointM &&
+                     point.sigma_m >= 0 && point.sigma_m < kFarthestPointM && point.observations > 0;
   if (!valid) refuse("a point is out of range; take the backup, or map the recording again");
   return point;
 }

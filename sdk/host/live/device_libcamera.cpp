@@ -52,24 +52,24 @@ class LibcameraDevice : public Device {
   sphc_libcamera *camera_ = nullptr;
 };
 
-std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> openLibcamera(const std::string &address, const Wish &wish) {
   return std::make_unique<LibcameraDevice>(address, wish);
 }
 
-constexpr uint32_t kMost = 64;
+constexpr uint32_t kMostLibcamera = 64;
 
-void find(Found *found) {
-  std::vector<sphc_libcamera_name> names(kMost);
+void findLibcamera(Found *found) {
+  std::vector<sphc_libcamera_name> names(kMostLibcamera);
   uint32_t count = 0;
   sphc_message message = {};
-  if (sphc_libcamera_list(nullptr, names.data(), kMost, &count, &message) < 0)
+  if (sphc_libcamera_list(nullptr, names.data(), kMostLibcamera, &count, &message) < 0)
     return found->notes.push_back(std::string("libcamera: ") + message.text);
-  for (uint32_t i = 0; i < std::min(count, kMost); ++i)
+  for (uint32_t i = 0; i < std::min(count, kMostLibcamera); ++i)
     found->cameras.push_back({std::string("libcamera:") + names[i].id, names[i].model, "colour", ""});
 }
 
 }  // namespace
 
-DeviceKind libcameraKind() { return {"libcamera", open, find}; }
+DeviceKind libcameraKind() { return {"libcamera", openLibcamera, findLibcamera}; }
 
 }  // namespace sphc::host

@@ -64,25 +64,25 @@ class Openni2Device : public Device {
   sphc_openni2 *openni2_ = nullptr;
 };
 
-std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> openOpenni2(const std::string &address, const Wish &wish) {
   return std::make_unique<Openni2Device>(address, wish);
 }
 
-constexpr uint32_t kMost = 64;
+constexpr uint32_t kMostOpenni2 = 64;
 
-void find(Found *found) {
-  std::vector<sphc_openni2_device> devices(kMost);
+void findOpenni2(Found *found) {
+  std::vector<sphc_openni2_device> devices(kMostOpenni2);
   uint32_t count = 0;
   sphc_message message = {};
-  if (sphc_openni2_list(devices.data(), kMost, &count, &message) < 0)
+  if (sphc_openni2_list(devices.data(), kMostOpenni2, &count, &message) < 0)
     return found->notes.push_back(std::string("openni2: ") + message.text);
-  for (uint32_t i = 0; i < std::min(count, kMost); ++i)
+  for (uint32_t i = 0; i < std::min(count, kMostOpenni2); ++i)
     found->cameras.push_back({std::string("openni2:") + devices[i].uri,
                               std::string(devices[i].vendor) + " " + devices[i].name, "colour and depth", ""});
 }
 
 }  // namespace
 
-DeviceKind openni2Kind() { return {"openni2", open, find}; }
+DeviceKind openni2Kind() { return {"openni2", openOpenni2, findOpenni2}; }
 
 }  // namespace sphc::host

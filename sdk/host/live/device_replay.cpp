@@ -35,12 +35,12 @@ class ReplayDevice : public Device {
   sphc_replay *replay_ = nullptr;
 };
 
-std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> openReplay(const std::string &address, const Wish &wish) {
   return std::make_unique<ReplayDevice>(address, wish);
 }
 
 }  // namespace
 
-DeviceKind replayKind() { return {"replay", open, nullptr}; }
+DeviceKind replayKind() { return {"replay", openReplay, nullptr}; }
 
 }  // namespace sphc::host

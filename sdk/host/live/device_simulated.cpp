@@ -68,12 +68,12 @@ class SimulatedDevice : public Device {
   sphc_simulated *simulated_ = nullptr;
 };
 
-std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> openSimulated(const std::string &address, const Wish &wish) {
   return std::make_unique<SimulatedDevice>(address, wish);
 }
 
 }  // namespace
 
-DeviceKind simulatedKind() { return {"simulated", open, nullptr}; }
+DeviceKind simulatedKind() { return {"simulated", openSimulated, nullptr}; }
 
 }  // namespace sphc::host

@@ -56,11 +56,11 @@ class V4l2Device : public Device {
   sphc_v4l2 *v4l2_ = nullptr;
 };
 
-std::unique_ptr<Device> open(const std::string &address, const Wish &wish) {
+std::unique_ptr<Device> openV4l2(const std::string &address, const Wish &wish) {
   return std::make_unique<V4l2Device>(address, wish);
 }
 
-constexpr uint32_t kMost = 64;
+constexpr uint32_t kMostV4l2 = 64;
 
 std::string offersOf(const sphc_v4l2_device &device) {
   std::string text = device.can_color ? "colour" : "";
@@ -71,12 +71,12 @@ std::string offersOf(const sphc_v4l2_device &device) {
   return text;
 }
 
-void find(Found *found) {
-  std::vector<sphc_v4l2_device> devices(kMost);
+void findV4l2(Found *found) {
+  std::vector<sphc_v4l2_device> devices(kMostV4l2);
   uint32_t count = 0;
-  if (sphc_v4l2_list(devices.data(), kMost, &count) < 0)
+  if (sphc_v4l2_list(devices.data(), kMostV4l2, &count) < 0)
     return found->notes.push_back("v4l2: the cameras cannot be listed; may this user read /dev and /sys?");
-  for (uint32_t i = 0; i < std::min(count, kMost); ++i) {
+  for (uint32_t i = 0; i < std::min(count, kMostV4l2); ++i) {
     const sphc_v4l2_device &d = devices[i];
     found->cameras.push_back({std::string("v4l2:") + d.node, d.card, offersOf(d), d.problem});
   }
@@ -84,6 +84,6 @@ void find(Found *found) {
 
 }  // namespace
 
-DeviceKind v4l2Kind() { return {"v4l2", open, find}; }
+DeviceKind v4l2Kind() { return {"v4l2", openV4l2, findV4l2}; }
 
 }  // namespace sphc::host

@@ -19,7 +19,7 @@ constexpr double kDefaultEta = 1.0 / 3;
 constexpr double kSamePlaceShare = 1.0 / 3;  // of a recording's points that are known makes it one of that place
 constexpr size_t kLeastBatch = 64;           // fewer new points have too few others to hide among
 constexpr double kNearestM = 0.01;           // a point so near to the centre has no direction worth having
-constexpr double kFarthestM = 1e6;
+constexpr double kFarthestPointM = 1e6;
 
 std::string percent(double share) { return std::to_string(std::lround(100 * share)) + " %"; }
 
@@ -27,7 +27,7 @@ void checkModel(const PointModel &model, const ReleaseRequest &request) {
   if (request.eta && !(*request.eta > 0 && *request.eta <= 1))
     throw std::runtime_error("eta is " + std::to_string(*request.eta) + "; it must lie in (0, 1]");
   for (const ModelPoint &point : model.points)
-    if (!point.position_m.allFinite() || point.position_m.norm() > kFarthestM)
+    if (!point.position_m.allFinite() || point.position_m.norm() > kFarthestPointM)
       throw std::runtime_error("the model has a point that is nowhere near; are the recording's poses in metres?");
 }
 

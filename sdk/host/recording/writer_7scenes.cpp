@@ -25,7 +25,7 @@ std::string matrixText(const sphc_rigid &pose) {
          formatNumbers({2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), t[2]}) + "\n0 0 0 1\n";
 }
 
-UnfinishedFolder beginFolder(const fs::path &folder, const sphc_rig &calibration) {
+UnfinishedFolder begin7Scenes(const fs::path &folder, const sphc_rig &calibration) {
   requireNoRecording(folder, {"calibration.json", "rgb.txt", "depth.txt"});
   UnfinishedFolder begun(folder);
   writeCalibration(folder / "calibration.json", calibration);
@@ -35,7 +35,7 @@ UnfinishedFolder beginFolder(const fs::path &folder, const sphc_rig &calibration
 }  // namespace
 
 SevenScenesWriter::SevenScenesWriter(const fs::path &folder, const sphc_rig &calibration)
-    : folder_(beginFolder(folder, calibration)), calibration_(calibration) {}
+    : folder_(begin7Scenes(folder, calibration)), calibration_(calibration) {}
 
 fs::path SevenScenesWriter::fileOf(uint32_t number, const char *kind) const {
   char name[40];

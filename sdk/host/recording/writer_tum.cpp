@@ -20,7 +20,7 @@ std::string poseText(const sphc_rigid &pose) {
       {pose.t_m[0], pose.t_m[1], pose.t_m[2], pose.q_wxyz[1], pose.q_wxyz[2], pose.q_wxyz[3], pose.q_wxyz[0]});
 }
 
-UnfinishedFolder beginFolder(const fs::path &folder, const sphc_rig &calibration) {
+UnfinishedFolder beginTum(const fs::path &folder, const sphc_rig &calibration) {
   requireNoRecording(folder, {"rgb.txt", "depth.txt", "groundtruth.txt", "calibration.json"});
   UnfinishedFolder begun(folder);
   fs::create_directory(folder / "rgb");
@@ -55,7 +55,7 @@ void TimedList::writeLine(const std::string &line) {
 }
 
 TumWriter::TumWriter(const fs::path &folder, const sphc_rig &calibration)
-    : folder_(beginFolder(folder, calibration)),
+    : folder_(beginTum(folder, calibration)),
       calibration_(calibration),
       color_(folder / "rgb.txt", "# colour images: seconds file"),
       depth_(folder / "depth.txt", "# depth images: seconds file"),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/report/directions.h"
+
 namespace sphc::host {
 namespace {
 
@@ -10,10 +12,7 @@ using Direction = std::array<double, 3>;
 
 constexpr size_t kProbes = 4000;  // about 3 degrees apart
 constexpr size_t kCells = 200;    // of evenness: about 14 degrees across
-constexpr double kDegree = M_PI / 180;
 constexpr double kNear = 5 * kDegree, kLeastHole = 10 * kDegree;
-
-double dot(const Direction &a, const Direction &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Even on the sphere: heights at equal steps, turned by the golden angle each (Swinbank and Purser 2006).
 std::vector<Direction> fibonacci(size_t count) {
@@ -29,7 +28,7 @@ std::vector<Direction> fibonacci(size_t count) {
 
 double largestCosine(const Direction &probe, const std::vector<Direction> &directions) {
   double largest = -1;
-  for (const Direction &d : directions) largest = std::max(largest, dot(probe, d));
+  for (const Direction &d : directions) largest = std::max(largest, dotProduct(probe, d));
   return std::min(largest, 1.0);
 }
 
@@ -37,9 +36,9 @@ double evennessOf(const std::vector<Direction> &directions) {
   const std::vector<Direction> middles = fibonacci(kCells);
   std::vector<double> counts(kCells, 0);
   for (const Direction &d : directions) {
-    const auto nearest =
-        std::max_element(middles.begin(), middles.end(),
-                         [&d](const Direction &a, const Direction &b) { return dot(a, d) < dot(b, d); });
+    const auto nearest = std::max_element(
+        middles.begin(), middles.end(),
+        [&d](const Direction &a, const Direction &b) { return dotProduct(a, d) < dotProduct(b, d); });
     ++counts[static_cast<size_t>(nearest - middles.begin())];
   }
   double entropy = 0;
@@ -76,7 +75,7 @@ Coverage coverageOf(const std::vector<Direction> &directions, size_t most_holes)
     if (taken.size() == most_holes || radius < kLeastHole) break;
     const Direction &middle = probes[index];
     const bool inside = std::any_of(taken.begin(), taken.end(), [&middle, reach = radius](const auto &other) {
-      return std::acos(std::clamp(dot(middle, other.second), -1.0, 1.0)) < other.first + reach;
+      return std::acos(std::clamp(dotProduct(middle, other.second), -1.0, 1.0)) < other.first + reach;
     });
     if (inside) continue;
     taken.emplace_back(radius, middle);

@@ -5,12 +5,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "host/report/direction_picture.h"
+#include "host/report/directions.h"
 
 namespace sphc::host {
 namespace {
 
 const cv::Scalar kRing(230, 200, 80), kCross(90, 90, 255);
-constexpr double kDegree = M_PI / 180;
 
 // As in drawDirections.
 cv::Point placeOf(const cv::Mat &picture, double yaw_rad, double pitch_rad) {

@@ -9,8 +9,8 @@
 namespace sphc::host {
 namespace {
 
-const char kBlue[] = "#2563eb", kGreen[] = "#16a34a", kRed[] = "#dc2626", kAmber[] = "#d97706",
-           kViolet[] = "#7c3aed";
+const char kBlueHex[] = "#2563eb", kGreenHex[] = "#16a34a", kRedHex[] = "#dc2626", kAmberHex[] = "#d97706",
+           kVioletHex[] = "#7c3aed";
 
 using Points = std::vector<std::array<double, 3>>;
 
@@ -115,13 +115,13 @@ std::string pathScript(const Path &path, const Extent &extent, bool with_centre)
   script += "plot ";
   if (truth) script += "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', ";
   script += std::string("$estimate using 1:2") + (truth ? ":3" : "") + " with points pointtype 7 pointsize 0.7 " +
-            (truth ? "linecolor palette" : color(kBlue)) + " title 'estimate'";
+            (truth ? "linecolor palette" : color(kBlueHex)) + " title 'estimate'";
   const std::string mark = " with points linewidth 1.8 ";
   if (!path.lost.empty())
-    script += ", $lost using 1:2" + mark + "pointtype 2 " + color(kRed) + " title 'not localized'";
+    script += ", $lost using 1:2" + mark + "pointtype 2 " + color(kRedHex) + " title 'not localized'";
   if (with_centre)
     script +=
-        ", $centre using 1:2" + mark + "pointtype 3 pointsize 1.6 " + color(kViolet) + " title 'sphere centre'";
+        ", $centre using 1:2" + mark + "pointtype 3 pointsize 1.6 " + color(kVioletHex) + " title 'sphere centre'";
   return script;
 }
 
@@ -150,8 +150,8 @@ Points cumulative(const Run &run, double (*error)(const FrameRecord &)) {
 std::string markScript(double mark, const std::string &text) {
   const std::string at = fixed(mark, 3);
   return "set arrow from first " + at + ", graph 0 to first " + at + ", graph 1 nohead dashtype 2 linewidth 1.5 " +
-         color(kGreen) + "\nset label '" + text + "' at first " + at +
-         ", graph 0.06 right offset -0.8,0 textcolor rgb '" + kGreen + "'\n";
+         color(kGreenHex) + "\nset label '" + text + "' at first " + at +
+         ", graph 0.06 right offset -0.8,0 textcolor rgb '" + kGreenHex + "'\n";
 }
 
 std::string cdfScript(const Points &points, const std::string &unit, double mark, const std::string &mark_text) {
@@ -166,10 +166,10 @@ std::string cdfScript(const Points &points, const std::string &unit, double mark
   script += range("xrange", logarithmic ? std::max(1e-3, 0.8 * points.front()[0]) : 0, right);
   script += marked ? markScript(mark, mark_text)
                    : "set label 'all far within " + mark_text +
-                         "' at graph 0.97, graph 0.08 right textcolor rgb '" + kGreen + "'\n";
+                         "' at graph 0.97, graph 0.08 right textcolor rgb '" + kGreenHex + "'\n";
   script += "unset key\nset style fill transparent solid 0.10 noborder\n";
-  script += "plot $cdf using 1:2 with filledcurves y1=0 " + color(kBlue) +
-            " notitle, $cdf using 1:2 with lines linewidth 2.5 " + color(kBlue) + " notitle";
+  script += "plot $cdf using 1:2 with filledcurves y1=0 " + color(kBlueHex) +
+            " notitle, $cdf using 1:2 with lines linewidth 2.5 " + color(kBlueHex) + " notitle";
   return script;
 }
 
@@ -223,11 +223,11 @@ Drawing timeline(const Run &run) {
       "set yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\nset key outside top center horizontal reverse "
       "Left samplen 2\n";
   script += "set style fill transparent solid 0.15 noborder\n";
-  script += "plot $matches using 1:2 with lines linewidth 1.5 " + color(kAmber) +
-            " title 'matches with the map', " + "$inliers using 1:2 with impulses linewidth 2 " + color(kGreen) +
+  script += "plot $matches using 1:2 with lines linewidth 1.5 " + color(kAmberHex) +
+            " title 'matches with the map', " + "$inliers using 1:2 with impulses linewidth 2 " + color(kGreenHex) +
             " title 'agree with the pose'";
   if (!lost.empty())
-    script += ", $lost using 1:2 with points pointtype 2 pointsize 1 linewidth 1.5 " + color(kRed) +
+    script += ", $lost using 1:2 with points pointtype 2 pointsize 1 linewidth 1.5 " + color(kRedHex) +
               " title 'not localized'";
   return {"timeline",
           "Frame by frame",

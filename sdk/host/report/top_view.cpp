@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/report/directions.h"
+
 namespace sphc::host {
 namespace {
 
-// Eigen would be heavy here: its solvers take longer to compile than everything else of the report.
 using Vector = std::array<double, 3>;
-
-double dot(const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector cross(const Vector &a, const Vector &b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -20,7 +19,7 @@ Vector mix(double a, const Vector &x, double b, const Vector &y) {
   return {a * x[0] + b * y[0], a * x[1] + b * y[1], a * x[2] + b * y[2]};
 }
 
-Vector unit(const Vector &v) { return mix(1 / std::sqrt(dot(v, v)), v, 0, v); }
+Vector unit(const Vector &v) { return mix(1 / std::sqrt(dotProduct(v, v)), v, 0, v); }
 
 Vector axis(size_t index, double sign) {
   Vector v = {};
@@ -37,7 +36,7 @@ Vector upward(const std::vector<sphc_rigid> &poses) {
     sum[1] -= 1 - 2 * (q[1] * q[1] + q[3] * q[3]);
     sum[2] -= 2 * (q[2] * q[3] + q[0] * q[1]);
   }
-  if (poses.empty() || std::sqrt(dot(sum, sum)) < 0.1 * static_cast<double>(poses.size())) return axis(2, 1);
+  if (poses.empty() || std::sqrt(dotProduct(sum, sum)) < 0.1 * static_cast<double>(poses.size())) return axis(2, 1);
   const Vector up = unit(sum);
   // A world with an axis close by was almost surely made with that axis up.
   for (size_t i = 0; i < 3; ++i) {
@@ -52,7 +51,7 @@ double longestExtent(const std::vector<sphc_rigid> &poses, const Vector &a, cons
   const double count = static_cast<double>(std::max<size_t>(1, poses.size()));
   for (const sphc_rigid &pose : poses) {
     const Vector p = {pose.t_m[0], pose.t_m[1], pose.t_m[2]};
-    const double u = dot(a, p), v = dot(b, p);
+    const double u = dotProduct(a, p), v = dotProduct(b, p);
     x += u / count;
     y += v / count;
     xx += u * u / count;
@@ -71,7 +70,7 @@ std::array<double, 2> TopView::project(const double p[3]) const {
 TopView topView(const std::vector<sphc_rigid> &poses) {
   const Vector sky = upward(poses);
   const Vector seed = axis(std::abs(sky[0]) < 0.9 ? 0 : 1, 1);
-  const Vector a = unit(mix(1, seed, -dot(seed, sky), sky)), b = cross(sky, a);
+  const Vector a = unit(mix(1, seed, -dotProduct(seed, sky), sky)), b = cross(sky, a);
   const double turn = poses.size() > 1 ? longestExtent(poses, a, b) : 0;
   TopView view;
   view.right = mix(std::cos(turn), a, std::sin(turn), b);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "lab/baselines/pose_step.h"
 #include "runtime/base/random.h"
 #include "runtime/stages/pose/p3p.h"
 
@@ -101,10 +102,6 @@ Normal linearise(const PaperCostConfig &config, Span<const Correspondence> corre
     addDepth(p, c.lifted.point_m, pose.translation_m, r.beta, root_lambda, &sum);
   }
   return sum;
-}
-
-Rigid moved(const Rigid &pose, const Vector6 &step) {
-  return {rotationFromVector(step.head<3>()) * pose.rotation, pose.translation_m + step.tail<3>()};
 }
 
 // ---- search ----

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lab/baselines/pose_step.h"
+
 namespace sphc::host {
 namespace {
 
@@ -21,10 +23,6 @@ Score scoreOf(const PoseProblem &problem, const Rigid &pose, double gate2, doubl
     score.cost += squared < gate2 ? squared : gate2;  // so NaN is no inlier
   }
   return score;
-}
-
-Rigid moved(const Rigid &pose, const Eigen::Matrix<double, 6, 1> &change) {
-  return {rotationFromVector(change.head<3>()) * pose.rotation, pose.translation_m + change.tail<3>()};
 }
 
 PoseEquations equationsAt(const PoseProblem &problem, const Rigid &pose, double gate2) {

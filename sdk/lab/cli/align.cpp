@@ -17,7 +17,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct AlignOptions {
   RecordingOptions recording;
   uint32_t repeats = 5;
   std::string out, results;
@@ -44,7 +44,7 @@ std::vector<uint16_t> depthOf(const sphc_image &depth) {
   return pixels;
 }
 
-AlignCase readCase(const Options &options) {
+AlignCase readCase(const AlignOptions &options) {
   const auto reader = openRecording(options.recording);
   const sphc_rig &calibration = reader->calibration();
   AlignCase c;
@@ -58,7 +58,7 @@ AlignCase readCase(const Options &options) {
   return c;
 }
 
-std::vector<AlignCase> casesOf(const Options &options, const Console &console) {
+std::vector<AlignCase> casesOf(const AlignOptions &options, const Console &console) {
   std::vector<AlignCase> cases = {readCase(options)};
   const sphc_camera depth = cases[0].depth();
   if (depth.width == 640 && depth.height == 480)
@@ -68,7 +68,7 @@ std::vector<AlignCase> casesOf(const Options &options, const Console &console) {
   return cases;
 }
 
-int run(const Options &options, const Console &console) {
+int run(const AlignOptions &options, const Console &console) {
   FileUse files(options.force);
   files.reads(options.recording);
   files.writes("--results", options.results, holds(alignResults({})));
@@ -95,11 +95,11 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kAlignHelp[] =
     "Brings the depth images of a recording to its colour camera with each aligner in turn, on one core: time,\n"
     "coverage, and the median distance from depth edges to image edges, before and after.  docs/bench.md says "
     "more.";
-const char kExample[] =
+const char kAlignExample[] =
     "Example:\n"
     "  spherecloud-lab align --recording seq-01 --calibration kinect.json --step 20 --out bench\n"
     "What comes out: a table for the recording and one for a 320 x 288 sensor made of it; with --out, pictures of\n"
@@ -108,10 +108,10 @@ const char kExample[] =
 }  // namespace
 
 Command alignCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AlignOptions>();
   CLI::App *app = root->add_subcommand("align");
-  app->description("Depth alignment beside its peers.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Depth alignment beside its peers.\n\n" + std::string(kAlignHelp));
+  app->footer(kAlignExample);
   addRecordingOptions(app, &options->recording);
   addRepeatOption(app, &options->repeats);
   app->add_flag("--no-peers", options->no_peers, "Without OpenCV");

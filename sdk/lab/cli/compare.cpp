@@ -20,7 +20,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct CompareOptions {
   CompareRecordingOptions recording;
   std::vector<std::string> correspondences;
   PoseRunOptions runs;
@@ -28,7 +28,7 @@ struct Options {
   bool attack = false, force = false;
 };
 
-CompareInput readInput(Options options) {
+CompareInput readInput(CompareOptions options) {
   const bool recording = !options.recording.mapping.folder.empty();
   if (recording == !options.correspondences.empty())
     throw UsageError("give either --recording or --correspondences");
@@ -49,7 +49,7 @@ std::string referenceName(const CompareInput &input) {
   return input.spheres.empty() ? "" : sphereName(input.spheres.back().queries.eta_percent);
 }
 
-CompareTable compareAll(const CompareInput &input, DepthSource depth, const Options &options) {
+CompareTable compareAll(const CompareInput &input, DepthSource depth, const CompareOptions &options) {
   const std::vector<PoseCase> cases = compareCases(input, depth);
   const std::vector<PoseVariant> systems = chosenByName(options.runs.only, compareSystems(input, depth));
   CompareTable table = {input.name, depth, cases.size(), referenceName(input), {}};
@@ -60,7 +60,7 @@ CompareTable compareAll(const CompareInput &input, DepthSource depth, const Opti
   return table;
 }
 
-nlohmann::ordered_json runTables(const CompareInput &input, const Options &options, const Console &console) {
+nlohmann::ordered_json runTables(const CompareInput &input, const CompareOptions &options, const Console &console) {
   console.say(pinnedText(pinToOneCore()));
   nlohmann::ordered_json tables = nlohmann::ordered_json::array();
   for (const DepthSource depth : options.runs.depths) {
@@ -72,7 +72,7 @@ nlohmann::ordered_json runTables(const CompareInput &input, const Options &optio
   return tables;
 }
 
-nlohmann::ordered_json runAttack(const CompareInput &input, const Options &options, const Console &console) {
+nlohmann::ordered_json runAttack(const CompareInput &input, const CompareOptions &options, const Console &console) {
   const std::vector<AttackedCloud> clouds = attackClouds(input);
   console.say("\n" + attackText(input.name, clouds));
   if (!options.privacy_results.empty())
@@ -84,7 +84,7 @@ nlohmann::ordered_json runAttack(const CompareInput &input, const Options &optio
   return attackJson(input.name, clouds);
 }
 
-int run(const Options &options, const Console &console) {
+int run(const CompareOptions &options, const Console &console) {
   if (!options.attack && (!options.privacy_results.empty() || !options.out.empty()))
     throw UsageError("--out and --privacy-results are for --attack");
   if (options.attack && !options.results.empty()) throw UsageError("--results is not for --attack");
@@ -103,13 +103,13 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kCompareHelp[] =
     "Compares sphere clouds with a point cloud, line clouds (uniform, PPL, PPL+) and ray clouds of the same "
     "points,\n"
     "each with its own localizer on the same matches, in one interleaved run on one core: the rows of the paper's\n"
     "table 2.  With --attack the density attack on each cloud instead.  docs/baselines.md says what each system "
     "is.";
-const char kExample[] =
+const char kCompareExample[] =
     "Example:\n"
     "  spherecloud-lab compare --recording kitchen --last 597 --step 3 --query-first 620 --query-step 5\n"
     "  spherecloud-lab compare --correspondences kitchen_eta100_dev.bin kitchen_eta33_dev.bin\n"
@@ -117,7 +117,7 @@ const char kExample[] =
     "attack\n"
     "What comes out: a table; with --attack --out a drawing of the errors of recovered points.";
 
-void addInputOptions(CLI::App *app, Options *options) {
+void addInputOptions(CLI::App *app, CompareOptions *options) {
   addRecordingOptions(app, &options->recording.mapping);
   app->get_option("--recording")->required(false);
   const char *group = "Queries";
@@ -136,7 +136,7 @@ void addInputOptions(CLI::App *app, Options *options) {
       ->type_name("FILE");
 }
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, CompareOptions *options) {
   addInputOptions(app, options);
   addPoseRunOptions(app, &options->runs, "system");
   app->add_option("--name", options->name, "What the place is called in tables")->type_name("NAME");
@@ -151,10 +151,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command compareCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   CLI::App *app = root->add_subcommand("compare");
-  app->description("Compare sphere clouds with the systems of the literature.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Compare sphere clouds with the systems of the literature.\n\n" + std::string(kCompareHelp));
+  app->footer(kCompareExample);
   addOptions(app, options.get());
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};

@@ -16,7 +16,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct FeaturesCommandOptions {
   std::vector<std::string> recordings, calibrations, only;
   std::vector<uint32_t> first, last;
   uint32_t step = 1;
@@ -26,7 +26,7 @@ struct Options {
 };
 
 // Present variants, of those asked for; names the absent.
-std::vector<FeaturesVariant> chooseVariants(const Options &options, const GrayRecording &recording,
+std::vector<FeaturesVariant> chooseVariants(const FeaturesCommandOptions &options, const GrayRecording &recording,
                                             const Console &console) {
   std::vector<FeaturesVariant> all = ourFeatures(recording.camera.width(), recording.camera.height());
   if (!options.no_peers) {
@@ -39,7 +39,7 @@ std::vector<FeaturesVariant> chooseVariants(const Options &options, const GrayRe
   return all;
 }
 
-FeaturesTable measure(const Options &options, size_t which, const Console &console) {
+FeaturesTable measure(const FeaturesCommandOptions &options, size_t which, const Console &console) {
   RecordingOptions source;
   source.folder = options.recordings[which];
   if (!options.calibrations.empty()) source.calibration = options.calibrations[which];
@@ -56,7 +56,7 @@ FeaturesTable measure(const Options &options, size_t which, const Console &conso
   return table;
 }
 
-int run(const Options &options, const Console &console) {
+int run(const FeaturesCommandOptions &options, const Console &console) {
   const auto fits = [&](size_t given) { return given == 0 || given == options.recordings.size(); };
   if (!fits(options.calibrations.size()) || !fits(options.first.size()) || !fits(options.last.size()))
     throw UsageError(
@@ -78,17 +78,17 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kFeaturesHelp[] =
     "Extracts keypoints from every frame by the library and its peers in one interleaved run, on one core.  Then\n"
     "matches frames 8 and 20 apart by the ratio test and counts the matches that the recorded poses confirm.\n"
     "docs/bench.md says more.";
-const char kExample[] =
+const char kFeaturesExample[] =
     "Example:\n"
     "  spherecloud-lab features --recording kitchen --first 620\n"
     "  spherecloud-lab features --recording kitchen --calibration kitchen.json --only 'ours 800' --no-peers\n"
     "What comes out: a table a recording.";
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, FeaturesCommandOptions *options) {
   app->add_option("-r,--recording", options->recordings, "Folder of a recording; repeat for more")
       ->required()
       ->expected(1)
@@ -123,10 +123,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command featuresCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FeaturesCommandOptions>();
   CLI::App *app = root->add_subcommand("features");
-  app->description("Keypoint extractors on the frames of a recording.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Keypoint extractors on the frames of a recording.\n\n" + std::string(kFeaturesHelp));
+  app->footer(kFeaturesExample);
   addOptions(app, options.get());
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};

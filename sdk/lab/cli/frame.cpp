@@ -21,7 +21,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct FrameOptions {
   RecordingOptions recording;
   RecordingOptions mapping;  // folder and calibration are those of `recording`
   std::vector<std::string> maps, only;
@@ -44,7 +44,7 @@ OwnedMap openOwnedMap(const std::string &path) {
 
 class FrameCommand {
  public:
-  FrameCommand(const Options &options, const Console &console)
+  FrameCommand(const FrameOptions &options, const Console &console)
       : options_(options), console_(console), reader_(openRecording(options.recording)) {
     config_ = spherecloud::defaultConfig();
     setCameras(reader_->calibration(), &config_);
@@ -141,14 +141,14 @@ class FrameCommand {
     return table;
   }
 
-  const Options &options_;
+  const FrameOptions &options_;
   const Console &console_;
   std::unique_ptr<RecordingReader> reader_;
   sphc_config config_;
   std::unique_ptr<FramePeers> peers_;
 };
 
-void writeResult(const Options &options, const std::vector<FrameTable> &tables, const Console &console) {
+void writeResult(const FrameOptions &options, const std::vector<FrameTable> &tables, const Console &console) {
   if (!options.results.empty()) writeFile(options.results, frameResults(tables));
   if (options.out.empty()) return;
   makeFolder(options.out);
@@ -156,7 +156,7 @@ void writeResult(const Options &options, const std::vector<FrameTable> &tables, 
   sayWritten(options.out, writeDrawings(options.out, frameDrawings(tables)), console);
 }
 
-int run(Options options, const Console &console) {
+int run(FrameOptions options, const Console &console) {
   FileUse files(options.force);
   files.reads(options.recording);
   for (const std::string &map : options.maps) files.reads("--map", map);
@@ -174,12 +174,12 @@ int run(Options options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kFrameHelp[] =
     "Localizes every frame of a recording by every variant in turn, on one core: the library, cold and\n"
     "tracking, and package peers (OpenCV, faiss, hnswlib) on an open point map of the same place and size.\n"
     "Several maps show how time grows with the map.  docs/bench.md says what each column means and how peers\n"
     "are installed.";
-const char kExample[] =
+const char kFrameExample[] =
     "Example:\n"
     "  spherecloud-lab frame --recording kitchen --first 620 --map maps/map_50000.sphc --no-peers\n"
     "  spherecloud-lab frame --recording kitchen --first 620 --map maps/map_50000.sphc \\\n"
@@ -187,7 +187,7 @@ const char kExample[] =
     "What comes out: a table a map; with --out frame.csv and drawings.  The owner's note must lie beside a map;\n"
     "spherecloud-lab map makes maps of wanted sizes.";
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, FrameOptions *options) {
   addRecordingOptions(app, &options->recording);
   app->add_option("-m,--map", options->maps, "Map file; repeat for more")
       ->required()
@@ -224,10 +224,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command frameCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FrameOptions>();
   CLI::App *app = root->add_subcommand("frame");
-  app->description("Whole frames, ours beside package peers.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Whole frames, ours beside package peers.\n\n" + std::string(kFrameHelp));
+  app->footer(kFrameExample);
   addOptions(app, options.get());
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};

@@ -22,7 +22,7 @@ namespace {
 // The points are no secret where the place itself is at hand; every run makes the same maps.
 constexpr SecretKey kKey = {'b', 'e', 'n', 'c', 'h'};
 
-struct Options {
+struct MapOptions {
   RecordingOptions recording;
   std::vector<std::string> foreign, foreign_calibrations;
   std::vector<uint32_t> points;
@@ -31,7 +31,7 @@ struct Options {
   bool force = false;
 };
 
-std::vector<PointModel> importForeign(const Options &options) {
+std::vector<PointModel> importForeign(const MapOptions &options) {
   if (!options.foreign_calibrations.empty() && options.foreign_calibrations.size() != options.foreign.size())
     throw UsageError("give --foreign-calibration once for each --foreign, or not at all");
   std::vector<PointModel> models;
@@ -45,7 +45,7 @@ std::vector<PointModel> importForeign(const Options &options) {
 }
 
 // The model has been merged as a whole, and is of the wanted size.
-std::string writeMap(const Options &options, const PointModel &model) {
+std::string writeMap(const MapOptions &options, const PointModel &model) {
   const auto strategy = gaussianFakes();
   ReleaseRequest request;
   request.key = kKey;
@@ -60,7 +60,7 @@ std::string writeMap(const Options &options, const PointModel &model) {
   return path;
 }
 
-int run(const Options &options, const Console &console) {
+int run(const MapOptions &options, const Console &console) {
   FileUse files(options.force);
   files.reads(options.recording);
   for (const std::string &path : options.foreign) files.reads("--foreign", path);
@@ -84,16 +84,16 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kMapHelp[] =
     "Makes maps of exactly so many points from one recording: the points that most frames saw, or all and foreign\n"
     "ones, whose descriptors come from other recordings (--foreign) and from mirror images and negatives.  For\n"
     "measuring alone: the key is known to everybody.  docs/bench.md says more.";
-const char kExample[] =
+const char kMapExample[] =
     "Example:\n"
     "  spherecloud-lab map --recording kitchen --last 597 --step 3 --points 10000 --points 50000 --out maps\n"
     "What comes out: maps/map_10000.sphc and maps/map_50000.sphc, each with its owner's note.";
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, MapOptions *options) {
   addRecordingOptions(app, &options->recording);
   app->add_option("-n,--points", options->points, "Points of a map; repeat for more maps")
       ->required()
@@ -119,10 +119,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command mapCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MapOptions>();
   CLI::App *app = root->add_subcommand("map");
-  app->description("Maps of wanted sizes, to measure with.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Maps of wanted sizes, to measure with.\n\n" + std::string(kMapHelp));
+  app->footer(kMapExample);
   addOptions(app, options.get());
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};

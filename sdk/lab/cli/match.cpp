@@ -23,7 +23,7 @@ namespace {
 
 constexpr uint64_t kSeed = 20240902;
 
-struct Options {
+struct MatchOptions {
   RecordingOptions recording, queries;
   std::vector<size_t> sizes = {10000, 50000, 200000, 1000000};
   size_t query_count = 1000;
@@ -57,7 +57,7 @@ MatchCase caseOf(const PointModel &model, const Vector3 &centre_m, size_t size,
   return makeMatchCase(file, header.extractor, seconds, queries);
 }
 
-std::vector<MatchVariant> variantsOf(const Options &options, const Console &console) {
+std::vector<MatchVariant> variantsOf(const MatchOptions &options, const Console &console) {
   std::vector<MatchVariant> all = ourMatchVariants();
   if (!options.no_peers) {
     for (MatchVariant &peer : openCvMatchPeers()) all.push_back(std::move(peer));
@@ -69,7 +69,7 @@ std::vector<MatchVariant> variantsOf(const Options &options, const Console &cons
   return all;
 }
 
-void writeResult(const Options &options, const std::vector<MatchTable> &tables, const Console &console) {
+void writeResult(const MatchOptions &options, const std::vector<MatchTable> &tables, const Console &console) {
   if (!options.results.empty()) writeFile(options.results, matchResults(tables));
   if (options.out.empty()) return;
   makeFolder(options.out);
@@ -77,7 +77,7 @@ void writeResult(const Options &options, const std::vector<MatchTable> &tables, 
   sayWritten(options.out, writeMatchDrawings(options.out, tables), console);
 }
 
-int run(Options options, const Console &console) {
+int run(MatchOptions options, const Console &console) {
   FileUse files(options.force);
   files.reads(options.recording);
   files.writes("--results", options.results, holds(matchResults({})));
@@ -104,17 +104,17 @@ int run(Options options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kMatchHelp[] =
     "Makes maps of several sizes from the frames of a recording, asks each with keypoints of other frames, and\n"
     "shows times and recalls of this library's matchers and of their peers, in one interleaved run on one core.\n"
     "docs/bench.md says what each column means, how maps grow and how peers are installed.";
-const char kExample[] =
+const char kMatchExample[] =
     "Example:\n"
     "  spherecloud-lab match --recording kitchen --last 597 --step 3 --query-first 620 --query-step 20\n"
     "  spherecloud-lab match --recording kitchen --last 597 --query-first 620 --size 50000 --no-peers\n"
     "What comes out: a table a size; with --out match.csv and a drawing.";
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, MatchOptions *options) {
   addRecordingOptions(app, &options->recording);
   const char *group = "Queries";
   app->add_option("--query-first", options->queries.first, "First frame that asks [0]")
@@ -151,10 +151,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command matchCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MatchOptions>();
   CLI::App *app = root->add_subcommand("match");
-  app->description("Matchers of descriptors on maps of growing size.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Matchers of descriptors on maps of growing size.\n\n" + std::string(kMatchHelp));
+  app->footer(kMatchExample);
   addOptions(app, options.get());
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};

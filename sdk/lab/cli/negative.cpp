@@ -11,7 +11,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct NegativeOptions {
   RecordingOptions recording;
   std::string map;
   std::vector<std::string> only;
@@ -19,14 +19,14 @@ struct Options {
   bool elsewhere = false;
 };
 
-std::vector<SensorFault> chosenFaults(const Options &options) {
+std::vector<SensorFault> chosenFaults(const NegativeOptions &options) {
   // Of another place the frames are enough of a fault.
   std::vector<std::string> only = options.only;
   if (options.elsewhere && only.empty()) only = {"healthy"};
   return chosenByName(only, allFaults());
 }
 
-int run(const Options &options, const Console &console) {
+int run(const NegativeOptions &options, const Console &console) {
   const auto reader = openRecording(options.recording);
   const std::vector<SensorFault> faults = chosenFaults(options);
   std::vector<MapFile> maps;
@@ -44,11 +44,11 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kNegativeHelp[] =
     "Breaks sequences of 30 frames in every way of a table, localizes them in a map, frame by frame alone and\n"
     "tracking, and counts poses beyond 25 cm or 10 deg, those of a confidence above 0.5, and frames and sequences\n"
     "in which the result names the fault.  On healthy frames every fault that is named is a false alarm.";
-const char kExample[] =
+const char kNegativeExample[] =
     "Example:\n"
     "  spherecloud-lab negative --recording walk --first 100 --map room.sphc\n"
     "  spherecloud-lab negative --recording other --map room.sphc --elsewhere\n"
@@ -57,10 +57,10 @@ const char kExample[] =
 }  // namespace
 
 Command negativeCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NegativeOptions>();
   CLI::App *app = root->add_subcommand("negative");
-  app->description("Are broken sensors believed?\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Are broken sensors believed?\n\n" + std::string(kNegativeHelp));
+  app->footer(kNegativeExample);
   addRecordingOptions(app, &options->recording);
   app->add_option("-m,--map", options->map, "Map file, with its owner's note beside it")
       ->required()

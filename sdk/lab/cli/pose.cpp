@@ -18,14 +18,14 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct PoseOptions {
   std::vector<std::string> files;
   PoseRunOptions runs;
   std::string python = "python3", out, results;
   bool no_peers = false, growth = false, force = false;
 };
 
-std::vector<PoseVariant> allVariants(const Options &options) {
+std::vector<PoseVariant> allVariants(const PoseOptions &options) {
   std::vector<PoseVariant> all = ourVariants();
   if (options.no_peers) return all;
   for (PoseVariant &peer : posePeers(options.python)) all.push_back(std::move(peer));
@@ -79,8 +79,8 @@ struct Result {
   std::vector<GrowthRow> growth;
 };
 
-void append(const Options &options, const Input &input, DepthSource depth, const std::vector<PoseVariant> &variants,
-            const Console &console, Result *result) {
+void append(const PoseOptions &options, const Input &input, DepthSource depth,
+            const std::vector<PoseVariant> &variants, const Console &console, Result *result) {
   if (!options.growth) {
     result->tables.push_back(runInput(input, depth, options.runs.bench, variants));
     console.say("\n" + benchTableText(result->tables.back()));
@@ -91,7 +91,7 @@ void append(const Options &options, const Input &input, DepthSource depth, const
   result->growth.insert(result->growth.end(), rows.begin(), rows.end());
 }
 
-void writeResult(const Options &options, const Result &result, const Console &console) {
+void writeResult(const PoseOptions &options, const Result &result, const Console &console) {
   if (!options.results.empty())
     writeFile(options.results, options.growth ? growthResults(result.growth) : benchResults(result.tables));
   if (options.out.empty()) return;
@@ -101,7 +101,7 @@ void writeResult(const Options &options, const Result &result, const Console &co
   sayWritten(options.out, writeDrawings(options.out, poseDrawings(result.tables, result.growth)), console);
 }
 
-int runPose(const Options &options, const Console &console) {
+int runPose(const PoseOptions &options, const Console &console) {
   FileUse files(options.force);
   for (const std::string &path : options.files) files.reads("the rows", path);
   files.writes("--results", options.results, holds(options.growth ? growthResults({}) : benchResults({})));
@@ -125,10 +125,10 @@ int runPose(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kPoseHelp[] =
     "Runs pose estimators on the same correspondences in one interleaved run, on one core, and shows medians,\n"
     "tails and the ratio of times.  docs/bench.md says what each column means and how peers are installed.";
-const char kExample[] =
+const char kPoseExample[] =
     "Example:\n"
     "  spherecloud-lab pose kitchen_eta33_dev.bin\n"
     "  spherecloud-lab pose kitchen_eta*_dev.bin --depth tof --depth oracle --out bench\n"
@@ -136,7 +136,7 @@ const char kExample[] =
     "  spherecloud-lab pose kitchen_eta25_dev.bin --growth --only ours --only 'poselib p3p' --out bench\n"
     "What comes out: a table a file and depth; with --out pose.csv and drawings.";
 
-void addOptions(CLI::App *app, Options *options) {
+void addOptions(CLI::App *app, PoseOptions *options) {
   app->add_option("files", options->files, "Correspondence files")->required()->type_name("FILE");
   addPoseRunOptions(app, &options->runs, "variant");
   app->add_option("--seeds", options->runs.bench.seeds, "Runs with different seeds a query; 8 for tails")
@@ -155,10 +155,10 @@ void addOptions(CLI::App *app, Options *options) {
 }  // namespace
 
 Command poseCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PoseOptions>();
   CLI::App *app = root->add_subcommand("pose");
-  app->description("Pose estimators on correspondences with known poses.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Pose estimators on correspondences with known poses.\n\n" + std::string(kPoseHelp));
+  app->footer(kPoseExample);
   addOptions(app, options.get());
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return runPose(*options, console); }};

@@ -17,7 +17,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct RecordingCommandOptions {
   std::vector<std::string> recordings, calibrations;
   uint32_t step = 1, repeats = 3;
   std::string results, folder = ".";
@@ -54,7 +54,7 @@ std::string costText(const RecorderCost &cost) {
          fixed(1e-6 * cost.bytes_per_second, 1) + " MB/s\n";
 }
 
-int run(const Options &options, const Console &console) {
+int run(const RecordingCommandOptions &options, const Console &console) {
   if (!options.calibrations.empty() && options.calibrations.size() != options.recordings.size())
     throw UsageError("give a --calibration for each --recording, or none");
   FileUse files(options.force);
@@ -90,12 +90,12 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kRecordingHelp[] =
     "Encodes and decodes the depth images of a recording with each lossless codec in turn: how much smaller they\n"
     "become, and in what time; every image is compared with what comes back.  Then records all frames and says "
     "what\n"
     "share of one core the recorder takes at 30 Hz, its threads and the system's part included.";
-const char kExample[] =
+const char kRecordingExample[] =
     "Example:\n"
     "  spherecloud-lab recording --recording seq-01 --calibration kinect.json\n"
     "What comes out: a table a recording.  docs/recording.md says what each codec is.";
@@ -103,10 +103,10 @@ const char kExample[] =
 }  // namespace
 
 Command recordingCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RecordingCommandOptions>();
   CLI::App *app = root->add_subcommand("recording");
-  app->description("Depth codecs side by side, and the cost of the recorder.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Depth codecs side by side, and the cost of the recorder.\n\n" + std::string(kRecordingHelp));
+  app->footer(kRecordingExample);
   app->add_option("-r,--recording", options->recordings, "Recording; repeat for more")
       ->required()
       ->expected(1)

@@ -14,7 +14,7 @@
 namespace sphc::host {
 namespace {
 
-struct Options {
+struct ReleasesOptions {
   RecordingOptions recording, other, strangers;
   uint32_t more_last = 0, frames = 25;
   double eta = 1.0 / 3;
@@ -34,7 +34,7 @@ void tell(const std::vector<PrivacyRow> &rows, const Console &console) {
   console.give({{"rows", json}});
 }
 
-int run(Options options, const Console &console) {
+int run(ReleasesOptions options, const Console &console) {
   FileUse files(options.force);
   files.reads(options.recording);
   files.reads("--strangers", options.strangers.folder);
@@ -61,10 +61,10 @@ int run(Options options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kReleasesHelp[] =
     "Publishes one place several times, carelessly and through the release discipline, runs the attacks on\n"
     "several releases on both, and scores them by what the owner knows.";
-const char kExample[] =
+const char kReleasesExample[] =
     "Example:\n"
     "  spherecloud-lab releases --recording kitchen --last 537 --step 3 --more-last 597 \\\n"
     "              --other-first 620 --other-last 799 --strangers corridor\n"
@@ -73,10 +73,10 @@ const char kExample[] =
 }  // namespace
 
 Command releasesCommand(CLI::App *root) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReleasesOptions>();
   CLI::App *app = root->add_subcommand("releases");
-  app->description("Attacks on several releases of one place.\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Attacks on several releases of one place.\n\n" + std::string(kReleasesHelp));
+  app->footer(kReleasesExample);
   addRecordingOptions(app, &options->recording);
   app->add_option("--more-last", options->more_last, "Last frame of the update")->required()->type_name("N");
   app->add_option("--other-first", options->other.first, "First of the other frames of the place")

@@ -53,8 +53,8 @@ std::vector<VariantFrames> extractAll(const GrayRecording &recording, const std:
   return all;
 }
 
-MatchQuality matchPairs(const GrayRecording &recording, const VariantFrames &of, uint32_t gap, uint32_t every) {
-  MatchQuality quality;
+PairQuality matchPairs(const GrayRecording &recording, const VariantFrames &of, uint32_t gap, uint32_t every) {
+  PairQuality quality;
   std::vector<double> verified_px;
   size_t matched = 0;
   for (size_t i = 0; i + gap < recording.frames.size(); i += every) {

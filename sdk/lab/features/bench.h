@@ -16,7 +16,7 @@ struct FeaturesOptions {
   uint32_t every = 4;    // frames from one pair to the next
 };
 
-struct MatchQuality {
+struct PairQuality {
   size_t pairs = 0;
   double matches = 0, verified = 0;  // a pair, mean
   double sampson_px = 0;             // median of the verified
@@ -27,7 +27,7 @@ struct FeaturesSummary {
   double keypoints = 0;  // mean
   double median_ms = 0, p99_ms = 0;
   double times_faster_than_opencv = 0;  // ratio of the medians; NaN without it
-  std::array<MatchQuality, kFeatureGaps.size()> gaps;
+  std::array<PairQuality, kFeatureGaps.size()> gaps;
 };
 
 using FramesDone = std::function<void(uint32_t done, uint32_t total)>;

@@ -21,7 +21,7 @@ std::string featuresText(const FeaturesTable &table) {
   for (const FeaturesSummary &s : table.summaries) {
     rows.push_back({s.name, fixed(s.keypoints, 0), fixed(s.median_ms, 2), fixed(s.p99_ms, 2),
                     ratioText(s.times_faster_than_opencv, "-")});
-    for (const MatchQuality &q : s.gaps) {
+    for (const PairQuality &q : s.gaps) {
       for (const std::string &text : {fixed(q.matches, 1), fixed(q.verified, 1), fixed(q.sampson_px, 2)})
         rows.back().push_back(text);
     }
@@ -40,7 +40,7 @@ std::string featuresResults(const std::vector<FeaturesTable> &tables) {
     for (const FeaturesSummary &s : table.summaries) {
       text += table.recording + "," + csvText(s.name) + "," + fixed(s.keypoints, 0) + "," +
               ratioText(s.times_faster_than_opencv, "");
-      for (const MatchQuality &q : s.gaps)
+      for (const PairQuality &q : s.gaps)
         text += "," + fixed(q.matches, 1) + "," + fixed(q.verified, 1) + "," + fixed(q.sampson_px, 3);
       text += "\n";
     }

@@ -9,7 +9,6 @@
 namespace sphc::host {
 namespace {
 
-constexpr Stage kStages[] = {kFeatures, kAlign, kMatch, kPose};
 const char *const kStageColors[] = {"#2563eb", "#0891b2", "#d97706", "#7c3aed"};
 const char *const kLineColors[] = {"#2563eb", "#16a34a", "#d97706", "#7c3aed", "#dc2626", "#64748b"};
 

@@ -8,8 +8,6 @@
 namespace sphc::host {
 namespace {
 
-constexpr Stage kStages[] = {kFeatures, kAlign, kMatch, kPose};
-
 std::string number(double value, int digits, const char *missing) {
   return std::isnan(value) ? missing : fixed(value, digits);
 }

@@ -18,7 +18,8 @@ struct FrameCase {
   const sphc_prior *odometry = nullptr;  // as a headset's dead reckoning would tell it; null: nothing
 };
 
-using StageSeconds = std::array<double, kStageCount>;  // by Stage; NaN: the variant has no such stage
+constexpr Stage kStages[] = {kFeatures, kAlign, kMatch, kPose};  // in a frame's order
+using StageSeconds = std::array<double, kStageCount>;            // by Stage; NaN: the variant has no such stage
 
 struct FrameAnswer {
   PoseAnswer pose;  // the recording's world is its map frame; `seconds` is the whole frame

@@ -28,7 +28,7 @@ std::function<void(Sequence *)> showing(const Window &window) {
   return [window](Sequence *sequence) { show(window, sequence); };
 }
 
-void freeze(Sequence *sequence) {
+void freezeColor(Sequence *sequence) {
   for (size_t i = 1; i < sequence->shots.size(); ++i) sequence->shots[i].color = sequence->shots[0].color;
 }
 
@@ -54,7 +54,7 @@ std::vector<SensorFault> colorFaults() {
   return {{"colour cropped by 10 %", showing({0.1, 0.1, 0.8, 0.8}), disagree, false, false},
           {"colour rolled by a sixteenth", showing({0.0625, 0, 1, 1}), disagree, false, false},
           {"colour scaled to 80 % of its width", showing({0.1, 0, 0.8, 1}), disagree, false, false},
-          {"colour frozen", freeze, frozen, false, false},
+          {"colour frozen", freezeColor, frozen, false, false},
           {"mirrored views", mirrorBoth, 0, false, true}};
 }
 

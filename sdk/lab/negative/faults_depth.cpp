@@ -54,7 +54,7 @@ std::function<void(Sequence *)> delay(double seconds) {
   };
 }
 
-void freeze(Sequence *sequence) {
+void freezeDepth(Sequence *sequence) {
   for (size_t i = 1; i < sequence->shots.size(); ++i) sequence->shots[i].depth = sequence->shots[0].depth;
 }
 
@@ -78,7 +78,7 @@ std::vector<SensorFault> depthFaults() {
           {"depth 0.1 s late", delay(0.09), disagree, false, false},
           {"depth 0.3 s late", delay(0.29), disagree, false, false},
           {"depth 1 s late", delay(0.99), disagree, false, false},
-          {"depth frozen", freeze, frozen, false, false},
+          {"depth frozen", freezeDepth, frozen, false, false},
           {"depth mirrored", mirrorDepth, disagree, false, false},
           {"depth upside down", turnDepthUpsideDown, disagree, false, false},
           {"depth times 0.5, odometry", scale(0.5), scaled | disagree, true, false},

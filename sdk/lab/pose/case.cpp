@@ -6,7 +6,7 @@
 namespace sphc::host {
 namespace {
 
-double depthOf(const PoseRow &row, DepthSource source) {
+double rowDepthOf(const PoseRow &row, DepthSource source) {
   return source == DepthSource::kTof ? row.z_tof_m : row.z_oracle_m;
 }
 
@@ -20,7 +20,7 @@ const PoseQuery *findQuery(const PoseFile &file, const PoseQuery &query) {
 
 void addTruePoints(const PoseQuery &eta100, DepthSource source, PoseCase *pose_case) {
   for (size_t i = 0; i < eta100.rows.size(); ++i) {
-    if (!isDepth(depthOf(eta100.rows[i], source))) continue;
+    if (!isDepth(rowDepthOf(eta100.rows[i], source))) continue;
     pose_case->true_pixels_px.push_back(eta100.rows[i].pixel_px);
     pose_case->true_points_map_m.push_back(eta100.points_map_m[i]);
     pose_case->true_point_ids.push_back(eta100.rows[i].point_id);
@@ -57,7 +57,7 @@ PoseCase makePoseCase(const PoseQuery &query, uint32_t eta_percent, DepthSource 
   c.camera = query.camera;
   c.truth_camera_from_map = query.camera_from_map;
   for (const PoseRow &row : query.rows) {
-    const double z = depthOf(row, source);
+    const double z = rowDepthOf(row, source);
     const Correspondence correspondence = {liftPixel(query.camera, row.pixel_px, z, noise), row.direction};
     if (isDepth(z)) {
       c.correspondences.push_back(correspondence);

@@ -14,7 +14,7 @@ namespace {
 using opengv::absolute_pose::CentralAbsoluteAdapter;
 using Problem = opengv::sac_problems::absolute_pose::AbsolutePoseSacProblem;
 
-constexpr int kMaxIterations = 10000;
+constexpr int kMostRansacSteps = 10000;
 constexpr double kProbability = 0.99;
 constexpr double kTruePointGatePx = 4;
 constexpr double kLiftedGateDeg = 1;  // of a lifted keypoint, seen from the sphere centre
@@ -31,7 +31,7 @@ PoseAnswer solve(const opengv::bearingVectors_t &bearings, const opengv::points_
   opengv::sac::Ransac<Problem> ransac;
   ransac.sac_model_ = std::make_shared<Problem>(adapter, Problem::KNEIP, false);
   ransac.threshold_ = gate;
-  ransac.max_iterations_ = kMaxIterations;
+  ransac.max_iterations_ = kMostRansacSteps;
   ransac.probability_ = kProbability;
   answer.found = ransac.computeModel();
   if (answer.found) {

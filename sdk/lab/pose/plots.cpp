@@ -42,12 +42,12 @@ std::string cumulative(const VariantRuns &runs, const std::string &name) {
   return text + "EOD\n";
 }
 
-struct Line {
+struct PlotLine {
   std::string title, points;
 };
 
 // A line a variant, file and way of making the cases.
-std::vector<Line> growthLines(const std::vector<GrowthRow> &rows, GrowthAxis axis) {
+std::vector<PlotLine> growthLines(const std::vector<GrowthRow> &rows, GrowthAxis axis) {
   std::map<std::string, std::string> lines;
   for (const GrowthRow &row : rows) {
     if (row.axis != axis) continue;
@@ -59,7 +59,7 @@ std::vector<Line> growthLines(const std::vector<GrowthRow> &rows, GrowthAxis axi
       if (row.how == "added") lines[base + ", rows added"] += point;
     }
   }
-  std::vector<Line> list;
+  std::vector<PlotLine> list;
   for (const auto &[title, points] : lines) list.push_back({title, points});
   return list;
 }
@@ -103,7 +103,7 @@ BenchDrawing drawTimes(const BenchTable &table) {
 BenchDrawing drawGrowth(const std::vector<GrowthRow> &rows, GrowthAxis axis) {
   const bool count = axis == GrowthAxis::kCount;
   const std::string name = count ? "pose_growth_count" : "pose_growth_eta";
-  const std::vector<Line> lines = growthLines(rows, axis);
+  const std::vector<PlotLine> lines = growthLines(rows, axis);
   if (lines.empty()) return {name, "", {}};
   std::string script = kLook, plots;
   for (size_t i = 0; i < lines.size(); ++i) {

@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr uint64_t kPeriodUs = vtof::kPeriodUs;
+constexpr uint64_t kFramePeriodUs = vtof::kPeriodUs;
 
 class Frames : public VirtualCameras {
  protected:
@@ -24,7 +24,7 @@ class Frames : public VirtualCameras {
     return config;
   }
   static vtof::Frame depth(int index) {
-    return plainFrame(ONI_SENSOR_DEPTH, index, static_cast<uint64_t>(index) * kPeriodUs);
+    return plainFrame(ONI_SENSOR_DEPTH, index, static_cast<uint64_t>(index) * kFramePeriodUs);
   }
 };
 
@@ -38,10 +38,10 @@ TEST_F(Frames, ComeWithEveryByteAndField) {
     ASSERT_EQ(camera.acquire(&capture), SPHC_OK) << camera.message();
     EXPECT_EQ(capture.stream, stream) << "colour is 5 ms older";
     EXPECT_EQ(capture.sequence, 7u);
-    EXPECT_EQ(capture.time_ns, 1000 * static_cast<int64_t>(7 * kPeriodUs + (is_color ? 0 : 5000)));
+    EXPECT_EQ(capture.time_ns, 1000 * static_cast<int64_t>(7 * kFramePeriodUs + (is_color ? 0 : 5000)));
     EXPECT_EQ(capture.clock, SPHC_CLOCK_SOURCE);
     EXPECT_EQ(capture.time_point, SPHC_TIME_END);
-    EXPECT_EQ(capture.time_sigma_us, kPeriodUs / 2);
+    EXPECT_EQ(capture.time_sigma_us, kFramePeriodUs / 2);
     EXPECT_GT(capture.arrival_ns, 0);
     EXPECT_EQ(capture.image.width, 320u);
     EXPECT_EQ(capture.image.height, 240u);
@@ -180,8 +180,8 @@ TEST_F(Frames, WaitForTheOlderOneOfTheOtherStream) {
   ASSERT_EQ(camera.start(), SPHC_OK);
   camera.passPair(1);
   // Depth overtakes colour on its way.
-  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_DEPTH, 2, 2 * kPeriodUs + 5000)));
-  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_COLOR, 2, 2 * kPeriodUs)));
+  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_DEPTH, 2, 2 * kFramePeriodUs + 5000)));
+  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_COLOR, 2, 2 * kFramePeriodUs)));
   sphc_capture capture = {};
   ASSERT_EQ(camera.acquire(&capture), SPHC_OK);
   EXPECT_EQ(capture.stream, SPHC_STREAM_COLOR);
@@ -194,9 +194,9 @@ TEST_F(Frames, ThatComeTooLateForTheOrderAreCounted) {
   config.order_wait_us = 1;
   const OpenCamera camera(config);
   ASSERT_EQ(camera.start(), SPHC_OK);
-  pass(camera, plainFrame(ONI_SENSOR_DEPTH, 2, 2 * kPeriodUs));
-  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_COLOR, 1, kPeriodUs)));
-  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_DEPTH, 3, 3 * kPeriodUs)));
+  pass(camera, plainFrame(ONI_SENSOR_DEPTH, 2, 2 * kFramePeriodUs));
+  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_COLOR, 1, kFramePeriodUs)));
+  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_DEPTH, 3, 3 * kFramePeriodUs)));
   ASSERT_EQ(camera.next(), SPHC_OK) << camera.message();
   while (camera.statistics().color.late == 0) EXPECT_EQ(camera.next(kSoonUs), SPHC_AGAIN);
   EXPECT_EQ(camera.statistics().color.captured, 0u);
@@ -226,7 +226,7 @@ TEST_F(Frames, OfEqualNumberComeInPairsWhenSynchronised) {
   ASSERT_EQ(camera.start(), SPHC_OK);
   EXPECT_EQ(vtof::syncedStreams(), 2);
   camera.passPair(1);
-  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_COLOR, 2, 2 * kPeriodUs)));  // its depth is lost
+  ASSERT_TRUE(vtof::emit(0, plainFrame(ONI_SENSOR_COLOR, 2, 2 * kFramePeriodUs)));  // its depth is lost
   camera.passPair(3);
   const sphc_openni2_statistics statistics = camera.statistics();
   EXPECT_EQ(statistics.color.captured, 2u);

@@ -4,25 +4,18 @@
 #include <string>
 #include <unordered_map>
 
+#include "runtime/stages/match/distance.h"
+
 namespace sphc::host {
 namespace {
-
-int32_t distance2(const Descriptor &a, const Descriptor &b) {
-  int32_t sum = 0;
-  for (size_t i = 0; i < kDescriptorBytes; ++i) {
-    const int32_t d = a.bytes[i] - b.bytes[i];
-    sum += d * d;
-  }
-  return sum;
-}
 
 std::string bytesOf(const Descriptor &d) { return {reinterpret_cast<const char *>(d.bytes), kDescriptorBytes}; }
 
 // False when no descriptor stands out.
 bool nearest(const Descriptor &query, const std::vector<Descriptor> &table, double ratio, uint32_t *index) {
-  int32_t best = INT32_MAX, second = INT32_MAX;
+  uint32_t best = UINT32_MAX, second = UINT32_MAX;
   for (uint32_t i = 0; i < table.size(); ++i) {
-    const int32_t d = distance2(query, table[i]);
+    const uint32_t d = distance2(query, table[i]);
     if (d < best) {
       second = best;
       best = d;

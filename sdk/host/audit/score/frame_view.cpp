@@ -5,7 +5,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr RaysOfPixel kRays = {4, 8};
+constexpr RaysOfPixel kFrameRays = {4, 8};
 
 // The grey that a ray meets; negative outside of the image.
 float greyAt(const cv::Mat &grey, const Camera &camera, const Vector3 &ray) {
@@ -18,7 +18,7 @@ float greyAt(const cv::Mat &grey, const Camera &camera, const Vector3 &ray) {
 }  // namespace
 
 TruthView frameView(const cv::Mat &grey, const Camera &camera) {
-  return truthView(kRays, [&](const Vector3 &ray) { return greyAt(grey, camera, ray); });
+  return truthView(kFrameRays, [&](const Vector3 &ray) { return greyAt(grey, camera, ray); });
 }
 
 }  // namespace sphc::host

@@ -9,16 +9,16 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kApartDeg = 24;     // of neighbouring views' axes: half a field
-constexpr double kSteepestDeg = 48;  // up and down
-constexpr size_t kFewPoints = 100;   // in view
+constexpr double kViewsApartDeg = 24;  // of neighbouring views' axes: half a field
+constexpr double kSteepestDeg = 48;    // up and down
+constexpr size_t kFewPoints = 100;     // in view
 
 // Upright views all around, rows of equal pitch; z is up, the camera's y down.
 std::vector<Matrix3> rotationsAllAround() {
   std::vector<Matrix3> rotations;
-  for (double pitch_deg = -kSteepestDeg; pitch_deg <= kSteepestDeg; pitch_deg += kApartDeg) {
+  for (double pitch_deg = -kSteepestDeg; pitch_deg <= kSteepestDeg; pitch_deg += kViewsApartDeg) {
     const double pitch = pitch_deg * kPi / 180;
-    const int count = static_cast<int>(std::ceil(360 / kApartDeg * std::cos(pitch)));
+    const int count = static_cast<int>(std::ceil(360 / kViewsApartDeg * std::cos(pitch)));
     for (int k = 0; k < count; ++k) {
       const double yaw = 2 * kPi * k / count;
       const Vector3 forward(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), std::sin(pitch));

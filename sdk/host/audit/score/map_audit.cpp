@@ -51,9 +51,9 @@ bool mayStayUnmeasured(const AuditRules &rules, const Attack &attack, const Figu
                      [&](Need need) { return contains(allowed, wordsOf(need).name); });
 }
 
-class Auditor {
+class MapAuditor {
  public:
-  Auditor(const AuditInput &input, const AuditRules &rules, const AuditProgress &progress)
+  MapAuditor(const AuditInput &input, const AuditRules &rules, const AuditProgress &progress)
       : rules_(rules), progress_(progress), context_(input) {
     audit_.quick = input.quick;
   }
@@ -162,7 +162,7 @@ AuditOutcome MapAudit::outcome() const {
 
 MapAudit auditMap(const AuditInput &input, const AuditRules &rules, const AuditProgress &progress) {
   checkRules(rules);
-  return Auditor(input, rules, progress).run();
+  return MapAuditor(input, rules, progress).run();
 }
 
 }  // namespace sphc::host

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kSameSurface = 0.06f;  // relative: ranges this close are one surface
 constexpr double kNearM = 0.6;         // the centre may lie in the furniture: what is nearer would hide the room
-constexpr RaysOfPixel kRays = {3, 3};
+constexpr RaysOfPixel kPanoramaRays = {3, 3};
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void Panorama::add(const Vector3 &offset_m, double radius_m, float grey) {
 
 TruthView Panorama::view(const Matrix3 &camera_from_map) const {
   const Matrix3 map_from_camera = camera_from_map.transpose();
-  return truthView(kRays, [&](const Vector3 &ray) {
+  return truthView(kPanoramaRays, [&](const Vector3 &ray) {
     Vector2 place;
     const int face = faceOf(map_from_camera * ray, &place);
     const auto cell_of = [](double p) { return std::min(static_cast<int>(p), kSide - 1); };

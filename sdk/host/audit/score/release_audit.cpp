@@ -27,9 +27,9 @@ struct Audited {
   std::vector<EntryTruth> truth;
 };
 
-class Auditor {
+class ReleaseAuditor {
  public:
-  Auditor(const ReleaseAuditInput &input, const FakeStrategy &strategy, double eta)
+  ReleaseAuditor(const ReleaseAuditInput &input, const FakeStrategy &strategy, double eta)
       : input_(input), strategy_(strategy), eta_(eta) {}
 
   std::vector<PrivacyRow> rows();
@@ -82,7 +82,7 @@ std::vector<Descriptor> objectIn(const PointModel &frame, uint32_t around) {
   return object;
 }
 
-Audited Auditor::release(const PointModel &model, uint8_t key, const std::vector<Place> &own) const {
+Audited ReleaseAuditor::release(const PointModel &model, uint8_t key, const std::vector<Place> &own) const {
   ReleaseRequest request;
   request.own = own;
   request.key = {key};
@@ -95,7 +95,7 @@ Audited Auditor::release(const PointModel &model, uint8_t key, const std::vector
 }
 
 // One set of points, built again and again under fresh keys.
-void Auditor::intersectRebuilds() {
+void ReleaseAuditor::intersectRebuilds() {
   std::vector<Audited> releases;
   for (uint8_t key = kFirstKey; releases.size() < kRebuilds; ++key) {
     releases.push_back(release(input_.first, key));
@@ -104,7 +104,7 @@ void Auditor::intersectRebuilds() {
   }
 }
 
-void Auditor::intersect(const std::string &variant, const std::vector<Audited> &releases) {
+void ReleaseAuditor::intersect(const std::string &variant, const std::vector<Audited> &releases) {
   std::vector<Published> maps;
   std::vector<std::vector<EntryTruth>> truths;
   for (const Audited &release : releases) {
@@ -125,7 +125,8 @@ void Auditor::intersect(const std::string &variant, const std::vector<Audited> &
 }
 
 // b_from_a: of their worlds.
-void Auditor::triangulate(const std::string &variant, const Audited &a, const Audited &b, const Rigid &b_from_a) {
+void ReleaseAuditor::triangulate(const std::string &variant, const Audited &a, const Audited &b,
+                                 const Rigid &b_from_a) {
   TriangulationOptions options;
   options.samples = input_.samples;
   const Triangulation attack = triangulateReleases(a.map, b.map, options);
@@ -140,7 +141,7 @@ void Auditor::triangulate(const std::string &variant, const Audited &a, const Au
   add("triangulation", variant, "median_error_cm", 100 * score.median_error_m);
 }
 
-void Auditor::leak(const Audited &last) {
+void ReleaseAuditor::leak(const Audited &last) {
   double worst = 0;
   for (const Cue &cue : fileCues(last.map)) {
     const Auc auc = scoreCue(cue, last.truth);
@@ -151,7 +152,7 @@ void Auditor::leak(const Audited &last) {
   add("leaks", "order within runs", "sigma", orderZ(last.map));
 }
 
-void Auditor::testPresence(const Audited &last) {
+void ReleaseAuditor::testPresence(const Audited &last) {
   std::vector<double> scores;
   std::vector<bool> present;
   Random random(11);
@@ -165,7 +166,7 @@ void Auditor::testPresence(const Audited &last) {
   add("presence", "object of 40 points", "auc", areaUnderCurve(scores, present).value);
 }
 
-void Auditor::query(const Audited &last) {
+void ReleaseAuditor::query(const Audited &last) {
   QueryingClient client(last.map);
   for (size_t k = 1; k <= input_.queries.size(); ++k) {
     std::vector<OwnPoint> frame;
@@ -181,7 +182,7 @@ void Auditor::query(const Audited &last) {
   }
 }
 
-std::vector<PrivacyRow> Auditor::rows() {
+std::vector<PrivacyRow> ReleaseAuditor::rows() {
   intersectRebuilds();
   const Audited first = release(input_.first, kFirstKey);
   const Audited more = release(moved(input_.more), kFirstKey, {first.place});
@@ -205,7 +206,7 @@ std::vector<PrivacyRow> Auditor::rows() {
 }  // namespace
 
 std::vector<PrivacyRow> auditReleases(const ReleaseAuditInput &input, const FakeStrategy &strategy, double eta) {
-  return Auditor(input, strategy, eta).rows();
+  return ReleaseAuditor(input, strategy, eta).rows();
 }
 
 }  // namespace sphc::host

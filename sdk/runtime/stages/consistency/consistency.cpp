@@ -21,8 +21,8 @@ constexpr double kMostBend = 0.7, kSureBend = 1.2;  // in frame after frame, and
 constexpr double kHalfway = 0.57;
 constexpr uint32_t kFewestEdges = 6;
 constexpr double kSurelyOff = -0.85, kDoubtfullyOff = 0;  // in one frame
-// Summed over frames (Page's cumulative sum): how far below kUsual each is.  Frames that follow each other within less
-// than kAnotherView see much the same edges, and count for a part of one.
+// Summed over frames (Page's cumulative sum): how far below kUsual each is.  Frames that follow each other within
+// less than kAnotherView see much the same edges, and count for a part of one.
 constexpr double kUsual = 0.35, kMostAStep = 1, kDoubtful = 0.8, kAlarm = 2.2, kAllClear = 1, kMostDoubt = 4;
 constexpr double kAnotherViewNs = 3e8;
 

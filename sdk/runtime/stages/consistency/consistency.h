@@ -51,7 +51,7 @@ class Consistency {
   EdgeAgreement agreement_;
   double doubt_ = 0;          // of edges, summed over frames
   int64_t told_time_ns_ = 0;  // of the last frame whose edges told something
-  bool disagreed_ = false;  // at the frame before
+  bool disagreed_ = false;    // at the frame before
   bool doubtful_ = false, bent_ = false;
 };
 

@@ -8,8 +8,8 @@ namespace sphc::openni2 {
 
 namespace {
 
-constexpr int64_t kPeriodNs = 33333000;
-constexpr int64_t kPeriods[kStreams] = {kPeriodNs, kPeriodNs};
+constexpr int64_t kFramePeriodNs = 33333000;
+constexpr int64_t kPeriods[kStreams] = {kFramePeriodNs, kFramePeriodNs};
 constexpr int64_t kMs = 1000000, kS = 1000 * kMs;
 
 Timeline live() {
@@ -27,9 +27,10 @@ TEST(Timeline, GivesTimesAndIndicesOnWhenAllIsWell) {
   Timeline timeline = live();
   for (int i = 5; i < 10; ++i)
     for (const int stream : {kColor, kDepth}) {
-      const Place place = timeline.place(stream, i, static_cast<uint64_t>(i) * 33333, 100 * kS + i * kPeriodNs);
+      const Place place =
+          timeline.place(stream, i, static_cast<uint64_t>(i) * 33333, 100 * kS + i * kFramePeriodNs);
       EXPECT_EQ(place.sequence, static_cast<uint32_t>(i));
-      EXPECT_EQ(place.time_ns, i * kPeriodNs);
+      EXPECT_EQ(place.time_ns, i * kFramePeriodNs);
       EXPECT_EQ(place.lost, 0u);
       EXPECT_FALSE(place.duplicate || place.clock_jumped);
     }
@@ -70,7 +71,7 @@ TEST(Timeline, BridgesAClockThatJumpsAndKeepsTheStreamsTogether) {
     Timeline timeline = live();
     int64_t device_us = 30000000, arrival_ns = kS;
     int64_t before_ns = 0;
-    for (int i = 1; i < 6; ++i, device_us += 33333, arrival_ns += kPeriodNs)
+    for (int i = 1; i < 6; ++i, device_us += 33333, arrival_ns += kFramePeriodNs)
       for (const int stream : {kColor, kDepth})
         before_ns = timeline.place(stream, i, static_cast<uint64_t>(device_us + 2000 * stream), arrival_ns).time_ns;
     device_us += jump_us - (jump_us == -1000 ? 40000 : 0);
@@ -78,11 +79,12 @@ TEST(Timeline, BridgesAClockThatJumpsAndKeepsTheStreamsTogether) {
     const Place depth = timeline.place(kDepth, 6, static_cast<uint64_t>(device_us + 2000), arrival_ns);
     EXPECT_TRUE(color.clock_jumped && depth.clock_jumped) << jump_us;
     EXPECT_GT(color.time_ns, before_ns - 2 * kMs);
-    EXPECT_LT(color.time_ns, before_ns + 2 * kPeriodNs);
+    EXPECT_LT(color.time_ns, before_ns + 2 * kFramePeriodNs);
     EXPECT_EQ(depth.time_ns - color.time_ns, 2 * kMs) << "one clock, one jump";
-    const Place next = timeline.place(kColor, 7, static_cast<uint64_t>(device_us + 33333), arrival_ns + kPeriodNs);
+    const Place next =
+        timeline.place(kColor, 7, static_cast<uint64_t>(device_us + 33333), arrival_ns + kFramePeriodNs);
     EXPECT_FALSE(next.clock_jumped);
-    EXPECT_EQ(next.time_ns - color.time_ns, kPeriodNs);
+    EXPECT_EQ(next.time_ns - color.time_ns, kFramePeriodNs);
   }
 }
 
@@ -103,9 +105,9 @@ TEST(Timeline, ALateDeliveryIsNoJump) {
 TEST(Timeline, PutsTheLaterStreamOfARecordingWhereItBegan) {
   Timeline timeline = recorded();
   for (int i = 1; i <= 5; ++i) timeline.place(kDepth, i, static_cast<uint64_t>(i - 1) * 33333, 0);
-  EXPECT_EQ(timeline.place(kColor, 1, 0, 0).time_ns, 4 * kPeriodNs);
-  EXPECT_EQ(timeline.place(kColor, 2, 33333, 0).time_ns, 5 * kPeriodNs);
-  EXPECT_EQ(timeline.place(kDepth, 6, 5 * 33333, 0).time_ns, 5 * kPeriodNs);
+  EXPECT_EQ(timeline.place(kColor, 1, 0, 0).time_ns, 4 * kFramePeriodNs);
+  EXPECT_EQ(timeline.place(kColor, 2, 33333, 0).time_ns, 5 * kFramePeriodNs);
+  EXPECT_EQ(timeline.place(kDepth, 6, 5 * 33333, 0).time_ns, 5 * kFramePeriodNs);
 }
 
 TEST(Timeline, GrowsWhateverTheDeviceSays) {
@@ -120,7 +122,7 @@ TEST(Timeline, GrowsWhateverTheDeviceSays) {
       const int stream = static_cast<int>(random.below(2));
       const uint64_t anything = random.next() >> random.below(64);
       const int index = static_cast<int>(static_cast<uint32_t>(random.next()) >> random.below(32));
-      arrival_ns += random.below(kPeriodNs);
+      arrival_ns += random.below(kFramePeriodNs);
       const Place place = timeline.place(stream, index, anything, arrival_ns);
       if (place.duplicate) continue;
       ASSERT_GT(place.time_ns, last_ns[stream]) << i;

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr uint32_t kWidth = 48, kHeight = 32;
+constexpr uint32_t kJpegWidth = 48, kJpegHeight = 32;
 
 struct Decoded {
   sphc_status status;
@@ -22,20 +22,20 @@ struct Decoded {
 
 Decoded decode(const std::vector<uint8_t> &frame, sphc_format format = SPHC_FORMAT_RGB8) {
   static MjpegDecoder decoder;  // one for all, as in a driver: a bad frame must not spoil the next
-  const uint32_t stride = pixelBytes(format) * kWidth;
-  Decoded decoded{SPHC_OK, std::vector<uint8_t>(stride * kHeight), {}};
-  const OutImage out{decoded.pixels.data(), decoded.pixels.size(), kWidth, kHeight, stride, format};
+  const uint32_t stride = pixelBytes(format) * kJpegWidth;
+  Decoded decoded{SPHC_OK, std::vector<uint8_t>(stride * kJpegHeight), {}};
+  const OutImage out{decoded.pixels.data(), decoded.pixels.size(), kJpegWidth, kJpegHeight, stride, format};
   decoded.status = decoder.decode(frame.data(), frame.size(), out, &decoded.message);
   EXPECT_EQ(decoded.status < 0, decoded.message.text[0] != '\0') << "a failure explains itself";
   return decoded;
 }
 
-const std::vector<uint8_t> kRgb = test::gradientRgb(kWidth, kHeight);
-const std::vector<uint8_t> kFrame = test::jpegFrame(kRgb, kWidth, kHeight);
+const std::vector<uint8_t> kRgb = test::gradientRgb(kJpegWidth, kJpegHeight);
+const std::vector<uint8_t> kFrame = test::jpegFrame(kRgb, kJpegWidth, kJpegHeight);
 
 TEST(Mjpeg, DecodesEverySubsampling) {
   for (const int subsampling : {TJSAMP_444, TJSAMP_422, TJSAMP_420}) {
-    const Decoded rgb = decode(test::jpegFrame(kRgb, kWidth, kHeight, subsampling));
+    const Decoded rgb = decode(test::jpegFrame(kRgb, kJpegWidth, kJpegHeight, subsampling));
     ASSERT_EQ(rgb.status, SPHC_OK) << rgb.message.text;
     for (size_t i = 0; i < kRgb.size(); ++i) ASSERT_NEAR(rgb.pixels[i], kRgb[i], 8) << "byte " << i;
   }
@@ -45,7 +45,7 @@ TEST(Mjpeg, OrdersColours) {
   const Decoded rgb = decode(kFrame), bgr = decode(kFrame, SPHC_FORMAT_BGR8),
                 gray = decode(kFrame, SPHC_FORMAT_GRAY8);
   ASSERT_EQ(rgb.status + bgr.status + gray.status, SPHC_OK);
-  for (size_t i = 0; i < kWidth * kHeight; ++i) {
+  for (size_t i = 0; i < kJpegWidth * kJpegHeight; ++i) {
     for (size_t c = 0; c < 3; ++c) ASSERT_EQ(rgb.pixels[3 * i + c], bgr.pixels[3 * i + 2 - c]);
     const double luma = 0.299 * rgb.pixels[3 * i] + 0.587 * rgb.pixels[3 * i + 1] + 0.114 * rgb.pixels[3 * i + 2];
     ASSERT_NEAR(gray.pixels[i], luma, 2);

@@ -7,11 +7,12 @@
 namespace sphc::pixels {
 namespace {
 
-constexpr uint32_t kWidth = 16, kHeight = 8;
+constexpr uint32_t kRawWidth = 16, kRawHeight = 8;
 std::vector<uint8_t> memory(4096);
 
 RawImage raw(Layout layout, size_t bytes) {
-  return contiguous(layout, YuvRange::Limited, kWidth, kHeight, rowBytes(layout, kWidth), memory.data(), bytes);
+  return contiguous(layout, YuvRange::Limited, kRawWidth, kRawHeight, rowBytes(layout, kRawWidth), memory.data(),
+                    bytes);
 }
 
 sphc_status checked(const RawImage &image) {
@@ -77,7 +78,7 @@ TEST(RawImage, RefusesNullPlanes) {
 }
 
 TEST(OutImage, IsCheckedLikewise) {
-  const OutImage fine{memory.data(), 384, kWidth, kHeight, 48, SPHC_FORMAT_RGB8};
+  const OutImage fine{memory.data(), 384, kRawWidth, kRawHeight, 48, SPHC_FORMAT_RGB8};
   sphc_message message{};
   EXPECT_EQ(checkOut(fine, &message), SPHC_OK) << message.text;
   OutImage out = fine;

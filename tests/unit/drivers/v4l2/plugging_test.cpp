@@ -12,16 +12,16 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Kind {
+struct CameraKind {
   const char *name;
   test::FakeCamera camera;
   sphc_v4l2_config config;
 };
 
-std::vector<Kind> kinds() {
-  std::vector<Kind> all = {{"depth", depthCamera(), configFor(SPHC_STREAM_DEPTH)},
-                           {"dmabuf", depthCamera(), configFor(SPHC_STREAM_DEPTH)},
-                           {"colour", colorCamera(), configFor(SPHC_STREAM_COLOR)}};
+std::vector<CameraKind> kinds() {
+  std::vector<CameraKind> all = {{"depth", depthCamera(), configFor(SPHC_STREAM_DEPTH)},
+                                 {"dmabuf", depthCamera(), configFor(SPHC_STREAM_DEPTH)},
+                                 {"colour", colorCamera(), configFor(SPHC_STREAM_COLOR)}};
   all[1].config.export_dmabuf = 1;
   return all;
 }
@@ -70,7 +70,7 @@ uint32_t live(test::FakeKernel &kernel, const sphc_v4l2_config &config, std::vec
 struct Calls {
   uint32_t until_last_acquire, all;
 };
-Calls callsOfALife(const Kind &kind) {
+Calls callsOfALife(const CameraKind &kind) {
   test::FakeKernel kernel;
   kernel.plugIn(0, kind.camera);
   std::vector<sphc_status> failures;
@@ -80,7 +80,7 @@ Calls callsOfALife(const Kind &kind) {
 }
 
 TEST(Plugging, UnpluggedAtAnyCallEndsWell) {
-  for (const Kind &kind : kinds()) {
+  for (const CameraKind &kind : kinds()) {
     const Calls calls = callsOfALife(kind);
     ASSERT_GT(calls.until_last_acquire, 50u);
     for (uint32_t call = 0; call < calls.all; ++call) {
@@ -102,7 +102,7 @@ TEST(Plugging, UnpluggedAtAnyCallEndsWell) {
 }
 
 TEST(Plugging, AnyErrorOfAnyCallEndsWell) {
-  for (const Kind &kind : kinds()) {
+  for (const CameraKind &kind : kinds()) {
     const uint32_t calls = callsOfALife(kind).all;
     for (const int error : {EAGAIN, EBUSY, EINTR, EINVAL, EIO, ENODEV, ENOMEM, ENOTTY})
       for (uint32_t call = 0; call < calls; ++call) {
@@ -146,9 +146,9 @@ TEST(Plugging, UnpluggedWhileWaitingWakes) {
 
 TEST(Plugging, AThousandTimesLeavesNothing) {
   test::FakeKernel kernel;
-  const std::vector<Kind> all = kinds();
+  const std::vector<CameraKind> all = kinds();
   for (uint32_t i = 0; i < 1000; ++i) {
-    const Kind &kind = all[i % all.size()];
+    const CameraKind &kind = all[i % all.size()];
     const uint32_t number = i % 5;
     kernel.plugIn(number, kind.camera);
     OpenedCamera camera(kernel, kind.config, "card=Fake camera");

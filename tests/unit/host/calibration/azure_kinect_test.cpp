@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "golden.h"
 #include "host/calibration/compare.h"
 #include "host/calibration/join.h"

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string textOf(const std::string &path) {
+std::string fileText(const std::string &path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -44,11 +44,11 @@ class FilesTest : public testing::Test {
 
   // The command is refused with this status, says this, and changes not a byte of the file.
   static void expectKept(const std::string &file, const std::string &command, int status, const std::string &told) {
-    const std::string before = textOf(file);
+    const std::string before = fileText(file);
     const Answer answer = runCommand(command);
     EXPECT_EQ(answer.exit_code, status) << command;
     EXPECT_THAT(answer.err, HasSubstr(told)) << command;
-    EXPECT_EQ(textOf(file), before) << command;
+    EXPECT_EQ(fileText(file), before) << command;
   }
 
   static std::unique_ptr<TempFolder> folder_;
@@ -67,13 +67,13 @@ TEST_F(FilesTest, AMapOfASavedModelIsTheMapMadeAtOnce) {
   const Answer later =
       runCommand("build --model " + model + " -m " + at("later.sphc") + by_key + at("later.ledger"));
   ASSERT_EQ(later.exit_code, kExitDone) << later.err;
-  EXPECT_EQ(textOf(at("later.sphc")), textOf(at("at_once.sphc")));
+  EXPECT_EQ(fileText(at("later.sphc")), fileText(at("at_once.sphc")));
   // and the key is what the map depends on
   put("model.key", std::string(64, 'b'));
   const Answer other =
       runCommand("build --model " + model + " -m " + at("other.sphc") + by_key + at("other_key.ledger"));
   ASSERT_EQ(other.exit_code, kExitDone) << other.err;
-  EXPECT_NE(textOf(at("other.sphc")), textOf(at("at_once.sphc")));
+  EXPECT_NE(fileText(at("other.sphc")), fileText(at("at_once.sphc")));
 }
 
 TEST_F(FilesTest, AModelIsSavedOverNothingElse) {
@@ -207,7 +207,7 @@ TEST_F(FilesTest, APoliteKillEndsARecordingAsCtrlCDoes) {
     EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
     EXPECT_TRUE(fs::exists(out));
     EXPECT_FALSE(fs::exists(out + ".part"));
-    EXPECT_THAT(textOf(out + ".json"), HasSubstr("\"color\""));
+    EXPECT_THAT(fileText(out + ".json"), HasSubstr("\"color\""));
     EXPECT_EQ(runCommand("convert " + out + " " + at(signal)).exit_code, kExitDone) << "the file is not whole";
   }
 }

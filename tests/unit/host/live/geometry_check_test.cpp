@@ -13,7 +13,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr uint32_t kFrames = 4;  // far apart
+constexpr uint32_t kWalkFrames = 4;  // far apart
 
 struct Images {
   std::vector<uint8_t> color;
@@ -26,12 +26,12 @@ class GeometryCheckTest : public testing::Test {
   static void SetUpTestSuite() {
     sphc_simulated_config config;
     sphc_simulated_config_init(&config, sizeof config);
-    config.frame_count = kFrames;
+    config.frame_count = kWalkFrames;
     config.frame_rate_hz = 0.5;  // far apart
     sphc_simulated *simulated = nullptr;
     ASSERT_EQ(sphc_simulated_open(&config, &simulated, nullptr), SPHC_OK);
     ASSERT_EQ(sphc_simulated_rig(simulated, &calibration_), SPHC_OK);
-    for (uint32_t i = 0; i < kFrames; ++i) {
+    for (uint32_t i = 0; i < kWalkFrames; ++i) {
       Images images;
       images.color.resize(size_t{3} * calibration_.color_camera.width * calibration_.color_camera.height);
       images.depth.resize(size_t{calibration_.depth_camera.width} * calibration_.depth_camera.height);
@@ -118,7 +118,7 @@ TEST_F(GeometryCheckTest, NoiseIsNotFine) {
 }
 
 TEST_F(GeometryCheckTest, DepthOfAnotherTimeIsNamedAndNotCalledTurned) {
-  for (size_t late = 1; late < kFrames; ++late) {
+  for (size_t late = 1; late < kWalkFrames; ++late) {
     const Finding finding = look(
         calibration_, [](std::vector<uint16_t> *) {}, [](std::vector<uint8_t> *) {}, late);
     EXPECT_EQ(finding.grade, Finding::Grade::kWrong);

@@ -10,7 +10,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr uint32_t kFrames = 6;
+constexpr uint32_t kRecordedFrames = 6;
 
 std::string messageOf(const std::function<void()> &call) {
   try {
@@ -25,7 +25,7 @@ class RigTest : public testing::Test {
  protected:
   void SetUp() override {
     const std::string walk = folder_ / "walk";
-    contract::writeTinyRecording(walk, kFrames);
+    contract::writeTinyRecording(walk, kRecordedFrames);
     options_.both = "replay:" + walk;
   }
   std::unique_ptr<Rig> open() {
@@ -55,9 +55,9 @@ TEST_F(RigTest, GivesEveryPairOfARecordingAndThenItsEnd) {
     rig->release(pair);
   }
   EXPECT_EQ(got, Rig::Got::kEnd);
-  EXPECT_EQ(pairs, kFrames);
-  EXPECT_EQ(captures, 2 * kFrames);
-  EXPECT_EQ(rig->counts().pairs, kFrames);
+  EXPECT_EQ(pairs, kRecordedFrames);
+  EXPECT_EQ(captures, 2 * kRecordedFrames);
+  EXPECT_EQ(rig->counts().pairs, kRecordedFrames);
   EXPECT_EQ(rig->next(std::chrono::milliseconds(0), &pair), Rig::Got::kEnd);
   EXPECT_EQ(troubles_, "");
 }
@@ -69,7 +69,7 @@ TEST_F(RigTest, WhatIsTooFarApartIsNoPair) {
   EXPECT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kEnd);
   const sphc_pairer_counts counts = rig->counts();
   EXPECT_EQ(counts.pairs, 0u);
-  EXPECT_EQ(counts.too_far + counts.overtaken + counts.full + counts.ended, 2 * kFrames);
+  EXPECT_EQ(counts.too_far + counts.overtaken + counts.full + counts.ended, 2 * kRecordedFrames);
 }
 
 // Two cameras, each with a clock of its own: both come out on the host's.
@@ -90,7 +90,7 @@ TEST_F(RigTest, TwoCamerasShareTheClockOfTheHost) {
     rig->release(pair);
     ++pairs;
   }
-  EXPECT_EQ(captures, 2 * kFrames);
+  EXPECT_EQ(captures, 2 * kRecordedFrames);
   EXPECT_GT(pairs, 0u);
 }
 

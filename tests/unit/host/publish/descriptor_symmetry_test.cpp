@@ -7,7 +7,7 @@
 namespace sphc::host {
 namespace {
 
-std::vector<uint8_t> bytesOf(const Descriptor &d) { return {d.bytes, d.bytes + kDescriptorBytes}; }
+std::vector<uint8_t> allBytes(const Descriptor &d) { return {d.bytes, d.bytes + kDescriptorBytes}; }
 
 // The descriptor of a single gradient in one cell.
 Descriptor single(size_t row, size_t column, size_t bin) {
@@ -17,12 +17,12 @@ Descriptor single(size_t row, size_t column, size_t bin) {
 }
 
 TEST(DescriptorSymmetry, AMirrorTurnsRowsAndAnglesRound) {
-  EXPECT_EQ(bytesOf(mirrored(single(0, 1, 1))), bytesOf(single(3, 1, 7)));
-  EXPECT_EQ(bytesOf(mirrored(single(2, 3, 0))), bytesOf(single(1, 3, 0)));
+  EXPECT_EQ(allBytes(mirrored(single(0, 1, 1))), allBytes(single(3, 1, 7)));
+  EXPECT_EQ(allBytes(mirrored(single(2, 3, 0))), allBytes(single(1, 3, 0)));
 }
 
 TEST(DescriptorSymmetry, ANegativeIsSeenUpsideDown) {
-  EXPECT_EQ(bytesOf(negative(single(0, 1, 5))), bytesOf(single(3, 2, 5)));
+  EXPECT_EQ(allBytes(negative(single(0, 1, 5))), allBytes(single(3, 2, 5)));
 }
 
 }  // namespace

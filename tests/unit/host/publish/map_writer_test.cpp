@@ -17,7 +17,7 @@
 namespace sphc::host {
 namespace {
 
-std::string pathOf(const char *name) {
+std::string mapPath(const char *name) {
   return testing::TempDir() + "sphc_map_" + std::to_string(getpid()) + "_" + name;
 }
 
@@ -117,7 +117,7 @@ TEST(MapWriter, AFullMapTakesAtMost160BytesAPoint) {
 }
 
 TEST(OwnerNote, RoundTrip) {
-  const std::string path = pathOf("note");
+  const std::string path = mapPath("note");
   const OwnerNote note = {kId, {1.0 / 3, -2e-9, 1e5}, 1.0 / 3, "gaussian"};
   writeOwnerNote(path, note);
   const OwnerNote back = readOwnerNote(path);
@@ -132,7 +132,7 @@ TEST(OwnerNote, RoundTrip) {
 }
 
 TEST(OwnerNote, EachFaultIsExplained) {
-  const std::string path = pathOf("bad_note");
+  const std::string path = mapPath("bad_note");
   const char *good = R"("format": "spherecloud-owner-note", "version": 1, "eta": 0.3, "strategy": "gaussian")";
   for (const std::string &text :
        {std::string(), std::string("["), std::string("{}"), std::string(R"({"format": "other", "version": 1})"),

@@ -14,7 +14,7 @@
 namespace sphc::host {
 namespace {
 
-PointModel makeModel(uint32_t count, uint64_t seed) {
+PointModel modelOfCount(uint32_t count, uint64_t seed) {
   Random random(seed);
   PointModel model;
   for (uint32_t i = 0; i < count; ++i)
@@ -40,7 +40,7 @@ size_t countFrom(const PointModel &resized, const std::set<std::string> &known) 
 }
 
 TEST(ResizedModel, CutsToThePointsThatMostFramesSaw) {
-  const PointModel own = makeModel(100, 1);
+  const PointModel own = modelOfCount(100, 1);
   SecretRandom random({1});
   const PointModel cut = resizedModel(own, {}, 30, &random);
   ASSERT_EQ(cut.points.size(), 30u);
@@ -48,7 +48,7 @@ TEST(ResizedModel, CutsToThePointsThatMostFramesSaw) {
 }
 
 TEST(ResizedModel, FillsUpWithForeignPointsAfterAllItsOwn) {
-  const PointModel own = makeModel(100, 1), foreign = makeModel(50, 2);
+  const PointModel own = modelOfCount(100, 1), foreign = modelOfCount(50, 2);
   SecretRandom random({1});
   const PointModel grown = resizedModel(own, {foreign}, 140, &random);
   ASSERT_EQ(grown.points.size(), 140u);
@@ -57,7 +57,7 @@ TEST(ResizedModel, FillsUpWithForeignPointsAfterAllItsOwn) {
 }
 
 TEST(ResizedModel, GrowsBeyondWhatThereIsWithoutCopies) {
-  const PointModel own = makeModel(100, 1);
+  const PointModel own = modelOfCount(100, 1);
   SecretRandom random({1});
   const PointModel grown = resizedModel(own, {}, 2000, &random);
   ASSERT_EQ(grown.points.size(), 2000u);
@@ -65,7 +65,7 @@ TEST(ResizedModel, GrowsBeyondWhatThereIsWithoutCopies) {
 }
 
 TEST(ResizedModel, TheCentreStaysAboutWhereItIs) {
-  const PointModel own = makeModel(2000, 1);
+  const PointModel own = modelOfCount(2000, 1);
   SecretRandom random({1});
   const PointModel grown = resizedModel(own, {}, 20000, &random);
   Vector3 before = Vector3::Zero(), after = Vector3::Zero();
@@ -75,7 +75,7 @@ TEST(ResizedModel, TheCentreStaysAboutWhereItIs) {
 }
 
 TEST(ResizedModel, TheSameKeyGivesTheSamePoints) {
-  const PointModel own = makeModel(50, 1);
+  const PointModel own = modelOfCount(50, 1);
   SecretRandom a({1}), b({1});
   const PointModel first = resizedModel(own, {}, 500, &a), second = resizedModel(own, {}, 500, &b);
   for (size_t i = 0; i < 500; ++i) {

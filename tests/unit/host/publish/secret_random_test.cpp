@@ -14,7 +14,7 @@
 namespace sphc::host {
 namespace {
 
-std::string pathOf(const char *name) {
+std::string keyPath(const char *name) {
   return testing::TempDir() + "sphc_key_" + std::to_string(getpid()) + "_" + name;
 }
 
@@ -79,7 +79,7 @@ TEST(KeyedHash, EachKeyPurposeAndContentHasItsOwn) {
 }
 
 TEST(SecretKeyFile, EachFaultIsExplained) {
-  const std::string path = pathOf("bad");
+  const std::string path = keyPath("bad");
   const std::string digits(64, 'a');
   for (const std::string &text : {std::string(), std::string(63, 'a'), std::string(65, 'a'), std::string(66, 'a'),
                                   std::string(64, 'g'), digits + " " + digits, digits + "\nmore", "0x" + digits}) {

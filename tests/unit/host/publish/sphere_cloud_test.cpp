@@ -21,7 +21,7 @@ uint32_t nameOf(const Descriptor &d) {
 }
 
 // Points whose descriptor says which they are.
-PointModel makeModel(uint32_t count, uint64_t seed = 1) {
+PointModel namedModel(uint32_t count, uint64_t seed = 1) {
   Random random(seed);
   PointModel model;
   for (uint32_t i = 0; i < count; ++i) {
@@ -56,14 +56,14 @@ bool isReal(const PointModel &model, const Built &built, const SpherePoint &poin
 }
 
 TEST(SphereCloud, CentreIsTheCentroid) {
-  const PointModel model = makeModel(500);
+  const PointModel model = namedModel(500);
   Vector3 mean = Vector3::Zero();
   for (const ModelPoint &point : model.points) mean += point.position_m / 500;
   EXPECT_LT((build(model, 0.5).centre_m - mean).norm(), 1e-12);
 }
 
 TEST(SphereCloud, TheShareOfRealDirectionsIsEta) {
-  const PointModel model = makeModel(3000);
+  const PointModel model = namedModel(3000);
   for (double eta : {1.0, 0.5, 1.0 / 3, 0.25, 0.01}) {
     const Built built = build(model, eta);
     const auto real = std::count_if(built.cloud.points.begin(), built.cloud.points.end(),
@@ -73,7 +73,7 @@ TEST(SphereCloud, TheShareOfRealDirectionsIsEta) {
 }
 
 TEST(SphereCloud, EveryDescriptorAppearsExactlyOnceAndUnchanged) {
-  const PointModel model = makeModel(1000);
+  const PointModel model = namedModel(1000);
   const Built built = build(model, 1.0 / 3);
   ASSERT_EQ(built.cloud.points.size(), 1000u);
   std::vector<int> seen(1000);
@@ -87,13 +87,13 @@ TEST(SphereCloud, EveryDescriptorAppearsExactlyOnceAndUnchanged) {
 }
 
 TEST(SphereCloud, AllDirectionsAreUnit) {
-  for (const SpherePoint &point : build(makeModel(2000), 0.25).cloud.points)
+  for (const SpherePoint &point : build(namedModel(2000), 0.25).cloud.points)
     EXPECT_NEAR(point.direction.norm(), 1, 1e-6);
 }
 
 // Which points keep their direction must not hang on where they stood in the model, nor show in the map's order.
 TEST(SphereCloud, OrderTellsNothing) {
-  const PointModel model = makeModel(2000);
+  const PointModel model = namedModel(2000);
   double first_half_real = 0, first_half_input = 0, displacement = 0;
   constexpr int kKeys = 20;
   for (uint8_t key = 1; key <= kKeys; ++key) {
@@ -112,7 +112,7 @@ TEST(SphereCloud, OrderTellsNothing) {
 }
 
 TEST(SphereCloud, APointAtTheCentreHasNoDirection) {
-  PointModel model = makeModel(100);
+  PointModel model = namedModel(100);
   for (size_t i = 0; i < 100; ++i)
     model.points[i].position_m = Vector3(i % 2 ? 1 : -1, 0.1 * static_cast<double>(i / 2), 0);
   model.points.push_back(model.points[0]);
@@ -123,9 +123,9 @@ TEST(SphereCloud, APointAtTheCentreHasNoDirection) {
 }
 
 TEST(SphereCloud, BadRequestsAreExplained) {
-  const PointModel model = makeModel(100);
+  const PointModel model = namedModel(100);
   for (double eta : {0.0, -0.1, 1.01, std::nan("")}) EXPECT_THROW(build(model, eta), std::runtime_error) << eta;
-  EXPECT_THROW(build(makeModel(63), 1), std::runtime_error);
+  EXPECT_THROW(build(namedModel(63), 1), std::runtime_error);
   EXPECT_THROW(build(model, 0.001), std::runtime_error);  // not one real direction
   // Nearly all points at one place, so that too few have a direction.
   PointModel heap = model;

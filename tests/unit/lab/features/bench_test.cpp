@@ -110,7 +110,7 @@ TEST(FeaturesBench, CountsMatchesThatThePosesConfirm) {
   EXPECT_NEAR(fast.times_faster_than_opencv, 20, 1e-9);
   EXPECT_EQ(fast.gaps[0].pairs, 15u);  // of 16, one without a pose
   EXPECT_EQ(fast.gaps[1].pairs, 3u);
-  for (const MatchQuality &quality : fast.gaps) {
+  for (const PairQuality &quality : fast.gaps) {
     EXPECT_DOUBLE_EQ(quality.matches, 3);
     EXPECT_DOUBLE_EQ(quality.verified, 2);
     EXPECT_NEAR(quality.sampson_px, 0, 1e-9);

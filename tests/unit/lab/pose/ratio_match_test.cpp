@@ -10,7 +10,7 @@ namespace {
 std::vector<Descriptor> randomDescriptors(size_t count) {
   Random random(1);
   std::vector<Descriptor> descriptors;
-  for (size_t i = 0; i < count; ++i) descriptors.push_back(test::randomDescriptor(&random));
+  for (size_t i = 0; i < count; ++i) descriptors.push_back(sphc::test::randomDescriptor(&random));
   return descriptors;
 }
 

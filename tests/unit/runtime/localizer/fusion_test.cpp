@@ -7,7 +7,7 @@
 namespace sphc {
 namespace {
 
-constexpr int64_t kStepNs = 33000000;
+constexpr int64_t kOdometryStepNs = 33000000;
 
 MapOrder orderOf(std::initializer_list<uint32_t> maps) {
   MapOrder order;
@@ -29,7 +29,7 @@ class FusionTest : public testing::Test {
   // The next frame, the camera having moved so far along x by odometry.
   void advance(double x_m) {
     const Odometry odometry = {{Matrix3::Identity(), Vector3(x_m_ += x_m, 0, 0)}, 1e-4, 1e-4};
-    tracker_.advance(time_ns_ += kStepNs, &odometry);
+    tracker_.advance(time_ns_ += kOdometryStepNs, &odometry);
     parts_.fusion.advance(tracker_);
   }
   // Of what is kept, behind `own`.
@@ -83,7 +83,7 @@ TEST_F(FusionTest, WhatThisFrameRemembersJoinsOnlyWhereItHasNoMatchesNow) {
 TEST_F(FusionTest, WithoutOdometryAllIsForgotten) {
   advance(0);
   parts_.fusion.remember(0, matches({{0, 10}}));
-  tracker_.advance(time_ns_ += kStepNs, nullptr);
+  tracker_.advance(time_ns_ += kOdometryStepNs, nullptr);
   parts_.fusion.advance(tracker_);
   EXPECT_EQ(parts_.fusion.frames(), 0u);
   EXPECT_FALSE(parts_.fusion.remember(0, matches({{1, 11}})));

@@ -10,7 +10,7 @@ namespace {
 constexpr double kAtCentre = 1e-3;  // of unit directions: no line of a sphere cloud passes another elsewhere
 constexpr size_t kQuickLines = 2000;
 
-AttackResult run(AuditContext *context) {
+AttackResult runDensity(AuditContext *context) {
   std::vector<Line> lines;
   for (const Vector3 &direction : context->map().directions)
     lines.push_back(Line::through(Vector3::Zero(), direction));
@@ -25,7 +25,7 @@ Attack densityAttack() {
   return {"density",
           {},
           {{"density.at_centre", "share of lines whose points the density attack puts in the centre", 0.99, false}},
-          run};
+          runDensity};
 }
 
 }  // namespace sphc::host

@@ -52,7 +52,7 @@ class Painter {
   std::vector<Inverter> inverters_;
 };
 
-AttackResult run(AuditContext *context) {
+AttackResult runInversion(AuditContext *context) {
   Painter painter(context);
   Published shuffled = context->unprotected();
   painter.paint("no fakes", shuffled);
@@ -84,7 +84,7 @@ Attack inversionAttack() {
            {"inversion.retrieval", "places told by inverted pictures, unpruned or pruned, whichever is more", {}},
            {"inversion.retrieval_paper", "the same, had the paper's fakes been used", {}},
            {"inversion.retrieval_shuffled", "the same without any information", {}}},
-          run};
+          runInversion};
 }
 
 }  // namespace sphc::host

@@ -7,7 +7,7 @@
 namespace sphc::host {
 namespace {
 
-AttackResult run(AuditContext *context) {
+AttackResult runQueryingClient(AuditContext *context) {
   QueryingClient client(context->map());
   for (const std::vector<ModelPoint> &frame : context->input().queries) {
     std::vector<OwnPoint> own;
@@ -25,7 +25,7 @@ Attack queryingClientAttack() {
   return {"querying_client",
           {Need::kTruth, Need::kRecording},
           {{"querying_client.share_of_real", "real entries that a client with a depth camera learns", {}}},
-          run};
+          runQueryingClient};
 }
 
 }  // namespace sphc::host

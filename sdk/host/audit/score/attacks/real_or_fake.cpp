@@ -6,7 +6,7 @@
 namespace sphc::host {
 namespace {
 
-AttackResult run(AuditContext *context) {
+AttackResult runRealOrFake(AuditContext *context) {
   const RealOrFakeScores &strongest = context->realOrFake().scores.back();
   return {{{"real_or_fake.auc", strongest.auc},
            {"real_or_fake.precision_at_eta", strongest.precision_at_eta,
@@ -22,7 +22,7 @@ Attack realOrFakeAttack() {
           {{"real_or_fake.auc", "telling real from fake entries; 0.5 is chance", 0.60},
            {"real_or_fake.precision_at_eta", "real among as many as there are, by the strongest", {}},
            {"real_or_fake.auc_paper", "the same, had the paper's fakes been used", {}}},
-          run};
+          runRealOrFake};
 }
 
 }  // namespace sphc::host

@@ -8,7 +8,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kEta = 1.0 / 3;
+constexpr double kThirdReal = 1.0 / 3;
 
 struct Result {
   double precision, exposed;
@@ -33,7 +33,7 @@ TEST(Intersection, CarelessRebuildsExposeThePoints) {
   const double expected[] = {0, 0, 0.111, 0.259, 0.407, 0.539, 0.649, 0.737, 0.805};
   std::vector<test::MadeUpRelease> releases;
   for (uint8_t key = 1; key <= 8; ++key) {
-    releases.push_back(test::released(room, key, kEta));
+    releases.push_back(test::released(room, key, kThirdReal));
     if (key < 2) continue;
     const Result result = attack(releases);
     EXPECT_GT(result.precision, 0.99) << int{key};
@@ -43,19 +43,19 @@ TEST(Intersection, CarelessRebuildsExposeThePoints) {
 
 TEST(Intersection, ReleasesOfOneLedgerSayNoMoreThanTheLast) {
   const PointModel room = test::madeUpRoom(2000, 1);
-  std::vector<test::MadeUpRelease> releases = {test::released(room, 1, kEta)};
+  std::vector<test::MadeUpRelease> releases = {test::released(room, 1, kThirdReal)};
   for (uint64_t seed = 2; seed < 5; ++seed) {
     const PointModel more = test::seenLater(room, 2000, test::madeUpRoom(200, seed), seed);
-    releases.push_back(test::released(more, 1, kEta, {releases.back().place}));
+    releases.push_back(test::released(more, 1, kThirdReal, {releases.back().place}));
   }
   ASSERT_EQ(releases.back().place.releases.size(), 4u);
-  EXPECT_NEAR(attack(releases).precision, kEta, 0.005);
+  EXPECT_NEAR(attack(releases).precision, kThirdReal, 0.005);
   // And what is new in the last says as little.
   Exposure fresh;
   for (const EntryTruth &entry : releases.back().truth)
     if (entry.release == 4) ++fresh.believed, fresh.real += entry.real;
   EXPECT_EQ(fresh.believed, 200u);
-  EXPECT_NEAR(fresh.precision(), kEta, 0.005);
+  EXPECT_NEAR(fresh.precision(), kThirdReal, 0.005);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kEta = 0.5;
+constexpr double kHalfReal = 0.5;
 
 TriangulationOptions quick() {
   TriangulationOptions options;
@@ -46,8 +46,8 @@ TEST(FivePoint, TheTrueMatrixIsAmongTheSolutions) {
 // The same points about another centre, in another frame: eta^2 of them come back to millimetres.
 TEST(Triangulation, AnotherCentreGivesThePointsAway) {
   const PointModel room = test::madeUpRoom(2000, 1);
-  const test::MadeUpRelease a = test::released(room, 1, kEta),
-                            b = test::released(test::part(room, 0, 1700), 2, kEta);
+  const test::MadeUpRelease a = test::released(room, 1, kHalfReal),
+                            b = test::released(test::part(room, 0, 1700), 2, kHalfReal);
   const double centres_m = (a.place.centre_m - b.place.centre_m).norm();
   ASSERT_GT(centres_m, 0.005);
   const Triangulation attack = triangulateReleases(a.map, b.map, quick());
@@ -67,8 +67,9 @@ TEST(Triangulation, ALargeShiftGivesThemToMillimetres) {
   half.points.resize(1400);
   std::vector<double> errors_m;
   for (uint8_t key = 1; key <= 23; key += 2) {
-    const test::MadeUpRelease a = test::released(room, key, kEta),
-                              b = test::released(test::seenAgain(half, 1, test::otherWorld(), 0, 0), key + 1, kEta);
+    const test::MadeUpRelease a = test::released(room, key, kHalfReal),
+                              b = test::released(test::seenAgain(half, 1, test::otherWorld(), 0, 0), key + 1,
+                                                 kHalfReal);
     const Vector3 centre_b = test::otherWorld().inverse() * b.place.centre_m;
     const double centres_m = (a.place.centre_m - centre_b).norm();
     ASSERT_GT(centres_m, 0.2);
@@ -77,7 +78,7 @@ TEST(Triangulation, ALargeShiftGivesThemToMillimetres) {
     EXPECT_LT(rotationAngle(attack.b_from_a * test::otherWorld().rotation.transpose()), 3e-3) << int{key};
     const TriangulationScore score = scoreTriangulation(attack, a.truth, b.truth, centres_m);
     EXPECT_GT(score.both_real.precision(), 0.97) << int{key};
-    EXPECT_NEAR(static_cast<double>(score.both_real.real) / 1400, kEta * kEta, 0.05) << int{key};
+    EXPECT_NEAR(static_cast<double>(score.both_real.real) / 1400, kHalfReal * kHalfReal, 0.05) << int{key};
     errors_m.push_back(score.median_error_m);
   }
   std::sort(errors_m.begin(), errors_m.end());
@@ -87,17 +88,17 @@ TEST(Triangulation, ALargeShiftGivesThemToMillimetres) {
 
 TEST(Triangulation, UpdatesHaveNoParallax) {
   const PointModel room = test::madeUpRoom(2000, 1);
-  const test::MadeUpRelease a = test::released(room, 1, kEta);
+  const test::MadeUpRelease a = test::released(room, 1, kHalfReal);
   const PointModel more = test::seenLater(room, 2000, test::madeUpRoom(200, 2));
-  const test::MadeUpRelease b = test::released(more, 1, kEta, {a.place});
+  const test::MadeUpRelease b = test::released(more, 1, kHalfReal, {a.place});
   EXPECT_FALSE(triangulateReleases(a.map, b.map, quick()).found);
 }
 
 TEST(Triangulation, MapsOfRoomsThatOverlapHaveNoPointInCommon) {
   const PointModel room = test::madeUpRoom(1500, 1);
-  const test::MadeUpRelease a = test::released(room, 1, kEta);
+  const test::MadeUpRelease a = test::released(room, 1, kHalfReal);
   const PointModel next = test::seenLater(room, 400, test::madeUpRoom(1100, 5, {14, -4, 2}));
-  const test::MadeUpRelease b = test::released(next, 1, kEta, {a.place});
+  const test::MadeUpRelease b = test::released(next, 1, kHalfReal, {a.place});
   ASSERT_EQ(b.place.number, 2u);
   EXPECT_FALSE(triangulateReleases(a.map, b.map, quick()).found);
 }

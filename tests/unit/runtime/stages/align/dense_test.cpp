@@ -11,6 +11,7 @@
 #include "tests/support/arena_memory.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/scene.h"
+#include "tests/unit/runtime/stages/align/plane.h"
 
 namespace sphc {
 namespace {
@@ -23,7 +24,7 @@ sphc_camera distorted(sphc_camera camera, sphc_camera_model model, const std::ve
 }
 
 // A colour camera beside a depth camera, and what the depth camera sees.
-struct Rig {
+struct DenseRig {
   DenseConfig config;
   std::vector<uint16_t> raw;
   std::unique_ptr<test::ArenaMemory> memory;
@@ -31,7 +32,7 @@ struct Rig {
   std::vector<uint16_t> depth;
   std::vector<uint8_t> mask, confidence;
 
-  Rig(const sphc_camera &color, const sphc_camera &depth_camera, const Rigid &color_from_depth) {
+  DenseRig(const sphc_camera &color, const sphc_camera &depth_camera, const Rigid &color_from_depth) {
     config.color = Camera(color);
     config.depth = Camera(depth_camera);
     config.color_from_depth = color_from_depth;
@@ -69,11 +70,6 @@ struct Rig {
 
 const Rigid kBeside{rotationFromVector(Vector3(0.01, -0.03, 0.005)), Vector3(0.06, -0.01, 0.004)};
 
-// A plane n . x = d in the depth camera's frame.
-std::function<double(const Vector2 &)> plane(const Vector3 &n, double d) {
-  return [=](const Vector2 &ray) { return d / n.dot(Vector3(ray.x(), ray.y(), 1)); };
-}
-
 struct Pair {
   const char *name;
   sphc_camera color, depth;
@@ -95,8 +91,8 @@ TEST(Dense, APlaneStaysOneUnderEveryCameraModel) {
   const Vector3 n(0.3, -0.15, 1);
   for (const Pair &pair : cameraPairs()) {
     SCOPED_TRACE(pair.name);
-    Rig rig(pair.color, pair.depth, kBeside);
-    rig.measure(plane(n, 2));
+    DenseRig rig(pair.color, pair.depth, kBeside);
+    rig.measure(test::plane(n, 2));
     rig.align();
     int covered = 0, checked = 0;
     for (int y = 20; y < 100; ++y) {
@@ -121,7 +117,7 @@ TEST(Dense, TheScalarVersionGivesTheSameBytes) {
   Random random(5);
   for (const Pair &pair : cameraPairs()) {
     SCOPED_TRACE(pair.name);
-    Rig rig(pair.color, pair.depth, kBeside);
+    DenseRig rig(pair.color, pair.depth, kBeside);
     for (uint16_t &mm : rig.raw)  // two surfaces, holes, and rubbish
       mm = static_cast<uint16_t>(random.below(20) == 0  ? random.below(65536)
                                  : random.below(8) == 0 ? 0
@@ -144,7 +140,7 @@ TEST(Dense, WhatSomethingNearHidesIsOccluded) {
   for (const Pair &pair : {cameraPairs()[0], cameraPairs()[1]}) {
     SCOPED_TRACE(pair.name);
     const double bar_m = 1, wall_m = 3, half_m = 0.15;
-    Rig rig(pair.color, pair.depth, Rigid{Matrix3::Identity(), Vector3(-0.1, 0, 0)});
+    DenseRig rig(pair.color, pair.depth, Rigid{Matrix3::Identity(), Vector3(-0.1, 0, 0)});
     rig.measure([&](const Vector2 &ray) { return std::abs(ray.x() * bar_m) < half_m ? bar_m : wall_m; });
     rig.align();
     // Edges of the bar, and where the wall that grazes its right edge is seen.
@@ -175,7 +171,7 @@ TEST(Dense, WhatSomethingNearHidesIsOccluded) {
 }
 
 TEST(Dense, NoMeasurementNoDepth) {
-  Rig rig(test::pinhole(64, 48, 50), test::pinhole(64, 48, 50), kBeside);
+  DenseRig rig(test::pinhole(64, 48, 50), test::pinhole(64, 48, 50), kBeside);
   rig.measure([](const Vector2 &) { return 0.0; });
   rig.align();
   EXPECT_EQ(rig.count(SPHC_ALIGNED_HOLE), 64 * 48);
@@ -188,8 +184,8 @@ TEST(Dense, NoMeasurementNoDepth) {
 
 TEST(Dense, RegisteredImagesComeBackAsTheyWere) {
   const sphc_camera camera = test::pinhole(64, 48, 50);
-  Rig rig(camera, camera, Rigid());
-  rig.measure(plane({0.1, 0.2, 1}, 1.5));
+  DenseRig rig(camera, camera, Rigid());
+  rig.measure(test::plane({0.1, 0.2, 1}, 1.5));
   rig.align();
   EXPECT_EQ(rig.depth, rig.raw);
   EXPECT_EQ(rig.count(SPHC_ALIGNED_MEASURED), 64 * 48);
@@ -197,8 +193,8 @@ TEST(Dense, RegisteredImagesComeBackAsTheyWere) {
 
 TEST(Dense, WidthsThatAreNoWholeVectors) {
   const sphc_camera camera = test::pinhole(75, 48, 50);
-  Rig rig(camera, camera, Rigid());
-  rig.measure(plane({0.1, 0.2, 1}, 1.5));
+  DenseRig rig(camera, camera, Rigid());
+  rig.measure(test::plane({0.1, 0.2, 1}, 1.5));
   rig.align();
   EXPECT_EQ(rig.depth, rig.raw);
   EXPECT_EQ(rig.count(SPHC_ALIGNED_MEASURED), 75 * 48);
@@ -206,9 +202,9 @@ TEST(Dense, WidthsThatAreNoWholeVectors) {
 
 TEST(Dense, TheChosenUnit) {
   const sphc_camera camera = test::pinhole(64, 48, 50);
-  Rig rig(camera, camera, Rigid());
+  DenseRig rig(camera, camera, Rigid());
   rig.config.out_unit_m = 0.0005;
-  rig.measure(plane({0, 0, 1}, 1.5));
+  rig.measure(test::plane({0, 0, 1}, 1.5));
   rig.align();
   EXPECT_EQ(rig.depth[rig.at(30, 20)], 3000);
 }
@@ -216,9 +212,9 @@ TEST(Dense, TheChosenUnit) {
 // 255 / (1 + (e / 0.01)^2) with e the relative error of the sensor, on a frontal plane.
 TEST(Dense, ConfidenceIsTheDocumentedFunctionOfTheError) {
   const sphc_camera camera = test::pinhole(64, 48, 50);
-  Rig rig(camera, camera, Rigid());
+  DenseRig rig(camera, camera, Rigid());
   for (double z : {0.5, 1.0, 2.0, 4.0}) {
-    rig.measure(plane({0, 0, 1}, z));
+    rig.measure(test::plane({0, 0, 1}, z));
     rig.align();
     const double e = rig.config.sensor.sigmaAt(z) / z;
     EXPECT_NEAR(rig.confidence[rig.at(30, 20)], 255 / (1 + e * e / 1e-4), 1) << z;
@@ -227,14 +223,14 @@ TEST(Dense, ConfidenceIsTheDocumentedFunctionOfTheError) {
 
 TEST(Dense, ConfidenceFallsAtEdgesAndOnSlopes) {
   const sphc_camera camera = test::pinhole(64, 48, 50);
-  Rig rig(camera, camera, Rigid());
+  DenseRig rig(camera, camera, Rigid());
   rig.measure([](const Vector2 &ray) { return ray.x() < 0 ? 1.0 : 2.0; });
   rig.align();
   EXPECT_LT(rig.confidence[rig.at(31, 20)], rig.confidence[rig.at(20, 20)] / 2);
-  rig.measure(plane({0, 0, 1}, 1));
+  rig.measure(test::plane({0, 0, 1}, 1));
   rig.align();
   const int frontal = rig.confidence[rig.at(32, 24)];
-  rig.measure(plane({0.9, 0, 1}, 1));
+  rig.measure(test::plane({0.9, 0, 1}, 1));
   rig.align();
   EXPECT_LT(rig.confidence[rig.at(32, 24)], frontal - 20);
 }
@@ -242,7 +238,7 @@ TEST(Dense, ConfidenceFallsAtEdgesAndOnSlopes) {
 TEST(Dense, TheNearerOfTwoWins) {  // a camera turned by a right angle about its axis, so that order does not matter
   const sphc_camera camera = test::pinhole(64, 64, 40);
   const Rigid turned{rotationFromVector(Vector3(0, 0, kPi / 2)), Vector3(0.05, 0.02, 0)};
-  Rig rig(camera, camera, turned);
+  DenseRig rig(camera, camera, turned);
   rig.measure([](const Vector2 &ray) { return ray.norm() < 0.3 ? 0.8 : 3.0; });
   rig.align();
   Vector2 middle;

@@ -11,18 +11,18 @@
 namespace sphc {
 namespace {
 
-constexpr int32_t kWidth = 75, kHeight = 53;  // no whole number of blocks
-constexpr DepthSensor kSensor = {0.001, 0.5, 4, 0.002, 0};
+constexpr int32_t kBlocksWidth = 75, kBlocksHeight = 53;  // no whole number of blocks
+constexpr DepthSensor kBlockSensor = {0.001, 0.5, 4, 0.002, 0};
 
 class DepthBlocksTest : public testing::Test {
  protected:
   DepthBlocksTest()
       : memory_([this](Arena &arena, bool real) {
-          DepthBlocks::layout(kWidth, kHeight, arena, real ? &blocks_ : nullptr);
+          DepthBlocks::layout(kBlocksWidth, kBlocksHeight, arena, real ? &blocks_ : nullptr);
         }),
-        depth_mm_(kWidth * kHeight) {}
-  uint16_t &at(int32_t u, int32_t v) { return depth_mm_[static_cast<size_t>(v * kWidth + u)]; }
-  void build() { blocks_.build({depth_mm_.data(), kWidth, kHeight, kWidth}, kSensor); }
+        depth_mm_(kBlocksWidth * kBlocksHeight) {}
+  uint16_t &at(int32_t u, int32_t v) { return depth_mm_[static_cast<size_t>(v * kBlocksWidth + u)]; }
+  void build() { blocks_.build({depth_mm_.data(), kBlocksWidth, kBlocksHeight, kBlocksWidth}, kBlockSensor); }
 
   DepthBlocks blocks_;
   test::ArenaMemory memory_;
@@ -35,12 +35,14 @@ TEST_F(DepthBlocksTest, NothingWithinReachIsNearer) {
     depth = random.below(400) ? uint16_t{0} : static_cast<uint16_t>(600 + random.below(3000));
   build();
   uint16_t nearest_of_all = DepthBlocks::kNone;
-  for (int32_t v = 0; v < kHeight; ++v) {
-    for (int32_t u = 0; u < kWidth; ++u) {
+  for (int32_t v = 0; v < kBlocksHeight; ++v) {
+    for (int32_t u = 0; u < kBlocksWidth; ++u) {
       const uint16_t nearest = blocks_.nearest(u, v);
       if (at(u, v)) nearest_of_all = std::min(nearest_of_all, at(u, v));
-      for (int32_t y = std::max(0, v - DepthBlocks::kReachPx); y <= v + DepthBlocks::kReachPx && y < kHeight; ++y)
-        for (int32_t x = std::max(0, u - DepthBlocks::kReachPx); x <= u + DepthBlocks::kReachPx && x < kWidth; ++x)
+      for (int32_t y = std::max(0, v - DepthBlocks::kReachPx); y <= v + DepthBlocks::kReachPx && y < kBlocksHeight;
+           ++y)
+        for (int32_t x = std::max(0, u - DepthBlocks::kReachPx); x <= u + DepthBlocks::kReachPx && x < kBlocksWidth;
+             ++x)
           ASSERT_LE(nearest, at(x, y) ? at(x, y) : DepthBlocks::kNone) << u << " " << v;
     }
   }

@@ -10,7 +10,7 @@
 namespace sphc {
 namespace {
 
-const DepthSensor kSensor = {0.001, 0.2, 6, 0.004, 0.002};
+const DepthSensor kPatchSensor = {0.001, 0.2, 6, 0.004, 0.002};
 constexpr int kWidth = 20, kHeight = 16;
 
 struct Image {
@@ -22,7 +22,7 @@ struct Image {
       for (int x = 0; x < kWidth; ++x) at(x, y) = static_cast<uint16_t>(std::lround(1000 * depth_m(x, y)));
   }
   PatchDepth patch(double x, double y) const {
-    return patchDepth({mm.data(), kWidth, kHeight, kWidth}, kSensor, x, y);
+    return patchDepth({mm.data(), kWidth, kHeight, kWidth}, kPatchSensor, x, y);
   }
 };
 
@@ -30,7 +30,7 @@ TEST(DepthPatch, Frontal) {
   const Image image([](int, int) { return 2.0; });
   const PatchDepth patch = image.patch(8.3, 7.6);
   EXPECT_NEAR(patch.depth_m, 2, 1e-9);
-  EXPECT_NEAR(patch.sigma_m, kSensor.sigmaAt(2), 1e-9);
+  EXPECT_NEAR(patch.sigma_m, kPatchSensor.sigmaAt(2), 1e-9);
 }
 
 TEST(DepthPatch, SlantedPlaneIsFollowed) {  // a plane: inverse depth linear in the pixel

@@ -9,13 +9,14 @@
 #include "tests/support/arena_memory.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/scene.h"
+#include "tests/unit/runtime/stages/align/plane.h"
 
 namespace sphc {
 namespace {
 
-const DepthSensor kSensor = {0.001, 0.2, 6, 0.002, 0.001};
+const DepthSensor kSparseSensor = {0.001, 0.2, 6, 0.002, 0.001};
 
-struct Rig {
+struct SparseRig {
   Camera color{test::pinhole(640, 480, 500)};
   Camera depth{test::pinhole(320, 288, 220)};
   Rigid color_from_depth{rotationFromVector(Vector3(0.01, -0.03, 0.005)), Vector3(0.06, -0.01, 0.004)};
@@ -31,21 +32,16 @@ struct Rig {
       }
   }
   bool lift(const Vector2 &pixel, Vector3 *point, double *sigma) const {
-    const SparseAligner aligner(color, depth, color_from_depth, kSensor);
+    const SparseAligner aligner(color, depth, color_from_depth, kSparseSensor);
     return aligner.lift({mm.data(), 320, 288, 320}, pixel, point, sigma);
   }
 };
 
-// A plane n . x = d in the depth camera's frame.
-std::function<double(const Vector2 &)> plane(const Vector3 &n, double d) {
-  return [=](const Vector2 &ray) { return d / n.dot(Vector3(ray.x(), ray.y(), 1)); };
-}
-
 TEST(Sparse, PlaneSeenByTwoCameras) {
   const Vector3 normals[] = {{0, 0, 1}, {0.3, -0.1, 1}, {-0.2, 0.4, 1}};
   for (const Vector3 &n : normals) {
-    Rig rig;
-    rig.measure(plane(n, 2.0));
+    SparseRig rig;
+    rig.measure(test::plane(n, 2.0));
     int lifted = 0, asked = 0;
     for (double y = 20; y < 470; y += 37)
       for (double x = 20; x < 630; x += 41) {
@@ -67,7 +63,7 @@ TEST(Sparse, PlaneSeenByTwoCameras) {
 }
 
 TEST(Sparse, HolesAreRefused) {
-  Rig rig;
+  SparseRig rig;
   rig.measure([](const Vector2 &) { return 0.0; });
   Vector3 point(7, 7, 7);
   double sigma = 7;
@@ -77,9 +73,9 @@ TEST(Sparse, HolesAreRefused) {
 }
 
 TEST(Sparse, OutsideTheDepthCamerasViewIsRefused) {
-  Rig rig;
+  SparseRig rig;
   rig.color_from_depth = {rotationFromVector(Vector3(0, 1.2, 0)), Vector3(0.05, 0, 0)};
-  rig.measure(plane({0, 0, 1}, 2));
+  rig.measure(test::plane({0, 0, 1}, 2));
   Vector3 point;
   double sigma;
   int lifted = 0;
@@ -90,7 +86,7 @@ TEST(Sparse, OutsideTheDepthCamerasViewIsRefused) {
 // A near bar before a wall.  What colour sees of the wall close to the bar's edge, the depth camera may not see:
 // such a keypoint gets no depth or a right one, never one in between.
 TEST(Sparse, OcclusionEdgeGivesNothingInBetween) {
-  Rig rig;
+  SparseRig rig;
   rig.color_from_depth = {Matrix3::Identity(), Vector3(0.1, 0, 0)};
   const double bar_m = 1, wall_m = 3, low = -0.15, high = 0.15;  // x of the bar in the depth frame
   rig.measure([&](const Vector2 &ray) { return ray.x() * bar_m > low && ray.x() * bar_m < high ? bar_m : wall_m; });
@@ -117,10 +113,10 @@ TEST(Sparse, OcclusionEdgeGivesNothingInBetween) {
 }
 
 TEST(Sparse, RegisteredImagesAreReadAtThePixel) {
-  Rig rig;
+  SparseRig rig;
   rig.color = rig.depth;
   rig.color_from_depth = Rigid();
-  rig.measure(plane({0.2, 0.1, 1}, 1.5));
+  rig.measure(test::plane({0.2, 0.1, 1}, 1.5));
   for (double x = 10; x < 310; x += 13.7) {
     Vector3 point;
     double sigma;
@@ -131,7 +127,7 @@ TEST(Sparse, RegisteredImagesAreReadAtThePixel) {
 
 // Strides over what is known to be far do not change an answer.
 TEST(Sparse, MemoryDoesNotChangeAnswers) {
-  Rig rig;
+  SparseRig rig;
   Random random(3);
   rig.measure([&](const Vector2 &ray) {
     const double wall = 3 + 0.4 * ray.x() + 0.1 * std::sin(20 * ray.y());
@@ -139,12 +135,12 @@ TEST(Sparse, MemoryDoesNotChangeAnswers) {
     return hole ? 0.0 : bar ? 0.9 + 0.3 * ray.y() : wall;
   });
   const ImageView<uint16_t> view = {rig.mm.data(), 320, 288, 320};
-  const SparseAligner plain(rig.color, rig.depth, rig.color_from_depth, kSensor);
+  const SparseAligner plain(rig.color, rig.depth, rig.color_from_depth, kSparseSensor);
   SparseAligner prepared;
   const test::ArenaMemory memory([&](Arena &arena, bool has_memory) {
     SparseAligner::layout(320, 288, arena, has_memory ? &prepared : nullptr);
   });
-  prepared.init(rig.color, rig.depth, rig.color_from_depth, kSensor);
+  prepared.init(rig.color, rig.depth, rig.color_from_depth, kSparseSensor);
   prepared.prepare(view);
   int lifted = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -160,8 +156,8 @@ TEST(Sparse, MemoryDoesNotChangeAnswers) {
 }
 
 TEST(Sparse, NonsensePixels) {
-  Rig rig;
-  rig.measure(plane({0, 0, 1}, 2));
+  SparseRig rig;
+  rig.measure(test::plane({0, 0, 1}, 2));
   Vector3 point;
   double sigma;
   for (const Vector2 &pixel : {Vector2(-1e9, 0), Vector2(NAN, 3), Vector2(1e300, 1e300), Vector2(-300, 240)})

@@ -11,13 +11,13 @@
 namespace sphc {
 namespace {
 
-constexpr int64_t kMs = 1000000;
+constexpr int64_t kMillisecondNs = 1000000;
 
 sphc_capture capture(sphc_stream stream, int64_t time_ms, uint64_t token = 0) {
   sphc_capture c = {};
   c.struct_size = sizeof c;
   c.stream = stream;
-  c.time_ns = time_ms * kMs;
+  c.time_ns = time_ms * kMillisecondNs;
   c.token = token ? token : static_cast<uint64_t>(time_ms);
   return c;
 }
@@ -25,7 +25,7 @@ sphc_capture color(int64_t time_ms) { return capture(SPHC_STREAM_COLOR, time_ms)
 sphc_capture depth(int64_t time_ms) { return capture(SPHC_STREAM_DEPTH, time_ms); }
 
 Pairer makePairer(uint32_t slots = 4, int64_t tolerance_ms = 20) {
-  return Pairer({sizeof(sphc_pairer_config), slots, tolerance_ms * kMs});
+  return Pairer({sizeof(sphc_pairer_config), slots, tolerance_ms * kMillisecondNs});
 }
 
 // Everything that comes out now: "c10+d11" a pair, "-d5" a drop.
@@ -39,10 +39,11 @@ std::string drain(Pairer *pairer) {
       EXPECT_EQ(dropped.stream, SPHC_STREAM_NONE);
       EXPECT_EQ(pair.color.stream, SPHC_STREAM_COLOR);
       EXPECT_EQ(pair.depth.stream, SPHC_STREAM_DEPTH);
-      out += "c" + std::to_string(pair.color.time_ns / kMs) + "+d" + std::to_string(pair.depth.time_ns / kMs) + " ";
+      out += "c" + std::to_string(pair.color.time_ns / kMillisecondNs) + "+d" +
+             std::to_string(pair.depth.time_ns / kMillisecondNs) + " ";
     } else if (dropped.stream != SPHC_STREAM_NONE) {
       out += std::string(dropped.stream == SPHC_STREAM_COLOR ? "-c" : "-d") +
-             std::to_string(dropped.time_ns / kMs) + " ";
+             std::to_string(dropped.time_ns / kMillisecondNs) + " ";
     } else {
       EXPECT_EQ(status, SPHC_AGAIN);
       return out;
@@ -204,10 +205,10 @@ TEST(Pairer, PairsByTheMiddleOfTheExposure) {
   pairer.push(early);
   pairer.push(late);
   EXPECT_EQ(drain(&pairer), "c100+d110 ");
-  EXPECT_EQ(sphc_capture_middle_ns(&early), 105 * kMs);
-  EXPECT_EQ(sphc_capture_middle_ns(&late), 105 * kMs);
+  EXPECT_EQ(sphc_capture_middle_ns(&early), 105 * kMillisecondNs);
+  EXPECT_EQ(sphc_capture_middle_ns(&late), 105 * kMillisecondNs);
   early.time_point = SPHC_TIME_ARRIVAL;
-  EXPECT_EQ(sphc_capture_middle_ns(&early), 100 * kMs);
+  EXPECT_EQ(sphc_capture_middle_ns(&early), 100 * kMillisecondNs);
   late.time_ns = std::numeric_limits<int64_t>::min();
   EXPECT_EQ(sphc_capture_middle_ns(&late), std::numeric_limits<int64_t>::min());
   EXPECT_EQ(sphc_capture_middle_ns(nullptr), 0);

@@ -10,7 +10,7 @@
 namespace sphc {
 namespace {
 
-constexpr int32_t kSide = 64;
+constexpr int32_t kImageSide = 64;
 
 class OrientationTest : public testing::Test {
  protected:
@@ -21,13 +21,13 @@ class OrientationTest : public testing::Test {
   // Of a level whose sample at (x, y) is `shade`.
   template <typename Shade>
   std::vector<float> orientations(const Shade &shade, int32_t limit) {
-    std::vector<int16_t> samples(kSide * (kSide + 1));
-    for (int32_t y = 0; y < kSide; ++y)
-      for (int32_t x = 0; x < kSide; ++x)
-        samples[static_cast<size_t>(y * kSide + x)] = static_cast<int16_t>(shade(x, y));
+    std::vector<int16_t> samples(kImageSide * (kImageSide + 1));
+    for (int32_t y = 0; y < kImageSide; ++y)
+      for (int32_t x = 0; x < kImageSide; ++x)
+        samples[static_cast<size_t>(y * kImageSide + x)] = static_cast<int16_t>(shade(x, y));
     float angles[2] = {9, 9};
-    const int32_t count = findOrientations(simdFeatureKernels(), {samples.data(), kSide, -1}, kSide, kSide, 32, 32,
-                                           2, gaussian_, limit, angles);
+    const int32_t count = findOrientations(simdFeatureKernels(), {samples.data(), kImageSide, -1}, kImageSide,
+                                           kImageSide, 32, 32, 2, gaussian_, limit, angles);
     return {angles, angles + count};
   }
 

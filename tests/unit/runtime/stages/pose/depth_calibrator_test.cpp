@@ -13,19 +13,19 @@
 namespace sphc {
 namespace {
 
-constexpr double kMidM = 2, kOffsetSigmaM = 0.005, kSlopeSigma = 0.02;
+constexpr double kCalibratedMidM = 2, kOffsetSigmaM = 0.005, kSlopeSigma = 0.02;
 constexpr int kFrames = 40;
 
 DepthCalibration belief() {
   DepthCalibration prior;
-  prior.mid_m = kMidM;
+  prior.mid_m = kCalibratedMidM;
   prior.covariance.diagonal() << kOffsetSigmaM * kOffsetSigmaM, kSlopeSigma * kSlopeSigma;
   return prior;
 }
 
 DepthCalibration nothingToLearn() {
   DepthCalibration known;
-  known.mid_m = kMidM;
+  known.mid_m = kCalibratedMidM;
   return known;
 }
 
@@ -39,7 +39,7 @@ test::PoseWorld frameOf(const Sensor &sensor, uint64_t seed) {
   options.seed = seed;
   options.true_share = 0.33;
   options.bias = sensor.bias;
-  options.mid_m = kMidM;
+  options.mid_m = kCalibratedMidM;
   options.stated_depth_noise = sensor.stated_noise;
   return test::makeSensorWorld(options);
 }
@@ -70,11 +70,6 @@ class Session {
   test::TestEstimator estimator_{512, 20000};
 };
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 // Errors of a session's frames from the tenth on.
 std::vector<double> laterErrors(const DepthCalibration &prior, const Sensor &sensor, uint64_t first_seed) {
   Session session(prior);
@@ -90,7 +85,7 @@ double medianOverSessions(const DepthCalibration &prior, const Sensor &sensor) {
   std::vector<double> all;
   for (uint64_t session = 0; session < 10; ++session)
     for (double error_m : laterErrors(prior, sensor, 1 + 1000 * session)) all.push_back(error_m);
-  return median(all);
+  return test::median(all);
 }
 
 TEST(DepthCalibrator, ConvergesToTheSensorsBias) {
@@ -197,7 +192,7 @@ TEST(DepthCalibrator, AFrameOfFakesDoesNotThrowItOff) {
 
 // Depths that are all longer by one factor: the map cannot tell.
 TEST(DepthCalibrator, ACommonScaleTeachesNothing) {
-  const Sensor sensor = {{0.02 * kMidM, 0.02}, 1};
+  const Sensor sensor = {{0.02 * kCalibratedMidM, 0.02}, 1};
   for (uint64_t first : {1u, 1001u, 2001u}) {
     Session session(belief());
     for (uint64_t i = 0; i < kFrames; ++i) session.frame(sensor, first + i);

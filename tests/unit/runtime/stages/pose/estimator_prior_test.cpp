@@ -18,11 +18,6 @@ test::PoseWorld worldAt(double eta, uint64_t seed) {
   return test::makeSensorWorld(options);
 }
 
-bool isFound(const Estimate &estimate, const test::PoseWorld &world) {
-  return test::rotationErrorRad(estimate.camera_from_map, world.camera_from_map) < 1.0 * kDegree &&
-         test::translationErrorM(estimate.camera_from_map, world.camera_from_map) < 0.02;
-}
-
 Estimate searchWith(test::TestEstimator *estimator, const test::PoseWorld &world, const PosePrior *prior,
                     uint64_t seed) {
   PoseQuery query;
@@ -93,13 +88,13 @@ TEST(PosePrior, OfAFewFakesIsNotBelieved) {
   EXPECT_EQ(believed, 0);
 }
 
-struct Effort {
+struct PriorEffort {
   double iterations = 0, hypotheses = 0;
   int found = 0;
 };
-Effort effortWith(double up_sigma_rad, double eta, int worlds) {
+PriorEffort effortWith(double up_sigma_rad, double eta, int worlds) {
   test::TestEstimator estimator;
-  Effort effort;
+  PriorEffort effort;
   for (int i = 1; i <= worlds; ++i) {
     const uint64_t seed = static_cast<uint64_t>(i);
     const test::PoseWorld world = worldAt(eta, seed);
@@ -113,7 +108,7 @@ Effort effortWith(double up_sigma_rad, double eta, int worlds) {
 }
 
 TEST(GravityPrior, NeedsAThirdOfTheHypotheses) {
-  const Effort plain = effortWith(0, 0.25, 1000), half_a_degree = effortWith(0.5 * kDegree, 0.25, 1000);
+  const PriorEffort plain = effortWith(0, 0.25, 1000), half_a_degree = effortWith(0.5 * kDegree, 0.25, 1000);
   RecordProperty("hypotheses_plain", std::to_string(plain.hypotheses));
   RecordProperty("hypotheses_upright", std::to_string(half_a_degree.hypotheses));
   RecordProperty("found_plain", plain.found);
@@ -123,7 +118,7 @@ TEST(GravityPrior, NeedsAThirdOfTheHypotheses) {
 }
 
 TEST(GravityPrior, AVerticalOfADegreeStillFinds) {
-  const Effort effort = effortWith(1 * kDegree, 0.25, 300);
+  const PriorEffort effort = effortWith(1 * kDegree, 0.25, 300);
   RecordProperty("iterations", std::to_string(effort.iterations));
   RecordProperty("missed_of_300", 300 - effort.found);
   EXPECT_GE(effort.found, 297);

@@ -44,11 +44,6 @@ test::SensorWorldOptions sensorAt(double eta, uint64_t seed) {
   return options;
 }
 
-bool isFound(const Estimate &estimate, const test::PoseWorld &world) {
-  return test::rotationErrorRad(estimate.camera_from_map, world.camera_from_map) < 1.0 * kPi / 180 &&
-         test::translationErrorM(estimate.camera_from_map, world.camera_from_map) < 0.02;
-}
-
 void expectFoundAt(double eta, int worlds, int at_least) {
   test::TestEstimator estimator;
   int found = 0;
@@ -63,11 +58,6 @@ void expectFoundAt(double eta, int worlds, int at_least) {
 TEST(Estimator, FindsNoisyWorldsAtEta33) { expectFoundAt(0.33, 500, 499); }
 TEST(Estimator, FindsNoisyWorldsAtEta25) { expectFoundAt(0.25, 500, 498); }
 TEST(Estimator, FindsNoisyWorldsAtEta10) { expectFoundAt(0.10, 100, 98); }
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 
 // The same rows with depth, and beside them some without, or not.
 TEST(Estimator, RowsWithoutDepthHelp) {
@@ -84,9 +74,9 @@ TEST(Estimator, RowsWithoutDepthHelp) {
     without.push_back(
         test::translationErrorM(estimator.search(world, seed).camera_from_map, world.camera_from_map));
   }
-  RecordProperty("median_mm_with", std::to_string(1000 * median(with)));
-  RecordProperty("median_mm_without", std::to_string(1000 * median(without)));
-  EXPECT_LT(median(with), 0.9 * median(without));
+  RecordProperty("median_mm_with", std::to_string(1000 * test::median(with)));
+  RecordProperty("median_mm_without", std::to_string(1000 * test::median(without)));
+  EXPECT_LT(test::median(with), 0.9 * test::median(without));
 }
 
 TEST(Estimator, WithNoiseTheErrorIsThatOfTheNoise) {

@@ -49,12 +49,12 @@ std::vector<Correspondence> randomCorrespondences(const Rigid &pose, uint32_t co
   return out;
 }
 
-struct Problem {
+struct RowsProblem {
   Rigid pose;
   std::vector<Correspondence> correspondences;
 };
-Problem randomProblem(uint32_t count, Random *random) {
-  Problem p;
+RowsProblem randomProblem(uint32_t count, Random *random) {
+  RowsProblem p;
   p.pose = {test::randomRotation(random), 2 * test::normalVector(random)};
   p.correspondences = randomCorrespondences(p.pose, count, random);
   return p;
@@ -80,7 +80,7 @@ void onRandomProblems(const Check &check) {
 }
 
 TEST(Kernels, PrepareGivesTheScalarBits) {
-  onRandomProblems([](const Problem &problem) {
+  onRandomProblems([](const RowsProblem &problem) {
     test::OwnedRows ours(problem.correspondences), scalar(problem.correspondences);
     const DepthCorrection correction = {-0.01f, 0.02f, 2.0f, 1.3f};
     simdPoseKernels().prepare(&ours.rows, correction);
@@ -91,7 +91,7 @@ TEST(Kernels, PrepareGivesTheScalarBits) {
 }
 
 TEST(Kernels, ScoreGivesTheScalarBits) {
-  onRandomProblems([](const Problem &problem) {
+  onRandomProblems([](const RowsProblem &problem) {
     const test::OwnedRows owned(problem.correspondences, scalarPoseKernels());
     const PoseF pose = poseF(problem.pose);
     const float count = static_cast<float>(problem.correspondences.size());
@@ -107,7 +107,7 @@ TEST(Kernels, ScoreGivesTheScalarBits) {
 }
 
 TEST(Kernels, ResidualsGiveTheScalarBits) {
-  onRandomProblems([](const Problem &problem) {
+  onRandomProblems([](const RowsProblem &problem) {
     const test::OwnedRows owned(problem.correspondences, scalarPoseKernels());
     const uint32_t padded = owned.rows.padded;
     std::vector<float> ours(padded), scalar(padded);
@@ -130,7 +130,7 @@ void expectSameSums(const NormalSums &ours, const NormalSums &scalar) {
 }
 
 TEST(Kernels, EquationsGiveTheScalarBits) {
-  onRandomProblems([](const Problem &problem) {
+  onRandomProblems([](const RowsProblem &problem) {
     const test::OwnedRows owned(problem.correspondences, scalarPoseKernels());
     NormalSums ours, scalar;
     for (const bool with_bias : {false, true}) {
@@ -145,7 +145,7 @@ TEST(Kernels, EquationsGiveTheScalarBits) {
   });
 }
 
-MinimalBatch batchOf(const Problem &problem) {
+MinimalBatch batchOf(const RowsProblem &problem) {
   MinimalBatch batch;
   for (uint32_t lane = 0; lane < kMinimalBatch; ++lane)
     for (uint32_t k = 0; k < 3; ++k) {

@@ -14,14 +14,14 @@ double error(const Rigid &a, const Rigid &b) {
   return (a.rotation - b.rotation).norm() + (a.translation_m - b.translation_m).norm();
 }
 
-struct Problem {
+struct P3pProblem {
   Vector3 bearing[3], point[3];
   Rigid truth;
 };
 
 // Rays leave the map's centre, points are those the camera sees.
-Problem randomProblem(Random *random) {
-  Problem p;
+P3pProblem randomP3p(Random *random) {
+  P3pProblem p;
   p.truth = {test::randomRotation(random), 2 * test::normalVector(random)};
   for (int i = 0; i < 3; ++i) {
     const double x = test::normal(random), y = test::normal(random);
@@ -32,7 +32,7 @@ Problem randomProblem(Random *random) {
   return p;
 }
 
-double triangleArea(const Problem &p) {
+double triangleArea(const P3pProblem &p) {
   return 0.5 * (p.point[1] - p.point[0]).cross(p.point[2] - p.point[0]).norm();
 }
 
@@ -41,7 +41,7 @@ TEST(P3p, FindsTheTruthInEveryRandomProblem) {
   int missed = 0, tried = 0, solutions = 0;
   double worst = 0;
   while (tried < 100000) {
-    const Problem p = randomProblem(&random);
+    const P3pProblem p = randomP3p(&random);
     if (triangleArea(p) < 1e-2) continue;  // on a line: excluded by the contract
     ++tried;
     const FixedVector<Rigid, 4> poses = solveP3p(p.bearing, p.point);
@@ -61,7 +61,7 @@ TEST(P3p, FindsTheTruthInEveryRandomProblem) {
 TEST(P3p, EverySolutionSolves) {
   Random random(2);
   for (int i = 0; i < 5000; ++i) {
-    const Problem p = randomProblem(&random);
+    const P3pProblem p = randomP3p(&random);
     if (triangleArea(p) < 1e-2) continue;
     for (const Rigid &pose : solveP3p(p.bearing, p.point)) {
       EXPECT_NEAR(pose.rotation.determinant(), 1, 1e-9);
@@ -84,8 +84,8 @@ TEST(P3p, DegenerateInputIsHarmless) {
   Random random(3);
   const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 2000; ++i) {
-    Problem p = randomProblem(&random);
-    const Problem good = p;
+    P3pProblem p = randomP3p(&random);
+    const P3pProblem good = p;
     p.point[1] = p.point[0];  // one point twice
     expectSane(p.bearing, p.point);
     p = good, p.bearing[1] = p.bearing[0];
@@ -112,7 +112,7 @@ TEST(P3p, DegenerateInputIsHarmless) {
 TEST(P3p, FakeDirectionsSeldomFitAnything) {  // the number of solutions is bounded anyhow
   Random random(4);
   for (int i = 0; i < 2000; ++i) {
-    Problem p = randomProblem(&random);
+    P3pProblem p = randomP3p(&random);
     for (Vector3 &bearing : p.bearing) bearing = test::randomDirection(&random);
     expectSane(p.bearing, p.point);
   }

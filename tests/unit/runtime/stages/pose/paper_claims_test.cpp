@@ -99,8 +99,8 @@ TEST(PaperClaims, ADistantCentreRuinsTranslation) {
 TEST(PaperClaims, RandomDepthsSeldomGiveAPose) {
   test::TestEstimator estimator(300, 3000);
   int localized = 0;
-  constexpr int kWorlds = 40;
-  for (uint64_t seed = 1; seed <= kWorlds; ++seed) {
+  constexpr int kScenes = 40;
+  for (uint64_t seed = 1; seed <= kScenes; ++seed) {
     test::PoseWorldOptions options;
     options.seed = seed;
     test::PoseWorld world = test::makePoseWorld(options);
@@ -112,7 +112,7 @@ TEST(PaperClaims, RandomDepthsSeldomGiveAPose) {
     localized += estimator.judge(world, estimate) == Outcome::kLocalized;
   }
   RecordProperty("localized_of_40", localized);
-  EXPECT_LE(localized, kWorlds / 4);
+  EXPECT_LE(localized, kScenes / 4);
 }
 
 }  // namespace

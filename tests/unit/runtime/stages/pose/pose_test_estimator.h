@@ -1,6 +1,8 @@
 // An estimator in memory of its own.
 #pragma once
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "runtime/localizer/judgement.h"
 #include "runtime/stages/pose/estimator.h"
@@ -60,5 +62,16 @@ class TestEstimator {
   PoseEstimator estimator_;
   ArenaMemory memory_;
 };
+
+// Within a degree and 2 cm of the truth.
+inline bool isFound(const Estimate &estimate, const PoseWorld &world) {
+  return rotationErrorRad(estimate.camera_from_map, world.camera_from_map) < 1.0 * kPi / 180 &&
+         translationErrorM(estimate.camera_from_map, world.camera_from_map) < 0.02;
+}
+
+inline double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
 
 }  // namespace sphc::test

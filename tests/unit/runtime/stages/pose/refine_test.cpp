@@ -29,8 +29,8 @@ DepthCalibration biasPrior(double offset_sigma_m, double slope_sigma) {
 }
 
 // The rows of a world, with and without depth, and the task on them.
-struct Problem {
-  explicit Problem(const test::PoseWorld &of)
+struct RefineProblem {
+  explicit RefineProblem(const test::PoseWorld &of)
       : world(of), lifted(withDepth(true), simdPoseKernels()), planes(withDepth(false), simdPoseKernels()) {
     task.kernels = &simdPoseKernels();
     task.lifted = &lifted.rows;
@@ -83,7 +83,7 @@ test::PoseWorld noisyWorld(uint64_t seed, double true_share = 1, double depthles
 TEST(Refine, ConvergesToTheExactPose) {
   Random random(1);
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const Problem p(exactWorld(seed));
+    const RefineProblem p(exactWorld(seed));
     const Rigid start = disturbed(p.world.camera_from_map, 0.004, 0.008, &random);
     const Refinement refined = refinePose(p.task, start, 30);
     EXPECT_LT(test::rotationErrorRad(refined.camera_from_map, p.world.camera_from_map), 4e-5);
@@ -95,7 +95,7 @@ TEST(Refine, ConvergesToTheExactPose) {
 TEST(Refine, ImprovePoseComesNearInTwoSteps) {
   Random random(1);
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const Problem p(exactWorld(seed));
+    const RefineProblem p(exactWorld(seed));
     const Rigid start = disturbed(p.world.camera_from_map, 0.002, 0.004, &random);
     const Rigid pose = improvePose(p.task, start, 2);
     EXPECT_LT(test::translationErrorM(pose, p.world.camera_from_map),
@@ -106,7 +106,7 @@ TEST(Refine, ImprovePoseComesNearInTwoSteps) {
 TEST(Refine, LetsGoOfFakes) {
   Random random(2);
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const Problem p(noisyWorld(seed, 0.33));
+    const RefineProblem p(noisyWorld(seed, 0.33));
     const Rigid start = disturbed(p.world.camera_from_map, 0.003, 0.005, &random);
     const Refinement refined = refinePose(p.task, start, 12);
     EXPECT_LT(test::rotationErrorRad(refined.camera_from_map, p.world.camera_from_map), 0.005);
@@ -116,7 +116,7 @@ TEST(Refine, LetsGoOfFakes) {
 
 TEST(Refine, NeverRaisesTheCost) {
   Random random(3);
-  Problem p(noisyWorld(1, 0.5, 0.3));
+  RefineProblem p(noisyWorld(1, 0.5, 0.3));
   for (const DepthCalibration &depth : {biasPrior(0, 0), biasPrior(0.01, 0.02)}) {
     p.task.depth = depth;
     for (int i = 0; i < 30; ++i) {
@@ -133,17 +133,17 @@ TEST(Refine, NeverRaisesTheCost) {
 }
 
 // Half the cost of what rows say, and of what priors say.
-double halfLifted(const Problem &p, const test::PoseCost &cost, const Vector8 &step) {
+double halfLifted(const RefineProblem &p, const test::PoseCost &cost, const Vector8 &step) {
   double sum = 0;
   for (const Correspondence &c : p.withDepth(true)) sum += cost.lifted(c, step);
   return 0.5 * sum;
 }
-double halfPlanes(const Problem &p, const test::PoseCost &cost, const Vector8 &step) {
+double halfPlanes(const RefineProblem &p, const test::PoseCost &cost, const Vector8 &step) {
   double sum = 0;
   for (const Correspondence &c : p.withDepth(false)) sum += cost.plane(c, step);
   return 0.5 * sum;
 }
-double halfPriors(const Problem &p, const test::PoseCost &cost, const Vector8 &step) {
+double halfPriors(const RefineProblem &p, const test::PoseCost &cost, const Vector8 &step) {
   const Vector3 up = cost.moved(step).rotation * p.task.prior->up_map, off = up - p.task.prior->up_camera;
   return 0.5 * (off.squaredNorm() / (p.task.prior->up_sigma_rad * p.task.prior->up_sigma_rad) +
                 step.tail<2>().dot(p.task.depth.covariance.inverse() * step.tail<2>()));
@@ -171,7 +171,7 @@ test::PoseWorld exactMixedWorld() {
 // Without noise the loss is a square.  What rows say counts for more than its curvature, as the loss takes some of
 // it away again (see nees_test.cpp); what priors say does not.
 TEST(Refine, InformationIsTheCostsCurvature) {
-  Problem p(exactMixedWorld());
+  RefineProblem p(exactMixedWorld());
   const Rigid &truth = p.world.camera_from_map;
   PosePrior prior = test::gravityPrior(p.world, 1e-3, 1);
   prior.up_camera = truth.rotation * prior.up_map;
@@ -189,7 +189,7 @@ TEST(Refine, InformationIsTheCostsCurvature) {
 // A wide prior: the rows alone tell the slope when the offset is known.
 TEST(Refine, RecoversASlope) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
-    Problem p(biasedWorld(seed, 0, 0.02));
+    RefineProblem p(biasedWorld(seed, 0, 0.02));
     p.task.depth = biasPrior(1e-5, 1);
     const Refinement refined = refinePose(p.task, p.world.camera_from_map, 30);
     EXPECT_NEAR(refined.bias[1], 0.02, 2e-4) << seed;
@@ -199,7 +199,7 @@ TEST(Refine, RecoversASlope) {
 }
 TEST(Refine, RecoversAnOffset) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
-    Problem p(biasedWorld(seed, 0.02, 0));
+    RefineProblem p(biasedWorld(seed, 0.02, 0));
     p.task.depth = biasPrior(1, 1e-5);
     const Refinement refined = refinePose(p.task, p.world.camera_from_map, 30);
     EXPECT_NEAR(refined.bias[0], 0.02, 3e-4) << seed;
@@ -210,7 +210,7 @@ TEST(Refine, RecoversAnOffset) {
 // Both unknown: what is left once a common scale is taken away, the offset at zero depth over 1 + slope.
 TEST(Refine, RecoversWhatDirectionsSeeOfABias) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
-    Problem p(biasedWorld(seed, 0.01, 0.02));
+    RefineProblem p(biasedWorld(seed, 0.01, 0.02));
     p.task.depth = biasPrior(1, 1);
     const Vector2 bias = refinePose(p.task, p.world.camera_from_map, 50).bias;
     EXPECT_NEAR((bias[0] - bias[1] * kMidM) / (1 + bias[1]), (0.01 - 0.02 * kMidM) / 1.02, 5e-4) << seed;
@@ -221,7 +221,7 @@ TEST(Refine, RecoversWhatDirectionsSeeOfABias) {
 TEST(Refine, ACommonScaleIsAGauge) {
   for (double scale : {0.97, 1.03})
     for (uint64_t seed = 1; seed <= 5; ++seed) {
-      Problem p(exactWorld(seed, scale));
+      RefineProblem p(exactWorld(seed, scale));
       p.task.depth = biasPrior(0.01, 0.02);
       const Refinement refined = refinePose(p.task, p.world.camera_from_map, 30);
       EXPECT_NEAR(refined.bias[0], 0, 1e-4);
@@ -242,7 +242,7 @@ Drift driftOver(int worlds, double true_share) {
     options.seed = static_cast<uint64_t>(seed);
     options.true_share = true_share;
     options.states_from_truth = true;
-    Problem p(test::makeSensorWorld(options));
+    RefineProblem p(test::makeSensorWorld(options));
     p.task.depth = biasPrior(0.01, 0.02);
     const Vector2 bias = refinePose(p.task, p.world.camera_from_map, 20).bias;
     sum += bias;
@@ -264,7 +264,7 @@ TEST(Refine, NoiseMakesNoBias) { expectNoDrift(driftOver(200, 1)); }
 TEST(Refine, NoiseAndFakesMakeNoBias) { expectNoDrift(driftOver(200, 0.33)); }
 
 TEST(Refine, TheVerticalPulls) {
-  Problem p(noisyWorld(1));
+  RefineProblem p(noisyWorld(1));
   PosePrior prior = test::gravityPrior(p.world, 1e-5, 1);
   prior.up_camera = rotationFromVector(Vector3(0.002, 0, 0)) * p.world.camera_from_map.rotation * prior.up_map;
   p.task.prior = &prior;
@@ -278,7 +278,7 @@ TEST(Refine, TheVerticalPulls) {
 }
 
 TEST(Refine, NothingToGoBy) {
-  const Problem p({});
+  const RefineProblem p({});
   const Refinement refined = refinePose(p.task, Rigid(), 5);
   EXPECT_EQ(refined.cost, 0);
   EXPECT_TRUE(isFinite(refined.camera_from_map.rotation.sum()));

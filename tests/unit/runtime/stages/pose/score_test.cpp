@@ -20,7 +20,7 @@ double slowGain(const test::PoseWorld &world, const Rigid &pose) {
   return sum;
 }
 
-test::PoseWorld noisyWorld(size_t count, double true_share = 0.5) {
+test::PoseWorld scoredWorld(size_t count, double true_share = 0.5) {
   test::PoseWorldOptions options;
   options.count = count;
   options.true_share = true_share;
@@ -32,7 +32,7 @@ test::PoseWorld noisyWorld(size_t count, double true_share = 0.5) {
 TEST(Score, IsTheSumOfWhatRowsGain) {
   Random random(1);
   for (size_t count : {1u, 15u, 16u, 63u, 64u, 65u, 300u}) {
-    const test::PoseWorld world = noisyWorld(count);
+    const test::PoseWorld world = scoredWorld(count);
     const test::OwnedRows owned(world.correspondences, simdPoseKernels());
     for (int i = 0; i < 50; ++i) {
       const Rigid pose =
@@ -46,7 +46,7 @@ TEST(Score, IsTheSumOfWhatRowsGain) {
 }
 
 TEST(Score, GivesUpWhatCannotBeBest) {
-  const test::PoseWorld world = noisyWorld(300, 0);
+  const test::PoseWorld world = scoredWorld(300, 0);
   const test::OwnedRows owned(world.correspondences, simdPoseKernels());
   const Score score = simdPoseKernels().score(owned.rows, poseF(world.camera_from_map), {1 / 12.0f, 200, 0, 0});
   EXPECT_EQ(score.seen, 128) << "44 are left after 256, but 172 after 128";
@@ -54,7 +54,7 @@ TEST(Score, GivesUpWhatCannotBeBest) {
 }
 
 TEST(Score, GivesUpByTheSlope) {
-  const test::PoseWorld world = noisyWorld(300, 0);
+  const test::PoseWorld world = scoredWorld(300, 0);
   const test::OwnedRows owned(world.correspondences, simdPoseKernels());
   const PoseF pose = poseF(world.camera_from_map);
   EXPECT_EQ(simdPoseKernels().score(owned.rows, pose, {1 / 12.0f, -1, 0.5f, 2}).seen, 64);
@@ -64,7 +64,7 @@ TEST(Score, GivesUpByTheSlope) {
 
 TEST(Score, TheTruthScoresBest) {
   Random random(2);
-  const test::PoseWorld world = noisyWorld(300, 0.33);
+  const test::PoseWorld world = scoredWorld(300, 0.33);
   const test::OwnedRows owned(world.correspondences, simdPoseKernels());
   const float truth = simdPoseKernels().score(owned.rows, poseF(world.camera_from_map), kToTheEnd).gain;
   for (int i = 0; i < 2000; ++i) {

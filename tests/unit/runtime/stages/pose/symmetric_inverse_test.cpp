@@ -7,15 +7,16 @@
 namespace sphc {
 namespace {
 
+// Products of fixed size would be unrolled, which takes long to compile.
 template <int kSize>
 void expectInverse() {
-  using Matrix = Eigen::Matrix<double, kSize, kSize>;
-  Matrix root;
+  Eigen::MatrixXd root(kSize, kSize);
   for (int i = 0; i < kSize * kSize; ++i) root(i) = (7 * i * i + 3 * i) % 23 - 11;
-  const Matrix matrix = root * root.transpose() + Matrix::Identity();
-  const Matrix inverse = symmetricInverse(matrix);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(kSize, kSize),
+                        matrix = root * root.transpose() + identity;
+  const Eigen::MatrixXd inverse = symmetricInverse<kSize>(matrix);
   EXPECT_LT((inverse - matrix.inverse()).norm(), 1e-9 * inverse.norm()) << "against LU";
-  EXPECT_LT((inverse * matrix - Matrix::Identity()).norm(), 1e-9);
+  EXPECT_LT((inverse * matrix - identity).norm(), 1e-9);
 }
 
 TEST(SymmetricInverse, InvertsEverySizeThatPosesHave) {

@@ -16,14 +16,14 @@ Matrix3 uprightFrom(const Vector3 &up) {
   return Eigen::Quaterniond::FromTwoVectors(up, Vector3::UnitZ()).toRotationMatrix();
 }
 
-struct Problem {
+struct UprightProblem {
   Rigid camera_from_map;
   UprightFrames frames;
   Vector3 point[2], direction[2];
 };
 
-Problem randomProblem(Random *random) {
-  Problem p;
+UprightProblem randomUpright(Random *random) {
+  UprightProblem p;
   p.camera_from_map = {test::randomRotation(random), test::normalVector(random) + Vector3(0, 0, 2)};
   const Vector3 up = test::randomDirection(random);
   const Rigid from_map = {uprightFrom(up), {}}, from_camera = {uprightFrom(p.camera_from_map.rotation * up), {}};
@@ -38,7 +38,7 @@ Problem randomProblem(Random *random) {
   return p;
 }
 
-PoseBatch solve(const Problem &p, const PoseKernels &kernels = simdPoseKernels()) {
+PoseBatch solve(const UprightProblem &p, const PoseKernels &kernels = simdPoseKernels()) {
   MinimalBatch batch = {};
   for (uint32_t lane = 0; lane < kMinimalBatch; ++lane)
     for (int k = 0; k < 2; ++k)
@@ -63,7 +63,7 @@ TEST(Upright, TheTruthIsAmongTheSolutions) {
   constexpr int kTrials = 3000;
   int found = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Problem p = randomProblem(&random);
+    const UprightProblem p = randomUpright(&random);
     const PoseBatch poses = solve(p);
     double best = 1e9;
     for (uint32_t s = 0; s < kMaxSolutions; ++s)
@@ -77,7 +77,7 @@ TEST(Upright, TheTruthIsAmongTheSolutions) {
 TEST(Upright, EverySolutionKeepsTheVertical) {
   Random random(2);
   for (int trial = 0; trial < 1000; ++trial) {
-    Problem p = randomProblem(&random);
+    UprightProblem p = randomUpright(&random);
     if (trial % 2) p.direction[1] = test::randomDirection(&random);
     const PoseBatch poses = solve(p);
     for (uint32_t s = 0; s < kMaxSolutions; ++s) {
@@ -93,7 +93,7 @@ TEST(Upright, EverySolutionKeepsTheVertical) {
   }
 }
 
-void expectNumbers(const Problem &p) {
+void expectNumbers(const UprightProblem &p) {
   for (const PoseKernels *kernels : {&simdPoseKernels(), &scalarPoseKernels()}) {
     const PoseBatch poses = solve(p, *kernels);
     for (uint32_t s = 0; s < kMaxSolutions; ++s) {
@@ -108,8 +108,8 @@ void expectNumbers(const Problem &p) {
 TEST(Upright, DegenerateSamplesGiveNoPoseWithoutNumbers) {
   Random random(3);
   for (int i = 0; i < 500; ++i) {
-    const Problem good = randomProblem(&random);
-    Problem p = good;
+    const UprightProblem good = randomUpright(&random);
+    UprightProblem p = good;
     p.point[1] = p.point[0];  // one point twice
     expectNumbers(p);
     p.direction[1] = p.direction[0];  // one correspondence twice
