@@ -9,8 +9,8 @@ namespace {
 
 constexpr int32_t kColumns = 160;      // blocks across an image, at most
 constexpr double kFartherStill = 1.5;  // what is measured so far beyond the range says that all before it is empty
-constexpr double kNearestM = 0.1;      // of a point in front of the camera
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kInFrontM = 0.1;      // of a point in front of the camera
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 uint16_t inUnits(double depth_m, double unit_m) {
   return static_cast<uint16_t>(std::min(std::max(std::ceil(depth_m / unit_m), 1.0), 65535.0));
@@ -67,16 +67,16 @@ bool DepthViews::look(size_t index, const Vector3 &point_m, Sight *sight) const 
   const View &view = views_[index];
   const Vector3 point = view.depth_from_world * point_m;
   Vector2 pixel;
-  if (point.z() < kNearestM || !camera_.project(point, &pixel)) return false;
+  if (point.z() < kInFrontM || !camera_.project(point, &pixel)) return false;
   // The four blocks whose centres are around the pixel.
   const double u = pixel.x() / block_px_ - 0.5, v = pixel.y() / block_px_ - 0.5;
   if (!(u >= 0 && v >= 0 && u < columns_ - 1 && v < rows_ - 1)) return false;
-  *sight = {point.z(), kInfinite, kInfinite};
+  *sight = {point.z(), kUnbounded, kUnbounded};
   for (int32_t i = 0; i < 4; ++i) {
     const int32_t column = static_cast<int32_t>(u) + i % 2, row = static_cast<int32_t>(v) + i / 2;
     const Block &block = view.blocks[static_cast<size_t>(row * columns_ + column)];
     if (block.nearest == 0) {
-      sight->beyond_m = -kInfinite;
+      sight->beyond_m = -kUnbounded;
       continue;
     }
     const double nearest = block.nearest * unit_m_ - point.z(), farthest = block.farthest * unit_m_ - point.z();

@@ -11,13 +11,13 @@ namespace sphc::host {
 namespace {
 
 constexpr double kMinM = 0.3, kMaxM = 6;
-const Rigid kOrigin = standing(Vector3::Zero(), 0);
+const Rigid kAtOrigin = standing(Vector3::Zero(), 0);
 const Box kPillar = {{-0.3, -1.1, 2}, {0.3, 1.5, 2.4}};
 
 // What a view of the room, or of the room with a pillar, says of a point.
 Sight sightOf(const std::vector<Box> &things, const Vector3 &point_m) {
   DepthViews views(depthRig(), kMinM, kMaxM);
-  views.add(RoomView(kOrigin, things).image(), kOrigin);
+  views.add(RoomView(kAtOrigin, things).image(), kAtOrigin);
   Sight sight = {};
   EXPECT_TRUE(views.look(0, point_m, &sight));
   return sight;
@@ -48,7 +48,7 @@ TEST(DepthViews, AtAnEdgeNotEverythingAroundAPointIsBeyondIt) {
 
 TEST(DepthViews, OutsideOfTheViewNothingIsSeen) {
   DepthViews views(depthRig(), kMinM, kMaxM);
-  views.add(RoomView(kOrigin, {}).image(), kOrigin);
+  views.add(RoomView(kAtOrigin, {}).image(), kAtOrigin);
   Sight sight;
   EXPECT_FALSE(views.look(0, {0, 0, -2}, &sight));
   EXPECT_FALSE(views.look(0, {3, 0, 1}, &sight));
@@ -56,11 +56,11 @@ TEST(DepthViews, OutsideOfTheViewNothingIsSeen) {
 }
 
 TEST(DepthViews, WhereDepthIsMissingNothingIsBeyond) {
-  RoomView view(kOrigin, {});
+  RoomView view(kAtOrigin, {});
   DepthViews views(depthRig(), kMinM, kMaxM);
   for (uint16_t unmeasured : {uint16_t{0}, uint16_t{100}, uint16_t{65535}}) {
     std::fill(view.depth_mm.begin(), view.depth_mm.end(), unmeasured);
-    views.add(view.image(), kOrigin);
+    views.add(view.image(), kAtOrigin);
     Sight sight;
     ASSERT_TRUE(views.look(views.count() - 1, {0, 0, 2}, &sight));
     EXPECT_LT(sight.beyond_m, 0) << unmeasured;
@@ -69,7 +69,7 @@ TEST(DepthViews, WhereDepthIsMissingNothingIsBeyond) {
 }
 
 TEST(DepthViews, OfManyFramesEvenlyChosenOnesAreKept) {
-  const RoomView view(kOrigin, {});
+  const RoomView view(kAtOrigin, {});
   DepthViews views(depthRig(), kMinM, kMaxM);
   constexpr int kFrames = 900;
   for (int i = 0; i < kFrames; ++i) views.add(view.image(), standing(Vector3(0.001 * i, 0, 0), 0));

@@ -23,9 +23,9 @@ struct Faults {
 };
 
 // A recording: the holder walks a step to the side between views and turns a little.
-class Recording {
+class RecordedRoom {
  public:
-  explicit Recording(const Faults &faults = {}) : faults_(faults), random_(1) {}
+  explicit RecordedRoom(const Faults &faults = {}) : faults_(faults), random_(1) {}
 
   void see(const std::vector<Box> &things) {
     seeFrom(standing({0.4 * count_ - 1, 0, 0.1 * count_}, 0.1 - 0.05 * count_), things);
@@ -37,8 +37,8 @@ class Recording {
     view.world_from_camera.translation_m += faults_.position_m * test::normalVector(&random_);
     view.world_from_camera.rotation *= rotationFromVector(faults_.turn_rad * test::normalVector(&random_));
     views_.add(view.image(), view.world_from_camera);
-    for (int32_t row = 2; row < kHeight; row += 7)
-      for (int32_t column = 2; column < kWidth; column += 7) points_.push_back(pointOf(view, column, row));
+    for (int32_t row = 2; row < kViewHeight; row += 7)
+      for (int32_t column = 2; column < kViewWidth; column += 7) points_.push_back(pointOf(view, column, row));
     ++count_;
   }
   size_t points() const { return points_.size(); }
@@ -60,7 +60,7 @@ class Recording {
 };
 
 TEST(MovingThings, WhoWalksThroughLeavesTheMapAndTheRoomStays) {
-  Recording recording;
+  RecordedRoom recording;
   for (int i = 0; i < 6; ++i) {
     Box somebody = kSomebody;
     for (Vector3 *corner : {&somebody.low_m, &somebody.high_m}) corner->x() += 0.65 * i - 1.6;
@@ -77,7 +77,7 @@ TEST(MovingThings, WhoWalksThroughLeavesTheMapAndTheRoomStays) {
 }
 
 TEST(MovingThings, WhoStaysIsARoomsThing) {
-  Recording recording;
+  RecordedRoom recording;
   for (int i = 0; i < 6; ++i) recording.see({kSomebody});
   const size_t before = recording.points();
   const MovingSummary summary = recording.drop();
@@ -88,7 +88,7 @@ TEST(MovingThings, WhoStaysIsARoomsThing) {
 // Of two confirmations and one contradiction nothing follows.
 TEST(MovingThings, OneContradictionAgainstTwoConfirmationsIsNotEnough) {
   for (int with : {1, 2}) {
-    Recording recording;
+    RecordedRoom recording;
     for (int i = 0; i < with; ++i) recording.see({kSomebody});
     recording.see({});
     const size_t on_somebody = recording.pointsOn(kSomebody);
@@ -101,7 +101,7 @@ TEST(MovingThings, OneContradictionAgainstTwoConfirmationsIsNotEnough) {
 TEST(MovingThings, AHandThatNobodyElseConfirmsIsDropped) {
   for (bool is_there_later : {false, true}) {
     const Box hand = {{-0.05, 0.1, 0.4}, {0.05, 0.2, 0.45}};
-    Recording recording;
+    RecordedRoom recording;
     recording.seeFrom(standing({0, 0, 0}, 0), {hand});
     // From elsewhere: past it, or towards it.
     recording.seeFrom(standing({0.5, 0, 0}, is_there_later ? -0.5 : 0.9), {hand});
@@ -116,7 +116,7 @@ TEST(MovingThings, AHandThatNobodyElseConfirmsIsDropped) {
 // It looks around and the feet stay where they are: every frame agrees, and none from elsewhere.
 TEST(MovingThings, FeetOfOneWhoOnlyLooksAroundAreDropped) {
   const Box shoe = {{-0.1, 1.35, 0.1}, {0.1, 1.45, 0.4}};
-  Recording recording;
+  RecordedRoom recording;
   for (int i = 0; i < 4; ++i) {
     const Matrix3 down = rotationFromVector(Vector3(-0.9, 0, 0));
     recording.seeFrom({rotationFromVector(Vector3(0, 0.3 * i - 0.45, 0)) * down, {0, 0, 0}}, {shoe});
@@ -134,7 +134,7 @@ TEST(MovingThings, FeetOfOneWhoOnlyLooksAroundAreDropped) {
 TEST(MovingThings, FaultsOfARealRecordingCostFewPoints) {
   for (const Faults &faults :
        {Faults{1.03, 0, 0}, Faults{0.97, 0, 0}, Faults{1, 0.02, 0.01}, Faults{1.03, 0.02, 0.01}}) {
-    Recording recording(faults);
+    RecordedRoom recording(faults);
     for (int i = 0; i < 8; ++i) recording.see({kSomebody});
     const size_t before = recording.points();
     const MovingSummary summary = recording.drop();
@@ -144,7 +144,7 @@ TEST(MovingThings, FaultsOfARealRecordingCostFewPoints) {
 }
 
 TEST(MovingThings, WherePosesAreWrongNothingIsDroppedAndTheCauseIsNamed) {
-  Recording recording({1, 0.4, 0.3});
+  RecordedRoom recording({1, 0.4, 0.3});
   for (int i = 0; i < 8; ++i) recording.see({kSomebody});
   const size_t before = recording.points();
   const MovingSummary summary = recording.drop();
@@ -155,7 +155,7 @@ TEST(MovingThings, WherePosesAreWrongNothingIsDroppedAndTheCauseIsNamed) {
 // What most frames saw before a wall was taken away is seen through by some after it.
 TEST(MovingThings, MoreThanAThirdIsNoMovement) {
   const Box wall = {{-3, -1.1, 2}, {3, 1.5, 2.2}};
-  Recording recording;
+  RecordedRoom recording;
   for (int i = 0; i < 4; ++i) recording.seeFrom(standing({0.1 * i, 0, 0}, 0), {wall});
   for (int i = 0; i < 4; ++i) recording.seeFrom(standing({0.1 * i, 0.1, 0}, 0), {});
   const size_t before = recording.points();
@@ -166,7 +166,7 @@ TEST(MovingThings, MoreThanAThirdIsNoMovement) {
 }
 
 TEST(MovingThings, OneFrameContradictsNothing) {
-  Recording recording;
+  RecordedRoom recording;
   recording.seeFrom(standing({0, 0, 0}, 0), {{{-0.05, 0.1, 0.4}, {0.05, 0.2, 0.45}}});
   const size_t before = recording.points();
   recording.drop();

@@ -9,15 +9,15 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kFocalPx = 100, kUnitM = 0.001;
-const Box kRoom = {{-3, -1.1, -4}, {3, 1.5, 4}};
+constexpr double kViewFocalPx = 100, kViewUnitM = 0.001;
+const Box kWalls = {{-3, -1.1, -4}, {3, 1.5, 4}};
 
-Vector3 rayOf(int32_t column, int32_t row) {
-  return {(column + 0.5 - 0.5 * kWidth) / kFocalPx, (row + 0.5 - 0.5 * kHeight) / kFocalPx, 1};
+Vector3 viewRay(int32_t column, int32_t row) {
+  return {(column + 0.5 - 0.5 * kViewWidth) / kViewFocalPx, (row + 0.5 - 0.5 * kViewHeight) / kViewFocalPx, 1};
 }
 
 // Where a ray enters a box and where it leaves it, as multiples of its direction.
-void cross(const Box &box, const Vector3 &origin, const Vector3 &direction, double *enters, double *leaves) {
+void crossBox(const Box &box, const Vector3 &origin, const Vector3 &direction, double *enters, double *leaves) {
   *enters = -std::numeric_limits<double>::infinity();
   *leaves = -*enters;
   for (int i = 0; i < 3; ++i) {
@@ -32,28 +32,28 @@ void cross(const Box &box, const Vector3 &origin, const Vector3 &direction, doub
 sphc_rig depthRig() {
   sphc_rig rig;
   sphc_rig_init(&rig);
-  rig.color_camera = rig.depth_camera = test::pinhole(kWidth, kHeight, kFocalPx);
-  rig.depth_unit_m = kUnitM;
+  rig.color_camera = rig.depth_camera = test::pinhole(kViewWidth, kViewHeight, kViewFocalPx);
+  rig.depth_unit_m = kViewUnitM;
   return rig;
 }
 
 RoomView::RoomView(const Rigid &pose, const std::vector<Box> &things) : world_from_camera(pose) {
-  for (int32_t row = 0; row < kHeight; ++row)
-    for (int32_t column = 0; column < kWidth; ++column) {
-      const Vector3 direction = pose.rotation * rayOf(column, row);
+  for (int32_t row = 0; row < kViewHeight; ++row)
+    for (int32_t column = 0; column < kViewWidth; ++column) {
+      const Vector3 direction = pose.rotation * viewRay(column, row);
       double enters = 0, nearest = 0;
-      cross(kRoom, pose.translation_m, direction, &enters, &nearest);
+      crossBox(kWalls, pose.translation_m, direction, &enters, &nearest);
       for (const Box &thing : things) {
         double leaves = 0;
-        cross(thing, pose.translation_m, direction, &enters, &leaves);
+        crossBox(thing, pose.translation_m, direction, &enters, &leaves);
         if (enters > 0 && enters < leaves) nearest = std::min(nearest, enters);
       }
-      depth_mm.push_back(static_cast<uint16_t>(std::lround(nearest / kUnitM)));
+      depth_mm.push_back(static_cast<uint16_t>(std::lround(nearest / kViewUnitM)));
     }
 }
 
 Vector3 RoomView::inCamera(int32_t column, int32_t row) const {
-  return kUnitM * image().row(row)[column] * rayOf(column, row);
+  return kViewUnitM * image().row(row)[column] * viewRay(column, row);
 }
 
 Rigid standing(const Vector3 &position_m, double turn_rad) {

@@ -11,7 +11,7 @@ struct Box {
   Vector3 low_m, high_m;
 };
 
-constexpr int32_t kWidth = 160, kHeight = 120;
+constexpr int32_t kViewWidth = 160, kViewHeight = 120;
 sphc_rig depthRig();
 
 // y down, z ahead: a room of 6 x 2.6 x 8 m, its floor 1.5 m below the origin.
@@ -21,7 +21,7 @@ struct RoomView {
   Rigid world_from_camera;
   std::vector<uint16_t> depth_mm;
 
-  ImageView<uint16_t> image() const { return {depth_mm.data(), kWidth, kHeight, kWidth}; }
+  ImageView<uint16_t> image() const { return {depth_mm.data(), kViewWidth, kViewHeight, kViewWidth}; }
   Vector3 inCamera(int32_t column, int32_t row) const;
 };
 
