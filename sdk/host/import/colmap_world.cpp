@@ -1,6 +1,5 @@
 #include "host/import/colmap_world.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/import/point_tracks.h"
+#include "host/import/upright.h"
 #include "host/recording/calibration.h"
 #include "runtime/stages/align/sparse.h"
 
@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kUprightness = 0.1;  // heads nod much more than they tilt
 constexpr double kNearestM = 0.3, kFarthestM = 6.0;
 constexpr size_t kFewestOfImage = 10, kFewestImages = 3;
 
@@ -111,15 +110,9 @@ std::map<uint32_t, std::vector<std::pair<Vector2, double>>> depthsOfImages(const
 }  // namespace
 
 Vector3 downByCameras(const ColmapModel &model) {
-  Matrix3 across = Matrix3::Zero();
-  Vector3 down = Vector3::Zero();
-  for (const auto &[id, image] : model.images) {
-    const Vector3 x = image.camera_from_model.rotation.row(0), y = image.camera_from_model.rotation.row(1);
-    across += x * x.transpose() - kUprightness * y * y.transpose();
-    down += y;
-  }
-  const Vector3 axis = Eigen::SelfAdjointEigenSolver<Matrix3>(across).eigenvectors().col(0);
-  return axis.dot(down) < 0 ? Vector3(-axis) : axis;
+  std::vector<Matrix3> camera_from_model;
+  for (const auto &[id, image] : model.images) camera_from_model.push_back(image.camera_from_model.rotation);
+  return downByCameras(camera_from_model);
 }
 
 Matrix3 uprightAxes(const Vector3 &down) {

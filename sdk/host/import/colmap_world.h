@@ -5,8 +5,7 @@
 
 namespace sphc::host {
 
-// Down in the model's world when its cameras were held level, more or less: across it lie their x axes, along it
-// their y axes.  Unit vector.
+// Down in the model's world when its cameras were held level, more or less (upright.h).
 Vector3 downByCameras(const ColmapModel &model);
 // The shortest rotation that turns `down` to -z.
 Matrix3 uprightAxes(const Vector3 &down);

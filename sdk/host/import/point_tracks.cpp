@@ -128,10 +128,11 @@ size_t PointTracks::add(const Camera &camera, const Rigid &camera_from_world,
   return merged;
 }
 
-PointModel PointTracks::finish(size_t *dropped) const {
-  std::vector<ModelPoint> points;
+std::vector<TrackedPoint> PointTracks::points() const {
+  std::vector<TrackedPoint> points;
   for (const Track &track : tracks_) {
-    ModelPoint point;
+    TrackedPoint tracked;
+    ModelPoint &point = tracked.point;
     Matrix3 information;
     point.position_m = track.position_m;
     const size_t agreeing =
@@ -141,11 +142,16 @@ PointModel PointTracks::finish(size_t *dropped) const {
     point.descriptor = representative(track.observations);
     point.sigma_m = std::sqrt(information.inverse().trace() / 3);
     point.observations = static_cast<uint32_t>(agreeing);
-    points.push_back(point);
+    for (const Observation &o : track.observations) tracked.cameras_m.push_back(o.camera_m);
+    points.push_back(std::move(tracked));
   }
-  PointModel model = withoutNearDuplicates({std::move(points)}, kModelNearDuplicates);
-  *dropped = tracks_.size() - model.points.size();
-  return model;
+  return points;
+}
+
+PointModel modelOf(const std::vector<TrackedPoint> &points) {
+  PointModel model;
+  for (const TrackedPoint &tracked : points) model.points.push_back(tracked.point);
+  return withoutNearDuplicates(std::move(model), kModelNearDuplicates);
 }
 
 }  // namespace sphc::host

@@ -16,6 +16,7 @@ constexpr DepthSensor kMappingNoise = {0, 0, 0, 0.004, 0.002};
 // A keypoint of one mapping frame, lifted and placed in the world.
 struct Observation {
   Vector3 position_m;   // world
+  Vector3 camera_m;     // where the camera was, world
   Matrix3 information;  // inverse covariance of position_m, world axes
   Vector2 pixel_px;
   double depth_m;
@@ -24,6 +25,14 @@ struct Observation {
   Descriptor descriptor;
 };
 
+// A point as the frames agree on it.
+struct TrackedPoint {
+  ModelPoint point;
+  std::vector<Vector3> cameras_m;  // where those were that saw it, world; the last ones of many
+};
+// Near-duplicates are merged.
+PointModel modelOf(const std::vector<TrackedPoint> &points);
+
 class PointTracks {
  public:
   explicit PointTracks(const RgbdImportOptions &options) : options_(options) {}
@@ -31,8 +40,9 @@ class PointTracks {
   // Joins a frame's observations to the points they reproject onto and resemble, and makes new points of the
   // others. Returns how many joined.
   size_t add(const Camera &camera, const Rigid &camera_from_world, const std::vector<Observation> &observations);
+  size_t count() const { return tracks_.size(); }
   // Robust positions, representative descriptors; points with too few agreeing observations are left out.
-  PointModel finish(size_t *dropped) const;
+  std::vector<TrackedPoint> points() const;
 
  private:
   struct Track {

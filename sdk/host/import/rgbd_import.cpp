@@ -5,6 +5,7 @@
 #include "host/frames/frame_features.h"
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
+#include "host/import/moving_things.h"
 #include "host/import/point_tracks.h"
 #include "runtime/stages/align/sparse.h"
 
@@ -39,6 +40,7 @@ class FrameDescriber {
       if (!aligner_.lift(depth, pixel, &point, &sigma)) continue;
       Observation o;
       o.position_m = world_from_camera * point;
+      o.camera_m = world_from_camera.translation_m;
       o.information = information(point, sigma, world_from_camera.rotation);
       o.pixel_px = pixel;
       o.depth_m = point.z();
@@ -106,6 +108,7 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
   *summary = {};
   FrameDescriber describer(reader->calibration(), options);
   PointTracks tracks(options);
+  DepthViews views(reader->calibration(), options.depth_min_m, options.depth_max_m);
   Census census;
   const uint32_t total = reader->frameCount();
   for (uint32_t i = 0; i < total; ++i) {
@@ -123,6 +126,7 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
       const Rigid world_from_camera = rigidFromC(*pose);
       uint32_t keypoints = 0;
       const std::vector<Observation> observations = describer.describe(*frame, world_from_camera, &keypoints);
+      if (!options.keep_moving) views.add(depthOf(frame->depth), world_from_camera);
       summary->merged += tracks.add(describer.camera(), world_from_camera.inverse(), observations);
       summary->keypoints += keypoints;
       summary->lifted += observations.size();
@@ -131,10 +135,11 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
     if (progress) progress(i + 1, total);
   }
   census.check(*summary);
-  size_t dropped = 0;
-  PointModel model = tracks.finish(&dropped);
+  std::vector<TrackedPoint> points = tracks.points();
+  summary->moving = dropMoving(views, &points);
+  PointModel model = modelOf(points);
   summary->points_kept = static_cast<uint32_t>(model.points.size());
-  summary->points_dropped = static_cast<uint32_t>(dropped);
+  summary->points_dropped = static_cast<uint32_t>(tracks.count() - model.points.size());
   return model;
 }
 

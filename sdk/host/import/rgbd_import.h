@@ -4,6 +4,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "host/import/point_model.h"
 #include "host/recording/recording_reader.h"
@@ -16,13 +17,23 @@ struct RgbdImportOptions {
   double depth_min_m = 0.3, depth_max_m = 6.0;
   double merge_pixels = 4;                         // an observation joins a point that reprojects within this
   double max_descriptor_distance = 260;            // and whose descriptor is within this (L2 of bytes)
+  bool keep_moving = false;                        // points on people, hands, feet and what was moved
   std::function<bool(uint32_t index)> takes_part;  // of the recording's frames; empty: all
+};
+
+// Points on what moved while the frames were taken.
+struct MovingSummary {
+  uint32_t seen_through = 0;        // points that were dropped: views of the place see what lies behind it
+  uint32_t within_reach = 0;        // dropped too: near the holder's body, and no view from elsewhere confirms them
+  double disagreement = 0;          // of two views of one surface, median, as a share of depth
+  std::vector<std::string> doubts;  // why points that look as if they moved were kept, with cause and cure
 };
 
 struct RgbdImportSummary {
   uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
   uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
   uint32_t points_kept = 0, points_dropped = 0;
+  MovingSummary moving;  // of the points that were dropped, those that moved
 };
 
 // Told after each frame; may be empty.

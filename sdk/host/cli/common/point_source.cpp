@@ -57,6 +57,9 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->capture_default_str()
       ->check(notNegative())
       ->group(group);
+  app->add_flag("--keep-moving", import->keep_moving,
+                "Keep points on people, hands, feet and things that were moved")
+      ->group(group);
 }
 
 std::optional<Vector3> gravityFrom(const std::string &text) {
@@ -114,6 +117,11 @@ void checkPoints(const RgbdImportSummary &summary, const RgbdImportOptions &opti
                            " frames; record more frames of each place, or give a smaller --min-observations");
 }
 
+std::string movingText(const MovingSummary &moving) {
+  const uint32_t dropped = moving.seen_through + moving.within_reach;
+  return dropped ? ", " + std::to_string(dropped) + " of them on what moved" : "";
+}
+
 ImportedPoints fromRecording(const PointSource &source) {
   const auto reader = openRecording(source.recording);
   const uint32_t frames = reader->frameCount();
@@ -128,7 +136,9 @@ ImportedPoints fromRecording(const PointSource &source) {
   checkPoints(summary, source.import);
   imported.told = "Mapped " + std::to_string(summary.frames_used) + " frames (" +
                   describeSelection(source.recording) + "): " + std::to_string(summary.points_kept) +
-                  " points kept, " + std::to_string(summary.points_dropped) + " dropped.";
+                  " points kept, " + std::to_string(summary.points_dropped) + " dropped" +
+                  movingText(summary.moving) + ".";
+  imported.warnings = summary.moving.doubts;
   const auto warn = [&imported](uint32_t count, const char *what) {
     if (count) imported.warnings.push_back(std::to_string(count) + " frames " + what);
   };
@@ -141,7 +151,10 @@ ImportedPoints fromRecording(const PointSource &source) {
                     {"lifted", summary.lifted},
                     {"merged", summary.merged},
                     {"points_kept", summary.points_kept},
-                    {"points_dropped", summary.points_dropped}};
+                    {"points_dropped", summary.points_dropped},
+                    {"points_seen_through", summary.moving.seen_through},
+                    {"points_within_reach", summary.moving.within_reach},
+                    {"views_disagree", summary.moving.disagreement}};
   return imported;
 }
 
