@@ -18,6 +18,8 @@ constexpr size_t kSampled = 5000;     // points that tell how much views disagre
 // Static points at depth edges are contradicted at times, so one contradiction counts against two confirmations.
 constexpr uint32_t kConfirmationsPerContradiction = 2;
 constexpr double kMostDropped = 1.0 / 3;  // more is no movement
+// Fewer are no movement either: of rooms where nothing moved 0 to 0.5 % are points at depth edges that would go.
+constexpr double kLeastDropped = 0.01;
 
 // Where the hands and the body of the holder are: an arm's length around the camera, and below it.
 constexpr double kArmM = 0.8, kBodyRadiusM = 0.6, kNeckM = 0.4;
@@ -139,6 +141,10 @@ MovingSummary dropMoving(const DepthViews &views, std::vector<TrackedPoint> *poi
   for (const TrackedPoint &point : *points) verdicts.push_back(judge.judge(point));
   summary.seen_through = settle(*points, Verdict::kSeenThrough, kNoMovement, &verdicts, &summary);
   summary.within_reach = settle(*points, Verdict::kWithinReach, kAllIsNear, &verdicts, &summary);
+  if (summary.seen_through + summary.within_reach < kLeastDropped * static_cast<double>(points->size())) {
+    summary.seen_through = summary.within_reach = 0;
+    return summary;
+  }
   size_t kept = 0;
   for (size_t i = 0; i < points->size(); ++i)
     if (verdicts[i] == Verdict::kStays) std::swap((*points)[kept++], (*points)[i]);

@@ -76,6 +76,21 @@ TEST(MovingThings, WhoWalksThroughLeavesTheMapAndTheRoomStays) {
   EXPECT_TRUE(summary.doubts.empty());
 }
 
+// A thing so small that depth edges of a still room would bring as many.
+TEST(MovingThings, FewPointsAreNoMovement) {
+  const Box small = {{-0.1, 0.2, 2}, {0.05, 0.35, 2.1}};
+  RecordedRoom recording;
+  recording.see({small});
+  const size_t on_it = recording.pointsOn(small);
+  ASSERT_GT(on_it, 0u);
+  for (int i = 0; i < 7; ++i) recording.see({});
+  const size_t before = recording.points();
+  ASSERT_LT(on_it, before / 100);
+  const MovingSummary summary = recording.drop();
+  EXPECT_EQ(recording.points(), before);
+  EXPECT_EQ(summary.seen_through + summary.within_reach, 0u);
+}
+
 TEST(MovingThings, WhoStaysIsARoomsThing) {
   RecordedRoom recording;
   for (int i = 0; i < 6; ++i) recording.see({kSomebody});
