@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "host/frames/heap_arena.h"
 #include "lab/baselines/paper_estimator.h"
 #include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
@@ -82,10 +83,7 @@ class Ours {
     config_.max_iterations = kMaxIterations;
     Arena measure;
     PoseEstimator::layout(config_, measure, nullptr);
-    memory_.assign(measure.used() + kArenaAlignment, 0);
-    uint8_t *start = memory_.data();
-    start += (kArenaAlignment - reinterpret_cast<uintptr_t>(start) % kArenaAlignment) % kArenaAlignment;
-    Arena arena(start);
+    Arena arena = heapFor(measure, &memory_);
     PoseEstimator::layout(config_, arena, &estimator_);
   }
 

@@ -59,6 +59,13 @@ bool Verification::isCut(const PoseTask &task) const {
   return true;
 }
 
+// Before a step without which the pose is not verified.
+bool Verification::isLeftOut(const PoseTask &task, Hypothesis *found) const {
+  if (!isCut(task)) return false;
+  found->is_verified = false;
+  return true;
+}
+
 // False where there is nothing to verify.
 bool Verification::searchPose(const PoseTask &task, Hypothesis *hypothesis) const {
   PoseQuery query = queryAbout(task, hypothesis->matched);
@@ -127,10 +134,7 @@ void Verification::findLeverage(const PoseTask &task, Hypothesis *hypothesis) co
 // what is found without them stays.
 void Verification::challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (found->leverage.centre_sigma_ratio < kRestsOnFew) return;
-  if (isCut(task)) {
-    found->is_verified = false;
-    return;
-  }
+  if (isLeftOut(task, found)) return;
   rival->challenge(*found);
   copyWithoutLeverage(*found, &rival->matched);
   rival->estimate = estimator_.search(queryAbout(task, rival->matched));
@@ -150,10 +154,7 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   const double gain = found->estimate.gain;
   const Rigid apart = rival->estimate.camera_from_map * found->estimate.camera_from_map.inverse();
   if (rival->estimate.gain < kNearlyAsGood * gain || rotationAngle(apart.rotation) < kSamePoseRad) return;
-  if (isCut(task)) {
-    found->is_verified = false;
-    return;
-  }
+  if (isLeftOut(task, found)) return;
   rematch(task, rival);
   const double rival_gain = rival->estimate.gain;
   if (rival_gain > gain) std::swap(*found, *rival);
@@ -164,10 +165,7 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
 // twice, or where some of what is seen goes with the camera, as its holder's feet do.
 void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
-  if (isCut(task)) {
-    found->is_verified = false;
-    return;
-  }
+  if (isLeftOut(task, found)) return;
   PoseTask other = task;
   other.query.seed += kOtherSeed;
   other.query.deadline = task.query.deadline.afterShare(kAgainShare);

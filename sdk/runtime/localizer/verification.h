@@ -31,6 +31,7 @@ class Verification {
   void rematch(const PoseTask &task, Hypothesis *hypothesis) const;
   void findLeverage(const PoseTask &task, Hypothesis *hypothesis) const;
   bool isCut(const PoseTask &task) const;
+  bool isLeftOut(const PoseTask &task, Hypothesis *found) const;
   uint32_t answerable(const PoseTask &task) const;
   bool isDoubtful(const Hypothesis &found) const;
   bool searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis, PoseTask *other) const;

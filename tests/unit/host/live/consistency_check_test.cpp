@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "drivers/simulated/simulated.h"
+#include "tests/unit/host/live/rendered_walk.h"
 
 namespace sphc::host {
 namespace {
@@ -13,40 +13,18 @@ namespace {
 constexpr uint32_t kFrames = 8;
 constexpr int64_t kPeriodNs = 100000000;
 
-struct CheckedImages {
-  std::vector<uint8_t> color;
-  std::vector<uint16_t> depth;
-};
-
 // A walk through the simulated room, rendered once.
 class ConsistencyCheckTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    sphc_simulated_config config;
-    sphc_simulated_config_init(&config, sizeof config);
-    config.frame_count = kFrames;
-    config.frame_rate_hz = 1e9 / kPeriodNs;
-    sphc_simulated *simulated = nullptr;
-    ASSERT_EQ(sphc_simulated_open(&config, &simulated, nullptr), SPHC_OK);
-    ASSERT_EQ(sphc_simulated_rig(simulated, &rig_), SPHC_OK);
-    for (uint32_t i = 0; i < kFrames; ++i) {
-      CheckedImages images;
-      images.color.resize(size_t{3} * rig_.color_camera.width * rig_.color_camera.height);
-      images.depth.resize(size_t{rig_.depth_camera.width} * rig_.depth_camera.height);
-      sphc_simulated_render_color(simulated, i, images.color.data());
-      sphc_simulated_render_depth(simulated, i, images.depth.data());
-      images_.push_back(std::move(images));
-    }
-    sphc_simulated_close(&simulated);
-  }
+  static void SetUpTestSuite() { images_ = renderWalk(kFrames, 1e9 / kPeriodNs, &rig_); }
   static void TearDownTestSuite() { images_.clear(); }
 
-  using Spoil = std::function<void(uint32_t i, CheckedImages *images)>;
+  using Spoil = std::function<void(uint32_t i, WalkImages *images)>;
   Findings look(const Spoil &spoil) {
     ConsistencyCheck check(rig_);
     const sphc_camera &c = rig_.color_camera, &d = rig_.depth_camera;
     for (uint32_t i = 0; i < kFrames; ++i) {
-      CheckedImages images = images_[i];
+      WalkImages images = images_[i];
       spoil(i, &images);
       check.look({images.color.data(), c.width, c.height, 3 * c.width, SPHC_FORMAT_RGB8}, i * kPeriodNs,
                  {images.depth.data(), d.width, d.height, 2 * d.width, SPHC_FORMAT_DEPTH16}, i * kPeriodNs);
@@ -55,17 +33,17 @@ class ConsistencyCheckTest : public testing::Test {
   }
 
   static inline sphc_rig rig_ = {};
-  static inline std::vector<CheckedImages> images_;
+  static inline std::vector<WalkImages> images_;
 };
 
 TEST_F(ConsistencyCheckTest, SoundCamerasDoNotContradictThemselves) {
-  const Findings findings = look([](uint32_t, CheckedImages *) {});
+  const Findings findings = look([](uint32_t, WalkImages *) {});
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].grade, Finding::Grade::kFine);
 }
 
 TEST_F(ConsistencyCheckTest, AFrozenStreamIsNamedWithItsCure) {
-  const Findings findings = look([](uint32_t, CheckedImages *images) { images->depth = images_[0].depth; });
+  const Findings findings = look([](uint32_t, WalkImages *images) { images->depth = images_[0].depth; });
   ASSERT_FALSE(findings.empty());
   EXPECT_EQ(findings[0].what, "depth frozen");
   EXPECT_EQ(findings[0].grade, Finding::Grade::kWrong);
@@ -73,7 +51,7 @@ TEST_F(ConsistencyCheckTest, AFrozenStreamIsNamedWithItsCure) {
 }
 
 TEST_F(ConsistencyCheckTest, EveryFaultIsOneFinding) {
-  const Findings findings = look([](uint32_t i, CheckedImages *images) {
+  const Findings findings = look([](uint32_t i, WalkImages *images) {
     std::fill(images->depth.begin(), images->depth.end(), i % 2 ? 1000 : 65000);
   });
   ASSERT_EQ(findings.size(), 2u);

@@ -8,39 +8,17 @@
 #include <memory>
 #include <random>
 
-#include "drivers/simulated/simulated.h"
+#include "tests/unit/host/live/rendered_walk.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr uint32_t kWalkFrames = 4;  // far apart
 
-struct Images {
-  std::vector<uint8_t> color;
-  std::vector<uint16_t> depth;
-};
-
 // A few views of the simulated room, rendered once.
 class GeometryCheckTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    sphc_simulated_config config;
-    sphc_simulated_config_init(&config, sizeof config);
-    config.frame_count = kWalkFrames;
-    config.frame_rate_hz = 0.5;  // far apart
-    sphc_simulated *simulated = nullptr;
-    ASSERT_EQ(sphc_simulated_open(&config, &simulated, nullptr), SPHC_OK);
-    ASSERT_EQ(sphc_simulated_rig(simulated, &calibration_), SPHC_OK);
-    for (uint32_t i = 0; i < kWalkFrames; ++i) {
-      Images images;
-      images.color.resize(size_t{3} * calibration_.color_camera.width * calibration_.color_camera.height);
-      images.depth.resize(size_t{calibration_.depth_camera.width} * calibration_.depth_camera.height);
-      sphc_simulated_render_color(simulated, i, images.color.data());
-      sphc_simulated_render_depth(simulated, i, images.depth.data());
-      images_.push_back(std::move(images));
-    }
-    sphc_simulated_close(&simulated);
-  }
+  static void SetUpTestSuite() { images_ = renderWalk(kWalkFrames, 0.5, &calibration_); }
   static void TearDownTestSuite() { images_.clear(); }
 
   using Spoil = std::function<void(std::vector<uint16_t> *depth)>;
@@ -63,10 +41,10 @@ class GeometryCheckTest : public testing::Test {
   }
 
   static sphc_rig calibration_;
-  static std::vector<Images> images_;
+  static std::vector<WalkImages> images_;
 };
 sphc_rig GeometryCheckTest::calibration_;
-std::vector<Images> GeometryCheckTest::images_;
+std::vector<WalkImages> GeometryCheckTest::images_;
 
 TEST_F(GeometryCheckTest, ATrueCalibrationIsFine) {
   const Finding finding = look(calibration_);
