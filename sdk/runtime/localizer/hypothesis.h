@@ -46,6 +46,8 @@ struct Hypothesis {
   MatchSet matched;
 
   bool isLocalized() const { return outcome == Outcome::kLocalized; }
+  // Localized, or there was no reason to look elsewhere: chance explains it not, but it is vague or has a rival.
+  bool hasPose() const { return isLocalized() || outcome == Outcome::kUncertain; }
   // Another attempt, in the same memory.
   void begin(uint32_t map_index, uint32_t frame_count = 1);
   // All of the other but its matches.

@@ -180,7 +180,7 @@ void Localizer::searchEverywhere(const Known &known, const Deadline &deadline, W
 }
 
 // By the strongest keypoints; where they leave a doubt by all; where these show too little, by those of earlier
-// frames too.
+// frames too; and where all that leads to no pose, by a looser ratio test.
 void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work) {
   const uint32_t lifted = front_.liftedCount(), all = front_.keypointCount();
   const Deadline first = query.deadline.afterShare(kStrongestShare), first_match = first.afterShare(kMatchShare);
@@ -200,12 +200,25 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
   task.rays = search_.raysOf(front_, candidate_.matched);
   const bool has_others = remembers && fusion_.remember(map, candidate_.matched);
   solve(task, work);
+  bool has_pose = candidate_.hasPose();
   propose();
-  if (!has_others || isDone(query.deadline, work)) return;
-  candidate_.begin(map, fusion_.frames());
-  fusion_.addTo(*task.question.map, &candidate_.matched);
-  solve(task, work);
-  propose();
+  if (isDone(query.deadline, work)) return;
+  if (has_others) {
+    candidate_.begin(map, fusion_.frames());
+    fusion_.addTo(*task.question.map, &candidate_.matched);
+    solve(task, work);
+    has_pose = has_pose || candidate_.hasPose();
+    propose();
+  }
+  if (!has_pose && !isDone(query.deadline, work)) searchMapLoosely(map, task, work);
+}
+
+// What does not localize leaves the frame as the strict test shows it.
+void Localizer::searchMapLoosely(uint32_t map, const PoseTask &task, Work *work) {
+  candidate_.begin(map);
+  Verification(&search_, &estimator_, &fusion_, kTimesInliersOfLooser * config_.min_inliers, work)
+      .findPoseLoosely(task, &candidate_, &rival_);
+  if (candidate_.isLocalized()) propose();
 }
 
 // Finds the pose that the candidate's matches speak for.

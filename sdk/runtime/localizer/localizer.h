@@ -46,6 +46,7 @@ class Localizer {
   void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
   void searchEverywhere(const Known &known, const Deadline &deadline, Work *work);
   void searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work);
+  void searchMapLoosely(uint32_t map, const PoseTask &task, Work *work);
   void solve(const PoseTask &task, Work *work);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();

@@ -45,6 +45,22 @@ void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis 
   if (!searchPose(task, found)) return;
   rematch(task, found);
   searchAgain(task, left_ns - std::min(left_ns, task.query.deadline.leftNs()), found, rival);
+  verify(task, found, rival);
+}
+
+// The strict ratio test may leave so few true matches that chance could explain them.  A looser one brings more of
+// them, and wrong ones, which the test of chance counts.
+void Verification::findPoseLoosely(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (search_.maxRatio() >= kLooserRatio || isCut(task)) return;
+  PoseTask other;
+  if (!searchOtherMatches(task, kLooserRatio, found, &other)) return;
+  found->evidence.log_chance_first += logOf(2);  // the better of two searches
+  rematch(other, found);
+  verify(other, found, rival);
+}
+
+// A pose that was found, against its rivals.
+void Verification::verify(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
   challengeByOthers(task, found, rival);
@@ -208,6 +224,7 @@ bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hyp
                                       PoseTask *other) const {
   const FrontEnd &front = *task.question.front;
   *other = task;
+  other->max_ratio = max_ratio;
   other->query.seed += kOtherSeed;
   search_.matchEverywhere(task.question, answerable(task), max_ratio, task.query.deadline, &hypothesis->matched,
                           &work_);
@@ -236,10 +253,11 @@ void Verification::searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothes
 }
 
 // A looser ratio test brings other true matches and other wrong ones.  The right pose is found among them again;
-// one that agrees by chance drowns.
+// one that agrees by chance drowns.  The matches that a pose was found by are no second witness.
 void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!isDoubtful(*found)) return;
   for (const ConfirmingSearch &way : kConfirmingSearches) {
+    if (task.max_ratio >= way.max_ratio) continue;
     if (isCut(task)) break;
     PoseTask other;
     rival->begin(found->map, found->frames);

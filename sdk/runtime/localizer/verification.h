@@ -15,6 +15,7 @@ struct PoseTask {
   PoseQuery query;               // without the correspondences, which are the hypothesis's
   double solid_angle_sr = 0;     // in which the first matches were looked for
   Span<const double> cones_rad;  // of guided re-matching, one after another
+  float max_ratio = 0;           // of the first matches, where it is not the configured one
 };
 
 class Verification {
@@ -25,8 +26,11 @@ class Verification {
   // `found` has its first matches.  It becomes the best hypothesis they lead to, and judged; `rival` is memory for
   // others.
   void findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  // The same from the matches of a looser ratio test, for a frame that findPose finds no pose of.
+  void findPoseLoosely(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
 
  private:
+  void verify(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   bool searchPose(const PoseTask &task, Hypothesis *hypothesis) const;
   void rematch(const PoseTask &task, Hypothesis *hypothesis) const;
   void findLeverage(const PoseTask &task, Hypothesis *hypothesis) const;

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <string>
 
+#include "runtime/capi/translate.h"
+#include "tests/support/arena_memory.h"
 #include "tests/support/session.h"
+#include "tests/unit/runtime/localizer/room_points.h"
 
 namespace sphc {
 namespace {
@@ -55,6 +58,32 @@ TEST(Localizer, AnotherPlaceIsNotLocalized) {
   sphc_result result;
   EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
   EXPECT_NE(result.outcome, SPHC_OUTCOME_LOCALIZED);
+}
+
+// In a map whose points pass a looser ratio test only.
+LocalizerResult localizeLoosely(uint32_t min_inliers) {
+  const sphc_config asked = test::sceneConfig();
+  LocalizerConfig config = localizerConfigFrom(asked);
+  config.min_inliers = min_inliers;
+  Localizer localizer;
+  test::ArenaMemory memory(
+      [&](Arena &arena, bool real) { Localizer::layout(config, arena, arena, real ? &localizer : nullptr); });
+  localizer.init(config);
+  const auto maps = test::mapOf(test::pointsWithNearDuplicates(), Vector3(0, 0, 1));
+  MapView view;
+  EXPECT_EQ(MapView::open(maps[0].file.data(), maps[0].file.size(), kExtractorId, &view, nullptr), SPHC_OK);
+  localizer.addMap(view);
+  const auto frame = test::sceneFrame(asked, 0);
+  return localizer.process(frameFrom(frame->frame));
+}
+
+TEST(Localizer, WhatALooserSearchFindsNeedsTwiceTheInliers) {
+  const LocalizerResult enough = localizeLoosely(10);
+  ASSERT_EQ(enough.outcome, Outcome::kLocalized);
+  EXPECT_EQ(localizeLoosely(enough.inliers / 2).outcome, Outcome::kLocalized);
+  const LocalizerResult few = localizeLoosely(enough.inliers / 2 + 1);
+  EXPECT_EQ(few.outcome, Outcome::kNoConsensus);
+  EXPECT_LT(few.matches, enough.matches) << "the frame as the strict test shows it";
 }
 
 TEST(Localizer, LogsOnTheCallersThread) {

@@ -9,6 +9,7 @@
 #include "tests/support/pose_world.h"
 #include "tests/support/random_numbers.h"
 #include "tests/unit/runtime/localizer/room_parts.h"
+#include "tests/unit/runtime/localizer/room_points.h"
 
 namespace sphc {
 namespace {
@@ -165,38 +166,20 @@ TEST_F(VerificationTest, AmongManyInliersAFewHaveNoSay) {
   EXPECT_EQ(found().evidence.centre_sigma_ratio, 1);
 }
 
-// The points that the first viewpoints show, where they are in the room.
-std::vector<test::WorldPoint> pointsOfTheRoom() {
-  const sphc_config config = test::sceneConfig();
-  test::ViewDescriber describer(config.rig.color_camera, config.max_keypoints);
-  std::vector<test::WorldPoint> points;
-  for (uint32_t view = 0; view < 3; ++view) {
-    const Rigid camera_from_world = test::sceneViewpoint(view);
-    const auto images =
-        test::renderScene(config.rig.color_camera, config.rig.color_camera, camera_from_world, Rigid());
-    describer.describe(images, camera_from_world, &points);
-  }
-  return points;
-}
-
 // Those within a radius of a place on the far wall, 3 m ahead.
 std::vector<test::WorldPoint> pointsOfTheWall(double x_m, double radius_m) {
   std::vector<test::WorldPoint> kept;
-  for (const test::WorldPoint &point : pointsOfTheRoom())
+  for (const test::WorldPoint &point : test::pointsOfTheRoom())
     if ((point.position_m - Vector3(x_m, 0, 3)).norm() < radius_m) kept.push_back(point);
   return kept;
-}
-
-// All of them real.
-std::vector<test::SceneMap> mapOf(const std::vector<test::WorldPoint> &points, const Vector3 &centre_m) {
-  return {{test::encodeMap(test::sphereCloud(points, centre_m, 1), kExtractorId), centre_m}};
 }
 
 // A round piece of the wall, seen obliquely from a sphere centre so far off.
 class PlanarTest : public VerificationTest {
  protected:
   PlanarTest(double radius_m, double far_m)
-      : VerificationTest(mapOf(pointsOfTheWall(0, radius_m), Vector3(0, 0, 3) + far_m * Vector3(0.56, 0, -0.83))) {}
+      : VerificationTest(
+            test::mapOf(pointsOfTheWall(0, radius_m), Vector3(0, 0, 3) + far_m * Vector3(0.56, 0, -0.83))) {}
 };
 
 class ClearPlanarTest : public PlanarTest {
@@ -238,9 +221,9 @@ TEST_F(VaguePlanarTest, NobodyCanTellTwoPosesThatAreNearlyAsGood) {
 // So few points that neither half of a frame is beyond doubt.
 class ThinRoomTest : public VerificationTest {
  protected:
-  ThinRoomTest() : VerificationTest(mapOf(thinned(), Vector3(0, 0, 1))) {}
+  ThinRoomTest() : VerificationTest(test::mapOf(thinned(), Vector3(0, 0, 1))) {}
   static std::vector<test::WorldPoint> thinned() {
-    const std::vector<test::WorldPoint> all = pointsOfTheRoom();
+    const std::vector<test::WorldPoint> all = test::pointsOfTheRoom();
     std::vector<test::WorldPoint> kept;
     for (size_t i = 0; i < all.size(); i += 5) kept.push_back(all[i]);
     return kept;
@@ -267,7 +250,7 @@ TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
 // A small patch, and far beside it one or two points more.
 class FewFarPointsTest : public VerificationTest {
  protected:
-  FewFarPointsTest() : VerificationTest(mapOf(joined(), Vector3(0, 0, 1))) {}
+  FewFarPointsTest() : VerificationTest(test::mapOf(joined(), Vector3(0, 0, 1))) {}
   static std::vector<test::WorldPoint> joined() {
     std::vector<test::WorldPoint> points = pointsOfTheWall(-0.3, 0.3);
     for (const test::WorldPoint &point : pointsOfTheWall(1.2, 0.1)) points.push_back(point);
@@ -288,42 +271,46 @@ TEST_F(FewFarPointsTest, APoseThatRestsOnThemIsAskedForAgainWithoutThem) {
   }
 }
 
-// Every byte by `amount` up or down, so that descriptors are known to lie so far apart.
-Descriptor shifted(Descriptor descriptor, int amount, Random *random) {
-  for (uint8_t &byte : descriptor.bytes) {
-    const bool up = byte < amount || (byte <= 255 - amount && random->below(2));
-    byte = static_cast<uint8_t>(up ? byte + amount : byte - amount);
-  }
-  return descriptor;
-}
-
 constexpr double kMovedM = 0.4;
 
-// One point in twenty has moved, all of these together: a small core that agrees with itself.  Of the others each
-// has a near-duplicate elsewhere, so that it passes the ratio test at 0.89 and not before; or they are not in the
-// map.
-std::vector<test::WorldPoint> movedCore(bool with_others) {
+// Of every twenty points one has moved, these together: a small core that agrees with itself.
+template <typename AddCore, typename AddOther>
+std::vector<test::WorldPoint> movedCore(const AddCore &add_core, const AddOther &add_other) {
   Random random(5);
   std::vector<test::WorldPoint> points;
   uint32_t number = 0;
-  for (const test::WorldPoint &point : pointsOfTheRoom()) {
-    if (number++ % 20 == 0) {
-      points.push_back(point);
-      points.back().position_m += Vector3(kMovedM, 0, 0);
-    } else if (with_others) {
-      points.push_back(point);
-      points.back().descriptor = shifted(point.descriptor, 8, &random);
-      points.push_back(
-          {Vector3(0, 0, 1) + 3 * test::randomDirection(&random), shifted(point.descriptor, 9, &random)});
-    }
+  for (test::WorldPoint point : test::pointsOfTheRoom()) {
+    const bool is_core = number++ % 20 == 0;
+    if (is_core) point.position_m += Vector3(kMovedM, 0, 0);
+    if (is_core)
+      add_core(point, &random, &points);
+    else
+      add_other(point, &random, &points);
   }
   return points;
+}
+
+// The others pass the ratio test at 0.89 and not before, or they are not in the map.
+std::vector<test::WorldPoint> clearCore(bool with_others) {
+  return movedCore([](const auto &point, Random *, auto *points) { points->push_back(point); },
+                   [&](const auto &point, Random *random, auto *points) {
+                     if (with_others) test::addWithNearDuplicate(point, 8, random, points);
+                   });
+}
+
+// The core passes at 0.89, the others at 0.945.
+std::vector<test::WorldPoint> vagueCore() {
+  return movedCore(
+      [](const auto &point, Random *random, auto *points) { test::addWithNearDuplicate(point, 8, random, points); },
+      [](const auto &point, Random *random, auto *points) {
+        test::addWithNearDuplicate(point, 17, random, points);
+      });
 }
 
 class MovedCoreTest : public VerificationTest {
  protected:
   explicit MovedCoreTest(bool with_others = true)
-      : VerificationTest(mapOf(movedCore(with_others), Vector3(0, 0, 1))) {}
+      : VerificationTest(test::mapOf(clearCore(with_others), Vector3(0, 0, 1))) {}
 };
 
 class MovedCoreAloneTest : public MovedCoreTest {
@@ -353,6 +340,50 @@ TEST_F(MovedCoreTest, AnExpectedPoseNeedsNoConfirmation) {
   found().guided = true;
   verify(task);
   EXPECT_EQ(found().outcome, Outcome::kLocalized);
+}
+
+class NearDuplicatesTest : public VerificationTest {
+ protected:
+  explicit NearDuplicatesTest(const std::vector<test::WorldPoint> &points = test::pointsWithNearDuplicates())
+      : VerificationTest(test::mapOf(points, Vector3(0, 0, 1))) {}
+  void verifyLoosely(const PoseTask &task) {
+    found().begin(0);
+    Verification(&parts_.search, &parts_.estimator, &parts_.fusion, min_inliers_, &parts_.work)
+        .findPoseLoosely(task, &found(), &parts_.rival);
+  }
+};
+
+TEST_F(NearDuplicatesTest, ALooserRatioTestFindsWhatTheStrictOneLoses) {
+  for (uint32_t viewpoint : {0u, 1u, 2u}) {
+    const PoseTask task = seen(viewpoint);
+    verify(task);
+    EXPECT_FALSE(found().hasPose()) << viewpoint;
+    verifyLoosely(task);
+    EXPECT_TRUE(found().isLocalized()) << viewpoint;
+    EXPECT_LT(errorM(viewpoint), 0.02) << viewpoint;
+  }
+}
+
+TEST_F(NearDuplicatesTest, WithoutTimeForALooserSearchThereIsNoPose) {
+  PoseTask task = seen(0);
+  task.query.deadline = Deadline::after({[](void *) { return int64_t{10}; }, nullptr}, 0, 1);
+  verifyLoosely(task);
+  EXPECT_FALSE(found().hasPose());
+  EXPECT_NE(parts_.work.cuts & kCutVerification, 0u);
+}
+
+class VagueCoreTest : public NearDuplicatesTest {
+ protected:
+  VagueCoreTest() : NearDuplicatesTest(vagueCore()) {}
+};
+
+// Another search among the same matches would find the core again.
+TEST_F(VagueCoreTest, TheMatchesThatAPoseWasFoundByDoNotConfirmIt) {
+  verifyLoosely(seen(0));
+  EXPECT_LT(found().estimate.inliers, kInliersBeyondConfirmation);
+  EXPECT_NEAR(errorM(0), kMovedM, 0.05);
+  EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
+  EXPECT_EQ(found().outcome, Outcome::kUncertain);
 }
 
 }  // namespace
