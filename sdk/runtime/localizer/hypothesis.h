@@ -46,7 +46,7 @@ struct Hypothesis {
   MatchSet matched;
 
   bool isLocalized() const { return outcome == Outcome::kLocalized; }
-  // Localized, or there was no reason to look elsewhere: chance explains it not, but it is vague or has a rival.
+  // More than chance explains, be it too vague or ambiguous to be believed.
   bool hasPose() const { return isLocalized() || outcome == Outcome::kUncertain; }
   // Another attempt, in the same memory.
   void begin(uint32_t map_index, uint32_t frame_count = 1);

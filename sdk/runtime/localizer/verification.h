@@ -1,7 +1,8 @@
 // From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
 // predicts, then verification against its rivals: what another search finds, what is found without its
 // high-leverage observations, the second pose of a planar scene, and what the other keypoints speak for.  In the
-// end an independent search must confirm it.  A pose that lacks one of these for its deadline is uncertain.
+// end an independent search must confirm it.  A pose that lacks one of these for its deadline is uncertain.  What
+// all that finds no pose of is searched once more, among the matches of a looser ratio test.
 #pragma once
 #include "runtime/localizer/fusion.h"
 #include "runtime/stages/pose/estimator.h"
