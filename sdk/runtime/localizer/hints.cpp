@@ -74,13 +74,6 @@ struct Contrast {
 
 int64_t squared(int32_t a, int32_t b) { return int64_t{a - b} * (a - b); }
 
-double sharpness(const Contrast &contrast, double samples, double noise) {
-  const double of_noise = 2 * noise * noise * samples;
-  const double fine = std::max(0.0, static_cast<double>(contrast.fine) - of_noise),
-               coarse = static_cast<double>(contrast.coarse) - of_noise;
-  return coarse > kLeastContrast * kLeastContrast * samples + of_noise ? fine / coarse : 0;
-}
-
 void measureSharpness(GrayView gray, int32_t step, ImageQuality *quality) {
   constexpr int32_t kDirections[4][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}};
   Contrast found[4];
@@ -94,23 +87,27 @@ void measureSharpness(GrayView gray, int32_t step, ImageQuality *quality) {
       found[i].coarse += squared(here, gray.row(y + kCoarseSteps * dy)[x + kCoarseSteps * dx]);
     }
   });
-  double least = 1, most = 0;
+  if (!(samples > 0)) return;
+  const double noise2 = 2 * quality->noise * quality->noise;
+  double sum = 0, least = 1, most = 0;
   for (const Contrast &contrast : found) {
-    const double sharp = sharpness(contrast, samples, quality->noise);
-    if (!(sharp > 0)) return;
+    const double fine = std::max(0.0, static_cast<double>(contrast.fine) / samples - noise2),
+                 coarse = std::max(0.0, static_cast<double>(contrast.coarse) / samples - noise2);
+    const double sharp = coarse > 0 ? std::min(1.0, fine / coarse) : 1;
+    sum += coarse;
     least = std::min(least, sharp);
     most = std::max(most, sharp);
   }
+  quality->contrast = sqrtOf(sum / 4);
   quality->least_sharp = least;
   quality->most_sharp = most;
 }
 
+// The first that holds: noise hides blur, and where little is seen neither shows.
 Hints hintsOfImage(const FrameEvidence &frame) {
-  Hints hints = 0;
-  if (frame.image.isDark()) hints |= kTooDark;
-  if (frame.image.isBlurredAlongALine()) hints |= kTooFast;
-  if (hints == 0 && frame.salient < kFewestSalient) hints |= kTooPlain;
-  return hints;
+  if (frame.image.isDark()) return kTooDark;
+  if (frame.image.isPlain() || frame.salient < kFewestSalient) return kTooPlain;
+  return frame.image.isBlurredAlongALine() ? kTooFast : Hints{0};
 }
 
 // Only what a good image shows can be missed in a map.
@@ -124,8 +121,10 @@ bool isNotInMap(const FrameEvidence &frame, const Hypothesis &best) {
 
 bool ImageQuality::isDark() const { return level < kLeastLightOverNoise * noise; }
 
+bool ImageQuality::isPlain() const { return contrast < std::max(kLeastContrast, noise); }
+
 bool ImageQuality::isBlurredAlongALine() const {
-  return least_sharp > 0 && least_sharp < kBlurred && least_sharp * kAcrossOverAlong < most_sharp;
+  return most_sharp > kLeastAcross && least_sharp < kMostAlong && least_sharp * kAcrossOverAlong < most_sharp;
 }
 
 ImageQuality qualityOf(GrayView gray, double focal_px) {

@@ -10,11 +10,14 @@ namespace sphc {
 struct ImageQuality {
   double level = 0;  // median grey level
   double noise = 0;  // standard deviation of a pixel's noise, grey levels
-  // Of four directions in the image: how much of the contrast over many pixels is there over few, noise aside.
-  // Blurred along a line, an image has little along that and the usual across.
-  double least_sharp = 0, most_sharp = 0;  // 0: too little contrast to tell
+  // Mean difference over many pixels, without that of noise: root of the mean square, grey levels.
+  double contrast = 0;
+  // Of four directions in the image: which share of that (squared) is there over few pixels.  Blurred along a line,
+  // an image has little along that and more across.
+  double least_sharp = 1, most_sharp = 1;
 
   bool isDark() const;
+  bool isPlain() const;
   bool isBlurredAlongALine() const;
 };
 

@@ -126,15 +126,15 @@ constexpr double kLeastLightOverNoise = 12;
 constexpr int32_t kSharpColumns = 96, kSharpRows = 72;
 constexpr int32_t kFineSteps = 2, kCoarseSteps = 16;
 constexpr double kFocalOfAStep = 500;  // px
-constexpr double kLeastContrast = 4;   // grey levels over many pixels; and as much as noise
-constexpr double kBlurred = 0.045, kAcrossOverAlong = 1.8;
+constexpr double kLeastContrast = 4;   // grey levels, over many pixels; and as much as noise
+constexpr double kMostAlong = 0.05, kLeastAcross = 0.02, kAcrossOverAlong = 1.6;
 
 constexpr double kSalient = 5;  // sigmas of noise
 constexpr uint32_t kFewestSalient = 60;
 constexpr uint32_t kOneWithDepthIn = 8;  // keypoints
 
-constexpr double kClearRatio = 0.65, kStrangersClear = 0.01;
-constexpr uint32_t kFewestClear = 4;
+constexpr double kClearRatio = 0.65, kStrangersClear = 0.002;
+constexpr uint32_t kFewestClear = 3;
 
 // ---- fusion: matches of several frames ----
 

@@ -93,9 +93,12 @@ TEST(ImageQuality, BlurAlongALineIsToldFromBlurAllAround) {
   }
 }
 
-TEST(ImageQuality, AnEmptyImageTellsNothingOfMotion) {
+TEST(ImageQuality, AnImageOfOneColourIsPlain) {
   const std::vector<uint8_t> gray(size_t{kWidth} * kHeight, 120);
-  EXPECT_FALSE(qualityOf({gray.data(), kWidth, kHeight, kWidth}, kFocalPx).isBlurredAlongALine());
+  const ImageQuality quality = qualityOf({gray.data(), kWidth, kHeight, kWidth}, kFocalPx);
+  EXPECT_TRUE(quality.isPlain());
+  EXPECT_FALSE(quality.isBlurredAlongALine());
+  EXPECT_FALSE(Picture().addNoise(2).quality().isPlain());
   const std::vector<uint8_t> tiny(16 * 16, 120);
   EXPECT_FALSE(qualityOf({tiny.data(), 16, 16, 16}, kFocalPx).isBlurredAlongALine());
 }
@@ -114,7 +117,7 @@ TEST(Hints, ClearMatchesBeatTheirRunnerUpByFar) {
 
 FrameEvidence goodFrame() {
   FrameEvidence frame;
-  frame.image = {120, 2, 0.1, 0.12};
+  frame.image = {120, 2, 30, 0.1, 0.12};
   frame.keypoints = frame.salient = 800;
   frame.lifted = 700;
   frame.was_asked = true;
@@ -138,9 +141,15 @@ TEST(Hints, TheImageAndTheDepthTellWhy) {
   EXPECT_EQ(hintsOf(frame, none), kTooDark);
   frame.image.least_sharp = 0.01;
   frame.salient = 5;
-  EXPECT_EQ(hintsOf(frame, none), kTooDark | kTooFast) << "plain it may only seem";
+  EXPECT_EQ(hintsOf(frame, none), kTooDark) << "blurred and plain it may only seem";
+  frame.image.level = 120;
+  frame.salient = 800;
+  EXPECT_EQ(hintsOf(frame, none), kTooFast);
   frame = goodFrame();
   frame.salient = 5;
+  EXPECT_EQ(hintsOf(frame, none), kTooPlain);
+  frame = goodFrame();
+  frame.image.contrast = 2;
   EXPECT_EQ(hintsOf(frame, none), kTooPlain);
   frame = goodFrame();
   frame.lifted = 20;
