@@ -152,8 +152,9 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->capture_default_str()
       ->check(notNegative())
       ->type_name("S");
-  app->add_option("--exposure", config.exposure_s,
-                  "Seconds that the colour camera exposes in the light by default: how long motion blurs; 0 to 0.05")
+  app->add_option(
+         "--exposure", config.exposure_s,
+         "Seconds that the colour camera exposes in the light by default: how long motion blurs; 0 to 0.05")
       ->capture_default_str()
       ->check(notNegative())
       ->type_name("S");

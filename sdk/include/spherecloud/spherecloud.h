@@ -430,13 +430,13 @@ SPHC_API const char *sphc_cut_name(uint32_t cut);
  * only where there is no pose; several may be set; none where nothing is known.  Each is of this frame alone, so a
  * program says one aloud when it has come for some frames in a row.  docs/hints.md. */
 enum {
-  SPHC_HINT_TOO_DARK = 1u,           /* the image's noise is not far below its light: "more light" */
-  SPHC_HINT_TOO_FAST = 2u,           /* the image is blurred along a line: "move slower" */
-  SPHC_HINT_TOO_PLAIN = 4u,          /* little stands out in a bright and sharp image: "look elsewhere" */
-  SPHC_HINT_NO_DEPTH_IN_RANGE = 8u,  /* few keypoints have depth: "step back, or closer; glass has no depth" */
-  SPHC_HINT_NOT_IN_MAP = 16u,        /* the image shows enough, but not what the map shows: "you are elsewhere" */
-  SPHC_HINT_AMBIGUOUS = 32u          /* another pose fits nearly as well, or odometry contradicts the one that was
-                                      * found, which is UNCERTAIN: "look around" */
+  SPHC_HINT_TOO_DARK = 1u,          /* the image's noise is not far below its light: "more light" */
+  SPHC_HINT_TOO_FAST = 2u,          /* the image is blurred along a line: "move slower" */
+  SPHC_HINT_TOO_PLAIN = 4u,         /* little stands out in a bright and sharp image: "look elsewhere" */
+  SPHC_HINT_NO_DEPTH_IN_RANGE = 8u, /* few keypoints have depth: "step back, or closer; glass has no depth" */
+  SPHC_HINT_NOT_IN_MAP = 16u,       /* the image shows enough, but not what the map shows: "you are elsewhere" */
+  SPHC_HINT_AMBIGUOUS = 32u         /* another pose fits nearly as well, or odometry contradicts the one that was
+                                     * found, which is UNCERTAIN: "look around" */
 };
 /* "SPHC_HINT_TOO_DARK" and so on for one bit; "SPHC_HINT_?" for any other value; static storage. [pure] */
 SPHC_API const char *sphc_hint_name(uint32_t hint);

@@ -132,9 +132,9 @@ static_assert(kDepthRange == SPHC_FAULT_DEPTH_RANGE && kDepthConstant == SPHC_FA
               kVerticalDisagrees == SPHC_FAULT_VERTICAL_DISAGREES);
 static_assert(kCutFeatures == SPHC_CUT_FEATURES && kCutMatches == SPHC_CUT_MATCHES &&
               kCutSearch == SPHC_CUT_SEARCH && kCutVerification == SPHC_CUT_VERIFICATION);
-static_assert(kTooDark == SPHC_HINT_TOO_DARK && kTooFast == SPHC_HINT_TOO_FAST && kTooPlain == SPHC_HINT_TOO_PLAIN &&
-              kNoDepthInRange == SPHC_HINT_NO_DEPTH_IN_RANGE && kNotInMap == SPHC_HINT_NOT_IN_MAP &&
-              kAmbiguous == SPHC_HINT_AMBIGUOUS);
+static_assert(kTooDark == SPHC_HINT_TOO_DARK && kTooFast == SPHC_HINT_TOO_FAST &&
+              kTooPlain == SPHC_HINT_TOO_PLAIN && kNoDepthInRange == SPHC_HINT_NO_DEPTH_IN_RANGE &&
+              kNotInMap == SPHC_HINT_NOT_IN_MAP && kAmbiguous == SPHC_HINT_AMBIGUOUS);
 
 sphc_state stateFrom(TrackingState state) {
   switch (state) {

@@ -49,7 +49,8 @@ void forGrid(GrayView gray, int32_t columns, int32_t rows, int32_t border, const
 // The difference of two Laplacians is blind to edges: J. Immerkaer, "Fast noise variance estimation" (1996).
 int32_t differenceOfLaplacians(GrayView gray, int32_t x, int32_t y) {
   const uint8_t *above = gray.row(y - 1) + x, *here = gray.row(y) + x, *below = gray.row(y + 1) + x;
-  return (above[-1] + above[1] + below[-1] + below[1]) - 2 * (above[0] + below[0] + here[-1] + here[1]) + 4 * here[0];
+  return (above[-1] + above[1] + below[-1] + below[1]) - 2 * (above[0] + below[0] + here[-1] + here[1]) +
+         4 * here[0];
 }
 
 void measureLight(GrayView gray, ImageQuality *quality) {

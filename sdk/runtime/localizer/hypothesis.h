@@ -42,7 +42,7 @@ struct Hypothesis {
   Estimate estimate;  // after guided re-matching
   Evidence evidence;
   Leverage leverage;
-  bool is_verified = true;  // false where a deadline left out what might have spoken against it
+  bool is_verified = true;    // false where a deadline left out what might have spoken against it
   bool is_ambiguous = false;  // uncertain since another pose fits nearly as well, or for odometry
   MatchSet matched;
 

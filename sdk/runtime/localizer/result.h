@@ -38,7 +38,7 @@ struct StageTimes {
 struct LocalizerResult {
   Outcome outcome = Outcome::kFewMatches;
   Faults faults = 0;
-  Hints hints = 0;  // where there is no pose
+  Hints hints = 0;                                     // where there is no pose
   TrackingState state = TrackingState::kRelocalizing;  // after this frame
   uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0;
   uint32_t samples = 0;  // minimal samples drawn, in all searches

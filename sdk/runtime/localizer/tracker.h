@@ -38,8 +38,8 @@ class Tracker {
   // After it: what it brought.
   void accept(uint32_t map, const Estimate &estimate);
   void miss();
-  // Before accept: is this a jump that odometry contradicts, and that fewer inliers speak for than for the last pose?
-  // For kForgetNs at most.
+  // Before accept: is this a jump that odometry contradicts, and that fewer inliers speak for than for the last
+  // pose? For kForgetNs at most.
   bool vetoes(uint32_t map, const Estimate &estimate) const;
 
   TrackingState state() const { return state_; }

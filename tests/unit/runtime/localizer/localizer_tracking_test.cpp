@@ -104,13 +104,15 @@ TEST(LocalizerTracking, OdometryVetoesAJumpToFewerInliers) {
   walk.keepOdometry();
   walk.see(0);
   const sphc_result tracked = walk.see(0);
-  ASSERT_EQ(tracked.state, SPHC_STATE_TRACKING);
+  ASSERT_EQ(tracked.state, SPHC_STATE_TRACKING)
+      << tracked.outcome << " " << tracked.guided << " " << tracked.faults << " " << tracked.inliers;
   const sphc_result jump = walk.see(4);
   ASSERT_LT(jump.inliers, tracked.inliers);
   EXPECT_EQ(jump.outcome, SPHC_OUTCOME_UNCERTAIN);
   EXPECT_EQ(jump.hints, uint32_t{SPHC_HINT_AMBIGUOUS});
   EXPECT_EQ(jump.state, SPHC_STATE_LOST);
-  for (uint32_t tenths = 2; tenths <= 10; ++tenths) EXPECT_NE(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED) << tenths;
+  for (uint32_t tenths = 2; tenths <= 10; ++tenths)
+    EXPECT_NE(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED) << tenths;
   EXPECT_EQ(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED) << "for a second at most";
 }
 
