@@ -10,9 +10,11 @@
 namespace sphc::simulated {
 namespace {
 
-// Four rays a pixel, on a turned square, each at its own quarter of the exposure, or of a part of it: a longer
-// exposure is mixed from several, lest a fast walk leave four pictures side by side.
-constexpr double kLongestPartS = 0.016;
+// Four rays a pixel, on a turned square, each at its own quarter of the exposure, or of a part of it: where the
+// view turns by more pixels than this, the exposure is mixed from several, lest it leave four pictures side by
+// side.
+constexpr double kLongestPartPx = 8;
+constexpr double kMostParts = 16;
 constexpr float kColorOffsets[kLanes][2] = {
     {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
 
@@ -95,7 +97,10 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
   const int64_t time_ns = colorTime(index);
   const double exposure_s = config_.exposure_s * static_cast<double>(scene_.lighting.exposure_time);
   const std::vector<Shape> shapes = shapesAt(time_ns);
-  const auto parts = static_cast<uint32_t>(std::max(1.0, std::ceil(exposure_s / kLongestPartS)));
+  const Vec3d ahead = {0, 0, 1}, turned = colorPoseAfter(time_ns, exposure_s / 2).rotation * ahead -
+                                          colorPoseAfter(time_ns, -exposure_s / 2).rotation * ahead;
+  const double turned_px = std::sqrt(dot(turned, turned)) * color_.params[0];
+  const auto parts = static_cast<uint32_t>(std::clamp(std::ceil(turned_px / kLongestPartPx), 1.0, kMostParts));
   std::vector<Light> lights(static_cast<size_t>(kColorWidth) * kColorHeight);
   for (uint32_t part = 0; part < parts; ++part) {
     Pose poses[kLanes];
