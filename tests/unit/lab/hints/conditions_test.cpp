@@ -55,7 +55,8 @@ TEST(HintConditions, BlurGoesAlongTheMotion) {
   named(hintConditions(), "blurred by 12 px").apply(&blurred);
   const std::vector<uint8_t> &color = blurred.shots[1].color;
   EXPECT_LT(color[8 * kWidth + 16], 130) << "the upright line is spread";
-  EXPECT_NEAR(color[8 * kWidth + 12], color[8 * kWidth + 16], 20);
+  EXPECT_GT(color[8 * kWidth + 12], 60);
+  EXPECT_NEAR(color[8 * kWidth + 12], color[8 * kWidth + 19], 20) << "evenly";
   EXPECT_NEAR(color[8 * kWidth + 4], 40, 10) << "not further than that";
 }
 
