@@ -116,7 +116,7 @@ TEST_F(CInterfaceAligner, ForbiddenConfigs) {
   }
   config_.struct_size = 3;
   EXPECT_EQ(init(), SPHC_E_STRUCT_SIZE);
-  expectMentions(message_.text, "sphc_aligner_config_init");
+  expectMentions(message_.text, "sizeof(sphc_aligner_config)");
   EXPECT_EQ(sphc_aligner_config_init(nullptr, sizeof config_), SPHC_E_ARGUMENT);
   Output<sphc_aligner_config> untouched;
   EXPECT_EQ(sphc_aligner_config_init(untouched.get(), sizeof config_ - 1), SPHC_E_STRUCT_SIZE);

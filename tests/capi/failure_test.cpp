@@ -187,7 +187,7 @@ TEST_F(CInterfaceFailure, ProcessNulls) {
 
 TEST_F(CInterfaceFailure, ProcessStructSizes) {
   expectFrameRefused([](sphc_frame *f) { f->struct_size = 0; }, SPHC_E_STRUCT_SIZE, "frame.struct_size is 0");
-  expectFrameRefused([](sphc_frame *f) { f->struct_size += 8; }, SPHC_E_STRUCT_SIZE, "frame.struct_size");
+  expectFrameRefused([](sphc_frame *f) { f->struct_size += 1; }, SPHC_E_STRUCT_SIZE, "frame.struct_size");
   Output<sphc_result> result;  // struct_size is a pattern
   EXPECT_EQ(sphc_localizer_process(session_.localizer(), &frame_->frame, result.get()), SPHC_E_STRUCT_SIZE);
   EXPECT_TRUE(result.untouched());

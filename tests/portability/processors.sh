@@ -33,10 +33,12 @@ for without in -AVX2,-FMA,-FMA4,-AVX512F -AVX2,-FMA,-FMA4,-AVX512F,-AVX,-SSE4_2,
 done
 
 mapfile -t programs < <(find "$build/tests/unit" -type f -executable -name '*unit_*' -o -type f -executable -name '*_test' |
-  grep -vE 'simulated|v4l2|openni2|live|cli|/lab_test' | sort) # those are about threads and devices, or start the command
+  grep -vE 'simulated|v4l2|openni2|live|cli' | sort) # those are about threads and devices, or start the command
+# A spawned program that is not there is not told to its parent by qemu-user.
+filter=-Coprocess.AProgramThatIsNotThereIsToldByName
 for processor in Nehalem Haswell max; do
   for program in "${programs[@]}"; do
-    step "$(basename "$program") on $processor" qemu-x86_64 -cpu "$processor" "$program" --gtest_brief=1
+    step "$(basename "$program") on $processor" qemu-x86_64 -cpu "$processor" "$program" --gtest_brief=1 --gtest_filter="$filter"
   done
 done
 

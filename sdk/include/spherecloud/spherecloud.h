@@ -27,8 +27,12 @@
  *
  * Failure.  status < 0: outputs are untouched, except a message that explains.
  *
- * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do).
- * Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image) never change.
+ * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do),
+ * and zero what you do not set.  A program may be built with an older header than its library, whose new fields
+ * then have their defaults, or with a newer one, of which what the library does not know must be zero:
+ * SPHC_E_UNSUPPORTED otherwise.  Results come back as far as the caller's struct goes, zeroes in what the library
+ * does not know. Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image, sphc_depth_bias) never change. sphc_capture,
+ * sphc_pair and sphc_source have the size of this header yet.
  *
  * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
  * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
@@ -83,7 +87,7 @@ enum {
   SPHC_END = 3,           /* a finite source (a recording) has no more captures */
 
   SPHC_E_ARGUMENT = -10,    /* null, not finite, out of range, or at odds with another argument */
-  SPHC_E_STRUCT_SIZE = -11, /* struct_size is not one this library knows */
+  SPHC_E_STRUCT_SIZE = -11, /* struct_size is none that this struct ever had */
   SPHC_E_STATE = -12,       /* the call is not allowed in the current state */
   SPHC_E_IMAGE = -13,       /* an image's size, stride, format or pointer does not fit the config */
 
@@ -99,8 +103,8 @@ enum {
   SPHC_E_DEVICE = -40,
   SPHC_E_DEVICE_LOST = -41, /* unplugged; stop, and open again once it is back */
 
-  SPHC_E_UNSUPPORTED = -50,
-  SPHC_E_INTERNAL = -90 /* a defect of this library; please report */
+  SPHC_E_UNSUPPORTED = -50, /* not by this library or device: a field of a newer header is set, a mode is missing */
+  SPHC_E_INTERNAL = -90     /* a defect of this library; please report */
 };
 
 /* "SPHC_OK" and so on; "SPHC_?" for a value this library does not know; never null; static storage. [pure] */
@@ -298,7 +302,7 @@ typedef struct sphc_aligned {
 
 typedef struct sphc_aligner sphc_aligner;
 /* Defaults: those of sphc_config_init; the cameras stay zero: set the rig.  SPHC_E_STRUCT_SIZE when the size is
- * none this library knows. [pure] */
+ * none that the struct ever had. [pure] */
 SPHC_API sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size);
 /* What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel of the
  * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
@@ -457,7 +461,7 @@ typedef struct sphc_result {
 } sphc_result;
 
 /* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero: set
- * the rig.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
+ * the rig.  SPHC_E_STRUCT_SIZE when the size is none that the struct ever had. [pure] */
 SPHC_API sphc_status sphc_config_init(sphc_config *config, size_t struct_size);
 
 typedef struct sphc_memory {

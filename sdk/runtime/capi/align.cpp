@@ -2,6 +2,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/translate.h"
 
@@ -47,73 +48,56 @@ sphc_status checkPlane(const char *name, const void *data, uint32_t stride, uint
   return SPHC_OK;
 }
 
-sphc_status checkAligned(const sphc_aligned *aligned, uint32_t width, sphc_message *message) {
-  if (!aligned) {
-    MessageWriter(message) << "aligned is null; give a struct, its pointers may be null";
-    return SPHC_E_ARGUMENT;
-  }
-  if (aligned->struct_size != sizeof(sphc_aligned)) {
-    MessageWriter(message) << "aligned.struct_size is " << aligned->struct_size
-                           << "; set it to sizeof(sphc_aligned), here "
-                           << static_cast<uint64_t>(sizeof(sphc_aligned));
-    return SPHC_E_STRUCT_SIZE;
-  }
-  sphc_status status = checkPlane("depth", aligned->depth, aligned->depth_stride_bytes, 2 * width, 2, message);
-  if (status == SPHC_OK) status = checkPlane("mask", aligned->mask, aligned->mask_stride_bytes, width, 1, message);
+sphc_status readAligned(const sphc_aligned *aligned, uint32_t width, sphc_aligned *copy, sphc_message *message) {
+  sphc_status status = sphc::readStruct("aligned", aligned, copy, message);
+  if (status == SPHC_OK) status = checkPlane("depth", copy->depth, copy->depth_stride_bytes, 2 * width, 2, message);
+  if (status == SPHC_OK) status = checkPlane("mask", copy->mask, copy->mask_stride_bytes, width, 1, message);
   if (status == SPHC_OK)
-    status = checkPlane("confidence", aligned->confidence, aligned->confidence_stride_bytes, width, 1, message);
+    status = checkPlane("confidence", copy->confidence, copy->confidence_stride_bytes, width, 1, message);
   return status;
 }
 
 }  // namespace
 
 sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size) {
-  if (!config) return SPHC_E_ARGUMENT;
-  if (struct_size != sizeof(sphc_aligner_config)) return SPHC_E_STRUCT_SIZE;
-  sphc_config defaults;
-  sphc_config_init(&defaults, sizeof defaults);
-  *config = {};
-  config->struct_size = static_cast<uint32_t>(struct_size);
-  config->rig = defaults.rig;
-  config->depth_min_m = defaults.depth_min_m;
-  config->depth_max_m = defaults.depth_max_m;
-  config->depth_sigma_m = defaults.depth_sigma_m;
-  config->depth_sigma_per_m2 = defaults.depth_sigma_per_m2;
-  return SPHC_OK;
+  return sphc::initStruct(sphc::defaultAlignerConfig(), struct_size, config);
 }
 
 sphc_status sphc_aligner_memory(const sphc_aligner_config *config, size_t *bytes, size_t *alignment,
                                 sphc_message *message) {
-  const sphc_status status = sphc::checkAlignerConfig(config, message);
+  sphc_aligner_config checked;
+  const sphc_status status = sphc::readAlignerConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!bytes || !alignment) {
     MessageWriter(message) << (bytes ? "alignment" : "bytes") << " is null";
     return SPHC_E_ARGUMENT;
   }
-  *bytes = bytesOf(denseConfig(*config));
+  *bytes = bytesOf(denseConfig(checked));
   *alignment = sphc::kArenaAlignment;
   return SPHC_OK;
 }
 
 sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_aligner_config *config,
                               sphc_aligner **aligner, sphc_message *message) {
-  sphc_status status = sphc::checkAlignerConfig(config, message);
+  sphc_aligner_config checked;
+  sphc_status status = sphc::readAlignerConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!aligner) {
     MessageWriter(message) << "aligner is null";
     return SPHC_E_ARGUMENT;
   }
-  const DenseConfig dense = denseConfig(*config);
+  const DenseConfig dense = denseConfig(checked);
   status = sphc::checkMemory(memory, memory_bytes, bytesOf(dense), sphc::kArenaAlignment, "aligner", message);
   if (status == SPHC_OK)
-    status = sphc::checkApart({"aligner", memory, bytesOf(dense)}, {"the config", config, sizeof *config}, message);
+    status =
+        sphc::checkApart({"aligner", memory, bytesOf(dense)}, {"the config", config, config->struct_size}, message);
   if (status != SPHC_OK) return status;
   auto *made = new (memory) sphc_aligner();
   Arena arena(static_cast<unsigned char *>(memory) + kObjectBytes);
   DenseAligner::layout(dense, arena, &made->aligner);
   made->aligner.init(dense);
-  made->color = config->rig.color_camera;
-  made->depth = config->rig.depth_camera;
+  made->color = checked.rig.color_camera;
+  made->depth = checked.rig.depth_camera;
   *aligner = made;
   return SPHC_OK;
 }
@@ -126,11 +110,12 @@ sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth,
     return SPHC_E_ARGUMENT;
   }
   sphc_status status = sphc::checkImage("depth", *depth, aligner->depth, true, &aligner->message);
-  if (status == SPHC_OK) status = checkAligned(aligned, aligner->color.width, &aligner->message);
+  sphc_aligned to = {};
+  if (status == SPHC_OK) status = readAligned(aligned, aligner->color.width, &to, &aligner->message);
   if (status != SPHC_OK) return status;
   aligner->aligner.process(sphc::depthViewFrom(*depth),
-                           {aligned->depth, aligned->mask, aligned->confidence, aligned->depth_stride_bytes / 2,
-                            aligned->mask_stride_bytes, aligned->confidence_stride_bytes});
+                           {to.depth, to.mask, to.confidence, to.depth_stride_bytes / 2, to.mask_stride_bytes,
+                            to.confidence_stride_bytes});
   return SPHC_OK;
 }
 

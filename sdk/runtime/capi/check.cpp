@@ -1,6 +1,7 @@
 #include "runtime/capi/check.h"
 
 #include "runtime/base/message.h"
+#include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/localizer/localizer.h"
@@ -87,11 +88,6 @@ bool checkPriorOdometry(const sphc_prior &prior, sphc_message *message) {
 }
 
 sphc_status checkPrior(const sphc_prior &prior, uint32_t map_count, sphc_message *message) {
-  if (prior.struct_size != sizeof(sphc_prior)) {
-    MessageWriter(message) << "prior.struct_size is " << prior.struct_size << ", this library knows "
-                           << static_cast<uint64_t>(sizeof(sphc_prior));
-    return SPHC_E_STRUCT_SIZE;
-  }
   if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP | SPHC_PRIOR_ODOMETRY)) {
     MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags;
     return SPHC_E_ARGUMENT;
@@ -150,36 +146,52 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
   return SPHC_OK;
 }
 
+sphc_config defaultConfig() {
+  sphc_config config = {};
+  config.struct_size = sizeof config;
+  config.max_keypoints = 800;
+  config.max_iterations = 20000;
+  config.max_ratio = 0.85f;
+  sphc_rig_init(&config.rig);
+  config.depth_min_m = 0.25;
+  config.depth_max_m = 6;
+  config.depth_sigma_m = 0.004;
+  config.depth_sigma_per_m2 = 0.002;
+  config.pixel_sigma_px = 0.8;
+  config.map_sigma_m = 0.004;
+  config.depth_offset_sigma_m = 0.003;
+  config.depth_slope_sigma = 0.02;
+  config.min_inliers = 10;
+  config.probes = 8;
+  return config;
+}
+
+sphc_aligner_config defaultAlignerConfig() {
+  const sphc_config localizer = defaultConfig();
+  sphc_aligner_config config = {};
+  config.struct_size = sizeof config;
+  config.rig = localizer.rig;
+  config.depth_min_m = localizer.depth_min_m;
+  config.depth_max_m = localizer.depth_max_m;
+  config.depth_sigma_m = localizer.depth_sigma_m;
+  config.depth_sigma_per_m2 = localizer.depth_sigma_per_m2;
+  return config;
+}
+
 sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message) {
-  if (!config) {
-    MessageWriter(message) << "config is null";
-    return SPHC_E_ARGUMENT;
-  }
-  if (config->struct_size != sizeof(sphc_config)) {
-    MessageWriter(message) << "config.struct_size is " << config->struct_size << ", this library knows "
-                           << static_cast<uint64_t>(sizeof(sphc_config)) << "; call sphc_config_init first";
-    return SPHC_E_STRUCT_SIZE;
-  }
-  *copy = *config;
-  const sphc_status status = sphc_rig_check(&copy->rig, message);
+  *copy = defaultConfig();
+  sphc_status status = readStruct("config", config, copy, message);
+  if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
   if (status != SPHC_OK) return status;
   return checkNumbers(*copy, message) && checkTogether(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
-sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *message) {
-  if (!config) {
-    MessageWriter(message) << "config is null; call sphc_aligner_config_init first";
-    return SPHC_E_ARGUMENT;
-  }
-  const sphc_aligner_config &c = *config;
-  if (c.struct_size != sizeof(sphc_aligner_config)) {
-    MessageWriter(message) << "config.struct_size is " << c.struct_size << ", this library knows "
-                           << static_cast<uint64_t>(sizeof(sphc_aligner_config))
-                           << "; call sphc_aligner_config_init first";
-    return SPHC_E_STRUCT_SIZE;
-  }
-  const sphc_status status = sphc_rig_check(&c.rig, message);
+sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message) {
+  *copy = defaultAlignerConfig();
+  sphc_status status = readStruct("config", config, copy, message);
+  if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
   if (status != SPHC_OK) return status;
+  const sphc_aligner_config &c = *copy;
   const bool good = inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
                     inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
                     inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
@@ -194,24 +206,21 @@ sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *
   return SPHC_E_ARGUMENT;
 }
 
-sphc_status checkFrame(const sphc_frame *frame, const FrameLimits &limits, sphc_message *message) {
-  if (!frame) {
-    MessageWriter(message) << "frame is null";
-    return SPHC_E_ARGUMENT;
-  }
-  if (frame->struct_size != sizeof(sphc_frame)) {
-    MessageWriter(message) << "frame.struct_size is " << frame->struct_size << ", this library knows "
-                           << static_cast<uint64_t>(sizeof(sphc_frame));
-    return SPHC_E_STRUCT_SIZE;
-  }
-  if (frame->deadline_us && !limits.has_clock) {
-    MessageWriter(message) << "frame.deadline_us is " << frame->deadline_us
+sphc_status readFrame(const sphc_frame *frame, const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
+  *copy = {};
+  sphc_frame &own = copy->frame;
+  sphc_status status = readStruct("frame", frame, &own, message);
+  if (status == SPHC_OK && own.prior) status = readStruct("prior", own.prior, &copy->prior, message);
+  if (status != SPHC_OK) return status;
+  if (own.prior) own.prior = &copy->prior;
+  if (own.deadline_us && !limits.has_clock) {
+    MessageWriter(message) << "frame.deadline_us is " << own.deadline_us
                            << " but config.clock is null; give a clock or no deadline";
     return SPHC_E_ARGUMENT;
   }
-  sphc_status status = checkImage("color", frame->color, limits.color, false, message);
-  if (status == SPHC_OK) status = checkImage("depth", frame->depth, limits.depth, true, message);
-  if (status == SPHC_OK && frame->prior) status = checkPrior(*frame->prior, limits.map_count, message);
+  status = checkImage("color", own.color, limits.color, false, message);
+  if (status == SPHC_OK) status = checkImage("depth", own.depth, limits.depth, true, message);
+  if (status == SPHC_OK && own.prior) status = checkPrior(*own.prior, limits.map_count, message);
   return status;
 }
 

@@ -4,19 +4,25 @@
 
 namespace sphc {
 
-// Copies a growing struct of any known size; what the caller's version lacks keeps its default.
+sphc_config defaultConfig();
+sphc_aligner_config defaultAlignerConfig();
+// Copies of what the caller gave, of any version (growth.h), and whether it can be used.
 sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message);
+sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message);
 // What a frame must fit.
 struct FrameLimits {
   const sphc_camera &color, &depth;
   uint32_t map_count;
   bool has_clock;
 };
-sphc_status checkFrame(const sphc_frame *frame, const FrameLimits &limits, sphc_message *message);
+// What is copied points to `prior`, where the caller gave one.
+struct FrameCopy {
+  sphc_frame frame;
+  sphc_prior prior;
+};
+sphc_status readFrame(const sphc_frame *frame, const FrameLimits &limits, FrameCopy *copy, sphc_message *message);
 // Is every map of the list there, and are there not too many?
 sphc_status checkMaps(const sphc_map *const *maps, uint32_t map_count, sphc_message *message);
-// Can an aligner be made of it?
-sphc_status checkAlignerConfig(const sphc_aligner_config *config, sphc_message *message);
 // Does an image fit its camera?  `name` is that of the image; `depth`: it must be DEPTH16, else colour or grey.
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
                        sphc_message *message);

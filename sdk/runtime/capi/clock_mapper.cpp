@@ -2,6 +2,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 
 namespace {
@@ -15,13 +16,12 @@ bool isInRange(const sphc_clock_mapper_config &config) {
          within(config.jump_ns, 1, kHourNs);
 }
 
+constexpr sphc_clock_mapper_config kDefaults = {sizeof kDefaults, 200, 20 * kSecondNs, 0, 1000000, 50000000};
+
 }  // namespace
 
 sphc_status sphc_clock_mapper_config_init(sphc_clock_mapper_config *config, size_t struct_size) {
-  if (!config) return SPHC_E_ARGUMENT;
-  if (struct_size != sizeof(sphc_clock_mapper_config)) return SPHC_E_STRUCT_SIZE;
-  *config = {static_cast<uint32_t>(struct_size), 200, 20 * kSecondNs, 0, 1000000, 50000000};
-  return SPHC_OK;
+  return sphc::initStruct(kDefaults, struct_size, config);
 }
 
 sphc_status sphc_clock_mapper_memory(size_t *bytes, size_t *alignment) {
@@ -33,27 +33,24 @@ sphc_status sphc_clock_mapper_memory(size_t *bytes, size_t *alignment) {
 
 sphc_status sphc_clock_mapper_init(void *memory, size_t memory_bytes, const sphc_clock_mapper_config *config,
                                    sphc_clock_mapper **mapper, sphc_message *message) {
-  if (!config || !mapper) {
-    sphc::MessageWriter(message) << (config ? "mapper" : "config") << " is null";
-    return SPHC_E_ARGUMENT;
-  }
-  if (config->struct_size != sizeof(sphc_clock_mapper_config)) {
-    sphc::MessageWriter(message) << "clock mapper config.struct_size is " << config->struct_size
-                                 << "; call sphc_clock_mapper_config_init first";
-    return SPHC_E_STRUCT_SIZE;
-  }
-  if (!isInRange(*config)) {
-    sphc::MessageWriter(message) << "clock mapper config: max_drift_ppm " << config->max_drift_ppm
-                                 << " must be 1 to 10000, window_ns " << config->window_ns
-                                 << " 1 s to 1 h, delay_ns " << config->delay_ns << " within 1 h, delay_sigma_ns "
-                                 << config->delay_sigma_ns << " 0 to 1 h, jump_ns " << config->jump_ns
-                                 << " 1 ns to 1 h";
-    return SPHC_E_ARGUMENT;
-  }
-  const sphc_status status = sphc::checkMemory(memory, memory_bytes, sizeof(sphc_clock_mapper),
-                                               alignof(sphc_clock_mapper), "clock mapper", message);
+  sphc_clock_mapper_config own = kDefaults;
+  sphc_status status = sphc::readStruct("config", config, &own, message);
   if (status != SPHC_OK) return status;
-  *mapper = new (memory) sphc_clock_mapper{sphc::ClockMapper(*config)};
+  if (!mapper) {
+    sphc::MessageWriter(message) << "mapper is null";
+    return SPHC_E_ARGUMENT;
+  }
+  if (!isInRange(own)) {
+    sphc::MessageWriter(message) << "clock mapper config: max_drift_ppm " << own.max_drift_ppm
+                                 << " must be 1 to 10000, window_ns " << own.window_ns << " 1 s to 1 h, delay_ns "
+                                 << own.delay_ns << " within 1 h, delay_sigma_ns " << own.delay_sigma_ns
+                                 << " 0 to 1 h, jump_ns " << own.jump_ns << " 1 ns to 1 h";
+    return SPHC_E_ARGUMENT;
+  }
+  status = sphc::checkMemory(memory, memory_bytes, sizeof(sphc_clock_mapper), alignof(sphc_clock_mapper),
+                             "clock mapper", message);
+  if (status != SPHC_OK) return status;
+  *mapper = new (memory) sphc_clock_mapper{sphc::ClockMapper(own)};
   return SPHC_OK;
 }
 
@@ -71,6 +68,10 @@ sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t sourc
 
 sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping) {
   if (!mapper || !mapping) return SPHC_E_ARGUMENT;
-  if (mapping->struct_size != sizeof(sphc_clock_mapping)) return SPHC_E_STRUCT_SIZE;
-  return mapper->mapper.get(mapping);
+  const sphc_status writable = sphc::checkWritable("mapping", mapping, nullptr);
+  if (writable != SPHC_OK) return writable;
+  sphc_clock_mapping own = {};
+  const sphc_status status = mapper->mapper.get(&own);
+  if (status == SPHC_OK) sphc::writeStruct(own, mapping);
+  return status;
 }

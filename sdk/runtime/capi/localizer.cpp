@@ -2,6 +2,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/translate.h"
 
@@ -51,25 +52,7 @@ void logResult(const sphc_localizer &localizer, const sphc_result &result) {
 }  // namespace
 
 sphc_status sphc_config_init(sphc_config *config, size_t struct_size) {
-  if (!config) return SPHC_E_ARGUMENT;
-  if (struct_size != sizeof(sphc_config)) return SPHC_E_STRUCT_SIZE;
-  *config = {};
-  config->struct_size = static_cast<uint32_t>(struct_size);
-  config->max_keypoints = 800;
-  config->max_iterations = 20000;
-  config->max_ratio = 0.85f;
-  sphc_rig_init(&config->rig);
-  config->depth_min_m = 0.25;
-  config->depth_max_m = 6;
-  config->depth_sigma_m = 0.004;
-  config->depth_sigma_per_m2 = 0.002;
-  config->pixel_sigma_px = 0.8;
-  config->map_sigma_m = 0.004;
-  config->depth_offset_sigma_m = 0.003;
-  config->depth_slope_sigma = 0.02;
-  config->min_inliers = 10;
-  config->probes = 8;
-  return SPHC_OK;
+  return sphc::initStruct(sphc::defaultConfig(), struct_size, config);
 }
 
 sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message) {
@@ -154,18 +137,16 @@ void sphc_localizer_reset(sphc_localizer *localizer) {
 sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame, sphc_result *result) {
   if (!localizer) return SPHC_E_ARGUMENT;
   localizer->message.text[0] = '\0';
-  const sphc_status status = sphc::checkFrame(
-      frame, {localizer->color, localizer->depth, localizer->localizer.mapCount(), localizer->has_clock},
+  sphc::FrameCopy copy;
+  sphc_status status = sphc::readFrame(
+      frame, {localizer->color, localizer->depth, localizer->localizer.mapCount(), localizer->has_clock}, &copy,
       &localizer->message);
+  if (status == SPHC_OK) status = sphc::checkWritable("result", result, &localizer->message);
   if (status != SPHC_OK) return status;
-  if (!result || result->struct_size != sizeof(sphc_result)) {
-    sphc::MessageWriter(&localizer->message)
-        << (result ? "set result.struct_size to sizeof(sphc_result) first" : "result is null");
-    return result ? SPHC_E_STRUCT_SIZE : SPHC_E_ARGUMENT;
-  }
-  sphc::fillResult(localizer->localizer.process(sphc::frameFrom(*frame)), *frame, result);
-  logResult(*localizer, *result);
-  return result->outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
+  const sphc_result own = sphc::resultFrom(localizer->localizer.process(sphc::frameFrom(copy.frame)), copy.frame);
+  sphc::writeStruct(own, result);
+  logResult(*localizer, own);
+  return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
 }
 
 const char *sphc_localizer_message(const sphc_localizer *localizer) {

@@ -3,6 +3,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/stages/features/extractor.h"
 
@@ -37,14 +38,17 @@ sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, s
 }
 
 sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
-  if (!map || !info) return SPHC_E_ARGUMENT;
-  if (info->struct_size != sizeof(sphc_map_info)) return SPHC_E_STRUCT_SIZE;
+  if (!map) return SPHC_E_ARGUMENT;
+  const sphc_status status = sphc::checkWritable("info", info, nullptr);
+  if (status != SPHC_OK) return status;
   const sphc::MapHeader &header = map->view.header();
-  info->format_version = header.version;
-  info->point_count = header.point_count;
-  info->extractor = header.extractor;
-  info->file_bytes = header.file_bytes;
-  std::memcpy(info->map_id, header.map_id, sizeof info->map_id);
+  sphc_map_info own = {};
+  own.format_version = header.version;
+  own.point_count = header.point_count;
+  own.extractor = header.extractor;
+  own.file_bytes = header.file_bytes;
+  std::memcpy(own.map_id, header.map_id, sizeof own.map_id);
+  sphc::writeStruct(own, info);
   return SPHC_OK;
 }
 

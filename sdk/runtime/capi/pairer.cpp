@@ -2,14 +2,18 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/stages/capture/middle.h"
 
+namespace {
+
+constexpr sphc_pairer_config kDefaults = {sizeof kDefaults, 4, 20000000};
+
+}  // namespace
+
 sphc_status sphc_pairer_config_init(sphc_pairer_config *config, size_t struct_size) {
-  if (!config) return SPHC_E_ARGUMENT;
-  if (struct_size != sizeof(sphc_pairer_config)) return SPHC_E_STRUCT_SIZE;
-  *config = {static_cast<uint32_t>(struct_size), 4, 20000000};
-  return SPHC_OK;
+  return sphc::initStruct(kDefaults, struct_size, config);
 }
 
 sphc_status sphc_pairer_memory(size_t *bytes, size_t *alignment) {
@@ -21,24 +25,21 @@ sphc_status sphc_pairer_memory(size_t *bytes, size_t *alignment) {
 
 sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const sphc_pairer_config *config,
                              sphc_pairer **pairer, sphc_message *message) {
-  if (!config || !pairer) {
-    sphc::MessageWriter(message) << (config ? "pairer" : "config") << " is null";
-    return SPHC_E_ARGUMENT;
-  }
-  if (config->struct_size != sizeof(sphc_pairer_config)) {
-    sphc::MessageWriter(message) << "pairer config.struct_size is " << config->struct_size
-                                 << "; call sphc_pairer_config_init first";
-    return SPHC_E_STRUCT_SIZE;
-  }
-  if (config->slots < 1 || config->slots > SPHC_PAIRER_SLOTS || config->tolerance_ns < 0) {
-    sphc::MessageWriter(message) << "pairer slots " << config->slots << " must be 1 to " << SPHC_PAIRER_SLOTS
-                                 << ", tolerance_ns " << config->tolerance_ns << " not negative";
-    return SPHC_E_ARGUMENT;
-  }
-  const sphc_status status =
-      sphc::checkMemory(memory, memory_bytes, sizeof(sphc_pairer), alignof(sphc_pairer), "pairer", message);
+  sphc_pairer_config own = kDefaults;
+  sphc_status status = sphc::readStruct("config", config, &own, message);
   if (status != SPHC_OK) return status;
-  *pairer = new (memory) sphc_pairer{sphc::Pairer(*config)};
+  if (!pairer) {
+    sphc::MessageWriter(message) << "pairer is null";
+    return SPHC_E_ARGUMENT;
+  }
+  if (own.slots < 1 || own.slots > SPHC_PAIRER_SLOTS || own.tolerance_ns < 0) {
+    sphc::MessageWriter(message) << "pairer slots " << own.slots << " must be 1 to " << SPHC_PAIRER_SLOTS
+                                 << ", tolerance_ns " << own.tolerance_ns << " not negative";
+    return SPHC_E_ARGUMENT;
+  }
+  status = sphc::checkMemory(memory, memory_bytes, sizeof(sphc_pairer), alignof(sphc_pairer), "pairer", message);
+  if (status != SPHC_OK) return status;
+  *pairer = new (memory) sphc_pairer{sphc::Pairer(own)};
   return SPHC_OK;
 }
 
@@ -62,10 +63,9 @@ int64_t sphc_capture_middle_ns(const sphc_capture *capture) { return capture ? s
 
 sphc_status sphc_pairer_get_counts(const sphc_pairer *pairer, sphc_pairer_counts *counts) {
   if (!pairer || !counts) return SPHC_E_ARGUMENT;
-  if (counts->struct_size != sizeof(sphc_pairer_counts)) return SPHC_E_STRUCT_SIZE;
-  *counts = pairer->pairer.counts();
-  counts->struct_size = sizeof *counts;
-  return SPHC_OK;
+  const sphc_status status = sphc::checkWritable("counts", counts, nullptr);
+  if (status == SPHC_OK) sphc::writeStruct(pairer->pairer.counts(), counts);
+  return status;
 }
 
 void sphc_pairer_flush(sphc_pairer *pairer) {

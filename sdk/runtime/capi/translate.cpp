@@ -153,35 +153,34 @@ sphc_observation observationFrom(const Observation &o) {
   return {o.x_px, o.y_px, o.scale_px, o.depth_m, o.point_index, flags};
 }
 
-void fillResult(const LocalizerResult &answer, const sphc_frame &frame, sphc_result *result) {
-  const uint32_t struct_size = result->struct_size;
-  *result = {};
-  result->struct_size = struct_size;
-  result->sequence = frame.sequence;
-  result->time_ns = frame.color_time_ns;
-  result->outcome = outcomeFrom(answer.outcome);
-  result->keypoints = answer.keypoints;
-  result->lifted = answer.lifted;
-  result->matches = answer.matches;
-  result->inliers = answer.inliers;
-  result->iterations = answer.samples;
-  result->camera_from_map.q_wxyz[0] = 1;
-  if (answer.outcome == Outcome::kLocalized) result->camera_from_map = rigidToC(answer.camera_from_map);
+sphc_result resultFrom(const LocalizerResult &answer, const sphc_frame &frame) {
+  sphc_result result = {};
+  result.struct_size = sizeof result;
+  result.sequence = frame.sequence;
+  result.time_ns = frame.color_time_ns;
+  result.outcome = outcomeFrom(answer.outcome);
+  result.keypoints = answer.keypoints;
+  result.lifted = answer.lifted;
+  result.matches = answer.matches;
+  result.inliers = answer.inliers;
+  result.iterations = answer.samples;
+  result.camera_from_map.q_wxyz[0] = 1;
+  if (answer.outcome == Outcome::kLocalized) result.camera_from_map = rigidToC(answer.camera_from_map);
   for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column)
-      result->covariance[6 * row + column] = answer.covariance(row, column);
-  result->features_us = microseconds(answer.times.features_ns);
-  result->align_us = microseconds(answer.times.align_ns);
-  result->match_us = microseconds(answer.times.match_ns);
-  result->pose_us = microseconds(answer.times.pose_ns);
-  result->confidence = answer.confidence;
-  result->cuts = answer.cuts;
-  result->state = stateFrom(answer.state);
-  result->map_index = answer.map;
-  result->frames = answer.frames;
-  result->guided = answer.guided;
-  result->faults = answer.faults;
-  result->depth = depthBiasFrom(answer.depth);
+    for (int column = 0; column < 6; ++column) result.covariance[6 * row + column] = answer.covariance(row, column);
+  result.features_us = microseconds(answer.times.features_ns);
+  result.align_us = microseconds(answer.times.align_ns);
+  result.match_us = microseconds(answer.times.match_ns);
+  result.pose_us = microseconds(answer.times.pose_ns);
+  result.confidence = answer.confidence;
+  result.cuts = answer.cuts;
+  result.state = stateFrom(answer.state);
+  result.map_index = answer.map;
+  result.frames = answer.frames;
+  result.guided = answer.guided;
+  result.faults = answer.faults;
+  result.depth = depthBiasFrom(answer.depth);
+  return result;
 }
 
 }  // namespace sphc

@@ -15,7 +15,7 @@ ImageView<uint16_t> depthViewFrom(const sphc_image &image);
 sphc_outcome outcomeFrom(Outcome outcome);
 sphc_state stateFrom(TrackingState state);
 sphc_observation observationFrom(const Observation &observation);
-// All but struct_size; `frame` is the one that was answered.
-void fillResult(const LocalizerResult &answer, const sphc_frame &frame, sphc_result *result);
+// `frame` is the one that was answered.
+sphc_result resultFrom(const LocalizerResult &answer, const sphc_frame &frame);
 
 }  // namespace sphc

@@ -208,15 +208,12 @@ sphc_result resultOf(Outcome outcome) {
   sphc_frame frame = {};
   frame.sequence = 77;
   frame.color_time_ns = 1234;
-  sphc_result result;
-  result.struct_size = 99;  // the caller's, who may know less
-  fillResult(answerOf(outcome), frame, &result);
-  return result;
+  return resultFrom(answerOf(outcome), frame);
 }
 
 TEST(TranslateBack, EveryNumberOfAResult) {
   const sphc_result result = resultOf(Outcome::kLocalized);
-  EXPECT_EQ(result.struct_size, 99u);
+  EXPECT_EQ(result.struct_size, sizeof(sphc_result));
   EXPECT_EQ(result.sequence, 77u);
   EXPECT_EQ(result.time_ns, 1234);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_LOCALIZED);

@@ -1,0 +1,75 @@
+#include "runtime/capi/growth.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "runtime/base/message.h"
+
+namespace sphc {
+namespace {
+
+constexpr size_t kMostBytes = 4096;  // no struct will ever have; beyond, the size is memory that nobody set
+constexpr size_t kSizeBytes = sizeof(uint32_t);
+
+uint32_t sizeOf(const void *growing) {
+  uint32_t struct_size = 0;
+  std::memcpy(&struct_size, growing, kSizeBytes);
+  return struct_size;
+}
+
+bool isSize(const StructKind &kind, size_t struct_size) {
+  return struct_size >= kind.first_bytes && struct_size <= kMostBytes && struct_size % kind.alignment == 0;
+}
+
+const unsigned char *bytesOf(const void *growing) { return static_cast<const unsigned char *>(growing); }
+unsigned char *bytesOf(void *growing) { return static_cast<unsigned char *>(growing); }
+
+}  // namespace
+
+sphc_status readStructBytes(const StructKind &kind, const char *name, const void *from, void *known,
+                            sphc_message *message) {
+  const sphc_status status = checkWritableBytes(kind, name, from, message);
+  if (status != SPHC_OK) return status;
+  const size_t struct_size = sizeOf(from);
+  for (size_t i = kind.known_bytes; i < struct_size; ++i) {
+    if (!bytesOf(from)[i]) continue;
+    MessageWriter(message) << name << " is of a newer header than this library: byte " << static_cast<uint64_t>(i)
+                           << " of it is set, and " << sphc_version_string() << " knows "
+                           << static_cast<uint64_t>(kind.known_bytes)
+                           << "; leave that field zero, or use a newer library";
+    return SPHC_E_UNSUPPORTED;
+  }
+  std::memcpy(bytesOf(known) + kSizeBytes, bytesOf(from) + kSizeBytes,
+              std::min(struct_size, kind.known_bytes) - kSizeBytes);
+  const auto own_size = static_cast<uint32_t>(kind.known_bytes);
+  std::memcpy(known, &own_size, kSizeBytes);
+  return SPHC_OK;
+}
+
+sphc_status checkWritableBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message) {
+  if (!to) {
+    MessageWriter(message) << name << " is null; give a " << kind.type;
+    return SPHC_E_ARGUMENT;
+  }
+  if (isSize(kind, sizeOf(to))) return SPHC_OK;
+  MessageWriter(message) << name << ".struct_size is " << sizeOf(to) << "; set it to sizeof(" << kind.type
+                         << "), here " << static_cast<uint64_t>(kind.known_bytes);
+  return SPHC_E_STRUCT_SIZE;
+}
+
+void writeStructBytes(const StructKind &kind, const void *known, void *to) {
+  const size_t struct_size = sizeOf(to), shared = std::min(struct_size, kind.known_bytes);
+  std::memcpy(bytesOf(to) + kSizeBytes, bytesOf(known) + kSizeBytes, shared - kSizeBytes);
+  std::memset(bytesOf(to) + shared, 0, struct_size - shared);
+}
+
+sphc_status initStructBytes(const StructKind &kind, const void *known, size_t struct_size, void *to) {
+  if (!to) return SPHC_E_ARGUMENT;
+  if (!isSize(kind, struct_size)) return SPHC_E_STRUCT_SIZE;
+  const auto told = static_cast<uint32_t>(struct_size);
+  std::memcpy(to, &told, kSizeBytes);
+  writeStructBytes(kind, known, to);
+  return SPHC_OK;
+}
+
+}  // namespace sphc

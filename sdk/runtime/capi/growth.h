@@ -1,0 +1,76 @@
+// Structs that begin with struct_size grow at the end.  Callers of an older header have fewer fields than this
+// library, those of a newer one more: fields that the caller lacks keep their defaults, and fields that the library
+// lacks must be zero.
+#pragma once
+#include <cstddef>
+
+#include "spherecloud/spherecloud.h"
+
+namespace sphc {
+
+struct StructKind {
+  const char *type;
+  size_t first_bytes;  // when it was first published (tests/abi/headers); a smaller one never was
+  size_t known_bytes;  // today
+  size_t alignment;
+};
+
+// Of a struct that has not grown yet.
+template <typename T>
+constexpr StructKind ungrown(const char *type) {
+  return {type, sizeof(T), sizeof(T), alignof(T)};
+}
+
+constexpr StructKind kindOf(const sphc_aligned *) { return ungrown<sphc_aligned>("sphc_aligned"); }
+constexpr StructKind kindOf(const sphc_aligner_config *) {
+  return ungrown<sphc_aligner_config>("sphc_aligner_config");
+}
+constexpr StructKind kindOf(const sphc_clock_mapper_config *) {
+  return ungrown<sphc_clock_mapper_config>("sphc_clock_mapper_config");
+}
+constexpr StructKind kindOf(const sphc_clock_mapping *) {
+  return ungrown<sphc_clock_mapping>("sphc_clock_mapping");
+}
+constexpr StructKind kindOf(const sphc_config *) { return ungrown<sphc_config>("sphc_config"); }
+constexpr StructKind kindOf(const sphc_frame *) { return ungrown<sphc_frame>("sphc_frame"); }
+constexpr StructKind kindOf(const sphc_map_info *) { return ungrown<sphc_map_info>("sphc_map_info"); }
+constexpr StructKind kindOf(const sphc_pairer_config *) {
+  return ungrown<sphc_pairer_config>("sphc_pairer_config");
+}
+constexpr StructKind kindOf(const sphc_pairer_counts *) {
+  return ungrown<sphc_pairer_counts>("sphc_pairer_counts");
+}
+constexpr StructKind kindOf(const sphc_prior *) { return ungrown<sphc_prior>("sphc_prior"); }
+constexpr StructKind kindOf(const sphc_result *) { return ungrown<sphc_result>("sphc_result"); }
+
+// Of any of them.
+sphc_status readStructBytes(const StructKind &kind, const char *name, const void *from, void *known,
+                            sphc_message *message);
+sphc_status checkWritableBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message);
+void writeStructBytes(const StructKind &kind, const void *known, void *to);
+sphc_status initStructBytes(const StructKind &kind, const void *known, size_t struct_size, void *to);
+
+// Copies what the caller's struct has over *known, which has the defaults; known->struct_size becomes that of this
+// library.  `name` is that of the argument.  ARGUMENT for null, STRUCT_SIZE for a size that never was, UNSUPPORTED
+// where a field that is not known here is not zero.
+template <typename T>
+sphc_status readStruct(const char *name, const T *from, T *known, sphc_message *message) {
+  return readStructBytes(kindOf(from), name, from, known, message);
+}
+// Can results be written to it?  ARGUMENT for null, STRUCT_SIZE for a size that never was.
+template <typename T>
+sphc_status checkWritable(const char *name, const T *to, sphc_message *message) {
+  return checkWritableBytes(kindOf(to), name, to, message);
+}
+// Copies as much as the caller's struct has room for and zeroes the rest of it; struct_size stays the caller's.
+template <typename T>
+void writeStruct(const T &known, T *to) {
+  writeStructBytes(kindOf(to), &known, to);
+}
+// The same for a caller who tells struct_size beside the struct: the functions that set defaults.
+template <typename T>
+sphc_status initStruct(const T &defaults, size_t struct_size, T *to) {
+  return initStructBytes(kindOf(to), &defaults, struct_size, to);
+}
+
+}  // namespace sphc

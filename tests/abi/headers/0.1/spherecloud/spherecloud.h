@@ -1,0 +1,697 @@
+/* spherecloud.h - the public C interface of the SphereCloud SDK.
+ *
+ * What it does.  Given a colour image and a time-of-flight (ToF) depth image taken at about the same time,
+ * and a map that was built beforehand, the library answers where the camera is in the map.  The map is a
+ * *sphere cloud* (Moon et al., "Depth-Guided Privacy-Preserving Visual Localization Using 3D Sphere Clouds",
+ * BMVC 2024): of every map point it keeps only the direction from the map's centre, mixed with fake
+ * directions, so that the file holds no 3D geometry.
+ *
+ * A session, in the order of the calls:
+ *
+ *     sphc_map_memory, sphc_map_init              view a map file that you loaded or mapped, one for each room
+ *     sphc_config_init, set the rig               describe the headset
+ *     sphc_localizer_memory, sphc_localizer_init  hand over memory once
+ *     sphc_localizer_process ...                  a frame in, a pose out; never allocates
+ *     sphc_localizer_fini, sphc_map_fini
+ *
+ * Frames.  `target_from_source` everywhere: x_target = R(q) x_source + t.  Camera axes are OpenCV's: x right, y
+ * down, z forward.  The map frame has its origin at the sphere centre.
+ *
+ * Units.  Metres, nanoseconds, radians and pixels; the name says which (`_m`, `_ns`, `_rad`, `_px`).
+ *
+ * Pixels.  The centre of the top-left pixel is (0.5, 0.5), as in COLMAP.  OpenCV calls the same point (0, 0): add
+ * 0.5 to an OpenCV principal point.
+ *
+ * Memory.  "Borrows": reads only until the call returns unless a longer time is stated.  "Caller memory": the
+ * library never resizes, frees or copies it away.  No function of this header allocates.
+ *
+ * Failure.  status < 0: outputs are untouched, except a message that explains.
+ *
+ * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do).
+ * Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image) never change.
+ *
+ * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
+ * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
+ * instance. The library starts no thread, takes no lock, and has no mutable global of its own.
+ */
+#ifndef SPHERECLOUD_SPHERECLOUD_H
+#define SPHERECLOUD_SPHERECLOUD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(SPHC_STATIC)
+#define SPHC_API
+#elif defined(_WIN32)
+#if defined(SPHC_BUILDING)
+#define SPHC_API __declspec(dllexport)
+#else
+#define SPHC_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define SPHC_API __attribute__((visibility("default")))
+#else
+#define SPHC_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- version ---- */
+
+#define SPHC_VERSION_MAJOR 0
+#define SPHC_VERSION_MINOR 1
+#define SPHC_VERSION_PATCH 0
+#define SPHC_ABI \
+  0u /* raised only when an existing symbol or the prefix of a struct changes; 0 promises nothing yet */
+
+/* ABI the library was built with; compare with SPHC_ABI before anything else. [pure] */
+SPHC_API uint32_t sphc_abi(void);
+/* "major.minor.patch"; static storage. [pure] */
+SPHC_API const char *sphc_version_string(void);
+
+/* ---- status and message ---- */
+
+/* 0: done.  > 0: an answer that is not a failure, outputs as documented.  < 0: failure, outputs untouched.
+ * Values are pinned: never renumbered, never reused. */
+typedef int32_t sphc_status;
+enum {
+  SPHC_OK = 0,
+  SPHC_AGAIN = 1,         /* nothing yet: within the timeout, or until more input comes */
+  SPHC_NOT_LOCALIZED = 2, /* the frame was processed, but no pose passed the checks; result.outcome says which */
+  SPHC_END = 3,           /* a finite source (a recording) has no more captures */
+
+  SPHC_E_ARGUMENT = -10,    /* null, not finite, out of range, or at odds with another argument */
+  SPHC_E_STRUCT_SIZE = -11, /* struct_size is not one this library knows */
+  SPHC_E_STATE = -12,       /* the call is not allowed in the current state */
+  SPHC_E_IMAGE = -13,       /* an image's size, stride, format or pointer does not fit the config */
+
+  SPHC_E_MEMORY_SIZE = -20,
+  SPHC_E_MEMORY_ALIGNMENT = -21,
+  SPHC_E_CAPACITY = -22, /* an input exceeds a capacity fixed in the config */
+
+  SPHC_E_MAP_FORMAT = -30,    /* not a sphere-cloud file, cut short, or its fields contradict each other */
+  SPHC_E_MAP_VERSION = -31,   /* made in another version of the format: build it again */
+  SPHC_E_MAP_CHECKSUM = -32,  /* bytes changed since it was written */
+  SPHC_E_MAP_EXTRACTOR = -33, /* its descriptors were made by another extractor than this library's */
+
+  SPHC_E_DEVICE = -40,
+  SPHC_E_DEVICE_LOST = -41, /* unplugged; stop, and open again once it is back */
+
+  SPHC_E_UNSUPPORTED = -50,
+  SPHC_E_INTERNAL = -90 /* a defect of this library; please report */
+};
+
+/* "SPHC_OK" and so on; "SPHC_?" for a value this library does not know; never null; static storage. [pure] */
+SPHC_API const char *sphc_status_name(sphc_status status);
+
+/* Room for one explanation: what was wrong, with the values seen, and what to do.  Every argument of this type is
+ * caller memory and may be null.  Written only on failure; always terminated. */
+#define SPHC_MESSAGE_BYTES 256u
+typedef struct sphc_message {
+  char text[SPHC_MESSAGE_BYTES];
+} sphc_message;
+
+/* ---- atoms: frozen layouts ---- */
+
+typedef int32_t sphc_format;
+enum {
+  SPHC_FORMAT_GRAY8 = 1,   /* 1 byte a pixel */
+  SPHC_FORMAT_RGB8 = 2,    /* 3 bytes a pixel: red, green, blue */
+  SPHC_FORMAT_BGR8 = 3,    /* 3 bytes a pixel: blue, green, red */
+  SPHC_FORMAT_DEPTH16 = 10 /* uint16, native byte order; metres per unit stand in the config; 0 = no measurement */
+};
+
+/* Rigid transform; named target_from_source everywhere: x_target = R(q) x_source + t. */
+typedef struct sphc_rigid {
+  double q_wxyz[4]; /* unit quaternion, real part first */
+  double t_m[3];
+} sphc_rigid;
+
+typedef int32_t sphc_camera_model;
+enum {
+  SPHC_CAMERA_PINHOLE = 1,        /* fx fy cx cy */
+  SPHC_CAMERA_BROWN5 = 2,         /* fx fy cx cy k1 k2 p1 p2 k3           (OpenCV's order) */
+  SPHC_CAMERA_BROWN8 = 3,         /* fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6  (OpenCV's rational model) */
+  SPHC_CAMERA_KANNALA_BRANDT4 = 4 /* fx fy cx cy k1 k2 k3 k4              (OpenCV's fisheye) */
+};
+
+/* Camera intrinsics, in pixels of an image of width x height. */
+typedef struct sphc_camera {
+  sphc_camera_model model;
+  uint32_t width, height;
+  uint32_t param_count; /* 4, 9, 12 or 8, by model */
+  double params[12];    /* unused ones are 0 */
+} sphc_camera;
+
+/* The colour and the depth camera of a headset: what a calibration file holds, and what everything that needs
+ * cameras takes.  Identity with equal cameras: the depth image is already registered to colour. */
+typedef struct sphc_rig {
+  sphc_camera color_camera, depth_camera; /* any of the models, distortion included */
+  sphc_rigid color_from_depth;
+  double depth_unit_m; /* metres per unit of the depth image */
+} sphc_rig;
+
+typedef struct sphc_image {
+  const void *data; /* caller memory; top-left pixel */
+  uint32_t width, height;
+  uint32_t stride_bytes; /* from a row to the next; at least width * bytes a pixel */
+  sphc_format format;
+} sphc_image;
+
+/* ---- camera, rig and rigid transform functions ---- */
+
+/* The limits of sphc_camera_check and sphc_rig_check; there are no others. */
+#define SPHC_CAMERA_MIN_PX 16u         /* width and height */
+#define SPHC_CAMERA_MAX_PX 8192u       /* the same */
+#define SPHC_CAMERA_MAX_PARAM 1e6      /* of a parameter, either sign; of real cameras they are far below */
+#define SPHC_RIG_MAX_OFFSET_M 100.0    /* of a part of color_from_depth.t_m, either sign */
+#define SPHC_RIG_MAX_LENGTH_ERROR 1e-3 /* of color_from_depth.q_wxyz, whose length is 1 */
+#define SPHC_RIG_MIN_UNIT_M 1e-6       /* depth_unit_m */
+#define SPHC_RIG_MAX_UNIT_M 0.1        /* the same */
+
+/* SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the limits, fx and
+ * fy > 0.  Else SPHC_E_ARGUMENT; the message names field, cause and cure. [pure] */
+SPHC_API sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message);
+/* Pixel of a point given in camera coordinates.  SPHC_E_ARGUMENT if it is not in front of the camera or lies beyond
+ * the range in which the distortion is invertible. [pure] */
+SPHC_API sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]);
+/* Unit bearing (camera coordinates) of a pixel.  SPHC_E_ARGUMENT if no bearing projects there. [pure] */
+SPHC_API sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]);
+
+/* Identity and millimetres; the cameras stay zero and must be set.  Does nothing for null. [pure] */
+SPHC_API void sphc_rig_init(sphc_rig *rig);
+/* SPHC_OK if the rig can be used: both cameras pass sphc_camera_check, transform and unit are within the limits.
+ * Else SPHC_E_ARGUMENT; the message names field, cause and cure.  Whatever takes a rig calls this: a rig that one
+ * takes, all take. [pure] */
+SPHC_API sphc_status sphc_rig_check(const sphc_rig *rig, sphc_message *message);
+
+/* c_from_a = c_from_b * b_from_a; the quaternion is normalised.  c_from_a may be one of the inputs. [pure] */
+SPHC_API void sphc_rigid_compose(const sphc_rigid *c_from_b, const sphc_rigid *b_from_a, sphc_rigid *c_from_a);
+/* a_from_b = inverse of b_from_a.  Both may be the same object. [pure] */
+SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_b);
+/* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
+SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
+
+/* ---- frame ---- */
+
+/* What is known of a pose before its frame is looked at. */
+enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u, SPHC_PRIOR_ODOMETRY = 4u };
+typedef struct sphc_prior {
+  uint32_t struct_size;
+  uint32_t flags;     /* which of the parts below count */
+  uint32_t map_index; /* the map, of those given to sphc_localizer_init, whose frame POSE and UP are in */
+  uint32_t reserved;
+  /* POSE: where the camera should be.  Only the map points that should be in view are looked at first; where that
+   * fails, or the sigmas say too little, the whole of the maps. */
+  sphc_rigid camera_from_map;
+  double rotation_sigma_rad;  /* 1 sigma an axis; 1e-6 to 3.2 */
+  double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; 1e-6 to 1000 */
+  /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
+  double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
+  double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
+  /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
+   * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
+   * little be put together, and takes depth to the time of the colour image. */
+  sphc_rigid odometry_from_camera;
+  double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
+  double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */
+} sphc_prior;
+
+/* A colour and a depth image taken at about the same time; everything is borrowed. */
+typedef struct sphc_frame {
+  uint32_t struct_size;
+  uint32_t sequence;     /* the caller's own number; comes back in the result */
+  int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
+  int64_t depth_time_ns;
+  sphc_image color;        /* GRAY8, RGB8 or BGR8; the size in config.rig.color_camera */
+  sphc_image depth;        /* DEPTH16; the size in config.rig.depth_camera */
+  const sphc_prior *prior; /* null: nothing is known but what earlier frames told */
+  /* The frame is to be answered so long after the call began, with the best pose so far; 0: no deadline.  Needs
+   * config.clock, and counts in its time.  result.cuts says what was left out for it; docs/localizer.md. */
+  uint32_t deadline_us;
+  uint32_t reserved;
+} sphc_frame;
+
+/* ---- map: an immutable view of borrowed bytes ---- */
+
+typedef struct sphc_map sphc_map;
+
+typedef struct sphc_map_info {
+  uint32_t struct_size;
+  uint32_t format_version;
+  uint32_t point_count; /* real and fake together; the file does not tell them apart */
+  uint32_t extractor;   /* id of the keypoint extractor that described the points */
+  uint64_t file_bytes;
+  uint8_t map_id[16]; /* random name of this build */
+} sphc_map_info;
+
+/* Bytes and alignment that sphc_map_init needs for its view (not for the file). [pure] */
+SPHC_API sphc_status sphc_map_memory(size_t *bytes, size_t *alignment);
+/* Validates the whole file (structure, checksums, every direction) and makes a view of it in caller memory.
+ * `file` is borrowed until sphc_map_fini and must not change; 8-byte aligned.  Reads each byte once: about 1 ms a
+ * MB.  Errors: MEMORY_SIZE, MEMORY_ALIGNMENT, MAP_FORMAT, MAP_VERSION, MAP_CHECKSUM, MAP_EXTRACTOR, ARGUMENT.
+ * [pure]
+ */
+SPHC_API sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, size_t file_bytes,
+                                   sphc_map **map, sphc_message *message);
+/* Set info->struct_size first. [shared] */
+SPHC_API sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info);
+/* Unit direction of point `index` from the sphere centre, map frame. [shared] */
+SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, double direction[3]);
+/* Ends the view; accepts null and pointer to null; sets *map to null; frees nothing. [exclusive] */
+SPHC_API void sphc_map_fini(sphc_map **map);
+
+/* ---- depth alignment: a whole depth image, seen from the colour camera ---- */
+
+/* What a pixel of an aligned image is. */
+enum {
+  SPHC_ALIGNED_HOLE = 0,     /* no depth: not measured, out of range, or out of the depth camera's view */
+  SPHC_ALIGNED_MEASURED = 1, /* a measurement falls into this pixel */
+  SPHC_ALIGNED_FILLED = 2,   /* between measurements of one surface: interpolated */
+  SPHC_ALIGNED_OCCLUDED = 3  /* no depth: something nearer hides this place from the depth camera */
+};
+
+typedef struct sphc_aligner_config {
+  uint32_t struct_size;
+  uint32_t reserved;
+  sphc_rig rig;
+  double depth_min_m, depth_max_m; /* measurements outside are ignored */
+  /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; for the confidence. */
+  double depth_sigma_m, depth_sigma_per_m2;
+  double aligned_unit_m; /* metres per unit of the aligned image; 0: rig.depth_unit_m */
+} sphc_aligner_config;
+
+/* Where an aligned image goes: caller memory, of the colour camera's size.  Each pointer may be null. */
+typedef struct sphc_aligned {
+  uint32_t struct_size;
+  uint32_t depth_stride_bytes, mask_stride_bytes, confidence_stride_bytes; /* from a row to the next */
+  uint16_t *depth; /* z in the colour camera's frame, in aligned_unit_m; 0: none */
+  uint8_t *mask;   /* SPHC_ALIGNED_ values */
+  /* 255 / (1 + (e / 0.01)^2), rounded, for a depth of relative error e, 1 sigma: 255 exact, 128 an error of 1 %, 51
+   * of 2 %; 0 where there is no depth.  e has the noise of the sensor, and the slope of the surface times how far
+   * beside it was measured: 0.3 px of the depth image if MEASURED, 0.8 px if FILLED; a neighbour that is missing
+   * or on another surface counts as a slope of 10 % a pixel. */
+  uint8_t *confidence;
+} sphc_aligned;
+
+typedef struct sphc_aligner sphc_aligner;
+/* Defaults: those of sphc_config_init; the cameras stay zero: set the rig.  SPHC_E_STRUCT_SIZE when the size is
+ * none this library knows. [pure] */
+SPHC_API sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size);
+/* What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel of the
+ * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, size_t *bytes, size_t *alignment,
+                                         sphc_message *message);
+/* Makes an aligner in caller memory, borrowed until sphc_aligner_fini; `config` is copied.  Computes a ray for
+ * every pixel, which takes as long as some dozen frames.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
+ * MEMORY_ALIGNMENT. [pure] */
+SPHC_API sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_aligner_config *config,
+                                       sphc_aligner **aligner, sphc_message *message);
+/* Aligns one depth image (DEPTH16, the size in config.rig.depth_camera; borrowed).  Set aligned->struct_size
+ * first.
+ * The same image gives the same bytes on every machine.  Failures: ARGUMENT, STRUCT_SIZE, IMAGE
+ * (sphc_aligner_message explains); the aligner can go on with the next image.  Bounded time, no allocation, no OS
+ * call. [exclusive] */
+SPHC_API sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth,
+                                          const sphc_aligned *aligned);
+/* Text about the last failure of sphc_aligner_process on this instance, "" if it did not fail; owned by the
+ * instance, valid until its next call. [exclusive] */
+SPHC_API const char *sphc_aligner_message(const sphc_aligner *aligner);
+/* Accepts null and pointer to null; sets *aligner to null; frees nothing. [exclusive] */
+SPHC_API void sphc_aligner_fini(sphc_aligner **aligner);
+
+/* ---- localizer ---- */
+
+typedef int32_t sphc_log_level;
+enum { SPHC_LOG_ERROR = 1, SPHC_LOG_WARNING = 2, SPHC_LOG_INFO = 3, SPHC_LOG_DEBUG = 4 };
+/* Called on the calling thread only; `text` is terminated and borrowed for the call. */
+typedef void (*sphc_log_fn)(void *user, sphc_log_level level, const char *text, size_t length);
+/* Monotonic clock in nanoseconds, from the caller: the library makes no OS call. */
+typedef int64_t (*sphc_clock_fn)(void *user);
+
+/* Whether frames belong together. */
+typedef int32_t sphc_mode;
+enum {
+  SPHC_MODE_TRACKING = 0, /* frames follow each other: the last pose says where to look; see sphc_state */
+  SPHC_MODE_SINGLE = 1    /* each frame is looked at alone (what is learnt of the depth sensor stays) */
+};
+
+/* How far the last pose is to be trusted, after a frame; docs/localizer.md draws the transitions. */
+typedef int32_t sphc_state;
+enum {
+  SPHC_STATE_RELOCALIZING = 0, /* no pose is trusted; always so in SPHC_MODE_SINGLE */
+  SPHC_STATE_TRACKING = 1,     /* a second frame agreed with the pose */
+  SPHC_STATE_LOST = 2          /* was tracking until a frame brought no pose, or another; for 1 s at most */
+};
+
+typedef struct sphc_config {
+  uint32_t struct_size;
+  uint32_t max_keypoints; /* strongest are kept; 64 to 4096 */
+  uint32_t
+      max_iterations; /* minimal samples drawn in one search, at most; a frame takes one to a few; 1 to 1000000 */
+  float max_ratio;    /* Lowe's ratio test, on distances; 0.1 to 1 */
+  uint64_t seed;      /* same seed, map, config and frames: same bytes in the results */
+
+  sphc_rig rig;
+
+  double depth_min_m, depth_max_m; /* measurements outside are ignored */
+  /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
+  double depth_sigma_m, depth_sigma_per_m2;
+  double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
+  double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
+
+  /* Bias of the depth sensor, which the localizer learns from frame to frame: true z = z + offset + slope (z -
+   * mid). 1 sigma of what is unknown of it before the first frame; offset sigma 0: no bias, and nothing is learnt.
+   * A common scale of depths cannot be observed, so the offset's sigma at mid range should be small. */
+  double depth_mid_m; /* 0: the geometric mean of depth_min_m and depth_max_m */
+  double depth_offset_sigma_m, depth_slope_sigma;
+
+  uint32_t min_inliers; /* a pose with fewer is not given out */
+  sphc_mode mode;
+  uint32_t probes; /* cells of the map's index searched for each keypoint, 1 to 32: more cost time and find more;
+                      0: all of the map */
+  uint32_t reserved;
+
+  sphc_log_fn log; /* may be null */
+  void *log_user;
+  sphc_clock_fn clock; /* may be null: stage times are then 0, and no frame has a deadline */
+  void *clock_user;
+} sphc_config;
+
+typedef int32_t sphc_outcome;
+enum {
+  SPHC_OUTCOME_LOCALIZED = 0,
+  SPHC_OUTCOME_FEW_KEYPOINTS = 1, /* too few keypoints: dark, blurred or blank image */
+  SPHC_OUTCOME_FEW_DEPTHS = 2,    /* too few keypoints with depth: sensor blind, or calibration wrong */
+  SPHC_OUTCOME_FEW_MATCHES = 3,   /* too few look like anything in the map: another place, or much changed */
+  SPHC_OUTCOME_NO_CONSENSUS = 4,  /* no pose agrees with clearly more matches than chance would */
+  SPHC_OUTCOME_UNCERTAIN = 5,     /* a pose was found but the matches pin it down too weakly: degenerate geometry */
+  SPHC_OUTCOME_DEADLINE = 6,      /* no pose before frame.deadline_us; result.cuts says what was left out */
+  SPHC_OUTCOME_CONTRADICTION = 7  /* the frame contradicts itself, and no pose is given; result.faults says how */
+};
+
+/* What is wrong with a frame or with what it was told, as far as that shows; bits of result.faults.  Those before
+ * DEPTH_SCALE take the pose away (SPHC_OUTCOME_CONTRADICTION).  Streams and edges over frames are compared in
+ * SPHC_MODE_TRACKING.  docs/consistency.md has causes and cures. */
+enum {
+  SPHC_FAULT_DEPTH_RANGE = 1u,    /* depth is measured, but nearly none between depth_min_m and depth_max_m */
+  SPHC_FAULT_DEPTH_CONSTANT = 2u, /* one depth everywhere */
+  SPHC_FAULT_DEPTH_BENT = 4u,     /* planes are bent: inverted depth, or disparity in its place */
+  SPHC_FAULT_DEPTH_FROZEN = 8u,   /* the same depth image again while the colour image moves */
+  SPHC_FAULT_COLOR_FROZEN = 16u,  /* the same colour image again while depth moves */
+  SPHC_FAULT_DEPTH_COLOR_DISAGREE = 32u, /* edges of depth are not where the image has edges: late or mirrored
+                                           depth, another calibration, an image that was cropped or scaled */
+  SPHC_FAULT_DEPTH_SCALE = 64u,          /* poses go farther, or less far, than odometry; confidence is below 0.5 */
+  SPHC_FAULT_DEPTH_BIAS = 128u, /* result.depth is beyond 2.5 of the config's sigmas; confidence is below 0.5 */
+  SPHC_FAULT_VERTICAL_DISAGREES = 256u /* UP is not the pose's vertical; the pose was found without it */
+};
+/* "SPHC_FAULT_DEPTH_RANGE" and so on for one bit; "SPHC_FAULT_?" for any other value; static storage. [pure] */
+SPHC_API const char *sphc_fault_name(uint32_t fault);
+
+/* What was left out of a frame for its deadline, bits of result.cuts: more time might have found a pose, or a
+ * better one. */
+enum {
+  SPHC_CUT_FEATURES = 1u, /* fine scales of the image, or the weakest keypoints */
+  SPHC_CUT_MATCHES = 2u,  /* keypoints, of which some were not compared with the map */
+  SPHC_CUT_SEARCH = 4u,   /* samples, or searches that might have followed */
+  SPHC_CUT_VERIFICATION =
+      8u /* steps that refine, challenge or confirm a pose; what they must confirm is UNCERTAIN */
+};
+/* "SPHC_CUT_FEATURES" and so on for one bit; "SPHC_CUT_?" for any other value; static storage. [pure] */
+SPHC_API const char *sphc_cut_name(uint32_t cut);
+
+/* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
+ * is noise_scale times the one in the config. */
+typedef struct sphc_depth_bias {
+  double mid_m, offset_m, slope;
+  double offset_sigma_m, slope_sigma; /* 1 sigma */
+  double noise_scale;
+} sphc_depth_bias;
+
+typedef struct sphc_result {
+  uint32_t struct_size;
+  uint32_t sequence; /* of the frame */
+  int64_t time_ns;   /* frame.color_time_ns */
+  sphc_outcome outcome;
+  uint32_t keypoints;  /* found in the colour image */
+  uint32_t lifted;     /* of these, with depth */
+  uint32_t matches;    /* keypoints with a map point that passed the ratio test, lifted or not */
+  uint32_t inliers;    /* lifted and agreeing with the pose: of these, and where frames > 1 of earlier ones */
+  uint32_t iterations; /* minimal samples drawn, in all searches */
+  sphc_rigid camera_from_map; /* valid when outcome is LOCALIZED, else identity */
+  /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
+   * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
+  double covariance[36];
+  uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
+  double confidence;     /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
+                          * bounds sphc_result_confidence */
+  uint32_t cuts;         /* SPHC_CUT_ bits; 0: nothing was left out */
+  sphc_state state;      /* after this frame */
+  uint32_t map_index;    /* of the map that camera_from_map is in; where there is no pose, the likeliest */
+  uint32_t frames;       /* whose matches the pose was found from: 1, or more where odometry put some together */
+  uint32_t guided;       /* 1: found where it was expected, without a search of the whole map */
+  uint32_t faults;       /* SPHC_FAULT_ bits; 0: nothing was found */
+  sphc_depth_bias depth; /* what the frame was looked at with */
+} sphc_result;
+
+/* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero: set
+ * the rig.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
+SPHC_API sphc_status sphc_config_init(sphc_config *config, size_t struct_size);
+
+typedef struct sphc_memory {
+  size_t state_bytes;   /* lives as long as the localizer */
+  size_t scratch_bytes; /* used only inside sphc_localizer_process; may be shared by localizers of one thread */
+  size_t alignment;     /* of both */
+} sphc_memory;
+
+/* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+SPHC_API sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message);
+
+/* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static
+ * storage. [pure] */
+typedef struct sphc_memory_piece {
+  const char *name; /* "features.pyramid" */
+  size_t bytes;
+  uint32_t scratch; /* 1: in scratch, 0: in state */
+  uint32_t reserved;
+} sphc_memory_piece;
+SPHC_API sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t index,
+                                                 sphc_memory_piece *piece);
+
+typedef struct sphc_localizer sphc_localizer;
+
+#define SPHC_MAPS_MAX 16u /* maps of one localizer */
+
+/* Makes a localizer in caller memory, for one map or a set of them (rooms), each with a frame of its own: it finds
+ * out which one a frame shows.  `config` and the list are copied; `state`, `scratch` and the maps are borrowed
+ * until sphc_localizer_fini.  None of that memory may overlap another.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
+ * MEMORY_ALIGNMENT, CAPACITY. [pure] */
+SPHC_API sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
+                                         const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
+                                         sphc_localizer **localizer, sphc_message *message);
+/* Accepts null and pointer to null; sets *localizer to null; frees nothing. [exclusive] */
+SPHC_API void sphc_localizer_fini(sphc_localizer **localizer);
+
+/* Forgets where the camera was, as after a long pause; what was learnt of the depth sensor stays. [exclusive] */
+SPHC_API void sphc_localizer_reset(sphc_localizer *localizer);
+
+/* Where was the colour camera?  In SPHC_MODE_TRACKING frames come in the order of color_time_ns; a time that does
+ * not grow, or a gap of more than 1 s, starts anew.  Set result->struct_size first.  SPHC_OK: localized, *result
+ * filled. SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT,
+ * STRUCT_SIZE, IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame. Bounded time,
+ * by frame.deadline_us too; no allocation, no OS call. [exclusive] */
+SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame,
+                                            sphc_result *result);
+
+/* Text about the last failure of sphc_localizer_process on this instance, "" if it did not fail; owned by the
+ * instance, valid until its next call. [exclusive] */
+SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
+
+/* The probability that the camera is within so many metres and radians of the pose.  0 where there is no pose, for
+ * a bound that is not above 0, and for a null result.  From the result's covariance; docs/confidence.md. [pure] */
+SPHC_API double sphc_result_confidence(const sphc_result *result, double translation_m, double rotation_rad);
+
+/* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
+enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };
+typedef struct sphc_observation {
+  float x_px, y_px;     /* in the colour image */
+  float scale_px;       /* standard deviation of the Gaussian it was found at */
+  float depth_m;        /* z in the colour camera; 0 unless LIFTED */
+  uint32_t point_index; /* of the matched map point, of the map that result.map_index names; valid when MATCHED */
+  uint32_t flags;
+} sphc_observation;
+/* Copies up to `capacity` observations and sets *count to how many there are.  Before the first frame *count is 0.
+ * [exclusive] */
+SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
+                                                 uint32_t capacity, uint32_t *count);
+
+/* ---- source: the contract that a driver fills; polled, never called back ---- */
+
+typedef int32_t sphc_stream;
+enum { SPHC_STREAM_NONE = 0, SPHC_STREAM_COLOR = 1, SPHC_STREAM_DEPTH = 2 };
+
+/* Which clock a time is on.  Times of two clocks cannot be compared. */
+typedef int32_t sphc_clock_id;
+enum {
+  SPHC_CLOCK_SOURCE = 0,    /* the source's own, such as a device's counter or a recording's; monotonic */
+  SPHC_CLOCK_MONOTONIC = 1, /* the host's CLOCK_MONOTONIC */
+  SPHC_CLOCK_BOOTTIME = 2   /* the host's CLOCK_BOOTTIME */
+};
+
+/* What of the exposure a time is that of. */
+typedef int32_t sphc_time_point;
+enum {
+  SPHC_TIME_MIDDLE = 0,
+  SPHC_TIME_START = 1,  /* as UVC cameras; half the exposure early when that is not known */
+  SPHC_TIME_END = 2,    /* as many capture bridges: of the readout too */
+  SPHC_TIME_ARRIVAL = 3 /* when it reached the host: late by readout and transfer */
+};
+
+/* One image of one stream, on loan from its source until released. */
+typedef struct sphc_capture {
+  uint32_t struct_size;
+  sphc_stream stream;
+  int64_t time_ns;            /* of the point of the exposure that time_point names, on `clock`; monotonic */
+  uint64_t token;             /* the source's own; hand it back unchanged */
+  uint32_t sequence;          /* counts the captures of this stream, lost ones too: a gap is a loss */
+  sphc_time_point time_point; /* MIDDLE, if the driver can: it moves the time by half an exposure it knows */
+  sphc_image image;           /* valid until release */
+  int64_t arrival_ns;         /* when the host had it, by CLOCK_MONOTONIC; 0: not told */
+  uint32_t exposure_us;       /* 0: not told */
+  uint32_t time_sigma_us;     /* of time_ns as the middle of the exposure, 1 sigma; 0: exact */
+  sphc_clock_id clock;
+  uint32_t reserved;
+} sphc_capture;
+
+/* The middle of a capture's exposure, as far as it tells: time_ns moved by half of exposure_us where time_point is
+ * START or END.  Saturates.  0 for null. [pure] */
+SPHC_API int64_t sphc_capture_middle_ns(const sphc_capture *capture);
+
+/* Filled by a driver; the functions take its `self`.  States: stopped (after opening) -> start -> running -> stop
+ * -> stopped, any number of times.  All [exclusive] per source. */
+typedef struct sphc_source {
+  uint32_t struct_size;
+  uint32_t loan_limit; /* captures that may be out on loan at once; acquire beyond it is SPHC_E_STATE */
+  void *self;
+  /* SPHC_E_STATE when running already. */
+  sphc_status (*start)(void *self);
+  /* Next capture in order of time; the caller sets capture->struct_size before.  SPHC_AGAIN: none within
+   * timeout_us.  SPHC_END: a recording is over. SPHC_E_DEVICE_LOST: unplugged.  SPHC_E_STATE: not running, or
+   * loan_limit reached. */
+  sphc_status (*acquire)(void *self, uint32_t timeout_us, sphc_capture *capture);
+  /* Every acquired capture exactly once, before stop; one that is not on loan is ignored. */
+  void (*release)(void *self, const sphc_capture *capture);
+  /* After it no loan is valid.  Does nothing when stopped. */
+  void (*stop)(void *self);
+  /* Explains the last failure; owned by the source, valid until its next call; never null. */
+  const char *(*message)(const void *self);
+} sphc_source;
+
+/* ---- pairer: two streams in, frames of colour and depth out; pure, no device ---- */
+
+#define SPHC_PAIRER_SLOTS 8u /* captures of each stream it can hold */
+
+typedef struct sphc_pairer_config {
+  uint32_t struct_size;
+  uint32_t slots;       /* captures of each stream held while waiting for a partner; 1 to SPHC_PAIRER_SLOTS */
+  int64_t tolerance_ns; /* pair only when the mid-exposure times differ by at most this */
+} sphc_pairer_config;
+
+/* Why a capture found no partner. */
+typedef int32_t sphc_drop;
+enum {
+  SPHC_DROP_NONE = 0,
+  SPHC_DROP_TOO_FAR = 1,   /* none within the tolerance */
+  SPHC_DROP_OVERTAKEN = 2, /* another one of its stream fits better */
+  SPHC_DROP_FULL = 3,      /* the other stream is silent and the slots are full */
+  SPHC_DROP_ENDED = 4      /* left over at sphc_pairer_flush */
+};
+
+/* What a pairer has done since sphc_pairer_init. */
+typedef struct sphc_pairer_counts {
+  uint32_t struct_size;
+  sphc_drop last_drop; /* why the last capture was dropped */
+  uint64_t pairs;
+  uint64_t too_far, overtaken, full, ended; /* dropped, of both streams */
+  uint64_t color_lost, depth_lost;          /* never came: gaps in `sequence` */
+} sphc_pairer_counts;
+
+/* A time-matched pair.  Both captures are out on loan to the caller, who releases them to their source after use.
+ */
+typedef struct sphc_pair {
+  uint32_t struct_size;
+  uint32_t reserved;
+  sphc_capture color;
+  sphc_capture depth;
+} sphc_pair;
+
+typedef struct sphc_pairer sphc_pairer;
+/* Defaults: 4 slots, 20 ms. [pure] */
+SPHC_API sphc_status sphc_pairer_config_init(sphc_pairer_config *config, size_t struct_size);
+SPHC_API sphc_status sphc_pairer_memory(size_t *bytes, size_t *alignment); /* [pure] */
+/* `config` is copied. Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
+SPHC_API sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const sphc_pairer_config *config,
+                                      sphc_pairer **pairer, sphc_message *message);
+SPHC_API void sphc_pairer_fini(sphc_pairer **pairer); /* [exclusive] */
+/* Gives the pairer one capture (a copy; the loan goes with it).  Call sphc_pairer_pop until SPHC_AGAIN after each
+ * push.  Captures are paired by sphc_capture_middle_ns.  SPHC_E_CAPACITY: its stream's slots are full; pop first
+ * (drops come out there).  SPHC_E_ARGUMENT: earlier than the one before it, or on another clock than the first
+ * capture (sphc_clock_mapper brings times to one clock). [exclusive] */
+SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture);
+/* SPHC_OK: *pair is the oldest pair, and *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing
+ * more until the next push.  SPHC_AGAIN with another dropped->stream: a capture that can no longer find a partner
+ * is handed back for release; call again. [exclusive] */
+SPHC_API sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_pair *pair, sphc_capture *dropped);
+/* Ends the input: every capture still held comes out of sphc_pairer_pop as a pair or a drop. [exclusive] */
+SPHC_API void sphc_pairer_flush(sphc_pairer *pairer);
+/* Set counts->struct_size first. [exclusive] */
+SPHC_API sphc_status sphc_pairer_get_counts(const sphc_pairer *pairer, sphc_pairer_counts *counts);
+
+/* ---- clock mapper: times of a device's clock on the host's; pure, no device ---- */
+
+typedef struct sphc_clock_mapper_config {
+  uint32_t struct_size;
+  uint32_t max_drift_ppm; /* the clocks differ by no more, parts per million; 1 to 10000 */
+  int64_t window_ns;      /* what lies further back is forgotten; 1 s to 1 h */
+  int64_t delay_ns;       /* from a source time to its arrival, at the least: exposure, readout, transfer */
+  int64_t delay_sigma_ns; /* of delay_ns, 1 sigma; at least 0 */
+  int64_t jump_ns;        /* a larger step is a clock that was set, and starts anew; at least 1 */
+} sphc_clock_mapper_config;
+
+/* host time = source time + offset, the offset growing by drift_ppm. */
+typedef struct sphc_clock_mapping {
+  uint32_t struct_size;
+  uint32_t samples;  /* since the last start; 2^32 - 1 at most */
+  uint32_t restarts; /* clocks that were set or ran backwards */
+  uint32_t reserved;
+  int64_t offset_ns; /* at the last sample */
+  double drift_ppm;
+  int64_t sigma_ns; /* of mapped times, 1 sigma: scatter of the quickest arrivals, and delay_sigma_ns */
+} sphc_clock_mapping;
+
+typedef struct sphc_clock_mapper sphc_clock_mapper;
+/* Defaults: 200 ppm, 20 s, delay 0 +- 1 ms, jump 50 ms. [pure] */
+SPHC_API sphc_status sphc_clock_mapper_config_init(sphc_clock_mapper_config *config, size_t struct_size);
+SPHC_API sphc_status sphc_clock_mapper_memory(size_t *bytes, size_t *alignment); /* [pure] */
+/* `config` is copied. Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
+SPHC_API sphc_status sphc_clock_mapper_init(void *memory, size_t memory_bytes,
+                                            const sphc_clock_mapper_config *config, sphc_clock_mapper **mapper,
+                                            sphc_message *message);
+SPHC_API void sphc_clock_mapper_fini(sphc_clock_mapper **mapper); /* [exclusive] */
+/* One source time and when it arrived by the host's clock, in the order of arrival.  Arrivals are late by a varying
+ * time, never early: the line below all of them is the mapping (Moon, Skelly, Towsley 1999).  SPHC_AGAIN: a clock
+ * was set or ran backwards; all before is forgotten. [exclusive] */
+SPHC_API sphc_status sphc_clock_mapper_add(sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t arrival_ns);
+/* *host_time_ns of a source time.  SPHC_AGAIN: no sample yet.  SPHC_E_ARGUMENT: more than an hour from the last
+ * sample. [exclusive] */
+SPHC_API sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t source_time_ns,
+                                           int64_t *host_time_ns);
+/* Set mapping->struct_size first.  SPHC_AGAIN: no sample yet. [exclusive] */
+SPHC_API sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* SPHERECLOUD_SPHERECLOUD_H */
