@@ -232,6 +232,7 @@ TEST_F(VaguePlanarTest, NobodyCanTellTwoPosesThatAreNearlyAsGood) {
     verify(seen(viewpoint));
     EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized) << viewpoint;
     EXPECT_EQ(found().outcome, Outcome::kUncertain) << viewpoint;
+    EXPECT_TRUE(found().is_ambiguous) << viewpoint;
   }
 }
 
@@ -261,6 +262,7 @@ TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
   ASSERT_LT(found().estimate.inliers, kInliersBeyondOthers);
   EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
   EXPECT_EQ(found().outcome, Outcome::kUncertain);
+  EXPECT_TRUE(found().is_ambiguous);
   EXPECT_LT(std::min(errorM(0), errorM(4)), 0.02);
 }
 
