@@ -17,6 +17,8 @@ sphc_camera depthCamera();
 sphc_rigid colorFromDepth();
 sphc_rig rig();
 
+class Raster;
+
 class Headset {
  public:
   // The config must have passed checkConfig.
@@ -37,6 +39,12 @@ class Headset {
   void oracleDepth(int64_t time_ns, float *depth_m) const;
 
  private:
+  struct Light {
+    float r = 0, g = 0, b = 0;
+  };
+
+  // Adds the light of one part of an exposure, to one sum a pixel.
+  void gatherLight(const Raster &raster, std::vector<Light> *lights) const;
   // The pose `offset_s` after a time: fractions of an exposure are finer than the clock.
   Pose colorPoseAfter(int64_t time_ns, double offset_s) const;
   Pose depthPose(int64_t time_ns) const;

@@ -10,16 +10,16 @@
 namespace sphc::simulated {
 namespace {
 
-// Four rays a pixel, on a turned square, each at its own quarter of the exposure.
+// Four rays a pixel, on a turned square, each at its own quarter of the exposure, or of a part of it: where the
+// view turns by more pixels than this, the exposure is mixed from several, lest it leave four pictures side by
+// side.
+constexpr double kLongestPartPx = 8;
+constexpr double kMostParts = 16;
 constexpr float kColorOffsets[kLanes][2] = {
     {-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
 
 // Full scale is 1.  A tone of 0.3 gets a noise of 0.0079, about 2 of 255 after the gamma.
 constexpr float kReadNoise = 0.0016f, kShotNoise = 2e-4f;
-
-struct Light {
-  float r = 0, g = 0, b = 0;
-};
 
 struct Squares {
   float of[256];
@@ -60,25 +60,10 @@ float exposureAt(double time_s) {
 
 }  // namespace
 
-void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
+void Headset::gatherLight(const Raster &raster, std::vector<Light> *lights) const {
   static const Squares kSquares;
-  const int64_t time_ns = colorTime(index);
-  const double exposure_s = config_.exposure_s * static_cast<double>(scene_.lighting.exposure_time);
-  Pose poses[kLanes];
-  for (uint32_t i = 0; i < kLanes; ++i) {
-    const double part = (i + 0.5) / kLanes - 0.5;
-    poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? part * exposure_s : 0);
-  }
-  const std::vector<Shape> shapes = shapesAt(time_ns);
-  const Raster raster(scene_, shapes, color_, color_rays_, poses);
-  const float gain =
-      (config_.exposure_drift != 0 ? exposureAt(walkTime(time_ns)) : 1.0f) * scene_.lighting.brightness;
-  const Sensor sensor = sensorAt(scene_.lighting.level);
-  const uint64_t seed = noiseSeed(index, 0);
-  const float noise = config_.color_noise != 0 ? 1.0f : 0.0f;
   // A ray stands for half a pixel on a side; a little sharper than that keeps fine texture.
   const float footprint = 0.6f / static_cast<float>(color_.params[0]);
-
   parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       Light sum;
@@ -100,16 +85,49 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
         sum.g += kSquares.of[(texel >> 8) & 255];
         sum.b += kSquares.of[(texel >> 16) & 255];
       }
+      Light &light = (*lights)[static_cast<size_t>(row) * kColorWidth + column];
+      light.r += sum.r;
+      light.g += sum.g;
+      light.b += sum.b;
+    });
+  });
+}
+
+void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
+  const int64_t time_ns = colorTime(index);
+  const double exposure_s = config_.exposure_s * static_cast<double>(scene_.lighting.exposure_time);
+  const std::vector<Shape> shapes = shapesAt(time_ns);
+  const Vec3d ahead = {0, 0, 1}, turned = colorPoseAfter(time_ns, exposure_s / 2).rotation * ahead -
+                                          colorPoseAfter(time_ns, -exposure_s / 2).rotation * ahead;
+  const double turned_px = std::sqrt(dot(turned, turned)) * color_.params[0];
+  const auto parts = static_cast<uint32_t>(std::clamp(std::ceil(turned_px / kLongestPartPx), 1.0, kMostParts));
+  std::vector<Light> lights(static_cast<size_t>(kColorWidth) * kColorHeight);
+  for (uint32_t part = 0; part < parts; ++part) {
+    Pose poses[kLanes];
+    for (uint32_t i = 0; i < kLanes; ++i) {
+      const double share = (part * kLanes + i + 0.5) / (parts * kLanes) - 0.5;
+      poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? share * exposure_s : 0);
+    }
+    gatherLight(Raster(scene_, shapes, color_, color_rays_, poses), &lights);
+  }
+  const float gain =
+      (config_.exposure_drift != 0 ? exposureAt(walkTime(time_ns)) : 1.0f) * scene_.lighting.brightness;
+  const Sensor sensor = sensorAt(scene_.lighting.level);
+  const uint64_t seed = noiseSeed(index, 0);
+  const float noise = config_.color_noise != 0 ? 1.0f : 0.0f;
+  parallelFor(kColorHeight, config_.threads, [&](uint32_t row) {
+    for (uint32_t column = 0; column < kColorWidth; ++column) {
       const Ray2 &center = color_rays_.center(column, row);
       const float off_axis = center.x * center.x + center.y * center.y;
       const float vignette = 1.0f / ((1 + 0.45f * off_axis) * (1 + 0.45f * off_axis));
-      const float scale = gain * vignette / kLanes;
+      const float scale = gain * vignette / static_cast<float>(parts * kLanes);
       const uint64_t pixel = static_cast<uint64_t>(row) * kColorWidth + column;
+      const Light &light = lights[pixel];
       uint8_t *out = rgb + 3 * pixel;
-      out[0] = develop(sensor, sum.r * scale, noise * gaussian(hash64(seed + 3 * pixel)));
-      out[1] = develop(sensor, sum.g * scale, noise * gaussian(hash64(seed + 3 * pixel + 1)));
-      out[2] = develop(sensor, sum.b * scale, noise * gaussian(hash64(seed + 3 * pixel + 2)));
-    });
+      out[0] = develop(sensor, light.r * scale, noise * gaussian(hash64(seed + 3 * pixel)));
+      out[1] = develop(sensor, light.g * scale, noise * gaussian(hash64(seed + 3 * pixel + 1)));
+      out[2] = develop(sensor, light.b * scale, noise * gaussian(hash64(seed + 3 * pixel + 2)));
+    }
   });
 }
 

@@ -128,6 +128,8 @@ int main(void) {
   FIELD(sphc_result, guided);
   FIELD(sphc_result, faults);
   FIELD(sphc_result, depth);
+  FIELD(sphc_result, hints);
+  FIELD(sphc_result, reserved);
   WHOLE(sphc_depth_bias);
   FIELD(sphc_depth_bias, mid_m);
   FIELD(sphc_depth_bias, offset_m);

@@ -88,6 +88,15 @@ TEST(CInterfaceStatus, EachCutHasAName) {
   EXPECT_STREQ(sphc_cut_name(16), "SPHC_CUT_?");
 }
 
+TEST(CInterfaceStatus, EachHintHasAName) {
+  EXPECT_STREQ(sphc_hint_name(SPHC_HINT_TOO_DARK), "SPHC_HINT_TOO_DARK");
+  EXPECT_STREQ(sphc_hint_name(SPHC_HINT_AMBIGUOUS), "SPHC_HINT_AMBIGUOUS");
+  for (uint32_t bit = SPHC_HINT_TOO_DARK; bit <= SPHC_HINT_AMBIGUOUS; bit <<= 1)
+    EXPECT_STRNE(sphc_hint_name(bit), "SPHC_HINT_?") << bit;
+  EXPECT_STREQ(sphc_hint_name(0), "SPHC_HINT_?");
+  EXPECT_STREQ(sphc_hint_name(64), "SPHC_HINT_?");
+}
+
 TEST(CInterfaceStatus, Version) {
   EXPECT_EQ(sphc_abi(), SPHC_ABI);
   const std::string version = std::to_string(SPHC_VERSION_MAJOR) + "." + std::to_string(SPHC_VERSION_MINOR) + "." +

@@ -204,6 +204,10 @@ def others(pipeline):
          "Sequences of 30 frames, broken in every way. Wrong: beyond 25 cm or 10 deg; sure: with a confidence above 0.5.\n"
          "`named`: frames whose result names a fault. Method: [consistency.md](consistency.md).",
          flat(rows("negative.csv"), ["recording", "fakes", "mode"])),
+        ("Hints", "pipeline/hints.csv", "hints_results",
+         "Frames without a pose under conditions, and what they are told. `told`: the hint of the condition; of healthy frames, none.\n"
+         "Method: [hints.md](hints.md).",
+         flat(rows("hints.csv"), ["place"])),
         ("Deadlines", "pipeline/deadline.csv", "deadline_results",
          "Frames that end within their deadline and 0.3 ms, in processor time, and what is left of the poses. A deadline of 0 is none.\n"
          "Right: within 5 cm and 5 deg; wrong: beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#a-deadline).",

@@ -272,11 +272,12 @@ void addOptions(CLI::App *app, BuildOptions *options) {
       ->type_name("X");
   CLI::Option *fakes =
       app->add_option("--fakes", options->fakes,
-                      std::string("How fakes are made: patchwork is hard to tell, gaussian is the paper's way [") +
+                      std::string("Fakes: patchwork and warped are hard to tell, gaussian is the paper's way [") +
                           kDefaultFakes + ", or as the place was released]")
           ->check(CLI::IsMember(fakeNames()))
           ->type_name("NAME");
-  app->add_option("--patch-deg", options->fake_options.patch_deg, "Width of a patch of patchwork, degrees")
+  app->add_option("--patch-deg", options->fake_options.patch_deg,
+                  "Width of a patch of patchwork and warped, degrees")
       ->capture_default_str()
       ->check(between(2, 60))
       ->needs(fakes)

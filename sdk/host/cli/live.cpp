@@ -13,6 +13,7 @@
 #include "host/live/rate.h"
 #include "host/live/status_line.h"
 #include "host/report/fault_words.h"
+#include "host/report/hint_words.h"
 
 namespace sphc::host {
 namespace {
@@ -30,11 +31,13 @@ struct LiveTally {
   double total_ms = 0;
   Rate color, depth, poses;
   std::array<uint32_t, kFaultWords.size()> faults = {};  // frames that name each
+  std::array<uint32_t, kHintWords.size()> hints = {};    // the same
 };
 
 std::string poseText(const sphc_result &result) {
   if (result.faults) return "FAULT: " + faultNames(result.faults);
-  if (result.outcome != SPHC_OUTCOME_LOCALIZED) return "no pose";
+  if (result.outcome != SPHC_OUTCOME_LOCALIZED)
+    return result.hints ? "no pose, " + firstHint(result.hints) : "no pose";
   const sphc_rigid pose = spherecloud::inverse(result.camera_from_map);
   char text[96];
   std::snprintf(text, sizeof text, "%+.2f %+.2f %+.2f m, confidence %.2f", pose.t_m[0], pose.t_m[1], pose.t_m[2],
@@ -62,6 +65,7 @@ nlohmann::ordered_json frameJson(const sphc_pair &pair, const sphc_result &resul
                                 {"map", result.map_index},
                                 {"faults", faultNames(result.faults)},
                                 {"cuts", cutNames(result.cuts)},
+                                {"hints", hintNames(result.hints)},
                                 {"inliers", result.inliers},
                                 {"ms", std::round(1000 * ms) / 1000}};
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return out;
@@ -106,6 +110,7 @@ void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spher
   tally->localized += result.outcome == SPHC_OUTCOME_LOCALIZED;
   tally->total_ms += ms;
   for (size_t i = 0; i < kFaultWords.size(); ++i) tally->faults[i] += (result.faults & kFaultWords[i].fault) != 0;
+  for (size_t i = 0; i < kHintWords.size(); ++i) tally->hints[i] += (result.hints & kHintWords[i].hint) != 0;
   tally->poses.count();
   console.giveLine(frameJson(pair, result, ms));
   line->show(statusText(*tally, result, rig, ms));
@@ -126,6 +131,10 @@ void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
     if (tally.faults[i])
       console.say("FAULT in " + std::to_string(tally.faults[i]) + " frames, " + kFaultWords[i].name + ": " +
                   kFaultWords[i].cure);
+  for (size_t i = 0; i < kHintWords.size(); ++i)
+    if (tally.hints[i])
+      console.say("No pose in " + std::to_string(tally.hints[i]) + " frames, " + kHintWords[i].name + ": " +
+                  kHintWords[i].cure);
   if (tally.frames > 0) console.say("Time a frame: " + fixed(tally.total_ms / tally.frames, 2) + " ms, mean");
   console.say(
       "Without a partner: " + std::to_string(counts.too_far + counts.overtaken + counts.full + counts.ended) +

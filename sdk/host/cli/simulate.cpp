@@ -152,6 +152,12 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->capture_default_str()
       ->check(notNegative())
       ->type_name("S");
+  app->add_option(
+         "--exposure", config.exposure_s,
+         "Seconds that the colour camera exposes in the light by default: how long motion blurs; 0 to 0.05")
+      ->capture_default_str()
+      ->check(notNegative())
+      ->type_name("S");
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
       ->check(withoutSign())

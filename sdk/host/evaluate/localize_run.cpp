@@ -78,6 +78,7 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->depth = result.depth;
   frame->faults = result.faults;
   frame->cuts = result.cuts;
+  frame->hints = result.hints;
   if (!frame->localized) return;
   frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);

@@ -35,7 +35,8 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
                {"guided", frame.guided},
                {"frames_together", frame.frames_together},
                {"faults", faultNames(frame.faults)},
-               {"cuts", cutNames(frame.cuts)}};
+               {"cuts", cutNames(frame.cuts)},
+               {"hints", hintNames(frame.hints)}};
   if (frame.localized) {
     json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
     json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
@@ -83,6 +84,7 @@ Json summaryJson(const Run &run, const Summary &s) {
     json["outcomes"][outcomeName(static_cast<sphc_outcome>(i))] = s.outcomes[i];
   }
   for (size_t i = 0; i < s.faults.size(); ++i) json["faults"][kFaultWords[i].name] = s.faults[i];
+  for (size_t i = 0; i < s.hints.size(); ++i) json["hints"][kHintWords[i].name] = s.hints[i];
   json["cut"] = s.cut;
   json["with_truth"] = s.with_truth;
   json["within_5cm_5deg"] = s.good;

@@ -26,6 +26,7 @@ struct FrameRecord {
   bool guided = false;                         // found where it was expected
   uint32_t faults = 0;                         // SPHC_FAULT_ bits that the result names
   uint32_t cuts = 0;                           // SPHC_CUT_ bits: what the deadline left out
+  uint32_t hints = 0;                          // SPHC_HINT_ bits: why there is no pose
 
   sphc_depth_bias depth = {};  // what the localizer took the depth sensor for
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/report/fault_words.h"
+#include "host/report/hint_words.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -42,6 +43,7 @@ struct Summary {
   uint32_t wrong = 0;                 // beyond 25 cm or 10 deg, of the localized ones with truth
   std::array<uint32_t, SPHC_OUTCOME_CONTRADICTION + 1> outcomes = {};
   std::array<uint32_t, kFaultWords.size()> faults = {};  // frames that name each
+  std::array<uint32_t, kHintWords.size()> hints = {};    // the same
   Spread rotation_deg, translation_m;                    // of the localized frames with truth
   std::array<double, kStageCount> stage_median_ms = {};
   std::array<double, kStageCount> stage_p90_ms = {};

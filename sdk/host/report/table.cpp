@@ -21,6 +21,13 @@ void addFaults(const Summary &s, std::vector<Row> *rows) {
           {std::string("FAULT: ") + kFaultWords[i].name, share(s.faults[i], s.frames), kFaultWords[i].cure});
 }
 
+void addHints(const Summary &s, std::vector<Row> *rows) {
+  for (size_t i = 0; i < s.hints.size(); ++i)
+    if (s.hints[i])
+      rows->push_back(
+          {std::string("no pose, ") + kHintWords[i].name, share(s.hints[i], s.frames), kHintWords[i].cure});
+}
+
 void addErrors(const Summary &s, std::vector<Row> *rows) {
   if (s.with_truth == 0) {
     rows->push_back({"error against the truth", "not known", "give --owner-note, and a recording with poses"});
@@ -69,6 +76,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
     rows.push_back(
         {"cut by the deadline", share(s.cut, s.frames), "--frames-json says of each frame what was left out"});
   addFaults(s, &rows);
+  addHints(s, &rows);
   addErrors(s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});

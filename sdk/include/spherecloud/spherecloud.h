@@ -426,6 +426,21 @@ enum {
 /* "SPHC_CUT_FEATURES" and so on for one bit; "SPHC_CUT_?" for any other value; static storage. [pure] */
 SPHC_API const char *sphc_cut_name(uint32_t cut);
 
+/* Why no pose was found, as far as that shows, for the person who wears the cameras; bits of result.hints.  Set
+ * only where there is no pose; several may be set; none where nothing is known.  Each is of this frame alone, so a
+ * program says one aloud when it has come for some frames in a row.  docs/hints.md. */
+enum {
+  SPHC_HINT_TOO_DARK = 1u,          /* the image's noise is not far below its light: "more light" */
+  SPHC_HINT_TOO_FAST = 2u,          /* the image is blurred along a line: "move slower" */
+  SPHC_HINT_TOO_PLAIN = 4u,         /* little stands out in a bright and sharp image: "look elsewhere" */
+  SPHC_HINT_NO_DEPTH_IN_RANGE = 8u, /* few keypoints have depth: "step back, or closer; glass has no depth" */
+  SPHC_HINT_NOT_IN_MAP = 16u,       /* the image shows enough, but not what the map shows: "you are elsewhere" */
+  SPHC_HINT_AMBIGUOUS = 32u         /* another pose fits nearly as well, or odometry contradicts the one that was
+                                     * found, which is UNCERTAIN: "look around" */
+};
+/* "SPHC_HINT_TOO_DARK" and so on for one bit; "SPHC_HINT_?" for any other value; static storage. [pure] */
+SPHC_API const char *sphc_hint_name(uint32_t hint);
+
 /* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
  * is noise_scale times the one in the config. */
 typedef struct sphc_depth_bias {
@@ -458,6 +473,8 @@ typedef struct sphc_result {
   uint32_t guided;       /* 1: found where it was expected, without a search of the whole map */
   uint32_t faults;       /* SPHC_FAULT_ bits; 0: nothing was found */
   sphc_depth_bias depth; /* what the frame was looked at with */
+  uint32_t hints;        /* SPHC_HINT_ bits: why there is no pose; 0 where there is one */
+  uint32_t reserved;     /* 0 */
 } sphc_result;
 
 /* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero: set

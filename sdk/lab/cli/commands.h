@@ -9,6 +9,7 @@ Command compareCommand(CLI::App *root);
 Command deadlineCommand(CLI::App *root);
 Command featuresCommand(CLI::App *root);
 Command frameCommand(CLI::App *root);
+Command hintsCommand(CLI::App *root);
 Command mapCommand(CLI::App *root);
 Command matchCommand(CLI::App *root);
 Command negativeCommand(CLI::App *root);

@@ -41,7 +41,9 @@ constexpr StructKind kindOf(const sphc_pairer_counts *) {
   return ungrown<sphc_pairer_counts>("sphc_pairer_counts");
 }
 constexpr StructKind kindOf(const sphc_prior *) { return ungrown<sphc_prior>("sphc_prior"); }
-constexpr StructKind kindOf(const sphc_result *) { return ungrown<sphc_result>("sphc_result"); }
+constexpr StructKind kindOf(const sphc_result *) {
+  return {"sphc_result", offsetof(sphc_result, hints), sizeof(sphc_result), alignof(sphc_result)};
+}
 
 // Of any of them.
 sphc_status readStructBytes(const StructKind &kind, const char *name, const void *from, void *known,

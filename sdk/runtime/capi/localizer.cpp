@@ -43,7 +43,8 @@ void logResult(const sphc_localizer &localizer, const sphc_result &result) {
                              << (result.outcome == SPHC_OUTCOME_LOCALIZED ? "localized" : "not localized")
                              << ", outcome " << result.outcome << ", keypoints " << result.keypoints << ", lifted "
                              << result.lifted << ", matches " << result.matches << ", inliers " << result.inliers
-                             << ", state " << result.state << ", map " << result.map_index;
+                             << ", state " << result.state << ", map " << result.map_index << ", hints "
+                             << result.hints;
   size_t length = 0;
   while (text.text[length]) ++length;
   localizer.log(localizer.log_user, SPHC_LOG_DEBUG, text.text, length);

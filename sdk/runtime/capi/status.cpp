@@ -93,3 +93,22 @@ const char *sphc_cut_name(uint32_t cut) {
       return "SPHC_CUT_?";
   }
 }
+
+const char *sphc_hint_name(uint32_t hint) {
+  switch (hint) {
+    case SPHC_HINT_TOO_DARK:
+      return "SPHC_HINT_TOO_DARK";
+    case SPHC_HINT_TOO_FAST:
+      return "SPHC_HINT_TOO_FAST";
+    case SPHC_HINT_TOO_PLAIN:
+      return "SPHC_HINT_TOO_PLAIN";
+    case SPHC_HINT_NO_DEPTH_IN_RANGE:
+      return "SPHC_HINT_NO_DEPTH_IN_RANGE";
+    case SPHC_HINT_NOT_IN_MAP:
+      return "SPHC_HINT_NOT_IN_MAP";
+    case SPHC_HINT_AMBIGUOUS:
+      return "SPHC_HINT_AMBIGUOUS";
+    default:
+      return "SPHC_HINT_?";
+  }
+}

@@ -132,6 +132,9 @@ static_assert(kDepthRange == SPHC_FAULT_DEPTH_RANGE && kDepthConstant == SPHC_FA
               kVerticalDisagrees == SPHC_FAULT_VERTICAL_DISAGREES);
 static_assert(kCutFeatures == SPHC_CUT_FEATURES && kCutMatches == SPHC_CUT_MATCHES &&
               kCutSearch == SPHC_CUT_SEARCH && kCutVerification == SPHC_CUT_VERIFICATION);
+static_assert(kTooDark == SPHC_HINT_TOO_DARK && kTooFast == SPHC_HINT_TOO_FAST &&
+              kTooPlain == SPHC_HINT_TOO_PLAIN && kNoDepthInRange == SPHC_HINT_NO_DEPTH_IN_RANGE &&
+              kNotInMap == SPHC_HINT_NOT_IN_MAP && kAmbiguous == SPHC_HINT_AMBIGUOUS);
 
 sphc_state stateFrom(TrackingState state) {
   switch (state) {
@@ -179,6 +182,7 @@ sphc_result resultFrom(const LocalizerResult &answer, const sphc_frame &frame) {
   result.frames = answer.frames;
   result.guided = answer.guided;
   result.faults = answer.faults;
+  result.hints = answer.hints;
   result.depth = depthBiasFrom(answer.depth);
   return result;
 }

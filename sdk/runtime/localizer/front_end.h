@@ -26,6 +26,7 @@ class FrontEnd {
   GrayView gray() const { return gray_view_; }
   uint32_t keypointCount() const { return keypoint_count_; }
   uint32_t liftedCount() const { return lifted_count_; }
+  Span<const Keypoint> keypoints() const { return keypoints_.first(keypoint_count_); }  // strongest first
   Span<const Descriptor> descriptors() const { return descriptors_.first(keypoint_count_); }
   Span<const LiftedPoint> lifted() const { return lifted_.first(keypoint_count_); }
   // What is told of the keypoint behind a descriptor.

@@ -42,12 +42,17 @@ struct Hypothesis {
   Estimate estimate;  // after guided re-matching
   Evidence evidence;
   Leverage leverage;
-  bool is_verified = true;  // false where a deadline left out what might have spoken against it
+  bool is_verified = true;    // false where a deadline left out what might have spoken against it
+  bool is_ambiguous = false;  // uncertain since another pose fits nearly as well, or for odometry
   MatchSet matched;
 
   bool isLocalized() const { return outcome == Outcome::kLocalized; }
   // More than chance explains, be it too vague or ambiguous to be believed.
   bool hasPose() const { return isLocalized() || outcome == Outcome::kUncertain; }
+  void doubtForRival() {
+    outcome = Outcome::kUncertain;
+    is_ambiguous = true;
+  }
   // Another attempt, in the same memory.
   void begin(uint32_t map_index, uint32_t frame_count = 1);
   // All of the other but its matches.

@@ -90,6 +90,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   answer(frame.known, deadline, &result.faults, &work);
   fillAnswer(best_, &result);
   result.cuts = (front_.wasCut() ? kCutFeatures : Cuts{0}) | work.cuts;
+  if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
   learn();
@@ -117,6 +118,8 @@ Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {
 
 // Makes best_ what the frame is answered with: by what can be believed of it.
 void Localizer::answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work) {
+  was_asked_ = false;
+  clear_ = 0;
   if (*faults & kContradictions) {
     best_.challenge({});
     best_.outcome = Outcome::kContradiction;
@@ -130,6 +133,7 @@ void Localizer::answer(const Known &known, const Deadline &deadline, Faults *fau
     rest.prior.has_up = false;
     locate(rest, deadline, work);
   }
+  if (config_.tracks && best_.isLocalized() && tracker_.vetoes(best_.map, best_.estimate)) best_.doubtForRival();
   if (config_.tracks && travel_.isScaled(known, tracker_, best_)) *faults |= kDepthScale;
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
 }
@@ -197,6 +201,8 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
   }
   candidate_.begin(map);
   search_.matchEverywhere(task.question, all, query.deadline.afterShare(kMatchShare), &candidate_.matched, work);
+  was_asked_ = work->cuts == 0;
+  clear_ = std::max(clear_, countClear(candidate_.matched.matches()));
   task.rays = search_.raysOf(front_, candidate_.matched);
   const bool has_others = remembers && fusion_.remember(map, candidate_.matched);
   solve(task, work);
@@ -246,6 +252,17 @@ bool Localizer::isDone(const Deadline &deadline, Work *work) const {
   if (!deadline.passed()) return false;
   work->cuts |= kCutSearch;
   return true;
+}
+
+Hints Localizer::hints() const {
+  FrameEvidence frame;
+  frame.image = qualityOf(front_.gray(), config_.color_camera.focal());
+  frame.keypoints = front_.keypointCount();
+  frame.salient = countSalient(front_.keypoints(), frame.image.noise);
+  frame.lifted = front_.liftedCount();
+  frame.was_asked = was_asked_;
+  frame.clear = clear_;
+  return hintsOf(frame, best_);
 }
 
 // Tells of each keypoint what became of it.

@@ -6,6 +6,7 @@
 #include "runtime/localizer/frame.h"
 #include "runtime/localizer/front_end.h"
 #include "runtime/localizer/fusion.h"
+#include "runtime/localizer/hints.h"
 #include "runtime/localizer/result.h"
 #include "runtime/localizer/search.h"
 #include "runtime/localizer/tracker.h"
@@ -51,6 +52,7 @@ class Localizer {
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
   bool isDone(const Deadline &deadline, Work *work) const;
+  Hints hints() const;
   void observe();
   void learn();
 
@@ -64,6 +66,9 @@ class Localizer {
   Consistency consistency_;
   TravelCheck travel_;
   Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch
+  // Of this frame: were all keypoints compared with whole maps, and in how many clear matches of one, at most?
+  bool was_asked_ = false;
+  uint32_t clear_ = 0;
 };
 
 }  // namespace sphc

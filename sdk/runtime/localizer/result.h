@@ -5,6 +5,7 @@
 #include "runtime/types/cut.h"
 #include "runtime/types/estimate.h"
 #include "runtime/types/fault.h"
+#include "runtime/types/hint.h"
 
 namespace sphc {
 
@@ -37,6 +38,7 @@ struct StageTimes {
 struct LocalizerResult {
   Outcome outcome = Outcome::kFewMatches;
   Faults faults = 0;
+  Hints hints = 0;                                     // where there is no pose
   TrackingState state = TrackingState::kRelocalizing;  // after this frame
   uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0;
   uint32_t samples = 0;  // minimal samples drawn, in all searches

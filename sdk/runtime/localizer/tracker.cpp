@@ -1,5 +1,7 @@
 #include "runtime/localizer/tracker.h"
 
+#include <algorithm>
+
 #include "runtime/base/clock.h"
 #include "runtime/localizer/judgement.h"
 #include "runtime/localizer/tuning.h"
@@ -117,8 +119,23 @@ void Tracker::accept(uint32_t map, const Estimate &estimate) {
   camera_from_map_ = estimate.camera_from_map;
   rotation_sigma_rad_ = hypotOf(sigmaAnAxis(estimate, 0), kLeastTurnSigma);
   translation_sigma_m_ = hypotOf(sigmaAnAxis(estimate, 3), kLeastShiftSigma);
+  inliers_ = estimate.inliers;
   moved_ = {};
   moved_rotation2_ = moved_translation2_ = 0;
+}
+
+bool Tracker::vetoes(uint32_t map, const Estimate &estimate) const {
+  Prediction expected;
+  const bool is_known = state_ != TrackingState::kRelocalizing && moved_known_ && predict(&expected);
+  if (!is_known || expected.map != map || estimate.inliers >= inliers_) return false;
+  const Rigid &found = estimate.camera_from_map;
+  const double turn_rad = rotationAngle(found.rotation * expected.camera_from_map.rotation.transpose());
+  const Vector3 shift_m = found.inverse().translation_m - expected.camera_from_map.inverse().translation_m;
+  const auto jumps = [](double off, double expected_sigma, double own_sigma, double most) {
+    return off > std::max(most, kGateSigmas * hypotOf(expected_sigma, own_sigma));
+  };
+  return jumps(turn_rad, expected.rotation_sigma_rad, sigmaAnAxis(estimate, 0), kNoJump.most_turn_rad) ||
+         jumps(shift_m.norm(), expected.translation_sigma_m, sigmaAnAxis(estimate, 3), kNoJump.most_shift_m);
 }
 
 void Tracker::miss() {

@@ -38,6 +38,9 @@ class Tracker {
   // After it: what it brought.
   void accept(uint32_t map, const Estimate &estimate);
   void miss();
+  // Before accept: is this a jump that odometry contradicts, and that fewer inliers speak for than for the last
+  // pose? For kForgetNs at most.
+  bool vetoes(uint32_t map, const Estimate &estimate) const;
 
   TrackingState state() const { return state_; }
   bool hasOdometry() const { return has_odometry_; }
@@ -66,6 +69,7 @@ class Tracker {
   int64_t pose_time_ns_ = 0, trusted_time_ns_ = 0;
   Rigid camera_from_map_;
   double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
+  uint32_t inliers_ = 0;
   bool moved_known_ = false;                             // by odometry, at every frame since
   Rigid moved_;                                          // camera now from camera at the last pose
   double moved_rotation2_ = 0, moved_translation2_ = 0;  // variances of it

@@ -73,7 +73,7 @@ struct PoseBounds {
 // the holder's feet in map and query, 8 wrong poses of up to 80 inliers all had a rival of 0.55 to 2.2 times their
 // gain; of 1311 right poses on real recordings one had (decision 42).
 constexpr uint32_t kInliersBeyondOthers = 100;
-constexpr double kAmbiguous = 0.5;
+constexpr double kAmbiguousGain = 0.5;
 constexpr PoseBounds kSamePose = {0.15, degrees(8)};
 constexpr uint32_t kSamplesOfOthers = 2000;
 constexpr double kMostLogChanceOfRival = -6;  // of its first matches; of the eight it was -12 and less
@@ -119,6 +119,29 @@ constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubtfulEdges 
 // made wrong and sure the median has 49, and one in six has so many.
 constexpr uint32_t kInliersBeyondDoubtfulEdges = 100;
 
+// ---- hints; docs/hints.md has the evidence ----
+
+constexpr int32_t kLightColumns = 64, kLightRows = 48;  // grid of samples of level and noise
+constexpr int32_t kFewestLevels = 3;                    // nearer to black or white a pixel may be clipped
+constexpr uint32_t kFewestUnclipped = 8;                // one in so many tells the noise
+constexpr double kLeastNoise = 1;                       // grey levels: what an image of 8 bits resolves
+// Quarter of the samples, and that quantile of |difference of Laplacians|, 6 sigma wide, for noise of 1.
+constexpr double kQuietShare = 0.25, kQuietQuantile = 6 * 0.3186;
+constexpr double kLeastLightOverNoise = 12;
+
+constexpr int32_t kSharpColumns = 96, kSharpRows = 72;
+constexpr int32_t kFineSteps = 2, kCoarseSteps = 16;
+constexpr double kFocalOfAStep = 500;  // px
+constexpr double kLeastContrast = 4;   // grey levels, over many pixels; and as much as noise
+constexpr double kMostAlong = 0.05, kLeastAcross = 0.02, kAcrossOverAlong = 1.6;
+
+constexpr double kSalient = 5;  // sigmas of noise
+constexpr uint32_t kFewestSalient = 60;
+constexpr uint32_t kOneWithDepthIn = 8;  // keypoints
+
+constexpr double kClearRatio = 0.65, kStrangersClear = 0.002;
+constexpr uint32_t kFewestClear = 3;
+
 // ---- fusion: matches of several frames ----
 
 constexpr uint16_t kMostFramesTogether = 60;  // chosen: 2 s at 30 Hz
@@ -134,5 +157,7 @@ constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: 
 constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
 constexpr uint64_t kNearNs = 100000000;                              // beside a frame, motion is steady for so long
 constexpr double kGateSigmas = 5;                                    // within which two poses agree
+// A jump that odometry vetoes is beyond the gate and beyond this.  Chosen.
+constexpr PoseBounds kNoJump = {0.15, degrees(8)};
 
 }  // namespace sphc::tuning

@@ -174,7 +174,7 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   rematch(task, rival);
   const double rival_gain = rival->estimate.gain;
   if (rival_gain > gain) std::swap(*found, *rival);
-  if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
+  if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->doubtForRival();
 }
 
 // Keypoints that do not speak for the pose may speak for another one as clearly: where things stand in the room
@@ -201,7 +201,7 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
   if (!rival->isLocalized() || areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePose))
     return;
   if (rival_gain > gain) std::swap(*found, *rival);
-  if (std::min(gain, rival_gain) > kAmbiguous * std::max(gain, rival_gain)) found->outcome = Outcome::kUncertain;
+  if (std::min(gain, rival_gain) > kAmbiguousGain * std::max(gain, rival_gain)) found->doubtForRival();
 }
 
 // Few matches may agree by more than uniform chance where textures resemble themselves; a pose that was looked for
@@ -256,15 +256,20 @@ void Verification::searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothes
 // one that agrees by chance drowns.  The matches that a pose was found by are no second witness.
 void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!isDoubtful(*found)) return;
+  bool has_rival = false;
   for (const ConfirmingSearch &way : kConfirmingSearches) {
     if (task.max_ratio >= way.max_ratio) continue;
     if (isCut(task)) break;
     PoseTask other;
     rival->begin(found->map, found->frames);
     if (!searchOtherMatches(task, std::max(way.max_ratio, search_.maxRatio()), rival, &other)) continue;
-    if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, way.agreement)) return;
+    const Rigid &pose = rival->estimate.camera_from_map;
+    if (areNear(pose, found->estimate.camera_from_map, way.agreement)) return;
+    has_rival = has_rival || (rival->evidence.log_chance_first <= kMostLogChanceOfRival &&
+                              !areNear(pose, found->estimate.camera_from_map, kSamePose));
   }
   found->outcome = Outcome::kUncertain;
+  found->is_ambiguous = has_rival;
 }
 
 }  // namespace sphc

@@ -44,7 +44,8 @@ std::vector<RealOrFakeGuess> guessRealOrFake(const Published &map, const std::st
   const RealOrFakeFeatures features = realOrFakeFeatures(map, CoOccurrence(folder + "/co_occurrence.json"));
   std::vector<RealOrFakeGuess> guesses = {
       guess("density", features.density), guess("lookalikes", features.lookalikes),
-      guess("mirror", features.mirror), guess("co-occurrence", features.co_occurrence)};
+      guess("other stacks", features.other_stacks), guess("mirror", features.mirror),
+      guess("co-occurrence", features.co_occurrence)};
   for (const std::string strategy : kKnownStrategies) {
     const RealOrFakeClassifier classifier(folder + "/real_or_fake_" + strategy + ".json");
     guesses.push_back(guess("knows " + strategy, classifier.probabilities(features)));

@@ -1,4 +1,4 @@
-// Tells real points from fake ones in one map: four cues by themselves, and classifiers that have learned on other
+// Tells real points from fake ones in one map: five cues by themselves, and classifiers that have learned on other
 // places how a strategy's fakes look (docs/real_or_fake.md).
 #pragma once
 #include <string>

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "host/audit/attack/mirror.h"
+#include "host/audit/attack/stacks.h"
 #include "runtime/stages/match/distance.h"
 
 namespace sphc::host {
@@ -131,6 +132,7 @@ RealOrFakeFeatures realOrFakeFeatures(const Published &map, const CoOccurrence &
   addLooksBeside(map.descriptors, features.beside, &columns);
   const Neighbours alike = descriptorNeighbours(map.descriptors, kLookalikes);
   features.lookalikes = addLookalikes(map, alike, &columns);
+  features.other_stacks = lookalikesInOtherStacks(map.directions, alike);
   features.mirror = addMirror(map.descriptors, alike, features.beside, &columns);
   const Eigen::MatrixXf components = co_occurrence.components(map.descriptors);
   features.co_occurrence = addCoOccurrence(components, features.beside, co_occurrence, &columns);

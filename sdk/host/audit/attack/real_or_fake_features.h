@@ -16,7 +16,7 @@ struct RealOrFakeFeatures {
   Eigen::MatrixXf values;  // a row a point, kRealOrFakeFeatures columns
   Neighbours beside;       // by direction
   // Each a cue by itself, larger for points that seem real.
-  Eigen::ArrayXf density, lookalikes, mirror, co_occurrence;
+  Eigen::ArrayXf density, lookalikes, other_stacks, mirror, co_occurrence;
 };
 
 // Throws std::runtime_error when the map has too few points to have neighbours.

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "host/publish/descriptor_symmetry.h"
+#include "host/publish/fakes/patches.h"
+#include "host/publish/fakes/smooth_warp.h"
 #include "host/publish/fakes/spread_draw.h"
 #include "host/publish/fakes/strategy.h"
 #include "runtime/base/elementary.h"
@@ -11,76 +13,13 @@
 namespace sphc::host {
 namespace {
 
-constexpr size_t kMinPatches = 60;      // with points in them; fewer would not mix
-constexpr double kNarrowestRad = 0.02;  // patches are not halved below it
-constexpr size_t kAlike = 8;            // patches, of nearly equal counts
-constexpr double kReach = 0.8;          // of a patch's width: as far as patches that stay push each other away
-constexpr double kUneven = 0.15;        // of a patch's width, so that no lattice shows
-
-struct Patch {
-  std::vector<size_t> points;
-  Vector3 middle;
-};
-
-Vector3 normalVector(SecretRandom *random) {
-  const double x = random->normal(), y = random->normal(), z = random->normal();
-  return {x, y, z};
-}
-
-Vector3 randomDirection(SecretRandom *random) {
-  Vector3 v;
-  do v = normalVector(random);
-  while (!(v.norm() > 1e-6));
-  return v.normalized();
-}
-
-// Columns: two axes across `direction`, turned at random, and itself.
-Matrix3 frameAt(const Vector3 &direction, SecretRandom *random) {
-  Vector3 across;
-  do across = direction.cross(randomDirection(random));
-  while (!(across.norm() > 1e-3));
-  Matrix3 frame;
-  frame.col(0) = across.normalized();
-  frame.col(1) = direction.cross(frame.col(0));
-  frame.col(2) = direction;
-  return frame;
-}
-
-// Directions about `width_rad` apart all over the sphere: a golden spiral, jittered and turned.
-std::vector<Vector3> spreadDirections(double width_rad, SecretRandom *random) {
-  const size_t count = static_cast<size_t>(std::ceil(4 * kPi / (width_rad * width_rad)));
-  const Matrix3 turn = frameAt(randomDirection(random), random);
-  std::vector<Vector3> directions;
-  directions.reserve(count);
-  for (size_t i = 0; i < count; ++i) {
-    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
-    const double radius = std::sqrt(1 - z * z), angle = kPi * (1 + std::sqrt(5)) * static_cast<double>(i);
-    const Vector3 even(radius * std::cos(angle), radius * std::sin(angle), z);
-    directions.push_back(turn * (even + kUneven * width_rad * normalVector(random)).normalized());
-  }
-  return directions;
-}
-
-// The patches that have points, each of those nearest to one direction.
-std::vector<Patch> cut(const std::vector<SpherePoint> &points, double width_rad, SecretRandom *random) {
-  const std::vector<Vector3> seeds = spreadDirections(width_rad, random);
-  Eigen::Matrix<double, Eigen::Dynamic, 3> rows(seeds.size(), 3);
-  for (size_t i = 0; i < seeds.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = seeds[i];
-  std::vector<Patch> patches(seeds.size());
-  for (size_t i = 0; i < points.size(); ++i) {
-    Eigen::Index nearest = 0;
-    (rows * points[i].direction).maxCoeff(&nearest);
-    patches[static_cast<size_t>(nearest)].points.push_back(i);
-  }
-  patches.erase(std::remove_if(patches.begin(), patches.end(), [](const Patch &p) { return p.points.empty(); }),
-                patches.end());
-  for (Patch &patch : patches) {
-    Vector3 sum = Vector3::Zero();
-    for (size_t i : patch.points) sum += points[i].direction;
-    patch.middle = sum.normalized();
-  }
-  return patches;
-}
+constexpr size_t kAlike = 8;           // patches, of nearly equal counts
+constexpr double kReach = 0.8;         // of a patch's width: as far as patches that stay push each other away
+constexpr size_t kExchanges = 200;     // of two partners, tried, per patch
+constexpr double kUnlikeCounts = 0.5;  // widths between two patches that a factor e between their counts outweighs
+constexpr double kFew = 3;             // points that make no difference between counts
+constexpr double kWarp = 0.1,
+                 kWarpReach = 0.28;  // of a patch's width: how far points are displaced, and how smoothly
 
 // Which patches stay: apart from each other, so that no view is without any, and what one shows does not go on in
 // the next.
@@ -109,54 +48,88 @@ std::vector<const Patch *> byCount(const std::vector<Patch> &patches, const std:
   return some;
 }
 
+using Pile = std::vector<const Patch *>;
+
+// On which patch that stays each of the others is laid: as many on each, of similar counts.
+Pile alikePartners(const Pile &go, const Pile &stay) {
+  Pile partners;
+  for (size_t k = 0; k < go.size(); ++k) partners.push_back(stay[k * stay.size() / go.size()]);
+  return partners;
+}
+
+// What speaks against laying a patch on another: widths between them, and unlike counts.
+double reluctance(const Patch &patch, const Patch &on, double width_rad) {
+  const auto count = [](const Patch &p) { return static_cast<double>(p.points.size()) + kFew; };
+  return std::acos(std::clamp(patch.middle.dot(on.middle), -1.0, 1.0)) / width_rad +
+         kUnlikeCounts * std::abs(std::log(count(patch) / count(on)));
+}
+
+// As many on each still, but from beside it: what goes on from one stack to the next is real or fake alike.
+void bringNear(const Pile &go, double width_rad, Pile *partners, SecretRandom *random) {
+  const auto cost = [&](size_t k, const Patch *on) { return reluctance(*go[k], *on, width_rad); };
+  for (size_t t = 0; t < kExchanges * go.size(); ++t) {
+    const size_t a = random->below(go.size()), b = random->below(go.size());
+    const Patch *&on_a = (*partners)[a], *&on_b = (*partners)[b];
+    if (cost(a, on_b) + cost(b, on_a) < cost(a, on_a) + cost(b, on_b)) std::swap(on_a, on_b);
+  }
+}
+
+// Patches of a strategy are laid from anywhere, as they are; or from beside, and warped.
 class PatchworkFakes : public FakeStrategy {
  public:
-  explicit PatchworkFakes(double patch_deg) : width_rad_(patch_deg * kPi / 180) {}
+  PatchworkFakes(const char *name, bool from_beside, double patch_deg)
+      : name_(name), from_beside_(from_beside), width_rad_(patch_deg * kPi / 180) {
+    if (!(patch_deg >= 2 && patch_deg <= 60))
+      throw std::runtime_error("patches are " + std::to_string(patch_deg) + " degrees wide; it must be 2 to 60");
+  }
 
-  std::string name() const override { return "patchwork"; }
+  std::string name() const override { return name_; }
 
   std::vector<Assignment> assignments(const std::vector<SpherePoint> &points, size_t real_count,
                                       SecretRandom *random) const override {
-    // A cloud that covers little of the sphere needs smaller patches.
     double width_rad = width_rad_;
-    std::vector<Patch> patches = cut(points, width_rad, random);
-    while (patches.size() < kMinPatches && width_rad > kNarrowestRad) {
-      width_rad /= 2;
-      patches = cut(points, width_rad, random);
-    }
-
+    const std::vector<Patch> patches = cutIntoPatches(points, &width_rad, random);
     const double eta = static_cast<double>(real_count) / static_cast<double>(points.size());
     const std::vector<bool> real = drawReal(patches, eta, width_rad, random);
-    const std::vector<const Patch *> stay = byCount(patches, real, true, random);
-    const std::vector<const Patch *> go = byCount(patches, real, false, random);
+    const Pile stay = byCount(patches, real, true, random), go = byCount(patches, real, false, random);
+    Pile partners = alikePartners(go, stay);
+    if (from_beside_) bringNear(go, width_rad, &partners, random);
     std::vector<Assignment> assignments(points.size());
     for (const Patch *patch : stay)
       for (size_t i : patch->points) assignments[i] = {true, points[i]};
     for (size_t k = 0; k < go.size(); ++k)
-      lay(points, *go[k], stay[k * stay.size() / go.size()]->middle, &assignments, random);
+      lay(points, *go[k], partners[k]->middle, width_rad, &assignments, random);
     return assignments;
   }
 
  private:
   // In mirror image, turned at random, about the middle of another patch.
-  static void lay(const std::vector<SpherePoint> &points, const Patch &patch, const Vector3 &where,
-                  std::vector<Assignment> *assignments, SecretRandom *random) {
+  void lay(const std::vector<SpherePoint> &points, const Patch &patch, const Vector3 &where, double width_rad,
+           std::vector<Assignment> *assignments, SecretRandom *random) const {
     Matrix3 from = frameAt(patch.middle, random);
     from.col(0) = -from.col(0);
     const Matrix3 move = frameAt(where, random) * from.transpose();
-    for (size_t i : patch.points)
-      (*assignments)[i] = {false, {(move * points[i].direction).normalized(), mirrored(points[i].descriptor)}};
+    std::optional<SmoothWarp> warp;
+    if (from_beside_) warp.emplace(kWarp * width_rad, kWarpReach * width_rad, random);
+    for (size_t i : patch.points) {
+      const Vector3 moved = (move * points[i].direction).normalized();
+      (*assignments)[i] = {false, {warp ? (*warp)(moved) : moved, mirrored(points[i].descriptor)}};
+    }
   }
 
+  const char *name_;
+  bool from_beside_;
   double width_rad_;
 };
 
 }  // namespace
 
 std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg) {
-  if (!(patch_deg >= 2 && patch_deg <= 60))
-    throw std::runtime_error("patches are " + std::to_string(patch_deg) + " degrees wide; it must be 2 to 60");
-  return std::make_unique<PatchworkFakes>(patch_deg);
+  return std::make_unique<PatchworkFakes>("patchwork", false, patch_deg);
+}
+
+std::unique_ptr<FakeStrategy> warpedFakes(double patch_deg) {
+  return std::make_unique<PatchworkFakes>("warped", true, patch_deg);
 }
 
 }  // namespace sphc::host

@@ -12,7 +12,8 @@ struct Maker {
 
 const Maker kMakers[] = {
     {"gaussian", [](const FakeOptions &options) { return gaussianFakes(options.sigma2); }},
-    {"patchwork", [](const FakeOptions &options) { return patchworkFakes(options.patch_deg); }}};
+    {"patchwork", [](const FakeOptions &options) { return patchworkFakes(options.patch_deg); }},
+    {"warped", [](const FakeOptions &options) { return warpedFakes(options.patch_deg); }}};
 
 }  // namespace
 

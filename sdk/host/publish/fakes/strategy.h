@@ -35,7 +35,7 @@ class FakeStrategy {
 // What the strategies can be told.
 struct FakeOptions {
   double sigma2 = 0.1;   // of gaussian
-  double patch_deg = 8;  // of patchwork
+  double patch_deg = 8;  // of patchwork and warped
 };
 
 constexpr char kDefaultFakes[] = "patchwork";
@@ -50,5 +50,8 @@ std::unique_ptr<FakeStrategy> gaussianFakes(double variance = FakeOptions().sigm
 // each of the others is laid on one of them in mirror image, descriptors too, turned at random.  So a fake is among
 // the company it had, and no camera sees it from anywhere.
 std::unique_ptr<FakeStrategy> patchworkFakes(double patch_deg = FakeOptions().patch_deg);
+
+// Patchwork that lays each patch on one beside which it lies, and warps it smoothly on its way.
+std::unique_ptr<FakeStrategy> warpedFakes(double patch_deg = FakeOptions().patch_deg);
 
 }  // namespace sphc::host

@@ -24,6 +24,17 @@ TEST(Table, HoldsTheFiguresAPersonAsksFor) {
   EXPECT_THAT(text, HasSubstr("3.00 MB"));
 }
 
+TEST(Table, TellsWhyFramesHaveNoPoseAndTheCure) {
+  host::Run run;
+  run.maps.resize(1);
+  run.frames = {goodFrame(1, 0.01, 0.5), lostFrame(2)};
+  EXPECT_THAT(tableText(tableRows(run, summarize(run))), testing::Not(HasSubstr("no pose")));
+  run.frames[1].hints = SPHC_HINT_TOO_DARK | SPHC_HINT_AMBIGUOUS;
+  const std::string text = tableText(tableRows(run, summarize(run)));
+  EXPECT_THAT(text, testing::ContainsRegex("no pose, too dark +50.0 %   more light"));
+  EXPECT_THAT(text, testing::ContainsRegex("no pose, ambiguous +50.0 %"));
+}
+
 TEST(Table, WarnsOfWrongPosesAlone) {
   host::Run run;
   run.maps.resize(1);

@@ -190,6 +190,8 @@ LocalizerResult answerOf(Outcome outcome) {
   answer.inliers = 20;
   answer.samples = 10;
   answer.cuts = kCutMatches | kCutVerification;
+  answer.faults = kDepthScale;
+  answer.hints = kTooDark | kAmbiguous;
   answer.map = 6;
   answer.frames = 7;
   answer.guided = true;
@@ -224,6 +226,8 @@ TEST(TranslateBack, EveryNumberOfAResult) {
   EXPECT_EQ(result.inliers, 20u);
   EXPECT_EQ(result.iterations, 10u);
   EXPECT_EQ(result.cuts, uint32_t{SPHC_CUT_MATCHES | SPHC_CUT_VERIFICATION});
+  EXPECT_EQ(result.faults, uint32_t{SPHC_FAULT_DEPTH_SCALE});
+  EXPECT_EQ(result.hints, uint32_t{SPHC_HINT_TOO_DARK | SPHC_HINT_AMBIGUOUS});
   EXPECT_EQ(result.map_index, 6u);
   EXPECT_EQ(result.frames, 7u);
   EXPECT_EQ(result.guided, 1u);

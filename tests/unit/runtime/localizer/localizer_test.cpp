@@ -36,6 +36,7 @@ TEST(Localizer, DarknessHasFewKeypoints) {
   sphc_result result;
   EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_FEW_KEYPOINTS);
+  EXPECT_NE(result.hints & SPHC_HINT_TOO_DARK, 0u);
 }
 
 TEST(Localizer, ABlindDepthSensorHasFewDepths) {
@@ -46,6 +47,7 @@ TEST(Localizer, ABlindDepthSensorHasFewDepths) {
   sphc_result result;
   EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_FEW_DEPTHS);
+  EXPECT_EQ(result.hints, uint32_t{SPHC_HINT_NO_DEPTH_IN_RANGE});
   EXPECT_EQ(result.lifted, 0u);
 }
 
@@ -58,6 +60,7 @@ TEST(Localizer, AnotherPlaceIsNotLocalized) {
   sphc_result result;
   EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
   EXPECT_NE(result.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(result.hints, uint32_t{SPHC_HINT_NOT_IN_MAP});
 }
 
 // In a map whose points pass a looser ratio test only.

@@ -33,7 +33,7 @@ class Walk {
     if (odometry_) {
       prior.struct_size = sizeof prior;
       prior.flags = SPHC_PRIOR_ODOMETRY;
-      prior.odometry_from_camera = rigidToC(sceneViewpoint(viewpoint).inverse());
+      prior.odometry_from_camera = rigidToC(sceneViewpoint(viewpoint - odometry_behind_).inverse());
       prior.odometry_rotation_sigma_rad = 1e-3;
       prior.odometry_translation_sigma_m = 1e-3;
       frame.prior = &prior;
@@ -60,6 +60,8 @@ class Walk {
     return info.point_count;
   }
   void useOdometry() { odometry_ = true; }
+  // Odometry that tells so many viewpoints less than there were.
+  void keepOdometryBehind(uint32_t viewpoints) { odometry_behind_ = viewpoints; }
   void forget() { sphc_localizer_reset(session_.localizer()); }
 
  private:
@@ -69,6 +71,7 @@ class Walk {
   test::Session session_;
   int64_t time_ns_ = 0;
   bool odometry_ = false;
+  uint32_t odometry_behind_ = 0;
 };
 
 TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
@@ -91,8 +94,27 @@ TEST(LocalizerTracking, ADarkFrameIsOvercome) {
   for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
   const sphc_result dark = walk.see(3, 0, true);
   EXPECT_EQ(dark.outcome, SPHC_OUTCOME_FEW_KEYPOINTS);
+  EXPECT_NE(dark.hints & SPHC_HINT_TOO_DARK, 0u);
   EXPECT_EQ(dark.state, SPHC_STATE_LOST);
   EXPECT_EQ(walk.see(3).state, SPHC_STATE_TRACKING);
+}
+
+// The pose is right, and odometry wrong: nobody can know that.
+TEST(LocalizerTracking, OdometryVetoesAJumpToFewerInliers) {
+  Walk walk(trackingConfig());
+  walk.useOdometry();
+  for (uint32_t viewpoint : {0u, 1u}) walk.see(viewpoint);
+  const sphc_result tracked = walk.see(2);
+  ASSERT_EQ(tracked.state, SPHC_STATE_TRACKING);
+  walk.keepOdometryBehind(4);
+  const sphc_result jump = walk.see(7);
+  ASSERT_LT(jump.inliers, tracked.inliers);
+  EXPECT_EQ(jump.outcome, SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(jump.hints, uint32_t{SPHC_HINT_AMBIGUOUS});
+  EXPECT_EQ(jump.state, SPHC_STATE_LOST);
+  for (uint32_t tenths = 2; tenths <= 10; ++tenths)
+    EXPECT_NE(walk.see(7 + tenths % 2).outcome, SPHC_OUTCOME_LOCALIZED) << tenths;
+  EXPECT_EQ(walk.see(7).outcome, SPHC_OUTCOME_LOCALIZED) << "for a second at most";
 }
 
 TEST(LocalizerTracking, ResetForgets) {

@@ -82,6 +82,57 @@ TEST_F(TrackerTest, TimesMayLieAnywhere) {
   }
 }
 
+// Ten centimetres a frame by odometry and by poses; then a pose a metre beside it.
+class VetoTest : public TrackerTest {
+ protected:
+  void walk(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      go();
+      tracker_.accept(0, poseHere(0, 100));
+    }
+    go();
+  }
+  void go() {
+    ++frame_;
+    const Odometry odometry = {poseAt(-0.1 * frame_), 1e-3, 1e-3};
+    tracker_.advance(frame_ * 3 * kFrame, &odometry);
+  }
+  Estimate poseHere(double off_m, uint32_t inliers) const {
+    Estimate estimate = found(poseAt(0.1 * frame_ + off_m));
+    estimate.inliers = inliers;
+    return estimate;
+  }
+  bool vetoes(double off_m, uint32_t inliers) const { return tracker_.vetoes(0, poseHere(off_m, inliers)); }
+  int frame_ = 0;
+};
+
+TEST_F(VetoTest, OdometryVetoesAJumpThatFewerInliersSpeakFor) {
+  walk(4);
+  EXPECT_TRUE(vetoes(1, 60));
+  EXPECT_FALSE(vetoes(1, 100)) << "as many inliers as before";
+  EXPECT_FALSE(vetoes(0.1, 60)) << "no jump";
+  EXPECT_FALSE(tracker_.vetoes(1, poseHere(1, 60))) << "another map";
+}
+
+TEST_F(VetoTest, ForASecondAtMost) {
+  walk(4);
+  for (int misses = 0; misses < 10; ++misses) {
+    EXPECT_TRUE(vetoes(1, 60)) << misses;
+    tracker_.miss();
+    go();
+  }
+  EXPECT_FALSE(vetoes(1, 60)) << "what was tracked may have been wrong";
+}
+
+TEST_F(VetoTest, NothingIsVetoedWithoutTrustOrOdometry) {
+  walk(1);
+  EXPECT_FALSE(vetoes(1, 60)) << "one pose alone is not trusted";
+  walk(3);
+  ++frame_;
+  tracker_.advance(frame_ * 3 * kFrame, nullptr);
+  EXPECT_FALSE(vetoes(1, 60));
+}
+
 TEST_F(TrackerTest, AMissLosesAndAnExpectedPoseFinds) {
   track();
   bringNone(4 * kFrame);

@@ -215,6 +215,7 @@ TEST_F(VaguePlanarTest, NobodyCanTellTwoPosesThatAreNearlyAsGood) {
     verify(seen(viewpoint));
     EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized) << viewpoint;
     EXPECT_EQ(found().outcome, Outcome::kUncertain) << viewpoint;
+    EXPECT_TRUE(found().is_ambiguous) << viewpoint;
   }
 }
 
@@ -244,6 +245,7 @@ TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
   ASSERT_LT(found().estimate.inliers, kInliersBeyondOthers);
   EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
   EXPECT_EQ(found().outcome, Outcome::kUncertain);
+  EXPECT_TRUE(found().is_ambiguous);
   EXPECT_LT(std::min(errorM(0), errorM(4)), 0.02);
 }
 

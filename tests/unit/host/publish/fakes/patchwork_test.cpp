@@ -101,6 +101,16 @@ TEST(PatchworkFakes, FakesLieOnRealPatches) {
   EXPECT_GT(static_cast<double>(covered) / static_cast<double>(fakes), 0.95);
 }
 
+// Whoever lost a first release makes it again with its key: what is drawn under a key stays for ever.
+TEST(PatchworkFakes, WhatAKeyDrawsNeverChanges) {
+  const auto assignments = assignmentsOf(somePoints(300, 1), 100);
+  std::vector<size_t> real;
+  for (size_t i = 0; i < assignments.size() && real.size() < 8; ++i)
+    if (assignments[i].real) real.push_back(i);
+  EXPECT_EQ(real, (std::vector<size_t>{1, 7, 9, 10, 11, 14, 16, 17}));
+  EXPECT_NEAR(assignments[0].shown.direction.x(), 0.359456062, 1e-6);  // a fake's
+}
+
 TEST(PatchworkFakes, SameKeySameAssignmentsOtherKeyOthers) {
   const auto points = somePoints(1000, 1);
   const auto a = assignmentsOf(points, 333), b = assignmentsOf(points, 333), c = assignmentsOf(points, 333, 2);
@@ -123,7 +133,66 @@ TEST(PatchworkFakes, SmallCloudsHaveFakesToo) {
 }
 
 TEST(PatchworkFakes, BadWidthsAreExplained) {
-  for (double width : {0.0, -1.0, 1.9, 61.0, std::nan("")}) EXPECT_THROW(patchworkFakes(width), std::runtime_error);
+  for (double width : {0.0, -1.0, 1.9, 61.0, std::nan("")}) {
+    EXPECT_THROW(patchworkFakes(width), std::runtime_error);
+    EXPECT_THROW(warpedFakes(width), std::runtime_error);
+  }
+}
+
+std::vector<Assignment> warpedAssignmentsOf(const std::vector<SpherePoint> &points, size_t real) {
+  SecretRandom random({1});
+  return warpedFakes()->assignments(points, real, &random);
+}
+
+// Mean angle between where fakes are and where they are shown.
+double meanWayOf(const std::vector<SpherePoint> &points, const std::vector<Assignment> &assignments) {
+  double sum = 0, fakes = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (assignments[i].real) continue;
+    sum += std::acos(std::min(1.0, points[i].direction.dot(assignments[i].shown.direction)));
+    ++fakes;
+  }
+  return sum / fakes;
+}
+
+TEST(WarpedFakes, KeepTheRealPointsOfPatchworkAndMirrorTheOthers) {
+  const auto points = somePoints(3000, 1);
+  const auto assignments = warpedAssignmentsOf(points, 1000), patchwork = assignmentsOf(points, 1000);
+  for (size_t i = 0; i < points.size(); ++i) {
+    ASSERT_EQ(assignments[i].real, patchwork[i].real);
+    EXPECT_NEAR(assignments[i].shown.direction.norm(), 1, 1e-12);
+    if (assignments[i].real) {
+      EXPECT_EQ(assignments[i].shown.direction, points[i].direction);
+    }
+    EXPECT_TRUE(same(assignments[i].shown.descriptor,
+                     assignments[i].real ? points[i].descriptor : mirrored(points[i].descriptor)));
+  }
+}
+
+TEST(WarpedFakes, ComeFromBeside) {
+  const auto points = somePoints(4000, 3);
+  EXPECT_GT(meanWayOf(points, assignmentsOf(points, 1333)), 1.2);
+  EXPECT_LT(meanWayOf(points, warpedAssignmentsOf(points, 1333)), 0.4);
+}
+
+// Points that lie together lie together after, and no rigid copy of the patch is left.
+TEST(WarpedFakes, AreBent) {
+  const auto points = somePoints(6000, 0.5);
+  const auto assignments = warpedAssignmentsOf(points, 2000);
+  double near_pairs = 0, near_kept = 0, far_pairs = 0, far_kept = 0;
+  for (size_t i = 0; i < points.size(); i += 3)
+    for (size_t j = 0; j < points.size(); ++j) {
+      if (assignments[i].real || assignments[j].real || i == j) continue;
+      const double before = (points[i].direction - points[j].direction).norm();
+      const double change =
+          std::abs((assignments[i].shown.direction - assignments[j].shown.direction).norm() - before);
+      if (before < 0.01) ++near_pairs, near_kept += change < 0.5 * before;
+      if (before > 0.06 && before < 0.08 && change < 0.08) ++far_pairs, far_kept += change < 0.005;
+    }
+  ASSERT_GT(near_pairs, 100);
+  EXPECT_GT(near_kept / near_pairs, 0.6);  // the others straddle an edge, or lie where the warp is steep
+  ASSERT_GT(far_pairs, 1000);
+  EXPECT_LT(far_kept / far_pairs, 0.45);
 }
 
 }  // namespace
