@@ -55,12 +55,12 @@ int run(const Options &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kDeadlineHelp[] =
     "Localizes every frame of a recording without a deadline and under several, and counts frames that end within\n"
     "their deadline and 0.3 ms, poses within 5 cm and 5 deg, poses beyond 25 cm or 10 deg, and what was cut.  Time "
     "is\n"
     "that of the processor, for the localizer too: what other programs take does not count.";
-const char kExample[] =
+const char kDeadlineExample[] =
     "Example:\n"
     "  spherecloud-lab deadline --recording walk --first 100 --map room.sphc --half\n"
     "  spherecloud-lab deadline --recording walk --map room.sphc --noise --deadline-us 2000\n"
@@ -74,8 +74,8 @@ const char kExample[] =
 Command deadlineCommand(CLI::App *root) {
   auto options = std::make_shared<Options>();
   CLI::App *app = root->add_subcommand("deadline");
-  app->description("Do frames end by their deadlines?\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Do frames end by their deadlines?\n\n" + std::string(kDeadlineHelp));
+  app->footer(kDeadlineExample);
   addRecordingOptions(app, &options->recording);
   app->add_option("-m,--map", options->map, "Map file, with its owner's note beside it")
       ->required()

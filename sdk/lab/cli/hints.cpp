@@ -32,11 +32,11 @@ int run(const HintOptions &options, const Console &console) {
   return kExitDone;
 }
 
-const char kHelp[] =
+const char kHintsHelp[] =
     "Makes sequences of 30 frames dark, blurred, plain or without depth, localizes them in a map, frame by frame\n"
     "alone and tracking, and counts frames without a pose, those that are told why, and those with each hint.  Of\n"
     "healthy frames those are counted that are told nothing.";
-const char kExample[] =
+const char kHintsExample[] =
     "Example:\n"
     "  spherecloud-lab hints --recording walk --first 100 --map room.sphc\n"
     "  spherecloud-lab hints --recording other --map room.sphc --only healthy      not in the map\n"
@@ -47,8 +47,8 @@ const char kExample[] =
 Command hintsCommand(CLI::App *root) {
   auto options = std::make_shared<HintOptions>();
   CLI::App *app = root->add_subcommand("hints");
-  app->description("Is a frame without a pose told why?\n\n" + std::string(kHelp));
-  app->footer(kExample);
+  app->description("Is a frame without a pose told why?\n\n" + std::string(kHintsHelp));
+  app->footer(kHintsExample);
   addRecordingOptions(app, &options->recording);
   app->add_option("-m,--map", options->map, "Map file")->required()->type_name("FILE");
   app->add_option("--sequences", options->sequences, "At most so many, spread over the recording")
