@@ -13,7 +13,7 @@
 namespace sphc::host {
 namespace {
 
-constexpr size_t kStacks = 40, kPoints = 60;
+constexpr size_t kStacks = 40, kStackPoints = 60;
 constexpr double kWidthRad = 0.03;
 
 // On a spiral, far apart.
@@ -24,7 +24,7 @@ Vector3 middleOf(size_t stack) {
 
 std::vector<Vector3> stackedDirections(Random *random) {
   std::vector<Vector3> directions;
-  for (size_t i = 0; i < kStacks * kPoints; ++i)
+  for (size_t i = 0; i < kStacks * kStackPoints; ++i)
     directions.push_back((middleOf(i % kStacks) + kWidthRad * test::normalVector(random)).normalized());
   return directions;
 }
@@ -32,7 +32,7 @@ std::vector<Vector3> stackedDirections(Random *random) {
 TEST(Stacks, AreFoundByDirectionsAlone) {
   Random random(1);
   const std::vector<uint32_t> labels = stacksOf(stackedDirections(&random));
-  ASSERT_EQ(labels.size(), kStacks * kPoints);
+  ASSERT_EQ(labels.size(), kStacks * kStackPoints);
   EXPECT_EQ(std::set<uint32_t>(labels.begin(), labels.end()).size(), kStacks);
   for (size_t i = 0; i < labels.size(); ++i) EXPECT_EQ(labels[i], labels[i % kStacks]) << i;
 }

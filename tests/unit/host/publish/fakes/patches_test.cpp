@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidthRad = 8 * kPi / 180;
 
-std::vector<SpherePoint> somePoints(size_t count, double spread) {
+std::vector<SpherePoint> pointsToCut(size_t count, double spread) {
   Random random(4);
   std::vector<SpherePoint> points;
   for (size_t i = 0; i < count; ++i)
@@ -26,7 +26,7 @@ std::vector<Patch> patchesOf(const std::vector<SpherePoint> &points, double *wid
 }
 
 TEST(Patches, HaveEveryPointOnceAndAreAsWideAsAskedFor) {
-  const auto points = somePoints(5000, 2);
+  const auto points = pointsToCut(5000, 2);
   double width_rad = kWidthRad, farthest = 0;
   const auto patches = patchesOf(points, &width_rad);
   EXPECT_EQ(width_rad, kWidthRad);
@@ -45,12 +45,12 @@ TEST(Patches, HaveEveryPointOnceAndAreAsWideAsAskedFor) {
 
 TEST(Patches, OfASmallCloudAreNarrower) {
   double width_rad = kWidthRad;
-  EXPECT_GE(patchesOf(somePoints(5000, 0.1), &width_rad).size(), 60u);
+  EXPECT_GE(patchesOf(pointsToCut(5000, 0.1), &width_rad).size(), 60u);
   EXPECT_EQ(width_rad, kWidthRad / 2);
 }
 
 TEST(Patches, TheKeyDecides) {
-  const auto points = somePoints(1000, 2);
+  const auto points = pointsToCut(1000, 2);
   double width_rad = kWidthRad;
   const auto a = patchesOf(points, &width_rad), b = patchesOf(points, &width_rad),
              c = patchesOf(points, &width_rad, 2);
