@@ -75,6 +75,13 @@ sphc_prior priorFrom(Reader *reader) {
   return prior;
 }
 
+// A caller's struct of any size that struct_size may tell: what lies behind ours is the caller's too.
+template <typename T>
+struct Roomy {
+  T its = {};
+  uint8_t behind[4096] = {};
+};
+
 bool fits(const sphc_image &image, size_t bytes) {  // else the caller would lie about what the library may read
   return uint64_t{image.stride_bytes} * image.height <= bytes;
 }
@@ -93,7 +100,8 @@ void frame(const uint8_t *data, size_t bytes) {
   Reader reader(data, bytes);
   std::vector<uint8_t> color(320 * 96);
   std::vector<uint16_t> depth(160 * 60);
-  sphc_frame f = {};
+  Roomy<sphc_frame> roomy;
+  sphc_frame &f = roomy.its;
   f.struct_size = around(sizeof f, &reader);
   f.color.width = around(96, &reader);
   f.color.height = around(72, &reader);
@@ -106,8 +114,10 @@ void frame(const uint8_t *data, size_t bytes) {
   const uint8_t shift = reader.next() % 8;
   f.color_time_ns = static_cast<int64_t>((uint64_t{around(0, &reader)} << 32) | reader.take32());
   f.depth_time_ns = f.color_time_ns;
-  const sphc_prior prior = priorFrom(&reader);
-  if (reader.next() & 1) f.prior = &prior;
+  Roomy<sphc_prior> prior;
+  prior.its = priorFrom(&reader);
+  if (reader.next() & 1) f.prior = &prior.its;
+  roomy.behind[reader.next()] = prior.behind[reader.next()] = reader.next() % 2;
   for (uint8_t &byte : color) byte = reader.next();
   for (uint16_t &value : depth) value = static_cast<uint16_t>(reader.next() | (reader.next() << 8));
   f.color.data = color.data();
