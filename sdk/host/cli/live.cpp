@@ -109,8 +109,8 @@ void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spher
   ++tally->frames;
   tally->localized += result.outcome == SPHC_OUTCOME_LOCALIZED;
   tally->total_ms += ms;
-  for (size_t i = 0; i < kFaultWords.size(); ++i) tally->faults[i] += (result.faults & kFaultWords[i].fault) != 0;
-  for (size_t i = 0; i < kHintWords.size(); ++i) tally->hints[i] += (result.hints & kHintWords[i].hint) != 0;
+  countBits(kFaultWords, result.faults, &tally->faults);
+  countBits(kHintWords, result.hints, &tally->hints);
   tally->poses.count();
   console.giveLine(frameJson(pair, result, ms));
   line->show(statusText(*tally, result, rig, ms));

@@ -46,8 +46,8 @@ Findings ConsistencyCheck::findings() const {
   Findings findings;
   for (size_t bit = 0; bit < kFaults; ++bit) {
     if (!seen_[bit]) continue;
-    for (const FaultWords &words : kFaultWords)
-      if (words.fault == 1u << bit)
+    for (const BitWords &words : kFaultWords)
+      if (words.bit == 1u << bit)
         findings.push_back(
             {seen_[bit] * kOneIn >= pairs_ ? Finding::Grade::kWrong : Finding::Grade::kDoubtful, words.name,
              "in " + std::to_string(seen_[bit]) + " of " + std::to_string(pairs_) + " pairs: " + words.cure});

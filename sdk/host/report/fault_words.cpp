@@ -4,7 +4,7 @@
 
 namespace sphc::host {
 
-const std::array<FaultWords, 9> kFaultWords = {{
+const std::array<BitWords, 9> kFaultWords = {{
     {SPHC_FAULT_DEPTH_RANGE, "depth out of range",
      "nearly every measurement lies outside depth_min_m to depth_max_m: is depth_unit_m right, is the sensor "
      "covered?"},
@@ -26,11 +26,6 @@ const std::array<FaultWords, 9> kFaultWords = {{
      "the vertical that was given is not the pose's: check the frame and the sigma of the inertial sensor"},
 }};
 
-std::string faultNames(uint32_t faults) {
-  std::string names;
-  for (const FaultWords &words : kFaultWords)
-    if (faults & words.fault) names += (names.empty() ? "" : ", ") + std::string(words.name);
-  return names;
-}
+std::string faultNames(uint32_t faults) { return namesOf(kFaultWords, faults); }
 
 }  // namespace sphc::host

@@ -1,16 +1,11 @@
 // Faults that a localizer's result names, in words for people.
 #pragma once
-#include <array>
-#include <cstdint>
-#include <string>
+#include "host/report/bit_words.h"
 
 namespace sphc::host {
 
-struct FaultWords {
-  uint32_t fault;  // SPHC_FAULT_ bit
-  const char *name, *cure;
-};
-extern const std::array<FaultWords, 9> kFaultWords;
+// SPHC_FAULT_ bits.
+extern const std::array<BitWords, 9> kFaultWords;
 
 // "depth frozen, depth and colour disagree"; "" of none.
 std::string faultNames(uint32_t faults);

@@ -4,7 +4,7 @@
 
 namespace sphc::host {
 
-const std::array<HintWords, 6> kHintWords = {{
+const std::array<BitWords, 6> kHintWords = {{
     {SPHC_HINT_TOO_DARK, "too dark", "more light"},
     {SPHC_HINT_TOO_FAST, "too fast", "move slower, or expose for a shorter time"},
     {SPHC_HINT_TOO_PLAIN, "too plain", "look at something with more texture"},
@@ -14,16 +14,11 @@ const std::array<HintWords, 6> kHintWords = {{
     {SPHC_HINT_AMBIGUOUS, "ambiguous", "what is seen fits two places: look around"},
 }};
 
-std::string hintNames(uint32_t hints) {
-  std::string names;
-  for (const HintWords &words : kHintWords)
-    if (hints & words.hint) names += (names.empty() ? "" : ", ") + std::string(words.name);
-  return names;
-}
+std::string hintNames(uint32_t hints) { return namesOf(kHintWords, hints); }
 
 std::string firstHint(uint32_t hints) {
-  for (const HintWords &words : kHintWords)
-    if (hints & words.hint) return std::string(words.name) + ": " + words.cure;
+  for (const BitWords &words : kHintWords)
+    if (hints & words.bit) return std::string(words.name) + ": " + words.cure;
   return "";
 }
 

@@ -1,16 +1,11 @@
 // Hints of a localizer's result, in words for people.
 #pragma once
-#include <array>
-#include <cstdint>
-#include <string>
+#include "host/report/bit_words.h"
 
 namespace sphc::host {
 
-struct HintWords {
-  uint32_t hint;  // SPHC_HINT_ bit
-  const char *name, *cure;
-};
-extern const std::array<HintWords, 6> kHintWords;
+// SPHC_HINT_ bits.
+extern const std::array<BitWords, 6> kHintWords;
 
 // "too dark, too fast"; "" of none.
 std::string hintNames(uint32_t hints);

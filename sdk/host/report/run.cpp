@@ -1,7 +1,8 @@
 #include "host/report/run.h"
 
 #include <cstdio>
-#include <utility>
+
+#include "host/report/bit_words.h"
 
 namespace sphc::host {
 
@@ -52,14 +53,11 @@ const char *outcomeAdvice(sphc_outcome outcome) {
 }
 
 std::string cutNames(uint32_t cuts) {
-  constexpr std::pair<uint32_t, const char *> kNames[] = {{SPHC_CUT_FEATURES, "features"},
-                                                          {SPHC_CUT_MATCHES, "matches"},
-                                                          {SPHC_CUT_SEARCH, "search"},
-                                                          {SPHC_CUT_VERIFICATION, "verification"}};
-  std::string names;
-  for (const auto &[cut, name] : kNames)
-    if (cuts & cut) names += (names.empty() ? "" : ", ") + std::string(name);
-  return names;
+  constexpr std::array<BitWords, 4> kCutWords = {{{SPHC_CUT_FEATURES, "features", ""},
+                                                  {SPHC_CUT_MATCHES, "matches", ""},
+                                                  {SPHC_CUT_SEARCH, "search", ""},
+                                                  {SPHC_CUT_VERIFICATION, "verification", ""}}};
+  return namesOf(kCutWords, cuts);
 }
 
 const char *stateName(sphc_state state) {

@@ -108,8 +108,8 @@ Summary summarize(const Run &run) {
     if (frame.cuts) ++summary.cut;
     const size_t outcome = static_cast<size_t>(frame.outcome);
     if (outcome < summary.outcomes.size()) ++summary.outcomes[outcome];
-    for (size_t i = 0; i < kFaultWords.size(); ++i) summary.faults[i] += (frame.faults & kFaultWords[i].fault) != 0;
-    for (size_t i = 0; i < kHintWords.size(); ++i) summary.hints[i] += (frame.hints & kHintWords[i].hint) != 0;
+    countBits(kFaultWords, frame.faults, &summary.faults);
+    countBits(kHintWords, frame.hints, &summary.hints);
   }
   summarizeErrors(run, &summary);
   for (size_t i = 0; i < kStageCount; ++i) {

@@ -1,6 +1,7 @@
 #include "lab/hints/run.h"
 
 #include "host/evaluate/localize_run.h"
+#include "host/report/hint_words.h"
 
 namespace sphc::host {
 namespace {
@@ -10,7 +11,7 @@ void count(const HintCondition &condition, const sphc_result &result, HintRow *r
   if (result.outcome == SPHC_OUTCOME_LOCALIZED) return;
   ++row->without_pose;
   row->told += condition.hint ? (result.hints & condition.hint) != 0 : result.hints == 0;
-  for (uint32_t i = 0; i < kHints; ++i) row->hints[i] += (result.hints >> i) & 1u;
+  countBits(kHintWords, result.hints, &row->hints);
 }
 
 void runSequence(const HintInput &input, const HintCondition &condition, const Sequence &sequence, sphc_mode mode,

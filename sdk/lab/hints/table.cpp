@@ -10,7 +10,7 @@ static_assert(std::tuple_size_v<decltype(kHintWords)> == kHints, "a column a hin
 
 std::string hintText(const std::vector<HintRow> &rows) {
   std::string text = "condition                        mode      frames  without pose  told";
-  for (const HintWords &words : kHintWords) text += std::string("  ") + words.name;
+  for (const BitWords &words : kHintWords) text += std::string("  ") + words.name;
   text += "\n";
   for (const HintRow &row : rows) {
     char line[128];
