@@ -69,6 +69,9 @@ add_library(sphc_runtime_code INTERFACE) # of the runtime's own files
 target_link_libraries(sphc_runtime_code INTERFACE sphc_runtime_flags)
 target_compile_definitions(sphc_runtime_code INTERFACE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO)
 
+# Of decisions and checks, a few times a frame: firmware has all of them in flash.
+set(SPHC_SMALL $<$<CONFIG:Release>:-Os>)
+
 # Reading other people's headers takes longer than most of our files.  Modules that are compiled alike share one library of
 # precompiled headers.  ccache needs the options, and CCACHE_SLOPPINESS as in tests/run.sh.
 set(SPHC_HEADERS_OPTIONS
@@ -95,6 +98,7 @@ else()
 endif()
 if(SPHC_PRECOMPILE_RUNTIME)
   sphc_headers(sphc_runtime_headers FLAGS sphc_runtime_code HEADERS Eigen/Core Eigen/Geometry)
+  sphc_headers(sphc_small_runtime_headers FLAGS sphc_runtime_code OPTIONS ${SPHC_SMALL} HEADERS Eigen/Core Eigen/Geometry)
 endif()
 
 # sphc_unity(TARGET): where much is compiled and nothing edited, up to eight files of a folder are read as one.  Never the
@@ -116,11 +120,12 @@ function(sphc_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# sphc_module(NAME SOURCES... [RUNTIME] [LINKS...] [HEADERS...]): a folder is a target.
+# sphc_module(NAME SOURCES... [RUNTIME] [SMALL] [LINKS...] [HEADERS...]): a folder is a target.
 # RUNTIME modules are objects gathered into the one library `spherecloud`; others are static libraries.
+# SMALL: small rather than fast.
 # HEADERS: a library of precompiled headers, where it is not that of all.
 function(sphc_module name)
-  cmake_parse_arguments(arg "RUNTIME" "HEADERS" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "RUNTIME;SMALL" "HEADERS" "SOURCES;LINKS" ${ARGN})
   if(arg_RUNTIME)
     add_library(${name} OBJECT ${arg_SOURCES})
     target_link_libraries(${name} PUBLIC sphc_runtime_flags PRIVATE sphc_runtime_code ${arg_LINKS})
@@ -143,6 +148,12 @@ function(sphc_module name)
     set(arg_HEADERS sphc_host_headers)
   elseif(arg_RUNTIME AND SPHC_PRECOMPILE_RUNTIME)
     set(arg_HEADERS sphc_runtime_headers)
+    if(arg_SMALL)
+      set(arg_HEADERS sphc_small_runtime_headers)
+    endif()
+  endif()
+  if(arg_SMALL)
+    target_compile_options(${name} PRIVATE ${SPHC_SMALL})
   endif()
   if(arg_HEADERS AND has_cpp GREATER -1)
     target_precompile_headers(${name} REUSE_FROM ${arg_HEADERS})
