@@ -43,7 +43,8 @@ target_link_libraries(sphc_flags INTERFACE Eigen3::Eigen)
 # packets, whose order of summation is the machine's.  Types stay aligned as in libraries that were built with Eigen's
 # defaults.
 target_compile_options(sphc_flags INTERFACE -ffp-contract=off)
-target_compile_definitions(sphc_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+target_compile_definitions(sphc_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16
+  SPHC_UNSTABLE)
 include(SphcSimd)
 if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE} -fno-omit-frame-pointer

@@ -64,7 +64,7 @@ void Camera::stop() {
 }
 
 pixels::OutImage Camera::imageOf(const Slot &slot) const {
-  const uint32_t stride_bytes = setup_.mode.width * pixels::pixelBytes(config_.format);
+  const uint32_t stride_bytes = setup_.mode.width * sphc_format_bytes(config_.format);
   return {slot.pixels.get(), size_t{stride_bytes} * setup_.mode.height,
           setup_.mode.width, setup_.mode.height,
           stride_bytes,      config_.format};

@@ -7,6 +7,7 @@
 #include "drivers/pixels/mjpeg.h"
 #include "frame_time.h"
 #include "setup.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::libcamera {
 

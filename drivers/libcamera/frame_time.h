@@ -1,7 +1,7 @@
 // From libcamera's timestamps to the C interface's times, all on CLOCK_MONOTONIC.
 #pragma once
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 namespace sphc::libcamera {
 

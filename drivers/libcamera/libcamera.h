@@ -19,7 +19,7 @@
 #ifndef SPHERECLOUD_DRIVERS_LIBCAMERA_LIBCAMERA_H
 #define SPHERECLOUD_DRIVERS_LIBCAMERA_LIBCAMERA_H
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -270,7 +270,7 @@ sphc_capture Camera::makeCapture(int stream, const Place &place, int64_t arrival
   capture.time_ns = place.time_ns;
   capture.sequence = place.sequence;
   capture.time_point = config_.time_point;
-  capture.image = {nullptr, width, height, width * bytesPerPixel(format), format};
+  capture.image = {nullptr, width, height, width * sphc_format_bytes(format), format};
   capture.arrival_ns = arrival_ns;
   // What a recording loses of the time between its streams is up to a period.
   const uint32_t sigma_us = config_.time_sigma_us != 0 ? config_.time_sigma_us : period_us / 2;

@@ -6,6 +6,7 @@
 
 #include "capture_queue.h"
 #include "device.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "timeline.h"
 
 namespace sphc::openni2 {

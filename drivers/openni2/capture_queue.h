@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "openni2.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "streams.h"
 #include "wakeup.h"
 

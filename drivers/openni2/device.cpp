@@ -215,7 +215,7 @@ void Device::stop() {
 size_t Device::frameBytes(int stream) const {
   if (!has(stream)) return 0;
   const OniVideoMode &mode = modes_[stream];
-  return size_t{bytesPerPixel(formatOf(mode.pixelFormat))} * static_cast<size_t>(mode.resolutionX) *
+  return size_t{sphc_format_bytes(formatOf(mode.pixelFormat))} * static_cast<size_t>(mode.resolutionX) *
          static_cast<size_t>(mode.resolutionY);
 }
 

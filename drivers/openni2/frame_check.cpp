@@ -19,19 +19,6 @@ sphc_format formatOf(OniPixelFormat format) {
   }
 }
 
-uint32_t bytesPerPixel(sphc_format format) {
-  switch (format) {
-    case SPHC_FORMAT_RGB8:
-      return 3;
-    case SPHC_FORMAT_DEPTH16:
-      return 2;
-    case SPHC_FORMAT_GRAY8:
-      return 1;
-    default:
-      return 0;
-  }
-}
-
 sphc_status checkFrame(const OniFrame &frame, int stream, const OniVideoMode &mode, sphc_message *message) {
   const OniVideoMode &its = frame.videoMode;
   if (frame.width != mode.resolutionX || frame.height != mode.resolutionY || its.pixelFormat != mode.pixelFormat)
@@ -39,7 +26,7 @@ sphc_status checkFrame(const OniFrame &frame, int stream, const OniVideoMode &mo
                    "a %s frame of %d x %d, format %d, came in a stream of %d x %d, format %d; it was thrown away",
                    kStreamNames[stream], frame.width, frame.height, static_cast<int>(its.pixelFormat),
                    mode.resolutionX, mode.resolutionY, static_cast<int>(mode.pixelFormat));
-  const int64_t row_bytes = int64_t{frame.width} * bytesPerPixel(formatOf(mode.pixelFormat));
+  const int64_t row_bytes = int64_t{frame.width} * sphc_format_bytes(formatOf(mode.pixelFormat));
   const int64_t needed_bytes = (int64_t{frame.height} - 1) * frame.stride + row_bytes;
   if (!frame.data || frame.stride < row_bytes || frame.dataSize < needed_bytes)
     return explain(

@@ -15,7 +15,7 @@
 #ifndef SPHERECLOUD_DRIVERS_OPENNI2_OPENNI2_H
 #define SPHERECLOUD_DRIVERS_OPENNI2_OPENNI2_H
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #ifdef __cplusplus
 extern "C" {

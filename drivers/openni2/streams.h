@@ -1,7 +1,7 @@
 // The two streams of a camera, as indices of small arrays.
 #pragma once
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 namespace sphc::openni2 {
 

@@ -50,20 +50,6 @@ uint32_t rowBytes(Layout layout, uint32_t width) {
   return 0;
 }
 
-uint32_t pixelBytes(sphc_format format) {
-  switch (format) {
-    case SPHC_FORMAT_GRAY8:
-      return 1;
-    case SPHC_FORMAT_DEPTH16:
-      return 2;
-    case SPHC_FORMAT_RGB8:
-    case SPHC_FORMAT_BGR8:
-      return 3;
-    default:
-      return 0;
-  }
-}
-
 uint64_t imageBytes(uint32_t row_bytes, uint32_t stride_bytes, uint32_t height) {
   return uint64_t{stride_bytes} * (height - 1) + row_bytes;
 }
@@ -93,7 +79,7 @@ sphc_status checkRaw(const RawImage &raw, sphc_message *message) {
 }
 
 sphc_status checkOut(const OutImage &out, sphc_message *message) {
-  const uint32_t pixel_bytes = pixelBytes(out.format);
+  const uint32_t pixel_bytes = sphc_format_bytes(out.format);
   if (pixel_bytes == 0) return explain(message, SPHC_E_IMAGE, "the output's format %d is none", out.format);
   const sphc_status status = checkSize("the output", out.width, out.height, message);
   if (status < 0) return status;

@@ -50,8 +50,6 @@ struct OutImage {
 
 // Bytes of a row of the first plane without padding.
 uint32_t rowBytes(Layout layout, uint32_t width);
-// Bytes of a pixel; 0 for a format that is none.
-uint32_t pixelBytes(sphc_format format);
 // Bytes of a whole image, the last row without its padding: a buffer may end there.
 uint64_t imageBytes(uint32_t row_bytes, uint32_t stride_bytes, uint32_t height);
 

@@ -34,7 +34,7 @@ typedef struct sphc_raw {
 } sphc_raw;
 
 typedef struct sphc_raw_frame {
-  sphc_frame frame;             /* its images lie in the memory that was given */
+  sphc_localizer_frame frame;   /* its images lie in the memory that was given */
   uint32_t has_pose;            /* 1: world_from_camera is known */
   sphc_rigid world_from_camera; /* of the colour camera, at the colour time; the world is the recording's own */
 } sphc_raw_frame;

@@ -6,6 +6,7 @@
 
 #include "host/recording/image_reader.h"
 #include "replay.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::replay {
 

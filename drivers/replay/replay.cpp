@@ -136,7 +136,8 @@ sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index
   return SPHC_OK;
 }
 
-sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_frame *frame, sphc_message *message) {
+sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_localizer_frame *frame,
+                                   sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
     if (!replay || !frame) throw Failure(SPHC_E_ARGUMENT, "replay or frame is null");
     *frame = replay->reader.read(index);

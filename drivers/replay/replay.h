@@ -21,7 +21,7 @@
 #ifndef SPHERECLOUD_DRIVERS_REPLAY_REPLAY_H
 #define SPHERECLOUD_DRIVERS_REPLAY_REPLAY_H
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include "host/recording/calibration.h"
 
@@ -125,7 +125,8 @@ sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index
  * next read or its close; the source has buffers of its own and does not disturb them.
  * Errors: ARGUMENT, DEVICE (missing or corrupt image), IMAGE (does not fit the calibration); the message names the
  * file, and another frame can be read. [exclusive] */
-sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_frame *frame, sphc_message *message);
+sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_localizer_frame *frame,
+                                   sphc_message *message);
 
 /* Recorded pose of the colour camera at the colour time of frame `index`; the world is the recording's own.
  * Exact when a pose has this very time, else interpolated (config.pose_gap_ns).  SPHC_NOT_LOCALIZED: the recording

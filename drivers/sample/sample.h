@@ -7,7 +7,7 @@
 #ifndef SPHERECLOUD_DRIVERS_SAMPLE_SAMPLE_H
 #define SPHERECLOUD_DRIVERS_SAMPLE_SAMPLE_H
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,7 +3,7 @@
  *
  *     sphc_simulated_config_init, change what you like
  *     sphc_simulated_open                         builds and paints the room: a few seconds
- *     sphc_simulated_rig                          the cameras, for sphc_config
+ *     sphc_simulated_rig                          the cameras, for sphc_localizer_config
  *     sphc_simulated_source                       captures in order of time, as any driver gives them
  *     sphc_simulated_pose_at, _oracle_depth       the truth
  *     sphc_simulated_close
@@ -23,7 +23,7 @@
 #ifndef SPHERECLOUD_DRIVERS_SIMULATED_H
 #define SPHERECLOUD_DRIVERS_SIMULATED_H
 
-#include "spherecloud/spherecloud.h"
+#include "spherecloud/spherecloud_capture.h"
 
 #ifdef __cplusplus
 extern "C" {

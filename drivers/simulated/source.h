@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "drivers/simulated/headset.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::simulated {
 

@@ -63,7 +63,7 @@ sphc_status Camera::open(const char *path, const sphc_v4l2_config &config, sphc_
 
 sphc_status Camera::makeSlots(sphc_message *message) {
   if (!decoder_.isReady()) return explain(message, SPHC_E_DEVICE, "out of memory for a JPEG decoder");
-  slot_stride_bytes_ = mode_.width * pixels::pixelBytes(config_.format);
+  slot_stride_bytes_ = mode_.width * sphc_format_bytes(config_.format);
   if (is_zero_copy_) return SPHC_OK;
   for (uint32_t i = 0; i < config_.loan_limit; ++i) {
     loans_[i].pixels.reset(new (std::nothrow) uint8_t[size_t{slot_stride_bytes_} * mode_.height]());

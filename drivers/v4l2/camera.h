@@ -9,6 +9,7 @@
 #include "frame_clock.h"
 #include "frame_counter.h"
 #include "negotiate.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "v4l2.h"
 
 namespace sphc::v4l2 {

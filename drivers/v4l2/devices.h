@@ -2,6 +2,7 @@
 #pragma once
 
 #include "node.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "v4l2.h"
 
 namespace sphc::v4l2 {

@@ -1,7 +1,7 @@
 // What a buffer's timestamp means: which point of the exposure, and how sure that is.
 #pragma once
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 namespace sphc::v4l2 {
 

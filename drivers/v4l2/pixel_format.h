@@ -2,6 +2,7 @@
 #pragma once
 
 #include "drivers/pixels/raw_image.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::v4l2 {
 

@@ -20,7 +20,7 @@
 #ifndef SPHERECLOUD_DRIVERS_V4L2_V4L2_H
 #define SPHERECLOUD_DRIVERS_V4L2_V4L2_H
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #ifdef __cplusplus
 extern "C" {

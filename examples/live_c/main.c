@@ -5,17 +5,22 @@
  * Colour first, depth second; a node, or "card=NAME".  Ends after FRAMES pairs, or never.
  */
 #define _POSIX_C_SOURCE 200809L
+#define SPHC_UNSTABLE 1 /* what captures is */
 #include <drivers/replay/replay.h>
 #include <drivers/v4l2/v4l2.h>
 #include <fcntl.h>
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 
-/* Sizes as the _memory functions give them, rounded up; one too small is refused with the size. */
-static __attribute__((aligned(64))) char view[512], state[1 << 18], scratch[24 << 20], pairs[2048];
+/* Enough for every config with as many keypoints and maps, and colour images as large; the _memory functions tell
+ * the exact bytes. */
+enum { KEYPOINTS = 800, MAPS = 1, WIDTH = 1280, HEIGHT = 960 };
+static __attribute__((aligned(64))) char view[SPHC_MAP_BYTES_MAX],
+    state[SPHC_LOCALIZER_STATE_BYTES_MAX(KEYPOINTS, MAPS)],
+    scratch[SPHC_LOCALIZER_SCRATCH_BYTES_MAX(KEYPOINTS, WIDTH, HEIGHT)], pairs[SPHC_PAIRER_BYTES_MAX];
 static sphc_message message;
 
 struct camera {
@@ -57,12 +62,15 @@ static sphc_map *open_map(const char *path) {
 }
 
 static sphc_localizer *make_localizer(const sphc_map *map, const sphc_rig *rig) {
-  sphc_config config;
+  sphc_localizer_config config;
   sphc_localizer *localizer = NULL;
-  check(sphc_config_init(&config, sizeof config), "config");
+  check(sphc_localizer_config_init(&config, sizeof config), "config");
   config.rig = *rig;
-  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &map, 1, &localizer, &message),
+  config.max_keypoints = KEYPOINTS;
+  config.max_maps = MAPS;
+  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &localizer, &message),
         "localizer");
+  check(sphc_localizer_set_map(localizer, 0, map), sphc_localizer_message(localizer));
   return localizer;
 }
 
@@ -76,14 +84,14 @@ static void feed(const struct camera *camera, sphc_pairer *pairer) {
     camera->source.release(camera->source.self, &capture);
 }
 
-static void localize(sphc_localizer *localizer, const sphc_pair *pair) {
-  const sphc_frame frame = {.struct_size = sizeof frame,
-                            .sequence = pair->color.sequence,
-                            .color_time_ns = sphc_capture_middle_ns(&pair->color),
-                            .depth_time_ns = sphc_capture_middle_ns(&pair->depth),
-                            .color = pair->color.image,
-                            .depth = pair->depth.image};
-  sphc_result result = {.struct_size = sizeof result};
+static void localize(sphc_localizer *localizer, const sphc_capture *color, const sphc_capture *depth) {
+  const sphc_localizer_frame frame = {.struct_size = sizeof frame,
+                                      .sequence = color->sequence,
+                                      .color_time_ns = sphc_capture_middle_ns(color),
+                                      .depth_time_ns = sphc_capture_middle_ns(depth),
+                                      .color = color->image,
+                                      .depth = depth->image};
+  sphc_localizer_result result = {.struct_size = sizeof result};
   sphc_rigid pose; /* map_from_camera */
   const sphc_status status = sphc_localizer_process(localizer, &frame, &result);
   check(status, sphc_localizer_message(localizer));
@@ -111,13 +119,12 @@ int main(int argc, char **argv) {
 
   const long frames = argc > 5 ? atol(argv[5]) : -1;
   for (long done = 0; done != frames;) {
-    sphc_pair pair = {.struct_size = sizeof pair};
-    sphc_capture dropped;
-    const sphc_status status = sphc_pairer_pop(pairer, &pair, &dropped);
+    sphc_capture of_color, of_depth, dropped;
+    const sphc_status status = sphc_pairer_pop(pairer, &of_color, &of_depth, &dropped);
     if (status == SPHC_OK) {
-      localize(localizer, &pair);
-      color.source.release(color.source.self, &pair.color);
-      depth.source.release(depth.source.self, &pair.depth);
+      localize(localizer, &of_color, &of_depth);
+      color.source.release(color.source.self, &of_color);
+      depth.source.release(depth.source.self, &of_depth);
       ++done;
     } else if (dropped.stream != SPHC_STREAM_NONE) {
       const struct camera *from = dropped.stream == SPHC_STREAM_COLOR ? &color : &depth;

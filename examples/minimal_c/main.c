@@ -3,6 +3,7 @@
  *     minimal_c MAP.sphc RECORDING
  */
 #define _POSIX_C_SOURCE 200809L
+#define SPHC_UNSTABLE 1 /* the replay driver is */
 #include <drivers/replay/replay.h>
 #include <fcntl.h>
 #include <spherecloud/spherecloud.h>
@@ -11,9 +12,12 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
-/* Sizes as sphc_map_memory and sphc_localizer_memory give them, rounded up; one too small is refused with the size.
- */
-static __attribute__((aligned(64))) char view[512], state[1 << 18], scratch[24 << 20];
+/* Enough for every config with as many keypoints and maps, and colour images as large; sphc_map_memory and
+ * sphc_localizer_memory tell the exact bytes. */
+enum { KEYPOINTS = 800, MAPS = 1, WIDTH = 1280, HEIGHT = 960 };
+static __attribute__((aligned(64))) char view[SPHC_MAP_BYTES_MAX],
+    state[SPHC_LOCALIZER_STATE_BYTES_MAX(KEYPOINTS, MAPS)],
+    scratch[SPHC_LOCALIZER_SCRATCH_BYTES_MAX(KEYPOINTS, WIDTH, HEIGHT)];
 static sphc_message message;
 
 static void check(sphc_status status, const char *what) {
@@ -35,12 +39,14 @@ static sphc_map *open_map(const char *path) {
 }
 
 static sphc_localizer *make_localizer(const sphc_map *map, const sphc_replay *replay) {
-  sphc_config config;
-  check(sphc_config_init(&config, sizeof config), "config");
+  sphc_localizer_config config;
+  check(sphc_localizer_config_init(&config, sizeof config), "config");
   check(sphc_replay_rig(replay, &config.rig), "rig");
+  config.max_keypoints = KEYPOINTS;
+  config.max_maps = MAPS;
   sphc_localizer *localizer = NULL;
-  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &map, 1, &localizer, &message),
-        "init");
+  check(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &localizer, &message), "init");
+  check(sphc_localizer_set_map(localizer, 0, map), sphc_localizer_message(localizer));
   return localizer;
 }
 
@@ -51,8 +57,8 @@ int main(int argc, char **argv) {
   sphc_map *map = open_map(argv[1]);
   sphc_localizer *localizer = make_localizer(map, replay);
   for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {
-    sphc_frame frame;
-    sphc_result result = {.struct_size = sizeof result};
+    sphc_localizer_frame frame;
+    sphc_localizer_result result = {.struct_size = sizeof result};
     sphc_rigid pose; /* map_from_camera */
     check(sphc_replay_read_frame(replay, i, &frame, &message), "frame");
     const sphc_status status = sphc_localizer_process(localizer, &frame, &result);

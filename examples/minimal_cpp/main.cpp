@@ -1,6 +1,7 @@
 // minimal_cpp - a map, a recording, a pose a frame, through spherecloud.hpp.
 //
 //     minimal_cpp MAP.sphc RECORDING
+#define SPHC_UNSTABLE 1  // the replay driver is
 #include <drivers/replay/replay.h>
 
 #include <cstdio>
@@ -22,8 +23,8 @@ Replay openReplay(const char *folder) {
   return Replay(replay);
 }
 
-sphc_config configFor(const sphc_replay *replay) {
-  sphc_config config = spherecloud::defaultConfig();
+sphc_localizer_config configFor(const sphc_replay *replay) {
+  sphc_localizer_config config = spherecloud::defaultConfig();
   spherecloud::Status(sphc_replay_rig(replay, &config.rig)).orThrow();
   return config;
 }
@@ -37,9 +38,9 @@ void localizeAll(const char *map_path, const char *folder) {
   spherecloud::Map::open(file.data(), file.size(), &map).orThrow();
   spherecloud::Localizer::make(configFor(replay.get()), map, &localizer).orThrow();
 
-  sphc_result result = spherecloud::emptyResult();
+  sphc_localizer_result result = spherecloud::emptyResult();
   for (uint32_t i = 0; i < sphc_replay_frame_count(replay.get()); ++i) {
-    sphc_frame frame = {};
+    sphc_localizer_frame frame = {};
     spherecloud::Status read;
     read.set(sphc_replay_read_frame(replay.get(), i, &frame, read.message())).orThrow();
     if (localizer.process(frame, &result).orThrow().ok()) {

@@ -6,6 +6,7 @@
  * CAMERA is "/dev/videoN", "card=NAME" or "bus=PLUG".  Takes what the camera makes of the wish, prints COUNT
  * captures (30), then what was lost.  Exit status 0: every capture came.
  */
+#define SPHC_UNSTABLE 1 /* what captures is */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

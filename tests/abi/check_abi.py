@@ -3,7 +3,7 @@
 
     check_abi.py layout PRINT_LAYOUT [--write]       struct layouts with layout.csv (64-bit machines)
     check_abi.py symbols LIBRARY NM [--write]        exported names of the shared library with symbols.txt
-    check_abi.py header SPHERECLOUD_H                every struct, field and function of the header is in the results
+    check_abi.py headers FOLDER                      every struct, field and function of the headers is in the results
 """
 import os
 import re
@@ -41,9 +41,11 @@ def exported(library, nm):
     return "".join(name + "\n" for name in sorted(set(names)))
 
 
-def check_header(path):
-    with open(path, encoding="utf-8") as stream:
-        text = re.sub(r"/\*.*?\*/", "", stream.read(), flags=re.S)
+def check_headers(folder):
+    text = ""
+    for name in ("spherecloud.h", "spherecloud_capture.h"):
+        with open(os.path.join(folder, name), encoding="utf-8") as stream:
+            text += re.sub(r"/\*.*?\*/", "", stream.read(), flags=re.S)
     functions = set(re.findall(r"^SPHC_API [^;(]*?(sphc_\w+)\(", text, flags=re.M))
     with open(SYMBOLS, encoding="utf-8") as stream:
         symbols = set(stream.read().split())
@@ -59,7 +61,7 @@ def check_header(path):
         if wanted != len(fields):
             faults.append(f"{name} has {wanted} fields, layout.csv {len(fields)}")
     if faults:
-        sys.exit("the header and the results disagree about: " + ", ".join(faults))
+        sys.exit("the headers and the results disagree about: " + ", ".join(faults))
 
 
 def main():
@@ -68,8 +70,8 @@ def main():
         compare(LAYOUT, run(sys.argv[2]))
     elif what == "symbols":
         compare(SYMBOLS, exported(sys.argv[2], sys.argv[3]))
-    elif what == "header":
-        check_header(sys.argv[2])
+    elif what == "headers":
+        check_headers(sys.argv[2])
     else:
         sys.exit(__doc__)
 

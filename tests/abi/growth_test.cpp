@@ -3,12 +3,13 @@
 
 #include <cstring>
 
+#include "spherecloud/spherecloud_capture.h"
 #include "tests/capi/bytes.h"
 #include "tests/support/session.h"
 
 extern "C" {
 // older_session.c, by the header that it was compiled with.
-int session_of_0_1(const void *file, size_t file_bytes, const sphc_rig *rig, const sphc_image *color,
+int session_of_0_2(const void *file, size_t file_bytes, const sphc_rig *rig, const sphc_image *color,
                    const sphc_image *depth, sphc_rigid *camera_from_map);
 }
 
@@ -19,22 +20,22 @@ using sphc::test::Session;
 
 class OtherHeaders : public testing::Test {
  protected:
-  sphc_config config_ = sphc::test::sceneConfig();
+  sphc_localizer_config config_ = sphc::test::sceneConfig();
   Session session_{config_};
   std::unique_ptr<sphc::test::SceneFrame> frame_ = sphc::test::sceneFrame(config_, 1);
 };
 
 TEST_F(OtherHeaders, AnOlderProgramGetsTheSamePose) {
-  sphc_config defaults;
-  ASSERT_EQ(sphc_config_init(&defaults, sizeof defaults), SPHC_OK);
+  sphc_localizer_config defaults;
+  ASSERT_EQ(sphc_localizer_config_init(&defaults, sizeof defaults), SPHC_OK);
   defaults.rig = config_.rig;
   Session of_today(defaults);
-  sphc_result today = {};
+  sphc_localizer_result today = {};
   ASSERT_EQ(of_today.process(frame_->frame, &today), SPHC_OK);
   const auto &file = of_today.sceneMap().file;
   sphc_rigid pose = {};
   EXPECT_EQ(
-      session_of_0_1(file.data(), file.size(), &config_.rig, &frame_->frame.color, &frame_->frame.depth, &pose), 0);
+      session_of_0_2(file.data(), file.size(), &config_.rig, &frame_->frame.color, &frame_->frame.depth, &pose), 0);
   EXPECT_EQ(std::memcmp(&pose, &today.camera_from_map, sizeof pose), 0);
 }
 
@@ -46,12 +47,12 @@ struct Newer {
 };
 
 TEST_F(OtherHeaders, ANewerProgramIsServedWhileItsNewFieldsAreZero) {
-  Newer<sphc_frame> frame = {frame_->frame, 0};
-  Newer<sphc_prior> prior = {};
+  Newer<sphc_localizer_frame> frame = {frame_->frame, 0};
+  Newer<sphc_localizer_prior> prior = {};
   frame.base.struct_size = sizeof frame;
   prior.base.struct_size = sizeof prior;
   frame.base.prior = &prior.base;
-  Newer<sphc_result> result;
+  Newer<sphc_localizer_result> result;
   std::memset(&result, 0x5A, sizeof result);
   result.base.struct_size = sizeof result;
   EXPECT_EQ(sphc_localizer_process(session_.localizer(), &frame.base, &result.base), SPHC_OK)
@@ -69,9 +70,9 @@ TEST_F(OtherHeaders, ANewerProgramIsServedWhileItsNewFieldsAreZero) {
 }
 
 TEST_F(OtherHeaders, ANewerConfigIsServedWhileItsNewFieldsAreZero) {
-  Newer<sphc_config> config;
+  Newer<sphc_localizer_config> config;
   std::memset(&config, 0x5A, sizeof config);
-  ASSERT_EQ(sphc_config_init(&config.base, sizeof config), SPHC_OK);
+  ASSERT_EQ(sphc_localizer_config_init(&config.base, sizeof config), SPHC_OK);
   EXPECT_EQ(config.added, 0u);
   config.base.rig = config_.rig;
   sphc_memory newer = {}, known = {};

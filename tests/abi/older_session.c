@@ -26,37 +26,35 @@ int SESSION(const void *file, size_t file_bytes, const sphc_rig *rig, const sphc
             const sphc_image *depth, sphc_rigid *camera_from_map);
 int SESSION(const void *file, size_t file_bytes, const sphc_rig *rig, const sphc_image *color,
             const sphc_image *depth, sphc_rigid *camera_from_map) {
-  MARKED(sphc_config) config;
+  MARKED(sphc_localizer_config) config;
   MARKED(sphc_map_info) info;
-  MARKED(sphc_result) result;
-  sphc_frame frame;
-  sphc_prior prior;
+  MARKED(sphc_localizer_result) result;
+  sphc_localizer_frame frame;
+  sphc_localizer_prior prior;
   sphc_memory need;
   sphc_map *map = NULL;
-  const sphc_map *maps[1];
   sphc_localizer *localizer = NULL;
-  size_t bytes = 0, alignment = 0;
   void *view, *state, *scratch;
 
-  CHECK(sphc_map_memory(&bytes, &alignment) == SPHC_OK);
-  view = malloc(bytes);
-  CHECK(sphc_map_init(view, bytes, file, file_bytes, &map, NULL) == SPHC_OK);
+  CHECK(sphc_map_memory(&need) == SPHC_OK);
+  view = malloc(need.state_bytes);
+  CHECK(sphc_map_init(view, need.state_bytes, file, file_bytes, &map, NULL) == SPHC_OK);
   memset(&info, MARK, sizeof info);
   info.its.struct_size = sizeof info.its;
   CHECK(sphc_map_get_info(map, &info.its) == SPHC_OK);
   CHECK(info.its.file_bytes == file_bytes && isMarked(info.mark, sizeof info.mark));
 
   memset(&config, MARK, sizeof config);
-  CHECK(sphc_config_init(&config.its, sizeof config.its) == SPHC_OK);
+  CHECK(sphc_localizer_config_init(&config.its, sizeof config.its) == SPHC_OK);
   CHECK(isMarked(config.mark, sizeof config.mark));
   config.its.rig = *rig;
   CHECK(sphc_localizer_memory(&config.its, &need, NULL) == SPHC_OK);
   state = aligned_alloc(need.alignment, (need.state_bytes + need.alignment - 1) / need.alignment * need.alignment);
   scratch =
       aligned_alloc(need.alignment, (need.scratch_bytes + need.alignment - 1) / need.alignment * need.alignment);
-  maps[0] = map;
-  CHECK(sphc_localizer_init(state, need.state_bytes, scratch, need.scratch_bytes, &config.its, maps, 1, &localizer,
-                            NULL) == SPHC_OK);
+  CHECK(sphc_localizer_init(state, need.state_bytes, scratch, need.scratch_bytes, &config.its, &localizer, NULL) ==
+        SPHC_OK);
+  CHECK(sphc_localizer_set_map(localizer, 5, map) == SPHC_OK);
 
   memset(&prior, 0, sizeof prior);
   prior.struct_size = sizeof prior;

@@ -23,15 +23,17 @@ class CInterfaceAligner : public testing::Test {
     config_.rig.color_camera = sphc::test::pinhole(kWidth, kHeight, 50);
     config_.rig.depth_camera = sphc::test::pinhole(40, 30, 30);
     config_.rig.color_from_depth.t_m[0] = -0.05;
-    ASSERT_EQ(sphc_aligner_memory(&config_, &bytes_, &alignment_, &message_), SPHC_OK);
-    memory_ = GuardedMemory(bytes_, alignment_);
+    sphc_memory need = {};
+    ASSERT_EQ(sphc_aligner_memory(&config_, &need, &message_), SPHC_OK);
+    bytes_ = need.state_bytes;
+    memory_ = GuardedMemory(bytes_, need.alignment);
     raw_.assign(40 * 30, 1500);
   }
   sphc_status init() { return sphc_aligner_init(memory_.data(), bytes_, &config_, &aligner_, &message_); }
   sphc_image image() const { return {raw_.data(), 40, 30, 80, SPHC_FORMAT_DEPTH16}; }
 
   sphc_aligner_config config_ = {};
-  size_t bytes_ = 0, alignment_ = 0;
+  size_t bytes_ = 0;
   GuardedMemory memory_;
   std::vector<uint16_t> raw_;
   sphc_aligner *aligner_ = nullptr;
@@ -107,10 +109,10 @@ TEST_F(CInterfaceAligner, ForbiddenConfigs) {
   for (const Spoiled &spoiled : all) {
     sphc_aligner_config config = config_;
     spoiled.spoil(&config);
-    size_t bytes = 3, alignment = 3;
-    EXPECT_EQ(sphc_aligner_memory(&config, &bytes, &alignment, &message_), SPHC_E_ARGUMENT) << spoiled.words;
+    Output<sphc_memory> need;
+    EXPECT_EQ(sphc_aligner_memory(&config, need.get(), &message_), SPHC_E_ARGUMENT) << spoiled.words;
     expectMentions(message_.text, spoiled.words);
-    EXPECT_EQ(bytes, 3u);
+    EXPECT_TRUE(need.untouched());
     EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, &config, &aligner_, &message_), SPHC_E_ARGUMENT);
     EXPECT_EQ(aligner_, nullptr);
   }
@@ -124,8 +126,9 @@ TEST_F(CInterfaceAligner, ForbiddenConfigs) {
 }
 
 TEST_F(CInterfaceAligner, ForbiddenMemory) {
-  EXPECT_EQ(sphc_aligner_memory(nullptr, &bytes_, &alignment_, &message_), SPHC_E_ARGUMENT);
-  EXPECT_EQ(sphc_aligner_memory(&config_, nullptr, &alignment_, &message_), SPHC_E_ARGUMENT);
+  sphc_memory need = {};
+  EXPECT_EQ(sphc_aligner_memory(nullptr, &need, &message_), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_aligner_memory(&config_, nullptr, &message_), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_aligner_init(nullptr, bytes_, &config_, &aligner_, &message_), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, nullptr, &aligner_, &message_), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, &config_, nullptr, &message_), SPHC_E_ARGUMENT);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "spherecloud/spherecloud_capture.h"
 #include "tests/capi/bytes.h"
 #include "tests/support/session.h"
 
@@ -12,13 +13,15 @@ using sphc::test::Output;
 class CInterfaceClockMapper : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(sphc_clock_mapper_memory(&bytes_, &alignment_), SPHC_OK);
-    memory_ = GuardedMemory(bytes_, alignment_);
+    sphc_memory need = {};
+    ASSERT_EQ(sphc_clock_mapper_memory(&need), SPHC_OK);
+    bytes_ = need.state_bytes;
+    memory_ = GuardedMemory(bytes_, need.alignment);
     ASSERT_EQ(sphc_clock_mapper_config_init(&config_, sizeof config_), SPHC_OK);
   }
   sphc_status init() { return sphc_clock_mapper_init(memory_.data(), bytes_, &config_, &mapper_, &message_); }
 
-  size_t bytes_ = 0, alignment_ = 0;
+  size_t bytes_ = 0;
   GuardedMemory memory_;
   sphc_clock_mapper_config config_ = {};
   sphc_clock_mapper *mapper_ = nullptr;
@@ -50,7 +53,7 @@ TEST_F(CInterfaceClockMapper, RefusesWhatItCannotUse) {
   Output<sphc_clock_mapper_config> untouched;
   EXPECT_EQ(sphc_clock_mapper_config_init(untouched.get(), sizeof config_ - 1), SPHC_E_STRUCT_SIZE);
   EXPECT_TRUE(untouched.untouched());
-  EXPECT_EQ(sphc_clock_mapper_memory(nullptr, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_clock_mapper_memory(nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_clock_mapper_init(memory_.data(), bytes_, nullptr, &mapper_, &message_), SPHC_E_ARGUMENT);
   expectMentions(message_.text, "config is null");
   EXPECT_EQ(sphc_clock_mapper_init(memory_.data(), bytes_ - 1, &config_, &mapper_, &message_), SPHC_E_MEMORY_SIZE);

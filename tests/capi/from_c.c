@@ -4,15 +4,14 @@
 #include <string.h>
 
 int main(void) {
-  sphc_config config;
+  sphc_localizer_config config;
   sphc_memory memory;
   sphc_message message = {""};
-  size_t bytes = 0, alignment = 0;
   if (sphc_abi() != SPHC_ABI) return 1;
-  if (sphc_config_init(&config, sizeof config) != SPHC_OK) return 2;
+  if (sphc_localizer_config_init(&config, sizeof config) != SPHC_OK) return 2;
   if (sphc_localizer_memory(&config, &memory, &message) != SPHC_E_ARGUMENT) return 3;
   if (!strstr(message.text, "color_camera")) return 4;
-  if (sphc_map_memory(&bytes, &alignment) != SPHC_OK || !bytes) return 5;
-  printf("%s, a map view takes %lu bytes\n", sphc_version_string(), (unsigned long)bytes);
+  if (sphc_map_memory(&memory) != SPHC_OK || !memory.state_bytes) return 5;
+  printf("%s, a map view takes %lu bytes\n", sphc_version_string(), (unsigned long)memory.state_bytes);
   return 0;
 }

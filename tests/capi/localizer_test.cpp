@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "tests/capi/bytes.h"
@@ -15,12 +16,12 @@ using sphc::test::Session;
 
 class CInterfaceLocalizer : public testing::Test {
  protected:
-  sphc_config config_ = sphc::test::sceneConfig();
+  sphc_localizer_config config_ = sphc::test::sceneConfig();
   Session session_{config_};
 };
 
-sphc_result clean() {
-  sphc_result result;
+sphc_localizer_result clean() {
+  sphc_localizer_result result;
   std::memset(&result, 0, sizeof result);
   return result;
 }
@@ -29,7 +30,7 @@ TEST_F(CInterfaceLocalizer, SameFramesSameBytes) {
   Session other(config_);
   for (uint32_t viewpoint : {0u, 2u, 1u, 2u}) {
     const auto frame = sphc::test::sceneFrame(config_, viewpoint);
-    sphc_result a = clean(), b = clean();
+    sphc_localizer_result a = clean(), b = clean();
     EXPECT_EQ(session_.process(frame->frame, &a), SPHC_OK);
     if (viewpoint == 2) {  // what scratch held before must not matter
       std::memset(other.scratch().data(), 0x3C, other.scratch().size());
@@ -43,12 +44,13 @@ TEST_F(CInterfaceLocalizer, ScratchMayBeSharedByLocalizersOfOneThread) {
   sphc_message message;
   GuardedMemory state(session_.state().size(), 64);
   sphc_localizer *second = nullptr;
-  const sphc_map *maps[] = {session_.map()};
   ASSERT_EQ(sphc_localizer_init(state.data(), state.size(), session_.scratch().data(), session_.scratch().size(),
-                                &config_, maps, 1, &second, &message),
+                                &config_, &second, &message),
             SPHC_OK);
+  ASSERT_EQ(sphc_localizer_set_map(second, 0, session_.map()), SPHC_OK);
+  ASSERT_EQ(sphc_localizer_set_parameter(second, SPHC_PARAMETER_MAX_ITERATIONS, 5000), SPHC_OK);
   const auto frame = sphc::test::sceneFrame(config_, 1);
-  sphc_result a = clean(), b = clean();
+  sphc_localizer_result a = clean(), b = clean();
   b.struct_size = sizeof b;
   EXPECT_EQ(session_.process(frame->frame, &a), SPHC_OK);
   EXPECT_EQ(sphc_localizer_process(second, &frame->frame, &b), SPHC_OK);
@@ -58,7 +60,7 @@ TEST_F(CInterfaceLocalizer, ScratchMayBeSharedByLocalizersOfOneThread) {
 TEST_F(CInterfaceLocalizer, KeepsInsideItsMemory) {
   for (uint32_t viewpoint = 0; viewpoint < 4; ++viewpoint) {
     const auto frame = sphc::test::sceneFrame(config_, viewpoint);
-    sphc_result result = clean();
+    sphc_localizer_result result = clean();
     session_.process(frame->frame, &result);
   }
   EXPECT_TRUE(session_.state().guardsIntact());
@@ -67,7 +69,7 @@ TEST_F(CInterfaceLocalizer, KeepsInsideItsMemory) {
 
 TEST_F(CInterfaceLocalizer, ResultsFieldsAreFilled) {
   const auto frame = sphc::test::sceneFrame(config_, 1);
-  sphc_result result;
+  sphc_localizer_result result;
   std::memset(&result, 0xFF, sizeof result);
   ASSERT_EQ(session_.process(frame->frame, &result), SPHC_OK);
   EXPECT_EQ(result.struct_size, sizeof result);
@@ -85,19 +87,19 @@ TEST_F(CInterfaceLocalizer, ResultsFieldsAreFilled) {
 
 TEST_F(CInterfaceLocalizer, ConfidenceIsAskedWithinOtherBounds) {
   const auto frame = sphc::test::sceneFrame(config_, 1);
-  sphc_result result = clean();
+  sphc_localizer_result result = clean();
   ASSERT_EQ(session_.process(frame->frame, &result), SPHC_OK);
   const double degrees = sphc::kPi / 180;
-  EXPECT_DOUBLE_EQ(sphc_result_confidence(&result, 0.05, 5 * degrees), result.confidence);
-  EXPECT_LT(sphc_result_confidence(&result, 0.001, 5 * degrees), result.confidence);
-  EXPECT_LT(sphc_result_confidence(&result, 0.05, 0.01 * degrees), result.confidence);
+  EXPECT_DOUBLE_EQ(sphc_localizer_result_confidence(&result, 0.05, 5 * degrees), result.confidence);
+  EXPECT_LT(sphc_localizer_result_confidence(&result, 0.001, 5 * degrees), result.confidence);
+  EXPECT_LT(sphc_localizer_result_confidence(&result, 0.05, 0.01 * degrees), result.confidence);
   for (double none : {0.0, -1.0, std::nan("")}) {
-    EXPECT_EQ(sphc_result_confidence(&result, none, degrees), 0);
-    EXPECT_EQ(sphc_result_confidence(&result, 0.05, none), 0);
+    EXPECT_EQ(sphc_localizer_result_confidence(&result, none, degrees), 0);
+    EXPECT_EQ(sphc_localizer_result_confidence(&result, 0.05, none), 0);
   }
-  EXPECT_EQ(sphc_result_confidence(nullptr, 0.05, degrees), 0);
+  EXPECT_EQ(sphc_localizer_result_confidence(nullptr, 0.05, degrees), 0);
   result.outcome = SPHC_OUTCOME_UNCERTAIN;
-  EXPECT_EQ(sphc_result_confidence(&result, 0.05, degrees), 0);
+  EXPECT_EQ(sphc_localizer_result_confidence(&result, 0.05, degrees), 0);
 }
 
 TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
@@ -107,7 +109,7 @@ TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
   Session timed(config_);
   const auto frame = sphc::test::sceneFrame(config_, 0);
   frame->frame.deadline_us = 1000;
-  sphc_result result = clean();
+  sphc_localizer_result result = clean();
   EXPECT_EQ(timed.process(frame->frame, &result), SPHC_OK);
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_EQ(us, 0u);
 }
@@ -118,7 +120,7 @@ TEST_F(CInterfaceLocalizer, StagesAreTimedByTheCallersClock) {
   config_.clock_user = &now;
   Session timed(config_);
   const auto frame = sphc::test::sceneFrame(config_, 0);
-  sphc_result result = clean();
+  sphc_localizer_result result = clean();
   EXPECT_EQ(timed.process(frame->frame, &result), SPHC_OK);
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_GE(us, 1000u);
 }
@@ -127,10 +129,10 @@ TEST_F(CInterfaceLocalizer, ColorFormatsAgree) {
   const auto gray = sphc::test::sceneFrame(config_, 0);
   std::vector<uint8_t> rgb;
   for (uint8_t value : gray->images.gray) rgb.insert(rgb.end(), 3, value);
-  sphc_result results[3] = {clean(), clean(), clean()};
+  sphc_localizer_result results[3] = {clean(), clean(), clean()};
   const sphc_format formats[3] = {SPHC_FORMAT_GRAY8, SPHC_FORMAT_RGB8, SPHC_FORMAT_BGR8};
   for (int i = 0; i < 3; ++i) {
-    sphc_frame frame = gray->frame;
+    sphc_localizer_frame frame = gray->frame;
     if (i) frame.color = {rgb.data(), 320, 240, 960, formats[i]};
     EXPECT_EQ(session_.process(frame, &results[i]), SPHC_OK);
   }
@@ -144,10 +146,10 @@ TEST_F(CInterfaceLocalizer, StridesWiderThanARow) {
   std::vector<uint8_t> color(kColorStride * 240, 0xAA), depth(kDepthStride * 160, 0xBB);
   for (uint32_t y = 0; y < 240; ++y) std::memcpy(&color[y * kColorStride], &tight->images.gray[y * 320], 320);
   for (uint32_t y = 0; y < 160; ++y) std::memcpy(&depth[y * kDepthStride], &tight->images.depth_mm[y * 200], 400);
-  sphc_frame wide = tight->frame;
+  sphc_localizer_frame wide = tight->frame;
   wide.color.data = color.data(), wide.color.stride_bytes = kColorStride;
   wide.depth.data = depth.data(), wide.depth.stride_bytes = kDepthStride;
-  sphc_result a = clean(), b = clean();
+  sphc_localizer_result a = clean(), b = clean();
   EXPECT_EQ(session_.process(tight->frame, &a), SPHC_OK);
   EXPECT_EQ(session_.process(wide, &b), SPHC_OK);
   EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
@@ -155,13 +157,15 @@ TEST_F(CInterfaceLocalizer, StridesWiderThanARow) {
 
 TEST_F(CInterfaceLocalizer, ObservationsTellWhatBecameOfEachKeypoint) {
   uint32_t count = 99;
-  EXPECT_EQ(sphc_localizer_observations(session_.localizer(), nullptr, 0, &count), SPHC_OK);
+  EXPECT_EQ(
+      sphc_localizer_observations(session_.localizer(), nullptr, sizeof(sphc_localizer_observation), 0, &count),
+      SPHC_OK);
   EXPECT_EQ(count, 0u);  // before the first frame
   const auto frame = sphc::test::sceneFrame(config_, 0);
-  sphc_result result = clean();
+  sphc_localizer_result result = clean();
   ASSERT_EQ(session_.process(frame->frame, &result), SPHC_OK);
-  std::vector<sphc_observation> seen(400);
-  ASSERT_EQ(sphc_localizer_observations(session_.localizer(), seen.data(), 400, &count), SPHC_OK);
+  std::vector<sphc_localizer_observation> seen(400);
+  ASSERT_EQ(sphc_localizer_observations(session_.localizer(), seen.data(), sizeof seen[0], 400, &count), SPHC_OK);
   EXPECT_EQ(count, result.keypoints);
   uint32_t lifted = 0, matched = 0, inliers = 0;
   for (uint32_t i = 0; i < count; ++i) {
@@ -174,11 +178,113 @@ TEST_F(CInterfaceLocalizer, ObservationsTellWhatBecameOfEachKeypoint) {
   EXPECT_EQ(lifted, result.lifted);
   EXPECT_EQ(matched, result.matches);
   EXPECT_EQ(inliers, result.inliers);
-  std::vector<sphc_observation> few(5);
+  std::vector<sphc_localizer_observation> few(5);
   std::memset(few.data(), 0x77, 5 * sizeof few[0]);
-  EXPECT_EQ(sphc_localizer_observations(session_.localizer(), few.data(), 4, &count), SPHC_OK);
+  EXPECT_EQ(sphc_localizer_observations(session_.localizer(), few.data(), sizeof few[0], 4, &count), SPHC_OK);
   EXPECT_EQ(count, result.keypoints);
   EXPECT_EQ(few[4].flags, 0x77777777u);
+}
+
+TEST_F(CInterfaceLocalizer, ObservationsOfANewerHeaderAreZeroBehindOurs) {
+  struct Newer {
+    sphc_localizer_observation base;
+    uint32_t added;
+  };
+  const auto frame = sphc::test::sceneFrame(config_, 0);
+  sphc_localizer_result result = clean();
+  ASSERT_EQ(session_.process(frame->frame, &result), SPHC_OK);
+  std::vector<sphc_localizer_observation> plain(8);
+  std::vector<Newer> newer(9);
+  std::memset(newer.data(), 0x5A, 9 * sizeof newer[0]);
+  uint32_t count = 0;
+  ASSERT_EQ(sphc_localizer_observations(session_.localizer(), plain.data(), sizeof plain[0], 8, &count), SPHC_OK);
+  ASSERT_EQ(sphc_localizer_observations(session_.localizer(), &newer[0].base, sizeof newer[0], 8, &count), SPHC_OK);
+  for (size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(std::memcmp(&newer[i].base, &plain[i], sizeof plain[i]), 0);
+    EXPECT_EQ(newer[i].added, 0u);
+  }
+  EXPECT_EQ(newer[8].added, 0x5A5A5A5Au);
+}
+
+// What was learnt goes on after a power cut: the next frame has the same bytes.
+TEST_F(CInterfaceLocalizer, TheDepthBiasIsGivenBack) {
+  config_.depth_offset_sigma_m = 0.003;
+  config_.depth_slope_sigma = 0.02;
+  Session before(config_), after(config_), fresh(config_);
+  for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) {
+    const auto frame = sphc::test::sceneFrame(config_, viewpoint);
+    sphc_localizer_result result = clean();
+    ASSERT_EQ(before.process(frame->frame, &result), SPHC_OK);
+  }
+  const auto frame = sphc::test::sceneFrame(config_, 1);
+  sphc_localizer_result a = clean(), b = clean(), c = clean();
+  ASSERT_EQ(before.process(frame->frame, &a), SPHC_OK);
+  EXPECT_NE(a.depth.correlation, 0);
+  ASSERT_EQ(sphc_localizer_set_depth_bias(after.localizer(), &a.depth), SPHC_OK)
+      << sphc_localizer_message(after.localizer());
+  ASSERT_EQ(after.process(frame->frame, &b), SPHC_OK);
+  ASSERT_EQ(fresh.process(frame->frame, &c), SPHC_OK);
+  EXPECT_NEAR(b.depth.offset_m, a.depth.offset_m, 1e-12);
+  EXPECT_NEAR(b.depth.correlation, a.depth.correlation, 1e-9);
+  EXPECT_NE(c.depth.noise_scale, a.depth.noise_scale);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(b.camera_from_map.t_m[i], a.camera_from_map.t_m[i], 1e-9);
+}
+
+TEST_F(CInterfaceLocalizer, InitialStructsSayNothing) {
+  sphc_localizer_result result;
+  sphc_localizer_frame frame;
+  sphc_localizer_prior prior;
+  EXPECT_EQ(sphc_localizer_result_init(&result, sizeof result), SPHC_OK);
+  EXPECT_EQ(result.struct_size, sizeof result);
+  EXPECT_EQ(result.map_id, SPHC_MAP_NONE);
+  EXPECT_EQ(result.camera_from_map.q_wxyz[0], 1);
+  EXPECT_EQ(sphc_localizer_frame_init(&frame, sizeof frame), SPHC_OK);
+  EXPECT_EQ(frame.struct_size, sizeof frame);
+  EXPECT_EQ(frame.prior, nullptr);
+  EXPECT_EQ(sphc_localizer_prior_init(&prior, sizeof prior), SPHC_OK);
+  EXPECT_EQ(prior.struct_size, sizeof prior);
+  EXPECT_EQ(prior.odometry_from_camera.q_wxyz[0], 1);
+  const auto made = sphc::test::sceneFrame(config_, 1);
+  made->frame.prior = &prior;  // says nothing
+  EXPECT_EQ(session_.process(made->frame, &result), SPHC_OK);
+  EXPECT_EQ(sphc_localizer_result_init(nullptr, sizeof result), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_localizer_frame_init(&frame, 8), SPHC_E_STRUCT_SIZE);
+  EXPECT_EQ(sphc_localizer_prior_init(&prior, sizeof prior + 1), SPHC_E_STRUCT_SIZE);
+}
+
+TEST_F(CInterfaceLocalizer, LogsOnlyWhatTheLevelAsksFor) {
+  std::vector<std::string> lines;
+  config_.log = [](void *user, sphc_log_level level, const char *text, size_t length) {
+    EXPECT_EQ(level, SPHC_LOG_DEBUG);
+    EXPECT_EQ(text[length], '\0');
+    static_cast<std::vector<std::string> *>(user)->push_back(text);
+  };
+  config_.log_user = &lines;
+  const auto frame = sphc::test::sceneFrame(config_, 1);
+  for (sphc_log_level level : {SPHC_LOG_ERROR, SPHC_LOG_WARNING, SPHC_LOG_INFO, SPHC_LOG_DEBUG}) {
+    config_.log_level = level;
+    Session logged(config_);
+    sphc_localizer_result result = clean();
+    ASSERT_EQ(logged.process(frame->frame, &result), SPHC_OK);
+    EXPECT_EQ(lines.size(), level == SPHC_LOG_DEBUG ? 1u : 0u);
+  }
+  expectMentions(lines.front().c_str(), "frame 1: SPHC_OUTCOME_LOCALIZED");
+}
+
+// Parameters count from the next frame on.
+TEST_F(CInterfaceLocalizer, ParametersCountFromTheNextFrameOn) {
+  const auto frame = sphc::test::sceneFrame(config_, 1);
+  sphc_localizer_result first = clean(), strict = clean(), again = clean();
+  ASSERT_EQ(session_.process(frame->frame, &first), SPHC_OK);
+  session_.setParameter(SPHC_PARAMETER_MIN_INLIERS, first.inliers + 500);
+  EXPECT_EQ(session_.process(frame->frame, &strict), SPHC_NOT_LOCALIZED);
+  session_.setParameter(SPHC_PARAMETER_MIN_INLIERS, 10);
+  session_.setParameter(SPHC_PARAMETER_MAX_RATIO, 0.6);
+  EXPECT_EQ(session_.process(frame->frame, &again), SPHC_OK);
+  EXPECT_LT(again.matches, first.matches);
+  double value = 0;
+  EXPECT_EQ(sphc_localizer_get_parameter(session_.localizer(), SPHC_PARAMETER_MAX_RATIO, &value), SPHC_OK);
+  EXPECT_EQ(value, 0.6);
 }
 
 TEST_F(CInterfaceLocalizer, FiniTakesNothing) {

@@ -1,4 +1,4 @@
-// sphc_config_init, sphc_localizer_memory and sphc_localizer_memory_piece.
+// sphc_localizer_config_init, sphc_localizer_memory and sphc_localizer_memory_piece.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,16 +14,17 @@ using sphc::test::expectMentions;
 using sphc::test::Output;
 
 TEST(CInterfaceConfig, InitRefuses) {
-  EXPECT_EQ(sphc_config_init(nullptr, sizeof(sphc_config)), SPHC_E_ARGUMENT);
-  Output<sphc_config> config;
-  for (size_t size : {size_t{0}, sizeof(sphc_config) - 8, sizeof(sphc_config) + 1, size_t{8192}})
-    EXPECT_EQ(sphc_config_init(config.get(), size), SPHC_E_STRUCT_SIZE);
+  EXPECT_EQ(sphc_localizer_config_init(nullptr, sizeof(sphc_localizer_config)), SPHC_E_ARGUMENT);
+  Output<sphc_localizer_config> config;
+  for (size_t size :
+       {size_t{0}, sizeof(sphc_localizer_config) - 8, sizeof(sphc_localizer_config) + 1, size_t{8192}})
+    EXPECT_EQ(sphc_localizer_config_init(config.get(), size), SPHC_E_STRUCT_SIZE);
   EXPECT_TRUE(config.untouched());
 }
 
 TEST(CInterfaceConfig, DefaultsNeedOnlyCameras) {
-  sphc_config config;
-  ASSERT_EQ(sphc_config_init(&config, sizeof config), SPHC_OK);
+  sphc_localizer_config config;
+  ASSERT_EQ(sphc_localizer_config_init(&config, sizeof config), SPHC_OK);
   sphc_memory need;
   sphc_message message;
   EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_E_ARGUMENT);
@@ -34,47 +35,43 @@ TEST(CInterfaceConfig, DefaultsNeedOnlyCameras) {
 
 struct Spoiled {
   const char *words;  // that the message must have
-  void (*spoil)(sphc_config *config);
+  void (*spoil)(sphc_localizer_config *config);
 };
 const double kNotANumber = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
 const Spoiled kSpoiled[] = {
-    {"max_keypoints is 63", [](sphc_config *c) { c->max_keypoints = 63; }},
-    {"max_keypoints is 4097", [](sphc_config *c) { c->max_keypoints = 4097; }},
-    {"max_iterations", [](sphc_config *c) { c->max_iterations = 0; }},
-    {"max_iterations", [](sphc_config *c) { c->max_iterations = 1000001; }},
-    {"max_ratio", [](sphc_config *c) { c->max_ratio = 0; }},
-    {"max_ratio", [](sphc_config *c) { c->max_ratio = 1.5f; }},
-    {"max_ratio is nan", [](sphc_config *c) { c->max_ratio = std::numeric_limits<float>::quiet_NaN(); }},
-    {"color_camera.model is 0", [](sphc_config *c) { c->rig.color_camera.model = 0; }},
-    {"depth_camera.model is 0", [](sphc_config *c) { c->rig.depth_camera.model = 0; }},
-    {"color_camera", [](sphc_config *c) { c->rig.color_camera.params[0] = kNotANumber; }},
-    {"depth_camera", [](sphc_config *c) { c->rig.depth_camera.params[3] = kInf; }},
-    {"depth_camera", [](sphc_config *c) { c->rig.depth_camera.width = 8193; }},
-    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.q_wxyz[0] = 0; }},
-    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.q_wxyz[1] = kNotANumber; }},
-    {"color_from_depth", [](sphc_config *c) { c->rig.color_from_depth.t_m[2] = kInf; }},
-    {"depth_unit_m", [](sphc_config *c) { c->rig.depth_unit_m = 0; }},
-    {"depth_unit_m is nan", [](sphc_config *c) { c->rig.depth_unit_m = kNotANumber; }},
-    {"depth_min_m", [](sphc_config *c) { c->depth_min_m = 0; }},
-    {"depth_min_m", [](sphc_config *c) { c->depth_min_m = kNotANumber; }},
-    {"depth_max_m", [](sphc_config *c) { c->depth_max_m = c->depth_min_m; }},
-    {"depth_max_m is inf", [](sphc_config *c) { c->depth_max_m = kInf; }},
-    {"depth_sigma_m", [](sphc_config *c) { c->depth_sigma_m = 0; }},
-    {"depth_sigma_m", [](sphc_config *c) { c->depth_sigma_m = kNotANumber; }},
-    {"depth_sigma_per_m2", [](sphc_config *c) { c->depth_sigma_per_m2 = -0.1; }},
-    {"depth_sigma_per_m2", [](sphc_config *c) { c->depth_sigma_per_m2 = kNotANumber; }},
-    {"pixel_sigma_px", [](sphc_config *c) { c->pixel_sigma_px = 0; }},
-    {"pixel_sigma_px", [](sphc_config *c) { c->pixel_sigma_px = kInf; }},
-    {"map_sigma_m", [](sphc_config *c) { c->map_sigma_m = -1; }},
-    {"map_sigma_m", [](sphc_config *c) { c->map_sigma_m = kNotANumber; }},
-    {"min_inliers", [](sphc_config *c) { c->min_inliers = 3; }},
-    {"min_inliers", [](sphc_config *c) { c->min_inliers = UINT32_MAX; }},
+    {"max_keypoints is 63", [](sphc_localizer_config *c) { c->max_keypoints = 63; }},
+    {"max_keypoints is 4097", [](sphc_localizer_config *c) { c->max_keypoints = 4097; }},
+    {"max_maps is 0", [](sphc_localizer_config *c) { c->max_maps = 0; }},
+    {"max_maps is 65", [](sphc_localizer_config *c) { c->max_maps = 65; }},
+    {"log_level is 0", [](sphc_localizer_config *c) { c->log_level = 0; }},
+    {"color_camera.model is 0", [](sphc_localizer_config *c) { c->rig.color_camera.model = 0; }},
+    {"depth_camera.model is 0", [](sphc_localizer_config *c) { c->rig.depth_camera.model = 0; }},
+    {"color_camera", [](sphc_localizer_config *c) { c->rig.color_camera.params[0] = kNotANumber; }},
+    {"depth_camera", [](sphc_localizer_config *c) { c->rig.depth_camera.params[3] = kInf; }},
+    {"depth_camera", [](sphc_localizer_config *c) { c->rig.depth_camera.width = 8193; }},
+    {"color_from_depth", [](sphc_localizer_config *c) { c->rig.color_from_depth.q_wxyz[0] = 0; }},
+    {"color_from_depth", [](sphc_localizer_config *c) { c->rig.color_from_depth.q_wxyz[1] = kNotANumber; }},
+    {"color_from_depth", [](sphc_localizer_config *c) { c->rig.color_from_depth.t_m[2] = kInf; }},
+    {"depth_unit_m", [](sphc_localizer_config *c) { c->rig.depth_unit_m = 0; }},
+    {"depth_unit_m is nan", [](sphc_localizer_config *c) { c->rig.depth_unit_m = kNotANumber; }},
+    {"depth_min_m", [](sphc_localizer_config *c) { c->depth_min_m = 0; }},
+    {"depth_min_m", [](sphc_localizer_config *c) { c->depth_min_m = kNotANumber; }},
+    {"depth_max_m", [](sphc_localizer_config *c) { c->depth_max_m = c->depth_min_m; }},
+    {"depth_max_m is inf", [](sphc_localizer_config *c) { c->depth_max_m = kInf; }},
+    {"depth_sigma_m", [](sphc_localizer_config *c) { c->depth_sigma_m = 0; }},
+    {"depth_sigma_m", [](sphc_localizer_config *c) { c->depth_sigma_m = kNotANumber; }},
+    {"depth_sigma_per_m2", [](sphc_localizer_config *c) { c->depth_sigma_per_m2 = -0.1; }},
+    {"depth_sigma_per_m2", [](sphc_localizer_config *c) { c->depth_sigma_per_m2 = kNotANumber; }},
+    {"pixel_sigma_px", [](sphc_localizer_config *c) { c->pixel_sigma_px = 0; }},
+    {"pixel_sigma_px", [](sphc_localizer_config *c) { c->pixel_sigma_px = kInf; }},
+    {"map_sigma_m", [](sphc_localizer_config *c) { c->map_sigma_m = -1; }},
+    {"map_sigma_m", [](sphc_localizer_config *c) { c->map_sigma_m = kNotANumber; }},
 };
 
 TEST(CInterfaceConfig, EveryBadFieldIsNamed) {
   for (const Spoiled &spoiled : kSpoiled) {
-    sphc_config config = sphc::test::sceneConfig();
+    sphc_localizer_config config = sphc::test::sceneConfig();
     spoiled.spoil(&config);
     Output<sphc_memory> need;
     sphc_message message = {};
@@ -89,7 +86,7 @@ TEST(CInterfaceConfig, EveryBadFieldIsNamed) {
 }
 
 TEST(CInterfaceConfig, NullAndStructSize) {
-  sphc_config config = sphc::test::sceneConfig();
+  sphc_localizer_config config = sphc::test::sceneConfig();
   Output<sphc_memory> need;
   sphc_message message = {};
   EXPECT_EQ(sphc_localizer_memory(nullptr, need.get(), &message), SPHC_E_ARGUMENT);
@@ -99,14 +96,14 @@ TEST(CInterfaceConfig, NullAndStructSize) {
   for (uint32_t size : {0u, 8u, static_cast<uint32_t>(sizeof config) + 1}) {
     config.struct_size = size;
     EXPECT_EQ(sphc_localizer_memory(&config, need.get(), &message), SPHC_E_STRUCT_SIZE);
-    expectMentions(message.text, "sizeof(sphc_config)");
+    expectMentions(message.text, "sizeof(sphc_localizer_config)");
   }
   EXPECT_TRUE(need.untouched());
 }
 
 TEST(CInterfaceMemory, PiecesAddUpToTheWhole) {
   for (uint32_t keypoints : {64u, 400u, 4096u}) {
-    sphc_config config = sphc::test::sceneConfig();
+    sphc_localizer_config config = sphc::test::sceneConfig();
     config.max_keypoints = keypoints;
     sphc_memory need;
     ASSERT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
@@ -128,7 +125,7 @@ TEST(CInterfaceMemory, PiecesAddUpToTheWhole) {
 }
 
 TEST(CInterfaceMemory, GrowsWithWhatIsAskedFor) {
-  sphc_config config = sphc::test::sceneConfig();
+  sphc_localizer_config config = sphc::test::sceneConfig();
   sphc_memory small, more_keypoints, larger_image;
   sphc_localizer_memory(&config, &small, nullptr);
   config.max_keypoints *= 2;
@@ -140,9 +137,32 @@ TEST(CInterfaceMemory, GrowsWithWhatIsAskedFor) {
   EXPECT_LT(small.state_bytes, more_keypoints.state_bytes);
 }
 
+// Upper bounds for static buffers hold for every camera and are not wasteful where it matters.
+TEST(CInterfaceMemory, BoundsHold) {
+  sphc_localizer_config config = sphc::test::sceneConfig();
+  for (uint32_t width : {16u, 17u, 64u, 320u, 641u, 1280u, 1920u, 8192u})
+    for (uint32_t height : {16u, 48u, 240u, 481u, 960u, 1080u, 8192u})
+      for (uint32_t depth_size : {16u, 1024u, 8192u})
+        for (uint32_t keypoints : {64u, 800u, 4096u})
+          for (uint32_t maps : {1u, 16u, SPHC_MAPS_MAX}) {
+            config.rig.color_camera = sphc::test::pinhole(width, height, 500);
+            config.rig.depth_camera = sphc::test::pinhole(depth_size, depth_size, 500);
+            config.max_keypoints = keypoints;
+            config.max_maps = maps;
+            sphc_memory need = {};
+            ASSERT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
+            ASSERT_LE(need.state_bytes, SPHC_LOCALIZER_STATE_BYTES_MAX(keypoints, maps));
+            ASSERT_LE(need.scratch_bytes, SPHC_LOCALIZER_SCRATCH_BYTES_MAX(keypoints, width, height))
+                << width << " x " << height << ", " << keypoints;
+            if (width == 1280 && height == 960) {
+              EXPECT_LE(SPHC_LOCALIZER_SCRATCH_BYTES_MAX(keypoints, width, height), need.scratch_bytes * 3 / 2);
+            }
+          }
+}
+
 // The extremes of the config can be asked about, whatever the machine has.
 TEST(CInterfaceMemory, LargestConfig) {
-  sphc_config config = sphc::test::sceneConfig();
+  sphc_localizer_config config = sphc::test::sceneConfig();
   config.rig.color_camera = sphc::test::pinhole(8192, 8192, 4000);
   config.max_keypoints = 4096;
   sphc_memory need;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "spherecloud/spherecloud_capture.h"
 #include "tests/capi/bytes.h"
 #include "tests/support/session.h"
 
@@ -12,8 +13,10 @@ using sphc::test::Output;
 class CInterfacePairer : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(sphc_pairer_memory(&bytes_, &alignment_), SPHC_OK);
-    memory_ = GuardedMemory(bytes_, alignment_);
+    sphc_memory need = {};
+    ASSERT_EQ(sphc_pairer_memory(&need), SPHC_OK);
+    bytes_ = need.state_bytes;
+    memory_ = GuardedMemory(bytes_, need.alignment);
     ASSERT_EQ(sphc_pairer_config_init(&config_, sizeof config_), SPHC_OK);
   }
   sphc_status init() { return sphc_pairer_init(memory_.data(), bytes_, &config_, &pairer_, &message_); }
@@ -25,7 +28,7 @@ class CInterfacePairer : public testing::Test {
     return c;
   }
 
-  size_t bytes_ = 0, alignment_ = 0;
+  size_t bytes_ = 0;
   GuardedMemory memory_;
   sphc_pairer_config config_ = {};
   sphc_pairer *pairer_ = nullptr;
@@ -39,12 +42,11 @@ TEST_F(CInterfacePairer, PairsThroughTheCInterface) {
   const sphc_capture color = capture(SPHC_STREAM_COLOR, 100), depth = capture(SPHC_STREAM_DEPTH, 105);
   EXPECT_EQ(sphc_pairer_push(pairer_, &color), SPHC_OK);
   EXPECT_EQ(sphc_pairer_push(pairer_, &depth), SPHC_OK);
-  sphc_pair pair = {};
-  pair.struct_size = sizeof pair;
-  sphc_capture dropped = {};
-  EXPECT_EQ(sphc_pairer_pop(pairer_, &pair, &dropped), SPHC_OK);
-  EXPECT_EQ(pair.depth.time_ns, 105);
-  EXPECT_EQ(sphc_pairer_pop(pairer_, &pair, &dropped), SPHC_AGAIN);
+  sphc_capture first = {}, second = {}, dropped = {};
+  EXPECT_EQ(sphc_pairer_pop(pairer_, &first, &second, &dropped), SPHC_OK);
+  EXPECT_EQ(first.time_ns, 100);
+  EXPECT_EQ(second.time_ns, 105);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, &first, &second, &dropped), SPHC_AGAIN);
   EXPECT_EQ(dropped.stream, SPHC_STREAM_NONE);
   EXPECT_TRUE(memory_.guardsIntact());
   sphc_pairer_fini(&pairer_);
@@ -56,7 +58,7 @@ TEST_F(CInterfacePairer, ForbiddenInits) {
   Output<sphc_pairer_config> untouched;
   EXPECT_EQ(sphc_pairer_config_init(untouched.get(), sizeof config_ - 1), SPHC_E_STRUCT_SIZE);
   EXPECT_TRUE(untouched.untouched());
-  EXPECT_EQ(sphc_pairer_memory(nullptr, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_memory(nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_pairer_init(nullptr, bytes_, &config_, &pairer_, &message_), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_pairer_init(memory_.data(), bytes_, nullptr, &pairer_, &message_), SPHC_E_ARGUMENT);
   expectMentions(message_.text, "config is null");
@@ -87,13 +89,12 @@ TEST_F(CInterfacePairer, ForbiddenCalls) {
   EXPECT_EQ(sphc_pairer_push(pairer_, nullptr), SPHC_E_ARGUMENT);
   color.struct_size = 0;
   EXPECT_EQ(sphc_pairer_push(pairer_, &color), SPHC_E_STRUCT_SIZE);
-  Output<sphc_pair> pair;
-  Output<sphc_capture> dropped;
-  EXPECT_EQ(sphc_pairer_pop(nullptr, pair.get(), dropped.get()), SPHC_E_ARGUMENT);
-  EXPECT_EQ(sphc_pairer_pop(pairer_, nullptr, dropped.get()), SPHC_E_ARGUMENT);
-  EXPECT_EQ(sphc_pairer_pop(pairer_, pair.get(), nullptr), SPHC_E_ARGUMENT);
-  EXPECT_EQ(sphc_pairer_pop(pairer_, pair.get(), dropped.get()), SPHC_E_STRUCT_SIZE);
-  EXPECT_TRUE(pair.untouched());
+  Output<sphc_capture> first, second, dropped;
+  EXPECT_EQ(sphc_pairer_pop(nullptr, first.get(), second.get(), dropped.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, nullptr, second.get(), dropped.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, first.get(), nullptr, dropped.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_pairer_pop(pairer_, first.get(), second.get(), nullptr), SPHC_E_ARGUMENT);
+  EXPECT_TRUE(first.untouched() && second.untouched());
   EXPECT_TRUE(dropped.untouched());
   sphc_pairer_flush(nullptr);
   sphc_pairer_fini(nullptr);

@@ -15,12 +15,13 @@ using sphc::test::Session;
 
 class CInterfacePoseOptions : public testing::Test {
  protected:
-  sphc_result localize(Session *session, uint32_t viewpoint, const sphc_prior *prior = nullptr) {
+  sphc_localizer_result localize(Session *session, uint32_t viewpoint,
+                                 const sphc_localizer_prior *prior = nullptr) {
     const auto made = sphc::test::sceneFrame(config_, viewpoint);
-    sphc_frame frame = made->frame;
+    sphc_localizer_frame frame = made->frame;
     frame.prior = prior;
     frame.deadline_us = deadline_us_;
-    sphc_result result;
+    sphc_localizer_result result;
     std::memset(&result, 0, sizeof result);
     status_ = session->process(frame, &result);
     return result;
@@ -32,13 +33,13 @@ class CInterfacePoseOptions : public testing::Test {
     expectMentions(message.text, words);
   }
 
-  sphc_config config_ = sphc::test::sceneConfig();
+  sphc_localizer_config config_ = sphc::test::sceneConfig();
   sphc_status status_ = SPHC_OK;
   uint32_t deadline_us_ = 0;
 };
 
-sphc_prior posePrior(const sphc_rigid &camera_from_map) {
-  sphc_prior prior = {};
+sphc_localizer_prior posePrior(const sphc_rigid &camera_from_map) {
+  sphc_localizer_prior prior = {};
   prior.struct_size = sizeof prior;
   prior.flags = SPHC_PRIOR_POSE;
   prior.camera_from_map = camera_from_map;
@@ -53,11 +54,11 @@ double distanceM(const sphc_rigid &a, const sphc_rigid &b) {
 
 TEST_F(CInterfacePoseOptions, ARightPosePriorNeedsNoSamples) {
   Session session(config_);
-  const sphc_result cold = localize(&session, 1);
+  const sphc_localizer_result cold = localize(&session, 1);
   ASSERT_EQ(status_, SPHC_OK);
   EXPECT_GT(cold.iterations, 0u);
-  const sphc_prior prior = posePrior(cold.camera_from_map);
-  const sphc_result warm = localize(&session, 1, &prior);
+  const sphc_localizer_prior prior = posePrior(cold.camera_from_map);
+  const sphc_localizer_result warm = localize(&session, 1, &prior);
   ASSERT_EQ(status_, SPHC_OK);
   EXPECT_EQ(warm.iterations, 0u);
   EXPECT_LT(distanceM(warm.camera_from_map, cold.camera_from_map), 0.005);
@@ -65,18 +66,18 @@ TEST_F(CInterfacePoseOptions, ARightPosePriorNeedsNoSamples) {
 
 TEST_F(CInterfacePoseOptions, AWrongPosePriorCostsTimeNotTheAnswer) {
   Session session(config_);
-  const sphc_result cold = localize(&session, 1);
-  sphc_prior prior = posePrior(cold.camera_from_map);
+  const sphc_localizer_result cold = localize(&session, 1);
+  sphc_localizer_prior prior = posePrior(cold.camera_from_map);
   prior.camera_from_map.t_m[0] += 2;
-  const sphc_result warm = localize(&session, 1, &prior);
+  const sphc_localizer_result warm = localize(&session, 1, &prior);
   ASSERT_EQ(status_, SPHC_OK);
   EXPECT_LT(distanceM(warm.camera_from_map, cold.camera_from_map), 0.005);
 }
 
 TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
   Session session(config_);
-  const sphc_result cold = localize(&session, 1);
-  sphc_prior prior = {};
+  const sphc_localizer_result cold = localize(&session, 1);
+  sphc_localizer_prior prior = {};
   prior.struct_size = sizeof prior;
   prior.flags = SPHC_PRIOR_UP;
   prior.up_map[1] = 3;  // any length
@@ -86,7 +87,7 @@ TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
   prior.up_camera[1] = 1 - 2 * (x * x + z * z);
   prior.up_camera[2] = 2 * (y * z + w * x);
   prior.up_sigma_rad = 0.01;
-  const sphc_result upright = localize(&session, 1, &prior);
+  const sphc_localizer_result upright = localize(&session, 1, &prior);
   ASSERT_EQ(status_, SPHC_OK);
   EXPECT_LE(upright.iterations, cold.iterations);
   EXPECT_LT(distanceM(upright.camera_from_map, cold.camera_from_map), 0.005);
@@ -94,14 +95,14 @@ TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
 
 TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   Session session(config_);
-  const sphc_prior good = posePrior(localize(&session, 1).camera_from_map);
+  const sphc_localizer_prior good = posePrior(localize(&session, 1).camera_from_map);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto expectRefused = [&](const sphc_prior &prior, sphc_status expected, const char *words) {
+  const auto expectRefused = [&](const sphc_localizer_prior &prior, sphc_status expected, const char *words) {
     localize(&session, 1, &prior);
     EXPECT_EQ(status_, expected) << words;
     expectMentions(sphc_localizer_message(session.localizer()), words);
   };
-  sphc_prior prior = good;
+  sphc_localizer_prior prior = good;
   prior.struct_size = 8;
   expectRefused(prior, SPHC_E_STRUCT_SIZE, "prior.struct_size");
   prior = good;
@@ -140,7 +141,7 @@ TEST_F(CInterfacePoseOptions, ADeadlineThatHasPassedEndsTheSearch) {
   config_.clock_user = &now;
   deadline_us_ = 1000;
   Session session(config_);
-  const sphc_result result = localize(&session, 1);
+  const sphc_localizer_result result = localize(&session, 1);
   EXPECT_EQ(status_, SPHC_NOT_LOCALIZED);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_DEADLINE);
   EXPECT_EQ(result.cuts & SPHC_CUT_FEATURES, uint32_t{SPHC_CUT_FEATURES});
@@ -153,9 +154,9 @@ TEST_F(CInterfacePoseOptions, ADistantDeadlineChangesNothing) {
   config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 1000; };
   config_.clock_user = &now;
   Session timed(config_);
-  const sphc_result a = localize(&plain, 1);
+  const sphc_localizer_result a = localize(&plain, 1);
   deadline_us_ = 1000000;
-  const sphc_result b = localize(&timed, 1);
+  const sphc_localizer_result b = localize(&timed, 1);
   EXPECT_EQ(std::memcmp(&a.camera_from_map, &b.camera_from_map, sizeof a.camera_from_map), 0);
   EXPECT_EQ(b.cuts, 0u);
 }
@@ -164,13 +165,13 @@ TEST_F(CInterfacePoseOptions, TheSensorsBiasIsLearntAndTold) {
   config_.depth_offset_sigma_m = 0.003;
   config_.depth_slope_sigma = 0.02;
   Session session(config_);
-  const sphc_result first = localize(&session, 0);
+  const sphc_localizer_result first = localize(&session, 0);
   EXPECT_NEAR(first.depth.slope_sigma, 0.02, 1e-12);
   EXPECT_EQ(first.depth.slope, 0);
   EXPECT_EQ(first.depth.noise_scale, 1);
   EXPECT_NEAR(first.depth.mid_m, std::sqrt(config_.depth_min_m * config_.depth_max_m), 1e-12);
   for (uint32_t viewpoint : {1u, 2u, 3u, 1u, 2u}) localize(&session, viewpoint);
-  const sphc_result later = localize(&session, 3);
+  const sphc_localizer_result later = localize(&session, 3);
   EXPECT_LT(later.depth.slope_sigma, first.depth.slope_sigma);
   EXPECT_NE(later.depth.slope, 0);
   EXPECT_LT(std::abs(later.depth.slope), 0.02);
@@ -180,7 +181,7 @@ TEST_F(CInterfacePoseOptions, TheSensorsBiasIsLearntAndTold) {
 TEST_F(CInterfacePoseOptions, AKnownSensorIsNotDoubted) {
   Session session(config_);
   for (uint32_t viewpoint : {0u, 1u, 2u}) localize(&session, viewpoint);
-  const sphc_result result = localize(&session, 3);
+  const sphc_localizer_result result = localize(&session, 3);
   EXPECT_EQ(result.depth.slope_sigma, 0);
   EXPECT_EQ(result.depth.noise_scale, 1);
 }

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "spherecloud/spherecloud.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace {
 
@@ -72,29 +72,29 @@ TEST(CInterfaceStatus, OtherPinnedValues) {
 }
 
 TEST(CInterfaceStatus, EachFaultHasAName) {
-  EXPECT_STREQ(sphc_fault_name(SPHC_FAULT_DEPTH_RANGE), "SPHC_FAULT_DEPTH_RANGE");
-  EXPECT_STREQ(sphc_fault_name(SPHC_FAULT_VERTICAL_DISAGREES), "SPHC_FAULT_VERTICAL_DISAGREES");
+  EXPECT_STREQ(sphc_localizer_fault_name(SPHC_FAULT_DEPTH_RANGE), "SPHC_FAULT_DEPTH_RANGE");
+  EXPECT_STREQ(sphc_localizer_fault_name(SPHC_FAULT_VERTICAL_DISAGREES), "SPHC_FAULT_VERTICAL_DISAGREES");
   for (uint32_t bit = SPHC_FAULT_DEPTH_RANGE; bit <= SPHC_FAULT_VERTICAL_DISAGREES; bit <<= 1)
-    EXPECT_STRNE(sphc_fault_name(bit), "SPHC_FAULT_?") << bit;
-  EXPECT_STREQ(sphc_fault_name(0), "SPHC_FAULT_?");
-  EXPECT_STREQ(sphc_fault_name(512), "SPHC_FAULT_?");
+    EXPECT_STRNE(sphc_localizer_fault_name(bit), "SPHC_FAULT_?") << bit;
+  EXPECT_STREQ(sphc_localizer_fault_name(0), "SPHC_FAULT_?");
+  EXPECT_STREQ(sphc_localizer_fault_name(512), "SPHC_FAULT_?");
 }
 
 TEST(CInterfaceStatus, EachCutHasAName) {
-  EXPECT_STREQ(sphc_cut_name(SPHC_CUT_FEATURES), "SPHC_CUT_FEATURES");
+  EXPECT_STREQ(sphc_localizer_cut_name(SPHC_CUT_FEATURES), "SPHC_CUT_FEATURES");
   for (uint32_t bit = SPHC_CUT_FEATURES; bit <= SPHC_CUT_VERIFICATION; bit <<= 1)
-    EXPECT_STRNE(sphc_cut_name(bit), "SPHC_CUT_?") << bit;
-  EXPECT_STREQ(sphc_cut_name(0), "SPHC_CUT_?");
-  EXPECT_STREQ(sphc_cut_name(16), "SPHC_CUT_?");
+    EXPECT_STRNE(sphc_localizer_cut_name(bit), "SPHC_CUT_?") << bit;
+  EXPECT_STREQ(sphc_localizer_cut_name(0), "SPHC_CUT_?");
+  EXPECT_STREQ(sphc_localizer_cut_name(16), "SPHC_CUT_?");
 }
 
 TEST(CInterfaceStatus, EachHintHasAName) {
-  EXPECT_STREQ(sphc_hint_name(SPHC_HINT_TOO_DARK), "SPHC_HINT_TOO_DARK");
-  EXPECT_STREQ(sphc_hint_name(SPHC_HINT_AMBIGUOUS), "SPHC_HINT_AMBIGUOUS");
+  EXPECT_STREQ(sphc_localizer_hint_name(SPHC_HINT_TOO_DARK), "SPHC_HINT_TOO_DARK");
+  EXPECT_STREQ(sphc_localizer_hint_name(SPHC_HINT_AMBIGUOUS), "SPHC_HINT_AMBIGUOUS");
   for (uint32_t bit = SPHC_HINT_TOO_DARK; bit <= SPHC_HINT_AMBIGUOUS; bit <<= 1)
-    EXPECT_STRNE(sphc_hint_name(bit), "SPHC_HINT_?") << bit;
-  EXPECT_STREQ(sphc_hint_name(0), "SPHC_HINT_?");
-  EXPECT_STREQ(sphc_hint_name(64), "SPHC_HINT_?");
+    EXPECT_STRNE(sphc_localizer_hint_name(bit), "SPHC_HINT_?") << bit;
+  EXPECT_STREQ(sphc_localizer_hint_name(0), "SPHC_HINT_?");
+  EXPECT_STREQ(sphc_localizer_hint_name(64), "SPHC_HINT_?");
 }
 
 TEST(CInterfaceStatus, Version) {

@@ -1,7 +1,7 @@
 // The drivers that the contract suite runs on.
 #pragma once
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include <cstdint>
 #include <functional>

@@ -69,7 +69,7 @@ void writeRaw(const std::string &from, const std::string &to, sphc_format format
   RecordingReader reader(from, options);
   RawWriter writer(to, reader.calibration(), format);
   for (uint32_t i = 0; i < reader.frameCount(); ++i) {
-    const sphc_frame frame = reader.read(i);
+    const sphc_localizer_frame frame = reader.read(i);
     const std::optional<sphc_rigid> pose = reader.worldFromCamera(i);
     writer.add(frame, pose ? &*pose : nullptr);
   }
@@ -108,7 +108,7 @@ void expectSame(const std::string &recorded, Medium *medium, sphc_format format 
   for (uint32_t i = opened.raw.frame_count; i-- > 0;) {
     const ReadFrame raw = read(opened.raw, i);
     ASSERT_EQ(raw.status, SPHC_OK) << raw.message.text;
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     ASSERT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, nullptr), SPHC_OK);
     EXPECT_EQ(raw.recorded.frame.struct_size, sizeof frame);
     EXPECT_EQ(raw.recorded.frame.sequence, frame.sequence);
@@ -142,7 +142,7 @@ TEST_F(RawRecording, IsARecordingOfTheWorkstationToo) {
   bytes[bytes.size() - 1] ^= 1;
   folder_.write("changed.raw", bytes);
   const OpenReplay changed(folder_ / "changed.raw");
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message = {};
   EXPECT_EQ(sphc_replay_read_frame(changed.get(), 1, &frame, &message), SPHC_OK) << message.text;
   EXPECT_EQ(sphc_replay_read_frame(changed.get(), 2, &frame, &message), SPHC_E_DEVICE);
@@ -283,7 +283,7 @@ TEST_F(RawRecording, ChecksItsArguments) {
 
 TEST_F(RawRecording, IsWrittenWholeOrNotAtAll) {
   const TinyImages images(0);
-  const sphc_frame frame = tinyFrame(0, images);
+  const sphc_localizer_frame frame = tinyFrame(0, images);
   const std::string path = folder_ / "new.raw";
   {
     RawWriter writer(path, tinyCalibration(), SPHC_FORMAT_BGR8);
@@ -300,14 +300,14 @@ TEST_F(RawRecording, IsWrittenWholeOrNotAtAll) {
 // A frame from the raw recording gives the pose that the same frame from the replay driver gives, to the bit.
 TEST(RawRecordingPoses, AreThoseOfTheReplay) {
   const TempFolder folder;
-  const sphc_config config = test::sceneConfig();
+  const sphc_localizer_config config = test::sceneConfig();
   sphc_recording_writer *writer = nullptr;
   sphc_message message = {};
   ASSERT_EQ(sphc_recording_create((folder / "room").c_str(), &config.rig, &writer, &message), SPHC_OK)
       << message.text;
   for (uint32_t i = 0; i < 3; ++i) {
     const auto scene = test::sceneFrame(config, i);
-    sphc_frame frame = scene->frame;
+    sphc_localizer_frame frame = scene->frame;
     frame.color_time_ns = frame.depth_time_ns = 1 + i * kPeriodNs;
     ASSERT_EQ(sphc_recording_add_frame(writer, &frame, &message), SPHC_OK) << message.text;
   }
@@ -319,11 +319,11 @@ TEST(RawRecordingPoses, AreThoseOfTheReplay) {
   test::Session replayed(config), raw(config);
   uint32_t localized = 0;
   for (uint32_t i = 0; i < 3; ++i) {
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     ASSERT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, nullptr), SPHC_OK);
     const ReadFrame recorded = read(opened.raw, i);
     ASSERT_EQ(recorded.status, SPHC_OK) << recorded.message.text;
-    sphc_result a = {}, b = {};
+    sphc_localizer_result a = {}, b = {};
     a.struct_size = b.struct_size = sizeof a;
     const sphc_status status = replayed.process(frame, &a);
     EXPECT_EQ(raw.process(recorded.recorded.frame, &b), status);

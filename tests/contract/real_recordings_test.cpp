@@ -92,7 +92,7 @@ TEST(RealRecordings, KinectIn7ScenesLayout) {
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
   ASSERT_EQ(sphc_replay_frame_count(replay.get()), 180u);
   EXPECT_EQ(countCaptures(replay), 360u);
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 1, &frame, &message), SPHC_OK) << message.text;
   EXPECT_EQ(frame.sequence, 621u);
@@ -127,7 +127,7 @@ TEST(RealRecordings, HeadsetInTumLayout) {
     sphc_rigid pose;
     EXPECT_EQ(sphc_replay_pose(replay.get(), i, &pose), SPHC_OK) << i;
   }
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_OK) << message.text;
   EXPECT_EQ(frame.color_time_ns, 300000000);
@@ -145,7 +145,7 @@ TEST(RealRecordings, CalibrationOfAnotherIsRefused) {
   temp.write("rig.json", kKinect);
   const OpenReplay replay(folder.string(), (temp / "rig.json").c_str());
   ASSERT_EQ(replay.status(), SPHC_OK);
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_E_IMAGE);
   EXPECT_NE(std::string(message.text).find("is 540 x 360"), std::string::npos) << message.text;

@@ -34,7 +34,7 @@ sphc_recorder_statistics statisticsOf(const sphc_recorder *recorder) {
 }
 
 void expectTinyFrame(const OpenReplay &replay, uint32_t i) {
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, &message), SPHC_OK) << message.text;
   const TinyImages images(i);
@@ -128,7 +128,7 @@ TEST_F(Recorder, KeepsEveryColourFormatAndStride) {
     sphc_replay_config config = replayConfig();
     config.color_format = format;
     const OpenReplay replay(path, nullptr, &config);
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, nullptr), SPHC_OK) << replay.message();
     const uint32_t row_bytes = frame.color.stride_bytes;
     ASSERT_EQ(row_bytes, kColorWidth * (format == SPHC_FORMAT_GRAY8 ? 1 : 3));
@@ -147,7 +147,7 @@ TEST_F(Recorder, GivesTheColoursOfTheFolderLayout) {
     sphc_replay_config config = replayConfig();
     config.color_format = format;
     const OpenReplay folder(temp_ / "folder", nullptr, &config), mcap(file(), nullptr, &config);
-    sphc_frame a, b;
+    sphc_localizer_frame a, b;
     ASSERT_EQ(sphc_replay_read_frame(folder.get(), 1, &a, nullptr), SPHC_OK);
     ASSERT_EQ(sphc_replay_read_frame(mcap.get(), 1, &b, nullptr), SPHC_OK);
     EXPECT_EQ(std::memcmp(a.color.data, b.color.data, size_t{a.color.stride_bytes} * kColorHeight), 0) << format;
@@ -158,7 +158,7 @@ TEST_F(Recorder, KeepsColourAsJpegWhenAsked) {
   config_.jpeg_quality = 100;
   writeTinyMcap(file(), 2, config_);
   const OpenReplay replay(file());
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 1, &frame, nullptr), SPHC_OK);
   const TinyImages images(1);
   const auto *color = static_cast<const uint8_t *>(frame.color.data);
@@ -347,7 +347,7 @@ TEST_F(Recorder, AChangedByteIsNoticedAndTheRestIsRead) {
   temp_.write("changed.mcap", bytes);
   const OpenReplay replay(temp_ / "changed.mcap");
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_E_DEVICE);
   EXPECT_THAT(message.text, AllOf(HasSubstr("changed.mcap"), HasSubstr("checksum")));

@@ -132,7 +132,7 @@ TEST_F(SevenScenes, TakesTheKinects65535ForNoMeasurement) {
   depth.at<uint16_t>(0, 0) = 65535;
   cv::imwrite(folder_ / "frame-000000.depth.png", depth);
   const OpenReplay replay = open();
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, nullptr), SPHC_OK);
   EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[0], 0);
   EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[1], 1234);
@@ -164,7 +164,7 @@ TEST_F(SevenScenes, GoesOnBehindABadImage) {
   const char *named[] = {"frame-000000.color.jpg (colour 0)", "frame-000001.depth.png (depth 1)",
                          "frame-000002.color.png (colour 2)", nullptr, "frame-000004.color.png (colour 4)"};
   for (uint32_t i = 0; i < 5; ++i) {
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     sphc_message message{};
     const sphc_status status = sphc_replay_read_frame(replay.get(), i, &frame, &message);
     EXPECT_EQ(status, named[i] ? SPHC_E_DEVICE : SPHC_OK) << i << " " << message.text;
@@ -178,7 +178,7 @@ TEST_F(SevenScenes, RefusesADepthImageOfEightBits) {
   addFrame(0);
   cv::imwrite(folder_ / "frame-000000.depth.png", cv::Mat(kDepthHeight, kDepthWidth, CV_8UC1, cv::Scalar(1)));
   const OpenReplay replay = open();
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_E_IMAGE);
   EXPECT_THAT(message.text, AllOf(HasSubstr("frame-000000.depth.png"), HasSubstr("16-bit")));
@@ -188,7 +188,7 @@ TEST_F(SevenScenes, RefusesAnImageOfAnotherSize) {
   addFrame(0);
   cv::imwrite(folder_ / "frame-000000.color.png", cv::Mat(10, 20, CV_8UC3, cv::Scalar(1, 2, 3)));
   const OpenReplay replay = open();
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_E_IMAGE);
   EXPECT_THAT(message.text, AllOf(HasSubstr("is 20 x 10"), HasSubstr("color_camera 48 x 32")));
@@ -210,7 +210,7 @@ TEST_F(SevenScenes, RefusesAHugeImageByItsHeader) {
   }
   const OpenReplay replay = open();
   for (uint32_t i = 0; i < 2; ++i) {
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     sphc_message message{};
     EXPECT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, &message), SPHC_E_IMAGE);
     EXPECT_THAT(message.text, AllOf(HasSubstr("is 12000 x 12000"), HasSubstr("color_camera 48 x 32")));
@@ -232,7 +232,7 @@ TEST_F(SevenScenes, DecodesATypeUnderItsOwnNameAlone) {
   folder_.write("frame-000003.color.jpg", bytesAs(".png"));
   const OpenReplay replay = open();
   for (uint32_t i = 0; i < 4; ++i) {
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     sphc_message message{};
     EXPECT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, &message), SPHC_E_DEVICE);
     EXPECT_THAT(message.text, AllOf(HasSubstr(nameOf(i)), HasSubstr(i < 3 ? "is no PNG" : "is no JPEG")));
@@ -251,7 +251,7 @@ TEST_F(SevenScenes, RefusesWhatIsNoRegularFile) {
     const char *cause[] = {"frame-000000.color.png (colour 0): is a FIFO",
                            "frame-000001.depth.png (depth 1): is a folder"};
     for (uint32_t i = 0; i < 2; ++i) {
-      sphc_frame frame;
+      sphc_localizer_frame frame;
       sphc_message message{};
       EXPECT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, &message), SPHC_E_DEVICE);
       EXPECT_THAT(message.text, HasSubstr(cause[i]));
@@ -267,7 +267,7 @@ TEST_F(SevenScenes, RefusesWhatIsNoRegularFile) {
 TEST_F(SevenScenes, IsWrittenWholeOrCountsAsUnfinished) {
   const std::string out = folder_ / "out";
   const TinyImages images(7);
-  const sphc_frame frame = tinyFrame(7, images);
+  const sphc_localizer_frame frame = tinyFrame(7, images);
   const sphc_rigid pose = tinyPose(7);
   recording::SevenScenesWriter writer(out, tinyCalibration());
   writer.add(frame, &pose);
@@ -281,7 +281,7 @@ TEST_F(SevenScenes, IsWrittenWholeOrCountsAsUnfinished) {
   writer.finish();
   const OpenReplay replay(out);
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
-  sphc_frame read;
+  sphc_localizer_frame read;
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &read, nullptr), SPHC_OK);
   EXPECT_EQ(read.sequence, 7u);
   EXPECT_EQ(std::memcmp(read.color.data, images.color.data(), images.color.size()), 0);
@@ -328,7 +328,7 @@ TEST_F(SevenScenes, ChoosesFramesByTheirNumber) {
   EXPECT_EQ(info.color_count, 3u);
   EXPECT_EQ(info.depth_count, 3u);
   for (uint32_t i = 0; i < 3; ++i) {
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     ASSERT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, nullptr), SPHC_OK);
     EXPECT_EQ(frame.sequence, 12 + 5 * i);
   }

@@ -33,7 +33,7 @@ TEST_F(Tum, KeepsEveryNanosecond) {
                 "# comment\r\n\r\n1305031102.175304123 rgb/000000.png\r\n1305031102.2  rgb/000001.png \r\n");
   const OpenReplay replay = open();
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, nullptr), SPHC_OK);
   EXPECT_EQ(frame.color_time_ns, 1305031102175304123);
   EXPECT_EQ(frame.depth_time_ns, 1305031102175304123 + kDepthLagNs);
@@ -147,7 +147,7 @@ TEST_F(Tum, RefusesWhatIsNoRegularFile) {
   ASSERT_EQ(mkfifo((folder_ / "rgb/000001.png").c_str(), 0600), 0);
   {
     const OpenReplay replay = open();
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     sphc_message message{};
     EXPECT_EQ(sphc_replay_read_frame(replay.get(), 1, &frame, &message), SPHC_E_DEVICE);
     EXPECT_THAT(message.text, HasSubstr("rgb/000001.png (colour 1): is a FIFO"));

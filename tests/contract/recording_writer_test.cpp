@@ -29,7 +29,9 @@ class RecordingWriter : public ::testing::Test {
   sphc_status close() { return sphc_recording_close(&writer_, &message_); }
 
   std::string folder() const { return temp_ / "new"; }
-  sphc_status addFrame(const sphc_frame &frame) { return sphc_recording_add_frame(writer_, &frame, &message_); }
+  sphc_status addFrame(const sphc_localizer_frame &frame) {
+    return sphc_recording_add_frame(writer_, &frame, &message_);
+  }
 
   TempFolder temp_;
   sphc_recording_writer *writer_ = nullptr;
@@ -45,7 +47,7 @@ TEST_F(RecordingWriter, WritesWhatReplayReadsBackBitForBit) {
   ASSERT_EQ(sphc_replay_frame_count(replay.get()), 3u);
   for (uint32_t i = 0; i < 3; ++i) {
     const TinyImages images(i);
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     ASSERT_EQ(sphc_replay_read_frame(replay.get(), i, &frame, nullptr), SPHC_OK);
     EXPECT_EQ(frame.struct_size, sizeof frame);
     EXPECT_EQ(frame.sequence, i);
@@ -83,7 +85,7 @@ TEST_F(RecordingWriter, AKilledOneIsRefusedUntilSomebodyRemovesTheMark) {
     sphc_recording_create(killed.c_str(), &calibration, &writer, nullptr);
     for (uint32_t i = 0; i < 3; ++i) {
       const TinyImages images(i);
-      const sphc_frame frame = tinyFrame(i, images);
+      const sphc_localizer_frame frame = tinyFrame(i, images);
       sphc_recording_add_frame(writer, &frame, nullptr);
     }
     raise(SIGKILL);
@@ -109,7 +111,7 @@ TEST_F(RecordingWriter, AnAbandonedOneStaysUnfinished) {
 }
 
 TEST_F(RecordingWriter, TakesEveryColourFormatAndStride) {
-  sphc_frame frame = tinyFrame(0, images_);
+  sphc_localizer_frame frame = tinyFrame(0, images_);
   frame.color.format = SPHC_FORMAT_RGB8;
   ASSERT_EQ(addFrame(frame), SPHC_OK);
   frame = tinyFrame(1, images_);
@@ -117,7 +119,7 @@ TEST_F(RecordingWriter, TakesEveryColourFormatAndStride) {
   ASSERT_EQ(addFrame(frame), SPHC_OK);
   ASSERT_EQ(close(), SPHC_OK) << message_.text;
   const OpenReplay replay(folder());
-  sphc_frame read;
+  sphc_localizer_frame read;
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &read, nullptr), SPHC_OK);
   EXPECT_EQ(static_cast<const uint8_t *>(read.color.data)[0], tinyColor(0, 0, 0, 2)) << "red and blue swapped";
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 1, &read, nullptr), SPHC_OK);
@@ -141,7 +143,7 @@ TEST_F(RecordingWriter, TakesTheStreamsApart) {
 }
 
 TEST_F(RecordingWriter, RefusesTimesThatDoNotIncrease) {
-  sphc_frame frame = tinyFrame(1, images_);
+  sphc_localizer_frame frame = tinyFrame(1, images_);
   ASSERT_EQ(addFrame(frame), SPHC_OK);
   EXPECT_EQ(addFrame(frame), SPHC_E_ARGUMENT);
   EXPECT_THAT(message_.text, HasSubstr("increasing"));
@@ -154,8 +156,8 @@ TEST_F(RecordingWriter, RefusesTimesThatDoNotIncrease) {
 }
 
 TEST_F(RecordingWriter, RefusesImagesThatDoNotFit) {
-  const auto refused = [&](sphc_frame frame) { return addFrame(frame) == SPHC_E_IMAGE; };
-  sphc_frame frame = tinyFrame(0, images_);
+  const auto refused = [&](sphc_localizer_frame frame) { return addFrame(frame) == SPHC_E_IMAGE; };
+  sphc_localizer_frame frame = tinyFrame(0, images_);
   frame.color.width -= 1;
   EXPECT_TRUE(refused(frame));
   EXPECT_THAT(message_.text, AllOf(HasSubstr("47 x 32"), HasSubstr("48 x 32")));
@@ -210,7 +212,7 @@ TEST_F(RecordingWriter, ChecksItsArguments) {
   EXPECT_EQ(sphc_recording_add(nullptr, nullptr, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_recording_add_frame(writer_, nullptr, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_recording_add_pose(writer_, 0, nullptr, nullptr), SPHC_E_ARGUMENT);
-  sphc_frame frame = tinyFrame(0, images_);
+  sphc_localizer_frame frame = tinyFrame(0, images_);
   frame.struct_size = 4;
   EXPECT_EQ(addFrame(frame), SPHC_E_STRUCT_SIZE);
   EXPECT_EQ(sphc_recording_close(nullptr, nullptr), SPHC_OK);

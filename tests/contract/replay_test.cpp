@@ -86,7 +86,7 @@ TEST_F(Replay, GivesItsCalibration) {
 TEST_F(Replay, DecodesTheFormatAskedFor) {
   config_.color_format = SPHC_FORMAT_RGB8;
   const OpenReplay rgb(folder(), nullptr, &config_);
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   ASSERT_EQ(sphc_replay_read_frame(rgb.get(), 1, &frame, nullptr), SPHC_OK);
   EXPECT_EQ(frame.color.format, SPHC_FORMAT_RGB8);
   EXPECT_EQ(static_cast<const uint8_t *>(frame.color.data)[0], tinyColor(1, 0, 0, 2));
@@ -100,8 +100,8 @@ TEST_F(Replay, DecodesTheFormatAskedFor) {
 
 TEST_F(Replay, UsesTheSameBuffersForEveryFrame) {
   const OpenReplay replay(folder());
-  sphc_frame first;
-  sphc_frame second;
+  sphc_localizer_frame first;
+  sphc_localizer_frame second;
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 0, &first, nullptr), SPHC_OK);
   ASSERT_EQ(sphc_replay_read_frame(replay.get(), 1, &second, nullptr), SPHC_OK);
   EXPECT_EQ(first.color.data, second.color.data);
@@ -162,7 +162,7 @@ TEST_F(Replay, SaysAgainUntilTheTimeHasCome) {
 
 TEST_F(Replay, ChecksItsArguments) {
   const OpenReplay replay(folder());
-  sphc_frame frame;
+  sphc_localizer_frame frame;
   sphc_message message{};
   EXPECT_EQ(sphc_replay_read_frame(replay.get(), 4, &frame, &message), SPHC_E_ARGUMENT);
   EXPECT_THAT(message.text, HasSubstr("frame 4: there are 4"));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/recording/recorder.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {

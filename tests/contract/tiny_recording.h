@@ -64,9 +64,9 @@ struct TinyImages {
   std::vector<uint16_t> depth;
 };
 
-inline sphc_frame tinyFrame(uint32_t i, const TinyImages &images) {
+inline sphc_localizer_frame tinyFrame(uint32_t i, const TinyImages &images) {
   const int64_t time_ns = kFirstNs + i * kPeriodNs;
-  return {sizeof(sphc_frame),
+  return {sizeof(sphc_localizer_frame),
           i,
           time_ns,
           time_ns + kDepthLagNs,
@@ -84,7 +84,7 @@ inline void writeTinyRecording(const std::string &folder, uint32_t frames) {
   ASSERT_EQ(sphc_recording_create(folder.c_str(), &calibration, &writer, &message), SPHC_OK) << message.text;
   for (uint32_t i = 0; i < frames; ++i) {
     const TinyImages images(i);
-    const sphc_frame frame = tinyFrame(i, images);
+    const sphc_localizer_frame frame = tinyFrame(i, images);
     const sphc_rigid pose = tinyPose(i);
     EXPECT_EQ(sphc_recording_add_frame(writer, &frame, &message), SPHC_OK) << message.text;
     EXPECT_EQ(sphc_recording_add_pose(writer, frame.color_time_ns, &pose, &message), SPHC_OK) << message.text;

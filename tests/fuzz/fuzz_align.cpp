@@ -34,16 +34,16 @@ void check(const sphc_aligner_config &config, const std::vector<uint16_t> &depth
 
 void align(const uint8_t *data, size_t bytes) {
   const sphc_aligner_config config = configFrom(data, bytes);
-  size_t need = 0, alignment = 0;
+  sphc_memory need = {};
   sphc_message message = {};
-  const sphc_status status = sphc_aligner_memory(&config, &need, &alignment, &message);
+  const sphc_status status = sphc_aligner_memory(&config, &need, &message);
   if (status != SPHC_OK) {
     if (status > 0 || !message.text[0]) broken("a refusal is a failure that explains itself");
     return;
   }
-  test::GuardedMemory memory(need, alignment);
+  test::GuardedMemory memory(need.state_bytes, need.alignment);
   sphc_aligner *aligner = nullptr;
-  if (sphc_aligner_init(memory.data(), need, &config, &aligner, &message) != SPHC_OK)
+  if (sphc_aligner_init(memory.data(), memory.size(), &config, &aligner, &message) != SPHC_OK)
     broken("what can be measured can be made");
   // The rest of the bytes are pixels, again and again.
   std::vector<uint16_t> raw(size_t{config.rig.depth_camera.width} * config.rig.depth_camera.height);

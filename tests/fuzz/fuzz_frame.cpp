@@ -8,17 +8,20 @@ namespace sphc::fuzz {
 namespace {
 
 // Small images, so that a run is short.
-sphc_config smallConfig() {
-  sphc_config config = test::sceneConfig();
+sphc_localizer_config smallConfig() {
+  sphc_localizer_config config = test::sceneConfig();
   config.rig.color_camera = test::pinhole(96, 72, 80);
   config.rig.depth_camera = test::pinhole(48, 40, 36);
   config.max_keypoints = 64;
-  config.max_iterations = 200;
   return config;
 }
 
 test::Session &session() {
-  static test::Session *instance = new test::Session(smallConfig(), 0.7);
+  static test::Session *instance = [] {
+    auto *made = new test::Session(smallConfig(), 0.7);
+    made->setParameter(SPHC_PARAMETER_MAX_ITERATIONS, 200);
+    return made;
+  }();
   return *instance;
 }
 
@@ -60,11 +63,11 @@ void fill(sphc_rigid *pose, Reader *reader) {
   for (double &t : pose->t_m) t = anyNumber(reader);
 }
 
-sphc_prior priorFrom(Reader *reader) {
-  sphc_prior prior = {};
+sphc_localizer_prior priorFrom(Reader *reader) {
+  sphc_localizer_prior prior = {};
   prior.struct_size = around(sizeof prior, reader);
   prior.flags = around(reader->next() % 8, reader);
-  prior.map_index = around(0, reader);
+  prior.map_id = around(0, reader);
   fill(&prior.camera_from_map, reader);
   fill(&prior.odometry_from_camera, reader);
   for (double *v : {prior.up_camera, prior.up_map})
@@ -86,7 +89,7 @@ bool fits(const sphc_image &image, size_t bytes) {  // else the caller would lie
   return uint64_t{image.stride_bytes} * image.height <= bytes;
 }
 
-bool isFilled(const sphc_result &result) {
+bool isFilled(const sphc_localizer_result &result) {
   double sum = 0;
   for (double q : result.camera_from_map.q_wxyz) sum += q * q;
   for (double t : result.camera_from_map.t_m) sum += 0 * t;
@@ -100,8 +103,8 @@ void frame(const uint8_t *data, size_t bytes) {
   Reader reader(data, bytes);
   std::vector<uint8_t> color(320 * 96);
   std::vector<uint16_t> depth(160 * 60);
-  Roomy<sphc_frame> roomy;
-  sphc_frame &f = roomy.its;
+  Roomy<sphc_localizer_frame> roomy;
+  sphc_localizer_frame &f = roomy.its;
   f.struct_size = around(sizeof f, &reader);
   f.color.width = around(96, &reader);
   f.color.height = around(72, &reader);
@@ -114,7 +117,7 @@ void frame(const uint8_t *data, size_t bytes) {
   const uint8_t shift = reader.next() % 8;
   f.color_time_ns = static_cast<int64_t>((uint64_t{around(0, &reader)} << 32) | reader.take32());
   f.depth_time_ns = f.color_time_ns;
-  Roomy<sphc_prior> prior;
+  Roomy<sphc_localizer_prior> prior;
   prior.its = priorFrom(&reader);
   if (reader.next() & 1) f.prior = &prior.its;
   roomy.behind[reader.next()] = prior.behind[reader.next()] = reader.next() % 2;
@@ -124,7 +127,7 @@ void frame(const uint8_t *data, size_t bytes) {
   f.depth.data = reinterpret_cast<const uint8_t *>(depth.data()) + (shift == 1 ? 1 : 0);
   if (!fits(f.color, color.size()) || !fits(f.depth, 2 * depth.size() - 1)) return;
 
-  sphc_result result;
+  sphc_localizer_result result;
   const sphc_status status = session().process(f, &result);
   if (status == SPHC_OK || status == SPHC_NOT_LOCALIZED) {
     if (!isFilled(result) || result.inliers > result.keypoints)

@@ -22,18 +22,16 @@ void readAll(const sphc_map *map, size_t bytes) {
 }
 
 // Small, so that a run is short; every keypoint matches something.
-sphc_config smallConfig() {
-  sphc_config config = test::sceneConfig();
+sphc_localizer_config smallConfig() {
+  sphc_localizer_config config = test::sceneConfig();
   config.rig.color_camera = test::pinhole(128, 96, 107);
   config.rig.depth_camera = test::pinhole(64, 48, 48);
   config.max_keypoints = 64;
-  config.max_iterations = 50;
-  config.max_ratio = 1;
   return config;
 }
 
 void localizeIn(const sphc_map *map) {
-  static const sphc_config config = smallConfig();
+  static const sphc_localizer_config config = smallConfig();
   static const auto frame = test::sceneFrame(config, 0);
   static const auto sizes = [] {
     sphc_memory need = {};
@@ -42,10 +40,13 @@ void localizeIn(const sphc_map *map) {
   }();
   test::GuardedMemory state(sizes.state_bytes, sizes.alignment), scratch(sizes.scratch_bytes, sizes.alignment);
   sphc_localizer *localizer = nullptr;
-  if (sphc_localizer_init(state.data(), state.size(), scratch.data(), scratch.size(), &config, &map, 1, &localizer,
-                          nullptr) != SPHC_OK)
+  if (sphc_localizer_init(state.data(), state.size(), scratch.data(), scratch.size(), &config, &localizer,
+                          nullptr) != SPHC_OK ||
+      sphc_localizer_set_map(localizer, 0, map) != SPHC_OK ||
+      sphc_localizer_set_parameter(localizer, SPHC_PARAMETER_MAX_ITERATIONS, 50) != SPHC_OK ||
+      sphc_localizer_set_parameter(localizer, SPHC_PARAMETER_MAX_RATIO, 1) != SPHC_OK)
     broken("an accepted map can be localized in");
-  sphc_result result = {};
+  sphc_localizer_result result = {};
   result.struct_size = sizeof result;
   if (sphc_localizer_process(localizer, &frame->frame, &result) < 0) broken("a good frame is taken");
   sphc_localizer_fini(&localizer);

@@ -11,7 +11,7 @@ constexpr uint8_t kUntouched = 0xa5;
 pixels::MjpegDecoder decoder;  // one for all frames, as in a driver
 
 std::vector<uint8_t> decode(const std::vector<uint8_t> &frame, sphc_format format, sphc_status *status) {
-  const uint32_t row_bytes = pixels::pixelBytes(format) * kWidth, stride = row_bytes + 5;
+  const uint32_t row_bytes = sphc_format_bytes(format) * kWidth, stride = row_bytes + 5;
   std::vector<uint8_t> image(stride * kHeight - 5, kUntouched);
   const pixels::OutImage out{image.data(), image.size(), kWidth, kHeight, stride, format};
   sphc_message message = {};

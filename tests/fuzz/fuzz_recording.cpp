@@ -30,7 +30,7 @@ class MemoryFile {
 void readAll(sphc_replay *replay) {
   const uint32_t frames = std::min(sphc_replay_frame_count(replay), 20u);
   for (uint32_t i = 0; i < frames; ++i) {
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     sphc_message message = {};
     const sphc_status status = sphc_replay_read_frame(replay, i, &frame, &message);
     if (status > 0 || (status < 0 && !message.text[0])) broken("an image is read, or the failure explains itself");

@@ -114,9 +114,9 @@ std::vector<std::vector<uint8_t>> captureRing(const std::string &what, sphc_stre
   return ring;
 }
 
-void showDifferences(const sphc_result *expected, const sphc_result *here) {
+void showDifferences(const sphc_localizer_result *expected, const sphc_localizer_result *here) {
   for (uint32_t i = 0; i < kFrames; ++i) {
-    const sphc_result &a = expected[i], &b = here[i];
+    const sphc_localizer_result &a = expected[i], &b = here[i];
     std::printf("frame %u: %s; keypoints %u %u, lifted %u %u, matches %u %u, inliers %u %u; x %.17g %.17g\n", i,
                 std::memcmp(&a, &b, sizeof a) == 0 ? "same" : "differs", a.keypoints, b.keypoints, a.lifted,
                 b.lifted, a.matches, b.matches, a.inliers, b.inliers, a.camera_from_map.t_m[0],
@@ -128,7 +128,7 @@ void localize(const std::vector<std::vector<uint8_t>> &color, const std::vector<
   const Cameras cameras = readCameras(kRecorded);
   PoseLog log(kRecorded);
   for (uint32_t i = 0; i < kFrames; ++i) {
-    sphc_frame frame{};
+    sphc_localizer_frame frame{};
     frame.struct_size = sizeof frame;
     frame.sequence = cameras.sequence[i];
     frame.color_time_ns = cameras.color_time_ns[i];
@@ -140,7 +140,7 @@ void localize(const std::vector<std::vector<uint8_t>> &color, const std::vector<
   const std::vector<uint8_t> expected = readFile(std::string(kRecorded) + kPosesFile);
   if (expected.size() != log.bytes()) fail("poses of another build");
   if (std::memcmp(expected.data(), log.data(), log.bytes()) != 0) {
-    showDifferences(reinterpret_cast<const sphc_result *>(expected.data()), log.results());
+    showDifferences(reinterpret_cast<const sphc_localizer_result *>(expected.data()), log.results());
     fail("poses differ from replay's");
   }
   std::printf("poses: %u of %u localized, %zu bytes, identical to replay's\n", log.localized(), kFrames,

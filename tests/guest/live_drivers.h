@@ -2,6 +2,7 @@
 #pragma once
 
 #include "live_source.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::guest {
 

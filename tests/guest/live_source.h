@@ -1,7 +1,7 @@
 // A driver by a word: "v4l2:/dev/video0", or "libcamera:" for the first camera that libcamera sees.
 #pragma once
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include <memory>
 #include <string>

@@ -75,7 +75,7 @@ void record(const std::string &folder) {
     sphc_simulated_render_color(headset, i, rgb.data());
     sphc_simulated_render_depth(headset, i, depth.data());
     const std::vector<uint8_t> yuyv = yuyvFromRgb(rgb), bgr = bgrFromYuyv(yuyv);
-    sphc_frame frame{};
+    sphc_localizer_frame frame{};
     frame.struct_size = sizeof frame;
     frame.sequence = i;
     sphc_simulated_frame_times(headset, i, &frame.color_time_ns, &frame.depth_time_ns);

@@ -21,7 +21,7 @@ constexpr const char *kColorFile = "/color.yuyv";  // kFrames, one behind the ot
 constexpr const char *kDepthFile = "/depth.z16";
 constexpr const char *kCamerasFile = "/cameras.bin";  // a Cameras
 constexpr const char *kMapFile = "/room.sphc";
-constexpr const char *kPosesFile = "/poses.bin";  // kFrames times a sphc_result
+constexpr const char *kPosesFile = "/poses.bin";  // kFrames times a sphc_localizer_result
 constexpr const char *kWalkFolder = "/walk";      // the recording, with frames for the map between those played
 
 // Only between programs of one build: no format for anyone else.

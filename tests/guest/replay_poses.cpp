@@ -26,7 +26,7 @@ void writePoses(const std::string &folder) {
   check(sphc_replay_open((folder + kWalkFolder).c_str(), nullptr, &config, &replay, &message), message);
   PoseLog log(folder);
   for (uint32_t i = 0; i < sphc_replay_frame_count(replay); ++i) {
-    sphc_frame frame;
+    sphc_localizer_frame frame;
     check(sphc_replay_read_frame(replay, i, &frame, &message), message);
     log.add(frame);
   }

@@ -3,30 +3,32 @@
 #include <map>
 #include <string>
 
+#include "spherecloud/spherecloud_capture.h"
 #include "tests/support/map_bytes.h"
 #include "tests/support/scene.h"
 
 namespace {
 
 void printConfiguration(uint32_t width, uint32_t height, uint32_t keypoints) {
-  sphc_config config;
-  sphc_config_init(&config, sizeof config);
+  sphc_localizer_config config;
+  sphc_localizer_config_init(&config, sizeof config);
   config.rig.color_camera = sphc::test::pinhole(width, height, 0.8 * width);
   config.rig.depth_camera = sphc::test::pinhole(320, 288, 220);
   config.max_keypoints = keypoints;
   const std::string name =
       std::to_string(width) + "x" + std::to_string(height) + "/" + std::to_string(keypoints) + " keypoints";
-  std::map<std::pair<uint32_t, std::string>, size_t> pieces;  // those of one name together
+  std::map<std::pair<uint32_t, std::string>, uint64_t> pieces;  // those of one name together
   sphc_memory_piece piece;
   for (uint32_t i = 0; sphc_localizer_memory_piece(&config, i, &piece) == SPHC_OK; ++i)
     pieces[{piece.scratch, piece.name}] += piece.bytes;
   sphc_memory need = {};
   sphc_localizer_memory(&config, &need, nullptr);
   for (const auto &entry : pieces)
-    std::printf("%s,%s,%s,%zu\n", name.c_str(), entry.first.first ? "scratch" : "state", entry.first.second.c_str(),
-                entry.second);
-  std::printf("%s,state,all,%zu\n%s,scratch,all,%zu\n", name.c_str(), need.state_bytes, name.c_str(),
-              need.scratch_bytes);
+    std::printf("%s,%s,%s,%llu\n", name.c_str(), entry.first.first ? "scratch" : "state",
+                entry.first.second.c_str(), static_cast<unsigned long long>(entry.second));
+  std::printf("%s,state,all,%llu\n%s,scratch,all,%llu\n", name.c_str(),
+              static_cast<unsigned long long>(need.state_bytes), name.c_str(),
+              static_cast<unsigned long long>(need.scratch_bytes));
 }
 
 }  // namespace
@@ -36,21 +38,24 @@ int main() {
   for (uint32_t keypoints : {400u, 800u, 1600u}) printConfiguration(640, 480, keypoints);
   printConfiguration(1280, 720, 800);
 
-  size_t bytes = 0, alignment = 0;
-  sphc_map_memory(&bytes, &alignment);
-  std::printf("any,map view,all,%zu\n", bytes);
-  sphc_pairer_memory(&bytes, &alignment);
-  std::printf("any,pairer,all,%zu\n", bytes);
-  sphc_clock_mapper_memory(&bytes, &alignment);
-  std::printf("any,clock mapper,all,%zu\n", bytes);
+  const auto print = [](const char *what, const sphc_memory &need) {
+    std::printf("%s,all,%llu\n", what, static_cast<unsigned long long>(need.state_bytes));
+  };
+  sphc_memory need = {};
+  sphc_map_memory(&need);
+  print("any,map view", need);
+  sphc_pairer_memory(&need);
+  print("any,pairer", need);
+  sphc_clock_mapper_memory(&need);
+  print("any,clock mapper", need);
   sphc_aligner_config aligner;
   sphc_aligner_config_init(&aligner, sizeof aligner);
   aligner.rig.color_camera = aligner.rig.depth_camera = sphc::test::pinhole(640, 480, 500);
-  sphc_aligner_memory(&aligner, &bytes, &alignment, nullptr);
-  std::printf("640x480 from 640x480,aligner,all,%zu\n", bytes);
+  sphc_aligner_memory(&aligner, &need, nullptr);
+  print("640x480 from 640x480,aligner", need);
   aligner.rig.depth_camera = sphc::test::pinhole(320, 288, 220);
-  sphc_aligner_memory(&aligner, &bytes, &alignment, nullptr);
-  std::printf("640x480 from 320x288,aligner,all,%zu\n", bytes);
+  sphc_aligner_memory(&aligner, &need, nullptr);
+  print("640x480 from 320x288,aligner", need);
   const size_t of_64 = sphc::test::randomMap(64, 1).size(), of_1088 = sphc::test::randomMap(1088, 1).size();
   std::printf("any,map file,each point,%zu\n", (of_1088 - of_64) / 1024);
   std::printf("any,map file,header,%zu\n", of_64 - 64 * ((of_1088 - of_64) / 1024));

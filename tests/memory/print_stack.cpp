@@ -39,10 +39,10 @@ size_t deepestOf(std::function<void()> call) {
 }  // namespace
 
 int main() {
-  const sphc_config config = sphc::test::sceneConfig();
+  const sphc_localizer_config config = sphc::test::sceneConfig();
   sphc::test::Session session(config);
   const auto frame = sphc::test::sceneFrame(config, 1);
-  sphc_result result = {};
+  sphc_localizer_result result = {};
   // Once on this thread, so that lazily bound symbols and the choice of SIMD instructions are behind us.
   if (session.process(frame->frame, &result) != SPHC_OK) return 1;
   const size_t thread_itself = deepestOf([] {});
@@ -54,24 +54,22 @@ int main() {
   print("sphc_localizer_process", [&] { session.process(frame->frame, &result); });
   print("sphc_localizer_memory", [&] { sphc_localizer_memory(&config, &need, nullptr); });
   sphc_localizer *second = nullptr;
-  const sphc_map *maps[] = {session.map()};
   print("sphc_localizer_init", [&] {
     sphc_localizer_init(session.state().data(), session.state().size(), session.scratch().data(),
-                        session.scratch().size(), &config, maps, 1, &second, nullptr);
+                        session.scratch().size(), &config, &second, nullptr);
   });
   sphc_aligner_config aligning;
   sphc_aligner_config_init(&aligning, sizeof aligning);
   aligning.rig = config.rig;
-  size_t bytes = 0, alignment = 0;
-  sphc_aligner_memory(&aligning, &bytes, &alignment, nullptr);
-  sphc::test::GuardedMemory aligner_memory(bytes, alignment);
+  sphc_aligner_memory(&aligning, &need, nullptr);
+  sphc::test::GuardedMemory aligner_memory(need.state_bytes, need.alignment);
   sphc_aligner *aligner = nullptr;
   print("sphc_aligner_init",
         [&] { sphc_aligner_init(aligner_memory.data(), aligner_memory.size(), &aligning, &aligner, nullptr); });
   const sphc_aligned nowhere = {sizeof nowhere, 0, 0, 0, nullptr, nullptr, nullptr};
   print("sphc_aligner_process", [&] { sphc_aligner_process(aligner, &frame->frame.depth, &nowhere); });
-  sphc_map_memory(&bytes, &alignment);
-  sphc::test::GuardedMemory memory(bytes, alignment);
+  sphc_map_memory(&need);
+  sphc::test::GuardedMemory memory(need.state_bytes, need.alignment);
   sphc_map *map = nullptr;
   const auto &file = session.sceneMap().file;
   print("sphc_map_init",

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "spherecloud/spherecloud_capture.h"
 #include "tests/memory/sealed_heap.h"
 #include "tests/support/session.h"
 
@@ -28,26 +29,26 @@ int breakSeal(const char *call) {
 }
 
 struct Everything {
-  sphc_config config = sphc::test::sceneConfig();
+  sphc_localizer_config config = sphc::test::sceneConfig();
   sphc::test::SceneMap map = sphc::test::makeSceneMap(config.rig.color_camera, config.max_keypoints, 3, 0.5);
   std::vector<std::unique_ptr<sphc::test::SceneFrame>> frames;
   sphc_aligner_config aligning = {};
   GuardedMemory map_memory, state, scratch, pairer_memory, aligner_memory;
-  std::vector<sphc_observation> observations = std::vector<sphc_observation>(config.max_keypoints);
+  std::vector<sphc_localizer_observation> observations =
+      std::vector<sphc_localizer_observation>(config.max_keypoints);
 
   Everything() {
     for (uint32_t viewpoint = 0; viewpoint < 4; ++viewpoint)
       frames.push_back(sphc::test::sceneFrame(config, viewpoint));
-    size_t bytes = 0, alignment = 0;
-    sphc_map_memory(&bytes, &alignment);
-    map_memory = GuardedMemory(bytes, alignment);
-    sphc_pairer_memory(&bytes, &alignment);
-    pairer_memory = GuardedMemory(bytes, alignment);
+    sphc_memory need = {};
+    sphc_map_memory(&need);
+    map_memory = GuardedMemory(need.state_bytes, need.alignment);
+    sphc_pairer_memory(&need);
+    pairer_memory = GuardedMemory(need.state_bytes, need.alignment);
     sphc_aligner_config_init(&aligning, sizeof aligning);
     aligning.rig = config.rig;
-    sphc_aligner_memory(&aligning, &bytes, &alignment, nullptr);
-    aligner_memory = GuardedMemory(bytes, alignment);
-    sphc_memory need = {};
+    sphc_aligner_memory(&aligning, &need, nullptr);
+    aligner_memory = GuardedMemory(need.state_bytes, need.alignment);
     sphc_localizer_memory(&config, &need, nullptr);
     state = GuardedMemory(need.state_bytes, need.alignment);
     scratch = GuardedMemory(need.scratch_bytes, need.alignment);
@@ -67,10 +68,8 @@ bool runPairer(Everything *e) {
     capture.stream = stream;
     ok = ok && sphc_pairer_push(pairer, &capture) == SPHC_OK;
   }
-  sphc_pair pair = {};
-  pair.struct_size = sizeof pair;
-  sphc_capture dropped = {};
-  ok = ok && sphc_pairer_pop(pairer, &pair, &dropped) == SPHC_OK;
+  sphc_capture color = {}, depth = {}, dropped = {};
+  ok = ok && sphc_pairer_pop(pairer, &color, &depth, &dropped) == SPHC_OK;
   sphc_pairer_flush(pairer);
   sphc_pairer_fini(&pairer);
   return ok;
@@ -79,9 +78,9 @@ bool runPairer(Everything *e) {
 bool runAligner(Everything *e) {
   sphc_aligner *aligner = nullptr;
   sphc_message message = {};
-  size_t bytes = 0, alignment = 0;
+  sphc_memory need = {};
   const sphc_aligned nowhere = {sizeof nowhere, 0, 0, 0, nullptr, nullptr, nullptr};
-  const bool ok = sphc_aligner_memory(&e->aligning, &bytes, &alignment, &message) == SPHC_OK &&
+  const bool ok = sphc_aligner_memory(&e->aligning, &need, &message) == SPHC_OK &&
                   sphc_aligner_init(e->aligner_memory.data(), e->aligner_memory.size(), &e->aligning, &aligner,
                                     &message) == SPHC_OK &&
                   sphc_aligner_process(aligner, &e->frames[0]->frame.depth, &nowhere) == SPHC_OK &&
@@ -101,17 +100,20 @@ int runSession(Everything *e) {
                     &message) != SPHC_OK ||
       sphc_localizer_memory(&e->config, &need, &message) != SPHC_OK ||
       sphc_localizer_memory_piece(&e->config, 3, &piece) != SPHC_OK ||
-      sphc_localizer_init(e->state.data(), e->state.size(), e->scratch.data(), e->scratch.size(), &e->config, &map,
-                          1, &localizer, &message) != SPHC_OK)
+      sphc_localizer_init(e->state.data(), e->state.size(), e->scratch.data(), e->scratch.size(), &e->config,
+                          &localizer, &message) != SPHC_OK ||
+      sphc_localizer_set_map(localizer, 7, map) != SPHC_OK ||
+      sphc_localizer_set_parameter(localizer, SPHC_PARAMETER_PROBES, 6) != SPHC_OK)
     return -1;
   int localized = 0;
   for (const auto &frame : e->frames) {
-    sphc_result result = {};
+    sphc_localizer_result result = {};
     result.struct_size = sizeof result;
     uint32_t count = 0;
     localized += sphc_localizer_process(localizer, &frame->frame, &result) == SPHC_OK;
-    sphc_localizer_observations(localizer, e->observations.data(), e->config.max_keypoints, &count);
-    sphc_frame bad = frame->frame;  // the way of a failure, message included
+    sphc_localizer_observations(localizer, e->observations.data(), sizeof e->observations[0],
+                                e->config.max_keypoints, &count);
+    sphc_localizer_frame bad = frame->frame;  // the way of a failure, message included
     bad.color.width = 1;
     if (sphc_localizer_process(localizer, &bad, &result) != SPHC_E_IMAGE) return -1;
   }

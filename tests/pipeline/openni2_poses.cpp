@@ -35,9 +35,9 @@ std::vector<uint64_t> readMap(const char *path) {
   return words;
 }
 
-sphc_config configOf(const sphc_replay *replay) {
-  sphc_config config;
-  sphc_config_init(&config, sizeof config);
+sphc_localizer_config configOf(const sphc_replay *replay) {
+  sphc_localizer_config config;
+  sphc_localizer_config_init(&config, sizeof config);
   sphc_replay_rig(replay, &config.rig);
   return config;
 }
@@ -45,24 +45,26 @@ sphc_config configOf(const sphc_replay *replay) {
 // Pairs captures and localizes the pairs.
 class Pipeline {
  public:
-  Pipeline(const sphc_config &config, const std::vector<uint64_t> &map_file, const sphc_source &source)
+  Pipeline(const sphc_localizer_config &config, const std::vector<uint64_t> &map_file, const sphc_source &source)
       : source_(source) {
     sphc_message message = {};
-    size_t bytes = 0, alignment = 0;
-    sphc_map_memory(&bytes, &alignment);
-    require(sphc_map_init(allocate(bytes, alignment), bytes, map_file.data(), map_file.size() * 8, &map_, &message),
-            "map", message.text);
     sphc_memory need = {};
+    sphc_map_memory(&need);
+    require(sphc_map_init(allocate(need.state_bytes, need.alignment), need.state_bytes, map_file.data(),
+                          map_file.size() * 8, &map_, &message),
+            "map", message.text);
     require(sphc_localizer_memory(&config, &need, &message), "localizer", message.text);
     require(sphc_localizer_init(allocate(need.state_bytes, need.alignment), need.state_bytes,
-                                allocate(need.scratch_bytes, need.alignment), need.scratch_bytes, &config, &map_, 1,
+                                allocate(need.scratch_bytes, need.alignment), need.scratch_bytes, &config,
                                 &localizer_, &message),
             "localizer", message.text);
+    require(sphc_localizer_set_map(localizer_, 0, map_), "map", sphc_localizer_message(localizer_));
     sphc_pairer_config pairing;
     sphc_pairer_config_init(&pairing, sizeof pairing);
-    sphc_pairer_memory(&bytes, &alignment);
-    require(sphc_pairer_init(allocate(bytes, alignment), bytes, &pairing, &pairer_, &message), "pairer",
-            message.text);
+    sphc_pairer_memory(&need);
+    require(sphc_pairer_init(allocate(need.state_bytes, need.alignment), need.state_bytes, &pairing, &pairer_,
+                             &message),
+            "pairer", message.text);
   }
 
   // Takes one capture from the source; false at its end.
@@ -73,12 +75,10 @@ class Pipeline {
     require(status, "acquire", source_.message(source_.self));
     if (status != SPHC_OK) return false;
     require(sphc_pairer_push(pairer_, &capture), "pairer", "full");
-    sphc_pair pair = {};
-    pair.struct_size = sizeof pair;
-    sphc_capture dropped = {};
+    sphc_capture color = {}, depth = {}, dropped = {};
     for (;;) {
-      if (sphc_pairer_pop(pairer_, &pair, &dropped) == SPHC_OK)
-        localize(pair);
+      if (sphc_pairer_pop(pairer_, &color, &depth, &dropped) == SPHC_OK)
+        localize(color, depth);
       else if (dropped.stream == SPHC_STREAM_NONE)
         return true;
       else
@@ -86,33 +86,26 @@ class Pipeline {
     }
   }
 
-  const std::vector<sphc_result> &results() const { return results_; }
+  const std::vector<sphc_localizer_result> &results() const { return results_; }
 
  private:
-  void localize(const sphc_pair &pair) {
-    const sphc_frame frame = {sizeof frame,
-                              pair.color.sequence,
-                              pair.color.time_ns,
-                              pair.depth.time_ns,
-                              pair.color.image,
-                              pair.depth.image,
-                              nullptr,
-                              0,
-                              0};
-    sphc_result result;
+  void localize(const sphc_capture &color, const sphc_capture &depth) {
+    const sphc_localizer_frame frame = {
+        sizeof frame, color.sequence, color.time_ns, depth.time_ns, color.image, depth.image, nullptr, 0, 0};
+    sphc_localizer_result result;
     std::memset(&result, 0, sizeof result);
     result.struct_size = sizeof result;
     require(sphc_localizer_process(localizer_, &frame, &result), "localizer", sphc_localizer_message(localizer_));
     results_.push_back(result);
-    source_.release(source_.self, &pair.color);
-    source_.release(source_.self, &pair.depth);
+    source_.release(source_.self, &color);
+    source_.release(source_.self, &depth);
   }
 
   sphc_source source_;
   sphc_map *map_ = nullptr;
   sphc_localizer *localizer_ = nullptr;
   sphc_pairer *pairer_ = nullptr;
-  std::vector<sphc_result> results_;
+  std::vector<sphc_localizer_result> results_;
 };
 
 void show(const sphc_capture &capture) {
@@ -143,7 +136,7 @@ void showAll(const sphc_source &recording, Pipeline *camera) {
   recording.stop(recording.self);
 }
 
-sphc_openni2 *openCamera(const sphc_config &config) {
+sphc_openni2 *openCamera(const sphc_localizer_config &config) {
   sphc_openni2_config wanted;
   sphc_openni2_config_init(&wanted, sizeof wanted);
   wanted.color = {config.rig.color_camera.width, config.rig.color_camera.height, 0};
@@ -165,7 +158,7 @@ int main(int argc, char **argv) {
   sphc_replay *replay = nullptr;
   sphc_message message = {};
   require(sphc_replay_open(argv[1], nullptr, &replaying, &replay, &message), "recording", message.text);
-  const sphc_config config = configOf(replay);
+  const sphc_localizer_config config = configOf(replay);
   const std::vector<uint64_t> map_file = readMap(argv[2]);
 
   sphc_source recording = {}, live = {};
@@ -185,7 +178,7 @@ int main(int argc, char **argv) {
 
   size_t same = 0, localized = 0;
   for (size_t i = 0; i < replayed.results().size() && i < captured.results().size(); ++i) {
-    same += std::memcmp(&replayed.results()[i], &captured.results()[i], sizeof(sphc_result)) == 0;
+    same += std::memcmp(&replayed.results()[i], &captured.results()[i], sizeof(sphc_localizer_result)) == 0;
     localized += replayed.results()[i].outcome == SPHC_OUTCOME_LOCALIZED;
   }
   std::printf("replayed %zu frames, localized %zu; through OpenNI2 %zu frames, %zu the same to the bit\n",

@@ -1,6 +1,7 @@
+#define SPHC_UNSTABLE 1 /* the clock mapper is */
 #include "replay.h"
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include "line.h"
 
@@ -104,9 +105,9 @@ static sphc_rigid camera_from_map(const room_view *view) {
 }
 
 /* What a device might know: all of it, the flags say what counts. */
-static sphc_prior prior_of(const step *what) {
+static sphc_localizer_prior prior_of(const step *what) {
   static const sphc_rigid odometry_from_map = {{0.8, 0, 0.6, 0}, {3, -1, 2}};
-  sphc_prior prior = {0};
+  sphc_localizer_prior prior = {0};
   sphc_rigid map_from_camera;
   const double origin[3] = {0, 0, 0}, up[3] = {0, -1, 0};
   double at[3];
@@ -144,9 +145,9 @@ static sphc_image image(const void *data, const room_camera *camera, uint32_t pi
   return made;
 }
 
-static sphc_frame frame_of(const step *what, uint32_t index) {
+static sphc_localizer_frame frame_of(const step *what, uint32_t index) {
   const int gray_wanted = what->format == SPHC_FORMAT_GRAY8;
-  sphc_frame frame = {0};
+  sphc_localizer_frame frame = {0};
   frame.struct_size = sizeof frame;
   frame.sequence = index;
   frame.color_time_ns = 1000000000 + 33000000 * (int64_t)index;
@@ -171,7 +172,8 @@ static int64_t error_mm(const sphc_rigid *estimate, const room_view *view) {
   return (int64_t)(worst * 1000);
 }
 
-static void print_result(session *s, const char *mode, uint32_t index, const step *what, const sphc_result *r) {
+static void print_result(session *s, const char *mode, uint32_t index, const step *what,
+                         const sphc_localizer_result *r) {
   line l = {"", 0};
   const double *depth_bias[] = {&r->depth.mid_m,          &r->depth.offset_m,    &r->depth.slope,
                                 &r->depth.offset_sigma_m, &r->depth.slope_sigma, &r->depth.noise_scale};
@@ -201,28 +203,29 @@ static void print_result(session *s, const char *mode, uint32_t index, const ste
   print(s, &l);
 }
 
-static void replay_steps(session *s, const char *name, sphc_mode mode, const step *steps, uint32_t count) {
-  sphc_config config;
+static void replay_steps(session *s, const char *name, sphc_localizer_mode mode, const step *steps,
+                         uint32_t count) {
+  sphc_localizer_config config;
   sphc_localizer *localizer = NULL;
-  const sphc_map *map = s->map;
   uint64_t seen = DIGEST_START;
   line l = {"", 0};
-  if (!works(s, "config", sphc_config_init(&config, sizeof config))) return;
+  if (!works(s, "config", sphc_localizer_config_init(&config, sizeof config))) return;
   config.mode = mode;
   config.rig.color_camera = pinhole(&replay_color_camera);
   config.rig.depth_camera = pinhole(&depth_camera);
   config.rig.color_from_depth.t_m[0] = baseline_um / 1e6;
   config.max_keypoints = 400;
-  config.max_iterations = 5000;
   config.depth_sigma_m = 0.002;
   if (!works(s, name,
              sphc_localizer_init(state_memory, sizeof state_memory, scratch_memory, sizeof scratch_memory, &config,
-                                 &map, 1, &localizer, &s->message)))
+                                 &localizer, &s->message)) ||
+      !works(s, name, sphc_localizer_set_map(localizer, 0, s->map)) ||
+      !works(s, name, sphc_localizer_set_parameter(localizer, SPHC_PARAMETER_MAX_ITERATIONS, 5000)))
     return;
   for (uint32_t i = 0; i < count; ++i) {
-    sphc_frame frame = frame_of(&steps[i], i);
-    const sphc_prior prior = prior_of(&steps[i]);
-    sphc_result result = {0};
+    sphc_localizer_frame frame = frame_of(&steps[i], i);
+    const sphc_localizer_prior prior = prior_of(&steps[i]);
+    sphc_localizer_result result = {0};
     result.struct_size = sizeof result;
     if (steps[i].prior) frame.prior = &prior;
     render(&steps[i]);

@@ -29,37 +29,39 @@ class GuardedMemory {
 };
 
 // The room's cameras: colour 320 x 240, a smaller depth camera 4 cm beside it.
-sphc_config sceneConfig();
+sphc_localizer_config sceneConfig();
 // A frame and the images it borrows.
 struct SceneFrame {
   SceneImages images;
-  sphc_frame frame;
+  sphc_localizer_frame frame;
 };
-std::unique_ptr<SceneFrame> sceneFrame(const sphc_config &config, uint32_t viewpoint, uint32_t room = 0);
+std::unique_ptr<SceneFrame> sceneFrame(const sphc_localizer_config &config, uint32_t viewpoint, uint32_t room = 0);
 
 class Session {
  public:
   // Asserts, by aborting, that every step works.
-  explicit Session(const sphc_config &config, double eta = 0.5, uint32_t rooms = 1);
+  explicit Session(const sphc_localizer_config &config, double eta = 0.5, uint32_t rooms = 1);
   ~Session();
   Session(const Session &) = delete;
   Session &operator=(const Session &) = delete;
 
   const SceneMap &sceneMap() const { return rooms_[0].scene; }
-  sphc_map *map(uint32_t room = 0) { return maps_[room]; }
+  sphc_map *map(uint32_t room = 0) { return maps_[room]; }  // whose id is `room`
   sphc_localizer *localizer() { return localizer_; }
   GuardedMemory &state() { return state_; }
   GuardedMemory &scratch() { return scratch_; }
-  sphc_status process(const sphc_frame &frame, sphc_result *result);
+  void setParameter(sphc_localizer_parameter parameter, double value);
+  sphc_status process(const sphc_localizer_frame &frame, sphc_localizer_result *result);
   // Distance of the result's camera centre from the truth.
-  double errorM(const sphc_result &result, uint32_t viewpoint) const;
+  double errorM(const sphc_localizer_result &result, uint32_t viewpoint) const;
 
  private:
   struct Room {
     SceneMap scene;
     GuardedMemory memory;
   };
-  void openMap(const sphc_config &config, double eta, uint32_t room);
+  void requireOf(sphc_status status);
+  void openMap(const sphc_localizer_config &config, double eta, uint32_t room);
 
   std::vector<Room> rooms_;
   std::vector<sphc_map *> maps_;

@@ -125,7 +125,7 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
     bar.show(i, reader->frameCount());
     std::string why;
-    const std::optional<sphc_frame> frame = reader->tryRead(i, &why);
+    const std::optional<sphc_localizer_frame> frame = reader->tryRead(i, &why);
     if (!frame) {
       console.warn("left out: " + why);
       ++result.unreadable;
@@ -143,7 +143,7 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
 Result writeRaw(RecordingReader *reader, const std::string &file, const Console &console) {
   recording::RawWriter writer(file, reader->calibration(), SPHC_FORMAT_BGR8);
   const Result result = copyFrames(
-      reader, console, [&](const sphc_frame &frame, const sphc_rigid *pose) { writer.add(frame, pose); });
+      reader, console, [&](const sphc_localizer_frame &frame, const sphc_rigid *pose) { writer.add(frame, pose); });
   writer.finish();
   return result;
 }
@@ -152,7 +152,7 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
   NewRecording recording(folder, NewRecording::IfCut::kRemove);
   recording::SevenScenesWriter writer(recording.part(), reader->calibration());
   uint32_t next = 0;
-  const Result result = copyFrames(reader, console, [&](sphc_frame frame, const sphc_rigid *pose) {
+  const Result result = copyFrames(reader, console, [&](sphc_localizer_frame frame, const sphc_rigid *pose) {
     frame.sequence = std::max(frame.sequence, next);  // a camera that came back counts anew
     next = frame.sequence + 1;
     writer.add(frame, pose);

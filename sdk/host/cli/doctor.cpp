@@ -62,7 +62,7 @@ Findings lookAt(const DoctorOptions &options, const Console &console) {
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   bool geometry_fits = true;
   while (apart_ms.size() < options.frames && !interrupt.came() && std::chrono::steady_clock::now() < until) {
-    sphc_pair pair = {};
+    CapturePair pair;
     const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
     if (got == Rig::Got::kEnd) break;
     if (got == Rig::Got::kNothing) continue;

@@ -34,7 +34,7 @@ struct LiveTally {
   std::array<uint32_t, kHintWords.size()> hints = {};    // the same
 };
 
-std::string poseText(const sphc_result &result) {
+std::string poseText(const sphc_localizer_result &result) {
   if (result.faults) return "FAULT: " + faultNames(result.faults);
   if (result.outcome != SPHC_OUTCOME_LOCALIZED)
     return result.hints ? "no pose, " + firstHint(result.hints) : "no pose";
@@ -45,7 +45,7 @@ std::string poseText(const sphc_result &result) {
   return text;
 }
 
-std::string statusText(const LiveTally &tally, const sphc_result &result, const Rig &rig, double ms) {
+std::string statusText(const LiveTally &tally, const sphc_localizer_result &result, const Rig &rig, double ms) {
   const sphc_pairer_counts counts = rig.counts();
   char text[256];
   std::snprintf(text, sizeof text, "%-12s %s | %u inliers, %.1f ms | %.0f + %.0f in, %.0f poses/s | lost %llu",
@@ -55,27 +55,28 @@ std::string statusText(const LiveTally &tally, const sphc_result &result, const 
   return text;
 }
 
-nlohmann::ordered_json frameJson(const sphc_pair &pair, const sphc_result &result, double ms) {
-  nlohmann::ordered_json out = {{"time_ns", result.time_ns},
-                                {"color_sequence", pair.color.sequence},
-                                {"depth_sequence", pair.depth.sequence},
-                                {"state", stateName(result.state)},
-                                {"localized", result.outcome == SPHC_OUTCOME_LOCALIZED},
-                                {"outcome", result.outcome},
-                                {"map", result.map_index},
-                                {"faults", faultNames(result.faults)},
-                                {"cuts", cutNames(result.cuts)},
-                                {"hints", hintNames(result.hints)},
-                                {"inliers", result.inliers},
-                                {"ms", std::round(1000 * ms) / 1000}};
+nlohmann::ordered_json frameJson(const CapturePair &pair, const sphc_localizer_result &result, double ms) {
+  nlohmann::ordered_json out = {
+      {"time_ns", result.time_ns},
+      {"color_sequence", pair.color.sequence},
+      {"depth_sequence", pair.depth.sequence},
+      {"state", stateName(result.state)},
+      {"localized", result.outcome == SPHC_OUTCOME_LOCALIZED},
+      {"outcome", result.outcome},
+      {"map", result.map_id == SPHC_MAP_NONE ? nlohmann::ordered_json() : nlohmann::ordered_json(result.map_id)},
+      {"faults", faultNames(result.faults)},
+      {"cuts", cutNames(result.cuts)},
+      {"hints", hintNames(result.hints)},
+      {"inliers", result.inliers},
+      {"ms", std::round(1000 * ms) / 1000}};
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return out;
   out["confidence"] = result.confidence;
   out["camera_from_map"] = {{"q_wxyz", result.camera_from_map.q_wxyz}, {"t_m", result.camera_from_map.t_m}};
   return out;
 }
 
-sphc_frame frameOf(const sphc_pair &pair) {
-  sphc_frame frame = {};
+sphc_localizer_frame frameOf(const CapturePair &pair) {
+  sphc_localizer_frame frame = {};
   frame.struct_size = sizeof frame;
   frame.sequence = pair.color.sequence;
   frame.color_time_ns = sphc_capture_middle_ns(&pair.color);
@@ -86,9 +87,9 @@ sphc_frame frameOf(const sphc_pair &pair) {
 }
 
 // When frames come faster than they are looked at, the newest is the one that matters.
-uint32_t skipToNewest(Rig *rig, sphc_pair *pair) {
+uint32_t skipToNewest(Rig *rig, CapturePair *pair) {
   uint32_t skipped = 0;
-  sphc_pair newer = {};
+  CapturePair newer;
   while (rig->next(std::chrono::milliseconds(0), &newer) == Rig::Got::kPair) {
     rig->release(*pair);
     *pair = newer;
@@ -97,9 +98,9 @@ uint32_t skipToNewest(Rig *rig, sphc_pair *pair) {
   return skipped;
 }
 
-void lookAt(const sphc_pair &pair, const Rig &rig, const Console &console, spherecloud::Localizer *localizer,
+void lookAt(const CapturePair &pair, const Rig &rig, const Console &console, spherecloud::Localizer *localizer,
             StatusLine *line, LiveTally *tally) {
-  sphc_result result = spherecloud::emptyResult();
+  sphc_localizer_result result = spherecloud::emptyResult();
   const auto begin = std::chrono::steady_clock::now();
   const spherecloud::Status status = localizer->process(frameOf(pair), &result);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -154,7 +155,7 @@ int run(const LiveOptions &options, const Console &console) {
     console.warn(trouble);
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  sphc_config config = spherecloud::defaultConfig();
+  sphc_localizer_config config = spherecloud::defaultConfig();
   setCameras(calibrationOf(options.rig, rig), &config);
   spherecloud::Localizer localizer = makeLocalizer(config, maps);
   LiveTally tally;
@@ -163,7 +164,7 @@ int run(const LiveOptions &options, const Console &console) {
   const Interrupt interrupt;
   const auto begin = std::chrono::steady_clock::now();
   while (!interrupt.came() && !isOver(options, tally, begin)) {
-    sphc_pair pair = {};
+    CapturePair pair;
     const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
     if (got == Rig::Got::kEnd) break;
     if (got == Rig::Got::kNothing) {

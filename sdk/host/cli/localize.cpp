@@ -28,7 +28,8 @@ struct LocalizeOptions {
   std::vector<std::string> maps, owner_notes;
   std::string trajectory, frames_json, report;
   bool odometry = false, force = false;
-  sphc_config config = spherecloud::defaultConfig();
+  sphc_localizer_config config = spherecloud::defaultConfig();
+  Parameters parameters;
   uint32_t deadline_us = 0;
 };
 
@@ -67,10 +68,11 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   input.deadline_us = options.deadline_us;
   input.play_odometry = options.odometry;
   input.config = options.config;
+  input.parameters = options.parameters;
   input.keep_observations = !options.report.empty();
   setCameras(reader->calibration(), &input.config);
   readNotes(options, &input, &run);
-  run.settings = describeConfig(input.config);
+  run.settings = describeConfig(input.config, input.parameters);
   run.settings.push_back({"deadline_us", std::to_string(options.deadline_us)});
   ProgressBar bar("localizing");
   localizeFrames(
@@ -80,7 +82,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
 }
 
 cv::Mat imageOf(RecordingReader *reader, const FrameRecord &frame) {
-  const std::optional<sphc_frame> image = reader->tryRead(frame.index);
+  const std::optional<sphc_localizer_frame> image = reader->tryRead(frame.index);
   return image ? bgrFromImage(image->color) : cv::Mat();
 }
 
@@ -141,16 +143,16 @@ void addOutputs(CLI::App *app, LocalizeOptions *options) {
   addForceOption(app, &options->force);
 }
 
-void addLocalizerOptions(CLI::App *app, sphc_config *config) {
+void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameters *parameters) {
   const auto add = [app](const char *name, auto &field, const char *text) {
     return app->add_option(name, field, text)->capture_default_str()->group("Localizer");
   };
   add("--seed", config->seed, "Seed of the random samples; the same seed gives the same answers")
       ->check(withoutSign());
   add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096");
-  add("--ratio", config->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
-  add("--max-iterations", config->max_iterations, "Most samples drawn for a frame");
-  add("--min-inliers", config->min_inliers, "A pose with fewer is not given out");
+  add("--ratio", parameters->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
+  add("--max-iterations", parameters->max_iterations, "Most samples drawn for a frame");
+  add("--min-inliers", parameters->min_inliers, "A pose with fewer is not given out");
   add("--depth-min", config->depth_min_m, "Nearest depth used, metres");
   add("--depth-max", config->depth_max_m, "Farthest depth used, metres");
   add("--depth-sigma", config->depth_sigma_m, "Depth noise at z: this + the next * z^2, metres");
@@ -162,8 +164,9 @@ void addLocalizerOptions(CLI::App *app, sphc_config *config) {
   add("--depth-offset-sigma", config->depth_offset_sigma_m,
       "Unknown offset of the depth sensor there, metres; 0 with the next 0: a sensor without bias");
   add("--depth-slope-sigma", config->depth_slope_sigma, "Unknown slope of its error over depth");
-  add("--probes", config->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
-  const std::map<std::string, sphc_mode> modes = {{"tracking", SPHC_MODE_TRACKING}, {"single", SPHC_MODE_SINGLE}};
+  add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
+  const std::map<std::string, sphc_localizer_mode> modes = {{"tracking", SPHC_MODE_TRACKING},
+                                                            {"single", SPHC_MODE_SINGLE}};
   app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")
       ->transform(CLI::CheckedTransformer(modes).description(""))
       ->default_str("tracking")
@@ -192,7 +195,7 @@ Command localizeCommand(CLI::App *root) {
   app->add_flag("--odometry", options->odometry,
                 "Give the localizer the recording's poses as odometry, each step disturbed by 0.1 deg and 2 mm");
   addOutputs(app, options.get());
-  addLocalizerOptions(app, &options->config);
+  addLocalizerOptions(app, &options->config, &options->parameters);
   app->add_option("--deadline-us", options->deadline_us,
                   "Time for a frame, after which the best pose so far is given out; 0: no deadline")
       ->capture_default_str()

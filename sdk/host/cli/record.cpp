@@ -107,7 +107,7 @@ void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *ri
            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= options.seconds;
   };
   while (!interrupt.came() && !is_over()) {
-    sphc_pair pair = {};
+    CapturePair pair;
     const Rig::Got got = rig->next(std::chrono::milliseconds(200), &pair);
     if (got == Rig::Got::kEnd) break;
     if (got == Rig::Got::kPair) rig->release(pair);

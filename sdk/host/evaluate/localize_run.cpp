@@ -47,7 +47,7 @@ double sigmaOf(const double covariance[36], size_t first) {
   return std::sqrt(sum);
 }
 
-void measureMemory(const sphc_config &config, Run *run) {
+void measureMemory(const sphc_localizer_config &config, Run *run) {
   sphc_memory memory = {};
   orThrow("localizer memory",
           [&](sphc_message *message) { return sphc_localizer_memory(&config, &memory, message); });
@@ -59,7 +59,7 @@ void measureMemory(const sphc_config &config, Run *run) {
   }
 }
 
-void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameRecord *frame) {
+void fillAnswer(const LocalizeInput &input, const sphc_localizer_result &result, FrameRecord *frame) {
   frame->outcome = result.outcome;
   frame->localized = result.outcome == SPHC_OUTCOME_LOCALIZED;
   frame->keypoints = result.keypoints;
@@ -72,7 +72,7 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->match_us = result.match_us;
   frame->pose_us = result.pose_us;
   frame->state = result.state;
-  frame->map = result.map_index;
+  frame->map = result.map_id;
   frame->frames_together = result.frames;
   frame->guided = result.guided != 0;
   frame->depth = result.depth;
@@ -83,7 +83,7 @@ void fillAnswer(const LocalizeInput &input, const sphc_result &result, FrameReco
   frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);
   if (!input.centres_in_world_m.empty()) {  // world_from_map is a translation
-    const auto &centre = input.centres_in_world_m[result.map_index];
+    const auto &centre = input.centres_in_world_m[result.map_id];
     for (size_t i = 0; i < 3; ++i) frame->base_from_camera.t_m[i] += centre[i];
   }
   frame->sigma_rotation_deg = sigmaOf(result.covariance, 0) * 180 / M_PI;
@@ -98,9 +98,9 @@ void fillTruth(const LocalizeInput &input, FrameRecord *frame) {
   judge(frame);
 }
 
-FrameRecord processFrame(const LocalizeInput &input, const sphc_frame &image, uint32_t index,
-                         spherecloud::Localizer *localizer, std::vector<sphc_observation> *room) {
-  sphc_result result = spherecloud::emptyResult();
+FrameRecord processFrame(const LocalizeInput &input, const sphc_localizer_frame &image, uint32_t index,
+                         spherecloud::Localizer *localizer, std::vector<sphc_localizer_observation> *room) {
+  sphc_localizer_result result = spherecloud::emptyResult();
   const int64_t start = steadyNanoseconds(nullptr);
   const spherecloud::Status status = localizer->process(image, &result);
   const int64_t end = steadyNanoseconds(nullptr);
@@ -122,28 +122,31 @@ FrameRecord processFrame(const LocalizeInput &input, const sphc_frame &image, ui
 
 }  // namespace
 
-void setCameras(const sphc_rig &rig, sphc_config *config) {
+void setCameras(const sphc_rig &rig, sphc_localizer_config *config) {
   config->rig = rig;
   config->clock = steadyNanoseconds;
 }
 
-spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vector<MapFile> &maps) {
+spherecloud::Localizer makeLocalizer(sphc_localizer_config config, const std::vector<MapFile> &maps,
+                                     const Parameters &parameters) {
   spherecloud::Localizer localizer;
-  std::vector<const sphc_map *> views;
-  for (const MapFile &file : maps) views.push_back(file.map.get());
-  checkDone("cannot make the localizer",
-            spherecloud::Localizer::make(config, views.data(), static_cast<uint32_t>(views.size()), &localizer));
+  config.max_maps = std::max(1u, static_cast<uint32_t>(maps.size()));
+  checkDone("cannot make the localizer", spherecloud::Localizer::make(config, &localizer));
+  checkDone("cannot make the localizer", parameters.setOn(&localizer));
+  for (size_t i = 0; i < maps.size(); ++i)
+    checkDone("cannot take the map", localizer.setMap(static_cast<uint32_t>(i), maps[i].map));
   return localizer;
 }
 
-std::vector<Setting> describeConfig(const sphc_config &config) {
+std::vector<Setting> describeConfig(const sphc_localizer_config &config, const Parameters &parameters) {
   return {{"colour camera", describeCamera(config.rig.color_camera)},
           {"depth camera", describeCamera(config.rig.depth_camera)},
           {"seed", std::to_string(config.seed)},
           {"max_keypoints", std::to_string(config.max_keypoints)},
-          {"max_ratio", fixed(static_cast<double>(config.max_ratio), 3)},
-          {"max_iterations", std::to_string(config.max_iterations)},
-          {"min_inliers", std::to_string(config.min_inliers)},
+          {"max_ratio", fixed(parameters.max_ratio, 3)},
+          {"max_iterations", fixed(parameters.max_iterations, 0)},
+          {"min_inliers", fixed(parameters.min_inliers, 0)},
+          {"probes", fixed(parameters.probes, 0)},
           {"depth_min_m", fixed(config.depth_min_m, 3)},
           {"depth_max_m", fixed(config.depth_max_m, 3)},
           {"depth_unit_m", fixed(config.rig.depth_unit_m, 6)},
@@ -153,20 +156,19 @@ std::vector<Setting> describeConfig(const sphc_config &config) {
           {"map_sigma_m", fixed(config.map_sigma_m, 4)},
           {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},
           {"depth_slope_sigma", fixed(config.depth_slope_sigma, 4)},
-          {"mode", config.mode == SPHC_MODE_TRACKING ? "tracking" : "single"},
-          {"probes", std::to_string(config.probes)}};
+          {"mode", config.mode == SPHC_MODE_TRACKING ? "tracking" : "single"}};
 }
 
 void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
                     const std::function<void(const std::string &)> &unreadable, Run *run) {
   measureMemory(input.config, run);
-  spherecloud::Localizer localizer = makeLocalizer(input.config, input.maps);
+  spherecloud::Localizer localizer = makeLocalizer(input.config, input.maps, input.parameters);
   PlayedOdometry odometry(input.reader);
-  std::vector<sphc_observation> room(input.config.max_keypoints);
+  std::vector<sphc_localizer_observation> room(input.config.max_keypoints);
   const uint32_t count = input.reader->frameCount();
   for (uint32_t i = 0; i < count; ++i) {
     std::string why;
-    std::optional<sphc_frame> image = input.reader->tryRead(i, &why);
+    std::optional<sphc_localizer_frame> image = input.reader->tryRead(i, &why);
     if (!image) {
       unreadable(why);
       ++run->unreadable;

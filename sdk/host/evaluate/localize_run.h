@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/evaluate/map_file.h"
+#include "host/evaluate/parameters.h"
 #include "host/recording/recording_reader.h"
 #include "host/report/run.h"
 
@@ -14,7 +15,8 @@ using FrameDone = std::function<void(uint32_t done, uint32_t total)>;
 struct LocalizeInput {
   recording::RecordingReader *reader = nullptr;
   std::vector<MapFile> maps;
-  sphc_config config = {};  // cameras already set
+  sphc_localizer_config config = {};  // cameras already set
+  Parameters parameters;
   // Where each map's origin lies in the recording's world; empty: poses stay in their map's frame, without truth.
   std::vector<std::array<double, 3>> centres_in_world_m;
   uint32_t deadline_us = 0;    // of each frame; 0: none
@@ -23,10 +25,11 @@ struct LocalizeInput {
 };
 
 // Rig and clock into a config whose other fields stay.
-void setCameras(const sphc_rig &rig, sphc_config *config);
-// Throws std::runtime_error with cause and cure.
-spherecloud::Localizer makeLocalizer(const sphc_config &config, const std::vector<MapFile> &maps);
-std::vector<Setting> describeConfig(const sphc_config &config);
+void setCameras(const sphc_rig &rig, sphc_localizer_config *config);
+// The maps' ids count from 0.  Throws std::runtime_error with cause and cure.
+spherecloud::Localizer makeLocalizer(sphc_localizer_config config, const std::vector<MapFile> &maps,
+                                     const Parameters &parameters = {});
+std::vector<Setting> describeConfig(const sphc_localizer_config &config, const Parameters &parameters);
 
 // Fills everything of *run that comes from processing.  A frame that cannot be read is told to `unreadable`,
 // counted and left out.  Throws std::runtime_error when the localizer cannot be made or refuses a frame.

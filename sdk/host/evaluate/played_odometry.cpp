@@ -22,7 +22,7 @@ sphc_rigid disturbance(std::mt19937_64 *random) {
 
 }  // namespace
 
-const sphc_prior *PlayedOdometry::at(uint32_t index) {
+const sphc_localizer_prior *PlayedOdometry::at(uint32_t index) {
   const std::optional<sphc_rigid> recorded = reader_->worldFromCamera(index);
   if (!recorded) {
     begun_ = false;

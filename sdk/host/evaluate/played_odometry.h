@@ -15,14 +15,14 @@ class PlayedOdometry {
   explicit PlayedOdometry(const recording::RecordingReader *reader) : reader_(reader) {}
 
   // Of frame `index`, in ascending order; null where the recording has no pose.  Valid until the next call.
-  const sphc_prior *at(uint32_t index);
+  const sphc_localizer_prior *at(uint32_t index);
 
  private:
   const recording::RecordingReader *reader_;
   std::mt19937_64 random_{1};
   bool begun_ = false;
   sphc_rigid world_from_camera_ = {{1, 0, 0, 0}, {0, 0, 0}};
-  sphc_prior prior_ = {};
+  sphc_localizer_prior prior_ = {};
 };
 
 }  // namespace sphc::host

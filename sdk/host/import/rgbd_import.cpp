@@ -28,7 +28,8 @@ class FrameDescriber {
 
   const Camera &camera() const { return camera_; }
 
-  std::vector<Observation> describe(const sphc_frame &frame, const Rigid &world_from_camera, uint32_t *keypoints) {
+  std::vector<Observation> describe(const sphc_localizer_frame &frame, const Rigid &world_from_camera,
+                                    uint32_t *keypoints) {
     features_.extract(grayOf(frame.color, &gray_));
     *keypoints = features_.count();
     const ImageView<uint16_t> depth = depthOf(frame.depth);
@@ -115,7 +116,7 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
     if (options.takes_part && !options.takes_part(i)) continue;
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     std::string why;
-    const std::optional<sphc_frame> frame = pose ? reader->tryRead(i, &why) : std::nullopt;
+    const std::optional<sphc_localizer_frame> frame = pose ? reader->tryRead(i, &why) : std::nullopt;
     if (!pose) {
       ++summary->frames_without_pose;
     } else if (!frame) {

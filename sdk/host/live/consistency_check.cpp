@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t kOneIn = 10;  // of the pairs: a fault that is seen less often may be one of the scene
 
 ConsistencyConfig configOf(const sphc_rig &calibration) {
-  const sphc_config usual = spherecloud::defaultConfig();
+  const sphc_localizer_config usual = spherecloud::defaultConfig();
   ConsistencyConfig config;
   config.color_camera = Camera(calibration.color_camera);
   config.depth_camera = Camera(calibration.depth_camera);

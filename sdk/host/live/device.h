@@ -6,7 +6,7 @@
 //     replay:walk   replay:walk.mcap                         a recording, as fast as it was recorded
 //     simulated:   simulated:feet,tiles,seed=7               the simulated headset, as fast as it renders
 #pragma once
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include <memory>
 #include <string>

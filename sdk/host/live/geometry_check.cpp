@@ -69,13 +69,12 @@ std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth, Mistake mi
   sphc_aligner_config config;
   sphc_aligner_config_init(&config, sizeof config);
   config.rig = calibrationOf(mistake);
-  size_t bytes = 0, alignment = 0;
-  orThrow("aligner",
-          [&](sphc_message *message) { return sphc_aligner_memory(&config, &bytes, &alignment, message); });
-  spherecloud::AlignedBuffer memory(bytes, alignment);
+  sphc_memory need = {};
+  orThrow("aligner", [&](sphc_message *message) { return sphc_aligner_memory(&config, &need, message); });
+  spherecloud::AlignedBuffer memory(need.state_bytes, need.alignment);
   sphc_aligner *aligner = nullptr;
   orThrow("aligner", [&](sphc_message *message) {
-    return sphc_aligner_init(memory.data(), bytes, &config, &aligner, message);
+    return sphc_aligner_init(memory.data(), memory.size(), &config, &aligner, message);
   });
   const std::vector<uint16_t> turned =
       flipped(depth, mistake == kMirrored || mistake == kTurned, mistake == kUpsideDown || mistake == kTurned);

@@ -48,13 +48,13 @@ void Rig::add(const std::string &spec, bool color, bool depth) {
   camera.wish = options_.wish;
   camera.wish.color = color;
   camera.wish.depth = depth;
-  size_t bytes = 0, alignment = 0;
-  sphc_clock_mapper_memory(&bytes, &alignment);
-  camera.mapper_memory.resize(bytes / sizeof(uint64_t) + 1);
+  sphc_memory need = {};
+  sphc_clock_mapper_memory(&need);
+  camera.mapper_memory.resize(need.state_bytes / sizeof(uint64_t) + 1);
   sphc_clock_mapper_config config;
   sphc_clock_mapper_config_init(&config, sizeof config);
   orThrow("clock mapper", [&](sphc_message *message) {
-    return sphc_clock_mapper_init(camera.mapper_memory.data(), bytes, &config, &camera.mapper, message);
+    return sphc_clock_mapper_init(camera.mapper_memory.data(), need.state_bytes, &config, &camera.mapper, message);
   });
   cameras_.push_back(std::move(camera));
 }
@@ -65,15 +65,15 @@ void Rig::start(Camera *camera) {
 }
 
 void Rig::makePairer() {
-  size_t bytes = 0, alignment = 0;
-  sphc_pairer_memory(&bytes, &alignment);
-  pairer_memory_.resize(bytes / sizeof(uint64_t) + 1);
+  sphc_memory need = {};
+  sphc_pairer_memory(&need);
+  pairer_memory_.resize(need.state_bytes / sizeof(uint64_t) + 1);
   sphc_pairer_config config;
   sphc_pairer_config_init(&config, sizeof config);
   config.slots = kLoans - 2;
   config.tolerance_ns = static_cast<int64_t>(options_.tolerance_ms * 1e6);
   orThrow("pairer", [&](sphc_message *message) {
-    return sphc_pairer_init(pairer_memory_.data(), bytes, &config, &pairer_, message);
+    return sphc_pairer_init(pairer_memory_.data(), need.state_bytes, &config, &pairer_, message);
   });
 }
 
@@ -86,22 +86,21 @@ void Rig::giveBack(const sphc_capture &capture) {
   if (camera.device) camera.device->source().release(camera.device->source().self, &capture);
 }
 
-void Rig::release(const sphc_pair &pair) {
+void Rig::release(const CapturePair &pair) {
   giveBack(pair.color);
   giveBack(pair.depth);
 }
 
-bool Rig::pop(sphc_pair *pair) {
-  pair->struct_size = sizeof *pair;
+bool Rig::pop(CapturePair *pair) {
   for (;;) {
     sphc_capture dropped = {};
-    if (sphc_pairer_pop(pairer_, pair, &dropped) == SPHC_OK) return true;
+    if (sphc_pairer_pop(pairer_, &pair->color, &pair->depth, &dropped) == SPHC_OK) return true;
     if (dropped.stream == SPHC_STREAM_NONE) return false;
     giveBack(dropped);
   }
 }
 
-Rig::Got Rig::next(std::chrono::milliseconds timeout, sphc_pair *pair) {
+Rig::Got Rig::next(std::chrono::milliseconds timeout, CapturePair *pair) {
   const Clock::time_point until = Clock::now() + timeout;
   bool came = false;
   do {
@@ -169,7 +168,7 @@ void Rig::bringToHostClock(Camera *camera, sphc_capture *capture) {
 
 // What waits in the pairer goes back while it still can.
 void Rig::emptyPairer() {
-  sphc_pair pair = {};
+  CapturePair pair;
   sphc_pairer_flush(pairer_);
   while (pop(&pair)) release(pair);
   earlier_ = counts();

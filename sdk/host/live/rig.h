@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/live/device.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::host {
 
@@ -18,6 +19,11 @@ struct RigOptions {
   std::string both, color, depth;  // `both`, or the other two: lines of text for openDevice
   Wish wish;
   double tolerance_ms = 20;
+};
+
+// Taken at about the same time; on loan.
+struct CapturePair {
+  sphc_capture color = {}, depth = {};
 };
 
 class Rig {
@@ -32,8 +38,8 @@ class Rig {
   Rig &operator=(const Rig &) = delete;
 
   // The next pair, within a timeout; to be released.
-  Got next(std::chrono::milliseconds timeout, sphc_pair *pair);
-  void release(const sphc_pair &pair);
+  Got next(std::chrono::milliseconds timeout, CapturePair *pair);
+  void release(const CapturePair &pair);
   // How often a camera was lost: pairs from before a loss are void.
   uint32_t losses() const { return losses_; }
 
@@ -66,7 +72,7 @@ class Rig {
   void start(Camera *camera);
   void makePairer();
   void emptyPairer();
-  bool pop(sphc_pair *pair);
+  bool pop(CapturePair *pair);
   // True where a capture came.
   bool acquireFrom(Camera *camera, std::chrono::microseconds timeout);
   void keepTimeGoing(Camera *camera, sphc_capture *capture);

@@ -5,6 +5,7 @@
 
 #include "host/live/finding.h"
 #include "host/recording/calibration.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::host {
 

@@ -27,7 +27,7 @@ sphc_format ImageReader::formatOf(sphc_stream stream) const {
 
 size_t ImageReader::bytesOf(sphc_stream stream) const {
   const sphc_camera &camera = cameraOf(stream);
-  return size_t{camera.width} * camera.height * bytesPerPixel(formatOf(stream));
+  return size_t{camera.width} * camera.height * sphc_format_bytes(formatOf(stream));
 }
 
 std::string ImageReader::nameOf(sphc_stream stream, const RecordedImage &image) const {
@@ -52,7 +52,7 @@ ByteView ImageReader::loadMessage(const MessagePlace &place) {
 }
 
 void ImageReader::readRaw(sphc_stream stream, uint32_t index, uint8_t *pixels) {
-  const sphc_frame &frame = raw_->load(index);
+  const sphc_localizer_frame &frame = raw_->load(index);
   const sphc_image &image = stream == SPHC_STREAM_COLOR ? frame.color : frame.depth;
   requireSize(image.width, image.height, cameraOf(stream), stream == SPHC_STREAM_COLOR);
   packPixels(image, formatOf(stream), pixels);
@@ -75,7 +75,7 @@ sphc_image ImageReader::read(sphc_stream stream, const RecordedImage &image, uin
     uint16_t *depth = reinterpret_cast<uint16_t *>(pixels);
     std::replace(depth, depth + size_t{camera.width} * camera.height, uint16_t{65535}, uint16_t{0});
   }
-  return {pixels, camera.width, camera.height, camera.width * bytesPerPixel(format), format};
+  return {pixels, camera.width, camera.height, camera.width * sphc_format_bytes(format), format};
 }
 
 }  // namespace sphc::recording

@@ -7,6 +7,7 @@
 #include "pixels.h"
 #include "raw_file.h"
 #include "recording.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::recording {
 

@@ -33,7 +33,7 @@ void MessageDecoder::decodeRaw(ByteView message, const sphc_camera &camera, sphc
   const bool is_color = format != SPHC_FORMAT_DEPTH16;
   if (recorded == 0 || (recorded != SPHC_FORMAT_DEPTH16) != is_color) failMalformed("its encoding");
   requireSize(image.width, image.height, camera, is_color);
-  const uint64_t row_bytes = uint64_t{image.width} * bytesPerPixel(recorded);
+  const uint64_t row_bytes = uint64_t{image.width} * sphc_format_bytes(recorded);
   if (image.step < row_bytes || uint64_t{image.step} * image.height > image.data.size) failMalformed("its rows");
   packPixels({image.data.data, image.width, image.height, image.step, recorded}, format, pixels);
 }

@@ -30,22 +30,8 @@ void convertRow(const uint8_t *in, sphc_format from, uint8_t *out, sphc_format t
 
 }  // namespace
 
-uint32_t bytesPerPixel(sphc_format format) {
-  switch (format) {
-    case SPHC_FORMAT_GRAY8:
-      return 1;
-    case SPHC_FORMAT_RGB8:
-    case SPHC_FORMAT_BGR8:
-      return 3;
-    case SPHC_FORMAT_DEPTH16:
-      return 2;
-    default:
-      return 0;
-  }
-}
-
 size_t packedBytes(const sphc_image &image) {
-  return size_t{image.width} * image.height * bytesPerPixel(image.format);
+  return size_t{image.width} * image.height * sphc_format_bytes(image.format);
 }
 
 std::string sizeText(uint32_t width, uint32_t height) {
@@ -56,21 +42,21 @@ void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_colo
   const std::string name = is_color ? "colour image" : "depth image";
   const bool is_depth_format = image.format == SPHC_FORMAT_DEPTH16;
   if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null");
-  if (bytesPerPixel(image.format) == 0 || is_depth_format == is_color)
+  if (sphc_format_bytes(image.format) == 0 || is_depth_format == is_color)
     throw Failure(SPHC_E_IMAGE, name + ": format " + std::to_string(image.format) + " does not fit; " +
                                     (is_color ? "give GRAY8, RGB8 or BGR8" : "give DEPTH16"));
   if (image.width != camera.width || image.height != camera.height)
     throw Failure(SPHC_E_IMAGE, name + ": is " + sizeText(image.width, image.height) +
                                     ", its camera in the calibration " + sizeText(camera.width, camera.height) +
                                     "; they must be equal");
-  const uint64_t row_bytes = uint64_t{image.width} * bytesPerPixel(image.format);
+  const uint64_t row_bytes = uint64_t{image.width} * sphc_format_bytes(image.format);
   if (image.stride_bytes < row_bytes || (is_depth_format && image.stride_bytes % 2 != 0))
     throw Failure(SPHC_E_IMAGE,
                   name + ": stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row or odd");
 }
 
 void packPixels(const sphc_image &image, sphc_format to, uint8_t *out) {
-  const size_t row_bytes = size_t{image.width} * bytesPerPixel(to);
+  const size_t row_bytes = size_t{image.width} * sphc_format_bytes(to);
   const auto *row = static_cast<const uint8_t *>(image.data);
   for (uint32_t y = 0; y < image.height; ++y, row += image.stride_bytes, out += row_bytes) {
     if (image.format == to)

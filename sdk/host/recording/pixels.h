@@ -7,9 +7,6 @@
 
 namespace sphc::recording {
 
-// 0 for a format that is none.
-uint32_t bytesPerPixel(sphc_format format);
-
 size_t packedBytes(const sphc_image &image);
 
 // "640 x 480"

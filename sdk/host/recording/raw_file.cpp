@@ -33,7 +33,7 @@ sphc_raw_frame RawFile::head(uint32_t index) const {
   return recorded;
 }
 
-const sphc_frame &RawFile::load(uint32_t index) {
+const sphc_localizer_frame &RawFile::load(uint32_t index) {
   if (loaded_index_ == index) return loaded_.frame;
   loaded_index_ = UINT32_MAX;
   memory_.resize(raw_.frame_bytes);

@@ -18,7 +18,7 @@ class RawFile {
   const sphc_raw &raw() const { return raw_; }
   sphc_raw_frame head(uint32_t index) const;
   // Valid until another frame is loaded.
-  const sphc_frame &load(uint32_t index);
+  const sphc_localizer_frame &load(uint32_t index);
 
  private:
   File file_;

@@ -190,7 +190,7 @@ sphc_status sphc_recorder::add(const sphc_capture &capture) {
                  capture.time_sigma_us, capture.clock,      capture.time_point};
     slot.image = capture.image;
     slot.image.data = slot.pixels.data();
-    slot.image.stride_bytes = capture.image.width * bytesPerPixel(capture.image.format);
+    slot.image.stride_bytes = capture.image.width * sphc_format_bytes(capture.image.format);
     packPixels(capture.image, capture.image.format, slot.pixels.data());
   });
 }

@@ -26,7 +26,7 @@
 #ifndef SPHERECLOUD_HOST_RECORDING_RECORDER_H
 #define SPHERECLOUD_HOST_RECORDING_RECORDER_H
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include "calibration.h"
 

@@ -5,6 +5,7 @@
 #include "host/recording/mcap/depth_zstd.h"
 #include "host/recording/mcap/writer.h"
 #include "recorder.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::recording {
 

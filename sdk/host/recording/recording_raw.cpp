@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-RecordedImage imageOf(const sphc_frame &frame, int64_t time_ns, uint32_t index) {
+RecordedImage imageOf(const sphc_localizer_frame &frame, int64_t time_ns, uint32_t index) {
   RecordedImage image;
   image.time_ns = time_ns;
   image.sequence = frame.sequence;
@@ -21,7 +21,7 @@ RecordedImage imageOf(const sphc_frame &frame, int64_t time_ns, uint32_t index) 
 
 // False when the times go back.  Two frames may share a depth image.
 bool addFrame(const sphc_raw_frame &recorded, uint32_t index, Recording &recording) {
-  const sphc_frame &frame = recorded.frame;
+  const sphc_localizer_frame &frame = recorded.frame;
   const bool has_depth = !recording.depth.empty();
   if (!recording.color.empty() && frame.color_time_ns <= recording.color.back().time_ns) return false;
   if (has_depth && frame.depth_time_ns < recording.depth.back().time_ns) return false;

@@ -30,7 +30,7 @@ RecordingReader::RecordingReader(const std::filesystem::path &path, const Reader
       frames_(pairFrames(recording_, options.pair_tolerance_ns)),
       images_(recording_, calibration_, options.color_format) {}
 
-sphc_frame RecordingReader::read(uint32_t index) {
+sphc_localizer_frame RecordingReader::read(uint32_t index) {
   if (index >= frameCount())
     throw Failure(SPHC_E_ARGUMENT, "frame " + std::to_string(index) + ": there are " +
                                        std::to_string(frameCount()) + ", counted from 0");
@@ -40,11 +40,18 @@ sphc_frame RecordingReader::read(uint32_t index) {
   depth_pixels_.resize(images_.depthBytes());
   const sphc_image color_image = images_.read(SPHC_STREAM_COLOR, color, color_pixels_.data());
   const sphc_image depth_image = images_.read(SPHC_STREAM_DEPTH, depth, depth_pixels_.data());
-  return {
-      sizeof(sphc_frame), color.sequence, color.time_ns, depth.time_ns, color_image, depth_image, nullptr, 0, 0};
+  return {sizeof(sphc_localizer_frame),
+          color.sequence,
+          color.time_ns,
+          depth.time_ns,
+          color_image,
+          depth_image,
+          nullptr,
+          0,
+          0};
 }
 
-std::optional<sphc_frame> RecordingReader::tryRead(uint32_t index, std::string *why) {
+std::optional<sphc_localizer_frame> RecordingReader::tryRead(uint32_t index, std::string *why) {
   try {
     return read(index);
   } catch (const Failure &failure) {

@@ -32,9 +32,9 @@ class RecordingReader {
   const RecordedImage &colorOf(uint32_t index) const { return recording_.color[frames_.at(index).color]; }
   const RecordedImage &depthOf(uint32_t index) const { return recording_.depth[frames_.at(index).depth]; }
   // Decodes a frame into memory that is valid until the next read.
-  sphc_frame read(uint32_t index);
+  sphc_localizer_frame read(uint32_t index);
   // The same where a bad frame is left out: none when it cannot be read, and why.
-  std::optional<sphc_frame> tryRead(uint32_t index, std::string *why = nullptr);
+  std::optional<sphc_localizer_frame> tryRead(uint32_t index, std::string *why = nullptr);
   // Of the colour camera, at the colour time of a frame or at any; none where the recording has none.
   std::optional<sphc_rigid> worldFromCamera(uint32_t index) const {
     return worldFromCameraAt(colorOf(index).time_ns);

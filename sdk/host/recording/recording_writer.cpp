@@ -52,7 +52,7 @@ sphc_status sphc_recording_add(sphc_recording_writer *writer, const sphc_capture
   });
 }
 
-sphc_status sphc_recording_add_frame(sphc_recording_writer *writer, const sphc_frame *frame,
+sphc_status sphc_recording_add_frame(sphc_recording_writer *writer, const sphc_localizer_frame *frame,
                                      sphc_message *message) {
   return append(writer, message, [&](TumWriter &out) {
     if (!frame) throw Failure(SPHC_E_ARGUMENT, "frame is null");

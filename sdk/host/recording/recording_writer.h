@@ -15,7 +15,7 @@
 #ifndef SPHERECLOUD_HOST_RECORDING_RECORDING_WRITER_H
 #define SPHERECLOUD_HOST_RECORDING_RECORDING_WRITER_H
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include "calibration.h"
 
@@ -39,7 +39,8 @@ sphc_status sphc_recording_create(const char *folder, const sphc_rig *rig, sphc_
 sphc_status sphc_recording_add(sphc_recording_writer *writer, const sphc_capture *capture, sphc_message *message);
 
 /* Both images of a frame: sphc_recording_add of colour, then of depth. [exclusive] */
-sphc_status sphc_recording_add_frame(sphc_recording_writer *writer, const sphc_frame *frame, sphc_message *message);
+sphc_status sphc_recording_add_frame(sphc_recording_writer *writer, const sphc_localizer_frame *frame,
+                                     sphc_message *message);
 
 /* Appends a pose of the colour camera.  Times must increase and not be negative; they need not be those of images.
  * Errors: ARGUMENT (null, time, not finite, quaternion not of unit length), DEVICE. [exclusive] */

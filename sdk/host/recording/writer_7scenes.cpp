@@ -43,7 +43,7 @@ fs::path SevenScenesWriter::fileOf(uint32_t number, const char *kind) const {
   return folder_.path() / name;
 }
 
-void SevenScenesWriter::add(const sphc_frame &frame, const sphc_rigid *world_from_camera) {
+void SevenScenesWriter::add(const sphc_localizer_frame &frame, const sphc_rigid *world_from_camera) {
   checkImage(frame.color, calibration_.color_camera, true);
   checkImage(frame.depth, calibration_.depth_camera, false);
   const std::string pose = world_from_camera ? matrixText(checkedPose(*world_from_camera)) : "";

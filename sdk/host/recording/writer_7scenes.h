@@ -14,7 +14,7 @@ class SevenScenesWriter {
   SevenScenesWriter(const std::filesystem::path &folder, const sphc_rig &calibration);
   // frame-NNNNNN.color.png, .depth.png and, unless the pose (of the colour camera) is null, .pose.txt; NNNNNN is
   // frame.sequence, which no frame had before.  The layout keeps no times.
-  void add(const sphc_frame &frame, const sphc_rigid *world_from_camera);
+  void add(const sphc_localizer_frame &frame, const sphc_rigid *world_from_camera);
   void finish();
 
  private:

@@ -75,7 +75,7 @@ Bytes RawWriter::header() const {
   return out;
 }
 
-void RawWriter::add(const sphc_frame &frame, const sphc_rigid *world_from_camera) {
+void RawWriter::add(const sphc_localizer_frame &frame, const sphc_rigid *world_from_camera) {
   checkImage(frame.color, calibration_.color_camera, true);
   checkImage(frame.depth, calibration_.depth_camera, false);
   if (frame.color.format != color_format_) throw Failure(SPHC_E_IMAGE, "colour image: all must have one format");

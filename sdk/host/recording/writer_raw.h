@@ -19,7 +19,7 @@ class RawWriter {
   RawWriter &operator=(const RawWriter &) = delete;
 
   // `world_from_camera` may be null.  Borrows.
-  void add(const sphc_frame &frame, const sphc_rigid *world_from_camera);
+  void add(const sphc_localizer_frame &frame, const sphc_rigid *world_from_camera);
   void finish();
 
  private:

@@ -83,7 +83,7 @@ void TumWriter::add(sphc_stream stream, int64_t time_ns, const sphc_image &image
   list.add(time_ns, name);
 }
 
-void TumWriter::addFrame(const sphc_frame &frame) {
+void TumWriter::addFrame(const sphc_localizer_frame &frame) {
   checkImageOf(SPHC_STREAM_DEPTH, frame.depth);
   depth_.checkTime(frame.depth_time_ns);
   add(SPHC_STREAM_COLOR, frame.color_time_ns, frame.color);

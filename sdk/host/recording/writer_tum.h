@@ -7,6 +7,7 @@
 
 #include "calibration.h"
 #include "encoded_image.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "unfinished_folder.h"
 
 namespace sphc::recording {
@@ -38,7 +39,7 @@ class TumWriter {
   TumWriter(const std::filesystem::path &folder, const sphc_rig &calibration);
   // Times of a stream increase.  The image is borrowed.
   void add(sphc_stream stream, int64_t time_ns, const sphc_image &image);
-  void addFrame(const sphc_frame &frame);  // both images or none
+  void addFrame(const sphc_localizer_frame &frame);  // both images or none
   void addPose(int64_t time_ns, const sphc_rigid &world_from_camera);
   void finish();
 

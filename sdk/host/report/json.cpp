@@ -31,7 +31,7 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
                {"inliers", frame.inliers},
                {"iterations", frame.iterations},
                {"state", stateName(frame.state)},
-               {"map", frame.map},
+               {"map", frame.map == SPHC_MAP_NONE ? Json() : Json(frame.map)},
                {"guided", frame.guided},
                {"frames_together", frame.frames_together},
                {"faults", faultNames(frame.faults)},
@@ -81,7 +81,7 @@ Json summaryJson(const Run &run, const Summary &s) {
   json["tracking"] = s.tracking;
   json["guided"] = s.guided;
   for (size_t i = 0; i < s.outcomes.size(); ++i) {
-    json["outcomes"][outcomeName(static_cast<sphc_outcome>(i))] = s.outcomes[i];
+    json["outcomes"][outcomeName(static_cast<sphc_localizer_outcome>(i))] = s.outcomes[i];
   }
   for (size_t i = 0; i < s.faults.size(); ++i) json["faults"][kFaultWords[i].name] = s.faults[i];
   for (size_t i = 0; i < s.hints.size(); ++i) json["hints"][kHintWords[i].name] = s.hints[i];

@@ -37,7 +37,7 @@ cv::Mat muted(const cv::Mat &color) {
   return mixed;
 }
 
-void drawMark(cv::Mat *picture, const sphc_observation &seen, const cv::Scalar &color, int thickness) {
+void drawMark(cv::Mat *picture, const sphc_localizer_observation &seen, const cv::Scalar &color, int thickness) {
   constexpr int kShift = 4;  // OpenCV draws with 4 fractional bits
   const auto at = [](float px) { return cvRound((px - 0.5f) * kEnlarge * (1 << kShift)); };
   const float radius = std::clamp(1.8f * seen.scale_px, 2.5f, 9.0f) * kEnlarge;
@@ -46,8 +46,8 @@ void drawMark(cv::Mat *picture, const sphc_observation &seen, const cv::Scalar &
 }
 
 // Three layers, the telling one on top.
-void drawMarks(cv::Mat *picture, const std::vector<sphc_observation> &observations) {
-  for (sphc_observation seen : observations) {
+void drawMarks(cv::Mat *picture, const std::vector<sphc_localizer_observation> &observations) {
+  for (sphc_localizer_observation seen : observations) {
     if (seen.flags & SPHC_OBSERVATION_MATCHED) continue;
     seen.scale_px = 1;  // small: there are many of them, and they tell the least
     drawMark(picture, seen, kGrey, 1);

@@ -123,7 +123,7 @@ Green rings spread over the whole image pin the pose down best. Click a picture 
 std::string outcomeTable(const Summary &s) {
   std::vector<Row> rows;
   for (size_t i = 0; i < s.outcomes.size(); ++i) {
-    const auto outcome = static_cast<sphc_outcome>(i);
+    const auto outcome = static_cast<sphc_localizer_outcome>(i);
     if (s.outcomes[i] || i == 0)
       rows.push_back({outcomeName(outcome), std::to_string(s.outcomes[i]), outcomeAdvice(outcome)});
   }

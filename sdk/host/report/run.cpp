@@ -6,7 +6,7 @@
 
 namespace sphc::host {
 
-const char *outcomeName(sphc_outcome outcome) {
+const char *outcomeName(sphc_localizer_outcome outcome) {
   switch (outcome) {
     case SPHC_OUTCOME_LOCALIZED:
       return "localized";
@@ -29,7 +29,7 @@ const char *outcomeName(sphc_outcome outcome) {
   }
 }
 
-const char *outcomeAdvice(sphc_outcome outcome) {
+const char *outcomeAdvice(sphc_localizer_outcome outcome) {
   switch (outcome) {
     case SPHC_OUTCOME_LOCALIZED:
       return "a pose was given out";
@@ -60,7 +60,7 @@ std::string cutNames(uint32_t cuts) {
   return namesOf(kCutWords, cuts);
 }
 
-const char *stateName(sphc_state state) {
+const char *stateName(sphc_localizer_state state) {
   switch (state) {
     case SPHC_STATE_RELOCALIZING:
       return "relocalizing";

@@ -16,17 +16,17 @@ struct FrameRecord {
   uint32_t index = 0;  // of the recording's chosen frames: where its images can be read again
   uint32_t sequence = 0;
   int64_t time_ns = 0;
-  sphc_outcome outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
+  sphc_localizer_outcome outcome = SPHC_OUTCOME_FEW_KEYPOINTS;
   uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0, iterations = 0;
   uint32_t features_us = 0, align_us = 0, match_us = 0, pose_us = 0, total_us = 0;
 
-  sphc_state state = SPHC_STATE_RELOCALIZING;  // after this frame
-  uint32_t map = 0;                            // of the run's maps
-  uint32_t frames_together = 1;                // whose matches the pose was found from
-  bool guided = false;                         // found where it was expected
-  uint32_t faults = 0;                         // SPHC_FAULT_ bits that the result names
-  uint32_t cuts = 0;                           // SPHC_CUT_ bits: what the deadline left out
-  uint32_t hints = 0;                          // SPHC_HINT_ bits: why there is no pose
+  sphc_localizer_state state = SPHC_STATE_RELOCALIZING;  // after this frame
+  uint32_t map = 0;                                      // of the run's maps
+  uint32_t frames_together = 1;                          // whose matches the pose was found from
+  bool guided = false;                                   // found where it was expected
+  uint32_t faults = 0;                                   // SPHC_FAULT_ bits that the result names
+  uint32_t cuts = 0;                                     // SPHC_CUT_ bits: what the deadline left out
+  uint32_t hints = 0;                                    // SPHC_HINT_ bits: why there is no pose
 
   sphc_depth_bias depth = {};  // what the localizer took the depth sensor for
 
@@ -39,7 +39,7 @@ struct FrameRecord {
   sphc_rigid truth_base_from_camera = {{1, 0, 0, 0}, {0, 0, 0}};
   double rotation_error_deg = 0, translation_error_m = 0;  // when localized with truth
 
-  std::vector<sphc_observation> observations;  // kept only when pictures are wanted
+  std::vector<sphc_localizer_observation> observations;  // kept only when pictures are wanted
 };
 
 struct MemoryPiece {
@@ -74,11 +74,11 @@ struct Run {
 uint64_t mapBytes(const Run &run);
 
 // "few matches" and so on: a word or two for tables, and a sentence with the likely cause.
-const char *outcomeName(sphc_outcome outcome);
-const char *outcomeAdvice(sphc_outcome outcome);
+const char *outcomeName(sphc_localizer_outcome outcome);
+const char *outcomeAdvice(sphc_localizer_outcome outcome);
 // "features, search"; "" of none.
 std::string cutNames(uint32_t cuts);
-const char *stateName(sphc_state state);
+const char *stateName(sphc_localizer_state state);
 
 // "12345" as "12.3 kB"; powers of 1000.
 std::string humanBytes(double bytes);

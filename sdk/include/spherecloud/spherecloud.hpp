@@ -4,10 +4,10 @@
 //     spherecloud::readFile("room.sphc", &file);
 //     spherecloud::Map map;
 //     spherecloud::Map::open(file.data(), file.size(), &map);
-//     sphc_config config = spherecloud::defaultConfig(); // then set config.rig
+//     sphc_localizer_config config = spherecloud::defaultConfig(); // then set config.rig
 //     spherecloud::Localizer localizer;
 //     spherecloud::Localizer::make(config, map, &localizer);
-//     sphc_result result = spherecloud::emptyResult();
+//     sphc_localizer_result result = spherecloud::emptyResult();
 //     spherecloud::Status status = localizer.process(frame, &result);   // never allocates
 //
 // Every step returns a Status; nothing here throws.  With exceptions switched on, status.orThrow() turns a failure
@@ -167,13 +167,13 @@ class Map {
 
   // Validates and views `file`, which is borrowed until the map ends.  Takes a little memory for the view.
   static Status open(const void *file, std::size_t file_bytes, Map *map) {
-    std::size_t bytes = 0, alignment = 0;
-    Status status(sphc_map_memory(&bytes, &alignment));
+    sphc_memory need = {};
+    Status status(sphc_map_memory(&need));
     if (!status.ok()) return status;
     Map made;
-    made.memory_ = AlignedBuffer(bytes, alignment);
+    made.memory_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
     if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the view of the map");
-    return open(made.memory_.data(), bytes, file, file_bytes, &made, map);
+    return open(made.memory_.data(), made.memory_.size(), file, file_bytes, &made, map);
   }
   // The same in the caller's memory (sphc_map_memory), borrowed too; takes none of its own.
   static Status open(void *memory, std::size_t memory_bytes, const void *file, std::size_t file_bytes, Map *map) {
@@ -238,12 +238,13 @@ class Aligner {
   // Takes its memory from the heap, once, here.
   static Status make(const sphc_aligner_config &config, Aligner *aligner) {
     Status status;
-    std::size_t bytes = 0, alignment = 0;
-    if (status.set(sphc_aligner_memory(&config, &bytes, &alignment, status.message())).failed()) return status;
+    sphc_memory need = {};
+    if (status.set(sphc_aligner_memory(&config, &need, status.message())).failed()) return status;
     Aligner made;
-    made.memory_ = AlignedBuffer(bytes, alignment);
+    made.memory_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
     if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the aligner");
-    status.set(sphc_aligner_init(made.memory_.data(), bytes, &config, &made.aligner_, status.message()));
+    status.set(
+        sphc_aligner_init(made.memory_.data(), made.memory_.size(), &config, &made.aligner_, status.message()));
     if (status.ok()) *aligner = std::move(made);
     return status;
   }
@@ -268,16 +269,15 @@ class Aligner {
 // ---- localizer
 // ---------------------------------------------------------------------------------------------------
 
-inline sphc_config defaultConfig() {
-  sphc_config config = {};
-  sphc_config_init(&config, sizeof config);
+inline sphc_localizer_config defaultConfig() {
+  sphc_localizer_config config = {};
+  sphc_localizer_config_init(&config, sizeof config);
   return config;
 }
 
-inline sphc_result emptyResult() {
-  sphc_result result = {};
-  result.struct_size = sizeof result;
-  result.camera_from_map.q_wxyz[0] = 1;
+inline sphc_localizer_result emptyResult() {
+  sphc_localizer_result result = {};
+  sphc_localizer_result_init(&result, sizeof result);
   return result;
 }
 
@@ -294,41 +294,54 @@ class Localizer {
   Localizer &operator=(const Localizer &) = delete;
   ~Localizer() { sphc_localizer_fini(&localizer_); }
 
-  // Takes its memory from the heap, once, here.  The maps are borrowed.
-  static Status make(const sphc_config &config, const sphc_map *const *maps, std::uint32_t map_count,
-                     Localizer *localizer) {
+  // Takes its memory from the heap, once, here.  It has no map yet.
+  static Status make(const sphc_localizer_config &config, Localizer *localizer) {
     Status status;
     sphc_memory need = {};
     if (status.set(sphc_localizer_memory(&config, &need, status.message())).failed()) return status;
     Localizer made;
-    made.state_ = AlignedBuffer(need.state_bytes, need.alignment);
-    made.scratch_ = AlignedBuffer(need.scratch_bytes, need.alignment);
+    made.state_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
+    made.scratch_ = AlignedBuffer(static_cast<std::size_t>(need.scratch_bytes), need.alignment);
     if (!made.state_.data() || !made.scratch_.data())
       return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the localizer; lower config.max_keypoints");
-    return make(config, maps, map_count, made.state_.data(), need.state_bytes, made.scratch_.data(),
-                need.scratch_bytes, &made, localizer);
-  }
-  static Status make(const sphc_config &config, const Map &map, Localizer *localizer) {
-    const sphc_map *maps[] = {map.get()};
-    return make(config, maps, 1, localizer);
+    return make(config, made.state_.data(), made.state_.size(), made.scratch_.data(), made.scratch_.size(), &made,
+                localizer);
   }
   // In the caller's memory (sphc_localizer_memory), borrowed until the localizer ends; takes none of its own.
-  static Status make(const sphc_config &config, const Map &map, void *state, std::size_t state_bytes, void *scratch,
+  static Status make(const sphc_localizer_config &config, void *state, std::size_t state_bytes, void *scratch,
                      std::size_t scratch_bytes, Localizer *localizer) {
     Localizer made;
-    const sphc_map *maps[] = {map.get()};
-    return make(config, maps, 1, state, state_bytes, scratch, scratch_bytes, &made, localizer);
+    return make(config, state, state_bytes, scratch, scratch_bytes, &made, localizer);
+  }
+  // With one map, whose id is 0.
+  static Status make(const sphc_localizer_config &config, const Map &map, Localizer *localizer) {
+    Localizer made;
+    Status status = make(config, &made);
+    if (status.ok()) status = made.setMap(0, map);
+    if (status.ok()) *localizer = std::move(made);
+    return status;
+  }
+
+  // Adds the map or replaces the one of this id; it is borrowed until it is replaced or removed.
+  Status setMap(std::uint32_t map_id, const Map &map) {
+    return said(sphc_localizer_set_map(localizer_, map_id, map.get()));
+  }
+  Status removeMap(std::uint32_t map_id) { return said(sphc_localizer_remove_map(localizer_, map_id)); }
+  Status setParameter(sphc_localizer_parameter parameter, double value) {
+    return said(sphc_localizer_set_parameter(localizer_, parameter, value));
+  }
+  Status setDepthBias(const sphc_depth_bias &depth) {
+    return said(sphc_localizer_set_depth_bias(localizer_, &depth));
   }
 
   // ok(): localized.  code() SPHC_NOT_LOCALIZED: result->outcome says why.  failed(): the frame does not fit.
-  Status process(const sphc_frame &frame, sphc_result *result) {
-    const sphc_status code = sphc_localizer_process(localizer_, &frame, result);
-    return code < 0 && localizer_ ? Status(code, sphc_localizer_message(localizer_)) : Status(code);
+  Status process(const sphc_localizer_frame &frame, sphc_localizer_result *result) {
+    return said(sphc_localizer_process(localizer_, &frame, result));
   }
   // Copies at most `capacity` and returns how many there are.
-  std::uint32_t observations(sphc_observation *observations, std::uint32_t capacity) const {
+  std::uint32_t observations(sphc_localizer_observation *observations, std::uint32_t capacity) const {
     std::uint32_t count = 0;
-    if (localizer_) sphc_localizer_observations(localizer_, observations, capacity, &count);
+    if (localizer_) sphc_localizer_observations(localizer_, observations, sizeof *observations, capacity, &count);
     return count;
   }
   // Forgets where the camera was.
@@ -337,14 +350,17 @@ class Localizer {
   explicit operator bool() const { return localizer_ != nullptr; }
 
  private:
-  static Status make(const sphc_config &config, const sphc_map *const *maps, std::uint32_t map_count, void *state,
-                     std::size_t state_bytes, void *scratch, std::size_t scratch_bytes, Localizer *made,
-                     Localizer *localizer) {
+  static Status make(const sphc_localizer_config &config, void *state, std::size_t state_bytes, void *scratch,
+                     std::size_t scratch_bytes, Localizer *made, Localizer *localizer) {
     Status status;
-    status.set(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config, maps, map_count,
-                                   &made->localizer_, status.message()));
+    status.set(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config, &made->localizer_,
+                                   status.message()));
     if (status.ok()) *localizer = std::move(*made);
     return status;
+  }
+  // With its message where it failed.
+  Status said(sphc_status code) const {
+    return code < 0 && localizer_ ? Status(code, sphc_localizer_message(localizer_)) : Status(code);
   }
   void swap(Localizer &other) noexcept {
     std::swap(state_, other.state_);
@@ -362,13 +378,12 @@ class Localizer {
 // A tightly packed image when stride_bytes is 0.
 inline sphc_image image(const void *data, std::uint32_t width, std::uint32_t height, sphc_format format,
                         std::uint32_t stride_bytes = 0) {
-  const std::uint32_t pixel = format == SPHC_FORMAT_GRAY8 ? 1 : format == SPHC_FORMAT_DEPTH16 ? 2 : 3;
-  return {data, width, height, stride_bytes != 0 ? stride_bytes : width * pixel, format};
+  return {data, width, height, stride_bytes != 0 ? stride_bytes : width * sphc_format_bytes(format), format};
 }
 
-inline sphc_frame frame(std::uint32_t sequence, std::int64_t color_time_ns, const sphc_image &color,
-                        std::int64_t depth_time_ns, const sphc_image &depth) {
-  return {sizeof(sphc_frame), sequence, color_time_ns, depth_time_ns, color, depth, nullptr, 0, 0};
+inline sphc_localizer_frame frame(std::uint32_t sequence, std::int64_t color_time_ns, const sphc_image &color,
+                                  std::int64_t depth_time_ns, const sphc_image &depth) {
+  return {sizeof(sphc_localizer_frame), sequence, color_time_ns, depth_time_ns, color, depth, nullptr, 0, 0};
 }
 
 inline sphc_rigid identity() { return {{1, 0, 0, 0}, {0, 0, 0}}; }

@@ -52,7 +52,7 @@ AlignCase readCase(const AlignOptions &options) {
   c.rig = calibration;
   const uint32_t count = reader->frameCount();
   for (uint32_t i = 0; i < count; ++i) {
-    const sphc_frame frame = reader->read(i);
+    const sphc_localizer_frame frame = reader->read(i);
     c.frames.push_back({grayOf(frame.color), depthOf(frame.depth)});
   }
   return c;

@@ -17,7 +17,8 @@ struct Options {
   std::vector<uint32_t> deadlines_us = {2000, 3000, 5000, 10000};
   bool noise = false, one_cell = false, half = false, tracking = false;
   uint32_t repeats = 1;
-  sphc_config config = spherecloud::defaultConfig();
+  sphc_localizer_config config = spherecloud::defaultConfig();
+  Parameters parameters;
 };
 
 DeadlineInput inputOf(const Options &options, const std::vector<MapFile> &maps, const Vector3 &centre) {
@@ -27,6 +28,7 @@ DeadlineInput inputOf(const Options &options, const std::vector<MapFile> &maps, 
   input.maps = &maps;
   input.centre_in_world_m = {centre.x(), centre.y(), centre.z()};
   input.config = options.config;
+  input.parameters = options.parameters;
   input.config.mode = options.tracking ? SPHC_MODE_TRACKING : SPHC_MODE_SINGLE;
   input.repeats = options.repeats;
   uint64_t seed = 0;
@@ -95,7 +97,8 @@ Command deadlineCommand(CLI::App *root) {
       ->type_name("N");
   app->add_option("--max-keypoints", options->config.max_keypoints, "Strongest keypoints of a frame, 64 to 4096")
       ->capture_default_str();
-  app->add_option("--probes", options->config.probes, "Cells of the map's index searched for each keypoint; 0: all")
+  app->add_option("--probes", options->parameters.probes,
+                  "Cells of the map's index searched for each keypoint; 0: all")
       ->capture_default_str();
   return {app, [options](const Console &console) { return run(*options, console); }};
 }

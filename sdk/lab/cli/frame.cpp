@@ -99,7 +99,7 @@ class FrameCommand {
   // False when the frame cannot be read or has no pose.
   static bool readFrame(RecordingReader *reader, uint32_t index, FrameCase *frame) {
     const std::optional<sphc_rigid> world_from_camera = reader->worldFromCamera(index);
-    const std::optional<sphc_frame> image = world_from_camera ? reader->tryRead(index) : std::nullopt;
+    const std::optional<sphc_localizer_frame> image = world_from_camera ? reader->tryRead(index) : std::nullopt;
     if (!image) return false;
     frame->image = *image;
     frame->index = index;
@@ -144,7 +144,7 @@ class FrameCommand {
   const FrameOptions &options_;
   const Console &console_;
   std::unique_ptr<RecordingReader> reader_;
-  sphc_config config_;
+  sphc_localizer_config config_;
   std::unique_ptr<FramePeers> peers_;
 };
 

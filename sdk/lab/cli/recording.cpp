@@ -32,7 +32,7 @@ struct DepthFrames {
 DepthFrames readDepth(RecordingReader *reader) {
   DepthFrames depth;
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
-    const sphc_frame frame = reader->read(i);
+    const sphc_localizer_frame frame = reader->read(i);
     const auto *pixels = static_cast<const uint16_t *>(frame.depth.data);
     depth.width = frame.depth.width;
     depth.height = frame.depth.height;

@@ -20,7 +20,7 @@ int64_t processorNanoseconds(void *) {
   return now.tv_sec * 1000000000ll + now.tv_nsec;
 }
 
-void count(const DeadlineInput &input, const Shot &shot, const sphc_result &result, DeadlineRow *row) {
+void count(const DeadlineInput &input, const Shot &shot, const sphc_localizer_result &result, DeadlineRow *row) {
   row->features_cut += (result.cuts & SPHC_CUT_FEATURES) != 0;
   row->matches_cut += (result.cuts & SPHC_CUT_MATCHES) != 0;
   row->search_cut += (result.cuts & SPHC_CUT_SEARCH) != 0;
@@ -38,17 +38,17 @@ DeadlineRow runDeadline(const DeadlineInput &input, uint32_t deadline_us) {
   row.deadline_us = deadline_us;
   std::vector<double> times_us;
   for (uint32_t repeat = 0; repeat < input.repeats; ++repeat) {
-    sphc_config config = input.config;
+    sphc_localizer_config config = input.config;
     setCameras(input.sequences.front().rig, &config);
     config.clock = processorNanoseconds;
     config.seed += repeat;
-    spherecloud::Localizer localizer = makeLocalizer(config, *input.maps);
+    spherecloud::Localizer localizer = makeLocalizer(config, *input.maps, input.parameters);
     for (const Sequence &sequence : input.sequences)
       for (const Shot &shot : sequence.shots) {
-        sphc_frame frame = frameOf(sequence, shot, row.frames++);
+        sphc_localizer_frame frame = frameOf(sequence, shot, row.frames++);
         frame.prior = nullptr;
         frame.deadline_us = deadline_us;
-        sphc_result result = spherecloud::emptyResult();
+        sphc_localizer_result result = spherecloud::emptyResult();
         const int64_t begin = processorNanoseconds(nullptr);
         const spherecloud::Status status = localizer.process(frame, &result);
         times_us.push_back(static_cast<double>(processorNanoseconds(nullptr) - begin) / 1000);

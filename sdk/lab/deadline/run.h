@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/evaluate/map_file.h"
+#include "host/evaluate/parameters.h"
 #include "lab/negative/sequence.h"
 
 namespace sphc::host {
@@ -15,7 +16,8 @@ struct DeadlineInput {
   std::vector<Sequence> sequences;  // one after another
   const std::vector<MapFile> *maps = nullptr;
   std::array<double, 3> centre_in_world_m = {};
-  sphc_config config = {};  // without rig and clock
+  sphc_localizer_config config = {};  // without rig and clock
+  Parameters parameters;
   uint32_t repeats = 1;
 };
 

@@ -32,12 +32,13 @@ class Bench {
 
   void restart() {
     localizer_ = {};
-    check(spherecloud::Localizer::make(config_, *map_, state_.data(), state_.size(), scratch_.data(),
-                                       scratch_.size(), &localizer_));
+    check(spherecloud::Localizer::make(config_, state_.data(), state_.size(), scratch_.data(), scratch_.size(),
+                                       &localizer_));
+    check(localizer_.setMap(0, *map_));
   }
 
-  FrameAnswer process(const sphc_frame &frame) {
-    sphc_result result = spherecloud::emptyResult();
+  FrameAnswer process(const sphc_localizer_frame &frame) {
+    sphc_localizer_result result = spherecloud::emptyResult();
     const double begin = threadCpuSeconds();
     const spherecloud::Status status = localizer_.process(frame, &result);
     const double end = threadCpuSeconds();
@@ -46,7 +47,7 @@ class Bench {
   }
 
  private:
-  FrameAnswer answerOf(const sphc_result &result, double seconds) const {
+  FrameAnswer answerOf(const sphc_localizer_result &result, double seconds) const {
     FrameAnswer answer;
     answer.pose.found = result.outcome == SPHC_OUTCOME_LOCALIZED;
     const Rigid map_from_world = {Matrix3::Identity(), -centre_m_};
@@ -63,7 +64,7 @@ class Bench {
   }
 
   const spherecloud::Map *map_;
-  sphc_config config_;
+  sphc_localizer_config config_;
   Vector3 centre_m_;
   sphc_memory need_ = {};
   spherecloud::AlignedBuffer state_, scratch_;
@@ -88,7 +89,7 @@ FrameVariant trackingVariant(const std::string &name, bool odometry, OurFrames o
     walks.back()->restart();
   }
   const auto run = [walks, odometry](const FrameCase &frame, uint32_t repeat) {
-    sphc_frame image = frame.image;
+    sphc_localizer_frame image = frame.image;
     if (odometry) image.prior = frame.odometry;
     return walks[repeat]->process(image);
   };

@@ -7,7 +7,7 @@
 namespace sphc::host {
 
 struct OurFrames {
-  sphc_config config = {};  // cameras set; its clock is replaced by the bench's
+  sphc_localizer_config config = {};  // cameras set; its clock is replaced by the bench's
   const spherecloud::Map *map = nullptr;
   Vector3 centre_in_world_m = Vector3::Zero();  // the map's origin in the recording's world
   uint32_t repeats = 1;

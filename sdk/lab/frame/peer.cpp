@@ -27,7 +27,7 @@ bool isTight(const sphc_image &image, uint32_t pixel_bytes) {
   return image.stride_bytes == image.width * pixel_bytes;
 }
 
-std::vector<Payload> imagesOf(const sphc_frame &frame) {
+std::vector<Payload> imagesOf(const sphc_localizer_frame &frame) {
   if (frame.color.format != SPHC_FORMAT_BGR8 || !isTight(frame.color, 3) || !isTight(frame.depth, 2))
     throw std::runtime_error("peers need BGR images without gaps between rows; leave them out with --no-peers");
   return {{frame.color.data, size_t{3} * frame.color.width * frame.color.height},
@@ -127,7 +127,7 @@ FramePeers::FramePeers(const std::string &python) {
   }
 }
 
-void FramePeers::begin(const sphc_config &config, const std::vector<std::string> &chosen) {
+void FramePeers::begin(const sphc_localizer_config &config, const std::vector<std::string> &chosen) {
   chosen_.clear();
   for (uint32_t i = 0; i < variants_.size(); ++i)
     if (std::find(chosen.begin(), chosen.end(), variants_[i].name) != chosen.end()) chosen_.push_back(i);
@@ -143,7 +143,7 @@ void FramePeers::begin(const sphc_config &config, const std::vector<std::string>
                       {"depth_max_m", config.depth_max_m}});
 }
 
-void FramePeers::addMappingFrame(const sphc_frame &frame, const Rigid &world_from_camera) {
+void FramePeers::addMappingFrame(const sphc_localizer_frame &frame, const Rigid &world_from_camera) {
   Json message = rigidJson(world_from_camera);
   message["do"] = "map";
   conversation_->ask(message, imagesOf(frame));

@@ -22,9 +22,9 @@ class FramePeers {
 
   // Cameras and depth range of `config`; `chosen` are the names of the variants to prepare.
   // The following throw std::runtime_error with cause and cure.
-  void begin(const sphc_config &config, const std::vector<std::string> &chosen);
+  void begin(const sphc_localizer_config &config, const std::vector<std::string> &chosen);
   // One of the frames that the map is made of.
-  void addMappingFrame(const sphc_frame &frame, const Rigid &world_from_camera);
+  void addMappingFrame(const sphc_localizer_frame &frame, const Rigid &world_from_camera);
   // Makes the maps and indexes of so many points; gives how many of them are of the place itself, the fewest of
   // all.
   uint32_t index(uint32_t points);

@@ -13,9 +13,9 @@ namespace sphc::host {
 
 struct FrameCase {
   uint32_t index = 0;  // frames come in order of time
-  sphc_frame image = {};
+  sphc_localizer_frame image = {};
   Rigid truth_camera_from_world;
-  const sphc_prior *odometry = nullptr;  // as a headset's dead reckoning would tell it; null: nothing
+  const sphc_localizer_prior *odometry = nullptr;  // as a headset's dead reckoning would tell it; null: nothing
 };
 
 constexpr Stage kStages[] = {kFeatures, kAlign, kMatch, kPose};  // in a frame's order

@@ -6,7 +6,7 @@
 namespace sphc::host {
 namespace {
 
-void count(const HintCondition &condition, const sphc_result &result, HintRow *row) {
+void count(const HintCondition &condition, const sphc_localizer_result &result, HintRow *row) {
   ++row->frames;
   if (result.outcome == SPHC_OUTCOME_LOCALIZED) return;
   ++row->without_pose;
@@ -14,17 +14,17 @@ void count(const HintCondition &condition, const sphc_result &result, HintRow *r
   countBits(kHintWords, result.hints, &row->hints);
 }
 
-void runSequence(const HintInput &input, const HintCondition &condition, const Sequence &sequence, sphc_mode mode,
-                 HintRow *row) {
+void runSequence(const HintInput &input, const HintCondition &condition, const Sequence &sequence,
+                 sphc_localizer_mode mode, HintRow *row) {
   if (sequence.shots.empty()) return;
-  sphc_config config = spherecloud::defaultConfig();
+  sphc_localizer_config config = spherecloud::defaultConfig();
   setCameras(sequence.rig, &config);
   config.mode = mode;
   spherecloud::Localizer localizer = makeLocalizer(config, *input.maps);
   for (const Shot &shot : sequence.shots) {
-    sphc_frame frame = frameOf(sequence, shot, row->frames);
+    sphc_localizer_frame frame = frameOf(sequence, shot, row->frames);
     frame.prior = nullptr;
-    sphc_result result = spherecloud::emptyResult();
+    sphc_localizer_result result = spherecloud::emptyResult();
     const spherecloud::Status status = localizer.process(frame, &result);
     if (status.failed()) throw std::runtime_error(condition.name + ": " + status.text());
     count(condition, result, row);

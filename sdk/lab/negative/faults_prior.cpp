@@ -22,7 +22,7 @@ std::function<void(Sequence *)> stateVertical(double off_deg) {
     const double up_world[3] = {0, -1, 0};
     for (Shot &shot : sequence->shots) {
       if (!shot.world_from_camera) continue;
-      sphc_prior prior = {};
+      sphc_localizer_prior prior = {};
       prior.struct_size = sizeof prior;
       prior.flags = SPHC_PRIOR_UP;
       for (int i = 0; i < 3; ++i) prior.up_map[i] = up_world[i];

@@ -23,7 +23,7 @@ namespace {
 
 class FaultRun {
  public:
-  FaultRun(const NegativeInput &input, const SensorFault &fault, sphc_mode mode)
+  FaultRun(const NegativeInput &input, const SensorFault &fault, sphc_localizer_mode mode)
       : input_(input), fault_(fault), mode_(mode) {
     row_.fault = fault.name;
     row_.mode = mode == SPHC_MODE_SINGLE ? "single" : "tracking";
@@ -43,13 +43,13 @@ class FaultRun {
  private:
   void runSequence(const Sequence &sequence) {
     if (sequence.shots.empty()) return;
-    sphc_config config = spherecloud::defaultConfig();
+    sphc_localizer_config config = spherecloud::defaultConfig();
     setCameras(sequence.rig, &config);
     config.mode = mode_;
     spherecloud::Localizer localizer = makeLocalizer(config, *input_.maps);
     const uint32_t named_before = row_.named;
     for (uint32_t i = 0; i < sequence.shots.size(); ++i) {
-      sphc_result result = spherecloud::emptyResult();
+      sphc_localizer_result result = spherecloud::emptyResult();
       const spherecloud::Status status = localizer.process(frameOf(sequence, sequence.shots[i], i), &result);
       if (status.failed()) throw std::runtime_error(fault_.name + ": " + status.text());
       count(result, sequence.shots[i]);
@@ -58,7 +58,7 @@ class FaultRun {
     row_.sequences_named += row_.named > named_before;
   }
 
-  void count(const sphc_result &result, const Shot &shot) {
+  void count(const sphc_localizer_result &result, const Shot &shot) {
     ++row_.tried;
     row_.seen |= result.faults;
     row_.named += (result.faults & (fault_.named_by ? fault_.named_by : ~0u)) != 0;
@@ -79,7 +79,7 @@ class FaultRun {
 
   const NegativeInput &input_;
   const SensorFault &fault_;
-  sphc_mode mode_;
+  sphc_localizer_mode mode_;
   NegativeRow row_;
 };
 
@@ -90,7 +90,7 @@ std::vector<NegativeRow> runNegative(const NegativeInput &input, const std::vect
   std::vector<NegativeRow> rows;
   const auto total = static_cast<uint32_t>(2 * faults.size());
   for (const SensorFault &fault : faults)
-    for (const sphc_mode mode : {SPHC_MODE_SINGLE, SPHC_MODE_TRACKING}) {
+    for (const sphc_localizer_mode mode : {SPHC_MODE_SINGLE, SPHC_MODE_TRACKING}) {
       rows.push_back(FaultRun(input, fault, mode).run());
       done(static_cast<uint32_t>(rows.size()), total);
     }

@@ -20,7 +20,7 @@ std::vector<T> pixelsOf(const sphc_image &image, size_t values_a_row) {
 
 // With odometry; the faults that are to be told without it take it away.
 void addShot(recording::RecordingReader *reader, uint32_t index, PlayedOdometry *odometry, Sequence *sequence) {
-  const std::optional<sphc_frame> frame = reader->tryRead(index);
+  const std::optional<sphc_localizer_frame> frame = reader->tryRead(index);
   if (!frame) return;
   sequence->color_format = frame->color.format;
   Shot shot;
@@ -29,7 +29,7 @@ void addShot(recording::RecordingReader *reader, uint32_t index, PlayedOdometry 
   shot.color_time_ns = frame->color_time_ns;
   shot.depth_time_ns = frame->depth_time_ns;
   shot.world_from_camera = reader->worldFromCamera(index);
-  if (const sphc_prior *prior = odometry->at(index)) shot.prior = *prior;
+  if (const sphc_localizer_prior *prior = odometry->at(index)) shot.prior = *prior;
   sequence->shots.push_back(std::move(shot));
 }
 
@@ -51,8 +51,8 @@ std::vector<Sequence> readSequences(recording::RecordingReader *reader, uint32_t
   return sequences;
 }
 
-sphc_frame frameOf(const Sequence &sequence, const Shot &shot, uint32_t number) {
-  sphc_frame frame = {};
+sphc_localizer_frame frameOf(const Sequence &sequence, const Shot &shot, uint32_t number) {
+  sphc_localizer_frame frame = {};
   frame.struct_size = sizeof frame;
   frame.sequence = number;
   frame.color_time_ns = shot.color_time_ns;

@@ -12,7 +12,7 @@ struct Shot {
   std::vector<uint16_t> depth;  // the same
   int64_t color_time_ns = 0, depth_time_ns = 0;
   std::optional<sphc_rigid> world_from_camera;  // of the colour camera
-  sphc_prior prior = {};                        // flags 0: nothing is known
+  sphc_localizer_prior prior = {};              // flags 0: nothing is known
 };
 
 struct Sequence {
@@ -33,6 +33,6 @@ constexpr uint32_t kSequenceFrames = 30;
 // read are left out.
 std::vector<Sequence> readSequences(recording::RecordingReader *reader, uint32_t most);
 // Borrows.
-sphc_frame frameOf(const Sequence &sequence, const Shot &shot, uint32_t number);
+sphc_localizer_frame frameOf(const Sequence &sequence, const Shot &shot, uint32_t number);
 
 }  // namespace sphc::host

@@ -11,7 +11,8 @@ std::string namesOf(uint32_t faults) {
   const std::string prefix = "SPHC_FAULT_";
   std::string names;
   for (uint32_t bit = 1; bit; bit <<= 1)
-    if (faults & bit) names += (names.empty() ? "" : " ") + std::string(sphc_fault_name(bit)).substr(prefix.size());
+    if (faults & bit)
+      names += (names.empty() ? "" : " ") + std::string(sphc_localizer_fault_name(bit)).substr(prefix.size());
   return names;
 }
 

@@ -23,7 +23,7 @@ class Describer {
         SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromC(calibration.color_from_depth), sensor);
   }
 
-  DescribedFrame describe(const sphc_frame &frame) {
+  DescribedFrame describe(const sphc_localizer_frame &frame) {
     features_.extract(grayOf(frame.color, &gray_));
     DescribedFrame described;
     described.camera = pinhole();
@@ -67,7 +67,7 @@ std::vector<DescribedFrame> describeFrames(recording::RecordingReader *reader) {
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     if (!pose) continue;
-    const sphc_frame frame = reader->read(i);
+    const sphc_localizer_frame frame = reader->read(i);
     frames.push_back(describer.describe(frame));
     frames.back().name = std::to_string(frame.sequence);
     frames.back().camera_from_world = rigidFromC(*pose).inverse();

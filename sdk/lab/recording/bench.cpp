@@ -55,7 +55,7 @@ double processCpuSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-sphc_capture captureOf(const sphc_frame &frame, sphc_stream stream, uint32_t i) {
+sphc_capture captureOf(const sphc_localizer_frame &frame, sphc_stream stream, uint32_t i) {
   sphc_capture capture = {};
   capture.struct_size = sizeof capture;
   capture.stream = stream;
@@ -83,7 +83,7 @@ double record(RecordingReader *reader, const std::string &file, bool with_color)
   const double start = processCpuSeconds();
   for (uint32_t i = 0; i < count; ++i) {
     const double before = threadCpuSeconds();
-    const sphc_frame frame = reader->read(i);
+    const sphc_localizer_frame frame = reader->read(i);
     reading_s += threadCpuSeconds() - before;
     const sphc_capture color = captureOf(frame, SPHC_STREAM_COLOR, i);
     const sphc_capture depth = captureOf(frame, SPHC_STREAM_DEPTH, i);

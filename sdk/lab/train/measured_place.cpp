@@ -60,7 +60,7 @@ class FrameReader {
       if (!pose) continue;
       const Rigid world_from_camera = rigidFromC(*pose);
       const Vector3 axis = world_from_camera.rotation.col(2);
-      const std::optional<sphc_frame> frame = farFrom(axis, axes) ? reader_->tryRead(i) : std::nullopt;
+      const std::optional<sphc_localizer_frame> frame = farFrom(axis, axes) ? reader_->tryRead(i) : std::nullopt;
       if (!frame) continue;
       axes.push_back(axis);
       const GrayView grey = grayOf(frame->color, &grey_);

@@ -63,17 +63,15 @@ sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_
   return sphc::initStruct(sphc::defaultAlignerConfig(), struct_size, config);
 }
 
-sphc_status sphc_aligner_memory(const sphc_aligner_config *config, size_t *bytes, size_t *alignment,
-                                sphc_message *message) {
+sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc_memory *memory, sphc_message *message) {
   sphc_aligner_config checked;
   const sphc_status status = sphc::readAlignerConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
-  if (!bytes || !alignment) {
-    MessageWriter(message) << (bytes ? "alignment" : "bytes") << " is null";
+  if (!memory) {
+    MessageWriter(message) << "memory is null";
     return SPHC_E_ARGUMENT;
   }
-  *bytes = bytesOf(denseConfig(checked));
-  *alignment = sphc::kArenaAlignment;
+  *memory = {bytesOf(denseConfig(checked)), 0, sphc::kArenaAlignment, 0};
   return SPHC_OK;
 }
 

@@ -4,22 +4,25 @@
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/geometry/rigid.h"
-#include "runtime/localizer/localizer.h"
 
 namespace sphc {
 namespace {
 
+constexpr double kLeastSigma = 1e-6;  // smaller ones would square to nothing
+
 // A field that has to lie in [low, high].
-bool inRange(const char *name, double value, double low, double high, sphc_message *message) {
+bool inRange(const char *owner, const char *name, double value, double low, double high, sphc_message *message) {
   if (value >= low && value <= high) return true;
-  MessageWriter(message) << "config." << name << " is " << value << "; it must lie in " << low << " to " << high;
+  MessageWriter(message) << owner << "." << name << " is " << value << "; it must lie in " << low << " to " << high;
   return false;
 }
+bool inRange(const char *name, double value, double low, double high, sphc_message *message) {
+  return inRange("config", name, value, low, high, message);
+}
 
-bool checkNumbers(const sphc_config &c, sphc_message *message) {
+bool checkNumbers(const sphc_localizer_config &c, sphc_message *message) {
   return inRange("max_keypoints", c.max_keypoints, 64, 4096, message) &&
-         inRange("max_iterations", c.max_iterations, 1, 1e6, message) &&
-         inRange("max_ratio", static_cast<double>(c.max_ratio), 0.1, 1, message) &&
+         inRange("max_maps", c.max_maps, 1, SPHC_MAPS_MAX, message) &&
          inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
          inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
          inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
@@ -29,15 +32,13 @@ bool checkNumbers(const sphc_config &c, sphc_message *message) {
          inRange("depth_mid_m", c.depth_mid_m, 0, 200, message) &&
          inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
          inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
-         inRange("min_inliers", c.min_inliers, 4, 4096, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
-         inRange("probes", c.probes, 0, Localizer::kMostProbes, message);
+         inRange("log_level", c.log_level, SPHC_LOG_ERROR, SPHC_LOG_DEBUG, message);
 }
 
-bool checkTogether(const sphc_config &c, sphc_message *message) {
-  constexpr double kLeast = 1e-6;  // smaller ones would square to nothing
+bool checkTogether(const sphc_localizer_config &c, sphc_message *message) {
   const bool known = c.depth_offset_sigma_m == 0 && c.depth_slope_sigma == 0;
-  if (!known && (c.depth_offset_sigma_m < kLeast || c.depth_slope_sigma < kLeast)) {
+  if (!known && (c.depth_offset_sigma_m < kLeastSigma || c.depth_slope_sigma < kLeastSigma)) {
     MessageWriter(message)
         << "config.depth_offset_sigma_m and config.depth_slope_sigma must both be 1e-6 or more, or both "
            "0 for a sensor without bias";
@@ -46,11 +47,8 @@ bool checkTogether(const sphc_config &c, sphc_message *message) {
   return true;
 }
 
-// A field of a prior that has to lie in [low, high].
 bool priorInRange(const char *name, double value, double low, double high, sphc_message *message) {
-  if (value >= low && value <= high) return true;
-  MessageWriter(message) << "prior." << name << " is " << value << "; it must lie in " << low << " to " << high;
-  return false;
+  return inRange("prior", name, value, low, high, message);
 }
 
 bool checkDirection(const char *name, const double *v, sphc_message *message) {
@@ -70,31 +68,31 @@ bool checkPose(const char *name, const sphc_rigid &pose, sphc_message *message) 
   return false;
 }
 
-bool checkPriorPose(const sphc_prior &prior, sphc_message *message) {
+bool checkPriorPose(const sphc_localizer_prior &prior, sphc_message *message) {
   return checkPose("camera_from_map", prior.camera_from_map, message) &&
          priorInRange("rotation_sigma_rad", prior.rotation_sigma_rad, 1e-6, 3.2, message) &&
          priorInRange("translation_sigma_m", prior.translation_sigma_m, 1e-6, 1000, message);
 }
 
-bool checkPriorUp(const sphc_prior &prior, sphc_message *message) {
+bool checkPriorUp(const sphc_localizer_prior &prior, sphc_message *message) {
   return checkDirection("up_camera", prior.up_camera, message) && checkDirection("up_map", prior.up_map, message) &&
          priorInRange("up_sigma_rad", prior.up_sigma_rad, 1e-4, 0.5, message);
 }
 
-bool checkPriorOdometry(const sphc_prior &prior, sphc_message *message) {
+bool checkPriorOdometry(const sphc_localizer_prior &prior, sphc_message *message) {
   return checkPose("odometry_from_camera", prior.odometry_from_camera, message) &&
          priorInRange("odometry_rotation_sigma_rad", prior.odometry_rotation_sigma_rad, 1e-6, 1, message) &&
          priorInRange("odometry_translation_sigma_m", prior.odometry_translation_sigma_m, 1e-6, 10, message);
 }
 
-sphc_status checkPrior(const sphc_prior &prior, uint32_t map_count, sphc_message *message) {
+sphc_status checkPrior(const sphc_localizer_prior &prior, const MapSet &maps, sphc_message *message) {
   if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP | SPHC_PRIOR_ODOMETRY)) {
     MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags;
     return SPHC_E_ARGUMENT;
   }
-  if (prior.flags & (SPHC_PRIOR_POSE | SPHC_PRIOR_UP) && prior.map_index >= map_count) {
-    MessageWriter(message) << "prior.map_index is " << prior.map_index << ", but the localizer has " << map_count
-                           << " maps, counted from 0";
+  if (prior.flags & (SPHC_PRIOR_POSE | SPHC_PRIOR_UP) && maps.slotOf(prior.map_id) == kNoMap) {
+    MessageWriter(message) << "prior.map_id is " << prior.map_id << ", and none of the localizer's " << maps.count()
+                           << " maps has this id; give one that sphc_localizer_set_map was called with";
     return SPHC_E_ARGUMENT;
   }
   const bool fine = (!(prior.flags & SPHC_PRIOR_POSE) || checkPriorPose(prior, message)) &&
@@ -103,25 +101,11 @@ sphc_status checkPrior(const sphc_prior &prior, uint32_t map_count, sphc_message
   return fine ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
-uint32_t bytesPerPixel(sphc_format format) {
-  switch (format) {
-    case SPHC_FORMAT_GRAY8:
-      return 1;
-    case SPHC_FORMAT_RGB8:
-    case SPHC_FORMAT_BGR8:
-      return 3;
-    case SPHC_FORMAT_DEPTH16:
-      return 2;
-    default:
-      return 0;
-  }
-}
-
 }  // namespace
 
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
                        sphc_message *message) {
-  const uint32_t pixel = bytesPerPixel(image.format);
+  const uint32_t pixel = sphc_format_bytes(image.format);
   if (!pixel || (image.format == SPHC_FORMAT_DEPTH16) != depth) {
     MessageWriter(message) << name << " image has format " << image.format << "; give "
                            << (depth ? "SPHC_FORMAT_DEPTH16" : "GRAY8, RGB8 or BGR8");
@@ -146,12 +130,11 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
   return SPHC_OK;
 }
 
-sphc_config defaultConfig() {
-  sphc_config config = {};
+sphc_localizer_config defaultConfig() {
+  sphc_localizer_config config = {};
   config.struct_size = sizeof config;
   config.max_keypoints = 800;
-  config.max_iterations = 20000;
-  config.max_ratio = 0.85f;
+  config.max_maps = 16;
   sphc_rig_init(&config.rig);
   config.depth_min_m = 0.25;
   config.depth_max_m = 6;
@@ -161,13 +144,12 @@ sphc_config defaultConfig() {
   config.map_sigma_m = 0.004;
   config.depth_offset_sigma_m = 0.003;
   config.depth_slope_sigma = 0.02;
-  config.min_inliers = 10;
-  config.probes = 8;
+  config.log_level = SPHC_LOG_INFO;
   return config;
 }
 
 sphc_aligner_config defaultAlignerConfig() {
-  const sphc_config localizer = defaultConfig();
+  const sphc_localizer_config localizer = defaultConfig();
   sphc_aligner_config config = {};
   config.struct_size = sizeof config;
   config.rig = localizer.rig;
@@ -178,7 +160,7 @@ sphc_aligner_config defaultAlignerConfig() {
   return config;
 }
 
-sphc_status readConfig(const sphc_config *config, sphc_config *copy, sphc_message *message) {
+sphc_status readConfig(const sphc_localizer_config *config, sphc_localizer_config *copy, sphc_message *message) {
   *copy = defaultConfig();
   sphc_status status = readStruct("config", config, copy, message);
   if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
@@ -206,9 +188,10 @@ sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_co
   return SPHC_E_ARGUMENT;
 }
 
-sphc_status readFrame(const sphc_frame *frame, const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
+sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limits, FrameCopy *copy,
+                      sphc_message *message) {
   *copy = {};
-  sphc_frame &own = copy->frame;
+  sphc_localizer_frame &own = copy->frame;
   sphc_status status = readStruct("frame", frame, &own, message);
   if (status == SPHC_OK && own.prior) status = readStruct("prior", own.prior, &copy->prior, message);
   if (status != SPHC_OK) return status;
@@ -220,20 +203,32 @@ sphc_status readFrame(const sphc_frame *frame, const FrameLimits &limits, FrameC
   }
   status = checkImage("color", own.color, limits.color, false, message);
   if (status == SPHC_OK) status = checkImage("depth", own.depth, limits.depth, true, message);
-  if (status == SPHC_OK && own.prior) status = checkPrior(*own.prior, limits.map_count, message);
+  if (status == SPHC_OK && own.prior) status = checkPrior(*own.prior, limits.maps, message);
   return status;
 }
 
-sphc_status checkMaps(const sphc_map *const *maps, uint32_t map_count, sphc_message *message) {
-  if (map_count > SPHC_MAPS_MAX) {
-    MessageWriter(message) << map_count << " maps were given; a localizer holds at most " << SPHC_MAPS_MAX;
-    return SPHC_E_CAPACITY;
+sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message) {
+  if (!depth) {
+    MessageWriter(message) << "depth is null; give result.depth of an earlier frame";
+    return SPHC_E_ARGUMENT;
   }
-  bool whole = maps && map_count > 0;
-  for (uint32_t i = 0; whole && i < map_count; ++i) whole = maps[i];
-  if (whole) return SPHC_OK;
-  MessageWriter(message) << "the list of maps is empty or has a null in it; open each with sphc_map_init";
-  return SPHC_E_ARGUMENT;
+  const sphc_depth_bias &d = *depth;
+  constexpr double kRounding = 1 + 1e-9, kMostOffsetM = 1, kMostSlope = 0.5;
+  const double offset_sigma_m = sqrtOf(prior.covariance(0, 0)) * kRounding,
+               slope_sigma = sqrtOf(prior.covariance(1, 1)) * kRounding;
+  const auto lies = [&](const char *name, double value, double low, double high) {
+    return inRange("depth", name, value, low, high, message);
+  };
+  const double most_m = prior.isKnown() ? 0 : kMostOffsetM, most_slope = prior.isKnown() ? 0 : kMostSlope;
+  const double least = prior.isKnown() ? 0 : kLeastSigma;
+  const bool fine = lies("mid_m", d.mid_m, prior.mid_m, prior.mid_m) &&
+                    lies("offset_m", d.offset_m, -most_m, most_m) &&
+                    lies("slope", d.slope, -most_slope, most_slope) &&
+                    lies("offset_sigma_m", d.offset_sigma_m, least, offset_sigma_m) &&
+                    lies("slope_sigma", d.slope_sigma, least, slope_sigma) &&
+                    lies("correlation", d.correlation, -0.9999, 0.9999) &&
+                    lies("noise_scale", d.noise_scale, kLeastNoiseScale, kMostNoiseScale);
+  return fine ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
@@ -262,16 +257,11 @@ sphc_status checkApart(const MemoryRange &written, const MemoryRange &other, sph
   return SPHC_E_ARGUMENT;
 }
 
-sphc_status checkApartFromMaps(const MemoryRange &written, const sphc_map *const *maps, uint32_t map_count,
-                               sphc_message *message) {
-  sphc_status status = checkApart(written, {"the list of maps", maps, map_count * sizeof *maps}, message);
-  for (uint32_t i = 0; i < map_count && status == SPHC_OK; ++i) {
-    const MapHeader &file = maps[i]->view.header();
-    status = checkApart(written, {"the view of a map", maps[i], sizeof *maps[i]}, message);
-    if (status == SPHC_OK)
-      status = checkApart(written, {"the file of a map", &file, static_cast<size_t>(file.file_bytes)}, message);
-  }
-  return status;
+sphc_status checkApartFromMap(const MemoryRange &written, const sphc_map &map, sphc_message *message) {
+  const MapHeader &file = map.view.header();
+  const sphc_status status = checkApart(written, {"the view of a map", &map, sizeof map}, message);
+  if (status != SPHC_OK) return status;
+  return checkApart(written, {"the file of a map", &file, static_cast<size_t>(file.file_bytes)}, message);
 }
 
 }  // namespace sphc

@@ -24,10 +24,10 @@ sphc_status sphc_clock_mapper_config_init(sphc_clock_mapper_config *config, size
   return sphc::initStruct(kDefaults, struct_size, config);
 }
 
-sphc_status sphc_clock_mapper_memory(size_t *bytes, size_t *alignment) {
-  if (!bytes || !alignment) return SPHC_E_ARGUMENT;
-  *bytes = sizeof(sphc_clock_mapper);
-  *alignment = alignof(sphc_clock_mapper);
+sphc_status sphc_clock_mapper_memory(sphc_memory *memory) {
+  static_assert(sizeof(sphc_clock_mapper) <= SPHC_CLOCK_MAPPER_BYTES_MAX);
+  if (!memory) return SPHC_E_ARGUMENT;
+  *memory = {sizeof(sphc_clock_mapper), 0, alignof(sphc_clock_mapper), 0};
   return SPHC_OK;
 }
 
@@ -68,7 +68,7 @@ sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t sourc
 
 sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping) {
   if (!mapper || !mapping) return SPHC_E_ARGUMENT;
-  const sphc_status writable = sphc::checkWritable("mapping", mapping, nullptr);
+  const sphc_status writable = sphc::checkStruct("mapping", mapping, nullptr);
   if (writable != SPHC_OK) return writable;
   sphc_clock_mapping own = {};
   const sphc_status status = mapper->mapper.get(&own);

@@ -28,7 +28,7 @@ unsigned char *bytesOf(void *growing) { return static_cast<unsigned char *>(grow
 
 sphc_status readStructBytes(const StructKind &kind, const char *name, const void *from, void *known,
                             sphc_message *message) {
-  const sphc_status status = checkWritableBytes(kind, name, from, message);
+  const sphc_status status = checkStructBytes(kind, name, from, message);
   if (status != SPHC_OK) return status;
   const size_t struct_size = sizeOf(from);
   for (size_t i = kind.known_bytes; i < struct_size; ++i) {
@@ -46,7 +46,7 @@ sphc_status readStructBytes(const StructKind &kind, const char *name, const void
   return SPHC_OK;
 }
 
-sphc_status checkWritableBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message) {
+sphc_status checkStructBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message) {
   if (!to) {
     MessageWriter(message) << name << " is null; give a " << kind.type;
     return SPHC_E_ARGUMENT;

@@ -4,7 +4,7 @@
 #pragma once
 #include <cstddef>
 
-#include "spherecloud/spherecloud.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc {
 
@@ -31,8 +31,12 @@ constexpr StructKind kindOf(const sphc_clock_mapper_config *) {
 constexpr StructKind kindOf(const sphc_clock_mapping *) {
   return ungrown<sphc_clock_mapping>("sphc_clock_mapping");
 }
-constexpr StructKind kindOf(const sphc_config *) { return ungrown<sphc_config>("sphc_config"); }
-constexpr StructKind kindOf(const sphc_frame *) { return ungrown<sphc_frame>("sphc_frame"); }
+constexpr StructKind kindOf(const sphc_localizer_config *) {
+  return ungrown<sphc_localizer_config>("sphc_localizer_config");
+}
+constexpr StructKind kindOf(const sphc_localizer_frame *) {
+  return ungrown<sphc_localizer_frame>("sphc_localizer_frame");
+}
 constexpr StructKind kindOf(const sphc_map_info *) { return ungrown<sphc_map_info>("sphc_map_info"); }
 constexpr StructKind kindOf(const sphc_pairer_config *) {
   return ungrown<sphc_pairer_config>("sphc_pairer_config");
@@ -40,15 +44,20 @@ constexpr StructKind kindOf(const sphc_pairer_config *) {
 constexpr StructKind kindOf(const sphc_pairer_counts *) {
   return ungrown<sphc_pairer_counts>("sphc_pairer_counts");
 }
-constexpr StructKind kindOf(const sphc_prior *) { return ungrown<sphc_prior>("sphc_prior"); }
-constexpr StructKind kindOf(const sphc_result *) {
-  return {"sphc_result", offsetof(sphc_result, hints), sizeof(sphc_result), alignof(sphc_result)};
+constexpr StructKind kindOf(const sphc_localizer_prior *) {
+  return ungrown<sphc_localizer_prior>("sphc_localizer_prior");
+}
+constexpr StructKind kindOf(const sphc_localizer_parameter_range *) {
+  return ungrown<sphc_localizer_parameter_range>("sphc_localizer_parameter_range");
+}
+constexpr StructKind kindOf(const sphc_localizer_result *) {
+  return ungrown<sphc_localizer_result>("sphc_localizer_result");
 }
 
 // Of any of them.
 sphc_status readStructBytes(const StructKind &kind, const char *name, const void *from, void *known,
                             sphc_message *message);
-sphc_status checkWritableBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message);
+sphc_status checkStructBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message);
 void writeStructBytes(const StructKind &kind, const void *known, void *to);
 sphc_status initStructBytes(const StructKind &kind, const void *known, size_t struct_size, void *to);
 
@@ -59,10 +68,10 @@ template <typename T>
 sphc_status readStruct(const char *name, const T *from, T *known, sphc_message *message) {
   return readStructBytes(kindOf(from), name, from, known, message);
 }
-// Can results be written to it?  ARGUMENT for null, STRUCT_SIZE for a size that never was.
+// Can it be read and written?  ARGUMENT for null, STRUCT_SIZE for a size that never was.
 template <typename T>
-sphc_status checkWritable(const char *name, const T *to, sphc_message *message) {
-  return checkWritableBytes(kindOf(to), name, to, message);
+sphc_status checkStruct(const char *name, const T *to, sphc_message *message) {
+  return checkStructBytes(kindOf(to), name, to, message);
 }
 // Copies as much as the caller's struct has room for and zeroes the rest of it; struct_size stays the caller's.
 template <typename T>

@@ -1,9 +1,11 @@
+#include <cstring>
 #include <new>
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
+#include "runtime/capi/parameters.h"
 #include "runtime/capi/translate.h"
 
 namespace {
@@ -12,13 +14,14 @@ using sphc::Arena;
 using sphc::Localizer;
 using sphc::LocalizerConfig;
 using sphc::MemoryRange;
+using sphc::MessageWriter;
 
 constexpr size_t kObjectBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
 
 sphc_memory measure(const LocalizerConfig &config) {
   Arena state, scratch;
   Localizer::layout(config, state, scratch, nullptr);
-  return {kObjectBytes + state.used(), scratch.used(), sphc::kArenaAlignment};
+  return {kObjectBytes + state.used(), scratch.used(), sphc::kArenaAlignment, 0};
 }
 
 // Finds the index-th piece of the layout walk.
@@ -36,40 +39,64 @@ struct PieceSearch {
   }
 };
 
-void logResult(const sphc_localizer &localizer, const sphc_result &result) {
-  if (!localizer.log) return;
+void logResult(const sphc_localizer &localizer, const sphc_localizer_result &result) {
+  if (!localizer.log || localizer.log_level < SPHC_LOG_DEBUG) return;
   sphc_message text;
-  sphc::MessageWriter(&text) << "frame " << result.sequence << ": "
-                             << (result.outcome == SPHC_OUTCOME_LOCALIZED ? "localized" : "not localized")
-                             << ", outcome " << result.outcome << ", keypoints " << result.keypoints << ", lifted "
-                             << result.lifted << ", matches " << result.matches << ", inliers " << result.inliers
-                             << ", state " << result.state << ", map " << result.map_index << ", hints "
-                             << result.hints;
+  MessageWriter(&text) << "frame " << result.sequence << ": " << sphc_localizer_outcome_name(result.outcome)
+                       << ", keypoints " << result.keypoints << ", lifted " << result.lifted << ", matches "
+                       << result.matches << ", inliers " << result.inliers << ", state " << result.state << ", map "
+                       << result.map_id << ", hints " << result.hints;
   size_t length = 0;
   while (text.text[length]) ++length;
   localizer.log(localizer.log_user, SPHC_LOG_DEBUG, text.text, length);
 }
 
+sphc_localizer_result emptyResult() {
+  sphc_localizer_result result = {};
+  result.map_id = SPHC_MAP_NONE;
+  result.camera_from_map.q_wxyz[0] = 1;
+  return result;
+}
+
+sphc_localizer_prior emptyPrior() {
+  sphc_localizer_prior prior = {};
+  prior.camera_from_map.q_wxyz[0] = prior.odometry_from_camera.q_wxyz[0] = 1;
+  return prior;
+}
+
 }  // namespace
 
-sphc_status sphc_config_init(sphc_config *config, size_t struct_size) {
+sphc_status sphc_localizer_config_init(sphc_localizer_config *config, size_t struct_size) {
   return sphc::initStruct(sphc::defaultConfig(), struct_size, config);
 }
 
-sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message) {
-  sphc_config checked;
+sphc_status sphc_localizer_result_init(sphc_localizer_result *result, size_t struct_size) {
+  return sphc::initStruct(emptyResult(), struct_size, result);
+}
+
+sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size_t struct_size) {
+  return sphc::initStruct(sphc_localizer_frame(), struct_size, frame);
+}
+
+sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size) {
+  return sphc::initStruct(emptyPrior(), struct_size, prior);
+}
+
+sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memory *memory, sphc_message *message) {
+  sphc_localizer_config checked;
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!memory) {
-    sphc::MessageWriter(message) << "memory is null";
+    MessageWriter(message) << "memory is null";
     return SPHC_E_ARGUMENT;
   }
   *memory = measure(sphc::localizerConfigFrom(checked));
   return SPHC_OK;
 }
 
-sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t index, sphc_memory_piece *piece) {
-  sphc_config checked;
+sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uint32_t index,
+                                        sphc_memory_piece *piece) {
+  sphc_localizer_config checked;
   const sphc_status status = sphc::readConfig(config, &checked, nullptr);
   if (status != SPHC_OK) return status;
   if (!piece) return SPHC_E_ARGUMENT;
@@ -89,40 +116,37 @@ sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t inde
 }
 
 sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
-                                const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
-                                sphc_localizer **localizer, sphc_message *message) {
-  sphc_config checked;
+                                const sphc_localizer_config *config, sphc_localizer **localizer,
+                                sphc_message *message) {
+  sphc_localizer_config checked;
   sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
-  status = sphc::checkMaps(maps, map_count, message);
-  if (status != SPHC_OK) return status;
   if (!localizer) {
-    sphc::MessageWriter(message) << "localizer is null";
+    MessageWriter(message) << "localizer is null";
     return SPHC_E_ARGUMENT;
   }
   const LocalizerConfig own = sphc::localizerConfigFrom(checked);
   const sphc_memory need = measure(own);
-  status = sphc::checkMemory(state, state_bytes, need.state_bytes, need.alignment, "state", message);
-  if (status != SPHC_OK) return status;
-  status = sphc::checkMemory(scratch, scratch_bytes, need.scratch_bytes, need.alignment, "scratch", message);
-  if (status != SPHC_OK) return status;
-  const MemoryRange used_state = {"state", state, need.state_bytes},
-                    used_scratch = {"scratch", scratch, need.scratch_bytes};
-  status = sphc::checkApart(used_state, used_scratch, message);
-  if (status == SPHC_OK) status = sphc::checkApartFromMaps(used_state, maps, map_count, message);
-  if (status == SPHC_OK) status = sphc::checkApartFromMaps(used_scratch, maps, map_count, message);
+  const MemoryRange used_state = {"state", state, static_cast<size_t>(need.state_bytes)},
+                    used_scratch = {"scratch", scratch, static_cast<size_t>(need.scratch_bytes)};
+  status = sphc::checkMemory(state, state_bytes, used_state.bytes, need.alignment, "state", message);
+  if (status == SPHC_OK)
+    status = sphc::checkMemory(scratch, scratch_bytes, used_scratch.bytes, need.alignment, "scratch", message);
+  if (status == SPHC_OK) status = sphc::checkApart(used_state, used_scratch, message);
   if (status != SPHC_OK) return status;
 
   auto *made = new (state) sphc_localizer();
   Arena state_arena(static_cast<unsigned char *>(state) + kObjectBytes), scratch_arena(scratch);
   Localizer::layout(own, state_arena, scratch_arena, &made->localizer);
   made->localizer.init(own);
+  made->state = used_state;
+  made->scratch = used_scratch;
   made->color = checked.rig.color_camera;
   made->depth = checked.rig.depth_camera;
   made->has_clock = checked.clock != nullptr;
   made->log = checked.log;
   made->log_user = checked.log_user;
-  for (uint32_t i = 0; i < map_count; ++i) made->localizer.addMap(maps[i]->view);
+  made->log_level = checked.log_level;
   *localizer = made;
   return SPHC_OK;
 }
@@ -131,20 +155,85 @@ void sphc_localizer_fini(sphc_localizer **localizer) {
   if (localizer) *localizer = nullptr;
 }
 
+sphc_status sphc_localizer_set_map(sphc_localizer *localizer, uint32_t map_id, const sphc_map *map) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  sphc_message *message = localizer->beginCall();
+  if (!map || map_id == SPHC_MAP_NONE) {
+    MessageWriter(message) << (map ? "map_id is SPHC_MAP_NONE; give another"
+                                   : "map is null; open one with sphc_map_init");
+    return SPHC_E_ARGUMENT;
+  }
+  sphc_status status = sphc::checkApartFromMap(localizer->state, *map, message);
+  if (status == SPHC_OK) status = sphc::checkApartFromMap(localizer->scratch, *map, message);
+  if (status != SPHC_OK || localizer->localizer.setMap(map_id, map->view)) return status;
+  MessageWriter(message) << "the localizer has " << localizer->localizer.maps().count()
+                         << " maps, as many as config.max_maps; remove one, or raise it";
+  return SPHC_E_CAPACITY;
+}
+
+sphc_status sphc_localizer_remove_map(sphc_localizer *localizer, uint32_t map_id) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  sphc_message *message = localizer->beginCall();
+  if (localizer->localizer.removeMap(map_id)) return SPHC_OK;
+  MessageWriter(message) << "the localizer has no map with id " << map_id;
+  return SPHC_E_ARGUMENT;
+}
+
+uint32_t sphc_localizer_map_count(const sphc_localizer *localizer) {
+  return localizer ? localizer->localizer.maps().count() : 0;
+}
+
+sphc_status sphc_localizer_get_parameter_range(sphc_localizer_parameter parameter,
+                                               sphc_localizer_parameter_range *range) {
+  sphc_status status = sphc::checkParameter(parameter, nullptr);
+  if (status == SPHC_OK) status = sphc::checkStruct("range", range, nullptr);
+  if (status == SPHC_OK) sphc::writeStruct(sphc::rangeOf(parameter), range);
+  return status;
+}
+
+sphc_status sphc_localizer_set_parameter(sphc_localizer *localizer, sphc_localizer_parameter parameter,
+                                         double value) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  sphc_message *message = localizer->beginCall();
+  sphc::SearchParameters parameters = localizer->localizer.parameters();
+  sphc_status status = sphc::checkParameter(parameter, message);
+  if (status == SPHC_OK) status = sphc::setValue(parameter, value, &parameters, message);
+  if (status == SPHC_OK) localizer->localizer.setParameters(parameters);
+  return status;
+}
+
+sphc_status sphc_localizer_get_parameter(const sphc_localizer *localizer, sphc_localizer_parameter parameter,
+                                         double *value) {
+  if (!localizer || !value) return SPHC_E_ARGUMENT;
+  const sphc_status status = sphc::checkParameter(parameter, nullptr);
+  if (status == SPHC_OK) *value = sphc::valueOf(localizer->localizer.parameters(), parameter);
+  return status;
+}
+
+sphc_status sphc_localizer_set_depth_bias(sphc_localizer *localizer, const sphc_depth_bias *depth) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  sphc_message *message = localizer->beginCall();
+  const sphc_status status = sphc::checkDepthBias(depth, localizer->localizer.depthPrior(), message);
+  if (status == SPHC_OK) localizer->localizer.setDepth(sphc::depthCalibrationFrom(*depth));
+  return status;
+}
+
 void sphc_localizer_reset(sphc_localizer *localizer) {
   if (localizer) localizer->localizer.reset();
 }
 
-sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame, sphc_result *result) {
+sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localizer_frame *frame,
+                                   sphc_localizer_result *result) {
   if (!localizer) return SPHC_E_ARGUMENT;
-  localizer->message.text[0] = '\0';
+  sphc_message *message = localizer->beginCall();
+  Localizer &own_localizer = localizer->localizer;
+  const sphc::FrameLimits limits = {localizer->color, localizer->depth, own_localizer.maps(), localizer->has_clock};
   sphc::FrameCopy copy;
-  sphc_status status = sphc::readFrame(
-      frame, {localizer->color, localizer->depth, localizer->localizer.mapCount(), localizer->has_clock}, &copy,
-      &localizer->message);
-  if (status == SPHC_OK) status = sphc::checkWritable("result", result, &localizer->message);
+  sphc_status status = sphc::readFrame(frame, limits, &copy, message);
+  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
   if (status != SPHC_OK) return status;
-  const sphc_result own = sphc::resultFrom(localizer->localizer.process(sphc::frameFrom(copy.frame)), copy.frame);
+  const sphc::FrameInput input = sphc::frameFrom(copy.frame, own_localizer.maps());
+  const sphc_localizer_result own = sphc::resultFrom(own_localizer.process(input), copy.frame);
   sphc::writeStruct(own, result);
   logResult(*localizer, own);
   return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
@@ -154,17 +243,25 @@ const char *sphc_localizer_message(const sphc_localizer *localizer) {
   return localizer ? localizer->message.text : "localizer is null";
 }
 
-double sphc_result_confidence(const sphc_result *result, double translation_m, double rotation_rad) {
+double sphc_localizer_result_confidence(const sphc_localizer_result *result, double translation_m,
+                                        double rotation_rad) {
   if (!result || result->outcome != SPHC_OUTCOME_LOCALIZED) return 0;
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(result->covariance);
   return sphc::Localizer::confidenceWithin(covariance, translation_m, rotation_rad);
 }
 
-sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
-                                        uint32_t capacity, uint32_t *count) {
+sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_localizer_observation *observations,
+                                        uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
   if (!localizer || !count || (capacity && !observations)) return SPHC_E_ARGUMENT;
+  if (stride_bytes < sizeof *observations || stride_bytes % alignof(sphc_localizer_observation))
+    return SPHC_E_ARGUMENT;
   const sphc::Span<const sphc::Observation> seen = localizer->localizer.observations();
-  for (uint32_t i = 0; i < capacity && i < seen.size(); ++i) observations[i] = sphc::observationFrom(seen[i]);
+  auto *to = reinterpret_cast<unsigned char *>(observations);
+  for (uint32_t i = 0; i < capacity && i < seen.size(); ++i, to += stride_bytes) {
+    const sphc_localizer_observation own = sphc::observationFrom(seen[i]);
+    std::memcpy(to, &own, sizeof own);
+    std::memset(to + sizeof own, 0, stride_bytes - sizeof own);
+  }
   *count = static_cast<uint32_t>(seen.size());
   return SPHC_OK;
 }

@@ -7,10 +7,12 @@
 #include "runtime/capi/objects.h"
 #include "runtime/stages/features/extractor.h"
 
-sphc_status sphc_map_memory(size_t *bytes, size_t *alignment) {
-  if (!bytes || !alignment) return SPHC_E_ARGUMENT;
-  *bytes = sizeof(sphc_map);
-  *alignment = alignof(sphc_map);
+uint32_t sphc_extractor_id(void) { return sphc::kExtractorId; }
+
+sphc_status sphc_map_memory(sphc_memory *memory) {
+  static_assert(sizeof(sphc_map) <= SPHC_MAP_BYTES_MAX);
+  if (!memory) return SPHC_E_ARGUMENT;
+  *memory = {sizeof(sphc_map), 0, alignof(sphc_map), 0};
   return SPHC_OK;
 }
 
@@ -39,7 +41,7 @@ sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, s
 
 sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
   if (!map) return SPHC_E_ARGUMENT;
-  const sphc_status status = sphc::checkWritable("info", info, nullptr);
+  const sphc_status status = sphc::checkStruct("info", info, nullptr);
   if (status != SPHC_OK) return status;
   const sphc::MapHeader &header = map->view.header();
   sphc_map_info own = {};
@@ -52,9 +54,9 @@ sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
   return SPHC_OK;
 }
 
-sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, double direction[3]) {
-  if (!map || !direction || index >= map->view.pointCount()) return SPHC_E_ARGUMENT;
-  const sphc::Direction d = map->view.direction(index);
+sphc_status sphc_map_direction(const sphc_map *map, uint32_t point_index, double direction[3]) {
+  if (!map || !direction || point_index >= map->view.pointCount()) return SPHC_E_ARGUMENT;
+  const sphc::Direction d = map->view.direction(point_index);
   direction[0] = static_cast<double>(d.x);
   direction[1] = static_cast<double>(d.y);
   direction[2] = static_cast<double>(d.z);

@@ -1,5 +1,6 @@
 // What the C interface's opaque handles point to.
 #pragma once
+#include "runtime/capi/check.h"
 #include "runtime/localizer/localizer.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/align/dense.h"
@@ -12,11 +13,19 @@ struct sphc_map {
 
 struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
+  sphc::MemoryRange state, scratch;
   sphc_camera color, depth;
   bool has_clock;
   sphc_log_fn log;
   void *log_user;
+  sphc_log_level log_level;
   sphc_message message;
+
+  // Where the call that begins explains a failure.
+  sphc_message *beginCall() {
+    message.text[0] = '\0';
+    return &message;
+  }
 };
 
 struct alignas(sphc::kArenaAlignment) sphc_aligner {

@@ -16,10 +16,10 @@ sphc_status sphc_pairer_config_init(sphc_pairer_config *config, size_t struct_si
   return sphc::initStruct(kDefaults, struct_size, config);
 }
 
-sphc_status sphc_pairer_memory(size_t *bytes, size_t *alignment) {
-  if (!bytes || !alignment) return SPHC_E_ARGUMENT;
-  *bytes = sizeof(sphc_pairer);
-  *alignment = alignof(sphc_pairer);
+sphc_status sphc_pairer_memory(sphc_memory *memory) {
+  static_assert(sizeof(sphc_pairer) <= SPHC_PAIRER_BYTES_MAX);
+  if (!memory) return SPHC_E_ARGUMENT;
+  *memory = {sizeof(sphc_pairer), 0, alignof(sphc_pairer), 0};
   return SPHC_OK;
 }
 
@@ -53,17 +53,16 @@ sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture) {
   return pairer->pairer.push(*capture);
 }
 
-sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_pair *pair, sphc_capture *dropped) {
-  if (!pairer || !pair || !dropped) return SPHC_E_ARGUMENT;
-  if (pair->struct_size != sizeof(sphc_pair)) return SPHC_E_STRUCT_SIZE;
-  return pairer->pairer.pop(pair, dropped);
+sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_capture *color, sphc_capture *depth, sphc_capture *dropped) {
+  if (!pairer || !color || !depth || !dropped) return SPHC_E_ARGUMENT;
+  return pairer->pairer.pop(color, depth, dropped);
 }
 
 int64_t sphc_capture_middle_ns(const sphc_capture *capture) { return capture ? sphc::middleNs(*capture) : 0; }
 
 sphc_status sphc_pairer_get_counts(const sphc_pairer *pairer, sphc_pairer_counts *counts) {
   if (!pairer || !counts) return SPHC_E_ARGUMENT;
-  const sphc_status status = sphc::checkWritable("counts", counts, nullptr);
+  const sphc_status status = sphc::checkStruct("counts", counts, nullptr);
   if (status == SPHC_OK) sphc::writeStruct(pairer->pairer.counts(), counts);
   return status;
 }

@@ -9,7 +9,7 @@ Vector3 vectorFrom(const double v[3]) { return Vector3(v[0], v[1], v[2]); }
 
 uint32_t microseconds(uint64_t ns) { return static_cast<uint32_t>(std::min<uint64_t>(ns / 1000, UINT32_MAX)); }
 
-DepthCalibration depthPriorFrom(const sphc_config &config) {
+DepthCalibration depthPriorFrom(const sphc_localizer_config &config) {
   DepthCalibration prior;
   prior.mid_m = config.depth_mid_m > 0 ? config.depth_mid_m : sqrtOf(config.depth_min_m * config.depth_max_m);
   prior.covariance(0, 0) = config.depth_offset_sigma_m * config.depth_offset_sigma_m;
@@ -25,7 +25,7 @@ ColorView colorViewFrom(const sphc_image &image) {
           static_cast<int32_t>(image.height), static_cast<int32_t>(image.stride_bytes), order};
 }
 
-PosePrior posePriorFrom(const sphc_prior &given) {
+PosePrior posePriorFrom(const sphc_localizer_prior &given) {
   PosePrior prior;
   prior.has_pose = given.flags & SPHC_PRIOR_POSE;
   if (prior.has_pose) {
@@ -42,9 +42,9 @@ PosePrior posePriorFrom(const sphc_prior &given) {
   return prior;
 }
 
-Known knownFrom(const sphc_prior &given) {
+Known knownFrom(const sphc_localizer_prior &given, const MapSet &maps) {
   Known known;
-  known.map = given.map_index;
+  known.map = maps.slotOf(given.map_id);
   known.prior = posePriorFrom(given);
   known.has_odometry = given.flags & SPHC_PRIOR_ODOMETRY;
   if (known.has_odometry) {
@@ -55,23 +55,28 @@ Known knownFrom(const sphc_prior &given) {
 }
 
 sphc_depth_bias depthBiasFrom(const DepthCalibration &depth) {
-  return {depth.mid_m,
-          depth.mean[0],
-          depth.mean[1],
-          sqrtOf(depth.covariance(0, 0)),
-          sqrtOf(depth.covariance(1, 1)),
-          depth.noise_scale};
+  const double offset_sigma_m = sqrtOf(depth.covariance(0, 0)), slope_sigma = sqrtOf(depth.covariance(1, 1));
+  const double correlation = depth.isKnown() ? 0 : depth.covariance(0, 1) / (offset_sigma_m * slope_sigma);
+  return {depth.mid_m, depth.mean[0], depth.mean[1], offset_sigma_m, slope_sigma, correlation, depth.noise_scale};
 }
 
 }  // namespace
 
-LocalizerConfig localizerConfigFrom(const sphc_config &config) {
+DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth) {
+  DepthCalibration own;
+  own.mid_m = depth.mid_m;
+  own.mean = Vector2(depth.offset_m, depth.slope);
+  const double shared = depth.correlation * depth.offset_sigma_m * depth.slope_sigma;
+  own.covariance << depth.offset_sigma_m * depth.offset_sigma_m, shared, shared,
+      depth.slope_sigma * depth.slope_sigma;
+  own.noise_scale = depth.noise_scale;
+  return own;
+}
+
+LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
   LocalizerConfig own;
   own.max_keypoints = config.max_keypoints;
-  own.max_iterations = config.max_iterations;
-  own.max_ratio = config.max_ratio;
-  own.probes = config.probes;
-  own.min_inliers = config.min_inliers;
+  own.max_maps = config.max_maps;
   own.seed = config.seed;
   own.tracks = config.mode == SPHC_MODE_TRACKING;
   own.color_camera = Camera(config.rig.color_camera);
@@ -86,13 +91,13 @@ LocalizerConfig localizerConfigFrom(const sphc_config &config) {
   return own;
 }
 
-FrameInput frameFrom(const sphc_frame &frame) {
+FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps) {
   FrameInput own;
   own.color_time_ns = frame.color_time_ns;
   own.depth_time_ns = frame.depth_time_ns;
   own.color = colorViewFrom(frame.color);
   own.depth = depthViewFrom(frame.depth);
-  if (frame.prior) own.known = knownFrom(*frame.prior);
+  if (frame.prior) own.known = knownFrom(*frame.prior, maps);
   own.time_limit_ns = int64_t{frame.deadline_us} * 1000;
   return own;
 }
@@ -102,7 +107,7 @@ ImageView<uint16_t> depthViewFrom(const sphc_image &image) {
           static_cast<int32_t>(image.height), static_cast<int32_t>(image.stride_bytes / 2)};
 }
 
-sphc_outcome outcomeFrom(Outcome outcome) {
+sphc_localizer_outcome outcomeFrom(Outcome outcome) {
   switch (outcome) {
     case Outcome::kLocalized:
       return SPHC_OUTCOME_LOCALIZED;
@@ -136,7 +141,7 @@ static_assert(kTooDark == SPHC_HINT_TOO_DARK && kTooFast == SPHC_HINT_TOO_FAST &
               kTooPlain == SPHC_HINT_TOO_PLAIN && kNoDepthInRange == SPHC_HINT_NO_DEPTH_IN_RANGE &&
               kNotInMap == SPHC_HINT_NOT_IN_MAP && kAmbiguous == SPHC_HINT_AMBIGUOUS);
 
-sphc_state stateFrom(TrackingState state) {
+sphc_localizer_state stateFrom(TrackingState state) {
   switch (state) {
     case TrackingState::kRelocalizing:
       return SPHC_STATE_RELOCALIZING;
@@ -148,7 +153,7 @@ sphc_state stateFrom(TrackingState state) {
   return SPHC_STATE_RELOCALIZING;  // never
 }
 
-sphc_observation observationFrom(const Observation &o) {
+sphc_localizer_observation observationFrom(const Observation &o) {
   uint32_t flags = 0;
   if (o.lifted) flags |= SPHC_OBSERVATION_LIFTED;
   if (o.matched) flags |= SPHC_OBSERVATION_MATCHED;
@@ -156,8 +161,8 @@ sphc_observation observationFrom(const Observation &o) {
   return {o.x_px, o.y_px, o.scale_px, o.depth_m, o.point_index, flags};
 }
 
-sphc_result resultFrom(const LocalizerResult &answer, const sphc_frame &frame) {
-  sphc_result result = {};
+sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_localizer_frame &frame) {
+  sphc_localizer_result result = {};
   result.struct_size = sizeof result;
   result.sequence = frame.sequence;
   result.time_ns = frame.color_time_ns;
@@ -178,7 +183,7 @@ sphc_result resultFrom(const LocalizerResult &answer, const sphc_frame &frame) {
   result.confidence = answer.confidence;
   result.cuts = answer.cuts;
   result.state = stateFrom(answer.state);
-  result.map_index = answer.map;
+  result.map_id = answer.map_id;
   result.frames = answer.frames;
   result.guided = answer.guided;
   result.faults = answer.faults;

@@ -3,19 +3,21 @@
 #pragma once
 #include "runtime/localizer/config.h"
 #include "runtime/localizer/frame.h"
+#include "runtime/localizer/map_set.h"
 #include "runtime/localizer/result.h"
 #include "spherecloud/spherecloud.h"
 
 namespace sphc {
 
-LocalizerConfig localizerConfigFrom(const sphc_config &config);
+LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config);
 // Borrows the frame's images.
-FrameInput frameFrom(const sphc_frame &frame);
+FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps);
 ImageView<uint16_t> depthViewFrom(const sphc_image &image);
-sphc_outcome outcomeFrom(Outcome outcome);
-sphc_state stateFrom(TrackingState state);
-sphc_observation observationFrom(const Observation &observation);
+sphc_localizer_outcome outcomeFrom(Outcome outcome);
+sphc_localizer_state stateFrom(TrackingState state);
+sphc_localizer_observation observationFrom(const Observation &observation);
+DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth);
 // `frame` is the one that was answered.
-sphc_result resultFrom(const LocalizerResult &answer, const sphc_frame &frame);
+sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_localizer_frame &frame);
 
 }  // namespace sphc

@@ -8,16 +8,20 @@
 
 namespace sphc {
 
-constexpr uint32_t kMostMaps = 16;  // of one localizer
+// How the search goes; may be set between frames.
+struct SearchParameters {
+  double max_ratio = 0.85;          // Lowe's ratio test, on distances
+  uint32_t probes = 8;              // cells of a map's index searched for each keypoint; 0: the whole map
+  uint32_t max_iterations = 20000;  // minimal samples of one search, at most
+  uint32_t min_inliers = 10;
+};
 
 struct LocalizerConfig {
   uint32_t max_keypoints = 0;
-  uint32_t max_iterations = 0;  // minimal samples of one search, at most
-  float max_ratio = 0;          // Lowe's ratio test, on distances
-  uint32_t probes = 0;          // cells of the map's index searched for each keypoint; 0: the whole map
-  uint32_t min_inliers = 0;
+  uint32_t max_maps = 1;
   uint64_t seed = 0;
   bool tracks = false;  // do frames follow each other?
+  SearchParameters search;
 
   Camera color_camera, depth_camera;
   Rigid color_from_depth;

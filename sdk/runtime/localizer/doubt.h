@@ -22,6 +22,10 @@ double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_ar
 class TravelCheck {
  public:
   void reset() { travel_.reset(); }
+  // The map in this slot is gone.
+  void forget(uint32_t map) {
+    if (map == map_) reset();
+  }
   // Every frame that follows another; `tracker` knows of the frame.
   bool isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found);
 

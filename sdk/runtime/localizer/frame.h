@@ -13,7 +13,7 @@ struct Odometry {
 
 struct Known {
   PosePrior prior;
-  uint32_t map = 0;  // whose frame the prior's pose and vertical are in
+  uint32_t map = 0;  // slot of the map whose frame the prior's pose and vertical are in
   bool has_odometry = false;
   Odometry odometry;
 };

@@ -11,6 +11,10 @@ class Fusion {
   static void layout(uint32_t capacity, Arena &state, Fusion *fusion);
 
   void clear() { history_.clear(); }
+  // The map in this slot is another now.
+  void forget(uint32_t map) {
+    if (map == map_) clear();
+  }
   // To the next frame: by the tracker's odometry, without which all is forgotten.
   void advance(const Tracker &tracker);
   // Frames are put together for one map at a time: as long as it is likely, the one that earlier frames spoke for.

@@ -15,10 +15,10 @@ void MatchSet::assign(uint32_t count, const FrontEnd &front, const MapView &map)
   match_count_ = count_ = count;
 }
 
-void Hypothesis::begin(uint32_t map_index, uint32_t frame_count) {
+void Hypothesis::begin(uint32_t map_slot, uint32_t frame_count) {
   Hypothesis fresh;
   fresh.tried = true;
-  fresh.map = map_index;
+  fresh.map = map_slot;
   fresh.frames = frame_count;
   challenge(fresh);
 }

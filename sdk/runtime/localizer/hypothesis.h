@@ -33,8 +33,8 @@ class MatchSet {
 };
 
 struct Hypothesis {
-  bool tried = false;  // false: nothing was looked for yet
-  uint32_t map = 0;
+  bool tried = false;   // false: nothing was looked for yet
+  uint32_t map = 0;     // its slot
   bool guided = false;  // looked for where a pose was expected, not in the whole map
   uint32_t frames = 1;  // whose matches were put together
   Outcome outcome = Outcome::kFewMatches;
@@ -54,7 +54,7 @@ struct Hypothesis {
     is_ambiguous = true;
   }
   // Another attempt, in the same memory.
-  void begin(uint32_t map_index, uint32_t frame_count = 1);
+  void begin(uint32_t map_slot, uint32_t frame_count = 1);
   // All of the other but its matches.
   void challenge(const Hypothesis &other);
 };

@@ -24,7 +24,6 @@ void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
   result->outcome = best.outcome;
   result->matches = static_cast<uint32_t>(best.matched.matches().size());
   result->inliers = best.estimate.inliers;
-  result->map = best.map;
   result->frames = best.frames;
   result->guided = best.guided;
   if (!best.isLocalized()) return;
@@ -39,11 +38,11 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   const uint32_t n = config.max_keypoints;
   EstimatorConfig estimator;
   estimator.capacity = 2 * n;  // this frame's correspondences and those of earlier ones
-  estimator.max_iterations = config.max_iterations;
+  estimator.max_iterations = config.search.max_iterations;
 
   FrontEnd::layout(config, state, scratch, localizer ? &localizer->front_ : nullptr);
   Fusion::layout(n, state, localizer ? &localizer->fusion_ : nullptr);
-  Search::layout(n, scratch, localizer ? &localizer->search_ : nullptr);
+  Search::layout(config, state, scratch, localizer ? &localizer->search_ : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->best_.matched : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->candidate_.matched : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->rival_.matched : nullptr);
@@ -57,6 +56,29 @@ void Localizer::init(const LocalizerConfig &config) {
   search_.init(config);
   calibrator_.init(config.depth_prior);
   consistency_.init({config.color_camera, config.depth_camera, config.depth_sensor, config.tracks});
+}
+
+bool Localizer::setMap(uint32_t id, const MapView &map) {
+  const uint32_t slot = search_.maps().set(id, map);
+  if (slot == kNoMap) return false;
+  fusion_.forget(slot);  // its matches name points of what was there
+  return true;
+}
+
+bool Localizer::removeMap(uint32_t id) {
+  const uint32_t slot = maps().slotOf(id);
+  if (slot == kNoMap) return false;
+  search_.maps().remove(slot);
+  fusion_.forget(slot);
+  tracker_.forget(slot);
+  travel_.forget(slot);
+  return true;
+}
+
+void Localizer::setParameters(const SearchParameters &parameters) {
+  config_.search = parameters;
+  search_.setParameters(parameters);
+  estimator_.setMaxIterations(parameters.max_iterations);
 }
 
 void Localizer::reset() {
@@ -89,6 +111,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   Work work;
   answer(frame.known, deadline, &result.faults, &work);
   fillAnswer(best_, &result);
+  if (best_.tried) result.map_id = maps().idOf(best_.map);
   result.cuts = (front_.wasCut() ? kCutFeatures : Cuts{0}) | work.cuts;
   if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
@@ -127,7 +150,7 @@ void Localizer::answer(const Known &known, const Deadline &deadline, Faults *fau
   }
   locate(known, deadline, work);
   const PosePrior nothing;
-  if (verticalDisagrees(known, best_, queryFor(nothing, Deadline()), config_.min_inliers, &estimator_)) {
+  if (verticalDisagrees(known, best_, queryFor(nothing, Deadline()), config_.search.min_inliers, &estimator_)) {
     *faults |= kVerticalDisagrees;
     Known rest = known;
     rest.prior.has_up = false;
@@ -190,7 +213,7 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
   const Deadline first = query.deadline.afterShare(kStrongestShare), first_match = first.afterShare(kMatchShare);
   const uint32_t probes = search_.probesWithin(std::min(lifted, kStrongest), first_match, work);
   PoseTask task = {search_.ask(front_, map, all, probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
-  if (config_.probes > 0 && lifted > kStrongest) {
+  if (config_.search.probes > 0 && lifted > kStrongest) {
     candidate_.begin(map);
     task.query.deadline = first;
     search_.matchEverywhere(task.question, kStrongest, first_match, &candidate_.matched, work);
@@ -222,14 +245,15 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
 // What does not localize leaves the frame as the strict test shows it.
 void Localizer::searchMapLoosely(uint32_t map, const PoseTask &task, Work *work) {
   candidate_.begin(map);
-  Verification(&search_, &estimator_, &fusion_, kTimesInliersOfLooser * config_.min_inliers, work)
+  Verification(&search_, &estimator_, &fusion_, kTimesInliersOfLooser * config_.search.min_inliers, work)
       .findPoseLoosely(task, &candidate_, &rival_);
   if (candidate_.isLocalized()) propose();
 }
 
 // Finds the pose that the candidate's matches speak for.
 void Localizer::solve(const PoseTask &task, Work *work) {
-  Verification(&search_, &estimator_, &fusion_, config_.min_inliers, work).findPose(task, &candidate_, &rival_);
+  Verification(&search_, &estimator_, &fusion_, config_.search.min_inliers, work)
+      .findPose(task, &candidate_, &rival_);
 }
 
 void Localizer::propose() {

@@ -24,9 +24,20 @@ class Localizer {
   // One walk for both memories; `localizer` is null while measuring.
   static void layout(const LocalizerConfig &config, Arena &state, Arena &scratch, Localizer *localizer);
 
-  // Once, after layout with memory; then each map, at most kMostMaps.
+  // Once, after layout with memory.
   void init(const LocalizerConfig &config);
-  void addMap(const MapView &map) { search_.addMap(map); }
+
+  // Between frames.  Adds a map, or replaces the one of this id by another of the same frame; false where there is
+  // no room for one more.
+  bool setMap(uint32_t id, const MapView &map);
+  // False where there is none of this id.
+  bool removeMap(uint32_t id);
+  const MapSet &maps() const { return search_.maps(); }
+  const SearchParameters &parameters() const { return config_.search; }
+  void setParameters(const SearchParameters &parameters);
+  const DepthCalibration &depthPrior() const { return config_.depth_prior; }
+  void setDepth(const DepthCalibration &known) { calibrator_.resume(known); }
+
   // `frame` fits the config.
   LocalizerResult process(const FrameInput &frame);
   // Forgets where the camera was; what was learnt of the depth sensor stays.
@@ -35,7 +46,6 @@ class Localizer {
   // The probability that a pose of this covariance, of a result, has errors within these bounds.
   static double confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad);
 
-  uint32_t mapCount() const { return search_.mapCount(); }
   // Of the last frame.
   Span<const Observation> observations() const { return front_.observations(); }
 

@@ -41,11 +41,11 @@ struct LocalizerResult {
   Hints hints = 0;                                     // where there is no pose
   TrackingState state = TrackingState::kRelocalizing;  // after this frame
   uint32_t keypoints = 0, lifted = 0, matches = 0, inliers = 0;
-  uint32_t samples = 0;  // minimal samples drawn, in all searches
-  Cuts cuts = 0;         // what was left out for the time limit
-  uint32_t map = 0;      // that the pose is in; without a pose the likeliest
-  uint32_t frames = 1;   // whose matches were put together
-  bool guided = false;   // found where it was expected
+  uint32_t samples = 0;          // minimal samples drawn, in all searches
+  Cuts cuts = 0;                 // what was left out for the time limit
+  uint32_t map_id = UINT32_MAX;  // that the pose is in; without a pose the likeliest, or none
+  uint32_t frames = 1;           // whose matches were put together
+  bool guided = false;           // found where it was expected
   // Where the outcome is kLocalized; covariance of (rotation rad, translation m), camera frame, T = exp(xi)
   // T_estimate.
   Rigid camera_from_map;

@@ -37,9 +37,12 @@ bool expectedPose(const Known &known, const Tracker *tracker, Prediction *expect
   return tracker && tracker->predict(expected) && coneOf(*expected) < tuning::kMostConeRad;
 }
 
-void Search::layout(uint32_t max_keypoints, Arena &scratch, Search *search) {
+void Search::layout(const LocalizerConfig &config, Arena &state, Arena &scratch, Search *search) {
   Search discarded;  // receives empty spans while measuring
   Search &s = search ? *search : discarded;
+  const uint32_t max_keypoints = config.max_keypoints;
+  MapSet::layout(config.max_maps, state, &s.maps_);
+  s.votes_ = scratch.take<uint32_t>("localizer.votes", config.max_maps);
   s.predicted_ = scratch.take<Direction>("localizer.predicted", max_keypoints);
   s.is_taken_ = scratch.take<uint8_t>("localizer.taken", max_keypoints);
   s.rays_ = scratch.take<Match>("localizer.rays", max_keypoints);
@@ -47,26 +50,32 @@ void Search::layout(uint32_t max_keypoints, Arena &scratch, Search *search) {
 }
 
 void Search::init(const LocalizerConfig &config) {
-  max_ratio_ = config.max_ratio;
-  probes_ = config.probes;
+  setParameters(config.search);
   clock_ = config.clock;
+}
+
+void Search::setParameters(const SearchParameters &parameters) {
+  max_ratio_ = static_cast<float>(parameters.max_ratio);
+  probes_ = parameters.probes;
 }
 
 MapOrder Search::rankMaps(const FrontEnd &front, const Deadline &deadline, Work *work) {
   MapOrder order;
   const uint32_t voters = std::min(tuning::kVoters, front.liftedCount());
-  uint32_t votes[kMostMaps] = {}, most = 0;
-  for (uint32_t map = 0; map < mapCount() && mapCount() > 1; ++map) {
-    votes[map] = countVotes(front, map, voters, deadline.afterShare(1.0 / (mapCount() + 1 - map)), work);
-    most = std::max(most, votes[map]);
+  uint32_t left = maps_.count(), most = 0;
+  for (uint32_t map = 0; map < maps_.slotCount(); ++map) {
+    votes_[map] = 0;
+    if (!maps_.isTaken(map) || maps_.count() == 1) continue;
+    votes_[map] = countVotes(front, map, voters, deadline.afterShare(1.0 / (left-- + 1)), work);
+    most = std::max(most, votes_[map]);
   }
-  for (uint32_t rank = 0; rank < tuning::kMapsTried && rank < mapCount(); ++rank) {
-    uint32_t best = mapCount();
-    for (uint32_t map = 0; map < mapCount(); ++map) {
-      const bool taken = std::find(order.begin(), order.end(), map) != order.end();
-      if (!taken && (best == mapCount() || votes[map] > votes[best])) best = map;
+  while (!order.full() && order.size() < maps_.count()) {
+    uint32_t best = kNoMap;
+    for (uint32_t map = 0; map < maps_.slotCount(); ++map) {
+      const bool listed = std::find(order.begin(), order.end(), map) != order.end();
+      if (maps_.isTaken(map) && !listed && (best == kNoMap || votes_[map] > votes_[best])) best = map;
     }
-    if (rank > 0 && 2 * votes[best] < most) break;
+    if (order.size() > 0 && 2 * votes_[best] < most) break;
     order.push(best);
   }
   return order;
@@ -81,9 +90,9 @@ uint32_t Search::countVotes(const FrontEnd &front, uint32_t map, uint32_t voters
 
 Search::Question Search::ask(const FrontEnd &front, uint32_t map, uint32_t keypoints, uint32_t probes, Work *work) {
   const int64_t begin = clock_.now();
-  matcher_.ask(maps_[map], front.descriptors().first(keypoints), probes);
+  matcher_.ask(maps_.view(map), front.descriptors().first(keypoints), probes);
   work->match_ns += elapsedNs(begin, clock_.now());
-  return {&front, &maps_[map]};
+  return {&front, &maps_.view(map)};
 }
 
 uint32_t Search::probesWithin(uint32_t keypoints, const Deadline &deadline, Work *work) const {

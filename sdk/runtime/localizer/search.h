@@ -2,13 +2,15 @@
 #pragma once
 #include "runtime/base/fixed_vector.h"
 #include "runtime/localizer/hypothesis.h"
+#include "runtime/localizer/map_set.h"
 #include "runtime/localizer/tracker.h"
+#include "runtime/localizer/tuning.h"
 #include "runtime/stages/match/matcher.h"
 #include "runtime/types/cut.h"
 
 namespace sphc {
 
-using MapOrder = FixedVector<uint32_t, kMostMaps>;
+using MapOrder = FixedVector<uint32_t, tuning::kMapsTried>;  // slots
 
 // What a frame has cost so far.
 struct Work {
@@ -35,11 +37,12 @@ class Search {
     const MapView *map = nullptr;
   };
 
-  static void layout(uint32_t max_keypoints, Arena &scratch, Search *search);
+  static void layout(const LocalizerConfig &config, Arena &state, Arena &scratch, Search *search);
   void init(const LocalizerConfig &config);
-  void addMap(const MapView &map) { maps_.push(map); }
-  uint32_t mapCount() const { return static_cast<uint32_t>(maps_.size()); }
-  const MapView &map(uint32_t index) const { return maps_[index]; }
+  void setParameters(const SearchParameters &parameters);
+  MapSet &maps() { return maps_; }
+  const MapSet &maps() const { return maps_; }
+  const MapView &map(uint32_t slot) const { return maps_.view(slot); }
   float maxRatio() const { return max_ratio_; }
 
   // Which maps to search, the likeliest first.
@@ -79,7 +82,8 @@ class Search {
   uint32_t match(uint32_t keypoints, float max_ratio, const Deadline &deadline, Span<Match> room, Work *work);
   void account(int64_t begin_ns, Work *work) const;
 
-  FixedVector<MapView, kMostMaps> maps_;
+  MapSet maps_;
+  Span<uint32_t> votes_;  // of each slot; in scratch
   float max_ratio_ = 0;
   uint32_t probes_ = 0;
   Clock clock_;

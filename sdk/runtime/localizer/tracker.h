@@ -50,6 +50,10 @@ class Tracker {
   // nothing.
   bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
   void reset() { *this = {}; }
+  // The map in this slot is gone.
+  void forget(uint32_t map) {
+    if (has_pose_ && map == map_) reset();
+  }
 
  private:
   bool agrees(uint32_t map, const Rigid &camera_from_map) const;

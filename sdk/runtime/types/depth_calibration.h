@@ -13,6 +13,8 @@ namespace sphc {
 
 using Matrix2 = Eigen::Matrix2d;
 
+constexpr double kLeastNoiseScale = 0.25, kMostNoiseScale = 4;  // that are learnt
+
 struct DepthCalibration {
   double mid_m = 0;
   Vector2 mean = Vector2::Zero();        // offset_m, slope

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/openni2/openni2.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "tests/support/openni2/virtual_tof.h"
 
 namespace sphc::contract {

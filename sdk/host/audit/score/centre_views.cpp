@@ -40,7 +40,7 @@ class FramePainter {
         rays_(raysOf(depth_)),
         centre_m_(centre_m) {}
 
-  void paint(const sphc_frame &frame, const Rigid &world_from_color, Panorama *panorama) const {
+  void paint(const sphc_localizer_frame &frame, const Rigid &world_from_color, Panorama *panorama) const {
     const Rigid world_from_depth = world_from_color * color_from_depth_;
     for (int32_t y = 0; y < depth_.height(); ++y) {
       const auto *row = reinterpret_cast<const uint16_t *>(static_cast<const uint8_t *>(frame.depth.data) +
@@ -89,7 +89,7 @@ Panorama panoramaFrom(recording::RecordingReader *reader, const Vector3 &centre_
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     if (!pose) continue;
-    const std::optional<sphc_frame> frame = reader->tryRead(i);
+    const std::optional<sphc_localizer_frame> frame = reader->tryRead(i);
     if (!frame) continue;
     painter.paint(*frame, rigidFromC(*pose), &panorama);
     ++painted;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/recording/recorder.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc::host {
 

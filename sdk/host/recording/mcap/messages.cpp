@@ -133,7 +133,7 @@ void putSchemasAndChannels(Bytes &out, const std::vector<Kind> &kinds) {
 }
 
 void putImageMessage(Bytes &out, int64_t time_ns, const sphc_image &image) {
-  const uint32_t pixel_bytes = image.format == SPHC_FORMAT_DEPTH16 ? 2 : image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
+  const uint32_t pixel_bytes = sphc_format_bytes(image.format);
   const uint32_t row_bytes = image.width * pixel_bytes;
   CdrWriter message(out);
   putStamp(message, time_ns, frameOf(image.format));

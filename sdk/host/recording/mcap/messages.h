@@ -1,7 +1,7 @@
 // The messages of a recording: ROS 2's own where there are some, so that other tools show them (docs/recording.md).
 #pragma once
 
-#include <spherecloud/spherecloud.h>
+#include <spherecloud/spherecloud_capture.h>
 
 #include "bytes.h"
 

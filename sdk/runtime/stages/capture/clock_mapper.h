@@ -6,7 +6,7 @@
 // measurements, INFOCOM 1999).  The window is cut into slots that keep their quickest arrival each, which bounds
 // memory and time.
 #pragma once
-#include "spherecloud/spherecloud.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc {
 

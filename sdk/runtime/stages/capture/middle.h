@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 
-#include "spherecloud/spherecloud.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc {
 

@@ -45,7 +45,7 @@ bool Pairer::canStillImprove() const {
   return middleNs(depth_.slots[depth_.count - 1]) < middleNs(color_.slots[0]);
 }
 
-sphc_status Pairer::drop(Queue *queue, sphc_drop why, sphc_capture *dropped) {
+sphc_status Pairer::drop(Queue *queue, sphc_pairer_drop why, sphc_capture *dropped) {
   *dropped = queue->takeFront();
   counts_.last_drop = why;
   if (why == SPHC_DROP_TOO_FAR) ++counts_.too_far;
@@ -55,7 +55,7 @@ sphc_status Pairer::drop(Queue *queue, sphc_drop why, sphc_capture *dropped) {
   return SPHC_AGAIN;
 }
 
-sphc_status Pairer::pop(sphc_pair *pair, sphc_capture *dropped) {
+sphc_status Pairer::pop(sphc_capture *color_capture, sphc_capture *depth_capture, sphc_capture *dropped) {
   dropped->stream = SPHC_STREAM_NONE;
   if (!color_.count || !depth_.count) {
     Queue &rest = color_.count ? color_ : depth_;
@@ -68,8 +68,8 @@ sphc_status Pairer::pop(sphc_pair *pair, sphc_capture *dropped) {
     return drop(&depth_, SPHC_DROP_OVERTAKEN, dropped);
   if (canStillImprove()) return SPHC_AGAIN;
   if (distanceNs(color, depth_.slots[0]) <= static_cast<uint64_t>(config_.tolerance_ns)) {
-    pair->color = color_.takeFront();
-    pair->depth = depth_.takeFront();
+    *color_capture = color_.takeFront();
+    *depth_capture = depth_.takeFront();
     ++counts_.pairs;
     return SPHC_OK;
   }

@@ -1,6 +1,6 @@
 // Pairs two streams by time.  Holds loans, never images; knows no device.
 #pragma once
-#include "spherecloud/spherecloud.h"
+#include "spherecloud/spherecloud_capture.h"
 
 namespace sphc {
 
@@ -9,7 +9,7 @@ class Pairer {
   explicit Pairer(const sphc_pairer_config &config) : config_(config) {}
 
   sphc_status push(const sphc_capture &capture);
-  sphc_status pop(sphc_pair *pair, sphc_capture *dropped);
+  sphc_status pop(sphc_capture *color_capture, sphc_capture *depth_capture, sphc_capture *dropped);
   void flush() { ended_ = true; }
   const sphc_pairer_counts &counts() const { return counts_; }
 
@@ -25,7 +25,7 @@ class Pairer {
     sphc_capture takeFront();
   };
   bool canStillImprove() const;
-  sphc_status drop(Queue *queue, sphc_drop why, sphc_capture *dropped);
+  sphc_status drop(Queue *queue, sphc_pairer_drop why, sphc_capture *dropped);
 
   sphc_pairer_config config_;
   Queue color_, depth_;

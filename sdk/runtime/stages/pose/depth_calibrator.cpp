@@ -8,9 +8,8 @@ namespace {
 
 // Frames of one scene share their errors (glossy floors, edges), so each counts as part of an independent one.
 constexpr double kTrust = 0.3;
-constexpr double kMostShift = 0.9;  // sigmas a frame
-constexpr double kNoiseStep = 0.2;  // of the way to a frame's noise, in the logarithm
-constexpr double kLeastNoise = 0.25, kMostNoise = 4;
+constexpr double kMostShift = 0.9;    // sigmas a frame
+constexpr double kNoiseStep = 0.2;    // of the way to a frame's noise, in the logarithm
 constexpr double kSlopeDrift = 1e-4;  // a frame, 1 sigma: sensors warm up
 
 }  // namespace
@@ -21,7 +20,7 @@ void DepthCalibrator::learn(const Estimate &estimate) {
   if (current_.isKnown()) return;
   if (estimate.noise_ratio > 0) {
     const double scale = current_.noise_scale * expOf(kNoiseStep * logOf(estimate.noise_ratio));
-    current_.noise_scale = scale < kLeastNoise ? kLeastNoise : scale > kMostNoise ? kMostNoise : scale;
+    current_.noise_scale = scale < kLeastNoiseScale ? kLeastNoiseScale : scale > kMostNoiseScale ? kMostNoiseScale : scale;
   }
   const Matrix2 before = current_.covariance.inverse(), after = estimate.depth.covariance.inverse();
   // A frame that says quite another thing is trusted less, and moves the belief by a sigma at most (Huber).

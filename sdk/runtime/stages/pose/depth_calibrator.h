@@ -10,6 +10,8 @@ class DepthCalibrator {
  public:
   // What is believed before the first frame.
   void init(const DepthCalibration &prior);
+  // Goes on from what was learnt before.
+  void resume(const DepthCalibration &known) { current_ = known; }
   const DepthCalibration &current() const { return current_; }
   // Takes in what a frame's trusted pose was found with; its query had current() for depth.  Nothing is learnt of a
   // sensor that is known.

@@ -39,6 +39,7 @@ class PoseEstimator {
   Estimate evaluate(const PoseQuery &query, const Rigid &camera_from_map);
   // Does the correspondence agree with the estimate?
   bool isInlier(const Correspondence &correspondence, const Estimate &estimate) const;
+  void setMaxIterations(uint32_t max_iterations) { config_.max_iterations = max_iterations; }
   double inlierThreshold2() const { return config_.inlier_threshold2; }
 
  private:

@@ -67,8 +67,8 @@ TEST(FrameCheck, LetsNothingPassThatCannotBeRead) {
 TEST(FrameCheck, KnowsTheFormatsItPassesOn) {
   EXPECT_EQ(formatOf(ONI_PIXEL_FORMAT_RGB888), SPHC_FORMAT_RGB8);
   EXPECT_EQ(formatOf(ONI_PIXEL_FORMAT_JPEG), 0);
-  EXPECT_EQ(bytesPerPixel(SPHC_FORMAT_RGB8), 3u);
-  EXPECT_EQ(bytesPerPixel(0), 0u);
+  EXPECT_EQ(sphc_format_bytes(SPHC_FORMAT_RGB8), 3u);
+  EXPECT_EQ(sphc_format_bytes(0), 0u);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<uint8_t> randomBytes(size_t count) {
 // The output tightly packed, at a stride of its own in the call to see that the padding stays as it was.
 std::vector<uint8_t> converted(const RawImage &raw, sphc_format format) {
   constexpr uint32_t kPadding = 10;
-  const uint32_t row_bytes = pixelBytes(format) * raw.width, stride = row_bytes + kPadding;
+  const uint32_t row_bytes = sphc_format_bytes(format) * raw.width, stride = row_bytes + kPadding;
   std::vector<uint8_t> padded(stride * raw.height, 0xa5);
   const OutImage out{padded.data(), padded.size(), raw.width, raw.height, stride, format};
   sphc_message message{};
@@ -164,7 +164,7 @@ TEST(Convert, TakesChromaFromAnotherBuffer) {
 TEST(Convert, RefusesDepthAsColourAndColourAsDepth) {
   std::vector<uint8_t> bytes(4 * kWidth * kHeight), pixels(3 * kWidth * kHeight);
   const auto tried = [&](Layout layout, sphc_format format) {
-    const OutImage out{pixels.data(), pixels.size(), kWidth, kHeight, pixelBytes(format) * kWidth, format};
+    const OutImage out{pixels.data(), pixels.size(), kWidth, kHeight, sphc_format_bytes(format) * kWidth, format};
     sphc_message message{};
     const sphc_status status = convert(tight(layout, bytes), out, &message);
     EXPECT_EQ(status == SPHC_OK, canConvert(layout, format));

@@ -22,7 +22,7 @@ struct Decoded {
 
 Decoded decode(const std::vector<uint8_t> &frame, sphc_format format = SPHC_FORMAT_RGB8) {
   static MjpegDecoder decoder;  // one for all, as in a driver: a bad frame must not spoil the next
-  const uint32_t stride = pixelBytes(format) * kJpegWidth;
+  const uint32_t stride = sphc_format_bytes(format) * kJpegWidth;
   Decoded decoded{SPHC_OK, std::vector<uint8_t>(stride * kJpegHeight), {}};
   const OutImage out{decoded.pixels.data(), decoded.pixels.size(), kJpegWidth, kJpegHeight, stride, format};
   decoded.status = decoder.decode(frame.data(), frame.size(), out, &decoded.message);

@@ -12,7 +12,7 @@ namespace sphc::v4l2 {
 namespace {
 
 std::vector<uint8_t> bytesOf(const sphc_image &image) {
-  const uint32_t row_bytes = pixels::pixelBytes(image.format) * image.width;
+  const uint32_t row_bytes = sphc_format_bytes(image.format) * image.width;
   std::vector<uint8_t> bytes;
   for (uint32_t y = 0; y < image.height; ++y) {
     const uint8_t *row = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
@@ -26,9 +26,8 @@ std::vector<uint8_t> expected(pixels::Layout layout, uint32_t padding, uint32_t 
   const uint32_t stride = pixels::rowBytes(layout, kWidth) + padding;
   std::vector<uint8_t> raw(stride * kHeight * (layout == pixels::Layout::Nv12 ? 3 : 2) / 2);
   test::paintPattern(number, raw.data(), static_cast<uint32_t>(raw.size()));
-  std::vector<uint8_t> out(pixels::pixelBytes(format) * kWidth * kHeight);
-  const pixels::OutImage image{out.data(), out.size(), kWidth, kHeight, pixels::pixelBytes(format) * kWidth,
-                               format};
+  std::vector<uint8_t> out(sphc_format_bytes(format) * kWidth * kHeight);
+  const pixels::OutImage image{out.data(), out.size(), kWidth, kHeight, sphc_format_bytes(format) * kWidth, format};
   sphc_message message = {};
   EXPECT_EQ(pixels::convert(pixels::contiguous(layout, pixels::YuvRange::Limited, kWidth, kHeight, stride,
                                                raw.data(), raw.size()),

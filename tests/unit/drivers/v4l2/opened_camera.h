@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/v4l2/open.h"
+#include "spherecloud/spherecloud_capture.h"
 #include "tests/support/fake_v4l2.h"
 
 namespace sphc::v4l2 {

@@ -45,7 +45,7 @@ TEST_F(RigTest, GivesEveryPairOfARecordingAndThenItsEnd) {
   EXPECT_EQ(calibration.color_camera.width, contract::kColorWidth);
   uint32_t captures = 0, pairs = 0;
   rig->watch([&](const sphc_capture &) { ++captures; });
-  sphc_pair pair = {};
+  CapturePair pair;
   Rig::Got got;
   while ((got = rig->next(std::chrono::seconds(10), &pair)) == Rig::Got::kPair) {
     EXPECT_EQ(pair.color.sequence, pairs);
@@ -65,7 +65,7 @@ TEST_F(RigTest, GivesEveryPairOfARecordingAndThenItsEnd) {
 TEST_F(RigTest, WhatIsTooFarApartIsNoPair) {
   options_.tolerance_ms = 0.5;  // depth lags by a millisecond
   const auto rig = open();
-  sphc_pair pair = {};
+  CapturePair pair;
   EXPECT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kEnd);
   const sphc_pairer_counts counts = rig->counts();
   EXPECT_EQ(counts.pairs, 0u);
@@ -84,7 +84,7 @@ TEST_F(RigTest, TwoCamerasShareTheClockOfTheHost) {
     EXPECT_LT(capture.time_ns, contract::kFirstNs);  // the recording's own times are of the year 2011
     ++captures;
   });
-  sphc_pair pair = {};
+  CapturePair pair;
   uint32_t pairs = 0;
   while (rig->next(std::chrono::seconds(10), &pair) == Rig::Got::kPair) {
     rig->release(pair);

@@ -56,14 +56,14 @@ struct Wall {
     for (uint32_t y = 0; y < kHeight; ++y)
       for (uint32_t x = 0; x < 3 * kWidth; ++x) color[y * 3 * kWidth + x] = squares[y / 8 * 40 + x / 3 / 8];
   }
-  sphc_frame frame() const {
+  sphc_localizer_frame frame() const {
     return spherecloud::frame(1, 0, spherecloud::image(color.data(), kWidth, kHeight, SPHC_FORMAT_BGR8), 0,
                               spherecloud::image(depth.data(), kWidth, kHeight, SPHC_FORMAT_DEPTH16));
   }
 };
 
-sphc_config wallConfig() {
-  sphc_config config = spherecloud::defaultConfig();
+sphc_localizer_config wallConfig() {
+  sphc_localizer_config config = spherecloud::defaultConfig();
   config.rig.color_camera = {SPHC_CAMERA_PINHOLE, kWidth, kHeight, 4, {300, 300, 160, 120}};
   config.rig.depth_camera = config.rig.color_camera;
   return config;
@@ -93,7 +93,7 @@ TEST(FramePeers, AFrameThatWasMappedIsFoundWhereItWasTaken) {
 
 TEST(FramePeers, AFisheyeIsRefusedWithTheCure) {
   FramePeers peers(peerPython());
-  sphc_config config = wallConfig();
+  sphc_localizer_config config = wallConfig();
   config.rig.color_camera = {SPHC_CAMERA_KANNALA_BRANDT4, kWidth, kHeight, 8, {300, 300, 160, 120, 0, 0, 0, 0}};
   EXPECT_THROW(peers.begin(config, {}), std::runtime_error);
 }

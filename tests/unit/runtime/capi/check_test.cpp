@@ -37,16 +37,6 @@ TEST(CheckMemory, NamesWhatIsWrong) {
   EXPECT_THAT(message.text, HasSubstr("127 bytes, 128 are needed"));
 }
 
-TEST(CheckMaps, EachIsThereAndTheyAreNotTooMany) {
-  sphc_message message = {};
-  sphc_map *const nothing[SPHC_MAPS_MAX + 1] = {};
-  EXPECT_EQ(checkMaps(nullptr, 1, &message), SPHC_E_ARGUMENT);
-  EXPECT_EQ(checkMaps(nothing, 0, &message), SPHC_E_ARGUMENT);
-  EXPECT_EQ(checkMaps(nothing, 1, &message), SPHC_E_ARGUMENT);
-  EXPECT_THAT(message.text, HasSubstr("sphc_map_init"));
-  EXPECT_EQ(checkMaps(nothing, SPHC_MAPS_MAX + 1, &message), SPHC_E_CAPACITY);
-}
-
 class CheckImageTest : public testing::Test {
  protected:
   sphc_status check(const sphc_image &image, bool depth) {

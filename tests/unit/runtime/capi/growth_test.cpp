@@ -58,12 +58,12 @@ TEST(Growth, SizesThatNeverWereAreRefused) {
     sphc_message message = {};
     EXPECT_EQ(readStructBytes(kKnowsAll, "later", &from, &known, &message), SPHC_E_STRUCT_SIZE) << size;
     EXPECT_NE(std::strstr(message.text, "sizeof(later)"), nullptr) << message.text;
-    EXPECT_EQ(checkWritableBytes(kKnowsAll, "later", &from, &message), SPHC_E_STRUCT_SIZE) << size;
+    EXPECT_EQ(checkStructBytes(kKnowsAll, "later", &from, &message), SPHC_E_STRUCT_SIZE) << size;
     EXPECT_EQ(initStructBytes(kKnowsAll, &known, size, &from), SPHC_E_STRUCT_SIZE) << size;
     EXPECT_EQ(from.first, 1u);
   }
   EXPECT_EQ(readStructBytes(kKnowsAll, "later", nullptr, nullptr, nullptr), SPHC_E_ARGUMENT);
-  EXPECT_EQ(checkWritableBytes(kKnowsAll, "later", nullptr, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(checkStructBytes(kKnowsAll, "later", nullptr, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(initStructBytes(kKnowsAll, nullptr, sizeof(Later), nullptr), SPHC_E_ARGUMENT);
 }
 

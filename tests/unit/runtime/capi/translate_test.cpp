@@ -4,27 +4,22 @@
 
 #include <cmath>
 
+#include "tests/support/arena_memory.h"
 #include "tests/support/session.h"
 
 namespace sphc {
 namespace {
 
 TEST(TranslateConfig, EveryNumberArrives) {
-  sphc_config config = test::sceneConfig();
+  sphc_localizer_config config = test::sceneConfig();
   config.max_keypoints = 401;
-  config.max_iterations = 5001;
-  config.max_ratio = 0.81f;
-  config.probes = 7;
-  config.min_inliers = 13;
+  config.max_maps = 7;
   config.seed = 0x123456789abcdefull;
   config.pixel_sigma_px = 1.25;
   config.map_sigma_m = 0.0075;
   const LocalizerConfig own = localizerConfigFrom(config);
   EXPECT_EQ(own.max_keypoints, 401u);
-  EXPECT_EQ(own.max_iterations, 5001u);
-  EXPECT_EQ(own.max_ratio, 0.81f);
-  EXPECT_EQ(own.probes, 7u);
-  EXPECT_EQ(own.min_inliers, 13u);
+  EXPECT_EQ(own.max_maps, 7u);
   EXPECT_EQ(own.seed, 0x123456789abcdefull);
   EXPECT_EQ(own.pixel_sigma_px, 1.25);
   EXPECT_EQ(own.map_sigma_m, 0.0075);
@@ -40,7 +35,7 @@ TEST(TranslateConfig, TheRigArrives) {
 }
 
 TEST(TranslateConfig, ModesAndTheClock) {
-  sphc_config config = test::sceneConfig();
+  sphc_localizer_config config = test::sceneConfig();
   config.mode = SPHC_MODE_SINGLE;
   EXPECT_FALSE(localizerConfigFrom(config).tracks);
   config.mode = SPHC_MODE_TRACKING;
@@ -53,7 +48,7 @@ TEST(TranslateConfig, ModesAndTheClock) {
 }
 
 TEST(TranslateConfig, TheDepthSensor) {
-  sphc_config config = test::sceneConfig();
+  sphc_localizer_config config = test::sceneConfig();
   config.depth_min_m = 0.5;
   config.depth_max_m = 8;
   config.depth_sigma_m = 0.003;
@@ -77,13 +72,13 @@ TEST(TranslateConfig, TheDepthSensor) {
 TEST(TranslateFrame, BorrowsItsImages) {
   uint8_t color[6 * 4 * 2] = {};
   uint16_t depth[5 * 3] = {};
-  sphc_frame frame = {};
+  sphc_localizer_frame frame = {};
   frame.color_time_ns = 100;
   frame.depth_time_ns = 103;
   frame.deadline_us = 4000000000u;
   frame.color = {color, 4, 2, 16, SPHC_FORMAT_BGR8};
   frame.depth = {depth, 4, 3, 10, SPHC_FORMAT_DEPTH16};
-  FrameInput own = frameFrom(frame);
+  FrameInput own = frameFrom(frame, MapSet());
   EXPECT_EQ(own.color_time_ns, 100);
   EXPECT_EQ(own.depth_time_ns, 103);
   EXPECT_EQ(own.time_limit_ns, 4000000000000);
@@ -98,16 +93,16 @@ TEST(TranslateFrame, BorrowsItsImages) {
   EXPECT_EQ(own.depth.stride, 5);  // in pixels
   EXPECT_FALSE(own.known.prior.has_pose || own.known.prior.has_up || own.known.has_odometry);
   frame.color.format = SPHC_FORMAT_RGB8;
-  EXPECT_EQ(frameFrom(frame).color.order, ChannelOrder::kRgb);
+  EXPECT_EQ(frameFrom(frame, MapSet()).color.order, ChannelOrder::kRgb);
   frame.color.format = SPHC_FORMAT_GRAY8;
-  EXPECT_EQ(frameFrom(frame).color.order, ChannelOrder::kGray);
+  EXPECT_EQ(frameFrom(frame, MapSet()).color.order, ChannelOrder::kGray);
 }
 
 class TranslatePrior : public testing::Test {
  protected:
   TranslatePrior() {
     prior_.struct_size = sizeof prior_;
-    prior_.map_index = 3;
+    prior_.map_id = 3;
     prior_.camera_from_map = {{0, 1, 0, 0}, {1, 2, 3}};  // half a turn about x
     prior_.rotation_sigma_rad = 0.1;
     prior_.translation_sigma_m = 0.2;
@@ -120,17 +115,21 @@ class TranslatePrior : public testing::Test {
   }
   Known known(uint32_t flags) {
     prior_.flags = flags;
-    sphc_frame frame = {};
+    sphc_localizer_frame frame = {};
     frame.prior = &prior_;
-    return frameFrom(frame).known;
+    MapSet maps;
+    test::ArenaMemory memory([&](Arena &arena, bool real) { MapSet::layout(2, arena, real ? &maps : nullptr); });
+    maps.set(9, MapView());
+    maps.set(3, MapView());
+    return frameFrom(frame, maps).known;
   }
-  sphc_prior prior_ = {};
+  sphc_localizer_prior prior_ = {};
 };
 
 TEST_F(TranslatePrior, APose) {
   const Known own = known(SPHC_PRIOR_POSE);
   EXPECT_TRUE(own.prior.has_pose);
-  EXPECT_EQ(own.map, 3u);
+  EXPECT_EQ(own.map, 1u);  // its slot
   EXPECT_LT((own.prior.camera_from_map * Vector3(0, 1, 0) - Vector3(1, 1, 3)).norm(), 1e-12);
   EXPECT_EQ(own.prior.rotation_sigma_rad, 0.1);
   EXPECT_EQ(own.prior.translation_sigma_m, 0.2);
@@ -170,7 +169,7 @@ TEST(TranslateBack, OutcomesAndStatesByName) {
 }
 
 TEST(TranslateBack, Observations) {
-  const sphc_observation o = observationFrom({1, 2, 3, 4, 5, true, false, true});
+  const sphc_localizer_observation o = observationFrom({1, 2, 3, 4, 5, true, false, true});
   EXPECT_EQ(o.x_px, 1);
   EXPECT_EQ(o.y_px, 2);
   EXPECT_EQ(o.scale_px, 3);
@@ -192,7 +191,7 @@ LocalizerResult answerOf(Outcome outcome) {
   answer.cuts = kCutMatches | kCutVerification;
   answer.faults = kDepthScale;
   answer.hints = kTooDark | kAmbiguous;
-  answer.map = 6;
+  answer.map_id = 6;
   answer.frames = 7;
   answer.guided = true;
   answer.camera_from_map.translation_m = Vector3(1, 2, 3);
@@ -206,16 +205,16 @@ LocalizerResult answerOf(Outcome outcome) {
   return answer;
 }
 
-sphc_result resultOf(Outcome outcome) {
-  sphc_frame frame = {};
+sphc_localizer_result resultOf(Outcome outcome) {
+  sphc_localizer_frame frame = {};
   frame.sequence = 77;
   frame.color_time_ns = 1234;
   return resultFrom(answerOf(outcome), frame);
 }
 
 TEST(TranslateBack, EveryNumberOfAResult) {
-  const sphc_result result = resultOf(Outcome::kLocalized);
-  EXPECT_EQ(result.struct_size, sizeof(sphc_result));
+  const sphc_localizer_result result = resultOf(Outcome::kLocalized);
+  EXPECT_EQ(result.struct_size, sizeof(sphc_localizer_result));
   EXPECT_EQ(result.sequence, 77u);
   EXPECT_EQ(result.time_ns, 1234);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_LOCALIZED);
@@ -228,7 +227,7 @@ TEST(TranslateBack, EveryNumberOfAResult) {
   EXPECT_EQ(result.cuts, uint32_t{SPHC_CUT_MATCHES | SPHC_CUT_VERIFICATION});
   EXPECT_EQ(result.faults, uint32_t{SPHC_FAULT_DEPTH_SCALE});
   EXPECT_EQ(result.hints, uint32_t{SPHC_HINT_TOO_DARK | SPHC_HINT_AMBIGUOUS});
-  EXPECT_EQ(result.map_index, 6u);
+  EXPECT_EQ(result.map_id, 6u);
   EXPECT_EQ(result.frames, 7u);
   EXPECT_EQ(result.guided, 1u);
   EXPECT_EQ(result.confidence, 0.9);
@@ -244,7 +243,7 @@ TEST(TranslateBack, EveryNumberOfAResult) {
 }
 
 TEST(TranslateBack, TimesAreWholeMicrosecondsAndNeverWrapAround) {
-  const sphc_result result = resultOf(Outcome::kLocalized);
+  const sphc_localizer_result result = resultOf(Outcome::kLocalized);
   EXPECT_EQ(result.features_us, 1u);
   EXPECT_EQ(result.align_us, 2u);
   EXPECT_EQ(result.match_us, 3000u);
@@ -253,7 +252,7 @@ TEST(TranslateBack, TimesAreWholeMicrosecondsAndNeverWrapAround) {
 
 // A pose that is not believed is not told.
 TEST(TranslateBack, WithoutAPoseThereIsTheIdentity) {
-  const sphc_result result = resultOf(Outcome::kUncertain);
+  const sphc_localizer_result result = resultOf(Outcome::kUncertain);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_UNCERTAIN);
   EXPECT_EQ(result.camera_from_map.q_wxyz[0], 1);
   for (double t : result.camera_from_map.t_m) EXPECT_EQ(t, 0);

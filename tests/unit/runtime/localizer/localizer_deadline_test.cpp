@@ -24,10 +24,10 @@ class LocalizerDeadline : public testing::Test {
     config_.clock_user = &clock_;
   }
   // Of a frame of viewpoint 1, under a deadline that many looks away (1 us each); 0: none.
-  sphc_result see(test::Session *session, uint32_t looks, uint32_t viewpoint = 1) {
+  sphc_localizer_result see(test::Session *session, uint32_t looks, uint32_t viewpoint = 1) {
     const auto made = test::sceneFrame(config_, viewpoint);
     made->frame.deadline_us = looks;
-    sphc_result result = {};
+    sphc_localizer_result result = {};
     result.struct_size = sizeof result;
     const uint64_t before = clock_.reads;
     session->process(made->frame, &result);
@@ -36,7 +36,7 @@ class LocalizerDeadline : public testing::Test {
   }
 
   test::SteppingClock clock_{1000};
-  sphc_config config_ = test::sceneConfig();
+  sphc_localizer_config config_ = test::sceneConfig();
   uint64_t looks_ = 0;  // of the last frame
 };
 
@@ -48,13 +48,13 @@ TEST_F(LocalizerDeadline, WithoutOneTheClockIsReadForTheTimesAlone) {
 
 TEST_F(LocalizerDeadline, EndsSoonAfterEveryOneAndSaysWhatWasCut) {
   test::Session session(config_);
-  const sphc_result whole = see(&session, 1000000);
+  const sphc_localizer_result whole = see(&session, 1000000);
   ASSERT_EQ(whole.outcome, SPHC_OUTCOME_LOCALIZED);
   EXPECT_EQ(whole.cuts, 0u);
   const auto all = static_cast<uint32_t>(looks_);
   uint32_t cuts = 0, localized_though_cut = 0;
   for (uint32_t looks = 1; looks < 2 * all; looks += 1 + all / 150) {
-    const sphc_result result = see(&session, looks);
+    const sphc_localizer_result result = see(&session, looks);
     EXPECT_LE(looks_, looks + kMostLooksAfter) << looks;
     if (result.outcome == SPHC_OUTCOME_LOCALIZED) {
       EXPECT_LT(session.errorM(result, 1), 0.05) << looks;

@@ -15,11 +15,11 @@ namespace sphc {
 namespace {
 
 TEST(Localizer, LocalizesInItsRoom) {
-  const sphc_config config = test::sceneConfig();
+  const sphc_localizer_config config = test::sceneConfig();
   test::Session session(config);
   for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) {  // 3 is none of the map's
     const auto frame = test::sceneFrame(config, viewpoint);
-    sphc_result result;
+    sphc_localizer_result result;
     EXPECT_EQ(session.process(frame->frame, &result), SPHC_OK) << viewpoint << " outcome " << result.outcome;
     EXPECT_LT(session.errorM(result, viewpoint), 0.02) << viewpoint;
     EXPECT_LE(result.inliers, result.matches);
@@ -29,22 +29,22 @@ TEST(Localizer, LocalizesInItsRoom) {
 }
 
 TEST(Localizer, DarknessHasFewKeypoints) {
-  const sphc_config config = test::sceneConfig();
+  const sphc_localizer_config config = test::sceneConfig();
   test::Session session(config);
   const auto frame = test::sceneFrame(config, 0);
   std::fill(frame->images.gray.begin(), frame->images.gray.end(), uint8_t{7});
-  sphc_result result;
+  sphc_localizer_result result;
   EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_FEW_KEYPOINTS);
   EXPECT_NE(result.hints & SPHC_HINT_TOO_DARK, 0u);
 }
 
 TEST(Localizer, ABlindDepthSensorHasFewDepths) {
-  const sphc_config config = test::sceneConfig();
+  const sphc_localizer_config config = test::sceneConfig();
   test::Session session(config);
   const auto frame = test::sceneFrame(config, 0);
   std::fill(frame->images.depth_mm.begin(), frame->images.depth_mm.end(), uint16_t{0});
-  sphc_result result;
+  sphc_localizer_result result;
   EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
   EXPECT_EQ(result.outcome, SPHC_OUTCOME_FEW_DEPTHS);
   EXPECT_EQ(result.hints, uint32_t{SPHC_HINT_NO_DEPTH_IN_RANGE});
@@ -52,12 +52,12 @@ TEST(Localizer, ABlindDepthSensorHasFewDepths) {
 }
 
 TEST(Localizer, AnotherPlaceIsNotLocalized) {
-  const sphc_config config = test::sceneConfig();
+  const sphc_localizer_config config = test::sceneConfig();
   test::Session session(config);
   const auto frame = test::sceneFrame(config, 0);
   for (auto row = frame->images.gray.begin(); row != frame->images.gray.end(); row += 320)
     std::reverse(row, row + 320);  // a mirror world
-  sphc_result result;
+  sphc_localizer_result result;
   EXPECT_EQ(session.process(frame->frame, &result), SPHC_NOT_LOCALIZED);
   EXPECT_NE(result.outcome, SPHC_OUTCOME_LOCALIZED);
   EXPECT_EQ(result.hints, uint32_t{SPHC_HINT_NOT_IN_MAP});
@@ -65,9 +65,9 @@ TEST(Localizer, AnotherPlaceIsNotLocalized) {
 
 // In a map whose points pass a looser ratio test only.
 LocalizerResult localizeLoosely(uint32_t min_inliers) {
-  const sphc_config asked = test::sceneConfig();
+  const sphc_localizer_config asked = test::sceneConfig();
   LocalizerConfig config = localizerConfigFrom(asked);
-  config.min_inliers = min_inliers;
+  config.search.min_inliers = min_inliers;
   Localizer localizer;
   test::ArenaMemory memory(
       [&](Arena &arena, bool real) { Localizer::layout(config, arena, arena, real ? &localizer : nullptr); });
@@ -75,9 +75,9 @@ LocalizerResult localizeLoosely(uint32_t min_inliers) {
   const auto maps = test::mapOf(test::pointsWithNearDuplicates(), Vector3(0, 0, 1));
   MapView view;
   EXPECT_EQ(MapView::open(maps[0].file.data(), maps[0].file.size(), kExtractorId, &view, nullptr), SPHC_OK);
-  localizer.addMap(view);
+  localizer.setMap(0, view);
   const auto frame = test::sceneFrame(asked, 0);
-  return localizer.process(frameFrom(frame->frame));
+  return localizer.process(frameFrom(frame->frame, MapSet()));
 }
 
 TEST(Localizer, WhatALooserSearchFindsNeedsTwiceTheInliers) {
@@ -90,17 +90,18 @@ TEST(Localizer, WhatALooserSearchFindsNeedsTwiceTheInliers) {
 }
 
 TEST(Localizer, LogsOnTheCallersThread) {
-  sphc_config config = test::sceneConfig();
+  sphc_localizer_config config = test::sceneConfig();
   std::string text;
+  config.log_level = SPHC_LOG_DEBUG;
   config.log_user = &text;
   config.log = [](void *user, sphc_log_level, const char *line, size_t length) {
     static_cast<std::string *>(user)->append(line, length);
   };
   test::Session session(config);
   const auto frame = test::sceneFrame(config, 1);
-  sphc_result result;
+  sphc_localizer_result result;
   session.process(frame->frame, &result);
-  EXPECT_NE(text.find("frame 1: localized"), std::string::npos) << text;
+  EXPECT_NE(text.find("frame 1: SPHC_OUTCOME_LOCALIZED"), std::string::npos) << text;
 }
 
 }  // namespace

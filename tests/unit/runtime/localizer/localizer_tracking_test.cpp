@@ -12,24 +12,25 @@ namespace {
 
 constexpr int64_t kStepNs = 100000000;
 
-sphc_config trackingConfig() {
-  sphc_config config = test::sceneConfig();
+sphc_localizer_config trackingConfig() {
+  sphc_localizer_config config = test::sceneConfig();
   config.mode = SPHC_MODE_TRACKING;
   return config;
 }
 
 class Walk {
  public:
-  explicit Walk(const sphc_config &config, double eta = 0.5, uint32_t rooms = 1)
+  explicit Walk(const sphc_localizer_config &config, double eta = 0.5, uint32_t rooms = 1)
       : config_(config), session_(config, eta, rooms) {}
 
+  test::Session &session() { return session_; }
   // The next frame, a tenth of a second later.
-  sphc_result see(uint32_t viewpoint, uint32_t room = 0, bool dark = false) {
+  sphc_localizer_result see(uint32_t viewpoint, uint32_t room = 0, bool dark = false) {
     const auto made = test::sceneFrame(config_, viewpoint, room);
     if (dark) std::fill(made->images.gray.begin(), made->images.gray.end(), uint8_t{9});
-    sphc_frame frame = made->frame;
+    sphc_localizer_frame frame = made->frame;
     frame.color_time_ns = frame.depth_time_ns = time_ns_ += kStepNs;
-    sphc_prior prior = {};
+    sphc_localizer_prior prior = {};
     if (odometry_) {
       prior.struct_size = sizeof prior;
       prior.flags = SPHC_PRIOR_ODOMETRY;
@@ -38,18 +39,18 @@ class Walk {
       prior.odometry_translation_sigma_m = 1e-3;
       frame.prior = &prior;
     }
-    sphc_result result = {};
+    sphc_localizer_result result = {};
     session_.process(frame, &result);
     if (result.outcome == SPHC_OUTCOME_LOCALIZED) {
-      EXPECT_EQ(result.map_index, room);
+      EXPECT_EQ(result.map_id, room);
       EXPECT_LT(session_.errorM(result, viewpoint), 0.03) << viewpoint;
     }
     return result;
   }
-  std::vector<sphc_observation> observations() {
-    std::vector<sphc_observation> all(config_.max_keypoints);
+  std::vector<sphc_localizer_observation> observations() {
+    std::vector<sphc_localizer_observation> all(config_.max_keypoints);
     uint32_t count = 0;
-    sphc_localizer_observations(session_.localizer(), all.data(), config_.max_keypoints, &count);
+    sphc_localizer_observations(session_.localizer(), all.data(), sizeof all[0], config_.max_keypoints, &count);
     all.resize(count);
     return all;
   }
@@ -67,7 +68,7 @@ class Walk {
  private:
   static Rigid sceneViewpoint(uint32_t i) { return test::sceneViewpoint(i); }
 
-  sphc_config config_;
+  sphc_localizer_config config_;
   test::Session session_;
   int64_t time_ns_ = 0;
   bool odometry_ = false;
@@ -76,13 +77,13 @@ class Walk {
 
 TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
   Walk walk(trackingConfig());
-  const sphc_result first = walk.see(0);
+  const sphc_localizer_result first = walk.see(0);
   EXPECT_EQ(first.outcome, SPHC_OUTCOME_LOCALIZED);
   EXPECT_EQ(first.state, SPHC_STATE_RELOCALIZING);
   EXPECT_EQ(first.guided, 0u);
   EXPECT_EQ(walk.see(1).state, SPHC_STATE_TRACKING);
   for (uint32_t viewpoint : {2u, 3u, 4u}) {
-    const sphc_result result = walk.see(viewpoint);
+    const sphc_localizer_result result = walk.see(viewpoint);
     EXPECT_EQ(result.state, SPHC_STATE_TRACKING) << viewpoint;
     EXPECT_EQ(result.guided, 1u) << viewpoint;
     EXPECT_EQ(result.frames, 1u);
@@ -92,7 +93,7 @@ TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
 TEST(LocalizerTracking, ADarkFrameIsOvercome) {
   Walk walk(trackingConfig());
   for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
-  const sphc_result dark = walk.see(3, 0, true);
+  const sphc_localizer_result dark = walk.see(3, 0, true);
   EXPECT_EQ(dark.outcome, SPHC_OUTCOME_FEW_KEYPOINTS);
   EXPECT_NE(dark.hints & SPHC_HINT_TOO_DARK, 0u);
   EXPECT_EQ(dark.state, SPHC_STATE_LOST);
@@ -104,10 +105,10 @@ TEST(LocalizerTracking, OdometryVetoesAJumpToFewerInliers) {
   Walk walk(trackingConfig());
   walk.useOdometry();
   for (uint32_t viewpoint : {0u, 1u}) walk.see(viewpoint);
-  const sphc_result tracked = walk.see(2);
+  const sphc_localizer_result tracked = walk.see(2);
   ASSERT_EQ(tracked.state, SPHC_STATE_TRACKING);
   walk.keepOdometryBehind(4);
-  const sphc_result jump = walk.see(7);
+  const sphc_localizer_result jump = walk.see(7);
   ASSERT_LT(jump.inliers, tracked.inliers);
   EXPECT_EQ(jump.outcome, SPHC_OUTCOME_UNCERTAIN);
   EXPECT_EQ(jump.hints, uint32_t{SPHC_HINT_AMBIGUOUS});
@@ -121,7 +122,7 @@ TEST(LocalizerTracking, ResetForgets) {
   Walk walk(trackingConfig());
   for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
   walk.forget();
-  const sphc_result result = walk.see(3);
+  const sphc_localizer_result result = walk.see(3);
   EXPECT_EQ(result.state, SPHC_STATE_RELOCALIZING);
   EXPECT_EQ(result.guided, 0u);
 }
@@ -129,7 +130,7 @@ TEST(LocalizerTracking, ResetForgets) {
 TEST(LocalizerTracking, SingleModeKnowsNoYesterday) {
   Walk walk(test::sceneConfig());
   for (uint32_t viewpoint : {0u, 1u, 2u}) {
-    const sphc_result result = walk.see(viewpoint);
+    const sphc_localizer_result result = walk.see(viewpoint);
     EXPECT_EQ(result.state, SPHC_STATE_RELOCALIZING);
     EXPECT_EQ(result.guided, 0u);
   }
@@ -138,7 +139,7 @@ TEST(LocalizerTracking, SingleModeKnowsNoYesterday) {
 TEST(LocalizerTracking, FindsTheRoomAndIsHandedOver) {
   Walk walk(trackingConfig(), 0.5, 3);
   for (uint32_t viewpoint : {0u, 1u, 2u}) EXPECT_EQ(walk.see(viewpoint, 2).outcome, SPHC_OUTCOME_LOCALIZED);
-  const sphc_result moved = walk.see(1, 1);  // through a door
+  const sphc_localizer_result moved = walk.see(1, 1);  // through a door
   EXPECT_EQ(moved.outcome, SPHC_OUTCOME_LOCALIZED);
   EXPECT_EQ(moved.state, SPHC_STATE_LOST);  // one frame alone is not yet trusted
   EXPECT_EQ(walk.see(2, 1).state, SPHC_STATE_TRACKING);
@@ -147,17 +148,17 @@ TEST(LocalizerTracking, FindsTheRoomAndIsHandedOver) {
 
 // A frame of a room of which there is no map: several maps are looked into, and what is told is of one of them.
 TEST(LocalizerTracking, MatchesOfAFailureAreOfTheMapThatItNames) {
-  sphc_config config = trackingConfig();
-  config.max_ratio = 1;  // everything matches something
+  sphc_localizer_config config = trackingConfig();
   Walk walk(config, 0.5, 3);
+  walk.session().setParameter(SPHC_PARAMETER_MAX_RATIO, 1);  // everything matches something
   uint32_t looked_at = 0;
   for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) {
-    const sphc_result result = walk.see(viewpoint, 7);
+    const sphc_localizer_result result = walk.see(viewpoint, 7);
     EXPECT_NE(result.outcome, SPHC_OUTCOME_LOCALIZED);
     uint32_t matched = 0;
-    for (const sphc_observation &o : walk.observations()) {
+    for (const sphc_localizer_observation &o : walk.observations()) {
       if (!(o.flags & SPHC_OBSERVATION_MATCHED)) continue;
-      EXPECT_LT(o.point_index, walk.pointsOf(result.map_index));
+      EXPECT_LT(o.point_index, walk.pointsOf(result.map_id));
       ++matched;
     }
     EXPECT_EQ(matched, result.matches);
@@ -169,7 +170,7 @@ TEST(LocalizerTracking, MatchesOfAFailureAreOfTheMapThatItNames) {
 
 // Frames that show too little one by one.
 TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
-  sphc_config config = trackingConfig();
+  sphc_localizer_config config = trackingConfig();
   config.max_keypoints = 80;
   constexpr double kEta = 0.2;
   Walk alone(config, kEta), together(config, kEta);
@@ -177,7 +178,7 @@ TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
   uint32_t found_alone = 0, found_together = 0, most_frames = 0;
   for (uint32_t viewpoint = 0; viewpoint < 10; ++viewpoint) {
     found_alone += alone.see(viewpoint).outcome == SPHC_OUTCOME_LOCALIZED;
-    const sphc_result result = together.see(viewpoint);
+    const sphc_localizer_result result = together.see(viewpoint);
     found_together += result.outcome == SPHC_OUTCOME_LOCALIZED;
     if (result.outcome == SPHC_OUTCOME_LOCALIZED) most_frames = std::max(most_frames, result.frames);
   }
@@ -187,7 +188,7 @@ TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
 
 // Depth is taken 30 ms before colour, while the camera moves.
 double errorWithDepthBefore(bool times_are_told) {
-  const sphc_config config = trackingConfig();
+  const sphc_localizer_config config = trackingConfig();
   test::Session session(config);
   constexpr int64_t kLagNs = 3 * kStepNs / 10;
   double sum_m = 0;
@@ -197,17 +198,17 @@ double errorWithDepthBefore(bool times_are_told) {
         test::renderScene(config.rig.color_camera, config.rig.depth_camera, test::sceneViewpoint(i - 0.3),
                           rigidFromC(config.rig.color_from_depth))
             .depth_mm;
-    sphc_frame frame = made->frame;
+    sphc_localizer_frame frame = made->frame;
     frame.depth.data = made->images.depth_mm.data();
     frame.color_time_ns = frame.depth_time_ns = (i + 1) * kStepNs;
     if (times_are_told) frame.depth_time_ns -= kLagNs;
-    sphc_prior prior = {};
+    sphc_localizer_prior prior = {};
     prior.struct_size = sizeof prior;
     prior.flags = SPHC_PRIOR_ODOMETRY;
     prior.odometry_from_camera = rigidToC(test::sceneViewpoint(i).inverse());
     prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
     frame.prior = &prior;
-    sphc_result result = {};
+    sphc_localizer_result result = {};
     EXPECT_EQ(session.process(frame, &result), SPHC_OK) << i;
     if (i > 0) sum_m += session.errorM(result, i);  // of the first, no step is known
   }

@@ -28,7 +28,7 @@ class RoomParts {
     for (const SceneMap &map : maps_) {
       MapView view;
       EXPECT_EQ(MapView::open(map.file.data(), map.file.size(), kExtractorId, &view, nullptr), SPHC_OK);
-      search.addMap(view);
+      search.maps().set(search.maps().count(), view);
     }
   }
   RoomParts(const RoomParts &) = delete;
@@ -52,7 +52,7 @@ class RoomParts {
     const auto width = static_cast<ptrdiff_t>(made.frame.depth.width);
     for (auto row = made.images.depth_mm.begin(); row != made.images.depth_mm.end(); row += width)
       std::fill_n(row, width / 8, uint16_t{0});
-    const FrameInput frame = frameFrom(made.frame);
+    const FrameInput frame = frameFrom(made.frame, MapSet());
     front.extract(frame.color);
     front.lift(frame.depth, config.color_from_depth);
   }
@@ -61,7 +61,7 @@ class RoomParts {
     return sceneViewpoint(viewpoint) * Rigid{Matrix3::Identity(), maps_[room].centre_in_world_m};
   }
   Search::Question askAll(uint32_t map = 0) {
-    return search.ask(front, map, front.keypointCount(), config.probes, &work);
+    return search.ask(front, map, front.keypointCount(), config.search.probes, &work);
   }
   // The angle between a match's map point and where the keypoint lies when the camera is there.
   double angleOff(const Correspondence &c, const Rigid &camera_from_map) const {
@@ -73,7 +73,7 @@ class RoomParts {
   // Made once: that takes a third of a second each.
   static std::vector<SceneMap> roomMaps(double eta, uint32_t rooms) {
     static std::map<std::pair<double, uint32_t>, SceneMap> made;
-    const sphc_config config = sceneConfig();
+    const sphc_localizer_config config = sceneConfig();
     std::vector<SceneMap> maps;
     for (uint32_t room = 0; room < rooms; ++room) {
       SceneMap &map = made[{eta, room}];
@@ -85,12 +85,12 @@ class RoomParts {
   void layout(Arena &arena, bool real) {
     Fusion::layout(config.max_keypoints, arena, real ? &fusion : nullptr);
     FrontEnd::layout(config, arena, arena, real ? &front : nullptr);
-    Search::layout(config.max_keypoints, arena, real ? &search : nullptr);
+    Search::layout(config, arena, arena, real ? &search : nullptr);
     for (Hypothesis *hypothesis : {&found, &rival})
       MatchSet::layout(config.max_keypoints, arena, real ? &hypothesis->matched : nullptr);
     EstimatorConfig of_estimator;
     of_estimator.capacity = 2 * config.max_keypoints;
-    of_estimator.max_iterations = config.max_iterations;
+    of_estimator.max_iterations = config.search.max_iterations;
     PoseEstimator::layout(of_estimator, arena, real ? &estimator : nullptr);
   }
 

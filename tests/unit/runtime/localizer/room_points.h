@@ -11,7 +11,7 @@ namespace sphc::test {
 
 // The points that the first viewpoints show, where they are in the room.
 inline std::vector<WorldPoint> pointsOfTheRoom() {
-  const sphc_config config = sceneConfig();
+  const sphc_localizer_config config = sceneConfig();
   ViewDescriber describer(config.rig.color_camera, config.max_keypoints);
   std::vector<WorldPoint> points;
   for (uint32_t view = 0; view < 3; ++view) {

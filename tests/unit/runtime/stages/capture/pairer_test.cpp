@@ -28,13 +28,17 @@ Pairer makePairer(uint32_t slots = 4, int64_t tolerance_ms = 20) {
   return Pairer({sizeof(sphc_pairer_config), slots, tolerance_ms * kMillisecondNs});
 }
 
+struct Pair {
+  sphc_capture color = {}, depth = {};
+};
+
 // Everything that comes out now: "c10+d11" a pair, "-d5" a drop.
 std::string drain(Pairer *pairer) {
   std::string out;
   for (int guard = 0; guard < 100; ++guard) {
-    sphc_pair pair = {};
+    Pair pair;
     sphc_capture dropped = {};
-    const sphc_status status = pairer->pop(&pair, &dropped);
+    const sphc_status status = pairer->pop(&pair.color, &pair.depth, &dropped);
     if (status == SPHC_OK) {
       EXPECT_EQ(dropped.stream, SPHC_STREAM_NONE);
       EXPECT_EQ(pair.color.stream, SPHC_STREAM_COLOR);
@@ -101,9 +105,9 @@ TEST(Pairer, TimesFarApartAreNoPair) {
   late.time_ns = std::numeric_limits<int64_t>::max();
   pairer.push(early);
   pairer.push(late);
-  sphc_pair pair = {};
+  Pair pair;
   sphc_capture dropped = {};
-  EXPECT_EQ(pairer.pop(&pair, &dropped), SPHC_AGAIN);
+  EXPECT_EQ(pairer.pop(&pair.color, &pair.depth, &dropped), SPHC_AGAIN);
   EXPECT_EQ(dropped.stream, SPHC_STREAM_COLOR);
 }
 
@@ -148,9 +152,9 @@ TEST(Pairer, KeepsTheLoansFieldsUnchanged) {
   c.image.width = 640;
   pairer.push(c);
   pairer.push(depth(100));
-  sphc_pair pair = {};
+  Pair pair;
   sphc_capture dropped = {};
-  ASSERT_EQ(pairer.pop(&pair, &dropped), SPHC_OK);
+  ASSERT_EQ(pairer.pop(&pair.color, &pair.depth, &dropped), SPHC_OK);
   EXPECT_EQ(pair.color.token, 0xFEDCBA9876543210ull);
   EXPECT_EQ(pair.color.sequence, 41u);
   EXPECT_EQ(pair.color.image.width, 640u);
@@ -166,9 +170,9 @@ TEST(Pairer, RandomStreamsGiveBackEveryLoanOnce) {
     uint64_t count[3] = {};
     const auto pop = [&] {
       for (;;) {
-        sphc_pair pair = {};
+        Pair pair;
         sphc_capture dropped = {};
-        if (pairer.pop(&pair, &dropped) == SPHC_OK) {
+        if (pairer.pop(&pair.color, &pair.depth, &dropped) == SPHC_OK) {
           ++given[1][pair.color.token];
           ++given[2][pair.depth.token];
           EXPECT_GT(pair.color.time_ns, last_pair);

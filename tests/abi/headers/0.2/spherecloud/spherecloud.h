@@ -1,4 +1,4 @@
-/* spherecloud.h - the public C interface of the SphereCloud SDK.
+/* spherecloud.h - the public C interface of the SphereCloud SDK.  Cameras and clocks: spherecloud_capture.h.
  *
  * What it does.  Given a colour image and a time-of-flight (ToF) depth image taken at about the same time,
  * and a map that was built beforehand, the library answers where the camera is in the map.  The map is a
@@ -9,8 +9,9 @@
  * A session, in the order of the calls:
  *
  *     sphc_map_memory, sphc_map_init              view a map file that you loaded or mapped, one for each room
- *     sphc_config_init, set the rig               describe the headset
+ *     sphc_localizer_config_init, set the rig     describe the headset
  *     sphc_localizer_memory, sphc_localizer_init  hand over memory once
+ *     sphc_localizer_set_map                      give it the map, or several; between frames at any time
  *     sphc_localizer_process ...                  a frame in, a pose out; never allocates
  *     sphc_localizer_fini, sphc_map_fini
  *
@@ -27,8 +28,16 @@
  *
  * Failure.  status < 0: outputs are untouched, except a message that explains.
  *
- * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do).
- * Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image) never change.
+ * Names.  What belongs to a module begins with its name: sphc_map_, sphc_aligner_, sphc_localizer_.  What all share
+ * has none: sphc_image.  Constants leave the module out: sphc_localizer_outcome has SPHC_OUTCOME_.  `map_id` is a
+ * map, `point_index` a point.
+ *
+ * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do),
+ * and zero what you do not set.  A program may be built with an older header than its library, whose new fields
+ * then have their defaults, or with a newer one, of which what the library does not know must be zero:
+ * SPHC_E_UNSUPPORTED otherwise.  Results come back as far as the caller's struct goes, zeroes in what the library
+ * does not know.  Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image, sphc_memory, sphc_memory_piece,
+ * sphc_depth_bias) never change.
  *
  * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
  * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
@@ -61,7 +70,7 @@ extern "C" {
 /* ---- version ---- */
 
 #define SPHC_VERSION_MAJOR 0
-#define SPHC_VERSION_MINOR 1
+#define SPHC_VERSION_MINOR 2
 #define SPHC_VERSION_PATCH 0
 #define SPHC_ABI \
   0u /* raised only when an existing symbol or the prefix of a struct changes; 0 promises nothing yet */
@@ -83,7 +92,7 @@ enum {
   SPHC_END = 3,           /* a finite source (a recording) has no more captures */
 
   SPHC_E_ARGUMENT = -10,    /* null, not finite, out of range, or at odds with another argument */
-  SPHC_E_STRUCT_SIZE = -11, /* struct_size is not one this library knows */
+  SPHC_E_STRUCT_SIZE = -11, /* struct_size is none that this struct ever had */
   SPHC_E_STATE = -12,       /* the call is not allowed in the current state */
   SPHC_E_IMAGE = -13,       /* an image's size, stride, format or pointer does not fit the config */
 
@@ -99,8 +108,8 @@ enum {
   SPHC_E_DEVICE = -40,
   SPHC_E_DEVICE_LOST = -41, /* unplugged; stop, and open again once it is back */
 
-  SPHC_E_UNSUPPORTED = -50,
-  SPHC_E_INTERNAL = -90 /* a defect of this library; please report */
+  SPHC_E_UNSUPPORTED = -50, /* not by this library or device: a field of a newer header is set, a mode is missing */
+  SPHC_E_INTERNAL = -90     /* a defect of this library; please report */
 };
 
 /* "SPHC_OK" and so on; "SPHC_?" for a value this library does not know; never null; static storage. [pure] */
@@ -120,8 +129,13 @@ enum {
   SPHC_FORMAT_GRAY8 = 1,   /* 1 byte a pixel */
   SPHC_FORMAT_RGB8 = 2,    /* 3 bytes a pixel: red, green, blue */
   SPHC_FORMAT_BGR8 = 3,    /* 3 bytes a pixel: blue, green, red */
-  SPHC_FORMAT_DEPTH16 = 10 /* uint16, native byte order; metres per unit stand in the config; 0 = no measurement */
+  SPHC_FORMAT_DEPTH16 = 10 /* uint16 z, native byte order; metres per unit stand in the rig; 0 = no measurement */
 };
+/* Bytes of a pixel; 0 for a format this library does not know. [pure] */
+SPHC_API uint32_t sphc_format_bytes(sphc_format format);
+/* "SPHC_FORMAT_GRAY8" and so on; "SPHC_FORMAT_?" for any other value; never null; static storage.  So do all
+ * functions that end in _name, of bits for one bit. [pure] */
+SPHC_API const char *sphc_format_name(sphc_format format);
 
 /* Rigid transform; named target_from_source everywhere: x_target = R(q) x_source + t. */
 typedef struct sphc_rigid {
@@ -136,6 +150,7 @@ enum {
   SPHC_CAMERA_BROWN8 = 3,         /* fx fy cx cy k1 k2 p1 p2 k3 k4 k5 k6  (OpenCV's rational model) */
   SPHC_CAMERA_KANNALA_BRANDT4 = 4 /* fx fy cx cy k1 k2 k3 k4              (OpenCV's fisheye) */
 };
+SPHC_API const char *sphc_camera_model_name(sphc_camera_model model); /* [pure] */
 
 /* Camera intrinsics, in pixels of an image of width x height. */
 typedef struct sphc_camera {
@@ -159,6 +174,15 @@ typedef struct sphc_image {
   uint32_t stride_bytes; /* from a row to the next; at least width * bytes a pixel */
   sphc_format format;
 } sphc_image;
+
+/* What an instance needs of the caller: for the functions that end in _memory. */
+typedef struct sphc_memory {
+  uint64_t state_bytes; /* lives as long as the instance */
+  uint64_t
+      scratch_bytes;  /* used only inside a call; instances of one thread may share it; 0 where none is needed */
+  uint32_t alignment; /* of both */
+  uint32_t reserved;
+} sphc_memory;
 
 /* ---- camera, rig and rigid transform functions ---- */
 
@@ -194,46 +218,6 @@ SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_
 /* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
 SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
 
-/* ---- frame ---- */
-
-/* What is known of a pose before its frame is looked at. */
-enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u, SPHC_PRIOR_ODOMETRY = 4u };
-typedef struct sphc_prior {
-  uint32_t struct_size;
-  uint32_t flags;     /* which of the parts below count */
-  uint32_t map_index; /* the map, of those given to sphc_localizer_init, whose frame POSE and UP are in */
-  uint32_t reserved;
-  /* POSE: where the camera should be.  Only the map points that should be in view are looked at first; where that
-   * fails, or the sigmas say too little, the whole of the maps. */
-  sphc_rigid camera_from_map;
-  double rotation_sigma_rad;  /* 1 sigma an axis; 1e-6 to 3.2 */
-  double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; 1e-6 to 1000 */
-  /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
-  double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
-  double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
-  /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
-   * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
-   * little be put together, and takes depth to the time of the colour image. */
-  sphc_rigid odometry_from_camera;
-  double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
-  double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */
-} sphc_prior;
-
-/* A colour and a depth image taken at about the same time; everything is borrowed. */
-typedef struct sphc_frame {
-  uint32_t struct_size;
-  uint32_t sequence;     /* the caller's own number; comes back in the result */
-  int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
-  int64_t depth_time_ns;
-  sphc_image color;        /* GRAY8, RGB8 or BGR8; the size in config.rig.color_camera */
-  sphc_image depth;        /* DEPTH16; the size in config.rig.depth_camera */
-  const sphc_prior *prior; /* null: nothing is known but what earlier frames told */
-  /* The frame is to be answered so long after the call began, with the best pose so far; 0: no deadline.  Needs
-   * config.clock, and counts in its time.  result.cuts says what was left out for it; docs/localizer.md. */
-  uint32_t deadline_us;
-  uint32_t reserved;
-} sphc_frame;
-
 /* ---- map: an immutable view of borrowed bytes ---- */
 
 typedef struct sphc_map sphc_map;
@@ -247,8 +231,11 @@ typedef struct sphc_map_info {
   uint8_t map_id[16]; /* random name of this build */
 } sphc_map_info;
 
-/* Bytes and alignment that sphc_map_init needs for its view (not for the file). [pure] */
-SPHC_API sphc_status sphc_map_memory(size_t *bytes, size_t *alignment);
+/* The id of this library's keypoint extractor; a map whose points another one described is refused. [pure] */
+SPHC_API uint32_t sphc_extractor_id(void);
+/* What sphc_map_init needs for its view (not for the file). [pure] */
+#define SPHC_MAP_BYTES_MAX 256u /* state_bytes of any library of this ABI, for memory that is not asked for */
+SPHC_API sphc_status sphc_map_memory(sphc_memory *memory);
 /* Validates the whole file (structure, checksums, every direction) and makes a view of it in caller memory.
  * `file` is borrowed until sphc_map_fini and must not change; 8-byte aligned.  Reads each byte once: about 1 ms a
  * MB.  Errors: MEMORY_SIZE, MEMORY_ALIGNMENT, MAP_FORMAT, MAP_VERSION, MAP_CHECKSUM, MAP_EXTRACTOR, ARGUMENT.
@@ -258,20 +245,23 @@ SPHC_API sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void
                                    sphc_map **map, sphc_message *message);
 /* Set info->struct_size first. [shared] */
 SPHC_API sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info);
-/* Unit direction of point `index` from the sphere centre, map frame. [shared] */
-SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t index, double direction[3]);
+/* Unit direction of a point from the sphere centre, map frame; point_index counts from 0. [shared] */
+SPHC_API sphc_status sphc_map_direction(const sphc_map *map, uint32_t point_index, double direction[3]);
 /* Ends the view; accepts null and pointer to null; sets *map to null; frees nothing. [exclusive] */
 SPHC_API void sphc_map_fini(sphc_map **map);
 
 /* ---- depth alignment: a whole depth image, seen from the colour camera ---- */
 
 /* What a pixel of an aligned image is. */
+typedef int32_t sphc_aligned_pixel;
 enum {
   SPHC_ALIGNED_HOLE = 0,     /* no depth: not measured, out of range, or out of the depth camera's view */
   SPHC_ALIGNED_MEASURED = 1, /* a measurement falls into this pixel */
   SPHC_ALIGNED_FILLED = 2,   /* between measurements of one surface: interpolated */
   SPHC_ALIGNED_OCCLUDED = 3  /* no depth: something nearer hides this place from the depth camera */
 };
+
+SPHC_API const char *sphc_aligned_pixel_name(sphc_aligned_pixel pixel); /* [pure] */
 
 typedef struct sphc_aligner_config {
   uint32_t struct_size;
@@ -297,12 +287,12 @@ typedef struct sphc_aligned {
 } sphc_aligned;
 
 typedef struct sphc_aligner sphc_aligner;
-/* Defaults: those of sphc_config_init; the cameras stay zero: set the rig.  SPHC_E_STRUCT_SIZE when the size is
- * none this library knows. [pure] */
+/* Defaults: those of sphc_localizer_config_init; the cameras stay zero: set the rig.  SPHC_E_STRUCT_SIZE when the
+ * size is none that the struct ever had. [pure] */
 SPHC_API sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_t struct_size);
 /* What sphc_aligner_init will need for this config: about 10 bytes a pixel of the depth image and 8 a pixel of the
  * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
-SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, size_t *bytes, size_t *alignment,
+SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc_memory *memory,
                                          sphc_message *message);
 /* Makes an aligner in caller memory, borrowed until sphc_aligner_fini; `config` is copied.  Computes a ray for
  * every pixel, which takes as long as some dozen frames.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
@@ -326,33 +316,35 @@ SPHC_API void sphc_aligner_fini(sphc_aligner **aligner);
 
 typedef int32_t sphc_log_level;
 enum { SPHC_LOG_ERROR = 1, SPHC_LOG_WARNING = 2, SPHC_LOG_INFO = 3, SPHC_LOG_DEBUG = 4 };
+SPHC_API const char *sphc_log_level_name(sphc_log_level level); /* [pure] */
 /* Called on the calling thread only; `text` is terminated and borrowed for the call. */
 typedef void (*sphc_log_fn)(void *user, sphc_log_level level, const char *text, size_t length);
 /* Monotonic clock in nanoseconds, from the caller: the library makes no OS call. */
 typedef int64_t (*sphc_clock_fn)(void *user);
 
 /* Whether frames belong together. */
-typedef int32_t sphc_mode;
+typedef int32_t sphc_localizer_mode;
 enum {
-  SPHC_MODE_TRACKING = 0, /* frames follow each other: the last pose says where to look; see sphc_state */
+  SPHC_MODE_TRACKING = 0, /* frames follow each other: the last pose says where to look; see sphc_localizer_state */
   SPHC_MODE_SINGLE = 1    /* each frame is looked at alone (what is learnt of the depth sensor stays) */
 };
+SPHC_API const char *sphc_localizer_mode_name(sphc_localizer_mode mode); /* [pure] */
 
 /* How far the last pose is to be trusted, after a frame; docs/localizer.md draws the transitions. */
-typedef int32_t sphc_state;
+typedef int32_t sphc_localizer_state;
 enum {
   SPHC_STATE_RELOCALIZING = 0, /* no pose is trusted; always so in SPHC_MODE_SINGLE */
   SPHC_STATE_TRACKING = 1,     /* a second frame agreed with the pose */
   SPHC_STATE_LOST = 2          /* was tracking until a frame brought no pose, or another; for 1 s at most */
 };
+SPHC_API const char *sphc_localizer_state_name(sphc_localizer_state state); /* [pure] */
 
-typedef struct sphc_config {
+typedef struct sphc_localizer_config {
   uint32_t struct_size;
   uint32_t max_keypoints; /* strongest are kept; 64 to 4096 */
-  uint32_t
-      max_iterations; /* minimal samples drawn in one search, at most; a frame takes one to a few; 1 to 1000000 */
-  float max_ratio;    /* Lowe's ratio test, on distances; 0.1 to 1 */
-  uint64_t seed;      /* same seed, map, config and frames: same bytes in the results */
+  uint32_t max_maps;      /* that it has at once; 1 to SPHC_MAPS_MAX */
+  sphc_localizer_mode mode;
+  uint64_t seed; /* same seed, maps, config and frames: same bytes in the results */
 
   sphc_rig rig;
 
@@ -368,19 +360,53 @@ typedef struct sphc_config {
   double depth_mid_m; /* 0: the geometric mean of depth_min_m and depth_max_m */
   double depth_offset_sigma_m, depth_slope_sigma;
 
-  uint32_t min_inliers; /* a pose with fewer is not given out */
-  sphc_mode mode;
-  uint32_t probes; /* cells of the map's index searched for each keypoint, 1 to 32: more cost time and find more;
-                      0: all of the map */
-  uint32_t reserved;
-
   sphc_log_fn log; /* may be null */
   void *log_user;
+  sphc_log_level log_level; /* what says more is not made; SPHC_LOG_DEBUG has a line for every frame */
+  uint32_t reserved;
   sphc_clock_fn clock; /* may be null: stage times are then 0, and no frame has a deadline */
   void *clock_user;
-} sphc_config;
+} sphc_localizer_config;
 
-typedef int32_t sphc_outcome;
+/* What is known of a pose before its frame is looked at. */
+enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u, SPHC_PRIOR_ODOMETRY = 4u };
+typedef struct sphc_localizer_prior {
+  uint32_t struct_size;
+  uint32_t flags;  /* which of the parts below count */
+  uint32_t map_id; /* the map whose frame POSE and UP are in */
+  uint32_t reserved;
+  /* POSE: where the camera should be.  Only the map points that should be in view are looked at first; where that
+   * fails, or the sigmas say too little, the whole of the maps. */
+  sphc_rigid camera_from_map;
+  double rotation_sigma_rad;  /* 1 sigma an axis; 1e-6 to 3.2 */
+  double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; 1e-6 to 1000 */
+  /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
+  double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
+  double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
+  /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
+   * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
+   * little be put together, and takes depth to the time of the colour image. */
+  sphc_rigid odometry_from_camera;
+  double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
+  double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */
+} sphc_localizer_prior;
+
+/* A colour and a depth image taken at about the same time; everything is borrowed. */
+typedef struct sphc_localizer_frame {
+  uint32_t struct_size;
+  uint32_t sequence;     /* the caller's own number; comes back in the result */
+  int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
+  int64_t depth_time_ns;
+  sphc_image color;                  /* GRAY8, RGB8 or BGR8; the size in config.rig.color_camera */
+  sphc_image depth;                  /* DEPTH16; the size in config.rig.depth_camera */
+  const sphc_localizer_prior *prior; /* null: nothing is known but what earlier frames told */
+  /* The frame is to be answered so long after the call began, with the best pose so far; 0: no deadline.  Needs
+   * config.clock, and counts in its time.  result.cuts says what was left out for it; docs/localizer.md. */
+  uint32_t deadline_us;
+  uint32_t reserved;
+} sphc_localizer_frame;
+
+typedef int32_t sphc_localizer_outcome;
 enum {
   SPHC_OUTCOME_LOCALIZED = 0,
   SPHC_OUTCOME_FEW_KEYPOINTS = 1, /* too few keypoints: dark, blurred or blank image */
@@ -391,6 +417,7 @@ enum {
   SPHC_OUTCOME_DEADLINE = 6,      /* no pose before frame.deadline_us; result.cuts says what was left out */
   SPHC_OUTCOME_CONTRADICTION = 7  /* the frame contradicts itself, and no pose is given; result.faults says how */
 };
+SPHC_API const char *sphc_localizer_outcome_name(sphc_localizer_outcome outcome); /* [pure] */
 
 /* What is wrong with a frame or with what it was told, as far as that shows; bits of result.faults.  Those before
  * DEPTH_SCALE take the pose away (SPHC_OUTCOME_CONTRADICTION).  Streams and edges over frames are compared in
@@ -407,8 +434,7 @@ enum {
   SPHC_FAULT_DEPTH_BIAS = 128u, /* result.depth is beyond 2.5 of the config's sigmas; confidence is below 0.5 */
   SPHC_FAULT_VERTICAL_DISAGREES = 256u /* UP is not the pose's vertical; the pose was found without it */
 };
-/* "SPHC_FAULT_DEPTH_RANGE" and so on for one bit; "SPHC_FAULT_?" for any other value; static storage. [pure] */
-SPHC_API const char *sphc_fault_name(uint32_t fault);
+SPHC_API const char *sphc_localizer_fault_name(uint32_t fault); /* [pure] */
 
 /* What was left out of a frame for its deadline, bits of result.cuts: more time might have found a pose, or a
  * better one. */
@@ -419,22 +445,36 @@ enum {
   SPHC_CUT_VERIFICATION =
       8u /* steps that refine, challenge or confirm a pose; what they must confirm is UNCERTAIN */
 };
-/* "SPHC_CUT_FEATURES" and so on for one bit; "SPHC_CUT_?" for any other value; static storage. [pure] */
-SPHC_API const char *sphc_cut_name(uint32_t cut);
+SPHC_API const char *sphc_localizer_cut_name(uint32_t cut); /* [pure] */
+
+/* Why no pose was found, as far as that shows, for the person who wears the cameras; bits of result.hints.  Set
+ * only where there is no pose; several may be set; none where nothing is known.  Each is of this frame alone, so a
+ * program says one aloud when it has come for some frames in a row.  docs/hints.md. */
+enum {
+  SPHC_HINT_TOO_DARK = 1u,          /* the image's noise is not far below its light: "more light" */
+  SPHC_HINT_TOO_FAST = 2u,          /* the image is blurred along a line: "move slower" */
+  SPHC_HINT_TOO_PLAIN = 4u,         /* little stands out in a bright and sharp image: "look elsewhere" */
+  SPHC_HINT_NO_DEPTH_IN_RANGE = 8u, /* few keypoints have depth: "step back, or closer; glass has no depth" */
+  SPHC_HINT_NOT_IN_MAP = 16u,       /* the image shows enough, but not what the map shows: "you are elsewhere" */
+  SPHC_HINT_AMBIGUOUS = 32u         /* another pose fits nearly as well, or odometry contradicts the one that was
+                                     * found, which is UNCERTAIN: "look around" */
+};
+SPHC_API const char *sphc_localizer_hint_name(uint32_t hint); /* [pure] */
 
 /* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
  * is noise_scale times the one in the config. */
 typedef struct sphc_depth_bias {
   double mid_m, offset_m, slope;
   double offset_sigma_m, slope_sigma; /* 1 sigma */
+  double correlation;                 /* of offset and slope */
   double noise_scale;
 } sphc_depth_bias;
 
-typedef struct sphc_result {
+typedef struct sphc_localizer_result {
   uint32_t struct_size;
   uint32_t sequence; /* of the frame */
   int64_t time_ns;   /* frame.color_time_ns */
-  sphc_outcome outcome;
+  sphc_localizer_outcome outcome;
   uint32_t keypoints;  /* found in the colour image */
   uint32_t lifted;     /* of these, with depth */
   uint32_t matches;    /* keypoints with a map point that passed the ratio test, lifted or not */
@@ -445,54 +485,112 @@ typedef struct sphc_result {
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
   uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
-  double confidence;     /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
-                          * bounds sphc_result_confidence */
-  uint32_t cuts;         /* SPHC_CUT_ bits; 0: nothing was left out */
-  sphc_state state;      /* after this frame */
-  uint32_t map_index;    /* of the map that camera_from_map is in; where there is no pose, the likeliest */
+  double confidence; /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
+                      * bounds sphc_localizer_result_confidence */
+  uint32_t cuts;     /* SPHC_CUT_ bits; 0: nothing was left out */
+  sphc_localizer_state state; /* after this frame */
+  uint32_t map_id;            /* of the map that camera_from_map is in; where there is no pose, the likeliest, or
+                               * SPHC_MAP_NONE */
   uint32_t frames;       /* whose matches the pose was found from: 1, or more where odometry put some together */
   uint32_t guided;       /* 1: found where it was expected, without a search of the whole map */
   uint32_t faults;       /* SPHC_FAULT_ bits; 0: nothing was found */
   sphc_depth_bias depth; /* what the frame was looked at with */
-} sphc_result;
+  uint32_t hints;        /* SPHC_HINT_ bits: why there is no pose; 0 where there is one */
+  uint32_t reserved;     /* 0 */
+} sphc_localizer_result;
 
 /* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero: set
- * the rig.  SPHC_E_STRUCT_SIZE when the size is none this library knows. [pure] */
-SPHC_API sphc_status sphc_config_init(sphc_config *config, size_t struct_size);
+ * the rig.  SPHC_E_STRUCT_SIZE when the size is none that the struct ever had. [pure] */
+SPHC_API sphc_status sphc_localizer_config_init(sphc_localizer_config *config, size_t struct_size);
 
-typedef struct sphc_memory {
-  size_t state_bytes;   /* lives as long as the localizer */
-  size_t scratch_bytes; /* used only inside sphc_localizer_process; may be shared by localizers of one thread */
-  size_t alignment;     /* of both */
-} sphc_memory;
+/* Results and inputs that say nothing yet: zero but for struct_size and identity poses.  STRUCT_SIZE as above.
+ * [pure] */
+SPHC_API sphc_status sphc_localizer_result_init(sphc_localizer_result *result, size_t struct_size);
+SPHC_API sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size_t struct_size);
+SPHC_API sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size);
 
 /* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
-SPHC_API sphc_status sphc_localizer_memory(const sphc_config *config, sphc_memory *memory, sphc_message *message);
+SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memory *memory,
+                                           sphc_message *message);
+/* Upper bounds of it for any library of this ABI, for memory that is not asked for: buffers with an extent that the
+ * compiler must know.  color_width x color_height is the colour camera's image. */
+#define SPHC_LOCALIZER_STATE_BYTES_MAX(max_keypoints, max_maps) \
+  (UINT64_C(98304) + UINT64_C(160) * (max_keypoints) + UINT64_C(256) * (max_maps))
+#define SPHC_LOCALIZER_SCRATCH_BYTES_MAX(max_keypoints, color_width, color_height) \
+  (UINT64_C(4194304) + UINT64_C(2048) * (max_keypoints) +                          \
+   UINT64_C(512) * ((color_width) + UINT64_C(1) * (color_height)) + UINT64_C(10) * (color_width) * (color_height))
 
 /* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static
  * storage. [pure] */
 typedef struct sphc_memory_piece {
   const char *name; /* "features.pyramid" */
-  size_t bytes;
+  uint64_t bytes;
   uint32_t scratch; /* 1: in scratch, 0: in state */
   uint32_t reserved;
 } sphc_memory_piece;
-SPHC_API sphc_status sphc_localizer_memory_piece(const sphc_config *config, uint32_t index,
+SPHC_API sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uint32_t index,
                                                  sphc_memory_piece *piece);
 
 typedef struct sphc_localizer sphc_localizer;
 
-#define SPHC_MAPS_MAX 16u /* maps of one localizer */
+#define SPHC_MAPS_MAX 64u         /* maps of one localizer */
+#define SPHC_MAP_NONE 0xFFFFFFFFu /* no map's id */
 
-/* Makes a localizer in caller memory, for one map or a set of them (rooms), each with a frame of its own: it finds
- * out which one a frame shows.  `config` and the list are copied; `state`, `scratch` and the maps are borrowed
- * until sphc_localizer_fini.  None of that memory may overlap another.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
- * MEMORY_ALIGNMENT, CAPACITY. [pure] */
+/* Makes a localizer in caller memory; it has no map yet.  `config` is copied; `state` and `scratch` are borrowed
+ * until sphc_localizer_fini and must not overlap.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT.
+ * [pure] */
 SPHC_API sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
-                                         const sphc_config *config, const sphc_map *const *maps, uint32_t map_count,
-                                         sphc_localizer **localizer, sphc_message *message);
+                                         const sphc_localizer_config *config, sphc_localizer **localizer,
+                                         sphc_message *message);
 /* Accepts null and pointer to null; sets *localizer to null; frees nothing. [exclusive] */
 SPHC_API void sphc_localizer_fini(sphc_localizer **localizer);
+
+/* Gives the localizer a map (a room), under an id of the caller's; with several it finds out which one a frame
+ * shows, and each has a frame of its own.  Where it has a map of this id already, that one is replaced: by a newer
+ * release of the same place, whose frame is the same, so tracking goes on.  Between any two frames.  The map is
+ * borrowed until it is replaced or removed, or until sphc_localizer_fini; it must not overlap the localizer's
+ * memory.  Failures: ARGUMENT, CAPACITY: config.max_maps are there (sphc_localizer_message explains). [exclusive]
+ */
+SPHC_API sphc_status sphc_localizer_set_map(sphc_localizer *localizer, uint32_t map_id, const sphc_map *map);
+/* Takes a map away; what was tracked in it is forgotten, what was tracked in another is not.  ARGUMENT when there
+ * is none of this id. [exclusive] */
+SPHC_API sphc_status sphc_localizer_remove_map(sphc_localizer *localizer, uint32_t map_id);
+/* How many maps it has. [exclusive] */
+SPHC_API uint32_t sphc_localizer_map_count(const sphc_localizer *localizer);
+
+/* How the search goes: for those who measure.  Ids are never renumbered or reused; one whose method a newer library
+ * no longer has is SPHC_E_UNSUPPORTED there. */
+typedef int32_t sphc_localizer_parameter;
+enum {
+  SPHC_PARAMETER_MAX_RATIO = 1, /* Lowe's ratio test, on distances */
+  SPHC_PARAMETER_PROBES = 2,    /* cells of a map's index searched for each keypoint: more cost time and find more;
+                                   0: all of the map */
+  SPHC_PARAMETER_MAX_ITERATIONS = 3, /* minimal samples drawn in one search, at most; a frame takes one to a few */
+  SPHC_PARAMETER_MIN_INLIERS = 4     /* a pose with fewer is not given out */
+};
+SPHC_API const char *sphc_localizer_parameter_name(sphc_localizer_parameter parameter); /* [pure] */
+/* What a parameter is where it was not set, and may be set to.  `whole`: 1 where only whole numbers are taken. */
+typedef struct sphc_localizer_parameter_range {
+  uint32_t struct_size;
+  uint32_t whole;
+  double initial, lowest, highest;
+} sphc_localizer_parameter_range;
+/* Set range->struct_size first.  UNSUPPORTED for an id that this library does not know. [pure] */
+SPHC_API sphc_status sphc_localizer_get_parameter_range(sphc_localizer_parameter parameter,
+                                                        sphc_localizer_parameter_range *range);
+/* From the next frame on.  Failures: ARGUMENT: out of range; UNSUPPORTED (sphc_localizer_message explains).
+ * [exclusive] */
+SPHC_API sphc_status sphc_localizer_set_parameter(sphc_localizer *localizer, sphc_localizer_parameter parameter,
+                                                  double value);
+SPHC_API sphc_status sphc_localizer_get_parameter(const sphc_localizer *localizer,
+                                                  sphc_localizer_parameter parameter,
+                                                  double *value); /* [exclusive] */
+
+/* What is known of the depth sensor from before, such as result.depth of the last frame before the power was cut;
+ * learning goes on from there.  ARGUMENT where it cannot be one of this config: not finite, vaguer than
+ * config.depth_offset_sigma_m or depth_slope_sigma, another mid range (sphc_localizer_message explains).
+ * [exclusive] */
+SPHC_API sphc_status sphc_localizer_set_depth_bias(sphc_localizer *localizer, const sphc_depth_bias *depth);
 
 /* Forgets where the camera was, as after a long pause; what was learnt of the depth sensor stays. [exclusive] */
 SPHC_API void sphc_localizer_reset(sphc_localizer *localizer);
@@ -502,194 +600,33 @@ SPHC_API void sphc_localizer_reset(sphc_localizer *localizer);
  * filled. SPHC_NOT_LOCALIZED: *result filled but for the pose; result->outcome says why.  Failures: ARGUMENT,
  * STRUCT_SIZE, IMAGE (sphc_localizer_message explains); the localizer can go on with the next frame. Bounded time,
  * by frame.deadline_us too; no allocation, no OS call. [exclusive] */
-SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_frame *frame,
-                                            sphc_result *result);
+SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localizer_frame *frame,
+                                            sphc_localizer_result *result);
 
-/* Text about the last failure of sphc_localizer_process on this instance, "" if it did not fail; owned by the
- * instance, valid until its next call. [exclusive] */
+/* Text about the failure of the last call on this instance that can fail, "" if it did not; owned by the instance,
+ * valid until its next call. [exclusive] */
 SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
 
 /* The probability that the camera is within so many metres and radians of the pose.  0 where there is no pose, for
  * a bound that is not above 0, and for a null result.  From the result's covariance; docs/confidence.md. [pure] */
-SPHC_API double sphc_result_confidence(const sphc_result *result, double translation_m, double rotation_rad);
+SPHC_API double sphc_localizer_result_confidence(const sphc_localizer_result *result, double translation_m,
+                                                 double rotation_rad);
 
 /* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
 enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };
-typedef struct sphc_observation {
+typedef struct sphc_localizer_observation {
   float x_px, y_px;     /* in the colour image */
   float scale_px;       /* standard deviation of the Gaussian it was found at */
   float depth_m;        /* z in the colour camera; 0 unless LIFTED */
-  uint32_t point_index; /* of the matched map point, of the map that result.map_index names; valid when MATCHED */
+  uint32_t point_index; /* of the matched map point, of the map that result.map_id names; valid when MATCHED */
   uint32_t flags;
-} sphc_observation;
-/* Copies up to `capacity` observations and sets *count to how many there are.  Before the first frame *count is 0.
- * [exclusive] */
-SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_observation *observations,
+} sphc_localizer_observation;
+/* Copies up to `capacity` observations, one every stride_bytes, and sets *count to how many there are. stride_bytes
+ * is sizeof(sphc_localizer_observation), by which the library knows which fields the caller has; ARGUMENT for one
+ * that the struct never had.  Before the first frame *count is 0. [exclusive] */
+SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer,
+                                                 sphc_localizer_observation *observations, uint32_t stride_bytes,
                                                  uint32_t capacity, uint32_t *count);
-
-/* ---- source: the contract that a driver fills; polled, never called back ---- */
-
-typedef int32_t sphc_stream;
-enum { SPHC_STREAM_NONE = 0, SPHC_STREAM_COLOR = 1, SPHC_STREAM_DEPTH = 2 };
-
-/* Which clock a time is on.  Times of two clocks cannot be compared. */
-typedef int32_t sphc_clock_id;
-enum {
-  SPHC_CLOCK_SOURCE = 0,    /* the source's own, such as a device's counter or a recording's; monotonic */
-  SPHC_CLOCK_MONOTONIC = 1, /* the host's CLOCK_MONOTONIC */
-  SPHC_CLOCK_BOOTTIME = 2   /* the host's CLOCK_BOOTTIME */
-};
-
-/* What of the exposure a time is that of. */
-typedef int32_t sphc_time_point;
-enum {
-  SPHC_TIME_MIDDLE = 0,
-  SPHC_TIME_START = 1,  /* as UVC cameras; half the exposure early when that is not known */
-  SPHC_TIME_END = 2,    /* as many capture bridges: of the readout too */
-  SPHC_TIME_ARRIVAL = 3 /* when it reached the host: late by readout and transfer */
-};
-
-/* One image of one stream, on loan from its source until released. */
-typedef struct sphc_capture {
-  uint32_t struct_size;
-  sphc_stream stream;
-  int64_t time_ns;            /* of the point of the exposure that time_point names, on `clock`; monotonic */
-  uint64_t token;             /* the source's own; hand it back unchanged */
-  uint32_t sequence;          /* counts the captures of this stream, lost ones too: a gap is a loss */
-  sphc_time_point time_point; /* MIDDLE, if the driver can: it moves the time by half an exposure it knows */
-  sphc_image image;           /* valid until release */
-  int64_t arrival_ns;         /* when the host had it, by CLOCK_MONOTONIC; 0: not told */
-  uint32_t exposure_us;       /* 0: not told */
-  uint32_t time_sigma_us;     /* of time_ns as the middle of the exposure, 1 sigma; 0: exact */
-  sphc_clock_id clock;
-  uint32_t reserved;
-} sphc_capture;
-
-/* The middle of a capture's exposure, as far as it tells: time_ns moved by half of exposure_us where time_point is
- * START or END.  Saturates.  0 for null. [pure] */
-SPHC_API int64_t sphc_capture_middle_ns(const sphc_capture *capture);
-
-/* Filled by a driver; the functions take its `self`.  States: stopped (after opening) -> start -> running -> stop
- * -> stopped, any number of times.  All [exclusive] per source. */
-typedef struct sphc_source {
-  uint32_t struct_size;
-  uint32_t loan_limit; /* captures that may be out on loan at once; acquire beyond it is SPHC_E_STATE */
-  void *self;
-  /* SPHC_E_STATE when running already. */
-  sphc_status (*start)(void *self);
-  /* Next capture in order of time; the caller sets capture->struct_size before.  SPHC_AGAIN: none within
-   * timeout_us.  SPHC_END: a recording is over. SPHC_E_DEVICE_LOST: unplugged.  SPHC_E_STATE: not running, or
-   * loan_limit reached. */
-  sphc_status (*acquire)(void *self, uint32_t timeout_us, sphc_capture *capture);
-  /* Every acquired capture exactly once, before stop; one that is not on loan is ignored. */
-  void (*release)(void *self, const sphc_capture *capture);
-  /* After it no loan is valid.  Does nothing when stopped. */
-  void (*stop)(void *self);
-  /* Explains the last failure; owned by the source, valid until its next call; never null. */
-  const char *(*message)(const void *self);
-} sphc_source;
-
-/* ---- pairer: two streams in, frames of colour and depth out; pure, no device ---- */
-
-#define SPHC_PAIRER_SLOTS 8u /* captures of each stream it can hold */
-
-typedef struct sphc_pairer_config {
-  uint32_t struct_size;
-  uint32_t slots;       /* captures of each stream held while waiting for a partner; 1 to SPHC_PAIRER_SLOTS */
-  int64_t tolerance_ns; /* pair only when the mid-exposure times differ by at most this */
-} sphc_pairer_config;
-
-/* Why a capture found no partner. */
-typedef int32_t sphc_drop;
-enum {
-  SPHC_DROP_NONE = 0,
-  SPHC_DROP_TOO_FAR = 1,   /* none within the tolerance */
-  SPHC_DROP_OVERTAKEN = 2, /* another one of its stream fits better */
-  SPHC_DROP_FULL = 3,      /* the other stream is silent and the slots are full */
-  SPHC_DROP_ENDED = 4      /* left over at sphc_pairer_flush */
-};
-
-/* What a pairer has done since sphc_pairer_init. */
-typedef struct sphc_pairer_counts {
-  uint32_t struct_size;
-  sphc_drop last_drop; /* why the last capture was dropped */
-  uint64_t pairs;
-  uint64_t too_far, overtaken, full, ended; /* dropped, of both streams */
-  uint64_t color_lost, depth_lost;          /* never came: gaps in `sequence` */
-} sphc_pairer_counts;
-
-/* A time-matched pair.  Both captures are out on loan to the caller, who releases them to their source after use.
- */
-typedef struct sphc_pair {
-  uint32_t struct_size;
-  uint32_t reserved;
-  sphc_capture color;
-  sphc_capture depth;
-} sphc_pair;
-
-typedef struct sphc_pairer sphc_pairer;
-/* Defaults: 4 slots, 20 ms. [pure] */
-SPHC_API sphc_status sphc_pairer_config_init(sphc_pairer_config *config, size_t struct_size);
-SPHC_API sphc_status sphc_pairer_memory(size_t *bytes, size_t *alignment); /* [pure] */
-/* `config` is copied. Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
-SPHC_API sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const sphc_pairer_config *config,
-                                      sphc_pairer **pairer, sphc_message *message);
-SPHC_API void sphc_pairer_fini(sphc_pairer **pairer); /* [exclusive] */
-/* Gives the pairer one capture (a copy; the loan goes with it).  Call sphc_pairer_pop until SPHC_AGAIN after each
- * push.  Captures are paired by sphc_capture_middle_ns.  SPHC_E_CAPACITY: its stream's slots are full; pop first
- * (drops come out there).  SPHC_E_ARGUMENT: earlier than the one before it, or on another clock than the first
- * capture (sphc_clock_mapper brings times to one clock). [exclusive] */
-SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture);
-/* SPHC_OK: *pair is the oldest pair, and *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing
- * more until the next push.  SPHC_AGAIN with another dropped->stream: a capture that can no longer find a partner
- * is handed back for release; call again. [exclusive] */
-SPHC_API sphc_status sphc_pairer_pop(sphc_pairer *pairer, sphc_pair *pair, sphc_capture *dropped);
-/* Ends the input: every capture still held comes out of sphc_pairer_pop as a pair or a drop. [exclusive] */
-SPHC_API void sphc_pairer_flush(sphc_pairer *pairer);
-/* Set counts->struct_size first. [exclusive] */
-SPHC_API sphc_status sphc_pairer_get_counts(const sphc_pairer *pairer, sphc_pairer_counts *counts);
-
-/* ---- clock mapper: times of a device's clock on the host's; pure, no device ---- */
-
-typedef struct sphc_clock_mapper_config {
-  uint32_t struct_size;
-  uint32_t max_drift_ppm; /* the clocks differ by no more, parts per million; 1 to 10000 */
-  int64_t window_ns;      /* what lies further back is forgotten; 1 s to 1 h */
-  int64_t delay_ns;       /* from a source time to its arrival, at the least: exposure, readout, transfer */
-  int64_t delay_sigma_ns; /* of delay_ns, 1 sigma; at least 0 */
-  int64_t jump_ns;        /* a larger step is a clock that was set, and starts anew; at least 1 */
-} sphc_clock_mapper_config;
-
-/* host time = source time + offset, the offset growing by drift_ppm. */
-typedef struct sphc_clock_mapping {
-  uint32_t struct_size;
-  uint32_t samples;  /* since the last start; 2^32 - 1 at most */
-  uint32_t restarts; /* clocks that were set or ran backwards */
-  uint32_t reserved;
-  int64_t offset_ns; /* at the last sample */
-  double drift_ppm;
-  int64_t sigma_ns; /* of mapped times, 1 sigma: scatter of the quickest arrivals, and delay_sigma_ns */
-} sphc_clock_mapping;
-
-typedef struct sphc_clock_mapper sphc_clock_mapper;
-/* Defaults: 200 ppm, 20 s, delay 0 +- 1 ms, jump 50 ms. [pure] */
-SPHC_API sphc_status sphc_clock_mapper_config_init(sphc_clock_mapper_config *config, size_t struct_size);
-SPHC_API sphc_status sphc_clock_mapper_memory(size_t *bytes, size_t *alignment); /* [pure] */
-/* `config` is copied. Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure] */
-SPHC_API sphc_status sphc_clock_mapper_init(void *memory, size_t memory_bytes,
-                                            const sphc_clock_mapper_config *config, sphc_clock_mapper **mapper,
-                                            sphc_message *message);
-SPHC_API void sphc_clock_mapper_fini(sphc_clock_mapper **mapper); /* [exclusive] */
-/* One source time and when it arrived by the host's clock, in the order of arrival.  Arrivals are late by a varying
- * time, never early: the line below all of them is the mapping (Moon, Skelly, Towsley 1999).  SPHC_AGAIN: a clock
- * was set or ran backwards; all before is forgotten. [exclusive] */
-SPHC_API sphc_status sphc_clock_mapper_add(sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t arrival_ns);
-/* *host_time_ns of a source time.  SPHC_AGAIN: no sample yet.  SPHC_E_ARGUMENT: more than an hour from the last
- * sample. [exclusive] */
-SPHC_API sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t source_time_ns,
-                                           int64_t *host_time_ns);
-/* Set mapping->struct_size first.  SPHC_AGAIN: no sample yet. [exclusive] */
-SPHC_API sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,241 @@
+// Constants of the C interface by their names.
+#include "spherecloud/spherecloud_capture.h"
+
+const char *sphc_format_name(sphc_format format) {
+  switch (format) {
+    case SPHC_FORMAT_GRAY8:
+      return "SPHC_FORMAT_GRAY8";
+    case SPHC_FORMAT_RGB8:
+      return "SPHC_FORMAT_RGB8";
+    case SPHC_FORMAT_BGR8:
+      return "SPHC_FORMAT_BGR8";
+    case SPHC_FORMAT_DEPTH16:
+      return "SPHC_FORMAT_DEPTH16";
+    default:
+      return "SPHC_FORMAT_?";
+  }
+}
+
+const char *sphc_camera_model_name(sphc_camera_model model) {
+  switch (model) {
+    case SPHC_CAMERA_PINHOLE:
+      return "SPHC_CAMERA_PINHOLE";
+    case SPHC_CAMERA_BROWN5:
+      return "SPHC_CAMERA_BROWN5";
+    case SPHC_CAMERA_BROWN8:
+      return "SPHC_CAMERA_BROWN8";
+    case SPHC_CAMERA_KANNALA_BRANDT4:
+      return "SPHC_CAMERA_KANNALA_BRANDT4";
+    default:
+      return "SPHC_CAMERA_?";
+  }
+}
+
+const char *sphc_aligned_pixel_name(sphc_aligned_pixel pixel) {
+  switch (pixel) {
+    case SPHC_ALIGNED_HOLE:
+      return "SPHC_ALIGNED_HOLE";
+    case SPHC_ALIGNED_MEASURED:
+      return "SPHC_ALIGNED_MEASURED";
+    case SPHC_ALIGNED_FILLED:
+      return "SPHC_ALIGNED_FILLED";
+    case SPHC_ALIGNED_OCCLUDED:
+      return "SPHC_ALIGNED_OCCLUDED";
+    default:
+      return "SPHC_ALIGNED_?";
+  }
+}
+
+const char *sphc_log_level_name(sphc_log_level level) {
+  switch (level) {
+    case SPHC_LOG_ERROR:
+      return "SPHC_LOG_ERROR";
+    case SPHC_LOG_WARNING:
+      return "SPHC_LOG_WARNING";
+    case SPHC_LOG_INFO:
+      return "SPHC_LOG_INFO";
+    case SPHC_LOG_DEBUG:
+      return "SPHC_LOG_DEBUG";
+    default:
+      return "SPHC_LOG_?";
+  }
+}
+
+const char *sphc_localizer_mode_name(sphc_localizer_mode mode) {
+  switch (mode) {
+    case SPHC_MODE_TRACKING:
+      return "SPHC_MODE_TRACKING";
+    case SPHC_MODE_SINGLE:
+      return "SPHC_MODE_SINGLE";
+    default:
+      return "SPHC_MODE_?";
+  }
+}
+
+const char *sphc_localizer_state_name(sphc_localizer_state state) {
+  switch (state) {
+    case SPHC_STATE_RELOCALIZING:
+      return "SPHC_STATE_RELOCALIZING";
+    case SPHC_STATE_TRACKING:
+      return "SPHC_STATE_TRACKING";
+    case SPHC_STATE_LOST:
+      return "SPHC_STATE_LOST";
+    default:
+      return "SPHC_STATE_?";
+  }
+}
+
+const char *sphc_localizer_outcome_name(sphc_localizer_outcome outcome) {
+  switch (outcome) {
+    case SPHC_OUTCOME_LOCALIZED:
+      return "SPHC_OUTCOME_LOCALIZED";
+    case SPHC_OUTCOME_FEW_KEYPOINTS:
+      return "SPHC_OUTCOME_FEW_KEYPOINTS";
+    case SPHC_OUTCOME_FEW_DEPTHS:
+      return "SPHC_OUTCOME_FEW_DEPTHS";
+    case SPHC_OUTCOME_FEW_MATCHES:
+      return "SPHC_OUTCOME_FEW_MATCHES";
+    case SPHC_OUTCOME_NO_CONSENSUS:
+      return "SPHC_OUTCOME_NO_CONSENSUS";
+    case SPHC_OUTCOME_UNCERTAIN:
+      return "SPHC_OUTCOME_UNCERTAIN";
+    case SPHC_OUTCOME_DEADLINE:
+      return "SPHC_OUTCOME_DEADLINE";
+    case SPHC_OUTCOME_CONTRADICTION:
+      return "SPHC_OUTCOME_CONTRADICTION";
+    default:
+      return "SPHC_OUTCOME_?";
+  }
+}
+
+const char *sphc_localizer_fault_name(uint32_t fault) {
+  switch (fault) {
+    case SPHC_FAULT_DEPTH_RANGE:
+      return "SPHC_FAULT_DEPTH_RANGE";
+    case SPHC_FAULT_DEPTH_CONSTANT:
+      return "SPHC_FAULT_DEPTH_CONSTANT";
+    case SPHC_FAULT_DEPTH_BENT:
+      return "SPHC_FAULT_DEPTH_BENT";
+    case SPHC_FAULT_DEPTH_FROZEN:
+      return "SPHC_FAULT_DEPTH_FROZEN";
+    case SPHC_FAULT_COLOR_FROZEN:
+      return "SPHC_FAULT_COLOR_FROZEN";
+    case SPHC_FAULT_DEPTH_COLOR_DISAGREE:
+      return "SPHC_FAULT_DEPTH_COLOR_DISAGREE";
+    case SPHC_FAULT_DEPTH_SCALE:
+      return "SPHC_FAULT_DEPTH_SCALE";
+    case SPHC_FAULT_DEPTH_BIAS:
+      return "SPHC_FAULT_DEPTH_BIAS";
+    case SPHC_FAULT_VERTICAL_DISAGREES:
+      return "SPHC_FAULT_VERTICAL_DISAGREES";
+    default:
+      return "SPHC_FAULT_?";
+  }
+}
+
+const char *sphc_localizer_cut_name(uint32_t cut) {
+  switch (cut) {
+    case SPHC_CUT_FEATURES:
+      return "SPHC_CUT_FEATURES";
+    case SPHC_CUT_MATCHES:
+      return "SPHC_CUT_MATCHES";
+    case SPHC_CUT_SEARCH:
+      return "SPHC_CUT_SEARCH";
+    case SPHC_CUT_VERIFICATION:
+      return "SPHC_CUT_VERIFICATION";
+    default:
+      return "SPHC_CUT_?";
+  }
+}
+
+const char *sphc_localizer_hint_name(uint32_t hint) {
+  switch (hint) {
+    case SPHC_HINT_TOO_DARK:
+      return "SPHC_HINT_TOO_DARK";
+    case SPHC_HINT_TOO_FAST:
+      return "SPHC_HINT_TOO_FAST";
+    case SPHC_HINT_TOO_PLAIN:
+      return "SPHC_HINT_TOO_PLAIN";
+    case SPHC_HINT_NO_DEPTH_IN_RANGE:
+      return "SPHC_HINT_NO_DEPTH_IN_RANGE";
+    case SPHC_HINT_NOT_IN_MAP:
+      return "SPHC_HINT_NOT_IN_MAP";
+    case SPHC_HINT_AMBIGUOUS:
+      return "SPHC_HINT_AMBIGUOUS";
+    default:
+      return "SPHC_HINT_?";
+  }
+}
+
+const char *sphc_localizer_parameter_name(sphc_localizer_parameter parameter) {
+  switch (parameter) {
+    case SPHC_PARAMETER_MAX_RATIO:
+      return "SPHC_PARAMETER_MAX_RATIO";
+    case SPHC_PARAMETER_PROBES:
+      return "SPHC_PARAMETER_PROBES";
+    case SPHC_PARAMETER_MAX_ITERATIONS:
+      return "SPHC_PARAMETER_MAX_ITERATIONS";
+    case SPHC_PARAMETER_MIN_INLIERS:
+      return "SPHC_PARAMETER_MIN_INLIERS";
+    default:
+      return "SPHC_PARAMETER_?";
+  }
+}
+
+const char *sphc_stream_name(sphc_stream stream) {
+  switch (stream) {
+    case SPHC_STREAM_NONE:
+      return "SPHC_STREAM_NONE";
+    case SPHC_STREAM_COLOR:
+      return "SPHC_STREAM_COLOR";
+    case SPHC_STREAM_DEPTH:
+      return "SPHC_STREAM_DEPTH";
+    default:
+      return "SPHC_STREAM_?";
+  }
+}
+
+const char *sphc_clock_id_name(sphc_clock_id clock) {
+  switch (clock) {
+    case SPHC_CLOCK_SOURCE:
+      return "SPHC_CLOCK_SOURCE";
+    case SPHC_CLOCK_MONOTONIC:
+      return "SPHC_CLOCK_MONOTONIC";
+    case SPHC_CLOCK_BOOTTIME:
+      return "SPHC_CLOCK_BOOTTIME";
+    default:
+      return "SPHC_CLOCK_?";
+  }
+}
+
+const char *sphc_time_point_name(sphc_time_point point) {
+  switch (point) {
+    case SPHC_TIME_MIDDLE:
+      return "SPHC_TIME_MIDDLE";
+    case SPHC_TIME_START:
+      return "SPHC_TIME_START";
+    case SPHC_TIME_END:
+      return "SPHC_TIME_END";
+    case SPHC_TIME_ARRIVAL:
+      return "SPHC_TIME_ARRIVAL";
+    default:
+      return "SPHC_TIME_?";
+  }
+}
+
+const char *sphc_pairer_drop_name(sphc_pairer_drop drop) {
+  switch (drop) {
+    case SPHC_DROP_NONE:
+      return "SPHC_DROP_NONE";
+    case SPHC_DROP_TOO_FAR:
+      return "SPHC_DROP_TOO_FAR";
+    case SPHC_DROP_OVERTAKEN:
+      return "SPHC_DROP_OVERTAKEN";
+    case SPHC_DROP_FULL:
+      return "SPHC_DROP_FULL";
+    case SPHC_DROP_ENDED:
+      return "SPHC_DROP_ENDED";
+    default:
+      return "SPHC_DROP_?";
+  }
+}

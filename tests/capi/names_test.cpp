@@ -1,0 +1,75 @@
+// Every constant of both headers has a name, which is its own.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include "spherecloud/spherecloud_capture.h"
+
+namespace {
+
+std::string textOf(const char *path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+struct Family {
+  const char *prefix;
+  std::function<const char *(int64_t)> name;
+};
+
+template <typename T>
+Family family(const char *prefix, const char *(*name)(T)) {
+  return {prefix, [name](int64_t value) { return name(static_cast<T>(value)); }};
+}
+
+const Family kFamilies[] = {
+    family("SPHC_FORMAT_", sphc_format_name),
+    family("SPHC_CAMERA_", sphc_camera_model_name),
+    family("SPHC_ALIGNED_", sphc_aligned_pixel_name),
+    family("SPHC_LOG_", sphc_log_level_name),
+    family("SPHC_MODE_", sphc_localizer_mode_name),
+    family("SPHC_STATE_", sphc_localizer_state_name),
+    family("SPHC_OUTCOME_", sphc_localizer_outcome_name),
+    family("SPHC_FAULT_", sphc_localizer_fault_name),
+    family("SPHC_CUT_", sphc_localizer_cut_name),
+    family("SPHC_HINT_", sphc_localizer_hint_name),
+    family("SPHC_PARAMETER_", sphc_localizer_parameter_name),
+    family("SPHC_STREAM_", sphc_stream_name),
+    family("SPHC_CLOCK_", sphc_clock_id_name),
+    family("SPHC_TIME_", sphc_time_point_name),
+    family("SPHC_DROP_", sphc_pairer_drop_name),
+};
+
+// The constants of the headers by name, without comments.
+std::map<std::string, int64_t> constants() {
+  std::string text = textOf(SPHC_HEADERS "/spherecloud.h") + textOf(SPHC_HEADERS "/spherecloud_capture.h");
+  text = std::regex_replace(text, std::regex(R"(/\*[^*]*\*+([^/*][^*]*\*+)*/)"), "");
+  std::map<std::string, int64_t> found;
+  const std::regex one(R"((SPHC_[A-Z0-9_]+)\s*=\s*(-?[0-9]+)u?)");
+  for (std::sregex_iterator i(text.begin(), text.end(), one), end; i != end; ++i)
+    found[(*i)[1]] = std::stoll((*i)[2]);
+  return found;
+}
+
+TEST(Names, EveryConstantTellsItsOwn) {
+  const std::map<std::string, int64_t> all = constants();
+  for (const Family &family : kFamilies) {
+    size_t members = 0;
+    for (const auto &[name, value] : all)
+      if (name.rfind(family.prefix, 0) == 0) {
+        EXPECT_EQ(family.name(value), name);
+        ++members;
+      }
+    EXPECT_GE(members, 2u) << family.prefix;
+    for (int64_t none : {-7, 77, 1 << 30}) EXPECT_EQ(family.name(none), family.prefix + std::string("?"));
+  }
+}
+
+}  // namespace
