@@ -100,8 +100,9 @@ TEST_F(CInterfaceMaps, WhatWasTrackedInARemovedMapIsForgotten) {
 }
 
 TEST_F(CInterfaceMaps, APriorNamesAMapThatIsThere) {
-  const auto made = sphc::test::sceneFrame(config_, 0, 1);
-  sphc_localizer_result found = see(0, 1), result = {};
+  const auto made = sphc::test::sceneFrame(config_, 1, 1);
+  sphc_localizer_result found = see(1, 1), result = {};
+  ASSERT_EQ(found.outcome, SPHC_OUTCOME_LOCALIZED);
   sphc_localizer_prior prior;
   ASSERT_EQ(sphc_localizer_prior_init(&prior, sizeof prior), SPHC_OK);
   prior.flags = SPHC_PRIOR_POSE;
@@ -109,7 +110,7 @@ TEST_F(CInterfaceMaps, APriorNamesAMapThatIsThere) {
   prior.camera_from_map = found.camera_from_map;
   prior.rotation_sigma_rad = prior.translation_sigma_m = 0.01;
   made->frame.prior = &prior;
-  made->frame.color_time_ns = made->frame.depth_time_ns = time_ns_ + 1;
+  made->frame.color_time_ns = made->frame.depth_time_ns = time_ns_ += 100000000;
   EXPECT_EQ(session_->process(made->frame, &result), SPHC_OK);
   EXPECT_EQ(result.guided, 1u);
   ASSERT_EQ(sphc_localizer_remove_map(localizer(), 1), SPHC_OK);
