@@ -20,7 +20,9 @@ void DepthCalibrator::learn(const Estimate &estimate) {
   if (current_.isKnown()) return;
   if (estimate.noise_ratio > 0) {
     const double scale = current_.noise_scale * expOf(kNoiseStep * logOf(estimate.noise_ratio));
-    current_.noise_scale = scale < kLeastNoiseScale ? kLeastNoiseScale : scale > kMostNoiseScale ? kMostNoiseScale : scale;
+    current_.noise_scale = scale < kLeastNoiseScale  ? kLeastNoiseScale
+                           : scale > kMostNoiseScale ? kMostNoiseScale
+                                                     : scale;
   }
   const Matrix2 before = current_.covariance.inverse(), after = estimate.depth.covariance.inverse();
   // A frame that says quite another thing is trusted less, and moves the belief by a sigma at most (Huber).
