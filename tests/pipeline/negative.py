@@ -74,7 +74,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--lab", required=True)
-    parser.add_argument("--keys", type=int, default=3)
+    parser.add_argument("--keys", type=int, default=12)
     parser.add_argument("--sequences", type=int, default=2)
     parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")
     sums = measure(parser.parse_args())
