@@ -200,6 +200,10 @@ def others(pipeline):
          "Simulated rooms that combine what makes real ones hard. Wrong: beyond 25 cm or 10 deg. Method:\n"
          "[testing.md](testing.md#hard-worlds).",
          flat(rows("nasty.csv"), ["world"])),
+        ("Many maps", "pipeline/maps.csv", "maps_results",
+         "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a twin for every fourth\n"
+         "room. Wrong: in the map of another room, or beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#several-maps).",
+         flat(rows("maps.csv"), ["maps"])),
         ("Broken sensors", "pipeline/negative.csv", "negative_results",
          "Sequences of 30 frames, broken in every way. Wrong: beyond 25 cm or 10 deg; sure: with a confidence above 0.5.\n"
          "`named`: frames whose result names a fault. Method: [consistency.md](consistency.md).",

@@ -213,7 +213,7 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
     return SPHC_E_ARGUMENT;
   }
   const sphc_depth_bias &d = *depth;
-  constexpr double kRounding = 1 + 1e-9, kMostOffsetM = 1, kMostSlope = 0.5;
+  constexpr double kRounding = 1 + 1e-6, kMostOffsetM = 1, kMostSlope = 0.5;
   const double offset_sigma_m = sqrtOf(prior.covariance(0, 0)) * kRounding,
                slope_sigma = sqrtOf(prior.covariance(1, 1)) * kRounding;
   const auto lies = [&](const char *name, double value, double low, double high) {
@@ -221,7 +221,7 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
   };
   const double most_m = prior.isKnown() ? 0 : kMostOffsetM, most_slope = prior.isKnown() ? 0 : kMostSlope;
   const double least = prior.isKnown() ? 0 : kLeastSigma;
-  const bool fine = lies("mid_m", d.mid_m, prior.mid_m, prior.mid_m) &&
+  const bool fine = lies("mid_m", d.mid_m, prior.mid_m / kRounding, prior.mid_m * kRounding) &&
                     lies("offset_m", d.offset_m, -most_m, most_m) &&
                     lies("slope", d.slope, -most_slope, most_slope) &&
                     lies("offset_sigma_m", d.offset_sigma_m, least, offset_sigma_m) &&
