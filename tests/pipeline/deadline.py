@@ -16,7 +16,7 @@ from negative import publish
 from recordings import HERE, run
 
 RESULTS = HERE / "deadline.csv"
-NAMES = ["redkitchen", "hololens"]
+NAMES = ["redkitchen", "hololens", "simulated"]
 COUNTS = ["features_cut", "matches_cut", "search_cut", "verification_cut"]
 COLUMNS = ["recording", "case", "deadline_us", "frames", "in_time_percent", "median_us", "worst_us", "right", "right_percent_of_free",
            "wrong"] + COUNTS

@@ -17,7 +17,8 @@ class Fusion {
   }
   // To the next frame: by the tracker's odometry, without which all is forgotten.
   void advance(const Tracker &tracker);
-  // Frames are put together for one map at a time: as long as it is likely, the one that earlier frames spoke for.
+  // Frames are put together for one map at a time, of those listed: as long as it is likely, the one that earlier
+  // frames spoke for.
   uint32_t mapToRemember(const MapOrder &order) const;
   // Keeps the matches of this frame, of global search; true when there are some of earlier frames too.
   bool remember(uint32_t map, const MatchSet &matched);

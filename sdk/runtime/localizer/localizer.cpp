@@ -20,6 +20,12 @@ bool replaces(const Hypothesis &candidate, const Hypothesis &best) {
   return candidate.isLocalized() || !best.tried || best.guided || candidate.map == best.map;
 }
 
+// Where not all keypoints were asked: few inliers that chance nearly explains were wrong.
+bool isClear(const Hypothesis &found, uint32_t min_inliers) {
+  return found.estimate.inliers >= kTimesInliersUnasked * min_inliers &&
+         found.evidence.log_chance_first < kMostLogChance;
+}
+
 void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
   result->outcome = best.outcome;
   result->matches = static_cast<uint32_t>(best.matched.matches().size());
@@ -97,12 +103,14 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   result.depth = calibrator_.current();
   const int64_t begin = config_.clock.now();
   const Deadline deadline = deadlineFrom(begin, frame.time_limit_ns).afterShare(kUntilEnd);
-  front_.extract(frame.color, deadline.afterShare(kFeaturesShare));
-  const int64_t extracted = config_.clock.now();
   if (config_.tracks) {
     tracker_.advance(frame.color_time_ns, frame.known.has_odometry ? &frame.known.odometry : nullptr);
     fusion_.advance(tracker_);
   }
+  Prediction expected;
+  const bool is_expected = expects(frame.known, kMostConeInHasteRad, &expected);
+  front_.extract(frame.color, deadline.afterShare(is_expected ? kFeaturesNearShare : kFeaturesShare));
+  const int64_t extracted = config_.clock.now();
   const Rigid color_from_depth = colorFromDepth(frame);
   front_.lift(frame.depth, color_from_depth, deadline.afterShare(kLiftShare));
   result.faults =
@@ -170,10 +178,14 @@ void Localizer::locate(const Known &known, const Deadline &deadline, Work *work)
     return;
   }
   Prediction expected;
-  if (expectedPose(known, config_.tracks ? &tracker_ : nullptr, &expected))
+  if (expects(known, front_.wasCut() ? kMostConeInHasteRad : kMostConeRad, &expected))
     searchNear(known, expected, deadline, work);
   if (!isDone(deadline, work)) searchEverywhere(known, deadline, work);
   if (!best_.isLocalized() && work->cuts) best_.outcome = Outcome::kDeadline;
+}
+
+bool Localizer::expects(const Known &known, double most_cone_rad, Prediction *expected) const {
+  return expectedPose(known, config_.tracks ? &tracker_ : nullptr, most_cone_rad, expected);
 }
 
 void Localizer::searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work) {
@@ -196,6 +208,7 @@ void Localizer::searchNear(const Known &known, const Prediction &expected, const
 
 void Localizer::searchEverywhere(const Known &known, const Deadline &deadline, Work *work) {
   const MapOrder order = search_.rankMaps(front_, deadline.afterShare(kMatchShare), work);
+  if (order.size() == 0) return;  // there is no map
   const bool fuses = config_.tracks && tracker_.hasOdometry();
   const uint32_t remembered = fusion_.mapToRemember(order);
   for (uint32_t map : order) {
@@ -210,18 +223,10 @@ void Localizer::searchEverywhere(const Known &known, const Deadline &deadline, W
 // frames too; and where all that leads to no pose, by a looser ratio test.
 void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work) {
   const uint32_t lifted = front_.liftedCount(), all = front_.keypointCount();
-  const Deadline first = query.deadline.afterShare(kStrongestShare), first_match = first.afterShare(kMatchShare);
-  const uint32_t probes = search_.probesWithin(std::min(lifted, kStrongest), first_match, work);
+  const uint32_t probes =
+      search_.probesWithin(std::min(lifted, kStrongest), query.deadline.afterShare(kMatchShare), work);
   PoseTask task = {search_.ask(front_, map, all, probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
-  if (config_.search.probes > 0 && lifted > kStrongest) {
-    candidate_.begin(map);
-    task.query.deadline = first;
-    search_.matchEverywhere(task.question, kStrongest, first_match, &candidate_.matched, work);
-    solve(task, work);  // in guided re-matching all take part
-    task.query.deadline = query.deadline;
-    const bool beyond_doubt = candidate_.evidence.log_chance_first < kBeyondDoubt;
-    if ((candidate_.isLocalized() && beyond_doubt) || query.deadline.passed()) return propose();
-  }
+  if (config_.search.probes > 0 && lifted > kStrongest && searchMapByStrongest(map, task, work)) return propose();
   candidate_.begin(map);
   search_.matchEverywhere(task.question, all, query.deadline.afterShare(kMatchShare), &candidate_.matched, work);
   was_asked_ = work->cuts == 0;
@@ -240,6 +245,22 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
     propose();
   }
   if (!has_pose && !isDone(query.deadline, work)) searchMapLoosely(map, task, work);
+}
+
+// True where that ends the search.  In guided re-matching all keypoints take part.
+bool Localizer::searchMapByStrongest(uint32_t map, const PoseTask &task, Work *work) {
+  const Deadline &deadline = task.query.deadline;
+  const uint64_t left_ns = deadline.leftNs();
+  candidate_.begin(map);
+  search_.matchEverywhere(task.question, kStrongest, deadline.afterShare(kMatchShare), &candidate_.matched, work);
+  solve(task, work);
+  if (!candidate_.isLocalized()) return deadline.passed();
+  if (candidate_.evidence.log_chance_first < kBeyondDoubt) return true;
+  // A search by all takes longer than this one did.
+  if (!deadline.isSet() || 2 * deadline.leftNs() > left_ns) return false;
+  work->cuts |= kCutSearch;
+  if (!isClear(candidate_, config_.search.min_inliers)) candidate_.outcome = Outcome::kUncertain;
+  return true;
 }
 
 // What does not localize leaves the frame as the strict test shows it.

@@ -54,9 +54,11 @@ class Localizer {
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
   void answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void locate(const Known &known, const Deadline &deadline, Work *work);
+  bool expects(const Known &known, double most_cone_rad, Prediction *expected) const;
   void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
   void searchEverywhere(const Known &known, const Deadline &deadline, Work *work);
   void searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work);
+  bool searchMapByStrongest(uint32_t map, const PoseTask &task, Work *work);
   void searchMapLoosely(uint32_t map, const PoseTask &task, Work *work);
   void solve(const PoseTask &task, Work *work);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;

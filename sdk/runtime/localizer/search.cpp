@@ -29,12 +29,12 @@ bool isNarrow(const Known &known) {
   return known.prior.has_pose && coneOf(predictionOf(known)) < tuning::kMostConeRad;
 }
 
-bool expectedPose(const Known &known, const Tracker *tracker, Prediction *expected) {
+bool expectedPose(const Known &known, const Tracker *tracker, double most_cone_rad, Prediction *expected) {
   if (isNarrow(known)) {
     *expected = predictionOf(known);
     return true;
   }
-  return tracker && tracker->predict(expected) && coneOf(*expected) < tuning::kMostConeRad;
+  return tracker && tracker->predict(expected) && coneOf(*expected) < most_cone_rad;
 }
 
 void Search::layout(const LocalizerConfig &config, Arena &state, Arena &scratch, Search *search) {

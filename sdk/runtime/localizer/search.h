@@ -25,9 +25,9 @@ double coneOf(const Prediction &expected);
 double solidAngleOf(double cone_rad);
 // Does the caller's pose narrow the search?
 bool isNarrow(const Known &known);
-// Where the camera should be: by the caller, else by earlier frames (`tracker` may be null); false where both say
-// too little to narrow the search.
-bool expectedPose(const Known &known, const Tracker *tracker, Prediction *expected);
+// Where the camera should be: by the caller, else by earlier frames (`tracker` may be null) to within this cone;
+// false where both say too little to narrow the search.
+bool expectedPose(const Known &known, const Tracker *tracker, double most_cone_rad, Prediction *expected);
 
 class Search {
  public:

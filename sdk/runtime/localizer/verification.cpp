@@ -105,7 +105,7 @@ bool Verification::searchPose(const PoseTask &task, Hypothesis *hypothesis) cons
 void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
   Estimate &estimate = hypothesis->estimate;
   MatchSet &matched = hypothesis->matched;
-  const Deadline own = task.query.deadline.afterShare(kRematchShare);
+  const Deadline own = task.query.deadline.afterShare(hypothesis->guided ? kRematchNearShare : kRematchShare);
   const auto cones = static_cast<uint32_t>(task.cones_rad.size());
   // The narrow cone alone where there is no time for all.
   const bool has_time = search_.hasTimeNear(cones * task.question.front->liftedCount(), own);

@@ -18,6 +18,10 @@ constexpr int32_t kProbedRows = 4;  // one in so many
 constexpr double kMostForProbed = 0.35;
 constexpr uint32_t kPixelGrain = 4096, kDescribeGrain = 16;  // between two looks at the clock
 constexpr double kFewestKeypoints = 64;
+// Of an octave that does not fit as a whole: what a band of it gets of the time that describing what was found
+// leaves, and how high it is at least.
+constexpr double kBandShare = 0.9;
+constexpr int32_t kFewestBandRows = 32;
 constexpr int32_t kMostSkimmed =
     2;  // octaves: a few keypoints tell no pose, and those that are skimmed take time too
 
@@ -74,14 +78,15 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
   return count;
 }
 
-// All octaves, or those from the finest on that fits: what a sweep that falls behind has found is forgotten, for it
-// would show the top of the image alone.
+// All octaves, or those from the finest on that fits, and a band of the next finer one.  What a sweep that falls
+// behind has found is forgotten, for it would show the top of the image alone.
 void FeatureExtractor::sweep(GrayView gray, const Deadline &deadline) {
   const int32_t coarsest = std::min(kMostSkimmed, space_.octaves() - 1);
   int32_t finest = finestWithin(deadline.afterShare(kSweepShare));
   while (!sweepFrom(finest, gray, deadline.afterShare(kSweepShare)) && finest < coarsest && !deadline.passed())
     ++finest;
   cut_ = cut_ || finest > 0;
+  if (finest > 0) sweepBand(finest - 1, gray, deadline);
 }
 
 int32_t FeatureExtractor::finestWithin(const Deadline &deadline) const {
@@ -126,10 +131,33 @@ bool FeatureExtractor::skimOctave(int32_t octave, GrayView gray, Watch *watch) {
 
 // False where it does not end in time.  Adds the pixels done.
 bool FeatureExtractor::sweepOctave(int32_t octave, GrayView gray, const Deadline &deadline, double *pixels) {
-  space_.beginOctave(octave, gray);
-  finder_.beginOctave(octave, space_.width(octave), space_.height(octave));
+  return sweepRows(octave, {0, space_.height(octave)}, gray, deadline, kMostForProbed, pixels);
+}
+
+// Of the octave before the finest that was swept, rows in the middle, where depth is likeliest: as many as fit
+// beside describing what was found already.
+void FeatureExtractor::sweepBand(int32_t octave, GrayView gray, const Deadline &deadline) {
+  const auto found = static_cast<double>(std::min<size_t>(candidates_.size(), config_.max_keypoints));
+  const auto left_ns = static_cast<double>(deadline.leftNs());
+  const double spare_ns = left_ns - found * keypoints_pace_.unitNs();
+  if (!(spare_ns > 0)) return;
+  const Deadline own = deadline.afterShare(kBandShare * spare_ns / left_ns);
+  const int32_t height = space_.height(octave);
+  const double steps = pixels_pace_.fitting(own, sweptPixels(octave)) / space_.width(octave);
+  const int32_t count = std::min(height, static_cast<int32_t>(steps) - space_.stepsBeyond(octave));
+  if (count < kFewestBandRows) return;
+  double pixels = 0;
+  const int64_t begin = deadline.clock.now();
+  sweepRows(octave, {(height - count) / 2, count}, gray, own, 1, &pixels);
+  pixels_pace_.learn(pixels, elapsedNs(begin, deadline.clock.now()));
+}
+
+bool FeatureExtractor::sweepRows(int32_t octave, Rows rows, GrayView gray, const Deadline &deadline,
+                                 double most_for_probed, double *pixels) {
+  space_.beginBand(octave, rows, gray);
+  finder_.beginOctave(octave, space_.width(octave), rows);
   Watch watch(deadline, kPixelGrain);
-  const Deadline probe = deadline.afterShare(kMostForProbed);
+  const Deadline probe = deadline.afterShare(most_for_probed);
   const int32_t steps = space_.stepCount(), probed = steps / kProbedRows / kRowsAtOnce * kRowsAtOnce;
   int32_t y = 0;
   for (; y < steps; y += kRowsAtOnce) {
@@ -145,15 +173,16 @@ bool FeatureExtractor::sweepOctave(int32_t octave, GrayView gray, const Deadline
 uint32_t FeatureExtractor::describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints,
                                     Descriptor *descriptors) {
   const Plane &level = space_.kept(candidate.octave, candidate.level);
-  const int32_t width = space_.width(candidate.octave), height = space_.height(candidate.octave);
+  const Rows rows = space_.rows(candidate.octave);
+  const int32_t width = space_.width(candidate.octave);
+  const float y = candidate.y - static_cast<float>(rows.first);
   const float sigma = sigmaOfLayer(candidate.layer), size = space_.pixelSize(candidate.octave);
   const int32_t limit = room > 1 ? config_.max_orientations : 1;
   float angles[2];
   const int32_t count =
-      findOrientations(*kernels_, level, width, height, candidate.x, candidate.y, sigma, gaussian_, limit, angles);
+      findOrientations(*kernels_, level, width, rows.count, candidate.x, y, sigma, gaussian_, limit, angles);
   for (int32_t i = 0; i < count; ++i) {
-    describer_.describe(*kernels_, level, width, height, candidate.x, candidate.y, sigma, angles[i],
-                        &descriptors[i]);
+    describer_.describe(*kernels_, level, width, rows.count, candidate.x, y, sigma, angles[i], &descriptors[i]);
     keypoints[i] = {candidate.x * size + kPixelCenter, candidate.y * size + kPixelCenter, sigma * size, angles[i],
                     candidate.response};
   }

@@ -35,8 +35,8 @@ class FeatureExtractor {
 
   // `gray` has the configured size; `keypoints` and `descriptors` have room for max_keypoints.  Returns how many
   // were found, highest response first.  Scratch keeps nothing from call to call; the same image gives the same
-  // bytes, but where a deadline cuts: then the finest octaves are left out, for they cost most, and the weakest
-  // keypoints.  How much fits is known from what earlier calls with a deadline took.
+  // bytes, but where a deadline cuts: then the finest octaves are left out but for a band of rows, for they cost
+  // most, and the weakest keypoints.  How much fits is known from what earlier calls with a deadline took.
   uint32_t extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors,
                    const Deadline &deadline = {});
   // Did the deadline leave something out of the last call?
@@ -47,10 +47,13 @@ class FeatureExtractor {
   bool sweepFrom(int32_t finest, GrayView gray, const Deadline &deadline);
   bool skimOctave(int32_t octave, GrayView gray, Watch *watch);
   bool sweepOctave(int32_t octave, GrayView gray, const Deadline &deadline, double *pixels);
+  void sweepBand(int32_t octave, GrayView gray, const Deadline &deadline);
+  bool sweepRows(int32_t octave, Rows rows, GrayView gray, const Deadline &deadline, double most_for_probed,
+                 double *pixels);
   void sweep(GrayView gray, const Deadline &deadline);
   // Rows before an octave's first and after its last cost as much as its own.
   double sweptPixels(int32_t octave) const {
-    return static_cast<double>(space_.width(octave)) * space_.stepCount(octave);
+    return static_cast<double>(space_.width(octave)) * (space_.height(octave) + space_.stepsBeyond(octave));
   }
   uint32_t describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints, Descriptor *descriptors);
 

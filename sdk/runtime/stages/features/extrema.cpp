@@ -70,10 +70,11 @@ void ExtremaFinder::layout(const FeatureConfig &config, Arena &scratch, ExtremaF
   self.edge_limit_ = (config.edge_ratio + 1.0f) * (config.edge_ratio + 1.0f) / config.edge_ratio;
 }
 
-void ExtremaFinder::beginOctave(int32_t octave, int32_t width, int32_t height) {
+void ExtremaFinder::beginOctave(int32_t octave, int32_t width, Rows rows) {
   octave_ = octave;
   width_ = width;
-  height_ = height;
+  height_ = rows.count;
+  top_ = rows.first;
 }
 
 void ExtremaFinder::step(const FeatureKernels &kernels, const ScaleSpace &space, int32_t y, CandidateList *found) {
@@ -123,7 +124,7 @@ void ExtremaFinder::accept(const Derivatives &d, const float offset[3], int32_t 
   Candidate c;
   c.response = response * (1.0f / kSamplesPerUnit);
   c.x = static_cast<float>(x) + offset[0];
-  c.y = static_cast<float>(y) + offset[1];
+  c.y = static_cast<float>(top_ + y) + offset[1];
   c.layer = static_cast<float>(level) + offset[2];
   // A blur of sigma leaves white noise with a standard deviation in proportion to 1 / sigma.
   c.strength = c.response * sigmaOfLayer(c.layer) * static_cast<float>(1 << octave_);

@@ -20,7 +20,7 @@ class ExtremaFinder {
  public:
   static void layout(const FeatureConfig &config, Arena &scratch, ExtremaFinder *out);
 
-  void beginOctave(int32_t octave, int32_t width, int32_t height);
+  void beginOctave(int32_t octave, int32_t width, Rows rows);
   // After step y of the sweep: finds the extrema of the row that the sweep has made complete.
   void step(const FeatureKernels &kernels, const ScaleSpace &space, int32_t y, CandidateList *found);
 
@@ -33,7 +33,7 @@ class ExtremaFinder {
   float threshold_ = 0, edge_limit_ = 0;  // threshold in samples
   int16_t early_threshold_ = 0;
   Span<uint16_t> columns_;
-  int32_t octave_ = 0, width_ = 0, height_ = 0;
+  int32_t octave_ = 0, width_ = 0, height_ = 0, top_ = 0;
 };
 
 }  // namespace sphc

@@ -115,10 +115,11 @@ float ScaleSpace::pixelSize(int32_t octave) const {
   return first_octave_ < 0 ? 0.5f * whole : whole;
 }
 
-void ScaleSpace::beginOctave(int32_t octave, GrayView gray) {
+void ScaleSpace::beginBand(int32_t octave, Rows rows, GrayView gray) {
   octave_ = octave;
   width_ = widths_[octave];
-  height_ = heights_[octave];
+  rows_[octave] = rows;
+  height_ = rows.count;
   gray_ = gray;
   for (int32_t l = 0; l < kLevels; ++l) level_[l] = l >= 1 && l <= kScales ? kept_[octave][l - 1] : ring_[l];
 }
@@ -139,13 +140,14 @@ void ScaleSpace::skim(int32_t y) {
 
 // Takes the row from the image, or every second pixel of the level with twice the base's blur.
 void ScaleSpace::firstRow(int32_t y) {
+  const int32_t from = rows_[octave_].first + y;
   if (octave_ > 0) {
-    row_kernels_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * y), level_[0].row(y), width_);
+    row_kernels_->halve_row(kept_[octave_ - 1][kScales - 1].row(2 * from), level_[0].row(y), width_);
   } else if (first_octave_ == 0) {
-    row_kernels_->scale_row(gray_.row(y), source_.row(y), width_);
+    row_kernels_->scale_row(gray_.row(from), source_.row(y), width_);
   } else {
-    const uint8_t *lower = gray_.row(clampRow((y + 1) / 2, gray_.height));
-    row_kernels_->double_row(gray_.row(y / 2), lower, source_.row(y), gray_.width);
+    const uint8_t *lower = gray_.row(clampRow((from + 1) / 2, gray_.height));
+    row_kernels_->double_row(gray_.row(from / 2), lower, source_.row(y), gray_.width);
   }
 }
 

@@ -21,6 +21,11 @@ constexpr int32_t kMaxOctaves = 11;           // 2 * 8192 down to 16
 constexpr double kBaseSigma = 1.0;            // of level 0, in pixels of its octave
 constexpr int32_t kRefineReach = 5;           // rows an extremum may wander in refinement
 
+// Of an octave, from the first on.
+struct Rows {
+  int32_t first, count;
+};
+
 // Standard deviation at a level or between two, 0 <= layer <= kLevels, in pixels of the octave.
 float sigmaOfLayer(float layer);
 
@@ -35,14 +40,15 @@ class ScaleSpace {
   // Pixels of the input image in one of the octave's.
   float pixelSize(int32_t octave) const;
 
-  void beginOctave(int32_t octave, GrayView gray);
+  void beginOctave(int32_t octave, GrayView gray) { beginBand(octave, {0, heights_[octave]}, gray); }
+  // These rows alone, as an image of their own: rows of levels and differences are counted from the first one.
+  void beginBand(int32_t octave, Rows rows, GrayView gray);
   // Sweep step y = 0, kRowsAtOnce, ... below stepCount() computes rows y - lag(level) and the next of every level,
   // where there are any, and of the difference between it and the level below.
   void step(int32_t y);
-  int32_t stepCount() const { return stepCount(octave_); }
-  int32_t stepCount(int32_t octave) const {
-    return heights_[octave] + lagIn(octave, kLevels - 1) + kRefineReach + 2;
-  }
+  int32_t stepCount() const { return height_ + stepsBeyond(octave_); }
+  // More than there are rows.
+  int32_t stepsBeyond(int32_t octave) const { return lagIn(octave, kLevels - 1) + kRefineReach + 2; }
   int32_t lag(int32_t level) const { return lagIn(octave_, level); }
 
   // In place of a sweep: makes no more of the octave than the next one is made from.  Steps y = 0, kRowsAtOnce, ...
@@ -52,6 +58,8 @@ class ScaleSpace {
 
   // Level layer + 1 less level layer, in the octave of the sweep: the rows around the one searched.
   const Plane &difference(int32_t layer) const { return differences_[layer]; }
+  // What was begun of an octave.
+  Rows rows(int32_t octave) const { return rows_[octave]; }
   // Levels 1 .. kScales of any octave swept.
   const Plane &kept(int32_t octave, int32_t level) const { return kept_[octave][level - 1]; }
 
@@ -88,6 +96,7 @@ class ScaleSpace {
 
   // the sweep
   int32_t octave_ = 0, width_ = 0, height_ = 0;
+  Rows rows_[kMaxOctaves] = {};
   GrayView gray_;
   Plane level_[kLevels];
 };

@@ -52,7 +52,7 @@ Tracker trackerOf(uint32_t map, double sigma_rad) {
 TEST(ExpectedPose, TheCallersNarrowOneComesFirst) {
   const Tracker tracker = trackerOf(7, 1e-3);
   Prediction expected;
-  ASSERT_TRUE(expectedPose(knownPose(0.01, 3), &tracker, &expected));
+  ASSERT_TRUE(expectedPose(knownPose(0.01, 3), &tracker, tuning::kMostConeRad, &expected));
   EXPECT_EQ(expected.map, 3u);
   EXPECT_EQ(expected.camera_from_map.translation_m, Vector3(1, 2, 3));
   EXPECT_EQ(expected.rotation_sigma_rad, 0.01);
@@ -66,7 +66,7 @@ TEST(ExpectedPose, AVagueOneLeavesItToEarlierFrames) {
   EXPECT_FALSE(isNarrow(Known()));
   EXPECT_TRUE(isNarrow(knownPose(0.01)));
   Prediction expected;
-  ASSERT_TRUE(expectedPose(vague, &tracker, &expected));
+  ASSERT_TRUE(expectedPose(vague, &tracker, tuning::kMostConeRad, &expected));
   EXPECT_EQ(expected.map, 7u);
   EXPECT_EQ(expected.camera_from_map.translation_m, Vector3(4, 5, 6));
 }
@@ -74,9 +74,16 @@ TEST(ExpectedPose, AVagueOneLeavesItToEarlierFrames) {
 TEST(ExpectedPose, NoneWhereNothingNarrowsTheSearch) {
   Prediction expected;
   const Tracker fresh, vague = trackerOf(7, 0.2);
-  EXPECT_FALSE(expectedPose(Known(), nullptr, &expected));
-  EXPECT_FALSE(expectedPose(Known(), &fresh, &expected));
-  EXPECT_FALSE(expectedPose(knownPose(degrees(10)), &vague, &expected));
+  EXPECT_FALSE(expectedPose(Known(), nullptr, tuning::kMostConeRad, &expected));
+  EXPECT_FALSE(expectedPose(Known(), &fresh, tuning::kMostConeRad, &expected));
+  EXPECT_FALSE(expectedPose(knownPose(degrees(10)), &vague, tuning::kMostConeRad, &expected));
+}
+
+TEST(ExpectedPose, AWiderConeAdmitsAVaguerOne) {
+  const Tracker vague = trackerOf(7, degrees(3));
+  Prediction expected;
+  EXPECT_FALSE(expectedPose(Known(), &vague, tuning::kMostConeRad, &expected));
+  EXPECT_TRUE(expectedPose(Known(), &vague, tuning::kMostConeInHasteRad, &expected));
 }
 
 // A clock that moves on by a microsecond each time it is read.

@@ -24,7 +24,7 @@ std::vector<Candidate> extremaOf(const TestImage &image, const FeatureConfig &co
   space.init(kernels);
   found.clear();
   space.beginOctave(0, image.view());
-  finder.beginOctave(0, space.width(0), space.height(0));
+  finder.beginOctave(0, space.width(0), {0, space.height(0)});
   for (int32_t y = 0; y < space.stepCount(); y += kRowsAtOnce) {
     space.step(y);
     for (int32_t i = 0; i < kRowsAtOnce; ++i) finder.step(kernels, space, y + i, &found);
