@@ -201,7 +201,7 @@ def others(pipeline):
          "[testing.md](testing.md#hard-worlds).",
          flat(rows("nasty.csv"), ["world"])),
         ("Many maps", "pipeline/maps.csv", "maps_results",
-         "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a twin for every fourth\n"
+         "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a double for every fourth\n"
          "room. Wrong: in the map of another room, or beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#several-maps).",
          flat(rows("maps.csv"), ["maps"])),
         ("Broken sensors", "pipeline/negative.csv", "negative_results",

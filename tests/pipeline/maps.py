@@ -3,9 +3,9 @@
 
     maps.py --spherecloud BIN [--results FILE] [--rooms N] [--keep FOLDER]      rewrites maps.csv, for review
 
-Every simulated room has a map of lap one, with a key of its own; of every fourth room there is a twin: the same room after its
+Every simulated room has a map of lap one, with a key of its own; of every fourth room there is a double: the same room after its
 things were moved (another arrangement), with a map of its own.  Frames of lap two are localized, each alone, in the map of their
-room alone and in all maps together.  A frame of a room that has a twin is right where its pose is right in either.
+room alone and in all maps together.  A frame of a room that has a double is right where its pose is right in either.
 """
 import argparse
 import concurrent.futures
@@ -23,7 +23,7 @@ from accuracy import WORST_CM, WORST_DEG
 from recordings import HERE, run
 
 RESULTS = HERE / "maps.csv"
-ROOMS, TWINS, FIRST_SEED = 64, 4, 4001  # maps in all; a twin for each so many rooms; seeds that nothing else uses
+ROOMS, OF_DOUBLES, FIRST_SEED = 64, 4, 4001  # maps in all; a double for each so many rooms; seeds that nothing else uses
 LAP_S, MAP_FRAMES, QUERY_FRAMES, QUERY_HZ = 16, 30, 6, 2.0
 ETA, FAKES = 0.33, "patchwork"
 COLUMNS = ["maps", "frames", "localized_percent", "within_5cm_5deg_percent", "right_map_percent_of_localized", "wrong_accepted",
@@ -35,15 +35,15 @@ class Room:
 
     def __init__(self, tool, folder, number):
         self.tool, self.folder, self.number = tool, folder, number
-        block, place = divmod(number, TWINS + 1)
-        self.is_twin = place == TWINS
-        self.seed = FIRST_SEED + block * TWINS + (0 if self.is_twin else place)  # a twin is the first of its block again
+        block, place = divmod(number, OF_DOUBLES + 1)
+        self.is_double = place == OF_DOUBLES
+        self.seed = FIRST_SEED + block * OF_DOUBLES + (0 if self.is_double else place)  # a double is the first of its block again
         self.map, self.query = folder / ("map_%d.sphc" % number), folder / ("query_%d" % number)
 
     def simulate(self, out, *arguments):
         if not (out / "groundtruth.txt").exists():
             run([self.tool, "simulate", "--out", out, "--seed", self.seed, "--walk-seed", self.seed, "--threads", 1, "--json",
-                 *arguments, *(["--arrangement", 2] if self.is_twin else [])])
+                 *arguments, *(["--arrangement", 2] if self.is_double else [])])
 
     def make(self):
         walk, key = self.folder / ("walk_%d" % self.number), self.folder / ("key_%d" % self.number)
