@@ -18,6 +18,9 @@ constexpr int32_t kProbedRows = 4;  // one in so many
 constexpr double kMostForProbed = 0.35;
 constexpr uint32_t kPixelGrain = 4096, kDescribeGrain = 16;  // between two looks at the clock
 constexpr double kFewestKeypoints = 64;
+// With 128 of the finest keypoints, where the next octave showed 650, half of the frames of redkitchen were lost.
+// The pace may have been learnt from coarser octaves, whose pixels cost less.
+constexpr double kEnoughKeypoints = 400, kCostOfFinest = 1.3;
 // Of an octave that does not fit as a whole: what a band of it gets of the time that describing what was found
 // leaves, and how high it is at least.
 constexpr double kBandShare = 0.9;
@@ -82,7 +85,7 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
 // behind has found is forgotten, for it would show the top of the image alone.
 void FeatureExtractor::sweep(GrayView gray, const Deadline &deadline) {
   const int32_t coarsest = std::min(kMostSkimmed, space_.octaves() - 1);
-  int32_t finest = finestWithin(deadline.afterShare(kSweepShare));
+  int32_t finest = finestWithin(deadline);
   while (!sweepFrom(finest, gray, deadline.afterShare(kSweepShare)) && finest < coarsest && !deadline.passed())
     ++finest;
   cut_ = cut_ || finest > 0;
@@ -91,14 +94,19 @@ void FeatureExtractor::sweep(GrayView gray, const Deadline &deadline) {
 
 int32_t FeatureExtractor::finestWithin(const Deadline &deadline) const {
   if (!deadline.isSet()) return 0;
-  const double fitting = pixels_pace_.fitting(deadline, 1e18);
+  const int32_t coarsest = std::min(kMostSkimmed, space_.octaves() - 1);
+  const double fitting = pixels_pace_.fitting(deadline.afterShare(kSweepShare), 1e18);
   double all = 0;
   for (int32_t o = 0; o < space_.octaves(); ++o) all += sweptPixels(o);
+  // The finest of all is worth its time only where much of what it shows can be described too.
+  const double enough = std::min(kEnoughKeypoints, static_cast<double>(config_.max_keypoints));
+  const double needed_ns = kCostOfFinest * all * pixels_pace_.unitNs() + enough * keypoints_pace_.unitNs();
+  const bool has_time_for_all = needed_ns < static_cast<double>(deadline.leftNs());
   int32_t finest = 0;
-  for (double skimmed = 0;
-       finest < std::min(kMostSkimmed, space_.octaves() - 1) && all + kSkimmedCost * skimmed > fitting; ++finest) {
+  double skimmed = 0;
+  while (finest < coarsest && (all + kSkimmedCost * skimmed > fitting || (finest == 0 && !has_time_for_all))) {
     all -= sweptPixels(finest);
-    skimmed += sweptPixels(finest);
+    skimmed += sweptPixels(finest++);
   }
   return finest;
 }
