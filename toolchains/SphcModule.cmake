@@ -70,8 +70,8 @@ add_library(sphc_runtime_code INTERFACE) # of the runtime's own files
 target_link_libraries(sphc_runtime_code INTERFACE sphc_runtime_flags)
 target_compile_definitions(sphc_runtime_code INTERFACE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO)
 
-# Of decisions and checks, a few times a frame: firmware has all of them in flash.
-set(SPHC_SMALL $<$<CONFIG:Release>:-Os>)
+# Of decisions and checks, a few times a frame: firmware has all of them in flash, but for what it never calls.
+set(SPHC_SMALL $<$<CONFIG:Release>:-Os> -ffunction-sections)
 
 # Reading other people's headers takes longer than most of our files.  Modules that are compiled alike share one library of
 # precompiled headers.  ccache needs the options, and CCACHE_SLOPPINESS as in tests/run.sh.

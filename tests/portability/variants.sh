@@ -37,21 +37,33 @@ all="scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 newlib"
 variant() {
   local folder=build/portability/$1 arguments
   arguments "$1" && cmake -S "$here" -B "$folder" -G Ninja -DSPHC_WERROR=ON -DSPHC_PRECOMPILE_RUNTIME=ON "${arguments[@]}" &&
-    cmake --build "$folder" --parallel "$(nproc)" && ctest --test-dir "$folder" --output-on-failure --no-tests=error
+    cmake --build "$folder" --parallel $((($(nproc) + 1) / 2)) && ctest --test-dir "$folder" --output-on-failure --no-tests=error
 }
 
-passed=0 failed=0
+attempt() { # NAME: leaves its verdict beside its log
+  local begin=$SECONDS verdict=FAILED
+  variant "$1" >"build/portability/$1.log" 2>&1 && verdict=equal
+  printf '%s, %d s\n' $verdict $((SECONDS - begin)) >"build/portability/$1.verdict"
+}
+
+# shellcheck disable=SC2206 # words on purpose
+names=(${*:-$all})
 mkdir -p build/portability
-# shellcheck disable=SC2048,SC2086 # words on purpose
-for name in ${*:-$all}; do
-  begin=$SECONDS
-  if variant "$name" >"build/portability/$name.log" 2>&1; then
-    passed=$((passed + 1)) verdict=equal
-  else
-    failed=$((failed + 1)) verdict=FAILED
-    tail -n 60 "build/portability/$name.log"
-  fi
-  printf '%-12s %s, %d s\n' "$name" $verdict $((SECONDS - begin))
+rm -f build/portability/*.verdict
+# Two at once: half of a variant's time is one process's, cmake's or a linker's.
+for name in "${names[@]}"; do
+  while [ "$(jobs -rp | wc -l)" -ge 2 ]; do wait -n; done
+  attempt "$name" &
+done
+wait
+passed=0 failed=0
+for name in "${names[@]}"; do
+  verdict=$(cat "build/portability/$name.verdict" 2>/dev/null || echo FAILED)
+  case $verdict in
+    equal*) passed=$((passed + 1)) ;;
+    *) failed=$((failed + 1)) && tail -n 60 "build/portability/$name.log" ;;
+  esac
+  printf '%-12s %s\n' "$name" "$verdict"
 done
 printf '%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" = 0 ]
