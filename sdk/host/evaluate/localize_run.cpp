@@ -47,6 +47,11 @@ double sigmaOf(const double covariance[36], size_t first) {
   return std::sqrt(sum);
 }
 
+sphc_localizer_config withRoomFor(const std::vector<MapFile> &maps, sphc_localizer_config config) {
+  config.max_maps = std::max(1u, static_cast<uint32_t>(maps.size()));
+  return config;
+}
+
 void measureMemory(const sphc_localizer_config &config, Run *run) {
   sphc_memory memory = {};
   orThrow("localizer memory",
@@ -127,11 +132,10 @@ void setCameras(const sphc_rig &rig, sphc_localizer_config *config) {
   config->clock = steadyNanoseconds;
 }
 
-spherecloud::Localizer makeLocalizer(sphc_localizer_config config, const std::vector<MapFile> &maps,
+spherecloud::Localizer makeLocalizer(const sphc_localizer_config &config, const std::vector<MapFile> &maps,
                                      const Parameters &parameters) {
   spherecloud::Localizer localizer;
-  config.max_maps = std::max(1u, static_cast<uint32_t>(maps.size()));
-  checkDone("cannot make the localizer", spherecloud::Localizer::make(config, &localizer));
+  checkDone("cannot make the localizer", spherecloud::Localizer::make(withRoomFor(maps, config), &localizer));
   checkDone("cannot make the localizer", parameters.setOn(&localizer));
   for (size_t i = 0; i < maps.size(); ++i)
     checkDone("cannot take the map", localizer.setMap(static_cast<uint32_t>(i), maps[i].map));
@@ -161,7 +165,7 @@ std::vector<Setting> describeConfig(const sphc_localizer_config &config, const P
 
 void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
                     const std::function<void(const std::string &)> &unreadable, Run *run) {
-  measureMemory(input.config, run);
+  measureMemory(withRoomFor(input.maps, input.config), run);
   spherecloud::Localizer localizer = makeLocalizer(input.config, input.maps, input.parameters);
   PlayedOdometry odometry(input.reader);
   std::vector<sphc_localizer_observation> room(input.config.max_keypoints);

@@ -27,7 +27,7 @@ struct LocalizeInput {
 // Rig and clock into a config whose other fields stay.
 void setCameras(const sphc_rig &rig, sphc_localizer_config *config);
 // The maps' ids count from 0.  Throws std::runtime_error with cause and cure.
-spherecloud::Localizer makeLocalizer(sphc_localizer_config config, const std::vector<MapFile> &maps,
+spherecloud::Localizer makeLocalizer(const sphc_localizer_config &config, const std::vector<MapFile> &maps,
                                      const Parameters &parameters = {});
 std::vector<Setting> describeConfig(const sphc_localizer_config &config, const Parameters &parameters);
 
