@@ -4,7 +4,7 @@
 
 #include "runtime/stages/pose/mirrored.h"
 #include "runtime/stages/pose/residual.h"
-#include "runtime/stages/pose/symmetric_inverse.h"
+#include "runtime/stages/pose/symmetric.h"
 
 namespace sphc {
 namespace {

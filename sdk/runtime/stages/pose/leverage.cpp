@@ -5,7 +5,7 @@
 
 #include "runtime/stages/pose/refine.h"
 #include "runtime/stages/pose/residual.h"
-#include "runtime/stages/pose/symmetric_inverse.h"
+#include "runtime/stages/pose/symmetric.h"
 
 namespace sphc {
 namespace {

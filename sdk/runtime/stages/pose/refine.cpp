@@ -1,6 +1,6 @@
 #include "runtime/stages/pose/refine.h"
 
-#include <Eigen/Cholesky>
+#include "runtime/stages/pose/symmetric.h"
 
 namespace sphc {
 namespace {
@@ -106,7 +106,7 @@ Vector8 solved(const NormalEquations &equations, double damping) {
   Matrix8 damped = equations.matrix;
   damped.diagonal() *= 1 + damping;
   damped.diagonal().array() += 1e-9;
-  return -kLongerStep * damped.ldlt().solve(equations.gradient);
+  return -kLongerStep * solveSymmetric(damped, equations.gradient);
 }
 
 // The Newton decrement: step^T H step.

@@ -1,4 +1,4 @@
-#include "runtime/stages/pose/symmetric_inverse.h"
+#include "runtime/stages/pose/symmetric.h"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,22 @@ void expectInverse() {
   EXPECT_LT((inverse * matrix - identity).norm(), 1e-9);
 }
 
-TEST(SymmetricInverse, InvertsEverySizeThatPosesHave) {
-  expectInverse<2>();
+Eigen::Matrix<double, 8, 8> anyMatrix() {
+  Eigen::Matrix<double, 8, 8> matrix;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) matrix(y, x) = (x == y ? 60 : 0) + (x * y + 3 * (x + y)) % 7;
+  return matrix;
+}
+
+TEST(Symmetric, InvertsEverySizeThatPosesHave) {
   expectInverse<6>();
   expectInverse<8>();
+}
+
+TEST(Symmetric, SolvesASystem) {
+  const Eigen::Matrix<double, 8, 8> matrix = anyMatrix();
+  const Eigen::Matrix<double, 8, 1> truth{1, -2, 3, 0.5, 0, 7, -4, 2}, right = matrix.lazyProduct(truth);
+  EXPECT_LT((solveSymmetric(matrix, right) - truth).norm(), 1e-12);
 }
 
 }  // namespace
