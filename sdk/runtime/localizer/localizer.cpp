@@ -52,6 +52,7 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   MatchSet::layout(n, scratch, localizer ? &localizer->best_.matched : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->candidate_.matched : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->rival_.matched : nullptr);
+  Repetition::layout(n, scratch, localizer ? &localizer->repetition_ : nullptr);
   PoseEstimator::layout(estimator, scratch, localizer ? &localizer->estimator_ : nullptr);
   Consistency::layout(state, scratch, localizer ? &localizer->consistency_ : nullptr);
 }
@@ -266,14 +267,15 @@ bool Localizer::searchMapByStrongest(uint32_t map, const PoseTask &task, Work *w
 // What does not localize leaves the frame as the strict test shows it.
 void Localizer::searchMapLoosely(uint32_t map, const PoseTask &task, Work *work) {
   candidate_.begin(map);
-  Verification(&search_, &estimator_, &fusion_, kTimesInliersOfLooser * config_.search.min_inliers, work)
+  Verification(&search_, &estimator_, &repetition_, &fusion_, kTimesInliersOfLooser * config_.search.min_inliers,
+               work)
       .findPoseLoosely(task, &candidate_, &rival_);
   if (candidate_.isLocalized()) propose();
 }
 
 // Finds the pose that the candidate's matches speak for.
 void Localizer::solve(const PoseTask &task, Work *work) {
-  Verification(&search_, &estimator_, &fusion_, config_.search.min_inliers, work)
+  Verification(&search_, &estimator_, &repetition_, &fusion_, config_.search.min_inliers, work)
       .findPose(task, &candidate_, &rival_);
 }
 

@@ -72,6 +72,7 @@ class Localizer {
   FrontEnd front_;
   Search search_;
   PoseEstimator estimator_;
+  Repetition repetition_;
   DepthCalibrator calibrator_;
   Tracker tracker_;
   Fusion fusion_;

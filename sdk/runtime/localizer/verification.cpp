@@ -64,6 +64,7 @@ void Verification::verify(const PoseTask &task, Hypothesis *found, Hypothesis *r
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
   challengeByOthers(task, found, rival);
+  challengeRepeated(task, found, rival);
   confirm(task, found, rival);
   if (found->isLocalized() && !found->is_verified) found->outcome = Outcome::kUncertain;
 }
@@ -202,6 +203,43 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
     return;
   if (rival_gain > gain) std::swap(*found, *rival);
   if (std::min(gain, rival_gain) > kAmbiguousGain * std::max(gain, rival_gain)) found->doubtForRival();
+}
+
+// Are nearly all inliers of what repeats?
+bool Verification::restsOnRepetition(const Hypothesis &found) const {
+  const Span<const Match> matches = found.matched.matches();
+  uint32_t inliers = 0, unrepeated = 0;
+  for (uint32_t i = 0; i < matches.size() && unrepeated < kFewestUnrepeated; ++i) {
+    const Correspondence &c = found.matched.ofThisFrame()[i];
+    if (!c.lifted.hasDepth() || !estimator_.isInlier(c, found.estimate)) continue;
+    ++inliers;
+    unrepeated += !repetition_.repeats(matches[i].query);
+  }
+  return unrepeated < kFewestUnrepeated && unrepeated < kLeastUnrepeated * inliers;
+}
+
+// A pose that rests on a pattern must gain clearly more than those that are off by its period, once or twice.
+void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
+  if (isLeftOut(task, found)) return;
+  if (!repetition_.look(*task.question.front, task.query.deadline)) {
+    isLeftOut(task, found);
+    return;
+  }
+  if (repetition_.moves_m().empty() || !restsOnRepetition(*found)) return;
+  PoseTask near = task;
+  near.cones_rad = {kConesOfExpectedPose, 1};
+  for (const Vector3 &move_m : repetition_.moves_m()) {
+    for (const int times : {-1, 1, -2, 2}) {
+      if (isLeftOut(task, found)) return;
+      rival->challenge(*found);
+      rival->estimate.camera_from_map.translation_m += times * move_m;
+      rematch(near, rival);
+      const PoseBounds same = {move_m.norm() / 2, kSamePose.most_turn_rad};
+      if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, same)) continue;
+      if (rival->estimate.gain > kRepeatedGain * found->estimate.gain) return found->doubtForRival();
+    }
+  }
 }
 
 // Few matches may agree by more than uniform chance where textures resemble themselves; a pose that was looked for

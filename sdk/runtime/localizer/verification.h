@@ -1,10 +1,12 @@
 // From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
 // predicts, then verification against its rivals: what another search finds, what is found without its
-// high-leverage observations, the second pose of a planar scene, and what the other keypoints speak for.  In the
-// end an independent search must confirm it.  A pose that lacks one of these for its deadline is uncertain.  What
-// all that finds no pose of is searched once more, among the matches of a looser ratio test.
+// high-leverage observations, the second pose of a planar scene, what the other keypoints speak for, and, where
+// what is seen repeats, poses that are off by its period.  In the end an independent search must confirm it.  A
+// pose that lacks one of these for its deadline is uncertain.  What all that finds no pose of is searched once
+// more, among the matches of a looser ratio test.
 #pragma once
 #include "runtime/localizer/fusion.h"
+#include "runtime/localizer/repetition.h"
 #include "runtime/stages/pose/estimator.h"
 
 namespace sphc {
@@ -21,8 +23,14 @@ struct PoseTask {
 
 class Verification {
  public:
-  Verification(Search *search, PoseEstimator *estimator, const Fusion *fusion, uint32_t min_inliers, Work *work)
-      : search_(*search), estimator_(*estimator), fusion_(*fusion), min_inliers_(min_inliers), work_(*work) {}
+  Verification(Search *search, PoseEstimator *estimator, Repetition *repetition, const Fusion *fusion,
+               uint32_t min_inliers, Work *work)
+      : search_(*search),
+        estimator_(*estimator),
+        repetition_(*repetition),
+        fusion_(*fusion),
+        min_inliers_(min_inliers),
+        work_(*work) {}
 
   // `found` has its first matches.  It becomes the best hypothesis they lead to, and judged; `rival` is memory for
   // others.
@@ -42,12 +50,15 @@ class Verification {
   bool searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis, PoseTask *other) const;
   void searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found, Hypothesis *rival) const;
   void challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  bool restsOnRepetition(const Hypothesis &found) const;
+  void challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
 
   Search &search_;
   PoseEstimator &estimator_;
+  Repetition &repetition_;
   const Fusion &fusion_;
   uint32_t min_inliers_;
   Work &work_;
