@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """The localizer in a simulated world that is as nasty as the real one, through the command line alone.
 
-    nasty.py --spherecloud BIN [--results FILE] [--rooms N] [--worlds NAME...] [--keep FOLDER]
+    nasty.py --spherecloud BIN [--results FILE] [--rooms N] [--worlds NAME...] [--frames FILE] [--keep FOLDER]
 
-For each world and each room, lap one is mapped and a part of lap two is localized in it, with both kinds of fakes, by keys
-that differ from room to room.  A world is an option of `simulate`, or several at once.  nasty.csv has a row for each world,
-number of frames in the map, kind of fakes and mode.  Every accepted pose that is wrong is printed with the commands that give
-it again.  --keep keeps recordings, maps and answers, and takes those that are there: answers only of the same command.
+For each world and each of its rooms, lap one is mapped and a part of lap two is localized in it, with both kinds of fakes, by
+keys that differ from room to room.  A world is an option of `simulate`, or several at once; no two worlds share a room.
+So are frames of another room of this world, of which no pose is right: "elsewhere".  nasty.csv has a row for each world, number of
+frames in the map, kind of fakes and mode, and one for all of them.  Rows of worlds that are not measured stay.  Every accepted
+pose that is wrong is printed with the commands that give it again.  --frames writes a line for every frame.  --keep keeps
+recordings, maps and answers, and takes those that are there: answers only of the same command.
 """
 import argparse
 import collections
@@ -22,16 +24,18 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+import confidence
 from accuracy import WORST_CM, WORST_DEG
 from recordings import HERE, run
 
 RESULTS = HERE / "nasty.csv"
-ROOMS = list(range(3001, 3013))  # seeds of room and walk that nothing else uses
+FIRST_SEED, ROOMS, ELSEWHERE = 3001, 12, 50  # seeds of rooms and walks, which nothing else uses; of each world; to another room
 KEYS_A_ROOM = 2
 ETA = 0.33
 FAKES, MODES = ("patchwork", "gaussian"), ("single", "tracking")
 LAP_S = 16
-QUERY_FRAMES, QUERY_HZ = 10, 2.5
+QUERY_FRAMES, QUERY_HZ = 40, 5
+ELSEWHERE_FRAMES, ELSEWHERE_HZ = 15, 1
 
 # How lap one and lap two are simulated, frames of lap one, and of how many of them maps are made.
 World = collections.namedtuple("World", "lap_one lap_two recorded mapped")
@@ -57,8 +61,15 @@ WORLDS = {
     "evening": later("--arrangement", 2, "--with", "people,hands,night"),
 }
 ROW = ["world", "map_frames", "fakes", "mode"]
-COLUMNS = ROW + ["rooms", "frames", "accepted_percent", "within_5cm_5deg_percent_median", "within_5cm_5deg_percent_worst",
-                 "wrong_accepted", "worst_cm", "worst_deg", "worst_confidence"]
+COLUMNS = ROW + ["rooms", "frames", "accepted", "within_5cm_5deg_percent_median", "within_5cm_5deg_percent_worst",
+                 "wrong_accepted", "wrong_tracking", "worst_cm", "worst_deg", "worst_confidence", "ece", "sure_right_percent",
+                 "elsewhere_frames", "elsewhere_accepted"]
+ALL = "all"
+SUMS = ["frames", "accepted", "wrong_accepted", "wrong_tracking", "elsewhere_frames", "elsewhere_accepted"]
+WORST = ["worst_cm", "worst_deg", "worst_confidence"]
+LINE = ["world", "room", "map_frames", "fakes", "mode", "key", "here", "frame", "localized", "cm", "deg", "confidence", "sigma_cm",
+        "sigma_deg", "inliers", "matches", "state"]
+Frame = collections.namedtuple("Frame", "world seed variant key here answer commands")
 
 
 def key_of(room, number):
@@ -69,17 +80,20 @@ def words(command):
     return " ".join(map(str, command))
 
 
-class Room:
-    """One room in one world: its recordings, its maps, and every frame that was localized in them."""
+def seed_of(world, number):
+    return FIRST_SEED + 100 * list(WORLDS).index(world) + number
 
-    def __init__(self, tool, folder, world, seed):
-        self.tool, self.folder, self.world, self.seed = tool, folder, world, seed
+
+class Room:
+    """One room of one world: its recordings, its maps, and every frame that was localized in them."""
+
+    def __init__(self, tool, folder, world, number):
+        self.tool, self.folder, self.world, self.number, self.seed = tool, folder, world, number, seed_of(world, number)
         self.version = hashlib.sha256(pathlib.Path(tool).read_bytes()).hexdigest()[:8]
 
-    def simulate(self, arguments, *more):
-        """A recording; those of equal arguments are made once."""
-        arguments = [*map(str, arguments), *map(str, more), "--seed", str(self.seed), "--walk-seed", str(self.seed)]
-        out = self.folder / ("walk_" + hashlib.sha256(words(arguments).encode()).hexdigest()[:12])
+    def simulate(self, name, seed, arguments, *more):
+        arguments = [*map(str, arguments), *map(str, more), "--seed", str(seed), "--walk-seed", str(seed)]
+        out = self.folder / name
         command = [self.tool, "simulate", "--out", out, *arguments, "--threads", 1, "--json"]
         if not (out / "groundtruth.txt").exists():
             run(command)
@@ -87,107 +101,176 @@ class Room:
 
     def record(self):
         world = WORLDS[self.world]
-        start = LAP_S + LAP_S * (self.seed - ROOMS[0]) / len(ROOMS)  # each room is entered elsewhere
-        self.walk, made_map = self.simulate(["--frames", world.recorded, *world.lap_one], "--rate", world.recorded / LAP_S)
-        self.query, made_query = self.simulate(world.lap_two, "--from", "%.2f" % start, "--frames", QUERY_FRAMES, "--rate", QUERY_HZ)
-        self.commands = [made_map, made_query]
+        start = LAP_S + LAP_S * self.number / ROOMS  # each room is entered elsewhere
+        self.walk, self.made_map = self.simulate("map", self.seed, ["--frames", world.recorded, *world.lap_one], "--rate",
+                                                 world.recorded / LAP_S)
+        self.queries = {
+            True: self.simulate("here", self.seed, world.lap_two, "--from", "%.2f" % start, "--frames", QUERY_FRAMES, "--rate",
+                                QUERY_HZ),
+            False: self.simulate("elsewhere", self.seed + ELSEWHERE, world.lap_two, "--frames", ELSEWHERE_FRAMES, "--rate",
+                                 ELSEWHERE_HZ)}
         return self
 
+    def build(self, map_frames, fakes, number):
+        """A map, and the command that makes it."""
+        name = "%d_%s_%d" % (map_frames, fakes, number)
+        file, key = self.folder / (name + ".sphc"), self.folder / (name + ".key")
+        if not key.exists():
+            key.write_text(key_of(self.seed, number))
+            key.chmod(0o600)
+        step = WORLDS[self.world].recorded // map_frames
+        command = [self.tool, "build", "--recording", self.walk, "--last", step * map_frames - 1, "--step", step, "--map", file,
+                   "--eta", ETA, "--fakes", fakes, "--key", key, "--ledger", self.folder / (name + ".ledger"), "--json"]
+        if not file.exists():
+            run(command)
+        return file, words(command)
+
+    def ask(self, file, mode, here):
+        """What `localize` says of each frame, and the commands that lead to it."""
+        recording, made_query = self.queries[here]
+        answers = file.with_suffix(".%s_%s_%s.frames" % (mode, "here" if here else "elsewhere", self.version))
+        command = [self.tool, "localize", "--recording", recording, "--map", file, "--mode", mode, "--owner-note",
+                   str(file) + ".owner.json", "--frames-json", answers, "--json"]
+        if not answers.exists():
+            run(command)
+        return map(json.loads, answers.read_text().splitlines()), [made_query, words(command)]
+
     def localize(self):
-        """(map_frames, fakes, mode), a frame, and the commands that lead to it, of every frame."""
-        recorded, mapped = WORLDS[self.world].recorded, WORLDS[self.world].mapped
-        for map_frames, fakes, number in itertools.product(mapped, FAKES, range(KEYS_A_ROOM)):
-            name = "%s_%d_%d_%s_%d" % (self.world, self.seed, map_frames, fakes, number)
-            file, key = self.folder / (name + ".sphc"), self.folder / (name + ".key")
-            if not key.exists():
-                key.write_text(key_of(self.seed, number))
-                key.chmod(0o600)
-            step = recorded // map_frames
-            build = [self.tool, "build", "--recording", self.walk, "--last", step * map_frames - 1, "--step", step, "--map", file,
-                     "--eta", ETA, "--fakes", fakes, "--key", key, "--ledger", self.folder / (name + ".ledger"), "--json"]
-            if not file.exists():
-                run(build)
-            for mode in MODES:
-                answers = self.folder / ("%s_%s_%s.frames" % (name, mode, self.version))
-                query = [self.tool, "localize", "--recording", self.query, "--map", file, "--mode", mode, "--owner-note",
-                         str(file) + ".owner.json", "--frames-json", answers, "--json"]
-                if not answers.exists():
-                    run(query)
-                for line in answers.read_text().splitlines():
-                    yield (str(map_frames), fakes, mode), json.loads(line), [*self.commands, words(build), words(query)]
+        """Every frame of every map.  Elsewhere is asked of the first key's maps."""
+        for map_frames, fakes, number in itertools.product(WORLDS[self.world].mapped, FAKES, range(KEYS_A_ROOM)):
+            file, build = self.build(map_frames, fakes, number)
+            for mode, here in itertools.product(MODES, (True,) if number else (True, False)):
+                answers, commands = self.ask(file, mode, here)
+                for answer in answers:
+                    yield Frame(self.world, self.seed, (str(map_frames), fakes, mode), number, here, answer,
+                                [self.made_map, build, *commands])
 
 
-def errors(frame):
-    return 100 * frame["error"]["translation_m"], frame["error"]["rotation_deg"]
+def errors(answer):
+    return 100 * answer["error"]["translation_m"], answer["error"]["rotation_deg"]
 
 
 def is_wrong(frame):
-    if not frame["localized"]:
+    if not frame.answer["localized"]:
         return False
-    centimetres, degrees = errors(frame)
-    return centimetres > WORST_CM or degrees > WORST_DEG
+    centimetres, degrees = errors(frame.answer)
+    return not frame.here or centimetres > WORST_CM or degrees > WORST_DEG
 
 
 def is_close(frame):
-    return frame["localized"] and errors(frame)[0] <= 5 and errors(frame)[1] <= 5
+    return frame.answer["localized"] and errors(frame.answer)[0] <= 5 and errors(frame.answer)[1] <= 5
 
 
-def row_of(world, variant, rooms):
-    """rooms: of each the frames."""
-    frames = [frame for room in rooms for frame in room]
-    wrong = sorted((frame for frame in frames if is_wrong(frame)), key=errors)
-    close = [100 * statistics.mean(map(is_close, room)) for room in rooms]
+def by_room(frames):
+    rooms = collections.defaultdict(list)
+    for frame in frames:
+        rooms[frame.seed].append(frame)
+    return list(rooms.values())
+
+
+def row_of(world, variant, frames):
+    here = [frame for frame in frames if frame.here]
+    accepted = [frame for frame in here if frame.answer["localized"]]
+    wrong = [frame.answer for frame in accepted if is_wrong(frame)]
+    elsewhere = [frame for frame in frames if not frame.here]
+    close = [100 * statistics.mean(map(is_close, room)) for room in by_room(here)]
+    poses = [confidence.pose_of(frame.answer) for frame in accepted]
     return dict(zip(COLUMNS, [
-        world, *variant, str(len(rooms)), str(len(frames)),
-        "%.1f" % (100 * statistics.mean(frame["localized"] for frame in frames)),
-        "%.1f" % statistics.median(close), "%.1f" % min(close), str(len(wrong)),
-        *(["%.1f" % errors(wrong[-1])[0], "%.1f" % max(errors(f)[1] for f in wrong),
-           "%.3f" % max(f["confidence"] for f in wrong)] if wrong else ["", "", ""])]))
+        world, *variant, str(len(close)), str(len(here)), str(len(accepted)), "%.1f" % statistics.median(close),
+        "%.1f" % min(close), str(len(wrong)), str(sum(answer["state"] == "tracking" for answer in wrong)),
+        *(["%.1f" % max(errors(answer)[0] for answer in wrong), "%.1f" % max(errors(answer)[1] for answer in wrong),
+           "%.3f" % max(answer["confidence"] for answer in wrong)] if wrong else ["", "", ""]),
+        "%.3f" % confidence.calibration_error(poses) if poses else "",
+        confidence.percent(pose.right for pose in poses if pose.confidence >= confidence.SURE),
+        str(len(elsewhere)), str(sum(map(is_wrong, elsewhere)))]))
 
 
-def tell(world, seed, variant, frame, commands):
-    print("WRONG %s room %d, map of %s frames, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, sigma %.1f cm, "
+def sum_of(rows):
+    """One row for all: sums, and the worst."""
+    total = dict.fromkeys(COLUMNS, "")
+    total["world"] = ALL
+    total["rooms"] = str(sum({row["world"]: int(row["rooms"]) for row in rows}.values()))
+    for column in SUMS:
+        total[column] = str(sum(int(row[column]) for row in rows))
+    for column in WORST:
+        total[column] = max((row[column] for row in rows if row[column]), key=float, default="")
+    return total
+
+
+def tell(frame):
+    answer = frame.answer
+    print("WRONG %s room %d, map of %s frames, %s, %s, %s, frame %d: %.1f cm, %.1f deg, confidence %.3f, sigma %.1f cm, "
           "%d of %d matches, %s" % (
-        world, seed, *variant, frame["sequence"], *errors(frame), frame["confidence"],
-        100 * frame["sigma"]["translation_m"], frame["inliers"], frame["matches"], frame["state"]))
-    print("".join("    %s\n" % command for command in commands), flush=True)
+        frame.world, frame.seed, *frame.variant, "here" if frame.here else "elsewhere", answer["sequence"], *errors(answer),
+        answer["confidence"], 100 * answer["sigma"]["translation_m"], answer["inliers"], answer["matches"], answer["state"]))
+    print("".join("    %s\n" % command for command in frame.commands), flush=True)
 
 
-def measure(tool, folder, worlds, seeds):
-    """All rows, anew after each room.  Worlds are measured on every processor; the walks that several share are made first."""
-    frames = collections.defaultdict(lambda: collections.defaultdict(list))
+def line_of(frame):
+    answer, given = frame.answer, frame.answer["localized"]
+    return [frame.world, frame.seed, *frame.variant, frame.key, int(frame.here), answer["sequence"], int(given), *(
+        ["%.2f" % errors(answer)[0], "%.3f" % errors(answer)[1], "%.4f" % answer["confidence"],
+         "%.3f" % (100 * answer["sigma"]["translation_m"]), "%.4f" % answer["sigma"]["rotation_deg"], answer["inliers"],
+         answer["matches"]] if given else [""] * 7), answer["state"]]
+
+
+def localize_room(tool, keep, world, number):
+    if keep:
+        folder = keep / ("%s_%d" % (world, seed_of(world, number)))
+        folder.mkdir(parents=True, exist_ok=True)
+        return list(Room(tool, folder, world, number).record().localize())
+    with tempfile.TemporaryDirectory() as scratch:
+        return list(Room(tool, pathlib.Path(scratch), world, number).record().localize())
+
+
+def measure(tool, keep, worlds, count, lines):
+    """The rows so far, anew after each room; a room on each processor."""
+    found = collections.defaultdict(list)
+    tasks = [(world, number) for number in range(count) for world in worlds]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for seed in seeds:
-            Room(tool, folder, "plain", seed).record()
-            found = pool.map(lambda world: list(Room(tool, folder, world, seed).record().localize()), worlds)
-            for world, localized in zip(worlds, found):
-                for variant, frame, commands in localized:
-                    frames[world, variant][seed].append(frame)
-                    if is_wrong(frame):
-                        tell(world, seed, variant, frame, commands)
-            yield [row_of(world, variant, list(rooms.values())) for (world, variant), rooms in frames.items()]
+        for at, frames in enumerate(pool.map(lambda task: localize_room(tool, keep, *task), tasks)):
+            for frame in frames:
+                found[frame.world, frame.variant].append(frame)
+                if lines:
+                    lines.writerow(line_of(frame))
+                if is_wrong(frame):
+                    tell(frame)
+            if sys.stderr.isatty():
+                print("\r%d of %d rooms" % (at + 1, len(tasks)), end="", file=sys.stderr)
+            yield [row_of(world, variant, of_row) for (world, variant), of_row in found.items()]
+
+
+def read(path):
+    if not path.exists():
+        return []
+    with path.open(newline="") as rows:
+        return [row for row in csv.DictReader(rows) if list(row) == COLUMNS and row["world"] in WORLDS]
 
 
 def write(path, rows):
+    order = list(WORLDS)
+    rows = sorted(rows, key=lambda row: order.index(row["world"]))  # stable
     with path.open("w", newline="") as out:
         writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows([sum_of(rows), *rows])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True, help="the command")
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [nasty.csv]")
-    parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(1, len(ROOMS) + 1), metavar="N", help="how many [12]")
+    parser.add_argument("--rooms", type=int, default=ROOMS, choices=range(1, ROOMS + 1), metavar="N", help="of each world [12]")
     parser.add_argument("--worlds", nargs="+", default=list(WORLDS), choices=list(WORLDS), metavar="NAME", help="some alone [all]")
+    parser.add_argument("--frames", type=argparse.FileType("w"), metavar="FILE", help="a line for every frame")
     parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="where recordings and maps are kept")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = arguments.keep or pathlib.Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
-        for rows in measure(arguments.spherecloud, folder, arguments.worlds, ROOMS[:arguments.rooms]):
-            write(arguments.results, rows)
+    lines = csv.writer(arguments.frames, lineterminator="\n") if arguments.frames else None
+    if lines:
+        lines.writerow(LINE)
+    others = [row for row in read(arguments.results) if row["world"] not in arguments.worlds]
+    for rows in measure(arguments.spherecloud, arguments.keep, arguments.worlds, arguments.rooms, lines):
+        write(arguments.results, others + rows)
 
 
 if __name__ == "__main__":

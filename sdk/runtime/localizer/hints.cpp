@@ -135,6 +135,12 @@ ImageQuality qualityOf(GrayView gray, double focal_px) {
   return quality;
 }
 
+bool isDark(GrayView gray) {
+  ImageQuality quality;
+  measureLight(gray, &quality);
+  return quality.isDark();
+}
+
 uint32_t countSalient(Span<const Keypoint> keypoints, double noise) {
   // White noise of 1 leaves a difference of Gaussians of this at scale 1, in grey levels.
   constexpr double kNoiseOfDifference = 0.082;

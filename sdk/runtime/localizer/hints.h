@@ -23,6 +23,8 @@ struct ImageQuality {
 
 // Reads a grid of samples.  `focal_px`: a finer image is sampled in larger steps.
 ImageQuality qualityOf(GrayView gray, double focal_px);
+// The same of the light alone.
+bool isDark(GrayView gray);
 
 // How many of the keypoints are stronger than noise makes them?
 uint32_t countSalient(Span<const Keypoint> keypoints, double noise);

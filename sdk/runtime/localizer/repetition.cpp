@@ -21,20 +21,28 @@ double nearestWhole(double x) { return x < 0 ? static_cast<int>(x - 0.5) : stati
 }  // namespace
 
 void Repetition::layout(uint32_t max_keypoints, Arena &scratch, Repetition *repetition) {
-  const Span<Vector3> moves = scratch.take<Vector3>("localizer.moves", std::min(max_keypoints, kAskedForLike));
-  if (repetition) repetition->found_m_ = moves;
+  Repetition discarded;  // receives empty spans while measuring
+  Repetition &r = repetition ? *repetition : discarded;
+  const uint32_t count = std::min(max_keypoints, kAskedForLike);
+  r.likes_ = scratch.take<Like>("localizer.likes", count);
+  r.found_m_ = scratch.take<Vector3>("localizer.moves", count);
 }
 
 bool Repetition::look(const FrontEnd &front, const Deadline &deadline) {
   front_ = &front;
-  looked_at_ = std::min(front.liftedCount(), static_cast<uint32_t>(found_m_.size()));
-  found_ = 0;
+  looked_at_ = std::min(front.liftedCount(), static_cast<uint32_t>(likes_.size()));
   moves_m_.clear();
   Watch watch(deadline, kGrain);
   for (uint32_t i = 0; i < looked_at_; ++i) {
-    if (watch.passed(looked_at_)) return false;
-    if (moveToLike(i, &found_m_[found_])) ++found_;
+    if (watch.passed(i)) return false;
+    likes_[i] = {};
+    for (uint32_t other = 0; other < i; ++other) {
+      const uint32_t d2 = compare(i, other);
+      if (d2 < likes_[i].distance2) likes_[i] = {d2, other};
+      if (d2 < likes_[other].distance2) likes_[other] = {d2, i};
+    }
   }
+  listMoves();
   Vector3 commonest_m;
   while (!moves_m_.full() && findCommonest(&commonest_m) >= kFewestMoves) {
     moves_m_.push(commonest_m);
@@ -43,24 +51,24 @@ bool Repetition::look(const FrontEnd &front, const Deadline &deadline) {
   return true;
 }
 
-// To the keypoint that resembles this one most, but not to one at the same place.
-bool Repetition::moveToLike(uint32_t keypoint, Vector3 *move_m) const {
-  uint32_t least = kMostDistance2OfLike;
-  const Vector3 &here_m = front_->lifted()[keypoint].point_m;
-  for (uint32_t other = 0; other < looked_at_; ++other) {
-    const Vector3 &there_m = front_->lifted()[other].point_m;
-    if (areEqual(here_m, there_m, kLeastMoveM)) continue;
-    const uint32_t d2 = distance2(front_->descriptors()[keypoint], front_->descriptors()[other]);
-    if (d2 >= least) continue;
-    least = d2;
-    *move_m = there_m - here_m;
-  }
-  return least < kMostDistance2OfLike;
+// Of the descriptors of two keypoints at different places.
+uint32_t Repetition::compare(uint32_t a, uint32_t b) const {
+  if (areEqual(front_->lifted()[a].point_m, front_->lifted()[b].point_m, kLeastMoveM)) return UINT32_MAX;
+  return distance2(front_->descriptors()[a], front_->descriptors()[b]);
+}
+
+void Repetition::listMoves() {
+  found_ = 0;
+  for (uint32_t i = 0; i < looked_at_; ++i)
+    if (likes_[i].distance2 < kMostDistance2OfLike)
+      found_m_[found_++] = front_->lifted()[likes_[i].keypoint].point_m - front_->lifted()[i].point_m;
 }
 
 bool Repetition::repeats(uint32_t keypoint) const {
-  Vector3 move_m;
-  return moveToLike(keypoint, &move_m);
+  if (keypoint < looked_at_) return likes_[keypoint].distance2 < kMostDistance2OfLike;
+  for (uint32_t other = 0; other < looked_at_; ++other)
+    if (compare(keypoint, other) < kMostDistance2OfLike) return true;
+  return false;
 }
 
 // The mean of the moves that are most alike, and how many they are.

@@ -23,13 +23,20 @@ class Repetition {
   bool repeats(uint32_t keypoint) const;
 
  private:
-  bool moveToLike(uint32_t keypoint, Vector3 *move_m) const;
+  // The keypoint that resembles one most, of those that do not lie at the same place.
+  struct Like {
+    uint32_t distance2 = UINT32_MAX, keypoint = 0;
+  };
+  uint32_t compare(uint32_t a, uint32_t b) const;
+  void listMoves();
   uint32_t findCommonest(Vector3 *commonest_m) const;
   void keepOthersThan(const Vector3 &move_m);
 
   const FrontEnd *front_ = nullptr;
   uint32_t looked_at_ = 0;  // keypoints
-  Span<Vector3> found_m_;   // in scratch: a move of each keypoint that has its like
+  // In scratch.
+  Span<Like> likes_;       // of each keypoint that was looked at
+  Span<Vector3> found_m_;  // of each that has its like the move to it
   uint32_t found_ = 0;
   FixedVector<Vector3, tuning::kMostMoves> moves_m_;
 };

@@ -56,7 +56,7 @@ Faults Consistency::look(const ConsistencyView &view) {
   if (config_.follows)
     faults |= stillness_.look(samples_.values(), view.depth_time_ns, view.gray, view.color_time_ns);
   doubtful_ = false;
-  if (edgesDisagree(view.color_time_ns)) faults |= kDepthColorDisagree;
+  if (edgesDisagree(view)) faults |= kDepthColorDisagree;
   if (isBent()) faults |= kDepthBent;
   return faults;
 }
@@ -78,17 +78,18 @@ bool Consistency::isBent() {
   return values_.bend > kSureBend || (config_.follows && bent_ && bent_before);
 }
 
-bool Consistency::edgesDisagree(int64_t time_ns) {
+bool Consistency::edgesDisagree(const ConsistencyView &view) {
   double score = 0;
-  const bool tells = agreement_.edges >= kFewestEdges;
+  const bool tells = agreement_.edges >= kFewestEdges && !view.is_dark;
   if (tells) score = (agreement_.middle() - kHalfway) * sqrtOf(static_cast<double>(agreement_.edges));
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   if (tells) {
-    const double views = std::min(1.0, static_cast<double>(elapsedNs(told_time_ns_, time_ns)) / kAnotherViewNs);
+    const double views =
+        std::min(1.0, static_cast<double>(elapsedNs(told_time_ns_, view.color_time_ns)) / kAnotherViewNs);
     const double step = std::min(kMostAStep, std::max(-kMostAStep, kUsual - score)) * views;
     doubt_ = std::min(kMostDoubt, std::max(0.0, doubt_ + (score < kSurelyOff ? kMostAStep : step)));
-    told_time_ns_ = time_ns;
+    told_time_ns_ = view.color_time_ns;
   }
   doubtful_ = doubtful_ || doubt_ >= kDoubtful;
   disagreed_ = doubt_ >= (disagreed_ ? kAllClear : kAlarm);

@@ -20,6 +20,7 @@ struct ConsistencyView {
   ImageView<uint16_t> depth;
   Rigid color_from_depth;  // at the times of the images
   int64_t color_time_ns = 0, depth_time_ns = 0;
+  bool is_dark = false;  // the image shows noise, so its edges say nothing
 };
 
 class Consistency {
@@ -40,7 +41,7 @@ class Consistency {
 
  private:
   Faults judgeValues() const;
-  bool edgesDisagree(int64_t time_ns);
+  bool edgesDisagree(const ConsistencyView &view);
   bool isBent();
 
   ConsistencyConfig config_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "runtime/base/random.h"
 #include "runtime/localizer/localizer.h"
 #include "tests/support/session.h"
 
@@ -217,6 +218,33 @@ double errorWithDepthBefore(bool times_are_told) {
 
 TEST(LocalizerTracking, OdometryTakesDepthToTheTimeOfTheColourImage) {
   EXPECT_LT(errorWithDepthBefore(true), 0.5 * errorWithDepthBefore(false));
+}
+
+// Blocks in depth of which the image shows nothing; a dark image shows noise.
+Faults faultsOfStrangeDepth(bool dark) {
+  const sphc_localizer_config config = trackingConfig();
+  test::Session session(config);
+  Random random(7);
+  Faults faults = 0;
+  for (uint32_t i = 0; i < 12; ++i) {
+    const auto made = test::sceneFrame(config, i % 4);
+    if (dark)
+      for (uint8_t &level : made->images.gray) level = static_cast<uint8_t>(20 + random.below(16));
+    const uint32_t width = made->frame.depth.width;
+    for (uint32_t at = 0; at < made->images.depth_mm.size(); ++at)
+      made->images.depth_mm[at] = ((at % width + 3 * i) / 20 + at / width / 20) % 2 ? 2000 : 3000;
+    sphc_localizer_frame frame = made->frame;
+    frame.color_time_ns = frame.depth_time_ns = (i + 1) * 10 * kStepNs;
+    sphc_localizer_result result = {};
+    session.process(frame, &result);
+    faults |= result.faults;
+  }
+  return faults;
+}
+
+TEST(LocalizerTracking, DepthIsNotSaidToDisagreeWithAnImageOfNoise) {
+  EXPECT_NE(faultsOfStrangeDepth(false) & SPHC_FAULT_DEPTH_COLOR_DISAGREE, 0u);
+  EXPECT_EQ(faultsOfStrangeDepth(true) & SPHC_FAULT_DEPTH_COLOR_DISAGREE, 0u);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/base/random.h"
 #include "runtime/capi/translate.h"
 #include "runtime/localizer/verification.h"
 #include "tests/support/arena_memory.h"
@@ -46,6 +47,22 @@ class RoomParts {
     };
     copyLowerHalf(other->images.gray, &made->images.gray);
     copyLowerHalf(other->images.depth_mm, &made->images.depth_mm);
+    see(*made);
+  }
+  // A wall 2 m ahead, with a piece of what the viewpoint sees over and over, `period_px` wide; all copies but the
+  // middle one a little worse.
+  void seeRepeated(uint32_t viewpoint, uint32_t period_px) {
+    const auto made = sceneFrame(sceneConfig(), viewpoint);
+    const std::vector<uint8_t> seen = made->images.gray;
+    const uint32_t width = made->frame.color.width, middle = width / period_px / 2;
+    Random random(1);
+    for (size_t i = 0; i < seen.size(); ++i) {
+      const size_t x = i % width, row = i - x;
+      const uint8_t level = seen[row + middle * period_px + x % period_px];
+      const bool exact = x / period_px == middle;
+      made->images.gray[i] = exact ? level : static_cast<uint8_t>(std::min(255u, level + random.below(12)));
+    }
+    std::fill(made->images.depth_mm.begin(), made->images.depth_mm.end(), uint16_t{2000});
     see(*made);
   }
   void see(SceneFrame &made) {
@@ -88,6 +105,7 @@ class RoomParts {
     Search::layout(config, arena, arena, real ? &search : nullptr);
     for (Hypothesis *hypothesis : {&found, &rival})
       MatchSet::layout(config.max_keypoints, arena, real ? &hypothesis->matched : nullptr);
+    Repetition::layout(config.max_keypoints, arena, real ? &repetition : nullptr);
     EstimatorConfig of_estimator;
     of_estimator.capacity = 2 * config.max_keypoints;
     of_estimator.max_iterations = config.search.max_iterations;
@@ -101,6 +119,7 @@ class RoomParts {
   FrontEnd front;
   Search search;
   PoseEstimator estimator;
+  Repetition repetition;
   Fusion fusion;
   Hypothesis found, rival;
   Work work;

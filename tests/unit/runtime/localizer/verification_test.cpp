@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/localizer/tuning.h"
 #include "runtime/stages/pose/mirrored.h"
@@ -40,7 +41,7 @@ class VerificationTest : public testing::Test {
     return task;
   }
   void verify(const PoseTask &task) {
-    Verification(&parts_.search, &parts_.estimator, &parts_.fusion, min_inliers_, &parts_.work)
+    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work)
         .findPose(task, &found(), &parts_.rival);
   }
   double errorM(uint32_t viewpoint) {
@@ -249,6 +250,37 @@ TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
   EXPECT_LT(std::min(errorM(0), errorM(4)), 0.02);
 }
 
+constexpr uint32_t kPeriodPx = 64;
+
+// A wall with a pattern, of which the map has one piece.
+class PatternTest : public VerificationTest {
+ protected:
+  PatternTest() : VerificationTest(test::mapOf(onePiece(), Vector3(0, 0, 1))) {}
+  static std::vector<test::WorldPoint> onePiece() {
+    test::RoomParts parts;
+    parts.seeRepeated(0, kPeriodPx);
+    const double period_m = 2 * kPeriodPx / parts.config.color_camera.focal();
+    std::vector<test::WorldPoint> points;
+    for (uint32_t i = 0; i < parts.front.liftedCount(); ++i) {
+      const Vector3 &place_m = parts.front.lifted()[i].point_m;
+      if (std::abs(place_m.x()) < period_m / 2) points.push_back({place_m, parts.front.descriptors()[i]});
+    }
+    return points;
+  }
+};
+
+TEST_F(PatternTest, APoseThatMayBeOffByThePeriodIsAmbiguous) {
+  parts_.seeRepeated(0, kPeriodPx);
+  const PoseTask task = this->task();
+  found().begin(0);
+  parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), {}, &found().matched, &parts_.work);
+  verify(task);
+  ASSERT_LT(found().estimate.inliers, kInliersBeyondOthers);
+  EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
+  EXPECT_EQ(found().outcome, Outcome::kUncertain);
+  EXPECT_TRUE(found().is_ambiguous);
+}
+
 // A small patch, and far beside it one or two points more.
 class FewFarPointsTest : public VerificationTest {
  protected:
@@ -350,7 +382,7 @@ class NearDuplicatesTest : public VerificationTest {
       : VerificationTest(test::mapOf(points, Vector3(0, 0, 1))) {}
   void verifyLoosely(const PoseTask &task) {
     found().begin(0);
-    Verification(&parts_.search, &parts_.estimator, &parts_.fusion, min_inliers_, &parts_.work)
+    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work)
         .findPoseLoosely(task, &found(), &parts_.rival);
   }
 };

@@ -65,6 +65,20 @@ TEST(Consistency, EdgesThatLieElsewhereAreNamedInTheEnd) {
   EXPECT_EQ(held.consistency.look(MadeView().view(9 * kStepNs)) & kDepthColorDisagree, Faults{0});
 }
 
+// Noise has its edges anywhere.
+TEST(Consistency, InTheDarkEdgesSayNothing) {
+  for (const bool follows : {false, true}) {
+    HeldConsistency held(follows);
+    for (int32_t i = 0; i < 8; ++i) {
+      const MadeView made(3 * i, 3 * i + 14);
+      ConsistencyView view = made.view(i * kStepNs);
+      view.is_dark = true;
+      EXPECT_EQ(held.consistency.look(view) & kDepthColorDisagree, Faults{0}) << i;
+      EXPECT_FALSE(held.consistency.isDoubtful()) << i;
+    }
+  }
+}
+
 // Else the same few edges that lie badly would be counted thirty times a second.
 TEST(Consistency, FramesThatFollowAtOnceCountForAPartOfOne) {
   const auto framesUntilNamed = [](int64_t step_ns) {

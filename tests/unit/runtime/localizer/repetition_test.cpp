@@ -1,0 +1,63 @@
+#include "runtime/localizer/repetition.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/unit/runtime/localizer/room_parts.h"
+
+namespace sphc {
+namespace {
+
+class RepetitionTest : public testing::Test {
+ protected:
+  test::RoomParts parts_;
+};
+
+TEST_F(RepetitionTest, ARoomHasNoPattern) {
+  for (uint32_t viewpoint = 0; viewpoint < 3; ++viewpoint) {
+    parts_.see(viewpoint);
+    EXPECT_TRUE(parts_.repetition.look(parts_.front, {}));
+    EXPECT_TRUE(parts_.repetition.moves_m().empty()) << viewpoint;
+  }
+}
+
+TEST_F(RepetitionTest, FindsThePeriodOfAPattern) {
+  for (uint32_t period_px : {48u, 64u}) {
+    parts_.seeRepeated(0, period_px);
+    ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
+    ASSERT_FALSE(parts_.repetition.moves_m().empty()) << period_px;
+    const double period_m = 2 * period_px / parts_.config.color_camera.focal();
+    const Vector3 &move_m = parts_.repetition.moves_m()[0];
+    const double times = std::round(move_m.norm() / period_m);
+    EXPECT_GE(times, 1) << period_px;
+    EXPECT_NEAR(std::abs(move_m.x()), times * period_m, 0.01) << period_px;
+    EXPECT_NEAR(move_m.tail<2>().norm(), 0, 0.01) << period_px;
+  }
+}
+
+TEST_F(RepetitionTest, SaysWhatRepeats) {
+  const auto repeating = [&] {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < parts_.front.liftedCount(); ++i) count += parts_.repetition.repeats(i);
+    return static_cast<double>(count) / parts_.front.liftedCount();
+  };
+  parts_.see(0);
+  ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
+  const double without_pattern = repeating();  // its walls have spots, which are alike
+  parts_.seeRepeated(0, 64);
+  ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
+  EXPECT_LT(without_pattern, 0.6);
+  EXPECT_GT(repeating(), 0.8);
+}
+
+TEST_F(RepetitionTest, EndsWithTheDeadline) {
+  parts_.seeRepeated(0, 64);
+  const Clock late = {[](void *) { return int64_t{10}; }, nullptr};
+  EXPECT_FALSE(parts_.repetition.look(parts_.front, Deadline::after(late, 0, 1)));
+  EXPECT_TRUE(parts_.repetition.moves_m().empty());
+}
+
+}  // namespace
+}  // namespace sphc
