@@ -189,7 +189,8 @@ def sum_of(rows):
     """One row for all: sums, and the worst."""
     total = dict.fromkeys(COLUMNS, "")
     total["world"] = ALL
-    total["rooms"] = str(sum({row["world"]: int(row["rooms"]) for row in rows}.values()))
+    total["rooms"] = str(sum(max(int(row["rooms"]) for row in rows if row["world"] == world)
+                             for world in {row["world"] for row in rows}))
     for column in SUMS:
         total[column] = str(sum(int(row[column]) for row in rows))
     for column in WORST:
