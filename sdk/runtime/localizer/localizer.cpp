@@ -114,8 +114,8 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   const int64_t extracted = config_.clock.now();
   const Rigid color_from_depth = colorFromDepth(frame);
   front_.lift(frame.depth, color_from_depth, deadline.afterShare(kLiftShare));
-  result.faults = consistency_.look({front_.gray(), frame.depth, color_from_depth, frame.color_time_ns,
-                                     frame.depth_time_ns, isDark(front_.gray())});
+  result.faults = consistency_.look(
+      {front_.gray(), frame.depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns, isDark});
   const int64_t aligned = config_.clock.now();
   Work work;
   answer(frame.known, deadline, &result.faults, &work);

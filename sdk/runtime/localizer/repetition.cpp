@@ -10,7 +10,7 @@ using namespace tuning;
 
 namespace {
 
-constexpr uint32_t kGrain = 4096;  // comparisons between two looks at the clock
+constexpr uint32_t kGrain = 2048;  // comparisons between two looks at the clock
 
 bool areEqual(const Vector3 &a, const Vector3 &b, double tolerance_m) {
   return (a - b).squaredNorm() < tolerance_m * tolerance_m;
@@ -44,11 +44,11 @@ bool Repetition::look(const FrontEnd &front, const Deadline &deadline) {
   }
   listMoves();
   Vector3 commonest_m;
-  while (!moves_m_.full() && findCommonest(&commonest_m) >= kFewestMoves) {
+  while (!moves_m_.full() && findCommonest(&watch, &commonest_m) >= kFewestMoves) {
     moves_m_.push(commonest_m);
     keepOthersThan(commonest_m);
   }
-  return true;
+  return !watch.hasPassed();
 }
 
 // Of the descriptors of two keypoints at different places.
@@ -72,9 +72,10 @@ bool Repetition::repeats(uint32_t keypoint) const {
 }
 
 // The mean of the moves that are most alike, and how many they are.
-uint32_t Repetition::findCommonest(Vector3 *commonest_m) const {
+uint32_t Repetition::findCommonest(Watch *watch, Vector3 *commonest_m) const {
   uint32_t most = 0;
   for (const Vector3 &move_m : found_m_.first(found_)) {
+    if (watch->passed(found_)) return 0;
     uint32_t near = 0;
     Vector3 sum_m = Vector3::Zero();
     for (const Vector3 &other : found_m_.first(found_)) {

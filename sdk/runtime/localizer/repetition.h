@@ -29,7 +29,7 @@ class Repetition {
   };
   uint32_t compare(uint32_t a, uint32_t b) const;
   void listMoves();
-  uint32_t findCommonest(Vector3 *commonest_m) const;
+  uint32_t findCommonest(Watch *watch, Vector3 *commonest_m) const;
   void keepOthersThan(const Vector3 &move_m);
 
   const FrontEnd *front_ = nullptr;

@@ -64,8 +64,8 @@ void Verification::verify(const PoseTask &task, Hypothesis *found, Hypothesis *r
   challengeWithoutLeverage(task, found, rival);
   challengeMirrored(task, found, rival);
   challengeByOthers(task, found, rival);
-  challengeRepeated(task, found, rival);
   confirm(task, found, rival);
+  challengeRepeated(task, found, rival);
   if (found->isLocalized() && !found->is_verified) found->outcome = Outcome::kUncertain;
 }
 
@@ -218,20 +218,17 @@ bool Verification::restsOnRepetition(const Hypothesis &found) const {
   return unrepeated < kFewestUnrepeated && unrepeated < kLeastUnrepeated * inliers;
 }
 
-// A pose that rests on a pattern must gain clearly more than those that are off by its period, once or twice.
+// A pose that rests on a pattern must gain clearly more than those that are off by its period, once or twice.  The
+// last step, and the only one that a pose may lack for its deadline.
 void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
-  if (isLeftOut(task, found)) return;
-  if (!repetition_.look(*task.question.front, task.query.deadline)) {
-    isLeftOut(task, found);
-    return;
-  }
+  if (isCut(task) || (!repetition_.look(*task.question.front, task.query.deadline) && isCut(task))) return;
   if (repetition_.moves_m().empty() || !restsOnRepetition(*found)) return;
   PoseTask near = task;
   near.cones_rad = {kConesOfExpectedPose, 1};
   for (const Vector3 &move_m : repetition_.moves_m()) {
     for (const int times : {-1, 1, -2, 2}) {
-      if (isLeftOut(task, found)) return;
+      if (isCut(task)) return;
       rival->challenge(*found);
       rival->estimate.camera_from_map.translation_m += times * move_m;
       rematch(near, rival);

@@ -1,9 +1,9 @@
 // From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
 // predicts, then verification against its rivals: what another search finds, what is found without its
-// high-leverage observations, the second pose of a planar scene, what the other keypoints speak for, and, where
-// what is seen repeats, poses that are off by its period.  In the end an independent search must confirm it.  A
-// pose that lacks one of these for its deadline is uncertain.  What all that finds no pose of is searched once
-// more, among the matches of a looser ratio test.
+// high-leverage observations, the second pose of a planar scene, and what the other keypoints speak for.  An
+// independent search must confirm it.  A pose that lacks one of these for its deadline is uncertain.  In the end,
+// where what is seen repeats, and there is time, it is compared with poses that are off by the period.  What all
+// that finds no pose of is searched once more, among the matches of a looser ratio test.
 #pragma once
 #include "runtime/localizer/fusion.h"
 #include "runtime/localizer/repetition.h"

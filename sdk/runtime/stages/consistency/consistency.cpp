@@ -80,8 +80,9 @@ bool Consistency::isBent() {
 
 bool Consistency::edgesDisagree(const ConsistencyView &view) {
   double score = 0;
-  const bool tells = agreement_.edges >= kFewestEdges && !view.is_dark;
+  bool tells = agreement_.edges >= kFewestEdges;
   if (tells) score = (agreement_.middle() - kHalfway) * sqrtOf(static_cast<double>(agreement_.edges));
+  if (tells && score < kUsual && view.is_dark && view.is_dark(view.gray)) tells = false;
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   if (tells) {

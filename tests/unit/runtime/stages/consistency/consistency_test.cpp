@@ -72,7 +72,7 @@ TEST(Consistency, InTheDarkEdgesSayNothing) {
     for (int32_t i = 0; i < 8; ++i) {
       const MadeView made(3 * i, 3 * i + 14);
       ConsistencyView view = made.view(i * kStepNs);
-      view.is_dark = true;
+      view.is_dark = [](GrayView) { return true; };
       EXPECT_EQ(held.consistency.look(view) & kDepthColorDisagree, Faults{0}) << i;
       EXPECT_FALSE(held.consistency.isDoubtful()) << i;
     }
