@@ -158,7 +158,7 @@ def is_wrong(frame):
 
 
 def is_close(frame):
-    return frame.answer["localized"] and errors(frame.answer)[0] <= 5 and errors(frame.answer)[1] <= 5
+    return frame.answer["localized"] and confidence.pose_of(frame.answer).right
 
 
 def by_room(frames):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/elementary.h"
 #include "runtime/stages/match/distance.h"
 
 namespace sphc {
@@ -15,8 +16,6 @@ constexpr uint32_t kGrain = 2048;  // comparisons between two looks at the clock
 bool areEqual(const Vector3 &a, const Vector3 &b, double tolerance_m) {
   return (a - b).squaredNorm() < tolerance_m * tolerance_m;
 }
-
-double nearestWhole(double x) { return x < 0 ? static_cast<int>(x - 0.5) : static_cast<int>(x + 0.5); }
 
 }  // namespace
 
@@ -95,7 +94,7 @@ uint32_t Repetition::findCommonest(Watch *watch, Vector3 *commonest_m) const {
 void Repetition::keepOthersThan(const Vector3 &move_m) {
   uint32_t kept = 0;
   for (uint32_t i = 0; i < found_; ++i) {
-    const double times = nearestWhole(found_m_[i].dot(move_m) / move_m.squaredNorm());
+    const double times = floorOf(found_m_[i].dot(move_m) / move_m.squaredNorm() + 0.5);
     if (!areEqual(found_m_[i], times * move_m, 2 * kSameMoveM)) found_m_[kept++] = found_m_[i];
   }
   found_ = kept;

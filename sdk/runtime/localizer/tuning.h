@@ -91,7 +91,7 @@ constexpr double kMostLogChanceOfRival = -6;  // of its first matches; of the ei
 // ---- repetition: a pose that is off by the period of what is seen (decision 49) ----
 
 // Of so many keypoints, the strongest, each is asked for its like: another one, at least so far away, with a
-// descriptor within a quarter of the distance that unlike ones have.  Chosen.
+// squared distance of descriptors below this.  Chosen.
 constexpr uint32_t kAskedForLike = 400, kMostDistance2OfLike = 60000;
 constexpr double kLeastMoveM = 0.10, kSameMoveM = 0.03;
 // So many equal moves are a pattern; a floor has two periods.  Chosen: carpets show 20 to 60, a kitchen up to 30.
