@@ -3,6 +3,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/parameters.h"
@@ -143,6 +144,8 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   made->scratch = used_scratch;
   made->color = checked.rig.color_camera;
   made->depth = checked.rig.depth_camera;
+  made->depth_format = sphc::depthFormatOf(checked.depth_format);
+  made->amplitude_min = checked.amplitude_min;
   made->has_clock = checked.clock != nullptr;
   made->log = checked.log;
   made->log_user = checked.log_user;
@@ -227,7 +230,8 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
   Localizer &own_localizer = localizer->localizer;
-  const sphc::FrameLimits limits = {localizer->color, localizer->depth, own_localizer.maps(), localizer->has_clock};
+  const sphc::FrameLimits limits = {localizer->color,         localizer->depth,     localizer->depth_format,
+                                    localizer->amplitude_min, own_localizer.maps(), localizer->has_clock};
   sphc::FrameCopy copy;
   sphc_status status = sphc::readFrame(frame, limits, &copy, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
