@@ -26,9 +26,9 @@ arguments() {
     armhf) # a compiler that may use NEON
       mapfile -t arguments < <(machine arm-linux-gnueabihf && flags '-mfpu=neon-vfpv4 -mfp16-format=ieee')
       arguments+=("${release[@]}") ;;
-    riscv64) mapfile -t arguments < <(machine riscv64-linux-gnu) && arguments+=("${release[@]}") ;;
-    i686) mapfile -t arguments < <(machine i686-linux-gnu) && arguments+=("${release[@]}") ;;
-    newlib) mapfile -t arguments < <(machine arm-none-eabi) && arguments+=("${release[@]}") ;;
+    riscv64) mapfile -t arguments < <(machine riscv64-linux-gnu) && arguments+=("${small[@]}") ;;
+    i686) mapfile -t arguments < <(machine i686-linux-gnu) && arguments+=("${small[@]}") ;;
+    newlib) mapfile -t arguments < <(machine arm-none-eabi) && arguments+=("${small[@]}") ;;
     *) echo "no variant \"$1\"; there are: $all" && return 1 ;;
   esac
 }
