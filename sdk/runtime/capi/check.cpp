@@ -149,7 +149,7 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
     MessageWriter text(message);
     text << name << " image has format " << image.format << "; give ";
     if (depth_format)
-      text << depth_format << ", which is config.depth_format, or set that to another";
+      text << sphc_format_name(depth_format) << " as config.depth_format says, or set that to another";
     else
       text << "GRAY8, RGB8, BGR8 or another that is not of depth";
     return SPHC_E_IMAGE;
@@ -173,7 +173,12 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
     return SPHC_E_IMAGE;
   }
   if (!image.data || reinterpret_cast<uintptr_t>(image.data) % format.alignment) {
-    MessageWriter(message) << name << " image's data pointer is " << (image.data ? "not aligned" : "null");
+    MessageWriter text(message);
+    text << name << " image's data pointer is ";
+    if (image.data)
+      text << "not aligned to " << format.alignment << " bytes";
+    else
+      text << "null";
     return SPHC_E_IMAGE;
   }
   return SPHC_OK;

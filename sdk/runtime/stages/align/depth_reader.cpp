@@ -8,6 +8,7 @@
 namespace sphc {
 namespace {
 
+constexpr uint32_t kOne = 65535;    // a cosine of 1
 constexpr int32_t kJumpShare = 33;  // a step to a neighbour of more than one in so many is an edge, not a slope
 
 bool isInPlace(const DepthReaderConfig &config) {
@@ -41,7 +42,6 @@ void DepthReader::init(const DepthReaderConfig &config) {
   if (config.layout.is_range) makeCosines();
 }
 
-// A pixel without a ray has a cosine that leaves nothing of any range.
 void DepthReader::makeCosines() {
   size_t at = 0;
   for (int32_t y = 0; y < height_; ++y) {
@@ -49,7 +49,7 @@ void DepthReader::makeCosines() {
       Vector2 ray;
       const bool has_ray = config_.camera.unproject({x + 0.5, y + 0.5}, &ray);
       const double cosine = has_ray ? 1 / sqrtOf(1 + ray.squaredNorm()) : 0;
-      cosines_[at] = static_cast<uint16_t>(std::max(65536 * cosine - 0.5, 0.0));
+      cosines_[at] = static_cast<uint16_t>(kOne * cosine + 0.5);
     }
   }
 }
@@ -70,7 +70,7 @@ void DepthReader::decodeRow(const uint8_t *from, int32_t y, uint16_t *z) const {
   const DepthLayout layout = config_.layout;
   const uint16_t *cosines = layout.is_range ? cosines_.data() + int64_t{y} * width_ : nullptr;
   for (int32_t x = 0; x < width_; ++x) {
-    const double cosine = cosines ? (cosines[x] + 1) / 65536.0 : 1;
+    const double cosine = cosines ? cosines[x] / static_cast<double>(kOne) : 1;
     if (layout.kind == DepthLayout::kMetres) {
       float metres;
       std::memcpy(&metres, from + 4 * x, sizeof metres);
@@ -86,7 +86,7 @@ void DepthReader::decodeRow(const uint8_t *from, int32_t y, uint16_t *z) const {
       const uint8_t *pair = from + 3 * (x / 2);
       units = static_cast<uint32_t>(x % 2 ? pair[1] << 4 | pair[2] >> 4 : pair[0] << 4 | (pair[2] & 15));
     }
-    z[x] = static_cast<uint16_t>(cosines ? (units * (cosines[x] + 1u) + 32768u) >> 16 : units);
+    z[x] = static_cast<uint16_t>(cosines ? (units * cosines[x] + kOne / 2) / kOne : units);
   }
 }
 

@@ -35,7 +35,7 @@ class DepthReader {
 
   DepthReaderConfig config_;
   int32_t width_ = 0, height_ = 0;
-  Span<uint16_t> cosines_;  // of a ray to the axis, times 65536, less 1; in state
+  Span<uint16_t> cosines_;  // of a ray to the axis, times 65535; 0: no ray; in state
   Span<uint16_t> z_;        // in scratch
   Span<uint16_t> rows_;     // two rows of it as they were; in scratch
 };

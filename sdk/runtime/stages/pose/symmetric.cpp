@@ -9,11 +9,32 @@ namespace {
 
 constexpr double kLeastPivot = 2.2250738585072014e-308;  // the least normal number: below, a direction says nothing
 
-// In halves, so that rounding errors stay even.
-double sumOf(const double *terms, int count) {
-  if (count == 1) return terms[0];
-  const int half = count / 2;
-  return sumOf(terms, half) + sumOf(terms + half, count - half);
+// Of one to seven terms: in halves, so that rounding errors stay even.
+double sumOf(const double *t, int count) {
+  double sum = t[0];
+  switch (count) {
+    case 2:
+      sum += t[1];
+      break;
+    case 3:
+      sum += t[1] + t[2];
+      break;
+    case 4:
+      sum = (t[0] + t[1]) + (t[2] + t[3]);
+      break;
+    case 5:
+      sum = (t[0] + t[1]) + (t[2] + (t[3] + t[4]));
+      break;
+    case 6:
+      sum = (t[0] + (t[1] + t[2])) + (t[3] + (t[4] + t[5]));
+      break;
+    case 7:
+      sum = (t[0] + (t[1] + t[2])) + ((t[3] + t[4]) + (t[5] + t[6]));
+      break;
+    default:
+      break;
+  }
+  return sum;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ class DepthReaderTest : public testing::Test {
  protected:
   DepthReaderTest() {
     config_.camera = Camera(test::pinhole(kWidth, kHeight, 5));
-    for (int32_t i = 0; i < kWidth * kHeight; ++i) units_.push_back(static_cast<uint16_t>(1000 + 7 * i));
+    for (int32_t i = 0; i < kWidth * kHeight; ++i) units_.push_back(static_cast<uint16_t>(1000 + 2 * i));
   }
 
   // Anew for every reading, so that nothing is left of an earlier one.
