@@ -12,7 +12,7 @@ GrayView grayOf(const sphc_image &color, std::vector<uint8_t> *pixels) {
   layout.group_bytes = 3;
   const GrayView bytes = {static_cast<const uint8_t *>(color.data), width, height,
                           static_cast<int32_t>(color.stride_bytes)};
-  return grayOf({bytes, layout}, {pixels->data(), pixels->size()});
+  return sphc::grayOf({bytes, layout}, {pixels->data(), pixels->size()});
 }
 
 ImageView<uint16_t> depthOf(const sphc_image &depth) {

@@ -16,7 +16,7 @@ using sphc::DepthReader;
 using sphc::DepthReaderConfig;
 using sphc::MessageWriter;
 
-constexpr size_t kObjectBytes = sizeof(sphc_aligner);  // a multiple of the arena's alignment
+constexpr size_t kAlignerBytes = sizeof(sphc_aligner);  // a multiple of the arena's alignment
 
 DenseConfig denseConfig(const sphc_aligner_config &config) {
   DenseConfig dense;
@@ -46,7 +46,7 @@ void layout(const DenseConfig &dense, const DepthReaderConfig &reader, Arena &st
 size_t bytesOf(const DenseConfig &dense, const DepthReaderConfig &reader) {
   Arena arena;
   layout(dense, reader, arena, nullptr);
-  return kObjectBytes + arena.used();
+  return kAlignerBytes + arena.used();
 }
 
 // One of the images to write: is its stride sound?
@@ -109,7 +109,7 @@ sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_alig
     status = sphc::checkApart({"aligner", memory, needed}, {"the config", config, config->struct_size}, message);
   if (status != SPHC_OK) return status;
   auto *made = new (memory) sphc_aligner();
-  Arena arena(static_cast<unsigned char *>(memory) + kObjectBytes);
+  Arena arena(static_cast<unsigned char *>(memory) + kAlignerBytes);
   layout(dense, reader, arena, made);
   made->reader.init(reader);
   made->aligner.init(dense);

@@ -17,12 +17,12 @@ using sphc::LocalizerConfig;
 using sphc::MemoryRange;
 using sphc::MessageWriter;
 
-constexpr size_t kObjectBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
+constexpr size_t kLocalizerBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
 
 sphc_memory measure(const LocalizerConfig &config) {
   Arena state, scratch;
   Localizer::layout(config, state, scratch, nullptr);
-  return {kObjectBytes + state.used(), scratch.used(), sphc::kArenaAlignment, 0};
+  return {kLocalizerBytes + state.used(), scratch.used(), sphc::kArenaAlignment, 0};
 }
 
 // Finds the index-th piece of the layout walk.
@@ -102,7 +102,7 @@ sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uin
   if (status != SPHC_OK) return status;
   if (!piece) return SPHC_E_ARGUMENT;
   if (index == 0) {
-    *piece = {"localizer.object", kObjectBytes, 0, 0};
+    *piece = {"localizer.object", kLocalizerBytes, 0, 0};
     return SPHC_OK;
   }
   const LocalizerConfig own = sphc::localizerConfigFrom(checked);
@@ -137,7 +137,7 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   if (status != SPHC_OK) return status;
 
   auto *made = new (state) sphc_localizer();
-  Arena state_arena(static_cast<unsigned char *>(state) + kObjectBytes), scratch_arena(scratch);
+  Arena state_arena(static_cast<unsigned char *>(state) + kLocalizerBytes), scratch_arena(scratch);
   Localizer::layout(own, state_arena, scratch_arena, &made->localizer);
   made->localizer.init(own);
   made->state = used_state;
