@@ -168,15 +168,22 @@ TEST(CInterfaceConvention, OdometryIsReadInItsOwnWorld) {  // which is no map
   EXPECT_NEAR(seen[2], -4, 1e-15);
 }
 
-TEST(CInterfaceConvention, WhatFollowsHasNoMinusZero) {
-  const double up_map[3] = {0, 0, 1};
-  const sphc_rigid camera_from_map = {{0.5, 0.5, -0.5, 0.5}, {0, 0, 0}};
-  for (const sphc_convention convention : kAll) {
-    sphc_rigid world_from_map;
+TEST(CInterfaceConvention, NoZeroHasASign) {  // which reads badly in a line of text
+  const auto expectPlain = [](const double *numbers, int count) {
+    for (int i = 0; i < count; ++i) EXPECT_FALSE(numbers[i] == 0 && std::signbit(numbers[i])) << i;
+  };
+  for (const Vector &v : vectors()) {
+    SCOPED_TRACE(v.scene + ", " + sphc_convention_name(v.convention));
+    const sphc_rigid world = rigidOf(v.world_from_map), camera = rigidOf(v.camera_from_map);
     double pose[7];
-    ASSERT_EQ(sphc_convention_make_world(convention, up_map, &world_from_map, nullptr), SPHC_OK);
-    ASSERT_EQ(sphc_convention_write_camera(convention, &world_from_map, &camera_from_map, pose, nullptr), SPHC_OK);
-    for (const double number : pose) EXPECT_FALSE(number == 0 && std::signbit(number));
+    ASSERT_EQ(sphc_convention_write_camera(v.convention, &world, &camera, pose, nullptr), SPHC_OK);
+    expectPlain(pose, 7);
+    ASSERT_EQ(sphc_convention_write_map(v.convention, &world, pose, nullptr), SPHC_OK);
+    expectPlain(pose, 7);
+    if (v.up_map.empty()) continue;
+    sphc_rigid made;
+    ASSERT_EQ(sphc_convention_make_world(v.convention, v.up_map.data(), &made, nullptr), SPHC_OK);
+    expectPlain(made.q_wxyz, 4);
   }
 }
 

@@ -91,13 +91,15 @@ TEST(Convention, NearlyMinusZIsExactToo) {
 
 TEST(Convention, AHalfTurnHasOneSign) {  // whatever the last digits are
   Random random(4);
-  for (int i = 0; i < 2000; ++i) {
-    const Vector3 axis = i % 2 ? test::randomDirection(&random) : Vector3(0, i % 4 ? -0.6 : 0, 0.8).normalized();
-    const double noise = 1e-15 * test::normal(&random);
-    const double q_wxyz[4] = {noise, axis.x(), axis.y(), axis.z()};
+  const Vector3 axes[] = {{0.6, 0, -0.8}, {-0.6, 0, 0.8}, {0, 0.6, -0.8}, {0, -0.6, 0.8}, {0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < 6000; ++i) {
+    const Vector3 axis = axes[i % 6], noise = 1e-15 * test::normalVector(&random);
+    const double q_wxyz[4] = {1e-15 * test::normal(&random), axis.x() + noise.x(), axis.y() + noise.y(),
+                              axis.z() + noise.z()};
     const sphc_rigid numbers = numbersOf({rotationFromQuaternion(q_wxyz), Vector3::Zero()});
+    const double sign = i % 2 ? -1 : 1;
     EXPECT_GE(numbers.q_wxyz[0], 0);
-    const double sign = (axis.x() != 0 ? axis.x() : axis.y() != 0 ? axis.y() : axis.z()) < 0 ? -1 : 1;
+    EXPECT_LE(numbers.q_wxyz[0], 1e-13);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(numbers.q_wxyz[k + 1], sign * axis[k], 1e-13);
   }
 }
