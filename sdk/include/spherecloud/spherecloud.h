@@ -219,12 +219,12 @@ SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_
 SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
 
 /* How another system states poses: seven numbers in its own order.  A camera's pose is world_from_camera, but for
- * COLMAP.  Of a world only the vertical and the hand are laid down; origin and heading are the caller's.
+ * COLMAP.  Of a world only the vertical and the handedness are fixed; origin and heading are the caller's.
  *
- * `world_from_map` says where the map lies in the other system's world.  That world is right-handed here: where the
- * system is left-handed, nothing but the seven numbers is mirrored.  It comes from make_world, from read_map, or
- * from a pose that is known in both.  Null is the map's own frame, for COLMAP and TUM alone, whose worlds need no
- * vertical.  docs/frames.md has examples that can be checked by hand.
+ * `world_from_map` says where the map lies in the other system's world, which is right-handed here: where the
+ * system is left-handed, nothing but the seven numbers is mirrored.  make_world and read_map give it, or a pose
+ * that is known in the map and in that world.  Null is the map's own frame, for COLMAP and TUM alone, whose worlds
+ * need no vertical.  docs/frames.md has examples that can be checked by hand.
  *
  * Errors of the functions: ARGUMENT: null, not finite, beyond a limit; UNSUPPORTED: a convention that this library
  * does not know.  The message names cause and cure.  An output may be an input. */
