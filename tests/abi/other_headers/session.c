@@ -1,18 +1,16 @@
-/* A whole session of a program that was built with an older header: this file is compiled against each of
- * headers/, with SESSION the name of its function.  What it is given are atoms, whose layout never changes. */
-#include <spherecloud/spherecloud.h>
+/* A whole session of a program: this file is compiled against today's header and each one that was kept, with
+ * SESSION the name of its function. */
+#include "session.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#define MARK 0x5A
 /* Something of the caller's lies behind every struct that the library writes to. */
 #define MARKED(type)  \
   struct {            \
     type its;         \
     uint8_t mark[64]; \
   }
-#define CHECK(right) \
-  if (!(right)) return __LINE__
 
 static int isMarked(const uint8_t *mark, size_t bytes) {
   size_t i;
@@ -21,11 +19,12 @@ static int isMarked(const uint8_t *mark, size_t bytes) {
   return 1;
 }
 
-/* 0, or the line of what went wrong. */
-int SESSION(const void *file, size_t file_bytes, const sphc_rig *rig, const sphc_image *color,
-            const sphc_image *depth, sphc_rigid *camera_from_map);
-int SESSION(const void *file, size_t file_bytes, const sphc_rig *rig, const sphc_image *color,
-            const sphc_image *depth, sphc_rigid *camera_from_map) {
+/* A multiple of the alignment, as aligned_alloc wants it. */
+static size_t whole(uint64_t bytes, uint32_t alignment) {
+  return (size_t)((bytes + alignment - 1) / alignment * alignment);
+}
+
+int SESSION(const seen *what, sphc_rigid *camera_from_map) {
   MARKED(sphc_localizer_config) config;
   MARKED(sphc_map_info) info;
   MARKED(sphc_localizer_result) result;
@@ -35,33 +34,39 @@ int SESSION(const void *file, size_t file_bytes, const sphc_rig *rig, const sphc
   sphc_map *map = NULL;
   sphc_localizer *localizer = NULL;
   void *view, *state, *scratch;
+  size_t view_bytes, state_bytes, scratch_bytes;
 
-  CHECK(sphc_map_memory(&need) == SPHC_OK);
-  view = malloc(need.state_bytes);
-  CHECK(sphc_map_init(view, need.state_bytes, file, file_bytes, &map, NULL) == SPHC_OK);
+  CHECK(sphc_map_memory(&need) == SPHC_OK && need.state_bytes <= SPHC_MAP_BYTES_MAX);
+  view_bytes = whole(need.state_bytes, need.alignment);
+  view = aligned_alloc(need.alignment, view_bytes);
+  CHECK(sphc_map_init(view, view_bytes, what->file, what->file_bytes, &map, NULL) == SPHC_OK);
   memset(&info, MARK, sizeof info);
   info.its.struct_size = sizeof info.its;
   CHECK(sphc_map_get_info(map, &info.its) == SPHC_OK);
-  CHECK(info.its.file_bytes == file_bytes && isMarked(info.mark, sizeof info.mark));
+  CHECK(info.its.file_bytes == what->file_bytes && isMarked(info.mark, sizeof info.mark));
 
   memset(&config, MARK, sizeof config);
   CHECK(sphc_localizer_config_init(&config.its, sizeof config.its) == SPHC_OK);
   CHECK(isMarked(config.mark, sizeof config.mark));
-  config.its.rig = *rig;
+  config.its.rig = what->rig;
+  config.its.max_keypoints = KEYPOINTS;
   CHECK(sphc_localizer_memory(&config.its, &need, NULL) == SPHC_OK);
-  state = aligned_alloc(need.alignment, (need.state_bytes + need.alignment - 1) / need.alignment * need.alignment);
-  scratch =
-      aligned_alloc(need.alignment, (need.scratch_bytes + need.alignment - 1) / need.alignment * need.alignment);
-  CHECK(sphc_localizer_init(state, need.state_bytes, scratch, need.scratch_bytes, &config.its, &localizer, NULL) ==
-        SPHC_OK);
+  CHECK(need.state_bytes <= SPHC_LOCALIZER_STATE_BYTES_MAX(config.its.max_keypoints, config.its.max_maps));
+  CHECK(need.scratch_bytes <=
+        SPHC_LOCALIZER_SCRATCH_BYTES_MAX(config.its.max_keypoints, what->color.width, what->color.height));
+  state_bytes = whole(need.state_bytes, need.alignment);
+  scratch_bytes = whole(need.scratch_bytes, need.alignment);
+  state = aligned_alloc(need.alignment, state_bytes);
+  scratch = aligned_alloc(need.alignment, scratch_bytes);
+  CHECK(sphc_localizer_init(state, state_bytes, scratch, scratch_bytes, &config.its, &localizer, NULL) == SPHC_OK);
   CHECK(sphc_localizer_set_map(localizer, 5, map) == SPHC_OK);
 
   memset(&prior, 0, sizeof prior);
   prior.struct_size = sizeof prior;
   memset(&frame, 0, sizeof frame);
   frame.struct_size = sizeof frame;
-  frame.color = *color;
-  frame.depth = *depth;
+  frame.color = what->color;
+  frame.depth = what->depth;
   frame.prior = &prior;
   memset(&result, MARK, sizeof result);
   result.its.struct_size = sizeof result.its;
