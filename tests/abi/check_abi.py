@@ -48,9 +48,9 @@ def check_symbols(library, nm, readelf):
     faults = [f"{name} is not exported" for name in sorted(wanted - exported)]
     faults += [f"{name} is exported and not in exports.map" for name in sorted(exported - wanted)]
     abi = {re.match(r"SPHERECLOUD_(\d+)", name.split("@@")[1]).group(1) for name in wanted if "UNSTABLE" not in name}
-    name = re.search(r"SONAME.*\[(.*)\]", run(readelf, "-d", library)).group(1)
-    if [name] != [f"libspherecloud.so.{number}" for number in abi]:
-        faults.append(f"the library is called {name}, its nodes are of ABI {', '.join(sorted(abi))}")
+    names = re.findall(r"SONAME.*\[(.*)\]", run(readelf, "-d", library))
+    if names != [f"libspherecloud.so.{number}" for number in abi]:
+        faults.append(f"the library is called {names}, its nodes are of ABI {', '.join(sorted(abi))}")
     if faults:
         sys.exit("\n".join(faults))
 

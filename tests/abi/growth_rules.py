@@ -14,6 +14,7 @@ sys.path.insert(0, str(HERE.parent.parent / "toolchains"))
 import describe_interface  # noqa: E402 (its folder is named above)
 
 FIXED = {f"{sign}int{bits}_t" for sign in ("", "u") for bits in (8, 16, 32, 64)} | {"float", "double", "char"}
+BYTES = {"uint32_t": 4, "int32_t": 4, "float": 4, "uint64_t": 8, "int64_t": 8, "double": 8}
 STRIDED = {"sphc_localizer_observation"}  # elements at a stride of the caller's grow as well
 SAME_FOR_EVER = {"SPHC_MESSAGE_BYTES", "SPHC_MAP_NONE"}
 
@@ -48,26 +49,35 @@ def unbindable(told):
     return faults
 
 
-def broken_struct(before, now):
+def goes_on(old, new, types):
+    """The same field, or one of as many bytes in the place of a reserved one, which older programs leave zero."""
+    if old["name"].startswith("reserved") and old["type"] in BYTES:
+        return BYTES.get(types.get(new["type"], new["type"])) == BYTES[old["type"]]
+    return (old["name"], old["type"]) == (new["name"], new["type"])
+
+
+def broken_struct(before, now, types):
     old, new, name = before["fields"], now["fields"], before["name"]
     faults = [f"{name} had {a['type']} {a['name']} where it has {b['type']} {b['name']}"
-              for a, b in zip(old, new) if (a["name"], a["type"]) != (b["name"], b["type"])]
+              for a, b in zip(old, new) if not goes_on(a, b, types)]
     if faults:
         return faults[:1]  # what follows has moved with it
     if len(new) < len(old) or (len(new) > len(old) and not grows(before)):
         faults.append(f"{name} had {len(old)} fields and has {len(new)}")
     for machine, was in before["layouts"].items():
-        faults += moved(name, was, now["layouts"][machine], [field["name"] for field in new[len(old):]], machine)
+        faults += moved(name, was, now["layouts"][machine], machine)
     return faults
 
 
-def moved(struct, was, now, added, machine):
+def moved(struct, was, now, machine):
     """The first place where a machine's layout of a struct has broken."""
-    for field, offset in was["offsets"].items():
-        if now["offsets"][field] != offset:
+    offsets, fields = list(was["offsets"].values()), list(now["offsets"].items())
+    for offset, (field, is_at) in zip(offsets, fields):
+        if is_at != offset:
             return [f"{struct}.{field} has moved on {machine}"]
-    for field in added:
-        if now["offsets"][field] < was["bytes"]:  # which an older program never set
+    added = fields[len(offsets):]
+    for field, is_at in added:
+        if is_at < was["bytes"]:  # which an older program never set
             return [f"{struct}.{field} lies in what was padding on {machine}: put a field of 8 bytes in front of it"]
     if now["alignment"] != was["alignment"] or (not added and now["bytes"] != was["bytes"]):
         return [f"{struct} has another size or alignment on {machine}"]
@@ -93,7 +103,7 @@ def broken(before, now):
     faults = broken_constants(before, now)
     structs, functions = by_name(now["structs"]), by_name(now["functions"])
     for name, struct in stable(before, "structs").items():
-        faults += broken_struct(struct, structs[name]) if name in structs else [f"{name} is gone"]
+        faults += broken_struct(struct, structs[name], now["types"]) if name in structs else [f"{name} is gone"]
     for name, function in stable(before, "functions").items():
         if name not in functions:
             faults.append(f"{name} is gone")

@@ -31,6 +31,9 @@ BREAKS = {
     "a field is gone": replaced("  uint64_t seed;", ""),
     "a field of another type": replaced("double confidence;", "int64_t confidence;"),
     "an atom that grew": lambda text: grown(text, "sphc_rigid", "double scale"),
+    "a reserved field that is gone": replaced("  uint32_t reserved;\n  sphc_clock_fn clock;", "  sphc_clock_fn clock;"),
+    "more in the place of a reserved field": replaced("  uint32_t reserved;\n  sphc_clock_fn clock;",
+                                                      "  uint64_t wide;\n  sphc_clock_fn clock;"),
     "a struct that grew and changed": grown_and_changed,
     "a function is gone": replaced("SPHC_API void sphc_localizer_reset(sphc_localizer *localizer);", ""),
     "a parameter of another type": replaced("uint32_t point_index, double direction[3]);",
@@ -43,6 +46,8 @@ ADDITIONS = {
     "a config that grew": lambda text: grown(text, "sphc_localizer_config", "uint64_t added"),
     "a result that grew": lambda text: grown(text, "sphc_localizer_result", "double added[4]"),
     "an element that grew": lambda text: grown(text, "sphc_localizer_observation", "uint32_t added"),
+    "a field in the place of a reserved one": replaced("  uint32_t reserved;\n  sphc_clock_fn clock;",
+                                                       "  sphc_localizer_mode wanted;\n  sphc_clock_fn clock;"),
     "a function more": declared("SPHC_API sphc_status sphc_localizer_added(sphc_localizer *localizer);"),
     "a struct and a function more": declared("typedef struct sphc_added {\n  uint32_t struct_size, a;\n} sphc_added;\n"
                                              "SPHC_API void sphc_get_added(sphc_added *added);"),

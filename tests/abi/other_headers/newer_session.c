@@ -37,6 +37,29 @@ static int isRefused(sphc_status status, const char *message, const char *argume
   return status == SPHC_E_UNSUPPORTED && strstr(message, argument) && strstr(message, "is of a newer header");
 }
 
+static int aligned(const seen *what) {
+  static uint16_t depth[320 * 240];
+  sphc_aligner *aligner = NULL;
+  sphc_aligner_config config;
+  sphc_aligned to = {0};
+  sphc_message message = {""};
+  CHECK(sphc_aligner_config_init(&config, sizeof config) == SPHC_OK);
+  config.rig = what->rig;
+  config.added_later = 1;
+  CHECK(isRefused(sphc_aligner_init(scratch, sizeof scratch, &config, &aligner, &message), message.text, "config"));
+  config.added_later = 0;
+  CHECK(sphc_aligner_init(scratch, sizeof scratch, &config, &aligner, &message) == SPHC_OK);
+  to.struct_size = sizeof to;
+  to.depth = depth;
+  to.depth_stride_bytes = 2 * 320;
+  to.added_later = 1;
+  CHECK(isRefused(sphc_aligner_process(aligner, &what->depth, &to), sphc_aligner_message(aligner), "aligned"));
+  to.added_later = 0;
+  CHECK(sphc_aligner_process(aligner, &what->depth, &to) == SPHC_OK);
+  sphc_aligner_fini(&aligner);
+  return 0;
+}
+
 static int configured(const seen *what, sphc_localizer_config *config) {
   sphc_memory newer, known;
   sphc_message message = {""};
@@ -95,7 +118,7 @@ int session_of_another(const seen *what, sphc_rigid *camera_from_map) {
   sphc_localizer_config config;
   int line;
   CHECK(sphc_map_init(view, sizeof view, what->file, what->file_bytes, &map, NULL) == SPHC_OK);
-  if ((line = everyOtherStruct(map)) || (line = configured(what, &config))) return line;
+  if ((line = everyOtherStruct(map)) || (line = aligned(what)) || (line = configured(what, &config))) return line;
   CHECK(sphc_localizer_init(state, sizeof state, scratch, sizeof scratch, &config, &localizer, NULL) == SPHC_OK);
   CHECK(sphc_localizer_set_map(localizer, 5, map) == SPHC_OK);
   if ((line = localized(localizer, what, camera_from_map)) || (line = observed(localizer))) return line;

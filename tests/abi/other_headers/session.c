@@ -24,6 +24,51 @@ static size_t whole(uint64_t bytes, uint32_t alignment) {
   return (size_t)((bytes + alignment - 1) / alignment * alignment);
 }
 
+/* 0, or the line of what went wrong; so do all below. */
+static int aligns(const seen *what) {
+  MARKED(sphc_aligner_config) config;
+  sphc_aligned aligned;
+  sphc_memory need;
+  sphc_aligner *aligner = NULL;
+  size_t bytes;
+  void *memory;
+  uint16_t *depth = (uint16_t *)calloc((size_t)what->color.width * what->color.height, sizeof *depth);
+  memset(&config, MARK, sizeof config);
+  CHECK(sphc_aligner_config_init(&config.its, sizeof config.its) == SPHC_OK);
+  CHECK(isMarked(config.mark, sizeof config.mark));
+  config.its.rig = what->rig;
+  CHECK(sphc_aligner_memory(&config.its, &need, NULL) == SPHC_OK);
+  bytes = whole(need.state_bytes, need.alignment);
+  memory = aligned_alloc(need.alignment, bytes);
+  CHECK(sphc_aligner_init(memory, bytes, &config.its, &aligner, NULL) == SPHC_OK);
+  memset(&aligned, 0, sizeof aligned);
+  aligned.struct_size = sizeof aligned;
+  aligned.depth = depth;
+  aligned.depth_stride_bytes = what->color.width * (uint32_t)sizeof *depth;
+  CHECK(sphc_aligner_process(aligner, &what->depth, &aligned) == SPHC_OK);
+  CHECK(depth[what->color.width * (what->color.height / 2) + what->color.width / 2] > 0);
+  sphc_aligner_fini(&aligner);
+  free(memory);
+  free(depth);
+  return 0;
+}
+
+static int inspects(const sphc_localizer *localizer) {
+  MARKED(sphc_localizer_parameter_range) range;
+  static sphc_localizer_observation observations[KEYPOINTS];
+  uint32_t count = 0, matched = 0, i;
+  memset(&range, MARK, sizeof range);
+  range.its.struct_size = sizeof range.its;
+  CHECK(sphc_localizer_get_parameter_range(SPHC_PARAMETER_PROBES, &range.its) == SPHC_OK);
+  CHECK(range.its.struct_size == sizeof range.its && isMarked(range.mark, sizeof range.mark));
+  CHECK(sphc_localizer_observations(localizer, observations, sizeof *observations, KEYPOINTS - 1, &count) ==
+        SPHC_OK);
+  for (i = 0; i < count && i < KEYPOINTS - 1; ++i)
+    matched += (observations[i].flags & SPHC_OBSERVATION_MATCHED) != 0;
+  CHECK(matched > 0 && observations[KEYPOINTS - 1].flags == 0);
+  return 0;
+}
+
 int SESSION(const seen *what, sphc_rigid *camera_from_map) {
   MARKED(sphc_localizer_config) config;
   MARKED(sphc_map_info) info;
@@ -35,6 +80,7 @@ int SESSION(const seen *what, sphc_rigid *camera_from_map) {
   sphc_localizer *localizer = NULL;
   void *view, *state, *scratch;
   size_t view_bytes, state_bytes, scratch_bytes;
+  int line;
 
   CHECK(sphc_map_memory(&need) == SPHC_OK && need.state_bytes <= SPHC_MAP_BYTES_MAX);
   view_bytes = whole(need.state_bytes, need.alignment);
@@ -74,6 +120,7 @@ int SESSION(const seen *what, sphc_rigid *camera_from_map) {
   CHECK(result.its.struct_size == sizeof result.its && isMarked(result.mark, sizeof result.mark));
   CHECK(result.its.outcome == SPHC_OUTCOME_LOCALIZED);
   *camera_from_map = result.its.camera_from_map;
+  if ((line = aligns(what)) || (line = inspects(localizer))) return line;
 
   sphc_localizer_fini(&localizer);
   sphc_map_fini(&map);
