@@ -142,11 +142,6 @@ void convertRow(const RawImage &raw, uint32_t y, sphc_format format, uint8_t *ou
 
 }  // namespace
 
-bool isDelivered(sphc_format format) {
-  return format == SPHC_FORMAT_GRAY8 || format == SPHC_FORMAT_RGB8 || format == SPHC_FORMAT_BGR8 ||
-         format == SPHC_FORMAT_DEPTH16;
-}
-
 bool canConvert(Layout layout, sphc_format format) {
   return isDelivered(format) && (layout == Layout::Depth16) == (format == SPHC_FORMAT_DEPTH16);
 }

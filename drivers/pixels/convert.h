@@ -5,9 +5,6 @@
 
 namespace sphc::pixels {
 
-// Whether drivers make images of this format: GRAY8, RGB8, BGR8 and DEPTH16.
-bool isDelivered(sphc_format format);
-
 // Whether `layout` can become `format`: depth becomes DEPTH16 alone, and all else everything but DEPTH16.
 bool canConvert(Layout layout, sphc_format format);
 

@@ -4,7 +4,6 @@
 
 #include <cstring>
 
-#include "convert.h"
 #include "explain.h"
 
 namespace sphc::pixels {
@@ -47,7 +46,7 @@ sphc_status MjpegDecoder::decode(const uint8_t *data, size_t bytes, const OutIma
   if (!handle_) return explain(message, SPHC_E_STATE, "JPEG decoder: was not made, memory ran out");
   const sphc_status status = checkOut(out, message);
   if (status < 0) return status;
-  if (!isDelivered(out.format) || out.format == SPHC_FORMAT_DEPTH16)
+  if (out.format == SPHC_FORMAT_DEPTH16)
     return explain(message, SPHC_E_UNSUPPORTED, "JPEG becomes GRAY8, RGB8 or BGR8, no other format");
   if (!data || bytes == 0) return explain(message, SPHC_E_IMAGE, "JPEG frame of %zu bytes: empty", bytes);
 

@@ -176,8 +176,8 @@ TEST(Convert, RefusesDepthAsColourAndColourAsDepth) {
   for (const Layout layout :
        {Layout::Grey, Layout::Yuyv, Layout::Uyvy, Layout::Nv12, Layout::Rgb24, Layout::Bgr24, Layout::Bgrx32})
     EXPECT_EQ(tried(layout, SPHC_FORMAT_DEPTH16), SPHC_E_UNSUPPORTED);
-  EXPECT_EQ(tried(Layout::Bgrx32, SPHC_FORMAT_BGRA8), SPHC_E_UNSUPPORTED);  // drivers do not deliver it
-  EXPECT_EQ(tried(Layout::Nv12, SPHC_FORMAT_NV12), SPHC_E_UNSUPPORTED);
+  EXPECT_EQ(tried(Layout::Bgrx32, SPHC_FORMAT_BGRA8), SPHC_E_IMAGE);  // drivers do not deliver it
+  EXPECT_EQ(tried(Layout::Nv12, SPHC_FORMAT_NV12), SPHC_E_IMAGE);
 }
 
 TEST(Convert, RefusesAnotherSize) {
