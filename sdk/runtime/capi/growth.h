@@ -50,8 +50,13 @@ constexpr StructKind kindOf(const sphc_localizer_prior *) {
 constexpr StructKind kindOf(const sphc_localizer_parameter_range *) {
   return ungrown<sphc_localizer_parameter_range>("sphc_localizer_parameter_range");
 }
+constexpr StructKind kindOf(const sphc_localizer_prediction *) {
+  return ungrown<sphc_localizer_prediction>("sphc_localizer_prediction");
+}
+// 0.2 was without jump_m.
 constexpr StructKind kindOf(const sphc_localizer_result *) {
-  return ungrown<sphc_localizer_result>("sphc_localizer_result");
+  return {"sphc_localizer_result", offsetof(sphc_localizer_result, jump_m), sizeof(sphc_localizer_result),
+          alignof(sphc_localizer_result)};
 }
 
 // Of any of them.

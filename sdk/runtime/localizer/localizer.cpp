@@ -125,7 +125,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
-  learn();
+  result.jump = learn();
   result.keypoints = front_.keypointCount();
   result.lifted = front_.liftedCount();
   result.samples = work.samples;
@@ -134,6 +134,11 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   result.times = {elapsedNs(begin, extracted), elapsedNs(extracted, aligned), work.match_ns,
                   located_ns > work.match_ns ? located_ns - work.match_ns : 0};
   return result;
+}
+
+bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
+  Motion motion;
+  return tracker_.motion(&motion) && moveTo(time_ns, motion, moved);
 }
 
 // The camera moves between the two exposures; odometry tells how.
@@ -323,14 +328,15 @@ void Localizer::observe() {
   }
 }
 
-void Localizer::learn() {
+Jump Localizer::learn() {
   if (best_.isLocalized()) {
     calibrator_.learn(best_.estimate);
     fusion_.clear();
-    if (config_.tracks) tracker_.accept(best_.map, best_.estimate);
+    if (config_.tracks) return tracker_.accept(best_.map, best_.estimate);
   } else if (config_.tracks) {
     tracker_.miss();
   }
+  return {};
 }
 
 }  // namespace sphc

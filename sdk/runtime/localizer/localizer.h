@@ -40,6 +40,9 @@ class Localizer {
 
   // `frame` fits the config.
   LocalizerResult process(const FrameInput &frame);
+  // Between frames: where the camera is at a time of the caller's; false where that is not known.
+  bool predict(int64_t time_ns, MovedPose *moved) const;
+  TrackingState state() const { return tracker_.state(); }
   // Forgets where the camera was; what was learnt of the depth sensor stays.
   void reset();
 
@@ -66,7 +69,7 @@ class Localizer {
   bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
   void observe();
-  void learn();
+  Jump learn();
 
   LocalizerConfig config_;
   FrontEnd front_;

@@ -5,6 +5,7 @@
 #include "runtime/base/clock.h"
 #include "runtime/localizer/judgement.h"
 #include "runtime/localizer/tuning.h"
+#include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 namespace {
@@ -19,13 +20,9 @@ double sigmaAnAxis(const Estimate &estimate, int first) {
   return doubtOf(estimate.inliers) * sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
 }
 
-// Rotation vector of a rotation of less than half a turn.
-Vector3 vectorFromRotation(const Matrix3 &rotation) {
-  double q[4];
-  quaternionFromRotation(rotation, q);
-  const Vector3 axis(q[1], q[2], q[3]);
-  const double sine = axis.norm();
-  return sine > 1e-12 ? Vector3(2 * atan2Of(sine, q[0]) / sine * axis) : Vector3(2 * axis);
+Jump offBetween(const Rigid &found, const Rigid &expected) {
+  const Vector3 shift_m = found.inverse().translation_m - expected.inverse().translation_m;
+  return {0, shift_m.norm(), rotationAngle(found.rotation * expected.rotation.transpose())};
 }
 
 }  // namespace
@@ -91,21 +88,25 @@ bool Tracker::predict(Prediction *prediction) const {
   return true;
 }
 
-bool Tracker::agrees(uint32_t map, const Rigid &camera_from_map) const {
+Jump Tracker::jumpTo(uint32_t map, const Rigid &camera_from_map) const {
   Prediction expected;
-  if (!predict(&expected) || expected.map != map) return false;
-  const Matrix3 off = camera_from_map.rotation * expected.camera_from_map.rotation.transpose();
-  const Vector3 shift = camera_from_map.inverse().translation_m - expected.camera_from_map.inverse().translation_m;
-  return rotationAngle(off) < kGateSigmas * expected.rotation_sigma_rad &&
-         shift.norm() < kGateSigmas * expected.translation_sigma_m;
+  if (!predict(&expected)) return {kRelocalized, 0, 0};
+  if (expected.map != map) return {kMapChanged, 0, 0};
+  Jump jump = offBetween(camera_from_map, expected.camera_from_map);
+  const bool agrees = jump.turn_rad < kGateSigmas * expected.rotation_sigma_rad &&
+                      jump.shift_m < kGateSigmas * expected.translation_sigma_m;
+  jump.events = agrees ? Events{0} : kJumped;
+  return jump;
 }
 
-void Tracker::accept(uint32_t map, const Estimate &estimate) {
-  if (agrees(map, estimate.camera_from_map))
+Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
+  const Jump jump = jumpTo(map, estimate.camera_from_map);
+  if (!jump.events)
     state_ = TrackingState::kTracking;
   else if (state_ == TrackingState::kTracking)
     state_ = TrackingState::kLost;
-  const double dt = seconds(elapsedNs(pose_time_ns_, time_ns_));
+  velocity_ns_ = elapsedNs(pose_time_ns_, time_ns_);
+  const double dt = seconds(velocity_ns_);
   has_velocity_ = state_ == TrackingState::kTracking && dt <= kSteadySeconds;
   if (has_velocity_) {
     const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();
@@ -117,29 +118,52 @@ void Tracker::accept(uint32_t map, const Estimate &estimate) {
   map_ = map;
   pose_time_ns_ = time_ns_;
   camera_from_map_ = estimate.camera_from_map;
+  covariance_ = statedCovariance(estimate);
   rotation_sigma_rad_ = hypotOf(sigmaAnAxis(estimate, 0), kLeastTurnSigma);
   translation_sigma_m_ = hypotOf(sigmaAnAxis(estimate, 3), kLeastShiftSigma);
   inliers_ = estimate.inliers;
   moved_ = {};
   moved_rotation2_ = moved_translation2_ = 0;
+  return jump;
 }
 
 bool Tracker::vetoes(uint32_t map, const Estimate &estimate) const {
   Prediction expected;
   const bool is_known = state_ != TrackingState::kRelocalizing && moved_known_ && predict(&expected);
   if (!is_known || expected.map != map || estimate.inliers >= inliers_) return false;
-  const Rigid &found = estimate.camera_from_map;
-  const double turn_rad = rotationAngle(found.rotation * expected.camera_from_map.rotation.transpose());
-  const Vector3 shift_m = found.inverse().translation_m - expected.camera_from_map.inverse().translation_m;
+  const Jump jump = offBetween(estimate.camera_from_map, expected.camera_from_map);
   const auto jumps = [](double off, double expected_sigma, double own_sigma, double most) {
     return off > std::max(most, kGateSigmas * hypotOf(expected_sigma, own_sigma));
   };
-  return jumps(turn_rad, expected.rotation_sigma_rad, sigmaAnAxis(estimate, 0), kNoJump.most_turn_rad) ||
-         jumps(shift_m.norm(), expected.translation_sigma_m, sigmaAnAxis(estimate, 3), kNoJump.most_shift_m);
+  return jumps(jump.turn_rad, expected.rotation_sigma_rad, sigmaAnAxis(estimate, 0), kNoJump.most_turn_rad) ||
+         jumps(jump.shift_m, expected.translation_sigma_m, sigmaAnAxis(estimate, 3), kNoJump.most_shift_m);
 }
 
 void Tracker::miss() {
   if (state_ == TrackingState::kTracking) state_ = TrackingState::kLost;
+}
+
+bool Tracker::motion(Motion *motion) const {
+  if (!has_pose_) return false;
+  *motion = {map_, pose_time_ns_, pose_time_ns_, camera_from_map_, covariance_, lastStep()};
+  if (!moved_known_ || time_ns_ == pose_time_ns_) return true;
+  motion->time_ns = time_ns_;
+  motion->camera_from_map = moved_ * camera_from_map_;
+  motion->covariance =
+      carried(covariance_, moved_) + diagonalOf(sqrtOf(moved_rotation2_), sqrtOf(moved_translation2_));
+  return true;
+}
+
+// To the pose of motion().
+Step Tracker::lastStep() const {
+  const bool is_found = time_ns_ == pose_time_ns_;
+  if (moved_known_ && has_step_ && seconds(step_ns_) <= kSteadySeconds)
+    return {seconds(step_ns_), step_, diagonalOf(odometry_.rotation_sigma_rad, odometry_.translation_sigma_m),
+            is_found ? 0.0 : 1.0};
+  if (!has_velocity_ || (moved_known_ && !is_found)) return {};
+  // Between two poses that are equally good.
+  const double dt = seconds(velocity_ns_);
+  return {dt, {rotationFromVector(dt * turn_rad_s_), dt * velocity_m_s_}, 2 * covariance_, 0.5};
 }
 
 }  // namespace sphc

@@ -16,6 +16,7 @@
 //                  more than kForgetNs
 #pragma once
 #include "runtime/localizer/frame.h"
+#include "runtime/localizer/motion.h"
 #include "runtime/localizer/result.h"
 
 namespace sphc {
@@ -35,8 +36,8 @@ class Tracker {
   void advance(int64_t time_ns, const Odometry *odometry);
   // After advance: false where nothing can be said.
   bool predict(Prediction *prediction) const;
-  // After it: what it brought.
-  void accept(uint32_t map, const Estimate &estimate);
+  // After it: what it brought, and how far that is from what was expected.
+  Jump accept(uint32_t map, const Estimate &estimate);
   void miss();
   // Before accept: is this a jump that odometry contradicts, and that fewer inliers speak for than for the last
   // pose? For kForgetNs at most.
@@ -49,6 +50,8 @@ class Tracker {
   // Motion of the camera since another time near this frame's, by the odometry around it; false where that says
   // nothing.
   bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
+  // After the frame: how the camera moves, for times of the caller's; false where no pose is known.
+  bool motion(Motion *motion) const;
   void reset() { *this = {}; }
   // The map in this slot is gone.
   void forget(uint32_t map) {
@@ -56,7 +59,8 @@ class Tracker {
   }
 
  private:
-  bool agrees(uint32_t map, const Rigid &camera_from_map) const;
+  Step lastStep() const;
+  Jump jumpTo(uint32_t map, const Rigid &camera_from_map) const;
 
   TrackingState state_ = TrackingState::kRelocalizing;
   int64_t time_ns_ = 0;
@@ -72,6 +76,7 @@ class Tracker {
   uint32_t map_ = 0;
   int64_t pose_time_ns_ = 0, trusted_time_ns_ = 0;
   Rigid camera_from_map_;
+  Matrix6 covariance_ = Matrix6::Zero();  // as the result's
   double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
   uint32_t inliers_ = 0;
   bool moved_known_ = false;                             // by odometry, at every frame since
@@ -79,6 +84,7 @@ class Tracker {
   double moved_rotation2_ = 0, moved_translation2_ = 0;  // variances of it
 
   bool has_velocity_ = false;
+  uint64_t velocity_ns_ = 0;                                               // between the two poses
   Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame
 };
 

@@ -1,0 +1,45 @@
+// How the camera moves, by the last frames, and where that takes it at a time of its own: ahead at the rate of the
+// last step.  The error grows by what is unknown of that rate, and by how heads accelerate.
+#pragma once
+#include "runtime/types/estimate.h"
+
+namespace sphc {
+
+// How the camera came from where it was before.
+struct Step {
+  double seconds = 0;  // 0: not known
+  Rigid now_from_before;
+  Matrix6 covariance = Matrix6::Zero();  // as that of a result
+  double share_in_pose =
+      0;  // of the errors of this step and of the pose it led to: their covariance over the step's
+};
+
+struct Motion {
+  uint32_t map = 0;          // its slot
+  int64_t pose_time_ns = 0;  // of the last frame that had a pose
+  // The pose then, or where odometry has taken it since.
+  int64_t time_ns = 0;
+  Rigid camera_from_map;
+  Matrix6 covariance = Matrix6::Zero();  // as that of a result
+  Step step;                             // to there, by odometry or between two poses
+};
+
+struct MovedPose {
+  uint32_t map = 0;          // its slot
+  int64_t pose_time_ns = 0;  // of the last frame that had a pose
+  Rigid camera_from_map;
+  Matrix6 covariance = Matrix6::Zero();  // as that of a result
+  Vector3 velocity_in_map_m_s = Vector3::Zero(), angular_velocity_in_map_rad_s = Vector3::Zero();
+  double velocity_sigma_m_s = 0, angular_velocity_sigma_rad_s = 0;  // 1 sigma an axis
+};
+
+// Of errors that are the same along every axis.
+Matrix6 diagonalOf(double rotation_sigma_rad, double translation_sigma_m);
+// The covariance of a pose once the camera has moved on.
+Matrix6 carried(const Matrix6 &covariance, const Rigid &now_from_before);
+
+// Where the camera is then.  False where motion says nothing: more than Tracker::kForgetNs after the pose, or well
+// before the motion's time.
+bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved);
+
+}  // namespace sphc
