@@ -44,6 +44,13 @@ Matrix6 carried(const Matrix6 &covariance, const Rigid &now_from_before) {
   return 0.5 * (moved + moved.transpose());
 }
 
+void Rate::add(const Vector3 &of_step, double variance_of_step, double variance_outdated) {
+  variance += variance_outdated;
+  gain = variance / (variance + variance_of_step);
+  a_second += gain * (of_step - a_second);
+  variance = gain * variance_of_step;
+}
+
 bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
   const bool before = time_ns < motion.time_ns;
   const uint64_t apart_ns = before ? elapsedNs(time_ns, motion.time_ns) : elapsedNs(motion.time_ns, time_ns);
@@ -53,15 +60,14 @@ bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
   const double steps_per_s = step.seconds > 0 ? 1 / step.seconds : 0, steps = ahead_s * steps_per_s;
 
   // The camera turns at its rate, and its centre goes in a straight line.
-  const Vector3 turn_rad = vectorFromRotation(step.now_from_before.rotation);
-  const Matrix3 turned = rotationFromVector(steps * turn_rad), rotation = turned * motion.camera_from_map.rotation;
-  const Vector3 step_in_map_m = -(motion.camera_from_map.rotation.transpose() * step.now_from_before.translation_m);
-  const Vector3 centre_m = motion.camera_from_map.inverse().translation_m + steps * step_in_map_m;
+  const Matrix3 turned = rotationFromVector(-steps * (motion.camera_from_map.rotation * step.turn_in_map_rad));
+  const Matrix3 rotation = turned * motion.camera_from_map.rotation;
+  const Vector3 centre_m = motion.camera_from_map.inverse().translation_m + steps * step.way_in_map_m;
   moved->map = motion.map;
   moved->pose_time_ns = motion.pose_time_ns;
   moved->camera_from_map = {rotation, -(rotation * centre_m)};
-  moved->velocity_in_map_m_s = steps_per_s * step_in_map_m;
-  moved->angular_velocity_in_map_rad_s = -steps_per_s * (rotation.transpose() * turn_rad);
+  moved->velocity_in_map_m_s = steps_per_s * step.way_in_map_m;
+  moved->angular_velocity_in_map_rad_s = steps_per_s * step.turn_in_map_rad;
 
   const Unknown turn = unknownOf(ahead_s, step.seconds, kTurnRate, kTurnAcceleration),
                 shift = unknownOf(ahead_s, step.seconds, kSpeed, kAcceleration);

@@ -5,10 +5,20 @@
 
 namespace sphc {
 
-// How the camera came from where it was before.
+// A rate along three axes, from steps between poses: each step counts as much as its error allows against what was
+// known before, which heads outdate by accelerating (a Kalman filter).
+struct Rate {
+  Vector3 a_second = Vector3::Zero();
+  double variance = 0;  // an axis
+  double gain = 0;      // of the last step
+
+  void add(const Vector3 &of_step, double variance_of_step, double variance_outdated);
+};
+
+// How the camera came from where it was before, or would have by its rates.
 struct Step {
   double seconds = 0;  // 0: not known
-  Rigid now_from_before;
+  Vector3 turn_in_map_rad = Vector3::Zero(), way_in_map_m = Vector3::Zero();
   Matrix6 covariance = Matrix6::Zero();  // as that of a result
   double share_in_pose =
       0;  // of the errors of this step and of the pose it led to: their covariance over the step's

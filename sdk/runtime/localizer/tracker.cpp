@@ -112,6 +112,9 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
     const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();
     turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
     velocity_m_s_ = moved.translation_m / dt;
+  } else {
+    turn_rate_ = {Vector3::Zero(), kTurnRate * kTurnRate, 0};
+    shift_rate_ = {Vector3::Zero(), kSpeed * kSpeed, 0};
   }
   if (state_ == TrackingState::kTracking) trusted_time_ns_ = time_ns_;
   has_pose_ = moved_known_ = true;
@@ -119,6 +122,7 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
   pose_time_ns_ = time_ns_;
   camera_from_map_ = estimate.camera_from_map;
   covariance_ = statedCovariance(estimate);
+  if (has_velocity_) smoothRates(dt);
   rotation_sigma_rad_ = hypotOf(sigmaAnAxis(estimate, 0), kLeastTurnSigma);
   translation_sigma_m_ = hypotOf(sigmaAnAxis(estimate, 3), kLeastShiftSigma);
   inliers_ = estimate.inliers;
@@ -139,6 +143,15 @@ bool Tracker::vetoes(uint32_t map, const Estimate &estimate) const {
          jumps(jump.shift_m, expected.translation_sigma_m, sigmaAnAxis(estimate, 3), kNoJump.most_shift_m);
 }
 
+// Once the new pose is the last one.
+void Tracker::smoothRates(double dt) {
+  const Matrix3 map_from_camera = camera_from_map_.rotation.transpose();
+  const double turn_2 = 2 / 3.0 * covariance_.topLeftCorner<3, 3>().trace() / (dt * dt),
+               shift_2 = 2 / 3.0 * covariance_.bottomRightCorner<3, 3>().trace() / (dt * dt);
+  turn_rate_.add(-(map_from_camera * turn_rad_s_), turn_2, kTurnAcceleration * kTurnAcceleration * dt * dt);
+  shift_rate_.add(-(map_from_camera * velocity_m_s_), shift_2, kAcceleration * kAcceleration * dt * dt);
+}
+
 void Tracker::miss() {
   if (state_ == TrackingState::kTracking) state_ = TrackingState::kLost;
 }
@@ -157,13 +170,19 @@ bool Tracker::motion(Motion *motion) const {
 // To the pose of motion().
 Step Tracker::lastStep() const {
   const bool is_found = time_ns_ == pose_time_ns_;
-  if (moved_known_ && has_step_ && seconds(step_ns_) <= kSteadySeconds)
-    return {seconds(step_ns_), step_, diagonalOf(odometry_.rotation_sigma_rad, odometry_.translation_sigma_m),
-            is_found ? 0.0 : 1.0};
+  if (moved_known_ && has_step_ && seconds(step_ns_) <= kSteadySeconds) {
+    const Matrix3 map_from_camera = (moved_ * camera_from_map_).rotation.transpose();
+    return {seconds(step_ns_), -(map_from_camera * vectorFromRotation(step_.rotation)),
+            -(map_from_camera * step_.translation_m),
+            diagonalOf(odometry_.rotation_sigma_rad, odometry_.translation_sigma_m), is_found ? 0.0 : 1.0};
+  }
   if (!has_velocity_ || (moved_known_ && !is_found)) return {};
-  // Between two poses that are equally good.
+  // Of the last two poses, which are equally good, as much as counts in the rates.
+  Vector6 shares;
+  shares << Vector3::Constant(sqrtOf(2 * turn_rate_.gain)), Vector3::Constant(sqrtOf(2 * shift_rate_.gain));
   const double dt = seconds(velocity_ns_);
-  return {dt, {rotationFromVector(dt * turn_rad_s_), dt * velocity_m_s_}, 2 * covariance_, 0.5};
+  return {dt, dt * turn_rate_.a_second, dt * shift_rate_.a_second,
+          shares.asDiagonal() * covariance_ * shares.asDiagonal(), 0.5};
 }
 
 }  // namespace sphc

@@ -60,6 +60,7 @@ class Tracker {
 
  private:
   Step lastStep() const;
+  void smoothRates(double dt);
   Jump jumpTo(uint32_t map, const Rigid &camera_from_map) const;
 
   TrackingState state_ = TrackingState::kRelocalizing;
@@ -86,6 +87,7 @@ class Tracker {
   bool has_velocity_ = false;
   uint64_t velocity_ns_ = 0;                                               // between the two poses
   Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame
+  Rate turn_rate_, shift_rate_;  // in the map; of the camera, and of its centre
 };
 
 }  // namespace sphc
