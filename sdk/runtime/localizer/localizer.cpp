@@ -125,7 +125,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
-  result.jump = learn();
+  learn(frame.color_time_ns, &result);
   result.keypoints = front_.keypointCount();
   result.lifted = front_.liftedCount();
   result.samples = work.samples;
@@ -138,7 +138,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
 
 bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
   Motion motion;
-  return tracker_.motion(&motion) && moveTo(time_ns, motion, moved);
+  return tracker_.motion(trail_, &motion) && moveTo(time_ns, motion, moved);
 }
 
 // The camera moves between the two exposures; odometry tells how.
@@ -328,15 +328,16 @@ void Localizer::observe() {
   }
 }
 
-Jump Localizer::learn() {
+void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
   if (best_.isLocalized()) {
     calibrator_.learn(best_.estimate);
     fusion_.clear();
-    if (config_.tracks) return tracker_.accept(best_.map, best_.estimate);
+    if (!config_.tracks) return;
+    result->jump = tracker_.accept(best_.map, best_.estimate);
+    trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {
     tracker_.miss();
   }
-  return {};
 }
 
 }  // namespace sphc

@@ -69,7 +69,7 @@ class Localizer {
   bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
   void observe();
-  Jump learn();
+  void learn(int64_t time_ns, LocalizerResult *result);
 
   LocalizerConfig config_;
   FrontEnd front_;
@@ -78,6 +78,7 @@ class Localizer {
   Repetition repetition_;
   DepthCalibrator calibrator_;
   Tracker tracker_;
+  Trail trail_;
   Fusion fusion_;
   Consistency consistency_;
   TravelCheck travel_;

@@ -1,5 +1,8 @@
 #include "runtime/localizer/motion.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include "runtime/base/clock.h"
 #include "runtime/localizer/tracker.h"
 #include "runtime/localizer/tuning.h"
@@ -10,6 +13,7 @@ namespace {
 using namespace tuning;
 
 double seconds(uint64_t ns) { return 1e-9 * static_cast<double>(ns); }
+double square(double value) { return value * value; }
 double absolute(double value) { return value < 0 ? -value : value; }
 
 // Of one axis.
@@ -49,6 +53,42 @@ void Rate::add(const Vector3 &of_step, double variance_of_step, double variance_
   gain = variance / (variance + variance_of_step);
   a_second += gain * (of_step - a_second);
   variance = gain * variance_of_step;
+}
+
+void Trail::add(int64_t time_ns, const Rigid &camera_from_map, const Matrix6 &covariance) {
+  newest_ = (newest_ + 1) % kCapacity;
+  Place &place = places_[newest_];
+  place.time_ns = time_ns;
+  std::memcpy(place.rotation, camera_from_map.rotation.data(), sizeof place.rotation);
+  std::memcpy(place.translation_m, camera_from_map.translation_m.data(), sizeof place.translation_m);
+  std::memcpy(place.covariance, covariance.data(), sizeof place.covariance);
+}
+
+Matrix6 Trail::covariance() const { return Matrix6(ago(0).covariance); }
+
+Step Trail::step(uint32_t steps) const {
+  if (steps == 0) return {};
+  Rate turn = {Vector3::Zero(), kTurnRate * kTurnRate, 0}, shift = {Vector3::Zero(), kSpeed * kSpeed, 0};
+  double dt = 0;
+  for (uint32_t i = std::min(steps, kCapacity - 1); i-- > 0;) {
+    const Place &from = ago(i + 1), &to = ago(i);
+    dt = seconds(elapsedNs(from.time_ns, to.time_ns));
+    const Rigid before = {Matrix3(from.rotation), Vector3(from.translation_m)},
+                now = {Matrix3(to.rotation), Vector3(to.translation_m)};
+    const Vector3 turn_in_map_rad =
+        now.rotation.transpose() * vectorFromRotation(before.rotation * now.rotation.transpose());
+    const Vector3 way_in_map_m = now.inverse().translation_m - before.inverse().translation_m;
+    const Matrix6 covariance(to.covariance);
+    const auto varianceOf = [&](int first) {  // of the difference of two poses that are equally good
+      return 2 * square(sigmaOf(covariance, first) / dt);
+    };
+    turn.add(turn_in_map_rad / dt, varianceOf(0), square(kTurnAcceleration * dt));
+    shift.add(way_in_map_m / dt, varianceOf(3), square(kAcceleration * dt));
+  }
+  Vector6 shares;
+  shares << Vector3::Constant(sqrtOf(2 * turn.gain)), Vector3::Constant(sqrtOf(2 * shift.gain));
+  return {dt, dt * turn.a_second, dt * shift.a_second, shares.asDiagonal() * covariance() * shares.asDiagonal(),
+          0.5};
 }
 
 bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {

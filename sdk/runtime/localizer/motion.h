@@ -20,8 +20,29 @@ struct Step {
   double seconds = 0;  // 0: not known
   Vector3 turn_in_map_rad = Vector3::Zero(), way_in_map_m = Vector3::Zero();
   Matrix6 covariance = Matrix6::Zero();  // as that of a result
-  double share_in_pose =
-      0;  // of the errors of this step and of the pose it led to: their covariance over the step's
+  // Covariance of the errors of this step and of the pose it led to, over that of this step.
+  double share_in_pose = 0;
+};
+
+// The last poses, of one map or several, as they were found.
+class Trail {
+ public:
+  static constexpr uint32_t kCapacity = 6;
+  void add(int64_t time_ns, const Rigid &camera_from_map, const Matrix6 &covariance);
+  // Of the last one, as that of a result.
+  Matrix6 covariance() const;
+  // By the last poses and the steps between them, at most so many.
+  Step step(uint32_t steps) const;
+
+ private:
+  struct Place {  // copied as bytes: little code
+    int64_t time_ns;
+    double rotation[9], translation_m[3], covariance[36];  // camera_from_map
+  };
+  const Place &ago(uint32_t poses) const { return places_[(newest_ + kCapacity - poses) % kCapacity]; }
+
+  Place places_[kCapacity];
+  uint32_t newest_ = 0;
 };
 
 struct Motion {

@@ -50,8 +50,9 @@ class Tracker {
   // Motion of the camera since another time near this frame's, by the odometry around it; false where that says
   // nothing.
   bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
-  // After the frame: how the camera moves, for times of the caller's; false where no pose is known.
-  bool motion(Motion *motion) const;
+  // After the frame: how the camera moves, for times of the caller's; false where no pose is known.  The trail has
+  // every pose that was accepted.
+  bool motion(const Trail &trail, Motion *motion) const;
   void reset() { *this = {}; }
   // The map in this slot is gone.
   void forget(uint32_t map) {
@@ -59,9 +60,7 @@ class Tracker {
   }
 
  private:
-  Step lastStep() const;
-  void smoothRates(double dt);
-  Jump jumpTo(uint32_t map, const Rigid &camera_from_map) const;
+  Jump jumpTo(uint32_t map, const Rigid &found, Prediction *expected) const;
 
   TrackingState state_ = TrackingState::kRelocalizing;
   int64_t time_ns_ = 0;
@@ -77,7 +76,6 @@ class Tracker {
   uint32_t map_ = 0;
   int64_t pose_time_ns_ = 0, trusted_time_ns_ = 0;
   Rigid camera_from_map_;
-  Matrix6 covariance_ = Matrix6::Zero();  // as the result's
   double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
   uint32_t inliers_ = 0;
   bool moved_known_ = false;                             // by odometry, at every frame since
@@ -85,9 +83,8 @@ class Tracker {
   double moved_rotation2_ = 0, moved_translation2_ = 0;  // variances of it
 
   bool has_velocity_ = false;
-  uint64_t velocity_ns_ = 0;                                               // between the two poses
   Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame
-  Rate turn_rate_, shift_rate_;  // in the map; of the camera, and of its centre
+  uint32_t steady_ = 0;  // steps between poses since the last jump or pause
 };
 
 }  // namespace sphc

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "runtime/localizer/tracker.h"
-#include "runtime/stages/pose/confidence.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc {
@@ -224,6 +223,7 @@ Honesty honestyOf(int64_t ahead_ns, bool odometry) {
     const Head head(seed);
     Random random(seed);
     Tracker tracker;
+    Trail trail;
     Rigid drift;
     for (int frame = 0; frame < 60; ++frame) {
       const double time_s = 1e-9 * kFrame * frame;
@@ -234,14 +234,14 @@ Honesty honestyOf(int64_t ahead_ns, bool odometry) {
       Estimate estimate;
       estimate.inliers = 200;
       estimate.covariance = diagonalOf(kTurnSigma, kShiftSigma);
-      const double scale = std::sqrt(statedCovariance(estimate)(0, 0)) / kTurnSigma;
-      estimate.covariance /= scale * scale;
       estimate.camera_from_map = disturbed(truth, kTurnSigma, kShiftSigma, &random);
       tracker.accept(0, estimate);
+      trail.add(kStart + frame * kFrame, estimate.camera_from_map, estimate.covariance);
       Motion motion;
       MovedPose moved;
       if (frame < 3) continue;
-      const bool is_known = tracker.motion(&motion) && moveTo(kStart + frame * kFrame + ahead_ns, motion, &moved);
+      const bool is_known =
+          tracker.motion(trail, &motion) && moveTo(kStart + frame * kFrame + ahead_ns, motion, &moved);
       EXPECT_TRUE(is_known);
       const Rigid then = head.cameraFromMap(time_s + 1e-9 * static_cast<double>(ahead_ns));
       const Vector6 error = errorOf(moved.camera_from_map, then), still = errorOf(estimate.camera_from_map, then);

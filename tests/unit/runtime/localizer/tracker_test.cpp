@@ -25,6 +25,7 @@ class TrackerTest : public testing::Test {
  protected:
   Jump bring(int64_t time_ns, const Rigid &camera_from_map, uint32_t map = 0, const Odometry *odometry = nullptr) {
     tracker_.advance(time_ns, odometry);
+    trail_.add(time_ns, camera_from_map, found(camera_from_map).covariance);
     return tracker_.accept(map, found(camera_from_map));
   }
   void bringNone(int64_t time_ns) {
@@ -36,6 +37,7 @@ class TrackerTest : public testing::Test {
     ASSERT_EQ(tracker_.state(), TrackingState::kTracking);
   }
   Tracker tracker_;
+  Trail trail_;
 };
 
 TEST_F(TrackerTest, APoseIsTrustedOnceAnotherAgrees) {
@@ -259,12 +261,12 @@ Rigid walked(double steps) {
 
 TEST_F(TrackerTest, MotionIsThatOfTheLastPoses) {
   Motion motion;
-  EXPECT_FALSE(tracker_.motion(&motion)) << "no pose yet";
+  EXPECT_FALSE(tracker_.motion(trail_, &motion)) << "no pose yet";
   bring(kFrame, walked(1));
-  ASSERT_TRUE(tracker_.motion(&motion));
+  ASSERT_TRUE(tracker_.motion(trail_, &motion));
   EXPECT_EQ(motion.step.seconds, 0) << "no step yet";
   bring(2 * kFrame, walked(2)), bring(3 * kFrame, walked(3), 0);
-  ASSERT_TRUE(tracker_.motion(&motion));
+  ASSERT_TRUE(tracker_.motion(trail_, &motion));
   EXPECT_EQ(motion.pose_time_ns, 3 * kFrame);
   EXPECT_EQ(motion.time_ns, 3 * kFrame);
   MovedPose moved;
@@ -273,11 +275,11 @@ TEST_F(TrackerTest, MotionIsThatOfTheLastPoses) {
   EXPECT_LT((moved.camera_from_map.translation_m - walked(4).translation_m).norm(), 3e-4);
   bringNone(4 * kFrame);
   Motion later;
-  ASSERT_TRUE(tracker_.motion(&later));
+  ASSERT_TRUE(tracker_.motion(trail_, &later));
   EXPECT_EQ(later.time_ns, 3 * kFrame) << "the last pose's still";
   EXPECT_EQ(later.step.seconds, motion.step.seconds);
   for (int i = 5; i < 40; ++i) bringNone(i * kFrame);
-  EXPECT_FALSE(tracker_.motion(&motion)) << "forgotten";
+  EXPECT_FALSE(tracker_.motion(trail_, &motion)) << "forgotten";
 }
 
 TEST_F(TrackerTest, MotionIsThatOfOdometryWhereThereIsOne) {
@@ -291,14 +293,14 @@ TEST_F(TrackerTest, MotionIsThatOfOdometryWhereThereIsOne) {
   odometry = odometryAt(2);
   bring(2 * kFrame, off * walked(2), 0, &odometry);
   Motion at_pose, later;
-  ASSERT_TRUE(tracker_.motion(&at_pose));
+  ASSERT_TRUE(tracker_.motion(trail_, &at_pose));
   EXPECT_EQ(at_pose.step.share_in_pose, 0) << "the pose is this frame's own";
   for (int i = 3; i <= 5; ++i) {
     odometry = odometryAt(i);
     tracker_.advance(i * kFrame, &odometry);
     tracker_.miss();
   }
-  ASSERT_TRUE(tracker_.motion(&later));
+  ASSERT_TRUE(tracker_.motion(trail_, &later));
   EXPECT_EQ(later.pose_time_ns, 2 * kFrame);
   EXPECT_EQ(later.time_ns, 5 * kFrame);
   EXPECT_EQ(later.step.share_in_pose, 1);
