@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """A binding that is made of spherecloud.json alone, with ctypes: does the library answer to it?
 
-    bind_from_json.py SPHERECLOUD_JSON LIBRARY
+    bind_from_json.py SPHERECLOUD_JSON LIBRARY CONVENTIONS_CSV
 """
+import csv
 import ctypes
 import json
 import platform
@@ -90,6 +91,49 @@ class FromJson(unittest.TestCase):
             for value in enum["values"] if enum["type"] in named and enum["type"] != "uint32_t" else ():
                 self.assertEqual(self.call(named[enum["type"]], value["value"]).decode(), value["name"])
 
+    def assert_numbers(self, found, wanted):
+        self.assertEqual(len(found), len(wanted))
+        self.assertLess(max(abs(f - w) for f, w in zip(found, wanted)), 1e-12, f"{list(found)} is not {wanted}")
+
+    def test_poses_of_other_systems(self):
+        with open(ARGUMENTS[2], encoding="utf-8", newline="") as stream:
+            vectors = list(csv.DictReader(stream))
+        self.assertGreater(len(vectors), 60)
+        for vector in vectors:
+            with self.subTest(scene=vector["scene"], convention=vector["convention"]):
+                self.compare_poses(vector)
+
+    def compare_poses(self, vector):
+        def numbers(name):
+            return [float(value) for key, value in vector.items() if key.startswith(name + "_") and value]
+
+        def rigid(name):
+            values = numbers(name) or [1] + [0] * 6
+            made = self.made("sphc_rigid")
+            made.q_wxyz[:], made.t_m[:] = values[:4], values[4:]
+            return made
+
+        def call(name, *arguments):
+            message = self.made("sphc_message")
+            done = self.call("sphc_convention_" + name, self.binding.constants["SPHC_CONVENTION_" + vector["convention"]],
+                             *arguments, ctypes.byref(message))
+            self.assertEqual(done, 0, message.text.decode())
+
+        world, camera, found = rigid("world_from_map"), rigid("camera_from_map"), self.made("sphc_rigid")
+        told = ctypes.byref(world) if numbers("world_from_map") else None
+        pose = (ctypes.c_double * 7)()
+        if numbers("up_map"):
+            call("make_world", (ctypes.c_double * 3)(*numbers("up_map")), ctypes.byref(found))
+            self.assert_numbers([*found.q_wxyz, *found.t_m], numbers("world_from_map"))
+        call("write_camera", told, ctypes.byref(camera), pose)
+        self.assert_numbers(pose, numbers("camera_pose"))
+        call("read_camera", told, (ctypes.c_double * 7)(*numbers("camera_pose")), ctypes.byref(found))
+        self.assert_numbers([*found.q_wxyz, *found.t_m], numbers("camera_from_map"))
+        call("write_map", ctypes.byref(world), pose)
+        self.assert_numbers(pose, numbers("map_pose"))
+        call("read_map", (ctypes.c_double * 7)(*numbers("map_pose")), ctypes.byref(found))
+        self.assert_numbers([*found.q_wxyz, *found.t_m], numbers("world_from_map") or [1] + [0] * 6)
+
     def test_everything_is_said(self):
         for function in self.told["functions"]:
             self.assertIn(function["threads"], ("pure", "shared", "exclusive"), function["name"])
@@ -100,5 +144,5 @@ class FromJson(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    ARGUMENTS = sys.argv[1:3]
+    ARGUMENTS = sys.argv[1:4]
     unittest.main(argv=sys.argv[:1])

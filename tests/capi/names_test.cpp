@@ -29,9 +29,12 @@ Family family(const char *prefix, const char *(*name)(T)) {
   return {prefix, [name](int64_t value) { return name(static_cast<T>(value)); }};
 }
 
+// One a line, so that more can be added.
+// clang-format off
 const Family kFamilies[] = {
     family("SPHC_FORMAT_", sphc_format_name),
     family("SPHC_CAMERA_", sphc_camera_model_name),
+    family("SPHC_CONVENTION_", sphc_convention_name),
     family("SPHC_ALIGNED_", sphc_aligned_pixel_name),
     family("SPHC_LOG_", sphc_log_level_name),
     family("SPHC_MODE_", sphc_localizer_mode_name),
@@ -47,6 +50,7 @@ const Family kFamilies[] = {
     family("SPHC_TIME_", sphc_time_point_name),
     family("SPHC_DROP_", sphc_pairer_drop_name),
 };
+// clang-format on
 
 // The constants of the headers by name, without comments.
 std::map<std::string, int64_t> constants() {

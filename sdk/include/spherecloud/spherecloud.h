@@ -219,6 +219,54 @@ SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_
 /* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
 SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
 
+/* How another system states poses: seven numbers in its own order.  A camera's pose is world_from_camera, but for
+ * COLMAP.  Of a world only the vertical and the handedness are fixed; origin and heading are the caller's.
+ *
+ * `world_from_map` says where the map lies in the other system's world, which is right-handed here: where the
+ * system is left-handed, nothing but the seven numbers is mirrored.  make_world and read_map give it, or a pose
+ * that is known in the map and in that world.  Null is the map's own frame, for COLMAP and TUM alone, whose worlds
+ * need no vertical.  docs/frames.md has examples that can be checked by hand.
+ *
+ * Errors of the functions: ARGUMENT: null, not finite, beyond a limit; UNSUPPORTED: a convention that this library
+ * does not know.  The message names cause and cure.  An output may be an input. */
+typedef int32_t sphc_convention;
+enum {
+  SPHC_CONVENTION_OPENXR = 1, /* qx qy qz qw x y z; camera x right, y up, z back; world y up; so ARKit and ARCore */
+  SPHC_CONVENTION_UNITY = 2,  /* x y z qx qy qz qw; camera x right, y up, z forward; world y up, left-handed: that
+                               * of OPENXR with z the other way, as in Unity's own OpenXR */
+  SPHC_CONVENTION_ROS_OPTICAL = 3, /* x y z qx qy qz qw; camera as here; world z up */
+  SPHC_CONVENTION_ROS_FLU = 4,     /* x y z qx qy qz qw; camera x forward, y left, z up; world z up */
+  SPHC_CONVENTION_COLMAP = 5, /* qw qx qy qz x y z of camera_from_world; camera as here; a level world has y down */
+  SPHC_CONVENTION_TUM = 6     /* x y z qx qy qz qw; camera as here; a level world has z up */
+};
+SPHC_API const char *sphc_convention_name(sphc_convention convention); /* [pure] */
+
+/* The limits of what is taken.  Quaternions that come out have qw >= 0, and where that is 0 the first that is not
+ * is positive, so that numbers can be compared. */
+#define SPHC_CONVENTION_MAX_OFFSET_M 1e9      /* of a part of a translation, either sign */
+#define SPHC_CONVENTION_MAX_LENGTH_ERROR 1e-3 /* of a quaternion, whose length is 1 */
+
+/* A gravity-aligned world with the map's origin.  `up_map`: upwards, in the map's frame; any length but 0.  The
+ * shortest turn takes up_map to z; then x stays and z becomes what is up: y for OPENXR and UNITY, z for ROS and
+ * TUM, -y for COLMAP.  A map that is so already gets the identity.  The heading changes smoothly with up_map,
+ * except where that is -z; there x is kept. [pure] */
+SPHC_API sphc_status sphc_convention_make_world(sphc_convention convention, const double up_map[3],
+                                                sphc_rigid *world_from_map, sphc_message *message);
+/* A camera's pose to the other system, and back.  To read a pose in a world that is no map, such as odometry's,
+ * give the identity; what comes out is camera_from_world. [pure] */
+SPHC_API sphc_status sphc_convention_write_camera(sphc_convention convention, const sphc_rigid *world_from_map,
+                                                  const sphc_rigid *camera_from_map, double pose[7],
+                                                  sphc_message *message);
+SPHC_API sphc_status sphc_convention_read_camera(sphc_convention convention, const sphc_rigid *world_from_map,
+                                                 const double pose[7], sphc_rigid *camera_from_map,
+                                                 sphc_message *message);
+/* The map's pose in the other system's world, world_from_map in all conventions: a transform between two frames of
+ * ROS, or the node under which hangs what is placed in the map (in UNITY with its z the other way). [pure] */
+SPHC_API sphc_status sphc_convention_write_map(sphc_convention convention, const sphc_rigid *world_from_map,
+                                               double pose[7], sphc_message *message);
+SPHC_API sphc_status sphc_convention_read_map(sphc_convention convention, const double pose[7],
+                                              sphc_rigid *world_from_map, sphc_message *message);
+
 /* ---- map: an immutable view of borrowed bytes ---- */
 
 typedef struct sphc_map sphc_map;

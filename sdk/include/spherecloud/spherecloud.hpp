@@ -23,6 +23,7 @@
 
 #include <spherecloud/spherecloud.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -416,6 +417,41 @@ inline sphc_rigid inverse(const sphc_rigid &b_from_a) {
   sphc_rigid a_from_b = {};
   sphc_rigid_inverse(&b_from_a, &a_from_b);
   return a_from_b;
+}
+
+// ---- poses as other systems state them
+// ---------------------------------------------------------------------------
+
+// A world in which `up_map`, of any length but 0, is up.
+inline Status makeWorld(sphc_convention convention, const std::array<double, 3> &up_map,
+                        sphc_rigid *world_from_map) {
+  Status status;
+  return status.set(sphc_convention_make_world(convention, up_map.data(), world_from_map, status.message()));
+}
+
+// In the convention's order; a null world_from_map is for COLMAP and TUM alone.
+inline Status writeCamera(sphc_convention convention, const sphc_rigid *world_from_map,
+                          const sphc_rigid &camera_from_map, std::array<double, 7> *pose) {
+  Status status;
+  return status.set(
+      sphc_convention_write_camera(convention, world_from_map, &camera_from_map, pose->data(), status.message()));
+}
+
+inline Status readCamera(sphc_convention convention, const sphc_rigid *world_from_map,
+                         const std::array<double, 7> &pose, sphc_rigid *camera_from_map) {
+  Status status;
+  return status.set(
+      sphc_convention_read_camera(convention, world_from_map, pose.data(), camera_from_map, status.message()));
+}
+
+inline Status writeMap(sphc_convention convention, const sphc_rigid &world_from_map, std::array<double, 7> *pose) {
+  Status status;
+  return status.set(sphc_convention_write_map(convention, &world_from_map, pose->data(), status.message()));
+}
+
+inline Status readMap(sphc_convention convention, const std::array<double, 7> &pose, sphc_rigid *world_from_map) {
+  Status status;
+  return status.set(sphc_convention_read_map(convention, pose.data(), world_from_map, status.message()));
 }
 
 }  // namespace spherecloud

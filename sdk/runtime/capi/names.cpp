@@ -31,6 +31,25 @@ const char *sphc_camera_model_name(sphc_camera_model model) {
   }
 }
 
+const char *sphc_convention_name(sphc_convention convention) {
+  switch (convention) {
+    case SPHC_CONVENTION_OPENXR:
+      return "SPHC_CONVENTION_OPENXR";
+    case SPHC_CONVENTION_UNITY:
+      return "SPHC_CONVENTION_UNITY";
+    case SPHC_CONVENTION_ROS_OPTICAL:
+      return "SPHC_CONVENTION_ROS_OPTICAL";
+    case SPHC_CONVENTION_ROS_FLU:
+      return "SPHC_CONVENTION_ROS_FLU";
+    case SPHC_CONVENTION_COLMAP:
+      return "SPHC_CONVENTION_COLMAP";
+    case SPHC_CONVENTION_TUM:
+      return "SPHC_CONVENTION_TUM";
+    default:
+      return "SPHC_CONVENTION_?";
+  }
+}
+
 const char *sphc_aligned_pixel_name(sphc_aligned_pixel pixel) {
   switch (pixel) {
     case SPHC_ALIGNED_HOLE:
