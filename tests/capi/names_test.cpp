@@ -43,6 +43,7 @@ const Family kFamilies[] = {
     family("SPHC_FAULT_", sphc_localizer_fault_name),
     family("SPHC_CUT_", sphc_localizer_cut_name),
     family("SPHC_HINT_", sphc_localizer_hint_name),
+    family("SPHC_EVENT_", sphc_localizer_event_name),
     family("SPHC_PARAMETER_", sphc_localizer_parameter_name),
     family("SPHC_STREAM_", sphc_stream_name),
     family("SPHC_CLOCK_", sphc_clock_id_name),

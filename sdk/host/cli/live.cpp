@@ -70,6 +70,8 @@ nlohmann::ordered_json frameJson(const CapturePair &pair, const sphc_localizer_r
       {"inliers", result.inliers},
       {"ms", std::round(1000 * ms) / 1000}};
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return out;
+  out["events"] = eventNames(result.events);
+  out["jump"] = {{"rotation_deg", result.jump_rad * 180 / M_PI}, {"translation_m", result.jump_m}};
   out["confidence"] = result.confidence;
   out["camera_from_map"] = {{"q_wxyz", result.camera_from_map.q_wxyz}, {"t_m", result.camera_from_map.t_m}};
   return out;

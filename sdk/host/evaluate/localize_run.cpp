@@ -84,6 +84,9 @@ void fillAnswer(const LocalizeInput &input, const sphc_localizer_result &result,
   frame->faults = result.faults;
   frame->cuts = result.cuts;
   frame->hints = result.hints;
+  frame->events = result.events;
+  frame->jump_m = result.jump_m;
+  frame->jump_rad = result.jump_rad;
   if (!frame->localized) return;
   frame->confidence = result.confidence;
   frame->base_from_camera = spherecloud::inverse(result.camera_from_map);

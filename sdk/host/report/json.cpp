@@ -41,6 +41,8 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
     json[base + "_from_camera"] = rigidJson(frame.base_from_camera);
     json["sigma"] = {{"rotation_deg", number(frame.sigma_rotation_deg)},
                      {"translation_m", number(frame.sigma_translation_m)}};
+    json["events"] = eventNames(frame.events);
+    json["jump"] = {{"rotation_deg", number(frame.jump_rad * 180 / M_PI)}, {"translation_m", number(frame.jump_m)}};
     if (frame.confidence) json["confidence"] = number(*frame.confidence);
   }
   if (frame.has_truth) json["truth_" + base + "_from_camera"] = rigidJson(frame.truth_base_from_camera);

@@ -60,6 +60,13 @@ std::string cutNames(uint32_t cuts) {
   return namesOf(kCutWords, cuts);
 }
 
+std::string eventNames(uint32_t events) {
+  constexpr std::array<BitWords, 3> kEventWords = {{{SPHC_EVENT_RELOCALIZED, "relocalized", ""},
+                                                    {SPHC_EVENT_JUMPED, "jumped", ""},
+                                                    {SPHC_EVENT_MAP_CHANGED, "map changed", ""}}};
+  return namesOf(kEventWords, events);
+}
+
 const char *stateName(sphc_localizer_state state) {
   switch (state) {
     case SPHC_STATE_RELOCALIZING:

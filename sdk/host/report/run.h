@@ -27,6 +27,8 @@ struct FrameRecord {
   uint32_t faults = 0;                                   // SPHC_FAULT_ bits that the result names
   uint32_t cuts = 0;                                     // SPHC_CUT_ bits: what the deadline left out
   uint32_t hints = 0;                                    // SPHC_HINT_ bits: why there is no pose
+  uint32_t events = 0;                                   // SPHC_EVENT_ bits: what the pose does to what was drawn
+  double jump_m = 0, jump_rad = 0;                       // from where it was expected
 
   sphc_depth_bias depth = {};  // what the localizer took the depth sensor for
 
@@ -78,6 +80,8 @@ const char *outcomeName(sphc_localizer_outcome outcome);
 const char *outcomeAdvice(sphc_localizer_outcome outcome);
 // "features, search"; "" of none.
 std::string cutNames(uint32_t cuts);
+// "jumped"; "" of none.
+std::string eventNames(uint32_t events);
 const char *stateName(sphc_localizer_state state);
 
 // "12345" as "12.3 kB"; powers of 1000.

@@ -88,7 +88,8 @@ typedef int32_t sphc_status;
 enum {
   SPHC_OK = 0,
   SPHC_AGAIN = 1,         /* nothing yet: within the timeout, or until more input comes */
-  SPHC_NOT_LOCALIZED = 2, /* the frame was processed, but no pose passed the checks; result.outcome says which */
+  SPHC_NOT_LOCALIZED = 2, /* there is no pose: none passed the checks, result.outcome says which; or none is known
+                             at the time that a prediction was asked for */
   SPHC_END = 3,           /* a finite source (a recording) has no more captures */
 
   SPHC_E_ARGUMENT = -10,    /* null, not finite, out of range, or at odds with another argument */
@@ -570,6 +571,15 @@ enum {
 };
 SPHC_API const char *sphc_localizer_hint_name(uint32_t hint); /* [pure] */
 
+/* What a pose does to a world that was drawn by earlier ones; bits of result.events.  None where there is no pose,
+ * where it is where earlier frames and odometry let it be expected, and in SPHC_MODE_SINGLE. */
+enum {
+  SPHC_EVENT_RELOCALIZED = 1u, /* nothing was expected: the first pose, or the first after 1 s without */
+  SPHC_EVENT_JUMPED = 2u,      /* elsewhere than expected, by more than 5 sigma; result.jump_m and jump_rad */
+  SPHC_EVENT_MAP_CHANGED = 4u  /* in another map than the one expected; how far that is cannot be said */
+};
+SPHC_API const char *sphc_localizer_event_name(uint32_t event); /* [pure] */
+
 /* How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m), and its noise
  * is noise_scale times the one in the config. */
 typedef struct sphc_depth_bias {
@@ -605,7 +615,11 @@ typedef struct sphc_localizer_result {
   uint32_t faults;       /* SPHC_FAULT_ bits; 0: nothing was found */
   sphc_depth_bias depth; /* what the frame was looked at with */
   uint32_t hints;        /* SPHC_HINT_ bits: why there is no pose; 0 where there is one */
-  uint32_t reserved;     /* 0 */
+  uint32_t events;       /* SPHC_EVENT_ bits: what the pose does to a world drawn by earlier ones */
+  /* How far the pose is from the one that was expected at time_ns before the frame was looked at: the camera's
+   * centre, and its angle.  So far does a world jump that is drawn by sphc_localizer_predict.  Small where no event
+   * says otherwise; 0 where nothing was expected, or in another map. */
+  double jump_m, jump_rad;
 } sphc_localizer_result;
 
 /* Fills *config with defaults for its first struct_size bytes and sets struct_size; the cameras stay zero: set
@@ -724,6 +738,31 @@ SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
  * a bound that is not above 0, and for a null result.  From the result's covariance; docs/confidence.md. [pure] */
 SPHC_API double sphc_localizer_result_confidence(const sphc_localizer_result *result, double translation_m,
                                                  double rotation_rad);
+
+/* Where the colour camera is at a time of the caller's, such as when a display lights up. */
+typedef struct sphc_localizer_prediction {
+  uint32_t struct_size;
+  uint32_t map_id;               /* of the map that camera_from_map is in; SPHC_MAP_NONE where nothing is known */
+  int64_t time_ns;               /* that was asked for */
+  int64_t pose_time_ns;          /* of the frame whose pose this one comes from */
+  sphc_localizer_state state;    /* after the last frame */
+  uint32_t reserved;             /* 0 */
+  sphc_rigid camera_from_map;    /* identity where nothing is known, and zeros in all that follows */
+  double covariance[36];         /* as result.covariance; grows with the time since the frame */
+  double velocity_in_map_m_s[3]; /* of the camera's centre, along the map's axes */
+  double angular_velocity_in_map_rad_s[3];                 /* of the camera, about the map's axes, right-handed */
+  double velocity_sigma_m_s, angular_velocity_sigma_rad_s; /* 1 sigma an axis; where no step is known the velocities
+                                                            * are 0, and these those of heads */
+} sphc_localizer_prediction;
+/* Zero but for struct_size, map_id and the identity pose.  STRUCT_SIZE as above. [pure] */
+SPHC_API sphc_status sphc_localizer_prediction_init(sphc_localizer_prediction *prediction, size_t struct_size);
+/* The pose at time_ns, in the time of frames: after the last frame, or up to 100 ms before it.  From the last pose,
+ * and from there on by the rate of the caller's odometry, or else at constant velocity; the covariance has the
+ * errors of both, and how heads accelerate (1 sigma: 4 m/s^2, 6 rad/s^2).  Set prediction->struct_size first.
+ * NOT_LOCALIZED, *prediction filled but for the pose: no pose within the second before time_ns; time_ns too long
+ * before the last frame; SPHC_MODE_SINGLE.  Failures: ARGUMENT, STRUCT_SIZE.  Changes nothing. [exclusive] */
+SPHC_API sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int64_t time_ns,
+                                            sphc_localizer_prediction *prediction);
 
 /* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
 enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };

@@ -282,6 +282,12 @@ inline sphc_localizer_result emptyResult() {
   return result;
 }
 
+inline sphc_localizer_prediction emptyPrediction() {
+  sphc_localizer_prediction prediction = {};
+  sphc_localizer_prediction_init(&prediction, sizeof prediction);
+  return prediction;
+}
+
 class Localizer {
  public:
   Localizer() = default;
@@ -338,6 +344,10 @@ class Localizer {
   // ok(): localized.  code() SPHC_NOT_LOCALIZED: result->outcome says why.  failed(): the frame does not fit.
   Status process(const sphc_localizer_frame &frame, sphc_localizer_result *result) {
     return said(sphc_localizer_process(localizer_, &frame, result));
+  }
+  // ok(): *prediction is where the camera is at that time.  code() SPHC_NOT_LOCALIZED: not known.
+  Status predict(std::int64_t time_ns, sphc_localizer_prediction *prediction) const {
+    return Status(sphc_localizer_predict(localizer_, time_ns, prediction));
   }
   // Copies at most `capacity` and returns how many there are.
   std::uint32_t observations(sphc_localizer_observation *observations, std::uint32_t capacity) const {

@@ -14,6 +14,7 @@ Command mapCommand(CLI::App *root);
 Command matchCommand(CLI::App *root);
 Command negativeCommand(CLI::App *root);
 Command poseCommand(CLI::App *root);
+Command predictCommand(CLI::App *root);
 Command recordingCommand(CLI::App *root);
 Command releasesCommand(CLI::App *root);
 

@@ -56,8 +56,11 @@ constexpr StructKind kindOf(const sphc_localizer_prior *) {
 constexpr StructKind kindOf(const sphc_localizer_parameter_range *) {
   return ungrown<sphc_localizer_parameter_range>("sphc_localizer_parameter_range");
 }
+constexpr StructKind kindOf(const sphc_localizer_prediction *) {
+  return ungrown<sphc_localizer_prediction>("sphc_localizer_prediction");
+}
 constexpr StructKind kindOf(const sphc_localizer_result *) {
-  return ungrown<sphc_localizer_result>("sphc_localizer_result");
+  return grown<sphc_localizer_result>("sphc_localizer_result", offsetof(sphc_localizer_result, jump_m));
 }
 
 // Of any of them.

@@ -59,6 +59,13 @@ sphc_localizer_result emptyResult() {
   return result;
 }
 
+sphc_localizer_prediction emptyPrediction() {
+  sphc_localizer_prediction prediction = {};
+  prediction.map_id = SPHC_MAP_NONE;
+  prediction.camera_from_map.q_wxyz[0] = 1;
+  return prediction;
+}
+
 sphc_localizer_prior emptyPrior() {
   sphc_localizer_prior prior = {};
   prior.camera_from_map.q_wxyz[0] = prior.odometry_from_camera.q_wxyz[0] = 1;
@@ -81,6 +88,10 @@ sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size_t struct
 
 sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size) {
   return sphc::initStruct(emptyPrior(), struct_size, prior);
+}
+
+sphc_status sphc_localizer_prediction_init(sphc_localizer_prediction *prediction, size_t struct_size) {
+  return sphc::initStruct(emptyPrediction(), struct_size, prediction);
 }
 
 sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memory *memory, sphc_message *message) {
@@ -252,6 +263,22 @@ double sphc_localizer_result_confidence(const sphc_localizer_result *result, dou
   if (!result || result->outcome != SPHC_OUTCOME_LOCALIZED) return 0;
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(result->covariance);
   return sphc::Localizer::confidenceWithin(covariance, translation_m, rotation_rad);
+}
+
+sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int64_t time_ns,
+                                   sphc_localizer_prediction *prediction) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  const sphc_status status = sphc::checkStruct("prediction", prediction, nullptr);
+  if (status != SPHC_OK) return status;
+  const Localizer &own_localizer = localizer->localizer;
+  sphc::MovedPose moved;
+  const bool is_known = own_localizer.predict(time_ns, &moved);
+  sphc_localizer_prediction own =
+      is_known ? sphc::predictionFrom(moved, own_localizer.maps().idOf(moved.map)) : emptyPrediction();
+  own.time_ns = time_ns;
+  own.state = sphc::stateFrom(own_localizer.state());
+  sphc::writeStruct(own, prediction);
+  return is_known ? SPHC_OK : SPHC_NOT_LOCALIZED;
 }
 
 sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_localizer_observation *observations,

@@ -266,6 +266,19 @@ const char *sphc_localizer_hint_name(uint32_t hint) {
   }
 }
 
+const char *sphc_localizer_event_name(uint32_t event) {
+  switch (event) {
+    case SPHC_EVENT_RELOCALIZED:
+      return "SPHC_EVENT_RELOCALIZED";
+    case SPHC_EVENT_JUMPED:
+      return "SPHC_EVENT_JUMPED";
+    case SPHC_EVENT_MAP_CHANGED:
+      return "SPHC_EVENT_MAP_CHANGED";
+    default:
+      return "SPHC_EVENT_?";
+  }
+}
+
 const char *sphc_localizer_parameter_name(sphc_localizer_parameter parameter) {
   switch (parameter) {
     case SPHC_PARAMETER_MAX_RATIO:

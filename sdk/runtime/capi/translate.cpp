@@ -50,6 +50,11 @@ Known knownFrom(const sphc_localizer_prior &given, const MapSet &maps) {
   return known;
 }
 
+void fillCovariance(const Matrix6 &own, double row_major[36]) {
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column) row_major[6 * row + column] = own(row, column);
+}
+
 sphc_depth_bias depthBiasFrom(const DepthCalibration &depth) {
   const double offset_sigma_m = sqrtOf(depth.covariance(0, 0)), slope_sigma = sqrtOf(depth.covariance(1, 1));
   const double correlation = depth.isKnown() ? 0 : depth.covariance(0, 1) / (offset_sigma_m * slope_sigma);
@@ -142,6 +147,8 @@ static_assert(kCutFeatures == SPHC_CUT_FEATURES && kCutMatches == SPHC_CUT_MATCH
 static_assert(kTooDark == SPHC_HINT_TOO_DARK && kTooFast == SPHC_HINT_TOO_FAST &&
               kTooPlain == SPHC_HINT_TOO_PLAIN && kNoDepthInRange == SPHC_HINT_NO_DEPTH_IN_RANGE &&
               kNotInMap == SPHC_HINT_NOT_IN_MAP && kAmbiguous == SPHC_HINT_AMBIGUOUS);
+static_assert(kRelocalized == SPHC_EVENT_RELOCALIZED && kJumped == SPHC_EVENT_JUMPED &&
+              kMapChanged == SPHC_EVENT_MAP_CHANGED);
 
 sphc_localizer_state stateFrom(TrackingState state) {
   switch (state) {
@@ -176,8 +183,7 @@ sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_local
   result.iterations = answer.samples;
   result.camera_from_map.q_wxyz[0] = 1;
   if (answer.outcome == Outcome::kLocalized) result.camera_from_map = rigidToC(answer.camera_from_map);
-  for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column) result.covariance[6 * row + column] = answer.covariance(row, column);
+  fillCovariance(answer.covariance, result.covariance);
   result.features_us = microseconds(answer.times.features_ns);
   result.align_us = microseconds(answer.times.align_ns);
   result.match_us = microseconds(answer.times.match_ns);
@@ -191,7 +197,25 @@ sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_local
   result.faults = answer.faults;
   result.hints = answer.hints;
   result.depth = depthBiasFrom(answer.depth);
+  result.events = answer.jump.events;
+  result.jump_m = answer.jump.shift_m;
+  result.jump_rad = answer.jump.turn_rad;
   return result;
+}
+
+sphc_localizer_prediction predictionFrom(const MovedPose &moved, uint32_t map_id) {
+  sphc_localizer_prediction prediction = {};
+  prediction.map_id = map_id;
+  prediction.pose_time_ns = moved.pose_time_ns;
+  prediction.camera_from_map = rigidToC(moved.camera_from_map);
+  fillCovariance(moved.covariance, prediction.covariance);
+  for (int i = 0; i < 3; ++i) {
+    prediction.velocity_in_map_m_s[i] = moved.velocity_in_map_m_s[i];
+    prediction.angular_velocity_in_map_rad_s[i] = moved.angular_velocity_in_map_rad_s[i];
+  }
+  prediction.velocity_sigma_m_s = moved.velocity_sigma_m_s;
+  prediction.angular_velocity_sigma_rad_s = moved.angular_velocity_sigma_rad_s;
+  return prediction;
 }
 
 }  // namespace sphc

@@ -4,6 +4,7 @@
 #include "runtime/localizer/config.h"
 #include "runtime/localizer/frame.h"
 #include "runtime/localizer/map_set.h"
+#include "runtime/localizer/motion.h"
 #include "runtime/localizer/result.h"
 #include "spherecloud/spherecloud.h"
 
@@ -21,5 +22,7 @@ sphc_localizer_observation observationFrom(const Observation &observation);
 DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth);
 // `frame` is the one that was answered.
 sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_localizer_frame &frame);
+// What is known of a pose then; the map is that with this id.
+sphc_localizer_prediction predictionFrom(const MovedPose &moved, uint32_t map_id);
 
 }  // namespace sphc

@@ -39,6 +39,14 @@ Matrix3 rotationFromVector(const Vector3 &rotation_rad) {
   return Matrix3::Identity() + (s / angle) * k + ((1 - c) / (angle * angle)) * (k * k);
 }
 
+Vector3 vectorFromRotation(const Matrix3 &rotation) {
+  double q[4];
+  quaternionFromRotation(rotation, q);
+  const Vector3 axis(q[1], q[2], q[3]);
+  const double sine = axis.norm();
+  return sine > 1e-12 ? Vector3(2 * atan2Of(sine, q[0]) / sine * axis) : Vector3(2 * axis);
+}
+
 double rotationAngle(const Matrix3 &r) {
   const Vector3 twice_sine(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
   return atan2Of(sqrtOf(twice_sine.squaredNorm()), r.trace() - 1);

@@ -27,6 +27,8 @@ Matrix3 rotationFromQuaternion(const double q_wxyz[4]);
 void quaternionFromRotation(const Matrix3 &rotation, double q_wxyz[4]);
 // exp of the cross matrix of a rotation vector, radians (Rodrigues).
 Matrix3 rotationFromVector(const Vector3 &rotation_rad);
+// Its inverse, of a rotation of less than half a turn.
+Vector3 vectorFromRotation(const Matrix3 &rotation);
 // Angle of a rotation, radians, in [0, pi].
 double rotationAngle(const Matrix3 &rotation);
 

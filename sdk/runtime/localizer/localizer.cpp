@@ -132,7 +132,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
-  learn();
+  learn(frame.color_time_ns, &result);
   result.keypoints = front_.keypointCount();
   result.lifted = front_.liftedCount();
   result.samples = work.samples;
@@ -141,6 +141,11 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   result.times = {elapsedNs(begin, extracted), elapsedNs(extracted, aligned), work.match_ns,
                   located_ns > work.match_ns ? located_ns - work.match_ns : 0};
   return result;
+}
+
+bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
+  Motion motion;
+  return tracker_.motion(trail_, &motion) && moveTo(time_ns, motion, moved);
 }
 
 // The camera moves between the two exposures; odometry tells how.
@@ -330,11 +335,13 @@ void Localizer::observe() {
   }
 }
 
-void Localizer::learn() {
+void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
   if (best_.isLocalized()) {
     calibrator_.learn(best_.estimate);
     fusion_.clear();
-    if (config_.tracks) tracker_.accept(best_.map, best_.estimate);
+    if (!config_.tracks) return;
+    result->jump = tracker_.accept(best_.map, best_.estimate);
+    trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {
     tracker_.miss();
   }

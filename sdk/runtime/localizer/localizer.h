@@ -41,6 +41,9 @@ class Localizer {
 
   // `frame` fits the config.
   LocalizerResult process(const FrameInput &frame);
+  // Between frames: where the camera is at a time of the caller's; false where that is not known.
+  bool predict(int64_t time_ns, MovedPose *moved) const;
+  TrackingState state() const { return tracker_.state(); }
   // Forgets where the camera was; what was learnt of the depth sensor stays.
   void reset();
 
@@ -67,7 +70,7 @@ class Localizer {
   bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
   void observe();
-  void learn();
+  void learn(int64_t time_ns, LocalizerResult *result);
 
   LocalizerConfig config_;
   DepthReader depth_reader_;
@@ -77,6 +80,7 @@ class Localizer {
   Repetition repetition_;
   DepthCalibrator calibrator_;
   Tracker tracker_;
+  Trail trail_;
   Fusion fusion_;
   Consistency consistency_;
   TravelCheck travel_;

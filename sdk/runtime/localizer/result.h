@@ -4,6 +4,7 @@
 
 #include "runtime/types/cut.h"
 #include "runtime/types/estimate.h"
+#include "runtime/types/event.h"
 #include "runtime/types/fault.h"
 #include "runtime/types/hint.h"
 
@@ -35,6 +36,12 @@ struct StageTimes {
   uint64_t features_ns = 0, align_ns = 0, match_ns = 0, pose_ns = 0;
 };
 
+// From where the camera was expected to where it was found.
+struct Jump {
+  Events events = 0;
+  double shift_m = 0, turn_rad = 0;  // of the camera's centre, and of the camera; 0 where nothing was expected
+};
+
 struct LocalizerResult {
   Outcome outcome = Outcome::kFewMatches;
   Faults faults = 0;
@@ -46,6 +53,7 @@ struct LocalizerResult {
   uint32_t map_id = UINT32_MAX;  // that the pose is in; without a pose the likeliest, or none
   uint32_t frames = 1;           // whose matches were put together
   bool guided = false;           // found where it was expected
+  Jump jump;                     // where there is a pose
   // Where the outcome is kLocalized; covariance of (rotation rad, translation m), camera frame, T = exp(xi)
   // T_estimate.
   Rigid camera_from_map;

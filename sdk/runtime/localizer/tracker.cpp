@@ -19,15 +19,6 @@ double sigmaAnAxis(const Estimate &estimate, int first) {
   return doubtOf(estimate.inliers) * sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
 }
 
-// Rotation vector of a rotation of less than half a turn.
-Vector3 vectorFromRotation(const Matrix3 &rotation) {
-  double q[4];
-  quaternionFromRotation(rotation, q);
-  const Vector3 axis(q[1], q[2], q[3]);
-  const double sine = axis.norm();
-  return sine > 1e-12 ? Vector3(2 * atan2Of(sine, q[0]) / sine * axis) : Vector3(2 * axis);
-}
-
 }  // namespace
 
 void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
@@ -91,17 +82,21 @@ bool Tracker::predict(Prediction *prediction) const {
   return true;
 }
 
-bool Tracker::agrees(uint32_t map, const Rigid &camera_from_map) const {
-  Prediction expected;
-  if (!predict(&expected) || expected.map != map) return false;
-  const Matrix3 off = camera_from_map.rotation * expected.camera_from_map.rotation.transpose();
-  const Vector3 shift = camera_from_map.inverse().translation_m - expected.camera_from_map.inverse().translation_m;
-  return rotationAngle(off) < kGateSigmas * expected.rotation_sigma_rad &&
-         shift.norm() < kGateSigmas * expected.translation_sigma_m;
+Jump Tracker::jumpTo(uint32_t map, const Rigid &found, Prediction *expected) const {
+  if (!predict(expected)) return {kRelocalized, 0, 0};
+  if (expected->map != map) return {kMapChanged, 0, 0};
+  const Vector3 shift_m = found.inverse().translation_m - expected->camera_from_map.inverse().translation_m;
+  Jump jump = {0, shift_m.norm(), rotationAngle(found.rotation * expected->camera_from_map.rotation.transpose())};
+  const bool agrees = jump.turn_rad < kGateSigmas * expected->rotation_sigma_rad &&
+                      jump.shift_m < kGateSigmas * expected->translation_sigma_m;
+  jump.events = agrees ? Events{0} : kJumped;
+  return jump;
 }
 
-void Tracker::accept(uint32_t map, const Estimate &estimate) {
-  if (agrees(map, estimate.camera_from_map))
+Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
+  Prediction expected;
+  const Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
+  if (!jump.events)
     state_ = TrackingState::kTracking;
   else if (state_ == TrackingState::kTracking)
     state_ = TrackingState::kLost;
@@ -112,6 +107,7 @@ void Tracker::accept(uint32_t map, const Estimate &estimate) {
     turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
     velocity_m_s_ = moved.translation_m / dt;
   }
+  steady_ = has_velocity_ ? steady_ + 1 : 0;
   if (state_ == TrackingState::kTracking) trusted_time_ns_ = time_ns_;
   has_pose_ = moved_known_ = true;
   map_ = map;
@@ -122,24 +118,44 @@ void Tracker::accept(uint32_t map, const Estimate &estimate) {
   inliers_ = estimate.inliers;
   moved_ = {};
   moved_rotation2_ = moved_translation2_ = 0;
+  return jump;
 }
 
 bool Tracker::vetoes(uint32_t map, const Estimate &estimate) const {
+  if (state_ == TrackingState::kRelocalizing || !moved_known_ || estimate.inliers >= inliers_) return false;
   Prediction expected;
-  const bool is_known = state_ != TrackingState::kRelocalizing && moved_known_ && predict(&expected);
-  if (!is_known || expected.map != map || estimate.inliers >= inliers_) return false;
-  const Rigid &found = estimate.camera_from_map;
-  const double turn_rad = rotationAngle(found.rotation * expected.camera_from_map.rotation.transpose());
-  const Vector3 shift_m = found.inverse().translation_m - expected.camera_from_map.inverse().translation_m;
+  const Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
+  if (jump.events != kJumped) return false;
   const auto jumps = [](double off, double expected_sigma, double own_sigma, double most) {
     return off > std::max(most, kGateSigmas * hypotOf(expected_sigma, own_sigma));
   };
-  return jumps(turn_rad, expected.rotation_sigma_rad, sigmaAnAxis(estimate, 0), kNoJump.most_turn_rad) ||
-         jumps(shift_m.norm(), expected.translation_sigma_m, sigmaAnAxis(estimate, 3), kNoJump.most_shift_m);
+  return jumps(jump.turn_rad, expected.rotation_sigma_rad, sigmaAnAxis(estimate, 0), kNoJump.most_turn_rad) ||
+         jumps(jump.shift_m, expected.translation_sigma_m, sigmaAnAxis(estimate, 3), kNoJump.most_shift_m);
 }
 
 void Tracker::miss() {
   if (state_ == TrackingState::kTracking) state_ = TrackingState::kLost;
+}
+
+bool Tracker::motion(const Trail &trail, Motion *motion) const {
+  if (!has_pose_) return false;
+  *motion = {map_, pose_time_ns_, pose_time_ns_, camera_from_map_, trail.covariance(), {}};
+  const bool is_found = time_ns_ == pose_time_ns_;
+  if (!moved_known_ || is_found) motion->step = trail.step(steady_);
+  if (!moved_known_) return true;
+  if (!is_found) {
+    motion->time_ns = time_ns_;
+    motion->camera_from_map = moved_ * camera_from_map_;
+    motion->covariance =
+        carried(motion->covariance, moved_) + diagonalOf(sqrtOf(moved_rotation2_), sqrtOf(moved_translation2_));
+  }
+  if (has_step_ && seconds(step_ns_) <= kSteadySeconds) {
+    const Matrix3 map_from_camera = motion->camera_from_map.rotation.transpose();
+    motion->step = {seconds(step_ns_), -(map_from_camera * vectorFromRotation(step_.rotation)),
+                    -(map_from_camera * step_.translation_m),
+                    diagonalOf(odometry_.rotation_sigma_rad, odometry_.translation_sigma_m), is_found ? 0.0 : 1.0};
+  }
+  return true;
 }
 
 }  // namespace sphc

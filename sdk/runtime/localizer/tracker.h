@@ -16,6 +16,7 @@
 //                  more than kForgetNs
 #pragma once
 #include "runtime/localizer/frame.h"
+#include "runtime/localizer/motion.h"
 #include "runtime/localizer/result.h"
 
 namespace sphc {
@@ -35,8 +36,8 @@ class Tracker {
   void advance(int64_t time_ns, const Odometry *odometry);
   // After advance: false where nothing can be said.
   bool predict(Prediction *prediction) const;
-  // After it: what it brought.
-  void accept(uint32_t map, const Estimate &estimate);
+  // After it: what it brought, and how far that is from what was expected.
+  Jump accept(uint32_t map, const Estimate &estimate);
   void miss();
   // Before accept: is this a jump that odometry contradicts, and that fewer inliers speak for than for the last
   // pose? For kForgetNs at most.
@@ -49,6 +50,9 @@ class Tracker {
   // Motion of the camera since another time near this frame's, by the odometry around it; false where that says
   // nothing.
   bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
+  // After the frame: how the camera moves, for times of the caller's; false where no pose is known.  The trail has
+  // every pose that was accepted.
+  bool motion(const Trail &trail, Motion *motion) const;
   void reset() { *this = {}; }
   // The map in this slot is gone.
   void forget(uint32_t map) {
@@ -56,7 +60,7 @@ class Tracker {
   }
 
  private:
-  bool agrees(uint32_t map, const Rigid &camera_from_map) const;
+  Jump jumpTo(uint32_t map, const Rigid &found, Prediction *expected) const;
 
   TrackingState state_ = TrackingState::kRelocalizing;
   int64_t time_ns_ = 0;
@@ -80,6 +84,7 @@ class Tracker {
 
   bool has_velocity_ = false;
   Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame
+  uint32_t steady_ = 0;  // steps between poses since the last jump or pause
 };
 
 }  // namespace sphc

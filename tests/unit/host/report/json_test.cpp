@@ -26,6 +26,18 @@ TEST(FrameJson, IsALineAFrameThatParses) {
   EXPECT_FALSE(frames[1].contains("error"));
 }
 
+TEST(FrameJson, TellsOfJumps) {
+  FrameRecord frame = goodFrame(1, 0, 0);
+  frame.events = SPHC_EVENT_JUMPED;
+  frame.jump_m = 0.4;
+  frame.jump_rad = M_PI / 18;
+  const auto json = frameJson(frame, "map");
+  EXPECT_EQ(json["events"], "jumped");
+  EXPECT_EQ(json["jump"]["translation_m"], 0.4);
+  EXPECT_NEAR(json["jump"]["rotation_deg"].get<double>(), 10, 1e-12);
+  EXPECT_FALSE(frameJson(lostFrame(2), "map").contains("jump"));
+}
+
 TEST(FrameJson, NamesTheMapFrame) {
   const auto json = frameJson(goodFrame(1, 0, 0), "map");
   EXPECT_TRUE(json.contains("map_from_camera"));

@@ -27,7 +27,7 @@ TEST_P(LabHelpTest, TeachesByExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, LabHelpTest,
-                         testing::Values("align", "compare", "features", "frame", "map", "match", "pose",
+                         testing::Values("align", "compare", "features", "frame", "map", "match", "pose", "predict",
                                          "recording", "releases"));
 
 class LabUsageTest : public testing::TestWithParam<const char *> {};
@@ -77,6 +77,29 @@ TEST(Lab, MakesMapsOfWantedSizesAndTimesFramesOnThem) {
   const Answer none = runLab(frame + (folder / "maps/map_500.sphc") + " --only nobody");
   EXPECT_EQ(none.exit_code, kExitUsage);
   EXPECT_THAT(none.err, HasSubstr("'ours, tracking'"));
+}
+
+TEST(Lab, ComparesPredictionsWithTheWalk) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 8 --rate 30 --out " + walk).exit_code, kExitDone);
+  const Answer made = runLab("map -r " + walk + " --step 3 --points 9000 --out " + (folder / "maps") + " --json");
+  ASSERT_EQ(made.exit_code, kExitDone) << made.err;
+  const Answer answer = runLab("predict -r " + walk + " --map " + (folder / "maps/map_9000.sphc") +
+                               " --ahead-ms 0 --ahead-ms 33 --json");
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  const auto rows = nlohmann::json::parse(answer.out);
+  ASSERT_EQ(rows.size(), 4u);
+  for (const auto &row : rows) {
+    EXPECT_GE(row["predictions"], 5);
+    EXPECT_LT(row["error_m"], 0.05);
+    EXPECT_LT(row["error_deg"], 1);
+    EXPECT_GT(row["shift_sigmas_95"], 0);
+  }
+  EXPECT_EQ(rows[0]["error_m"], rows[0]["last_pose_error_m"]);
+  EXPECT_EQ(rows[3]["ahead_ns"], 33000000);
+  EXPECT_TRUE(rows[3]["odometry"]);
+  EXPECT_GT(rows[1]["last_pose_error_m"], rows[0]["last_pose_error_m"]);
 }
 
 }  // namespace

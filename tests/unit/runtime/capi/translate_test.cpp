@@ -206,6 +206,7 @@ LocalizerResult answerOf(Outcome outcome) {
   answer.depth.mean = Vector2(0.01, 0.02);
   answer.depth.covariance << 0.0009, 0, 0, 0.0016;
   answer.depth.noise_scale = 1.5;
+  answer.jump = {kJumped, 0.25, 0.125};
   answer.times = {1999, 2000, 3000000, UINT64_MAX};
   return answer;
 }
@@ -245,6 +246,32 @@ TEST(TranslateBack, EveryNumberOfAResult) {
   EXPECT_NEAR(result.depth.offset_sigma_m, 0.03, 1e-15);
   EXPECT_NEAR(result.depth.slope_sigma, 0.04, 1e-15);
   EXPECT_EQ(result.depth.noise_scale, 1.5);
+  EXPECT_EQ(result.events, uint32_t{SPHC_EVENT_JUMPED});
+  EXPECT_EQ(result.jump_m, 0.25);
+  EXPECT_EQ(result.jump_rad, 0.125);
+}
+
+TEST(TranslateBack, EveryNumberOfAPrediction) {
+  MovedPose moved;
+  moved.pose_time_ns = 55;
+  moved.camera_from_map.translation_m = Vector3(1, 2, 3);
+  for (int i = 0; i < 36; ++i) moved.covariance(i / 6, i % 6) = i;
+  moved.velocity_in_map_m_s = Vector3(4, 5, 6);
+  moved.angular_velocity_in_map_rad_s = Vector3(7, 8, 9);
+  moved.velocity_sigma_m_s = 10;
+  moved.angular_velocity_sigma_rad_s = 11;
+  const sphc_localizer_prediction prediction = predictionFrom(moved, 12);
+  EXPECT_EQ(prediction.map_id, 12u);
+  EXPECT_EQ(prediction.pose_time_ns, 55);
+  EXPECT_EQ(prediction.camera_from_map.q_wxyz[0], 1);
+  for (int i = 0; i < 36; ++i) EXPECT_EQ(prediction.covariance[i], i);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(prediction.camera_from_map.t_m[i], 1 + i);
+    EXPECT_EQ(prediction.velocity_in_map_m_s[i], 4 + i);
+    EXPECT_EQ(prediction.angular_velocity_in_map_rad_s[i], 7 + i);
+  }
+  EXPECT_EQ(prediction.velocity_sigma_m_s, 10);
+  EXPECT_EQ(prediction.angular_velocity_sigma_rad_s, 11);
 }
 
 TEST(TranslateBack, TimesAreWholeMicrosecondsAndNeverWrapAround) {

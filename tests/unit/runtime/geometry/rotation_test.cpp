@@ -50,6 +50,7 @@ TEST(Rotation, VectorIsAxisTimesAngle) {
     const Matrix3 rotation = rotationFromVector(angle * axis);
     EXPECT_LT((rotation - expected).norm(), 1e-14);
     EXPECT_NEAR(rotationAngle(rotation), angle, 1e-9 * angle + 1e-15);
+    EXPECT_LT((vectorFromRotation(rotation) - angle * axis).norm(), 1e-9 * angle + 1e-15);
   }
   EXPECT_EQ(rotationFromVector(Vector3::Zero()), Matrix3::Identity());
 }

@@ -23,9 +23,10 @@ Estimate found(const Rigid &camera_from_map) {
 
 class TrackerTest : public testing::Test {
  protected:
-  void bring(int64_t time_ns, const Rigid &camera_from_map, uint32_t map = 0, const Odometry *odometry = nullptr) {
+  Jump bring(int64_t time_ns, const Rigid &camera_from_map, uint32_t map = 0, const Odometry *odometry = nullptr) {
     tracker_.advance(time_ns, odometry);
-    tracker_.accept(map, found(camera_from_map));
+    trail_.add(time_ns, camera_from_map, found(camera_from_map).covariance);
+    return tracker_.accept(map, found(camera_from_map));
   }
   void bringNone(int64_t time_ns) {
     tracker_.advance(time_ns, nullptr);
@@ -36,6 +37,7 @@ class TrackerTest : public testing::Test {
     ASSERT_EQ(tracker_.state(), TrackingState::kTracking);
   }
   Tracker tracker_;
+  Trail trail_;
 };
 
 TEST_F(TrackerTest, APoseIsTrustedOnceAnotherAgrees) {
@@ -224,6 +226,90 @@ TEST_F(TrackerTest, OdometryPredictsAnyMotionAndItsErrorsAddUp) {
   Prediction without;
   ASSERT_TRUE(tracker_.predict(&without));
   EXPECT_GT(without.rotation_sigma_rad, 3 * expected.rotation_sigma_rad);
+}
+
+TEST_F(TrackerTest, APoseTellsHowFarItIsFromWhereItWasExpected) {
+  const Jump first = bring(kFrame, poseAt(0));
+  EXPECT_EQ(first.events, kRelocalized);
+  EXPECT_EQ(first.shift_m, 0);
+  for (int i = 2; i <= 4; ++i) {
+    const Jump none = bring(i * kFrame, poseAt(0.01 * i));
+    EXPECT_EQ(none.events, 0u);
+    EXPECT_LT(none.shift_m, 0.021);
+  }
+  const Jump small = bring(5 * kFrame, poseAt(0.055, 0.004));  // 5 mm and 4 mrad beside
+  EXPECT_EQ(small.events, 0u);
+  EXPECT_NEAR(small.shift_m, 0.005, 2e-3);
+  EXPECT_NEAR(small.turn_rad, 0.004, 1e-6);
+  bring(6 * kFrame, poseAt(0.06)), bring(7 * kFrame, poseAt(0.07));
+  const Jump large = bring(8 * kFrame, poseAt(1.08, 0.5));
+  EXPECT_EQ(large.events, kJumped);
+  EXPECT_NEAR(large.turn_rad, 0.5, 0.02);
+  EXPECT_NEAR(large.shift_m, 1, 0.1);
+  const Jump other = bring(9 * kFrame, poseAt(1.08, 0.5), 1);
+  EXPECT_EQ(other.events, kMapChanged);
+  EXPECT_EQ(other.shift_m, 0);
+  EXPECT_EQ(other.turn_rad, 0);
+  EXPECT_EQ(bring(10 * kFrame + kSecond, poseAt(1.08, 0.5), 1).events, kRelocalized);
+}
+
+// The camera that turns and walks, one step a frame.
+Rigid walked(double steps) {
+  const Rigid map_from_camera = {rotationFromVector(Vector3(0, 0.03 * steps, 0)), Vector3(0.02 * steps, 0, 0)};
+  return map_from_camera.inverse();
+}
+
+TEST_F(TrackerTest, MotionIsThatOfTheLastPoses) {
+  Motion motion;
+  EXPECT_FALSE(tracker_.motion(trail_, &motion)) << "no pose yet";
+  bring(kFrame, walked(1));
+  ASSERT_TRUE(tracker_.motion(trail_, &motion));
+  EXPECT_EQ(motion.step.seconds, 0) << "no step yet";
+  bring(2 * kFrame, walked(2)), bring(3 * kFrame, walked(3), 0);
+  ASSERT_TRUE(tracker_.motion(trail_, &motion));
+  EXPECT_EQ(motion.pose_time_ns, 3 * kFrame);
+  EXPECT_EQ(motion.time_ns, 3 * kFrame);
+  MovedPose moved;
+  ASSERT_TRUE(moveTo(4 * kFrame, motion, &moved));
+  EXPECT_LT(rotationAngle(moved.camera_from_map.rotation * walked(4).rotation.transpose()), 3e-4);
+  EXPECT_LT((moved.camera_from_map.translation_m - walked(4).translation_m).norm(), 3e-4);
+  bringNone(4 * kFrame);
+  Motion later;
+  ASSERT_TRUE(tracker_.motion(trail_, &later));
+  EXPECT_EQ(later.time_ns, 3 * kFrame) << "the last pose's still";
+  EXPECT_EQ(later.step.seconds, motion.step.seconds);
+  for (int i = 5; i < 40; ++i) bringNone(i * kFrame);
+  EXPECT_FALSE(tracker_.motion(trail_, &motion)) << "forgotten";
+}
+
+TEST_F(TrackerTest, MotionIsThatOfOdometryWhereThereIsOne) {
+  const auto odometryAt = [](int i) {
+    return Odometry{Rigid{rotationFromVector(Vector3(1, 0, 0)), Vector3(3, 4, 5)} * walked(i).inverse(), 1e-3,
+                    2e-3};
+  };
+  const Rigid off = poseAt(0.3);  // what poses alone would tell is another motion
+  Odometry odometry = odometryAt(1);
+  bring(kFrame, walked(1), 0, &odometry);
+  odometry = odometryAt(2);
+  bring(2 * kFrame, off * walked(2), 0, &odometry);
+  Motion at_pose, later;
+  ASSERT_TRUE(tracker_.motion(trail_, &at_pose));
+  EXPECT_EQ(at_pose.step.share_in_pose, 0) << "the pose is this frame's own";
+  for (int i = 3; i <= 5; ++i) {
+    odometry = odometryAt(i);
+    tracker_.advance(i * kFrame, &odometry);
+    tracker_.miss();
+  }
+  ASSERT_TRUE(tracker_.motion(trail_, &later));
+  EXPECT_EQ(later.pose_time_ns, 2 * kFrame);
+  EXPECT_EQ(later.time_ns, 5 * kFrame);
+  EXPECT_EQ(later.step.share_in_pose, 1);
+  EXPECT_NEAR(later.covariance(3, 3) - at_pose.covariance(3, 3), 3 * 4e-6, 1e-6);
+  MovedPose moved;
+  ASSERT_TRUE(moveTo(6 * kFrame, later, &moved));
+  const Rigid expected = walked(6) * (walked(2).inverse() * off * walked(2));
+  EXPECT_LT(rotationAngle(moved.camera_from_map.rotation * expected.rotation.transpose()), 1e-8);
+  EXPECT_LT((moved.camera_from_map.translation_m - expected.translation_m).norm(), 1e-3);
 }
 
 TEST_F(TrackerTest, MotionBesideAFrameIsThatOfTheStep) {
