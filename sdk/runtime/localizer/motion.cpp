@@ -27,8 +27,7 @@ struct Unknown {
 
 Unknown unknownOf(double ahead_s, double step_s, double most_rate, double acceleration) {
   if (!(step_s > 0)) return {most_rate * absOf(ahead_s), most_rate};
-  return {0.5 * acceleration * absOf(ahead_s * (ahead_s + step_s)),
-          acceleration * absOf(ahead_s + 0.5 * step_s)};
+  return {0.5 * acceleration * absOf(ahead_s * (ahead_s + step_s)), acceleration * absOf(ahead_s + 0.5 * step_s)};
 }
 
 }  // namespace
