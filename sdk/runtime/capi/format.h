@@ -16,7 +16,7 @@ struct PixelFormat {
 PixelFormat pixelFormatOf(sphc_format format);
 // Of a config, where 0 stands for DEPTH16.
 constexpr sphc_format depthFormatOf(sphc_format configured) {
-  return configured ? configured : SPHC_FORMAT_DEPTH16;
+  return configured ? configured : sphc_format{SPHC_FORMAT_DEPTH16};
 }
 
 }  // namespace sphc
