@@ -12,7 +12,6 @@ namespace {
 
 using namespace tuning;
 
-double seconds(uint64_t ns) { return 1e-9 * static_cast<double>(ns); }
 double square(double value) { return value * value; }
 
 // Of one axis.
@@ -70,7 +69,7 @@ Step Trail::step(uint32_t steps) const {
   double dt = 0;
   for (uint32_t i = std::min(steps, kCapacity - 1); i-- > 0;) {
     const Place &from = ago(i + 1), &to = ago(i);
-    dt = seconds(elapsedNs(from.time_ns, to.time_ns));
+    dt = secondsOf(elapsedNs(from.time_ns, to.time_ns));
     const Rigid before = {Matrix3(from.rotation), Vector3(from.translation_m)},
                 now = {Matrix3(to.rotation), Vector3(to.translation_m)};
     const Vector3 turn_in_map_rad =
@@ -93,7 +92,7 @@ bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
   const bool before = time_ns < motion.time_ns;
   const uint64_t apart_ns = before ? elapsedNs(time_ns, motion.time_ns) : elapsedNs(motion.time_ns, time_ns);
   if (before ? apart_ns > kNearNs : elapsedNs(motion.pose_time_ns, time_ns) > Tracker::kForgetNs) return false;
-  const double ahead_s = before ? -seconds(apart_ns) : seconds(apart_ns);
+  const double ahead_s = before ? -secondsOf(apart_ns) : secondsOf(apart_ns);
   const Step &step = motion.step;
   const double steps_per_s = step.seconds > 0 ? 1 / step.seconds : 0, steps = ahead_s * steps_per_s;
 

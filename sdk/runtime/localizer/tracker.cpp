@@ -13,8 +13,6 @@ using namespace tuning;
 
 constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
 
-double seconds(uint64_t ns) { return 1e-9 * static_cast<double>(ns); }
-
 double sigmaAnAxis(const Estimate &estimate, int first) {
   return doubtOf(estimate.inliers) * sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
 }
@@ -52,8 +50,8 @@ bool Tracker::step(Rigid *now_from_before, double *rotation_sigma_rad, double *t
 bool Tracker::motionSince(int64_t then_ns, Rigid *now_from_then) const {
   const bool before = then_ns <= time_ns_;
   const uint64_t apart_ns = before ? elapsedNs(then_ns, time_ns_) : elapsedNs(time_ns_, then_ns);
-  if (!has_step_ || seconds(step_ns_) > kSteadySeconds || apart_ns > kNearNs) return false;
-  const double share = seconds(apart_ns) / seconds(step_ns_), then = before ? 1 - share : 1 + share;
+  if (!has_step_ || secondsOf(step_ns_) > kSteadySeconds || apart_ns > kNearNs) return false;
+  const double share = secondsOf(apart_ns) / secondsOf(step_ns_), then = before ? 1 - share : 1 + share;
   const Matrix3 turned = rotationFromVector(then * vectorFromRotation(step_.rotation));
   const Vector3 center = then * step_.inverse().translation_m;  // in the camera's frame at the frame before
   *now_from_then = step_ * Rigid{turned, -(turned * center)}.inverse();
@@ -70,7 +68,7 @@ bool Tracker::predict(Prediction *prediction) const {
     turn = sqrtOf(moved_rotation2_);
     shift = sqrtOf(moved_translation2_);
   } else {
-    const double dt = seconds(elapsedNs(pose_time_ns_, time_ns_));
+    const double dt = secondsOf(elapsedNs(pose_time_ns_, time_ns_));
     if (has_velocity_) moved = {rotationFromVector(dt * turn_rad_s_), dt * velocity_m_s_};
     if (has_velocity_) poses = kTwoPoses;
     turn = has_velocity_ ? 0.5 * kTurnAcceleration * dt * dt : kTurnRate * dt;
@@ -100,7 +98,7 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
     state_ = TrackingState::kTracking;
   else if (state_ == TrackingState::kTracking)
     state_ = TrackingState::kLost;
-  const double dt = seconds(elapsedNs(pose_time_ns_, time_ns_));
+  const double dt = secondsOf(elapsedNs(pose_time_ns_, time_ns_));
   has_velocity_ = state_ == TrackingState::kTracking && dt <= kSteadySeconds;
   if (has_velocity_) {
     const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();
@@ -149,9 +147,9 @@ bool Tracker::motion(const Trail &trail, Motion *motion) const {
     motion->covariance =
         carried(motion->covariance, moved_) + diagonalOf(sqrtOf(moved_rotation2_), sqrtOf(moved_translation2_));
   }
-  if (has_step_ && seconds(step_ns_) <= kSteadySeconds) {
+  if (has_step_ && secondsOf(step_ns_) <= kSteadySeconds) {
     const Matrix3 map_from_camera = motion->camera_from_map.rotation.transpose();
-    motion->step = {seconds(step_ns_), -(map_from_camera * vectorFromRotation(step_.rotation)),
+    motion->step = {secondsOf(step_ns_), -(map_from_camera * vectorFromRotation(step_.rotation)),
                     -(map_from_camera * step_.translation_m),
                     diagonalOf(odometry_.rotation_sigma_rad, odometry_.translation_sigma_m), is_found ? 0.0 : 1.0};
   }
