@@ -93,6 +93,7 @@ stage_quick() {
 }
 
 # Where nobody edits between two builds, several files are compiled as one.  The folder build/release is the developer's.
+# The runtime's only where nothing of it ships.
 unity=-DSPHC_UNITY=ON
 
 stage_release() {
@@ -133,7 +134,8 @@ stage_arm64() {
 # Sanitizers by clang, so that its warnings are seen too; with a little optimisation they are fast enough.  Keeps asserts.
 # Without the command and the laboratory, which would take as long again; the presets asan and ubsan have them.
 sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++
-  "-DCMAKE_CXX_FLAGS=-O1 -g1" "-DCMAKE_C_FLAGS=-O1 -g1" -DSPHC_COMMAND=OFF -DSPHC_LAB=OFF)
+  "-DCMAKE_CXX_FLAGS=-O1 -g1" "-DCMAKE_C_FLAGS=-O1 -g1" -DSPHC_COMMAND=OFF -DSPHC_LAB=OFF
+  -DSPHC_UNITY_RUNTIME=ON)
 
 stage_sanitized() {
   prepare runtime build openni2 test

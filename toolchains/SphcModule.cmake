@@ -102,8 +102,9 @@ if(SPHC_PRECOMPILE_RUNTIME)
   sphc_headers(sphc_small_runtime_headers FLAGS sphc_runtime_code OPTIONS ${SPHC_SMALL} HEADERS Eigen/Core Eigen/Geometry)
 endif()
 
-# sphc_unity(TARGET): where much is compiled and nothing edited, up to eight files of a folder are read as one.  Never the
-# runtime's, which ship as they are tested.
+# sphc_unity(TARGET): where much is compiled and nothing edited, up to eight files of a folder are read as one.  Those of
+# the runtime only by an option of their own: they are tested as they ship.
+option(SPHC_UNITY_RUNTIME "Compile up to eight files of the runtime as one" OFF)
 set(SPHC_UNITY_FILES 8) # more take a core's share of the memory
 function(sphc_unity target)
   if(NOT SPHC_UNITY)
@@ -111,6 +112,7 @@ function(sphc_unity target)
   endif()
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_(simd|scalar)\\.cpp$")  # they include themselves, or are compiled otherwise
   foreach(source ${sources})
     get_filename_component(folder ${source} DIRECTORY)
     string(MAKE_C_IDENTIFIER "in_${folder}" folder)
@@ -135,9 +137,10 @@ function(sphc_module name)
     add_library(${name} STATIC ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE sphc_flags PUBLIC ${arg_LINKS})
   endif()
-  if(NOT arg_RUNTIME)
-    sphc_unity(${name})
+  if(arg_RUNTIME)
+    set(SPHC_UNITY ${SPHC_UNITY_RUNTIME})
   endif()
+  sphc_unity(${name})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/sdk ${PROJECT_SOURCE_DIR}/sdk/include)
   string(FIND "${arg_SOURCES}" ".cpp" has_cpp)
   list(FILTER arg_SOURCES INCLUDE REGEX "_simd.cpp$")

@@ -27,11 +27,12 @@ STANDARD = {
 }
 
 
-def parse(machine, folder):
+def parse(machine, standard, headers):
     arguments = ["-x", "c", "-std=c99", f"--target={machine}", "-nostdinc", "-DSPHC_UNSTABLE=1", "-fparse-all-comments",
-                 f"-I{folder}", f"-I{HEADERS.parent}"]
+                 f"-I{standard}", f"-I{headers.parent}"]
     options = 1  # PARSE_DETAILED_PROCESSING_RECORD: macros too
-    unit = Index.create().parse(str(HEADERS / "spherecloud_capture.h"), args=arguments, options=options)
+    whole = [headers / name for name in reversed(FILES) if (headers / name).exists()][0]
+    unit = Index.create().parse(str(whole), args=arguments, options=options)
     faults = [str(d) for d in unit.diagnostics if d.severity >= 3]
     if faults:
         sys.exit("\n".join(faults))
@@ -132,8 +133,16 @@ def declarations(unit):
     return [c for c in unit.cursor.get_children() if header_of(c) in FILES and not c.kind.is_preprocessing()]
 
 
-def describe(folder):
-    unit = parse(MACHINES[0], folder)
+def describe(headers=HEADERS):
+    """The interface of a folder of headers; one that was kept has spherecloud.h alone."""
+    with tempfile.TemporaryDirectory() as standard:
+        for name, text in STANDARD.items():
+            (pathlib.Path(standard) / name).write_text(text)
+        return described(standard, headers)
+
+
+def described(standard, headers):
+    unit = parse(MACHINES[0], standard, headers)
     constants = macros(unit)
     told = {"version": "%d.%d.%d" % tuple(constants["SPHC_VERSION_" + p] for p in ("MAJOR", "MINOR", "PATCH")),
             "abi": constants["SPHC_ABI"], "headers": FILES, "constants": constants, "types": {}, "callbacks": [],
@@ -156,7 +165,7 @@ def describe(folder):
     defined = {s["name"] for s in told["structs"]}
     told["opaque"] = sorted(set(told["opaque"]) - defined)
     for machine in MACHINES:
-        cursors = {c.spelling: c for c in declarations(parse(machine, folder))
+        cursors = {c.spelling: c for c in declarations(parse(machine, standard, headers))
                    if c.kind == CursorKind.STRUCT_DECL and c.is_definition()}
         for one in told["structs"]:
             one["layouts"][machine] = layout(cursors[one["name"]])
@@ -167,10 +176,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in STANDARD.items():
-            (pathlib.Path(folder) / name).write_text(text)
-        now = json.dumps(describe(folder), indent=1) + "\n"
+    now = json.dumps(describe(), indent=1) + "\n"
     if not options.check:
         OUT.write_text(now)
     elif not OUT.exists() or OUT.read_text() != now:

@@ -143,7 +143,7 @@ void convertRow(const RawImage &raw, uint32_t y, sphc_format format, uint8_t *ou
 }  // namespace
 
 bool canConvert(Layout layout, sphc_format format) {
-  return sphc_format_bytes(format) != 0 && (layout == Layout::Depth16) == (format == SPHC_FORMAT_DEPTH16);
+  return isDelivered(format) && (layout == Layout::Depth16) == (format == SPHC_FORMAT_DEPTH16);
 }
 
 sphc_status convert(const RawImage &raw, const OutImage &out, sphc_message *message) {

@@ -47,7 +47,7 @@ sphc_status MjpegDecoder::decode(const uint8_t *data, size_t bytes, const OutIma
   const sphc_status status = checkOut(out, message);
   if (status < 0) return status;
   if (out.format == SPHC_FORMAT_DEPTH16)
-    return explain(message, SPHC_E_UNSUPPORTED, "JPEG becomes GRAY8, RGB8 or BGR8, not depth");
+    return explain(message, SPHC_E_UNSUPPORTED, "JPEG becomes GRAY8, RGB8 or BGR8, no other format");
   if (!data || bytes == 0) return explain(message, SPHC_E_IMAGE, "JPEG frame of %zu bytes: empty", bytes);
 
   int width = 0, height = 0, subsampling = 0, colorspace = 0;

@@ -78,9 +78,16 @@ sphc_status checkRaw(const RawImage &raw, sphc_message *message) {
                     raw.height / 2, message);
 }
 
+bool isDelivered(sphc_format format) {
+  return format == SPHC_FORMAT_GRAY8 || format == SPHC_FORMAT_RGB8 || format == SPHC_FORMAT_BGR8 ||
+         format == SPHC_FORMAT_DEPTH16;
+}
+
 sphc_status checkOut(const OutImage &out, sphc_message *message) {
   const uint32_t pixel_bytes = sphc_format_bytes(out.format);
-  if (pixel_bytes == 0) return explain(message, SPHC_E_IMAGE, "the output's format %d is none", out.format);
+  if (!isDelivered(out.format))
+    return explain(message, SPHC_E_IMAGE, "the output's format %d is none of GRAY8, RGB8, BGR8 and DEPTH16",
+                   out.format);
   const sphc_status status = checkSize("the output", out.width, out.height, message);
   if (status < 0) return status;
   return checkPlane("the output", out.data, out.bytes, out.stride_bytes, pixel_bytes * out.width, out.height,

@@ -57,6 +57,9 @@ uint64_t imageBytes(uint32_t row_bytes, uint32_t stride_bytes, uint32_t height);
 RawImage contiguous(Layout layout, YuvRange range, uint32_t width, uint32_t height, uint32_t stride_bytes,
                     const uint8_t *data, size_t bytes);
 
+// Whether drivers make images of this format: GRAY8, RGB8, BGR8 and DEPTH16.
+bool isDelivered(sphc_format format);
+
 // E_IMAGE with the values seen when an image does not fit its own memory, or cannot exist.
 sphc_status checkRaw(const RawImage &raw, sphc_message *message);
 sphc_status checkOut(const OutImage &out, sphc_message *message);

@@ -71,7 +71,8 @@ sphc_status checkConfig(const sphc_simulated_config *config, sphc_message *messa
   } switches[] = {{"color_noise", c.color_noise},
                   {"motion_blur", c.motion_blur},
                   {"exposure_drift", c.exposure_drift},
-                  {"ideal_depth", c.ideal_depth}};
+                  {"ideal_depth", c.ideal_depth},
+                  {"raw_depth", c.raw_depth}};
   for (const auto &s : switches) {
     if (checkSwitch(s.name, s.value, message) != SPHC_OK) return SPHC_E_ARGUMENT;
   }

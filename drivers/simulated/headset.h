@@ -35,6 +35,7 @@ class Headset {
 
   void renderColor(uint32_t index, uint8_t *rgb) const;
   void renderDepth(uint32_t index, uint16_t *depth) const;
+  void renderAmplitude(uint32_t index, uint16_t *amplitude) const;
   void oracleColor(int64_t time_ns, float *depth_m) const;
   void oracleDepth(int64_t time_ns, float *depth_m) const;
 
@@ -51,6 +52,9 @@ class Headset {
   // The solids, where they are at a time.
   std::vector<Shape> shapesAt(int64_t time_ns) const;
   void renderIdealDepth(uint32_t index, uint16_t *depth) const;
+  // Calls visit(pixel, echo, ray) for all pixels of the ToF camera, from several threads.
+  template <typename Visit>
+  void forEchoes(uint32_t index, const Visit &visit) const;
   uint64_t noiseSeed(uint32_t index, uint64_t stream) const;
 
   sphc_simulated_config config_;

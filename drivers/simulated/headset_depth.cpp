@@ -15,6 +15,8 @@ constexpr float kDepthOffsets[kLanes][2] = {{-0.32f, -0.14f}, {0.14f, -0.32f}, {
 // Returned light: reflectance times cosine over squared distance.  Below kBlind nothing is measured; up to kDim
 // ever more is.
 constexpr float kBlind = 0.0035f, kDim = 0.0075f;
+constexpr float kCountsOfLight = 10000;  // so that kDim is SPHC_SIMULATED_FAINT
+static_assert(kCountsOfLight * kDim == SPHC_SIMULATED_FAINT);
 // Depths that differ by more than this within a pixel are an edge; the sensor notices some of them.
 constexpr float kEdgeMetres = 0.08f;
 constexpr float kEdgeNoticed = 0.55f;
@@ -78,6 +80,17 @@ double measure(const sphc_simulated_config &config, const Echo &echo, uint64_t n
   return config.depth_scale * z + bias + sigma * static_cast<double>(gaussian(noise));
 }
 
+// Noise rises as light falls; of nearly none any phase is read, and a distance beyond the range is read as one
+// within.
+double measureRaw(const sphc_simulated_config &config, const Echo &echo, float z_max, uint64_t chance,
+                  uint64_t noise) {
+  if (echo.light < kBlind) return static_cast<double>(z_max * unitFloat(static_cast<uint32_t>(chance)));
+  Echo heard = echo;
+  heard.z = std::fmod(echo.z, z_max);
+  const double z = measure(config, heard, noise), faint = static_cast<double>(std::max(1.0f, kDim / echo.light));
+  return static_cast<double>(heard.z) + (z - static_cast<double>(heard.z)) * faint * faint;
+}
+
 }  // namespace
 
 void Headset::renderIdealDepth(uint32_t index, uint16_t *depth) const {
@@ -86,23 +99,38 @@ void Headset::renderIdealDepth(uint32_t index, uint16_t *depth) const {
   std::transform(z.begin(), z.end(), depth, [](float z_m) { return units(static_cast<double>(z_m)); });
 }
 
-void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
-  if (config_.ideal_depth != 0) return renderIdealDepth(index, depth);
+template <typename Visit>
+void Headset::forEchoes(uint32_t index, const Visit &visit) const {
   const Pose pose = depthPose(depthTime(index));
   const std::vector<Shape> shapes = shapesAt(depthTime(index));
   const Raster raster(scene_, shapes, depth_, depth_rays_, {pose, pose, pose, pose});
-  const uint64_t seed = noiseSeed(index, 1);
   const auto focal = static_cast<float>(depth_.params[0]);
-  const auto far_m = static_cast<float>(config_.depth_max_m);
   parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       const uint64_t pixel = static_cast<uint64_t>(row) * kDepthWidth + column;
-      const Ray2 &center = depth_rays_.center(column, row);
-      const Echo echo = listen(scene_, raster, depth_rays_, focal, column, row, list);
-      const float z_max = far_m / std::sqrt(1 + center.x * center.x + center.y * center.y);
-      const bool missing = isMissing(echo, z_max, hash64(seed + 2 * pixel));
-      depth[pixel] = missing ? uint16_t{0} : units(measure(config_, echo, hash64(seed + 2 * pixel + 1)));
+      visit(pixel, listen(scene_, raster, depth_rays_, focal, column, row, list), depth_rays_.center(column, row));
     });
+  });
+}
+
+void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
+  if (config_.ideal_depth != 0) return renderIdealDepth(index, depth);
+  const uint64_t seed = noiseSeed(index, 1);
+  const auto far_m = static_cast<float>(config_.depth_max_m);
+  forEchoes(index, [&](uint64_t pixel, const Echo &echo, const Ray2 &center) {
+    const float z_max = far_m / std::sqrt(1 + center.x * center.x + center.y * center.y);
+    const uint64_t chance = hash64(seed + 2 * pixel), noise = hash64(seed + 2 * pixel + 1);
+    if (config_.raw_depth != 0) {
+      depth[pixel] = units(measureRaw(config_, echo, z_max, chance, noise));
+      return;
+    }
+    depth[pixel] = isMissing(echo, z_max, chance) ? uint16_t{0} : units(measure(config_, echo, noise));
+  });
+}
+
+void Headset::renderAmplitude(uint32_t index, uint16_t *amplitude) const {
+  forEchoes(index, [&](uint64_t pixel, const Echo &echo, const Ray2 &) {
+    amplitude[pixel] = static_cast<uint16_t>(std::min(kCountsOfLight * echo.light + 0.5f, 65535.0f));
   });
 }
 

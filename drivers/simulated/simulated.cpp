@@ -107,6 +107,11 @@ sphc_status sphc_simulated_render_color(const sphc_simulated *simulated, uint32_
   return guarded(nullptr, [&] { simulated->headset.renderColor(index, rgb); });
 }
 
+sphc_status sphc_simulated_render_amplitude(const sphc_simulated *simulated, uint32_t index, uint16_t *amplitude) {
+  if (!hasFrame(simulated, index) || amplitude == nullptr) return SPHC_E_ARGUMENT;
+  return guarded(nullptr, [&] { simulated->headset.renderAmplitude(index, amplitude); });
+}
+
 sphc_status sphc_simulated_render_depth(const sphc_simulated *simulated, uint32_t index, uint16_t *depth) {
   if (!hasFrame(simulated, index) || depth == nullptr) return SPHC_E_ARGUMENT;
   return guarded(nullptr, [&] { simulated->headset.renderDepth(index, depth); });

@@ -89,6 +89,10 @@ typedef struct sphc_simulated_config {
   uint64_t arrangement_seed; /* other than 0: of what people move (chairs, boxes, plants, books, small things,
                                 pictures) about half stands elsewhere and a quarter is gone; default 0 */
   double walk_start_s;       /* where on the walk frame 0 is; 0 to 1e6; lap_s is the begin of lap two; default 0 */
+
+  uint32_t raw_depth; /* 1: what a ToF module measures before it drops what it does not believe: noise where little
+                         light comes back, anything where nearly none does, all mixed pixels of edges; default 0 */
+  uint32_t reserved;
 } sphc_simulated_config;
 
 typedef struct sphc_simulated sphc_simulated;
@@ -150,6 +154,13 @@ sphc_status sphc_simulated_render_color(const sphc_simulated *simulated, uint32_
 /* Renders the depth image of frame `index` (tightly packed, DEPTH_WIDTH * DEPTH_HEIGHT values in DEPTH_UNIT_M) into
  * caller memory: the very bytes the source gives.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_render_depth(const sphc_simulated *simulated, uint32_t index, uint16_t *depth);
+
+/* The light that came back to each pixel of the depth image of frame `index`, as its sensor counts it: 5500 from a
+ * wall of reflectance 0.55 at 1 m, falling with the square of the distance; what is below SPHC_SIMULATED_FAINT is
+ * not to be believed.  DEPTH_WIDTH * DEPTH_HEIGHT values in caller memory, for sphc_localizer_frame.amplitude
+ * (GRAY16). Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
+#define SPHC_SIMULATED_FAINT 75u
+sphc_status sphc_simulated_render_amplitude(const sphc_simulated *simulated, uint32_t index, uint16_t *amplitude);
 
 #ifdef __cplusplus
 }

@@ -26,7 +26,7 @@ sphc_status checkConfig(const sphc_v4l2_config &config, sphc_message *message) {
   const auto refuse = [&](const char *text) { return explain(message, SPHC_E_ARGUMENT, "config.%s", text); };
   const bool is_depth = config.stream == SPHC_STREAM_DEPTH;
   if (!is_depth && config.stream != SPHC_STREAM_COLOR) return refuse("stream: must be COLOR or DEPTH");
-  if (sphc_format_bytes(config.format) == 0 || (config.format == SPHC_FORMAT_DEPTH16) != is_depth)
+  if (!sphc::pixels::isDelivered(config.format) || (config.format == SPHC_FORMAT_DEPTH16) != is_depth)
     return refuse("format: must be GRAY8, RGB8 or BGR8 of a colour stream, DEPTH16 of a depth stream");
   if (config.width < 16 || config.width > 8192 || config.height < 16 || config.height > 8192)
     return refuse("width, height: must be 16 to 8192");

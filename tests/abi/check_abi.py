@@ -2,8 +2,8 @@
 """Compares the ABI with its results.
 
     check_abi.py layout PRINT_LAYOUT [--write]       struct layouts with layout.csv (64-bit machines)
-    check_abi.py symbols LIBRARY NM [--write]        exported names of the shared library with symbols.txt
-    check_abi.py headers FOLDER                      every struct, field and function of the headers is in the results
+    check_abi.py symbols LIBRARY NM READELF          what the shared library exports, and its name, with exports.map
+    check_abi.py headers FOLDER                      every struct and field of the headers is in the results
 """
 import os
 import re
@@ -11,7 +11,8 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-LAYOUT, SYMBOLS = os.path.join(HERE, "layout.csv"), os.path.join(HERE, "symbols.txt")
+LAYOUT = os.path.join(HERE, "layout.csv")
+EXPORTS = os.path.join(HERE, "..", "..", "sdk", "runtime", "exports.map")
 
 
 def run(*command):
@@ -35,10 +36,23 @@ def compare(path, now):
         sys.exit(f"the ABI differs from {os.path.basename(path)}: read docs/abi.md, then build the target abi_results")
 
 
-def exported(library, nm):
-    lines = run(nm, "-D", "--defined-only", library).splitlines()
-    names = [line.split()[-1].split("@")[0] for line in lines if line.split()[-2] in "TDBRWVi"]
-    return "".join(name + "\n" for name in sorted(set(names)))
+def wanted_exports():
+    with open(EXPORTS, encoding="utf-8") as stream:
+        nodes = re.findall(r"^(SPHERECLOUD_\S+) \{(.*?)^\}", stream.read(), flags=re.M | re.S)
+    return {f"{name}@@{node}" for node, body in nodes for name in re.findall(r"^    (sphc_\w+);", body, flags=re.M)}
+
+
+def check_symbols(library, nm, readelf):
+    lines = [line.split() for line in run(nm, "-D", "--defined-only", library).splitlines()]
+    exported, wanted = {words[-1] for words in lines if words[-2] in "TDBRWVi"}, wanted_exports()
+    faults = [f"{name} is not exported" for name in sorted(wanted - exported)]
+    faults += [f"{name} is exported and not in exports.map" for name in sorted(exported - wanted)]
+    abi = {re.match(r"SPHERECLOUD_(\d+)", name.split("@@")[1]).group(1) for name in wanted if "UNSTABLE" not in name}
+    names = re.findall(r"SONAME.*\[(.*)\]", run(readelf, "-d", library))
+    if names != [f"libspherecloud.so.{number}" for number in abi]:
+        faults.append(f"the library is called {names}, its nodes are of ABI {', '.join(sorted(abi))}")
+    if faults:
+        sys.exit("\n".join(faults))
 
 
 def check_headers(folder):
@@ -46,13 +60,10 @@ def check_headers(folder):
     for name in ("spherecloud.h", "spherecloud_capture.h"):
         with open(os.path.join(folder, name), encoding="utf-8") as stream:
             text += re.sub(r"/\*.*?\*/", "", stream.read(), flags=re.S)
-    functions = set(re.findall(r"^SPHC_API [^;(]*?(sphc_\w+)\(", text, flags=re.M))
-    with open(SYMBOLS, encoding="utf-8") as stream:
-        symbols = set(stream.read().split())
     structs = {m.group(2): m.group(1) for m in re.finditer(r"typedef struct \w+ \{(.*?)\} (\w+);", text, re.S)}
     with open(LAYOUT, encoding="utf-8") as stream:
         rows = [line.split(",") for line in stream.read().split()[1:]]
-    faults = sorted(functions ^ symbols) + sorted(set(structs) ^ {row[0] for row in rows})
+    faults = sorted(set(structs) ^ {row[0] for row in rows})
     for name, body in structs.items():
         declared = re.sub(r"\([^()*]*\)\s*;", ";", body.replace("(*", " ").replace(")(", " ("))
         fields = {row[1] for row in rows if row[0] == name and row[1]}
@@ -69,7 +80,7 @@ def main():
     if what == "layout":
         compare(LAYOUT, run(sys.argv[2]))
     elif what == "symbols":
-        compare(SYMBOLS, exported(sys.argv[2], sys.argv[3]))
+        check_symbols(*sys.argv[2:5])
     elif what == "headers":
         check_headers(sys.argv[2])
     else:

@@ -46,7 +46,7 @@ int main(void) {
   FIELD(sphc_map_info, map_id);
   WHOLE(sphc_aligner_config);
   FIELD(sphc_aligner_config, struct_size);
-  FIELD(sphc_aligner_config, reserved);
+  FIELD(sphc_aligner_config, depth_format);
   FIELD(sphc_aligner_config, rig);
   FIELD(sphc_aligner_config, depth_min_m);
   FIELD(sphc_aligner_config, depth_max_m);
@@ -83,6 +83,8 @@ int main(void) {
   FIELD(sphc_localizer_config, reserved);
   FIELD(sphc_localizer_config, clock);
   FIELD(sphc_localizer_config, clock_user);
+  FIELD(sphc_localizer_config, depth_format);
+  FIELD(sphc_localizer_config, amplitude_min);
   WHOLE(sphc_localizer_prior);
   FIELD(sphc_localizer_prior, struct_size);
   FIELD(sphc_localizer_prior, flags);
@@ -107,6 +109,8 @@ int main(void) {
   FIELD(sphc_localizer_frame, prior);
   FIELD(sphc_localizer_frame, deadline_us);
   FIELD(sphc_localizer_frame, reserved);
+  FIELD(sphc_localizer_frame, reserved2);
+  FIELD(sphc_localizer_frame, amplitude);
   WHOLE(sphc_depth_bias);
   FIELD(sphc_depth_bias, mid_m);
   FIELD(sphc_depth_bias, offset_m);

@@ -284,8 +284,8 @@ TEST_F(CInterfaceFailure, ProcessDepthImage) {
                      "depth image's data pointer is null");
   expectFrameRefused(
       [](sphc_localizer_frame *f) { f->depth.data = static_cast<const uint8_t *>(f->depth.data) + 1; },
-      SPHC_E_IMAGE, "odd");
-  expectFrameRefused([](sphc_localizer_frame *f) { f->depth.stride_bytes = 401; }, SPHC_E_IMAGE, "must be even");
+      SPHC_E_IMAGE, "not aligned");
+  expectFrameRefused([](sphc_localizer_frame *f) { f->depth.stride_bytes = 401; }, SPHC_E_IMAGE, "multiple of 2");
   expectFrameRefused([](sphc_localizer_frame *f) { f->depth.stride_bytes = 398; }, SPHC_E_IMAGE, "stride of 398");
   expectFrameRefused([](sphc_localizer_frame *f) { f->depth.width = 320; }, SPHC_E_IMAGE, "320 x 160");
   expectFrameRefused([](sphc_localizer_frame *f) { f->depth.format = SPHC_FORMAT_GRAY8; }, SPHC_E_IMAGE,

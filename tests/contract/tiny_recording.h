@@ -66,15 +66,14 @@ struct TinyImages {
 
 inline sphc_localizer_frame tinyFrame(uint32_t i, const TinyImages &images) {
   const int64_t time_ns = kFirstNs + i * kPeriodNs;
-  return {sizeof(sphc_localizer_frame),
-          i,
-          time_ns,
-          time_ns + kDepthLagNs,
-          images.colorImage(),
-          images.depthImage(),
-          nullptr,
-          0,
-          0};
+  sphc_localizer_frame frame = {};
+  frame.struct_size = sizeof frame;
+  frame.sequence = i;
+  frame.color_time_ns = time_ns;
+  frame.depth_time_ns = time_ns + kDepthLagNs;
+  frame.color = images.colorImage();
+  frame.depth = images.depthImage();
+  return frame;
 }
 
 inline void writeTinyRecording(const std::string &folder, uint32_t frames) {

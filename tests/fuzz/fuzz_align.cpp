@@ -46,7 +46,9 @@ void align(const uint8_t *data, size_t bytes) {
   if (sphc_aligner_init(memory.data(), memory.size(), &config, &aligner, &message) != SPHC_OK)
     broken("what can be measured can be made");
   // The rest of the bytes are pixels, again and again.
-  std::vector<uint16_t> raw(size_t{config.rig.depth_camera.width} * config.rig.depth_camera.height);
+  const sphc_format format = config.depth_format ? config.depth_format : SPHC_FORMAT_DEPTH16;
+  const uint32_t row_bytes = (sphc_format_row_bytes(format, config.rig.depth_camera.width) + 3) / 4 * 4;
+  std::vector<uint16_t> raw(size_t{row_bytes} * config.rig.depth_camera.height / 2);
   const size_t rest = bytes > sizeof config ? bytes - sizeof config : 0;
   for (size_t i = 0; i < raw.size() && rest > 1; ++i)
     std::memcpy(&raw[i], data + sizeof config + (2 * i) % (rest - 1), sizeof raw[i]);
@@ -54,8 +56,8 @@ void align(const uint8_t *data, size_t bytes) {
   const size_t pixels = size_t{width} * config.rig.color_camera.height;
   std::vector<uint16_t> depth(pixels);
   std::vector<uint8_t> mask(pixels), confidence(pixels);
-  const sphc_image image = {raw.data(), config.rig.depth_camera.width, config.rig.depth_camera.height,
-                            2 * config.rig.depth_camera.width, SPHC_FORMAT_DEPTH16};
+  const sphc_image image = {raw.data(), config.rig.depth_camera.width, config.rig.depth_camera.height, row_bytes,
+                            format};
   const sphc_aligned aligned = {sizeof aligned, 2 * width,        width, width, depth.data(),
                                 mask.data(),    confidence.data()};
   if (sphc_aligner_process(aligner, &image, &aligned) != SPHC_OK) broken("a fitting image is aligned");

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "tests/fuzz/targets.h"
 #include "tests/support/session.h"
@@ -16,14 +17,28 @@ sphc_localizer_config smallConfig() {
   return config;
 }
 
-test::Session &session() {
-  static test::Session *instance = [] {
-    auto *made = new test::Session(smallConfig(), 0.7);
-    made->setParameter(SPHC_PARAMETER_MAX_ITERATIONS, 200);
-    return made;
-  }();
-  return *instance;
+constexpr sphc_format kDepthFormats[] = {SPHC_FORMAT_DEPTH16, SPHC_FORMAT_DEPTH12P, SPHC_FORMAT_RANGE16,
+                                         SPHC_FORMAT_RANGE_F32};
+constexpr uint32_t kAmplitudeMin = 40;  // of the sessions with ranges
+
+bool hasAmplitude(uint32_t kind) { return kind >= 2; }
+
+// One for each format of depth.
+test::Session &session(uint32_t kind) {
+  static test::Session *instances[4] = {};
+  if (instances[kind]) return *instances[kind];
+  sphc_localizer_config config = smallConfig();
+  config.depth_format = kDepthFormats[kind];
+  config.amplitude_min = hasAmplitude(kind) ? kAmplitudeMin : 0;
+  instances[kind] = new test::Session(config, 0.7);
+  instances[kind]->setParameter(SPHC_PARAMETER_MAX_ITERATIONS, 200);
+  return *instances[kind];
 }
+
+constexpr sphc_format kColorFormats[] = {
+    SPHC_FORMAT_GRAY8,   SPHC_FORMAT_RGB8,        SPHC_FORMAT_BGR8,         SPHC_FORMAT_RGBA8,
+    SPHC_FORMAT_NV12,    SPHC_FORMAT_UYVY,        SPHC_FORMAT_GRAY10,       SPHC_FORMAT_GRAY10P,
+    SPHC_FORMAT_GRAY12P, SPHC_FORMAT_BAYER_RGGB8, SPHC_FORMAT_BAYER_GBRG12, SPHC_FORMAT_BAYER_GRBG10P};
 
 class Reader {
  public:
@@ -108,13 +123,15 @@ void frame(const uint8_t *data, size_t bytes) {
   f.struct_size = around(sizeof f, &reader);
   f.color.width = around(96, &reader);
   f.color.height = around(72, &reader);
-  f.color.format = static_cast<sphc_format>(around(1 + reader.next() % 3, &reader));
-  f.color.stride_bytes = around(f.color.format == SPHC_FORMAT_GRAY8 ? 96 : 288, &reader);
+  const sphc_format color_format = kColorFormats[reader.next() % std::size(kColorFormats)];
+  f.color.format = static_cast<sphc_format>(around(static_cast<uint32_t>(color_format), &reader));
+  f.color.stride_bytes = around(sphc_format_row_bytes(color_format, 96), &reader);
   f.depth.width = around(48, &reader);
   f.depth.height = around(40, &reader);
-  f.depth.format = static_cast<sphc_format>(around(SPHC_FORMAT_DEPTH16, &reader));
-  f.depth.stride_bytes = around(96, &reader);
-  const uint8_t shift = reader.next() % 8;
+  const uint8_t shift = reader.next();
+  const uint32_t kind = shift / 8 % 4;
+  f.depth.format = static_cast<sphc_format>(around(static_cast<uint32_t>(kDepthFormats[kind]), &reader));
+  f.depth.stride_bytes = around(sphc_format_row_bytes(kDepthFormats[kind], 48), &reader);
   f.color_time_ns = static_cast<int64_t>((uint64_t{around(0, &reader)} << 32) | reader.take32());
   f.depth_time_ns = f.color_time_ns;
   Roomy<sphc_localizer_prior> prior;
@@ -124,18 +141,24 @@ void frame(const uint8_t *data, size_t bytes) {
   for (uint8_t &byte : color) byte = reader.next();
   for (uint16_t &value : depth) value = static_cast<uint16_t>(reader.next() | (reader.next() << 8));
   f.color.data = color.data();
-  f.depth.data = reinterpret_cast<const uint8_t *>(depth.data()) + (shift == 1 ? 1 : 0);
-  if (!fits(f.color, color.size()) || !fits(f.depth, 2 * depth.size() - 1)) return;
+  f.depth.data = reinterpret_cast<const uint8_t *>(depth.data()) + (shift % 8 == 1 ? 1 : 0);
+  if (hasAmplitude(kind) != (shift % 8 == 2)) {  // mostly as the config says
+    f.amplitude = {color.data(), 48, 40, 96, kind == 2 ? SPHC_FORMAT_GRAY8 : SPHC_FORMAT_GRAY12};
+    f.amplitude.width = around(48, &reader);
+    f.amplitude.stride_bytes = around(96, &reader);
+  }
+  if (!fits(f.color, color.size()) || !fits(f.depth, 2 * depth.size() - 1) || !fits(f.amplitude, color.size()))
+    return;
 
   sphc_localizer_result result;
-  const sphc_status status = session().process(f, &result);
+  const sphc_status status = session(kind).process(f, &result);
   if (status == SPHC_OK || status == SPHC_NOT_LOCALIZED) {
     if (!isFilled(result) || result.inliers > result.keypoints)
       broken("a result has finite numbers that fit together");
-  } else if (status > 0 || !sphc_localizer_message(session().localizer())[0]) {
+  } else if (status > 0 || !sphc_localizer_message(session(kind).localizer())[0]) {
     broken("a refusal is a failure that explains itself");
   }
-  if (!session().state().guardsIntact() || !session().scratch().guardsIntact())
+  if (!session(kind).state().guardsIntact() || !session(kind).scratch().guardsIntact())
     broken("the localizer keeps inside its memory");
 }
 

@@ -101,15 +101,13 @@ std::vector<std::vector<uint8_t>> rawRecordingSeeds() {
   const std::vector<uint8_t> color = colorPixels();
   recording::RawWriter writer(file.path(), smallCalibration(), SPHC_FORMAT_BGR8);
   for (uint32_t i = 0; i < 2; ++i) {
-    const sphc_localizer_frame frame = {sizeof frame,
-                                        i,
-                                        1000 + 10 * i,
-                                        1005 + 10 * i,
-                                        {color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8},
-                                        {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16},
-                                        nullptr,
-                                        0,
-                                        0};
+    sphc_localizer_frame frame = {};
+    frame.struct_size = sizeof frame;
+    frame.sequence = i;
+    frame.color_time_ns = 1000 + 10 * i;
+    frame.depth_time_ns = 1005 + 10 * i;
+    frame.color = {color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8};
+    frame.depth = {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16};
     const sphc_rigid pose = {{1, 0, 0, 0}, {0.1 * i, 0, 0}};
     writer.add(frame, i ? &pose : nullptr);
   }

@@ -46,9 +46,11 @@ std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
 }
 
 // Two cameras of a model, and a depth image with a step and a hole.
-std::vector<uint8_t> alignSeed(sphc_camera_model model, const std::vector<double> &distortion) {
+std::vector<uint8_t> alignSeed(sphc_camera_model model, const std::vector<double> &distortion,
+                               sphc_format depth_format = SPHC_FORMAT_DEPTH16) {
   sphc_aligner_config config;
   sphc_aligner_config_init(&config, sizeof config);
+  config.depth_format = depth_format;
   config.rig.color_camera = test::pinhole(24, 20, 20);  // of the fuzzed sizes, 16 + these, folded
   config.rig.depth_camera = test::pinhole(17, 16, 15);
   for (sphc_camera *camera : {&config.rig.color_camera, &config.rig.depth_camera}) {
@@ -122,7 +124,8 @@ std::vector<Target> allTargets() {
        align,
        {alignSeed(SPHC_CAMERA_PINHOLE, {}), alignSeed(SPHC_CAMERA_BROWN5, {0.1, -0.05, 0.001, 0, 0}),
         alignSeed(SPHC_CAMERA_BROWN8, {0.1, 0, 0, 0, 0, 0.1, 0, 0}),
-        alignSeed(SPHC_CAMERA_KANNALA_BRANDT4, {0.02, -0.01, 0, 0})}}};
+        alignSeed(SPHC_CAMERA_KANNALA_BRANDT4, {0.02, -0.01, 0, 0}),
+        alignSeed(SPHC_CAMERA_PINHOLE, {}, SPHC_FORMAT_RANGE_F32)}}};
 #ifdef SPHC_FUZZ_FOREIGN
   targets.push_back({"foreign", foreign, foreignSeeds()});
 #endif

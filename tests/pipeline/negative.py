@@ -4,7 +4,10 @@
     negative.py --spherecloud BIN --lab BIN [--keys N] [--sequences N] [NAME...]      rewrites negative.csv, for review
 """
 import argparse
+import concurrent.futures
 import csv
+import itertools
+import os
 import pathlib
 import sys
 import tempfile
@@ -58,15 +61,19 @@ def add(sums, key, row):
 def measure(arguments):
     sums = {}
     for name in arguments.names or NAMES:
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             place = Place(name, arguments.spherecloud, pathlib.Path(folder))
-            for fakes in ("patchwork", "gaussian"):
-                for key in range(arguments.keys):
-                    with tempfile.TemporaryDirectory(dir=folder) as own:
-                        file = publish(arguments.spherecloud, place, pathlib.Path(own), fakes, key)
-                        for row in rows_of(arguments.lab, place, file, arguments.sequences):
-                            add(sums, (name, fakes, row["mode"], row["fault"]), row)
-                    print(name, fakes, "key", key + 1, flush=True)
+
+            def rows_of_map(made):
+                with tempfile.TemporaryDirectory(dir=folder) as own:
+                    file = publish(arguments.spherecloud, place, pathlib.Path(own), *made)
+                    return list(rows_of(arguments.lab, place, file, arguments.sequences))
+
+            maps = list(itertools.product(("patchwork", "gaussian"), range(arguments.keys)))
+            for (fakes, key), rows in zip(maps, pool.map(rows_of_map, maps)):
+                for row in rows:
+                    add(sums, (name, fakes, row["mode"], row["fault"]), row)
+                print(name, fakes, "key", key + 1, flush=True)
     return sums
 
 

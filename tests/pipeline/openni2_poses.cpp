@@ -90,8 +90,13 @@ class Pipeline {
 
  private:
   void localize(const sphc_capture &color, const sphc_capture &depth) {
-    const sphc_localizer_frame frame = {
-        sizeof frame, color.sequence, color.time_ns, depth.time_ns, color.image, depth.image, nullptr, 0, 0};
+    sphc_localizer_frame frame = {};
+    frame.struct_size = sizeof frame;
+    frame.sequence = color.sequence;
+    frame.color_time_ns = color.time_ns;
+    frame.depth_time_ns = depth.time_ns;
+    frame.color = color.image;
+    frame.depth = depth.image;
     sphc_localizer_result result;
     std::memset(&result, 0, sizeof result);
     result.struct_size = sizeof result;

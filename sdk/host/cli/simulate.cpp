@@ -21,7 +21,7 @@ struct SimulateOptions {
   std::string out;
   sphc_simulated_config config = {};
   std::string with;
-  bool ideal_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
+  bool ideal_depth = false, raw_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
 };
 
 struct SimulatedCloser {
@@ -32,6 +32,7 @@ using Simulated = std::unique_ptr<sphc_simulated, SimulatedCloser>;
 Simulated openHeadset(const SimulateOptions &options) {
   sphc_simulated_config config = options.config;
   config.ideal_depth = options.ideal_depth ? 1 : 0;
+  config.raw_depth = options.raw_depth ? 1 : 0;
   config.color_noise = options.no_noise ? 0 : 1;
   config.motion_blur = options.no_blur ? 0 : 1;
   config.exposure_drift = options.no_exposure_drift ? 0 : 1;
@@ -180,7 +181,11 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
   app->add_option("--threads", config.threads, "At most so many; 0: all cores")
       ->capture_default_str()
       ->type_name("N");
-  app->add_flag("--ideal-depth", options->ideal_depth, "Depth without noise, bias, holes or mixed pixels");
+  auto *ideal =
+      app->add_flag("--ideal-depth", options->ideal_depth, "Depth without noise, bias, holes or mixed pixels");
+  app->add_flag("--raw-depth", options->raw_depth,
+                "Depth as a ToF module measures it, before it drops what it does not believe")
+      ->excludes(ideal);
   app->add_flag("--no-noise", options->no_noise, "Colour without noise");
   app->add_flag("--no-blur", options->no_blur, "Colour without motion blur");
   app->add_flag("--no-exposure-drift", options->no_exposure_drift, "Colour of constant brightness");

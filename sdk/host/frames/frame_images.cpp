@@ -7,9 +7,12 @@ namespace sphc::host {
 GrayView grayOf(const sphc_image &color, std::vector<uint8_t> *pixels) {
   const auto width = static_cast<int32_t>(color.width), height = static_cast<int32_t>(color.height);
   pixels->resize(static_cast<size_t>(width) * static_cast<size_t>(height));
-  bgrToGray(static_cast<const uint8_t *>(color.data), static_cast<int32_t>(color.stride_bytes), width, height,
-            pixels->data(), width);
-  return {pixels->data(), width, height, width};
+  LumaLayout layout;
+  layout.kind = LumaLayout::kBgr;
+  layout.group_bytes = 3;
+  const GrayView bytes = {static_cast<const uint8_t *>(color.data), width, height,
+                          static_cast<int32_t>(color.stride_bytes)};
+  return sphc::grayOf({bytes, layout}, {pixels->data(), pixels->size()});
 }
 
 ImageView<uint16_t> depthOf(const sphc_image &depth) {

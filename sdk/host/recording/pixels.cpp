@@ -30,6 +30,11 @@ void convertRow(const uint8_t *in, sphc_format from, uint8_t *out, sphc_format t
 
 }  // namespace
 
+bool isRecorded(sphc_format format) {
+  return format == SPHC_FORMAT_GRAY8 || format == SPHC_FORMAT_RGB8 || format == SPHC_FORMAT_BGR8 ||
+         format == SPHC_FORMAT_DEPTH16;
+}
+
 size_t packedBytes(const sphc_image &image) {
   return size_t{image.width} * image.height * sphc_format_bytes(image.format);
 }
@@ -42,7 +47,7 @@ void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_colo
   const std::string name = is_color ? "colour image" : "depth image";
   const bool is_depth_format = image.format == SPHC_FORMAT_DEPTH16;
   if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null");
-  if (sphc_format_bytes(image.format) == 0 || is_depth_format == is_color)
+  if (!isRecorded(image.format) || is_depth_format == is_color)
     throw Failure(SPHC_E_IMAGE, name + ": format " + std::to_string(image.format) + " does not fit; " +
                                     (is_color ? "give GRAY8, RGB8 or BGR8" : "give DEPTH16"));
   if (image.width != camera.width || image.height != camera.height)

@@ -7,6 +7,9 @@
 
 namespace sphc::recording {
 
+// Whether recordings have images of this format: GRAY8, RGB8, BGR8 and DEPTH16.
+bool isRecorded(sphc_format format);
+
 size_t packedBytes(const sphc_image &image);
 
 // "640 x 480"

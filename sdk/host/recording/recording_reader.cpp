@@ -40,15 +40,14 @@ sphc_localizer_frame RecordingReader::read(uint32_t index) {
   depth_pixels_.resize(images_.depthBytes());
   const sphc_image color_image = images_.read(SPHC_STREAM_COLOR, color, color_pixels_.data());
   const sphc_image depth_image = images_.read(SPHC_STREAM_DEPTH, depth, depth_pixels_.data());
-  return {sizeof(sphc_localizer_frame),
-          color.sequence,
-          color.time_ns,
-          depth.time_ns,
-          color_image,
-          depth_image,
-          nullptr,
-          0,
-          0};
+  sphc_localizer_frame frame = {};
+  frame.struct_size = sizeof frame;
+  frame.sequence = color.sequence;
+  frame.color_time_ns = color.time_ns;
+  frame.depth_time_ns = depth.time_ns;
+  frame.color = color_image;
+  frame.depth = depth_image;
+  return frame;
 }
 
 std::optional<sphc_localizer_frame> RecordingReader::tryRead(uint32_t index, std::string *why) {

@@ -125,15 +125,68 @@ typedef struct sphc_message {
 
 /* ---- atoms: frozen layouts ---- */
 
+/* How the pixels of an image lie in its bytes.  Values of a colour image are read for their luma; what else is
+ * there is not looked at.  docs/formats.md says which format of V4L2, libcamera, Android or DirectShow is which. */
 typedef int32_t sphc_format;
 enum {
-  SPHC_FORMAT_GRAY8 = 1,   /* 1 byte a pixel */
-  SPHC_FORMAT_RGB8 = 2,    /* 3 bytes a pixel: red, green, blue */
-  SPHC_FORMAT_BGR8 = 3,    /* 3 bytes a pixel: blue, green, red */
-  SPHC_FORMAT_DEPTH16 = 10 /* uint16 z, native byte order; metres per unit stand in the rig; 0 = no measurement */
+  SPHC_FORMAT_GRAY8 = 1, /* 1 byte a pixel */
+  SPHC_FORMAT_RGB8 = 2,  /* 3 bytes a pixel: red, green, blue */
+  SPHC_FORMAT_BGR8 = 3,  /* 3 bytes a pixel: blue, green, red */
+  SPHC_FORMAT_RGBA8 = 4, /* 4 bytes a pixel: red, green, blue, any */
+  SPHC_FORMAT_BGRA8 = 5, /* 4 bytes a pixel: blue, green, red, any */
+  SPHC_FORMAT_NV12 = 6,  /* data is the plane of luma, 1 byte a pixel; read in place.  NV21, NV16 and NV24 too */
+  SPHC_FORMAT_I420 = 7,  /* the same; YV12, I422 and I444 too */
+  SPHC_FORMAT_YUYV = 8,  /* 2 bytes a pixel: luma, chroma */
+  SPHC_FORMAT_UYVY = 9,  /* 2 bytes a pixel: chroma, luma */
+
+  /* Depth: z along the depth camera's axis, or range, the distance from its centre.  What is 0, negative or not
+   * finite is no measurement. */
+  SPHC_FORMAT_DEPTH16 = 10,   /* uint16 z, native byte order; metres per unit stand in the rig */
+  SPHC_FORMAT_DEPTH12P = 11,  /* 12 bits z in the rig's units, 2 pixels in 3 bytes as in MIPI RAW12; width even */
+  SPHC_FORMAT_DEPTH_F32 = 12, /* float z in metres, native byte order */
+  SPHC_FORMAT_RANGE16 = 13,   /* uint16 range, native byte order, in the rig's units */
+  SPHC_FORMAT_RANGE12P = 14,  /* 12 bits range in the rig's units, packed as DEPTH12P; width even */
+  SPHC_FORMAT_RANGE_F32 = 15, /* float range in metres, native byte order */
+
+  /* Grey of more than 8 bits, of which the highest 8 are read. */
+  SPHC_FORMAT_GRAY10 = 20,  /* 2 bytes a pixel, little-endian, the value in the lower 10 bits */
+  SPHC_FORMAT_GRAY12 = 21,  /* the same, 12 bits */
+  SPHC_FORMAT_GRAY16 = 22,  /* the same, 16 bits */
+  SPHC_FORMAT_GRAY10P = 23, /* 4 pixels in 5 bytes, as in MIPI RAW10; width a multiple of 4 */
+  SPHC_FORMAT_GRAY12P = 24, /* 2 pixels in 3 bytes, as in MIPI RAW12; width even */
+
+  /* A colour filter of 2 x 2 pixels, named by its first row and its second; packed as the grey of that name.  Its
+   * green is read, and where a pixel has another colour, the mean of the greens beside it. */
+  SPHC_FORMAT_BAYER_RGGB8 = 32,
+  SPHC_FORMAT_BAYER_GRBG8 = 33,
+  SPHC_FORMAT_BAYER_GBRG8 = 34,
+  SPHC_FORMAT_BAYER_BGGR8 = 35,
+  SPHC_FORMAT_BAYER_RGGB10 = 36,
+  SPHC_FORMAT_BAYER_GRBG10 = 37,
+  SPHC_FORMAT_BAYER_GBRG10 = 38,
+  SPHC_FORMAT_BAYER_BGGR10 = 39,
+  SPHC_FORMAT_BAYER_RGGB12 = 40,
+  SPHC_FORMAT_BAYER_GRBG12 = 41,
+  SPHC_FORMAT_BAYER_GBRG12 = 42,
+  SPHC_FORMAT_BAYER_BGGR12 = 43,
+  SPHC_FORMAT_BAYER_RGGB16 = 44,
+  SPHC_FORMAT_BAYER_GRBG16 = 45,
+  SPHC_FORMAT_BAYER_GBRG16 = 46,
+  SPHC_FORMAT_BAYER_BGGR16 = 47,
+  SPHC_FORMAT_BAYER_RGGB10P = 48,
+  SPHC_FORMAT_BAYER_GRBG10P = 49,
+  SPHC_FORMAT_BAYER_GBRG10P = 50,
+  SPHC_FORMAT_BAYER_BGGR10P = 51,
+  SPHC_FORMAT_BAYER_RGGB12P = 52,
+  SPHC_FORMAT_BAYER_GRBG12P = 53,
+  SPHC_FORMAT_BAYER_GBRG12P = 54,
+  SPHC_FORMAT_BAYER_BGGR12P = 55
 };
-/* Bytes of a pixel; 0 for a format this library does not know. [pure] */
+/* Bytes of a pixel; 0 for a format that this library does not know, or whose pixels share bytes. [pure] */
 SPHC_API uint32_t sphc_format_bytes(sphc_format format);
+/* Bytes of a row of so many pixels, the least stride; 0 for a format that this library does not know, and for a
+ * width that it cannot have. [pure] */
+SPHC_API uint32_t sphc_format_row_bytes(sphc_format format, uint32_t width);
 /* "SPHC_FORMAT_GRAY8" and so on; "SPHC_FORMAT_?" for any other value; never null; static storage.  So do all
  * functions that end in _name, of bits for one bit. [pure] */
 SPHC_API const char *sphc_format_name(sphc_format format);
@@ -170,9 +223,9 @@ typedef struct sphc_rig {
 } sphc_rig;
 
 typedef struct sphc_image {
-  const void *data; /* caller memory; top-left pixel */
+  const void *data; /* caller memory; top-left pixel, of the first plane where there are several */
   uint32_t width, height;
-  uint32_t stride_bytes; /* from a row to the next; at least width * bytes a pixel */
+  uint32_t stride_bytes; /* from a row to the next; at least sphc_format_row_bytes */
   sphc_format format;
 } sphc_image;
 
@@ -314,7 +367,7 @@ SPHC_API const char *sphc_aligned_pixel_name(sphc_aligned_pixel pixel); /* [pure
 
 typedef struct sphc_aligner_config {
   uint32_t struct_size;
-  uint32_t reserved;
+  sphc_format depth_format; /* of the images to align, a DEPTH or RANGE format; 0: SPHC_FORMAT_DEPTH16 */
   sphc_rig rig;
   double depth_min_m, depth_max_m; /* measurements outside are ignored */
   /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; for the confidence. */
@@ -348,11 +401,10 @@ SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc
  * MEMORY_ALIGNMENT. [pure] */
 SPHC_API sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_aligner_config *config,
                                        sphc_aligner **aligner, sphc_message *message);
-/* Aligns one depth image (DEPTH16, the size in config.rig.depth_camera; borrowed).  Set aligned->struct_size
- * first.
- * The same image gives the same bytes on every machine.  Failures: ARGUMENT, STRUCT_SIZE, IMAGE
- * (sphc_aligner_message explains); the aligner can go on with the next image.  Bounded time, no allocation, no OS
- * call. [exclusive] */
+/* Aligns one depth image (config.depth_format, the size in config.rig.depth_camera; borrowed).  Set
+ * aligned->struct_size first. The same image gives the same bytes on every machine.  Failures: ARGUMENT,
+ * STRUCT_SIZE, IMAGE (sphc_aligner_message explains); the aligner can go on with the next image.  Bounded time, no
+ * allocation, no OS call. [exclusive] */
 SPHC_API sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth,
                                           const sphc_aligned *aligned);
 /* Text about the last failure of sphc_aligner_process on this instance, "" if it did not fail; owned by the
@@ -415,6 +467,11 @@ typedef struct sphc_localizer_config {
   uint32_t reserved;
   sphc_clock_fn clock; /* may be null: stage times are then 0, and no frame has a deadline */
   void *clock_user;
+
+  sphc_format depth_format; /* of frame.depth, a DEPTH or RANGE format; 0: SPHC_FORMAT_DEPTH16 */
+  /* Measurements whose pixel in frame.amplitude is below this are ignored, and so are those between two surfaces
+   * (flying pixels).  0: there is no frame.amplitude. */
+  uint32_t amplitude_min;
 } sphc_localizer_config;
 
 /* What is known of a pose before its frame is looked at. */
@@ -446,13 +503,17 @@ typedef struct sphc_localizer_frame {
   uint32_t sequence;     /* the caller's own number; comes back in the result */
   int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
   int64_t depth_time_ns;
-  sphc_image color;                  /* GRAY8, RGB8 or BGR8; the size in config.rig.color_camera */
-  sphc_image depth;                  /* DEPTH16; the size in config.rig.depth_camera */
+  sphc_image color;                  /* any format that is not of depth; the size in config.rig.color_camera */
+  sphc_image depth;                  /* config.depth_format; the size in config.rig.depth_camera */
   const sphc_localizer_prior *prior; /* null: nothing is known but what earlier frames told */
   /* The frame is to be answered so long after the call began, with the best pose so far; 0: no deadline.  Needs
    * config.clock, and counts in its time.  result.cuts says what was left out for it; docs/localizer.md. */
   uint32_t deadline_us;
   uint32_t reserved;
+  uint64_t reserved2; /* 0; puts what follows behind the struct's first version on machines of 32 bits too */
+  /* How much of its own light the depth sensor saw in each pixel, or how sure it is of it: GRAY8, GRAY10, GRAY12 or
+   * GRAY16; the depth image's size.  Zero but where config.amplitude_min is set, which says what is believed. */
+  sphc_image amplitude;
 } sphc_localizer_frame;
 
 typedef int32_t sphc_localizer_outcome;
@@ -582,6 +643,10 @@ SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, 
 #define SPHC_LOCALIZER_SCRATCH_BYTES_MAX(max_keypoints, color_width, color_height) \
   (UINT64_C(4194304) + UINT64_C(2048) * (max_keypoints) +                          \
    UINT64_C(512) * ((color_width) + UINT64_C(1) * (color_height)) + UINT64_C(10) * (color_width) * (color_height))
+/* What is added to each of the two where config.depth_format is not SPHC_FORMAT_DEPTH16 or config.amplitude_min is
+ * set; depth_width x depth_height is the depth camera's image. */
+#define SPHC_LOCALIZER_DEPTH_BYTES_MAX(depth_width, depth_height) \
+  (UINT64_C(65536) + UINT64_C(2) * (depth_width) * (depth_height))
 
 /* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static
  * storage. [pure] */

@@ -395,12 +395,19 @@ class Localizer {
 // A tightly packed image when stride_bytes is 0.
 inline sphc_image image(const void *data, std::uint32_t width, std::uint32_t height, sphc_format format,
                         std::uint32_t stride_bytes = 0) {
-  return {data, width, height, stride_bytes != 0 ? stride_bytes : width * sphc_format_bytes(format), format};
+  return {data, width, height, stride_bytes != 0 ? stride_bytes : sphc_format_row_bytes(format, width), format};
 }
 
 inline sphc_localizer_frame frame(std::uint32_t sequence, std::int64_t color_time_ns, const sphc_image &color,
                                   std::int64_t depth_time_ns, const sphc_image &depth) {
-  return {sizeof(sphc_localizer_frame), sequence, color_time_ns, depth_time_ns, color, depth, nullptr, 0, 0};
+  sphc_localizer_frame made = {};
+  made.struct_size = sizeof made;
+  made.sequence = sequence;
+  made.color_time_ns = color_time_ns;
+  made.depth_time_ns = depth_time_ns;
+  made.color = color;
+  made.depth = depth;
+  return made;
 }
 
 inline sphc_rigid identity() { return {{1, 0, 0, 0}, {0, 0, 0}}; }

@@ -2,6 +2,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/translate.h"
@@ -11,9 +12,11 @@ namespace {
 using sphc::Arena;
 using sphc::DenseAligner;
 using sphc::DenseConfig;
+using sphc::DepthReader;
+using sphc::DepthReaderConfig;
 using sphc::MessageWriter;
 
-constexpr size_t kObjectBytes = sizeof(sphc_aligner);  // a multiple of the arena's alignment
+constexpr size_t kAlignerBytes = sizeof(sphc_aligner);  // a multiple of the arena's alignment
 
 DenseConfig denseConfig(const sphc_aligner_config &config) {
   DenseConfig dense;
@@ -26,10 +29,24 @@ DenseConfig denseConfig(const sphc_aligner_config &config) {
   return dense;
 }
 
-size_t bytesOf(const DenseConfig &config) {
+DepthReaderConfig readerConfig(const sphc_aligner_config &config) {
+  DepthReaderConfig reader;
+  reader.camera = sphc::Camera(config.rig.depth_camera);
+  reader.unit_m = config.rig.depth_unit_m;
+  reader.layout = sphc::depthLayoutFrom(config.depth_format);
+  return reader;
+}
+
+// An aligner has no scratch: all of it is state.
+void layout(const DenseConfig &dense, const DepthReaderConfig &reader, Arena &state, sphc_aligner *aligner) {
+  DepthReader::layout(reader, state, state, aligner ? &aligner->reader : nullptr);
+  DenseAligner::layout(dense, state, aligner ? &aligner->aligner : nullptr);
+}
+
+size_t bytesOf(const DenseConfig &dense, const DepthReaderConfig &reader) {
   Arena arena;
-  DenseAligner::layout(config, arena, nullptr);
-  return kObjectBytes + arena.used();
+  layout(dense, reader, arena, nullptr);
+  return kAlignerBytes + arena.used();
 }
 
 // One of the images to write: is its stride sound?
@@ -71,7 +88,7 @@ sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc_memory *
     MessageWriter(message) << "memory is null";
     return SPHC_E_ARGUMENT;
   }
-  *memory = {bytesOf(denseConfig(checked)), 0, sphc::kArenaAlignment, 0};
+  *memory = {bytesOf(denseConfig(checked), readerConfig(checked)), 0, sphc::kArenaAlignment, 0};
   return SPHC_OK;
 }
 
@@ -85,17 +102,20 @@ sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_alig
     return SPHC_E_ARGUMENT;
   }
   const DenseConfig dense = denseConfig(checked);
-  status = sphc::checkMemory(memory, memory_bytes, bytesOf(dense), sphc::kArenaAlignment, "aligner", message);
+  const DepthReaderConfig reader = readerConfig(checked);
+  const size_t needed = bytesOf(dense, reader);
+  status = sphc::checkMemory(memory, memory_bytes, needed, sphc::kArenaAlignment, "aligner", message);
   if (status == SPHC_OK)
-    status =
-        sphc::checkApart({"aligner", memory, bytesOf(dense)}, {"the config", config, config->struct_size}, message);
+    status = sphc::checkApart({"aligner", memory, needed}, {"the config", config, config->struct_size}, message);
   if (status != SPHC_OK) return status;
   auto *made = new (memory) sphc_aligner();
-  Arena arena(static_cast<unsigned char *>(memory) + kObjectBytes);
-  DenseAligner::layout(dense, arena, &made->aligner);
+  Arena arena(static_cast<unsigned char *>(memory) + kAlignerBytes);
+  layout(dense, reader, arena, made);
+  made->reader.init(reader);
   made->aligner.init(dense);
   made->color = checked.rig.color_camera;
   made->depth = checked.rig.depth_camera;
+  made->depth_format = sphc::depthFormatOf(checked.depth_format);
   *aligner = made;
   return SPHC_OK;
 }
@@ -107,11 +127,11 @@ sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth,
     MessageWriter(&aligner->message) << "depth is null; give an image";
     return SPHC_E_ARGUMENT;
   }
-  sphc_status status = sphc::checkImage("depth", *depth, aligner->depth, true, &aligner->message);
+  sphc_status status = sphc::checkImage("depth", *depth, aligner->depth, aligner->depth_format, &aligner->message);
   sphc_aligned to = {};
   if (status == SPHC_OK) status = readAligned(aligned, aligner->color.width, &to, &aligner->message);
   if (status != SPHC_OK) return status;
-  aligner->aligner.process(sphc::depthViewFrom(*depth),
+  aligner->aligner.process(aligner->reader.read(sphc::bytesOf(*depth), {}),
                            {to.depth, to.mask, to.confidence, to.depth_stride_bytes / 2, to.mask_stride_bytes,
                             to.confidence_stride_bytes});
   return SPHC_OK;

@@ -1,6 +1,7 @@
 #include "runtime/capi/check.h"
 
 #include "runtime/base/message.h"
+#include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/geometry/rigid.h"
@@ -32,6 +33,7 @@ bool checkNumbers(const sphc_localizer_config &c, sphc_message *message) {
          inRange("depth_mid_m", c.depth_mid_m, 0, 200, message) &&
          inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
          inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
+         inRange("amplitude_min", c.amplitude_min, 0, 65535, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
          inRange("log_level", c.log_level, SPHC_LOG_ERROR, SPHC_LOG_DEBUG, message);
 }
@@ -85,6 +87,42 @@ bool checkPriorOdometry(const sphc_localizer_prior &prior, sphc_message *message
          priorInRange("odometry_translation_sigma_m", prior.odometry_translation_sigma_m, 1e-6, 10, message);
 }
 
+// Can a depth camera have images of this format?
+bool checkDepthFormat(sphc_format configured, const sphc_rig &rig, double depth_max_m, sphc_message *message) {
+  const PixelFormat format = pixelFormatOf(depthFormatOf(configured));
+  if (!format.is_depth) {
+    MessageWriter(message) << "config.depth_format is " << configured
+                           << ", which is not of depth; give a DEPTH or RANGE format, or 0 for DEPTH16";
+    return false;
+  }
+  if (rig.depth_camera.width % format.group_pixels) {
+    MessageWriter(message) << "config.depth_format is " << configured << ", of which " << format.group_pixels
+                           << " pixels share bytes, but the depth camera's width is " << rig.depth_camera.width;
+    return false;
+  }
+  if (format.depth.kind != DepthLayout::kMetres || depth_max_m <= 65535 * rig.depth_unit_m) return true;
+  MessageWriter(message) << "config.depth_max_m is " << depth_max_m << ", but 16 bits of rig.depth_unit_m reach "
+                         << 65535 * rig.depth_unit_m
+                         << " m, and depth in metres is rounded to it; raise the unit or lower the range";
+  return false;
+}
+
+sphc_status checkAmplitude(const sphc_image &image, const FrameLimits &limits, sphc_message *message) {
+  if (!limits.amplitude_min) {
+    if (!image.data) return SPHC_OK;
+    MessageWriter(message) << "amplitude image is given, but config.amplitude_min is 0; set what is to be believed";
+    return SPHC_E_IMAGE;
+  }
+  const LumaLayout layout = pixelFormatOf(image.format).luma;
+  const bool is_number = layout.kind == LumaLayout::kWords || image.format == SPHC_FORMAT_GRAY8;
+  if (!is_number || layout.green != LumaLayout::kNoFilter) {
+    MessageWriter(message) << "amplitude image has format " << image.format
+                           << "; give GRAY8, GRAY10, GRAY12 or GRAY16, as config.amplitude_min is set";
+    return SPHC_E_IMAGE;
+  }
+  return checkImage("amplitude", image, limits.depth, 0, message);
+}
+
 sphc_status checkPrior(const sphc_localizer_prior &prior, const MapSet &maps, sphc_message *message) {
   if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP | SPHC_PRIOR_ODOMETRY)) {
     MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags;
@@ -103,12 +141,17 @@ sphc_status checkPrior(const sphc_localizer_prior &prior, const MapSet &maps, sp
 
 }  // namespace
 
-sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
-                       sphc_message *message) {
-  const uint32_t pixel = sphc_format_bytes(image.format);
-  if (!pixel || (image.format == SPHC_FORMAT_DEPTH16) != depth) {
-    MessageWriter(message) << name << " image has format " << image.format << "; give "
-                           << (depth ? "SPHC_FORMAT_DEPTH16" : "GRAY8, RGB8 or BGR8");
+sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
+                       sphc_format depth_format, sphc_message *message) {
+  const PixelFormat format = pixelFormatOf(image.format);
+  const bool fits = depth_format ? image.format == depth_format : format.group_bytes && !format.is_depth;
+  if (!fits) {
+    MessageWriter text(message);
+    text << name << " image has format " << image.format << "; give ";
+    if (depth_format)
+      text << sphc_format_name(depth_format) << " as config.depth_format says, or set that to another";
+    else
+      text << "GRAY8, RGB8, BGR8 or another that is not of depth";
     return SPHC_E_IMAGE;
   }
   if (image.width != camera.width || image.height != camera.height) {
@@ -117,14 +160,25 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
                            << "; scale neither, give the calibrated size";
     return SPHC_E_IMAGE;
   }
-  const uint64_t row = uint64_t{image.width} * pixel;
-  if (image.stride_bytes < row || image.stride_bytes > (1u << 20) || (depth && image.stride_bytes % 2)) {
-    MessageWriter(message) << name << " image has a stride of " << image.stride_bytes << " bytes; a row has " << row
-                           << (depth ? " and the stride must be even" : "");
+  const uint32_t row = sphc_format_row_bytes(image.format, image.width);
+  if (!row) {
+    MessageWriter(message) << name << " image is " << image.width << " wide, and " << format.group_pixels
+                           << " pixels of its format share bytes; give a multiple";
     return SPHC_E_IMAGE;
   }
-  if (!image.data || (depth && reinterpret_cast<uintptr_t>(image.data) % 2)) {
-    MessageWriter(message) << name << " image's data pointer is " << (image.data ? "odd" : "null");
+  if (image.stride_bytes < row || image.stride_bytes > (1u << 20) || image.stride_bytes % format.alignment) {
+    MessageWriter text(message);
+    text << name << " image has a stride of " << image.stride_bytes << " bytes; a row has " << row;
+    if (format.alignment > 1) text << " and the stride must be a multiple of " << format.alignment;
+    return SPHC_E_IMAGE;
+  }
+  if (!image.data || reinterpret_cast<uintptr_t>(image.data) % format.alignment) {
+    MessageWriter text(message);
+    text << name << " image's data pointer is ";
+    if (image.data)
+      text << "not aligned to " << format.alignment << " bytes";
+    else
+      text << "null";
     return SPHC_E_IMAGE;
   }
   return SPHC_OK;
@@ -165,7 +219,9 @@ sphc_status readConfig(const sphc_localizer_config *config, sphc_localizer_confi
   sphc_status status = readStruct("config", config, copy, message);
   if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
   if (status != SPHC_OK) return status;
-  return checkNumbers(*copy, message) && checkTogether(*copy, message) ? SPHC_OK : SPHC_E_ARGUMENT;
+  const bool fine = checkNumbers(*copy, message) && checkTogether(*copy, message) &&
+                    checkDepthFormat(copy->depth_format, copy->rig, copy->depth_max_m, message);
+  return fine ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message) {
@@ -179,7 +235,8 @@ sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_co
                     inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
                     inRange("depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1, message) &&
                     (c.aligned_unit_m == 0 || inRange("aligned_unit_m", c.aligned_unit_m, SPHC_RIG_MIN_UNIT_M,
-                                                      SPHC_RIG_MAX_UNIT_M, message));
+                                                      SPHC_RIG_MAX_UNIT_M, message)) &&
+                    checkDepthFormat(c.depth_format, c.rig, c.depth_max_m, message);
   if (!good) return SPHC_E_ARGUMENT;
   const double unit_m = c.aligned_unit_m > 0 ? c.aligned_unit_m : c.rig.depth_unit_m;
   if (c.depth_max_m <= 62000 * unit_m) return SPHC_OK;
@@ -201,8 +258,9 @@ sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limi
                            << " but config.clock is null; give a clock or no deadline";
     return SPHC_E_ARGUMENT;
   }
-  status = checkImage("color", own.color, limits.color, false, message);
-  if (status == SPHC_OK) status = checkImage("depth", own.depth, limits.depth, true, message);
+  status = checkImage("color", own.color, limits.color, 0, message);
+  if (status == SPHC_OK) status = checkImage("depth", own.depth, limits.depth, limits.depth_format, message);
+  if (status == SPHC_OK) status = checkAmplitude(own.amplitude, limits, message);
   if (status == SPHC_OK && own.prior) status = checkPrior(*own.prior, limits.maps, message);
   return status;
 }

@@ -14,6 +14,8 @@ sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_co
 // What a frame must fit.
 struct FrameLimits {
   const sphc_camera &color, &depth;
+  sphc_format depth_format;
+  uint32_t amplitude_min;
   const MapSet &maps;
   bool has_clock;
 };
@@ -28,9 +30,9 @@ sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_si
                            sphc_message *message);
 // Can a localizer of this prior go on from what was learnt of its depth sensor?
 sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message);
-// Does an image fit its camera?  `name` is that of the image; `depth`: it must be DEPTH16, else colour or grey.
-sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera, bool depth,
-                       sphc_message *message);
+// Does an image fit its camera?  `name` is that of the image.  Of colour or grey where depth_format is 0.
+sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
+                       sphc_format depth_format, sphc_message *message);
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);

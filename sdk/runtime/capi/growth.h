@@ -21,6 +21,12 @@ constexpr StructKind ungrown(const char *type) {
   return {type, sizeof(T), sizeof(T), alignof(T)};
 }
 
+// Of one whose first version ended where the field at this offset begins.
+template <typename T>
+constexpr StructKind grown(const char *type, size_t first_bytes) {
+  return {type, first_bytes, sizeof(T), alignof(T)};
+}
+
 constexpr StructKind kindOf(const sphc_aligned *) { return ungrown<sphc_aligned>("sphc_aligned"); }
 constexpr StructKind kindOf(const sphc_aligner_config *) {
   return ungrown<sphc_aligner_config>("sphc_aligner_config");
@@ -32,10 +38,10 @@ constexpr StructKind kindOf(const sphc_clock_mapping *) {
   return ungrown<sphc_clock_mapping>("sphc_clock_mapping");
 }
 constexpr StructKind kindOf(const sphc_localizer_config *) {
-  return ungrown<sphc_localizer_config>("sphc_localizer_config");
+  return grown<sphc_localizer_config>("sphc_localizer_config", offsetof(sphc_localizer_config, depth_format));
 }
 constexpr StructKind kindOf(const sphc_localizer_frame *) {
-  return ungrown<sphc_localizer_frame>("sphc_localizer_frame");
+  return grown<sphc_localizer_frame>("sphc_localizer_frame", offsetof(sphc_localizer_frame, reserved2));
 }
 constexpr StructKind kindOf(const sphc_map_info *) { return ungrown<sphc_map_info>("sphc_map_info"); }
 constexpr StructKind kindOf(const sphc_pairer_config *) {
@@ -53,10 +59,8 @@ constexpr StructKind kindOf(const sphc_localizer_parameter_range *) {
 constexpr StructKind kindOf(const sphc_localizer_prediction *) {
   return ungrown<sphc_localizer_prediction>("sphc_localizer_prediction");
 }
-// 0.2 was without jump_m.
 constexpr StructKind kindOf(const sphc_localizer_result *) {
-  return {"sphc_localizer_result", offsetof(sphc_localizer_result, jump_m), sizeof(sphc_localizer_result),
-          alignof(sphc_localizer_result)};
+  return grown<sphc_localizer_result>("sphc_localizer_result", offsetof(sphc_localizer_result, jump_m));
 }
 
 // Of any of them.

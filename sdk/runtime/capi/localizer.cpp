@@ -3,6 +3,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/parameters.h"
@@ -16,12 +17,12 @@ using sphc::LocalizerConfig;
 using sphc::MemoryRange;
 using sphc::MessageWriter;
 
-constexpr size_t kObjectBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
+constexpr size_t kLocalizerBytes = sizeof(sphc_localizer);  // a multiple of the arena's alignment
 
 sphc_memory measure(const LocalizerConfig &config) {
   Arena state, scratch;
   Localizer::layout(config, state, scratch, nullptr);
-  return {kObjectBytes + state.used(), scratch.used(), sphc::kArenaAlignment, 0};
+  return {kLocalizerBytes + state.used(), scratch.used(), sphc::kArenaAlignment, 0};
 }
 
 // Finds the index-th piece of the layout walk.
@@ -117,7 +118,7 @@ sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uin
   if (status != SPHC_OK) return status;
   if (!piece) return SPHC_E_ARGUMENT;
   if (index == 0) {
-    *piece = {"localizer.object", kObjectBytes, 0, 0};
+    *piece = {"localizer.object", kLocalizerBytes, 0, 0};
     return SPHC_OK;
   }
   const LocalizerConfig own = sphc::localizerConfigFrom(checked);
@@ -152,13 +153,15 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   if (status != SPHC_OK) return status;
 
   auto *made = new (state) sphc_localizer();
-  Arena state_arena(static_cast<unsigned char *>(state) + kObjectBytes), scratch_arena(scratch);
+  Arena state_arena(static_cast<unsigned char *>(state) + kLocalizerBytes), scratch_arena(scratch);
   Localizer::layout(own, state_arena, scratch_arena, &made->localizer);
   made->localizer.init(own);
   made->state = used_state;
   made->scratch = used_scratch;
   made->color = checked.rig.color_camera;
   made->depth = checked.rig.depth_camera;
+  made->depth_format = sphc::depthFormatOf(checked.depth_format);
+  made->amplitude_min = checked.amplitude_min;
   made->has_clock = checked.clock != nullptr;
   made->log = checked.log;
   made->log_user = checked.log_user;
@@ -256,7 +259,8 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
   Localizer &own_localizer = localizer->localizer;
-  const sphc::FrameLimits limits = {localizer->color, localizer->depth, own_localizer.maps(), localizer->has_clock};
+  const sphc::FrameLimits limits = {localizer->color,         localizer->depth,     localizer->depth_format,
+                                    localizer->amplitude_min, own_localizer.maps(), localizer->has_clock};
   sphc::FrameCopy copy;
   sphc_status status = sphc::readFrame(frame, limits, &copy, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);

@@ -4,6 +4,7 @@
 #include "runtime/localizer/localizer.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/align/dense.h"
+#include "runtime/stages/align/depth_reader.h"
 #include "runtime/stages/capture/clock_mapper.h"
 #include "runtime/stages/capture/pairer.h"
 
@@ -15,6 +16,8 @@ struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
   sphc::MemoryRange state, scratch;
   sphc_camera color, depth;
+  sphc_format depth_format;
+  uint32_t amplitude_min;
   bool has_clock;
   sphc_log_fn log;
   void *log_user;
@@ -29,8 +32,10 @@ struct alignas(sphc::kArenaAlignment) sphc_localizer {
 };
 
 struct alignas(sphc::kArenaAlignment) sphc_aligner {
+  sphc::DepthReader reader;
   sphc::DenseAligner aligner;
   sphc_camera color, depth;
+  sphc_format depth_format;
   sphc_message message;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/capi/format.h"
+
 namespace sphc {
 namespace {
 
@@ -17,13 +19,7 @@ DepthCalibration depthPriorFrom(const sphc_localizer_config &config) {
   return prior;
 }
 
-ColorView colorViewFrom(const sphc_image &image) {
-  const ChannelOrder order = image.format == SPHC_FORMAT_RGB8   ? ChannelOrder::kRgb
-                             : image.format == SPHC_FORMAT_BGR8 ? ChannelOrder::kBgr
-                                                                : ChannelOrder::kGray;
-  return {static_cast<const uint8_t *>(image.data), static_cast<int32_t>(image.width),
-          static_cast<int32_t>(image.height), static_cast<int32_t>(image.stride_bytes), order};
-}
+ColorView colorViewFrom(const sphc_image &image) { return {bytesOf(image), pixelFormatOf(image.format).luma}; }
 
 PosePrior posePriorFrom(const sphc_localizer_prior &given) {
   PosePrior prior;
@@ -89,6 +85,8 @@ LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
   own.color_from_depth = rigidFromC(config.rig.color_from_depth);
   own.depth_sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                       config.depth_sigma_per_m2};
+  own.depth_layout = depthLayoutFrom(config.depth_format);
+  own.least_amplitude = config.amplitude_min;
   own.depth_prior = depthPriorFrom(config);
   own.pixel_sigma_px = config.pixel_sigma_px;
   own.map_sigma_m = config.map_sigma_m;
@@ -101,16 +99,20 @@ FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps) {
   own.color_time_ns = frame.color_time_ns;
   own.depth_time_ns = frame.depth_time_ns;
   own.color = colorViewFrom(frame.color);
-  own.depth = depthViewFrom(frame.depth);
+  own.depth = bytesOf(frame.depth);
+  if (frame.amplitude.data)
+    own.amplitude = {bytesOf(frame.amplitude), static_cast<int32_t>(sphc_format_bytes(frame.amplitude.format))};
   if (frame.prior) own.known = knownFrom(*frame.prior, maps);
   own.time_limit_ns = int64_t{frame.deadline_us} * 1000;
   return own;
 }
 
-ImageView<uint16_t> depthViewFrom(const sphc_image &image) {
-  return {static_cast<const uint16_t *>(image.data), static_cast<int32_t>(image.width),
-          static_cast<int32_t>(image.height), static_cast<int32_t>(image.stride_bytes / 2)};
+ByteView bytesOf(const sphc_image &image) {
+  return {static_cast<const uint8_t *>(image.data), static_cast<int32_t>(image.width),
+          static_cast<int32_t>(image.height), static_cast<int32_t>(image.stride_bytes)};
 }
+
+DepthLayout depthLayoutFrom(sphc_format format) { return pixelFormatOf(depthFormatOf(format)).depth; }
 
 sphc_localizer_outcome outcomeFrom(Outcome outcome) {
   switch (outcome) {

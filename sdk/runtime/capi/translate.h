@@ -13,7 +13,9 @@ namespace sphc {
 LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config);
 // Borrows the frame's images.
 FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps);
-ImageView<uint16_t> depthViewFrom(const sphc_image &image);
+ByteView bytesOf(const sphc_image &image);
+// 0 stands for DEPTH16.
+DepthLayout depthLayoutFrom(sphc_format format);
 sphc_localizer_outcome outcomeFrom(Outcome outcome);
 sphc_localizer_state stateFrom(TrackingState state);
 sphc_localizer_observation observationFrom(const Observation &observation);

@@ -5,6 +5,7 @@
 #include "runtime/geometry/rigid.h"
 #include "runtime/types/depth_calibration.h"
 #include "runtime/types/depth_sensor.h"
+#include "runtime/types/image_view.h"
 
 namespace sphc {
 
@@ -26,6 +27,8 @@ struct LocalizerConfig {
   Camera color_camera, depth_camera;
   Rigid color_from_depth;
   DepthSensor depth_sensor = {};
+  DepthLayout depth_layout;
+  uint32_t least_amplitude = 0;  // of a measurement that is believed; 0: amplitudes are not known
   DepthCalibration depth_prior;  // what is known of the sensor's bias before the first frame
   double pixel_sigma_px = 0;     // noise of a keypoint's position
   double map_sigma_m = 0;        // error of a map point across its direction

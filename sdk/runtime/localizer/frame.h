@@ -22,7 +22,8 @@ struct Known {
 struct FrameInput {
   int64_t color_time_ns = 0, depth_time_ns = 0;  // mid-exposure
   ColorView color;
-  ImageView<uint16_t> depth;
+  ByteView depth;  // of the config's layout
+  AmplitudeView amplitude;
   Known known;
   int64_t time_limit_ns = 0;  // from the beginning of its processing; 0: none
 };

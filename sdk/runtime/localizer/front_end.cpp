@@ -47,15 +47,8 @@ void FrontEnd::init(const LocalizerConfig &config) {
 }
 
 void FrontEnd::extract(const ColorView &color, const Deadline &deadline) {
-  GrayView gray = {color.data, color.width, color.height, color.stride};
-  if (color.order != ChannelOrder::kGray) {
-    const auto convert = color.order == ChannelOrder::kRgb ? rgbToGray : bgrToGray;
-    convert(color.data, color.stride, color.width, color.height, gray_.data(), color.width);
-    gray.data = gray_.data();
-    gray.stride = color.width;
-  }
-  gray_view_ = gray;
-  keypoint_count_ = extractor_.extract(gray, keypoints_, descriptors_, deadline);
+  gray_view_ = grayOf(color, gray_);
+  keypoint_count_ = extractor_.extract(gray_view_, keypoints_, descriptors_, deadline);
   cut_ = extractor_.wasCut();
   lifted_count_ = 0;
 }

@@ -15,6 +15,10 @@ namespace {
 
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }
 
+DepthReaderConfig readerConfig(const LocalizerConfig &config) {
+  return {config.depth_camera, config.depth_sensor.unit_m, config.depth_layout, config.least_amplitude};
+}
+
 // Where nothing localizes, the last global search of the likeliest map stands for the frame.
 bool replaces(const Hypothesis &candidate, const Hypothesis &best) {
   return candidate.isLocalized() || !best.tried || best.guided || candidate.map == best.map;
@@ -46,6 +50,7 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   estimator.capacity = 2 * n;  // this frame's correspondences and those of earlier ones
   estimator.max_iterations = config.search.max_iterations;
 
+  DepthReader::layout(readerConfig(config), state, scratch, localizer ? &localizer->depth_reader_ : nullptr);
   FrontEnd::layout(config, state, scratch, localizer ? &localizer->front_ : nullptr);
   Fusion::layout(n, state, localizer ? &localizer->fusion_ : nullptr);
   Search::layout(config, state, scratch, localizer ? &localizer->search_ : nullptr);
@@ -59,6 +64,7 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
 
 void Localizer::init(const LocalizerConfig &config) {
   config_ = config;
+  depth_reader_.init(readerConfig(config));
   front_.init(config);
   search_.init(config);
   calibrator_.init(config.depth_prior);
@@ -119,9 +125,10 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   front_.extract(frame.color, deadline.afterShare(is_expected ? kFeaturesNearShare : kFeaturesShare));
   const int64_t extracted = config_.clock.now();
   const Rigid color_from_depth = colorFromDepth(frame);
-  front_.lift(frame.depth, color_from_depth, deadline.afterShare(kLiftShare));
-  result.faults = consistency_.look(
-      {front_.gray(), frame.depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns, isDark});
+  const ImageView<uint16_t> depth = depth_reader_.read(frame.depth, frame.amplitude);
+  front_.lift(depth, color_from_depth, deadline.afterShare(kLiftShare));
+  result.faults =
+      consistency_.look({front_.gray(), depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns, isDark});
   const int64_t aligned = config_.clock.now();
   Work work;
   answer(frame.known, deadline, &result.faults, &work);

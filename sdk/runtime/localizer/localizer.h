@@ -11,6 +11,7 @@
 #include "runtime/localizer/search.h"
 #include "runtime/localizer/tracker.h"
 #include "runtime/localizer/verification.h"
+#include "runtime/stages/align/depth_reader.h"
 #include "runtime/stages/consistency/consistency.h"
 #include "runtime/stages/pose/depth_calibrator.h"
 #include "runtime/stages/pose/estimator.h"
@@ -73,6 +74,7 @@ class Localizer {
   void learn(int64_t time_ns, LocalizerResult *result);
 
   LocalizerConfig config_;
+  DepthReader depth_reader_;
   FrontEnd front_;
   Search search_;
   PoseEstimator estimator_;

@@ -14,7 +14,6 @@ using namespace tuning;
 
 double seconds(uint64_t ns) { return 1e-9 * static_cast<double>(ns); }
 double square(double value) { return value * value; }
-double absolute(double value) { return value < 0 ? -value : value; }
 
 // Of one axis.
 double sigmaOf(const Matrix6 &covariance, int first) {
@@ -27,9 +26,8 @@ struct Unknown {
 };
 
 Unknown unknownOf(double ahead_s, double step_s, double most_rate, double acceleration) {
-  if (!(step_s > 0)) return {most_rate * absolute(ahead_s), most_rate};
-  return {0.5 * acceleration * absolute(ahead_s * (ahead_s + step_s)),
-          acceleration * absolute(ahead_s + 0.5 * step_s)};
+  if (!(step_s > 0)) return {most_rate * absOf(ahead_s), most_rate};
+  return {0.5 * acceleration * absOf(ahead_s * (ahead_s + step_s)), acceleration * absOf(ahead_s + 0.5 * step_s)};
 }
 
 }  // namespace

@@ -17,15 +17,20 @@ namespace HWY_NAMESPACE {
 namespace {  // every file that includes this has its own
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_ATTR void grayRow(const uint8_t *HWY_RESTRICT rgb, bool red_first, uint8_t *HWY_RESTRICT gray, int32_t width) {
+// Three or four bytes a pixel, of which the fourth is not read.
+HWY_ATTR void grayRow(const uint8_t *HWY_RESTRICT color, int32_t pixel_bytes, bool red_first,
+                      uint8_t *HWY_RESTRICT gray, int32_t width) {
   const hn::ScalableTag<uint16_t> d;
   const hn::Rebind<uint8_t, decltype(d)> bytes;
   const int32_t lanes = static_cast<int32_t>(hn::Lanes(d));
   const uint16_t first = red_first ? 77 : 29, last = red_first ? 29 : 77;
   int32_t x = 0;
   for (; x + lanes <= width; x += lanes) {
-    auto r = hn::Undefined(bytes), g = r, b = r;
-    hn::LoadInterleaved3(bytes, rgb + 3 * x, r, g, b);
+    auto r = hn::Undefined(bytes), g = r, b = r, any = r;
+    if (pixel_bytes == 3)
+      hn::LoadInterleaved3(bytes, color + 3 * x, r, g, b);
+    else
+      hn::LoadInterleaved4(bytes, color + 4 * x, r, g, b, any);
     const auto product = [&](decltype(r) v, uint16_t weight) {
       return hn::Mul(hn::PromoteTo(d, v), hn::Set(d, weight));
     };
@@ -35,7 +40,8 @@ HWY_ATTR void grayRow(const uint8_t *HWY_RESTRICT rgb, bool red_first, uint8_t *
     hn::StoreU(hn::DemoteTo(bytes, shifted), bytes, gray + x);
   }
   for (; x < width; ++x) {
-    const int32_t sum = first * rgb[3 * x] + 150 * rgb[3 * x + 1] + last * rgb[3 * x + 2] + 128;
+    const uint8_t *pixel = color + pixel_bytes * x;
+    const int32_t sum = first * pixel[0] + 150 * pixel[1] + last * pixel[2] + 128;
     gray[x] = static_cast<uint8_t>(sum >> 8);
   }
 }

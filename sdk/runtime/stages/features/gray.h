@@ -1,13 +1,13 @@
-// Colour rows to grey.
+// The luma of an image, a byte a pixel.
 #pragma once
-#include <cstdint>
+#include "runtime/base/span.h"
+#include "runtime/types/image_view.h"
 
 namespace sphc {
 
-// Interleaved 8-bit colour, `stride` bytes from a row to the next, to grey by the BT.601 weights in integers.
-void rgbToGray(const uint8_t *rgb, int32_t stride, int32_t width, int32_t height, uint8_t *gray,
-               int32_t gray_stride);
-void bgrToGray(const uint8_t *bgr, int32_t stride, int32_t width, int32_t height, uint8_t *gray,
-               int32_t gray_stride);
+// In place where the image has it so; else written to `gray`, which has a byte for every pixel.  Colours by the
+// BT.601 weights in integers; of more than 8 bits the highest 8; of a colour filter the green, and at pixels of
+// another colour the mean of the greens beside them.
+GrayView grayOf(const ColorView &color, Span<uint8_t> gray);
 
 }  // namespace sphc

@@ -69,8 +69,9 @@ struct FeatureKernels {
   void (*orientation_histogram)(const OrientationWindow &, float histogram[kOrientationBins]);
   // RootSIFT of the patch's gradients.
   void (*describe)(const PatchTask &, const PatchWindow &, Descriptor *);
-  // (77 r + 150 g + 29 b + 128) / 256, the BT.601 weights; red_first tells RGB from BGR.
-  void (*gray_row)(const uint8_t *rgb, bool red_first, uint8_t *gray, int32_t width);
+  // (77 r + 150 g + 29 b + 128) / 256, the BT.601 weights; red_first tells RGB from BGR.  A pixel has three bytes,
+  // or four.
+  void (*gray_row)(const uint8_t *color, int32_t pixel_bytes, bool red_first, uint8_t *gray, int32_t width);
 };
 const FeatureKernels &simdFeatureKernels();
 const FeatureKernels &scalarFeatureKernels();

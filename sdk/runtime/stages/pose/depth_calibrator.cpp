@@ -1,7 +1,8 @@
 #include "runtime/stages/pose/depth_calibrator.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
+
+#include "runtime/stages/pose/symmetric.h"
 
 namespace sphc {
 namespace {
@@ -33,7 +34,7 @@ void DepthCalibrator::learn(const Estimate &estimate) {
   const Vector2 weighted = before * current_.mean + trust * (after * estimate.depth.mean - before * current_.mean);
   Matrix2 covariance = information.inverse();
   covariance(1, 1) += kSlopeDrift * kSlopeDrift;
-  Vector2 shift = information.ldlt().solve(weighted) - current_.mean;
+  Vector2 shift = solveSymmetric(information, weighted) - current_.mean;
   const double shift2 = shift.dot(before * shift);
   if (shift2 > kMostShift * kMostShift) shift *= kMostShift / sqrtOf(shift2);
   const Vector2 mean = current_.mean + shift;

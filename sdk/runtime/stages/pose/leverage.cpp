@@ -10,7 +10,7 @@
 namespace sphc {
 namespace {
 
-constexpr uint32_t kGrain = 64;  // correspondences between two looks at the clock
+constexpr uint32_t kLeverageGrain = 64;  // correspondences between two looks at the clock
 constexpr double kVague = 1e-3;  // information about a motion that nothing pins down
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
@@ -52,7 +52,7 @@ double centreVariance(const Matrix6 &covariance) { return covariance.bottomRight
 Leverage highestLeverage(Span<const Correspondence> correspondences, const Estimate &estimate, uint32_t count,
                          const Deadline &deadline) {
   Leverage leverage;
-  Watch watch(deadline, kGrain);
+  Watch watch(deadline, kLeverageGrain);
   const Matrix6 all = covarianceOf(correspondences, estimate);
   Matrix6 covariance = all;
   while (leverage.indices.size() < count) {

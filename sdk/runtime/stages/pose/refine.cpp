@@ -15,7 +15,7 @@ constexpr double kCovarianceOfLoss = 0.80;
 // Residuals of epipolar planes have one dimension: E psi^2 E w / (E psi')^2.
 constexpr double kCovarianceOfPlaneLoss = 0.93;
 constexpr double kLeastDamping = 1e-6;
-constexpr uint32_t kGrain = 2048,
+constexpr uint32_t kRefineGrain = 2048,
                    kSolving = 256;   // rows between two looks at the clock; rows that a solution costs
 constexpr double kConverged = 1e-3;  // of the squared step in units of its own standard deviation
 
@@ -152,7 +152,7 @@ Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations
   state.pose = start;
   NormalEquations now = linearise(task, state);
   double damping = kLeastDamping;
-  Watch watch(task.deadline, kGrain);
+  Watch watch(task.deadline, kRefineGrain);
   for (int i = 0; i < iterations; ++i) {
     if (watch.passed(task.lifted->count + kSolving)) break;
     const Vector8 step = solved(now, damping);

@@ -162,7 +162,7 @@ TEST(Convert, TakesChromaFromAnotherBuffer) {
 }
 
 TEST(Convert, RefusesDepthAsColourAndColourAsDepth) {
-  std::vector<uint8_t> bytes(4 * kWidth * kHeight), pixels(3 * kWidth * kHeight);
+  std::vector<uint8_t> bytes(4 * kWidth * kHeight), pixels(4 * kWidth * kHeight);
   const auto tried = [&](Layout layout, sphc_format format) {
     const OutImage out{pixels.data(), pixels.size(), kWidth, kHeight, sphc_format_bytes(format) * kWidth, format};
     sphc_message message{};
@@ -176,6 +176,8 @@ TEST(Convert, RefusesDepthAsColourAndColourAsDepth) {
   for (const Layout layout :
        {Layout::Grey, Layout::Yuyv, Layout::Uyvy, Layout::Nv12, Layout::Rgb24, Layout::Bgr24, Layout::Bgrx32})
     EXPECT_EQ(tried(layout, SPHC_FORMAT_DEPTH16), SPHC_E_UNSUPPORTED);
+  EXPECT_EQ(tried(Layout::Bgrx32, SPHC_FORMAT_BGRA8), SPHC_E_IMAGE);  // drivers do not deliver it
+  EXPECT_EQ(tried(Layout::Nv12, SPHC_FORMAT_NV12), SPHC_E_IMAGE);
 }
 
 TEST(Convert, RefusesAnotherSize) {

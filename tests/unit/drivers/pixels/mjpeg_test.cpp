@@ -102,7 +102,11 @@ TEST(Mjpeg, RefusesAnotherSize) {
   EXPECT_STREQ(decoded.message.text, "JPEG frame of 64 x 32 pixels; 48 x 32 were negotiated");
 }
 
-TEST(Mjpeg, RefusesDepth) { EXPECT_EQ(decode(kFrame, SPHC_FORMAT_DEPTH16).status, SPHC_E_UNSUPPORTED); }
+TEST(Mjpeg, RefusesDepthAndWhatDriversDoNotDeliver) {
+  EXPECT_EQ(decode(kFrame, SPHC_FORMAT_DEPTH16).status, SPHC_E_UNSUPPORTED);
+  for (const sphc_format format : {SPHC_FORMAT_RGBA8, SPHC_FORMAT_NV12})
+    EXPECT_EQ(decode(kFrame, format).status, SPHC_E_IMAGE) << format;
+}
 
 }  // namespace
 }  // namespace sphc::pixels

@@ -37,6 +37,7 @@ TEST(SimulatedConfig, OpenNamesTheFieldAndTheCure) {
       {"threads", [](auto &c) { c.threads = 65; }},
       {"color_noise", [](auto &c) { c.color_noise = 2; }},
       {"ideal_depth", [](auto &c) { c.ideal_depth = 7; }},
+      {"raw_depth", [](auto &c) { c.raw_depth = 2; }},
       {"exposure_s", [](auto &c) { c.exposure_s = -0.001; }},
       {"depth_scale", [&](auto &c) { c.depth_scale = nan; }},
       {"depth_sigma_m", [](auto &c) { c.depth_sigma_m = -1; }},

@@ -24,6 +24,7 @@ void expectRefused(const std::function<void(sphc_v4l2_config &)> &spoil, const c
 TEST(Open, RefusesConfigsThatCannotBe) {
   expectRefused([](sphc_v4l2_config &c) { c.stream = 7; }, "stream");
   expectRefused([](sphc_v4l2_config &c) { c.format = SPHC_FORMAT_DEPTH16; }, "format");
+  expectRefused([](sphc_v4l2_config &c) { c.format = SPHC_FORMAT_NV12; }, "format");
   expectRefused([](sphc_v4l2_config &c) { c.stream = SPHC_STREAM_DEPTH, c.format = SPHC_FORMAT_RGB8; }, "format");
   expectRefused([](sphc_v4l2_config &c) { c.width = 15; }, "width");
   expectRefused([](sphc_v4l2_config &c) { c.height = 8193; }, "height");

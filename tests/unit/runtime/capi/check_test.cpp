@@ -39,36 +39,36 @@ TEST(CheckMemory, NamesWhatIsWrong) {
 
 class CheckImageTest : public testing::Test {
  protected:
-  sphc_status check(const sphc_image &image, bool depth) {
+  sphc_status check(const sphc_image &image, sphc_format depth_format = 0) {
     sphc_camera camera = {};
     camera.width = 8;
     camera.height = 4;
-    return checkImage("color", image, camera, depth, &message_);
+    return checkImage("color", image, camera, depth_format, &message_);
   }
   alignas(2) uint8_t pixels_[8 * 4 * 3 + 1] = {};
   sphc_message message_ = {};
 };
 
 TEST_F(CheckImageTest, ItsFormatIsOfItsKind) {
-  EXPECT_EQ(check({pixels_, 8, 4, 8, SPHC_FORMAT_GRAY8}, false), SPHC_OK);
-  EXPECT_EQ(check({pixels_, 8, 4, 24, SPHC_FORMAT_RGB8}, false), SPHC_OK);
-  EXPECT_EQ(check({pixels_, 8, 4, 16, SPHC_FORMAT_DEPTH16}, true), SPHC_OK);
-  EXPECT_EQ(check({pixels_, 8, 4, 8, SPHC_FORMAT_GRAY8}, true), SPHC_E_IMAGE);
-  EXPECT_EQ(check({pixels_, 8, 4, 16, SPHC_FORMAT_DEPTH16}, false), SPHC_E_IMAGE);
+  EXPECT_EQ(check({pixels_, 8, 4, 8, SPHC_FORMAT_GRAY8}), SPHC_OK);
+  EXPECT_EQ(check({pixels_, 8, 4, 24, SPHC_FORMAT_RGB8}), SPHC_OK);
+  EXPECT_EQ(check({pixels_, 8, 4, 16, SPHC_FORMAT_DEPTH16}, SPHC_FORMAT_DEPTH16), SPHC_OK);
+  EXPECT_EQ(check({pixels_, 8, 4, 8, SPHC_FORMAT_GRAY8}, SPHC_FORMAT_DEPTH16), SPHC_E_IMAGE);
+  EXPECT_EQ(check({pixels_, 8, 4, 16, SPHC_FORMAT_DEPTH16}), SPHC_E_IMAGE);
 }
 
 TEST_F(CheckImageTest, ItsRowsAreWhole) {
-  EXPECT_EQ(check({pixels_, 8, 4, 23, SPHC_FORMAT_BGR8}, false), SPHC_E_IMAGE);
+  EXPECT_EQ(check({pixels_, 8, 4, 23, SPHC_FORMAT_BGR8}), SPHC_E_IMAGE);
   EXPECT_THAT(message_.text, HasSubstr("stride of 23 bytes; a row has 24"));
-  EXPECT_EQ(check({pixels_, 8, 4, 17, SPHC_FORMAT_DEPTH16}, true), SPHC_E_IMAGE);
-  EXPECT_EQ(check({pixels_, 7, 4, 8, SPHC_FORMAT_GRAY8}, false), SPHC_E_IMAGE);
-  EXPECT_EQ(check({pixels_, 8, 5, 8, SPHC_FORMAT_GRAY8}, false), SPHC_E_IMAGE);
+  EXPECT_EQ(check({pixels_, 8, 4, 17, SPHC_FORMAT_DEPTH16}, SPHC_FORMAT_DEPTH16), SPHC_E_IMAGE);
+  EXPECT_EQ(check({pixels_, 7, 4, 8, SPHC_FORMAT_GRAY8}), SPHC_E_IMAGE);
+  EXPECT_EQ(check({pixels_, 8, 5, 8, SPHC_FORMAT_GRAY8}), SPHC_E_IMAGE);
 }
 
 TEST_F(CheckImageTest, ItsPixelsAreThereAndAligned) {
-  EXPECT_EQ(check({nullptr, 8, 4, 8, SPHC_FORMAT_GRAY8}, false), SPHC_E_IMAGE);
-  EXPECT_EQ(check({pixels_ + 1, 8, 4, 16, SPHC_FORMAT_DEPTH16}, true), SPHC_E_IMAGE);
-  EXPECT_THAT(message_.text, HasSubstr("odd"));
+  EXPECT_EQ(check({nullptr, 8, 4, 8, SPHC_FORMAT_GRAY8}), SPHC_E_IMAGE);
+  EXPECT_EQ(check({pixels_ + 1, 8, 4, 16, SPHC_FORMAT_DEPTH16}, SPHC_FORMAT_DEPTH16), SPHC_E_IMAGE);
+  EXPECT_THAT(message_.text, HasSubstr("not aligned to 2 bytes"));
 }
 
 }  // namespace

@@ -82,20 +82,25 @@ TEST(TranslateFrame, BorrowsItsImages) {
   EXPECT_EQ(own.color_time_ns, 100);
   EXPECT_EQ(own.depth_time_ns, 103);
   EXPECT_EQ(own.time_limit_ns, 4000000000000);
-  EXPECT_EQ(own.color.data, color);
-  EXPECT_EQ(own.color.width, 4);
-  EXPECT_EQ(own.color.height, 2);
-  EXPECT_EQ(own.color.stride, 16);
-  EXPECT_EQ(own.color.order, ChannelOrder::kBgr);
-  EXPECT_EQ(own.depth.data, depth);
+  EXPECT_EQ(own.color.bytes.data, color);
+  EXPECT_EQ(own.color.bytes.width, 4);
+  EXPECT_EQ(own.color.bytes.height, 2);
+  EXPECT_EQ(own.color.bytes.stride, 16);
+  EXPECT_EQ(own.color.layout.kind, LumaLayout::kBgr);
+  EXPECT_EQ(own.depth.data, reinterpret_cast<const uint8_t *>(depth));
   EXPECT_EQ(own.depth.width, 4);
   EXPECT_EQ(own.depth.height, 3);
-  EXPECT_EQ(own.depth.stride, 5);  // in pixels
+  EXPECT_EQ(own.depth.stride, 10);
+  EXPECT_EQ(own.amplitude.bytes.data, nullptr);
   EXPECT_FALSE(own.known.prior.has_pose || own.known.prior.has_up || own.known.has_odometry);
   frame.color.format = SPHC_FORMAT_RGB8;
-  EXPECT_EQ(frameFrom(frame, MapSet()).color.order, ChannelOrder::kRgb);
+  EXPECT_EQ(frameFrom(frame, MapSet()).color.layout.kind, LumaLayout::kRgb);
   frame.color.format = SPHC_FORMAT_GRAY8;
-  EXPECT_EQ(frameFrom(frame, MapSet()).color.order, ChannelOrder::kGray);
+  EXPECT_EQ(frameFrom(frame, MapSet()).color.layout.kind, LumaLayout::kPlane);
+  const uint8_t light[4 * 3 * 2] = {};
+  frame.amplitude = {light, 4, 3, 8, SPHC_FORMAT_GRAY12};
+  EXPECT_EQ(frameFrom(frame, MapSet()).amplitude.bytes.data, light);
+  EXPECT_EQ(frameFrom(frame, MapSet()).amplitude.pixel_bytes, 2);
 }
 
 class TranslatePrior : public testing::Test {

@@ -74,10 +74,14 @@ TEST_F(FrontEndTest, ColourIsReadInItsOrder) {
     const auto *first = reinterpret_cast<const char *>(front().descriptors().data());
     return std::string(first, front().keypointCount() * sizeof(Descriptor));
   };
-  const std::string expected = describe({dark.data(), 320, 240, 320, ChannelOrder::kGray});
+  LumaLayout plane, three;
+  three.group_bytes = 3;
+  const std::string expected = describe({{dark.data(), 320, 240, 320}, plane});
   EXPECT_FALSE(expected.empty());
-  EXPECT_EQ(describe({rgb.data(), 320, 240, 3 * 320, ChannelOrder::kRgb}), expected);
-  EXPECT_EQ(describe({bgr.data(), 320, 240, 3 * 320, ChannelOrder::kBgr}), expected);
+  three.kind = LumaLayout::kRgb;
+  EXPECT_EQ(describe({{rgb.data(), 320, 240, 3 * 320}, three}), expected);
+  three.kind = LumaLayout::kBgr;
+  EXPECT_EQ(describe({{bgr.data(), 320, 240, 3 * 320}, three}), expected);
 }
 
 TEST_F(FrontEndTest, CoarseKeypointsArePlacedLessExactly) {

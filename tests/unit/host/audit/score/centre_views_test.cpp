@@ -45,15 +45,12 @@ void writeFrame(int frame, sphc_recording_writer *writer) {
     depth.push_back(static_cast<uint16_t>(std::lround(1000 * (world_from_camera.inverse() * point).z())));
   }
   const int64_t time_ns = 1000000000 + frame * 100000000ll;
-  const sphc_localizer_frame images = {sizeof(sphc_localizer_frame),
-                                       static_cast<uint32_t>(frame),
-                                       time_ns,
-                                       time_ns,
-                                       {color.data(), kWidth, kHeight, kWidth * 3, SPHC_FORMAT_BGR8},
-                                       {depth.data(), kWidth, kHeight, kWidth * 2, SPHC_FORMAT_DEPTH16},
-                                       nullptr,
-                                       0,
-                                       0};
+  sphc_localizer_frame images = {};
+  images.struct_size = sizeof images;
+  images.sequence = static_cast<uint32_t>(frame);
+  images.color_time_ns = images.depth_time_ns = time_ns;
+  images.color = {color.data(), kWidth, kHeight, kWidth * 3, SPHC_FORMAT_BGR8};
+  images.depth = {depth.data(), kWidth, kHeight, kWidth * 2, SPHC_FORMAT_DEPTH16};
   const sphc_rigid pose = rigidToC(world_from_camera);
   sphc_message message;
   ASSERT_EQ(sphc_recording_add_frame(writer, &images, &message), SPHC_OK) << message.text;

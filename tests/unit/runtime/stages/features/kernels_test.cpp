@@ -218,12 +218,14 @@ TEST(FeatureKernels, DescriptorsOfASlopePointItsWay) {
 TEST(FeatureKernels, GrayRowsAgree) {
   Random random(2);
   for (const int32_t width : {1, 15, 16, 17, 33, 640}) {
-    std::vector<uint8_t> color(static_cast<size_t>(3 * width)), fast(static_cast<size_t>(width)), plain = fast;
+    std::vector<uint8_t> color(static_cast<size_t>(4 * width)), fast(static_cast<size_t>(width)), plain = fast;
     for (uint8_t &byte : color) byte = static_cast<uint8_t>(random.below(256));
-    for (const bool red_first : {false, true}) {
-      simdFeatureKernels().gray_row(color.data(), red_first, fast.data(), width);
-      scalarFeatureKernels().gray_row(color.data(), red_first, plain.data(), width);
-      EXPECT_EQ(fast, plain);
+    for (const int32_t pixel_bytes : {3, 4}) {
+      for (const bool red_first : {false, true}) {
+        simdFeatureKernels().gray_row(color.data(), pixel_bytes, red_first, fast.data(), width);
+        scalarFeatureKernels().gray_row(color.data(), pixel_bytes, red_first, plain.data(), width);
+        EXPECT_EQ(fast, plain);
+      }
     }
   }
 }

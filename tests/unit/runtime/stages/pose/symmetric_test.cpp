@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cstring>
+
+#include "runtime/base/random.h"
+#include "runtime/types/estimate.h"
 
 namespace sphc {
 namespace {
@@ -35,6 +40,32 @@ TEST(Symmetric, SolvesASystem) {
   const Eigen::Matrix<double, 8, 8> matrix = anyMatrix();
   const Eigen::Matrix<double, 8, 1> truth{1, -2, 3, 0.5, 0, 7, -4, 2}, right = matrix.lazyProduct(truth);
   EXPECT_LT((solveSymmetric(matrix, right) - truth).norm(), 1e-12);
+}
+
+// Sums in the order of Eigen's decomposition, so that poses have the bytes that they had with it.
+TEST(Symmetric, GivesTheBitsOfEigen) {
+  using Matrix = Eigen::Matrix<double, 6, 6>;
+  Random random(11);
+  for (int round = 0; round < 2000; ++round) {
+    Matrix matrix = Matrix::Zero();
+    const int rank = round % 3 ? 9 : round % 6;  // some are singular
+    for (int i = 0; i < rank; ++i) {
+      Vector6 v;
+      for (double &element : v) element = (2 * random.uniform() - 1) * (random.below(4) ? 1 : 1e3);
+      matrix += v * v.transpose();
+    }
+    const Vector6 right = matrix.col(round % 6) + Vector6::Unit(round % 5);
+    const Vector6 expected = Eigen::LDLT<Matrix>(matrix).solve(right), found = solveSymmetric<6>(matrix, right);
+    ASSERT_EQ(std::memcmp(expected.data(), found.data(), sizeof expected), 0) << matrix;
+  }
+}
+
+TEST(Symmetric, WhatNothingPinsDownIsZero) {
+  Eigen::Matrix2d matrix;
+  matrix << 4, 0, 0, 0;
+  const Eigen::Vector2d x = solveSymmetric<2>(matrix, Eigen::Vector2d(8, 3));
+  EXPECT_EQ(x[0], 2);
+  EXPECT_EQ(x[1], 0);
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+// What a ToF module measures before it drops anything, and what its amplitude tells of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "handle.h"
+#include "runtime/stages/align/depth_reader.h"
+
+namespace sphc::simulated::test {
+namespace {
+
+struct Errors {
+  std::vector<double> relative;  // of all that is measured, ascending
+  double at(double share) const { return relative[static_cast<size_t>(share * double(relative.size() - 1))]; }
+};
+
+class SimulatedAmplitude : public testing::Test {
+ protected:
+  SimulatedAmplitude() {
+    sphc_simulated_config config = defaults();
+    config.seed = 5;
+    config.raw_depth = 1;
+    handle_ = std::make_unique<Handle>(config);
+    EXPECT_EQ(sphc_simulated_rig(handle_->get(), &rig_), SPHC_OK);
+  }
+
+  // As the localizer reads depth; 0: amplitudes are not asked.
+  std::vector<uint16_t> read(const std::vector<uint16_t> &depth, const std::vector<uint16_t> &amplitude,
+                             uint32_t least) {
+    DepthReaderConfig config = {Camera(rig_.depth_camera), rig_.depth_unit_m, {}, least};
+    Arena state_bytes, scratch_bytes;
+    DepthReader::layout(config, state_bytes, scratch_bytes, nullptr);
+    std::vector<uint8_t> scratch(scratch_bytes.used() + kArenaAlignment);
+    const auto begin = reinterpret_cast<uintptr_t>(scratch.data());
+    Arena state, arena(scratch.data() + (kArenaAlignment - begin % kArenaAlignment) % kArenaAlignment);
+    DepthReader reader;
+    DepthReader::layout(config, state, arena, &reader);
+    reader.init(config);
+    const auto width = static_cast<int32_t>(rig_.depth_camera.width),
+               height = static_cast<int32_t>(rig_.depth_camera.height);
+    const auto bytes = [&](const std::vector<uint16_t> &pixels) {
+      return ByteView{reinterpret_cast<const uint8_t *>(pixels.data()), width, height, 2 * width};
+    };
+    const ImageView<uint16_t> z = reader.read(bytes(depth), {bytes(amplitude), 2});
+    return {z.data, z.data + size_t(width) * size_t(height)};
+  }
+
+  void measure(uint32_t index, uint32_t least, Errors *errors) {
+    std::vector<uint16_t> depth(kDepthPixels), amplitude(kDepthPixels);
+    ASSERT_EQ(sphc_simulated_render_depth(handle_->get(), index, depth.data()), SPHC_OK);
+    ASSERT_EQ(sphc_simulated_render_amplitude(handle_->get(), index, amplitude.data()), SPHC_OK);
+    int64_t time_ns = 0;
+    ASSERT_EQ(sphc_simulated_frame_times(handle_->get(), index, nullptr, &time_ns), SPHC_OK);
+    std::vector<float> truth(kDepthPixels);
+    ASSERT_EQ(sphc_simulated_oracle_tof_depth(handle_->get(), time_ns, truth.data()), SPHC_OK);
+    const std::vector<uint16_t> z = read(depth, amplitude, least);
+    for (size_t i = 0; i < z.size(); ++i) {
+      if (z[i] == 0) continue;
+      const double true_m = static_cast<double>(truth[i]);
+      errors->relative.push_back(std::abs(z[i] * rig_.depth_unit_m - true_m) / true_m);
+    }
+  }
+
+  Errors errorsWith(uint32_t least) {
+    Errors errors;
+    for (const uint32_t index : {3u, 37u, 71u}) measure(index, least, &errors);
+    std::sort(errors.relative.begin(), errors.relative.end());
+    return errors;
+  }
+
+  std::unique_ptr<Handle> handle_;
+  sphc_rig rig_ = {};
+};
+
+TEST_F(SimulatedAmplitude, TellsWhatNotToBelieve) {
+  const Errors raw = errorsWith(0), masked = errorsWith(SPHC_SIMULATED_FAINT);
+  EXPECT_LT(masked.at(0.99), raw.at(0.99) / 2);
+  EXPECT_LT(masked.at(0.999), raw.at(0.999) / 2);
+  EXPECT_LT(masked.at(1), raw.at(1) / 2);
+  EXPECT_GT(masked.relative.size(), raw.relative.size() * 95 / 100);
+  EXPECT_LE(masked.at(0.5), 1.05 * raw.at(0.5));
+}
+
+}  // namespace
+}  // namespace sphc::simulated::test
