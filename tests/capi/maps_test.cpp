@@ -1,6 +1,7 @@
 // Maps that come and go between frames.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "tests/capi/bytes.h"
@@ -97,6 +98,101 @@ TEST_F(CInterfaceMaps, WhatWasTrackedInARemovedMapIsForgotten) {
   const sphc_localizer_result result = see(3, 2);
   EXPECT_EQ(result.map_id, 8u);
   EXPECT_EQ(result.guided, 0u);
+}
+
+// The rooms lie over each other, so that a viewpoint is at the same place in all of them.
+class CInterfaceMapTransforms : public CInterfaceMaps {
+ protected:
+  sphc_rigid commonFrom(uint32_t room) const {
+    const auto &centre = session_->sceneMap(room).centre_in_world_m;
+    const sphc_rigid turned = {{0.8, 0, 0.6, 0}, {3, -2, 1}},
+                     world_from_map = {{1, 0, 0, 0}, {centre[0], centre[1], centre[2]}};
+    sphc_rigid common_from_map;
+    sphc_rigid_compose(&turned, &world_from_map, &common_from_map);
+    return common_from_map;
+  }
+  void place(uint32_t room, double off_m = 0) {
+    sphc_rigid common_from_map = commonFrom(room);
+    common_from_map.t_m[0] += off_m;
+    ASSERT_EQ(sphc_localizer_set_map_transform(localizer(), room, &common_from_map, 0.002, 0.01), SPHC_OK);
+  }
+  void expectRefused(uint32_t map_id, const sphc_rigid &common_from_map, double turn, double shift,
+                     const char *words) {
+    EXPECT_EQ(sphc_localizer_set_map_transform(localizer(), map_id, &common_from_map, turn, shift),
+              SPHC_E_ARGUMENT);
+    sphc::test::expectMentions(sphc_localizer_message(localizer()), words);
+  }
+  // The first frame in the next room.
+  sphc_localizer_result goThrough() {
+    for (uint32_t viewpoint : {0u, 1u, 2u}) see(viewpoint, 2);
+    return see(3, 1);
+  }
+};
+
+TEST_F(CInterfaceMapTransforms, HandOverWithoutAJump) {
+  for (uint32_t room = 0; room < kRooms; ++room) place(room);
+  const sphc_localizer_result moved = goThrough();
+  EXPECT_EQ(moved.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(moved.map_id, 1u);
+  EXPECT_EQ(moved.state, SPHC_STATE_TRACKING);
+  EXPECT_EQ(moved.guided, 1u);
+  EXPECT_EQ(moved.events, uint32_t{SPHC_EVENT_MAP_CHANGED});
+  EXPECT_GT(moved.jump_m, 0);
+  EXPECT_LT(moved.jump_m, 0.03);
+  EXPECT_LT(moved.jump_rad, 0.02);
+  const sphc_localizer_result next = see(4, 1);
+  EXPECT_EQ(next.state, SPHC_STATE_TRACKING);
+  EXPECT_EQ(next.guided, 1u);
+  EXPECT_EQ(next.events, 0u);
+}
+
+TEST_F(CInterfaceMapTransforms, AWrongOneShowsAsAJump) {
+  place(1, 1.0), place(2);
+  const sphc_localizer_result moved = goThrough();
+  EXPECT_EQ(moved.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(moved.state, SPHC_STATE_LOST);
+  EXPECT_EQ(moved.guided, 0u);
+  EXPECT_EQ(moved.events, uint32_t{SPHC_EVENT_MAP_CHANGED | SPHC_EVENT_JUMPED});
+  EXPECT_NEAR(moved.jump_m, 1, 0.05);
+  EXPECT_EQ(see(4, 1).state, SPHC_STATE_TRACKING);
+}
+
+TEST_F(CInterfaceMapTransforms, OneAloneSaysNothing) {
+  place(1), place(2);
+  ASSERT_EQ(sphc_localizer_set_map_transform(localizer(), 1, nullptr, 0, 0), SPHC_OK);
+  const sphc_localizer_result moved = goThrough();
+  EXPECT_EQ(moved.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(moved.state, SPHC_STATE_LOST);
+  EXPECT_EQ(moved.guided, 0u);
+  EXPECT_EQ(moved.events, uint32_t{SPHC_EVENT_MAP_CHANGED});
+  EXPECT_EQ(moved.jump_m, 0);
+}
+
+TEST_F(CInterfaceMapTransforms, ANewReleaseKeepsIt) {
+  place(1), place(2);
+  ASSERT_EQ(sphc_localizer_set_map(localizer(), 1, session_->map(1)), SPHC_OK);
+  EXPECT_EQ(goThrough().state, SPHC_STATE_TRACKING);
+}
+
+TEST_F(CInterfaceMapTransforms, Refused) {
+  const double nan = std::nan("");
+  const sphc_rigid fine = commonFrom(1);
+  sphc_rigid bad = fine;
+  EXPECT_EQ(sphc_localizer_set_map_transform(nullptr, 1, &fine, 0, 0), SPHC_E_ARGUMENT);
+  expectRefused(9, fine, 0.01, 0.01, "no map with id 9");
+  EXPECT_EQ(sphc_localizer_set_map_transform(localizer(), 9, nullptr, 0, 0), SPHC_E_ARGUMENT);
+  for (const double sigma : {-1e-9, 101.0, nan, HUGE_VAL}) {
+    expectRefused(1, fine, sigma, 0.01, "sigmas");
+    expectRefused(1, fine, 0.01, sigma, "sigmas");
+  }
+  bad.q_wxyz[0] = 2;
+  expectRefused(1, bad, 0.01, 0.01, "common_from_map");
+  bad = fine, bad.t_m[2] = nan;
+  expectRefused(1, bad, 0.01, 0.01, "common_from_map");
+  bad = fine, bad.t_m[1] = 2e4;
+  expectRefused(1, bad, 0.01, 0.01, "common_from_map");
+  place(2);  // what was refused left nothing behind
+  EXPECT_EQ(goThrough().state, SPHC_STATE_LOST);
 }
 
 TEST_F(CInterfaceMaps, APriorNamesAMapThatIsThere) {

@@ -45,7 +45,7 @@ class Session {
   Session(const Session &) = delete;
   Session &operator=(const Session &) = delete;
 
-  const SceneMap &sceneMap() const { return rooms_[0].scene; }
+  const SceneMap &sceneMap(uint32_t room = 0) const { return rooms_[room].scene; }
   sphc_map *map(uint32_t room = 0) { return maps_[room]; }  // whose id is `room`
   sphc_localizer *localizer() { return localizer_; }
   GuardedMemory &state() { return state_; }

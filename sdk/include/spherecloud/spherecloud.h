@@ -576,7 +576,8 @@ SPHC_API const char *sphc_localizer_hint_name(uint32_t hint); /* [pure] */
 enum {
   SPHC_EVENT_RELOCALIZED = 1u, /* nothing was expected: the first pose, or the first after 1 s without */
   SPHC_EVENT_JUMPED = 2u,      /* elsewhere than expected, by more than 5 sigma; result.jump_m and jump_rad */
-  SPHC_EVENT_MAP_CHANGED = 4u  /* in another map than the one expected; how far that is cannot be said */
+  SPHC_EVENT_MAP_CHANGED = 4u  /* in another map than the one expected; how far that is can be said where both have
+                                  transforms */
 };
 SPHC_API const char *sphc_localizer_event_name(uint32_t event); /* [pure] */
 
@@ -618,7 +619,7 @@ typedef struct sphc_localizer_result {
   uint32_t events;       /* SPHC_EVENT_ bits: what the pose does to a world drawn by earlier ones */
   /* How far the pose is from the one that was expected at time_ns before the frame was looked at: the camera's
    * centre, and its angle.  So far does a world jump that is drawn by sphc_localizer_predict.  Small where no event
-   * says otherwise; 0 where nothing was expected, or in another map. */
+   * says otherwise; 0 where nothing was expected, or in another map without transforms. */
   double jump_m, jump_rad;
 } sphc_localizer_result;
 
@@ -682,6 +683,14 @@ SPHC_API sphc_status sphc_localizer_set_map(sphc_localizer *localizer, uint32_t 
 /* Takes a map away; what was tracked in it is forgotten, what was tracked in another is not.  ARGUMENT when there
  * is none of this id. [exclusive] */
 SPHC_API sphc_status sphc_localizer_remove_map(sphc_localizer *localizer, uint32_t map_id);
+/* Where a map lies in a frame that several maps share, such as a building's: x_common = R x_map + t, with its
+ * errors, 1 sigma an axis (0 to 0.5 rad about the map's origin, 0 to 100 m).  A camera that leaves a map is then
+ * expected in the others that have one: it is searched for there, stays tracked, and result.jump_m is measured
+ * across.  Poses stay in the frames of their maps, and a newer release of the map keeps its transform.  null: there
+ * is none, as at first. Failures: ARGUMENT (sphc_localizer_message explains). [exclusive] */
+SPHC_API sphc_status sphc_localizer_set_map_transform(sphc_localizer *localizer, uint32_t map_id,
+                                                      const sphc_rigid *common_from_map, double rotation_sigma_rad,
+                                                      double translation_sigma_m);
 /* How many maps it has. [exclusive] */
 SPHC_API uint32_t sphc_localizer_map_count(const sphc_localizer *localizer);
 

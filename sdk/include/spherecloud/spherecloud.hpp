@@ -334,6 +334,12 @@ class Localizer {
     return said(sphc_localizer_set_map(localizer_, map_id, map.get()));
   }
   Status removeMap(std::uint32_t map_id) { return said(sphc_localizer_remove_map(localizer_, map_id)); }
+  // Where the map lies in a frame that maps share.
+  Status setMapTransform(std::uint32_t map_id, const sphc_rigid &common_from_map, double rotation_sigma_rad,
+                         double translation_sigma_m) {
+    return said(sphc_localizer_set_map_transform(localizer_, map_id, &common_from_map, rotation_sigma_rad,
+                                                 translation_sigma_m));
+  }
   Status setParameter(sphc_localizer_parameter parameter, double value) {
     return said(sphc_localizer_set_parameter(localizer_, parameter, value));
   }

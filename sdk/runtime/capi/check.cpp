@@ -265,6 +265,20 @@ sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limi
   return status;
 }
 
+sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
+                           sphc_message *message) {
+  bool near = isValidRigid(common_from_map);
+  for (double t : common_from_map.t_m) near = near && t >= -1e4 && t <= 1e4;
+  if (near && rotation_sigma_rad >= 0 && rotation_sigma_rad <= 0.5 && translation_sigma_m >= 0 &&
+      translation_sigma_m <= 100)
+    return SPHC_OK;
+  MessageWriter(message) << (near
+                                 ? "the sigmas of a map's transform must be 0 to 0.5 rad and 0 to 100 m"
+                                 : "common_from_map is no transform: its quaternion must have unit length, and its "
+                                   "translation must lie within 10 km");
+  return SPHC_E_ARGUMENT;
+}
+
 sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message) {
   if (!depth) {
     MessageWriter(message) << "depth is null; give result.depth of an earlier frame";

@@ -26,6 +26,8 @@ struct FrameCopy {
 };
 sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limits, FrameCopy *copy,
                       sphc_message *message);
+sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
+                           sphc_message *message);
 // Can a localizer of this prior go on from what was learnt of its depth sensor?
 sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message);
 // Does an image fit its camera?  `name` is that of the image.  Of colour or grey where depth_format is 0.

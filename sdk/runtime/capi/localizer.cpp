@@ -52,6 +52,11 @@ void logResult(const sphc_localizer &localizer, const sphc_localizer_result &res
   localizer.log(localizer.log_user, SPHC_LOG_DEBUG, text.text, length);
 }
 
+sphc_status refuseMap(uint32_t map_id, sphc_message *message) {
+  MessageWriter(message) << "the localizer has no map with id " << map_id;
+  return SPHC_E_ARGUMENT;
+}
+
 sphc_localizer_result emptyResult() {
   sphc_localizer_result result = {};
   result.map_id = SPHC_MAP_NONE;
@@ -188,9 +193,22 @@ sphc_status sphc_localizer_set_map(sphc_localizer *localizer, uint32_t map_id, c
 sphc_status sphc_localizer_remove_map(sphc_localizer *localizer, uint32_t map_id) {
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
-  if (localizer->localizer.removeMap(map_id)) return SPHC_OK;
-  MessageWriter(message) << "the localizer has no map with id " << map_id;
-  return SPHC_E_ARGUMENT;
+  return localizer->localizer.removeMap(map_id) ? SPHC_OK : refuseMap(map_id, message);
+}
+
+sphc_status sphc_localizer_set_map_transform(sphc_localizer *localizer, uint32_t map_id,
+                                             const sphc_rigid *common_from_map, double rotation_sigma_rad,
+                                             double translation_sigma_m) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  sphc_message *message = localizer->beginCall();
+  sphc::Placement placement;
+  if (common_from_map) {
+    const sphc_status status =
+        sphc::checkPlacement(*common_from_map, rotation_sigma_rad, translation_sigma_m, message);
+    if (status != SPHC_OK) return status;
+    placement = {true, sphc::rigidFromC(*common_from_map), rotation_sigma_rad, translation_sigma_m};
+  }
+  return localizer->localizer.placeMap(map_id, placement) ? SPHC_OK : refuseMap(map_id, message);
 }
 
 uint32_t sphc_localizer_map_count(const sphc_localizer *localizer) {

@@ -88,6 +88,12 @@ bool Localizer::removeMap(uint32_t id) {
   return true;
 }
 
+bool Localizer::placeMap(uint32_t id, const Placement &placement) {
+  const uint32_t slot = maps().slotOf(id);
+  if (slot != kNoMap) search_.maps().place(slot, placement);
+  return slot != kNoMap;
+}
+
 void Localizer::setParameters(const SearchParameters &parameters) {
   config_.search = parameters;
   search_.setParameters(parameters);
@@ -224,7 +230,13 @@ void Localizer::searchEverywhere(const Known &known, const Deadline &deadline, W
   if (order.size() == 0) return;  // there is no map
   const bool fuses = config_.tracks && tracker_.hasOdometry();
   const uint32_t remembered = fusion_.mapToRemember(order);
+  Prediction expected, there;
+  const bool is_expected = expects(known, kMostConeRad, &expected);
   for (uint32_t map : order) {
+    if (is_expected && carriedOver(expected, map, maps(), &there) && coneOf(there) < kMostConeRad) {
+      searchNear(known, there, deadline, work);
+      if (isDone(deadline, work)) return;
+    }
     PosePrior prior = priorFor(known, map);
     if (isNarrow(known)) prior.has_pose = false;  // a search there has failed
     searchMap(map, fuses && map == remembered, queryFor(prior, deadline), work);
@@ -340,6 +352,7 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
     calibrator_.learn(best_.estimate);
     fusion_.clear();
     if (!config_.tracks) return;
+    tracker_.goOver(best_.map, maps());
     result->jump = tracker_.accept(best_.map, best_.estimate);
     trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {

@@ -33,6 +33,7 @@ class Localizer {
   bool setMap(uint32_t id, const MapView &map);
   // False where there is none of this id.
   bool removeMap(uint32_t id);
+  bool placeMap(uint32_t id, const Placement &placement);
   const MapSet &maps() const { return search_.maps(); }
   const SearchParameters &parameters() const { return config_.search; }
   void setParameters(const SearchParameters &parameters);

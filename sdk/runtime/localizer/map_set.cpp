@@ -21,8 +21,17 @@ uint32_t MapSet::set(uint32_t id, const MapView &view) {
     if (!isTaken(i)) slot = i;
   if (slot == kNoMap) return kNoMap;
   if (!isTaken(slot)) ++count_;
-  slots_[slot] = {view, id};
+  slots_[slot].view = view;
+  slots_[slot].id = id;
   return slot;
+}
+
+Placement MapSet::placementIn(uint32_t other, uint32_t slot) const {
+  const Placement &to = slots_[other].placement, &from = slots_[slot].placement;
+  if (!to.is_known || !from.is_known) return {};
+  return {true, to.common_from_map.inverse() * from.common_from_map,
+          hypotOf(to.rotation_sigma_rad, from.rotation_sigma_rad),
+          hypotOf(to.translation_sigma_m, from.translation_sigma_m)};
 }
 
 void MapSet::remove(uint32_t slot) {

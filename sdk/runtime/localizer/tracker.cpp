@@ -19,6 +19,17 @@ double sigmaAnAxis(const Estimate &estimate, int first) {
 
 }  // namespace
 
+bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, Prediction *there) {
+  if (map == expected.map) return false;
+  const Placement placement = maps.placementIn(expected.map, map);
+  if (!placement.is_known) return false;
+  const Rigid camera_from_map = expected.camera_from_map * placement.common_from_map;
+  const double turned_m = placement.rotation_sigma_rad * camera_from_map.translation_m.norm();
+  *there = {map, camera_from_map, hypotOf(expected.rotation_sigma_rad, placement.rotation_sigma_rad),
+            hypotOf(expected.translation_sigma_m, hypotOf(placement.translation_sigma_m, turned_m))};
+  return true;
+}
+
 void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
   const bool follows = begun_ && time_ns > time_ns_ && elapsedNs(time_ns_, time_ns) <= kForgetNs;
   if (!follows) reset();
@@ -91,21 +102,35 @@ Jump Tracker::jumpTo(uint32_t map, const Rigid &found, Prediction *expected) con
   return jump;
 }
 
+void Tracker::goOver(uint32_t map, const MapSet &maps) {
+  Prediction there;
+  if (!has_pose_ ||
+      !carriedOver({map_, camera_from_map_, rotation_sigma_rad_, translation_sigma_m_}, map, maps, &there))
+    return;
+  map_ = there.map;
+  camera_from_map_ = there.camera_from_map;
+  rotation_sigma_rad_ = there.rotation_sigma_rad;
+  translation_sigma_m_ = there.translation_sigma_m;
+  went_over_ = true;
+}
+
 Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
   Prediction expected;
-  const Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
+  Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
   if (!jump.events)
     state_ = TrackingState::kTracking;
   else if (state_ == TrackingState::kTracking)
     state_ = TrackingState::kLost;
   const double dt = secondsOf(elapsedNs(pose_time_ns_, time_ns_));
-  has_velocity_ = state_ == TrackingState::kTracking && dt <= kSteadySeconds;
-  if (has_velocity_) {
+  // Across maps the error of their transforms is no velocity: the one from before holds.
+  const bool is_measured = !went_over_;
+  has_velocity_ = state_ == TrackingState::kTracking && dt <= kSteadySeconds && (is_measured || has_velocity_);
+  if (has_velocity_ && is_measured) {
     const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();
     turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
     velocity_m_s_ = moved.translation_m / dt;
   }
-  steady_ = has_velocity_ ? steady_ + 1 : 0;
+  steady_ = has_velocity_ && is_measured ? steady_ + 1 : 0;
   if (state_ == TrackingState::kTracking) trusted_time_ns_ = time_ns_;
   has_pose_ = moved_known_ = true;
   map_ = map;
@@ -116,6 +141,8 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
   inliers_ = estimate.inliers;
   moved_ = {};
   moved_rotation2_ = moved_translation2_ = 0;
+  if (went_over_) jump.events |= kMapChanged;
+  went_over_ = false;
   return jump;
 }
 

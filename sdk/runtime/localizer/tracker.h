@@ -16,6 +16,7 @@
 //                  more than kForgetNs
 #pragma once
 #include "runtime/localizer/frame.h"
+#include "runtime/localizer/map_set.h"
 #include "runtime/localizer/motion.h"
 #include "runtime/localizer/result.h"
 
@@ -28,6 +29,9 @@ struct Prediction {
   double rotation_sigma_rad = 0, translation_sigma_m = 0;
 };
 
+// The same camera in another map; false where it is in that map already, or where it is not known how the two lie.
+bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, Prediction *there);
+
 class Tracker {
  public:
   static constexpr uint64_t kForgetNs = 1000000000;
@@ -36,6 +40,8 @@ class Tracker {
   void advance(int64_t time_ns, const Odometry *odometry);
   // After advance: false where nothing can be said.
   bool predict(Prediction *prediction) const;
+  // Before accept: what is known of the camera, in the map that it is found in.
+  void goOver(uint32_t map, const MapSet &maps);
   // After it: what it brought, and how far that is from what was expected.
   Jump accept(uint32_t map, const Estimate &estimate);
   void miss();
@@ -84,6 +90,7 @@ class Tracker {
 
   bool has_velocity_ = false;
   Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame
+  bool went_over_ = false;                                                 // to another map, since the last pose
   uint32_t steady_ = 0;  // steps between poses since the last jump or pause
 };
 

@@ -49,5 +49,28 @@ TEST_F(Maps, LeaveRoomForOthers) {
   EXPECT_EQ(set(9), 1u);
 }
 
+TEST_F(Maps, LieToEachOtherAsTheyLieToWhatTheyShare) {
+  const auto at = [](double turn_rad, double x_m) {
+    return Rigid{rotationFromVector(Vector3(0, turn_rad, 0)), Vector3(x_m, 1, 2)};
+  };
+  set(1), set(2), set(3);
+  EXPECT_FALSE(maps_.placementIn(0, 1).is_known);
+  maps_.place(0, {true, at(0.5, 3), 0.03, 0.3});
+  EXPECT_FALSE(maps_.placementIn(0, 1).is_known) << "the other has none";
+  EXPECT_FALSE(maps_.placementIn(1, 0).is_known);
+  maps_.place(1, {true, at(-0.2, 5), 0.04, 0.4});
+  const Placement placement = maps_.placementIn(0, 1);
+  ASSERT_TRUE(placement.is_known);
+  const Vector3 point(0.1, -0.4, 0.7);  // in the second map
+  EXPECT_LT((at(0.5, 3) * (placement.common_from_map * point) - at(-0.2, 5) * point).norm(), 1e-14);
+  EXPECT_NEAR(placement.rotation_sigma_rad, 0.05, 1e-12);
+  EXPECT_NEAR(placement.translation_sigma_m, 0.5, 1e-12);
+  set(2);
+  EXPECT_TRUE(maps_.placementIn(0, 1).is_known) << "a newer release lies where the older one did";
+  maps_.remove(1);
+  set(9);
+  EXPECT_FALSE(maps_.placementIn(0, 1).is_known) << "another map";
+}
+
 }  // namespace
 }  // namespace sphc

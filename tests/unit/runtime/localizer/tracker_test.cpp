@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "tests/support/arena_memory.h"
 
 namespace sphc {
 namespace {
@@ -251,6 +254,74 @@ TEST_F(TrackerTest, APoseTellsHowFarItIsFromWhereItWasExpected) {
   EXPECT_EQ(other.shift_m, 0);
   EXPECT_EQ(other.turn_rad, 0);
   EXPECT_EQ(bring(10 * kFrame + kSecond, poseAt(1.08, 0.5), 1).events, kRelocalized);
+}
+
+// Two maps, the second 4 m beside and turned; both transforms with an error.
+class HandoverTest : public TrackerTest {
+ protected:
+  HandoverTest() : memory_([this](Arena &arena, bool real) { MapSet::layout(2, arena, real ? &maps_ : nullptr); }) {
+    maps_.set(7, MapView()), maps_.set(8, MapView());
+    maps_.place(0, {true, Rigid(), 0, 0});
+    maps_.place(1, {true, second_, 0.01, 0.02});
+  }
+  // In the second map.
+  Rigid there(const Rigid &camera_from_first) const { return camera_from_first * second_; }
+  Jump bringThere(int64_t time_ns, const Rigid &camera_from_first) {
+    tracker_.advance(time_ns, nullptr);
+    tracker_.goOver(1, maps_);
+    return tracker_.accept(1, found(there(camera_from_first)));
+  }
+  Rigid second_ = {rotationFromVector(Vector3(0, 0.7, 0)), Vector3(4, 0, -1)};
+  MapSet maps_;
+
+ private:
+  test::ArenaMemory memory_;
+};
+
+TEST_F(HandoverTest, WhatIsExpectedIsCarriedOver) {
+  const Prediction expected = {0, poseAt(0.3, 0.2), 0.003, 0.005};
+  Prediction over;
+  ASSERT_TRUE(carriedOver(expected, 1, maps_, &over));
+  EXPECT_EQ(over.map, 1u);
+  EXPECT_LT((over.camera_from_map.translation_m - there(poseAt(0.3, 0.2)).translation_m).norm(), 1e-12);
+  EXPECT_LT(rotationAngle(over.camera_from_map.rotation * there(poseAt(0.3, 0.2)).rotation.transpose()), 1e-7);
+  EXPECT_NEAR(over.rotation_sigma_rad, std::hypot(0.003, 0.01), 1e-12);
+  const double far_m = over.camera_from_map.translation_m.norm();
+  EXPECT_NEAR(over.translation_sigma_m, std::hypot(0.005, 0.02, 0.01 * far_m), 1e-12);
+  EXPECT_FALSE(carriedOver(over, 1, maps_, &over)) << "it is there";
+  maps_.place(0, {});
+  EXPECT_FALSE(carriedOver(expected, 1, maps_, &over));
+}
+
+TEST_F(HandoverTest, ThroughADoorTheCameraStaysTracked) {
+  track();
+  const Jump jump = bringThere(4 * kFrame, poseAt(0.06));
+  EXPECT_EQ(jump.events, kMapChanged);
+  EXPECT_NEAR(jump.shift_m, 0.02, 1e-9);
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
+  EXPECT_EQ(bringThere(5 * kFrame, poseAt(0.07)).events, 0u);
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
+}
+
+TEST_F(HandoverTest, ATransformThatIsWrongShowsAsAJump) {
+  track();
+  const Jump jump = bringThere(4 * kFrame, poseAt(1.04));
+  EXPECT_EQ(jump.events, kJumped | kMapChanged);
+  EXPECT_NEAR(jump.shift_m, 1, 1e-9);
+  EXPECT_EQ(tracker_.state(), TrackingState::kLost);
+}
+
+// The error of the transform is no velocity.
+TEST_F(HandoverTest, NoRateIsLearntAcross) {
+  track();
+  bringThere(4 * kFrame, poseAt(0.08));  // 4 cm beside
+  tracker_.advance(5 * kFrame, nullptr);
+  Prediction expected;
+  ASSERT_TRUE(tracker_.predict(&expected));
+  EXPECT_LT((expected.camera_from_map.translation_m - there(poseAt(0.09)).translation_m).norm(), 1e-9);
+  Motion motion;
+  ASSERT_TRUE(tracker_.motion(trail_, &motion));
+  EXPECT_EQ(motion.step.seconds, 0);
 }
 
 // The camera that turns and walks, one step a frame.
