@@ -11,7 +11,7 @@
 namespace sphc {
 namespace {
 
-constexpr int64_t kFrame = 33333333, kSecond = 1000000000, kStart = 5 * kSecond;
+constexpr int64_t kMotionFrame = 33333333, kMotionSecond = 1000000000, kStart = 5 * kMotionSecond;
 const Vector3 kTurn(0.3, -0.8, 0.2), kVelocity(0.4, -0.1, 0.3);  // rad/s in the camera, m/s in the map
 
 // A camera that turns steadily while its centre goes in a straight line.
@@ -26,8 +26,8 @@ Motion steadyMotion() {
   motion.pose_time_ns = motion.time_ns = kStart;
   motion.camera_from_map = steady(0);
   motion.covariance = diagonalOf(0.002, 0.003);
-  const Rigid before = steady(-1e-9 * kFrame), now = steady(0);
-  motion.step = {1e-9 * kFrame, -(now.rotation.transpose() * (1e-9 * kFrame * kTurn)),
+  const Rigid before = steady(-1e-9 * kMotionFrame), now = steady(0);
+  motion.step = {1e-9 * kMotionFrame, -(now.rotation.transpose() * (1e-9 * kMotionFrame * kTurn)),
                  now.inverse().translation_m - before.inverse().translation_m, diagonalOf(0.001, 0.002), 0};
   return motion;
 }
@@ -40,7 +40,8 @@ double turnOffRad(const Rigid &a, const Rigid &b) { return rotationAngle(a.rotat
 double sigma(const Matrix6 &covariance, int i) { return std::sqrt(covariance(i, i)); }
 
 TEST(Motion, GoesOnAsItWas) {
-  for (const int64_t ahead_ns : {-kFrame, int64_t{-9000000}, int64_t{0}, int64_t{11000000}, 3 * kFrame, kSecond}) {
+  for (const int64_t ahead_ns :
+       {-kMotionFrame, int64_t{-9000000}, int64_t{0}, int64_t{11000000}, 3 * kMotionFrame, kMotionSecond}) {
     MovedPose moved;
     ASSERT_TRUE(moveTo(kStart + ahead_ns, steadyMotion(), &moved)) << ahead_ns;
     const Rigid truth = steady(1e-9 * static_cast<double>(ahead_ns));
@@ -73,14 +74,14 @@ TEST(Motion, ErrorsGrowWithTheTimeFromThePose) {
   Motion motion = steadyMotion(), unknown = motion;
   unknown.step = {};
   double before_turn = 0.002, before_shift = 0.003;
-  for (int64_t ahead_ns = kFrame / 4; ahead_ns <= kSecond; ahead_ns *= 2) {
+  for (int64_t ahead_ns = kMotionFrame / 4; ahead_ns <= kMotionSecond; ahead_ns *= 2) {
     MovedPose moved, without;
     ASSERT_TRUE(moveTo(kStart + ahead_ns, motion, &moved) && moveTo(kStart + ahead_ns, unknown, &without));
     EXPECT_LT((moved.covariance - moved.covariance.transpose()).norm(), 1e-18);
     for (int i = 0; i < 3; ++i) {
       EXPECT_GT(sigma(moved.covariance, i), before_turn);
       EXPECT_GT(sigma(moved.covariance, i + 3), before_shift);
-      if (ahead_ns > 2 * kFrame) continue;
+      if (ahead_ns > 2 * kMotionFrame) continue;
       EXPECT_GT(sigma(without.covariance, i), sigma(moved.covariance, i));
       EXPECT_GT(sigma(without.covariance, i + 3), sigma(moved.covariance, i + 3));
     }
@@ -97,21 +98,21 @@ TEST(Motion, BetweenTwoPosesTheirErrorsMeanOut) {
   motion.step.covariance = 2 * motion.covariance;
   motion.step.share_in_pose = 0.5;
   MovedPose between, ahead;
-  ASSERT_TRUE(moveTo(kStart - kFrame / 2, motion, &between));
+  ASSERT_TRUE(moveTo(kStart - kMotionFrame / 2, motion, &between));
   EXPECT_LT(sigma(between.covariance, 0), 0.002);
   EXPECT_LT(sigma(between.covariance, 3), 0.003);
-  ASSERT_TRUE(moveTo(kStart + kFrame, motion, &ahead));
+  ASSERT_TRUE(moveTo(kStart + kMotionFrame, motion, &ahead));
   EXPECT_GT(sigma(ahead.covariance, 3), 0.003 * std::sqrt(5.0));  // of 2 a - b
 }
 
 TEST(Motion, EndsASecondAfterThePoseAndATenthBeforeTheFrame) {
   Motion motion = steadyMotion();
-  motion.pose_time_ns -= kSecond / 2;  // odometry has led to here
+  motion.pose_time_ns -= kMotionSecond / 2;  // odometry has led to here
   MovedPose moved;
-  EXPECT_TRUE(moveTo(kStart + kSecond / 2, motion, &moved));
-  EXPECT_FALSE(moveTo(kStart + kSecond / 2 + 1, motion, &moved));
-  EXPECT_TRUE(moveTo(kStart - kSecond / 10, motion, &moved));
-  EXPECT_FALSE(moveTo(kStart - kSecond / 10 - 1, motion, &moved));
+  EXPECT_TRUE(moveTo(kStart + kMotionSecond / 2, motion, &moved));
+  EXPECT_FALSE(moveTo(kStart + kMotionSecond / 2 + 1, motion, &moved));
+  EXPECT_TRUE(moveTo(kStart - kMotionSecond / 10, motion, &moved));
+  EXPECT_FALSE(moveTo(kStart - kMotionSecond / 10 - 1, motion, &moved));
 }
 
 TEST(Motion, TimesMayLieAnywhere) {
@@ -226,22 +227,22 @@ Honesty honestyOf(int64_t ahead_ns, bool odometry) {
     Trail trail;
     Rigid drift;
     for (int frame = 0; frame < 60; ++frame) {
-      const double time_s = 1e-9 * kFrame * frame;
+      const double time_s = 1e-9 * kMotionFrame * frame;
       const Rigid truth = head.cameraFromMap(time_s);
       drift = disturbed(drift, 0.2 * kTurnSigma, 0.2 * kShiftSigma, &random);
       const Odometry told = {(drift * truth).inverse(), 0.2 * kTurnSigma, 0.2 * kShiftSigma};
-      tracker.advance(kStart + frame * kFrame, odometry ? &told : nullptr);
+      tracker.advance(kStart + frame * kMotionFrame, odometry ? &told : nullptr);
       Estimate estimate;
       estimate.inliers = 200;
       estimate.covariance = diagonalOf(kTurnSigma, kShiftSigma);
       estimate.camera_from_map = disturbed(truth, kTurnSigma, kShiftSigma, &random);
       tracker.accept(0, estimate);
-      trail.add(kStart + frame * kFrame, estimate.camera_from_map, estimate.covariance);
+      trail.add(kStart + frame * kMotionFrame, estimate.camera_from_map, estimate.covariance);
       Motion motion;
       MovedPose moved;
       if (frame < 3) continue;
       const bool is_known =
-          tracker.motion(trail, &motion) && moveTo(kStart + frame * kFrame + ahead_ns, motion, &moved);
+          tracker.motion(trail, &motion) && moveTo(kStart + frame * kMotionFrame + ahead_ns, motion, &moved);
       EXPECT_TRUE(is_known);
       const Rigid then = head.cameraFromMap(time_s + 1e-9 * static_cast<double>(ahead_ns));
       const Vector6 error = errorOf(moved.camera_from_map, then), still = errorOf(estimate.camera_from_map, then);
