@@ -193,7 +193,8 @@ sphc_status sphc_localizer_set_map(sphc_localizer *localizer, uint32_t map_id, c
 sphc_status sphc_localizer_remove_map(sphc_localizer *localizer, uint32_t map_id) {
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
-  return localizer->localizer.removeMap(map_id) ? SPHC_OK : refuseMap(map_id, message);
+  if (localizer->localizer.removeMap(map_id)) return SPHC_OK;
+  return refuseMap(map_id, message);
 }
 
 sphc_status sphc_localizer_set_map_transform(sphc_localizer *localizer, uint32_t map_id,
@@ -208,7 +209,8 @@ sphc_status sphc_localizer_set_map_transform(sphc_localizer *localizer, uint32_t
     if (status != SPHC_OK) return status;
     placement = {true, sphc::rigidFromC(*common_from_map), rotation_sigma_rad, translation_sigma_m};
   }
-  return localizer->localizer.placeMap(map_id, placement) ? SPHC_OK : refuseMap(map_id, message);
+  if (localizer->localizer.placeMap(map_id, placement)) return SPHC_OK;
+  return refuseMap(map_id, message);
 }
 
 uint32_t sphc_localizer_map_count(const sphc_localizer *localizer) {
