@@ -11,7 +11,7 @@ namespace sphc {
 namespace {
 
 constexpr uint32_t kLeverageGrain = 64;  // correspondences between two looks at the clock
-constexpr double kVague = 1e-3;  // information about a motion that nothing pins down
+constexpr double kVague = 1e-3;          // information about a motion that nothing pins down
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
