@@ -127,7 +127,7 @@ stage_arm64() {
   check "arm64: a kernel and libraries" tests/guest/fetch_arm64.sh "$arm64"
   check "arm64: build" build build/arm64 'vhci_camera guest_capture' -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE=toolchains/aarch64-linux-gnu.cmake -DSPHC_SYSROOT="$arm64/sysroot" -DSPHC_HOST=OFF \
-    -DSPHC_EXAMPLES=OFF -DSPHC_GUEST_RECORDED="$root/build/unity/tests/guest/recorded"
+    -DSPHC_EXAMPLES=OFF -DSPHC_GUEST_RECORDED="$root/build/unity/tests/guest/recorded" $unity -DSPHC_UNITY_RUNTIME=ON
   tests "arm64: on a stock kernel in an emulator" build/arm64
 }
 

@@ -8,8 +8,9 @@
 namespace sphc {
 namespace {
 
-constexpr uint32_t kOne = 65535;    // a cosine of 1
-constexpr int32_t kJumpShare = 33;  // a step to a neighbour of more than one in so many is an edge, not a slope
+// This file is compiled small, where divisions by constants are divisions: there are none for each pixel.
+constexpr int32_t kCosineBits = 16;
+constexpr int32_t kJumpShift = 5;  // a step to a neighbour of more than 1 / 32 is an edge, not a slope
 
 bool isInPlace(const DepthReaderConfig &config) {
   return config.layout.kind == DepthLayout::kUnits && !config.layout.is_range && config.least_amplitude == 0;
@@ -18,8 +19,14 @@ bool isInPlace(const DepthReaderConfig &config) {
 // Is z beyond one neighbour and before the other, by an edge each?
 bool isBetween(int32_t z, int32_t a, int32_t b) {
   if (a == 0 || b == 0) return false;
-  const int32_t jump = z / kJumpShare, from_a = z - a, to_b = b - z;
+  const int32_t jump = z >> kJumpShift, from_a = z - a, to_b = b - z;
   return (from_a > jump && to_b > jump) || (from_a < -jump && to_b < -jump);
+}
+
+// 0 for what is no measurement, or beyond 16 bits.
+uint16_t unitsFrom(double units) {
+  const double rounded = units + 0.5;
+  return rounded >= 1 && rounded < 65536 ? static_cast<uint16_t>(rounded) : uint16_t{0};
 }
 
 }  // namespace
@@ -49,7 +56,7 @@ void DepthReader::makeCosines() {
       Vector2 ray;
       const bool has_ray = config_.camera.unproject({x + 0.5, y + 0.5}, &ray);
       const double cosine = has_ray ? 1 / sqrtOf(1 + ray.squaredNorm()) : 0;
-      cosines_[at] = static_cast<uint16_t>(kOne * cosine + 0.5);
+      cosines_[at] = static_cast<uint16_t>(std::min(cosine * (1 << kCosineBits) + 0.5, 65535.0));
     }
   }
 }
@@ -69,12 +76,12 @@ ImageView<uint16_t> DepthReader::read(const ByteView &depth, const AmplitudeView
 void DepthReader::decodeRow(const uint8_t *from, int32_t y, uint16_t *z) const {
   const DepthLayout layout = config_.layout;
   const uint16_t *cosines = layout.is_range ? cosines_.data() + int64_t{y} * width_ : nullptr;
+  const double per_metre = 1 / config_.unit_m, of_range = per_metre / (1 << kCosineBits);
   for (int32_t x = 0; x < width_; ++x) {
-    const double cosine = cosines ? cosines[x] / static_cast<double>(kOne) : 1;
     if (layout.kind == DepthLayout::kMetres) {
       float metres;
       std::memcpy(&metres, from + 4 * x, sizeof metres);
-      z[x] = unitsOf(static_cast<double>(metres) * cosine);
+      z[x] = unitsFrom(static_cast<double>(metres) * (cosines ? of_range * cosines[x] : per_metre));
       continue;
     }
     uint32_t units = 0;
@@ -86,14 +93,8 @@ void DepthReader::decodeRow(const uint8_t *from, int32_t y, uint16_t *z) const {
       const uint8_t *pair = from + 3 * (x / 2);
       units = static_cast<uint32_t>(x % 2 ? pair[1] << 4 | pair[2] >> 4 : pair[0] << 4 | (pair[2] & 15));
     }
-    z[x] = static_cast<uint16_t>(cosines ? (units * cosines[x] + kOne / 2) / kOne : units);
+    z[x] = static_cast<uint16_t>(cosines ? (units * cosines[x] + (1u << (kCosineBits - 1))) >> kCosineBits : units);
   }
-}
-
-// 0 for what is no measurement, or beyond 16 bits.
-uint16_t DepthReader::unitsOf(double metres) const {
-  const double units = metres / config_.unit_m + 0.5;
-  return units >= 1 && units < 65536 ? static_cast<uint16_t>(units) : uint16_t{0};
 }
 
 void DepthReader::dropFaint(const AmplitudeView &amplitude, int32_t y, uint16_t *z) const {

@@ -29,13 +29,12 @@ class DepthReader {
  private:
   void makeCosines();
   void decodeRow(const uint8_t *from, int32_t y, uint16_t *z) const;
-  uint16_t unitsOf(double metres) const;
   void dropFaint(const AmplitudeView &amplitude, int32_t y, uint16_t *z) const;
   void dropFlying();
 
   DepthReaderConfig config_;
   int32_t width_ = 0, height_ = 0;
-  Span<uint16_t> cosines_;  // of a ray to the axis, times 65535; 0: no ray; in state
+  Span<uint16_t> cosines_;  // of a ray to the axis, times 65536, at most 65535; 0: no ray; in state
   Span<uint16_t> z_;        // in scratch
   Span<uint16_t> rows_;     // two rows of it as they were; in scratch
 };

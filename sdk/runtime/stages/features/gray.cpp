@@ -32,22 +32,28 @@ void takeRow(const uint8_t *row, const LumaLayout &layout, int32_t width, uint8_
   }
 }
 
+// At the border of the image, where neighbours are missing.
+uint8_t greenAtBorder(const uint8_t *gray, int32_t x, int32_t y, int32_t width, int32_t height) {
+  const uint8_t *pixel = gray + int64_t{y} * width + x;
+  int32_t sum = 0, count = 0;
+  const auto add = [&](bool is_there, int32_t step) {
+    if (is_there) sum += pixel[step], ++count;
+  };
+  add(x > 0, -1);
+  add(x + 1 < width, 1);
+  add(y > 0, -width);
+  add(y + 1 < height, width);
+  return static_cast<uint8_t>((sum + count / 2) / count);
+}
+
 // The pixels that are not green have only green ones beside them, so the order does not matter.
 void fillWithGreens(int32_t first, int32_t width, int32_t height, uint8_t *gray) {
   for (int32_t y = 0; y < height; ++y) {
     uint8_t *row = gray + int64_t{y} * width;
     for (int32_t x = (first + y) & 1; x < width; x += 2) {
-      int32_t sum = 0, count = 0;
-      const auto add = [&](bool is_there, int32_t at) {
-        if (!is_there) return;
-        sum += row[at];
-        ++count;
-      };
-      add(x > 0, x - 1);
-      add(x + 1 < width, x + 1);
-      add(y > 0, x - width);
-      add(y + 1 < height, x + width);
-      row[x] = static_cast<uint8_t>((sum + count / 2) / count);
+      const bool inside = x > 0 && x + 1 < width && y > 0 && y + 1 < height;
+      row[x] = inside ? static_cast<uint8_t>((row[x - 1] + row[x + 1] + row[x - width] + row[x + width] + 2) >> 2)
+                      : greenAtBorder(gray, x, y, width, height);
     }
   }
 }

@@ -47,7 +47,8 @@ class SimulatedAmplitude : public testing::Test {
     return {z.data, z.data + size_t(width) * size_t(height)};
   }
 
-  void measure(uint32_t index, uint32_t least, Errors *errors) {
+  // Of one frame, without the mask and with it.
+  void measure(uint32_t index, Errors *raw, Errors *masked) {
     std::vector<uint16_t> depth(kDepthPixels), amplitude(kDepthPixels);
     ASSERT_EQ(sphc_simulated_render_depth(handle_->get(), index, depth.data()), SPHC_OK);
     ASSERT_EQ(sphc_simulated_render_amplitude(handle_->get(), index, amplitude.data()), SPHC_OK);
@@ -55,7 +56,10 @@ class SimulatedAmplitude : public testing::Test {
     ASSERT_EQ(sphc_simulated_frame_times(handle_->get(), index, nullptr, &time_ns), SPHC_OK);
     std::vector<float> truth(kDepthPixels);
     ASSERT_EQ(sphc_simulated_oracle_tof_depth(handle_->get(), time_ns, truth.data()), SPHC_OK);
-    const std::vector<uint16_t> z = read(depth, amplitude, least);
+    add(read(depth, amplitude, 0), truth, raw);
+    add(read(depth, amplitude, SPHC_SIMULATED_FAINT), truth, masked);
+  }
+  void add(const std::vector<uint16_t> &z, const std::vector<float> &truth, Errors *errors) {
     for (size_t i = 0; i < z.size(); ++i) {
       if (z[i] == 0) continue;
       const double true_m = static_cast<double>(truth[i]);
@@ -63,19 +67,14 @@ class SimulatedAmplitude : public testing::Test {
     }
   }
 
-  Errors errorsWith(uint32_t least) {
-    Errors errors;
-    for (const uint32_t index : {3u, 37u, 71u}) measure(index, least, &errors);
-    std::sort(errors.relative.begin(), errors.relative.end());
-    return errors;
-  }
-
   std::unique_ptr<Handle> handle_;
   sphc_rig rig_ = {};
 };
 
 TEST_F(SimulatedAmplitude, TellsWhatNotToBelieve) {
-  const Errors raw = errorsWith(0), masked = errorsWith(SPHC_SIMULATED_FAINT);
+  Errors raw, masked;
+  for (const uint32_t index : {3u, 37u, 71u}) measure(index, &raw, &masked);
+  for (Errors *errors : {&raw, &masked}) std::sort(errors->relative.begin(), errors->relative.end());
   EXPECT_LT(masked.at(0.99), raw.at(0.99) / 2);
   EXPECT_LT(masked.at(0.999), raw.at(0.999) / 2);
   EXPECT_LT(masked.at(1), raw.at(1) / 2);

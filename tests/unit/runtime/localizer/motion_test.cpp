@@ -122,7 +122,7 @@ TEST(Motion, TimesMayLieAnywhere) {
   for (const int64_t pose_ns : {kFirst, int64_t{-1}, int64_t{0}, kLast}) {
     motion.pose_time_ns = motion.time_ns = pose_ns;
     for (const int64_t time_ns : {kFirst, int64_t{-1}, int64_t{0}, kLast}) {
-      const bool near = pose_ns == time_ns || (pose_ns + 1 == 0 && time_ns == 0) || (pose_ns == 0 && time_ns == -1);
+      const bool near = pose_ns == time_ns || (pose_ns == -1 && time_ns == 0) || (pose_ns == 0 && time_ns == -1);
       EXPECT_EQ(moveTo(time_ns, motion, &moved), near) << pose_ns << " " << time_ns;
     }
   }
