@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <spherecloud/spherecloud.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -66,14 +67,7 @@ struct TinyImages {
 
 inline sphc_localizer_frame tinyFrame(uint32_t i, const TinyImages &images) {
   const int64_t time_ns = kFirstNs + i * kPeriodNs;
-  sphc_localizer_frame frame = {};
-  frame.struct_size = sizeof frame;
-  frame.sequence = i;
-  frame.color_time_ns = time_ns;
-  frame.depth_time_ns = time_ns + kDepthLagNs;
-  frame.color = images.colorImage();
-  frame.depth = images.depthImage();
-  return frame;
+  return spherecloud::frame(i, time_ns, images.colorImage(), time_ns + kDepthLagNs, images.depthImage());
 }
 
 inline void writeTinyRecording(const std::string &folder, uint32_t frames) {

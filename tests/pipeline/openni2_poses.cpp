@@ -10,6 +10,7 @@
 
 #include "drivers/openni2/openni2.h"
 #include "drivers/replay/replay.h"
+#include "spherecloud/spherecloud.hpp"
 #include "tests/support/openni2/virtual_tof.h"
 
 namespace {
@@ -90,13 +91,8 @@ class Pipeline {
 
  private:
   void localize(const sphc_capture &color, const sphc_capture &depth) {
-    sphc_localizer_frame frame = {};
-    frame.struct_size = sizeof frame;
-    frame.sequence = color.sequence;
-    frame.color_time_ns = color.time_ns;
-    frame.depth_time_ns = depth.time_ns;
-    frame.color = color.image;
-    frame.depth = depth.image;
+    const sphc_localizer_frame frame =
+        spherecloud::frame(color.sequence, color.time_ns, color.image, depth.time_ns, depth.image);
     sphc_localizer_result result;
     std::memset(&result, 0, sizeof result);
     result.struct_size = sizeof result;

@@ -1,5 +1,7 @@
 #include "recording_reader.h"
 
+#include <spherecloud/spherecloud.hpp>
+
 #include "calibration_json.h"
 #include "failure.h"
 
@@ -40,14 +42,7 @@ sphc_localizer_frame RecordingReader::read(uint32_t index) {
   depth_pixels_.resize(images_.depthBytes());
   const sphc_image color_image = images_.read(SPHC_STREAM_COLOR, color, color_pixels_.data());
   const sphc_image depth_image = images_.read(SPHC_STREAM_DEPTH, depth, depth_pixels_.data());
-  sphc_localizer_frame frame = {};
-  frame.struct_size = sizeof frame;
-  frame.sequence = color.sequence;
-  frame.color_time_ns = color.time_ns;
-  frame.depth_time_ns = depth.time_ns;
-  frame.color = color_image;
-  frame.depth = depth_image;
-  return frame;
+  return spherecloud::frame(color.sequence, color.time_ns, color_image, depth.time_ns, depth_image);
 }
 
 std::optional<sphc_localizer_frame> RecordingReader::tryRead(uint32_t index, std::string *why) {

@@ -60,10 +60,14 @@ bool checkDirection(const char *name, const double *v, sphc_message *message) {
   return false;
 }
 
+bool isRigidWithin10Km(const sphc_rigid &transform) {
+  bool near = isValidRigid(transform);
+  for (double t : transform.t_m) near = near && t >= -1e4 && t <= 1e4;
+  return near;
+}
+
 bool checkPose(const char *name, const sphc_rigid &pose, sphc_message *message) {
-  bool near = isValidRigid(pose);
-  for (double t : pose.t_m) near = near && t >= -1e4 && t <= 1e4;
-  if (near) return true;
+  if (isRigidWithin10Km(pose)) return true;
   MessageWriter(message) << "prior." << name
                          << " is not a pose: its quaternion must have unit length, and its translation must lie "
                             "within 10 km";
@@ -267,8 +271,7 @@ sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limi
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
                            sphc_message *message) {
-  bool near = isValidRigid(common_from_map);
-  for (double t : common_from_map.t_m) near = near && t >= -1e4 && t <= 1e4;
+  const bool near = isRigidWithin10Km(common_from_map);
   if (near && rotation_sigma_rad >= 0 && rotation_sigma_rad <= 0.5 && translation_sigma_m >= 0 &&
       translation_sigma_m <= 100)
     return SPHC_OK;
