@@ -44,6 +44,8 @@ int main(void) {
   FIELD(sphc_map_info, extractor);
   FIELD(sphc_map_info, file_bytes);
   FIELD(sphc_map_info, map_id);
+  FIELD(sphc_map_info, band);
+  FIELD(sphc_map_info, reserved);
   WHOLE(sphc_aligner_config);
   FIELD(sphc_aligner_config, struct_size);
   FIELD(sphc_aligner_config, depth_format);
@@ -85,6 +87,8 @@ int main(void) {
   FIELD(sphc_localizer_config, clock_user);
   FIELD(sphc_localizer_config, depth_format);
   FIELD(sphc_localizer_config, amplitude_min);
+  FIELD(sphc_localizer_config, color_band);
+  FIELD(sphc_localizer_config, reserved2);
   WHOLE(sphc_localizer_prior);
   FIELD(sphc_localizer_prior, struct_size);
   FIELD(sphc_localizer_prior, flags);
@@ -191,6 +195,7 @@ int main(void) {
   FIELD(sphc_capture, time_sigma_us);
   FIELD(sphc_capture, clock);
   FIELD(sphc_capture, reserved);
+  FIELD(sphc_capture, amplitude);
   WHOLE(sphc_source);
   FIELD(sphc_source, struct_size);
   FIELD(sphc_source, loan_limit);

@@ -185,6 +185,10 @@ TEST_F(CInterfaceFailure, InitBadConfig) {
     bad = config_, bad.log_level = level;
     expectRefused(i, SPHC_E_ARGUMENT, "config.log_level");
   }
+  for (sphc_band band : {-1, 2}) {
+    bad = config_, bad.color_band = band;
+    expectRefused(i, SPHC_E_ARGUMENT, "config.color_band");
+  }
 }
 
 TEST_F(CInterfaceFailure, Parameters) {

@@ -56,12 +56,27 @@ TEST_F(CInterfaceMap, OpensAndTellsWhatIsInIt) {
   EXPECT_EQ(info.file_bytes, file_.size());
   EXPECT_EQ(info.format_version, 2u);
   EXPECT_EQ(info.map_id[15], 0xAF);
+  EXPECT_EQ(info.band, SPHC_BAND_VISIBLE);
   double direction[3];
   ASSERT_EQ(sphc_map_direction(map_, 49, direction), SPHC_OK);
   EXPECT_NEAR(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2], 1, 1e-6);
   EXPECT_TRUE(memory_.guardsIntact());
   sphc_map_fini(&map_);
   EXPECT_EQ(map_, nullptr);
+}
+
+TEST_F(CInterfaceMap, TellsItsBandToWhoKnowsBands) {
+  sphc::test::setBand(&file_, SPHC_BAND_INFRARED);
+  ASSERT_EQ(init(file_), SPHC_OK);
+  sphc_map_info info = {};
+  info.struct_size = sizeof info;
+  ASSERT_EQ(sphc_map_get_info(map_, &info), SPHC_OK);
+  EXPECT_EQ(info.band, SPHC_BAND_INFRARED);
+  info = {};
+  info.struct_size = offsetof(sphc_map_info, band);  // of a program that was built before
+  ASSERT_EQ(sphc_map_get_info(map_, &info), SPHC_OK);
+  EXPECT_EQ(info.point_count, 50u);
+  EXPECT_EQ(info.band, SPHC_BAND_VISIBLE);  // untouched
 }
 
 TEST_F(CInterfaceMap, NullArguments) {

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "tests/capi/bytes.h"
+#include "tests/support/map_bytes.h"
 #include "tests/support/session.h"
 
 namespace {
@@ -98,6 +100,52 @@ TEST_F(CInterfaceMaps, WhatWasTrackedInARemovedMapIsForgotten) {
   const sphc_localizer_result result = see(3, 2);
   EXPECT_EQ(result.map_id, 8u);
   EXPECT_EQ(result.guided, 0u);
+}
+
+// A camera of one band and maps of both.
+class CInterfaceBands : public testing::Test {
+ protected:
+  // Status of a localizer that is given a map, and what it says.
+  sphc_status give(sphc_band camera, sphc_band map_band, sphc_localizer_config config = sphc::test::sceneConfig()) {
+    config.color_band = camera;
+    sphc_memory need = {};
+    EXPECT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
+    GuardedMemory state(need.state_bytes, need.alignment), scratch(need.scratch_bytes, need.alignment),
+        view(SPHC_MAP_BYTES_MAX, 64);
+    std::vector<uint8_t> file = sphc::test::randomMap(50, 1);
+    sphc::test::setBand(&file, static_cast<uint32_t>(map_band));
+    sphc_map *map = nullptr;
+    EXPECT_EQ(sphc_map_init(view.data(), view.size(), file.data(), file.size(), &map, nullptr), SPHC_OK);
+    sphc_localizer *localizer = nullptr;
+    EXPECT_EQ(sphc_localizer_init(state.data(), state.size(), scratch.data(), scratch.size(), &config, &localizer,
+                                  nullptr),
+              SPHC_OK);
+    const sphc_status status = sphc_localizer_set_map(localizer, 0, map);
+    said_ = sphc_localizer_message(localizer);
+    EXPECT_EQ(sphc_localizer_map_count(localizer), status == SPHC_OK ? 1u : 0u);
+    return status;
+  }
+
+  std::string said_;
+};
+
+TEST_F(CInterfaceBands, AMapOfAnotherBandIsRefused) {
+  EXPECT_EQ(give(SPHC_BAND_VISIBLE, SPHC_BAND_VISIBLE), SPHC_OK);
+  EXPECT_EQ(give(SPHC_BAND_INFRARED, SPHC_BAND_INFRARED), SPHC_OK);
+  for (sphc_band camera : {SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED}) {
+    const sphc_band other = SPHC_BAND_INFRARED - camera;
+    EXPECT_EQ(give(camera, other), SPHC_E_ARGUMENT);
+    EXPECT_NE(said_.find(std::string("map is of ") + sphc_band_name(other)), std::string::npos) << said_;
+    EXPECT_NE(said_.find(std::string("color_band is ") + sphc_band_name(camera)), std::string::npos) << said_;
+    EXPECT_LT(said_.size(), SPHC_MESSAGE_BYTES - 1) << "cut short";
+  }
+}
+
+TEST_F(CInterfaceBands, AProgramFromBeforeHasAVisibleCamera) {
+  sphc_localizer_config config = sphc::test::sceneConfig();
+  config.struct_size = offsetof(sphc_localizer_config, color_band);
+  EXPECT_EQ(give(SPHC_BAND_INFRARED, SPHC_BAND_VISIBLE, config), SPHC_OK);  // the field lies behind its struct
+  EXPECT_EQ(give(SPHC_BAND_INFRARED, SPHC_BAND_INFRARED, config), SPHC_E_ARGUMENT);
 }
 
 // The rooms lie over each other, so that a viewpoint is at the same place in all of them.

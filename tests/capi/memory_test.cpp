@@ -16,8 +16,8 @@ using sphc::test::Output;
 TEST(CInterfaceConfig, InitRefuses) {
   EXPECT_EQ(sphc_localizer_config_init(nullptr, sizeof(sphc_localizer_config)), SPHC_E_ARGUMENT);
   Output<sphc_localizer_config> config;
-  for (size_t size :
-       {size_t{0}, sizeof(sphc_localizer_config) - 16, sizeof(sphc_localizer_config) + 1, size_t{8192}})
+  for (size_t size : {size_t{0}, offsetof(sphc_localizer_config, depth_format) - 8,
+                      sizeof(sphc_localizer_config) + 1, size_t{8192}})
     EXPECT_EQ(sphc_localizer_config_init(config.get(), size), SPHC_E_STRUCT_SIZE);
   EXPECT_TRUE(config.untouched());
 }

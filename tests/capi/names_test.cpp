@@ -34,6 +34,7 @@ Family family(const char *prefix, const char *(*name)(T)) {
 const Family kFamilies[] = {
     family("SPHC_FORMAT_", sphc_format_name),
     family("SPHC_CAMERA_", sphc_camera_model_name),
+    family("SPHC_BAND_", sphc_band_name),
     family("SPHC_CONVENTION_", sphc_convention_name),
     family("SPHC_ALIGNED_", sphc_aligned_pixel_name),
     family("SPHC_LOG_", sphc_log_level_name),

@@ -31,11 +31,16 @@ sphc_localizer_config smallConfig() {
 }
 
 void localizeIn(const sphc_map *map) {
-  static const sphc_localizer_config config = smallConfig();
-  static const auto frame = test::sceneFrame(config, 0);
+  static const sphc_localizer_config of_visible = smallConfig();
+  sphc_map_info info = {};
+  info.struct_size = sizeof info;
+  sphc_map_get_info(map, &info);
+  sphc_localizer_config config = of_visible;
+  config.color_band = info.band;
+  static const auto frame = test::sceneFrame(of_visible, 0);
   static const auto sizes = [] {
     sphc_memory need = {};
-    if (sphc_localizer_memory(&config, &need, nullptr) != SPHC_OK) broken("the config is good");
+    if (sphc_localizer_memory(&of_visible, &need, nullptr) != SPHC_OK) broken("the config is good");
     return need;
   }();
   test::GuardedMemory state(sizes.state_bytes, sizes.alignment), scratch(sizes.scratch_bytes, sizes.alignment);

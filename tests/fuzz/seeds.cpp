@@ -33,6 +33,12 @@ namespace {
 
 std::vector<uint8_t> bytesOf(const std::string &text) { return {text.begin(), text.end()}; }
 
+std::vector<uint8_t> infraredMap() {
+  std::vector<uint8_t> file = test::randomMap(16, 3);
+  test::setBand(&file, SPHC_BAND_INFRARED);
+  return file;
+}
+
 std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
   const test::SceneImages images = test::renderScene(test::pinhole(96, 72, 80), test::pinhole(48, 40, 36),
                                                      test::sceneViewpoint(viewpoint), Rigid());
@@ -118,7 +124,7 @@ void broken(const char *promise) {
 
 std::vector<Target> allTargets() {
   std::vector<Target> targets = {
-      {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2)}},
+      {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2), infraredMap()}},
       {"frame", frame, {frameSeed(0), frameSeed(2), {}}},
       {"align",
        align,
@@ -141,9 +147,12 @@ std::vector<Target> allTargets() {
   targets.push_back({"colmap", colmap, {colmapSeed(test::binaryFiles(model)), colmapSeed(test::textFiles(model))}});
   targets.push_back(
       {"colmapDatabase", colmapDatabase, {databaseSeed(test::Schema::kOld), databaseSeed(test::Schema::kNew)}});
+  host::PointModel infrared = test::madeUpRoom(2, 3);
+  infrared.band = SPHC_BAND_INFRARED;
   targets.push_back({"pointModel",
                      pointModel,
-                     {host::encodeModel(test::madeUpRoom(2, 1)), host::encodeModel(test::madeUpRoom(20, 2))}});
+                     {host::encodeModel(test::madeUpRoom(2, 1)), host::encodeModel(test::madeUpRoom(20, 2)),
+                      host::encodeModel(infrared)}});
 #endif
 #ifdef SPHC_FUZZ_CAMERAS
   const std::vector<uint8_t> rgb = test::gradientRgb(32, 16), frame = test::jpegFrame(rgb, 32, 16);

@@ -18,7 +18,7 @@ int main(int argc, char **argv) {
   const sphc_status status = sphc::MapView::open(file.data(), file.size(), sphc::kExtractorId, &view, &message);
   std::printf("status %s\n", sphc_status_name(status));
   if (status != SPHC_OK) return 0;
-  std::printf("points %u\n", view.pointCount());
+  std::printf("points %u\nband %d\n", view.pointCount(), static_cast<int>(view.band()));
   const sphc::Span<const sphc::Descriptor> descriptors = view.descriptors();
   std::printf("descriptor_crc %08" PRIx32 "\n",
               sphc::crc32(0, descriptors.data(), descriptors.size() * sphc::kDescriptorBytes));

@@ -104,6 +104,11 @@ uint32_t slowCrc32(const uint8_t *data, size_t bytes, uint32_t crc) {
   return ~crc;
 }
 
+void setBand(std::vector<uint8_t> *file, uint32_t band) {
+  put32(file, 8, 2 | (band << 16));
+  signHeader(file);
+}
+
 void signHeader(std::vector<uint8_t> *file) {
   put32(file, 60, 0);
   const size_t covered = kHeader + kEntry * get32(*file, 28);

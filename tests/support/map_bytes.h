@@ -32,6 +32,9 @@ std::vector<uint8_t> encodeIndexedMap(const std::vector<MapPoint> &points, uint3
 // `count` points of random direction and descriptor, in 5 cells.
 std::vector<uint8_t> randomMap(uint32_t count, uint64_t seed);
 
+// Of what light the map's images were, by its number; the header is signed anew.
+void setBand(std::vector<uint8_t> *file, uint32_t band);
+
 // Make the checksums right again after a change, so that the check behind them is reached.
 void signHeader(std::vector<uint8_t> *file);
 void signSection(std::vector<uint8_t> *file, uint32_t section);  // and the header

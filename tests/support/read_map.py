@@ -11,9 +11,10 @@ import sys
 import zlib
 
 MAGIC = b"\x89SPHC\r\n\x1a"
-HEADER = struct.Struct("<8sIIQII16sIIII")
+HEADER = struct.Struct("<8sHHIQII16sIIII")
 SECTION = struct.Struct("<IIQQII")
 VERSION = 2
+BANDS = ("visible", "infrared")
 SECTIONS = 6
 DIRECTIONS, DESCRIPTORS, RUNS, CENTROIDS, GROUPS, GROUP_CENTROIDS = range(1, 7)
 
@@ -25,7 +26,7 @@ class MapError(Exception):
 
 
 class Map:
-    """extractor, map_id, directions: list of (x, y, z), descriptors: bytes, 128 a point.
+    """extractor, band: of BANDS, map_id, directions: list of (x, y, z), descriptors: bytes, 128 a point.
 
     The index: cells, sector_side, runs: where each sector of each cell begins, centroids: bytes, 128 a cell,
     groups: where each group of cells begins, group_centroids: bytes, 128 a group.
@@ -39,7 +40,8 @@ def _refuse(status, why):
 def _header(file):
     if len(file) < HEADER.size:
         _refuse("FORMAT", "shorter than the header")
-    magic, version, extractor, size, points, sections, map_id, cells, groups, side, crc = HEADER.unpack_from(file)
+    (magic, version, band, extractor, size, points, sections, map_id, cells, groups, side,
+     crc) = HEADER.unpack_from(file)
     if magic != MAGIC:
         _refuse("FORMAT", "signature")
     if version != VERSION:
@@ -57,7 +59,9 @@ def _header(file):
         _refuse("FORMAT", "cells and groups")
     if side not in (1, 2, 4, 8, 16, 32):
         _refuse("FORMAT", "sector side")
-    return extractor, map_id, points, cells, groups, side
+    if band >= len(BANDS):
+        _refuse("VERSION", f"band {band}")
+    return extractor, BANDS[band], map_id, points, cells, groups, side
 
 
 def _section(file, index, shape, end):
@@ -105,7 +109,7 @@ def _check_sectors(packed, runs, side):
 def read(file, extractor=None):
     """Reads a map; `extractor`: refuse those made by another."""
     result = Map()
-    result.extractor, result.map_id, points, result.cells, groups, side = _header(file)
+    result.extractor, result.band, result.map_id, points, result.cells, groups, side = _header(file)
     if extractor is not None and result.extractor != extractor:
         _refuse("EXTRACTOR", f"extractor {result.extractor}")
     shapes = {DIRECTIONS: (4, points), DESCRIPTORS: (128, points), RUNS: (4, result.cells * side * side + 1),
@@ -138,7 +142,7 @@ def main():
     except MapError as error:
         print(error)
         sys.exit(1)
-    print(f"points {len(cloud.directions)}\nextractor {cloud.extractor}\nmap_id {cloud.map_id.hex()}")
+    print(f"points {len(cloud.directions)}\nextractor {cloud.extractor}\nband {cloud.band}\nmap_id {cloud.map_id.hex()}")
     print(f"cells {cloud.cells}\ngroups {len(cloud.groups) - 1}\nsector_side {cloud.sector_side}")
     print(f"descriptor_crc {zlib.crc32(cloud.descriptors):08x}")
 

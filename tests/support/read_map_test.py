@@ -31,6 +31,7 @@ def agree(path, file):
         return False
     assert fields["status"] == "SPHC_OK", f"C++ {fields['status']}, Python accepts"
     assert int(fields["points"]) == len(cloud.directions)
+    assert read_map.BANDS[int(fields["band"])] == cloud.band
     assert int(fields["descriptor_crc"], 16) == zlib.crc32(cloud.descriptors)
     assert int(fields["centroid_crc"], 16) == zlib.crc32(cloud.centroids + cloud.group_centroids)
     assert int(fields["sector_side"]) == cloud.sector_side
@@ -52,6 +53,14 @@ def main():
     subprocess.run([MAKE, path, "16", "4"], check=True)
     with open(path, "rb") as stream:
         good = stream.read()
+    for band, is_known in ((1, True), (2, False), (0x8000, False)):
+        other = bytearray(good)
+        other[10:12] = band.to_bytes(2, "little")
+        table = other[64:64 + 6 * 32]
+        other[60:64] = zlib.crc32(other[:60] + b"\0\0\0\0" + table).to_bytes(4, "little")
+        with open(path, "wb") as stream:
+            stream.write(other)
+        assert agree(path, bytes(other)) == is_known
     draw = random.Random(5)
     accepted = 0
     for _ in range(150):  # both must refuse the same damage for the same reason

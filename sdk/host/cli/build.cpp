@@ -7,6 +7,7 @@
 
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/band_option.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/number_checks.h"
@@ -23,6 +24,7 @@ namespace {
 
 struct BuildOptions {
   PointSource source;
+  sphc_band band = SPHC_BAND_VISIBLE;  // of a recording or a COLMAP model
   std::string map, key, ledger, save_model;
   std::vector<std::string> against;
   std::optional<double> eta;
@@ -138,6 +140,7 @@ Outcome build(const BuildOptions &options) {
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source);
+  if (options.source.model.empty()) outcome.import.model.band = options.band;
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
   checkSamePlace(options, made.place);
@@ -215,6 +218,7 @@ int run(const BuildOptions &options, const Console &console) {
                                  {"ledger", outcome.ledger},
                                  {"points", outcome.place.points.size()},
                                  {"eta", outcome.place.eta},
+                                 {"band", bandName(outcome.place.band)},
                                  {"bytes", outcome.bytes},
                                  {"release", releaseJson(outcome)}};
   if (!options.save_model.empty()) json["saved_model"] = options.save_model;
@@ -263,6 +267,8 @@ void addReleaseOptions(CLI::App *app, BuildOptions *options) {
 void addOptions(CLI::App *app, BuildOptions *options) {
   addPointSourceOptions(app, &options->source);
   app->add_option("-m,--map", options->map, "Map file to write")->required()->type_name("FILE");
+  addBandOption(app, &options->band, "The light of the images; a camera must see the same to localize in the map")
+      ->excludes(app->get_option("--model"));
   app->add_option("--save-model", options->save_model,
                   "Private file for the points, to make a map of them again with --model")
       ->excludes(app->get_option("--model"))

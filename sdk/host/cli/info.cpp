@@ -19,6 +19,7 @@ int info(const std::string &path, const Console &console) {
                   fixed(static_cast<double>(facts.file_bytes) / facts.points, 1) + " bytes a point"},
                  {"format version", std::to_string(facts.format_version), ""},
                  {"extractor", std::to_string(facts.extractor), "what described the points"},
+                 {"band", bandName(facts.band), "the light of its images"},
                  {"map id", facts.id, ""}}));
   console.give({{"map", path},
                 {"valid", true},
@@ -26,6 +27,7 @@ int info(const std::string &path, const Console &console) {
                 {"bytes", facts.file_bytes},
                 {"format_version", facts.format_version},
                 {"extractor", facts.extractor},
+                {"band", bandName(facts.band)},
                 {"map_id", facts.id}});
   return kExitDone;
 }

@@ -43,10 +43,14 @@ void tell(const MapFacts &facts, const MapAnatomy &anatomy, const Console &conso
 }
 
 nlohmann::ordered_json json(const MapFacts &facts, const MapAnatomy &anatomy) {
-  nlohmann::ordered_json value = {{"map", facts.path},           {"valid", true},
-                                  {"points", facts.points},      {"bytes", facts.file_bytes},
-                                  {"map_id", facts.id},          {"format_version", facts.format_version},
-                                  {"extractor", facts.extractor}};
+  nlohmann::ordered_json value = {{"map", facts.path},
+                                  {"valid", true},
+                                  {"points", facts.points},
+                                  {"bytes", facts.file_bytes},
+                                  {"map_id", facts.id},
+                                  {"format_version", facts.format_version},
+                                  {"extractor", facts.extractor},
+                                  {"band", bandName(facts.band)}};
   for (const BytePart &part : anatomy.parts) value["parts"][part.name] = part.bytes;
   value["directions"] = {{"nearest_median_deg", anatomy.nearest_median_deg},
                          {"nearest_p10_deg", anatomy.nearest_p10_deg},

@@ -4,6 +4,7 @@
 
 #include "host/base/checked_call.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/band_option.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
@@ -24,6 +25,7 @@ struct LiveOptions {
   uint32_t frames = 0;
   double seconds = 0;
   bool every = false;
+  sphc_localizer_config config = spherecloud::defaultConfig();
 };
 
 struct LiveTally {
@@ -157,7 +159,7 @@ int run(const LiveOptions &options, const Console &console) {
     console.warn(trouble);
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  sphc_localizer_config config = spherecloud::defaultConfig();
+  sphc_localizer_config config = options.config;
   setCameras(calibrationOf(options.rig, rig), &config);
   spherecloud::Localizer localizer = makeLocalizer(config, maps);
   LiveTally tally;
@@ -210,6 +212,8 @@ Command liveCommand(CLI::App *root) {
       ->expected(1)
       ->take_all()
       ->type_name("FILE");
+  addBandOption(app, &options->config.color_band,
+                "The light that the colour camera sees; a map must be of the same");
   app->add_option("--frames", options->frames, "End after so many frames; 0: never");
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_flag("--every", options->every, "Process every frame, however late; else only the newest");

@@ -51,6 +51,7 @@ MapFacts mapFacts(const MapFile &file, const std::string &path) {
   facts.format_version = info.format_version;
   facts.extractor = info.extractor;
   facts.file_bytes = info.file_bytes;
+  facts.band = info.band;
   facts.directions.resize(info.point_count);
   for (uint32_t i = 0; i < info.point_count; ++i) sphc_map_direction(file.map.get(), i, facts.directions[i].data());
   return facts;

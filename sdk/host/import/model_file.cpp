@@ -17,7 +17,7 @@ namespace sphc::host {
 namespace {
 
 constexpr char kMagic[8] = {'S', 'P', 'H', 'C', 'P', 'R', 'I', 'V'};
-constexpr uint32_t kVersion = 1;
+constexpr uint16_t kVersion = 1;
 constexpr size_t kPointBytes = 4 * sizeof(double) + sizeof(uint32_t) + kDescriptorBytes;
 constexpr uint32_t kMostPoints = 1u << 24;
 constexpr double kFarthestPointM = 1e6;
@@ -25,7 +25,8 @@ static_assert(kPointBytes == 164 && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "
 
 struct Header {
   char magic[8];
-  uint32_t version, extractor;
+  uint16_t version, band;
+  uint32_t extractor;
   uint64_t file_bytes;
   uint32_t point_count;
   uint32_t crc32;  // of the whole file with 0 in this field
@@ -55,6 +56,8 @@ void checkHeader(const Header &header, const std::vector<uint8_t> &bytes) {
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0)
     refuse("this is no point model; give a file that build --save-model wrote");
   if (header.version != kVersion) refuse("it was written by another version of this program; save it anew");
+  if (header.band > SPHC_BAND_INFRARED)
+    refuse("it is of a band that this program does not know; use the version that saved it");
   if (header.extractor != kExtractorId)
     refuse("its descriptors are of another version of this program; map the recording again");
   if (header.file_bytes != bytes.size() || header.point_count > kMostPoints ||
@@ -138,7 +141,7 @@ std::vector<uint8_t> encodeModel(const PointModel &model) {
     put(point.observations, &at);
     put(point.descriptor.bytes, &at);
   }
-  Header header = {{}, kVersion, kExtractorId, bytes.size(), count, 0};
+  Header header = {{}, kVersion, static_cast<uint16_t>(model.band), kExtractorId, bytes.size(), count, 0};
   std::memcpy(header.magic, kMagic, sizeof kMagic);
   header.crc32 = crcOf(header, bytes.data() + sizeof header, bytes.size() - sizeof header);
   std::memcpy(bytes.data(), &header, sizeof header);
@@ -151,6 +154,7 @@ PointModel decodeModel(const std::vector<uint8_t> &bytes) {
   std::memcpy(&header, bytes.data(), sizeof header);
   checkHeader(header, bytes);
   PointModel model;
+  model.band = header.band;
   model.points.reserve(header.point_count);
   const uint8_t *at = bytes.data() + sizeof header;
   for (uint32_t i = 0; i < header.point_count; ++i) model.points.push_back(pointAt(&at));

@@ -21,6 +21,7 @@ PointModel withoutNearDuplicates(PointModel model, const NearDuplicateRule &rule
                    [](const ModelPoint &a, const ModelPoint &b) { return a.observations > b.observations; });
   PointGrid grid(rule.radius_m);
   PointModel kept;
+  kept.band = model.band;
   for (const ModelPoint &point : model.points) {
     bool is_near_duplicate = false;
     grid.forEachNear(point.position_m, rule.radius_m, [&](size_t i, double distance_m) {

@@ -5,6 +5,7 @@
 
 #include "runtime/geometry/rotation.h"
 #include "runtime/types/keypoint.h"
+#include "spherecloud/spherecloud.h"
 
 namespace sphc::host {
 
@@ -17,6 +18,7 @@ struct ModelPoint {
 
 struct PointModel {
   std::vector<ModelPoint> points;
+  sphc_band band = SPHC_BAND_VISIBLE;  // of the images that described them
 };
 
 }  // namespace sphc::host

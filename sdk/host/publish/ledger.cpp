@@ -18,19 +18,28 @@
 namespace sphc::host {
 namespace {
 
-constexpr int64_t kApplication = 0x53504C47, kVersion = 1;  // "SPLG"
+constexpr int64_t kApplication = 0x53504C47, kVersion = 2;  // "SPLG"
 constexpr double kFarthestM = 1e6;
 
 const char kSchema[] = R"(
 CREATE TABLE owner (secret_key BLOB NOT NULL);
 CREATE TABLE place (number INTEGER PRIMARY KEY, centre_x REAL NOT NULL, centre_y REAL NOT NULL, centre_z REAL NOT NULL,
-                    eta REAL NOT NULL, strategy TEXT NOT NULL);
+                    eta REAL NOT NULL, strategy TEXT NOT NULL, band INTEGER NOT NULL);
 CREATE TABLE release (place INTEGER NOT NULL, number INTEGER NOT NULL, map_id BLOB NOT NULL, crc32 INTEGER NOT NULL,
                       points INTEGER NOT NULL, time_s INTEGER NOT NULL, PRIMARY KEY (place, number));
 CREATE TABLE point (place INTEGER NOT NULL, number INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,
                     sigma REAL NOT NULL, observations INTEGER NOT NULL, descriptor BLOB NOT NULL, u INTEGER NOT NULL,
                     v INTEGER NOT NULL, shown BLOB NOT NULL, real INTEGER NOT NULL, release INTEGER NOT NULL,
                     PRIMARY KEY (place, number));
+)";
+
+// Before there were bands, all was visible.
+constexpr int64_t kVersionWithoutBand = 1;
+const char kAddBand[] = R"(
+BEGIN;
+ALTER TABLE place ADD COLUMN band INTEGER NOT NULL DEFAULT 0;
+PRAGMA user_version = 2;
+COMMIT;
 )";
 
 [[noreturn]] void refuse(const std::string &path, const std::string &why) {
@@ -63,6 +72,8 @@ int64_t valueOf(sqlite3 *database, const char *statement) {
   SqliteStatement query(database, statement);
   return query.step() ? query.integer(0) : 0;
 }
+
+int64_t versionOf(sqlite3 *database) { return valueOf(database, "PRAGMA user_version"); }
 
 // Tables alone, since a view can hold more rows than any file.
 void checkContent(sqlite3 *database) {
@@ -144,9 +155,10 @@ void writeReleases(sqlite3 *database, const Place &place) {
 }
 
 void writePlace(sqlite3 *database, const Place &place) {
-  SqliteStatement insert(database, "INSERT OR IGNORE INTO place VALUES (?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(database, "INSERT OR IGNORE INTO place VALUES (?, ?, ?, ?, ?, ?, ?)");
   const Vector3 &c = place.centre_m;
-  insert.bind(int64_t{place.number}).bind(c.x()).bind(c.y()).bind(c.z()).bind(place.eta).bind(place.strategy).run();
+  insert.bind(int64_t{place.number}).bind(c.x()).bind(c.y()).bind(c.z()).bind(place.eta).bind(place.strategy);
+  insert.bind(int64_t{place.band}).run();
   writePoints(database, place);
   writeReleases(database, place);
 }
@@ -187,7 +199,8 @@ void Ledger::read(const SecretKey *expected) {
   try {
     if (valueOf(database_.get(), "PRAGMA application_id") != kApplication)
       throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
-    if (valueOf(database_.get(), "PRAGMA user_version") != kVersion)
+    const int64_t version = versionOf(database_.get());
+    if (version != kVersion && version != kVersionWithoutBand)
       throw std::runtime_error("it was written by another version of this program; use that one");
     checkContent(database_.get());
     SqliteStatement owner(database_.get(), "SELECT secret_key FROM owner");
@@ -219,6 +232,7 @@ Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
     ledger.make(key ? *key : newSecretKey());
   ledger.run("COMMIT");
   ledger.read(key);
+  if (versionOf(ledger.database_.get()) == kVersionWithoutBand) ledger.run(kAddBand);
   return ledger;
 }
 
@@ -232,15 +246,19 @@ Ledger Ledger::openToRead(const std::string &path) {
 std::vector<Place> Ledger::places() const {
   try {
     std::vector<Place> places;
-    SqliteStatement rows(database_.get(),
-                         "SELECT number, centre_x, centre_y, centre_z, eta, strategy FROM place ORDER BY number");
+    const std::string band = versionOf(database_.get()) == kVersionWithoutBand ? "0" : "band";
+    const std::string query =
+        "SELECT number, centre_x, centre_y, centre_z, eta, strategy, " + band + " FROM place ORDER BY number";
+    SqliteStatement rows(database_.get(), query.c_str());
     while (rows.step()) {
       Place place;
       place.number = static_cast<uint32_t>(rows.integer(0));
       place.centre_m = {rows.real(1), rows.real(2), rows.real(3)};
       place.eta = rows.real(4);
       place.strategy = rows.text(5);
-      if (place.number != places.size() + 1 || !isNear(place.centre_m) || !(place.eta > 0 && place.eta <= 1))
+      place.band = static_cast<sphc_band>(rows.integer(6));
+      if (place.number != places.size() + 1 || !isNear(place.centre_m) || !(place.eta > 0 && place.eta <= 1) ||
+          rows.integer(6) < SPHC_BAND_VISIBLE || rows.integer(6) > SPHC_BAND_INFRARED)
         throw std::runtime_error("a place is damaged; take the backup");
       place.points = readPoints(database_.get(), place.number);
       place.releases = readReleases(database_.get(), place);

@@ -107,6 +107,7 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id, co
   MapHeader header = {};
   std::memcpy(header.magic, kMapMagic, sizeof kMapMagic);
   header.version = kMapVersion;
+  header.band = static_cast<uint16_t>(cloud.band);
   header.extractor = kExtractorId;
   header.file_bytes = file.size();
   header.point_count = static_cast<uint32_t>(cloud.points.size());

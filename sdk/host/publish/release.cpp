@@ -56,12 +56,16 @@ void refuseForeign(const Recognition *recognition, const PointModel &model) {
       "--new-place only what it does not have, or say --i-understand");
 }
 
-void refuseChange(const Place &place, const ReleaseRequest &request) {
+void refuseChange(const Place &place, sphc_band band, const ReleaseRequest &request) {
   char was[64];
   std::snprintf(was, sizeof was, "place %u was released with eta %.4g", place.number, place.eta);
   const char *cure =
       ". Its published points stay as they are: two maps that hide the same points in two ways expose them. Leave "
       "the option out, or publish with --new-place only what is not released yet, or say --i-understand";
+  if (band != place.band)
+    throw std::runtime_error("place " + std::to_string(place.number) +
+                             " was released for another band, and the "
+                             "recording shows the same: its --band, or that of the first release, is wrong");
   if (request.eta && std::abs(*request.eta - place.eta) > 1e-9) throw std::runtime_error(was + std::string(cure));
   if (request.strategy && request.strategy->name() != place.strategy)
     throw std::runtime_error(was + (" and fakes '" + place.strategy + "', not '" + request.strategy->name() + "'") +
@@ -84,8 +88,9 @@ std::vector<ModelPoint> freshPoints(const PointModel &model, const Recognition *
   return fresh;
 }
 
-Place newPlace(const std::vector<ModelPoint> &points, const ReleaseRequest &request) {
+Place newPlace(const std::vector<ModelPoint> &points, sphc_band band, const ReleaseRequest &request) {
   Place place;
+  place.band = band;
   place.number = static_cast<uint32_t>(request.own.size() + 1);
   place.eta = request.eta.value_or(kDefaultEta);
   place.strategy = request.strategy ? request.strategy->name() : kDefaultFakes;
@@ -169,6 +174,7 @@ SphereCloud publishedCloud(const Place &place, const SecretKey &key) {
   std::iota(order.begin(), order.end(), size_t{0});
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return ranks[a] < ranks[b]; });
   SphereCloud cloud;
+  cloud.band = place.band;
   for (size_t i : order) {
     const Direction d = unpackDirection(place.points[i].direction);
     cloud.points.push_back({Eigen::Vector3f(d.x, d.y, d.z).cast<double>(), place.points[i].descriptor});
@@ -190,13 +196,13 @@ NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
   Place place;
   if (here) {
     place = request.own[static_cast<size_t>(here - own.data())];
-    refuseChange(place, request);
+    refuseChange(place, model.band, request);
     summary.is_update = true;
     summary.place_from_world = here->place_from_model.front();
     toPlace(summary.place_from_world, &fresh);
     if (fresh.size() < kLeastBatch) summary.held_back = fresh.size();
   } else {
-    place = newPlace(fresh, request);
+    place = newPlace(fresh, model.band, request);
   }
   if (!summary.held_back && !(here && fresh.empty())) summary.added = publish(std::move(fresh), request, &place);
   return finish(std::move(place), request, summary);

@@ -10,6 +10,7 @@ namespace sphc::host {
 
 struct SphereCloud {
   std::vector<SpherePoint> points;  // real and fake, shuffled
+  sphc_band band = SPHC_BAND_VISIBLE;
 };
 
 // Where a new map of these points has its centre: their mean.

@@ -183,6 +183,7 @@ std::string mapSection(const Run &run, const PageContent &content) {
     rows.push_back({"map id", map.id.substr(0, 12) + "…", "random name of this build"});
     rows.push_back({"format version", std::to_string(map.format_version), ""});
     rows.push_back({"extractor", std::to_string(map.extractor), "what described the points"});
+    rows.push_back({"band", bandName(map.band), "the light of its images"});
   }
   PagePicture picture = content.directions;
   picture.caption =

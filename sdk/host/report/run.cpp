@@ -6,6 +6,8 @@
 
 namespace sphc::host {
 
+const char *bandName(sphc_band band) { return band == SPHC_BAND_INFRARED ? "infrared" : "visible"; }
+
 const char *outcomeName(sphc_localizer_outcome outcome) {
   switch (outcome) {
     case SPHC_OUTCOME_LOCALIZED:

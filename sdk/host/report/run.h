@@ -57,6 +57,7 @@ struct Setting {
 struct MapFacts {
   std::string path, id;
   uint32_t points = 0, format_version = 0, extractor = 0;
+  sphc_band band = SPHC_BAND_VISIBLE;
   uint64_t file_bytes = 0;
   std::vector<std::array<double, 3>> directions;  // all that the file says of its points; for the picture
 };
@@ -77,6 +78,7 @@ uint64_t mapBytes(const Run &run);
 
 // "few matches" and so on: a word or two for tables, and a sentence with the likely cause.
 const char *outcomeName(sphc_localizer_outcome outcome);
+const char *bandName(sphc_band band);  // "visible"
 const char *outcomeAdvice(sphc_localizer_outcome outcome);
 // "features, search"; "" of none.
 std::string cutNames(uint32_t cuts);

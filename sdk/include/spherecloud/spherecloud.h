@@ -206,6 +206,14 @@ enum {
 };
 SPHC_API const char *sphc_camera_model_name(sphc_camera_model model); /* [pure] */
 
+/* The light that a camera sees.  A place looks different in each, so a map serves cameras of its own alone. */
+typedef int32_t sphc_band;
+enum {
+  SPHC_BAND_VISIBLE = 0, /* colour or grey */
+  SPHC_BAND_INFRARED = 1 /* near infrared: an infrared camera, or the amplitude image of a ToF sensor */
+};
+SPHC_API const char *sphc_band_name(sphc_band band); /* [pure] */
+
 /* Camera intrinsics, in pixels of an image of width x height. */
 typedef struct sphc_camera {
   sphc_camera_model model;
@@ -331,6 +339,8 @@ typedef struct sphc_map_info {
   uint32_t extractor;   /* id of the keypoint extractor that described the points */
   uint64_t file_bytes;
   uint8_t map_id[16]; /* random name of this build */
+  sphc_band band;     /* of the images that it was made of */
+  uint32_t reserved;
 } sphc_map_info;
 
 /* The id of this library's keypoint extractor; a map whose points another one described is refused. [pure] */
@@ -472,6 +482,8 @@ typedef struct sphc_localizer_config {
   /* Measurements whose pixel in frame.amplitude is below this are ignored, and so are those between two surfaces
    * (flying pixels).  0: there is no frame.amplitude. */
   uint32_t amplitude_min;
+  sphc_band color_band; /* what the colour camera sees; maps of another band are refused */
+  uint32_t reserved2;
 } sphc_localizer_config;
 
 /* What is known of a pose before its frame is looked at. */
@@ -677,8 +689,8 @@ SPHC_API void sphc_localizer_fini(sphc_localizer **localizer);
  * shows, and each has a frame of its own.  Where it has a map of this id already, that one is replaced: by a newer
  * release of the same place, whose frame is the same, so tracking goes on.  Between any two frames.  The map is
  * borrowed until it is replaced or removed, or until sphc_localizer_fini; it must not overlap the localizer's
- * memory.  Failures: ARGUMENT, CAPACITY: config.max_maps are there (sphc_localizer_message explains). [exclusive]
- */
+ * memory.  Failures: ARGUMENT: its band is not config.color_band, among others; CAPACITY: config.max_maps are there
+ * (sphc_localizer_message explains). [exclusive] */
 SPHC_API sphc_status sphc_localizer_set_map(sphc_localizer *localizer, uint32_t map_id, const sphc_map *map);
 /* Takes a map away; what was tracked in it is forgotten, what was tracked in another is not.  ARGUMENT when there
  * is none of this id. [exclusive] */

@@ -55,6 +55,9 @@ typedef struct sphc_capture {
   uint32_t time_sigma_us;     /* of time_ns as the middle of the exposure, 1 sigma; 0: exact */
   sphc_clock_id clock;
   uint32_t reserved;
+  /* Of a depth capture whose source has one: the amplitude or confidence of each of its pixels, as
+   * sphc_localizer_frame takes it; valid until release.  Zero: there is none. */
+  sphc_image amplitude;
 } sphc_capture;
 
 /* The middle of a capture's exposure, as far as it tells: time_ns moved by half of exposure_us where time_point is

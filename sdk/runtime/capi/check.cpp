@@ -34,6 +34,7 @@ bool checkNumbers(const sphc_localizer_config &c, sphc_message *message) {
          inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
          inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
          inRange("amplitude_min", c.amplitude_min, 0, 65535, message) &&
+         inRange("color_band", c.color_band, SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
          inRange("log_level", c.log_level, SPHC_LOG_ERROR, SPHC_LOG_DEBUG, message);
 }

@@ -43,7 +43,9 @@ constexpr StructKind kindOf(const sphc_localizer_config *) {
 constexpr StructKind kindOf(const sphc_localizer_frame *) {
   return grown<sphc_localizer_frame>("sphc_localizer_frame", offsetof(sphc_localizer_frame, reserved2));
 }
-constexpr StructKind kindOf(const sphc_map_info *) { return ungrown<sphc_map_info>("sphc_map_info"); }
+constexpr StructKind kindOf(const sphc_map_info *) {
+  return grown<sphc_map_info>("sphc_map_info", offsetof(sphc_map_info, band));
+}
 constexpr StructKind kindOf(const sphc_pairer_config *) {
   return ungrown<sphc_pairer_config>("sphc_pairer_config");
 }

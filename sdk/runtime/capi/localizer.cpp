@@ -162,6 +162,7 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   made->depth = checked.rig.depth_camera;
   made->depth_format = sphc::depthFormatOf(checked.depth_format);
   made->amplitude_min = checked.amplitude_min;
+  made->color_band = checked.color_band;
   made->has_clock = checked.clock != nullptr;
   made->log = checked.log;
   made->log_user = checked.log_user;
@@ -180,6 +181,13 @@ sphc_status sphc_localizer_set_map(sphc_localizer *localizer, uint32_t map_id, c
   if (!map || map_id == SPHC_MAP_NONE) {
     MessageWriter(message) << (map ? "map_id is SPHC_MAP_NONE; give another"
                                    : "map is null; open one with sphc_map_init");
+    return SPHC_E_ARGUMENT;
+  }
+  if (map->view.band() != localizer->color_band) {
+    MessageWriter(message)
+        << "the map is of " << sphc_band_name(map->view.band()) << ", and config.color_band is "
+        << sphc_band_name(localizer->color_band)
+        << "; give a map that was made of what this camera sees, or set color_band to what it is";
     return SPHC_E_ARGUMENT;
   }
   sphc_status status = sphc::checkApartFromMap(localizer->state, *map, message);

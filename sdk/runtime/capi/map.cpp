@@ -49,6 +49,7 @@ sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
   own.point_count = header.point_count;
   own.extractor = header.extractor;
   own.file_bytes = header.file_bytes;
+  own.band = map->view.band();
   std::memcpy(own.map_id, header.map_id, sizeof own.map_id);
   sphc::writeStruct(own, info);
   return SPHC_OK;

@@ -111,6 +111,17 @@ const char *sphc_camera_model_name(sphc_camera_model model) {
   }
 }
 
+const char *sphc_band_name(sphc_band band) {
+  switch (band) {
+    case SPHC_BAND_VISIBLE:
+      return "SPHC_BAND_VISIBLE";
+    case SPHC_BAND_INFRARED:
+      return "SPHC_BAND_INFRARED";
+    default:
+      return "SPHC_BAND_?";
+  }
+}
+
 const char *sphc_convention_name(sphc_convention convention) {
   switch (convention) {
     case SPHC_CONVENTION_OPENXR:

@@ -18,6 +18,7 @@ struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc_camera color, depth;
   sphc_format depth_format;
   uint32_t amplitude_min;
+  sphc_band color_band;
   bool has_clock;
   sphc_log_fn log;
   void *log_user;

@@ -16,7 +16,8 @@ constexpr uint32_t kMapMaxCells = 4096, kMapMaxGroups = 256, kMapMaxSectorSide =
 
 struct MapHeader {
   uint8_t magic[8];
-  uint32_t version;
+  uint16_t version;
+  uint16_t band;  // sphc_band of the images; the upper half of the version, so that 0 is what was before it
   uint32_t extractor;
   uint64_t file_bytes;
   uint32_t point_count;

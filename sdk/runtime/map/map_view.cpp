@@ -18,7 +18,7 @@ class Validator {
   sphc_status check(uint32_t extractor) {
     sphc_status status = checkHeader();
     if (status == SPHC_OK) status = checkTable();
-    if (status == SPHC_OK) status = checkExtractor(extractor);
+    if (status == SPHC_OK) status = checkMaker(extractor);
     if (status != SPHC_OK) return status;  // the header is not to be read any further
     uint64_t end = sizeof(MapHeader) + sizeof(MapSection) * header().section_count;
     for (uint32_t i = 0; status == SPHC_OK && i < header().section_count; ++i) status = checkSection(i, &end);
@@ -62,8 +62,9 @@ class Validator {
     if (std::memcmp(header().magic, kMapMagic, sizeof kMapMagic) != 0)
       return fail(SPHC_E_MAP_FORMAT) << "not a sphere-cloud file: it does not begin with the format's signature";
     if (header().version != kMapVersion)
-      return fail(SPHC_E_MAP_VERSION) << "map has format version " << header().version << ", this library reads "
-                                      << kMapVersion << "; update the library or rebuild the map";
+      return fail(SPHC_E_MAP_VERSION) << "map has format version " << uint32_t{header().version}
+                                      << ", this library reads " << kMapVersion
+                                      << "; update the library or rebuild the map";
     if (header().file_bytes != bytes_)
       return fail(SPHC_E_MAP_FORMAT) << "map says it has " << header().file_bytes << " bytes but "
                                      << static_cast<uint64_t>(bytes_) << " were given" << kRebuild;
@@ -92,7 +93,10 @@ class Validator {
     return SPHC_OK;
   }
 
-  sphc_status checkExtractor(uint32_t extractor) const {
+  sphc_status checkMaker(uint32_t extractor) const {
+    if (header().band > SPHC_BAND_INFRARED)
+      return fail(SPHC_E_MAP_VERSION) << "map is of band " << uint32_t{header().band}
+                                      << ", which this library does not know; update the library";
     if (header().extractor != extractor)
       return fail(SPHC_E_MAP_EXTRACTOR)
              << "map was described by extractor " << header().extractor << ", this library has " << extractor

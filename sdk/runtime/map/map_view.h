@@ -25,6 +25,7 @@ class MapView {
   const Descriptor &descriptor(uint32_t i) const { return descriptors_[i]; }
   Span<const Descriptor> descriptors() const { return descriptors_; }
   const MapHeader &header() const { return *header_; }
+  sphc_band band() const { return header_->band; }
 
   // The index: points lie in the order of their cells, and within a cell of their sectors (sector.h).
   uint32_t cellCount() const { return header_->cell_count; }

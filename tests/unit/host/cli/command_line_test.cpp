@@ -290,6 +290,30 @@ void expectDiscipline(const TempFolder &folder, const std::string &build, const 
   EXPECT_NE(std::system(("cmp -s " + map + " " + again).c_str()), 0);
 }
 
+// Maps and cameras of two bands are kept apart.
+void expectBands(const TempFolder &folder, const std::string &build, const std::string &localize) {
+  const std::string infrared = folder / "infrared.sphc", model = folder / "infrared.model";
+  EXPECT_THAT(runCommand(build + "-m " + infrared + " --band infrared").err, HasSubstr("another band"));
+  const std::string ledger = " --ledger " + (folder / "infrared.ledger");
+  const Answer built =
+      runCommand(build + "-m " + infrared + " --band infrared --json --save-model " + model + ledger);
+  ASSERT_EQ(built.exit_code, kExitDone) << built.err;
+  EXPECT_EQ(nlohmann::json::parse(built.out)["band"], "infrared");
+  EXPECT_EQ(nlohmann::json::parse(runCommand("info --json " + infrared).out)["band"], "infrared");
+  EXPECT_THAT(runCommand("info " + infrared).out, HasSubstr("infrared"));
+  // The model knows.
+  const Answer again = runCommand("build --model " + model + " --force --json -m " + infrared + ledger);
+  ASSERT_EQ(again.exit_code, kExitDone) << again.err;
+  EXPECT_EQ(nlohmann::json::parse(again.out)["band"], "infrared");
+  EXPECT_EQ(runCommand("build --model " + model + " --band infrared -m x").exit_code, kExitUsage);
+
+  const Answer refused = runCommand(localize + " -m " + infrared);
+  EXPECT_EQ(refused.exit_code, kExitFailure);
+  EXPECT_THAT(refused.err, HasSubstr("SPHC_BAND_INFRARED"));
+  EXPECT_EQ(runCommand(localize + " --band infrared -m " + infrared).exit_code, kExitDone);
+  EXPECT_EQ(runCommand(localize + " --band ultraviolet -m " + infrared).exit_code, kExitUsage);
+}
+
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const TempFolder folder;
@@ -316,6 +340,8 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   for (const char *file : {"p.tum", "f.jsonl", "report/report.html"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
   }
+
+  expectBands(folder, build, "localize -r " + walk + " --first 1 --step 2");
 
   // Without the note: no truth, poses in the map's frame.
   const auto blind = nlohmann::json::parse(runCommand(localize).out);

@@ -36,6 +36,7 @@ class ModelFile : public testing::Test {
 };
 
 void expectSame(const PointModel &a, const PointModel &b) {
+  EXPECT_EQ(a.band, b.band);
   ASSERT_EQ(a.points.size(), b.points.size());
   for (size_t i = 0; i < a.points.size(); ++i) {
     EXPECT_EQ(a.points[i].position_m, b.points[i].position_m);
@@ -72,6 +73,8 @@ TEST_F(ModelFile, GivesBackWhatItWasGiven) {
   expectSame(readModelFile(path_), room);
   EXPECT_EQ(std::filesystem::file_size(path_), kHeaderBytes + 300 * kPointBytes);
   expectSame(decodeModel(encodeModel({})), {});
+  room.band = SPHC_BAND_INFRARED;
+  expectSame(decodeModel(encodeModel(room)), room);
 }
 
 TEST_F(ModelFile, GivesTheSameMap) {
@@ -123,6 +126,13 @@ TEST(ModelBytes, EveryByteIsChecked) {
   std::vector<uint8_t> longer = good;
   longer.push_back(0);
   EXPECT_THAT(whyRefused(longer), HasSubstr("too many bytes"));
+}
+
+TEST(ModelBytes, AnUnknownBandIsRefused) {
+  std::vector<uint8_t> bytes = encodeModel(test::madeUpRoom(3, 1));
+  EXPECT_EQ(bytes[10], 0);  // as before there were bands
+  bytes[10] = 2;
+  EXPECT_THAT(whyRefused(sealed(bytes)), HasSubstr("band"));
 }
 
 TEST(ModelBytes, ASealedLieIsRefusedToo) {

@@ -34,6 +34,12 @@ TEST(NearDuplicates, NearAloneOrAlikeAloneIsNotEnough) {
   EXPECT_EQ(withoutNearDuplicates(model, kRule).points.size(), 3u);
 }
 
+TEST(NearDuplicates, TheBandStays) {
+  PointModel model;
+  model.band = SPHC_BAND_INFRARED;
+  EXPECT_EQ(withoutNearDuplicates(model, kRule).band, SPHC_BAND_INFRARED);
+}
+
 TEST(NearDuplicates, AcrossTheWallsOfTheGrid) {
   for (double offset : {-0.059, 0.059})
     for (double x : {-1e-9, 0.0, 0.06, 0.12 - 1e-12}) {

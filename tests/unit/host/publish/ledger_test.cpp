@@ -64,6 +64,7 @@ void expectSame(const Place &a, const Place &b) {
   EXPECT_EQ(a.centre_m, b.centre_m);  // to the bit
   EXPECT_EQ(a.eta, b.eta);
   EXPECT_EQ(a.strategy, b.strategy);
+  EXPECT_EQ(a.band, b.band);
   ASSERT_EQ(a.points.size(), b.points.size());
   for (size_t i = 0; i < a.points.size(); ++i) {
     const PlacePoint &p = a.points[i], &q = b.points[i];
@@ -88,7 +89,8 @@ void expectSame(const Place &a, const Place &b) {
 TEST_F(LedgerTest, RoundTripAndGrowth) {
   const SecretKey key = {7};
   Place first = makePlace(1, 100);
-  const Place second = makePlace(2, 30);
+  Place second = makePlace(2, 30);
+  second.band = SPHC_BAND_INFRARED;
   {
     Ledger ledger = Ledger::openOrMake(path_, &key);
     ledger.record(first);
@@ -109,6 +111,21 @@ TEST_F(LedgerTest, RoundTripAndGrowth) {
   ASSERT_EQ(places.size(), 2u);
   expectSame(places[0], grown);
   expectSame(places[1], second);
+}
+
+// As one was written before places had a band.
+TEST_F(LedgerTest, AnOlderOneIsOfVisiblePlaces) {
+  const Place place = makePlace(1, 20);
+  Ledger::openOrMake(path_, nullptr).record(place);
+  change("ALTER TABLE place DROP COLUMN band; PRAGMA user_version = 1");
+  expectSame(Ledger::openToRead(path_).places().at(0), place);
+  Place infrared = makePlace(2, 20);
+  infrared.band = SPHC_BAND_INFRARED;
+  Ledger::openOrMake(path_, nullptr).record(infrared);
+  const std::vector<Place> places = Ledger::openToRead(path_).places();
+  ASSERT_EQ(places.size(), 2u);
+  expectSame(places[0], place);
+  expectSame(places[1], infrared);
 }
 
 TEST_F(LedgerTest, ItsOwnerAloneMayReadIt) {
@@ -213,7 +230,8 @@ TEST_F(LedgerTest, DamageIsSeen) {
         "UPDATE point SET v = 65536 WHERE number = 3", "UPDATE point SET x = 9e999 WHERE number = 3",
         "UPDATE point SET sigma = -1 WHERE number = 3", "UPDATE place SET eta = 0", "UPDATE place SET number = 2",
         "UPDATE place SET centre_x = 1e7", "UPDATE release SET points = 100", "UPDATE release SET map_id = x''",
-        "DELETE FROM owner", "PRAGMA user_version = 2", "CREATE VIEW v AS SELECT 1"}) {
+        "UPDATE place SET band = 2", "UPDATE place SET band = -1", "DELETE FROM owner", "PRAGMA user_version = 3",
+        "CREATE VIEW v AS SELECT 1"}) {
     unlink(path_.c_str());
     Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
     EXPECT_EQ(refusal(), "accepted");

@@ -74,6 +74,14 @@ TEST(MapWriter, WritesTheBytesOfTheFormat) {  // against the tests' own writer
   }
 }
 
+TEST(MapWriter, WritesTheBand) {
+  SphereCloud cloud = randomCloud(16);
+  std::vector<uint8_t> visible = encodeMap(cloud, kId);
+  cloud.band = SPHC_BAND_INFRARED;
+  test::setBand(&visible, SPHC_BAND_INFRARED);
+  EXPECT_EQ(encodeMap(cloud, kId), visible);
+}
+
 TEST(MapWriter, TheReaderGetsBackWhatWasWritten) {
   SphereCloud cloud = randomCloud(1000);
   const std::vector<uint8_t> file = encodeMap(cloud, kId);

@@ -256,6 +256,19 @@ TEST(Release, ASecondIndependentReleaseIsRefused) {
   EXPECT_EQ(refusal(test::madeUpRoom(1000, 6), other_ledger), "");
 }
 
+TEST(Release, APlaceKeepsItsBand) {
+  PointModel room = test::madeUpRoom(1000, 1);
+  room.band = SPHC_BAND_INFRARED;
+  const NewRelease first = makeRelease(room, releaseRequest());
+  EXPECT_EQ(first.place.band, SPHC_BAND_INFRARED);
+  MapView view;
+  ASSERT_EQ(MapView::open(first.file.data(), first.file.size(), kExtractorId, &view, nullptr), SPHC_OK);
+  EXPECT_EQ(view.band(), SPHC_BAND_INFRARED);
+  EXPECT_EQ(refusal(room, releaseRequest({first.place})), "");
+  room.band = SPHC_BAND_VISIBLE;
+  EXPECT_THAT(refusal(room, releaseRequest({first.place})), HasSubstr("--band"));
+}
+
 TEST(Release, ANewPlaceHasOnlyWhatWasNeverPublished) {
   const PointModel room = test::madeUpRoom(1500, 1);
   const NewRelease first = makeRelease(test::part(room, 0, 1000), releaseRequest());

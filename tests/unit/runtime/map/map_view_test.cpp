@@ -54,6 +54,17 @@ TEST(MapView, ReadsWhatWasWritten) {
   EXPECT_EQ(&view.descriptor(7), &view.descriptors()[7]);
 }
 
+TEST(MapView, TellsItsBand) {
+  Bytes file = test::randomMap(kPoints, 1);
+  MapView view;
+  ASSERT_EQ(MapView::open(file.data(), file.size(), kExtractorId, &view, nullptr), SPHC_OK);
+  EXPECT_EQ(view.band(), SPHC_BAND_VISIBLE);  // as in files of before there were bands
+  test::setBand(&file, SPHC_BAND_INFRARED);
+  ASSERT_EQ(MapView::open(file.data(), file.size(), kExtractorId, &view, nullptr), SPHC_OK);
+  EXPECT_EQ(view.band(), SPHC_BAND_INFRARED);
+  EXPECT_EQ(view.header().version, 2u);
+}
+
 TEST(MapView, EveryTruncationIsRefused) {
   const Bytes file = test::randomMap(kPoints, 2);
   for (size_t length = 0; length < file.size(); ++length) {
@@ -112,6 +123,8 @@ const Corruption kCorruptions[] = {
     {"text mode", [](Bytes *f) { (*f)[5] = '\n'; }, SPHC_E_MAP_FORMAT, "signature"},
     {"newer", [](Bytes *f) { put32(f, 8, 3), test::signHeader(f); }, SPHC_E_MAP_VERSION, "version 3"},
     {"older", [](Bytes *f) { put32(f, 8, 1), test::signHeader(f); }, SPHC_E_MAP_VERSION, "version 1"},
+    {"unknown band", [](Bytes *f) { test::setBand(f, 2); }, SPHC_E_MAP_VERSION, "band 2"},
+    {"band of all bits", [](Bytes *f) { test::setBand(f, 0xFFFF); }, SPHC_E_MAP_VERSION, "band 65535"},
     {"extractor", [](Bytes *f) { put32(f, 12, 77), test::signHeader(f); }, SPHC_E_MAP_EXTRACTOR, "extractor 77"},
     {"oversized", [](Bytes *f) { f->push_back(0); }, SPHC_E_MAP_FORMAT, "bytes"},
     {"oversized, signed",
