@@ -15,7 +15,7 @@ Player::Player(const Recording &recording, const sphc_rig &calibration, const sp
       reader_(recording, calibration, config.color_format),
       mode_(config.mode),
       slots_(config.loan_limit),
-      slot_bytes_(std::max(reader_.colorBytes(), reader_.depthBytes())) {
+      slot_bytes_(std::max(reader_.colorBytes(), 2 * reader_.depthBytes())) {  // of depth with its amplitudes
   if (config.streams & SPHC_REPLAY_STREAM_COLOR) addEvents(SPHC_STREAM_COLOR, recording.color);
   if (config.streams & SPHC_REPLAY_STREAM_DEPTH) addEvents(SPHC_STREAM_DEPTH, recording.depth);
   std::stable_sort(events_.begin(), events_.end(),
@@ -63,6 +63,8 @@ sphc_status Player::acquire(uint32_t timeout_us, sphc_capture &capture) {
   const bool is_color = event.stream == SPHC_STREAM_COLOR;
   const RecordedImage &image = (is_color ? recording_.color : recording_.depth)[event.index];
   const sphc_image view = reader_.read(event.stream, image, slot->pixels.data());
+  const sphc_image amplitude =
+      is_color ? sphc_image() : reader_.readAmplitude(image, slot->pixels.data() + reader_.depthBytes());
   slot->token = ++last_token_;
   capture = {};
   capture.struct_size = sizeof capture;
@@ -76,6 +78,7 @@ sphc_status Player::acquire(uint32_t timeout_us, sphc_capture &capture) {
   capture.time_sigma_us = image.note.time_sigma_us;
   capture.clock = image.note.clock;
   capture.image = view;
+  capture.amplitude = amplitude;
   return SPHC_OK;
 }
 

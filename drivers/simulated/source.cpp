@@ -90,12 +90,20 @@ void Source::render(Slot &slot, sphc_stream stream, uint32_t index, sphc_capture
     out.image.format = SPHC_FORMAT_RGB8;
   } else {
     // Storage from new[] is aligned for any scalar.
-    headset_.renderDepth(index, reinterpret_cast<uint16_t *>(slot.bytes.get()));
+    auto *const depth = reinterpret_cast<uint16_t *>(slot.bytes.get());
+    headset_.renderDepth(index, depth);
     out.time_ns = headset_.depthTime(index);
     out.image.width = kDepthWidth;
     out.image.height = kDepthHeight;
     out.image.stride_bytes = kDepthWidth * static_cast<uint32_t>(sizeof(uint16_t));
     out.image.format = SPHC_FORMAT_DEPTH16;
+    if (headset_.config().raw_depth != 0) {  // a module that drops nothing tells what is to be dropped
+      uint16_t *const amplitude = depth + size_t{kDepthWidth} * kDepthHeight;
+      headset_.renderAmplitude(index, amplitude);
+      out.amplitude = out.image;
+      out.amplitude.data = amplitude;
+      out.amplitude.format = SPHC_FORMAT_GRAY16;
+    }
   }
   slot.token = out.token = ++last_token_;
   *capture = out;

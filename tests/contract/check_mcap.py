@@ -35,6 +35,10 @@ def depth_pixels(i):
     return [(1000 * i + 30 * y + x) % 65536 for y in range(DEPTH[1]) for x in range(DEPTH[0])]
 
 
+def amplitude_pixels(i):
+    return [0 if x % 7 == 0 else (60000 + 300 * i + 17 * y * x) % 65536 for y in range(DEPTH[1]) for x in range(DEPTH[0])]
+
+
 def unzigzag(code):
     return code >> 1 ^ -(code & 1)
 
@@ -88,6 +92,17 @@ def depth_of(channel, message):
     return decode_zstd(data[8:], count)
 
 
+def amplitude_of(channel, message):
+    assert message.header.frame_id == "depth_camera"
+    data = bytes(message.data)
+    if channel.topic == "/depth/amplitude":
+        assert (message.encoding, message.width, message.height, message.step) == ("mono16", *DEPTH, 2 * DEPTH[0])
+        return list(struct.unpack("<%dH" % (DEPTH[0] * DEPTH[1]), data))
+    assert channel.topic == "/depth/amplitude/spherecloud" and message.format == "mono16; spherecloud zstd"
+    assert struct.unpack("<II", data[:8]) == DEPTH
+    return decode_zstd(data[8:], DEPTH[0] * DEPTH[1])
+
+
 def check_color(channel, message, i):
     if channel.topic == "/color/image/compressed":
         assert message.format == "jpeg" and bytes(message.data[:2]) == b"\xff\xd8"
@@ -111,6 +126,8 @@ def check_message(channel, record, message):
         assert (message.first_sequence, message.count, message.cause) == (10, 3, 2)
     elif channel.topic.startswith("/color"):
         check_color(channel, message, i)
+    elif channel.topic.startswith("/depth/amplitude"):
+        assert amplitude_of(channel, message) == amplitude_pixels(i), "amplitude %d" % i
     else:
         assert depth_of(channel, message) == depth_pixels(i), "depth %d" % i
     return i
@@ -143,7 +160,7 @@ def check(path):
         assert counts == {topic: len(numbers) for topic, numbers in found.items()}, counts
         for topic, numbers in found.items():
             assert numbers == ([13, 13] if topic == "/drops" else FRAMES), (topic, numbers)
-        assert len(found) == 6
+        assert len(found) == 7
         check_attachments(reader)
     print("%s: %d messages in %d chunks" % (path.name, summary.statistics.message_count, len(summary.chunk_indexes)))
 

@@ -268,6 +268,24 @@ TEST_P(DriverContract, GivesImagesThatFitTheirStream) {
   });
 }
 
+TEST_P(DriverContract, GivesAmplitudesThatFitTheirDepth) {
+  ASSERT_EQ(start(), SPHC_OK);
+  forEachCapture(20, [](const sphc_capture &capture) {
+    const sphc_image &amplitude = capture.amplitude;
+    if (!amplitude.data) {
+      EXPECT_EQ(amplitude.width | amplitude.height | amplitude.stride_bytes | uint32_t(amplitude.format), 0u);
+      return;
+    }
+    EXPECT_EQ(capture.stream, SPHC_STREAM_DEPTH);
+    EXPECT_EQ(amplitude.width, capture.image.width);
+    EXPECT_EQ(amplitude.height, capture.image.height);
+    const uint32_t pixel_bytes = amplitude.format == SPHC_FORMAT_GRAY8 ? 1 : 2;
+    EXPECT_GE(amplitude.stride_bytes, amplitude.width * pixel_bytes);
+    EXPECT_TRUE(amplitude.format == SPHC_FORMAT_GRAY8 ||
+                (amplitude.format >= SPHC_FORMAT_GRAY10 && amplitude.format <= SPHC_FORMAT_GRAY16));
+  });
+}
+
 TEST_P(DriverContract, KeepsSizeAndFormatOfAStream) {
   ASSERT_EQ(start(), SPHC_OK);
   std::map<sphc_stream, sphc_image> first;

@@ -45,10 +45,12 @@ TEST(RecorderHeap, TakesNothingAfterTheFirstCaptures) {
     config.chunk_bytes = 65536;
     OpenRecorder recorder(folder / "walk.mcap", config);
     const TinyImages images(1);
+    const std::vector<uint16_t> amplitude = tinyAmplitude(1);
     const auto add = [&](uint32_t first, uint32_t end) {
       for (uint32_t i = first; i < end; ++i)
         for (const sphc_stream stream : {SPHC_STREAM_COLOR, SPHC_STREAM_DEPTH}) {
-          const sphc_capture capture = tinyCapture(i, stream, images);
+          sphc_capture capture = tinyCapture(i, stream, images);
+          if (stream == SPHC_STREAM_DEPTH) capture.amplitude = amplitudeImage(amplitude);
           ASSERT_EQ(sphc_recorder_add(recorder.get(), &capture, nullptr), SPHC_OK);
         }
     };

@@ -31,6 +31,17 @@ inline sphc_capture tinyCapture(uint32_t i, sphc_stream stream, const TinyImages
   return capture;
 }
 
+inline std::vector<uint16_t> tinyAmplitude(uint32_t i) {
+  std::vector<uint16_t> amplitude;
+  for (uint32_t y = 0; y < kDepthHeight; ++y)
+    for (uint32_t x = 0; x < kDepthWidth; ++x)
+      amplitude.push_back(static_cast<uint16_t>(x % 7 == 0 ? 0 : 60000 + 300 * i + 17 * y * x));
+  return amplitude;
+}
+inline sphc_image amplitudeImage(const std::vector<uint16_t> &amplitude) {
+  return {amplitude.data(), kDepthWidth, kDepthHeight, kDepthWidth * 2, SPHC_FORMAT_GRAY16};
+}
+
 // A recorder that closes itself.
 class OpenRecorder {
  public:

@@ -12,8 +12,10 @@ void writeFile(const std::string &path, const sphc_recorder_config &config) {
   for (uint32_t i = 0; i < 40; ++i) {
     if (i >= 10 && i <= 12) continue;
     const TinyImages images(i);
+    const std::vector<uint16_t> amplitude = tinyAmplitude(i);
     for (const sphc_stream stream : {SPHC_STREAM_COLOR, SPHC_STREAM_DEPTH}) {
-      const sphc_capture capture = tinyCapture(i, stream, images);
+      sphc_capture capture = tinyCapture(i, stream, images);
+      if (stream == SPHC_STREAM_DEPTH) capture.amplitude = amplitudeImage(amplitude);
       ASSERT_EQ(sphc_recorder_add(recorder.get(), &capture, nullptr), SPHC_OK);
     }
     const sphc_rigid pose = tinyPose(i);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <string>
 
 #include "drivers/replay/replay.h"
@@ -27,6 +28,16 @@ class MemoryFile {
   int descriptor_;
 };
 
+// To the last byte, so that a sanitizer sees a step too far.
+void readAmplitude(const sphc_image &image) {
+  if (!image.data) return;
+  if (image.format != SPHC_FORMAT_GRAY16 || image.stride_bytes < 2 * image.width)
+    broken("amplitudes are numbers of 16 bits");
+  const auto *bytes = static_cast<const uint8_t *>(image.data);
+  const std::vector<uint8_t> copy(bytes, bytes + size_t{image.stride_bytes} * image.height);
+  if (copy.empty()) broken("amplitudes have pixels");
+}
+
 void readAll(sphc_replay *replay) {
   const uint32_t frames = std::min(sphc_replay_frame_count(replay), 20u);
   for (uint32_t i = 0; i < frames; ++i) {
@@ -34,6 +45,7 @@ void readAll(sphc_replay *replay) {
     sphc_message message = {};
     const sphc_status status = sphc_replay_read_frame(replay, i, &frame, &message);
     if (status > 0 || (status < 0 && !message.text[0])) broken("an image is read, or the failure explains itself");
+    if (status == SPHC_OK) readAmplitude(frame.amplitude);
   }
   sphc_source source;
   sphc_replay_source(replay, &source);
@@ -47,6 +59,7 @@ void readAll(sphc_replay *replay) {
     if (status != SPHC_OK) continue;
     if (capture.time_ns < last_ns) broken("captures come in order of time");
     last_ns = capture.time_ns;
+    readAmplitude(capture.amplitude);
     source.release(source.self, &capture);
   }
 }
@@ -66,12 +79,18 @@ void recording(const uint8_t *data, size_t bytes) {
   sphc_replay_close(&replay);
 }
 
-// The kind of message, then the message.
+constexpr recording::Kind kImageKinds[] = {
+    recording::Kind::kColorImage, recording::Kind::kColorJpeg,      recording::Kind::kDepthImage,
+    recording::Kind::kDepthRvl,   recording::Kind::kDepthZstd,      recording::Kind::kAmplitudeImage,
+    recording::Kind::kAmplitudeZstd};
+
+// The place of its kind in the list above, then the message.
 void message(const uint8_t *data, size_t bytes) {
   if (bytes == 0) return;
-  const auto kind = static_cast<recording::Kind>(1 + data[0] % 5);
+  const recording::Kind kind = kImageKinds[data[0] % std::size(kImageKinds)];
   const std::vector<uint8_t> exact(data + 1, data + bytes);
   const bool is_color = recording::streamOf(kind) == SPHC_STREAM_COLOR;
+  const sphc_format numbers = recording::isAmplitude(kind) ? SPHC_FORMAT_GRAY16 : SPHC_FORMAT_DEPTH16;
   sphc_camera camera = {};
   camera.width = 16;
   camera.height = 16;
@@ -79,7 +98,7 @@ void message(const uint8_t *data, size_t bytes) {
   const size_t used = is_color ? 16 * 16 * 3 / 2 : 16 * 16;
   try {
     recording::MessageDecoder().decode(kind, recording::viewOf(exact), camera,
-                                       is_color ? SPHC_FORMAT_BGR8 : SPHC_FORMAT_DEPTH16,
+                                       is_color ? SPHC_FORMAT_BGR8 : numbers,
                                        reinterpret_cast<uint8_t *>(pixels.data()));
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_IMAGE) broken("the failure is the image's");

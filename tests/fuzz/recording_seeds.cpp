@@ -77,6 +77,7 @@ std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality)
     capture.sequence = i;
     capture.image = i % 2 ? sphc_image{depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16}
                           : sphc_image{color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8};
+    if (i == 3) capture.amplitude = {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_GRAY16};
     sphc_recorder_add(recorder, &capture, nullptr);
     const sphc_rigid pose = {{1, 0, 0, 0}, {0.1 * i, 0, 0}};
     sphc_recorder_add_pose(recorder, 1000 + 10 * i, &pose, nullptr);
@@ -85,7 +86,11 @@ std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality)
   return file.bytes();
 }
 
-std::vector<uint8_t> begun(recording::Kind kind) { return {static_cast<uint8_t>(static_cast<int>(kind) - 1)}; }
+// By the list of kinds in fuzz_recording.cpp.
+std::vector<uint8_t> begun(recording::Kind kind) {
+  const int number = static_cast<int>(kind), first_amplitude = static_cast<int>(recording::Kind::kAmplitudeImage);
+  return {static_cast<uint8_t>(recording::isAmplitude(kind) ? 5 + number - first_amplitude : number - 1)};
+}
 
 }  // namespace
 
@@ -124,8 +129,11 @@ std::vector<std::vector<uint8_t>> messageSeeds() {
   const std::vector<uint8_t> color = colorPixels();
   const sphc_image color_image = {color.data(), kSide, kSide, kSide * 3, SPHC_FORMAT_BGR8};
   const sphc_image depth_image = {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_DEPTH16};
+  const sphc_image amplitude_image = {depth.data(), kSide, kSide, kSide * 2, SPHC_FORMAT_GRAY16};
   Bytes raw_color = begun(Kind::kColorImage), raw_depth = begun(Kind::kDepthImage), jpeg = begun(Kind::kColorJpeg),
-        rvl_message = begun(Kind::kDepthRvl), zstd_message = begun(Kind::kDepthZstd);
+        rvl_message = begun(Kind::kDepthRvl), zstd_message = begun(Kind::kDepthZstd),
+        raw_amplitude = begun(Kind::kAmplitudeImage), zstd_amplitude = begun(Kind::kAmplitudeZstd);
+  putImageMessage(raw_amplitude, 5, amplitude_image);
   putImageMessage(raw_color, 5, color_image);
   putImageMessage(raw_depth, 5, depth_image);
   ImageEncoder encoder;
@@ -140,7 +148,8 @@ std::vector<std::vector<uint8_t>> messageSeeds() {
                                       .encode(depth.data(), depth.size(), encoded.data() + kZstdHeadBytes,
                                               encoded.size() - kZstdHeadBytes));
   putCompressedMessage(zstd_message, 5, Kind::kDepthZstd, viewOf(encoded));
-  return {raw_color, raw_depth, jpeg, rvl_message, zstd_message};
+  putCompressedMessage(zstd_amplitude, 5, Kind::kAmplitudeZstd, viewOf(encoded));
+  return {raw_color, raw_depth, jpeg, rvl_message, zstd_message, raw_amplitude, zstd_amplitude};
 }
 
 std::vector<std::vector<uint8_t>> rvlSeeds() {

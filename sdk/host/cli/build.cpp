@@ -7,9 +7,9 @@
 
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
-#include "host/cli/common/band_option.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/point_source.h"
 #include "host/evaluate/map_file.h"

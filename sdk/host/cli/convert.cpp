@@ -30,7 +30,7 @@ struct ConvertOptions {
 };
 
 struct Result {
-  uint32_t color = 0, depth = 0, poses = 0, unreadable = 0, unpaired = 0;
+  uint32_t color = 0, depth = 0, poses = 0, unreadable = 0, unpaired = 0, amplitudes = 0;
 };
 
 // What is told of a recording once it is converted.
@@ -110,6 +110,7 @@ Result copyStreams(sphc_replay *replay, RecordingOut *out, const Console &consol
     poses.writeUpTo(capture.time_ns, out);
     out->add(capture);
     ++(capture.stream == SPHC_STREAM_COLOR ? result.color : result.depth);
+    result.amplitudes += capture.amplitude.data != nullptr;
     source.release(source.self, &capture);
   }
   poses.writeUpTo(INT64_MAX, out);
@@ -135,6 +136,7 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
     add(*frame, pose ? &*pose : nullptr);
     ++result.color;
     ++result.depth;
+    result.amplitudes += frame->amplitude.data != nullptr;
     result.poses += pose ? 1 : 0;
   }
   return result;
@@ -194,6 +196,9 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
     console.warn("note: " + std::to_string(facts.bad_chunk_count) + " parts with changed bytes are left out");
   if (options.target == Target::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
+  if (result.amplitudes && (is_by_frame || !isMcap(options.out)))
+    console.warn("note: amplitudes of " + std::to_string(result.amplitudes) +
+                 " depth images are left out; an MCAP file keeps them");
   if (is_by_frame && facts.depth_count > result.depth)
     console.warn("note: " + std::to_string(facts.depth_count - result.depth) +
                  " depth images that belong to no frame are left out");

@@ -4,8 +4,8 @@
 
 #include "host/base/checked_call.h"
 #include "host/cli/commands.h"
-#include "host/cli/common/band_option.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
 #include "host/evaluate/localize_run.h"
@@ -87,6 +87,7 @@ sphc_localizer_frame frameOf(const CapturePair &pair) {
   frame.depth_time_ns = sphc_capture_middle_ns(&pair.depth);
   frame.color = pair.color.image;
   frame.depth = pair.depth.image;
+  frame.amplitude = pair.depth.amplitude;
   return frame;
 }
 
@@ -214,6 +215,7 @@ Command liveCommand(CLI::App *root) {
       ->type_name("FILE");
   addBandOption(app, &options->config.color_band,
                 "The light that the colour camera sees; a map must be of the same");
+  addAmplitudeOption(app, &options->config.amplitude_min);
   app->add_option("--frames", options->frames, "End after so many frames; 0: never");
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_flag("--every", options->every, "Process every frame, however late; else only the newest");

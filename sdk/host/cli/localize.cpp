@@ -5,9 +5,9 @@
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
-#include "host/cli/common/band_option.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
@@ -167,6 +167,7 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
   add("--depth-slope-sigma", config->depth_slope_sigma, "Unknown slope of its error over depth");
   addBandOption(app, &config->color_band, "The light that the colour camera sees; a map must be of the same")
       ->group("Localizer");
+  addAmplitudeOption(app, &config->amplitude_min)->group("Localizer");
   add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
   const std::map<std::string, sphc_localizer_mode> modes = {{"tracking", SPHC_MODE_TRACKING},
                                                             {"single", SPHC_MODE_SINGLE}};

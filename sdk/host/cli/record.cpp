@@ -56,7 +56,8 @@ struct RecordTally {
     const bool is_color = capture.stream == SPHC_STREAM_COLOR;
     ++(is_color ? color : depth);
     (is_color ? color_rate : depth_rate).count();
-    raw_bytes += uint64_t{capture.image.stride_bytes} * capture.image.height;
+    for (const sphc_image &image : {capture.image, capture.amplitude})
+      raw_bytes += uint64_t{image.stride_bytes} * image.height;
   }
 };
 

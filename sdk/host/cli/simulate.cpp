@@ -105,6 +105,8 @@ int simulate(const SimulateOptions &options, const Console &console) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   console.say("Recorded " + std::to_string(options.config.frame_count) + " frames to " + options.out + " in " +
               fixed(seconds, 1) + " s: colour, depth, calibration and exact poses.");
+  if (options.raw_depth && !isMcap(options.out))
+    console.warn("note: a folder keeps no amplitudes of the depth; --out X.mcap does");
   tellNext(options, console);
   console.give({{"recording", options.out},
                 {"frames", options.config.frame_count},

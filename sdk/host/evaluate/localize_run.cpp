@@ -148,6 +148,7 @@ spherecloud::Localizer makeLocalizer(const sphc_localizer_config &config, const 
 std::vector<Setting> describeConfig(const sphc_localizer_config &config, const Parameters &parameters) {
   return {{"colour camera", describeCamera(config.rig.color_camera)},
           {"depth camera", describeCamera(config.rig.depth_camera)},
+          {"color_band", bandName(config.color_band)},
           {"seed", std::to_string(config.seed)},
           {"max_keypoints", std::to_string(config.max_keypoints)},
           {"max_ratio", fixed(parameters.max_ratio, 3)},
@@ -159,6 +160,7 @@ std::vector<Setting> describeConfig(const sphc_localizer_config &config, const P
           {"depth_unit_m", fixed(config.rig.depth_unit_m, 6)},
           {"depth_sigma_m", fixed(config.depth_sigma_m, 4)},
           {"depth_sigma_per_m2", fixed(config.depth_sigma_per_m2, 4)},
+          {"amplitude_min", std::to_string(config.amplitude_min)},
           {"pixel_sigma_px", fixed(config.pixel_sigma_px, 2)},
           {"map_sigma_m", fixed(config.map_sigma_m, 4)},
           {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},

@@ -58,6 +58,18 @@ void ImageReader::readRaw(sphc_stream stream, uint32_t index, uint8_t *pixels) {
   packPixels(image, formatOf(stream), pixels);
 }
 
+sphc_image ImageReader::readAmplitude(const RecordedImage &depth, uint8_t *pixels) {
+  if (depth.amplitude.kind == Kind::kNone) return {};
+  const sphc_camera &camera = depth_camera_;
+  try {
+    messages_->decoder.decode(depth.amplitude.kind, loadMessage(depth.amplitude), camera, SPHC_FORMAT_GRAY16,
+                              pixels);
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), nameOf(SPHC_STREAM_DEPTH, depth) + ", its amplitudes: " + failure.what());
+  }
+  return {pixels, camera.width, camera.height, camera.width * 2, SPHC_FORMAT_GRAY16};
+}
+
 sphc_image ImageReader::read(sphc_stream stream, const RecordedImage &image, uint8_t *pixels) {
   const sphc_camera &camera = cameraOf(stream);
   const sphc_format format = formatOf(stream);

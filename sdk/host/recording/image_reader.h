@@ -21,6 +21,8 @@ class ImageReader {
   // Decodes into `pixels` (colorBytes or depthBytes of them) and gives a view of it.  Throws Failure: DEVICE for an
   // image that is missing or corrupt, IMAGE for one that does not fit the calibration.
   sphc_image read(sphc_stream stream, const RecordedImage &image, uint8_t *pixels);
+  // The same of the amplitudes of a depth image, depthBytes of them; zero where the recording has none.
+  sphc_image readAmplitude(const RecordedImage &depth, uint8_t *pixels);
 
  private:
   // The MCAP file, when the recording is one.

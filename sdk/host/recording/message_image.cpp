@@ -17,7 +17,8 @@ namespace {
 
 void MessageDecoder::decode(Kind kind, ByteView message, const sphc_camera &camera, sphc_format format,
                             uint8_t *pixels) {
-  if (kind == Kind::kColorImage || kind == Kind::kDepthImage) return decodeRaw(message, camera, format, pixels);
+  if (kind == Kind::kColorImage || kind == Kind::kDepthImage || kind == Kind::kAmplitudeImage)
+    return decodeRaw(message, camera, format, pixels);
   CompressedMessage compressed;
   if (!readCompressedMessage(message, compressed)) failMalformed("CompressedImage");
   if (kind == Kind::kColorJpeg)
@@ -30,8 +31,9 @@ void MessageDecoder::decodeRaw(ByteView message, const sphc_camera &camera, sphc
   ImageMessage image;
   if (!readImageMessage(message, image)) failMalformed("Image");
   const sphc_format recorded = formatOf(image.encoding);
-  const bool is_color = format != SPHC_FORMAT_DEPTH16;
-  if (recorded == 0 || (recorded != SPHC_FORMAT_DEPTH16) != is_color) failMalformed("its encoding");
+  const bool is_color = format != SPHC_FORMAT_DEPTH16 && format != SPHC_FORMAT_GRAY16;
+  const bool is_recorded_color = isRecorded(recorded) && recorded != SPHC_FORMAT_DEPTH16;
+  if (is_color ? !is_recorded_color : recorded != format) failMalformed("its encoding");
   requireSize(image.width, image.height, camera, is_color);
   const uint64_t row_bytes = uint64_t{image.width} * sphc_format_bytes(recorded);
   if (image.step < row_bytes || uint64_t{image.step} * image.height > image.data.size) failMalformed("its rows");

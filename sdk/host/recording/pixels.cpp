@@ -60,6 +60,29 @@ void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_colo
                   name + ": stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row or odd");
 }
 
+void checkAmplitude(const sphc_image &image, const sphc_camera &depth_camera) {
+  const sphc_format f = image.format;
+  if (f != SPHC_FORMAT_GRAY8 && f != SPHC_FORMAT_GRAY10 && f != SPHC_FORMAT_GRAY12 && f != SPHC_FORMAT_GRAY16)
+    throw Failure(SPHC_E_IMAGE, "amplitude image: format " + std::to_string(f) +
+                                    " does not fit; give GRAY8, GRAY10, GRAY12 or GRAY16");
+  if (image.width != depth_camera.width || image.height != depth_camera.height)
+    throw Failure(SPHC_E_IMAGE, "amplitude image: is " + sizeText(image.width, image.height) +
+                                    ", the depth camera in the calibration " +
+                                    sizeText(depth_camera.width, depth_camera.height) + "; they must be equal");
+  if (image.stride_bytes < uint64_t{image.width} * sphc_format_bytes(f))
+    throw Failure(SPHC_E_IMAGE,
+                  "amplitude image: stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row");
+}
+
+void packAmplitude(const sphc_image &image, uint16_t *out) {
+  const uint32_t pixel_bytes = sphc_format_bytes(image.format);
+  for (uint32_t y = 0; y < image.height; ++y) {
+    const uint8_t *in = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
+    for (uint32_t x = 0; x < image.width; ++x, in += pixel_bytes)
+      *out++ = static_cast<uint16_t>(pixel_bytes == 1 ? in[0] : in[0] | in[1] << 8);
+  }
+}
+
 void packPixels(const sphc_image &image, sphc_format to, uint8_t *out) {
   const size_t row_bytes = size_t{image.width} * sphc_format_bytes(to);
   const auto *row = static_cast<const uint8_t *>(image.data);

@@ -42,7 +42,7 @@ class DropList {
 struct Slot {
   bool is_pose = false;
   CaptureNote note = {};  // of a pose, time and sequence
-  sphc_image image = {};
+  sphc_image image = {}, amplitude = {};
   sphc_rigid pose = {};
   DropList drops;
   Bytes pixels;
@@ -72,10 +72,11 @@ void checkConfig(const sphc_recorder_config &config) {
   require(config.chunk_bytes >= 65536 && config.chunk_bytes <= (1u << 28), "chunk_bytes: must be 65536 to 2^28");
 }
 
+// Of colour, or of depth and its amplitudes.
 size_t slotBytes(const sphc_rig &calibration) {
   const sphc_camera &color = calibration.color_camera;
   const sphc_camera &depth = calibration.depth_camera;
-  return std::max(size_t{color.width} * color.height * 3, size_t{depth.width} * depth.height * 2);
+  return std::max(size_t{color.width} * color.height * 3, size_t{depth.width} * depth.height * 4);
 }
 
 }  // namespace
@@ -180,6 +181,10 @@ sphc_status sphc_recorder::add(const sphc_capture &capture) {
   if (!is_color && capture.stream != SPHC_STREAM_DEPTH)
     throw Failure(SPHC_E_ARGUMENT, "capture.stream is " + std::to_string(capture.stream) + "; give COLOR or DEPTH");
   checkImage(capture.image, is_color ? calibration.color_camera : calibration.depth_camera, is_color);
+  const bool has_amplitude = capture.amplitude.data != nullptr;
+  if (has_amplitude && is_color)
+    throw Failure(SPHC_E_IMAGE, "amplitude image: belongs to a colour capture; give it with the depth image");
+  if (has_amplitude) checkAmplitude(capture.amplitude, calibration.depth_camera);
   StreamState &state = is_color ? color : depth;
   if (capture.time_ns <= state.last_ns) throw Failure(SPHC_E_ARGUMENT, "capture: " + timeFault(capture.time_ns));
   noteGap(capture, state);
@@ -192,6 +197,11 @@ sphc_status sphc_recorder::add(const sphc_capture &capture) {
     slot.image.data = slot.pixels.data();
     slot.image.stride_bytes = capture.image.width * sphc_format_bytes(capture.image.format);
     packPixels(capture.image, capture.image.format, slot.pixels.data());
+    slot.amplitude = {};
+    if (!has_amplitude) return;
+    auto *const behind = reinterpret_cast<uint16_t *>(slot.pixels.data() + packedBytes(slot.image));
+    packAmplitude(capture.amplitude, behind);
+    slot.amplitude = {behind, slot.image.width, slot.image.height, slot.image.width * 2, SPHC_FORMAT_GRAY16};
   });
 }
 
@@ -220,7 +230,7 @@ void sphc_recorder::write(const Slot &slot) {
   if (slot.is_pose)
     encoder.addPose(slot.note.sequence, slot.note.time_ns, slot.pose);
   else
-    encoder.add(slot.note, slot.image);
+    encoder.add(slot.note, slot.image, slot.amplitude);
 }
 
 void sphc_recorder::giveBack(const Slot &slot) {
@@ -228,7 +238,7 @@ void sphc_recorder::giveBack(const Slot &slot) {
     const std::lock_guard lock(mutex);
     if (!slot.is_pose) {
       ++(slot.image.format == SPHC_FORMAT_DEPTH16 ? gathered.depth_count : gathered.color_count);
-      gathered.raw_bytes += packedBytes(slot.image);
+      gathered.raw_bytes += packedBytes(slot.image) + packedBytes(slot.amplitude);
     }
     first = (first + 1) % slots.size();
     --used;

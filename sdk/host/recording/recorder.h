@@ -64,7 +64,8 @@ sphc_status sphc_recorder_config_init(sphc_recorder_config *config, size_t struc
 sphc_status sphc_recorder_open(const char *path, const sphc_rig *rig, const sphc_recorder_config *config,
                                sphc_recorder **recorder, sphc_message *message);
 
-/* Adds a capture.  Borrows.  The image's size must be the calibration's; times of a stream must increase and not be
+/* Adds a capture.  Borrows.  Amplitudes of a depth capture are kept as numbers of 16 bits.  The size of images must
+ * be the calibration's; times of a stream must increase and not be
  * negative.  SPHC_AGAIN: the queue stayed full for wait_us; the capture is dropped, counted and listed in the file.
  * Errors: ARGUMENT (null, time, stream), STRUCT_SIZE, IMAGE: nothing is added, go on; DEVICE: the file cannot be
  * written any more (disk full); close, what was written before is good. [exclusive] */

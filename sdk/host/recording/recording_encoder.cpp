@@ -33,7 +33,7 @@ RecordingEncoder::RecordingEncoder(const std::filesystem::path &path, const sphc
       depth_(mostDepthBytes(calibration)) {
   Bytes head;
   putSchemasAndChannels(head, {kindOf(SPHC_STREAM_COLOR), kindOf(SPHC_STREAM_DEPTH), Kind::kColorCapture,
-                               Kind::kDepthCapture, Kind::kPose, Kind::kDrops});
+                               Kind::kDepthCapture, Kind::kPose, Kind::kDrops, amplitudeKind()});
   putMetadata(head, "spherecloud", {{"version", "1"}});
   const std::string json = calibrationToJson(calibration);
   putAttachment(head, "calibration.json", "application/json",
@@ -45,6 +45,10 @@ Kind RecordingEncoder::kindOf(sphc_stream stream) const {
   if (stream == SPHC_STREAM_COLOR) return config_.jpeg_quality ? Kind::kColorJpeg : Kind::kColorImage;
   if (config_.depth_codec == SPHC_DEPTH_RVL) return Kind::kDepthRvl;
   return config_.depth_codec == SPHC_DEPTH_ZSTD ? Kind::kDepthZstd : Kind::kDepthImage;
+}
+
+Kind RecordingEncoder::amplitudeKind() const {
+  return config_.depth_codec == SPHC_DEPTH_ZSTD ? Kind::kAmplitudeZstd : Kind::kAmplitudeImage;
 }
 
 ByteView RecordingEncoder::encodeDepth(Kind kind, const sphc_image &image) {
@@ -62,7 +66,7 @@ ByteView RecordingEncoder::encodeDepth(Kind kind, const sphc_image &image) {
 }
 
 void RecordingEncoder::putEncoded(Kind kind, int64_t time_ns, const sphc_image &image, Bytes &out) {
-  if (kind == Kind::kColorImage || kind == Kind::kDepthImage)
+  if (kind == Kind::kColorImage || kind == Kind::kDepthImage || kind == Kind::kAmplitudeImage)
     putImageMessage(out, time_ns, image);
   else
     putCompressedMessage(
@@ -70,13 +74,18 @@ void RecordingEncoder::putEncoded(Kind kind, int64_t time_ns, const sphc_image &
         kind == Kind::kColorJpeg ? jpeg_.jpeg(image, config_.jpeg_quality) : encodeDepth(kind, image));
 }
 
-void RecordingEncoder::add(const CaptureNote &note, const sphc_image &image) {
+void RecordingEncoder::add(const CaptureNote &note, const sphc_image &image, const sphc_image &amplitude) {
   const bool is_color = image.format != SPHC_FORMAT_DEPTH16;
   const Kind kind = kindOf(is_color ? SPHC_STREAM_COLOR : SPHC_STREAM_DEPTH);
   putCaptureNote(
       writer_.beginMessage(is_color ? Kind::kColorCapture : Kind::kDepthCapture, note.sequence, note.time_ns),
       note);
   writer_.endMessage();
+  if (amplitude.data) {
+    const Kind its_kind = amplitudeKind();
+    putEncoded(its_kind, note.time_ns, amplitude, writer_.beginMessage(its_kind, note.sequence, note.time_ns));
+    writer_.endMessage();
+  }
   putEncoded(kind, note.time_ns, image, writer_.beginMessage(kind, note.sequence, note.time_ns));
   writer_.endMessage();
   is_synced_ = false;

@@ -15,8 +15,8 @@ class RecordingEncoder {
   RecordingEncoder(const std::filesystem::path &path, const sphc_rig &calibration,
                    const sphc_recorder_config &config);
 
-  // The image is packed and was checked.
-  void add(const CaptureNote &note, const sphc_image &image);
+  // The image is packed and was checked; `amplitude` likewise, GRAY16, or zero.
+  void add(const CaptureNote &note, const sphc_image &image, const sphc_image &amplitude);
   void addPose(uint32_t sequence, int64_t time_ns, const sphc_rigid &world_from_camera);
   void addDrop(const Drop &drop, int64_t log_time_ns);
 
@@ -29,6 +29,7 @@ class RecordingEncoder {
 
  private:
   Kind kindOf(sphc_stream stream) const;
+  Kind amplitudeKind() const;
   void putEncoded(Kind kind, int64_t time_ns, const sphc_image &image, Bytes &out);
   ByteView encodeDepth(Kind kind, const sphc_image &image);
 

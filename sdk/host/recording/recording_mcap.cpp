@@ -35,6 +35,7 @@ class McapScan {
   bool holdsTrueBytes();
   void readSmallMessage(Kind kind, const MessageHead &head, ByteView data);
   void addImage(Kind kind, const MessageHead &head, const RecordPlace &record);
+  MessagePlace placeOf(Kind kind, const RecordPlace &record) const;
   void addPose(int64_t time_ns, sphc_rigid pose);
   void readCalibration(const RecordPlace &record);
   std::optional<ByteView> small(const RecordPlace &record);
@@ -48,6 +49,11 @@ class McapScan {
   std::map<uint16_t, std::string> schemas_;
   std::map<uint16_t, Kind> kinds_;
   std::optional<CaptureNote> color_note_, depth_note_;  // of the image that comes next
+  struct Amplitude {
+    MessageHead head;
+    MessagePlace place;
+  };
+  std::optional<Amplitude> amplitude_;  // likewise
   Recording recording_;
 };
 
@@ -110,6 +116,8 @@ void McapScan::readMessage(const RecordPlace &record) {
   if (known == kinds_.end() || known->second == Kind::kNone || head.time_ns > INT64_MAX) return;
   if (isImage(known->second))
     addImage(known->second, head, record);
+  else if (isAmplitude(known->second))
+    amplitude_ = {head, placeOf(known->second, record)};
   else
     readSmallMessage(known->second, head, {bytes.data + kMessageHeadBytes, shown});
 }
@@ -128,6 +136,11 @@ void McapScan::readSmallMessage(Kind kind, const MessageHead &head, ByteView dat
     addPose(static_cast<int64_t>(head.time_ns), pose);
 }
 
+MessagePlace McapScan::placeOf(Kind kind, const RecordPlace &record) const {
+  return {kind, static_cast<uint32_t>(recording_.chunks.size() - 1), record.content + kMessageHeadBytes,
+          record.bytes - kMessageHeadBytes};
+}
+
 void McapScan::addImage(Kind kind, const MessageHead &head, const RecordPlace &record) {
   const bool is_color = streamOf(kind) == SPHC_STREAM_COLOR;
   std::vector<RecordedImage> &images = is_color ? recording_.color : recording_.depth;
@@ -137,8 +150,12 @@ void McapScan::addImage(Kind kind, const MessageHead &head, const RecordPlace &r
   image.sequence = head.sequence;
   if (note && note->time_ns == image.time_ns && note->sequence == image.sequence) image.note = *note;
   note.reset();
-  image.place = {kind, static_cast<uint32_t>(recording_.chunks.size() - 1), record.content + kMessageHeadBytes,
-                 record.bytes - kMessageHeadBytes};
+  image.place = placeOf(kind, record);
+  if (!is_color) {
+    if (amplitude_ && amplitude_->head.time_ns == head.time_ns && amplitude_->head.sequence == head.sequence)
+      image.amplitude = amplitude_->place;
+    amplitude_.reset();
+  }
   if (!images.empty() && images.back().time_ns >= image.time_ns) {
     in_order_ = false;
     ++recording_.lost_count;

@@ -42,7 +42,11 @@ sphc_localizer_frame RecordingReader::read(uint32_t index) {
   depth_pixels_.resize(images_.depthBytes());
   const sphc_image color_image = images_.read(SPHC_STREAM_COLOR, color, color_pixels_.data());
   const sphc_image depth_image = images_.read(SPHC_STREAM_DEPTH, depth, depth_pixels_.data());
-  return spherecloud::frame(color.sequence, color.time_ns, color_image, depth.time_ns, depth_image);
+  sphc_localizer_frame frame =
+      spherecloud::frame(color.sequence, color.time_ns, color_image, depth.time_ns, depth_image);
+  if (depth.amplitude.kind != Kind::kNone) amplitude_pixels_.resize(images_.depthBytes());
+  frame.amplitude = images_.readAmplitude(depth, amplitude_pixels_.data());
+  return frame;
 }
 
 std::optional<sphc_localizer_frame> RecordingReader::tryRead(uint32_t index, std::string *why) {

@@ -31,7 +31,7 @@ class RecordingReader {
   uint32_t frameCount() const { return static_cast<uint32_t>(frames_.size()); }
   const RecordedImage &colorOf(uint32_t index) const { return recording_.color[frames_.at(index).color]; }
   const RecordedImage &depthOf(uint32_t index) const { return recording_.depth[frames_.at(index).depth]; }
-  // Decodes a frame into memory that is valid until the next read.
+  // Decodes a frame into memory that is valid until the next read; with amplitudes, where it has them.
   sphc_localizer_frame read(uint32_t index);
   // The same where a bad frame is left out: none when it cannot be read, and why.
   std::optional<sphc_localizer_frame> tryRead(uint32_t index, std::string *why = nullptr);
@@ -47,7 +47,7 @@ class RecordingReader {
   int64_t pose_gap_ns_;
   std::vector<FramePair> frames_;
   ImageReader images_;
-  Bytes color_pixels_, depth_pixels_;
+  Bytes color_pixels_, depth_pixels_, amplitude_pixels_;
 };
 
 }  // namespace sphc::recording

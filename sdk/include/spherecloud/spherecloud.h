@@ -480,7 +480,7 @@ typedef struct sphc_localizer_config {
 
   sphc_format depth_format; /* of frame.depth, a DEPTH or RANGE format; 0: SPHC_FORMAT_DEPTH16 */
   /* Measurements whose pixel in frame.amplitude is below this are ignored, and so are those between two surfaces
-   * (flying pixels).  0: there is no frame.amplitude. */
+   * (flying pixels).  0: frame.amplitude is not looked at. */
   uint32_t amplitude_min;
   sphc_band color_band; /* what the colour camera sees; maps of another band are refused */
   uint32_t reserved2;
@@ -524,7 +524,8 @@ typedef struct sphc_localizer_frame {
   uint32_t reserved;
   uint64_t reserved2; /* 0; puts what follows behind the struct's first version on machines of 32 bits too */
   /* How much of its own light the depth sensor saw in each pixel, or how sure it is of it: GRAY8, GRAY10, GRAY12 or
-   * GRAY16; the depth image's size.  Zero but where config.amplitude_min is set, which says what is believed. */
+   * GRAY16; the depth image's size.  Every frame has one where config.amplitude_min is set, which says what is
+   * believed; else it is not looked at. */
   sphc_image amplitude;
 } sphc_localizer_frame;
 

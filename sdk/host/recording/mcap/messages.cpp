@@ -77,6 +77,9 @@ constexpr ChannelText kChannels[] = {
     {Kind::kDepthCapture, "/depth/capture", kCapture, SPHC_STREAM_DEPTH, ""},
     {Kind::kPose, "/pose", kPoseStamped, SPHC_STREAM_NONE, ""},
     {Kind::kDrops, "/drops", kDrop, SPHC_STREAM_NONE, ""},
+    {Kind::kAmplitudeImage, "/depth/amplitude", kImage, SPHC_STREAM_DEPTH, ""},
+    {Kind::kAmplitudeZstd, "/depth/amplitude/spherecloud", kCompressedImage, SPHC_STREAM_DEPTH,
+     "mono16; spherecloud zstd"},
 };
 
 const ChannelText &channelOf(Kind kind) {
@@ -109,9 +112,12 @@ void skipStamp(CdrReader &message) {
 constexpr std::pair<sphc_format, std::string_view> kEncodings[] = {{SPHC_FORMAT_GRAY8, "mono8"},
                                                                    {SPHC_FORMAT_RGB8, "rgb8"},
                                                                    {SPHC_FORMAT_BGR8, "bgr8"},
-                                                                   {SPHC_FORMAT_DEPTH16, "16UC1"}};
+                                                                   {SPHC_FORMAT_DEPTH16, "16UC1"},
+                                                                   {SPHC_FORMAT_GRAY16, "mono16"}};
 
-const char *frameOf(sphc_format format) { return format == SPHC_FORMAT_DEPTH16 ? "depth_camera" : "color_camera"; }
+const char *frameOf(sphc_format format) {
+  return format == SPHC_FORMAT_DEPTH16 || format == SPHC_FORMAT_GRAY16 ? "depth_camera" : "color_camera";
+}
 
 }  // namespace
 
@@ -122,6 +128,8 @@ Kind kindOf(std::string_view topic, std::string_view schema) {
 }
 
 bool isImage(Kind kind) { return kind >= Kind::kColorImage && kind <= Kind::kDepthZstd; }
+
+bool isAmplitude(Kind kind) { return kind == Kind::kAmplitudeImage || kind == Kind::kAmplitudeZstd; }
 
 sphc_stream streamOf(Kind kind) { return channelOf(kind).stream; }
 

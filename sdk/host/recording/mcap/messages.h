@@ -18,12 +18,16 @@ enum class Kind : uint16_t {
   kColorCapture,
   kDepthCapture,
   kPose,
-  kDrops
+  kDrops,
+  kAmplitudeImage,
+  kAmplitudeZstd,
+  kLast = kAmplitudeZstd
 };
 
 // kNone for a topic or schema that is none of ours.
 Kind kindOf(std::string_view topic, std::string_view schema);
-bool isImage(Kind kind);
+bool isImage(Kind kind);      // of colour or depth
+bool isAmplitude(Kind kind);  // of the depth image that follows
 sphc_stream streamOf(Kind kind);
 
 // The schemas, then these channels.
@@ -75,7 +79,7 @@ bool readCaptureNote(ByteView message, CaptureNote &note);
 bool readPoseMessage(ByteView message, sphc_rigid &world_from_camera);
 bool readDrop(ByteView message, Drop &drop);
 
-// "bgr8" and so on; empty, or 0, for what is none.
+// "bgr8" and so on, GRAY16 for amplitudes; empty, or 0, for what is none.
 std::string_view encodingOf(sphc_format format);
 sphc_format formatOf(std::string_view encoding);
 

@@ -47,7 +47,7 @@ void McapWriter::endMessage() {
 
 void McapWriter::putMessageIndexes() {
   index_.clear();
-  for (uint16_t channel = 1; channel <= static_cast<uint16_t>(Kind::kDrops); ++channel) {
+  for (uint16_t channel = 1; channel <= static_cast<uint16_t>(Kind::kLast); ++channel) {
     const auto count = std::count_if(entries_.begin(), entries_.end(),
                                      [channel](const Entry &entry) { return entry.channel == channel; });
     if (count == 0) continue;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "handle.h"
@@ -70,6 +71,34 @@ class SimulatedAmplitude : public testing::Test {
   std::unique_ptr<Handle> handle_;
   sphc_rig rig_ = {};
 };
+
+// Of a module that drops nothing; another one has dropped already what they would tell of.
+TEST_F(SimulatedAmplitude, GoesWithTheSourcesRawDepth) {
+  for (const uint32_t raw : {1u, 0u}) {
+    sphc_simulated_config config = defaults();
+    config.raw_depth = raw;
+    const Handle handle(config);
+    sphc_source source{};
+    source.struct_size = sizeof source;
+    ASSERT_EQ(sphc_simulated_source(handle.get(), &source), SPHC_OK);
+    ASSERT_EQ(source.start(source.self), SPHC_OK);
+    sphc_capture color{}, depth{};
+    color.struct_size = depth.struct_size = sizeof color;
+    ASSERT_EQ(source.acquire(source.self, 0, &color), SPHC_OK);
+    ASSERT_EQ(source.acquire(source.self, 0, &depth), SPHC_OK);
+    EXPECT_EQ(color.amplitude.data, nullptr);
+    ASSERT_EQ(depth.stream, SPHC_STREAM_DEPTH);
+    ASSERT_EQ(depth.amplitude.data != nullptr, raw == 1);
+    std::vector<uint16_t> expected(kDepthPixels);
+    ASSERT_EQ(sphc_simulated_render_depth(handle.get(), 0, expected.data()), SPHC_OK);
+    EXPECT_EQ(std::memcmp(depth.image.data, expected.data(), 2 * kDepthPixels), 0);
+    if (!raw) continue;
+    EXPECT_EQ(depth.amplitude.format, SPHC_FORMAT_GRAY16);
+    EXPECT_EQ(depth.amplitude.stride_bytes, 2 * SPHC_SIMULATED_DEPTH_WIDTH);
+    ASSERT_EQ(sphc_simulated_render_amplitude(handle.get(), 0, expected.data()), SPHC_OK);
+    EXPECT_EQ(std::memcmp(depth.amplitude.data, expected.data(), 2 * kDepthPixels), 0);
+  }
+}
 
 TEST_F(SimulatedAmplitude, TellsWhatNotToBelieve) {
   Errors raw, masked;

@@ -314,6 +314,27 @@ void expectBands(const TempFolder &folder, const std::string &build, const std::
   EXPECT_EQ(runCommand(localize + " --band ultraviolet -m " + infrared).exit_code, kExitUsage);
 }
 
+// From the headset to the localizer, and not lost on the way without a word.
+void expectAmplitudes(const TempFolder &folder, const std::string &map) {
+  const std::string raw = folder / "raw.mcap", again = folder / "raw_again.mcap";
+  ASSERT_EQ(runCommand("simulate --raw-depth --frames 2 --rate 6 --out " + raw).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("convert " + raw + " " + again).exit_code, kExitDone);
+  const Answer masked = runCommand("localize --json --amplitude-min 75 -r " + again + " -m " + map);
+  EXPECT_EQ(masked.exit_code, kExitDone) << masked.err;
+  EXPECT_EQ(nlohmann::json::parse(masked.out)["settings"]["amplitude_min"], "75");
+  EXPECT_EQ(runCommand("live --json --amplitude-min 75 --device replay:" + again + " -m " + map).exit_code,
+            kExitDone);
+  EXPECT_EQ(runCommand("localize -r " + again + " -m " + map).exit_code, kExitDone);  // they are not asked for
+
+  const Answer folder_of_it = runCommand("convert " + raw + " " + (folder / "raw_walk"));
+  EXPECT_THAT(folder_of_it.err, HasSubstr("amplitudes of 2 depth images are left out"));
+  const Answer without = runCommand("localize --amplitude-min 75 -r " + (folder / "raw_walk") + " -m " + map);
+  EXPECT_EQ(without.exit_code, kExitFailure);
+  EXPECT_THAT(without.err, HasSubstr("amplitude image is missing"));
+  EXPECT_THAT(runCommand("simulate --raw-depth --frames 1 --out " + (folder / "raw_folder")).err,
+              HasSubstr("keeps no amplitudes"));
+}
+
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const TempFolder folder;
@@ -349,6 +370,7 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   EXPECT_TRUE(blind["within_5cm_5deg_percent"].is_null());
 
   expectCaptures(folder, walk, map);
+  expectAmplitudes(folder, map);
 
   // In another place's map.
   writeTinyMap(folder / "other.sphc", 200);

@@ -1,4 +1,4 @@
-#include "host/cli/common/band_option.h"
+#include "host/cli/common/light_options.h"
 
 #include <map>
 
@@ -13,6 +13,17 @@ CLI::Option *addBandOption(CLI::App *app, sphc_band *band, const char *text) {
       ->transform(CLI::CheckedTransformer(bands).description(""))
       ->default_str(bandName(*band))
       ->type_name("visible|infrared");
+}
+
+CLI::Option *addAmplitudeOption(CLI::App *app, uint32_t *amplitude_min) {
+  return app
+      ->add_option(
+          "--amplitude-min", *amplitude_min,
+          "Depth is ignored where the sensor saw less of its own light, and between two surfaces; 0: all is "
+          "believed")
+      ->capture_default_str()
+      ->check(CLI::Range(0u, 65535u))
+      ->type_name("N");
 }
 
 }  // namespace sphc::host

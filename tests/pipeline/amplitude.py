@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""What do masks by amplitude do to poses?  Raw depth of the simulated headset, localized without masks and with them.
+
+    amplitude.py --spherecloud BIN [--rooms N]      rewrites amplitude.csv, for review
+
+A ToF module that drops nothing measures the query; the map is made of what one measures that drops what it does not believe.
+"""
+import argparse
+import concurrent.futures
+import csv
+import hashlib
+import os
+import pathlib
+import statistics
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from recordings import HERE, run
+
+RESULTS = HERE / "amplitude.csv"
+ROOMS = list(range(5001, 5013))  # seeds of room and walk that nothing else uses
+FAINT = 75  # SPHC_SIMULATED_FAINT
+LAP_S, FRAMES = 16, 30
+ETA = 0.33
+# What the world is made of, and of every how many frames of lap one there is a map.
+WORLDS = {"room": ([], 1), "room, thin map": ([], 5), "hall, thin map": (["--with", "tiles,bare,doubles,mirror,window"], 5)}
+COLUMNS = ["world", "amplitude_min", "rooms", "frames", "localized", "right", "wrong", "median_mm", "worst_median_mm", "p90_mm",
+           "worst_p90_mm", "worst_mm"]
+
+
+def simulate(tool, out, seed, *arguments):
+    if not out.exists():
+        run([tool, "simulate", "--out", out, "--seed", seed, "--walk-seed", seed, "--frames", FRAMES, "--rate", FRAMES / LAP_S,
+             "--threads", 1, *arguments, "--json"])
+    return out
+
+
+def build(tool, walk, step, seed, file):
+    key = file.with_suffix(".key")
+    key.write_text(hashlib.sha256(b"spherecloud amplitude key %d" % seed).hexdigest() + "\n")
+    key.chmod(0o600)
+    run([tool, "build", "--recording", walk, "--step", step, "--map", file, "--eta", ETA, "--key", key,
+         "--ledger", file.with_suffix(".ledger"), "--force", "--json"])
+    return file
+
+
+def answers(tool, folder, seed):
+    """Of one room: the summary of each world without masks and with them."""
+    for number, (world, (arguments, step)) in enumerate(WORLDS.items()):
+        name = "%d%s" % (seed, "_hard" if arguments else "")
+        walk = simulate(tool, folder / (name + "_map"), seed, *arguments)
+        query = simulate(tool, folder / (name + "_query.mcap"), seed, "--from", LAP_S, "--raw-depth", *arguments)
+        map_file = build(tool, walk, step, seed, folder / ("%d_%d.sphc" % (seed, number)))
+        for least in (0, FAINT):
+            yield (world, least), run([tool, "localize", "--recording", query, "--map", map_file, "--owner-note",
+                                       str(map_file) + ".owner.json", "--mode", "single", "--amplitude-min", least, "--json"])
+
+
+def row_of(summaries):
+    def total(name):
+        return sum(summary[name] for summary in summaries)
+
+    def errors_mm(name):  # of the rooms that have poses
+        return [1000 * summary["translation_error_m"][name] for summary in summaries if summary["localized"]]
+
+    def mm(value):
+        return "%.2f" % value
+
+    return [len(summaries), total("frames"), total("localized"), total("within_5cm_5deg"), total("wrong_accepted"),
+            mm(statistics.median(errors_mm("median"))), mm(max(errors_mm("median"))), mm(statistics.median(errors_mm("p90"))),
+            mm(max(errors_mm("p90"))), mm(max(errors_mm("worst")))]
+
+
+def measure(tool, folder, rooms):
+    """Rows by world and mask, over all rooms."""
+    found = {}
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for room in pool.map(lambda seed: list(answers(tool, folder, seed)), ROOMS[:rooms]):
+            for key, summary in room:
+                found.setdefault(key, []).append(summary)
+    return [[*key, *row_of(summaries)] for key, summaries in found.items()]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--spherecloud", required=True)
+    parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [amplitude.csv]")
+    parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(1, len(ROOMS) + 1), metavar="N", help="how many [12]")
+    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="where walks and maps are kept")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = arguments.keep or pathlib.Path(scratch)
+        folder.mkdir(parents=True, exist_ok=True)
+        rows = measure(arguments.spherecloud, folder, arguments.rooms)
+    with arguments.results.open("w", newline="") as out:
+        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+
+
+if __name__ == "__main__":
+    main()
