@@ -208,6 +208,11 @@ def others(pipeline):
          "Sequences of 30 frames, broken in every way. Wrong: beyond 25 cm or 10 deg; sure: with a confidence above 0.5.\n"
          "`named`: frames whose result names a fault. Method: [consistency.md](consistency.md).",
          flat(rows("negative.csv"), ["recording", "fakes", "mode"])),
+        ("Masks by amplitude", "pipeline/amplitude.csv", "amplitude_results",
+         "Raw depth of the simulated headset, localized without masks (`amplitude_min` 0) and with them. Right: within 5 cm and\n"
+         "5 deg; wrong: beyond 25 cm or 10 deg. Errors: the median over the rooms, and the worst room. Method:\n"
+         "[formats.md](formats.md#amplitude-and-confidence-of-depth).",
+         flat(rows("amplitude.csv"), ["world"])),
         ("Hints", "pipeline/hints.csv", "hints_results",
          "Frames without a pose under conditions, and what they are told. `told`: the hint of the condition; of healthy frames, none.\n"
          "Method: [hints.md](hints.md).",
