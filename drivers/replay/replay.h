@@ -121,10 +121,10 @@ typedef struct sphc_replay_frame_info {
 /* Set info->struct_size first.  Errors: ARGUMENT (index too), STRUCT_SIZE. [shared] */
 sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index, sphc_replay_frame_info *info);
 
-/* Decodes frame `index` and fills *frame (struct_size too); frame->amplitude where the recording has one, GRAY16.  The images are owned by the handle and valid until its
- * next read or its close; the source has buffers of its own and does not disturb them.
- * Errors: ARGUMENT, DEVICE (missing or corrupt image), IMAGE (does not fit the calibration); the message names the
- * file, and another frame can be read. [exclusive] */
+/* Decodes frame `index` and fills *frame (struct_size too); frame->amplitude where the recording has one, GRAY16.
+ * The images are owned by the handle and valid until its next read or its close; the source has buffers of its own
+ * and does not disturb them. Errors: ARGUMENT, DEVICE (missing or corrupt image), IMAGE (does not fit the
+ * calibration); the message names the file, and another frame can be read. [exclusive] */
 sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_localizer_frame *frame,
                                    sphc_message *message);
 

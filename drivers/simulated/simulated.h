@@ -91,8 +91,8 @@ typedef struct sphc_simulated_config {
   double walk_start_s;       /* where on the walk frame 0 is; 0 to 1e6; lap_s is the begin of lap two; default 0 */
 
   uint32_t raw_depth; /* 1: what a ToF module measures before it drops what it does not believe: noise where little
-                         light comes back, anything where nearly none does, all mixed pixels of edges; the source's depth captures
-                         then have amplitudes; default 0 */
+                         light comes back, anything where nearly none does, all mixed pixels of edges; the source's
+                         depth captures then have amplitudes; default 0 */
   uint32_t reserved;
 } sphc_simulated_config;
 

@@ -79,10 +79,10 @@ void recording(const uint8_t *data, size_t bytes) {
   sphc_replay_close(&replay);
 }
 
-constexpr recording::Kind kImageKinds[] = {
-    recording::Kind::kColorImage, recording::Kind::kColorJpeg,      recording::Kind::kDepthImage,
-    recording::Kind::kDepthRvl,   recording::Kind::kDepthZstd,      recording::Kind::kAmplitudeImage,
-    recording::Kind::kAmplitudeZstd};
+constexpr recording::Kind kImageKinds[] = {recording::Kind::kColorImage,   recording::Kind::kColorJpeg,
+                                           recording::Kind::kDepthImage,   recording::Kind::kDepthRvl,
+                                           recording::Kind::kDepthZstd,    recording::Kind::kAmplitudeImage,
+                                           recording::Kind::kAmplitudeZstd};
 
 // The place of its kind in the list above, then the message.
 void message(const uint8_t *data, size_t bytes) {

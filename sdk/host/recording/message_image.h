@@ -8,8 +8,9 @@ namespace sphc::recording {
 
 class MessageDecoder {
  public:
-  // Fills `pixels` with an image of the camera's size: DEPTH16, GRAY16 of amplitudes, or colour in `format`.  Throws Failure without a
-  // name: DEVICE when the message is malformed, IMAGE when the image does not fit the calibration.
+  // Fills `pixels` with an image of the camera's size: DEPTH16, GRAY16 of amplitudes, or colour in `format`. Throws
+  // Failure without a name: DEVICE when the message is malformed, IMAGE when the image does not fit the
+  // calibration.
   void decode(Kind kind, ByteView message, const sphc_camera &camera, sphc_format format, uint8_t *pixels);
 
  private:

@@ -115,7 +115,8 @@ bool checkDepthFormat(sphc_format configured, const sphc_rig &rig, double depth_
 sphc_status checkAmplitude(const sphc_image &image, const FrameLimits &limits, sphc_message *message) {
   if (!limits.amplitude_min) return SPHC_OK;  // not looked at
   if (!image.data) {
-    MessageWriter(message) << "amplitude image is missing; give one with every frame, or set config.amplitude_min to 0";
+    MessageWriter(message)
+        << "amplitude image is missing; give one with every frame, or set config.amplitude_min to 0";
     return SPHC_E_IMAGE;
   }
   const LumaLayout layout = pixelFormatOf(image.format).luma;
