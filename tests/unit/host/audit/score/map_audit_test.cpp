@@ -118,7 +118,8 @@ TEST(MapAudit, WhatIsAllowedMayStayUnmeasured) {
 TEST(MapAudit, WithoutNetworksWhatNeedsThemIsMissing) {
   AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
   input.networks.clear();
-  EXPECT_THAT(audit(input).missingGates(), testing::ElementsAre("real_or_fake.auc", "inversion.of_papers"));
+  EXPECT_THAT(audit(input).missingGates(),
+              testing::ElementsAre("real_or_fake.auc", "inversion.of_papers", "inversion.of_papers_fine"));
 }
 
 TEST(MapAudit, AllowingDoesNotExcuseWhatIsBroken) {
