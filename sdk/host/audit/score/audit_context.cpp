@@ -78,7 +78,7 @@ const std::vector<std::vector<ModelPoint>> &AuditContext::photos() {
   std::set<std::string> mapped;
   for (const PlacePoint &point : input_.place->points) mapped.insert(bytesOf(point.seen.descriptor));
   photos_.emplace();
-  for (const std::vector<ModelPoint> &frame : input_.queries) {
+  for (const std::vector<ModelPoint> &frame : input_.photos.empty() ? input_.queries : input_.photos) {
     photos_->emplace_back();
     for (const ModelPoint &point : frame)
       if (!mapped.count(bytesOf(point.descriptor))) photos_->back().push_back(point);

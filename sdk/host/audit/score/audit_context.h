@@ -39,7 +39,7 @@ class AuditContext {
   const Published &unprotected();         // all points in their true directions
   const std::vector<uint32_t> &stacks();  // as an attacker finds them
   const std::vector<uint32_t> &layers();  // of the stacks; layersOf
-  // Frames of the recording without the very keypoints that the map was made of: as another photo sees the place.
+  // The input's, without the very keypoints that the map was made of.
   const std::vector<std::vector<ModelPoint>> &photos();
   // The same, from the centre.
   std::vector<std::vector<OwnPoint>> ownPhotos(size_t count);

@@ -15,6 +15,7 @@ AttackResult runRealOrFake(AuditContext *context) {
                           {"real_or_fake.auc_paper", context->paper().study.scores.back().auc}}};
   if (strongest.auc_of_layers > 0)
     result.measurements.push_back({"real_or_fake.auc_of_layers", strongest.auc_of_layers});
+  result.real_or_fake = context->realOrFake().scores;
   return result;
 }
 
