@@ -60,12 +60,16 @@ def places(tool, rooms, wanted):
 ALL_PLACES = ["redkitchen", "hololens", *("room %d" % seed for seed in ROOMS)]
 
 
+def without_map(folder):
+    for stale in folder.glob("map.*"):
+        stale.unlink()
+
+
 def audited(options, folder, name, recording, strategy):
     """Rows of the figures, and the inversions, of each key."""
     tool, model = options.spherecloud, folder / "points.model"
     for key in range(1, KEYS + 1):
-        for stale in folder.glob("map.*"):
-            stale.unlink()
+        without_map(folder)
         digits = folder / "key"
         digits.write_text("%064x\n" % key)
         digits.chmod(0o600)
@@ -142,6 +146,7 @@ def main():
         folder = pathlib.Path(folder)
         pooled = collections.defaultdict(lambda: [0, 0, 0])  # strategy, points: views, coarse hits, fine hits
         for name, recording, photos in places(options.spherecloud, options.rooms or folder, options.places):
+            without_map(folder)
             run([options.spherecloud, "build", *recording, "--save-model", folder / "points.model", "--map",
                  folder / "map.sphc", "--ledger", folder / "map.ledger", "--key", private_key(folder), "--force", "--json"])
             for strategy in options.strategies:
