@@ -5,8 +5,8 @@
 
 Real recordings are looked for in $SPHC_DATA, else in ../shared/data beside the repository.  Simulated rooms 901 to 906,
 which no attacker has trained on, are made in FOLDER unless they are there.  Every place is published under two keys;
-figures are means of both.  Rows are replaced one by one: what is not measured stays.  The views of all places are put
-together for the rows of map "all", when everything is measured.
+figures are means of both.  Rows are replaced one by one: what is not measured stays.  The rows of map "all" put the views of
+all places together, and are made anew of the table for every strategy whose pictures all places have.
 """
 import argparse
 import collections
@@ -66,7 +66,7 @@ def without_map(folder):
 
 
 def audited(options, folder, name, recording, strategy):
-    """Rows of the figures, and the inversions, of each key."""
+    """Rows of the figures, of each key."""
     tool, model = options.spherecloud, folder / "points.model"
     for key in range(1, KEYS + 1):
         without_map(folder)
@@ -76,16 +76,16 @@ def audited(options, folder, name, recording, strategy):
         ledger, figures = folder / "map.ledger", folder / "map.csv"
         run([tool, "build", "--model", model, "--map", folder / "map.sphc", "--ledger", ledger, "--key", digits,
              "--fakes", strategy, "--json"])
-        found = run([tool, "audit", folder / "map.sphc", "--truth", ledger, *recording, "--figures", figures, "--name",
+        run([tool, "audit", folder / "map.sphc", "--truth", ledger, *recording, "--figures", figures, "--name",
                      name, "--json", *(word for attack in options.only for word in ("--only", attack))],
-                    accepted=(0, 4, 5))
+            accepted=(0, 4, 5))
         with figures.open(newline="") as rows:
-            yield list(csv.DictReader(rows)), found["inversions"]
+            yield list(csv.DictReader(rows))
 
 
 def name_of(row):
-    """What a row is of.  A remark that counts views or repeats eta is none of it."""
-    variant = "" if row["attack"] == "audit" else row["variant"]
+    """What a row is of.  The remark of a figure of the audit counts something, and is none of it."""
+    variant = "" if row["attack"] == "audit" and "." in row["metric"] else row["variant"]
     return row["attack"], row["map"], row["strategy"], variant, row["metric"]
 
 
@@ -97,41 +97,53 @@ def means(of_keys):
     return {name: {**row, "value": "%.4g" % mean(values[name])} for name, row in first.items()}
 
 
-def replace(fresh):
-    """In the table: rows of the same name in their place, others after the last of their group."""
+def read_results():
     with RESULTS.open(newline="") as results:
-        reader = csv.DictReader(results)
-        head, rows = reader.fieldnames, list(reader)
-    fresh = dict(fresh)
-    rows = [fresh.pop(name_of(row), row) for row in rows]
-    for row in fresh.values():
-        group = [i for i, other in enumerate(rows)
-                 if all(other[column] == row[column] for column in ("attack", "map", "strategy"))]
-        rows.insert(group[-1] + 1 if group else len(rows), row)
+        return list(csv.DictReader(results))
+
+
+def write_results(rows):
     with RESULTS.open("w", newline="") as results:
-        writer = csv.DictWriter(results, head, lineterminator="\n")
+        writer = csv.DictWriter(results, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
 
 
-def pooled_rows(pooled):
-    for (strategy, points), (views, coarse, fine) in pooled.items():
-        for metric, hits in (("coarse", coarse), ("fine", fine)):
-            share = hits / views
-            error = (share * (1 - share) / (views / KEYS)) ** 0.5  # the keys show the same views
-            for suffix, value in (("", "%.4g" % share), ("_standard_error", "%.2g" % error)):
-                yield {"attack": "audit", "map": "all", "strategy": strategy, "eta": "0.33", "variant": points,
-                       "metric": "retrieval_" + metric + suffix, "value": value}
+def replace(fresh):
+    """In the table: rows of the same name in their place, others after the last of their group."""
+    fresh = dict(fresh)
+    rows = [fresh.pop(name_of(row), row) for row in read_results()]
+    for row in fresh.values():
+        group = [i for i, other in enumerate(rows)
+                 if all(other[column] == row[column] for column in ("attack", "map", "strategy"))]
+        rows.insert(group[-1] + 1 if group else len(rows), row)
+    write_results(rows)
 
 
-def without(rows_of_all):
-    """The table loses the rows of map "all" for strategies that are measured anew."""
-    strategies = {row["strategy"] for row in rows_of_all}
-    with RESULTS.open(newline="") as results:
-        rows = [row for row in csv.reader(results) if row[:2] != ["audit", "all"] or row[2] not in strategies]
-    with RESULTS.open("w", newline="") as results:
-        csv.writer(results, lineterminator="\n").writerows(
-            rows + [list(row.values()) for row in rows_of_all])
+def put_together(rows):
+    """Rows of map "all": what share of the views of all places is told."""
+    told = collections.defaultdict(dict)  # strategy, points, metric: place: value
+    for row in rows:
+        if row["attack"] == "audit" and row["map"] != "all" and row["metric"] in ("retrieval_coarse", "retrieval_fine", "views"):
+            told[row["strategy"], row["variant"], row["metric"]][row["map"]] = float(row["value"])
+    for (strategy, points, metric), of_places in told.items():
+        views = told[strategy, points, "views"]
+        if metric == "views" or set(of_places) != set(ALL_PLACES):
+            continue
+        total = sum(views.values())
+        share = sum(of_places[place] * views[place] for place in views) / total
+        error = (share * (1 - share) / total) ** 0.5  # both keys show the same views
+        for suffix, value in (("", "%.4g" % share), ("_standard_error", "%.2g" % error)):
+            yield {"attack": "audit", "map": "all", "strategy": strategy, "eta": "0.33", "variant": points,
+                   "metric": metric + suffix, "value": value}
+
+
+def replace_all():
+    rows = read_results()
+    fresh = list(put_together(rows))
+    strategies = {row["strategy"] for row in fresh}
+    write_results([row for row in rows if (row["attack"], row["map"]) != ("audit", "all") or row["strategy"] not in strategies]
+                  + fresh)
 
 
 def main():
@@ -144,24 +156,16 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        pooled = collections.defaultdict(lambda: [0, 0, 0])  # strategy, points: views, coarse hits, fine hits
         for name, recording, photos in places(options.spherecloud, options.rooms or folder, options.places):
             without_map(folder)
             run([options.spherecloud, "build", *recording, "--save-model", folder / "points.model", "--map",
                  folder / "map.sphc", "--ledger", folder / "map.ledger", "--key", private_key(folder), "--force", "--json"])
             for strategy in options.strategies:
-                rows_of_keys, inversions = zip(*audited(options, folder, name, [*recording, *photos], strategy))
-                fresh = means(rows_of_keys)
+                fresh = means(audited(options, folder, name, [*recording, *photos], strategy))
                 replace(fresh)
-                print(name, strategy, {row["metric"]: row["value"] for row in fresh.values() if row["attack"] == "audit"},
+                print(name, strategy, {row["metric"]: row["value"] for row in fresh.values() if "." in row["metric"]},
                       flush=True)
-                for row in (row for rows in inversions for row in rows):
-                    sums = pooled[strategy, row["points"]]
-                    sums[0] += row["views"]
-                    sums[1] += row["views"] * row["retrieval_coarse"]
-                    sums[2] += row["views"] * row["retrieval_fine"]
-    if set(options.places) == set(ALL_PLACES):
-        without(list(pooled_rows(pooled)))
+    replace_all()
 
 
 if __name__ == "__main__":

@@ -136,6 +136,12 @@ std::vector<PrivacyRow> rowsOf(const AuditOptions &options, const MapAudit &audi
     if (!figure.value) continue;
     rows.push_back({"audit", name, strategy, eta, figure.remark, figure.kind.name, *figure.value});
   }
+  for (const InversionResult &result : audit.inversions) {
+    rows.push_back({"audit", name, strategy, eta, result.name, "retrieval_coarse", result.coarse.top1});
+    rows.push_back({"audit", name, strategy, eta, result.name, "retrieval_fine", result.fine.top1});
+    rows.push_back(
+        {"audit", name, strategy, eta, result.name, "views", static_cast<double>(result.pictures.size())});
+  }
   return rows;
 }
 
