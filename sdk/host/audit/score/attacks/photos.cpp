@@ -13,8 +13,8 @@
 namespace sphc::host {
 namespace {
 
-constexpr size_t kPhotos = 5;
-constexpr double kHomeRad = 0.02;  // as near a client puts what it recognises
+constexpr size_t kPhotos = 5, kCompared = 16;  // photos; marks of a stack that others are compared with
+constexpr double kHomeRad = 0.02;              // as near a client puts what it recognises
 
 struct Marks {
   std::vector<uint32_t> real, fake;  // as the attacker believes
@@ -54,10 +54,11 @@ AttackResult runPhotos(AuditContext *context) {
        {"photos.reach", shareOf(realBeside(marks.real, context->truth(), context->layers()), real)}}};
 }
 
-// How well an entry goes with some of its stack: the mean by the pairs' network.
-double companyOf(const Eigen::MatrixXf &components, uint32_t entry, const std::vector<uint32_t> &marked,
+// How well an entry goes with some that are marked in its stack: the mean by the pairs' network.
+double companyOf(const Eigen::MatrixXf &components, uint32_t entry, const std::vector<uint32_t> &all_marked,
                  const CoOccurrence &network) {
-  if (marked.empty()) return 0;
+  if (all_marked.empty()) return 0;
+  const std::vector<uint32_t> marked = everyNth(all_marked, kCompared);
   Eigen::MatrixXf own(static_cast<Eigen::Index>(marked.size()), components.cols()), others = own;
   for (size_t k = 0; k < marked.size(); ++k) {
     own.row(static_cast<Eigen::Index>(k)) = components.row(entry);
