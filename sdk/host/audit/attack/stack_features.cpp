@@ -17,7 +17,7 @@ constexpr int kBestElsewhere = 6;
 constexpr float kFarLooks = 450;                                     // of descriptors: no more alike than strangers
 constexpr float kSoftenRad = 0.02f, kNobodyRad = 1.5f;               // added to angles; where too few look alike
 constexpr float kBinsDeg[] = {2, 4, 6, 8, 10, 13, 17, 25, 40, 181};  // upper ends
-constexpr Index kBins = std::size(kBinsDeg), kOfBest = 5;
+constexpr Index kAngleBins = std::size(kBinsDeg), kOfBest = 5;
 constexpr double kPatchRad = 0.07;  // half a patch, about: the unit of places in a stack
 
 float angleOf(const Vector3 &a, const Vector3 &b) {
@@ -50,7 +50,7 @@ void describeBins(const std::vector<Vector3> &directions, const Neighbours &alik
     const float angle_deg = angleOf(directions[point], directions[other]) * static_cast<float>(180 / kPi);
     const auto bin =
         std::find_if(std::begin(kBinsDeg), std::end(kBinsDeg), [&](float end) { return angle_deg < end; });
-    float &best = out[std::min(bin - std::begin(kBinsDeg), kBins - 1)];
+    float &best = out[std::min(bin - std::begin(kBinsDeg), kAngleBins - 1)];
     best = std::min(best, alike.distances(static_cast<Index>(point), k));
   }
 }
@@ -86,21 +86,22 @@ Eigen::MatrixXf stackFeatures(const std::vector<Vector3> &directions, const MapN
     next += columns;
     return values.middleCols(next - columns, columns);
   };
-  auto best = take(kOfBest), best_mirrored = take(kOfBest), bins = take(kBins), bins_mirrored = take(kBins);
+  auto best = take(kOfBest), best_mirrored = take(kOfBest), bins = take(kAngleBins),
+       bins_mirrored = take(kAngleBins);
   for (size_t i = 0; i < directions.size(); ++i) {
     const auto row = static_cast<Index>(i);
-    Eigen::RowVectorXf found(kOfBest + kBins);
+    Eigen::RowVectorXf found(kOfBest + kAngleBins);
     const auto describe = [&](const Neighbours &alike, auto &&of_best, auto &&of_bins) {
       describeBest(directions, alike, stacks, i, found.head(kOfBest));
-      describeBins(directions, alike, i, found.tail(kBins));
+      describeBins(directions, alike, i, found.tail(kAngleBins));
       of_best.row(row) = found.head(kOfBest);
-      of_bins.row(row) = found.tail(kBins);
+      of_bins.row(row) = found.tail(kAngleBins);
     };
     describe(neighbours.alike, best, bins);
     describe(neighbours.mirrored, best_mirrored, bins_mirrored);
   }
   take(2) = best.leftCols(2) - best_mirrored.leftCols(2);
-  take(kBins) = bins - bins_mirrored;
+  take(kAngleBins) = bins - bins_mirrored;
   for (const Index k : {7, 31, 47}) {
     const ArrayXf spacing = (neighbours.beside.distances.col(k) + 1e-4f).log();
     take(1) = (spacing - medianSpacing(spacing)).matrix();
