@@ -244,10 +244,13 @@ def privacy(rows):
          "Points recovered from lines alone. Method: [baselines.md](baselines.md#the-density-attack).",
          attack(rows, "density")),
         ("Real or fake", "pipeline/privacy.csv", "audit_results",
-         "AUC by cue and classifier (0.5 is chance), then the precision of the share eta that scores highest (chance: eta).\n"
-         "Method: [real_or_fake.md](real_or_fake.md).",
-         attack_by_map(rows, "real_or_fake", "auc") + "\nPrecision:\n\n"
-         + attack_by_map(rows, "real_or_fake", "precision_at_eta")),
+         "AUC by cue and classifier (0.5 is chance); precision of the share eta and of the tenth that score highest (chance:\n"
+         "eta); AUC of layers that an oracle has separated. Patchwork and warped: means of two keys. Method:\n"
+         "[real_or_fake.md](real_or_fake.md).",
+         attack_by_map(rows, "real_or_fake", "auc")
+         + "\nPrecision of the share eta:\n\n" + attack_by_map(rows, "real_or_fake", "precision_at_eta")
+         + "\nPrecision of the first tenth:\n\n" + attack_by_map(rows, "real_or_fake", "precision_at_tenth")
+         + "\nAUC of layers:\n\n" + attack_by_map(rows, "real_or_fake", "auc_of_layers")),
         ("Image inversion", "pipeline/privacy.csv", "audit_results",
          "Pictures painted from the sphere centre, before near-duplicates were merged and with one network; the audit below\n"
          "has maps as they are published today. Method: [inversion.md](inversion.md).",

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Audits maps of recordings and of simulated rooms, and writes the figures into privacy.csv.
 
-    privacy.py --spherecloud BIN [--rooms FOLDER]
+    privacy.py --spherecloud BIN [--rooms FOLDER] [--strategies NAME...] [--places NAME...] [--only ATTACK...]
 
 Real recordings are looked for in $SPHC_DATA, else in ../shared/data beside the repository.  Simulated rooms 901 to 906,
-which no attacker has trained on, are made in FOLDER unless they are there.  The views of all places are put together for
-the rows of map "all".
+which no attacker has trained on, are made in FOLDER unless they are there.  Every place is published under two keys;
+figures are means of both.  Rows are replaced one by one: what is not measured stays.  The rows of map "all" put the views of
+all places together, and are made anew of the table for every strategy whose pictures all places have.
 """
 import argparse
 import collections
@@ -16,6 +17,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+from statistics import mean
 
 from private_key import private_key
 
@@ -23,7 +25,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 DATA = pathlib.Path(os.environ.get("SPHC_DATA", HERE.parent.parent.parent / "shared" / "data"))
 RESULTS = HERE / "privacy.csv"
 ROOMS = range(901, 907)
-STRATEGIES = ("gaussian", "patchwork")
+STRATEGIES = ("gaussian", "patchwork", "warped")
+KEYS = 2
 
 
 def run(command, accepted=(0,)):
@@ -33,51 +36,136 @@ def run(command, accepted=(0,)):
     return json.loads(result.stdout)
 
 
-def places(tool, rooms):
+def room(tool, path, seed, walk_seed, *options):
+    if not path.exists():
+        run([tool, "simulate", "--out", path, "--seed", seed, "--walk-seed", walk_seed, *options, "--json"])
+    return path
+
+
+def places(tool, rooms, wanted):
+    """(name, what it is mapped from, photos that it is not mapped from)"""
     calibration = HERE / "calibration"
-    yield "redkitchen", ["--recording", DATA / "redkitchen/seq-01", "--calibration", calibration / "redkitchen.json",
-                         "--last", 597, "--step", 3]
-    yield "hololens", ["--recording", DATA / "hololens", "--calibration", calibration / "hololens.json"]
+    real = {"redkitchen": ([DATA / "redkitchen/seq-01", "--calibration", calibration / "redkitchen.json", "--last", 597,
+                            "--step", 3], ["--photos-first", 620, "--photos-last", 799]),
+            "hololens": ([DATA / "hololens", "--calibration", calibration / "hololens.json"], [])}
+    for name, (recording, photos) in real.items():
+        if name in wanted:
+            yield name, ["--recording", *recording], photos
     for seed in ROOMS:
-        room = rooms / str(seed)
-        if not room.exists():
-            run([tool, "simulate", "--out", room, "--seed", seed, "--walk-seed", seed, "--json"])
-        yield "room %d" % seed, ["--recording", room]
+        if "room %d" % seed in wanted:
+            photos = room(tool, rooms / ("%d.photos" % seed), seed, seed + 1000, "--frames", 30, "--rate", 2)
+            yield "room %d" % seed, ["--recording", room(tool, rooms / str(seed), seed, seed)], ["--photos", photos]
+
+
+ALL_PLACES = ["redkitchen", "hololens", *("room %d" % seed for seed in ROOMS)]
+
+
+def without_map(folder):
+    for stale in folder.glob("map.*"):
+        stale.unlink()
+
+
+def audited(options, folder, name, recording, strategy):
+    """Rows of the figures, of each key."""
+    tool, model = options.spherecloud, folder / "points.model"
+    for key in range(1, KEYS + 1):
+        without_map(folder)
+        digits = folder / "key"
+        digits.write_text("%064x\n" % key)
+        digits.chmod(0o600)
+        ledger, figures = folder / "map.ledger", folder / "map.csv"
+        run([tool, "build", "--model", model, "--map", folder / "map.sphc", "--ledger", ledger, "--key", digits,
+             "--fakes", strategy, "--json"])
+        run([tool, "audit", folder / "map.sphc", "--truth", ledger, *recording, "--figures", figures, "--name",
+                     name, "--json", *(word for attack in options.only for word in ("--only", attack))],
+            accepted=(0, 4, 5))
+        with figures.open(newline="") as rows:
+            yield list(csv.DictReader(rows))
+
+
+def name_of(row):
+    """What a row is of.  The remark of a figure of the audit counts something, and is none of it."""
+    variant = "" if row["attack"] == "audit" and "." in row["metric"] else row["variant"]
+    return row["attack"], row["map"], row["strategy"], variant, row["metric"]
+
+
+def means(of_keys):
+    values, first = collections.defaultdict(list), {}
+    for row in (row for rows in of_keys for row in rows):
+        values[name_of(row)].append(float(row["value"]))
+        first.setdefault(name_of(row), row)
+    return {name: {**row, "value": "%.4g" % mean(values[name])} for name, row in first.items()}
+
+
+def read_results():
+    with RESULTS.open(newline="") as results:
+        return list(csv.DictReader(results))
+
+
+def write_results(rows):
+    with RESULTS.open("w", newline="") as results:
+        writer = csv.DictWriter(results, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def replace(fresh):
+    """In the table: rows of the same name in their place, others after the last of their group."""
+    fresh = dict(fresh)
+    rows = [fresh.pop(name_of(row), row) for row in read_results()]
+    for row in fresh.values():
+        group = [i for i, other in enumerate(rows)
+                 if all(other[column] == row[column] for column in ("attack", "map", "strategy"))]
+        rows.insert(group[-1] + 1 if group else len(rows), row)
+    write_results(rows)
+
+
+def put_together(rows):
+    """Rows of map "all": what share of the views of all places is told."""
+    told = collections.defaultdict(dict)  # strategy, points, metric: place: value
+    for row in rows:
+        if row["attack"] == "audit" and row["map"] != "all" and row["metric"] in ("retrieval_coarse", "retrieval_fine", "views"):
+            told[row["strategy"], row["variant"], row["metric"]][row["map"]] = float(row["value"])
+    for (strategy, points, metric), of_places in told.items():
+        views = told[strategy, points, "views"]
+        if metric == "views" or set(of_places) != set(ALL_PLACES):
+            continue
+        total = sum(views.values())
+        share = sum(of_places[place] * views[place] for place in views) / total
+        error = (share * (1 - share) / total) ** 0.5  # both keys show the same views
+        for suffix, value in (("", "%.4g" % share), ("_standard_error", "%.2g" % error)):
+            yield {"attack": "audit", "map": "all", "strategy": strategy, "eta": "0.33", "variant": points,
+                   "metric": metric + suffix, "value": value}
+
+
+def replace_all():
+    rows = read_results()
+    fresh = list(put_together(rows))
+    strategies = {row["strategy"] for row in fresh}
+    write_results([row for row in rows if (row["attack"], row["map"]) != ("audit", "all") or row["strategy"] not in strategies]
+                  + fresh)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--rooms", type=pathlib.Path)
+    parser.add_argument("--strategies", nargs="+", default=STRATEGIES, choices=STRATEGIES)
+    parser.add_argument("--places", nargs="+", default=ALL_PLACES, choices=ALL_PLACES)
+    parser.add_argument("--only", nargs="+", default=[], metavar="ATTACK")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        pooled = collections.defaultdict(lambda: [0, 0, 0])  # strategy, points: views, coarse hits, fine hits
-        for name, recording in places(options.spherecloud, options.rooms or folder):
-            for strategy in STRATEGIES:
-                stem = folder / ("%s_%s" % (name.replace(" ", ""), strategy))
-                truth = stem.with_suffix(".ledger")
-                run([options.spherecloud, "build", *recording, "--map", stem.with_suffix(".sphc"), "--ledger", truth,
-                     "--key", private_key(folder), "--fakes", strategy, "--json"])
-                found = run([options.spherecloud, "audit", stem.with_suffix(".sphc"), "--truth", truth, *recording,
-                             "--figures", RESULTS, "--name", name, "--json"], accepted=(0, 4))
-                print(name, strategy, {f["name"]: round(f["value"], 3) for f in found["figures"] if "value" in f},
+        for name, recording, photos in places(options.spherecloud, options.rooms or folder, options.places):
+            without_map(folder)
+            run([options.spherecloud, "build", *recording, "--save-model", folder / "points.model", "--map",
+                 folder / "map.sphc", "--ledger", folder / "map.ledger", "--key", private_key(folder), "--force", "--json"])
+            for strategy in options.strategies:
+                fresh = means(audited(options, folder, name, [*recording, *photos], strategy))
+                replace(fresh)
+                print(name, strategy, {row["metric"]: row["value"] for row in fresh.values() if "." in row["metric"]},
                       flush=True)
-                for row in found["inversions"]:
-                    sums = pooled[strategy, row["points"]]
-                    sums[0] += row["views"]
-                    sums[1] += row["views"] * row["retrieval_coarse"]
-                    sums[2] += row["views"] * row["retrieval_fine"]
-    with RESULTS.open(newline="") as results:
-        rows = [row for row in csv.reader(results) if row[:2] != ["audit", "all"]]
-    for (strategy, points), (views, coarse, fine) in pooled.items():
-        for metric, hits in (("coarse", coarse), ("fine", fine)):
-            share = hits / views
-            error = (share * (1 - share) / views) ** 0.5
-            rows.append(["audit", "all", strategy, "0.33", points, "retrieval_" + metric, "%.4g" % share])
-            rows.append(["audit", "all", strategy, "0.33", points, "retrieval_%s_standard_error" % metric, "%.2g" % error])
-    with RESULTS.open("w", newline="") as results:
-        csv.writer(results, lineterminator="\n").writerows(rows)
+    replace_all()
 
 
 if __name__ == "__main__":

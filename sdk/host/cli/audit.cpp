@@ -23,8 +23,9 @@ namespace {
 
 struct AuditOptions {
   std::string map, truth, report, figures, name, networks;
-  RecordingOptions recording;
-  std::vector<std::string> releases, limits, allow_unmeasured;
+  RecordingOptions recording, photos;
+  bool has_photos = false;
+  std::vector<std::string> releases, limits, allow_unmeasured, only;
   uint32_t queries = 10;
   bool quick = false, force = false;
 };
@@ -34,6 +35,7 @@ FileUse fileUse(const AuditOptions &options) {
   files.reads("the map", options.map);
   files.reads("--truth", options.truth);
   files.reads(options.recording);
+  files.reads("--photos", options.photos.folder);
   for (const std::string &release : options.releases) files.reads("--release", release);
   files.reads("--networks", options.networks);
   files.writesFolder("--report", options.report, holds("<title>Audit of "));
@@ -70,6 +72,18 @@ std::string networksOf(const AuditOptions &options) {
   return options.networks.empty() ? auditNetworks() : options.networks;
 }
 
+bool isRun(const std::string &attack, const AuditOptions &options) {
+  return options.only.empty() || std::find(options.only.begin(), options.only.end(), attack) != options.only.end();
+}
+
+// By the recording's camera, and where nothing else is said, in its folder.
+RecordingOptions photosOf(const AuditOptions &options) {
+  RecordingOptions photos = options.photos;
+  if (photos.folder.empty()) photos.folder = options.recording.folder;
+  photos.calibration = options.recording.calibration;
+  return photos;
+}
+
 AuditInput inputOf(const AuditOptions &options) {
   AuditInput input;
   input.file = readMap(options.map);
@@ -79,15 +93,19 @@ AuditInput inputOf(const AuditOptions &options) {
   if (options.truth.empty()) return input;
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
-  input.views = viewsOf(options, *input.place);
+  if (isRun("inversion", options)) input.views = viewsOf(options, *input.place);
   for (PointModel &frame : importFrames(options.recording, options.queries, "querying  "))
     input.queries.push_back(std::move(frame.points));
+  if (options.has_photos)
+    for (PointModel &frame : importFrames(photosOf(options), options.queries, "photos    "))
+      input.photos.push_back(std::move(frame.points));
   return input;
 }
 
 AuditRules rulesOf(const AuditOptions &options) {
   AuditRules rules;
   rules.allow_unmeasured = options.allow_unmeasured;
+  rules.only = options.only;
   for (const std::string &text : options.limits) {
     const size_t equals = text.find('=');
     try {
@@ -111,11 +129,18 @@ AuditRules rulesOf(const AuditOptions &options) {
 // For a table of results.
 std::vector<PrivacyRow> rowsOf(const AuditOptions &options, const MapAudit &audit, const AuditInput &input) {
   const std::string name = options.name.empty() ? std::filesystem::path(options.map).stem().string() : options.name;
-  std::vector<PrivacyRow> rows;
+  const std::string strategy = input.place ? input.place->strategy : "unknown";
+  const double eta = input.place ? input.place->eta : 0;
+  std::vector<PrivacyRow> rows = realOrFakeRows(audit.real_or_fake, name, strategy, eta);
   for (const AuditFigure &figure : audit.figures) {
     if (!figure.value) continue;
-    rows.push_back({"audit", name, input.place ? input.place->strategy : "unknown",
-                    input.place ? input.place->eta : 0, figure.remark, figure.kind.name, *figure.value});
+    rows.push_back({"audit", name, strategy, eta, figure.remark, figure.kind.name, *figure.value});
+  }
+  for (const InversionResult &result : audit.inversions) {
+    rows.push_back({"audit", name, strategy, eta, result.name, "retrieval_coarse", result.coarse.top1});
+    rows.push_back({"audit", name, strategy, eta, result.name, "retrieval_fine", result.fine.top1});
+    rows.push_back(
+        {"audit", name, strategy, eta, result.name, "views", static_cast<double>(result.pictures.size())});
   }
   return rows;
 }
@@ -176,6 +201,8 @@ int exitCodeOf(AuditOutcome outcome) {
 int run(const AuditOptions &options, const Console &console) {
   if (options.truth.empty() && !options.recording.folder.empty())
     throw UsageError("--recording tells nothing without --truth; give the ledger too");
+  if (options.has_photos && options.recording.folder.empty())
+    throw UsageError("--photos tell nothing without --recording; give what the map was made of too");
   const AuditRules rules = rulesOf(options);
   fileUse(options).check();
   const AuditInput input = inputOf(options);
@@ -190,7 +217,8 @@ int run(const AuditOptions &options, const Console &console) {
 
 const char kAuditHelp[] =
     "Runs the attacks that are known against a map file and scores them by what its owner knows: density of\n"
-    "lines, real against fake, inverted pictures, other releases, a querying client.  Ends with status 4 when a\n"
+    "lines, real against fake, inverted pictures, other releases, photos, querying clients.  Ends with status 4 "
+    "when a\n"
     "limit is broken, and with 5 when a limit was not measured, so that a release stops there.";
 const char kAuditExample[] =
     "Example:\n"
@@ -213,12 +241,21 @@ Command auditCommand(CLI::App *root) {
   app->get_option("--recording")->required(false);
   app->add_option("--release", options->releases, "Other maps of the place that were published")->type_name("MAP");
   app->add_option("--queries", options->queries, "Frames of a client")->capture_default_str()->type_name("N");
+  auto *photos = app->add_option("--photos", options->photos.folder,
+                                 "Frames of the place that the map was not made of, posed in the same world")
+                     ->type_name("PATH");
+  auto *first = app->add_option("--photos-first", options->photos.first, "First of them")->type_name("N");
+  auto *last = app->add_option("--photos-last", options->photos.last, "Last of them")->type_name("N");
   app->add_option("--limit", options->limits, "Another limit: NAME=NUMBER")->type_name("NAME=X");
   app->add_option("--allow-unmeasured", options->allow_unmeasured,
                   "What may stay unmeasured: a figure, an attack, or truth, networks, releases; repeat")
       ->expected(1)
       ->take_all()
       ->type_name("NAME");
+  app->add_option("--only", options->only, "Attacks to run, the others being not measured; repeat [all]")
+      ->expected(1)
+      ->take_all()
+      ->type_name("ATTACK");
   app->add_option("--report", options->report, "Folder for a page with pictures")->type_name("FOLDER");
   app->add_option("--figures", options->figures, "Write the figures into this table too")->type_name("CSV");
   app->add_option("--name", options->name, "Name of the map in that table [the file's]")->type_name("NAME");
@@ -226,7 +263,10 @@ Command auditCommand(CLI::App *root) {
       ->type_name("FOLDER");
   app->add_flag("--quick", options->quick, "Fewer lines and views: within half a minute");
   addForceOption(app, &options->force);
-  return {app, [options](const Console &console) { return run(*options, console); }};
+  return {app, [options, photos, first, last](const Console &console) {
+            options->has_photos = *photos || *first || *last;
+            return run(*options, console);
+          }};
 }
 
 }  // namespace sphc::host

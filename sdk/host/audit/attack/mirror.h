@@ -1,6 +1,8 @@
 // The descriptor of a keypoint's mirror image: rows of cells and the sense of angles turn round.  What the builder
 // may have done to fakes an attacker can do too, with nothing of the builder's.
 #pragma once
+#include <vector>
+
 #include "runtime/types/keypoint.h"
 
 namespace sphc::host {
@@ -13,6 +15,12 @@ inline Descriptor mirrorOf(const Descriptor &descriptor) {
     mirror.bytes[i] = descriptor.bytes[((kSide - 1 - row) * kSide + column) * kBins + (kBins - bin) % kBins];
   }
   return mirror;
+}
+
+inline std::vector<Descriptor> mirrorsOf(const std::vector<Descriptor> &descriptors) {
+  std::vector<Descriptor> mirrors;
+  for (const Descriptor &descriptor : descriptors) mirrors.push_back(mirrorOf(descriptor));
+  return mirrors;
 }
 
 }  // namespace sphc::host

@@ -87,12 +87,17 @@ Neighbours descriptorNeighbours(const std::vector<Descriptor> &descriptors, int 
   return neighbours;
 }
 
-Eigen::ArrayXf nearestDistances(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &table) {
-  Eigen::ArrayXf distances(static_cast<Eigen::Index>(queries.size()));
-  searchAll(queries, table, 1, [&](Eigen::Index i, const std::vector<Ranked> &found) {
-    distances[i] = std::sqrt(static_cast<float>(found[0].distance2));
+Neighbours nearestDescriptors(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &table,
+                              int count) {
+  const auto rows = static_cast<Eigen::Index>(queries.size());
+  Neighbours nearest = {Eigen::ArrayXXi(rows, count), Eigen::ArrayXXf(rows, count)};
+  searchAll(queries, table, static_cast<size_t>(count), [&](Eigen::Index i, const std::vector<Ranked> &found) {
+    for (Eigen::Index k = 0; k < count; ++k) {
+      nearest.indices(i, k) = static_cast<int>(found[static_cast<size_t>(k)].index);
+      nearest.distances(i, k) = std::sqrt(static_cast<float>(found[static_cast<size_t>(k)].distance2));
+    }
   });
-  return distances;
+  return nearest;
 }
 
 }  // namespace sphc::host

@@ -18,7 +18,8 @@ struct Neighbours {
 Neighbours directionNeighbours(const std::vector<Vector3> &directions, int count);       // chords
 Neighbours descriptorNeighbours(const std::vector<Descriptor> &descriptors, int count);  // L2 of bytes
 
-// From each of `queries` to the nearest of `table`, L2 of bytes.
-Eigen::ArrayXf nearestDistances(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &table);
+// A row a query: the nearest of `table`, which has `count` or more; L2 of bytes.
+Neighbours nearestDescriptors(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &table,
+                              int count);
 
 }  // namespace sphc::host

@@ -15,7 +15,7 @@ class RealOrFakeClassifier {
   explicit RealOrFakeClassifier(const std::string &path);
 
   // For each point the probability that it is real.
-  Eigen::ArrayXf probabilities(const RealOrFakeFeatures &features) const;
+  Eigen::ArrayXf probabilities(const RealOrFakeFeatures &features, const Neighbours &beside) const;
 
  private:
   explicit RealOrFakeClassifier(const nlohmann::json &json);
@@ -24,7 +24,8 @@ class RealOrFakeClassifier {
 };
 
 // What the second stage learns from.
-Eigen::MatrixXf withNeighboursScores(const RealOrFakeFeatures &features, const Eigen::ArrayXf &scores);
+Eigen::MatrixXf withNeighboursScores(const RealOrFakeFeatures &features, const Neighbours &beside,
+                                     const Eigen::ArrayXf &scores);
 
 struct RealOrFakeGuess {
   std::string attacker;        // a cue, or the strategy whose fakes it knows

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include "host/audit/attack/mirror.h"
-#include "host/audit/attack/stacks.h"
 #include "runtime/stages/match/distance.h"
 
 namespace sphc::host {
@@ -15,7 +12,7 @@ using Eigen::ArrayXf;
 using Eigen::ArrayXXf;
 using Eigen::Index;
 
-constexpr int kBeside = 48, kLookalikes = 16, kPaired = 12, kShownComponents = 16;
+constexpr int kNearLookalikes = 16, kPaired = 12, kShownComponents = 16;
 
 class Columns {
  public:
@@ -79,9 +76,9 @@ void addLooksBeside(const std::vector<Descriptor> &descriptors, const Neighbours
 
 // How far those lie that look like it.
 ArrayXf addLookalikes(const Published &map, const Neighbours &alike, Columns *columns) {
-  ArrayXXf chords(alike.indices.rows(), kLookalikes);
+  ArrayXXf chords(alike.indices.rows(), kNearLookalikes);
   for (Index i = 0; i < chords.rows(); ++i)
-    for (Index k = 0; k < kLookalikes; ++k)
+    for (Index k = 0; k < kNearLookalikes; ++k)
       chords(i, k) = static_cast<float>((map.directions[i] - map.directions[alike.indices(i, k)]).norm());
   const ArrayXXf logs = (chords + 1e-4f).log();
   columns->add(logs.col(0));
@@ -95,13 +92,10 @@ ArrayXf addLookalikes(const Published &map, const Neighbours &alike, Columns *co
 }
 
 // Where fakes are mirror images, most of what a real point resembles is its own mirror image.
-ArrayXf addMirror(const std::vector<Descriptor> &descriptors, const Neighbours &alike, const Neighbours &beside,
-                  Columns *columns) {
-  std::vector<Descriptor> mirrors;
-  for (const Descriptor &descriptor : descriptors) mirrors.push_back(mirrorOf(descriptor));
-  const ArrayXf cue = ((alike.distances.col(0) + 1) / (nearestDistances(mirrors, descriptors) + 1)).log();
+ArrayXf addMirror(const MapNeighbours &neighbours, Columns *columns) {
+  const ArrayXf cue = ((neighbours.alike.distances.col(0) + 1) / (neighbours.mirrored.distances.col(0) + 1)).log();
   columns->add(cue);
-  columns->add(meanOfNeighbours(cue, beside, 16));
+  columns->add(meanOfNeighbours(cue, neighbours.beside, 16));
   return cue;
 }
 
@@ -121,21 +115,17 @@ ArrayXf addCoOccurrence(const Eigen::MatrixXf &components, const Neighbours &bes
 
 }  // namespace
 
-RealOrFakeFeatures realOrFakeFeatures(const Published &map, const CoOccurrence &co_occurrence) {
-  if (map.directions.size() <= kBeside)
-    throw std::runtime_error("the map has " + std::to_string(map.directions.size()) + " points; more than " +
-                             std::to_string(kBeside) + " are needed to tell real from fake");
+RealOrFakeFeatures realOrFakeFeatures(const Published &map, const MapNeighbours &neighbours,
+                                      const CoOccurrence &co_occurrence) {
+  const Neighbours &beside = neighbours.beside;
   Columns columns(static_cast<Index>(map.directions.size()));
   RealOrFakeFeatures features;
-  features.beside = directionNeighbours(map.directions, kBeside);
-  features.density = addDensity(features.beside, &columns);
-  addLooksBeside(map.descriptors, features.beside, &columns);
-  const Neighbours alike = descriptorNeighbours(map.descriptors, kLookalikes);
-  features.lookalikes = addLookalikes(map, alike, &columns);
-  features.other_stacks = lookalikesInOtherStacks(map.directions, alike);
-  features.mirror = addMirror(map.descriptors, alike, features.beside, &columns);
+  features.density = addDensity(beside, &columns);
+  addLooksBeside(map.descriptors, beside, &columns);
+  features.lookalikes = addLookalikes(map, neighbours.alike, &columns);
+  features.mirror = addMirror(neighbours, &columns);
   const Eigen::MatrixXf components = co_occurrence.components(map.descriptors);
-  features.co_occurrence = addCoOccurrence(components, features.beside, co_occurrence, &columns);
+  features.co_occurrence = addCoOccurrence(components, beside, co_occurrence, &columns);
   for (Index c = 0; c < kShownComponents; ++c) columns.add(components.col(c));
   features.values = columns.take();
   return features;

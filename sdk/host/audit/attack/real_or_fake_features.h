@@ -5,8 +5,7 @@
 #include <Eigen/Core>
 
 #include "host/audit/attack/co_occurrence.h"
-#include "host/audit/attack/neighbours.h"
-#include "host/audit/attack/published.h"
+#include "host/audit/attack/map_neighbours.h"
 
 namespace sphc::host {
 
@@ -14,12 +13,11 @@ constexpr Eigen::Index kRealOrFakeFeatures = 60;
 
 struct RealOrFakeFeatures {
   Eigen::MatrixXf values;  // a row a point, kRealOrFakeFeatures columns
-  Neighbours beside;       // by direction
   // Each a cue by itself, larger for points that seem real.
-  Eigen::ArrayXf density, lookalikes, other_stacks, mirror, co_occurrence;
+  Eigen::ArrayXf density, lookalikes, mirror, co_occurrence;
 };
 
-// Throws std::runtime_error when the map has too few points to have neighbours.
-RealOrFakeFeatures realOrFakeFeatures(const Published &map, const CoOccurrence &co_occurrence);
+RealOrFakeFeatures realOrFakeFeatures(const Published &map, const MapNeighbours &neighbours,
+                                      const CoOccurrence &co_occurrence);
 
 }  // namespace sphc::host

@@ -81,8 +81,8 @@ std::vector<uint32_t> stacksOf(const std::vector<Vector3> &directions) {
   return labels;
 }
 
-Eigen::ArrayXf lookalikesInOtherStacks(const std::vector<Vector3> &directions, const Neighbours &alike) {
-  const std::vector<uint32_t> stacks = stacksOf(directions);
+Eigen::ArrayXf lookalikesInOtherStacks(const std::vector<Vector3> &directions, const Neighbours &alike,
+                                       const std::vector<uint32_t> &stacks) {
   Eigen::ArrayXf scores(alike.indices.rows());
   for (Index i = 0; i < scores.size(); ++i) {
     const auto point = static_cast<size_t>(i);

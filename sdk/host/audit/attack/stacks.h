@@ -14,6 +14,7 @@ std::vector<uint32_t> stacksOf(const std::vector<Vector3> &directions);
 
 // Larger where those of `alike` (nearest descriptors) that lie in other stacks lie near: minus the mean logarithm
 // of the angle, of the best six.
-Eigen::ArrayXf lookalikesInOtherStacks(const std::vector<Vector3> &directions, const Neighbours &alike);
+Eigen::ArrayXf lookalikesInOtherStacks(const std::vector<Vector3> &directions, const Neighbours &alike,
+                                       const std::vector<uint32_t> &stacks);
 
 }  // namespace sphc::host

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/audit/score/inversion_audit.h"
+#include "host/audit/score/real_or_fake_scores.h"
 
 namespace sphc::host {
 
@@ -33,6 +34,7 @@ struct AttackResult {
   // What inverted pictures show, for people to look at.
   std::vector<InversionView> views = {};
   std::vector<InversionResult> inversions = {};
+  std::vector<RealOrFakeScores> real_or_fake = {};  // an attacker each
 };
 
 struct Attack {

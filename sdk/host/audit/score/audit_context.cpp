@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 #include "host/audit/attack/real_or_fake.h"
+#include "host/audit/attack/stacks.h"
+#include "host/audit/score/layers.h"
 #include "host/publish/fakes/strategy.h"
 #include "host/publish/secret_random.h"
 #include "runtime/map/crc32.h"
@@ -23,9 +26,17 @@ size_t releasesNotGivenOf(const AuditInput &input) {
                                            [&](const Release &release) { return !given.count(release.crc32); }));
 }
 
-RealOrFakeStudy studyOf(const Published &map, const std::vector<bool> &real, const std::string &networks) {
+// The paper's fakes do not.
+bool liesInStacks(const AuditInput &input) { return input.place->strategy != gaussianFakes()->name(); }
+
+std::string bytesOf(const Descriptor &descriptor) {
+  return {reinterpret_cast<const char *>(descriptor.bytes), kDescriptorBytes};
+}
+
+RealOrFakeStudy studyOf(const Published &map, const std::vector<bool> &real, const std::vector<uint32_t> &layers,
+                        const std::string &networks) {
   std::vector<RealOrFakeGuess> guesses = guessRealOrFake(map, networks);
-  RealOrFakeStudy study = {scoreRealOrFake(guesses, real), {}};
+  RealOrFakeStudy study = {scoreRealOrFake(guesses, real, layers), {}};
   const auto strongest = std::max_element(study.scores.begin(), study.scores.end() - 1,
                                           [](const auto &a, const auto &b) { return a.auc < b.auc; });
   study.strongest = std::move(guesses[static_cast<size_t>(strongest - study.scores.begin())].scores);
@@ -52,8 +63,43 @@ const Published &AuditContext::unprotected() {
   return *unprotected_;
 }
 
+const std::vector<uint32_t> &AuditContext::stacks() {
+  if (!stacks_) stacks_ = stacksOf(map_.directions);
+  return *stacks_;
+}
+
+const std::vector<uint32_t> &AuditContext::layers() {
+  if (!layers_) layers_ = layersOf(truth_, stacks());
+  return *layers_;
+}
+
+const std::vector<std::vector<ModelPoint>> &AuditContext::photos() {
+  if (photos_) return *photos_;
+  std::set<std::string> mapped;
+  for (const PlacePoint &point : input_.place->points) mapped.insert(bytesOf(point.seen.descriptor));
+  photos_.emplace();
+  for (const std::vector<ModelPoint> &frame : input_.photos.empty() ? input_.queries : input_.photos) {
+    photos_->emplace_back();
+    for (const ModelPoint &point : frame)
+      if (!mapped.count(bytesOf(point.descriptor))) photos_->back().push_back(point);
+  }
+  return *photos_;
+}
+
+std::vector<std::vector<OwnPoint>> AuditContext::ownPhotos(size_t count) {
+  std::vector<std::vector<OwnPoint>> own;
+  for (const std::vector<ModelPoint> &photo : everyNth(photos(), count)) {
+    own.emplace_back();
+    for (const ModelPoint &point : photo)
+      own.back().push_back({point.position_m - input_.place->centre_m, point.descriptor});
+  }
+  return own;
+}
+
 const RealOrFakeStudy &AuditContext::realOrFake() {
-  if (!real_or_fake_) real_or_fake_ = studyOf(map_, real_, input_.networks);
+  if (!real_or_fake_)
+    real_or_fake_ =
+        studyOf(map_, real_, liesInStacks(input_) ? layers() : std::vector<uint32_t>(), input_.networks);
   return *real_or_fake_;
 }
 
@@ -66,7 +112,7 @@ const PaperControl &AuditContext::paper() {
   shuffle(&points, &random);
   const auto real_count = static_cast<size_t>(eta_ * static_cast<double>(points.size()));
   paper_ = PaperControl{knownCloud(gaussianFakes()->assignments(points, real_count, &random)), {}};
-  paper_->study = studyOf(paper_->cloud.published, paper_->cloud.real, input_.networks);
+  paper_->study = studyOf(paper_->cloud.published, paper_->cloud.real, {}, input_.networks);
   return *paper_;
 }
 

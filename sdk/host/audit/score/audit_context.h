@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/audit/attack/querying_client.h"
 #include "host/audit/score/audit_input.h"
 #include "host/audit/score/known_cloud.h"
 #include "host/audit/score/real_or_fake_scores.h"
@@ -34,8 +35,14 @@ class AuditContext {
 
   // Of attacks that need the truth alone.
   const std::vector<EntryTruth> &truth() const { return truth_; }
-  double eta() const { return eta_; }  // share of real entries
-  const Published &unprotected();      // all points in their true directions
+  double eta() const { return eta_; }     // share of real entries
+  const Published &unprotected();         // all points in their true directions
+  const std::vector<uint32_t> &stacks();  // as an attacker finds them
+  const std::vector<uint32_t> &layers();  // of the stacks; layersOf
+  // The input's, without the very keypoints that the map was made of.
+  const std::vector<std::vector<ModelPoint>> &photos();
+  // The same, from the centre.
+  std::vector<std::vector<OwnPoint>> ownPhotos(size_t count);
 
   // Of attacks that need truth and networks.
   const RealOrFakeStudy &realOrFake();
@@ -49,6 +56,8 @@ class AuditContext {
   std::vector<bool> real_;
   double eta_ = 0;
   std::optional<Published> unprotected_;
+  std::optional<std::vector<uint32_t>> stacks_, layers_;
+  std::optional<std::vector<std::vector<ModelPoint>>> photos_;
   std::optional<RealOrFakeStudy> real_or_fake_;
   std::optional<PaperControl> paper_;
 };

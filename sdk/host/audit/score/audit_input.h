@@ -17,6 +17,7 @@ struct AuditInput {
   std::vector<InversionView> views;              // pictures of the place from the centre; else pseudo truth
   std::vector<std::vector<uint8_t>> releases;    // other maps of the place that were published
   std::vector<std::vector<ModelPoint>> queries;  // frames of a client, in the place's frame
+  std::vector<std::vector<ModelPoint>> photos;   // frames that the map was not made of, likewise; else `queries`
   bool quick = false;                            // fewer lines and views
 };
 

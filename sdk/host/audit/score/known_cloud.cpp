@@ -8,6 +8,7 @@ KnownCloud knownCloud(const std::vector<Assignment> &assignments) {
     cloud.published.directions.push_back(assignment.shown.direction);
     cloud.published.descriptors.push_back(assignment.shown.descriptor);
     cloud.real.push_back(assignment.real);
+    cloud.patches.push_back(assignment.patch);
   }
   return cloud;
 }

@@ -10,6 +10,7 @@ namespace sphc::host {
 struct KnownCloud {
   Published published;  // directions and descriptors alone
   std::vector<bool> real;
+  std::vector<uint32_t> patches;  // with which each point came
 };
 
 KnownCloud knownCloud(const std::vector<Assignment> &assignments);

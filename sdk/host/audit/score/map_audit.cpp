@@ -73,6 +73,10 @@ class MapAuditor {
 
  private:
   void run(const Attack &attack) {
+    if (!rules_.only.empty() && !contains(rules_.only, attack.name)) {
+      leaveOut(attack, {}, "left out by --only");
+      return;
+    }
     std::vector<Need> missing;
     for (Need need : attack.needs)
       if (!isMet(need, context_.input())) missing.push_back(need);
@@ -94,6 +98,7 @@ class MapAuditor {
       audit_.figures.push_back({*kind, measured.value, measured.standard_error, measured.remark});
     }
     if (!result.views.empty()) audit_.views = std::move(result.views);
+    if (!result.real_or_fake.empty()) audit_.real_or_fake = std::move(result.real_or_fake);
     std::move(result.inversions.begin(), result.inversions.end(), std::back_inserter(audit_.inversions));
     const bool needs_releases =
         std::find(attack.needs.begin(), attack.needs.end(), Need::kReleases) != attack.needs.end();
@@ -126,15 +131,19 @@ std::vector<std::string> unmeasuredGates(const MapAudit &audit, bool allowed) {
 }  // namespace
 
 void checkRules(const AuditRules &rules) {
-  std::vector<std::string> figures, others;
+  std::vector<std::string> figures, others, attacks;
   for (const NeedWords &need : kNeeds) others.push_back(need.name);
   for (const Attack &attack : allAttacks()) {
+    attacks.push_back(attack.name);
     others.push_back(attack.name);
     for (const FigureKind &kind : attack.figures) figures.push_back(kind.name);
   }
   for (const auto &[name, value] : rules.limits)
     if (!contains(figures, name))
       throw std::runtime_error("no figure is named " + name + "; audit prints their names");
+  for (const std::string &name : rules.only)
+    if (!contains(attacks, name))
+      throw std::runtime_error("no attack is named " + name + "; docs/audit.md has a table of them");
   for (const std::string &name : rules.allow_unmeasured)
     if (!contains(figures, name) && !contains(others, name))
       throw std::runtime_error(

@@ -15,6 +15,7 @@ struct AuditRules {
   std::map<std::string, double> limits;  // by figure, beside or in place of its own
   // What may stay unmeasured: names of figures, of attacks, or of needs (truth, recording, networks, releases).
   std::vector<std::string> allow_unmeasured;
+  std::vector<std::string> only;  // attacks to run; empty: all.  The others are not measured.
 };
 
 // Throws std::runtime_error when a name of the rules is none.
@@ -41,6 +42,7 @@ struct MapAudit {
   std::vector<AuditFigure> figures;
   std::vector<InversionView> views;
   std::vector<InversionResult> inversions;
+  std::vector<RealOrFakeScores> real_or_fake;
 
   AuditOutcome outcome() const;
   std::vector<std::string> missingGates() const;  // not measured, and nobody allowed it

@@ -8,7 +8,10 @@ std::string lineOf(const PrivacyRow &row) {
   char eta[32], value[32];
   std::snprintf(eta, sizeof eta, "%.2f", row.eta);
   std::snprintf(value, sizeof value, "%.4g", row.value);
-  return row.attack + "," + row.map + "," + row.strategy + "," + eta + "," + row.variant + "," + row.metric + "," +
+  // RFC 4180; no name has a quote in it.
+  const bool has_comma = row.variant.find(',') != std::string::npos;
+  const std::string variant = has_comma ? '"' + row.variant + '"' : row.variant;
+  return row.attack + "," + row.map + "," + row.strategy + "," + eta + "," + variant + "," + row.metric + "," +
          value;
 }
 

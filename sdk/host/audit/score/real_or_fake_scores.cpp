@@ -3,22 +3,28 @@
 #include <algorithm>
 
 #include "host/audit/score/auc.h"
+#include "host/audit/score/layers.h"
 #include "host/audit/score/precision.h"
 
 namespace sphc::host {
 
 std::vector<RealOrFakeScores> scoreRealOrFake(const std::vector<RealOrFakeGuess> &guesses,
-                                              const std::vector<bool> &real) {
+                                              const std::vector<bool> &real, const std::vector<uint32_t> &layers) {
   const auto reals = static_cast<double>(std::count(real.begin(), real.end(), true));
   const double eta = reals / static_cast<double>(real.size());
+  RealOrFakeScores strongest = {"strongest", 0, 0, 0, 0};
   std::vector<RealOrFakeScores> scores;
-  for (const RealOrFakeGuess &guess : guesses)
-    scores.push_back({guess.attacker, areaUnderCurve(guess.scores, real).value,
-                      precisionAtTop(guess.scores, real, eta), precisionAtTop(guess.scores, real, 0.1)});
-  RealOrFakeScores strongest =
-      *std::max_element(scores.begin(), scores.end(),
-                        [](const RealOrFakeScores &a, const RealOrFakeScores &b) { return a.auc < b.auc; });
-  strongest.attacker = "strongest";
+  for (const RealOrFakeGuess &guess : guesses) {
+    const RealOrFakeScores own = {
+        guess.attacker, areaUnderCurve(guess.scores, real).value, precisionAtTop(guess.scores, real, eta),
+        precisionAtTop(guess.scores, real, 0.1),
+        layers.empty() ? 0 : areaUnderCurve(layerMeans(guess.scores, layers), real).value};
+    for (double RealOrFakeScores::*figure :
+         {&RealOrFakeScores::auc, &RealOrFakeScores::precision_at_eta, &RealOrFakeScores::precision_at_tenth,
+          &RealOrFakeScores::auc_of_layers})
+      strongest.*figure = std::max(strongest.*figure, own.*figure);
+    scores.push_back(own);
+  }
   scores.push_back(strongest);
   return scores;
 }
@@ -33,6 +39,7 @@ std::vector<PrivacyRow> realOrFakeRows(const std::vector<RealOrFakeScores> &scor
     add("auc", score.auc);
     add("precision_at_eta", score.precision_at_eta);
     add("precision_at_tenth", score.precision_at_tenth);
+    if (score.auc_of_layers > 0) add("auc_of_layers", score.auc_of_layers);
   }
   return rows;
 }

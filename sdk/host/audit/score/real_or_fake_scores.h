@@ -11,11 +11,14 @@ namespace sphc::host {
 struct RealOrFakeScores {
   std::string attacker;
   double auc, precision_at_eta, precision_at_tenth;
+  double auc_of_layers;  // each point with the mean score of its layer; 0 where there are none
 };
 
-// One an attacker, and last the strongest of them by AUC, again, as "strongest".
+// One an attacker, and last "strongest": of each figure the most that any of them reaches.  `layers`: of layersOf,
+// or of who made the fakes; empty where fakes lie in no layers.
 std::vector<RealOrFakeScores> scoreRealOrFake(const std::vector<RealOrFakeGuess> &guesses,
-                                              const std::vector<bool> &real);
+                                              const std::vector<bool> &real,
+                                              const std::vector<uint32_t> &layers = {});
 
 // Rows of attack "real_or_fake".
 std::vector<PrivacyRow> realOrFakeRows(const std::vector<RealOrFakeScores> &scores, const std::string &map,

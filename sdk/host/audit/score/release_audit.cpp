@@ -8,6 +8,7 @@
 #include "host/audit/attack/presence.h"
 #include "host/audit/attack/querying_client.h"
 #include "host/audit/attack/triangulation.h"
+#include "host/audit/score/object.h"
 #include "host/audit/score/release_scores.h"
 #include "host/publish/release.h"
 #include "runtime/base/random.h"
@@ -17,7 +18,6 @@ namespace sphc::host {
 namespace {
 
 constexpr size_t kRebuilds = 8;
-constexpr size_t kObjectPoints = 40;  // of the object that a stranger has a picture of
 constexpr uint8_t kFirstKey = 1;
 
 // One release, as attackers see it and as the owner knows it.
@@ -68,18 +68,6 @@ PointModel lopsided(PointModel model) {
                    [](const ModelPoint &a, const ModelPoint &b) { return a.position_m.x() < b.position_m.x(); });
   points.resize(kept);
   return model;
-}
-
-std::vector<Descriptor> objectIn(const PointModel &frame, uint32_t around) {
-  std::vector<ModelPoint> points = frame.points;
-  const Vector3 middle = points[around].position_m;
-  std::sort(points.begin(), points.end(), [&](const ModelPoint &a, const ModelPoint &b) {
-    return (a.position_m - middle).squaredNorm() < (b.position_m - middle).squaredNorm();
-  });
-  points.resize(std::min(points.size(), kObjectPoints));
-  std::vector<Descriptor> object;
-  for (const ModelPoint &point : points) object.push_back(point.descriptor);
-  return object;
 }
 
 Audited ReleaseAuditor::release(const PointModel &model, uint8_t key, const std::vector<Place> &own) const {
@@ -153,17 +141,20 @@ void ReleaseAuditor::leak(const Audited &last) {
 }
 
 void ReleaseAuditor::testPresence(const Audited &last) {
-  std::vector<double> scores;
+  std::vector<double> plain, mirrored_too;
   std::vector<bool> present;
   Random random(11);
   for (const auto *frames : {&input_.queries, &input_.strangers})
     for (const PointModel &frame : *frames) {
       if (frame.points.size() < kObjectPoints) continue;
       const auto around = random.below(static_cast<uint32_t>(frame.points.size()));
-      scores.push_back(presenceScore(last.map, objectIn(frame, around)));
+      const std::vector<Descriptor> object = objectIn(frame.points, around);
+      plain.push_back(presenceScore(last.map, object));
+      mirrored_too.push_back(presenceScoreMirroredToo(last.map, object));
       present.push_back(frames == &input_.queries);
     }
-  add("presence", "object of 40 points", "auc", areaUnderCurve(scores, present).value);
+  add("presence", "object of 40 points", "auc", areaUnderCurve(plain, present).value);
+  add("presence", "object of 40 points, mirrored too", "auc", areaUnderCurve(mirrored_too, present).value);
 }
 
 void ReleaseAuditor::query(const Audited &last) {

@@ -50,6 +50,7 @@ std::vector<Patch> cut(const std::vector<SpherePoint> &points, double width_rad,
     Vector3 sum = Vector3::Zero();
     for (size_t i : patch.points) sum += points[i].direction;
     patch.middle = sum.normalized();
+    patch.number = static_cast<uint32_t>(&patch - patches.data());
   }
   return patches;
 }

@@ -7,6 +7,7 @@
 namespace sphc::host {
 
 struct Patch {
+  uint32_t number;  // among its cloud's
   std::vector<size_t> points;
   Vector3 middle;  // unit
 };

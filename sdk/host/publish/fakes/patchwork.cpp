@@ -96,7 +96,7 @@ class PatchworkFakes : public FakeStrategy {
     if (from_beside_) bringNear(go, width_rad, &partners, random);
     std::vector<Assignment> assignments(points.size());
     for (const Patch *patch : stay)
-      for (size_t i : patch->points) assignments[i] = {true, points[i]};
+      for (size_t i : patch->points) assignments[i] = {true, points[i], patch->number};
     for (size_t k = 0; k < go.size(); ++k)
       lay(points, *go[k], partners[k]->middle, width_rad, &assignments, random);
     return assignments;
@@ -113,7 +113,7 @@ class PatchworkFakes : public FakeStrategy {
     if (from_beside_) warp.emplace(kWarp * width_rad, kWarpReach * width_rad, random);
     for (size_t i : patch.points) {
       const Vector3 moved = (move * points[i].direction).normalized();
-      (*assignments)[i] = {false, {warp ? (*warp)(moved) : moved, mirrored(points[i].descriptor)}};
+      (*assignments)[i] = {false, {warp ? (*warp)(moved) : moved, mirrored(points[i].descriptor)}, patch.number};
     }
   }
 

@@ -19,7 +19,8 @@ struct SpherePoint {
 // What becomes of one point.
 struct Assignment {
   bool real;
-  SpherePoint shown;  // what the map says; the point itself when real
+  SpherePoint shown;   // what the map says; the point itself when real
+  uint32_t patch = 0;  // with which it came, of strategies that move whole patches; nobody else learns it
 };
 
 class FakeStrategy {

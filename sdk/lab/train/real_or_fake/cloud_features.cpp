@@ -12,9 +12,8 @@
 namespace sphc::host {
 namespace {
 
-void write(const RealOrFakeFeatures &features, const std::vector<bool> &real, const std::string &path) {
-  const Eigen::MatrixXf &values = features.values;
-  const Eigen::ArrayXXi &beside = features.beside.indices;
+void write(const Eigen::MatrixXf &values, const Eigen::ArrayXXi &beside, const std::vector<bool> &real,
+           const std::string &path) {
   std::ofstream out(path, std::ios::binary);
   for (const Eigen::Index size : {values.rows(), values.cols(), beside.cols()})
     writePlain(static_cast<uint32_t>(size), &out);
@@ -29,7 +28,9 @@ void write(const RealOrFakeFeatures &features, const std::vector<bool> &real, co
 void run(char **arguments) {
   const CoOccurrence co_occurrence(std::string(arguments[1]) + "/co_occurrence.json");
   const KnownCloud cloud = readCloud(arguments[2]);
-  write(realOrFakeFeatures(cloud.published, co_occurrence), cloud.real, arguments[3]);
+  const MapNeighbours neighbours = neighboursIn(cloud.published);
+  write(realOrFakeFeatures(cloud.published, neighbours, co_occurrence).values, neighbours.beside.indices,
+        cloud.real, arguments[3]);
 }
 
 }  // namespace

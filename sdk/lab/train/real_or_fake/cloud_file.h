@@ -1,5 +1,5 @@
 // A cloud with its truth, as the tools here hand it to each other: as point_file.h says, places being unit
-// directions, then of all points a byte that is 1 for real and 0 for fake.
+// directions, then of all points a byte that is 1 for real and 0 for fake, then of all points uint32 patch.
 #pragma once
 #include <string>
 

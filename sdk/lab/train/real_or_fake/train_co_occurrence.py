@@ -35,7 +35,7 @@ def pairs_of(directions, random, count):
 
 def rows_of(clouds, mean, axes, random):
     rows, labels = [], []
-    for directions, descriptors, _ in clouds:
+    for directions, descriptors, *_ in clouds:
         components = ((descriptors - mean) @ axes.T).astype(np.float32)
         for label, (a, b) in zip((1, 0), pairs_of(directions, random, PAIRS // len(clouds))):
             a, b = components[a], components[b]

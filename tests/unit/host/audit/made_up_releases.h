@@ -15,9 +15,11 @@ struct MadeUpRelease {
 };
 
 inline MadeUpRelease released(const host::PointModel &model, uint8_t key, double eta,
-                              const std::vector<host::Place> &own = {}) {
+                              const std::vector<host::Place> &own = {},
+                              const host::FakeStrategy *strategy = nullptr) {
   host::ReleaseRequest request = releaseRequest(own, key);
   request.eta = eta;
+  if (strategy) request.strategy = strategy;
   host::NewRelease made = host::makeRelease(model, request);
   MadeUpRelease release = {std::move(made.place), std::move(made.file), {}, {}};
   release.map = host::publishedIn(release.file);

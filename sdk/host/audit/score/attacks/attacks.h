@@ -16,11 +16,16 @@ Attack triangulationAttack();
 Attack intersectionAttack();
 Attack intersectionGainAttack();
 Attack queryingClientAttack();
+Attack turnedClientAttack();
+Attack presenceAttack();
+Attack photosAttack();
+Attack photoSpreadAttack();
 
 inline std::vector<Attack> allAttacks() {
-  return {fileAttack(),         fileCuesAttack(),         densityAttack(),
-          realOrFakeAttack(),   inversionAttack(),        triangulationAttack(),
-          intersectionAttack(), intersectionGainAttack(), queryingClientAttack()};
+  return {fileAttack(),           fileCuesAttack(),      densityAttack(),      realOrFakeAttack(),
+          inversionAttack(),      triangulationAttack(), intersectionAttack(), intersectionGainAttack(),
+          queryingClientAttack(), turnedClientAttack(),  presenceAttack(),     photosAttack(),
+          photoSpreadAttack()};
 }
 
 }  // namespace sphc::host

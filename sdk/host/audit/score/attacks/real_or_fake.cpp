@@ -8,10 +8,15 @@ namespace {
 
 AttackResult runRealOrFake(AuditContext *context) {
   const RealOrFakeScores &strongest = context->realOrFake().scores.back();
-  return {{{"real_or_fake.auc", strongest.auc},
-           {"real_or_fake.precision_at_eta", strongest.precision_at_eta,
-            "eta is " + std::to_string(context->eta()).substr(0, 5)},
-           {"real_or_fake.auc_paper", context->paper().study.scores.back().auc}}};
+  AttackResult result = {{{"real_or_fake.auc", strongest.auc},
+                          {"real_or_fake.precision_at_eta", strongest.precision_at_eta,
+                           "eta is " + std::to_string(context->eta()).substr(0, 5)},
+                          {"real_or_fake.first_tenth", strongest.precision_at_tenth},
+                          {"real_or_fake.auc_paper", context->paper().study.scores.back().auc}}};
+  if (strongest.auc_of_layers > 0)
+    result.measurements.push_back({"real_or_fake.auc_of_layers", strongest.auc_of_layers});
+  result.real_or_fake = context->realOrFake().scores;
+  return result;
 }
 
 }  // namespace
@@ -20,8 +25,10 @@ Attack realOrFakeAttack() {
   return {"real_or_fake",
           {Need::kTruth, Need::kNetworks},
           {{"real_or_fake.auc", "telling real from fake entries; 0.5 is chance", 0.60},
-           {"real_or_fake.precision_at_eta", "real among as many as there are, by the strongest", {}},
-           {"real_or_fake.auc_paper", "the same, had the paper's fakes been used", {}}},
+           {"real_or_fake.precision_at_eta", "real among as many as there are, by whoever does it best", {}},
+           {"real_or_fake.first_tenth", "real among the tenth that is scored highest, by whoever does it best", {}},
+           {"real_or_fake.auc_of_layers", "the same as auc, had somebody separated the layers of stacks", {}},
+           {"real_or_fake.auc_paper", "auc, had the paper's fakes been used", {}}},
           runRealOrFake};
 }
 

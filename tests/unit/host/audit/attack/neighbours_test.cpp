@@ -59,9 +59,11 @@ TEST(Neighbours, NearestOfAnotherTable) {
   Random random(4);
   const std::vector<Descriptor> table = {test::randomDescriptor(&random), test::randomDescriptor(&random)};
   const std::vector<Descriptor> queries = {table[1], test::randomDescriptor(&random)};
-  const Eigen::ArrayXf distances = nearestDistances(queries, table);
-  EXPECT_EQ(distances[0], 0);
-  EXPECT_NEAR(distances[1], std::min(apart(queries[1], table[0]), apart(queries[1], table[1])), 1e-3);
+  const Neighbours nearest = nearestDescriptors(queries, table, 2);
+  EXPECT_EQ(nearest.indices(0, 0), 1);
+  EXPECT_EQ(nearest.distances(0, 0), 0);
+  EXPECT_NEAR(nearest.distances(1, 0), std::min(apart(queries[1], table[0]), apart(queries[1], table[1])), 1e-3);
+  EXPECT_NEAR(nearest.distances(1, 1), std::max(apart(queries[1], table[0]), apart(queries[1], table[1])), 1e-3);
 }
 
 TEST(Mirror, IsItsOwnInverseAndMovesMostBytes) {

@@ -27,5 +27,18 @@ TEST(Presence, APictureOfAnObjectTellsWhetherItIsThere) {
   EXPECT_EQ(presenceScore(map, {}), 0);
 }
 
+// Patchwork publishes the mirror image of every descriptor that it removes.
+TEST(Presence, WhatWasRemovedIsFoundInTheMirror) {
+  const test::MadeUpRelease release =
+      test::released(test::madeUpRoom(2000, 1), 1, 1.0 / 3, {}, patchworkFakes().get());
+  std::vector<Descriptor> removed;
+  for (const PlacePoint &point : release.place.points)
+    if (!point.real) removed.push_back(point.seen.descriptor);
+  ASSERT_GT(removed.size(), 1000u);
+  removed.resize(20);
+  EXPECT_EQ(presenceScore(release.map, removed), 0);
+  EXPECT_EQ(presenceScoreMirroredToo(release.map, removed), 1);
+}
+
 }  // namespace
 }  // namespace sphc::host

@@ -86,9 +86,11 @@ nlohmann::json shipped() {
 
 TEST(RealOrFakeModel, ACopyOfTheShippedOneSaysTheSame) {
   const KnownCloud cloud = makeUpCloud(true, 8);
+  const MapNeighbours neighbours = neighboursIn(cloud.published);
   const RealOrFakeFeatures features =
-      realOrFakeFeatures(cloud.published, CoOccurrence(std::string(kNetworks) + "/co_occurrence.json"));
-  const Eigen::ArrayXf copied = RealOrFakeClassifier(fileWith(shipped().dump())).probabilities(features);
+      realOrFakeFeatures(cloud.published, neighbours, CoOccurrence(std::string(kNetworks) + "/co_occurrence.json"));
+  const Eigen::ArrayXf copied =
+      RealOrFakeClassifier(fileWith(shipped().dump())).probabilities(features, neighbours.beside);
   EXPECT_GT(copied.maxCoeff() - copied.minCoeff(), 0.02f);  // it does tell points from each other
   for (const RealOrFakeGuess &guess : guessRealOrFake(cloud.published, kNetworks)) {
     if (guess.attacker != "knows gaussian") continue;

@@ -58,7 +58,8 @@ TEST(Stacks, WhatGoesOnInOtherStacksIsReal) {
     descriptors.push_back(real.back() ? seen : mirrored(seen));
   }
   const auto auc = [&](const std::vector<Vector3> &shown) {
-    const Eigen::ArrayXf scores = lookalikesInOtherStacks(shown, descriptorNeighbours(descriptors, 16));
+    const Eigen::ArrayXf scores =
+        lookalikesInOtherStacks(shown, descriptorNeighbours(descriptors, 16), stacksOf(shown));
     return areaUnderCurve({scores.begin(), scores.end()}, real);
   };
   EXPECT_GT(auc(directions).value, 0.8);

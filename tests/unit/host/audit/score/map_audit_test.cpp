@@ -118,7 +118,8 @@ TEST(MapAudit, WhatIsAllowedMayStayUnmeasured) {
 TEST(MapAudit, WithoutNetworksWhatNeedsThemIsMissing) {
   AuditInput input = inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
   input.networks.clear();
-  EXPECT_THAT(audit(input).missingGates(), testing::ElementsAre("real_or_fake.auc", "inversion.of_papers"));
+  EXPECT_THAT(audit(input).missingGates(),
+              testing::ElementsAre("real_or_fake.auc", "inversion.of_papers", "inversion.of_papers_fine"));
 }
 
 TEST(MapAudit, AllowingDoesNotExcuseWhatIsBroken) {
@@ -165,6 +166,54 @@ TEST(MapAudit, LimitsAreTheUsers) {
   EXPECT_THAT(audit(input, rules).missingGates(), Contains("querying_client.share_of_real"));
   rules.limits = {{"no.such", 1}};
   EXPECT_THROW(audit(input, rules), std::runtime_error);
+}
+
+TEST(MapAudit, WhatIsLeftOutIsNotMeasured) {
+  AuditRules rules;
+  rules.only = {"file"};
+  const MapAudit result = audit(inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3)), rules);
+  EXPECT_EQ(figure(result, "file.stray_bytes").verdict(), Verdict::kHolds);
+  EXPECT_EQ(figure(result, "density.at_centre").verdict(), Verdict::kNotMeasured);
+  EXPECT_EQ(result.outcome(), AuditOutcome::kNotMeasured);
+  rules.only = {"file.stray_bytes"};  // a figure is no attack
+  EXPECT_THAT(test::refusal([&] { checkRules(rules); }), HasSubstr("no attack is named file.stray_bytes"));
+}
+
+// What a stranger's photos, the mirror and the layers tell, of a map of patchwork.
+TEST(MapAudit, PhotosAndTheMirrorTell) {
+  const PointModel room = test::madeUpRoom(1500, 1);
+  AuditInput input = inputOf(test::released(room, 1, 1.0 / 3, {}, patchworkFakes().get()));
+  for (size_t k = 0; k < 3; ++k)
+    input.queries.push_back(test::seenAgain(test::part(room, 300 * k, 300), k + 2).points);
+  AuditRules rules;
+  rules.only = {"presence", "photos", "turned_client", "photo_spread", "real_or_fake"};
+  const MapAudit result = audit(input, rules);
+  const auto value = [&](const char *name) { return figure(result, name).value.value(); };
+  EXPECT_EQ(value("presence.auc_mirrored_too"), 1);
+  EXPECT_GT(value("presence.auc"), 0.9);
+  EXPECT_GT(value("photos.share_of_real"), 0.03);
+  EXPECT_EQ(value("photos.precision"), 1);
+  EXPECT_GT(value("photos.share_of_fakes"), 0.03);
+  EXPECT_EQ(value("photos.precision_mirrored"), 1);
+  EXPECT_GT(value("photos.reach"), value("photos.share_of_real"));
+  EXPECT_NEAR(value("photos.spread_auc"), 0.5, 0.1);  // descriptors are noise
+  EXPECT_GE(value("turned_client.share_of_fakes"), value("photos.share_of_fakes"));
+  EXPECT_GT(value("turned_client.undone"), 0.9 * value("turned_client.share_of_fakes"));
+  EXPECT_GT(value("real_or_fake.auc_of_layers"), 0);
+  EXPECT_GT(value("real_or_fake.first_tenth"), 0.2);
+  ASSERT_FALSE(result.real_or_fake.empty());
+  EXPECT_EQ(result.real_or_fake.back().attacker, "strongest");
+  // The very keypoints of the map are no photo of a stranger's.
+  input.photos = {room.points};
+  rules.only = {"photos"};
+  EXPECT_EQ(figure(audit(input, rules), "photos.share_of_real").value, 0);
+}
+
+TEST(MapAudit, ThePapersFakesLieInNoLayers) {
+  AuditRules rules;
+  rules.only = {"real_or_fake"};
+  const MapAudit result = audit(inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3)), rules);
+  EXPECT_THROW(figure(result, "real_or_fake.auc_of_layers"), std::runtime_error);
 }
 
 TEST(MapAudit, AnotherPlacesTruthIsRefused) {

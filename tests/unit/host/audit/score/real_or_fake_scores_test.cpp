@@ -21,5 +21,24 @@ TEST(RealOrFakeScores, TheStrongestComesLastAndRowsSayWhose) {
   EXPECT_EQ(rows[8].metric, "precision_at_tenth");
 }
 
+TEST(RealOrFakeScores, TheStrongestIsTheMostOfEachFigure) {
+  // One is best at the top and wrong below; the other is rather right everywhere.
+  const std::vector<double> top = {20, 1, 2, 3, 4, 5, 6, 7, 8, 9}, all = {5, 9, 8, 7, 6, 4, 3, 2, 1, 10};
+  const std::vector<bool> real = {true, true, true, true, true, false, false, false, false, false};
+  const auto scores = scoreRealOrFake({{"top", top}, {"all", all}}, real);
+  EXPECT_EQ(scores[2].auc, scores[1].auc);
+  EXPECT_GT(scores[1].auc, scores[0].auc);
+  EXPECT_EQ(scores[2].precision_at_tenth, 1);
+  EXPECT_EQ(scores[1].precision_at_tenth, 0);
+}
+
+TEST(RealOrFakeScores, LayersAreToldByTheirMeans) {
+  const auto scores =
+      scoreRealOrFake({{"noisy", {1, 9, 2, 6, 3, 4}}}, {true, true, true, false, false, false}, {0, 0, 0, 1, 2, 2});
+  EXPECT_NEAR(scores[0].auc_of_layers, 2.0 / 3, 1e-9);  // 4 against 6, 3.5 and 3.5
+  EXPECT_LT(scores[0].auc, scores[0].auc_of_layers);
+  EXPECT_EQ(realOrFakeRows(scores, "room", "patchwork", 0.5).size(), 8u);  // two attackers, four figures
+}
+
 }  // namespace
 }  // namespace sphc::host

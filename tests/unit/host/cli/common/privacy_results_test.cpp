@@ -12,13 +12,13 @@ namespace {
 
 TEST(PrivacyLedger, ReplacesItsOwnAttacksAndKeepsTheOthers) {
   const std::string path = testing::TempDir() + "sphc_privacy_" + std::to_string(getpid()) + ".csv";
-  updatePrivacyResults(path, {{"density", "room", "none", 1, "ulc", "median_cm", 1.5}});
+  updatePrivacyResults(path, {{"density", "room", "none", 1, "ulc, own", "median_cm", 1.5}});
   updatePrivacyResults(path, {{"order", "room", "gaussian", 0.333, "", "auc", 0.9}});
   updatePrivacyResults(path, {{"order", "room", "gaussian", 0.333, "", "auc", 0.5}});
   std::stringstream text;
   text << std::ifstream(path).rdbuf();
   EXPECT_EQ(text.str(),
-            "attack,map,strategy,eta,variant,metric,value\ndensity,room,none,1.00,ulc,median_cm,1.5\n"
+            "attack,map,strategy,eta,variant,metric,value\ndensity,room,none,1.00,\"ulc, own\",median_cm,1.5\n"
             "order,room,gaussian,0.33,,auc,0.5\n");
   unlink(path.c_str());
   EXPECT_THROW(
