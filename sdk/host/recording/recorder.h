@@ -65,10 +65,10 @@ sphc_status sphc_recorder_open(const char *path, const sphc_rig *rig, const sphc
                                sphc_recorder **recorder, sphc_message *message);
 
 /* Adds a capture.  Borrows.  Amplitudes of a depth capture are kept as numbers of 16 bits.  The size of images must
- * be the calibration's; times of a stream must increase and not be
- * negative.  SPHC_AGAIN: the queue stayed full for wait_us; the capture is dropped, counted and listed in the file.
- * Errors: ARGUMENT (null, time, stream), STRUCT_SIZE, IMAGE: nothing is added, go on; DEVICE: the file cannot be
- * written any more (disk full); close, what was written before is good. [exclusive] */
+ * be the calibration's; times of a stream must increase and not be negative.  SPHC_AGAIN: the queue stayed full for
+ * wait_us; the capture is dropped, counted and listed in the file.  Errors: ARGUMENT (null, time, stream),
+ * STRUCT_SIZE, IMAGE: nothing is added, go on; DEVICE: the file cannot be written any more (disk full); close, what
+ * was written before is good. [exclusive] */
 sphc_status sphc_recorder_add(sphc_recorder *recorder, const sphc_capture *capture, sphc_message *message);
 
 /* Adds a pose of the colour camera, of a time after the last pose's and not negative.  SPHC_AGAIN and errors

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "host/audit/attack/photos.h"
 #include "host/audit/attack/real_or_fake.h"
 #include "host/audit/attack/stacks.h"
 #include "host/audit/score/layers.h"
@@ -94,6 +95,13 @@ std::vector<std::vector<OwnPoint>> AuditContext::ownPhotos(size_t count) {
       own.back().push_back({point.position_m - input_.place->centre_m, point.descriptor});
   }
   return own;
+}
+
+const PhotoMarks &AuditContext::photoMarks() {
+  if (photo_marks_) return *photo_marks_;
+  const auto photos = ownPhotos(kPhotos);
+  photo_marks_ = {markedBy(map_, photos, Photo::kAsItIs), markedBy(map_, photos, Photo::kMirrored)};
+  return *photo_marks_;
 }
 
 const RealOrFakeStudy &AuditContext::realOrFake() {

@@ -23,6 +23,13 @@ struct PaperControl {
   RealOrFakeStudy study;
 };
 
+// Entries that kPhotos photos of the place mark, as it is and in the mirror: real and fake, as their owner
+// believes.
+constexpr size_t kPhotos = 5;
+struct PhotoMarks {
+  std::vector<uint32_t> real, fake;
+};
+
 class AuditContext {
  public:
   // Throws std::runtime_error when the file is no map, or is not of the input's place.  `input` must outlive this.
@@ -43,6 +50,7 @@ class AuditContext {
   const std::vector<std::vector<ModelPoint>> &photos();
   // The same, from the centre.
   std::vector<std::vector<OwnPoint>> ownPhotos(size_t count);
+  const PhotoMarks &photoMarks();
 
   // Of attacks that need truth and networks.
   const RealOrFakeStudy &realOrFake();
@@ -58,6 +66,7 @@ class AuditContext {
   std::optional<Published> unprotected_;
   std::optional<std::vector<uint32_t>> stacks_, layers_;
   std::optional<std::vector<std::vector<ModelPoint>>> photos_;
+  std::optional<PhotoMarks> photo_marks_;
   std::optional<RealOrFakeStudy> real_or_fake_;
   std::optional<PaperControl> paper_;
 };

@@ -13,17 +13,8 @@
 namespace sphc::host {
 namespace {
 
-constexpr size_t kPhotos = 5, kCompared = 16;  // photos; marks of a stack that others are compared with
-constexpr double kHomeRad = 0.02;              // as near a client puts what it recognises
-
-struct Marks {
-  std::vector<uint32_t> real, fake;  // as the attacker believes
-};
-
-Marks marksOf(AuditContext *context) {
-  const auto photos = context->ownPhotos(kPhotos);
-  return {markedBy(context->map(), photos, Photo::kAsItIs), markedBy(context->map(), photos, Photo::kMirrored)};
-}
+constexpr size_t kCompared = 16;   // marks of a stack that others are compared with
+constexpr double kHomeRad = 0.02;  // as near a client puts what it recognises
 
 double shareOf(size_t some, size_t all) { return all ? static_cast<double>(some) / static_cast<double>(all) : 0; }
 
@@ -38,7 +29,7 @@ size_t realBeside(const std::vector<uint32_t> &marked, const std::vector<EntryTr
 }
 
 AttackResult runPhotos(AuditContext *context) {
-  const Marks marks = marksOf(context);
+  const PhotoMarks &marks = context->photoMarks();
   const Exposure plain = scoreEntries(marks.real, context->truth());
   const Exposure mirrored = scoreEntries(marks.fake, context->truth());
   const size_t mirrored_fake = mirrored.believed - mirrored.real;
@@ -70,9 +61,9 @@ double companyOf(const Eigen::MatrixXf &components, uint32_t entry, const std::v
 // Entries of stacks in which something is marked, and that are not: by how they go with what is marked real,
 // against what is marked fake.
 AttackResult runPhotoSpread(AuditContext *context) {
-  const Marks marks = marksOf(context);
+  const PhotoMarks &marks = context->photoMarks();
   const std::vector<uint32_t> &stacks = context->stacks();
-  std::vector<Marks> of_stacks(1 + *std::max_element(stacks.begin(), stacks.end()));
+  std::vector<PhotoMarks> of_stacks(1 + *std::max_element(stacks.begin(), stacks.end()));
   for (const uint32_t entry : marks.real) of_stacks[stacks[entry]].real.push_back(entry);
   for (const uint32_t entry : marks.fake) of_stacks[stacks[entry]].fake.push_back(entry);
   std::set<uint32_t> known(marks.real.begin(), marks.real.end());
@@ -82,7 +73,7 @@ AttackResult runPhotoSpread(AuditContext *context) {
   std::vector<double> scores;
   std::vector<bool> real;
   for (uint32_t i = 0; i < stacks.size(); ++i) {
-    const Marks &here = of_stacks[stacks[i]];
+    const PhotoMarks &here = of_stacks[stacks[i]];
     if ((here.real.empty() && here.fake.empty()) || known.count(i)) continue;
     scores.push_back(companyOf(components, i, here.real, network) - companyOf(components, i, here.fake, network));
     real.push_back(context->truth()[i].real);
