@@ -27,18 +27,16 @@ class Arena {
   template <typename T>
   Span<T> take(const char *name, size_t count) {
     static_assert(alignof(T) <= kArenaAlignment);
-    const size_t bytes = roundUp(count * sizeof(T));
-    T *data = memory_ ? reinterpret_cast<T *>(memory_ + used_) : nullptr;
-    used_ += bytes;
-    if (visit_) visit_(user_, name, bytes);
-    return memory_ ? Span<T>(data, count) : Span<T>();
+    void *data = takeBytes(name, count * sizeof(T));
+    return Span<T>(static_cast<T *>(data), data ? count : 0);
   }
 
   bool measuring() const { return memory_ == nullptr; }
   size_t used() const { return used_; }
 
  private:
-  static size_t roundUp(size_t bytes) { return (bytes + kArenaAlignment - 1) / kArenaAlignment * kArenaAlignment; }
+  // Null while measuring.
+  void *takeBytes(const char *name, size_t bytes);
 
   unsigned char *memory_ = nullptr;
   size_t used_ = 0;
