@@ -66,9 +66,11 @@ target_link_libraries(sphc_runtime_flags INTERFACE sphc_flags)
 target_compile_options(sphc_runtime_flags INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno>
   $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>)
-add_library(sphc_runtime_code INTERFACE) # of the runtime's own files
+# Of the runtime's own files.  Eigen unrolls sums of up to 8 products, whose order its loops would change, but no products
+# of matrices, which take room.
+add_library(sphc_runtime_code INTERFACE)
 target_link_libraries(sphc_runtime_code INTERFACE sphc_runtime_flags)
-target_compile_definitions(sphc_runtime_code INTERFACE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO)
+target_compile_definitions(sphc_runtime_code INTERFACE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO EIGEN_UNROLLING_LIMIT=40)
 
 # Of decisions and checks, a few times a frame: firmware has all of them in flash, but for what it never calls.
 set(SPHC_SMALL $<$<CONFIG:Release>:-Os> -ffunction-sections)

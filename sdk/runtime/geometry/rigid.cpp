@@ -2,6 +2,12 @@
 
 namespace sphc {
 
+Rigid Rigid::operator*(const Rigid &source_from_other) const {
+  return {rotation * source_from_other.rotation, *this * source_from_other.translation_m};
+}
+
+Rigid Rigid::inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation_m)}; }
+
 Rigid rigidFromC(const sphc_rigid &rigid_c) {
   return {rotationFromQuaternion(rigid_c.q_wxyz), Vector3(rigid_c.t_m[0], rigid_c.t_m[1], rigid_c.t_m[2])};
 }

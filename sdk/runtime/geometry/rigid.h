@@ -10,10 +10,8 @@ struct Rigid {
   Vector3 translation_m = Vector3::Zero();
 
   Vector3 operator*(const Vector3 &x_source) const { return rotation * x_source + translation_m; }
-  Rigid operator*(const Rigid &source_from_other) const {
-    return {rotation * source_from_other.rotation, *this * source_from_other.translation_m};
-  }
-  Rigid inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation_m)}; }
+  Rigid operator*(const Rigid &source_from_other) const;
+  Rigid inverse() const;
 };
 
 Rigid rigidFromC(const sphc_rigid &rigid_c);

@@ -25,19 +25,6 @@ inline Vector3 whiten(const LiftedPoint &lifted, const Vector3 &view, const Vect
   return sideways * x + ((along - sideways) * view.dot(x)) * view;
 }
 
-inline Residual residualOf(const Correspondence &c, const Rigid &camera_from_map) {
-  const Vector3 view = c.lifted.point_m.normalized();
-  const Vector3 ray = camera_from_map.rotation * c.direction;
-  const Vector3 ray_whitened = whiten(c.lifted, view, ray);
-  const Vector3 offset_whitened = whiten(c.lifted, view, c.lifted.point_m - camera_from_map.translation_m);
-  const double m = ray_whitened.dot(offset_whitened) / ray_whitened.squaredNorm();
-  Residual r;
-  r.whitened = offset_whitened - m * ray_whitened;
-  r.ray_whitened = ray_whitened.normalized();
-  r.foot_m = camera_from_map.translation_m + m * ray;
-  r.squared = r.whitened.squaredNorm();
-  r.in_front = m > 0;
-  return r;
-}
+Residual residualOf(const Correspondence &c, const Rigid &camera_from_map);
 
 }  // namespace sphc
