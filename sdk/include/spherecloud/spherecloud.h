@@ -12,7 +12,8 @@
  *     sphc_localizer_config_init, set the rig     describe the headset
  *     sphc_localizer_memory, sphc_localizer_init  hand over memory once
  *     sphc_localizer_set_map                      give it the map, or several; between frames at any time
- *     sphc_localizer_process ...                  a frame in, a pose out; never allocates
+ *     sphc_localizer_process ...                  a frame in, a pose out; never allocates; or in two halves,
+ *                                                 sphc_localizer_extract and sphc_localizer_locate
  *     sphc_localizer_fini, sphc_map_fini
  *
  * Frames.  `target_from_source` everywhere: x_target = R(q) x_source + t.  Camera axes are OpenCV's: x right, y
@@ -28,16 +29,16 @@
  *
  * Failure.  status < 0: outputs are untouched, except a message that explains.
  *
- * Names.  What belongs to a module begins with its name: sphc_map_, sphc_aligner_, sphc_localizer_.  What all share
- * has none: sphc_image.  Constants leave the module out: sphc_localizer_outcome has SPHC_OUTCOME_.  `map_id` is a
- * map, `point_index` a point.
+ * Names.  What belongs to a module begins with its name: sphc_map_, sphc_aligner_, sphc_localizer_, sphc_features_.
+ * What all share has none: sphc_image.  Constants leave the module out: sphc_localizer_outcome has SPHC_OUTCOME_.
+ * `map_id` is a map, `point_index` a point.
  *
  * Structs.  Those that begin with `struct_size` grow at the end only; set it to sizeof (the _init functions do),
  * and zero what you do not set.  A program may be built with an older header than its library, whose new fields
  * then have their defaults, or with a newer one, of which what the library does not know must be zero:
  * SPHC_E_UNSUPPORTED otherwise.  Results come back as far as the caller's struct goes, zeroes in what the library
  * does not know.  Atoms (sphc_rigid, sphc_camera, sphc_rig, sphc_image, sphc_memory, sphc_memory_piece,
- * sphc_depth_bias) never change.
+ * sphc_depth_bias, sphc_keypoint) never change.
  *
  * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
  * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
@@ -104,7 +105,8 @@ enum {
   SPHC_E_MAP_FORMAT = -30,    /* not a sphere-cloud file, cut short, or its fields contradict each other */
   SPHC_E_MAP_VERSION = -31,   /* made in another version of the format: build it again */
   SPHC_E_MAP_CHECKSUM = -32,  /* bytes changed since it was written */
-  SPHC_E_MAP_EXTRACTOR = -33, /* its descriptors were made by another extractor than this library's */
+  SPHC_E_MAP_EXTRACTOR = -33, /* descriptors, of a map or of features, were made by another extractor than this
+                                 library's */
 
   SPHC_E_DEVICE = -40,
   SPHC_E_DEVICE_LOST = -41, /* unplugged; stop, and open again once it is back */
@@ -801,6 +803,79 @@ typedef struct sphc_localizer_observation {
 SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer,
                                                  sphc_localizer_observation *observations, uint32_t stride_bytes,
                                                  uint32_t capacity, uint32_t *count);
+
+/* ---- the two halves of a frame ---- */
+
+/* sphc_localizer_process in two calls: sphc_localizer_extract finds the features of the colour image, and
+ * sphc_localizer_locate does the rest.  While one thread locates a frame, another may extract the features of the
+ * next; each of two such features is filled, located and filled again.  Features that other hardware has found,
+ * such as a DSP or an NPU, come in by sphc_features_set.  docs/localizer.md. */
+typedef struct sphc_features sphc_features;
+
+/* Where a feature lies in the colour image, x right, y down. */
+typedef struct sphc_keypoint {
+  float x_px, y_px; /* 0 to the image's width and height */
+  float scale_px;   /* standard deviation of the Gaussian at which it was found; above 0, 8192 at most */
+  float angle_rad;  /* of the dominant gradient, from x to y; -7 to 7 */
+  float response;   /* |difference of Gaussians| there, grey levels in [0, 1]; 0 to 1 */
+} sphc_keypoint;
+
+#define SPHC_DESCRIPTOR_BYTES 128u /* square roots of the normalised histogram, times 512, at most 255 */
+
+/* Keypoints, the strongest response first, and the descriptor of each. */
+typedef struct sphc_features_arrays {
+  uint32_t struct_size;
+  uint32_t extractor; /* that described them: sphc_extractor_id(), as that of all maps */
+  uint32_t count;
+  uint32_t keypoint_stride_bytes;   /* from one to the next; a multiple of 4, at least sizeof(sphc_keypoint) */
+  uint32_t descriptor_stride_bytes; /* at least SPHC_DESCRIPTOR_BYTES */
+  uint32_t reserved;
+  const sphc_keypoint *keypoints; /* aligned to 4 bytes; may be null where count is 0, as may descriptors */
+  const uint8_t *descriptors;
+} sphc_features_arrays;
+
+/* What sphc_features_init will need, for localizers of this config: 148 bytes a keypoint and one a pixel of the
+ * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+SPHC_API sphc_status sphc_features_memory(const sphc_localizer_config *config, sphc_memory *memory,
+                                          sphc_message *message);
+/* Upper bound of its state_bytes for any library of this ABI, for memory that is not asked for. */
+#define SPHC_FEATURES_BYTES_MAX(max_keypoints, color_width, color_height) \
+  (UINT64_C(4096) + UINT64_C(192) * (max_keypoints) + UINT64_C(1) * (color_width) * (color_height))
+/* Makes features, of no frame yet, in caller memory, borrowed until sphc_features_fini.  Of `config` the size of
+ * the colour image and max_keypoints count.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure]
+ */
+SPHC_API sphc_status sphc_features_init(void *memory, size_t memory_bytes, const sphc_localizer_config *config,
+                                        sphc_features **features, sphc_message *message);
+/* Puts features of other hardware in.  Of `frame` color and color_time_ns are read: faults and hints are found in
+ * the image.  Image and arrays are copied.  Failures: ARGUMENT: a keypoint is not finite, beyond the limits or
+ * stronger than the one before it; CAPACITY: more than max_keypoints; MAP_EXTRACTOR: of another extractor;
+ * STRUCT_SIZE, IMAGE (sphc_features_message explains); the features stay what they were. [exclusive] */
+SPHC_API sphc_status sphc_features_set(sphc_features *features, const sphc_localizer_frame *frame,
+                                       const sphc_features_arrays *arrays);
+/* Reads them out: *arrays point into the features' memory, borrowed until their next extract, set or fini.  Set
+ * arrays->struct_size first.  STATE where they are of no frame yet. [shared] */
+SPHC_API sphc_status sphc_features_get(const sphc_features *features, sphc_features_arrays *arrays);
+/* Text about the failure of the last sphc_localizer_extract into these features, or sphc_features_set; "" if it did
+ * not fail; owned by the features, valid until the next of these calls. [exclusive] */
+SPHC_API const char *sphc_features_message(const sphc_features *features);
+/* Accepts null and pointer to null; sets *features to null; frees nothing. [exclusive] */
+SPHC_API void sphc_features_fini(sphc_features **features);
+
+/* Fills the features by the colour image of a frame: color, color_time_ns and deadline_us of it are read, and the
+ * deadline bounds this call alone.  The image may go afterwards.  Failures: ARGUMENT: the features were made for
+ * another config, among others; STRUCT_SIZE, IMAGE (sphc_features_message explains); the features stay what they
+ * were.  Bounded time, no allocation, no OS call.  Exclusive with sphc_localizer_process, _extract and _fini of
+ * this localizer, and with all calls of these features; every other call on the localizer may run meanwhile in
+ * another thread, which then calls config.clock too. [exclusive] */
+SPHC_API sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
+                                            sphc_features *features);
+/* As sphc_localizer_process, from the features of the frame on: frame.color is not looked at.  The same result, to
+ * the last bit but for times, where no deadline is set; several localizers may locate the same features at the same
+ * time.  result.features_us is how long extract took, 0 for features that were set.  Failures: also ARGUMENT where
+ * the features have another color_time_ns than the frame, or were made for another config, and STATE where they are
+ * of no frame yet (sphc_localizer_message explains). [exclusive] */
+SPHC_API sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localizer_frame *frame,
+                                           const sphc_features *features, sphc_localizer_result *result);
 
 #ifdef __cplusplus
 }

@@ -145,6 +145,13 @@ sphc_status checkPrior(const sphc_localizer_prior &prior, const MapSet &maps, sp
   return fine ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
+sphc_status checkDeadline(const sphc_localizer_frame &frame, bool has_clock, sphc_message *message) {
+  if (!frame.deadline_us || has_clock) return SPHC_OK;
+  MessageWriter(message) << "frame.deadline_us is " << frame.deadline_us
+                         << " but config.clock is null; give a clock or no deadline";
+  return SPHC_E_ARGUMENT;
+}
+
 }  // namespace
 
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
@@ -259,15 +266,20 @@ sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limi
   if (status == SPHC_OK && own.prior) status = readStruct("prior", own.prior, &copy->prior, message);
   if (status != SPHC_OK) return status;
   if (own.prior) own.prior = &copy->prior;
-  if (own.deadline_us && !limits.has_clock) {
-    MessageWriter(message) << "frame.deadline_us is " << own.deadline_us
-                           << " but config.clock is null; give a clock or no deadline";
-    return SPHC_E_ARGUMENT;
-  }
-  status = checkImage("color", own.color, limits.color, 0, message);
+  status = checkDeadline(own, limits.has_clock, message);
+  if (status == SPHC_OK && limits.color) status = checkImage("color", own.color, *limits.color, 0, message);
   if (status == SPHC_OK) status = checkImage("depth", own.depth, limits.depth, limits.depth_format, message);
   if (status == SPHC_OK) status = checkAmplitude(own.amplitude, limits, message);
   if (status == SPHC_OK && own.prior) status = checkPrior(*own.prior, limits.maps, message);
+  return status;
+}
+
+sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera &color, bool has_clock,
+                           sphc_localizer_frame *copy, sphc_message *message) {
+  *copy = {};
+  sphc_status status = readStruct("frame", frame, copy, message);
+  if (status == SPHC_OK) status = checkDeadline(*copy, has_clock, message);
+  if (status == SPHC_OK) status = checkImage("color", copy->color, color, 0, message);
   return status;
 }
 
@@ -306,6 +318,18 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
                     lies("correlation", d.correlation, -0.9999, 0.9999) &&
                     lies("noise_scale", d.noise_scale, kLeastNoiseScale, kMostNoiseScale);
   return fine ? SPHC_OK : SPHC_E_ARGUMENT;
+}
+
+sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &localizer, sphc_message *message) {
+  const sphc_camera &of = features.color, &own = localizer.color;
+  if (of.width != own.width || of.height != own.height || features.max_keypoints != localizer.max_keypoints) {
+    MessageWriter(message) << "the features are made for " << features.max_keypoints << " keypoints of " << of.width
+                           << " x " << of.height << " pixels, the localizer for " << localizer.max_keypoints
+                           << " of " << own.width << " x " << own.height << "; make both with one config";
+    return SPHC_E_ARGUMENT;
+  }
+  const sphc_status status = checkApart(localizer.state, features.memory, message);
+  return status == SPHC_OK ? checkApart(localizer.scratch, features.memory, message) : status;
 }
 
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,

@@ -13,7 +13,8 @@ sphc_status readConfig(const sphc_localizer_config *config, sphc_localizer_confi
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message);
 // What a frame must fit.
 struct FrameLimits {
-  const sphc_camera &color, &depth;
+  const sphc_camera *color;  // null: the colour image is not looked at
+  const sphc_camera &depth;
   sphc_format depth_format;
   uint32_t amplitude_min;
   const MapSet &maps;
@@ -26,6 +27,9 @@ struct FrameCopy {
 };
 sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limits, FrameCopy *copy,
                       sphc_message *message);
+// Of a frame, what its features are made of: the colour image.
+sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera &color, bool has_clock,
+                           sphc_localizer_frame *copy, sphc_message *message);
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
                            sphc_message *message);
 // Can a localizer of this prior go on from what was learnt of its depth sensor?
@@ -36,6 +40,8 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);
+// Were features made for a localizer of this image size and room?
+sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &localizer, sphc_message *message);
 // What the library writes to must not be read as something else.
 struct MemoryRange {
   const char *name;

@@ -37,6 +37,9 @@ constexpr StructKind kindOf(const sphc_clock_mapper_config *) {
 constexpr StructKind kindOf(const sphc_clock_mapping *) {
   return ungrown<sphc_clock_mapping>("sphc_clock_mapping");
 }
+constexpr StructKind kindOf(const sphc_features_arrays *) {
+  return ungrown<sphc_features_arrays>("sphc_features_arrays");
+}
 constexpr StructKind kindOf(const sphc_localizer_config *) {
   return grown<sphc_localizer_config>("sphc_localizer_config", offsetof(sphc_localizer_config, depth_format));
 }

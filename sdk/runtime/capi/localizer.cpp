@@ -14,6 +14,7 @@ namespace {
 using sphc::Arena;
 using sphc::Localizer;
 using sphc::LocalizerConfig;
+using sphc::LocalizerResult;
 using sphc::MemoryRange;
 using sphc::MessageWriter;
 
@@ -62,6 +63,43 @@ sphc_localizer_result emptyResult() {
   result.map_id = SPHC_MAP_NONE;
   result.camera_from_map.q_wxyz[0] = 1;
   return result;
+}
+
+sphc::FrameLimits limitsOf(const sphc_localizer &localizer, const sphc_camera *color) {
+  return {color,
+          localizer.depth,
+          localizer.depth_format,
+          localizer.amplitude_min,
+          localizer.localizer.maps(),
+          localizer.has_clock};
+}
+
+sphc_status giveOut(const sphc_localizer &localizer, const LocalizerResult &answer,
+                    const sphc_localizer_frame &frame, sphc_localizer_result *result) {
+  const sphc_localizer_result own = sphc::resultFrom(answer, frame);
+  sphc::writeStruct(own, result);
+  logResult(localizer, own);
+  return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
+}
+
+// Are they of this frame, and for this localizer?
+sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_features *features,
+                            const sphc_localizer &localizer, sphc_message *message) {
+  if (!features) {
+    MessageWriter(message) << "features is null; make some with sphc_features_init";
+    return SPHC_E_ARGUMENT;
+  }
+  if (!features->of_frame) {
+    MessageWriter(message) << "the features are of no frame yet; call sphc_localizer_extract or sphc_features_set";
+    return SPHC_E_STATE;
+  }
+  if (features->color_time_ns != frame.color_time_ns) {
+    MessageWriter(message) << "the features are of the image at " << features->color_time_ns
+                           << " ns, and frame.color_time_ns is " << frame.color_time_ns
+                           << "; give each frame the features of its own image";
+    return SPHC_E_ARGUMENT;
+  }
+  return sphc::checkFeatures(*features, localizer, message);
 }
 
 sphc_localizer_prediction emptyPrediction() {
@@ -160,6 +198,7 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   made->scratch = used_scratch;
   made->color = checked.rig.color_camera;
   made->depth = checked.rig.depth_camera;
+  made->max_keypoints = checked.max_keypoints;
   made->depth_format = sphc::depthFormatOf(checked.depth_format);
   made->amplitude_min = checked.amplitude_min;
   made->color_band = checked.color_band;
@@ -268,18 +307,42 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
                                    sphc_localizer_result *result) {
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
-  Localizer &own_localizer = localizer->localizer;
-  const sphc::FrameLimits limits = {localizer->color,         localizer->depth,     localizer->depth_format,
-                                    localizer->amplitude_min, own_localizer.maps(), localizer->has_clock};
   sphc::FrameCopy copy;
-  sphc_status status = sphc::readFrame(frame, limits, &copy, message);
+  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, &localizer->color), &copy, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
   if (status != SPHC_OK) return status;
+  Localizer &own_localizer = localizer->localizer;
+  const LocalizerResult answer = own_localizer.process(sphc::frameFrom(copy.frame, own_localizer.maps()));
+  return giveOut(*localizer, answer, copy.frame, result);
+}
+
+sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
+                                   sphc_features *features) {
+  if (!localizer || !features) return SPHC_E_ARGUMENT;
+  sphc_message *message = &features->message;  // the localizer's is of the thread that locates
+  message->text[0] = '\0';
+  sphc_localizer_frame own;
+  sphc_status status = sphc::readColorFrame(frame, localizer->color, localizer->has_clock, &own, message);
+  if (status == SPHC_OK) status = sphc::checkFeatures(*features, *localizer, message);
+  if (status != SPHC_OK) return status;
+  localizer->localizer.extract(sphc::colorViewFrom(own.color), sphc::timeLimitNs(own), &features->features);
+  features->color_time_ns = own.color_time_ns;
+  features->of_frame = true;
+  return SPHC_OK;
+}
+
+sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localizer_frame *frame,
+                                  const sphc_features *features, sphc_localizer_result *result) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  sphc_message *message = localizer->beginCall();
+  sphc::FrameCopy copy;
+  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, nullptr), &copy, message);
+  if (status == SPHC_OK) status = checkFeaturesOf(copy.frame, features, *localizer, message);
+  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
+  if (status != SPHC_OK) return status;
+  Localizer &own_localizer = localizer->localizer;
   const sphc::FrameInput input = sphc::frameFrom(copy.frame, own_localizer.maps());
-  const sphc_localizer_result own = sphc::resultFrom(own_localizer.process(input), copy.frame);
-  sphc::writeStruct(own, result);
-  logResult(*localizer, own);
-  return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
+  return giveOut(*localizer, own_localizer.locate(input, features->features), copy.frame, result);
 }
 
 const char *sphc_localizer_message(const sphc_localizer *localizer) {

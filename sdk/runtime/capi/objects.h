@@ -16,6 +16,7 @@ struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
   sphc::MemoryRange state, scratch;
   sphc_camera color, depth;
+  uint32_t max_keypoints;
   sphc_format depth_format;
   uint32_t amplitude_min;
   sphc_band color_band;
@@ -30,6 +31,16 @@ struct alignas(sphc::kArenaAlignment) sphc_localizer {
     message.text[0] = '\0';
     return &message;
   }
+};
+
+struct alignas(sphc::kArenaAlignment) sphc_features {
+  sphc::FrameFeatures features;
+  sphc::MemoryRange memory;
+  sphc_camera color;
+  uint32_t max_keypoints;
+  bool of_frame;
+  int64_t color_time_ns;
+  sphc_message message;
 };
 
 struct alignas(sphc::kArenaAlignment) sphc_aligner {

@@ -19,8 +19,6 @@ DepthCalibration depthPriorFrom(const sphc_localizer_config &config) {
   return prior;
 }
 
-ColorView colorViewFrom(const sphc_image &image) { return {bytesOf(image), pixelFormatOf(image.format).luma}; }
-
 PosePrior posePriorFrom(const sphc_localizer_prior &given) {
   PosePrior prior;
   prior.has_pose = given.flags & SPHC_PRIOR_POSE;
@@ -103,9 +101,13 @@ FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps) {
   if (frame.amplitude.data)
     own.amplitude = {bytesOf(frame.amplitude), static_cast<int32_t>(sphc_format_bytes(frame.amplitude.format))};
   if (frame.prior) own.known = knownFrom(*frame.prior, maps);
-  own.time_limit_ns = int64_t{frame.deadline_us} * 1000;
+  own.time_limit_ns = timeLimitNs(frame);
   return own;
 }
+
+int64_t timeLimitNs(const sphc_localizer_frame &frame) { return int64_t{frame.deadline_us} * 1000; }
+
+ColorView colorViewFrom(const sphc_image &image) { return {bytesOf(image), pixelFormatOf(image.format).luma}; }
 
 ByteView bytesOf(const sphc_image &image) {
   return {static_cast<const uint8_t *>(image.data), static_cast<int32_t>(image.width),

@@ -1,5 +1,6 @@
 #include "runtime/localizer/front_end.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -50,6 +51,21 @@ void FrontEnd::extract(const ColorView &color, const Deadline &deadline) {
   gray_view_ = grayOf(color, gray_);
   keypoint_count_ = extractor_.extract(gray_view_, keypoints_, descriptors_, deadline);
   cut_ = extractor_.wasCut();
+  lifted_count_ = 0;
+}
+
+void FrontEnd::extractInto(const ColorView &color, const Deadline &deadline, FrameFeatures *features) {
+  features->keepGray(color);
+  features->count = extractor_.extract(features->gray, features->keypoints, features->descriptors, deadline);
+  features->cut = extractor_.wasCut();
+}
+
+void FrontEnd::show(const FrameFeatures &features) {
+  gray_view_ = features.gray;
+  keypoint_count_ = features.count;
+  std::copy_n(features.keypoints.begin(), features.count, keypoints_.begin());
+  std::copy_n(features.descriptors.begin(), features.count, descriptors_.begin());
+  cut_ = features.cut;
   lifted_count_ = 0;
 }
 

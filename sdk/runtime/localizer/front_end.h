@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/localizer/config.h"
+#include "runtime/localizer/frame_features.h"
 #include "runtime/localizer/result.h"
 #include "runtime/stages/align/sparse.h"
 #include "runtime/stages/features/extractor.h"
@@ -16,13 +17,17 @@ class FrontEnd {
 
   // What a deadline leaves out is the finest of the image, and the weakest keypoints.
   void extract(const ColorView &color, const Deadline &deadline = {});
-  // After extract.  Those with depth come first from then on, then those without.  `color_from_depth`: the cameras
-  // at the time of each one's image.
+  // The same in two halves.  The first touches nothing but the extractor, so the rest may serve another frame
+  // meanwhile.
+  void extractInto(const ColorView &color, const Deadline &deadline, FrameFeatures *features);
+  void show(const FrameFeatures &features);
+  // After extract or show.  Those with depth come first from then on, then those without.  `color_from_depth`: the
+  // cameras at the time of each one's image.
   void lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, const Deadline &deadline = {});
   // Did a deadline leave something out?
   bool wasCut() const { return cut_; }
 
-  // The image of the last extract, as it was processed.
+  // The image of the last extract or show, as it was processed.
   GrayView gray() const { return gray_view_; }
   uint32_t keypointCount() const { return keypoint_count_; }
   uint32_t liftedCount() const { return lifted_count_; }
@@ -50,7 +55,7 @@ class FrontEnd {
   Span<uint32_t> keypoint_of_;
   uint32_t keypoint_count_ = 0, lifted_count_ = 0;
   bool cut_ = false;
-  GrayView gray_view_;  // gray_, or the caller's image where that is grey
+  GrayView gray_view_;  // gray_, or the caller's image where that is grey, or that of features
 };
 
 }  // namespace sphc

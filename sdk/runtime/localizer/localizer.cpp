@@ -112,18 +112,44 @@ double Localizer::confidenceWithin(const Matrix6 &covariance, double translation
 }
 
 LocalizerResult Localizer::process(const FrameInput &frame) {
-  LocalizerResult result;
-  result.depth = calibrator_.current();
   const int64_t begin = config_.clock.now();
-  const Deadline deadline = deadlineFrom(begin, frame.time_limit_ns).afterShare(kUntilEnd);
-  if (config_.tracks) {
-    tracker_.advance(frame.color_time_ns, frame.known.has_odometry ? &frame.known.odometry : nullptr);
-    fusion_.advance(tracker_);
-  }
+  const Deadline deadline = deadlineFrom(begin, frame.time_limit_ns);
+  follow(frame);
   Prediction expected;
   const bool is_expected = expects(frame.known, kMostConeInHasteRad, &expected);
   front_.extract(frame.color, deadline.afterShare(is_expected ? kFeaturesNearShare : kFeaturesShare));
   const int64_t extracted = config_.clock.now();
+  LocalizerResult result = locateShown(frame, deadline, extracted);
+  result.times.features_ns = elapsedNs(begin, extracted);
+  return result;
+}
+
+void Localizer::extract(const ColorView &color, int64_t time_limit_ns, FrameFeatures *features) {
+  const int64_t begin = config_.clock.now();
+  front_.extractInto(color, deadlineFrom(begin, time_limit_ns), features);
+  features->took_ns = elapsedNs(begin, config_.clock.now());
+}
+
+LocalizerResult Localizer::locate(const FrameInput &frame, const FrameFeatures &features) {
+  const int64_t begin = config_.clock.now();
+  follow(frame);
+  front_.show(features);
+  LocalizerResult result = locateShown(frame, deadlineFrom(begin, frame.time_limit_ns), begin);
+  result.times.features_ns = features.took_ns;
+  return result;
+}
+
+// Brings what earlier frames told to the time of this one.
+void Localizer::follow(const FrameInput &frame) {
+  if (!config_.tracks) return;
+  tracker_.advance(frame.color_time_ns, frame.known.has_odometry ? &frame.known.odometry : nullptr);
+  fusion_.advance(tracker_);
+}
+
+// From the features of the front end to the answer; `begin_ns` is when that began.
+LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns) {
+  LocalizerResult result;
+  result.depth = calibrator_.current();
   const Rigid color_from_depth = colorFromDepth(frame);
   const ImageView<uint16_t> depth = depth_reader_.read(frame.depth, frame.amplitude);
   front_.lift(depth, color_from_depth, deadline.afterShare(kLiftShare));
@@ -144,7 +170,7 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   result.samples = work.samples;
   if (config_.tracks) result.state = tracker_.state();
   const uint64_t located_ns = elapsedNs(aligned, config_.clock.now());
-  result.times = {elapsedNs(begin, extracted), elapsedNs(extracted, aligned), work.match_ns,
+  result.times = {0, elapsedNs(begin_ns, aligned), work.match_ns,
                   located_ns > work.match_ns ? located_ns - work.match_ns : 0};
   return result;
 }
@@ -163,7 +189,7 @@ Rigid Localizer::colorFromDepth(const FrameInput &frame) const {
 }
 
 Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {
-  return limit_ns ? Deadline::after(config_.clock, begin_ns, limit_ns) : Deadline();
+  return limit_ns ? Deadline::after(config_.clock, begin_ns, limit_ns).afterShare(kUntilEnd) : Deadline();
 }
 
 // Makes best_ what the frame is answered with: by what can be believed of it.

@@ -42,6 +42,10 @@ class Localizer {
 
   // `frame` fits the config.
   LocalizerResult process(const FrameInput &frame);
+  // The same in two halves.  While one thread locates a frame, another may extract the features of the next: the
+  // first half touches nothing that the second does.  `features` are of this config.
+  void extract(const ColorView &color, int64_t time_limit_ns, FrameFeatures *features);
+  LocalizerResult locate(const FrameInput &frame, const FrameFeatures &features);
   // Between frames: where the camera is at a time of the caller's; false where that is not known.
   bool predict(int64_t time_ns, MovedPose *moved) const;
   TrackingState state() const { return tracker_.state(); }
@@ -57,6 +61,8 @@ class Localizer {
  private:
   Rigid colorFromDepth(const FrameInput &frame) const;
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
+  void follow(const FrameInput &frame);
+  LocalizerResult locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns);
   void answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void locate(const Known &known, const Deadline &deadline, Work *work);
   bool expects(const Known &known, double most_cone_rad, Prediction *expected) const;
