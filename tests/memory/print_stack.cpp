@@ -52,6 +52,13 @@ int main() {
   std::printf("call,bytes\n");
   sphc_memory need = {};
   print("sphc_localizer_process", [&] { session.process(frame->frame, &result); });
+  sphc_features_memory(&config, &need, nullptr);
+  sphc::test::GuardedMemory features_memory(need.state_bytes, need.alignment);
+  sphc_features *features = nullptr;
+  sphc_features_init(features_memory.data(), features_memory.size(), &config, &features, nullptr);
+  print("sphc_localizer_extract", [&] { sphc_localizer_extract(session.localizer(), &frame->frame, features); });
+  print("sphc_localizer_locate",
+        [&] { sphc_localizer_locate(session.localizer(), &frame->frame, features, &result); });
   print("sphc_localizer_memory", [&] { sphc_localizer_memory(&config, &need, nullptr); });
   sphc_localizer *second = nullptr;
   print("sphc_localizer_init", [&] {

@@ -33,7 +33,7 @@ struct Everything {
   sphc::test::SceneMap map = sphc::test::makeSceneMap(config.rig.color_camera, config.max_keypoints, 3, 0.5);
   std::vector<std::unique_ptr<sphc::test::SceneFrame>> frames;
   sphc_aligner_config aligning = {};
-  GuardedMemory map_memory, state, scratch, pairer_memory, aligner_memory;
+  GuardedMemory map_memory, state, scratch, features_memory, pairer_memory, aligner_memory;
   std::vector<sphc_localizer_observation> observations =
       std::vector<sphc_localizer_observation>(config.max_keypoints);
 
@@ -52,6 +52,8 @@ struct Everything {
     sphc_localizer_memory(&config, &need, nullptr);
     state = GuardedMemory(need.state_bytes, need.alignment);
     scratch = GuardedMemory(need.scratch_bytes, need.alignment);
+    sphc_features_memory(&config, &need, nullptr);
+    features_memory = GuardedMemory(need.state_bytes, need.alignment);
   }
 };
 
@@ -89,6 +91,29 @@ bool runAligner(Everything *e) {
   return ok;
 }
 
+// A frame in two halves, and features that come from elsewhere.
+bool runHalves(Everything *e, sphc_localizer *localizer, const sphc_localizer_frame &frame) {
+  sphc_features *features = nullptr;
+  sphc_message message = {};
+  sphc_memory need = {};
+  sphc_localizer_result result = {};
+  sphc_features_arrays arrays = {};
+  result.struct_size = sizeof result;
+  arrays.struct_size = sizeof arrays;
+  bool ok = sphc_features_memory(&e->config, &need, &message) == SPHC_OK &&
+            sphc_features_init(e->features_memory.data(), e->features_memory.size(), &e->config, &features,
+                               &message) == SPHC_OK &&
+            sphc_localizer_extract(localizer, &frame, features) == SPHC_OK &&
+            sphc_localizer_locate(localizer, &frame, features, &result) == SPHC_OK &&
+            sphc_features_get(features, &arrays) == SPHC_OK &&
+            sphc_features_set(features, &frame, &arrays) == SPHC_OK &&
+            sphc_localizer_locate(localizer, &frame, features, &result) == SPHC_OK;
+  arrays.extractor += 1;  // the way of a failure
+  ok = ok && sphc_features_set(features, &frame, &arrays) == SPHC_E_MAP_EXTRACTOR;
+  sphc_features_fini(&features);
+  return ok;
+}
+
 // Number of frames localized, or -1.
 int runSession(Everything *e) {
   sphc_map *map = nullptr;
@@ -116,6 +141,7 @@ int runSession(Everything *e) {
     sphc_localizer_frame bad = frame->frame;  // the way of a failure, message included
     bad.color.width = 1;
     if (sphc_localizer_process(localizer, &bad, &result) != SPHC_E_IMAGE) return -1;
+    if (!runHalves(e, localizer, frame->frame)) return -1;
   }
   sphc_localizer_fini(&localizer);
   sphc_map_fini(&map);
@@ -135,6 +161,6 @@ int main(int argc, char **argv) {
   std::printf("localized %d of 4 frames, pairer %s, aligner %s, without the heap\n", localized,
               paired ? "works" : "fails", aligned ? "works" : "fails");
   const bool intact = everything.state.guardsIntact() && everything.scratch.guardsIntact() &&
-                      everything.aligner_memory.guardsIntact();
+                      everything.features_memory.guardsIntact() && everything.aligner_memory.guardsIntact();
   return localized == 4 && paired && aligned && intact ? 0 : 1;
 }

@@ -288,6 +288,60 @@ inline sphc_localizer_prediction emptyPrediction() {
   return prediction;
 }
 
+// What a colour image shows, between the two halves of a frame.
+class Features {
+ public:
+  Features() = default;
+  Features(Features &&other) noexcept { swap(other); }
+  Features &operator=(Features &&other) noexcept {
+    Features moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  Features(const Features &) = delete;
+  Features &operator=(const Features &) = delete;
+  ~Features() { sphc_features_fini(&features_); }
+
+  // For localizers of this config.  Takes its memory from the heap, once, here.
+  static Status make(const sphc_localizer_config &config, Features *features) {
+    Status status;
+    sphc_memory need = {};
+    if (status.set(sphc_features_memory(&config, &need, status.message())).failed()) return status;
+    Features made;
+    made.memory_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
+    if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the features");
+    status.set(sphc_features_init(made.memory_.data(), made.memory_.size(), &config, &made.features_,
+                                  status.message()));
+    if (status.ok()) *features = std::move(made);
+    return status;
+  }
+
+  // Features of other hardware; of the frame the colour image and its time are read.
+  Status set(const sphc_localizer_frame &frame, const sphc_features_arrays &arrays) {
+    return said(sphc_features_set(features_, &frame, &arrays));
+  }
+  // Borrowed until they are filled again.  SPHC_E_STATE: of no frame yet.
+  Status arrays(sphc_features_arrays *arrays) const {
+    arrays->struct_size = sizeof *arrays;
+    return Status(sphc_features_get(features_, arrays));
+  }
+  // With its message where it failed: of set, and of Localizer::extract.
+  Status said(sphc_status code) const {
+    return code < 0 && features_ ? Status(code, sphc_features_message(features_)) : Status(code);
+  }
+  sphc_features *get() const { return features_; }
+  explicit operator bool() const { return features_ != nullptr; }
+
+ private:
+  void swap(Features &other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(features_, other.features_);
+  }
+
+  AlignedBuffer memory_;
+  sphc_features *features_ = nullptr;
+};
+
 class Localizer {
  public:
   Localizer() = default;
@@ -350,6 +404,13 @@ class Localizer {
   // ok(): localized.  code() SPHC_NOT_LOCALIZED: result->outcome says why.  failed(): the frame does not fit.
   Status process(const sphc_localizer_frame &frame, sphc_localizer_result *result) {
     return said(sphc_localizer_process(localizer_, &frame, result));
+  }
+  // The same in two halves: while one thread locates a frame, another may extract the features of the next.
+  Status extract(const sphc_localizer_frame &frame, Features *features) {
+    return features->said(sphc_localizer_extract(localizer_, &frame, features->get()));
+  }
+  Status locate(const sphc_localizer_frame &frame, const Features &features, sphc_localizer_result *result) {
+    return said(sphc_localizer_locate(localizer_, &frame, features.get(), result));
   }
   // ok(): *prediction is where the camera is at that time.  code() SPHC_NOT_LOCALIZED: not known.
   Status predict(std::int64_t time_ns, sphc_localizer_prediction *prediction) const {
