@@ -30,7 +30,8 @@ void printConfiguration(uint32_t width, uint32_t height, uint32_t keypoints) {
               static_cast<unsigned long long>(need.state_bytes), name.c_str(),
               static_cast<unsigned long long>(need.scratch_bytes));
   sphc_features_memory(&config, &need, nullptr);
-  std::printf("%s,state,features of a frame,%llu\n", name.c_str(), static_cast<unsigned long long>(need.state_bytes));
+  std::printf("%s,state,features of a frame,%llu\n", name.c_str(),
+              static_cast<unsigned long long>(need.state_bytes));
 }
 
 }  // namespace
