@@ -130,7 +130,9 @@ TEST_F(Halves, TurnsWithProcess) {
   Session session(config_, 0.5, 2);
   for (uint32_t i = 0; i < kFrames; ++i) {
     const bool at_once = i % 2;
-    if (!at_once) ASSERT_EQ(sphc_localizer_extract(session.localizer(), &frame(i), features_.handle), SPHC_OK);
+    if (!at_once) {
+      ASSERT_EQ(sphc_localizer_extract(session.localizer(), &frame(i), features_.handle), SPHC_OK);
+    }
     EXPECT_TRUE((at_once ? processed(&session, frame(i)) : located(&session, frame(i), features_)) == whole[i])
         << i;
   }
