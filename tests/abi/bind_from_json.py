@@ -139,7 +139,7 @@ class FromJson(unittest.TestCase):
             self.assertIn(function["threads"], ("pure", "shared", "exclusive"), function["name"])
         for struct in self.told["structs"]:
             self.assertEqual(len(struct["layouts"]), 5)
-        self.assertEqual({"sphc_map", "sphc_aligner", "sphc_localizer", "sphc_pairer", "sphc_clock_mapper"},
+        self.assertEqual({"sphc_map", "sphc_aligner", "sphc_features", "sphc_localizer", "sphc_pairer", "sphc_clock_mapper"},
                          set(self.told["opaque"]))
 
 
