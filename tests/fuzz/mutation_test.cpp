@@ -61,6 +61,7 @@ void walk(const char *name, int runs) {
 
 TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Frame) { walk("frame", 600); }
+TEST(Mutations, Session) { walk("session", 2000); }
 TEST(Mutations, Align) { walk("align", 3000); }
 TEST(Mutations, Recording) { walk("recording", 3000); }
 TEST(Mutations, RawRecording) { walk("rawRecording", 20000); }

@@ -51,6 +51,21 @@ std::vector<uint8_t> frameSeed(uint32_t viewpoint) {
   return seed;
 }
 
+// Calls with sound arguments; Play::call and what it calls read them in this order.
+std::vector<uint8_t> sessionSeed(uint8_t viewpoint) {
+  const std::vector<uint8_t> set_maps = {2, 0, 0, 0, 2, 1, 0, 1}, frame = {0, viewpoint, 33, 0, 255},
+                             place = {5, 0, 0, 60, 0, 128, 0, 192, 0, 128, 0, 129, 0, 129, 255},
+                             predict = {6, 0, 66}, parameter = {7, 0, 0, 0, 0, 184}, bias = {8, 255},
+                             observe = {9, 79, 0}, confidence = {10, 0, 131, 0, 134},
+                             camera = {11, 0, 0, 60, 0, 140, 0, 128, 0, 120, 60, 0, 128, 0, 130, 0, 140},
+                             map = {12, 1, 0, 0, 130, 0, 140, 0, 190}, remove = {4, 0, 0}, reset = {13};
+  std::vector<uint8_t> seed;
+  for (const auto &call : {set_maps, frame, frame, predict, place, frame, bias, frame, parameter, frame, observe,
+                           confidence, camera, map, remove, frame, predict, reset, frame})
+    seed.insert(seed.end(), call.begin(), call.end());
+  return seed;
+}
+
 // Two cameras of a model, and a depth image with a step and a hole.
 std::vector<uint8_t> alignSeed(sphc_camera_model model, const std::vector<double> &distortion,
                                sphc_format depth_format = SPHC_FORMAT_DEPTH16) {
@@ -126,6 +141,7 @@ std::vector<Target> allTargets() {
   std::vector<Target> targets = {
       {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2), infraredMap()}},
       {"frame", frame, {frameSeed(0), frameSeed(2), {}}},
+      {"session", session, {sessionSeed(0), sessionSeed(1)}},
       {"align",
        align,
        {alignSeed(SPHC_CAMERA_PINHOLE, {}), alignSeed(SPHC_CAMERA_BROWN5, {0.1, -0.05, 0.001, 0, 0}),

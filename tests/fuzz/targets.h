@@ -11,6 +11,8 @@ namespace sphc::fuzz {
 void map(const uint8_t *data, size_t bytes);
 // First a header of sizes, strides and formats, then pixels.
 void frame(const uint8_t *data, size_t bytes);
+// Calls of the C interface on one localizer, in any order.
+void session(const uint8_t *data, size_t bytes);
 // An aligner's config, then pixels of a depth image.
 void align(const uint8_t *data, size_t bytes);
 // A recording in one file; when it is accepted, images are read from it.

@@ -7,6 +7,7 @@
 
 #include "host/publish/descriptor_symmetry.h"
 #include "host/publish/sphere_cloud.h"
+#include "runtime/stages/features/mirrored_descriptor.h"
 
 namespace sphc::host {
 namespace {

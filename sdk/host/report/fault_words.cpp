@@ -4,7 +4,7 @@
 
 namespace sphc::host {
 
-const std::array<BitWords, 9> kFaultWords = {{
+const std::array<BitWords, 10> kFaultWords = {{
     {SPHC_FAULT_DEPTH_RANGE, "depth out of range",
      "nearly every measurement lies outside depth_min_m to depth_max_m: is depth_unit_m right, is the sensor "
      "covered?"},
@@ -24,6 +24,10 @@ const std::array<BitWords, 9> kFaultWords = {{
      "the bias that was learnt is more than a sound sensor has: calibrate the cameras again"},
     {SPHC_FAULT_VERTICAL_DISAGREES, "vertical disagrees",
      "the vertical that was given is not the pose's: check the frame and the sigma of the inertial sensor"},
+    {SPHC_FAULT_MIRRORED, "mirrored",
+     "left and right are changed against the map: does the camera look into a mirror, does its driver turn the "
+     "image "
+     "over?"},
 }};
 
 std::string faultNames(uint32_t faults) { return namesOf(kFaultWords, faults); }

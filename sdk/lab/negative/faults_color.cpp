@@ -55,7 +55,7 @@ std::vector<SensorFault> colorFaults() {
           {"colour rolled by a sixteenth", showing({0.0625, 0, 1, 1}), disagree, false, false},
           {"colour scaled to 80 % of its width", showing({0.1, 0, 0.8, 1}), disagree, false, false},
           {"colour frozen", freezeColor, frozen, false, false},
-          {"mirrored views", mirrorBoth, 0, false, true}};
+          {"mirrored views", mirrorBoth, SPHC_FAULT_MIRRORED, false, true}};
 }
 
 }  // namespace sphc::host

@@ -238,6 +238,8 @@ const char *sphc_localizer_fault_name(uint32_t fault) {
       return "SPHC_FAULT_DEPTH_BIAS";
     case SPHC_FAULT_VERTICAL_DISAGREES:
       return "SPHC_FAULT_VERTICAL_DISAGREES";
+    case SPHC_FAULT_MIRRORED:
+      return "SPHC_FAULT_MIRRORED";
     default:
       return "SPHC_FAULT_?";
   }

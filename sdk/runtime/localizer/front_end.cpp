@@ -6,6 +6,7 @@
 
 #include "runtime/localizer/tuning.h"
 #include "runtime/stages/features/gray.h"
+#include "runtime/stages/features/mirrored_descriptor.h"
 
 namespace sphc {
 namespace {
@@ -87,6 +88,13 @@ void FrontEnd::lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, co
     observations_[k].depth_m = static_cast<float>(z_m);
     observations_[k].lifted = true;
     toFront(k);
+  }
+}
+
+void FrontEnd::mirror() {
+  for (uint32_t k = 0; k < keypoint_count_; ++k) {
+    descriptors_[k] = mirrored(descriptors_[k]);
+    lifted_[k].point_m.x() = -lifted_[k].point_m.x();
   }
 }
 

@@ -24,6 +24,8 @@ class FrontEnd {
   // After extract or show.  Those with depth come first from then on, then those without.  `color_from_depth`: the
   // cameras at the time of each one's image.
   void lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, const Deadline &deadline = {});
+  // After lift.  Makes the frame its mirror image, left and right changed; a second time it is itself again.
+  void mirror();
   // Did a deadline leave something out?
   bool wasCut() const { return cut_; }
 

@@ -209,9 +209,59 @@ void Localizer::answer(const Known &known, const Deadline &deadline, Faults *fau
     rest.prior.has_up = false;
     locate(rest, deadline, work);
   }
+  checkHandedness(deadline, faults, work);
   if (config_.tracks && best_.isLocalized() && tracker_.vetoes(best_.map, best_.estimate)) best_.doubtForRival();
   if (config_.tracks && travel_.isScaled(known, tracker_, best_)) *faults |= kDepthScale;
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
+}
+
+// Takes the pose of a mirror image away, and names it.  The last step, which a frame may lack for its deadline.
+void Localizer::checkHandedness(const Deadline &deadline, Faults *faults, Work *work) {
+  Spread frame;
+  if (best_.hasPose()) frame = spreadOf(best_.matched.ofThisFrame(), best_.estimate, estimator_);
+  if (!mayBeMirrored(frame)) return;
+  if (deadline.passed()) {
+    work->cuts |= kCutVerification;
+    return;
+  }
+  findPoseOfMirrored(deadline, work);
+  Spread mirrored;
+  if (candidate_.hasPose()) mirrored = spreadOf(candidate_.matched.ofThisFrame(), candidate_.estimate, estimator_);
+  switch (handednessOf(frame, mirrored)) {
+    case Handedness::kKept:
+      break;
+    case Handedness::kUnclear:
+      if (best_.isLocalized()) best_.doubtForRival();
+      break;
+    case Handedness::kChanged:
+      *faults |= kMirrored;
+      best_.outcome = Outcome::kContradiction;
+  }
+}
+
+// A pose of the whole map may be one of a mirror image if it rests on one spot; a frame that has none if much of it
+// looks like the map.
+bool Localizer::mayBeMirrored(const Spread &spread) const {
+  if (!best_.tried || (best_.isLocalized() && best_.guided)) return false;
+  if (best_.isLocalized()) return sphc::mayBeMirrored(spread);
+  return clear_ > kLeastClearOfMirrored * front_.keypointCount();
+}
+
+// Makes candidate_ what the mirror image of the frame shows in the map of best_.
+void Localizer::findPoseOfMirrored(const Deadline &deadline, Work *work) {
+  front_.mirror();
+  const PosePrior nothing;
+  const uint32_t all = front_.keypointCount();
+  const PoseTask task = {search_.ask(front_, best_.map, all, config_.search.probes, work),
+                         {},
+                         queryFor(nothing, deadline),
+                         4 * kPi,
+                         {kConesOfSearchedPose, 2}};
+  candidate_.begin(best_.map);
+  search_.matchEverywhere(task.question, all, deadline.afterShare(kMatchShare), &candidate_.matched, work);
+  Verification(&search_, &estimator_, &repetition_, &fusion_, config_.search.min_inliers, work)
+      .findUnverifiedPose(task, &candidate_);
+  front_.mirror();
 }
 
 // Makes best_ what is found with all that is known.

@@ -6,6 +6,7 @@
 #include "runtime/localizer/frame.h"
 #include "runtime/localizer/front_end.h"
 #include "runtime/localizer/fusion.h"
+#include "runtime/localizer/handedness.h"
 #include "runtime/localizer/hints.h"
 #include "runtime/localizer/result.h"
 #include "runtime/localizer/search.h"
@@ -74,6 +75,9 @@ class Localizer {
   void solve(const PoseTask &task, Work *work);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
+  void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
+  bool mayBeMirrored(const Spread &spread) const;
+  void findPoseOfMirrored(const Deadline &deadline, Work *work);
   bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
   void observe();

@@ -103,6 +103,21 @@ constexpr uint32_t kFewestMoves = 10, kMostMoves = 2;
 constexpr uint32_t kFewestUnrepeated = 12;
 constexpr double kLeastUnrepeated = 0.25, kRepeatedGain = 0.5;
 
+// ---- mirror images (decision 56) ----
+
+// Of the inliers of a pose so many are asked where they lie; a spot is a cone about one of them, twice as wide as a
+// patch of fakes is by default (8 degrees).
+constexpr uint32_t kAskedForSpread = 256;
+constexpr float kSpotCosine = 0.990268f;  // of 8 degrees
+// Over 12 keys of seven recordings (8280 mirrored frames, eta 33 %) poses of mirror images had up to 68 %
+// elsewhere; of sound ones on redkitchen 15 % have less than 70.
+constexpr double kMostElsewhereOfMirrored = 0.7;
+// A frame without a pose is asked where it has clear matches with the map, for so many of its keypoints.
+constexpr double kLeastClearOfMirrored = 0.01;
+// A frame is a mirror image where its mirror image has so many inliers elsewhere, and so many times its own.
+// Sound frames had up to 7 there, and then 4 of their own.
+constexpr uint32_t kFewestElsewhere = 10, kTimesElsewhere = 2;
+
 // ---- confirmation: a second, independent search must find a doubtful pose again ----
 
 // Poses of a search in the whole map are doubtful below so many inliers: all wrong poses that were accepted on real

@@ -59,6 +59,10 @@ void Verification::findPoseLoosely(const PoseTask &task, Hypothesis *found, Hypo
   verify(other, found, rival);
 }
 
+void Verification::findUnverifiedPose(const PoseTask &task, Hypothesis *found) const {
+  if (searchPose(task, found)) rematch(task, found);
+}
+
 // A pose that was found, against its rivals.
 void Verification::verify(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   challengeWithoutLeverage(task, found, rival);

@@ -37,6 +37,8 @@ class Verification {
   void findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   // The same from the matches of a looser ratio test, for a frame that findPose finds no pose of.
   void findPoseLoosely(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  // Nothing is verified, so the pose is evidence and no answer.
+  void findUnverifiedPose(const PoseTask &task, Hypothesis *found) const;
 
  private:
   void verify(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;

@@ -15,6 +15,7 @@ constexpr Faults kDepthColorDisagree = 32;  // edges of depth do not lie on edge
 constexpr Faults kDepthScale = 64;          // the pose moves more, or less, than odometry says
 constexpr Faults kDepthBias = 128;          // what was learnt of the depth sensor is beyond what may be
 constexpr Faults kVerticalDisagrees = 256;  // the vertical that was given is not the pose's
+constexpr Faults kMirrored = 512;           // left and right are changed against the map
 
 // With any of these there is nothing to make a pose from.
 constexpr Faults kContradictions =

@@ -3,12 +3,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "host/publish/descriptor_symmetry.h"
 #include "host/publish/fakes/patches.h"
 #include "host/publish/fakes/smooth_warp.h"
 #include "host/publish/fakes/spread_draw.h"
 #include "host/publish/fakes/strategy.h"
 #include "runtime/base/elementary.h"
+#include "runtime/stages/features/mirrored_descriptor.h"
 
 namespace sphc::host {
 namespace {

@@ -16,11 +16,6 @@ Descriptor single(size_t row, size_t column, size_t bin) {
   return d;
 }
 
-TEST(DescriptorSymmetry, AMirrorTurnsRowsAndAnglesRound) {
-  EXPECT_EQ(allBytes(mirrored(single(0, 1, 1))), allBytes(single(3, 1, 7)));
-  EXPECT_EQ(allBytes(mirrored(single(2, 3, 0))), allBytes(single(1, 3, 0)));
-}
-
 TEST(DescriptorSymmetry, ANegativeIsSeenUpsideDown) {
   EXPECT_EQ(allBytes(negative(single(0, 1, 5))), allBytes(single(3, 2, 5)));
 }

@@ -60,6 +60,21 @@ TEST_F(FrontEndTest, DescriptorsGoWithTheirKeypoints) {
   EXPECT_TRUE(some_moved);
 }
 
+TEST_F(FrontEndTest, MirroredTwiceAFrameIsItselfAgain) {
+  const std::vector<Descriptor> described(front().descriptors().begin(), front().descriptors().end());
+  const std::vector<LiftedPoint> lifted(front().lifted().begin(), front().lifted().end());
+  front().mirror();
+  for (uint32_t i = 0; i < front().keypointCount(); ++i) {
+    EXPECT_NE(std::memcmp(&described[i], &front().descriptors()[i], sizeof(Descriptor)), 0) << i;
+    EXPECT_EQ(front().lifted()[i].point_m, Vector3(-1, 1, 1).cwiseProduct(lifted[i].point_m));
+  }
+  front().mirror();
+  for (uint32_t i = 0; i < front().keypointCount(); ++i) {
+    EXPECT_EQ(std::memcmp(&described[i], &front().descriptors()[i], sizeof(Descriptor)), 0) << i;
+    EXPECT_EQ(front().lifted()[i].point_m, lifted[i].point_m);
+  }
+}
+
 // Red alone has a weight that neither green nor blue has (gray.h).
 TEST_F(FrontEndTest, ColourIsReadInItsOrder) {
   const auto made = test::sceneFrame(test::sceneConfig(), 1);

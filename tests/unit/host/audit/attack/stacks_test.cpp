@@ -6,8 +6,8 @@
 #include <set>
 
 #include "host/audit/score/auc.h"
-#include "host/publish/descriptor_symmetry.h"
 #include "host/publish/secret_random.h"
+#include "runtime/stages/features/mirrored_descriptor.h"
 #include "tests/unit/host/audit/made_up_cloud.h"
 
 namespace sphc::host {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "host/publish/descriptor_symmetry.h"
 #include "host/publish/fakes/strategy.h"
+#include "runtime/stages/features/mirrored_descriptor.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc::host {

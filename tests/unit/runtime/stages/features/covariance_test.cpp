@@ -1,6 +1,7 @@
 // What happens to the image happens to the keypoints, and the descriptors stay.
 #include <gtest/gtest.h>
 
+#include "runtime/stages/features/mirrored_descriptor.h"
 #include "tests/unit/runtime/stages/features/features_fixture.h"
 
 namespace sphc {
@@ -54,19 +55,24 @@ TEST(Covariance, QuarterTurnTurnsTheKeypoints) {
   EXPECT_GE(alike, matched * 97 / 100);
 }
 
-TEST(Covariance, MirroringMirrorsPlaces) {
+TEST(Covariance, MirroringMirrorsPlacesAndDescriptors) {
   const TestImage image = spots(kSide, kSide, 12);
-  TestImage mirrored(kSide, kSide);
+  TestImage turned_over(kSide, kSide);
   for (int32_t y = 0; y < kSide; ++y) {
-    for (int32_t x = 0; x < kSide; ++x) mirrored.at(kSide - 1 - x, y) = image.at(x, y);
+    for (int32_t x = 0; x < kSide; ++x) turned_over.at(kSide - 1 - x, y) = image.at(x, y);
   }
-  const Features a = extractFrom(image, 2000), b = extractFrom(mirrored, 2000);
-  size_t matched = 0;
-  for (const Keypoint &k : a.keypoints) {
-    matched += findNear(b, kSide - static_cast<double>(k.x_px), static_cast<double>(k.y_px),
-                        static_cast<double>(k.scale_px), kPi - static_cast<double>(k.orientation_rad), 0.02) >= 0;
+  const Features a = extractFrom(image, 2000), b = extractFrom(turned_over, 2000);
+  size_t matched = 0, alike = 0;
+  for (size_t i = 0; i < a.keypoints.size(); ++i) {
+    const Keypoint &k = a.keypoints[i];
+    const int j = findNear(b, kSide - static_cast<double>(k.x_px), static_cast<double>(k.y_px),
+                           static_cast<double>(k.scale_px), kPi - static_cast<double>(k.orientation_rad), 0.02);
+    if (j < 0) continue;
+    ++matched;
+    alike += distance(mirrored(a.descriptors[i]), b.descriptors[static_cast<size_t>(j)]) < 30;
   }
   EXPECT_GE(matched, a.keypoints.size() * 98 / 100);
+  EXPECT_GE(alike, matched * 97 / 100);
 }
 
 // Nearest descriptor with the ratio test, as localization does it.

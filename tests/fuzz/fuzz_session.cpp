@@ -1,0 +1,184 @@
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+
+#include "tests/fuzz/arguments.h"
+#include "tests/fuzz/targets.h"
+
+namespace sphc::fuzz {
+namespace {
+
+constexpr uint32_t kMaps = 3, kViewpoints = 3, kMostCalls = 40;
+
+sphc_localizer_config trackingConfig() {
+  sphc_localizer_config config = smallConfig();
+  config.mode = SPHC_MODE_TRACKING;
+  config.max_maps = kMaps - 1;  // so that it can be full
+  config.depth_offset_sigma_m = 0.01;
+  config.depth_slope_sigma = 0.01;
+  return config;
+}
+
+bool isFinite(const double *values, size_t count) {
+  for (size_t i = 0; i < count; ++i)
+    if (!std::isfinite(values[i])) return false;
+  return true;
+}
+
+// Maps and frames, made once.
+struct Material {
+  test::Session rooms{smallConfig(), 0.7, kMaps};
+  std::vector<std::unique_ptr<test::SceneFrame>> frames;
+
+  Material() {
+    for (uint32_t i = 0; i < kViewpoints; ++i) frames.push_back(test::sceneFrame(smallConfig(), i));
+  }
+};
+
+// One localizer from its first call to its last.
+class Play {
+ public:
+  Play(Material *material, Reader *reader) : material_(*material), reader_(*reader) {
+    const sphc_localizer_config config = trackingConfig();
+    sphc_memory need = {};
+    sphc_localizer_memory(&config, &need, nullptr);
+    state_ = test::GuardedMemory(need.state_bytes, need.alignment);
+    scratch_ = test::GuardedMemory(need.scratch_bytes, need.alignment);
+    if (sphc_localizer_init(state_.data(), state_.size(), scratch_.data(), scratch_.size(), &config, &localizer_,
+                            nullptr) != SPHC_OK)
+      broken("what can be measured can be made");
+    sphc_localizer_result_init(&result_, sizeof result_);
+    sphc_localizer_set_parameter(localizer_, SPHC_PARAMETER_MAX_ITERATIONS, 100);
+  }
+  ~Play() { sphc_localizer_fini(&localizer_); }
+  Play(const Play &) = delete;
+  Play &operator=(const Play &) = delete;
+
+  void call() {
+    using Call = void (Play::*)();
+    constexpr Call kCalls[] = {
+        &Play::process,         &Play::process,       &Play::setMap,       &Play::setMap,       &Play::removeMap,
+        &Play::setMapTransform, &Play::predict,       &Play::setParameter, &Play::setDepthBias, &Play::observe,
+        &Play::askConfidence,   &Play::convertCamera, &Play::convertMap};
+    const uint32_t which = reader_.next() % (std::size(kCalls) + 1);
+    if (which == std::size(kCalls)) return sphc_localizer_reset(localizer_);
+    (this->*kCalls[which])();
+    if (!state_.guardsIntact() || !scratch_.guardsIntact()) broken("the localizer keeps inside its memory");
+  }
+
+ private:
+  void explains(sphc_status status) const {
+    if (status > SPHC_OK && status != SPHC_NOT_LOCALIZED) broken("a status is one of those that are stated");
+    if (status < 0 && !sphc_localizer_message(localizer_)[0]) broken("a refusal explains itself");
+  }
+
+  void process() {
+    sphc_localizer_frame frame = material_.frames[reader_.next() % kViewpoints]->frame;
+    frame.color_time_ns = time_ns_ += int64_t{1000000} * reader_.next();
+    frame.depth_time_ns = frame.color_time_ns + around(0, &reader_);
+    Roomy<sphc_localizer_prior> prior;
+    if (reader_.next() < 100) {
+      prior.its = priorFrom(&reader_);
+      frame.prior = &prior.its;
+    }
+    const sphc_status status = sphc_localizer_process(localizer_, &frame, &result_);
+    explains(status);
+    if (status >= 0 && !isFilled(result_)) broken("a result has finite numbers");
+  }
+  void setMap() {
+    const uint32_t id = anyId(), room = reader_.next() % kMaps;
+    explains(sphc_localizer_set_map(localizer_, id, material_.rooms.map(room)));
+    if (sphc_localizer_map_count(localizer_) > kMaps - 1) broken("no more maps than there is room for");
+  }
+  void removeMap() { explains(sphc_localizer_remove_map(localizer_, anyId())); }
+  void setMapTransform() {
+    const uint32_t id = anyId();
+    sphc_rigid pose = {};
+    fill(&pose, &reader_);
+    const double rotation_sigma_rad = anyNumber(&reader_), translation_sigma_m = anyNumber(&reader_);
+    explains(sphc_localizer_set_map_transform(localizer_, id, reader_.next() < 40 ? nullptr : &pose,
+                                              rotation_sigma_rad, translation_sigma_m));
+  }
+  void predict() {
+    sphc_localizer_prediction prediction;
+    sphc_localizer_prediction_init(&prediction, sizeof prediction);
+    const int64_t at_ns = reader_.next() < 200 ? time_ns_ + int64_t{4000000} * (reader_.next() - 64)
+                                               : static_cast<int64_t>(uint64_t{reader_.take32()} << 32);
+    if (sphc_localizer_predict(localizer_, at_ns, &prediction) < 0) broken("a prediction of any time is answered");
+    if (!isFinite(prediction.camera_from_map.t_m, 3) || !isFinite(prediction.covariance, 36) ||
+        !isFinite(prediction.velocity_in_map_m_s, 3))
+      broken("a prediction has finite numbers");
+  }
+  void setParameter() {
+    const auto parameter = static_cast<sphc_localizer_parameter>(around(1 + reader_.next() % 4, &reader_));
+    const double value = reader_.next() < 128 ? anyNumber(&reader_) : reader_.next();
+    const sphc_status status = sphc_localizer_set_parameter(localizer_, parameter, value);
+    explains(status);
+    double now = 0;
+    if (status == SPHC_OK && (sphc_localizer_get_parameter(localizer_, parameter, &now) != SPHC_OK || now != value))
+      broken("a parameter is what it was set to");
+  }
+  void setDepthBias() {
+    sphc_depth_bias bias = result_.depth;
+    if (reader_.next() < 128)
+      for (double *value : {&bias.mid_m, &bias.offset_m, &bias.slope, &bias.offset_sigma_m, &bias.slope_sigma,
+                            &bias.correlation, &bias.noise_scale})
+        if (reader_.next() < 80) *value = anyNumber(&reader_);
+    explains(sphc_localizer_set_depth_bias(localizer_, &bias));
+  }
+  void observe() {
+    sphc_localizer_observation observations[80];
+    uint32_t count = 0;
+    const uint32_t capacity = reader_.next() % 80;
+    sphc_localizer_observations(localizer_, observations, around(sizeof observations[0], &reader_), capacity,
+                                &count);
+    if (count > smallConfig().max_keypoints) broken("no more observations than keypoints");
+  }
+  void askConfidence() {
+    const double within_m = anyNumber(&reader_), within_rad = anyNumber(&reader_);
+    const double p = sphc_localizer_result_confidence(&result_, within_m, within_rad);
+    if (!(p >= 0 && p <= 1)) broken("a confidence is a probability");
+  }
+  void convertCamera() {
+    const auto convention = static_cast<sphc_convention>(around(1 + reader_.next() % 6, &reader_));
+    sphc_rigid world = {}, camera = {}, back = {};
+    fill(&world, &reader_);
+    fill(&camera, &reader_);
+    double pose[7];
+    if (sphc_convention_write_camera(convention, &world, &camera, pose, nullptr) != SPHC_OK) return;
+    if (!isFinite(pose, 7)) broken("a pose that is written is finite");
+    if (sphc_convention_read_camera(convention, &world, pose, &back, nullptr) == SPHC_OK && !isFinite(back.t_m, 3))
+      broken("a pose that is read is finite");
+  }
+  void convertMap() {
+    const auto convention = static_cast<sphc_convention>(around(1 + reader_.next() % 6, &reader_));
+    double up_map[3];
+    for (double &part : up_map) part = anyNumber(&reader_);
+    sphc_rigid world;
+    double pose[7];
+    if (sphc_convention_make_world(convention, up_map, &world, nullptr) != SPHC_OK) return;
+    if (sphc_convention_write_map(convention, &world, pose, nullptr) != SPHC_OK)
+      broken("a world that is made can be written");
+    if (sphc_convention_read_map(convention, pose, &world, nullptr) != SPHC_OK)
+      broken("what is written can be read");
+  }
+  uint32_t anyId() { return around(reader_.next() % kMaps, &reader_); }
+
+  Material &material_;
+  Reader &reader_;
+  test::GuardedMemory state_, scratch_;
+  sphc_localizer *localizer_ = nullptr;
+  sphc_localizer_result result_ = {};
+  int64_t time_ns_ = 0;
+};
+
+}  // namespace
+
+void session(const uint8_t *data, size_t bytes) {
+  static Material *material = new Material;
+  Reader reader(data, bytes);
+  Play play(material, &reader);
+  for (uint32_t calls = 0; calls < kMostCalls && !reader.isAtEnd(); ++calls) play.call();
+}
+
+}  // namespace sphc::fuzz
