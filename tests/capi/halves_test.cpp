@@ -79,6 +79,7 @@ class Halves : public testing::Test {
  protected:
   // A walk, in which one frame shows nothing and one comes from another room.
   Halves() {
+    config_.mode = SPHC_MODE_TRACKING;
     for (uint32_t i = 0; i < kFrames; ++i) {
       frames_.push_back(sphc::test::sceneFrame(config_, i % 4, i == 4));
       frames_[i]->frame.color_time_ns = frames_[i]->frame.depth_time_ns = (i + 1) * int64_t{50000000};
@@ -174,21 +175,23 @@ TEST_F(Halves, SeveralLocalizersLocateTheSameFeatures) {
   EXPECT_EQ(features_.memory.copy(), before);
 }
 
+// What is looked at after the features is a copy: here the hints of a frame that shows nothing.
 TEST_F(Halves, TheImageMayGo) {
-  const std::vector<Answer> whole = allProcessed();
-  Session session(config_, 0.5, 2);
-  const sphc_image &color = frame(0).color;
+  Session whole(config_), halves(config_);
+  const Answer expected = processed(&whole, frame(2));
+  EXPECT_TRUE(expected.result.hints & SPHC_HINT_TOO_PLAIN);
+  const sphc_image &color = frame(2).color;
   const uint32_t stride = color.width + 24;
   std::vector<uint8_t> padded(size_t{stride} * color.height, 0xAA);
   for (uint32_t y = 0; y < color.height; ++y)
     std::memcpy(&padded[size_t{y} * stride], static_cast<const uint8_t *>(color.data) + size_t{y} * color.width,
                 color.width);
-  sphc_localizer_frame own = frame(0);
+  sphc_localizer_frame own = frame(2);
   own.color.data = padded.data(), own.color.stride_bytes = stride;
-  ASSERT_EQ(sphc_localizer_extract(session.localizer(), &own, features_.handle), SPHC_OK);
+  ASSERT_EQ(sphc_localizer_extract(halves.localizer(), &own, features_.handle), SPHC_OK);
   std::memset(padded.data(), 0, padded.size());
   own.color = {};
-  EXPECT_TRUE(located(&session, own, features_) == whole[0]);
+  EXPECT_TRUE(located(&halves, own, features_) == expected);
 }
 
 TEST_F(Halves, FeaturesFromElsewhere) {
@@ -378,6 +381,11 @@ TEST_F(Halves, EachHalfHasItsDeadline) {
   const Answer cut = located(&session, frame(0), features_);
   EXPECT_TRUE(cut.result.cuts & SPHC_CUT_FEATURES);
   EXPECT_GT(cut.result.features_us, 0u);
+  const sphc_features_arrays arrays = features_.arrays();
+  ASSERT_EQ(sphc_features_set(features_.handle, &frame(0), &arrays), SPHC_OK);  // their own: nobody was in haste
+  const Answer set = located(&session, frame(0), features_);
+  EXPECT_EQ(set.result.cuts, 0u);
+  EXPECT_EQ(set.result.features_us, 0u);
   ASSERT_EQ(sphc_localizer_extract(session.localizer(), &frame(1), features_.handle), SPHC_OK);
   EXPECT_EQ(located(&session, frame(1), features_).result.cuts, 0u);
   soon = frame(1);
