@@ -266,6 +266,27 @@ TEST_F(CInterfaceFailure, ProcessStructSizes) {
   expectMentions(sphc_localizer_message(session_.localizer()), "result.struct_size");
 }
 
+TEST_F(CInterfaceFailure, ReservedFieldsThatAreSet) {
+  for (uint32_t sphc_localizer_config::*reserved :
+       {&sphc_localizer_config::reserved, &sphc_localizer_config::reserved2}) {
+    sphc_localizer_config config = config_;
+    config.*reserved = 1;
+    Init bad = good();
+    bad.config = &config;
+    expectRefused(bad, SPHC_E_UNSUPPORTED, "config has a reserved field");
+  }
+  expectFrameRefused([](sphc_localizer_frame *f) { f->reserved = 1; }, SPHC_E_UNSUPPORTED,
+                     "frame has a reserved field");
+  expectFrameRefused([](sphc_localizer_frame *f) { f->reserved2 = uint64_t{1} << 63; }, SPHC_E_UNSUPPORTED,
+                     "frame has a reserved field");
+  sphc_localizer_prior prior;
+  sphc_localizer_prior_init(&prior, sizeof prior);
+  prior.reserved = 1;
+  sphc_localizer_frame frame = frame_->frame;
+  frame.prior = &prior;
+  expectFrameRefused(&frame, SPHC_E_UNSUPPORTED, "prior has a reserved field");
+}
+
 TEST_F(CInterfaceFailure, ProcessColorImage) {
   expectFrameRefused([](sphc_localizer_frame *f) { f->color.data = nullptr; }, SPHC_E_IMAGE,
                      "color image's data pointer is null");

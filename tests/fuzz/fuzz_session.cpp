@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 
 #include "tests/fuzz/arguments.h"
@@ -48,22 +48,31 @@ class Play {
                             nullptr) != SPHC_OK)
       broken("what can be measured can be made");
     sphc_localizer_result_init(&result_, sizeof result_);
+    sphc_features_memory(&config, &need, nullptr);
+    features_memory_ = test::GuardedMemory(need.state_bytes, need.alignment);
+    if (sphc_features_init(features_memory_.data(), features_memory_.size(), &config, &features_, nullptr) !=
+        SPHC_OK)
+      broken("what can be measured can be made");
     sphc_localizer_set_parameter(localizer_, SPHC_PARAMETER_MAX_ITERATIONS, 100);
   }
-  ~Play() { sphc_localizer_fini(&localizer_); }
+  ~Play() {
+    sphc_localizer_fini(&localizer_);
+    sphc_features_fini(&features_);
+  }
   Play(const Play &) = delete;
   Play &operator=(const Play &) = delete;
 
   void call() {
     using Call = void (Play::*)();
     constexpr Call kCalls[] = {
-        &Play::process,         &Play::process,       &Play::setMap,       &Play::setMap,       &Play::removeMap,
-        &Play::setMapTransform, &Play::predict,       &Play::setParameter, &Play::setDepthBias, &Play::observe,
-        &Play::askConfidence,   &Play::convertCamera, &Play::convertMap};
+        &Play::process,         &Play::processInHalves, &Play::setMap,       &Play::setMap,       &Play::removeMap,
+        &Play::setMapTransform, &Play::predict,         &Play::setParameter, &Play::setDepthBias, &Play::observe,
+        &Play::askConfidence,   &Play::convertCamera,   &Play::convertMap,   &Play::setFeatures};
     const uint32_t which = reader_.next() % (std::size(kCalls) + 1);
     if (which == std::size(kCalls)) return sphc_localizer_reset(localizer_);
     (this->*kCalls[which])();
-    if (!state_.guardsIntact() || !scratch_.guardsIntact()) broken("the localizer keeps inside its memory");
+    if (!state_.guardsIntact() || !scratch_.guardsIntact() || !features_memory_.guardsIntact())
+      broken("localizer and features keep inside their memory");
   }
 
  private:
@@ -72,18 +81,51 @@ class Play {
     if (status < 0 && !sphc_localizer_message(localizer_)[0]) broken("a refusal explains itself");
   }
 
-  void process() {
+  sphc_localizer_frame anyFrame() {
     sphc_localizer_frame frame = material_.frames[reader_.next() % kViewpoints]->frame;
     frame.color_time_ns = time_ns_ += int64_t{1000000} * reader_.next();
     frame.depth_time_ns = frame.color_time_ns + around(0, &reader_);
-    Roomy<sphc_localizer_prior> prior;
     if (reader_.next() < 100) {
-      prior.its = priorFrom(&reader_);
-      frame.prior = &prior.its;
+      prior_.its = priorFrom(&reader_);
+      frame.prior = &prior_.its;
     }
-    const sphc_status status = sphc_localizer_process(localizer_, &frame, &result_);
+    return frame;
+  }
+  void isAnswered(sphc_status status) const {
     explains(status);
     if (status >= 0 && !isFilled(result_)) broken("a result has finite numbers");
+  }
+  void process() {
+    const sphc_localizer_frame frame = anyFrame();
+    isAnswered(sphc_localizer_process(localizer_, &frame, &result_));
+  }
+  void processInHalves() {
+    const sphc_localizer_frame frame = anyFrame();
+    if (reader_.next() < 200 && sphc_localizer_extract(localizer_, &frame, features_) < 0 &&
+        !sphc_features_message(features_)[0])
+      broken("a refusal explains itself");
+    isAnswered(sphc_localizer_locate(localizer_, &frame, features_, &result_));
+  }
+  // What came out goes in again, changed at times.
+  void setFeatures() {
+    sphc_features_arrays arrays = {};
+    arrays.struct_size = sizeof arrays;
+    if (sphc_features_get(features_, &arrays) != SPHC_OK) return;
+    std::vector<sphc_keypoint> keypoints(arrays.keypoints, arrays.keypoints + arrays.count);
+    const std::vector<uint8_t> descriptors(arrays.descriptors,
+                                           arrays.descriptors + size_t{arrays.count} * SPHC_DESCRIPTOR_BYTES);
+    if (!keypoints.empty() && reader_.next() < 128) {
+      sphc_keypoint &one = keypoints[reader_.next() % keypoints.size()];
+      for (float *value : {&one.x_px, &one.y_px, &one.scale_px, &one.angle_rad, &one.response})
+        if (reader_.next() < 100) *value = static_cast<float>(anyNumber(&reader_));
+    }
+    arrays.count = static_cast<uint32_t>(keypoints.size()) - (keypoints.empty() ? 0 : reader_.next() % 2);
+    arrays.extractor = around(arrays.extractor, &reader_);
+    arrays.keypoints = keypoints.data();
+    arrays.descriptors = descriptors.data();
+    const sphc_localizer_frame frame = anyFrame();
+    const sphc_status status = sphc_features_set(features_, &frame, &arrays);
+    if (status < 0 && !sphc_features_message(features_)[0]) broken("a refusal explains itself");
   }
   void setMap() {
     const uint32_t id = anyId(), room = reader_.next() % kMaps;
@@ -127,11 +169,12 @@ class Play {
     explains(sphc_localizer_set_depth_bias(localizer_, &bias));
   }
   void observe() {
-    sphc_localizer_observation observations[80];
+    alignas(sphc_localizer_observation) uint8_t room[80 * 256];
     uint32_t count = 0;
-    const uint32_t capacity = reader_.next() % 80;
-    sphc_localizer_observations(localizer_, observations, around(sizeof observations[0], &reader_), capacity,
-                                &count);
+    const uint32_t stride_bytes = around(sizeof(sphc_localizer_observation), &reader_);
+    const uint32_t capacity = std::min<uint32_t>(reader_.next(), sizeof room / std::max(stride_bytes, 1u));
+    sphc_localizer_observations(localizer_, reinterpret_cast<sphc_localizer_observation *>(room), stride_bytes,
+                                capacity, &count);
     if (count > smallConfig().max_keypoints) broken("no more observations than keypoints");
   }
   void askConfidence() {
@@ -166,8 +209,10 @@ class Play {
 
   Material &material_;
   Reader &reader_;
-  test::GuardedMemory state_, scratch_;
+  test::GuardedMemory state_, scratch_, features_memory_;
   sphc_localizer *localizer_ = nullptr;
+  sphc_features *features_ = nullptr;
+  Roomy<sphc_localizer_prior> prior_;
   sphc_localizer_result result_ = {};
   int64_t time_ns_ = 0;
 };

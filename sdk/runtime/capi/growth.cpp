@@ -21,6 +21,10 @@ bool isSize(const StructKind &kind, size_t struct_size) {
   return struct_size >= kind.first_bytes && struct_size <= kMostBytes && struct_size % kind.alignment == 0;
 }
 
+bool isZero(const unsigned char *bytes, size_t count) {
+  return std::all_of(bytes, bytes + count, [](unsigned char byte) { return byte == 0; });
+}
+
 const unsigned char *bytesOf(const void *growing) { return static_cast<const unsigned char *>(growing); }
 unsigned char *bytesOf(void *growing) { return static_cast<unsigned char *>(growing); }
 
@@ -43,6 +47,13 @@ sphc_status readStructBytes(const StructKind &kind, const char *name, const void
               std::min(struct_size, kind.known_bytes) - kSizeBytes);
   const auto own_size = static_cast<uint32_t>(kind.known_bytes);
   std::memcpy(known, &own_size, kSizeBytes);
+  for (const FieldBytes &field : kind.reserved) {
+    if (isZero(bytesOf(known) + field.offset, field.bytes)) continue;
+    MessageWriter(message) << name << " has a reserved field that is not zero, at byte "
+                           << static_cast<uint64_t>(field.offset)
+                           << "; make the struct by its _init function, or of zeros";
+    return SPHC_E_UNSUPPORTED;
+  }
   return SPHC_OK;
 }
 

@@ -8,11 +8,16 @@
 
 namespace sphc {
 
+struct FieldBytes {
+  size_t offset = 0, bytes = 0;
+};
+
 struct StructKind {
   const char *type;
   size_t first_bytes;  // when it was first published (tests/abi/headers); a smaller one never was
   size_t known_bytes;  // today
   size_t alignment;
+  FieldBytes reserved[2] = {};  // fields that a later library may read, so callers leave them zero
 };
 
 // Of a struct that has not grown yet.
@@ -38,13 +43,22 @@ constexpr StructKind kindOf(const sphc_clock_mapping *) {
   return ungrown<sphc_clock_mapping>("sphc_clock_mapping");
 }
 constexpr StructKind kindOf(const sphc_features_arrays *) {
-  return ungrown<sphc_features_arrays>("sphc_features_arrays");
+  StructKind kind = ungrown<sphc_features_arrays>("sphc_features_arrays");
+  kind.reserved[0] = {offsetof(sphc_features_arrays, reserved), sizeof(uint32_t)};
+  return kind;
 }
 constexpr StructKind kindOf(const sphc_localizer_config *) {
-  return grown<sphc_localizer_config>("sphc_localizer_config", offsetof(sphc_localizer_config, depth_format));
+  StructKind kind =
+      grown<sphc_localizer_config>("sphc_localizer_config", offsetof(sphc_localizer_config, depth_format));
+  kind.reserved[0] = {offsetof(sphc_localizer_config, reserved), sizeof(uint32_t)};
+  kind.reserved[1] = {offsetof(sphc_localizer_config, reserved2), sizeof(uint32_t)};
+  return kind;
 }
 constexpr StructKind kindOf(const sphc_localizer_frame *) {
-  return grown<sphc_localizer_frame>("sphc_localizer_frame", offsetof(sphc_localizer_frame, reserved2));
+  StructKind kind = grown<sphc_localizer_frame>("sphc_localizer_frame", offsetof(sphc_localizer_frame, reserved2));
+  kind.reserved[0] = {offsetof(sphc_localizer_frame, reserved), sizeof(uint32_t)};
+  kind.reserved[1] = {offsetof(sphc_localizer_frame, reserved2), sizeof(uint64_t)};
+  return kind;
 }
 constexpr StructKind kindOf(const sphc_map_info *) {
   return grown<sphc_map_info>("sphc_map_info", offsetof(sphc_map_info, band));
@@ -56,7 +70,9 @@ constexpr StructKind kindOf(const sphc_pairer_counts *) {
   return ungrown<sphc_pairer_counts>("sphc_pairer_counts");
 }
 constexpr StructKind kindOf(const sphc_localizer_prior *) {
-  return ungrown<sphc_localizer_prior>("sphc_localizer_prior");
+  StructKind kind = ungrown<sphc_localizer_prior>("sphc_localizer_prior");
+  kind.reserved[0] = {offsetof(sphc_localizer_prior, reserved), sizeof(uint32_t)};
+  return kind;
 }
 constexpr StructKind kindOf(const sphc_localizer_parameter_range *) {
   return ungrown<sphc_localizer_parameter_range>("sphc_localizer_parameter_range");
@@ -77,7 +93,7 @@ sphc_status initStructBytes(const StructKind &kind, const void *known, size_t st
 
 // Copies what the caller's struct has over *known, which has the defaults; known->struct_size becomes that of this
 // library.  `name` is that of the argument.  ARGUMENT for null, STRUCT_SIZE for a size that never was, UNSUPPORTED
-// where a field that is not known here is not zero.
+// where a field that is reserved or not known here is not zero.
 template <typename T>
 sphc_status readStruct(const char *name, const T *from, T *known, sphc_message *message) {
   return readStructBytes(kindOf(from), name, from, known, message);

@@ -51,6 +51,22 @@ TEST(Growth, WhatANewerCallerLeavesZeroIsTaken) {
   }
 }
 
+TEST(Growth, WhatIsReservedMustBeZero) {
+  StructKind kind = kKnowsAll;
+  kind.reserved[0] = {offsetof(Later, third), sizeof(uint64_t)};
+  Later from, known;
+  from.third = uint64_t{1} << 56;
+  sphc_message message = {};
+  EXPECT_EQ(readStructBytes(kind, "later", &from, &known, &message), SPHC_E_UNSUPPORTED);
+  EXPECT_NE(std::strstr(message.text, "reserved"), nullptr) << message.text;
+  from.third = 0;
+  EXPECT_EQ(readStructBytes(kind, "later", &from, &known, &message), SPHC_OK);
+  from.third = 9;
+  from.struct_size = kFirst;  // the caller has no such field
+  known.third = 0;
+  EXPECT_EQ(readStructBytes(kind, "later", &from, &known, &message), SPHC_OK);
+}
+
 TEST(Growth, SizesThatNeverWereAreRefused) {
   for (uint32_t size : {0u, 8u, 15u, 17u, 20u, 4104u, 0x5A5A5A58u, UINT32_MAX}) {
     Later from, known;
