@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "spherecloud/spherecloud.hpp"
 #include "tests/capi/bytes.h"
 #include "tests/support/session.h"
 #include "tests/support/stepping_clock.h"
@@ -391,6 +392,30 @@ TEST_F(Halves, EachHalfHasItsDeadline) {
   soon = frame(1);
   soon.deadline_us = 1;
   EXPECT_EQ(located(&session, soon, features_).result.outcome, SPHC_OUTCOME_DEADLINE);
+}
+
+TEST_F(Halves, InCpp) {
+  Session session(config_);
+  spherecloud::Localizer localizer;
+  spherecloud::Features features, none;
+  ASSERT_TRUE(spherecloud::Localizer::make(config_, &localizer).ok());
+  ASSERT_TRUE(spherecloud::Features::make(config_, &features).ok());
+  ASSERT_EQ(sphc_localizer_set_map(localizer.get(), 0, session.map()), SPHC_OK);
+  sphc_localizer_result result = spherecloud::emptyResult();
+  EXPECT_EQ(localizer.locate(frame(0), features, &result).code(), SPHC_E_STATE);
+  EXPECT_TRUE(localizer.extract(frame(0), &features).ok());
+  sphc_features_arrays arrays = {};
+  EXPECT_TRUE(features.arrays(&arrays).ok());
+  EXPECT_TRUE(features.set(frame(0), arrays).ok());
+  const spherecloud::Status status = localizer.locate(frame(1), features, &result);
+  EXPECT_EQ(status.code(), SPHC_E_ARGUMENT);
+  expectMentions(status.text(), "features of its own image");
+  ++arrays.extractor;
+  expectMentions(features.set(frame(0), arrays).text(), "arrays.extractor is");
+  EXPECT_EQ(localizer.extract(frame(0), &none).code(), SPHC_E_ARGUMENT);
+  const spherecloud::Features moved = std::move(features);
+  EXPECT_FALSE(features);
+  EXPECT_TRUE(localizer.locate(frame(0), moved, &result).ok());
 }
 
 TEST_F(Halves, MemoryIsChecked) {
