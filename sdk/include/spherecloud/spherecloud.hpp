@@ -310,8 +310,8 @@ class Features {
     Features made;
     made.memory_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
     if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the features");
-    status.set(sphc_features_init(made.memory_.data(), made.memory_.size(), &config, &made.features_,
-                                  status.message()));
+    status.set(
+        sphc_features_init(made.memory_.data(), made.memory_.size(), &config, &made.features_, status.message()));
     if (status.ok()) *features = std::move(made);
     return status;
   }
