@@ -35,7 +35,7 @@ def empty_functions(include):
 
 
 def growing(include):
-    return re.findall(r"typedef struct (\w+) \{\s*uint32_t struct_size;", header_text(include)) + ["sphc_localizer_observation"]
+    return re.findall(r"typedef struct (\w+) \{\s*uint32_t struct_size;", header_text(include)) + ["sphc_localizer_observation", "sphc_localizer_hypothesis"]
 
 
 def abi_of(include):

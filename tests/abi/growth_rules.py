@@ -15,7 +15,7 @@ import describe_interface  # noqa: E402 (its folder is named above)
 
 FIXED = {f"{sign}int{bits}_t" for sign in ("", "u") for bits in (8, 16, 32, 64)} | {"float", "double", "char"}
 BYTES = {"uint32_t": 4, "int32_t": 4, "float": 4, "uint64_t": 8, "int64_t": 8, "double": 8}
-STRIDED = {"sphc_localizer_observation"}  # elements at a stride of the caller's grow as well
+STRIDED = {"sphc_localizer_observation", "sphc_localizer_hypothesis"}  # elements at a stride of the caller's grow as well
 SAME_FOR_EVER = {"SPHC_MESSAGE_BYTES", "SPHC_MAP_NONE"}
 
 

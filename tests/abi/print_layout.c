@@ -182,6 +182,14 @@ int main(void) {
   FIELD(sphc_localizer_observation, depth_m);
   FIELD(sphc_localizer_observation, point_index);
   FIELD(sphc_localizer_observation, flags);
+  WHOLE(sphc_localizer_hypothesis);
+  FIELD(sphc_localizer_hypothesis, map_id);
+  FIELD(sphc_localizer_hypothesis, outcome);
+  FIELD(sphc_localizer_hypothesis, inliers);
+  FIELD(sphc_localizer_hypothesis, is_result);
+  FIELD(sphc_localizer_hypothesis, camera_from_map);
+  FIELD(sphc_localizer_hypothesis, gain);
+  FIELD(sphc_localizer_hypothesis, log_chance);
   WHOLE(sphc_keypoint);
   FIELD(sphc_keypoint, x_px);
   FIELD(sphc_keypoint, y_px);

@@ -67,7 +67,7 @@ class Play {
     constexpr Call kCalls[] = {
         &Play::process,         &Play::processInHalves, &Play::setMap,       &Play::setMap,       &Play::removeMap,
         &Play::setMapTransform, &Play::predict,         &Play::setParameter, &Play::setDepthBias, &Play::observe,
-        &Play::askConfidence,   &Play::convertCamera,   &Play::convertMap,   &Play::setFeatures};
+        &Play::askConfidence,   &Play::convertCamera,   &Play::convertMap,   &Play::setFeatures,  &Play::rank};
     const uint32_t which = reader_.next() % (std::size(kCalls) + 1);
     if (which == std::size(kCalls)) return sphc_localizer_reset(localizer_);
     (this->*kCalls[which])();
@@ -176,6 +176,15 @@ class Play {
     sphc_localizer_observations(localizer_, reinterpret_cast<sphc_localizer_observation *>(room), stride_bytes,
                                 capacity, &count);
     if (count > smallConfig().max_keypoints) broken("no more observations than keypoints");
+  }
+  void rank() {
+    sphc_localizer_hypothesis list[SPHC_HYPOTHESES_MAX];
+    uint32_t count = 0;
+    sphc_localizer_hypotheses(localizer_, list, sizeof list[0], SPHC_HYPOTHESES_MAX, &count);
+    if (count > SPHC_HYPOTHESES_MAX) broken("no more hypotheses than are stated");
+    for (uint32_t i = 0; i < count; ++i)
+      if (!isFinite(list[i].camera_from_map.t_m, 3) || (i && list[i].gain > list[i - 1].gain))
+        broken("hypotheses are finite, and those of most gain come first");
   }
   void askConfidence() {
     const double within_m = anyNumber(&reader_), within_rad = anyNumber(&reader_);

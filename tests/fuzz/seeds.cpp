@@ -58,13 +58,13 @@ std::vector<uint8_t> sessionSeed(uint8_t viewpoint) {
                              predict = {6, 0, 66}, parameter = {7, 0, 0, 0, 0, 184}, bias = {8, 255},
                              observe = {9, 79, 0}, confidence = {10, 0, 131, 0, 134},
                              camera = {11, 0, 0, 60, 0, 140, 0, 128, 0, 120, 60, 0, 128, 0, 130, 0, 140},
-                             map = {12, 1, 0, 0, 130, 0, 140, 0, 190}, remove = {4, 0, 0}, reset = {14},
-                             halves = {1, viewpoint, 33, 0, 255, 0},
+                             map = {12, 1, 0, 0, 130, 0, 140, 0, 190}, remove = {4, 0, 0}, reset = {15},
+                             rank = {14}, halves = {1, viewpoint, 33, 0, 255, 0},
                              given = {13, 255, 0, 0, viewpoint, 33, 0, 255, 1, viewpoint, 0, 0, 255, 255};
   std::vector<uint8_t> seed;
   for (const auto &call :
-       {set_maps,   frame,  frame, predict, place, frame,  bias,  frame,   parameter, frame, observe,
-        confidence, camera, map,   halves,  given, remove, frame, predict, reset,     halves})
+       {set_maps, frame,      rank,   frame, predict, place, frame,  bias,  frame,   parameter, frame,
+        observe,  confidence, camera, map,   halves,  given, remove, frame, predict, reset,     halves})
     seed.insert(seed.end(), call.begin(), call.end());
   return seed;
 }

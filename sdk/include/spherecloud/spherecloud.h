@@ -806,6 +806,27 @@ SPHC_API sphc_status sphc_localizer_observations(const sphc_localizer *localizer
                                                  sphc_localizer_observation *observations, uint32_t stride_bytes,
                                                  uint32_t capacity, uint32_t *count);
 
+/* A pose that the last processed frame may have. */
+typedef struct sphc_localizer_hypothesis {
+  uint32_t map_id;
+  sphc_localizer_outcome outcome; /* what the pose would be without the others: LOCALIZED or UNCERTAIN */
+  uint32_t inliers;               /* as result.inliers */
+  uint32_t is_result;             /* 1: this is result.camera_from_map; at most one is */
+  sphc_rigid camera_from_map;
+  double gain;       /* sum over its inliers of 1 - (squared residual / its limit): what poses are compared by */
+  double log_chance; /* natural logarithm of a bound on the probability that chance agrees so well */
+} sphc_localizer_hypothesis;
+#define SPHC_HYPOTHESES_MAX 8u
+/* Copies up to `capacity` hypotheses, one every stride_bytes, and sets *count to how many there are, at most
+ * SPHC_HYPOTHESES_MAX: the poses that were looked at and that chance does not explain, each once (poses of a map
+ * within 15 cm and 8 degrees are one), those of most gain first.  Where the outcome is UNCERTAIN and a hint says
+ * AMBIGUOUS, a program that knows more than the frame shows can tell which is right; one that knows no more should
+ * take none.  Not every pose that fits is looked at.  stride_bytes as of sphc_localizer_observations; before the
+ * first frame *count is 0. [exclusive] */
+SPHC_API sphc_status sphc_localizer_hypotheses(const sphc_localizer *localizer,
+                                               sphc_localizer_hypothesis *hypotheses, uint32_t stride_bytes,
+                                               uint32_t capacity, uint32_t *count);
+
 /* ---- the two halves of a frame ---- */
 
 /* sphc_localizer_process in two calls: sphc_localizer_extract finds the features of the colour image, and

@@ -422,6 +422,12 @@ class Localizer {
     if (localizer_) sphc_localizer_observations(localizer_, observations, sizeof *observations, capacity, &count);
     return count;
   }
+  // The same of the poses that the last frame may have, those of most gain first.
+  std::uint32_t hypotheses(sphc_localizer_hypothesis *hypotheses, std::uint32_t capacity) const {
+    std::uint32_t count = 0;
+    if (localizer_) sphc_localizer_hypotheses(localizer_, hypotheses, sizeof *hypotheses, capacity, &count);
+    return count;
+  }
   // Forgets where the camera was.
   void reset() { sphc_localizer_reset(localizer_); }
   sphc_localizer *get() const { return localizer_; }

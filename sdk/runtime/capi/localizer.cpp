@@ -115,6 +115,22 @@ sphc_localizer_prior emptyPrior() {
   return prior;
 }
 
+// Elements at a stride of the caller's, by which the library knows which fields the caller has.
+template <typename Own, typename Element>
+sphc_status giveOutAll(sphc::Span<const Own> all, Element (*elementFrom)(const Own &), Element *to,
+                       uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
+  if (!count || (capacity && !to)) return SPHC_E_ARGUMENT;
+  if (stride_bytes < sizeof(Element) || stride_bytes % alignof(Element)) return SPHC_E_ARGUMENT;
+  auto *bytes = reinterpret_cast<unsigned char *>(to);
+  for (uint32_t i = 0; i < capacity && i < all.size(); ++i, bytes += stride_bytes) {
+    const Element own = elementFrom(all[i]);
+    std::memcpy(bytes, &own, sizeof own);
+    std::memset(bytes + sizeof own, 0, stride_bytes - sizeof own);
+  }
+  *count = static_cast<uint32_t>(all.size());
+  return SPHC_OK;
+}
+
 }  // namespace
 
 sphc_status sphc_localizer_config_init(sphc_localizer_config *config, size_t struct_size) {
@@ -374,16 +390,14 @@ sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int64_t time
 
 sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_localizer_observation *observations,
                                         uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
-  if (!localizer || !count || (capacity && !observations)) return SPHC_E_ARGUMENT;
-  if (stride_bytes < sizeof *observations || stride_bytes % alignof(sphc_localizer_observation))
-    return SPHC_E_ARGUMENT;
-  const sphc::Span<const sphc::Observation> seen = localizer->localizer.observations();
-  auto *to = reinterpret_cast<unsigned char *>(observations);
-  for (uint32_t i = 0; i < capacity && i < seen.size(); ++i, to += stride_bytes) {
-    const sphc_localizer_observation own = sphc::observationFrom(seen[i]);
-    std::memcpy(to, &own, sizeof own);
-    std::memset(to + sizeof own, 0, stride_bytes - sizeof own);
-  }
-  *count = static_cast<uint32_t>(seen.size());
-  return SPHC_OK;
+  if (!localizer) return SPHC_E_ARGUMENT;
+  return giveOutAll(localizer->localizer.observations(), sphc::observationFrom, observations, stride_bytes,
+                    capacity, count);
+}
+
+sphc_status sphc_localizer_hypotheses(const sphc_localizer *localizer, sphc_localizer_hypothesis *hypotheses,
+                                      uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
+  if (!localizer) return SPHC_E_ARGUMENT;
+  return giveOutAll(localizer->localizer.hypotheses(), sphc::hypothesisFrom, hypotheses, stride_bytes, capacity,
+                    count);
 }

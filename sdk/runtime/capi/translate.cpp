@@ -172,6 +172,12 @@ sphc_localizer_observation observationFrom(const Observation &o) {
   return {o.x_px, o.y_px, o.scale_px, o.depth_m, o.point_index, flags};
 }
 
+sphc_localizer_hypothesis hypothesisFrom(const RankedPose &pose) {
+  return {pose.map_id,    outcomeFrom(pose.outcome),      pose.inliers,
+          pose.is_answer, rigidToC(pose.camera_from_map), pose.gain,
+          pose.log_chance};
+}
+
 sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_localizer_frame &frame) {
   sphc_localizer_result result = {};
   result.struct_size = sizeof result;

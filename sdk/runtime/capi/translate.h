@@ -5,6 +5,7 @@
 #include "runtime/localizer/frame.h"
 #include "runtime/localizer/map_set.h"
 #include "runtime/localizer/motion.h"
+#include "runtime/localizer/ranking.h"
 #include "runtime/localizer/result.h"
 #include "spherecloud/spherecloud.h"
 
@@ -22,6 +23,7 @@ DepthLayout depthLayoutFrom(sphc_format format);
 sphc_localizer_outcome outcomeFrom(Outcome outcome);
 sphc_localizer_state stateFrom(TrackingState state);
 sphc_localizer_observation observationFrom(const Observation &observation);
+sphc_localizer_hypothesis hypothesisFrom(const RankedPose &pose);
 DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth);
 // `frame` is the one that was answered.
 sphc_localizer_result resultFrom(const LocalizerResult &answer, const sphc_localizer_frame &frame);

@@ -30,6 +30,12 @@ void Hypothesis::challenge(const Hypothesis &other) {
   matched.clear();
 }
 
+bool areNear(const Rigid &a, const Rigid &b, const tuning::PoseBounds &bounds) {
+  const Vector3 shift_m = a.inverse().translation_m - b.inverse().translation_m;
+  return shift_m.norm() < bounds.most_shift_m &&
+         rotationAngle(a.rotation * b.rotation.transpose()) < bounds.most_turn_rad;
+}
+
 Correspondence correspondenceOf(const Match &match, const FrontEnd &front, const MapView &map) {
   return {front.lifted()[match.query], directionOf(map, match.point_index),
           1.0f - static_cast<float>(match.distance2) / static_cast<float>(match.second2 + 1)};

@@ -4,6 +4,7 @@
 #include "runtime/base/arena.h"
 #include "runtime/localizer/front_end.h"
 #include "runtime/localizer/judgement.h"
+#include "runtime/localizer/tuning.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/pose/leverage.h"
 #include "runtime/types/match.h"
@@ -59,6 +60,8 @@ struct Hypothesis {
   void challenge(const Hypothesis &other);
 };
 
+// Are two poses that a frame may have one, to within these bounds?
+bool areNear(const Rigid &a, const Rigid &b, const tuning::PoseBounds &bounds);
 // A match, and how clearly it beat the runner-up.
 Correspondence correspondenceOf(const Match &match, const FrontEnd &front, const MapView &map);
 Vector3 directionOf(const MapView &map, uint32_t point_index);

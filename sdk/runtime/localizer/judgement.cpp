@@ -47,11 +47,14 @@ double logChanceOfAgreement(Span<const Correspondence> correspondences, const Ri
 
 double doubtOf(uint32_t inliers) { return 1 + kInliersOfDoubt / inliers; }
 
+double Evidence::logChance() const {
+  return source == MatchSource::kExpected ? std::max(log_chance_first, log_chance_second)
+                                          : log_chance_first + log_chance_second;
+}
+
 Outcome judgePose(const Evidence &evidence, const Estimate &estimate, uint32_t min_inliers) {
-  const double first = evidence.log_chance_first, second = evidence.log_chance_second;
   const bool expected = evidence.source == MatchSource::kExpected;
-  const double log_chance = expected ? std::max(first, second) : first + second;
-  if (evidence.inliers < min_inliers || log_chance > (expected ? kMostLogChanceExpected : kMostLogChance))
+  if (evidence.inliers < min_inliers || evidence.logChance() > (expected ? kMostLogChanceExpected : kMostLogChance))
     return Outcome::kNoConsensus;
   const double doubt = doubtOf(evidence.inliers), doubt2 = doubt * doubt;
   const double rotation2 = estimate.covariance.topLeftCorner<3, 3>().trace();

@@ -33,6 +33,9 @@ struct Evidence {
   double log_chance_second = 0;  // of the agreement after guided re-matching, near the predictions
   MatchSource source = MatchSource::kGlobal;
   double centre_sigma_ratio = 1;  // without the high-leverage observations, over that with them
+
+  // Of both.
+  double logChance() const;
 };
 
 // The errors of a pose over its stated ones, at most: matches that are wrong among few are not in the covariance.

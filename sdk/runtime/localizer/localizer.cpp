@@ -160,6 +160,7 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   answer(frame.known, deadline, &result.faults, &work);
   fillAnswer(best_, &result);
   if (best_.tried) result.map_id = maps().idOf(best_.map);
+  if (best_.isLocalized()) ranking_.markAnswer(best_.estimate.camera_from_map, result.map_id);
   result.cuts = (front_.wasCut() ? kCutFeatures : Cuts{0}) | work.cuts;
   if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
@@ -196,6 +197,7 @@ Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {
 void Localizer::answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work) {
   was_asked_ = false;
   clear_ = 0;
+  ranking_.clear();
   if (*faults & kContradictions) {
     best_.challenge({});
     best_.outcome = Outcome::kContradiction;
@@ -235,6 +237,7 @@ void Localizer::checkHandedness(const Deadline &deadline, Faults *faults, Work *
       break;
     case Handedness::kChanged:
       *faults |= kMirrored;
+      ranking_.clear();
       best_.outcome = Outcome::kContradiction;
   }
 }
@@ -249,6 +252,7 @@ bool Localizer::mayBeMirrored(const Spread &spread) const {
 
 // Makes candidate_ what the mirror image of the frame shows in the map of best_.
 void Localizer::findPoseOfMirrored(const Deadline &deadline, Work *work) {
+  Ranking of_mirrored;  // poses that the frame itself does not have
   front_.mirror();
   const PosePrior nothing;
   const uint32_t all = front_.keypointCount();
@@ -259,8 +263,7 @@ void Localizer::findPoseOfMirrored(const Deadline &deadline, Work *work) {
                          {kConesOfSearchedPose, 2}};
   candidate_.begin(best_.map);
   search_.matchEverywhere(task.question, all, deadline.afterShare(kMatchShare), &candidate_.matched, work);
-  Verification(&search_, &estimator_, &repetition_, &fusion_, config_.search.min_inliers, work)
-      .findUnverifiedPose(task, &candidate_);
+  verification(config_.search.min_inliers, work, &of_mirrored).findUnverifiedPose(task, &candidate_);
   front_.mirror();
 }
 
@@ -367,16 +370,18 @@ bool Localizer::searchMapByStrongest(uint32_t map, const PoseTask &task, Work *w
 // What does not localize leaves the frame as the strict test shows it.
 void Localizer::searchMapLoosely(uint32_t map, const PoseTask &task, Work *work) {
   candidate_.begin(map);
-  Verification(&search_, &estimator_, &repetition_, &fusion_, kTimesInliersOfLooser * config_.search.min_inliers,
-               work)
+  verification(kTimesInliersOfLooser * config_.search.min_inliers, work, &ranking_)
       .findPoseLoosely(task, &candidate_, &rival_);
   if (candidate_.isLocalized()) propose();
 }
 
 // Finds the pose that the candidate's matches speak for.
 void Localizer::solve(const PoseTask &task, Work *work) {
-  Verification(&search_, &estimator_, &repetition_, &fusion_, config_.search.min_inliers, work)
-      .findPose(task, &candidate_, &rival_);
+  verification(config_.search.min_inliers, work, &ranking_).findPose(task, &candidate_, &rival_);
+}
+
+Verification Localizer::verification(uint32_t min_inliers, Work *work, Ranking *ranking) {
+  return Verification(&search_, &estimator_, &repetition_, &fusion_, min_inliers, work, ranking);
 }
 
 void Localizer::propose() {

@@ -58,6 +58,7 @@ class Localizer {
 
   // Of the last frame.
   Span<const Observation> observations() const { return front_.observations(); }
+  Span<const RankedPose> hypotheses() const { return ranking_.poses(); }
 
  private:
   Rigid colorFromDepth(const FrameInput &frame) const;
@@ -73,6 +74,7 @@ class Localizer {
   bool searchMapByStrongest(uint32_t map, const PoseTask &task, Work *work);
   void searchMapLoosely(uint32_t map, const PoseTask &task, Work *work);
   void solve(const PoseTask &task, Work *work);
+  Verification verification(uint32_t min_inliers, Work *work, Ranking *ranking);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
@@ -96,6 +98,7 @@ class Localizer {
   Consistency consistency_;
   TravelCheck travel_;
   Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch
+  Ranking ranking_;
   // Of this frame: were all keypoints compared with whole maps, and in how many clear matches of one, at most?
   bool was_asked_ = false;
   uint32_t clear_ = 0;

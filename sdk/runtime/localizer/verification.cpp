@@ -32,12 +32,6 @@ void copyWithoutLeverage(const Hypothesis &from, MatchSet *matched) {
     if (std::find(begin, end, i) == end) matched->add(all[i]);
 }
 
-bool areNear(const Rigid &a, const Rigid &b, const PoseBounds &bounds) {
-  const Vector3 shift_m = a.inverse().translation_m - b.inverse().translation_m;
-  return shift_m.norm() < bounds.most_shift_m &&
-         rotationAngle(a.rotation * b.rotation.transpose()) < bounds.most_turn_rad;
-}
-
 }  // namespace
 
 void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
@@ -138,6 +132,7 @@ void Verification::rematch(const PoseTask &task, Hypothesis *hypothesis) const {
   findLeverage(task, hypothesis);
   evidence.centre_sigma_ratio = hypothesis->leverage.centre_sigma_ratio;
   hypothesis->outcome = judgePose(evidence, estimate, min_inliers_);
+  ranking_.add(*hypothesis, search_.maps().idOf(hypothesis->map));
 }
 
 void Verification::findLeverage(const PoseTask &task, Hypothesis *hypothesis) const {

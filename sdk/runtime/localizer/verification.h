@@ -6,6 +6,7 @@
 // that finds no pose of is searched once more, among the matches of a looser ratio test.
 #pragma once
 #include "runtime/localizer/fusion.h"
+#include "runtime/localizer/ranking.h"
 #include "runtime/localizer/repetition.h"
 #include "runtime/stages/pose/estimator.h"
 
@@ -24,13 +25,14 @@ struct PoseTask {
 class Verification {
  public:
   Verification(Search *search, PoseEstimator *estimator, Repetition *repetition, const Fusion *fusion,
-               uint32_t min_inliers, Work *work)
+               uint32_t min_inliers, Work *work, Ranking *ranking)
       : search_(*search),
         estimator_(*estimator),
         repetition_(*repetition),
         fusion_(*fusion),
         min_inliers_(min_inliers),
-        work_(*work) {}
+        work_(*work),
+        ranking_(*ranking) {}
 
   // `found` has its first matches.  It becomes the best hypothesis they lead to, and judged; `rival` is memory for
   // others.
@@ -64,6 +66,7 @@ class Verification {
   const Fusion &fusion_;
   uint32_t min_inliers_;
   Work &work_;
+  Ranking &ranking_;
 };
 
 }  // namespace sphc

@@ -41,7 +41,8 @@ class VerificationTest : public testing::Test {
     return task;
   }
   void verify(const PoseTask &task) {
-    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work)
+    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work,
+                 &ranking_)
         .findPose(task, &found(), &parts_.rival);
   }
   double errorM(uint32_t viewpoint) {
@@ -50,6 +51,7 @@ class VerificationTest : public testing::Test {
   Hypothesis &found() { return parts_.found; }
 
   uint32_t min_inliers_ = 10;
+  Ranking ranking_;
   test::RoomParts parts_;
 };
 
@@ -250,6 +252,16 @@ TEST_F(ThinRoomTest, APoseThatTheOtherKeypointsContradictIsAmbiguous) {
   EXPECT_LT(std::min(errorM(0), errorM(4)), 0.02);
 }
 
+TEST_F(ThinRoomTest, BothPosesOfAnAmbiguousFrameAreRanked) {
+  verifyHalves(0, 4);
+  for (uint32_t viewpoint : {0u, 4u}) {
+    const auto isHere = [&](const RankedPose &pose) {
+      return areNear(pose.camera_from_map, parts_.cameraFromMap(viewpoint), kSamePose);
+    };
+    EXPECT_EQ(std::count_if(ranking_.poses().begin(), ranking_.poses().end(), isHere), 1) << viewpoint;
+  }
+}
+
 constexpr uint32_t kPeriodPx = 64;
 
 // A wall with a pattern, of which the map has one piece.
@@ -382,7 +394,8 @@ class NearDuplicatesTest : public VerificationTest {
       : VerificationTest(test::mapOf(points, Vector3(0, 0, 1))) {}
   void verifyLoosely(const PoseTask &task) {
     found().begin(0);
-    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work)
+    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work,
+                 &ranking_)
         .findPoseLoosely(task, &found(), &parts_.rival);
   }
 };
