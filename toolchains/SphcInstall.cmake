@@ -131,6 +131,8 @@ function(sphc_install_package)
     install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE TYPE DOC COMPONENT ${component})
   endforeach()
   install(FILES ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC COMPONENT development)
-  add_custom_target(uninstall VERBATIM
-    COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${SPHC_INSTALL_FILES}/uninstall.cmake)
+  if(PROJECT_IS_TOP_LEVEL)
+    add_custom_target(uninstall VERBATIM
+      COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${SPHC_INSTALL_FILES}/uninstall.cmake)
+  endif()
 endfunction()

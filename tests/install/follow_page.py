@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """A section of docs/install.md, done as it says, with an installation that was made before.
 
-    follow_page.py ROOT SECTION --prefix PREFIX --libdir LIBDIR --version VERSION [--static] [--cmake ARGUMENT...]
+    follow_page.py ROOT SECTION --folder FOLDER --prefix PREFIX --libdir LIBDIR --version VERSION [--static] [--cmake ARGUMENTS]
 
 A block whose first line is a comment with the name of a file is that file; those of "Two programs" are there in every section.
-Blocks of `sh` are run.  Each line that a program of the page prints must be the one that the page shows, with VERSION in it.
+Blocks of `sh` are run, in FOLDER, which is emptied before.  Each line that a program of the page prints must be the one that the page shows, with VERSION in it.
 """
 import argparse
 import os
 import re
+import shutil
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
@@ -82,10 +82,13 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("root", type=Path)
     parser.add_argument("section")
+    parser.add_argument("--folder", type=Path, required=True)
     parser.add_argument("--prefix", type=Path, required=True)
     parser.add_argument("--libdir", required=True)
     parser.add_argument("--version", required=True)
     parser.add_argument("--static", action="store_true", help="programs need no shared library of ours")
     parser.add_argument("--cmake", default="", help="more arguments for the page's cmake")
-    with tempfile.TemporaryDirectory() as place:
-        follow(parser.parse_args(), Path(place))
+    chosen = parser.parse_args()
+    shutil.rmtree(chosen.folder, ignore_errors=True)
+    chosen.folder.mkdir(parents=True)
+    follow(chosen, chosen.folder)
