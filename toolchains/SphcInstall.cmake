@@ -127,12 +127,11 @@ function(sphc_install_package)
   endif()
 
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/sdk/include/spherecloud TYPE INCLUDE COMPONENT development)
-  foreach(component development ${components}) # each by itself may be a package
-    install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE TYPE DOC COMPONENT ${component})
-  endforeach()
-  install(FILES ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC COMPONENT development)
+  # One of them all: packages of the others depend on this one.
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC COMPONENT runtime)
   if(PROJECT_IS_TOP_LEVEL)
     add_custom_target(uninstall VERBATIM
       COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${SPHC_INSTALL_FILES}/uninstall.cmake)
+    include(SphcPackages)
   endif()
 endfunction()

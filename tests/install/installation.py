@@ -120,9 +120,39 @@ def staged(options):
     return faults
 
 
+def packages(options):
+    """The Debian packages hold each installed file once, depend on each other, and are found when unpacked."""
+    folder = options.prefix.parent / "packages"
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run(["cpack", "--config", options.build / "CPackConfig.cmake", "-B", folder], check=True, capture_output=True)
+    library = "libspherecloud" + options.version.split(".")[0]
+    depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "spherecloud-tools": library}
+    faults, owners = [], {}
+    for package, other in depends.items():
+        file, = folder.glob(f"{package}_{options.version}_*.deb")
+        asked = subprocess.run(["dpkg-deb", "-f", file, "Depends"], text=True, capture_output=True, check=True).stdout
+        if other not in asked:
+            faults.append(f"{package} does not depend on {other}: {asked}")
+        unpacked = folder / package
+        subprocess.run(["dpkg-deb", "-x", file, unpacked], check=True)
+        subprocess.run(["dpkg-deb", "-x", file, folder / "root"], check=True)
+        for name in names_in(unpacked / "usr"):
+            owners.setdefault(name, []).append(package)
+    faults += [f"{name} is in {who}" for name, who in owners.items() if len(who) > 1]
+    faults += [f"{name} is installed and in no package, or the other way round" for name in names_in(options.prefix) ^ owners.keys()]
+    said, went_on = find("REQUIRED COMPONENTS drivers host", folder / "root" / "usr")
+    if not went_on:
+        faults.append(f"from the unpacked packages find_package says: {said}")
+    return faults
+
+
+def names_in(folder):
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_symlink() or path.is_file()}
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    checks = {check.__name__: check for check in (complete, refusals, staged)}
+    checks = {check.__name__: check for check in (complete, refusals, staged, packages)}
     parser.add_argument("check", choices=checks)
     parser.add_argument("--root", type=Path, required=True)
     parser.add_argument("--build", type=Path, required=True)
