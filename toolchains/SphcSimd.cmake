@@ -29,8 +29,8 @@ target_compile_definitions(sphc_flags INTERFACE "HWY_DISABLED_TARGETS=(${disable
 add_library(sphc_simd INTERFACE) # of whoever includes Highway
 if(SPHC_SIMD STREQUAL "dispatch")
   find_package(PkgConfig REQUIRED)
-  pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy>=1.0)
-  target_link_libraries(sphc_simd INTERFACE PkgConfig::HWY)
+  pkg_check_modules(SPHC_HWY REQUIRED IMPORTED_TARGET libhwy>=1.0)
+  target_link_libraries(sphc_simd INTERFACE PkgConfig::SPHC_HWY)
 else()
   string(TOUPPER ${SPHC_SIMD} policy)
   target_compile_definitions(sphc_flags INTERFACE HWY_COMPILE_ONLY_${policy})

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""A section of docs/install.md, done as it says, with an installation that was made before.
+
+    follow_page.py ROOT SECTION --folder FOLDER --prefix PREFIX --libdir LIBDIR --version VERSION [--static] [--cmake ARGUMENTS]
+
+A block whose first line is a comment with the name of a file is that file; those of "Two programs" are there in every section.
+Blocks of `sh` are run, in FOLDER, which is emptied before.  Each line that a program of the page prints must be the one that the page shows, with VERSION in it.
+"""
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
+from markdown import Page  # noqa: E402
+
+FILE = re.compile(r"(?:/\*|//|#) ([\w.]+)(?: \*/)?\n")
+PROGRAMS = "Two programs"
+POSES = 6  # of the examples: as many as the section records
+
+
+def section(page, title):
+    """The blocks under a heading."""
+    lines = [number for number, line in enumerate(page.lines, 1) if line.startswith("## ")] + [len(page.lines)]
+    for begin, end in zip(lines, lines[1:]):
+        if page.lines[begin - 1] == "## " + title:
+            return [block for block in page.blocks if begin < block.line < end]
+    sys.exit(f"{page.path} has no section \"{title}\"")
+
+
+def run(script, folder, environment):
+    done = subprocess.run(["bash", "-e", "-c", script], cwd=folder, env=environment, text=True, capture_output=True, check=False)
+    if done.returncode:
+        sys.exit(f"failed with {done.returncode}:\n{script}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def libraries_of(program):
+    return subprocess.run(["ldd", program], text=True, capture_output=True, check=True).stdout
+
+
+def follow(options, folder):
+    page = Page(options.root / "docs" / "install.md")
+    programs = section(page, PROGRAMS)
+    answer = next(block.text for block in programs if block.info == "text").strip()
+    if answer != f"spherecloud {options.version}, ABI {options.version.split('.')[0]}":
+        sys.exit(f"the page shows \"{answer}\", and this is version {options.version}")
+
+    def here(text):
+        places = (("/opt/spherecloud/lib", f"{options.prefix}/{options.libdir}"), ("/opt/spherecloud", str(options.prefix)),
+                  ("/src/spherecloud", str(options.root)), ("cmake -S . -B build", f"cmake -S . -B build {options.cmake}"))
+        for shown, ours in places:
+            text = text.replace(shown, ours)
+        return text
+
+    blocks = section(page, options.section)
+    for block in programs + blocks:
+        named = FILE.match(block.text)
+        if named and block.info != "sh":
+            (folder / named[1]).write_text(here(block.text), encoding="utf-8")
+    printed = "".join(run(here(block.text), folder, dict(os.environ, CMAKE_GENERATOR="Ninja")) for block in blocks if block.info == "sh")
+    print(printed)
+
+    if options.section.startswith("The examples"):
+        poses = re.findall(r"^\d+ at ", printed, re.MULTILINE)
+        runs = sum(line.endswith("room.sphc walk") for block in blocks for line in block.text.splitlines())
+        if len(poses) != POSES * runs:
+            sys.exit(f"{len(poses)} poses instead of {POSES * runs}")
+        return
+    answers = [line for line in printed.splitlines() if line.startswith("spherecloud ")]
+    if answers != [answer] * 2:
+        sys.exit(f"the programs say {answers} instead of \"{answer}\" each")
+    for program in [path for path in folder.rglob("answer_c*") if path.name in ("answer_c", "answer_cpp") and path.is_file()]:
+        if options.static == ("libspherecloud.so" in libraries_of(program)):
+            sys.exit(f"{program.name} was to link the {'static' if options.static else 'shared'} library:\n{libraries_of(program)}")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("root", type=Path)
+    parser.add_argument("section")
+    parser.add_argument("--folder", type=Path, required=True)
+    parser.add_argument("--prefix", type=Path, required=True)
+    parser.add_argument("--libdir", required=True)
+    parser.add_argument("--version", required=True)
+    parser.add_argument("--static", action="store_true", help="programs need no shared library of ours")
+    parser.add_argument("--cmake", default="", help="more arguments for the page's cmake")
+    chosen = parser.parse_args()
+    shutil.rmtree(chosen.folder, ignore_errors=True)
+    chosen.folder.mkdir(parents=True)
+    follow(chosen, chosen.folder)

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""What an installation holds, whom it refuses, and how it is removed.
+
+    installation.py CHECK --root ROOT --build BUILD --prefix PREFIX --libdir LIBDIR --version VERSION [--names] [--cmake ARGUMENTS]
+"""
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+RUNTIME = ("include/spherecloud/spherecloud.h", "include/spherecloud/spherecloud.hpp", "include/spherecloud/spherecloud_capture.h",
+           "include/spherecloud/spherecloud.json", "{lib}/libspherecloud.a", "{lib}/libspherecloud.so",
+           "{lib}/cmake/SphereCloud/SphereCloudConfig.cmake", "{lib}/pkgconfig/spherecloud.pc", "share/doc/spherecloud/LICENSE",
+           "share/doc/spherecloud/NOTICE")
+ALL = RUNTIME + ("bin/spherecloud", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
+                 "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c")
+
+
+def missing(needed, prefix, libdir):
+    return [f"{name} is not installed" for name in (name.format(lib=libdir) for name in needed) if not (prefix / name).exists()]
+
+
+def complete(options):
+    """Nothing is missing, and no file names the folders of source and build; programs that keep names for a debugger may."""
+    faults = missing(ALL, options.prefix, options.libdir)
+    for path in options.prefix.rglob("*"):
+        content = path.read_bytes() if path.is_file() else b""
+        is_code = content.startswith((b"\x7fELF", b"!<arch>"))
+        faults += [f"{path} names {folder}" for folder in (options.root, options.build)
+                   if str(folder).encode() in content and not (is_code and options.names)]
+    return faults
+
+
+ASKS = """cmake_minimum_required(VERSION 3.25)
+project(asks LANGUAGES CXX)
+get_cmake_property(before VARIABLES)
+find_package(SphereCloud %s)
+get_cmake_property(after VARIABLES)
+list(REMOVE_ITEM after before ${before})
+list(FILTER after EXCLUDE REGEX "^SphereCloud_")
+message(STATUS "found: ${SphereCloud_FOUND}, new variables: '${after}'")
+"""
+
+
+def find(arguments, prefix):
+    """What CMake says to find_package(SphereCloud ARGUMENTS), and whether it went on."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "CMakeLists.txt").write_text(
+            ASKS % arguments, encoding="utf-8")
+        done = subprocess.run(["cmake", "-S", folder, "-B", folder + "/build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}"],
+                              text=True, capture_output=True, check=False)
+    return " ".join((done.stdout + done.stderr).split()), done.returncode == 0
+
+
+def refusals(options):
+    """Versions and components that are not there are refused with a cause; those that are there are not."""
+    version = f"{options.prefix}/{options.libdir}/cmake/SphereCloud/SphereCloudConfig.cmake, version: {options.version}"
+    major, minor, patch = map(int, options.version.split("."))
+    mine, other, next_minor = f"{major}.{minor}", f"{major + 1}.0", f"{major}.{minor + 1}"
+    unknown = 'SphereCloud has no component "gpu"; its components are runtime, drivers, host.'
+    cases = [(f"{next_minor} REQUIRED", version), (f"{other} REQUIRED", version), (f"{mine}.{patch + 1} REQUIRED", version),
+             ("REQUIRED COMPONENTS gpu", unknown), ("REQUIRED COMPONENTS drivers gpu", unknown),
+             ("REQUIRED COMPONENTS runtime drivers host OPTIONAL_COMPONENTS gpu", None), (f"{mine} REQUIRED", None), (f"{options.version} EXACT REQUIRED", None)]
+    if major == 0 and minor > 0:  # nothing is promised yet
+        cases.append((f"0.{minor - 1} REQUIRED", version))
+    faults = []
+    for arguments, why in cases:
+        said, went_on = find(arguments, options.prefix)
+        if went_on != (why is None) or (why or "found: 1, new variables: ''") not in said:
+            faults.append(f"find_package(SphereCloud {arguments}) says: {said}")
+    with tempfile.TemporaryDirectory(dir=options.prefix.parent) as place:
+        partial = Path(place) / "prefix"
+        shutil.copytree(options.prefix, partial, symlinks=True, copy_function=os.link)
+        (partial / options.libdir / "cmake" / "SphereCloud" / "SphereCloud-host.cmake").unlink()
+        said, went_on = find("REQUIRED COMPONENTS host", partial)
+    if went_on or 'the component "host" is not in this installation of SphereCloud; build and install it with -DSPHC_HOST=ON.' not in said:
+        faults.append(f"without the host find_package says: {said}")
+    return faults
+
+
+def staged(options):
+    """DESTDIR and CMAKE_INSTALL_LIBDIR are respected, and uninstalling leaves nothing but what others put there."""
+    folder = options.prefix.parent / "staged"
+    shutil.rmtree(folder, ignore_errors=True)
+    build, root, libdir = folder / "build", folder / "root", "lib64/of_this"
+    prefix, environment = root / "opt" / "other", dict(os.environ, DESTDIR=str(root))
+
+    def cmake(*arguments):
+        return subprocess.run(["cmake", *arguments], env=environment, text=True, capture_output=True, check=False)
+
+    def done(*arguments):
+        run = cmake(*arguments)
+        if run.returncode:
+            sys.exit(f"cmake {arguments} fails:\n{run.stdout}{run.stderr}")
+
+    done("-S", options.root, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_INSTALL_PREFIX=/opt/other",
+         f"-DCMAKE_INSTALL_LIBDIR={libdir}", *(f"-DSPHC_{part}=OFF" for part in ("HOST", "DRIVERS", "EXAMPLES", "TESTS")), *options.cmake.split())
+    done("--build", build)
+    done("--install", build)
+    faults = missing(RUNTIME, prefix, libdir)
+    asked = subprocess.run(["pkg-config", "--variable=libdir", "spherecloud"], env=dict(environment, PKG_CONFIG_PATH=f"{prefix}/{libdir}/pkgconfig"),
+                           text=True, capture_output=True, check=False)
+    if not asked.stdout or not Path(asked.stdout.strip()).samefile(prefix / libdir):
+        faults.append(f"pkg-config says that libraries are in {asked.stdout} {asked.stderr}")
+    said, went_on = find("REQUIRED", prefix / libdir / "cmake" / "SphereCloud")
+    if not went_on:
+        faults.append(f"from another folder of libraries find_package says: {said}")
+
+    (prefix / "include" / "of_others.h").touch()
+    done("--build", build, "--target", "uninstall")
+    left = sorted(str(path.relative_to(prefix)) for path in prefix.rglob("*"))
+    if left != ["include", "include/of_others.h"]:
+        faults.append(f"uninstalling leaves {left}")
+    again = cmake("--build", build, "--target", "uninstall")
+    if again.returncode == 0 or "nothing to uninstall" not in again.stdout + again.stderr:
+        faults.append(f"uninstalling once more says: {again.stdout}{again.stderr}")
+    return faults
+
+
+def packages(options):
+    """The Debian packages hold each installed file once, depend on each other, and are found when unpacked."""
+    folder = options.prefix.parent / "packages"
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run(["cpack", "--config", options.build / "CPackConfig.cmake", "-B", folder], check=True, capture_output=True)
+    library = "libspherecloud" + options.version.split(".")[0]
+    depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "spherecloud-tools": library}
+    faults, owners = [], {}
+    for package, other in depends.items():
+        file, = folder.glob(f"{package}_{options.version}_*.deb")
+        asked = subprocess.run(["dpkg-deb", "-f", file, "Depends"], text=True, capture_output=True, check=True).stdout
+        if other not in asked:
+            faults.append(f"{package} does not depend on {other}: {asked}")
+        unpacked = folder / package
+        subprocess.run(["dpkg-deb", "-x", file, unpacked], check=True)
+        subprocess.run(["dpkg-deb", "-x", file, folder / "root"], check=True)
+        for name in names_in(unpacked / "usr"):
+            owners.setdefault(name, []).append(package)
+    faults += [f"{name} is in {who}" for name, who in owners.items() if len(who) > 1]
+    faults += [f"{name} is installed and in no package, or the other way round" for name in names_in(options.prefix) ^ owners.keys()]
+    said, went_on = find("REQUIRED COMPONENTS drivers host", folder / "root" / "usr")
+    if not went_on:
+        faults.append(f"from the unpacked packages find_package says: {said}")
+    return faults
+
+
+def names_in(folder):
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_symlink() or path.is_file()}
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    checks = {check.__name__: check for check in (complete, refusals, staged, packages)}
+    parser.add_argument("check", choices=checks)
+    parser.add_argument("--root", type=Path, required=True)
+    parser.add_argument("--build", type=Path, required=True)
+    parser.add_argument("--prefix", type=Path, required=True)
+    parser.add_argument("--libdir", required=True)
+    parser.add_argument("--version", required=True)
+    parser.add_argument("--names", action="store_true", help="the code may name its source: no release")
+    parser.add_argument("--cmake", default="", help="more arguments for cmake where the tree is built")
+    chosen = parser.parse_args()
+    found = checks[chosen.check](chosen)
+    print("\n".join(found))
+    sys.exit(1 if found else 0)

@@ -1,0 +1,31 @@
+# find_package(SphereCloud [VERSION] [COMPONENTS runtime drivers host]); without components: runtime.
+#
+#   runtime  SphereCloud::spherecloud (static), SphereCloud::spherecloud_shared
+#   drivers  SphereCloud::replay, ::raw, ::sample, ::simulated, ::v4l2, ::libcamera, ::openni2, as far as they were built
+#   host     SphereCloud::command, the program `spherecloud`
+function(_spherecloud_find component)
+  set(known runtime drivers host)
+  set(targets ${CMAKE_CURRENT_LIST_DIR}/SphereCloud-${component}.cmake)
+  if(NOT component IN_LIST known)
+    list(JOIN known ", " names)
+    set(why "SphereCloud has no component \"${component}\"; its components are ${names}.")
+  elseif(NOT EXISTS ${targets})
+    string(TOUPPER SPHC_${component} option)
+    set(why "the component \"${component}\" is not in this installation of SphereCloud; build and install it with -D${option}=ON.")
+  else()
+    include(${targets})
+    set(SphereCloud_${component}_FOUND TRUE PARENT_SCOPE)
+    return()
+  endif()
+  set(SphereCloud_${component}_FOUND FALSE PARENT_SCOPE)
+  if(SphereCloud_FIND_REQUIRED_${component})
+    set(SphereCloud_FOUND FALSE PARENT_SCOPE)
+    set(SphereCloud_NOT_FOUND_MESSAGE ${why} PARENT_SCOPE)
+  endif()
+endfunction()
+
+_spherecloud_find(runtime) # the drivers link it
+foreach(_spherecloud_component ${SphereCloud_FIND_COMPONENTS})
+  _spherecloud_find(${_spherecloud_component})
+endforeach()
+unset(_spherecloud_component)

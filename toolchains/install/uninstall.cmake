@@ -1,0 +1,18 @@
+# cmake -DBUILD=FOLDER -P uninstall.cmake: removes what `cmake --install FOLDER` installed last, and folders that are empty
+# then.  DESTDIR has to be what it was.
+set(manifest ${BUILD}/install_manifest.txt)
+if(NOT EXISTS ${manifest})
+  message(FATAL_ERROR "nothing to uninstall: there is no ${manifest}, which `cmake --install ${BUILD}` writes")
+endif()
+file(STRINGS ${manifest} files)
+foreach(file ${files})
+  set(file $ENV{DESTDIR}${file})
+  message(STATUS "removing ${file}")
+  file(REMOVE ${file})
+  set(failed 0)
+  while(failed EQUAL 0)
+    get_filename_component(file ${file} DIRECTORY)
+    execute_process(COMMAND rmdir ${file} RESULT_VARIABLE failed ERROR_QUIET)
+  endwhile()
+endforeach()
+file(REMOVE ${manifest})
