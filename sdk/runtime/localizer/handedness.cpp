@@ -29,8 +29,9 @@ bool mayBeMirrored(const Spread &spread) { return spread.elsewhere < kMostElsewh
 Handedness handednessOf(const Spread &frame, const Spread &mirrored) {
   if (mirrored.elsewhere >= kFewestElsewhere && mirrored.elsewhere >= kTimesElsewhere * frame.elsewhere)
     return Handedness::kChanged;
-  const bool is_kept = mirrored.inliers == 0 || frame.elsewhere > mirrored.elsewhere;
-  return is_kept ? Handedness::kKept : Handedness::kUnclear;
+  const bool is_kept = frame.elsewhere > mirrored.elsewhere ||
+                       (frame.elsewhere == mirrored.elsewhere && frame.inliers >= mirrored.inliers);
+  return is_kept || mirrored.inliers == 0 ? Handedness::kKept : Handedness::kUnclear;
 }
 
 }  // namespace sphc

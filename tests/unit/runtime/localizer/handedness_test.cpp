@@ -62,7 +62,9 @@ TEST(Handedness, APoseOfManySpotsIsNoMirrorImage) {
 
 TEST(Handedness, WhatLiesElsewhereDecides) {
   EXPECT_EQ(handednessOf({40, 11}, {60, 10}), Handedness::kKept);
-  EXPECT_EQ(handednessOf({40, 10}, {60, 10}), Handedness::kUnclear);
+  EXPECT_EQ(handednessOf({40, 10}, {41, 10}), Handedness::kUnclear);
+  EXPECT_EQ(handednessOf({40, 10}, {40, 10}), Handedness::kKept);
+  EXPECT_EQ(handednessOf({40, 9}, {20, 10}), Handedness::kUnclear);
   EXPECT_EQ(handednessOf({40, 5}, {60, 10}), Handedness::kChanged);
   EXPECT_EQ(handednessOf({0, 0}, {60, 10}), Handedness::kChanged);
 }
