@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Are broken sensors believed?  Maps of recordings under several keys, and spherecloud-lab negative on their queries.
 
-    negative.py --spherecloud BIN --lab BIN [--keys N] [--sequences N] [NAME...]      rewrites negative.csv, for review
+    negative.py --spherecloud BIN --lab BIN [--keys N] [--sequences N] [--only FAULT] [NAME...]
+
+Rewrites negative.csv, for review; with NAME or --only the rows of these recordings or of this fault, and keeps the others.
 """
 import argparse
 import concurrent.futures
@@ -40,10 +42,12 @@ def elsewhere_of(place):
             yield other.place("query") + (frames(REFUSED[name]["frames"]) if "frames" in REFUSED[name] else [])
 
 
-def rows_of(lab, place, file, sequences):
-    for row in run([lab, "negative", *place.recording.source("query"), "--map", file, "--sequences", sequences, "--json"]):
+def rows_of(arguments, place, file):
+    lab, sequences = arguments.lab, arguments.sequences
+    only = ["--only", arguments.only] if arguments.only else []
+    for row in run([lab, "negative", *place.recording.source("query"), "--map", file, "--sequences", sequences, *only, "--json"]):
         yield row
-    for source in elsewhere_of(place):
+    for source in elsewhere_of(place) if not only else ():
         for row in run([lab, "negative", *source, "--map", file, "--sequences", sequences, "--elsewhere", "--json"]):
             yield row | {"fault": "another place"}
 
@@ -67,7 +71,7 @@ def measure(arguments):
             def rows_of_map(made):
                 with tempfile.TemporaryDirectory(dir=folder) as own:
                     file = publish(arguments.spherecloud, place, pathlib.Path(own), *made)
-                    return list(rows_of(arguments.lab, place, file, arguments.sequences))
+                    return list(rows_of(arguments, place, file))
 
             maps = list(itertools.product(("patchwork", "gaussian"), range(arguments.keys)))
             for (fakes, key), rows in zip(maps, pool.map(rows_of_map, maps)):
@@ -77,20 +81,26 @@ def measure(arguments):
     return sums
 
 
+def known():
+    with RESULTS.open(newline="") as file:
+        return list(csv.reader(file))[1:]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--lab", required=True)
     parser.add_argument("--keys", type=int, default=12)
     parser.add_argument("--sequences", type=int, default=2)
+    parser.add_argument("--only", metavar="FAULT")
     parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")
-    sums = measure(parser.parse_args())
+    arguments = parser.parse_args()
+    rows = {tuple(row[:4]): row for row in known()} if arguments.names or arguments.only else {}
+    for key, row in measure(arguments).items():
+        rows[key] = [*key, row["keys"], *(row[name] for name in COUNTS), "%.3f" % row["worst_m"], "%.2f" % row["worst_deg"],
+                     " ".join(sorted(row["seen"]))]
     with RESULTS.open("w", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for key, row in sums.items():
-            writer.writerow([*key, row["keys"], *(row[name] for name in COUNTS), "%.3f" % row["worst_m"],
-                             "%.2f" % row["worst_deg"], " ".join(sorted(row["seen"]))])
+        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows.values()])
 
 
 if __name__ == "__main__":

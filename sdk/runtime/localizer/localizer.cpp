@@ -228,7 +228,8 @@ void Localizer::checkHandedness(const Deadline &deadline, Faults *faults, Work *
   }
   findPoseOfMirrored(deadline, work);
   Spread mirrored;
-  if (candidate_.hasPose()) mirrored = spreadOf(candidate_.matched.ofThisFrame(), candidate_.estimate, estimator_);
+  if (candidate_.hasPose() && candidate_.evidence.log_chance_first < kMostLogChance)
+    mirrored = spreadOf(candidate_.matched.ofThisFrame(), candidate_.estimate, estimator_);
   switch (handednessOf(frame, mirrored)) {
     case Handedness::kKept:
       break;
