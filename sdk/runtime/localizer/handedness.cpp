@@ -24,7 +24,9 @@ Spread spreadOf(Span<const Correspondence> correspondences, const Estimate &esti
   return {inliers, inliers - most};
 }
 
-bool mayBeMirrored(const Spread &spread) { return spread.elsewhere < kMostElsewhereOfMirrored * spread.inliers; }
+bool mayBeMirrored(const Spread &spread) {
+  return spread.elsewhere < kMostElsewhereOfMirrored && spread.elsewhere < kMostShareOfMirrored * spread.inliers;
+}
 
 Handedness handednessOf(const Spread &frame, const Spread &mirrored) {
   if (mirrored.elsewhere >= kFewestElsewhere && mirrored.elsewhere >= kTimesElsewhere * frame.elsewhere)

@@ -58,6 +58,8 @@ TEST(Handedness, APoseOfManySpotsIsNoMirrorImage) {
   EXPECT_TRUE(mayBeMirrored({40, 0}));
   EXPECT_TRUE(mayBeMirrored({40, 27}));
   EXPECT_FALSE(mayBeMirrored({40, 29}));
+  EXPECT_TRUE(mayBeMirrored({200, 29}));
+  EXPECT_FALSE(mayBeMirrored({200, 30}));
 }
 
 TEST(Handedness, WhatLiesElsewhereDecides) {
