@@ -25,7 +25,8 @@ Spread spreadOf(Span<const Correspondence> correspondences, const Estimate &esti
 }
 
 bool mayBeMirrored(const Spread &spread) {
-  return spread.elsewhere < kMostElsewhereOfMirrored && spread.elsewhere < kMostShareOfMirrored * spread.inliers;
+  const double most = spread.elsewhere < kFewElsewhere ? kMostElsewhereOfFew : kMostElsewhereOfMirrored;
+  return spread.elsewhere < most * spread.inliers;
 }
 
 Handedness handednessOf(const Spread &frame, const Spread &mirrored) {

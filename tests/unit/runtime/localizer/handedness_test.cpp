@@ -58,8 +58,10 @@ TEST(Handedness, APoseOfManySpotsIsNoMirrorImage) {
   EXPECT_TRUE(mayBeMirrored({40, 0}));
   EXPECT_TRUE(mayBeMirrored({40, 27}));
   EXPECT_FALSE(mayBeMirrored({40, 29}));
-  EXPECT_TRUE(mayBeMirrored({200, 29}));
-  EXPECT_FALSE(mayBeMirrored({200, 30}));
+  EXPECT_TRUE(mayBeMirrored({60, 29}));
+  EXPECT_FALSE(mayBeMirrored({60, 30}));
+  EXPECT_TRUE(mayBeMirrored({200, 69}));
+  EXPECT_FALSE(mayBeMirrored({200, 71}));
 }
 
 TEST(Handedness, WhatLiesElsewhereDecides) {
