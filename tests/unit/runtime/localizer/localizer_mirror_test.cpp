@@ -16,13 +16,13 @@ const Vector3 kCentre(0, 0, 1);
 
 Vector3 directionOf(const test::WorldPoint &point) { return (point.position_m - kCentre).normalized(); }
 
-// The points of a cone of 14 degrees, the one with most of them: enough for a pose that would be believed.
+// The points of a cone of 10 degrees, the one with most of them.
 std::vector<test::WorldPoint> spotOf(const std::vector<test::WorldPoint> &points) {
   std::vector<test::WorldPoint> spot;
   for (const test::WorldPoint &middle : points) {
     std::vector<test::WorldPoint> here;
     for (const test::WorldPoint &point : points)
-      if (directionOf(point).dot(directionOf(middle)) > 0.97) here.push_back(point);
+      if (directionOf(point).dot(directionOf(middle)) > 0.985) here.push_back(point);
     if (here.size() > spot.size()) spot = here;
   }
   return spot;
