@@ -217,11 +217,16 @@ void Localizer::answer(const Known &known, const Deadline &deadline, Faults *fau
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
 }
 
-// Takes the pose of a mirror image away, and names it.  The last step, which a frame may lack for its deadline.
+// Takes the pose of a mirror image away, and names it.  The last step, which a frame may lack for its deadline.  A
+// pose of the whole map may be one of a mirror image if it rests on one spot; a frame that has none if much of it
+// looks like the map.
 void Localizer::checkHandedness(const Deadline &deadline, Faults *faults, Work *work) {
+  if (!best_.tried || (best_.isLocalized() && best_.guided)) return;
   Spread frame;
   if (best_.hasPose()) frame = spreadOf(best_.matched.ofThisFrame(), best_.estimate, estimator_);
-  if (!mayBeMirrored(frame)) return;
+  const bool is_asked =
+      best_.isLocalized() ? mayBeMirrored(frame) : clear_ > kLeastClearOfMirrored * front_.keypointCount();
+  if (!is_asked) return;
   if (deadline.passed()) {
     work->cuts |= kCutVerification;
     return;
@@ -241,14 +246,6 @@ void Localizer::checkHandedness(const Deadline &deadline, Faults *faults, Work *
       ranking_.clear();
       best_.outcome = Outcome::kContradiction;
   }
-}
-
-// A pose of the whole map may be one of a mirror image if it rests on one spot; a frame that has none if much of it
-// looks like the map.
-bool Localizer::mayBeMirrored(const Spread &spread) const {
-  if (!best_.tried || (best_.isLocalized() && best_.guided)) return false;
-  if (best_.isLocalized()) return sphc::mayBeMirrored(spread);
-  return clear_ > kLeastClearOfMirrored * front_.keypointCount();
 }
 
 // Makes candidate_ what the mirror image of the frame shows in the map of best_.

@@ -78,7 +78,6 @@ class Localizer {
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
-  bool mayBeMirrored(const Spread &spread) const;
   void findPoseOfMirrored(const Deadline &deadline, Work *work);
   bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
