@@ -86,6 +86,15 @@ uint64_t Headset::noiseSeed(uint32_t index, uint64_t stream) const {
   return hash64(hash64(config_.seed, config_.walk_seed), 2 * (skipped + index) + stream);
 }
 
+// Of a camera of its own: by where it is.
+uint64_t Headset::noiseSeed(const Pose &pose, int64_t time_ns, uint64_t stream) const {
+  uint64_t seed = hash64(hash64(config_.seed, config_.walk_seed), static_cast<uint64_t>(time_ns) + stream);
+  for (const double t : {pose.center.x, pose.center.y, pose.center.z})
+    seed = hash64(seed, static_cast<uint64_t>(std::llround(t * 1e6)));
+  for (const Vec3d &row : pose.rotation.row) seed = hash64(seed, static_cast<uint64_t>(std::llround(row.z * 1e6)));
+  return seed;
+}
+
 std::vector<Shape> Headset::shapesAt(int64_t time_ns) const {
   std::vector<Shape> shapes = scene_.shapes;
   scene_.actors.move(walk_, walkTime(time_ns), shapes);
@@ -94,6 +103,10 @@ std::vector<Shape> Headset::shapesAt(int64_t time_ns) const {
 
 void Headset::oracleColor(int64_t time_ns, float *depth_m) const {
   oracle(scene_, shapesAt(time_ns), color_, color_rays_, colorPose(time_ns), config_.threads, depth_m);
+}
+
+void Headset::oracleView(const sphc_camera &camera, const Pose &pose, int64_t time_ns, float *depth_m) const {
+  oracle(scene_, shapesAt(time_ns), camera, RayTable(camera), pose, config_.threads, depth_m);
 }
 
 void Headset::oracleDepth(int64_t time_ns, float *depth_m) const {

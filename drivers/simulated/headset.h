@@ -19,6 +19,14 @@ sphc_rig rig();
 
 class Raster;
 
+// A camera at one moment.
+struct View {
+  const sphc_camera &camera;
+  const RayTable &rays;
+  int64_t time_ns;
+  uint64_t seed;  // of its noise
+};
+
 class Headset {
  public:
   // The config must have passed checkConfig.
@@ -36,6 +44,11 @@ class Headset {
   void renderColor(uint32_t index, uint8_t *rgb) const;
   void renderDepth(uint32_t index, uint16_t *depth) const;
   void renderAmplitude(uint32_t index, uint16_t *amplitude) const;
+  // Of a camera that the headset does not have: still, and anywhere.
+  void renderView(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint8_t *rgb) const;
+  void renderViewDepth(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint16_t *depth) const;
+  void oracleView(const sphc_camera &camera, const Pose &pose, int64_t time_ns, float *depth_m) const;
+
   void oracleColor(int64_t time_ns, float *depth_m) const;
   void oracleDepth(int64_t time_ns, float *depth_m) const;
 
@@ -45,17 +58,22 @@ class Headset {
   };
 
   // Adds the light of one part of an exposure, to one sum a pixel.
-  void gatherLight(const Raster &raster, std::vector<Light> *lights) const;
+  void gatherLight(const View &view, const Raster &raster, std::vector<Light> *lights) const;
+  // Of so many parts.
+  void developAll(const View &view, const std::vector<Light> &lights, uint32_t parts, uint8_t *rgb) const;
   // The pose `offset_s` after a time: fractions of an exposure are finer than the clock.
   Pose colorPoseAfter(int64_t time_ns, double offset_s) const;
   Pose depthPose(int64_t time_ns) const;
   // The solids, where they are at a time.
   std::vector<Shape> shapesAt(int64_t time_ns) const;
   void renderIdealDepth(uint32_t index, uint16_t *depth) const;
-  // Calls visit(pixel, echo, ray) for all pixels of the ToF camera, from several threads.
+  View depthView(uint32_t index) const;
+  // Calls visit(pixel, echo, ray) for all pixels, from several threads.
   template <typename Visit>
-  void forEchoes(uint32_t index, const Visit &visit) const;
+  void forEchoes(const View &view, const Pose &pose, const Visit &visit) const;
+  void measureDepth(const View &view, const Pose &pose, uint16_t *depth) const;
   uint64_t noiseSeed(uint32_t index, uint64_t stream) const;
+  uint64_t noiseSeed(const Pose &pose, int64_t time_ns, uint64_t stream) const;
 
   sphc_simulated_config config_;
   sphc_camera color_, depth_;

@@ -60,16 +60,16 @@ float exposureAt(double time_s) {
 
 }  // namespace
 
-void Headset::gatherLight(const Raster &raster, std::vector<Light> *lights) const {
+void Headset::gatherLight(const View &view, const Raster &raster, std::vector<Light> *lights) const {
   static const Squares kSquares;
   // A ray stands for half a pixel on a side; a little sharper than that keeps fine texture.
-  const float footprint = 0.6f / static_cast<float>(color_.params[0]);
+  const float footprint = 0.6f / static_cast<float>(view.camera.params[0]);
   parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       Light sum;
       Rays rays;
       for (uint32_t i = 0; i < kLanes; ++i) {
-        rays.lane[i] = color_rays_.at(column, row, kColorOffsets[i][0], kColorOffsets[i][1]);
+        rays.lane[i] = view.rays.at(column, row, kColorOffsets[i][0], kColorOffsets[i][1]);
       }
       const Hits hits = raster.cast(list, rays);
       for (uint32_t i = 0; i < kLanes; ++i) {
@@ -85,7 +85,7 @@ void Headset::gatherLight(const Raster &raster, std::vector<Light> *lights) cons
         sum.g += kSquares.of[(texel >> 8) & 255];
         sum.b += kSquares.of[(texel >> 16) & 255];
       }
-      Light &light = (*lights)[static_cast<size_t>(row) * kColorWidth + column];
+      Light &light = (*lights)[static_cast<size_t>(row) * view.camera.width + column];
       light.r += sum.r;
       light.g += sum.g;
       light.b += sum.b;
@@ -101,6 +101,7 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
                                           colorPoseAfter(time_ns, -exposure_s / 2).rotation * ahead;
   const double turned_px = std::sqrt(dot(turned, turned)) * color_.params[0];
   const auto parts = static_cast<uint32_t>(std::clamp(std::ceil(turned_px / kLongestPartPx), 1.0, kMostParts));
+  const View view = {color_, color_rays_, time_ns, noiseSeed(index, 0)};
   std::vector<Light> lights(static_cast<size_t>(kColorWidth) * kColorHeight);
   for (uint32_t part = 0; part < parts; ++part) {
     Pose poses[kLanes];
@@ -108,20 +109,34 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
       const double share = (part * kLanes + i + 0.5) / (parts * kLanes) - 0.5;
       poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? share * exposure_s : 0);
     }
-    gatherLight(Raster(scene_, shapes, color_, color_rays_, poses), &lights);
+    gatherLight(view, Raster(scene_, shapes, color_, color_rays_, poses), &lights);
   }
+  developAll(view, lights, parts, rgb);
+}
+
+void Headset::renderView(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint8_t *rgb) const {
+  const RayTable rays(camera);
+  const View view = {camera, rays, time_ns, noiseSeed(pose, time_ns, 0)};
+  const std::vector<Shape> shapes = shapesAt(time_ns);
+  std::vector<Light> lights(static_cast<size_t>(camera.width) * camera.height);
+  gatherLight(view, Raster(scene_, shapes, camera, rays, {pose, pose, pose, pose}), &lights);
+  developAll(view, lights, 1, rgb);
+}
+
+void Headset::developAll(const View &view, const std::vector<Light> &lights, uint32_t parts, uint8_t *rgb) const {
   const float gain =
-      (config_.exposure_drift != 0 ? exposureAt(walkTime(time_ns)) : 1.0f) * scene_.lighting.brightness;
+      (config_.exposure_drift != 0 ? exposureAt(walkTime(view.time_ns)) : 1.0f) * scene_.lighting.brightness;
   const Sensor sensor = sensorAt(scene_.lighting.level);
-  const uint64_t seed = noiseSeed(index, 0);
+  const uint64_t seed = view.seed;
   const float noise = config_.color_noise != 0 ? 1.0f : 0.0f;
-  parallelFor(kColorHeight, config_.threads, [&](uint32_t row) {
-    for (uint32_t column = 0; column < kColorWidth; ++column) {
-      const Ray2 &center = color_rays_.center(column, row);
+  const uint32_t width = view.camera.width;
+  parallelFor(view.camera.height, config_.threads, [&](uint32_t row) {
+    for (uint32_t column = 0; column < width; ++column) {
+      const Ray2 &center = view.rays.center(column, row);
       const float off_axis = center.x * center.x + center.y * center.y;
       const float vignette = 1.0f / ((1 + 0.45f * off_axis) * (1 + 0.45f * off_axis));
       const float scale = gain * vignette / static_cast<float>(parts * kLanes);
-      const uint64_t pixel = static_cast<uint64_t>(row) * kColorWidth + column;
+      const uint64_t pixel = static_cast<uint64_t>(row) * width + column;
       const Light &light = lights[pixel];
       uint8_t *out = rgb + 3 * pixel;
       out[0] = develop(sensor, light.r * scale, noise * gaussian(hash64(seed + 3 * pixel)));

@@ -99,25 +99,37 @@ void Headset::renderIdealDepth(uint32_t index, uint16_t *depth) const {
   std::transform(z.begin(), z.end(), depth, [](float z_m) { return units(static_cast<double>(z_m)); });
 }
 
+View Headset::depthView(uint32_t index) const {
+  return {depth_, depth_rays_, depthTime(index), noiseSeed(index, 1)};
+}
+
 template <typename Visit>
-void Headset::forEchoes(uint32_t index, const Visit &visit) const {
-  const Pose pose = depthPose(depthTime(index));
-  const std::vector<Shape> shapes = shapesAt(depthTime(index));
-  const Raster raster(scene_, shapes, depth_, depth_rays_, {pose, pose, pose, pose});
-  const auto focal = static_cast<float>(depth_.params[0]);
+void Headset::forEchoes(const View &view, const Pose &pose, const Visit &visit) const {
+  const std::vector<Shape> shapes = shapesAt(view.time_ns);
+  const Raster raster(scene_, shapes, view.camera, view.rays, {pose, pose, pose, pose});
+  const auto focal = static_cast<float>(view.camera.params[0]);
   parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
-      const uint64_t pixel = static_cast<uint64_t>(row) * kDepthWidth + column;
-      visit(pixel, listen(scene_, raster, depth_rays_, focal, column, row, list), depth_rays_.center(column, row));
+      const uint64_t pixel = static_cast<uint64_t>(row) * view.camera.width + column;
+      visit(pixel, listen(scene_, raster, view.rays, focal, column, row, list), view.rays.center(column, row));
     });
   });
 }
 
 void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
   if (config_.ideal_depth != 0) return renderIdealDepth(index, depth);
-  const uint64_t seed = noiseSeed(index, 1);
+  measureDepth(depthView(index), depthPose(depthTime(index)), depth);
+}
+
+void Headset::renderViewDepth(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint16_t *depth) const {
+  const RayTable rays(camera);
+  measureDepth({camera, rays, time_ns, noiseSeed(pose, time_ns, 1)}, pose, depth);
+}
+
+void Headset::measureDepth(const View &view, const Pose &pose, uint16_t *depth) const {
+  const uint64_t seed = view.seed;
   const auto far_m = static_cast<float>(config_.depth_max_m);
-  forEchoes(index, [&](uint64_t pixel, const Echo &echo, const Ray2 &center) {
+  forEchoes(view, pose, [&](uint64_t pixel, const Echo &echo, const Ray2 &center) {
     const float z_max = far_m / std::sqrt(1 + center.x * center.x + center.y * center.y);
     const uint64_t chance = hash64(seed + 2 * pixel), noise = hash64(seed + 2 * pixel + 1);
     if (config_.raw_depth != 0) {
@@ -129,7 +141,7 @@ void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
 }
 
 void Headset::renderAmplitude(uint32_t index, uint16_t *amplitude) const {
-  forEchoes(index, [&](uint64_t pixel, const Echo &echo, const Ray2 &) {
+  forEchoes(depthView(index), depthPose(depthTime(index)), [&](uint64_t pixel, const Echo &echo, const Ray2 &) {
     amplitude[pixel] = static_cast<uint16_t>(std::min(kCountsOfLight * echo.light + 0.5f, 65535.0f));
   });
 }

@@ -7,6 +7,7 @@
 
 #include "drivers/simulated/config.h"
 #include "drivers/simulated/headset.h"
+#include "drivers/simulated/raster.h"
 #include "drivers/simulated/source.h"
 
 struct sphc_simulated {
@@ -110,6 +111,22 @@ sphc_status sphc_simulated_render_color(const sphc_simulated *simulated, uint32_
 sphc_status sphc_simulated_render_amplitude(const sphc_simulated *simulated, uint32_t index, uint16_t *amplitude) {
   if (!hasFrame(simulated, index) || amplitude == nullptr) return SPHC_E_ARGUMENT;
   return guarded(nullptr, [&] { simulated->headset.renderAmplitude(index, amplitude); });
+}
+
+sphc_status sphc_simulated_render_view(const sphc_simulated *simulated, int64_t time_ns, const sphc_camera *camera,
+                                       const sphc_rigid *world_from_camera, uint8_t *rgb, uint16_t *depth,
+                                       float *depth_m) {
+  if (simulated == nullptr || camera == nullptr || world_from_camera == nullptr) return SPHC_E_ARGUMENT;
+  const bool has_lens =
+      camera->model == SPHC_CAMERA_BROWN5 || camera->model == SPHC_CAMERA_KANNALA_BRANDT4;
+  if (!has_lens || camera->width == 0 || camera->height == 0 || camera->width % sphc::simulated::kTile != 0)
+    return SPHC_E_ARGUMENT;
+  return guarded(nullptr, [&] {
+    const sphc::simulated::Pose pose = sphc::simulated::poseOf(*world_from_camera);
+    if (rgb != nullptr) simulated->headset.renderView(*camera, pose, time_ns, rgb);
+    if (depth != nullptr) simulated->headset.renderViewDepth(*camera, pose, time_ns, depth);
+    if (depth_m != nullptr) simulated->headset.oracleView(*camera, pose, time_ns, depth_m);
+  });
 }
 
 sphc_status sphc_simulated_render_depth(const sphc_simulated *simulated, uint32_t index, uint16_t *depth) {

@@ -331,7 +331,8 @@ TEST_F(CInterfaceFailure, Observations) {
   EXPECT_EQ(sphc_localizer_observations(session_.localizer(), &one, sizeof one, 1, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_localizer_observations(session_.localizer(), nullptr, sizeof one, 1, count.get()),
             SPHC_E_ARGUMENT);
-  for (uint32_t stride : {0u, uint32_t{sizeof one} - 4, uint32_t{sizeof one} + 1})
+  constexpr uint32_t kFirst = offsetof(sphc_localizer_observation, camera);  // what 0.2.0 published
+  for (uint32_t stride : {0u, kFirst - 4, uint32_t{sizeof one} + 1})
     EXPECT_EQ(sphc_localizer_observations(session_.localizer(), &one, stride, 1, count.get()), SPHC_E_ARGUMENT);
   EXPECT_TRUE(count.untouched());
 }

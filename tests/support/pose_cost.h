@@ -19,20 +19,23 @@ struct PoseCost {
   }
   double lifted(Correspondence c, const Vector8 &step) const {
     const double z = c.lifted.point_m.z(), longer = 1 + (step[6] + step[7] * (z - mid_m)) / z;
-    c.lifted = {longer * c.lifted.point_m, longer * c.lifted.sideways_m, longer * c.lifted.along_m};
+    c.lifted = {longer * c.lifted.point_m, longer * c.lifted.sideways_m, longer * c.lifted.along_m,
+                c.lifted.centre_m};
     const Residual r = residualOf(c, moved(step));
     return lossOf(r.squared, r.in_front);
   }
-  // Of the angle between the viewing ray and the plane of the sphere centre, the camera and the direction.
+  // Of the angle between the viewing ray and the plane of the sphere centre, the camera that sees it and the
+  // direction.
   double plane(const Correspondence &c, const Vector8 &step) const {
     const Rigid pose = moved(step);
-    const Vector3 view = c.lifted.point_m.normalized(), ray = pose.rotation * c.direction;
-    const double sine = view.dot(pose.translation_m.cross(ray).normalized());
-    const double sigma = c.lifted.sideways_m / c.lifted.point_m.norm();
+    const Vector3 centre_m = c.lifted.centre_m.cast<double>(), t = pose.translation_m - centre_m;
+    const Vector3 view = c.lifted.view(), ray = pose.rotation * c.direction;
+    const double sine = view.dot(t.cross(ray).normalized());
+    const double sigma = c.lifted.sideways_m / (c.lifted.point_m - centre_m).norm();
     // depth * view = t + m * ray, as well as they can
     Eigen::Matrix<double, 3, 2> rays;
     rays << view, -ray;
-    const Vector2 lengths = (rays.transpose() * rays).ldlt().solve(rays.transpose() * pose.translation_m);
+    const Vector2 lengths = (rays.transpose() * rays).ldlt().solve(rays.transpose() * t);
     return lossOf(sine * sine / (sigma * sigma), lengths[0] > 0 && lengths[1] > 0);
   }
 };

@@ -452,9 +452,18 @@ enum {
 };
 SPHC_API const char *sphc_localizer_state_name(sphc_localizer_state state); /* [pure] */
 
+/* A camera of a rig beside the colour camera: grey or colour, of any model and size, looking anywhere. */
+typedef struct sphc_localizer_camera {
+  uint32_t struct_size;
+  uint32_t reserved;
+  sphc_camera camera;
+  sphc_rigid color_from_camera; /* within the limits of sphc_rig.color_from_depth */
+} sphc_localizer_camera;
+#define SPHC_CAMERAS_MAX 8u /* of a rig, the colour camera among them */
+
 typedef struct sphc_localizer_config {
   uint32_t struct_size;
-  uint32_t max_keypoints; /* strongest are kept; 64 to 4096 */
+  uint32_t max_keypoints; /* of all cameras together; strongest are kept; 64 to 4096 */
   uint32_t max_maps;      /* that it has at once; 1 to SPHC_MAPS_MAX */
   sphc_localizer_mode mode;
   uint64_t seed; /* same seed, maps, config and frames: same bytes in the results */
@@ -484,8 +493,15 @@ typedef struct sphc_localizer_config {
   /* Measurements whose pixel in frame.amplitude is below this are ignored, and so are those between two surfaces
    * (flying pixels).  0: frame.amplitude is not looked at. */
   uint32_t amplitude_min;
-  sphc_band color_band; /* what the colour camera sees; maps of another band are refused */
+  sphc_band color_band; /* what the cameras see; maps of another band are refused */
   uint32_t reserved2;
+
+  /* The further cameras of the rig: an array, borrowed until the call returns, whose elements have the struct_size
+   * of the first and lie so far apart.  What they see joins what the colour camera sees, with depth where the depth
+   * camera sees it too, else as rays.  docs/localizer.md. */
+  const sphc_localizer_camera *cameras; /* null where there are none */
+  uint32_t camera_count;                /* 0 to SPHC_CAMERAS_MAX - 1 */
+  uint32_t reserved3;
 } sphc_localizer_config;
 
 /* What is known of a pose before its frame is looked at. */
@@ -511,6 +527,17 @@ typedef struct sphc_localizer_prior {
   double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */
 } sphc_localizer_prior;
 
+/* The image of a further camera; everything is borrowed. */
+typedef struct sphc_localizer_view {
+  uint32_t struct_size;
+  uint32_t reserved;
+  int64_t time_ns;  /* mid-exposure; where odometry is given, the camera may have moved since color_time_ns */
+  sphc_image image; /* any format that is not of depth; data null: the camera has none in this frame */
+  /* As they are in this frame, with heat or focus; null: as in the config.  The size stays. */
+  const sphc_camera *camera;
+  const sphc_rigid *color_from_camera;
+} sphc_localizer_view;
+
 /* A colour and a depth image taken at about the same time; everything is borrowed. */
 typedef struct sphc_localizer_frame {
   uint32_t struct_size;
@@ -529,6 +556,14 @@ typedef struct sphc_localizer_frame {
    * GRAY16; the depth image's size.  Every frame has one where config.amplitude_min is set, which says what is
    * believed; else it is not looked at. */
   sphc_image amplitude;
+  /* Of each of config.cameras one, in their order: an array whose elements have the struct_size of the first and lie
+   * so far apart.  Null where the config has no cameras. */
+  const sphc_localizer_view *views;
+  uint32_t view_count; /* config.camera_count */
+  uint32_t reserved3;
+  /* As they are in this frame, with heat or focus; null: as in config.rig.  The size stays. */
+  const sphc_camera *color_camera;
+  const sphc_rigid *color_from_depth;
 } sphc_localizer_frame;
 
 typedef int32_t sphc_localizer_outcome;
@@ -649,12 +684,15 @@ SPHC_API sphc_status sphc_localizer_config_init(sphc_localizer_config *config, s
 SPHC_API sphc_status sphc_localizer_result_init(sphc_localizer_result *result, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size);
+SPHC_API sphc_status sphc_localizer_camera_init(sphc_localizer_camera *camera, size_t struct_size);
+SPHC_API sphc_status sphc_localizer_view_init(sphc_localizer_view *view, size_t struct_size);
 
 /* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memory *memory,
                                            sphc_message *message);
 /* Upper bounds of it for any library of this ABI, for memory that is not asked for: buffers with an extent that the
- * compiler must know.  color_width x color_height is the colour camera's image. */
+ * compiler must know.  color_width x color_height is the colour camera's image; of a rig, the largest width and the
+ * largest height of all cameras but the depth camera. */
 #define SPHC_LOCALIZER_STATE_BYTES_MAX(max_keypoints, max_maps) \
   (UINT64_C(98304) + UINT64_C(160) * (max_keypoints) + UINT64_C(256) * (max_maps))
 #define SPHC_LOCALIZER_SCRATCH_BYTES_MAX(max_keypoints, color_width, color_height) \
@@ -664,6 +702,9 @@ SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, 
  * set; depth_width x depth_height is the depth camera's image. */
 #define SPHC_LOCALIZER_DEPTH_BYTES_MAX(depth_width, depth_height) \
   (UINT64_C(65536) + UINT64_C(2) * (depth_width) * (depth_height))
+/* What is added to each of the two where config.camera_count is not 0; of width and height again the largest. */
+#define SPHC_LOCALIZER_CAMERAS_BYTES_MAX(max_keypoints, width, height) \
+  (UINT64_C(65536) + UINT64_C(256) * (max_keypoints) + UINT64_C(1) * (width) * (height))
 
 /* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static
  * storage. [pure] */
@@ -793,11 +834,12 @@ SPHC_API sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int
 /* What became of one keypoint of the last processed frame; for overlays and diagnosis. */
 enum { SPHC_OBSERVATION_LIFTED = 1u, SPHC_OBSERVATION_MATCHED = 2u, SPHC_OBSERVATION_INLIER = 4u };
 typedef struct sphc_localizer_observation {
-  float x_px, y_px;     /* in the colour image */
+  float x_px, y_px;     /* in the image of its camera */
   float scale_px;       /* standard deviation of the Gaussian it was found at */
-  float depth_m;        /* z in the colour camera; 0 unless LIFTED */
+  float depth_m;        /* z in that camera; 0 unless LIFTED */
   uint32_t point_index; /* of the matched map point, of the map that result.map_id names; valid when MATCHED */
   uint32_t flags;
+  uint32_t camera; /* 0: the colour camera; i: config.cameras[i - 1] */
 } sphc_localizer_observation;
 /* Copies up to `capacity` observations, one every stride_bytes, and sets *count to how many there are. stride_bytes
  * is sizeof(sphc_localizer_observation), by which the library knows which fields the caller has; ARGUMENT for one
@@ -835,7 +877,7 @@ SPHC_API sphc_status sphc_localizer_hypotheses(const sphc_localizer *localizer,
  * such as a DSP or an NPU, come in by sphc_features_set.  docs/localizer.md. */
 typedef struct sphc_features sphc_features;
 
-/* Where a feature lies in the colour image, x right, y down. */
+/* Where a feature lies in the image of its camera, x right, y down. */
 typedef struct sphc_keypoint {
   float x_px, y_px; /* 0 to the image's width and height */
   float scale_px;   /* standard deviation of the Gaussian at which it was found; above 0, 8192 at most */
@@ -855,17 +897,19 @@ typedef struct sphc_features_arrays {
   uint32_t reserved;
   const sphc_keypoint *keypoints; /* aligned to 4 bytes; may be null where count is 0, as may descriptors */
   const uint8_t *descriptors;
+  const uint8_t *cameras; /* of each keypoint, a byte apart: 0 the colour camera, i config.cameras[i - 1]; null: all of
+                           * the colour camera */
 } sphc_features_arrays;
 
-/* What sphc_features_init will need, for localizers of this config: 148 bytes a keypoint and one a pixel of the
- * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+/* What sphc_features_init will need, for localizers of this config: 148 bytes a keypoint (149 where there are further
+ * cameras) and one a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_features_memory(const sphc_localizer_config *config, sphc_memory *memory,
                                           sphc_message *message);
 /* Upper bound of its state_bytes for any library of this ABI, for memory that is not asked for. */
 #define SPHC_FEATURES_BYTES_MAX(max_keypoints, color_width, color_height) \
   (UINT64_C(4096) + UINT64_C(192) * (max_keypoints) + UINT64_C(1) * (color_width) * (color_height))
-/* Makes features, of no frame yet, in caller memory, borrowed until sphc_features_fini.  Of `config` the size of
- * the colour image and max_keypoints count.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure]
+/* Makes features, of no frame yet, in caller memory, borrowed until sphc_features_fini.  Of `config` the sizes of
+ * the images and max_keypoints count.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE, MEMORY_ALIGNMENT. [pure]
  */
 SPHC_API sphc_status sphc_features_init(void *memory, size_t memory_bytes, const sphc_localizer_config *config,
                                         sphc_features **features, sphc_message *message);
@@ -884,15 +928,16 @@ SPHC_API const char *sphc_features_message(const sphc_features *features);
 /* Accepts null and pointer to null; sets *features to null; frees nothing. [exclusive] */
 SPHC_API void sphc_features_fini(sphc_features **features);
 
-/* Fills the features by the colour image of a frame: color, color_time_ns and deadline_us of it are read, and the
- * deadline bounds this call alone.  The image may go afterwards.  Failures: ARGUMENT: the features were made for
+/* Fills the features by the images of a frame: color, views, color_time_ns and deadline_us of it are read, and the
+ * deadline bounds this call alone.  The images may go afterwards.  Failures: ARGUMENT: the features were made for
  * another config, among others; STRUCT_SIZE, IMAGE (sphc_features_message explains); the features stay what they
  * were.  Bounded time, no allocation, no OS call.  Exclusive with sphc_localizer_process, _extract and _fini of
  * this localizer, and with all calls of these features; every other call on the localizer may run meanwhile in
  * another thread.  Both threads then call config.clock, and the localizer's scratch is no other's. [exclusive] */
 SPHC_API sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
                                             sphc_features *features);
-/* As sphc_localizer_process, from the features of the frame on: frame.color is not looked at.  The same result, to
+/* As sphc_localizer_process, from the features of the frame on: frame.color and the images of its views are not
+ * looked at.  The same result, to
  * the last bit but for times, where no deadline is set; several localizers may locate the same features at the same
  * time.  result.features_us is how long extract took, 0 for features that were set.  Failures: also ARGUMENT where
  * the features have another color_time_ns than the frame, or were made for another config, and STATE where they are

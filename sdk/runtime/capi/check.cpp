@@ -1,5 +1,7 @@
 #include "runtime/capi/check.h"
 
+#include <algorithm>
+
 #include "runtime/base/message.h"
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
@@ -112,6 +114,96 @@ bool checkDepthFormat(sphc_format configured, const sphc_rig &rig, double depth_
   return false;
 }
 
+bool isRotation(const double q_wxyz[4]) {
+  double squared = 0;
+  for (int i = 0; i < 4; ++i) squared += q_wxyz[i] * q_wxyz[i];
+  return absOf(squared - 1) <= 2 * SPHC_RIG_MAX_LENGTH_ERROR;
+}
+
+// A transform between sensors of one rig.
+bool checkMount(const char *name, const sphc_rigid &mount, sphc_message *message) {
+  bool good = isRotation(mount.q_wxyz);
+  for (const double t : mount.t_m) good = good && absOf(t) <= SPHC_RIG_MAX_OFFSET_M;
+  if (good) return true;
+  MessageWriter(message) << name
+                         << " is no transform: its quaternion must have length 1 (order w x y z), and its "
+                            "translation lie within "
+                         << SPHC_RIG_MAX_OFFSET_M << " m";
+  return false;
+}
+
+// Of an array's element: says which, in front of what was found.
+sphc_status refuseElement(uint32_t i, sphc_status status, const sphc_message &found, sphc_message *message) {
+  MessageWriter(message) << "with i = " << i << ": " << found.text;
+  return status;
+}
+
+sphc_status readCameras(ConfigCopy *copy, sphc_message *message) {
+  sphc_localizer_config &config = copy->config;
+  if (config.camera_count > SPHC_CAMERAS_MAX - 1 || (config.camera_count > 0) != (config.cameras != nullptr)) {
+    MessageWriter(message) << "config.camera_count is " << config.camera_count << ", and config.cameras is "
+                           << (config.cameras ? "not null" : "null") << "; give an array of 1 to "
+                           << SPHC_CAMERAS_MAX - 1 << " further cameras, or 0 and null";
+    return SPHC_E_ARGUMENT;
+  }
+  std::fill_n(copy->cameras, SPHC_CAMERAS_MAX - 1, emptyCamera());
+  const sphc_status status =
+      readStructs("config.cameras", config.cameras, config.camera_count, copy->cameras, message);
+  if (status != SPHC_OK) return status;
+  if (config.cameras) config.cameras = copy->cameras;
+  for (uint32_t i = 0; i < config.camera_count; ++i) {
+    const sphc_localizer_camera &own = copy->cameras[i];
+    sphc_message found;
+    if (!checkCamera(own.camera, "config.cameras[i].camera", &found) ||
+        !checkMount("config.cameras[i].color_from_camera", own.color_from_camera, &found))
+      return refuseElement(i, SPHC_E_ARGUMENT, found, message);
+  }
+  return SPHC_OK;
+}
+
+// A camera as it is in one frame, where that is told.
+bool checkCameraNow(const char *name, const sphc_camera *now, const sphc_camera &known, sphc_message *message) {
+  if (!now) return true;
+  if (!checkCamera(*now, name, message)) return false;
+  if (now->width == known.width && now->height == known.height) return true;
+  MessageWriter(message) << name << " is of " << now->width << " x " << now->height << " pixels, in the config of "
+                         << known.width << " x " << known.height << "; give the calibration of the configured size";
+  return false;
+}
+
+bool checkMountNow(const char *name, const sphc_rigid *now, sphc_message *message) {
+  return !now || checkMount(name, *now, message);
+}
+
+sphc_status checkView(const sphc_localizer_view &view, const sphc_camera &known, bool looks_at_images,
+                      sphc_message *message) {
+  if (!checkCameraNow("frame.views[i].camera", view.camera, known, message) ||
+      !checkMountNow("frame.views[i].color_from_camera", view.color_from_camera, message))
+    return SPHC_E_ARGUMENT;
+  if (!looks_at_images || !view.image.data) return SPHC_OK;
+  return checkImage("frame.views[i]", view.image, known, 0, message);
+}
+
+sphc_status readViews(const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
+  sphc_localizer_frame &frame = copy->frame;
+  const auto cameras = static_cast<uint32_t>(limits.further.size());
+  if (frame.view_count != cameras || (cameras > 0) != (frame.views != nullptr)) {
+    MessageWriter(message) << "frame.view_count is " << frame.view_count << ", frame.views is "
+                           << (frame.views ? "not null" : "null") << ", and config.camera_count is " << cameras
+                           << "; give a view for each camera, with image.data null where it has none";
+    return SPHC_E_ARGUMENT;
+  }
+  sphc_status status = readStructs("frame.views", frame.views, cameras, copy->views, message);
+  if (status != SPHC_OK) return status;
+  if (frame.views) frame.views = copy->views;
+  for (uint32_t i = 0; i < cameras; ++i) {
+    sphc_message found;
+    status = checkView(copy->views[i], limits.further[i].camera.parameters(), limits.looks_at_images, &found);
+    if (status != SPHC_OK) return refuseElement(i, status, found, message);
+  }
+  return SPHC_OK;
+}
+
 sphc_status checkAmplitude(const sphc_image &image, const FrameLimits &limits, sphc_message *message) {
   if (!limits.amplitude_min) return SPHC_OK;  // not looked at
   if (!image.data) {
@@ -150,6 +242,19 @@ sphc_status checkDeadline(const sphc_localizer_frame &frame, bool has_clock, sph
   MessageWriter(message) << "frame.deadline_us is " << frame.deadline_us
                          << " but config.clock is null; give a clock or no deadline";
   return SPHC_E_ARGUMENT;
+}
+
+// What the first half of a frame looks at; reads the views.
+sphc_status checkFeatureFrame(const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
+  const sphc_localizer_frame &own = copy->frame;
+  sphc_status status = checkDeadline(own, limits.has_clock, message);
+  if (status == SPHC_OK && limits.looks_at_images)
+    status = checkImage("color", own.color, limits.color, 0, message);
+  if (status != SPHC_OK) return status;
+  if (!checkCameraNow("frame.color_camera", own.color_camera, limits.color, message) ||
+      !checkMountNow("frame.color_from_depth", own.color_from_depth, message))
+    return SPHC_E_ARGUMENT;
+  return readViews(limits, copy, message);
 }
 
 }  // namespace
@@ -197,6 +302,13 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
   return SPHC_OK;
 }
 
+sphc_localizer_camera emptyCamera() {
+  sphc_localizer_camera camera = {};
+  camera.struct_size = sizeof camera;
+  camera.color_from_camera.q_wxyz[0] = 1;
+  return camera;
+}
+
 sphc_localizer_config defaultConfig() {
   sphc_localizer_config config = {};
   config.struct_size = sizeof config;
@@ -227,14 +339,15 @@ sphc_aligner_config defaultAlignerConfig() {
   return config;
 }
 
-sphc_status readConfig(const sphc_localizer_config *config, sphc_localizer_config *copy, sphc_message *message) {
-  *copy = defaultConfig();
-  sphc_status status = readStruct("config", config, copy, message);
-  if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
+sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sphc_message *message) {
+  sphc_localizer_config &own = copy->config;
+  own = defaultConfig();
+  sphc_status status = readStruct("config", config, &own, message);
+  if (status == SPHC_OK) status = sphc_rig_check(&own.rig, message);
   if (status != SPHC_OK) return status;
-  const bool fine = checkNumbers(*copy, message) && checkTogether(*copy, message) &&
-                    checkDepthFormat(copy->depth_format, copy->rig, copy->depth_max_m, message);
-  return fine ? SPHC_OK : SPHC_E_ARGUMENT;
+  const bool fine = checkNumbers(own, message) && checkTogether(own, message) &&
+                    checkDepthFormat(own.depth_format, own.rig, own.depth_max_m, message);
+  return fine ? readCameras(copy, message) : SPHC_E_ARGUMENT;
 }
 
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message) {
@@ -266,21 +379,25 @@ sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limi
   if (status == SPHC_OK && own.prior) status = readStruct("prior", own.prior, &copy->prior, message);
   if (status != SPHC_OK) return status;
   if (own.prior) own.prior = &copy->prior;
-  status = checkDeadline(own, limits.has_clock, message);
-  if (status == SPHC_OK && limits.color) status = checkImage("color", own.color, *limits.color, 0, message);
+  status = checkFeatureFrame(limits, copy, message);
   if (status == SPHC_OK) status = checkImage("depth", own.depth, limits.depth, limits.depth_format, message);
   if (status == SPHC_OK) status = checkAmplitude(own.amplitude, limits, message);
   if (status == SPHC_OK && own.prior) status = checkPrior(*own.prior, limits.maps, message);
   return status;
 }
 
-sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera &color, bool has_clock,
-                           sphc_localizer_frame *copy, sphc_message *message) {
+sphc_status readFeatureFrame(const sphc_localizer_frame *frame, const FrameLimits &limits, FrameCopy *copy,
+                             sphc_message *message) {
   *copy = {};
-  sphc_status status = readStruct("frame", frame, copy, message);
-  if (status == SPHC_OK) status = checkDeadline(*copy, has_clock, message);
-  if (status == SPHC_OK) status = checkImage("color", copy->color, color, 0, message);
-  return status;
+  const sphc_status status = readStruct("frame", frame, &copy->frame, message);
+  return status == SPHC_OK ? checkFeatureFrame(limits, copy, message) : status;
+}
+
+sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera &color, sphc_localizer_frame *copy,
+                           sphc_message *message) {
+  *copy = {};
+  const sphc_status status = readStruct("frame", frame, copy, message);
+  return status == SPHC_OK ? checkImage("color", copy->color, color, 0, message) : status;
 }
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
@@ -321,11 +438,16 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
 }
 
 sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &localizer, sphc_message *message) {
-  const sphc_camera &of = features.color, &own = localizer.color;
-  if (of.width != own.width || of.height != own.height || features.max_keypoints != localizer.max_keypoints) {
-    MessageWriter(message) << "the features are made for " << features.max_keypoints << " keypoints of " << of.width
-                           << " x " << of.height << " pixels, the localizer for " << localizer.max_keypoints
-                           << " of " << own.width << " x " << own.height << "; make both with one config";
+  const ImageSize &of = features.sizes.of[0];
+  const sphc_camera &own = localizer.color;
+  const bool same = features.max_keypoints == localizer.max_keypoints &&
+                    features.sizes == imageSizesOf(localizer.localizer.config());
+  if (!same) {
+    MessageWriter(message) << "the features are made for " << features.max_keypoints << " keypoints of "
+                           << features.sizes.count << " cameras, the first of " << of.width << " x " << of.height
+                           << " pixels, the localizer for " << localizer.max_keypoints << " of "
+                           << 1 + localizer.localizer.config().further.size() << ", the first of " << own.width
+                           << " x " << own.height << "; make both with one config";
     return SPHC_E_ARGUMENT;
   }
   const sphc_status status = checkApart(localizer.state, features.memory, message);

@@ -1,5 +1,6 @@
 // Validation of what comes through the C interface.
 #pragma once
+#include "runtime/localizer/config.h"
 #include "runtime/localizer/map_set.h"
 #include "runtime/types/depth_calibration.h"
 #include "spherecloud/spherecloud.h"
@@ -8,28 +9,40 @@ namespace sphc {
 
 sphc_localizer_config defaultConfig();
 sphc_aligner_config defaultAlignerConfig();
+sphc_localizer_camera emptyCamera();
 // Copies of what the caller gave, of any version (growth.h), and whether it can be used.
-sphc_status readConfig(const sphc_localizer_config *config, sphc_localizer_config *copy, sphc_message *message);
+// `config.cameras` of the copy are its own.
+struct ConfigCopy {
+  sphc_localizer_config config;
+  sphc_localizer_camera cameras[SPHC_CAMERAS_MAX - 1];
+};
+sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sphc_message *message);
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message);
 // What a frame must fit.
 struct FrameLimits {
-  const sphc_camera *color;  // null: the colour image is not looked at
+  bool looks_at_images;  // of the colour camera and of further ones
+  const sphc_camera &color;
   const sphc_camera &depth;
+  const FurtherCameras &further;
   sphc_format depth_format;
   uint32_t amplitude_min;
   const MapSet &maps;
   bool has_clock;
 };
-// What is copied points to `prior`, where the caller gave one.
+// What is copied points to `prior` and `views`, where the caller gave some.
 struct FrameCopy {
   sphc_localizer_frame frame;
   sphc_localizer_prior prior;
+  sphc_localizer_view views[SPHC_CAMERAS_MAX - 1];
 };
 sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limits, FrameCopy *copy,
                       sphc_message *message);
-// Of a frame, what its features are made of: the colour image.
-sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera &color, bool has_clock,
-                           sphc_localizer_frame *copy, sphc_message *message);
+// Of a frame, what its features are made of: the images but depth.
+sphc_status readFeatureFrame(const sphc_localizer_frame *frame, const FrameLimits &limits, FrameCopy *copy,
+                             sphc_message *message);
+// Of a frame, the colour image.
+sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera &color, sphc_localizer_frame *copy,
+                           sphc_message *message);
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
                            sphc_message *message);
 // Can a localizer of this prior go on from what was learnt of its depth sensor?

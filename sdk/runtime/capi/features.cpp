@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <new>
 
@@ -40,13 +41,18 @@ Keypoint keypointAt(const sphc_features_arrays &arrays, uint32_t i) {
   return keypoint;
 }
 
+uint32_t cameraAt(const sphc_features_arrays &arrays, uint32_t i) { return arrays.cameras ? arrays.cameras[i] : 0; }
+
 bool isWithin(float value, float low, float high) { return value >= low && value <= high; }
 
 // What is wrong with a keypoint, or null.
-const char *faultOf(const Keypoint &k, const sphc_camera &color) {
-  if (!isWithin(k.x_px, 0, static_cast<float>(color.width)) ||
-      !isWithin(k.y_px, 0, static_cast<float>(color.height)))
-    return " lies outside the image; give pixels of the colour image";
+const char *faultOf(const Keypoint &k, uint32_t camera, const sphc::ImageSizes &images) {
+  if (camera >= images.count)
+    return " is of a camera that the config does not have; 0 is the colour camera, i is config.cameras[i - 1]";
+  const sphc::ImageSize &image = images.of[camera];
+  if (!isWithin(k.x_px, 0, static_cast<float>(image.width)) ||
+      !isWithin(k.y_px, 0, static_cast<float>(image.height)))
+    return " lies outside the image; give pixels of its camera's image";
   if (!(k.scale_px > 0) || !(k.scale_px <= kMostScalePx)) return " has a scale_px that is not within 0 to 8192";
   if (!isWithin(k.orientation_rad, -kMostAngleRad, kMostAngleRad))
     return " has an angle_rad that is not within -7 to 7; give radians";
@@ -82,11 +88,12 @@ sphc_status checkShape(const sphc_features_arrays &arrays, uint32_t max_keypoint
   return SPHC_OK;
 }
 
-sphc_status checkKeypoints(const sphc_features_arrays &arrays, const sphc_camera &color, sphc_message *message) {
+sphc_status checkKeypoints(const sphc_features_arrays &arrays, const sphc::ImageSizes &images,
+                           sphc_message *message) {
   float strongest = 1;
   for (uint32_t i = 0; i < arrays.count; ++i) {
     const Keypoint keypoint = keypointAt(arrays, i);
-    const char *fault = faultOf(keypoint, color);
+    const char *fault = faultOf(keypoint, cameraAt(arrays, i), images);
     if (!fault && keypoint.response > strongest)
       fault = " is stronger than the one before it; sort them, the strongest first";
     if (fault) {
@@ -99,10 +106,12 @@ sphc_status checkKeypoints(const sphc_features_arrays &arrays, const sphc_camera
 }
 
 void copyFrom(const sphc_features_arrays &arrays, FrameFeatures *features) {
+  const sphc::FeatureRoom &room = features->room;
   features->count = arrays.count;
   for (uint32_t i = 0; i < arrays.count; ++i) {
-    features->keypoints[i] = keypointAt(arrays, i);
-    std::memmove(features->descriptors[i].bytes, arrays.descriptors + size_t{i} * arrays.descriptor_stride_bytes,
+    room.keypoints[i] = keypointAt(arrays, i);
+    if (!room.camera_of.empty()) room.camera_of[i] = static_cast<uint8_t>(cameraAt(arrays, i));
+    std::memmove(room.descriptors[i].bytes, arrays.descriptors + size_t{i} * arrays.descriptor_stride_bytes,
                  SPHC_DESCRIPTOR_BYTES);
   }
   features->cut = false;
@@ -111,28 +120,47 @@ void copyFrom(const sphc_features_arrays &arrays, FrameFeatures *features) {
 
 }  // namespace
 
+namespace sphc {
+
+ImageSizes imageSizesOf(const LocalizerConfig &config) {
+  ImageSizes sizes;
+  const auto add = [&](const sphc_camera &camera) { sizes.of[sizes.count++] = {camera.width, camera.height}; };
+  add(config.color_camera.parameters());
+  for (const RigCamera &further : config.further) add(further.camera.parameters());
+  return sizes;
+}
+
+bool operator==(const ImageSizes &a, const ImageSizes &b) {
+  const auto isSame = [](const ImageSize &x, const ImageSize &y) {
+    return x.width == y.width && x.height == y.height;
+  };
+  return a.count == b.count && std::equal(a.of, a.of + a.count, b.of, isSame);
+}
+
+}  // namespace sphc
+
 sphc_status sphc_features_memory(const sphc_localizer_config *config, sphc_memory *memory, sphc_message *message) {
-  sphc_localizer_config checked;
+  sphc::ConfigCopy checked;
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!memory) {
     MessageWriter(message) << "memory is null";
     return SPHC_E_ARGUMENT;
   }
-  *memory = {bytesFor(sphc::localizerConfigFrom(checked)), 0, sphc::kArenaAlignment, 0};
+  *memory = {bytesFor(sphc::localizerConfigFrom(checked.config)), 0, sphc::kArenaAlignment, 0};
   return SPHC_OK;
 }
 
 sphc_status sphc_features_init(void *memory, size_t memory_bytes, const sphc_localizer_config *config,
                                sphc_features **features, sphc_message *message) {
-  sphc_localizer_config checked;
+  sphc::ConfigCopy checked;
   sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!features) {
     MessageWriter(message) << "features is null";
     return SPHC_E_ARGUMENT;
   }
-  const LocalizerConfig own = sphc::localizerConfigFrom(checked);
+  const LocalizerConfig own = sphc::localizerConfigFrom(checked.config);
   const size_t needed = bytesFor(own);
   status = sphc::checkMemory(memory, memory_bytes, needed, sphc::kArenaAlignment, "features", message);
   if (status != SPHC_OK) return status;
@@ -140,8 +168,9 @@ sphc_status sphc_features_init(void *memory, size_t memory_bytes, const sphc_loc
   Arena arena(static_cast<unsigned char *>(memory) + kFeaturesBytes);
   FrameFeatures::layout(own, arena, &made->features);
   made->memory = {"features", memory, needed};
-  made->color = checked.rig.color_camera;
-  made->max_keypoints = checked.max_keypoints;
+  made->color = checked.config.rig.color_camera;
+  made->sizes = sphc::imageSizesOf(own);
+  made->max_keypoints = checked.config.max_keypoints;
   *features = made;
   return SPHC_OK;
 }
@@ -153,11 +182,10 @@ sphc_status sphc_features_set(sphc_features *features, const sphc_localizer_fram
   message->text[0] = '\0';
   sphc_localizer_frame own_frame;
   sphc_features_arrays own = {};
-  constexpr bool kHasClock = true;  // deadlines do not matter here
-  sphc_status status = sphc::readColorFrame(frame, features->color, kHasClock, &own_frame, message);
+  sphc_status status = sphc::readColorFrame(frame, features->color, &own_frame, message);
   if (status == SPHC_OK) status = sphc::readStruct("arrays", arrays, &own, message);
   if (status == SPHC_OK) status = checkShape(own, features->max_keypoints, message);
-  if (status == SPHC_OK) status = checkKeypoints(own, features->color, message);
+  if (status == SPHC_OK) status = checkKeypoints(own, features->sizes, message);
   if (status != SPHC_OK) return status;
   copyFrom(own, &features->features);
   features->features.keepGray(sphc::colorViewFrom(own_frame.color));
@@ -176,8 +204,10 @@ sphc_status sphc_features_get(const sphc_features *features, sphc_features_array
   own.count = features->features.count;
   own.keypoint_stride_bytes = sizeof(sphc_keypoint);
   own.descriptor_stride_bytes = SPHC_DESCRIPTOR_BYTES;
-  own.keypoints = reinterpret_cast<const sphc_keypoint *>(features->features.keypoints.data());
-  own.descriptors = features->features.descriptors.data()->bytes;
+  const sphc::FeatureRoom &room = features->features.room;
+  own.keypoints = reinterpret_cast<const sphc_keypoint *>(room.keypoints.data());
+  own.descriptors = room.descriptors.data()->bytes;
+  own.cameras = room.camera_of.data();
   sphc::writeStruct(own, arrays);
   return SPHC_OK;
 }

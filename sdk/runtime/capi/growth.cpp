@@ -57,6 +57,15 @@ sphc_status readStructBytes(const StructKind &kind, const char *name, const void
   return SPHC_OK;
 }
 
+sphc_status checkElementSize(const char *name, uint32_t index, const void *first, const void *element,
+                             sphc_message *message) {
+  if (!element || sizeOf(element) == sizeOf(first)) return SPHC_OK;
+  MessageWriter(message) << name << "[" << index << "].struct_size is " << sizeOf(element) << ", and that of "
+                         << name << "[0] is " << sizeOf(first)
+                         << "; set it in all to what the elements of the array are apart";
+  return SPHC_E_STRUCT_SIZE;
+}
+
 sphc_status checkStructBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message) {
   if (!to) {
     MessageWriter(message) << name << " is null; give a " << kind.type;

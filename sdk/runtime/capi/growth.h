@@ -17,7 +17,7 @@ struct StructKind {
   size_t first_bytes;  // when it was first published (tests/abi/headers); a smaller one never was
   size_t known_bytes;  // today
   size_t alignment;
-  FieldBytes reserved[2] = {};  // fields that a later library may read, so callers leave them zero
+  FieldBytes reserved[3] = {};  // fields that a later library may read, so callers leave them zero
 };
 
 // Of a struct that has not grown yet.
@@ -47,17 +47,24 @@ constexpr StructKind kindOf(const sphc_features_arrays *) {
   kind.reserved[0] = {offsetof(sphc_features_arrays, reserved), sizeof(uint32_t)};
   return kind;
 }
+constexpr StructKind kindOf(const sphc_localizer_camera *) {
+  StructKind kind = ungrown<sphc_localizer_camera>("sphc_localizer_camera");
+  kind.reserved[0] = {offsetof(sphc_localizer_camera, reserved), sizeof(uint32_t)};
+  return kind;
+}
 constexpr StructKind kindOf(const sphc_localizer_config *) {
   StructKind kind =
       grown<sphc_localizer_config>("sphc_localizer_config", offsetof(sphc_localizer_config, depth_format));
   kind.reserved[0] = {offsetof(sphc_localizer_config, reserved), sizeof(uint32_t)};
   kind.reserved[1] = {offsetof(sphc_localizer_config, reserved2), sizeof(uint32_t)};
+  kind.reserved[2] = {offsetof(sphc_localizer_config, reserved3), sizeof(uint32_t)};
   return kind;
 }
 constexpr StructKind kindOf(const sphc_localizer_frame *) {
   StructKind kind = grown<sphc_localizer_frame>("sphc_localizer_frame", offsetof(sphc_localizer_frame, reserved2));
   kind.reserved[0] = {offsetof(sphc_localizer_frame, reserved), sizeof(uint32_t)};
   kind.reserved[1] = {offsetof(sphc_localizer_frame, reserved2), sizeof(uint64_t)};
+  kind.reserved[2] = {offsetof(sphc_localizer_frame, reserved3), sizeof(uint32_t)};
   return kind;
 }
 constexpr StructKind kindOf(const sphc_map_info *) {
@@ -72,6 +79,11 @@ constexpr StructKind kindOf(const sphc_pairer_counts *) {
 constexpr StructKind kindOf(const sphc_localizer_prior *) {
   StructKind kind = ungrown<sphc_localizer_prior>("sphc_localizer_prior");
   kind.reserved[0] = {offsetof(sphc_localizer_prior, reserved), sizeof(uint32_t)};
+  return kind;
+}
+constexpr StructKind kindOf(const sphc_localizer_view *) {
+  StructKind kind = ungrown<sphc_localizer_view>("sphc_localizer_view");
+  kind.reserved[0] = {offsetof(sphc_localizer_view, reserved), sizeof(uint32_t)};
   return kind;
 }
 constexpr StructKind kindOf(const sphc_localizer_parameter_range *) {
@@ -102,6 +114,21 @@ sphc_status readStruct(const char *name, const T *from, T *known, sphc_message *
 template <typename T>
 sphc_status checkStruct(const char *name, const T *to, sphc_message *message) {
   return checkStructBytes(kindOf(to), name, to, message);
+}
+// Does element `index` of an array say the struct_size that all have, that of the first?
+sphc_status checkElementSize(const char *name, uint32_t index, const void *first, const void *element,
+                             sphc_message *message);
+// Reads an array of structs, which lie struct_size of the first apart, over the defaults in *known.
+template <typename T>
+sphc_status readStructs(const char *name, const T *from, uint32_t count, T *known, sphc_message *message) {
+  sphc_status status = SPHC_OK;
+  const auto *bytes = reinterpret_cast<const unsigned char *>(from);
+  for (uint32_t i = 0; i < count && status == SPHC_OK; ++i) {
+    const T *element = from ? reinterpret_cast<const T *>(bytes + size_t{i} * from->struct_size) : nullptr;
+    status = checkElementSize(name, i, from, element, message);
+    if (status == SPHC_OK) status = readStruct(name, element, known + i, message);
+  }
+  return status;
 }
 // Copies as much as the caller's struct has room for and zeroes the rest of it; struct_size stays the caller's.
 template <typename T>

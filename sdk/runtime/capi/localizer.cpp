@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <new>
 
@@ -65,9 +67,11 @@ sphc_localizer_result emptyResult() {
   return result;
 }
 
-sphc::FrameLimits limitsOf(const sphc_localizer &localizer, const sphc_camera *color) {
-  return {color,
+sphc::FrameLimits limitsOf(const sphc_localizer &localizer, bool looks_at_images) {
+  return {looks_at_images,
+          localizer.color,
           localizer.depth,
+          localizer.localizer.config().further,
           localizer.depth_format,
           localizer.amplitude_min,
           localizer.localizer.maps(),
@@ -115,17 +119,19 @@ sphc_localizer_prior emptyPrior() {
   return prior;
 }
 
-// Elements at a stride of the caller's, by which the library knows which fields the caller has.
+// Elements at a stride of the caller's, by which the library knows which fields the caller has; `first_bytes`: when
+// they were first published.
 template <typename Own, typename Element>
 sphc_status giveOutAll(sphc::Span<const Own> all, Element (*elementFrom)(const Own &), Element *to,
-                       uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
+                       size_t first_bytes, uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
   if (!count || (capacity && !to)) return SPHC_E_ARGUMENT;
-  if (stride_bytes < sizeof(Element) || stride_bytes % alignof(Element)) return SPHC_E_ARGUMENT;
+  if (stride_bytes < first_bytes || stride_bytes % alignof(Element)) return SPHC_E_ARGUMENT;
   auto *bytes = reinterpret_cast<unsigned char *>(to);
+  const size_t shared = std::min(size_t{stride_bytes}, sizeof(Element));
   for (uint32_t i = 0; i < capacity && i < all.size(); ++i, bytes += stride_bytes) {
     const Element own = elementFrom(all[i]);
-    std::memcpy(bytes, &own, sizeof own);
-    std::memset(bytes + sizeof own, 0, stride_bytes - sizeof own);
+    std::memcpy(bytes, &own, shared);
+    std::memset(bytes + shared, 0, stride_bytes - shared);
   }
   *count = static_cast<uint32_t>(all.size());
   return SPHC_OK;
@@ -149,25 +155,33 @@ sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct
   return sphc::initStruct(emptyPrior(), struct_size, prior);
 }
 
+sphc_status sphc_localizer_camera_init(sphc_localizer_camera *camera, size_t struct_size) {
+  return sphc::initStruct(sphc::emptyCamera(), struct_size, camera);
+}
+
+sphc_status sphc_localizer_view_init(sphc_localizer_view *view, size_t struct_size) {
+  return sphc::initStruct(sphc_localizer_view(), struct_size, view);
+}
+
 sphc_status sphc_localizer_prediction_init(sphc_localizer_prediction *prediction, size_t struct_size) {
   return sphc::initStruct(emptyPrediction(), struct_size, prediction);
 }
 
 sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memory *memory, sphc_message *message) {
-  sphc_localizer_config checked;
+  sphc::ConfigCopy checked;
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!memory) {
     MessageWriter(message) << "memory is null";
     return SPHC_E_ARGUMENT;
   }
-  *memory = measure(sphc::localizerConfigFrom(checked));
+  *memory = measure(sphc::localizerConfigFrom(checked.config));
   return SPHC_OK;
 }
 
 sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uint32_t index,
                                         sphc_memory_piece *piece) {
-  sphc_localizer_config checked;
+  sphc::ConfigCopy checked;
   const sphc_status status = sphc::readConfig(config, &checked, nullptr);
   if (status != SPHC_OK) return status;
   if (!piece) return SPHC_E_ARGUMENT;
@@ -175,7 +189,7 @@ sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uin
     *piece = {"localizer.object", kLocalizerBytes, 0, 0};
     return SPHC_OK;
   }
-  const LocalizerConfig own = sphc::localizerConfigFrom(checked);
+  const LocalizerConfig own = sphc::localizerConfigFrom(checked.config);
   PieceSearch in_state = {index - 1, 0, false, piece, false};
   Arena state(&PieceSearch::visit, &in_state), unseen;
   Localizer::layout(own, state, unseen, nullptr);
@@ -189,14 +203,14 @@ sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uin
 sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, size_t scratch_bytes,
                                 const sphc_localizer_config *config, sphc_localizer **localizer,
                                 sphc_message *message) {
-  sphc_localizer_config checked;
+  sphc::ConfigCopy checked;
   sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!localizer) {
     MessageWriter(message) << "localizer is null";
     return SPHC_E_ARGUMENT;
   }
-  const LocalizerConfig own = sphc::localizerConfigFrom(checked);
+  const LocalizerConfig own = sphc::localizerConfigFrom(checked.config);
   const sphc_memory need = measure(own);
   const MemoryRange used_state = {"state", state, static_cast<size_t>(need.state_bytes)},
                     used_scratch = {"scratch", scratch, static_cast<size_t>(need.scratch_bytes)};
@@ -212,16 +226,16 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   made->localizer.init(own);
   made->state = used_state;
   made->scratch = used_scratch;
-  made->color = checked.rig.color_camera;
-  made->depth = checked.rig.depth_camera;
-  made->max_keypoints = checked.max_keypoints;
-  made->depth_format = sphc::depthFormatOf(checked.depth_format);
-  made->amplitude_min = checked.amplitude_min;
-  made->color_band = checked.color_band;
-  made->has_clock = checked.clock != nullptr;
-  made->log = checked.log;
-  made->log_user = checked.log_user;
-  made->log_level = checked.log_level;
+  made->color = checked.config.rig.color_camera;
+  made->depth = checked.config.rig.depth_camera;
+  made->max_keypoints = checked.config.max_keypoints;
+  made->depth_format = sphc::depthFormatOf(checked.config.depth_format);
+  made->amplitude_min = checked.config.amplitude_min;
+  made->color_band = checked.config.color_band;
+  made->has_clock = checked.config.clock != nullptr;
+  made->log = checked.config.log;
+  made->log_user = checked.config.log_user;
+  made->log_level = checked.config.log_level;
   *localizer = made;
   return SPHC_OK;
 }
@@ -324,7 +338,7 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
-  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, &localizer->color), &copy, message);
+  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, true), &copy, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;
@@ -337,12 +351,13 @@ sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localiz
   if (!localizer || !features) return SPHC_E_ARGUMENT;
   sphc_message *message = &features->message;  // the localizer's is of the thread that locates
   message->text[0] = '\0';
-  sphc_localizer_frame own;
-  sphc_status status = sphc::readColorFrame(frame, localizer->color, localizer->has_clock, &own, message);
+  sphc::FrameCopy copy;
+  sphc_status status = sphc::readFeatureFrame(frame, limitsOf(*localizer, true), &copy, message);
   if (status == SPHC_OK) status = sphc::checkFeatures(*features, *localizer, message);
   if (status != SPHC_OK) return status;
-  localizer->localizer.extract(sphc::colorViewFrom(own.color), sphc::timeLimitNs(own), &features->features);
-  features->color_time_ns = own.color_time_ns;
+  copy.frame.prior = nullptr;  // not looked at, and not validated
+  localizer->localizer.extract(sphc::frameFrom(copy.frame, localizer->localizer.maps()), &features->features);
+  features->color_time_ns = copy.frame.color_time_ns;
   features->of_frame = true;
   return SPHC_OK;
 }
@@ -352,7 +367,7 @@ sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localize
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
-  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, nullptr), &copy, message);
+  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, false), &copy, message);
   if (status == SPHC_OK) status = checkFeaturesOf(copy.frame, features, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
   if (status != SPHC_OK) return status;
@@ -391,13 +406,13 @@ sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int64_t time
 sphc_status sphc_localizer_observations(const sphc_localizer *localizer, sphc_localizer_observation *observations,
                                         uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
   if (!localizer) return SPHC_E_ARGUMENT;
-  return giveOutAll(localizer->localizer.observations(), sphc::observationFrom, observations, stride_bytes,
-                    capacity, count);
+  return giveOutAll(localizer->localizer.observations(), sphc::observationFrom, observations,
+                    offsetof(sphc_localizer_observation, camera), stride_bytes, capacity, count);
 }
 
 sphc_status sphc_localizer_hypotheses(const sphc_localizer *localizer, sphc_localizer_hypothesis *hypotheses,
                                       uint32_t stride_bytes, uint32_t capacity, uint32_t *count) {
   if (!localizer) return SPHC_E_ARGUMENT;
-  return giveOutAll(localizer->localizer.hypotheses(), sphc::hypothesisFrom, hypotheses, stride_bytes, capacity,
-                    count);
+  return giveOutAll(localizer->localizer.hypotheses(), sphc::hypothesisFrom, hypotheses,
+                    sizeof(sphc_localizer_hypothesis), stride_bytes, capacity, count);
 }

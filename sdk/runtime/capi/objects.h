@@ -12,6 +12,22 @@ struct sphc_map {
   sphc::MapView view;
 };
 
+namespace sphc {
+
+struct ImageSize {
+  uint32_t width = 0, height = 0;
+};
+
+// Of the images of a rig's cameras, the colour camera's first.
+struct ImageSizes {
+  uint32_t count = 0;
+  ImageSize of[kMostCameras];
+};
+ImageSizes imageSizesOf(const LocalizerConfig &config);
+bool operator==(const ImageSizes &a, const ImageSizes &b);
+
+}  // namespace sphc
+
 struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
   sphc::MemoryRange state, scratch;
@@ -37,6 +53,7 @@ struct alignas(sphc::kArenaAlignment) sphc_features {
   sphc::FrameFeatures features;
   sphc::MemoryRange memory;
   sphc_camera color;
+  sphc::ImageSizes sizes;
   uint32_t max_keypoints;
   bool of_frame;
   int64_t color_time_ns;

@@ -48,6 +48,15 @@ Known knownFrom(const sphc_localizer_prior &given, const MapSet &maps) {
   return known;
 }
 
+FurtherView viewFrom(const sphc_localizer_view &view) {
+  FurtherView own;
+  own.image = colorViewFrom(view.image);
+  own.time_ns = view.time_ns;
+  if (view.camera) own.camera = Camera(*view.camera);
+  if (view.color_from_camera) own.color_from_camera = rigidFromC(*view.color_from_camera);
+  return own;
+}
+
 void fillCovariance(const Matrix6 &own, double row_major[36]) {
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column) row_major[6 * row + column] = own(row, column);
@@ -81,6 +90,8 @@ LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
   own.color_camera = Camera(config.rig.color_camera);
   own.depth_camera = Camera(config.rig.depth_camera);
   own.color_from_depth = rigidFromC(config.rig.color_from_depth);
+  for (uint32_t i = 0; i < config.camera_count; ++i)
+    own.further.push({Camera(config.cameras[i].camera), rigidFromC(config.cameras[i].color_from_camera)});
   own.depth_sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                       config.depth_sigma_per_m2};
   own.depth_layout = depthLayoutFrom(config.depth_format);
@@ -101,11 +112,12 @@ FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps) {
   if (frame.amplitude.data)
     own.amplitude = {bytesOf(frame.amplitude), static_cast<int32_t>(sphc_format_bytes(frame.amplitude.format))};
   if (frame.prior) own.known = knownFrom(*frame.prior, maps);
-  own.time_limit_ns = timeLimitNs(frame);
+  own.time_limit_ns = int64_t{frame.deadline_us} * 1000;
+  if (frame.color_camera) own.color_camera = Camera(*frame.color_camera);
+  if (frame.color_from_depth) own.color_from_depth = rigidFromC(*frame.color_from_depth);
+  for (uint32_t i = 0; i < frame.view_count; ++i) own.further.push(viewFrom(frame.views[i]));
   return own;
 }
-
-int64_t timeLimitNs(const sphc_localizer_frame &frame) { return int64_t{frame.deadline_us} * 1000; }
 
 ColorView colorViewFrom(const sphc_image &image) { return {bytesOf(image), pixelFormatOf(image.format).luma}; }
 
@@ -169,7 +181,7 @@ sphc_localizer_observation observationFrom(const Observation &o) {
   if (o.lifted) flags |= SPHC_OBSERVATION_LIFTED;
   if (o.matched) flags |= SPHC_OBSERVATION_MATCHED;
   if (o.inlier) flags |= SPHC_OBSERVATION_INLIER;
-  return {o.x_px, o.y_px, o.scale_px, o.depth_m, o.point_index, flags};
+  return {o.x_px, o.y_px, o.scale_px, o.depth_m, o.point_index, flags, o.camera};
 }
 
 sphc_localizer_hypothesis hypothesisFrom(const RankedPose &pose) {

@@ -14,8 +14,6 @@ namespace sphc {
 LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config);
 // Borrows the frame's images.
 FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps);
-// 0: none.
-int64_t timeLimitNs(const sphc_localizer_frame &frame);
 ColorView colorViewFrom(const sphc_image &image);
 ByteView bytesOf(const sphc_image &image);
 // 0 stands for DEPTH16.

@@ -1,6 +1,7 @@
 // What a localizer is told once.
 #pragma once
 #include "runtime/base/clock.h"
+#include "runtime/base/fixed_vector.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/types/depth_calibration.h"
@@ -17,6 +18,15 @@ struct SearchParameters {
   uint32_t min_inliers = 10;
 };
 
+constexpr uint32_t kMostCameras = 8;  // of a rig, the colour camera among them
+
+// A camera of a rig beside the colour camera.
+struct RigCamera {
+  Camera camera;
+  Rigid color_from_camera;
+};
+using FurtherCameras = FixedVector<RigCamera, kMostCameras - 1>;
+
 struct LocalizerConfig {
   uint32_t max_keypoints = 0;
   uint32_t max_maps = 1;
@@ -26,6 +36,7 @@ struct LocalizerConfig {
 
   Camera color_camera, depth_camera;
   Rigid color_from_depth;
+  FurtherCameras further;
   DepthSensor depth_sensor = {};
   DepthLayout depth_layout;
   uint32_t least_amplitude = 0;  // of a measurement that is believed; 0: amplitudes are not known

@@ -1,5 +1,8 @@
 // What a localizer is given for each frame: images, and what the caller knows before they are processed.
 #pragma once
+#include <optional>
+
+#include "runtime/localizer/config.h"
 #include "runtime/types/image_view.h"
 #include "runtime/types/pose_prior.h"
 
@@ -18,10 +21,24 @@ struct Known {
   Odometry odometry;
 };
 
+// The image of one of the further cameras; without bytes it has none in this frame.
+struct FurtherView {
+  ColorView image;
+  int64_t time_ns = 0;  // mid-exposure
+  // As they are in this frame, where they are not as in the config.
+  std::optional<Camera> camera;
+  std::optional<Rigid> color_from_camera;
+};
+using FurtherViews = FixedVector<FurtherView, kMostCameras - 1>;  // in the order of the cameras
+
 // Everything is borrowed.
 struct FrameInput {
   int64_t color_time_ns = 0, depth_time_ns = 0;  // mid-exposure
   ColorView color;
+  // As they are in this frame, where they are not as in the config.
+  std::optional<Camera> color_camera;
+  std::optional<Rigid> color_from_depth;
+  FurtherViews further;  // none, or one of each camera
   ByteView depth;  // of the config's layout
   AmplitudeView amplitude;
   Known known;

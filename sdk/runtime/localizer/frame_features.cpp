@@ -7,12 +7,11 @@
 namespace sphc {
 
 void FrameFeatures::layout(const LocalizerConfig &config, Arena &state, FrameFeatures *features) {
-  const uint32_t n = config.max_keypoints;
+  static constexpr const char *kNames[3] = {"features.keypoints", "features.descriptors", "features.cameras"};
   const size_t pixels = size_t(config.color_camera.width()) * size_t(config.color_camera.height());
   FrameFeatures discarded;  // receives empty spans while measuring
   FrameFeatures &f = features ? *features : discarded;
-  f.keypoints = state.take<Keypoint>("features.keypoints", n);
-  f.descriptors = state.take<Descriptor>("features.descriptors", n);
+  FeatureRoom::layout(kNames, config, state, features ? &f.room : nullptr);
   f.gray_room = state.take<uint8_t>("features.gray", pixels);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <utility>
 
 #include "runtime/localizer/tuning.h"
@@ -13,66 +14,91 @@ namespace {
 
 constexpr uint32_t kLiftGrain = 16;    // keypoints between two looks at the clock
 constexpr double kUselessSigma = 1e3;  // of a keypoint where the camera model has no bearing
+// A point of a further camera that is less in front of the colour camera is taken for a ray: depth is corrected by
+// its share there.
+constexpr double kLeastZM = 0.05;
 
-FeatureConfig featureConfig(const LocalizerConfig &config) {
-  FeatureConfig features;
-  features.width = config.color_camera.width();
-  features.height = config.color_camera.height();
-  features.max_keypoints = config.max_keypoints;
-  return features;
+// Takes what the camera sees to the frame of the colour camera; false for a point that is hardly in front of it.
+bool toColor(const Rigid &color_from_camera, LiftedPoint *lifted) {
+  const Vector3 point_m = color_from_camera * lifted->point_m;
+  if (lifted->hasDepth() && point_m.z() < kLeastZM) return false;
+  lifted->point_m = point_m;
+  lifted->centre_m = color_from_camera.translation_m.cast<float>();
+  return true;
 }
 
 }  // namespace
 
 void FrontEnd::layout(const LocalizerConfig &config, Arena &state, Arena &scratch, FrontEnd *front) {
+  static constexpr const char *kNames[3] = {"localizer.keypoints", "localizer.descriptors", "localizer.cameras"};
   const uint32_t n = config.max_keypoints;
   const size_t pixels = size_t(config.color_camera.width()) * size_t(config.color_camera.height());
   FrontEnd discarded;  // receives empty spans while measuring
   FrontEnd &f = front ? *front : discarded;
   f.observations_ = state.take<Observation>("localizer.observations", n);
+  if (config.further.size() > 0) f.further_ = state.take<Eye>("localizer.rig", config.further.size());
   f.gray_ = scratch.take<uint8_t>("localizer.gray", pixels);
-  f.keypoints_ = scratch.take<Keypoint>("localizer.keypoints", n);
-  f.descriptors_ = scratch.take<Descriptor>("localizer.descriptors", n);
+  FeatureRoom::layout(kNames, config, scratch, front ? &f.room_ : nullptr);
   f.lifted_ = scratch.take<LiftedPoint>("localizer.lifted", n);
   f.keypoint_of_ = scratch.take<uint32_t>("localizer.lifted", n);
   SparseAligner::layout(config.depth_camera.width(), config.depth_camera.height(), scratch,
-                        front ? &f.aligner_ : nullptr);
-  FeatureExtractor::layout(featureConfig(config), state, scratch, front ? &f.extractor_ : nullptr);
+                        front ? &f.color_.aligner : nullptr);
+  RigExtractor::layout(config, state, scratch, front ? &f.extractor_ : nullptr);
 }
 
 void FrontEnd::init(const LocalizerConfig &config) {
-  focal_px_ = config.color_camera.focal();
   pixel_sigma_px_ = config.pixel_sigma_px;
   map_sigma_m_ = config.map_sigma_m;
-  aligner_.init(config.color_camera, config.depth_camera, config.color_from_depth, config.depth_sensor);
+  color_.aligner.init(config.color_camera, config.depth_camera, config.color_from_depth, config.depth_sensor);
+  for (size_t i = 0; i < further_.size(); ++i) {
+    const RigCamera &given = config.further[i];
+    Eye &eye = *new (&further_[i]) Eye();
+    eye.aligner.init(given.camera, config.depth_camera, Rigid(), config.depth_sensor);
+  }
   extractor_.init();
 }
 
-void FrontEnd::extract(const ColorView &color, const Deadline &deadline) {
+void FrontEnd::extract(const ColorView &color, const FurtherViews &further, const Deadline &deadline) {
   gray_view_ = grayOf(color, gray_);
-  keypoint_count_ = extractor_.extract(gray_view_, keypoints_, descriptors_, deadline);
+  keypoint_count_ = extractor_.extract(gray_view_, further, room_, deadline);
   cut_ = extractor_.wasCut();
   lifted_count_ = 0;
 }
 
-void FrontEnd::extractInto(const ColorView &color, const Deadline &deadline, FrameFeatures *features) {
+void FrontEnd::extractInto(const ColorView &color, const FurtherViews &further, const Deadline &deadline,
+                           FrameFeatures *features) {
   features->keepGray(color);
-  features->count = extractor_.extract(features->gray, features->keypoints, features->descriptors, deadline);
+  features->count = extractor_.extract(features->gray, further, features->room, deadline);
   features->cut = extractor_.wasCut();
 }
 
 void FrontEnd::show(const FrameFeatures &features) {
   gray_view_ = features.gray;
   keypoint_count_ = features.count;
-  std::copy_n(features.keypoints.begin(), features.count, keypoints_.begin());
-  std::copy_n(features.descriptors.begin(), features.count, descriptors_.begin());
+  std::copy_n(features.room.keypoints.begin(), features.count, room_.keypoints.begin());
+  std::copy_n(features.room.descriptors.begin(), features.count, room_.descriptors.begin());
+  if (!room_.camera_of.empty())
+    std::copy_n(features.room.camera_of.begin(), features.count, room_.camera_of.begin());
   cut_ = features.cut;
   lifted_count_ = 0;
 }
 
-void FrontEnd::lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, const Deadline &deadline) {
-  aligner_.setPose(color_from_depth);
-  aligner_.prepare(depth);
+void FrontEnd::setRig(const FrameRig &rig) {
+  color_.focal_px = rig.color_camera.focal();
+  color_.aligner.setColor(rig.color_camera, rig.color_from_depth);
+  for (size_t i = 0; i < rig.further.size(); ++i) {
+    const RigCamera &now = rig.further[i];
+    Eye &eye = further_[i];
+    eye.focal_px = now.camera.focal();
+    eye.color_from_camera = now.color_from_camera;
+    eye.aligner.setColor(now.camera, now.color_from_camera.inverse() * rig.color_from_depth);
+  }
+}
+
+void FrontEnd::lift(ImageView<uint16_t> depth, const FrameRig &rig, const Deadline &deadline) {
+  setRig(rig);
+  color_.aligner.prepare(depth, further_.size() > 0);
+  for (Eye &eye : further_) eye.aligner.prepareLike(color_.aligner);
   lifted_count_ = 0;
   Watch watch(deadline, kLiftGrain);
   for (uint32_t k = 0; k < keypoint_count_; ++k) {
@@ -81,7 +107,8 @@ void FrontEnd::lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, co
       cut_ = true;
       break;
     }
-    observations_[k] = {keypoints_[k].x_px, keypoints_[k].y_px, keypoints_[k].scale_px, 0, 0, false, false, false};
+    const Keypoint &at = room_.keypoints[k];
+    observations_[k] = {at.x_px, at.y_px, at.scale_px, 0, 0, static_cast<uint8_t>(room_.cameraOf(k)), false, false, false};
     keypoint_of_[k] = k;
     double z_m = 0;
     if (!liftOne(depth, k, &z_m)) continue;
@@ -93,26 +120,33 @@ void FrontEnd::lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, co
 
 void FrontEnd::mirror() {
   for (uint32_t k = 0; k < keypoint_count_; ++k) {
-    descriptors_[k] = mirrored(descriptors_[k]);
+    room_.descriptors[k] = mirrored(room_.descriptors[k]);
     lifted_[k].point_m.x() = -lifted_[k].point_m.x();
+    lifted_[k].centre_m.x() = -lifted_[k].centre_m.x();
   }
 }
 
 // Fills lifted_[k]: with depth, else as a ray.
 bool FrontEnd::liftOne(ImageView<uint16_t> depth, uint32_t k, double *z_m) {
-  const Keypoint &keypoint = keypoints_[k];
+  const Eye &eye = eyeOf(k);
+  const Keypoint &keypoint = room_.keypoints[k];
   const Vector2 pixel_px = {keypoint.x_px, keypoint.y_px};
   const double coarseness = static_cast<double>(keypoint.scale_px) / tuning::kFineScalePx;
   const double sigma_px = pixel_sigma_px_ * (coarseness > 1 ? coarseness : 1.0);
-  lifted_[k] = {Vector3::UnitZ(), kUselessSigma, std::numeric_limits<double>::infinity()};
-  if (aligner_.bearing(pixel_px, &lifted_[k].point_m))
-    lifted_[k].sideways_m = hypotOf(sigma_px / focal_px_, map_sigma_m_ / tuning::kRayM);
+  const bool is_further = &eye != &color_;
+  LiftedPoint ray = {Vector3::UnitZ(), kUselessSigma, std::numeric_limits<double>::infinity()};
+  if (eye.aligner.bearing(pixel_px, &ray.point_m))
+    ray.sideways_m = hypotOf(sigma_px / eye.focal_px, map_sigma_m_ / tuning::kRayM);
+  if (is_further) toColor(eye.color_from_camera, &ray);
+  lifted_[k] = ray;
   double sigma_z = 0;
   Vector3 point_m;
-  if (!aligner_.lift(depth, pixel_px, &point_m, &sigma_z)) return false;
+  if (!eye.aligner.lift(depth, pixel_px, &point_m, &sigma_z)) return false;
   const double z = *z_m = point_m.z();
-  lifted_[k] = {point_m, hypotOf(sigma_px * z / focal_px_, map_sigma_m_),
-                hypotOf(sigma_z * point_m.norm() / z, map_sigma_m_)};
+  LiftedPoint lifted = {point_m, hypotOf(sigma_px * z / eye.focal_px, map_sigma_m_),
+                        hypotOf(sigma_z * point_m.norm() / z, map_sigma_m_)};
+  if (is_further && !toColor(eye.color_from_camera, &lifted)) return false;
+  lifted_[k] = lifted;
   return true;
 }
 
@@ -120,7 +154,7 @@ bool FrontEnd::liftOne(ImageView<uint16_t> depth, uint32_t k, double *z_m) {
 void FrontEnd::toFront(uint32_t k) {
   std::swap(lifted_[lifted_count_], lifted_[k]);
   std::swap(keypoint_of_[lifted_count_], keypoint_of_[k]);
-  std::swap(descriptors_[lifted_count_], descriptors_[k]);
+  std::swap(room_.descriptors[lifted_count_], room_.descriptors[k]);
   ++lifted_count_;
 }
 

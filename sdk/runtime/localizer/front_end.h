@@ -5,10 +5,16 @@
 #include "runtime/localizer/frame_features.h"
 #include "runtime/localizer/result.h"
 #include "runtime/stages/align/sparse.h"
-#include "runtime/stages/features/extractor.h"
 #include "runtime/types/correspondence.h"
 
 namespace sphc {
+
+// The cameras of a frame; transforms are between the times of their images.
+struct FrameRig {
+  Camera color_camera;
+  Rigid color_from_depth;
+  FurtherCameras further;
+};
 
 class FrontEnd {
  public:
@@ -16,14 +22,14 @@ class FrontEnd {
   void init(const LocalizerConfig &config);
 
   // What a deadline leaves out is the finest of the image, and the weakest keypoints.
-  void extract(const ColorView &color, const Deadline &deadline = {});
+  void extract(const ColorView &color, const FurtherViews &further, const Deadline &deadline = {});
   // The same in two halves.  The first touches nothing but the extractor, so the rest may serve another frame
   // meanwhile.
-  void extractInto(const ColorView &color, const Deadline &deadline, FrameFeatures *features);
+  void extractInto(const ColorView &color, const FurtherViews &further, const Deadline &deadline,
+                   FrameFeatures *features);
   void show(const FrameFeatures &features);
-  // After extract or show.  Those with depth come first from then on, then those without.  `color_from_depth`: the
-  // cameras at the time of each one's image.
-  void lift(ImageView<uint16_t> depth, const Rigid &color_from_depth, const Deadline &deadline = {});
+  // After extract or show.  Those with depth come first from then on, then those without.
+  void lift(ImageView<uint16_t> depth, const FrameRig &rig, const Deadline &deadline = {});
   // After lift.  Makes the frame its mirror image, left and right changed; a second time it is itself again.
   void mirror();
   // Did a deadline leave something out?
@@ -33,26 +39,36 @@ class FrontEnd {
   GrayView gray() const { return gray_view_; }
   uint32_t keypointCount() const { return keypoint_count_; }
   uint32_t liftedCount() const { return lifted_count_; }
-  Span<const Keypoint> keypoints() const { return keypoints_.first(keypoint_count_); }  // strongest first
-  Span<const Descriptor> descriptors() const { return descriptors_.first(keypoint_count_); }
+  Span<const Keypoint> keypoints() const { return room_.keypoints.first(keypoint_count_); }  // strongest first
+  Span<const Descriptor> descriptors() const { return room_.descriptors.first(keypoint_count_); }
   Span<const LiftedPoint> lifted() const { return lifted_.first(keypoint_count_); }
   // What is told of the keypoint behind a descriptor.
   Observation &observationOf(uint32_t query) { return observations_[keypoint_of_[query]]; }
   Span<const Observation> observations() const { return observations_.first(keypoint_count_); }
 
  private:
+  struct Eye {
+    double focal_px = 0;
+    Rigid color_from_camera;
+    SparseAligner aligner;
+  };
+  const Eye &eyeOf(uint32_t keypoint) const {
+    const uint32_t camera = room_.cameraOf(keypoint);
+    return camera == 0 ? color_ : further_[camera - 1];
+  }
+  void setRig(const FrameRig &rig);
   bool liftOne(ImageView<uint16_t> depth, uint32_t keypoint, double *z_m);
   void toFront(uint32_t keypoint);
 
-  double focal_px_ = 0, pixel_sigma_px_ = 0, map_sigma_m_ = 0;
-  FeatureExtractor extractor_;
-  SparseAligner aligner_;
+  double pixel_sigma_px_ = 0, map_sigma_m_ = 0;
+  RigExtractor extractor_;
+  Eye color_;
+  Span<Eye> further_;  // in state
 
   Span<Observation> observations_;  // in state: readable until the next frame; in the order of keypoints
   // In scratch.
   Span<uint8_t> gray_;
-  Span<Keypoint> keypoints_;
-  Span<Descriptor> descriptors_;
+  FeatureRoom room_;
   Span<LiftedPoint> lifted_;
   Span<uint32_t> keypoint_of_;
   uint32_t keypoint_count_ = 0, lifted_count_ = 0;

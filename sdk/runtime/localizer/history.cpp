@@ -42,7 +42,9 @@ void History::add(const LiftedPoint &lifted, uint32_t point_index, float quality
   if (place == count_) ++count_;
   const double depth_variance = lifted.along_m * lifted.along_m,
                rest_variance = lifted.sideways_m * lifted.sideways_m;
-  matches_[place] = {lifted, lifted.point_m.normalized(), depth_variance, rest_variance, point_index, quality, 0};
+  OldMatch &match = matches_[place];
+  match = {lifted, lifted.view(), depth_variance, rest_variance, point_index, quality, 0};
+  match.lifted.centre_m.setZero();  // later frames look at it from elsewhere anyway
 }
 
 uint32_t History::frames() const {

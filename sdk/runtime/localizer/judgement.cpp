@@ -23,7 +23,7 @@ double logTail(double successes, double trials, double mean_chance) {
 double inlierShare(const Correspondence &c, const Rigid &camera_from_map, const InlierRegion &region) {
   const Vector3 offset = c.lifted.point_m - camera_from_map.translation_m;
   const double distance2 = offset.squaredNorm();
-  const double along_view = offset.dot(c.lifted.point_m.normalized());
+  const double along_view = offset.dot(c.lifted.view());
   const double cosine2 = along_view * along_view / distance2;  // between the map ray and the viewing ray
   const double s = c.lifted.sideways_m, a = region.noise_scale * c.lifted.along_m;
   const double area = kPi * region.threshold2 * s * sqrtOf(s * s * cosine2 + a * a * (1 - cosine2));

@@ -49,6 +49,7 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   EstimatorConfig estimator;
   estimator.capacity = 2 * n;  // this frame's correspondences and those of earlier ones
   estimator.max_iterations = config.search.max_iterations;
+  estimator.has_centres = config.further.size() > 0;
 
   DepthReader::layout(readerConfig(config), state, scratch, localizer ? &localizer->depth_reader_ : nullptr);
   FrontEnd::layout(config, state, scratch, localizer ? &localizer->front_ : nullptr);
@@ -117,16 +118,16 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   follow(frame);
   Prediction expected;
   const bool is_expected = expects(frame.known, kMostConeInHasteRad, &expected);
-  front_.extract(frame.color, deadline.afterShare(is_expected ? kFeaturesNearShare : kFeaturesShare));
+  front_.extract(frame.color, frame.further, deadline.afterShare(is_expected ? kFeaturesNearShare : kFeaturesShare));
   const int64_t extracted = config_.clock.now();
   LocalizerResult result = locateShown(frame, deadline, extracted);
   result.times.features_ns = elapsedNs(begin, extracted);
   return result;
 }
 
-void Localizer::extract(const ColorView &color, int64_t time_limit_ns, FrameFeatures *features) {
+void Localizer::extract(const FrameInput &frame, FrameFeatures *features) {
   const int64_t begin = config_.clock.now();
-  front_.extractInto(color, deadlineFrom(begin, time_limit_ns), features);
+  front_.extractInto(frame.color, frame.further, deadlineFrom(begin, frame.time_limit_ns), features);
   features->took_ns = elapsedNs(begin, config_.clock.now());
 }
 
@@ -150,11 +151,12 @@ void Localizer::follow(const FrameInput &frame) {
 LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns) {
   LocalizerResult result;
   result.depth = calibrator_.current();
-  const Rigid color_from_depth = colorFromDepth(frame);
+  const FrameRig rig = rigOf(frame);
   const ImageView<uint16_t> depth = depth_reader_.read(frame.depth, frame.amplitude);
-  front_.lift(depth, color_from_depth, deadline.afterShare(kLiftShare));
-  result.faults =
-      consistency_.look({front_.gray(), depth, color_from_depth, frame.color_time_ns, frame.depth_time_ns, isDark});
+  front_.lift(depth, rig, deadline.afterShare(kLiftShare));
+  consistency_.setColorCamera(rig.color_camera);
+  result.faults = consistency_.look(
+      {front_.gray(), depth, rig.color_from_depth, frame.color_time_ns, frame.depth_time_ns, isDark});
   const int64_t aligned = config_.clock.now();
   Work work;
   answer(frame.known, deadline, &result.faults, &work);
@@ -181,12 +183,27 @@ bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
   return tracker_.motion(trail_, &motion) && moveTo(time_ns, motion, moved);
 }
 
-// The camera moves between the two exposures; odometry tells how.
-Rigid Localizer::colorFromDepth(const FrameInput &frame) const {
+// The cameras move between two exposures; odometry tells how.
+Rigid Localizer::atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const {
   Rigid moved;
-  const bool apart = config_.tracks && frame.depth_time_ns != frame.color_time_ns;
-  if (!apart || !tracker_.motionSince(frame.depth_time_ns, &moved)) return config_.color_from_depth;
-  return moved * config_.color_from_depth;
+  const bool apart = config_.tracks && time_ns != frame.color_time_ns;
+  if (!apart || !tracker_.motionSince(time_ns, &moved)) return color_from_sensor;
+  return moved * color_from_sensor;
+}
+
+FrameRig Localizer::rigOf(const FrameInput &frame) const {
+  FrameRig rig;
+  rig.color_camera = frame.color_camera.value_or(config_.color_camera);
+  rig.color_from_depth =
+      atColorTime(frame, frame.depth_time_ns, frame.color_from_depth.value_or(config_.color_from_depth));
+  for (size_t i = 0; i < frame.further.size(); ++i) {
+    const FurtherView &view = frame.further[i];
+    const RigCamera &known = config_.further[i];
+    rig.further.push(
+        {view.camera.value_or(known.camera),
+         atColorTime(frame, view.time_ns, view.color_from_camera.value_or(known.color_from_camera))});
+  }
+  return rig;
 }
 
 Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {

@@ -45,7 +45,7 @@ class Localizer {
   LocalizerResult process(const FrameInput &frame);
   // The same in two halves.  While one thread locates a frame, another may extract the features of the next: the
   // first half touches nothing that the second does.  `features` are of this config.
-  void extract(const ColorView &color, int64_t time_limit_ns, FrameFeatures *features);
+  void extract(const FrameInput &frame, FrameFeatures *features);
   LocalizerResult locate(const FrameInput &frame, const FrameFeatures &features);
   // Between frames: where the camera is at a time of the caller's; false where that is not known.
   bool predict(int64_t time_ns, MovedPose *moved) const;
@@ -56,12 +56,15 @@ class Localizer {
   // The probability that a pose of this covariance, of a result, has errors within these bounds.
   static double confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad);
 
+  const LocalizerConfig &config() const { return config_; }
+
   // Of the last frame.
   Span<const Observation> observations() const { return front_.observations(); }
   Span<const RankedPose> hypotheses() const { return ranking_.poses(); }
 
  private:
-  Rigid colorFromDepth(const FrameInput &frame) const;
+  Rigid atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const;
+  FrameRig rigOf(const FrameInput &frame) const;
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
   void follow(const FrameInput &frame);
   LocalizerResult locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns);

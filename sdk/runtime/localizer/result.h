@@ -25,10 +25,11 @@ enum class TrackingState : uint8_t { kRelocalizing, kTracking, kLost };  // trac
 
 // What became of one keypoint.
 struct Observation {
-  float x_px, y_px;      // in the colour image
+  float x_px, y_px;      // in the image of its camera
   float scale_px;        // standard deviation of the Gaussian it was found at
-  float depth_m;         // z in the colour camera; 0 unless lifted
+  float depth_m;         // z in that camera; 0 unless lifted
   uint32_t point_index;  // of the matched map point
+  uint8_t camera;        // 0: the colour camera; i: further camera i - 1
   bool lifted, matched, inlier;
 };
 

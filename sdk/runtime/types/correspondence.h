@@ -6,14 +6,19 @@
 
 namespace sphc {
 
-// A keypoint lifted by depth into camera coordinates, with what is known of its error.  Without depth it is a
-// viewing ray: point_m is its unit bearing, sideways_m the error of the angle (metres at 1 m), along_m infinite.
+// A keypoint lifted by depth into the frame of the colour camera, with what is known of its error.  Without depth it
+// is a viewing ray: point_m lies at 1 m on it, sideways_m is the error of the angle (metres at 1 m), along_m
+// infinite.
 struct LiftedPoint {
-  Vector3 point_m;    // camera frame
+  Vector3 point_m;
   double sideways_m;  // 1 sigma across the viewing ray: pixel noise at this depth, and the map's own error
   double along_m;     // 1 sigma along the viewing ray: depth noise
+  // Of the camera that saw it, which is another than the colour camera's in a rig of several.
+  Eigen::Vector3f centre_m = Eigen::Vector3f::Zero();
 
   bool hasDepth() const { return isFinite(along_m); }
+  // Unit.
+  Vector3 view() const { return (point_m - centre_m.cast<double>()).normalized(); }
 };
 
 struct Correspondence {

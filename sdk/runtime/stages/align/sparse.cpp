@@ -58,20 +58,20 @@ struct SparseAligner::Walk {
 
 void SparseAligner::init(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
                          const DepthSensor &sensor) {
-  color_ = color;
   depth_ = depth;
   sensor_ = sensor;
-  setPose(color_from_depth);
+  setColor(color, color_from_depth);
 }
 
-void SparseAligner::setPose(const Rigid &color_from_depth) {
+void SparseAligner::setColor(const Camera &color, const Rigid &color_from_depth) {
+  color_ = color;
   depth_from_color_ = color_from_depth.inverse();
   registered_ = color_ == depth_ && rotationAngle(color_from_depth.rotation) < 1e-9 &&
                 color_from_depth.translation_m.norm() < 1e-9;
 }
 
-void SparseAligner::prepare(ImageView<uint16_t> depth) {
-  if (blocks_.hasMemory() && !registered_) blocks_.build(depth, sensor_);
+void SparseAligner::prepare(ImageView<uint16_t> depth, bool for_others) {
+  if (blocks_.hasMemory() && (for_others || !registered_)) blocks_.build(depth, sensor_);
 }
 
 // The first step at which the ray is as deep as `nearest`, a measurement; `never` where it does not get deeper.

@@ -30,10 +30,14 @@ class SparseAligner {
     DepthBlocks::layout(depth_width, depth_height, scratch, aligner ? &aligner->blocks_ : nullptr);
   }
   void init(const Camera &color, const Camera &depth, const Rigid &color_from_depth, const DepthSensor &sensor);
-  // Replaces the transform of init for the frames that follow.
-  void setPose(const Rigid &color_from_depth);
+  // Replaces camera and transform of init for the frames that follow.
+  void setColor(const Camera &color, const Rigid &color_from_depth);
   // Reads a depth image, so that rays can be followed in strides.  Call it for every new image, before lift.
-  void prepare(ImageView<uint16_t> depth);
+  // `for_others`: even where this colour camera shares the depth image's pixels.
+  void prepare(ImageView<uint16_t> depth, bool for_others = false);
+  // In its place, where another aligner of the same depth camera has read the image, for others too; in that one's
+  // memory.
+  void prepareLike(const SparseAligner &other) { blocks_ = other.blocks_; }
 
   // Point seen at a colour pixel, in the colour camera's frame, and 1 sigma of its z; false where the depth camera
   // has no answer: a hole, out of its view, or hidden from it behind something nearer.

@@ -5,7 +5,7 @@
 namespace sphc {
 
 struct FeatureConfig {
-  int32_t width = 640, height = 480;  // 16 to 8192 each
+  int32_t width = 640, height = 480;  // of the largest image; 16 to 8192 each
   uint32_t max_keypoints = 800;
   // Smallest |difference of Gaussians| at a refined extremum, grey levels in [0, 1].
   // Other libraries divide theirs by the 3 scales per octave: this 0.001 is their 0.003.

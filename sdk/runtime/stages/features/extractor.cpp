@@ -45,7 +45,10 @@ void FeatureExtractor::layout(const FeatureConfig &config, Arena &state, Arena &
   CandidateList::layout(config, scratch, out ? &out->candidates_ : nullptr);
   GaussianTable::layout(state, out ? &out->gaussian_ : nullptr);
   Describer::layout(state, out ? &out->describer_ : nullptr);
-  if (out) out->config_ = config;
+  if (!out) return;
+  out->config_ = config;
+  out->most_width_ = config.width;
+  out->most_height_ = config.height;
 }
 
 void FeatureExtractor::init(const FeatureKernels &kernels) {
@@ -57,15 +60,15 @@ void FeatureExtractor::init(const FeatureKernels &kernels) {
 
 uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors,
                                    const Deadline &deadline) {
-  SPHC_ASSERT(gray.width == config_.width && gray.height == config_.height);
+  setSize(gray);
   cut_ = false;
   sweep(gray, deadline);
   if (cut_ && deadline.passed()) return 0;
-  const double fitting = keypoints_pace_.fitting(deadline, config_.max_keypoints);
-  const uint32_t limit =
-      std::min(static_cast<uint32_t>(std::max(fitting, kFewestKeypoints)), config_.max_keypoints);
+  const uint32_t wanted = std::min(static_cast<uint32_t>(keypoints.size()), config_.max_keypoints);
+  const double fitting = keypoints_pace_.fitting(deadline, wanted);
+  const uint32_t limit = std::min(static_cast<uint32_t>(std::max(fitting, kFewestKeypoints)), wanted);
   const Span<Candidate> chosen = candidates_.choose(config_, limit);
-  cut_ = cut_ || (limit < config_.max_keypoints && chosen.size() == limit);
+  cut_ = cut_ || (limit < wanted && chosen.size() == limit);
   uint32_t count = 0;
   const int64_t begin = deadline.clock.now();
   Watch watch(deadline, kDescribeGrain);
@@ -79,6 +82,14 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
   }
   if (deadline.isSet()) keypoints_pace_.learn(count, elapsedNs(begin, deadline.clock.now()));
   return count;
+}
+
+void FeatureExtractor::setSize(GrayView gray) {
+  SPHC_ASSERT(gray.width <= most_width_ && gray.height <= most_height_);
+  if (gray.width == config_.width && gray.height == config_.height) return;
+  config_.width = gray.width;
+  config_.height = gray.height;
+  space_.setSize(config_);
 }
 
 // All octaves, or those from the finest on that fits, and a band of the next finer one.  What a sweep that falls

@@ -33,8 +33,8 @@ class FeatureExtractor {
   // Computes the tables; once, after a layout over memory.  All kernels give the same bytes.
   void init(const FeatureKernels &kernels = simdFeatureKernels());
 
-  // `gray` has the configured size; `keypoints` and `descriptors` have room for max_keypoints.  Returns how many
-  // were found, highest response first.  Scratch keeps nothing from call to call; the same image gives the same
+  // `gray` is no larger than configured; `keypoints` and `descriptors` have room for as many as are wanted, at most
+  // max_keypoints.  Returns how many were found, highest response first.  Scratch keeps nothing from call to call; the same image gives the same
   // bytes, but where a deadline cuts: then the finest octaves are left out but for a band of rows, for they cost
   // most, and the weakest keypoints.  How much fits is known from what earlier calls with a deadline took.
   uint32_t extract(GrayView gray, Span<Keypoint> keypoints, Span<Descriptor> descriptors,
@@ -43,6 +43,7 @@ class FeatureExtractor {
   bool wasCut() const { return cut_; }
 
  private:
+  void setSize(GrayView gray);
   int32_t finestWithin(const Deadline &deadline) const;
   bool sweepFrom(int32_t finest, GrayView gray, const Deadline &deadline);
   bool skimOctave(int32_t octave, GrayView gray, Watch *watch);
@@ -57,7 +58,8 @@ class FeatureExtractor {
   }
   uint32_t describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints, Descriptor *descriptors);
 
-  FeatureConfig config_;
+  FeatureConfig config_;  // of the image in work
+  int32_t most_width_ = 0, most_height_ = 0;
   const FeatureKernels *kernels_ = nullptr;
   ScaleSpace space_;
   ExtremaFinder finder_;

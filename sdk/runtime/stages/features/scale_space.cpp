@@ -73,10 +73,8 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
   ScaleSpace measured;
   ScaleSpace &self = out ? *out : measured;
   self.first_octave_ = config.first_octave < 0 ? -1 : 0;
-  self.octaves_ = octaveCount(config);
+  self.setSize(config);
   for (int32_t o = 0; o < self.octaves_; ++o) {
-    self.widths_[o] = sideOfOctave(config.width, config.first_octave, o);
-    self.heights_[o] = sideOfOctave(config.height, config.first_octave, o);
     for (Plane &plane : self.kept_[o]) {
       plane = takePlane(scratch, "features.levels", self.widths_[o], self.heights_[o], -1);
     }
@@ -91,6 +89,14 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &, Arena &scratch, Sc
   scratch.take<int16_t>("features.margin", 2 * kRowStep);
   self.padded_ = scratch.take<int16_t>("features.blur_row",
                                        kRowsAtOnce * static_cast<size_t>(paddedWidth(width) + 2 * kRowStep));
+}
+
+void ScaleSpace::setSize(const FeatureConfig &config) {
+  octaves_ = octaveCount(config);
+  for (int32_t o = 0; o < octaves_; ++o) {
+    widths_[o] = sideOfOctave(config.width, config.first_octave, o);
+    heights_[o] = sideOfOctave(config.height, config.first_octave, o);
+  }
 }
 
 void ScaleSpace::init(const FeatureKernels &kernels) {

@@ -33,6 +33,8 @@ class ScaleSpace {
  public:
   static void layout(const FeatureConfig &config, Arena &state, Arena &scratch, ScaleSpace *out);
   void init(const FeatureKernels &kernels);
+  // Of the images that follow, no larger than layout was told.
+  void setSize(const FeatureConfig &config);
 
   int32_t octaves() const { return octaves_; }
   int32_t width(int32_t octave) const { return widths_[octave]; }

@@ -135,7 +135,7 @@ HWY_INLINE void addLifted(const PoseRows &rows, const PoseV &pose, const NormalT
   addTo(sums->gradient[7] + lane, hn::Neg(hn::Mul(beyond, bias_pull)));
 }
 
-// Sine of the angle between viewing ray and epipolar plane (of t and R d), over its sigma.
+// Sine of the angle between viewing ray and epipolar plane (of t - centre and R d), over its sigma.
 struct PlaneV {
   V3 view, ray, normal;
   V inverse_length;  // of the normal
@@ -147,14 +147,15 @@ HWY_INLINE PlaneV planeOf(const PoseRows &rows, const PoseV &pose, size_t at) {
   PlaneV p;
   p.view = load3(rows, kViewX, at);
   p.ray = rotate(pose, load3(rows, kDirectionX, at));
-  p.normal = cross(pose.t, p.ray);
+  const V3 t = fromCentre(rows, pose.t, at);
+  p.normal = cross(t, p.ray);
   p.inverse_length = hn::Div(set(1.0f), hn::Sqrt(hn::Max(dot(p.normal, p.normal), set(1e-12f))));
   p.sine = hn::Mul(dot(p.view, p.normal), p.inverse_length);
-  const V3 point = load3(rows, kPointX, at), parallax = cross(p.view, p.ray);
+  const V3 point = fromCentre(rows, load3(rows, kPointX, at), at), parallax = cross(p.view, p.ray);
   p.weight = hn::Mul(hn::Load(d, rows.field[kWeight] + at), dot(point, point));
   p.squared = hn::Mul(p.weight, square(p.sine));
   p.in_front = hn::And(hn::Gt(dot(p.normal, parallax), hn::Zero(d)),
-                       hn::Gt(dot(cross(pose.t, p.view), parallax), hn::Zero(d)));
+                       hn::Gt(dot(cross(t, p.view), parallax), hn::Zero(d)));
   return p;
 }
 
@@ -165,7 +166,9 @@ HWY_INLINE void addPlane(const PoseRows &rows, const PoseV &pose, const NormalTa
   addTo(sums->cost + lane, loss.loss);
   const V w = hn::Mul(loss.weight, p.weight);
   const V3 lever = p.inverse_length * (p.view - hn::Mul(p.sine, p.inverse_length) * p.normal);
-  const V3 turn = cross(p.normal, lever), shift = cross(p.ray, lever);
+  const V3 shift = cross(p.ray, lever);
+  V3 turn = cross(p.normal, lever);
+  if (rows.hasCentres()) turn = turn + cross(load3(rows, kCentreX, at), shift);  // t turns, the centre does not
   const V jacobian[6] = {turn.x, turn.y, turn.z, shift.x, shift.y, shift.z};
   for (uint32_t i = 0; i < 6; ++i) {
     const V weighted = hn::Mul(w, jacobian[i]);

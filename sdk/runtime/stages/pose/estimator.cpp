@@ -81,10 +81,13 @@ void PoseEstimator::layout(const EstimatorConfig &config, Arena &scratch, PoseEs
   PoseEstimator &e = estimator ? *estimator : discarded;
   const uint32_t padded = (config.capacity + kPoseChunk - 1) / kPoseChunk * kPoseChunk;
   Sampler::layout(config.capacity, scratch, estimator ? &e.sampler_ : nullptr);
-  PoseRows::layout("pose.lifted", config.capacity, scratch, estimator ? &e.lifted_ : nullptr);
-  PoseRows::layout("pose.planes", config.capacity, scratch, estimator ? &e.planes_ : nullptr);
-  PoseRows::layout("pose.near", config.capacity, scratch, estimator ? &e.near_ : nullptr);
-  PoseRows::layout("pose.near", config.capacity, scratch, estimator ? &e.near_planes_ : nullptr);
+  const auto takeRows = [&](const char *name, PoseRows *rows) {
+    PoseRows::layout(name, config.capacity, config.has_centres, scratch, estimator ? rows : nullptr);
+  };
+  takeRows("pose.lifted", &e.lifted_);
+  takeRows("pose.planes", &e.planes_);
+  takeRows("pose.near", &e.near_);
+  takeRows("pose.near", &e.near_planes_);
   e.squared_ = scratch.take<float>("pose.squared", padded);
   e.plane_squared_ = scratch.take<float>("pose.squared", padded);
   e.quality_ = scratch.take<float>("pose.order", config.capacity);

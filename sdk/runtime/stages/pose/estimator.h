@@ -11,6 +11,7 @@ namespace sphc {
 struct EstimatorConfig {
   uint32_t capacity = 0;                 // correspondences at most
   uint32_t max_iterations = 0;           // minimal samples at most
+  bool has_centres = false;              // do some come from other cameras than the colour camera?
   double inlier_threshold2 = 12;         // squared whitened residual; chi-squared with 2 degrees beyond it: 0.25 %
   double miss_probability = 1e-3;        // of stopping before a sample that leads to the pose was drawn
   const PoseKernels *kernels = nullptr;  // null: the best of this machine

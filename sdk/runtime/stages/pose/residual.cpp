@@ -3,7 +3,7 @@
 namespace sphc {
 
 Residual residualOf(const Correspondence &c, const Rigid &camera_from_map) {
-  const Vector3 view = c.lifted.point_m.normalized();
+  const Vector3 view = c.lifted.view();
   const Vector3 ray = camera_from_map.rotation * c.direction;
   const Vector3 ray_whitened = whiten(c.lifted, view, ray);
   const Vector3 offset_whitened = whiten(c.lifted, view, c.lifted.point_m - camera_from_map.translation_m);

@@ -27,7 +27,8 @@ void prepare(PoseRows *rows, const DepthCorrection &correction) {
     const V bias = hn::Add(offset, hn::Mul(slope, hn::Sub(point.z, hn::Set(d, correction.mid_m))));
     const V longer = hn::Add(one, hn::IfThenElseZero(hn::Gt(ratio, hn::Zero(d)), hn::Div(bias, point.z)));
     point = longer * point;
-    const V3 view = hn::Div(one, hn::Sqrt(dot(point, point))) * point;
+    const V3 seen = fromCentre(*rows, point, at);
+    const V3 view = hn::Div(one, hn::Sqrt(dot(seen, seen))) * seen;
     const V *points[3] = {&point.x, &point.y, &point.z}, *views[3] = {&view.x, &view.y, &view.z};
     for (uint32_t k = 0; k < 3; ++k) {
       hn::Store(*points[k], d, rows->field[kPointX + k] + at);

@@ -2,9 +2,9 @@
 
 namespace sphc {
 
-void PoseRows::layout(const char *name, uint32_t capacity, Arena &scratch, PoseRows *rows) {
+void PoseRows::layout(const char *name, uint32_t capacity, bool has_centres, Arena &scratch, PoseRows *rows) {
   const uint32_t padded = (capacity + kPoseChunk - 1) / kPoseChunk * kPoseChunk;
-  for (uint32_t f = 0; f < kPoseFieldCount; ++f) {
+  for (uint32_t f = 0; f < (has_centres ? kPoseFieldCount : kCentreX); ++f) {
     const Span<float> span = scratch.take<float>(name, padded);
     if (rows) rows->field[f] = span.data();
   }
@@ -16,7 +16,7 @@ void PoseRows::pushBelow(const PoseRows &from, const float *value, float limit, 
     index[kept] = i;
     kept += value[i] < limit;
   }
-  for (uint32_t f = 0; f < kPoseFieldCount; ++f) {
+  for (uint32_t f = 0; f < fieldCount(); ++f) {
     const float *source = from.field[f];
     float *target = field[f] + count;
     for (uint32_t i = 0; i < kept; ++i) target[i] = source[index[i]];
@@ -26,7 +26,7 @@ void PoseRows::pushBelow(const PoseRows &from, const float *value, float limit, 
 
 void PoseRows::pad() {
   padded = (count + kPoseChunk - 1) / kPoseChunk * kPoseChunk;
-  for (uint32_t f = 0; f < kPoseFieldCount; ++f)
+  for (uint32_t f = 0; f < fieldCount(); ++f)
     for (uint32_t i = count; i < padded; ++i)
       field[f][i] = f == kPointZ || f == kViewZ || f == kWeight || f == kStretch ? 1.0f : 0.0f;
 }

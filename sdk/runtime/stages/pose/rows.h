@@ -8,8 +8,8 @@ namespace sphc {
 constexpr uint32_t kPoseLanes = 16;  // order of every summation is fixed by this, not by the machine's SIMD width
 constexpr uint32_t kPoseChunk = 64;  // rows, after which it is asked whether a pose is worth going on with
 
-// A row without depth has its unit bearing for a point and the stretch -1: any row can be taken for one by its
-// view, direction and weight |point|^2, which is of the angle.
+// A row without depth has the point at 1 m on its viewing ray and the stretch -1: any row can be taken for one by
+// its view, direction and weight |point - centre|^2, which is of the angle.
 enum PoseField : uint32_t {
   kPointX,
   kPointY,
@@ -22,6 +22,9 @@ enum PoseField : uint32_t {
   kDirectionZ,  // unit, map frame; zero in padding, which so is never in front
   kWeight,      // 1 / sideways^2
   kStretch,     // (sideways / along)^2 - 1
+  kCentreX,     // m, of the camera that saw the row; none of the three where all rows are the colour camera's
+  kCentreY,
+  kCentreZ,
   kPoseFieldCount
 };
 
@@ -30,7 +33,10 @@ struct PoseRows {
   uint32_t count = 0;   // rows in use
   uint32_t padded = 0;  // the same in whole chunks
 
-  static void layout(const char *name, uint32_t capacity, Arena &scratch, PoseRows *rows);
+  static void layout(const char *name, uint32_t capacity, bool has_centres, Arena &scratch, PoseRows *rows);
+
+  bool hasCentres() const { return field[kCentreX]; }
+  uint32_t fieldCount() const { return hasCentres() ? kPoseFieldCount : kCentreX; }
 
   Vector3 view(uint32_t row) const { return vector(kViewX, row); }
   Vector3 direction(uint32_t row) const { return vector(kDirectionX, row); }
@@ -44,6 +50,8 @@ struct PoseRows {
     }
     field[kWeight][row] = static_cast<float>(correspondence.lifted.sideways_m);
     field[kStretch][row] = static_cast<float>(correspondence.lifted.along_m);
+    if (!hasCentres()) return;
+    for (int k = 0; k < 3; ++k) field[kCentreX + k][row] = correspondence.lifted.centre_m[k];
   }
   // Appends those rows of `from` whose value is below the limit.  `index`: scratch for as many as `from` has.
   void pushBelow(const PoseRows &from, const float *value, float limit, uint32_t *index);

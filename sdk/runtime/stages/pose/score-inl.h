@@ -41,6 +41,10 @@ HWY_INLINE V3 cross(const V3 &a, const V3 &b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
+// A point as the camera that saw each row has it, but for its turn.
+HWY_INLINE V3 fromCentre(const PoseRows &rows, const V3 &point, size_t at) {
+  return rows.hasCentres() ? point - load3(rows, kCentreX, at) : point;
+}
 
 // A pose in every lane.
 struct PoseV {

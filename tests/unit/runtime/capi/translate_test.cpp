@@ -174,14 +174,14 @@ TEST(TranslateBack, OutcomesAndStatesByName) {
 }
 
 TEST(TranslateBack, Observations) {
-  const sphc_localizer_observation o = observationFrom({1, 2, 3, 4, 5, true, false, true});
+  const sphc_localizer_observation o = observationFrom({1, 2, 3, 4, 5, 6, true, false, true});
   EXPECT_EQ(o.x_px, 1);
   EXPECT_EQ(o.y_px, 2);
   EXPECT_EQ(o.scale_px, 3);
   EXPECT_EQ(o.depth_m, 4);
   EXPECT_EQ(o.point_index, 5u);
   EXPECT_EQ(o.flags, uint32_t{SPHC_OBSERVATION_LIFTED | SPHC_OBSERVATION_INLIER});
-  EXPECT_EQ(observationFrom({1, 2, 3, 4, 5, false, true, false}).flags, uint32_t{SPHC_OBSERVATION_MATCHED});
+  EXPECT_EQ(observationFrom({1, 2, 3, 4, 5, 6, false, true, false}).flags, uint32_t{SPHC_OBSERVATION_MATCHED});
 }
 
 LocalizerResult answerOf(Outcome outcome) {

@@ -29,8 +29,8 @@ class FrameFeaturesTest : public testing::Test {
 };
 
 TEST_F(FrameFeaturesTest, HasRoomForAFrame) {
-  EXPECT_EQ(features_.keypoints.size(), 64u);
-  EXPECT_EQ(features_.descriptors.size(), 64u);
+  EXPECT_EQ(features_.room.keypoints.size(), 64u);
+  EXPECT_EQ(features_.room.descriptors.size(), 64u);
   EXPECT_EQ(features_.gray_room.size(), size_t{kImageWidth * kImageHeight});
 }
 

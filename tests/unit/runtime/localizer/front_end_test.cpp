@@ -48,7 +48,7 @@ TEST_F(FrontEndTest, DescriptorsGoWithTheirKeypoints) {
   const std::vector<Descriptor> described(front().descriptors().begin(), front().descriptors().end());
   // Extracted again, and not lifted, they are in the order of keypoints, as observations are.
   const auto made = test::sceneFrame(test::sceneConfig(), 1);
-  front().extract(frameFrom(made->frame, MapSet()).color);
+  front().extract(frameFrom(made->frame, MapSet()).color, {});
   EXPECT_EQ(front().liftedCount(), 0u);
   ASSERT_EQ(front().keypointCount(), described.size());
   bool some_moved = false;
@@ -85,7 +85,7 @@ TEST_F(FrontEndTest, ColourIsReadInItsOrder) {
     bgr.insert(bgr.end(), {0, 0, red});
   }
   const auto describe = [&](const ColorView &color) {
-    front().extract(color);
+    front().extract(color, {});
     const auto *first = reinterpret_cast<const char *>(front().descriptors().data());
     return std::string(first, front().keypointCount() * sizeof(Descriptor));
   };

@@ -70,9 +70,9 @@ class RoomParts {
     for (auto row = made.images.depth_mm.begin(); row != made.images.depth_mm.end(); row += width)
       std::fill_n(row, width / 8, uint16_t{0});
     const FrameInput frame = frameFrom(made.frame, MapSet());
-    front.extract(frame.color);
+    front.extract(frame.color, frame.further);
     const auto height = static_cast<int32_t>(made.frame.depth.height), columns = static_cast<int32_t>(width);
-    front.lift({made.images.depth_mm.data(), columns, height, columns}, config.color_from_depth);
+    front.lift({made.images.depth_mm.data(), columns, height, columns}, {config.color_camera, config.color_from_depth, {}});
   }
   // The truth.
   Rigid cameraFromMap(uint32_t viewpoint, uint32_t room = 0) const {

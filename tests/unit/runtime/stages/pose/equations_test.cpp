@@ -61,6 +61,15 @@ struct Case {
   }
 };
 
+// Every second row is seen by another camera of the rig.
+void moveCentres(test::PoseWorld *world) {
+  Random random(7);
+  for (size_t i = 0; i < world->correspondences.size(); i += 2) {
+    const Vector3 centre_m(0.1 * test::normal(&random), 0.1 * test::normal(&random), 0.1 * test::normal(&random));
+    world->correspondences[i].lifted.centre_m = centre_m.cast<float>();
+  }
+}
+
 Case makeCase(bool planes, bool exact, uint64_t seed) {
   test::SensorWorldOptions options;
   options.seed = seed;
@@ -97,6 +106,20 @@ void expectCurvature(bool planes, int unknowns) {
   }
 }
 
+void expectCurvatureOfARig(bool planes) {
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    Case c = makeCase(planes, true, seed);
+    moveCentres(&c.world);
+    c.cost.scale2 = 1e9;
+    c.cost.gate2 = 1e12;
+    const Matrix8 half = 0.5 * test::curvatureOf([&](const Vector8 &step) { return c.costAt(step); });
+    EXPECT_LT(difference(c.sums().matrix, half, 6), 2e-3);
+  }
+}
+
+TEST(Equations, LiftedMatrixOfARigIsTheCostsCurvature) { expectCurvatureOfARig(false); }
+TEST(Equations, PlaneMatrixOfARigIsTheCostsCurvature) { expectCurvatureOfARig(true); }
+
 TEST(Equations, LiftedMatrixIsTheCostsCurvature) { expectCurvature(false, 8); }
 TEST(Equations, PlaneMatrixIsTheCostsCurvature) { expectCurvature(true, 6); }
 
@@ -107,10 +130,11 @@ TEST(Equations, PlanesSayNothingOfTheBias) {
 }
 
 // With noise, fakes and the loss, near the truth.
-void expectGradient(bool planes) {
+void expectGradient(bool planes, bool of_a_rig) {
   Random random(1);
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     Case c = makeCase(planes, false, seed);
+    if (of_a_rig) moveCentres(&c.world);
     Vector8 off = Vector8::Zero();
     for (int i = 0; i < 6; ++i) off[i] = 0.003 * test::normal(&random);
     c.cost.camera_from_map = c.cost.moved(off);
@@ -123,8 +147,10 @@ void expectGradient(bool planes) {
   }
 }
 
-TEST(Equations, LiftedGradientIsTheCosts) { expectGradient(false); }
-TEST(Equations, PlaneGradientIsTheCosts) { expectGradient(true); }
+TEST(Equations, LiftedGradientIsTheCosts) { expectGradient(false, false); }
+TEST(Equations, PlaneGradientIsTheCosts) { expectGradient(true, false); }
+TEST(Equations, LiftedGradientOfARigIsTheCosts) { expectGradient(false, true); }
+TEST(Equations, PlaneGradientOfARigIsTheCosts) { expectGradient(true, true); }
 
 // The bias is taken at the foot of the ray, so that noise does not pull it: the cost's own gradient to first order.
 TEST(Equations, BiasGradientIsTheCostsNearTheSolution) {

@@ -76,7 +76,7 @@ TEST(Rows, PushBelowKeepsWhatIsBelowInOrder) {
   }
   for (uint32_t times = 1; times <= 2; ++times) to.rows.pushBelow(from.rows, value.data(), 40, index.data());
   ASSERT_EQ(to.rows.count, 2 * expected.size());
-  for (uint32_t f = 0; f < kPoseFieldCount; ++f)
+  for (uint32_t f = 0; f < to.rows.fieldCount(); ++f)
     for (uint32_t i = 0; i < to.rows.count; ++i)
       EXPECT_EQ(to.rows.field[f][i], from.rows.field[f][expected[i % expected.size()]]);
 }

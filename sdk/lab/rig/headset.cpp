@@ -1,0 +1,142 @@
+#include "lab/rig/headset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sphc::host {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr uint32_t kWidth = 640, kHeight = 480, kDepthWidth = 320, kDepthHeight = 288;
+constexpr double kMostBentM = 0.01;                               // of a wall, at a metre
+constexpr double kNearestM = 0.25;                                // of anything in the ToF camera's view
+constexpr double kSideways = 50 * kDegree, kDown = 40 * kDegree;  // of the further cameras
+
+sphc_camera grayCamera() {
+  return {SPHC_CAMERA_BROWN5, kWidth, kHeight, 9, {401.2, 400.7, 321.4, 239.1, -0.03, 0.01, 0.0003, -0.0002, 0}};
+}
+
+// The same view of few pixels, for distances.
+sphc_camera coarseCamera() { return {SPHC_CAMERA_BROWN5, 64, 48, 9, {40, 40, 32, 24}}; }
+
+sphc_camera wideCamera() {
+  return {SPHC_CAMERA_KANNALA_BRANDT4, kDepthWidth, kDepthHeight, 8, {152.2, 152.4, 159.1, 144.6, 0.01, -0.004}};
+}
+
+Matrix3 aboutX(double angle_rad) { return rotationFromVector(angle_rad * Vector3::UnitX()); }
+Matrix3 aboutY(double angle_rad) { return rotationFromVector(angle_rad * Vector3::UnitY()); }
+
+Rigid colorFromCamera(uint32_t camera) {
+  switch (camera) {
+    case 1:
+      return {aboutY(-kSideways), Vector3(-0.061, 0.002, -0.03)};
+    case 2:
+      return {aboutY(kSideways), Vector3(0.059, -0.001, -0.031)};
+    case 3:
+      return {aboutX(-kDown), Vector3(0.012, 0.034, -0.004)};
+    default:
+      return {};
+  }
+}
+
+Rigid colorFromDepth() { return {aboutX(0.004), Vector3(0.021, 0.018, 0.003)}; }
+
+void render(const sphc_simulated *room, int64_t time_ns, const sphc_camera &camera, const Rigid &world_from_camera,
+            uint8_t *rgb, uint16_t *depth, float *depth_m) {
+  const sphc_rigid pose = rigidToC(world_from_camera);
+  if (sphc_simulated_render_view(room, time_ns, &camera, &pose, rgb, depth, depth_m) != SPHC_OK)
+    throw std::runtime_error("the simulated room cannot be rendered");
+}
+
+std::vector<uint8_t> grayFrom(const std::vector<uint8_t> &rgb) {
+  std::vector<uint8_t> gray(rgb.size() / 3);
+  for (size_t i = 0; i < gray.size(); ++i)
+    gray[i] = static_cast<uint8_t>((77 * rgb[3 * i] + 150 * rgb[3 * i + 1] + 29 * rgb[3 * i + 2] + 128) / 256);
+  return gray;
+}
+
+// Level; the world's z is up.
+Rigid levelPose(const Vector3 &centre_m, double heading_rad) {
+  const Vector3 ahead(std::cos(heading_rad), std::sin(heading_rad), 0), down(0, 0, -1);
+  Matrix3 rotation;
+  rotation << down.cross(ahead), down, ahead;
+  return {rotation, centre_m};
+}
+
+// Inverse depths of a plane are linear in the image.
+bool isOnePlane(const std::vector<float> &depth_m, const sphc_camera &camera) {
+  Eigen::Matrix<double, Eigen::Dynamic, 3> rays(depth_m.size(), 3);
+  Eigen::VectorXd inverse(depth_m.size());
+  for (uint32_t row = 0, at = 0; row < camera.height; ++row)
+    for (uint32_t column = 0; column < camera.width; ++column, ++at) {
+      rays.row(at) << (column + 0.5 - camera.params[2]) / camera.params[0],
+          (row + 0.5 - camera.params[3]) / camera.params[1], 1;
+      inverse[at] = 1 / static_cast<double>(depth_m[at]);
+    }
+  const Eigen::Matrix3d squares = rays.transpose() * rays;
+  const Vector3 plane = squares.inverse() * (rays.transpose() * inverse);
+  return (rays * plane - inverse).cwiseAbs().maxCoeff() < kMostBentM;
+}
+
+}  // namespace
+
+void RigHeadset::setCameras(uint32_t cameras, std::vector<sphc_localizer_camera> *further,
+                            sphc_localizer_config *config) {
+  config->rig.color_camera = grayCamera();
+  config->rig.depth_camera = wideCamera();
+  config->rig.color_from_depth = rigidToC(colorFromDepth());
+  config->rig.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
+  further->clear();
+  for (uint32_t i = 1; i < cameras; ++i)
+    further->push_back({sizeof(sphc_localizer_camera), 0, grayCamera(), rigidToC(colorFromCamera(i))});
+  config->cameras = further->empty() ? nullptr : further->data();
+  config->camera_count = static_cast<uint32_t>(further->size());
+}
+
+RigShot RigHeadset::look(const Rigid &world_from_camera, int64_t time_ns) const {
+  RigShot shot;
+  std::vector<uint8_t> rgb(size_t{3} * kWidth * kHeight);
+  for (uint32_t i = 0; i < kCameras; ++i) {
+    render(room_, time_ns, grayCamera(), world_from_camera * colorFromCamera(i), rgb.data(), nullptr, nullptr);
+    shot.gray.push_back(grayFrom(rgb));
+  }
+  shot.depth.resize(size_t{kDepthWidth} * kDepthHeight);
+  render(room_, time_ns, wideCamera(), world_from_camera * colorFromDepth(), nullptr, shot.depth.data(), nullptr);
+  return shot;
+}
+
+sphc_localizer_frame RigHeadset::frameOf(const RigShot &shot, int64_t time_ns, uint32_t cameras,
+                                         std::vector<sphc_localizer_view> *views) {
+  const auto imageOf = [&](uint32_t i) {
+    return sphc_image{shot.gray[i].data(), kWidth, kHeight, kWidth, SPHC_FORMAT_GRAY8};
+  };
+  views->clear();
+  for (uint32_t i = 1; i < cameras; ++i)
+    views->push_back({sizeof(sphc_localizer_view), 0, time_ns, imageOf(i), nullptr, nullptr});
+  sphc_localizer_frame frame = {};
+  frame.struct_size = sizeof frame;
+  frame.color_time_ns = frame.depth_time_ns = time_ns;
+  frame.color = imageOf(0);
+  frame.depth = {shot.depth.data(), kDepthWidth, kDepthHeight, 2 * kDepthWidth, SPHC_FORMAT_DEPTH16};
+  frame.views = views->empty() ? nullptr : views->data();
+  frame.view_count = static_cast<uint32_t>(views->size());
+  return frame;
+}
+
+bool RigHeadset::faceWall(const Rigid &world_from_camera, double heading_rad, double wall_m, int64_t time_ns,
+                          Rigid *facing) const {
+  const sphc_camera coarse = coarseCamera(), wide = wideCamera();
+  std::vector<float> depth_m(size_t{coarse.width} * coarse.height), wide_m(size_t{wide.width} * wide.height);
+  Rigid pose = levelPose(world_from_camera.translation_m, heading_rad);
+  render(room_, time_ns, coarse, pose, nullptr, nullptr, depth_m.data());
+  const auto ahead_m = static_cast<double>(depth_m[coarse.width * coarse.height / 2 + coarse.width / 2]);
+  pose.translation_m += (ahead_m - wall_m) * pose.rotation.col(2);
+  render(room_, time_ns, coarse, pose, nullptr, nullptr, depth_m.data());
+  if (!isOnePlane(depth_m, coarse)) return false;
+  render(room_, time_ns, wide, pose * colorFromDepth(), nullptr, nullptr, wide_m.data());
+  *facing = pose;
+  return static_cast<double>(*std::min_element(wide_m.begin(), wide_m.end())) > kNearestM;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,112 @@
+#include "lab/rig/run.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "host/evaluate/localize_run.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr uint32_t kHeadings = 8;
+
+struct Viewpoint {
+  std::string view;
+  int64_t time_ns;
+  Rigid world_from_camera;
+};
+
+Rigid walkPose(const sphc_simulated *room, int64_t time_ns) {
+  sphc_rigid pose;
+  if (sphc_simulated_pose_at(room, time_ns, &pose) != SPHC_OK) throw std::runtime_error("the walk has no pose");
+  return rigidFromC(pose);
+}
+
+// Of the walk's second lap, which the map has not seen.
+std::vector<Viewpoint> viewpointsOf(const RigInput &input) {
+  std::vector<Viewpoint> all;
+  const uint32_t frames = sphc_simulated_frame_count(input.room);
+  uint32_t walls = 0;
+  for (uint32_t i = 0; i < input.views; ++i) {
+    int64_t time_ns = 0;
+    sphc_simulated_frame_times(input.room, i * frames / input.views, &time_ns, nullptr);
+    all.push_back({"walk", time_ns, walkPose(input.room, time_ns)});
+  }
+  const RigHeadset headset(input.room);
+  for (uint32_t i = 0; i < frames * kHeadings && walls < input.views; ++i) {
+    int64_t time_ns = 0;
+    sphc_simulated_frame_times(input.room, i % frames, &time_ns, nullptr);
+    const double heading_rad = (i / frames * 3 + i % frames) % kHeadings * 2 * M_PI / kHeadings;
+    Rigid facing;
+    if (!headset.faceWall(walkPose(input.room, time_ns), heading_rad, input.wall_m, time_ns, &facing)) continue;
+    all.push_back({"wall", time_ns, facing});
+    ++walls;
+  }
+  return all;
+}
+
+void judge(const sphc_localizer_result &result, const Rigid &truth, RigRow *row) {
+  ++row->frames;
+  row->features_us.push_back(result.features_us);
+  row->frame_us.push_back(result.features_us + result.align_us + result.match_us + result.pose_us);
+  if (result.outcome != SPHC_OUTCOME_LOCALIZED) return;
+  const Rigid found = rigidFromC(result.camera_from_map);
+  const double shift_m = (found.inverse().translation_m - truth.inverse().translation_m).norm(),
+               turn_rad = rotationAngle(found.rotation * truth.rotation.transpose());
+  ++row->localized;
+  row->right += shift_m < 0.05 && turn_rad < 5 * kDegree;
+  row->wrong += shift_m > 0.25 || turn_rad > 10 * kDegree;
+  row->errors_mm.push_back(1000 * shift_m);
+}
+
+spherecloud::Localizer localizerOf(const RigInput &input, uint32_t cameras) {
+  sphc_localizer_config config = spherecloud::defaultConfig();
+  setCameras(config.rig, &config);  // the clock
+  std::vector<sphc_localizer_camera> further;
+  RigHeadset::setCameras(cameras, &further, &config);
+  config.mode = SPHC_MODE_SINGLE;
+  config.max_keypoints = input.keypoints;
+  return makeLocalizer(config, *input.maps);
+}
+
+}  // namespace
+
+std::vector<RigRow> runRig(const RigInput &input, const RigProgress &progress) {
+  std::vector<spherecloud::Localizer> localizers;
+  std::vector<RigRow> rows;
+  for (uint32_t cameras = 1; cameras <= RigHeadset::kCameras; ++cameras)
+    localizers.push_back(localizerOf(input, cameras));
+  for (const char *view : {"walk", "wall"})
+    for (uint32_t cameras = 1; cameras <= RigHeadset::kCameras; ++cameras) {
+      rows.emplace_back();
+      rows.back().view = view;
+      rows.back().cameras = cameras;
+    }
+  const RigHeadset headset(input.room);
+  const std::vector<Viewpoint> viewpoints = viewpointsOf(input);
+  for (uint32_t i = 0; i < viewpoints.size(); ++i) {
+    const Viewpoint &at = viewpoints[i];
+    const RigShot shot = headset.look(at.world_from_camera, at.time_ns);
+    const Rigid world_from_map = {Matrix3::Identity(), input.centre_in_world_m};
+    for (uint32_t cameras = 1; cameras <= RigHeadset::kCameras; ++cameras) {
+      std::vector<sphc_localizer_view> views;
+      const sphc_localizer_frame frame = RigHeadset::frameOf(shot, at.time_ns, cameras, &views);
+      sphc_localizer_result result = spherecloud::emptyResult();
+      const spherecloud::Status status = localizers[cameras - 1].process(frame, &result);
+      if (status.failed()) throw std::runtime_error(status.text());
+      RigRow &row = rows[(at.view == "walk" ? 0 : RigHeadset::kCameras) + cameras - 1];
+      if (at.view == "wall" && cameras == 4)
+        fprintf(stderr,
+                "%u: outcome %d kp %u lifted %u matches %u inl %u faults %u hints %u samples %u at %.2f %.2f\n", i,
+                result.outcome, result.keypoints, result.lifted, result.matches, result.inliers, result.faults,
+                result.hints, result.iterations, at.world_from_camera.translation_m.x(),
+                at.world_from_camera.translation_m.y());
+      judge(result, at.world_from_camera.inverse() * world_from_map, &row);
+    }
+    progress(i + 1, static_cast<uint32_t>(viewpoints.size()));
+  }
+  return rows;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""What further cameras bring: frames of a rig of four grey cameras and a wide ToF camera, by one camera, two, three and all.
+
+    rig.py --spherecloud BIN --lab BIN [--results FILE] [--rooms N] [--keep FOLDER]      rewrites rig.csv, for review
+
+Every simulated room has bare walls and a map of lap one, of the headset with one camera, under a key of its own.  Views of lap two
+are localized each alone: as the walk looks, and with nothing but a wall ahead; all have as many keypoints in all.
+"""
+import argparse
+import concurrent.futures
+import csv
+import hashlib
+import os
+import pathlib
+import statistics
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from recordings import HERE, run
+
+RESULTS = HERE / "rig.csv"
+ROOMS = list(range(5001, 5013))  # seeds of room, walk and key that nothing else uses
+LAP_S, MAP_FRAMES, VIEWS = 16, 100, 25
+ETA, FAKES = 0.33, "patchwork"
+COLUMNS = ["view", "cameras", "frames", "localized_percent", "within_5cm_5deg_percent", "worst_room_percent", "wrong_accepted",
+           "median_mm", "p95_mm", "features_ms_median", "frame_ms_median"]
+
+
+def rows_of(tool, lab, folder, seed):
+    walk, file, key = folder / ("walk_%d" % seed), folder / ("%d.sphc" % seed), folder / ("%d.key" % seed)
+    if not file.exists():
+        run([tool, "simulate", "--out", walk, "--seed", seed, "--walk-seed", seed, "--with", "bare", "--frames", MAP_FRAMES, "--rate",
+             MAP_FRAMES / LAP_S, "--threads", 1, "--json"])
+        key.write_text(hashlib.sha256(b"spherecloud rig key %d" % seed).hexdigest() + "\n")
+        key.chmod(0o600)
+        run([tool, "build", "--recording", walk, "--map", file, "--eta", ETA, "--fakes", FAKES, "--key", key, "--ledger",
+             str(file) + ".ledger", "--json"])
+    return run([lab, "rig", "--seed", seed, "--map", file, "--views", VIEWS, "--threads", 1, "--json"])
+
+
+def percent(part, whole):
+    return "%.1f" % (100 * part / max(1, whole))
+
+
+def row_of(view, cameras, rooms):
+    """rooms: the same row of each."""
+    whole = lambda name: sum(row[name] for row in rooms)
+    every = lambda name: sorted(value for row in rooms for value in row[name])
+    errors = every("errors_mm") or [0]
+    return dict(zip(COLUMNS, [
+        view, cameras, whole("frames"), percent(whole("localized"), whole("frames")), percent(whole("right"), whole("frames")),
+        min((percent(row["right"], row["frames"]) for row in rooms if row["frames"]), key=float), whole("wrong"),
+        "%.1f" % statistics.median(errors), "%.1f" % errors[int(0.95 * (len(errors) - 1))],
+        *("%.2f" % (statistics.median(every(name)) / 1000) for name in ("features_us", "frame_us"))]))
+
+
+def measure(tool, lab, folder, count):
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        rooms = list(pool.map(lambda seed: rows_of(tool, lab, folder, seed), ROOMS[:count]))
+    for rows in zip(*rooms):
+        yield row_of(rows[0]["view"], rows[0]["cameras"], rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--spherecloud", required=True, help="the command")
+    parser.add_argument("--lab", required=True, help="spherecloud-lab")
+    parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [rig.csv]")
+    parser.add_argument("--rooms", type=int, default=len(ROOMS), metavar="N", help="the first N rooms")
+    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="where recordings and maps are kept")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = arguments.keep or pathlib.Path(scratch)
+        folder.mkdir(parents=True, exist_ok=True)
+        rows = list(measure(arguments.spherecloud, arguments.lab, folder, arguments.rooms))
+    with arguments.results.open("w", newline="") as out:
+        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    main()
