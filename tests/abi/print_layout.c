@@ -89,6 +89,10 @@ int main(void) {
   FIELD(sphc_localizer_config, amplitude_min);
   FIELD(sphc_localizer_config, color_band);
   FIELD(sphc_localizer_config, reserved2);
+  FIELD(sphc_localizer_config, cameras);
+  FIELD(sphc_localizer_config, camera_count);
+  FIELD(sphc_localizer_config, reserved3);
+  FIELD(sphc_localizer_config, color_row_time_ns);
   WHOLE(sphc_localizer_prior);
   FIELD(sphc_localizer_prior, struct_size);
   FIELD(sphc_localizer_prior, flags);
@@ -103,6 +107,21 @@ int main(void) {
   FIELD(sphc_localizer_prior, odometry_from_camera);
   FIELD(sphc_localizer_prior, odometry_rotation_sigma_rad);
   FIELD(sphc_localizer_prior, odometry_translation_sigma_m);
+  WHOLE(sphc_localizer_camera);
+  FIELD(sphc_localizer_camera, struct_size);
+  FIELD(sphc_localizer_camera, reserved);
+  FIELD(sphc_localizer_camera, camera);
+  FIELD(sphc_localizer_camera, color_from_camera);
+  FIELD(sphc_localizer_camera, row_time_ns);
+
+  WHOLE(sphc_localizer_view);
+  FIELD(sphc_localizer_view, struct_size);
+  FIELD(sphc_localizer_view, reserved);
+  FIELD(sphc_localizer_view, time_ns);
+  FIELD(sphc_localizer_view, image);
+  FIELD(sphc_localizer_view, camera);
+  FIELD(sphc_localizer_view, color_from_camera);
+
   WHOLE(sphc_localizer_frame);
   FIELD(sphc_localizer_frame, struct_size);
   FIELD(sphc_localizer_frame, sequence);
@@ -115,6 +134,11 @@ int main(void) {
   FIELD(sphc_localizer_frame, reserved);
   FIELD(sphc_localizer_frame, reserved2);
   FIELD(sphc_localizer_frame, amplitude);
+  FIELD(sphc_localizer_frame, views);
+  FIELD(sphc_localizer_frame, view_count);
+  FIELD(sphc_localizer_frame, reserved3);
+  FIELD(sphc_localizer_frame, color_camera);
+  FIELD(sphc_localizer_frame, color_from_depth);
   WHOLE(sphc_depth_bias);
   FIELD(sphc_depth_bias, mid_m);
   FIELD(sphc_depth_bias, offset_m);
@@ -182,6 +206,7 @@ int main(void) {
   FIELD(sphc_localizer_observation, depth_m);
   FIELD(sphc_localizer_observation, point_index);
   FIELD(sphc_localizer_observation, flags);
+  FIELD(sphc_localizer_observation, camera);
   WHOLE(sphc_localizer_hypothesis);
   FIELD(sphc_localizer_hypothesis, map_id);
   FIELD(sphc_localizer_hypothesis, outcome);
@@ -205,6 +230,7 @@ int main(void) {
   FIELD(sphc_features_arrays, reserved);
   FIELD(sphc_features_arrays, keypoints);
   FIELD(sphc_features_arrays, descriptors);
+  FIELD(sphc_features_arrays, cameras);
   WHOLE(sphc_capture);
   FIELD(sphc_capture, struct_size);
   FIELD(sphc_capture, stream);

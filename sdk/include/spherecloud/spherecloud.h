@@ -458,8 +458,10 @@ typedef struct sphc_localizer_camera {
   uint32_t reserved;
   sphc_camera camera;
   sphc_rigid color_from_camera; /* within the limits of sphc_rig.color_from_depth */
+  int64_t row_time_ns;          /* as config.color_row_time_ns */
 } sphc_localizer_camera;
-#define SPHC_CAMERAS_MAX 8u /* of a rig, the colour camera among them */
+#define SPHC_CAMERAS_MAX 8u          /* of a rig, the colour camera among them */
+#define SPHC_ROW_TIME_MAX_NS 1000000 /* either sign */
 
 typedef struct sphc_localizer_config {
   uint32_t struct_size;
@@ -502,6 +504,10 @@ typedef struct sphc_localizer_config {
   const sphc_localizer_camera *cameras; /* null where there are none */
   uint32_t camera_count;                /* 0 to SPHC_CAMERAS_MAX - 1 */
   uint32_t reserved3;
+  /* Of a rolling shutter: from a row's exposure to that of the row below it.  Where odometry is given, in
+   * SPHC_MODE_TRACKING, rows are taken to the time of the middle one, which is the image's.  0: all rows at once.
+   */
+  int64_t color_row_time_ns;
 } sphc_localizer_config;
 
 /* What is known of a pose before its frame is looked at. */
@@ -556,8 +562,8 @@ typedef struct sphc_localizer_frame {
    * GRAY16; the depth image's size.  Every frame has one where config.amplitude_min is set, which says what is
    * believed; else it is not looked at. */
   sphc_image amplitude;
-  /* Of each of config.cameras one, in their order: an array whose elements have the struct_size of the first and lie
-   * so far apart.  Null where the config has no cameras. */
+  /* Of each of config.cameras one, in their order: an array whose elements have the struct_size of the first and
+   * lie so far apart.  Null where the config has no cameras. */
   const sphc_localizer_view *views;
   uint32_t view_count; /* config.camera_count */
   uint32_t reserved3;
@@ -897,12 +903,12 @@ typedef struct sphc_features_arrays {
   uint32_t reserved;
   const sphc_keypoint *keypoints; /* aligned to 4 bytes; may be null where count is 0, as may descriptors */
   const uint8_t *descriptors;
-  const uint8_t *cameras; /* of each keypoint, a byte apart: 0 the colour camera, i config.cameras[i - 1]; null: all of
-                           * the colour camera */
+  const uint8_t *cameras; /* of each keypoint, a byte apart: 0 the colour camera, i config.cameras[i - 1]; null: all
+                           * of the colour camera */
 } sphc_features_arrays;
 
-/* What sphc_features_init will need, for localizers of this config: 148 bytes a keypoint (149 where there are further
- * cameras) and one a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
+/* What sphc_features_init will need, for localizers of this config: 148 bytes a keypoint (149 where there are
+ * further cameras) and one a pixel of the colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_features_memory(const sphc_localizer_config *config, sphc_memory *memory,
                                           sphc_message *message);
 /* Upper bound of its state_bytes for any library of this ABI, for memory that is not asked for. */

@@ -10,11 +10,12 @@
 namespace sphc::host {
 namespace {
 
+constexpr uint32_t kPlaces = 200;  // of the walk
+
 struct RigOptions {
   std::string map, with = "bare";
   uint64_t seed = 1;
   uint32_t views = 20, keypoints = 1600, threads = 0;
-  double wall_m = 1;
 };
 
 Simulated openRoom(const RigOptions &options) {
@@ -22,8 +23,8 @@ Simulated openRoom(const RigOptions &options) {
   sphc_simulated_config_init(&config, sizeof config);
   config.seed = config.walk_seed = options.seed;
   config.walk_start_s = config.lap_s;  // lap two
-  config.frame_count = options.views;
-  config.frame_rate_hz = options.views / config.lap_s;
+  config.frame_count = kPlaces;
+  config.frame_rate_hz = kPlaces / config.lap_s;
   config.threads = options.threads;
   orThrow("--with", [&](sphc_message *message) {
     return sphc_simulated_parse_with(options.with.c_str(), &config.with, message);
@@ -44,7 +45,6 @@ int run(const RigOptions &options, const Console &console) {
   input.centre_in_world_m = centreByNote(options.map + ".owner.json", maps[0], options.map);
   input.views = options.views;
   input.keypoints = options.keypoints;
-  input.wall_m = options.wall_m;
   ProgressBar bar("views ");
   const std::vector<RigRow> rows = runRig(input, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   console.say(rigText(rows));
@@ -80,9 +80,6 @@ Command rigCommand(CLI::App *root) {
   app->add_option("--views", options->views, "Frames of each kind, at most")
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000u));
-  app->add_option("--wall-m", options->wall_m, "How far ahead walls are, in metres")
-      ->capture_default_str()
-      ->check(CLI::Range(0.3, 5.0));
   app->add_option("--keypoints", options->keypoints, "Of all cameras together, at most")
       ->capture_default_str()
       ->check(CLI::Range(64u, 4096u));

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr uint32_t kWidth = 640, kHeight = 480, kDepthWidth = 320, kDepthHeight = 288;
-constexpr double kMostBentM = 0.01;                               // of a wall, at a metre
-constexpr double kNearestM = 0.25;                                // of anything in the ToF camera's view
+constexpr double kMostOffPlane = 0.01;                            // of inverse depth
+constexpr double kLeastWall = 0.9;                                // of the view
 constexpr double kSideways = 50 * kDegree, kDown = 40 * kDegree;  // of the further cameras
 
 sphc_camera grayCamera() {
@@ -64,19 +64,30 @@ Rigid levelPose(const Vector3 &centre_m, double heading_rad) {
   return {rotation, centre_m};
 }
 
-// Inverse depths of a plane are linear in the image.
-bool isOnePlane(const std::vector<float> &depth_m, const sphc_camera &camera) {
-  Eigen::Matrix<double, Eigen::Dynamic, 3> rays(depth_m.size(), 3);
-  Eigen::VectorXd inverse(depth_m.size());
-  for (uint32_t row = 0, at = 0; row < camera.height; ++row)
-    for (uint32_t column = 0; column < camera.width; ++column, ++at) {
-      rays.row(at) << (column + 0.5 - camera.params[2]) / camera.params[0],
-          (row + 0.5 - camera.params[3]) / camera.params[1], 1;
-      inverse[at] = 1 / static_cast<double>(depth_m[at]);
+// Share of the image that lies on the plane seen in its middle: inverse depths of a plane are linear in the image.
+double shareOfMiddlePlane(const std::vector<float> &depth_m, const sphc_camera &camera) {
+  const auto rayOf = [&](uint32_t column, uint32_t row) {
+    return Vector3((column + 0.5 - camera.params[2]) / camera.params[0],
+                   (row + 0.5 - camera.params[3]) / camera.params[1], 1);
+  };
+  const auto inverseOf = [&](uint32_t column, uint32_t row) {
+    return 1 / static_cast<double>(depth_m[row * camera.width + column]);
+  };
+  Matrix3 squares = Matrix3::Zero();
+  Vector3 sum = Vector3::Zero();
+  for (uint32_t row = 3 * camera.height / 8; row < 5 * camera.height / 8; ++row)
+    for (uint32_t column = 3 * camera.width / 8; column < 5 * camera.width / 8; ++column) {
+      squares += rayOf(column, row) * rayOf(column, row).transpose();
+      sum += inverseOf(column, row) * rayOf(column, row);
     }
-  const Eigen::Matrix3d squares = rays.transpose() * rays;
-  const Vector3 plane = squares.inverse() * (rays.transpose() * inverse);
-  return (rays * plane - inverse).cwiseAbs().maxCoeff() < kMostBentM;
+  const Vector3 plane = squares.inverse() * sum;
+  uint32_t on = 0;
+  for (uint32_t row = 0; row < camera.height; ++row)
+    for (uint32_t column = 0; column < camera.width; ++column) {
+      const double expected = plane.dot(rayOf(column, row));
+      on += std::abs(inverseOf(column, row) - expected) < kMostOffPlane * expected;
+    }
+  return static_cast<double>(on) / (camera.width * camera.height);
 }
 
 }  // namespace
@@ -89,7 +100,7 @@ void RigHeadset::setCameras(uint32_t cameras, std::vector<sphc_localizer_camera>
   config->rig.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
   further->clear();
   for (uint32_t i = 1; i < cameras; ++i)
-    further->push_back({sizeof(sphc_localizer_camera), 0, grayCamera(), rigidToC(colorFromCamera(i))});
+    further->push_back({sizeof(sphc_localizer_camera), 0, grayCamera(), rigidToC(colorFromCamera(i)), 0});
   config->cameras = further->empty() ? nullptr : further->data();
   config->camera_count = static_cast<uint32_t>(further->size());
 }
@@ -124,19 +135,12 @@ sphc_localizer_frame RigHeadset::frameOf(const RigShot &shot, int64_t time_ns, u
   return frame;
 }
 
-bool RigHeadset::faceWall(const Rigid &world_from_camera, double heading_rad, double wall_m, int64_t time_ns,
-                          Rigid *facing) const {
-  const sphc_camera coarse = coarseCamera(), wide = wideCamera();
-  std::vector<float> depth_m(size_t{coarse.width} * coarse.height), wide_m(size_t{wide.width} * wide.height);
-  Rigid pose = levelPose(world_from_camera.translation_m, heading_rad);
-  render(room_, time_ns, coarse, pose, nullptr, nullptr, depth_m.data());
-  const auto ahead_m = static_cast<double>(depth_m[coarse.width * coarse.height / 2 + coarse.width / 2]);
-  pose.translation_m += (ahead_m - wall_m) * pose.rotation.col(2);
-  render(room_, time_ns, coarse, pose, nullptr, nullptr, depth_m.data());
-  if (!isOnePlane(depth_m, coarse)) return false;
-  render(room_, time_ns, wide, pose * colorFromDepth(), nullptr, nullptr, wide_m.data());
-  *facing = pose;
-  return static_cast<double>(*std::min_element(wide_m.begin(), wide_m.end())) > kNearestM;
+bool RigHeadset::faceWall(const Vector3 &centre_m, double heading_rad, int64_t time_ns, Rigid *facing) const {
+  const sphc_camera coarse = coarseCamera();
+  std::vector<float> depth_m(size_t{coarse.width} * coarse.height);
+  *facing = levelPose(centre_m, heading_rad);
+  render(room_, time_ns, coarse, *facing, nullptr, nullptr, depth_m.data());
+  return shareOfMiddlePlane(depth_m, coarse) > kLeastWall;
 }
 
 }  // namespace sphc::host

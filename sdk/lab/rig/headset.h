@@ -36,10 +36,8 @@ class RigHeadset {
   static sphc_localizer_frame frameOf(const RigShot &shot, int64_t time_ns, uint32_t cameras,
                                       std::vector<sphc_localizer_view> *views);
 
-  // Where the headset looks level at a wall so far ahead, and the first camera at nothing else: in this direction,
-  // at this height.  False where there is furniture.
-  bool faceWall(const Rigid &world_from_camera, double heading_rad, double wall_m, int64_t time_ns,
-                Rigid *facing) const;
+  // Where the headset looks level in a direction.  False where the first camera sees more than a wall there.
+  bool faceWall(const Vector3 &centre_m, double heading_rad, int64_t time_ns, Rigid *facing) const;
 
  private:
   const sphc_simulated *room_;

@@ -9,7 +9,7 @@ namespace sphc::host {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr uint32_t kHeadings = 8;
+constexpr uint32_t kHeadings = 16;
 
 struct Viewpoint {
   std::string view;
@@ -39,7 +39,8 @@ std::vector<Viewpoint> viewpointsOf(const RigInput &input) {
     sphc_simulated_frame_times(input.room, i % frames, &time_ns, nullptr);
     const double heading_rad = (i / frames * 3 + i % frames) % kHeadings * 2 * M_PI / kHeadings;
     Rigid facing;
-    if (!headset.faceWall(walkPose(input.room, time_ns), heading_rad, input.wall_m, time_ns, &facing)) continue;
+    const Vector3 centre_m = walkPose(input.room, time_ns).translation_m;
+    if (!headset.faceWall(centre_m, heading_rad, time_ns, &facing)) continue;
     all.push_back({"wall", time_ns, facing});
     ++walls;
   }
@@ -96,12 +97,6 @@ std::vector<RigRow> runRig(const RigInput &input, const RigProgress &progress) {
       const spherecloud::Status status = localizers[cameras - 1].process(frame, &result);
       if (status.failed()) throw std::runtime_error(status.text());
       RigRow &row = rows[(at.view == "walk" ? 0 : RigHeadset::kCameras) + cameras - 1];
-      if (at.view == "wall" && cameras == 4)
-        fprintf(stderr,
-                "%u: outcome %d kp %u lifted %u matches %u inl %u faults %u hints %u samples %u at %.2f %.2f\n", i,
-                result.outcome, result.keypoints, result.lifted, result.matches, result.inliers, result.faults,
-                result.hints, result.iterations, at.world_from_camera.translation_m.x(),
-                at.world_from_camera.translation_m.y());
       judge(result, at.world_from_camera.inverse() * world_from_map, &row);
     }
     progress(i + 1, static_cast<uint32_t>(viewpoints.size()));

@@ -15,7 +15,6 @@ struct RigInput {
   Vector3 centre_in_world_m = Vector3::Zero();
   uint32_t views = 0;  // of each kind, at most
   uint32_t keypoints = 0;
-  double wall_m = 0;  // how far ahead walls are
 };
 
 struct RigRow {

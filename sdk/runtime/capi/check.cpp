@@ -36,6 +36,8 @@ bool checkNumbers(const sphc_localizer_config &c, sphc_message *message) {
          inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
          inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
          inRange("amplitude_min", c.amplitude_min, 0, 65535, message) &&
+         inRange("color_row_time_ns", static_cast<double>(c.color_row_time_ns), -SPHC_ROW_TIME_MAX_NS,
+                 SPHC_ROW_TIME_MAX_NS, message) &&
          inRange("color_band", c.color_band, SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
          inRange("log_level", c.log_level, SPHC_LOG_ERROR, SPHC_LOG_DEBUG, message);
@@ -155,7 +157,9 @@ sphc_status readCameras(ConfigCopy *copy, sphc_message *message) {
     const sphc_localizer_camera &own = copy->cameras[i];
     sphc_message found;
     if (!checkCamera(own.camera, "config.cameras[i].camera", &found) ||
-        !checkMount("config.cameras[i].color_from_camera", own.color_from_camera, &found))
+        !checkMount("config.cameras[i].color_from_camera", own.color_from_camera, &found) ||
+        !inRange("config.cameras[i]", "row_time_ns", static_cast<double>(own.row_time_ns), -SPHC_ROW_TIME_MAX_NS,
+                 SPHC_ROW_TIME_MAX_NS, &found))
       return refuseElement(i, SPHC_E_ARGUMENT, found, message);
   }
   return SPHC_OK;

@@ -9,6 +9,8 @@ namespace {
 
 Vector3 vectorFrom(const double v[3]) { return Vector3(v[0], v[1], v[2]); }
 
+double signedSeconds(int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
 uint32_t microseconds(uint64_t ns) { return static_cast<uint32_t>(std::min<uint64_t>(ns / 1000, UINT32_MAX)); }
 
 DepthCalibration depthPriorFrom(const sphc_localizer_config &config) {
@@ -91,7 +93,9 @@ LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
   own.depth_camera = Camera(config.rig.depth_camera);
   own.color_from_depth = rigidFromC(config.rig.color_from_depth);
   for (uint32_t i = 0; i < config.camera_count; ++i)
-    own.further.push({Camera(config.cameras[i].camera), rigidFromC(config.cameras[i].color_from_camera)});
+    own.further.push({Camera(config.cameras[i].camera), rigidFromC(config.cameras[i].color_from_camera),
+                      signedSeconds(config.cameras[i].row_time_ns)});
+  own.color_row_time_s = signedSeconds(config.color_row_time_ns);
   own.depth_sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
                       config.depth_sigma_per_m2};
   own.depth_layout = depthLayoutFrom(config.depth_format);

@@ -24,6 +24,7 @@ constexpr uint32_t kMostCameras = 8;  // of a rig, the colour camera among them
 struct RigCamera {
   Camera camera;
   Rigid color_from_camera;
+  double row_time_s = 0;  // from a row's exposure to that of the next
 };
 using FurtherCameras = FixedVector<RigCamera, kMostCameras - 1>;
 
@@ -36,6 +37,7 @@ struct LocalizerConfig {
 
   Camera color_camera, depth_camera;
   Rigid color_from_depth;
+  double color_row_time_s = 0;
   FurtherCameras further;
   DepthSensor depth_sensor = {};
   DepthLayout depth_layout;

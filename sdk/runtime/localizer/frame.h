@@ -39,7 +39,7 @@ struct FrameInput {
   std::optional<Camera> color_camera;
   std::optional<Rigid> color_from_depth;
   FurtherViews further;  // none, or one of each camera
-  ByteView depth;  // of the config's layout
+  ByteView depth;        // of the config's layout
   AmplitudeView amplitude;
   Known known;
   int64_t time_limit_ns = 0;  // from the beginning of its processing; 0: none

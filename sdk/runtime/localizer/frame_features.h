@@ -7,7 +7,8 @@ namespace sphc {
 struct FrameFeatures {
   static void layout(const LocalizerConfig &config, Arena &state, FrameFeatures *features);
 
-  // Keeps the colour image as grey: what follows the features looks at it too, and the caller's may be gone by then.
+  // Keeps the colour image as grey: what follows the features looks at it too, and the caller's may be gone by
+  // then.
   void keepGray(const ColorView &color);
 
   FeatureRoom room;

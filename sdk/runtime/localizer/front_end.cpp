@@ -84,12 +84,17 @@ void FrontEnd::show(const FrameFeatures &features) {
 }
 
 void FrontEnd::setRig(const FrameRig &rig) {
+  motion_ = rig.motion;
   color_.focal_px = rig.color_camera.focal();
+  color_.row_time_s = rig.color_row_time_s;
+  color_.middle_row_px = 0.5 * rig.color_camera.height();
   color_.aligner.setColor(rig.color_camera, rig.color_from_depth);
   for (size_t i = 0; i < rig.further.size(); ++i) {
     const RigCamera &now = rig.further[i];
     Eye &eye = further_[i];
     eye.focal_px = now.camera.focal();
+    eye.row_time_s = now.row_time_s;
+    eye.middle_row_px = 0.5 * now.camera.height();
     eye.color_from_camera = now.color_from_camera;
     eye.aligner.setColor(now.camera, now.color_from_camera.inverse() * rig.color_from_depth);
   }
@@ -108,7 +113,8 @@ void FrontEnd::lift(ImageView<uint16_t> depth, const FrameRig &rig, const Deadli
       break;
     }
     const Keypoint &at = room_.keypoints[k];
-    observations_[k] = {at.x_px, at.y_px, at.scale_px, 0, 0, static_cast<uint8_t>(room_.cameraOf(k)), false, false, false};
+    observations_[k] = {at.x_px, at.y_px, at.scale_px, 0, 0, static_cast<uint8_t>(room_.cameraOf(k)),
+                        false,   false,   false};
     keypoint_of_[k] = k;
     double z_m = 0;
     if (!liftOne(depth, k, &z_m)) continue;
@@ -126,11 +132,28 @@ void FrontEnd::mirror() {
   }
 }
 
+// Of a rolling shutter: where a keypoint would be if its row had been exposed with the middle one.
+Vector2 FrontEnd::atMidTime(const Eye &eye, ImageView<uint16_t> depth, const Vector2 &pixel_px) const {
+  if (eye.row_time_s == 0) return pixel_px;
+  Vector3 point_m;
+  double sigma_z = 0;
+  if (!eye.aligner.lift(depth, pixel_px, &point_m, &sigma_z)) {
+    if (!eye.aligner.bearing(pixel_px, &point_m)) return pixel_px;
+    point_m *= tuning::kRayM;
+  }
+  const double since_s = (eye.middle_row_px - pixel_px.y()) * eye.row_time_s;
+  const Vector3 at_color_m = eye.color_from_camera * point_m;
+  const Vector3 moved_m = since_s * (motion_.turn_rad_s.cross(at_color_m) + motion_.shift_m_s);
+  point_m += eye.color_from_camera.rotation.transpose() * moved_m;
+  Vector2 middle_px;
+  return eye.aligner.project(point_m, &middle_px) ? middle_px : pixel_px;
+}
+
 // Fills lifted_[k]: with depth, else as a ray.
 bool FrontEnd::liftOne(ImageView<uint16_t> depth, uint32_t k, double *z_m) {
   const Eye &eye = eyeOf(k);
   const Keypoint &keypoint = room_.keypoints[k];
-  const Vector2 pixel_px = {keypoint.x_px, keypoint.y_px};
+  const Vector2 pixel_px = atMidTime(eye, depth, {keypoint.x_px, keypoint.y_px});
   const double coarseness = static_cast<double>(keypoint.scale_px) / tuning::kFineScalePx;
   const double sigma_px = pixel_sigma_px_ * (coarseness > 1 ? coarseness : 1.0);
   const bool is_further = &eye != &color_;

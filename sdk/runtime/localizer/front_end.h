@@ -4,6 +4,7 @@
 #include "runtime/localizer/config.h"
 #include "runtime/localizer/frame_features.h"
 #include "runtime/localizer/result.h"
+#include "runtime/localizer/tracker.h"
 #include "runtime/stages/align/sparse.h"
 #include "runtime/types/correspondence.h"
 
@@ -14,6 +15,8 @@ struct FrameRig {
   Camera color_camera;
   Rigid color_from_depth;
   FurtherCameras further;
+  double color_row_time_s = 0;
+  CameraRate motion;  // of the colour camera
 };
 
 class FrontEnd {
@@ -48,7 +51,7 @@ class FrontEnd {
 
  private:
   struct Eye {
-    double focal_px = 0;
+    double focal_px = 0, row_time_s = 0, middle_row_px = 0;
     Rigid color_from_camera;
     SparseAligner aligner;
   };
@@ -57,10 +60,12 @@ class FrontEnd {
     return camera == 0 ? color_ : further_[camera - 1];
   }
   void setRig(const FrameRig &rig);
+  Vector2 atMidTime(const Eye &eye, ImageView<uint16_t> depth, const Vector2 &pixel_px) const;
   bool liftOne(ImageView<uint16_t> depth, uint32_t keypoint, double *z_m);
   void toFront(uint32_t keypoint);
 
   double pixel_sigma_px_ = 0, map_sigma_m_ = 0;
+  CameraRate motion_;
   RigExtractor extractor_;
   Eye color_;
   Span<Eye> further_;  // in state

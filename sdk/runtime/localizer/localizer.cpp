@@ -118,7 +118,8 @@ LocalizerResult Localizer::process(const FrameInput &frame) {
   follow(frame);
   Prediction expected;
   const bool is_expected = expects(frame.known, kMostConeInHasteRad, &expected);
-  front_.extract(frame.color, frame.further, deadline.afterShare(is_expected ? kFeaturesNearShare : kFeaturesShare));
+  front_.extract(frame.color, frame.further,
+                 deadline.afterShare(is_expected ? kFeaturesNearShare : kFeaturesShare));
   const int64_t extracted = config_.clock.now();
   LocalizerResult result = locateShown(frame, deadline, extracted);
   result.times.features_ns = elapsedNs(begin, extracted);
@@ -196,12 +197,14 @@ FrameRig Localizer::rigOf(const FrameInput &frame) const {
   rig.color_camera = frame.color_camera.value_or(config_.color_camera);
   rig.color_from_depth =
       atColorTime(frame, frame.depth_time_ns, frame.color_from_depth.value_or(config_.color_from_depth));
+  rig.color_row_time_s = config_.color_row_time_s;
+  if (config_.tracks) rig.motion = tracker_.rate();
   for (size_t i = 0; i < frame.further.size(); ++i) {
     const FurtherView &view = frame.further[i];
     const RigCamera &known = config_.further[i];
-    rig.further.push(
-        {view.camera.value_or(known.camera),
-         atColorTime(frame, view.time_ns, view.color_from_camera.value_or(known.color_from_camera))});
+    rig.further.push({view.camera.value_or(known.camera),
+                      atColorTime(frame, view.time_ns, view.color_from_camera.value_or(known.color_from_camera)),
+                      known.row_time_s});
   }
   return rig;
 }

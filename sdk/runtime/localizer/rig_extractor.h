@@ -20,8 +20,8 @@ class RigExtractor {
   static void layout(const LocalizerConfig &config, Arena &state, Arena &scratch, RigExtractor *extractor);
   void init() { extractor_.init(); }
 
-  // Returns how many features were found, strongest response first.  Each camera gets an even share of the keypoints
-  // and of the time; what one leaves, those after it get.
+  // Returns how many features were found, strongest response first.  Each camera gets an even share of the
+  // keypoints and of the time; what one leaves, those after it get.
   uint32_t extract(GrayView color, const FurtherViews &further, const FeatureRoom &room, const Deadline &deadline);
   // Did the deadline leave something out of the last call?
   bool wasCut() const { return cut_; }

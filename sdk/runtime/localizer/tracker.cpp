@@ -69,6 +69,16 @@ bool Tracker::motionSince(int64_t then_ns, Rigid *now_from_then) const {
   return true;
 }
 
+CameraRate Tracker::rate() const {
+  constexpr int64_t kApartNs = 5000000;
+  CameraRate rate;
+  Rigid now_from_then;
+  if (!motionSince(time_ns_ - kApartNs, &now_from_then)) return rate;
+  rate.turn_rad_s = vectorFromRotation(now_from_then.rotation) / secondsOf(kApartNs);
+  rate.shift_m_s = now_from_then.translation_m / secondsOf(kApartNs);
+  return rate;
+}
+
 bool Tracker::predict(Prediction *prediction) const {
   if (!has_pose_) return false;
   prediction->map = map_;

@@ -29,6 +29,11 @@ struct Prediction {
   double rotation_sigma_rad = 0, translation_sigma_m = 0;
 };
 
+// How a point that stands still moves in the camera's own frame: by turn x point + shift, a second.
+struct CameraRate {
+  Vector3 turn_rad_s = Vector3::Zero(), shift_m_s = Vector3::Zero();
+};
+
 // The same camera in another map; false where it is in that map already, or where it is not known how the two lie.
 bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, Prediction *there);
 
@@ -56,6 +61,8 @@ class Tracker {
   // Motion of the camera since another time near this frame's, by the odometry around it; false where that says
   // nothing.
   bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
+  // At this frame, by odometry; zero where that says nothing.
+  CameraRate rate() const;
   // After the frame: how the camera moves, for times of the caller's; false where no pose is known.  The trail has
   // every pose that was accepted.
   bool motion(const Trail &trail, Motion *motion) const;

@@ -177,7 +177,7 @@ TEST(Kernels, SolversGiveTheScalarBits) {
     Random random(2);
     uint32_t valid = 0, valid_upright = 0;
     for (int trial = 0; trial < 200; ++trial) {
-      const MinimalBatch batch = batchOf(randomProblem(3 * kMinimalBatch, &random));
+      const MinimalBatch batch = batchOf(randomProblem(3 * kMinimalBatch, false, &random));
       PoseBatch ours, scalar;
       simdPoseKernels().solve_p3p(batch, &ours);
       scalarPoseKernels().solve_p3p(batch, &scalar);
