@@ -117,8 +117,7 @@ sphc_status sphc_simulated_render_view(const sphc_simulated *simulated, int64_t 
                                        const sphc_rigid *world_from_camera, uint8_t *rgb, uint16_t *depth,
                                        float *depth_m) {
   if (simulated == nullptr || camera == nullptr || world_from_camera == nullptr) return SPHC_E_ARGUMENT;
-  const bool has_lens =
-      camera->model == SPHC_CAMERA_BROWN5 || camera->model == SPHC_CAMERA_KANNALA_BRANDT4;
+  const bool has_lens = camera->model == SPHC_CAMERA_BROWN5 || camera->model == SPHC_CAMERA_KANNALA_BRANDT4;
   if (!has_lens || camera->width == 0 || camera->height == 0 || camera->width % sphc::simulated::kTile != 0)
     return SPHC_E_ARGUMENT;
   return guarded(nullptr, [&] {

@@ -164,10 +164,10 @@ sphc_status sphc_simulated_render_depth(const sphc_simulated *simulated, uint32_
 sphc_status sphc_simulated_render_amplitude(const sphc_simulated *simulated, uint32_t index, uint16_t *amplitude);
 
 /* What a camera sees that the headset does not have, such as the further cameras of a rig: at a moment of the
- * start_time_ns clock, still, where world_from_camera is; with the noise of the headset's own.  The camera is BROWN5
- * or KANNALA_BRANDT4, its width a multiple of 16, and it sees less than 80 degrees off its axis.  rgb is RGB8, depth
- * in DEPTH_UNIT_M as of a ToF camera, depth_m exact z in metres; each tightly packed in caller memory, and each may be
- * null.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
+ * start_time_ns clock, still, where world_from_camera is; with the noise of the headset's own.  The camera is
+ * BROWN5 or KANNALA_BRANDT4, its width a multiple of 16, and it sees less than 85 degrees off its axis.  rgb is
+ * RGB8, depth in DEPTH_UNIT_M as of a ToF camera, depth_m exact z in metres; each tightly packed in caller memory,
+ * and each may be null.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_render_view(const sphc_simulated *simulated, int64_t time_ns, const sphc_camera *camera,
                                        const sphc_rigid *world_from_camera, uint8_t *rgb, uint16_t *depth,
                                        float *depth_m);

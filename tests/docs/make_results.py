@@ -204,6 +204,10 @@ def others(pipeline):
          "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a double for every fourth\n"
          "room. Wrong: in the map of another room, or beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#several-maps).",
          flat(rows("maps.csv"), ["maps"])),
+        ("Rigs of several cameras", "pipeline/rig.csv", "rig_results",
+         "Cold frames of twelve simulated rooms with bare walls, by the first camera of a rig and by more of them, with as many\n"
+         "keypoints in all: as the walk looks, and with nothing but a wall ahead. Method: [localizer.md](localizer.md#rigs-of-several-cameras).",
+         flat(rows("rig.csv"), ["view"])),
         ("Broken sensors", "pipeline/negative.csv", "negative_results",
          "Sequences of 30 frames, broken in every way. Wrong: beyond 25 cm or 10 deg; sure: with a confidence above 0.5.\n"
          "`named`: frames whose result names a fault. Method: [consistency.md](consistency.md).",

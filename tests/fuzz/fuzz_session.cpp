@@ -10,8 +10,24 @@ namespace {
 
 constexpr uint32_t kMaps = 3, kViewpoints = 3, kMostCalls = 40;
 
+// A second camera, turned a little, of images as large as the first one's.
+const sphc_localizer_camera &sideCamera() {
+  static const sphc_localizer_camera camera = [] {
+    sphc_localizer_camera made;
+    sphc_localizer_camera_init(&made, sizeof made);
+    made.camera = smallConfig().rig.color_camera;
+    made.color_from_camera = {{0.995, 0, 0.0998749, 0}, {0.06, 0, 0.01}};
+    made.row_time_ns = 20000;
+    return made;
+  }();
+  return camera;
+}
+
 sphc_localizer_config trackingConfig() {
   sphc_localizer_config config = smallConfig();
+  config.cameras = &sideCamera();
+  config.camera_count = 1;
+  config.color_row_time_ns = 50000;
   config.mode = SPHC_MODE_TRACKING;
   config.max_maps = kMaps - 1;  // so that it can be full
   config.depth_offset_sigma_m = 0.01;
@@ -85,11 +101,32 @@ class Play {
     sphc_localizer_frame frame = material_.frames[reader_.next() % kViewpoints]->frame;
     frame.color_time_ns = time_ns_ += int64_t{1000000} * reader_.next();
     frame.depth_time_ns = frame.color_time_ns + around(0, &reader_);
+    fillView();
+    frame.views = &view_.its;
+    frame.view_count = around(1, &reader_);
     if (reader_.next() < 100) {
       prior_.its = priorFrom(&reader_);
       frame.prior = &prior_.its;
     }
     return frame;
+  }
+  void fillView() {
+    sphc_localizer_view &view = view_.its;
+    view = {};
+    view.struct_size = around(sizeof view, &reader_);
+    view.time_ns = time_ns_ + around(0, &reader_);
+    view.image = material_.frames[reader_.next() % kViewpoints]->frame.color;
+    view.image.width = around(view.image.width, &reader_);
+    if (reader_.next() < 50) view.image.data = nullptr;
+    if (reader_.next() < 50) {
+      camera_ = sideCamera().camera;
+      camera_.params[reader_.next() % 12] = anyNumber(&reader_);
+      view.camera = &camera_;
+    }
+    if (reader_.next() < 50) {
+      fill(&mount_, &reader_);
+      view.color_from_camera = &mount_;
+    }
   }
   void isAnswered(sphc_status status) const {
     explains(status);
@@ -222,6 +259,9 @@ class Play {
   sphc_localizer *localizer_ = nullptr;
   sphc_features *features_ = nullptr;
   Roomy<sphc_localizer_prior> prior_;
+  Roomy<sphc_localizer_view> view_;
+  sphc_camera camera_ = {};  // what a view points to
+  sphc_rigid mount_ = {};
   sphc_localizer_result result_ = {};
   int64_t time_ns_ = 0;
 };

@@ -154,8 +154,8 @@ HWY_INLINE PlaneV planeOf(const PoseRows &rows, const PoseV &pose, size_t at) {
   const V3 point = fromCentre(rows, load3(rows, kPointX, at), at), parallax = cross(p.view, p.ray);
   p.weight = hn::Mul(hn::Load(d, rows.field[kWeight] + at), dot(point, point));
   p.squared = hn::Mul(p.weight, square(p.sine));
-  p.in_front = hn::And(hn::Gt(dot(p.normal, parallax), hn::Zero(d)),
-                       hn::Gt(dot(cross(t, p.view), parallax), hn::Zero(d)));
+  p.in_front =
+      hn::And(hn::Gt(dot(p.normal, parallax), hn::Zero(d)), hn::Gt(dot(cross(t, p.view), parallax), hn::Zero(d)));
   return p;
 }
 
