@@ -10,30 +10,37 @@ namespace {
 
 class SimulatedView : public testing::Test {
  protected:
-  SimulatedView() : handle_(still()) {
-    EXPECT_EQ(sphc_simulated_rig(handle_.get(), &rig_), SPHC_OK);
-    EXPECT_EQ(sphc_simulated_frame_times(handle_.get(), 5, &time_ns_, nullptr), SPHC_OK);
-    EXPECT_EQ(sphc_simulated_pose_at(handle_.get(), time_ns_, &world_from_color_), SPHC_OK);
-  }
-  static sphc_simulated_config still() {
+  static void SetUpTestSuite() {
     sphc_simulated_config config = defaults();
     config.seed = 3;
     config.color_noise = config.motion_blur = 0;
-    return config;
+    handle_ = new Handle(config);
+    ASSERT_EQ(sphc_simulated_rig(room(), &rig_), SPHC_OK);
+    ASSERT_EQ(sphc_simulated_frame_times(room(), 5, &time_ns_, nullptr), SPHC_OK);
+    ASSERT_EQ(sphc_simulated_pose_at(room(), time_ns_, &world_from_color_), SPHC_OK);
   }
+  static void TearDownTestSuite() {
+    delete handle_;
+    handle_ = nullptr;
+  }
+  static sphc_simulated *room() { return handle_->get(); }
 
-  Handle handle_;
-  sphc_rig rig_;
-  int64_t time_ns_ = 0;
-  sphc_rigid world_from_color_;
+  static Handle *handle_;
+  static sphc_rig rig_;
+  static int64_t time_ns_;
+  static sphc_rigid world_from_color_;
 };
+Handle *SimulatedView::handle_ = nullptr;
+sphc_rig SimulatedView::rig_;
+int64_t SimulatedView::time_ns_ = 0;
+sphc_rigid SimulatedView::world_from_color_;
 
 TEST_F(SimulatedView, OfTheColourCameraIsItsImage) {
   std::vector<uint8_t> expected(3 * kColorPixels), rgb(expected.size());
   std::vector<float> depth_m(kColorPixels), exact_m(kColorPixels);
-  ASSERT_EQ(sphc_simulated_render_color(handle_.get(), 5, expected.data()), SPHC_OK);
-  ASSERT_EQ(sphc_simulated_oracle_depth(handle_.get(), time_ns_, exact_m.data()), SPHC_OK);
-  ASSERT_EQ(sphc_simulated_render_view(handle_.get(), time_ns_, &rig_.color_camera, &world_from_color_, rgb.data(),
+  ASSERT_EQ(sphc_simulated_render_color(room(), 5, expected.data()), SPHC_OK);
+  ASSERT_EQ(sphc_simulated_oracle_depth(room(), time_ns_, exact_m.data()), SPHC_OK);
+  ASSERT_EQ(sphc_simulated_render_view(room(), time_ns_, &rig_.color_camera, &world_from_color_, rgb.data(),
                                        nullptr, depth_m.data()),
             SPHC_OK);
   EXPECT_EQ(rgb, expected);
@@ -44,7 +51,7 @@ TEST_F(SimulatedView, DepthIsMeasuredAsByTheToFCamera) {
   const size_t pixels = size_t{SPHC_SIMULATED_DEPTH_WIDTH} * SPHC_SIMULATED_DEPTH_HEIGHT;
   std::vector<uint16_t> depth(pixels);
   std::vector<float> exact_m(pixels);
-  ASSERT_EQ(sphc_simulated_render_view(handle_.get(), time_ns_, &rig_.depth_camera, &world_from_color_, nullptr,
+  ASSERT_EQ(sphc_simulated_render_view(room(), time_ns_, &rig_.depth_camera, &world_from_color_, nullptr,
                                        depth.data(), exact_m.data()),
             SPHC_OK);
   size_t measured = 0, near = 0;
@@ -60,8 +67,7 @@ TEST_F(SimulatedView, DepthIsMeasuredAsByTheToFCamera) {
 TEST_F(SimulatedView, CamerasThatCannotBeDrawnAreRefused) {
   std::vector<uint8_t> rgb(3 * kColorPixels);
   const auto render = [&](const sphc_camera &camera) {
-    return sphc_simulated_render_view(handle_.get(), time_ns_, &camera, &world_from_color_, rgb.data(), nullptr,
-                                      nullptr);
+    return sphc_simulated_render_view(room(), time_ns_, &camera, &world_from_color_, rgb.data(), nullptr, nullptr);
   };
   sphc_camera camera = rig_.color_camera;
   camera.width = 636;

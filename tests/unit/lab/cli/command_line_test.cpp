@@ -28,7 +28,7 @@ TEST_P(LabHelpTest, TeachesByExample) {
 
 INSTANTIATE_TEST_SUITE_P(EachSubcommand, LabHelpTest,
                          testing::Values("align", "compare", "features", "frame", "map", "match", "pose", "predict",
-                                         "recording", "releases"));
+                                         "recording", "releases", "rig"));
 
 class LabUsageTest : public testing::TestWithParam<const char *> {};
 

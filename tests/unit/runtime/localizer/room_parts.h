@@ -72,7 +72,14 @@ class RoomParts {
     const FrameInput frame = frameFrom(made.frame, MapSet());
     front.extract(frame.color, frame.further);
     const auto height = static_cast<int32_t>(made.frame.depth.height), columns = static_cast<int32_t>(width);
-    front.lift({made.images.depth_mm.data(), columns, height, columns}, {config.color_camera, config.color_from_depth, {}});
+    front.lift({made.images.depth_mm.data(), columns, height, columns}, cameras());
+  }
+  // As the config has them.
+  FrameRig cameras() const {
+    FrameRig rig;
+    rig.color_camera = config.color_camera;
+    rig.color_from_depth = config.color_from_depth;
+    return rig;
   }
   // The truth.
   Rigid cameraFromMap(uint32_t viewpoint, uint32_t room = 0) const {

@@ -118,8 +118,7 @@ TEST_F(SearchTest, TheRoomThatIsSeenIsTheLikeliest) {
 TEST_F(SearchTest, WithoutASignOnlySoManyAreTried) {
   parts_.see(0);
   const std::vector<uint16_t> nothing(200 * 160);
-  parts_.front.lift({nothing.data(), 200, 160, 200},
-                    {parts_.config.color_camera, parts_.config.color_from_depth, {}});
+  parts_.front.lift({nothing.data(), 200, 160, 200}, parts_.cameras());
   const MapOrder order = parts_.search.rankMaps(parts_.front, {}, &parts_.work);
   EXPECT_EQ((std::vector<uint32_t>(order.begin(), order.end())), (std::vector<uint32_t>{0, 1, 2}));
 }
