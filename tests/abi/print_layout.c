@@ -89,6 +89,10 @@ int main(void) {
   FIELD(sphc_localizer_config, amplitude_min);
   FIELD(sphc_localizer_config, color_band);
   FIELD(sphc_localizer_config, reserved2);
+  FIELD(sphc_localizer_config, parallel);
+  FIELD(sphc_localizer_config, parallel_user);
+  FIELD(sphc_localizer_config, parallel_tasks);
+  FIELD(sphc_localizer_config, reserved3);
   WHOLE(sphc_localizer_prior);
   FIELD(sphc_localizer_prior, struct_size);
   FIELD(sphc_localizer_prior, flags);

@@ -434,6 +434,12 @@ SPHC_API const char *sphc_log_level_name(sphc_log_level level); /* [pure] */
 typedef void (*sphc_log_fn)(void *user, sphc_log_level level, const char *text, size_t length);
 /* Monotonic clock in nanoseconds, from the caller: the library makes no OS call. */
 typedef int64_t (*sphc_clock_fn)(void *user);
+/* A piece of a frame's work, for sphc_parallel_fn: nothing is known of the thread that it runs on. */
+typedef void (*sphc_task_fn)(void *task_data, uint32_t index);
+/* Threads of the caller's: calls task(task_data, i) once for every i from 0 to count - 1, in any order, at the same
+ * time as far as it has threads for it, and returns when all have ended. */
+typedef void (*sphc_parallel_fn)(void *user, uint32_t count, sphc_task_fn task, void *task_data);
+#define SPHC_PARALLEL_MAX 8u /* pieces of a frame's work */
 
 /* Whether frames belong together. */
 typedef int32_t sphc_localizer_mode;
@@ -486,6 +492,17 @@ typedef struct sphc_localizer_config {
   uint32_t amplitude_min;
   sphc_band color_band; /* what the colour camera sees; maps of another band are refused */
   uint32_t reserved2;
+
+  /* Lets a frame use several cores; the same bytes in the results whatever it does, where no deadline is set. null:
+   * the calling thread does all.  Called one to a few dozen times a frame, on the thread of the call, and where
+   * sphc_localizer_extract runs beside another call, by both at the same time.  Its tasks read config.clock where
+   * the frame has a deadline, so the clock must bear several threads; nothing else of the caller's is called. */
+  sphc_parallel_fn parallel;
+  void *parallel_user;
+  /* Pieces that its work is cut into at most: as many as there are threads for it, 1 to SPHC_PARALLEL_MAX; each
+   * more than one needs memory.  0 where parallel is null. */
+  uint32_t parallel_tasks;
+  uint32_t reserved3;
 } sphc_localizer_config;
 
 /* What is known of a pose before its frame is looked at. */
@@ -664,6 +681,11 @@ SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, 
  * set; depth_width x depth_height is the depth camera's image. */
 #define SPHC_LOCALIZER_DEPTH_BYTES_MAX(depth_width, depth_height) \
   (UINT64_C(65536) + UINT64_C(2) * (depth_width) * (depth_height))
+
+/* What is added to the scratch where config.parallel_tasks is more than 1. */
+#define SPHC_LOCALIZER_PARALLEL_BYTES_MAX(max_keypoints, color_width, parallel_tasks) \
+  (UINT64_C(1) * (parallel_tasks) *                                                   \
+   (UINT64_C(65536) + UINT64_C(128) * (max_keypoints) + UINT64_C(1024) * (color_width)))
 
 /* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static
  * storage. [pure] */

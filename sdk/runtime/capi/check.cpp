@@ -1,6 +1,7 @@
 #include "runtime/capi/check.h"
 
 #include "runtime/base/message.h"
+#include "runtime/base/parallel.h"
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
@@ -48,6 +49,17 @@ bool checkTogether(const sphc_localizer_config &c, sphc_message *message) {
     return false;
   }
   return true;
+}
+
+static_assert(SPHC_PARALLEL_MAX == Parallel::kMostPieces);
+
+bool checkParallel(const sphc_localizer_config &c, sphc_message *message) {
+  if (c.parallel) return inRange("parallel_tasks", c.parallel_tasks, 1, SPHC_PARALLEL_MAX, message);
+  if (!c.parallel_tasks) return true;
+  MessageWriter(message) << "config.parallel_tasks is " << c.parallel_tasks
+                         << ", but config.parallel is null; give it a function that runs tasks, or set "
+                            "parallel_tasks to 0";
+  return false;
 }
 
 bool priorInRange(const char *name, double value, double low, double high, sphc_message *message) {
@@ -233,6 +245,7 @@ sphc_status readConfig(const sphc_localizer_config *config, sphc_localizer_confi
   if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
   if (status != SPHC_OK) return status;
   const bool fine = checkNumbers(*copy, message) && checkTogether(*copy, message) &&
+                    checkParallel(*copy, message) &&
                     checkDepthFormat(copy->depth_format, copy->rig, copy->depth_max_m, message);
   return fine ? SPHC_OK : SPHC_E_ARGUMENT;
 }

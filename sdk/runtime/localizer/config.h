@@ -1,6 +1,7 @@
 // What a localizer is told once.
 #pragma once
 #include "runtime/base/clock.h"
+#include "runtime/base/parallel.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/types/depth_calibration.h"
@@ -34,6 +35,7 @@ struct LocalizerConfig {
   double map_sigma_m = 0;        // error of a map point across its direction
 
   Clock clock;
+  Parallel parallel;
 };
 
 }  // namespace sphc

@@ -19,6 +19,7 @@ FeatureConfig featureConfig(const LocalizerConfig &config) {
   features.width = config.color_camera.width();
   features.height = config.color_camera.height();
   features.max_keypoints = config.max_keypoints;
+  features.pieces = config.parallel.pieces;
   return features;
 }
 
@@ -45,7 +46,7 @@ void FrontEnd::init(const LocalizerConfig &config) {
   pixel_sigma_px_ = config.pixel_sigma_px;
   map_sigma_m_ = config.map_sigma_m;
   aligner_.init(config.color_camera, config.depth_camera, config.color_from_depth, config.depth_sensor);
-  extractor_.init();
+  extractor_.init(simdFeatureKernels(), config.parallel);
 }
 
 void FrontEnd::extract(const ColorView &color, const Deadline &deadline) {
