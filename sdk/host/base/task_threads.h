@@ -37,7 +37,7 @@ class TaskThreads {
   }
 
  private:
-  static constexpr int kAwake = 5000;  // looks for new tasks before a helper sleeps: a millisecond or two
+  static constexpr int kAwake = 1000000;  // looks for new tasks before a helper sleeps: about a millisecond
 
   void begin(sphc_task_fn task, void *task_data, uint32_t count, bool stop = false) {
     {
@@ -69,7 +69,7 @@ class TaskThreads {
 
   void help() {
     for (uint32_t seen = 0;;) {
-      for (int i = 0; i < kAwake && round_ == seen; ++i) std::this_thread::yield();
+      for (int i = 0; i < kAwake && round_ == seen; ++i) continue;
       {
         std::unique_lock<std::mutex> lock(mutex_);
         wake_.wait(lock, [&] { return round_ != seen; });

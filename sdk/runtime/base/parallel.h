@@ -19,13 +19,28 @@ struct Parallel {
   // function does; returns when all have ended.
   template <typename Piece>
   void forEach(uint32_t count, const Piece &piece) const {
-    if (count > 1) {
-      const auto call = [](void *data, uint32_t index) { (*static_cast<const Piece *>(data))(index); };
-      run(user, count, call, const_cast<Piece *>(&piece));
-    } else if (count == 1) {
-      piece(0);
-    }
+    start(
+        count, [](void *data, uint32_t index) { (*static_cast<const Piece *>(data))(index); },
+        const_cast<Piece *>(&piece));
   }
+  // The same of pieces that say whether they were done; were all?
+  template <typename Piece>
+  bool allOf(uint32_t count, const Piece &piece) const {
+    return startAll(
+        count, [](void *data, uint32_t index) { return (*static_cast<const Piece *>(data))(index); },
+        const_cast<Piece *>(&piece));
+  }
+  // The two at the same time, or one after the other.
+  template <typename First, typename Second>
+  void both(const First &first, const Second &second) const {
+    if (pieces > 1) return forEach(2, [&](uint32_t i) { i == 0 ? first() : second(); });
+    first();
+    second();
+  }
+
+ private:
+  void start(uint32_t count, Task task, void *data) const;
+  bool startAll(uint32_t count, bool (*task)(void *data, uint32_t index), void *data) const;
 };
 
 // Of things that are cut into pieces.

@@ -60,12 +60,17 @@ void ScaleSpace::layout(const FeatureConfig &config, Arena &scratch, ScaleSpace 
   ScaleSpace measured;
   ScaleSpace &self = out ? *out : measured;
   self.first_octave_ = config.first_octave < 0 ? -1 : 0;
-  self.octaves_ = octaveCount(config);
-  for (int32_t o = 0; o < self.octaves_; ++o) {
-    self.widths_[o] = sideOfOctave(firstOctaveSide(config, config.width), o);
-    self.heights_[o] = sideOfOctave(firstOctaveSide(config, config.height), o);
+  self.setSize(config);
+  for (int32_t o = 0; o < self.octaves_; ++o)
     for (Plane &plane : self.kept_[o])
       plane = takePlane(scratch, "features.levels", self.widths_[o], self.heights_[o], -1);
+}
+
+void ScaleSpace::setSize(const FeatureConfig &config) {
+  octaves_ = octaveCount(config);
+  for (int32_t o = 0; o < octaves_; ++o) {
+    widths_[o] = sideOfOctave(firstOctaveSide(config, config.width), o);
+    heights_[o] = sideOfOctave(firstOctaveSide(config, config.height), o);
   }
 }
 

@@ -83,6 +83,7 @@ class ScaleSpace {
  private:
   static BlurKernel gaussian(double sigma);
   static int32_t octaveCount(const FeatureConfig &config);
+  void setSize(const FeatureConfig &config);
 
   int32_t first_octave_ = 0, octaves_ = 0;
   int32_t widths_[kMaxOctaves] = {}, heights_[kMaxOctaves] = {};

@@ -35,10 +35,6 @@ void join(const NearestTwo &later, NearestTwo *nearest) {
   nearest->second2 = std::min(nearest->second2, later.second2);
 }
 
-bool areAll(const bool *flags, uint32_t count) {
-  return std::all_of(flags, flags + count, [](bool flag) { return flag; });
-}
-
 // Of the groups of cells, those whose cells are looked at.
 uint32_t groupsVisited(uint32_t groups, uint32_t probes) { return std::min(groups, groups / 4 + probes / 4 + 2); }
 
@@ -93,17 +89,16 @@ bool Matcher::rank(size_t query, Watch *watch) const {
 
 bool Matcher::rankUpTo(size_t count, const Deadline &deadline) {
   if (ranked_ >= count) return true;
-  bool in_time[Parallel::kMostPieces];
   const uint32_t pieces = parallel_.pieces;
-  parallel_.forEach(pieces, [&](uint32_t i) {
+  const bool in_time = parallel_.allOf(pieces, [&](uint32_t i) {
     const Part part = partOf(count - ranked_, pieces, i);
     Watch watch(deadline, kGrain);
-    in_time[i] = true;
-    for (size_t q = ranked_ + part.first; q < ranked_ + part.end && in_time[i]; ++q) in_time[i] = rank(q, &watch);
+    for (size_t q = part.first; q < part.end; ++q)
+      if (!rank(ranked_ + q, &watch)) return false;
+    return true;
   });
-  if (!areAll(in_time, pieces)) return false;
-  ranked_ = count;
-  return true;
+  if (in_time) ranked_ = count;
+  return in_time;
 }
 
 // Turns "cells of a query" into "queries of a cell", in the order of the queries.
@@ -201,17 +196,16 @@ bool Matcher::searchTogether(Part queries, const Deadline &deadline) {
     listByCell(queries);
   uint64_t work = 0;
   for (uint32_t r = 0; r < runCount(); ++r) work += run(r).work();
-  bool in_time[Parallel::kMostPieces];
   const uint32_t pieces = parallel_.pieces;
-  parallel_.forEach(pieces, [&](uint32_t i) {
+  const bool in_time = parallel_.allOf(pieces, [&](uint32_t i) {
     const Span<NearestTwo> nearest = nearestOf(i);
     std::fill(nearest.begin() + queries.first, nearest.begin() + queries.end, kStart);
     Watch watch(deadline, kGrain);
-    in_time[i] = searchRuns({work * i / pieces, work * (i + 1) / pieces}, nearest, &watch);
+    return searchRuns({work * i / pieces, work * (i + 1) / pieces}, nearest, &watch);
   });
   for (uint32_t i = 1; i < pieces; ++i)
     for (size_t q = queries.first; q < queries.end; ++q) join(nearestOf(i)[q], &nearest_[q]);
-  return areAll(in_time, pieces);
+  return in_time;
 }
 
 void Matcher::listForAll(Part queries) {
