@@ -37,7 +37,7 @@ class TaskThreads {
   }
 
  private:
-  static constexpr int kAwake = 1000000;  // looks for new tasks before a helper sleeps: about a millisecond
+  static constexpr int kAwake = 4000000;  // looks for new tasks before a helper sleeps: a millisecond or two
 
   void begin(sphc_task_fn task, void *task_data, uint32_t count, bool stop = false) {
     {
