@@ -911,7 +911,8 @@ SPHC_API void sphc_features_fini(sphc_features **features);
  * another config, among others; STRUCT_SIZE, IMAGE (sphc_features_message explains); the features stay what they
  * were.  Bounded time, no allocation, no OS call.  Exclusive with sphc_localizer_process, _extract and _fini of
  * this localizer, and with all calls of these features; every other call on the localizer may run meanwhile in
- * another thread.  Both threads then call config.clock, and the localizer's scratch is no other's. [exclusive] */
+ * another thread.  Both threads then call config.clock and config.parallel, and the localizer's scratch is no
+ * other's. [exclusive] */
 SPHC_API sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
                                             sphc_features *features);
 /* As sphc_localizer_process, from the features of the frame on: frame.color is not looked at.  The same result, to
