@@ -93,6 +93,10 @@ int main(void) {
   FIELD(sphc_localizer_config, camera_count);
   FIELD(sphc_localizer_config, reserved3);
   FIELD(sphc_localizer_config, color_row_time_ns);
+  FIELD(sphc_localizer_config, parallel);
+  FIELD(sphc_localizer_config, parallel_user);
+  FIELD(sphc_localizer_config, parallel_tasks);
+  FIELD(sphc_localizer_config, reserved4);
   WHOLE(sphc_localizer_prior);
   FIELD(sphc_localizer_prior, struct_size);
   FIELD(sphc_localizer_prior, flags);

@@ -268,7 +268,7 @@ TEST_F(CInterfaceFailure, ProcessStructSizes) {
 
 TEST_F(CInterfaceFailure, ReservedFieldsThatAreSet) {
   for (uint32_t sphc_localizer_config::*reserved :
-       {&sphc_localizer_config::reserved, &sphc_localizer_config::reserved2}) {
+       {&sphc_localizer_config::reserved, &sphc_localizer_config::reserved2, &sphc_localizer_config::reserved3}) {
     sphc_localizer_config config = config_;
     config.*reserved = 1;
     Init bad = good();

@@ -241,8 +241,8 @@ TEST_F(Halves, BadKeypointsAreRefused) {
   const uint8_t descriptors[3][SPHC_DESCRIPTOR_BYTES] = {};
   sphc_keypoint keypoints[3];
   const sphc_features_arrays arrays = {
-      sizeof arrays, sphc_extractor_id(), 3, sizeof(sphc_keypoint), SPHC_DESCRIPTOR_BYTES, 0,
-      keypoints,     descriptors[0]};
+      sizeof arrays, sphc_extractor_id(), 3,      sizeof(sphc_keypoint), SPHC_DESCRIPTOR_BYTES, 0,
+      keypoints,     descriptors[0],      nullptr};
   std::memcpy(keypoints, good, sizeof good);
   ASSERT_EQ(sphc_features_set(features_.handle, &frame(0), &arrays), SPHC_OK);
   EXPECT_STREQ(sphc_features_message(features_.handle), "");
@@ -276,7 +276,7 @@ TEST_F(Halves, BadArraysAreRefused) {
   std::vector<uint8_t> descriptors(keypoints.size() * SPHC_DESCRIPTOR_BYTES);
   const sphc_features_arrays good = {sizeof good,           sphc_extractor_id(),   config_.max_keypoints,
                                      sizeof(sphc_keypoint), SPHC_DESCRIPTOR_BYTES, 0,
-                                     keypoints.data(),      descriptors.data()};
+                                     keypoints.data(),      descriptors.data(),    nullptr};
   ASSERT_EQ(sphc_features_set(features_.handle, &frame(0), &good), SPHC_OK);
   const struct {
     void (*spoil)(sphc_features_arrays *);

@@ -39,6 +39,8 @@ struct Spoiled {
 };
 const double kNotANumber = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
+void runNothing(void *, uint32_t, sphc_task_fn, void *) {}
+
 const Spoiled kSpoiled[] = {
     {"max_keypoints is 63", [](sphc_localizer_config *c) { c->max_keypoints = 63; }},
     {"max_keypoints is 4097", [](sphc_localizer_config *c) { c->max_keypoints = 4097; }},
@@ -67,6 +69,11 @@ const Spoiled kSpoiled[] = {
     {"pixel_sigma_px", [](sphc_localizer_config *c) { c->pixel_sigma_px = kInf; }},
     {"map_sigma_m", [](sphc_localizer_config *c) { c->map_sigma_m = -1; }},
     {"map_sigma_m", [](sphc_localizer_config *c) { c->map_sigma_m = kNotANumber; }},
+    {"parallel_tasks is 0", [](sphc_localizer_config *c) { c->parallel = runNothing; }},
+    {"parallel_tasks is 9; it must lie in 1 to 8",
+     [](sphc_localizer_config *c) { c->parallel = runNothing, c->parallel_tasks = SPHC_PARALLEL_MAX + 1; }},
+    {"parallel_tasks is 2, but config.parallel is null", [](sphc_localizer_config *c) { c->parallel_tasks = 2; }},
+    {"set parallel_tasks to 0", [](sphc_localizer_config *c) { c->parallel_tasks = 1; }},
 };
 
 TEST(CInterfaceConfig, EveryBadFieldIsNamed) {

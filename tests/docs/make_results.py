@@ -225,6 +225,10 @@ def others(pipeline):
          "Frames that end within their deadline and 0.3 ms, in processor time, and what is left of the poses. A deadline of 0 is none.\n"
          "Right: within 5 cm and 5 deg; wrong: beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#a-deadline).",
          flat(rows("deadline.csv"), ["recording", "case"])),
+        ("Several cores", "pipeline/parallel.csv", "parallel_results",
+         "Cold frames on a map of 50 000 points, by one thread and by several in turn: the median wall time of one over that of\n"
+         "the row. `same bytes`: frames with the result of one thread. Method: [localizer.md](localizer.md#on-several-cores).",
+         flat(rows("parallel.csv"), ["recording"])),
         ("Baselines", "pipeline/compare.csv", "compare_results",
          "Systems of the literature on the same matches. `times slower than sphere`: the median time over that of the\n"
          "library at eta 33 %. Method: [baselines.md](baselines.md).",

@@ -23,6 +23,11 @@ const sphc_localizer_camera &sideCamera() {
   return camera;
 }
 
+// The order of a caller's threads is anybody's guess.
+void runBackwards(void *, uint32_t count, sphc_task_fn task, void *task_data) {
+  for (uint32_t i = count; i > 0; --i) task(task_data, i - 1);
+}
+
 sphc_localizer_config trackingConfig() {
   sphc_localizer_config config = smallConfig();
   config.cameras = &sideCamera();
@@ -32,6 +37,8 @@ sphc_localizer_config trackingConfig() {
   config.max_maps = kMaps - 1;  // so that it can be full
   config.depth_offset_sigma_m = 0.01;
   config.depth_slope_sigma = 0.01;
+  config.parallel = runBackwards;
+  config.parallel_tasks = 3;
   return config;
 }
 

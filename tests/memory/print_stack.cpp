@@ -36,6 +36,24 @@ size_t deepestOf(std::function<void()> call) {
   return kStackBytes - clean;
 }
 
+// Runs each task on a thread of its own, and knows how deep the deepest went.
+void runTasks(void *deepest, uint32_t count, sphc_task_fn task, void *task_data) {
+  auto &most = *static_cast<size_t *>(deepest);
+  for (uint32_t i = 0; i < count; ++i) most = std::max(most, deepestOf([&] { task(task_data, i); }));
+}
+
+size_t deepestTask() {
+  size_t deepest = 0;
+  sphc_localizer_config config = sphc::test::sceneConfig();
+  config.parallel = runTasks;
+  config.parallel_user = &deepest;
+  config.parallel_tasks = 2;
+  sphc::test::Session session(config);
+  sphc_localizer_result result = {};
+  if (session.process(sphc::test::sceneFrame(config, 1)->frame, &result) != SPHC_OK) std::abort();
+  return deepest;
+}
+
 }  // namespace
 
 int main() {
@@ -59,6 +77,7 @@ int main() {
   print("sphc_localizer_extract", [&] { sphc_localizer_extract(session.localizer(), &frame->frame, features); });
   print("sphc_localizer_locate",
         [&] { sphc_localizer_locate(session.localizer(), &frame->frame, features, &result); });
+  std::printf("a task of config.parallel,%zu\n", deepestTask() - thread_itself);
   print("sphc_localizer_memory", [&] { sphc_localizer_memory(&config, &need, nullptr); });
   sphc_localizer *second = nullptr;
   print("sphc_localizer_init", [&] {

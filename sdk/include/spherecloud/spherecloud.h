@@ -434,6 +434,12 @@ SPHC_API const char *sphc_log_level_name(sphc_log_level level); /* [pure] */
 typedef void (*sphc_log_fn)(void *user, sphc_log_level level, const char *text, size_t length);
 /* Monotonic clock in nanoseconds, from the caller: the library makes no OS call. */
 typedef int64_t (*sphc_clock_fn)(void *user);
+/* A piece of a frame's work, for sphc_parallel_fn: nothing is known of the thread that it runs on. */
+typedef void (*sphc_task_fn)(void *task_data, uint32_t index);
+/* Threads of the caller's: calls task(task_data, i) once for every i from 0 to count - 1, in any order, at the same
+ * time as far as it has threads for it, and returns when all have ended. */
+typedef void (*sphc_parallel_fn)(void *user, uint32_t count, sphc_task_fn task, void *task_data);
+#define SPHC_PARALLEL_MAX 8u /* pieces of a frame's work */
 
 /* Whether frames belong together. */
 typedef int32_t sphc_localizer_mode;
@@ -505,9 +511,19 @@ typedef struct sphc_localizer_config {
   uint32_t camera_count;                /* 0 to SPHC_CAMERAS_MAX - 1 */
   uint32_t reserved3;
   /* Of a rolling shutter: from a row's exposure to that of the row below it.  Where odometry is given, in
-   * SPHC_MODE_TRACKING, rows are taken to the time of the middle one, which is the image's.  0: all rows at once.
-   */
+   * SPHC_MODE_TRACKING, rows are taken to the time of the middle one, which is the image's.  0: all at once. */
   int64_t color_row_time_ns;
+
+  /* Lets a frame use several cores; the same bytes in the results whatever it does, where no deadline is set. null:
+   * the calling thread does all.  Called one to a few dozen times a frame, on the thread of the call, and where
+   * sphc_localizer_extract runs beside another call, by both at the same time.  Its tasks read config.clock where
+   * the frame has a deadline, so the clock must bear several threads; nothing else of the caller's is called. */
+  sphc_parallel_fn parallel;
+  void *parallel_user;
+  /* Pieces that its work is cut into at most: as many as there are threads for it, 1 to SPHC_PARALLEL_MAX; each
+   * more than one needs memory.  0 where parallel is null. */
+  uint32_t parallel_tasks;
+  uint32_t reserved4;
 } sphc_localizer_config;
 
 /* What is known of a pose before its frame is looked at. */
@@ -711,6 +727,11 @@ SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, 
 /* What is added to each of the two where config.camera_count is not 0; of width and height again the largest. */
 #define SPHC_LOCALIZER_CAMERAS_BYTES_MAX(max_keypoints, width, height) \
   (UINT64_C(65536) + UINT64_C(256) * (max_keypoints) + UINT64_C(1) * (width) * (height))
+
+/* What is added to the scratch where config.parallel_tasks is more than 1. */
+#define SPHC_LOCALIZER_PARALLEL_BYTES_MAX(max_keypoints, color_width, parallel_tasks) \
+  (UINT64_C(1) * (parallel_tasks) *                                                   \
+   (UINT64_C(65536) + UINT64_C(128) * (max_keypoints) + UINT64_C(1024) * (color_width)))
 
 /* One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END.  `name` is static
  * storage. [pure] */
@@ -939,15 +960,15 @@ SPHC_API void sphc_features_fini(sphc_features **features);
  * another config, among others; STRUCT_SIZE, IMAGE (sphc_features_message explains); the features stay what they
  * were.  Bounded time, no allocation, no OS call.  Exclusive with sphc_localizer_process, _extract and _fini of
  * this localizer, and with all calls of these features; every other call on the localizer may run meanwhile in
- * another thread.  Both threads then call config.clock, and the localizer's scratch is no other's. [exclusive] */
+ * another thread.  Both threads then call config.clock and config.parallel, and the localizer's scratch is no
+ * other's. [exclusive] */
 SPHC_API sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
                                             sphc_features *features);
 /* As sphc_localizer_process, from the features of the frame on: frame.color and the images of its views are not
- * looked at.  The same result, to
- * the last bit but for times, where no deadline is set; several localizers may locate the same features at the same
- * time.  result.features_us is how long extract took, 0 for features that were set.  Failures: also ARGUMENT where
- * the features have another color_time_ns than the frame, or were made for another config, and STATE where they are
- * of no frame yet (sphc_localizer_message explains). [exclusive] */
+ * looked at.  The same result, to the last bit but for times, where no deadline is set; several localizers may
+ * locate the same features at the same time.  result.features_us is how long extract took, 0 for features that were
+ * set.  Failures: also ARGUMENT where the features have another color_time_ns than the frame, or were made for
+ * another config, and STATE where they are of no frame yet (sphc_localizer_message explains). [exclusive] */
 SPHC_API sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localizer_frame *frame,
                                            const sphc_features *features, sphc_localizer_result *result);
 

@@ -13,6 +13,7 @@ Command hintsCommand(CLI::App *root);
 Command mapCommand(CLI::App *root);
 Command matchCommand(CLI::App *root);
 Command negativeCommand(CLI::App *root);
+Command parallelCommand(CLI::App *root);
 Command poseCommand(CLI::App *root);
 Command predictCommand(CLI::App *root);
 Command recordingCommand(CLI::App *root);

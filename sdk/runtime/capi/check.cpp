@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/base/message.h"
+#include "runtime/base/parallel.h"
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
@@ -52,6 +53,17 @@ bool checkTogether(const sphc_localizer_config &c, sphc_message *message) {
     return false;
   }
   return true;
+}
+
+static_assert(SPHC_PARALLEL_MAX == Parallel::kMostPieces);
+
+bool checkParallel(const sphc_localizer_config &c, sphc_message *message) {
+  if (c.parallel) return inRange("parallel_tasks", c.parallel_tasks, 1, SPHC_PARALLEL_MAX, message);
+  if (!c.parallel_tasks) return true;
+  MessageWriter(message) << "config.parallel_tasks is " << c.parallel_tasks
+                         << ", but config.parallel is null; give it a function that runs tasks, or set "
+                            "parallel_tasks to 0";
+  return false;
 }
 
 bool priorInRange(const char *name, double value, double low, double high, sphc_message *message) {
@@ -116,15 +128,9 @@ bool checkDepthFormat(sphc_format configured, const sphc_rig &rig, double depth_
   return false;
 }
 
-bool isRotation(const double q_wxyz[4]) {
-  double squared = 0;
-  for (int i = 0; i < 4; ++i) squared += q_wxyz[i] * q_wxyz[i];
-  return absOf(squared - 1) <= 2 * SPHC_RIG_MAX_LENGTH_ERROR;
-}
-
 // A transform between sensors of one rig.
 bool checkMount(const char *name, const sphc_rigid &mount, sphc_message *message) {
-  bool good = isRotation(mount.q_wxyz);
+  bool good = isValidRigid(mount);
   for (const double t : mount.t_m) good = good && absOf(t) <= SPHC_RIG_MAX_OFFSET_M;
   if (good) return true;
   MessageWriter(message) << name
@@ -349,7 +355,7 @@ sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sp
   sphc_status status = readStruct("config", config, &own, message);
   if (status == SPHC_OK) status = sphc_rig_check(&own.rig, message);
   if (status != SPHC_OK) return status;
-  const bool fine = checkNumbers(own, message) && checkTogether(own, message) &&
+  const bool fine = checkNumbers(own, message) && checkTogether(own, message) && checkParallel(own, message) &&
                     checkDepthFormat(own.depth_format, own.rig, own.depth_max_m, message);
   return fine ? readCameras(copy, message) : SPHC_E_ARGUMENT;
 }

@@ -17,7 +17,7 @@ struct StructKind {
   size_t first_bytes;  // when it was first published (tests/abi/headers); a smaller one never was
   size_t known_bytes;  // today
   size_t alignment;
-  FieldBytes reserved[3] = {};  // fields that a later library may read, so callers leave them zero
+  FieldBytes reserved[4] = {};  // fields that a later library may read, so callers leave them zero
 };
 
 // Of a struct that has not grown yet.
@@ -58,6 +58,7 @@ constexpr StructKind kindOf(const sphc_localizer_config *) {
   kind.reserved[0] = {offsetof(sphc_localizer_config, reserved), sizeof(uint32_t)};
   kind.reserved[1] = {offsetof(sphc_localizer_config, reserved2), sizeof(uint32_t)};
   kind.reserved[2] = {offsetof(sphc_localizer_config, reserved3), sizeof(uint32_t)};
+  kind.reserved[3] = {offsetof(sphc_localizer_config, reserved4), sizeof(uint32_t)};
   return kind;
 }
 constexpr StructKind kindOf(const sphc_localizer_frame *) {

@@ -104,6 +104,7 @@ LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
   own.pixel_sigma_px = config.pixel_sigma_px;
   own.map_sigma_m = config.map_sigma_m;
   own.clock = {config.clock, config.clock_user};
+  if (config.parallel) own.parallel = {config.parallel, config.parallel_user, config.parallel_tasks};
   return own;
 }
 

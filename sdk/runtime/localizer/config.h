@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/base/clock.h"
 #include "runtime/base/fixed_vector.h"
+#include "runtime/base/parallel.h"
 #include "runtime/geometry/camera.h"
 #include "runtime/geometry/rigid.h"
 #include "runtime/types/depth_calibration.h"
@@ -47,6 +48,7 @@ struct LocalizerConfig {
   double map_sigma_m = 0;        // error of a map point across its direction
 
   Clock clock;
+  Parallel parallel;
 };
 
 }  // namespace sphc

@@ -55,7 +55,7 @@ void FrontEnd::init(const LocalizerConfig &config) {
     Eye &eye = *new (&further_[i]) Eye();
     eye.aligner.init(given.camera, config.depth_camera, Rigid(), config.depth_sensor);
   }
-  extractor_.init();
+  extractor_.init(config.parallel);
 }
 
 void FrontEnd::extract(const ColorView &color, const FurtherViews &further, const Deadline &deadline) {

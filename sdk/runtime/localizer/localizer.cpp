@@ -58,7 +58,7 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   MatchSet::layout(n, scratch, localizer ? &localizer->best_.matched : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->candidate_.matched : nullptr);
   MatchSet::layout(n, scratch, localizer ? &localizer->rival_.matched : nullptr);
-  Repetition::layout(n, scratch, localizer ? &localizer->repetition_ : nullptr);
+  Repetition::layout(n, config.parallel, scratch, localizer ? &localizer->repetition_ : nullptr);
   PoseEstimator::layout(estimator, scratch, localizer ? &localizer->estimator_ : nullptr);
   Consistency::layout(state, scratch, localizer ? &localizer->consistency_ : nullptr);
 }
@@ -68,6 +68,7 @@ void Localizer::init(const LocalizerConfig &config) {
   depth_reader_.init(readerConfig(config));
   front_.init(config);
   search_.init(config);
+  repetition_.setParallel(config.parallel);
   calibrator_.init(config.depth_prior);
   consistency_.init({config.color_camera, config.depth_camera, config.depth_sensor, config.tracks});
 }
@@ -154,10 +155,13 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   result.depth = calibrator_.current();
   const FrameRig rig = rigOf(frame);
   const ImageView<uint16_t> depth = depth_reader_.read(frame.depth, frame.amplitude);
-  front_.lift(depth, rig, deadline.afterShare(kLiftShare));
   consistency_.setColorCamera(rig.color_camera);
-  result.faults = consistency_.look(
-      {front_.gray(), depth, rig.color_from_depth, frame.color_time_ns, frame.depth_time_ns, isDark});
+  const Deadline lifted_by = deadline.afterShare(kLiftShare);
+  config_.parallel.both([&] { front_.lift(depth, rig, lifted_by); },
+                        [&] {
+                          result.faults = consistency_.look({front_.gray(), depth, rig.color_from_depth,
+                                                             frame.color_time_ns, frame.depth_time_ns, isDark});
+                        });
   const int64_t aligned = config_.clock.now();
   Work work;
   answer(frame.known, deadline, &result.faults, &work);

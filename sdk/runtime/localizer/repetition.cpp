@@ -19,35 +19,56 @@ bool areEqual(const Vector3 &a, const Vector3 &b, double tolerance_m) {
 
 }  // namespace
 
-void Repetition::layout(uint32_t max_keypoints, Arena &scratch, Repetition *repetition) {
+void Repetition::layout(uint32_t max_keypoints, const Parallel &parallel, Arena &scratch, Repetition *repetition) {
   Repetition discarded;  // receives empty spans while measuring
   Repetition &r = repetition ? *repetition : discarded;
   const uint32_t count = std::min(max_keypoints, kAskedForLike);
-  r.likes_ = scratch.take<Like>("localizer.likes", count);
+  r.likes_ = scratch.take<Like>("localizer.likes", size_t{count} * parallel.pieces);
   r.found_m_ = scratch.take<Vector3>("localizer.moves", count);
 }
 
 bool Repetition::look(const FrontEnd &front, const Deadline &deadline) {
   front_ = &front;
-  looked_at_ = std::min(front.liftedCount(), static_cast<uint32_t>(likes_.size()));
+  looked_at_ = std::min(front.liftedCount(), static_cast<uint32_t>(found_m_.size()));
   moves_m_.clear();
-  Watch watch(deadline, kGrain);
-  for (uint32_t i = 0; i < looked_at_; ++i) {
-    if (watch.passed(i)) return false;
-    likes_[i] = {};
+  if (!findLikes(deadline)) return false;
+  listMoves();
+  bool in_time = true;
+  while (in_time && !moves_m_.full()) {
+    Common commonest;
+    in_time = findCommonest(deadline, &commonest);
+    if (!in_time || commonest.count < kFewestMoves) break;
+    moves_m_.push(commonest.move_m);
+    keepOthersThan(commonest.move_m);
+  }
+  return in_time;
+}
+
+// Of what several pieces of the pairs say.
+bool Repetition::findLikes(const Deadline &deadline) {
+  const uint32_t pieces = parallel_.pieces;
+  const bool in_time = parallel_.allOf(pieces, [&](uint32_t i) {
+    Watch watch(deadline, kGrain);
+    return compareRows(i, &watch);
+  });
+  for (uint32_t i = 1; i < pieces; ++i)
+    for (uint32_t k = 0; k < looked_at_; ++k) likes_[k].see(likes_[i * found_m_.size() + k]);
+  return in_time;
+}
+
+// Keypoints that are `pieces` apart, each with those before it: later ones have more of them.
+bool Repetition::compareRows(uint32_t piece, Watch *watch) {
+  Like *likes = likes_.data() + piece * found_m_.size();
+  std::fill_n(likes, looked_at_, Like());
+  for (uint32_t i = piece; i < looked_at_; i += parallel_.pieces) {
+    if (watch->passed(i)) return false;
     for (uint32_t other = 0; other < i; ++other) {
       const uint32_t d2 = compare(i, other);
-      if (d2 < likes_[i].distance2) likes_[i] = {d2, other};
-      if (d2 < likes_[other].distance2) likes_[other] = {d2, i};
+      if (d2 < likes[i].distance2) likes[i] = {d2, other};
+      if (d2 < likes[other].distance2) likes[other] = {d2, i};
     }
   }
-  listMoves();
-  Vector3 commonest_m;
-  while (!moves_m_.full() && findCommonest(&watch, &commonest_m) >= kFewestMoves) {
-    moves_m_.push(commonest_m);
-    keepOthersThan(commonest_m);
-  }
-  return !watch.hasPassed();
+  return true;
 }
 
 // Of the descriptors of two keypoints at different places.
@@ -70,11 +91,23 @@ bool Repetition::repeats(uint32_t keypoint) const {
   return false;
 }
 
-// The mean of the moves that are most alike, and how many they are.
-uint32_t Repetition::findCommonest(Watch *watch, Vector3 *commonest_m) const {
-  uint32_t most = 0;
-  for (const Vector3 &move_m : found_m_.first(found_)) {
-    if (watch->passed(found_)) return 0;
+// The mean of the moves that are most alike, and how many they are; of equally many the first.
+bool Repetition::findCommonest(const Deadline &deadline, Common *commonest) const {
+  Common found[Parallel::kMostPieces];
+  const uint32_t pieces = parallel_.pieces;
+  const bool in_time = parallel_.allOf(pieces, [&](uint32_t i) {
+    Watch watch(deadline, kGrain);
+    return findCommonestOf(partOf(found_, pieces, i), &watch, &found[i]);
+  });
+  for (uint32_t i = 0; i < pieces; ++i)
+    if (found[i].count > commonest->count) *commonest = found[i];
+  return in_time;
+}
+
+bool Repetition::findCommonestOf(Part moves, Watch *watch, Common *commonest) const {
+  for (size_t i = moves.first; i < moves.end; ++i) {
+    if (watch->passed(found_)) return false;
+    const Vector3 &move_m = found_m_[i];
     uint32_t near = 0;
     Vector3 sum_m = Vector3::Zero();
     for (const Vector3 &other : found_m_.first(found_)) {
@@ -83,11 +116,9 @@ uint32_t Repetition::findCommonest(Watch *watch, Vector3 *commonest_m) const {
       sum_m += other_m;
       ++near;
     }
-    if (near <= most) continue;
-    most = near;
-    *commonest_m = sum_m / near;
+    if (near > commonest->count) *commonest = {sum_m / near, near};
   }
-  return most;
+  return true;
 }
 
 // Of the moves that were found those that are no multiple of this one.

@@ -17,6 +17,7 @@ FeatureConfig featureConfigOf(const LocalizerConfig &config) {
     features.height = std::max(features.height, further.camera.height());
   }
   features.max_keypoints = config.max_keypoints;
+  features.pieces = config.parallel.pieces;
   return features;
 }
 

@@ -18,7 +18,7 @@ struct FeatureRoom {
 class RigExtractor {
  public:
   static void layout(const LocalizerConfig &config, Arena &state, Arena &scratch, RigExtractor *extractor);
-  void init() { extractor_.init(); }
+  void init(const Parallel &parallel = {}) { extractor_.init(simdFeatureKernels(), parallel); }
 
   // Returns how many features were found, strongest response first.  Each camera gets an even share of the
   // keypoints and of the time; what one leaves, those after it get.

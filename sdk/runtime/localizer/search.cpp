@@ -46,12 +46,13 @@ void Search::layout(const LocalizerConfig &config, Arena &state, Arena &scratch,
   s.predicted_ = scratch.take<Direction>("localizer.predicted", max_keypoints);
   s.is_taken_ = scratch.take<uint8_t>("localizer.taken", max_keypoints);
   s.rays_ = scratch.take<Match>("localizer.rays", max_keypoints);
-  Matcher::layout(max_keypoints, scratch, search ? &s.matcher_ : nullptr);
+  Matcher::layout(max_keypoints, scratch, search ? &s.matcher_ : nullptr, config.parallel);
 }
 
 void Search::init(const LocalizerConfig &config) {
   setParameters(config.search);
   clock_ = config.clock;
+  matcher_.setParallel(config.parallel);
 }
 
 void Search::setParameters(const SearchParameters &parameters) {

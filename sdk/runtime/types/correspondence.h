@@ -6,8 +6,8 @@
 
 namespace sphc {
 
-// A keypoint lifted by depth into the frame of the colour camera, with what is known of its error.  Without depth it
-// is a viewing ray: point_m lies at 1 m on it, sideways_m is the error of the angle (metres at 1 m), along_m
+// A keypoint lifted by depth into the frame of the colour camera, with what is known of its error.  Without depth
+// it is a viewing ray: point_m lies at 1 m on it, sideways_m is the error of the angle (metres at 1 m), along_m
 // infinite.
 struct LiftedPoint {
   Vector3 point_m;

@@ -25,10 +25,24 @@ uint32_t cellOf(const Candidate &c, const FeatureConfig &config) {
 
 }  // namespace
 
+size_t CandidateList::keptOf(const FeatureConfig &config) {
+  return std::max<size_t>(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
+}
+
+void CandidateList::layoutPiece(const FeatureConfig &config, size_t more, Arena &scratch, CandidateList *out) {
+  const Span<Candidate> items = scratch.take<Candidate>("features.candidates", keptOf(config) + more);
+  if (out) out->items_ = items;
+}
+
+void CandidateList::moveTo(CandidateList *other) {
+  for (size_t i = 0; i < size_; ++i) other->push(items_[i]);
+  clear();
+}
+
 void CandidateList::layout(const FeatureConfig &config, Arena &scratch, CandidateList *out) {
   CandidateList measured;
   CandidateList &self = out ? *out : measured;
-  self.kept_ = std::max<size_t>(kCandidatesPerKeypoint * config.max_keypoints, kFewestCandidates);
+  self.kept_ = keptOf(config);
   self.items_ = scratch.take<Candidate>("features.candidates", 2 * self.kept_);
   self.ranks_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);
   self.spare_ = scratch.take<SortKey>("features.candidate_ranks", 2 * self.kept_);

@@ -29,6 +29,13 @@ class CandidateList {
  public:
   static void layout(const FeatureConfig &config, Arena &scratch, CandidateList *out);
 
+  // A list that only collects: room for `more` than are kept at most, and for no choice.
+  static void layoutPiece(const FeatureConfig &config, size_t more, Arena &scratch, CandidateList *out);
+  // Can so many be pushed, and all still be there?
+  bool hasRoom(size_t count) const { return size_ + count < items_.size(); }
+  // Pushes all to another list, in their order.
+  void moveTo(CandidateList *other);
+
   void clear() { size_ = 0; }
   // Keeps the strongest of all that were pushed, several for each keypoint wanted.
   void push(const Candidate &candidate) {
@@ -41,6 +48,7 @@ class CandidateList {
   Span<Candidate> choose(const FeatureConfig &config, size_t limit);
 
  private:
+  static size_t keptOf(const FeatureConfig &config);
   void cut();
   void listPlaces();
   void markNearDuplicates();

@@ -17,6 +17,7 @@ struct FeatureConfig {
   // The image in 8 x 6 cells: at first a cell gets at most this many times its even share of the keypoints.
   float cell_quota = 3.0f;
   int32_t max_orientations = 1;  // 1 or 2 keypoints at one place
+  uint32_t pieces = 1;           // that an octave is cut into at most; 1 to Parallel::kMostPieces
 };
 
 constexpr int32_t kMinImageSide = 16, kMaxImageSide = 8192;

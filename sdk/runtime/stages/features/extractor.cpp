@@ -1,6 +1,7 @@
 #include "runtime/stages/features/extractor.h"
 
 #include <algorithm>
+#include <new>
 
 #include "runtime/stages/features/orientation.h"
 
@@ -25,6 +26,8 @@ constexpr double kEnoughKeypoints = 400, kCostOfFinest = 1.3;
 // leaves, and how high it is at least.
 constexpr double kBandShare = 0.9;
 constexpr int32_t kFewestBandRows = 32;
+// Pieces overlap by about as many rows, so shorter ones save little.
+constexpr int32_t kFewestPieceRows = 48;
 constexpr int32_t kMostSkimmed =
     2;  // octaves: a few keypoints tell no pose, and those that are skimmed take time too
 
@@ -36,12 +39,21 @@ bool FeatureExtractor::accepts(const FeatureConfig &config) {
          config.max_keypoints <= kMostKeypoints && config.contrast_threshold >= 0.0f && config.edge_ratio >= 1.0f &&
          config.edge_ratio <= 1e6f && config.first_octave >= -1 && config.first_octave <= 0 &&
          config.max_octaves >= 1 && config.cell_quota >= 1.0f && config.cell_quota <= 1000.0f &&
-         config.max_orientations >= 1 && config.max_orientations <= 2;
+         config.max_orientations >= 1 && config.max_orientations <= 2 && config.pieces >= 1 &&
+         config.pieces <= Parallel::kMostPieces;
 }
 
 void FeatureExtractor::layout(const FeatureConfig &config, Arena &state, Arena &scratch, FeatureExtractor *out) {
-  ScaleSpace::layout(config, state, scratch, out ? &out->space_ : nullptr);
-  ExtremaFinder::layout(config, scratch, out ? &out->finder_ : nullptr);
+  ScaleSpace::layout(config, scratch, out ? &out->space_ : nullptr);
+  const Span<Piece> pieces = state.take<Piece>("features.pieces", config.pieces);
+  // In two rows of a step nearly every sample may be an extremum, if few are.
+  const size_t row = kRowsAtOnce * kSearchedLayers * static_cast<size_t>(firstOctaveSide(config, config.width));
+  for (uint32_t i = 0; i < config.pieces; ++i) {
+    Piece *piece = out ? new (pieces.data() + i) Piece() : nullptr;
+    Sweep::layout(config, config.pieces > 1, scratch, piece ? &piece->sweep : nullptr);
+    ExtremaFinder::layout(config, scratch, piece ? &piece->finder : nullptr);
+    if (i > 0) CandidateList::layoutPiece(config, row, scratch, piece ? &piece->found : nullptr);
+  }
   CandidateList::layout(config, scratch, out ? &out->candidates_ : nullptr);
   GaussianTable::layout(state, out ? &out->gaussian_ : nullptr);
   Describer::layout(state, out ? &out->describer_ : nullptr);
@@ -49,11 +61,13 @@ void FeatureExtractor::layout(const FeatureConfig &config, Arena &state, Arena &
   out->config_ = config;
   out->most_width_ = config.width;
   out->most_height_ = config.height;
+  out->pieces_ = pieces;
 }
 
-void FeatureExtractor::init(const FeatureKernels &kernels) {
+void FeatureExtractor::init(const FeatureKernels &kernels, const Parallel &parallel) {
   kernels_ = &kernels;
-  space_.init(kernels);
+  parallel_ = parallel;
+  space_.init();
   gaussian_.init();
   describer_.init();
 }
@@ -69,17 +83,8 @@ uint32_t FeatureExtractor::extract(GrayView gray, Span<Keypoint> keypoints, Span
   const uint32_t limit = std::min(static_cast<uint32_t>(std::max(fitting, kFewestKeypoints)), wanted);
   const Span<Candidate> chosen = candidates_.choose(config_, limit);
   cut_ = cut_ || (limit < wanted && chosen.size() == limit);
-  uint32_t count = 0;
   const int64_t begin = deadline.clock.now();
-  Watch watch(deadline, kDescribeGrain);
-  for (const Candidate &candidate : chosen) {
-    if (count == limit) break;
-    if (watch.passed(1)) {
-      cut_ = true;
-      break;
-    }
-    count += describe(candidate, limit - count, keypoints.data() + count, descriptors.data() + count);
-  }
+  const uint32_t count = describeAll(chosen, limit, deadline, keypoints.data(), descriptors.data());
   if (deadline.isSet()) keypoints_pace_.learn(count, elapsedNs(begin, deadline.clock.now()));
   return count;
 }
@@ -140,17 +145,20 @@ bool FeatureExtractor::sweepFrom(int32_t finest, GrayView gray, const Deadline &
 
 bool FeatureExtractor::skimOctave(int32_t octave, GrayView gray, Watch *watch) {
   space_.beginOctave(octave, gray);
-  const int32_t steps = space_.skimCount();
+  Sweep &sweep = pieces_[0].sweep;
+  sweep.begin(space_, {0, space_.height(octave)}, *kernels_);
+  const int32_t steps = sweep.skimCount();
   for (int32_t y = 0; y < steps; y += kRowsAtOnce) {
     if (watch->passed(static_cast<uint32_t>(space_.width(octave)))) return false;
-    space_.skim(y);
+    sweep.skim(y);
   }
   return true;
 }
 
 // False where it does not end in time.  Adds the pixels done.
 bool FeatureExtractor::sweepOctave(int32_t octave, GrayView gray, const Deadline &deadline, double *pixels) {
-  return sweepRows(octave, {0, space_.height(octave)}, gray, deadline, kMostForProbed, pixels);
+  const Limits limits = {deadline, deadline.afterShare(kMostForProbed)};
+  return sweepRows(octave, {0, space_.height(octave)}, gray, limits, pixels);
 }
 
 // Of the octave before the finest that was swept, rows in the middle, where depth is likeliest: as many as fit
@@ -163,34 +171,91 @@ void FeatureExtractor::sweepBand(int32_t octave, GrayView gray, const Deadline &
   const Deadline own = deadline.afterShare(kBandShare * spare_ns / left_ns);
   const int32_t height = space_.height(octave);
   const double steps = pixels_pace_.fitting(own, sweptPixels(octave)) / space_.width(octave);
-  const int32_t count = std::min(height, static_cast<int32_t>(steps) - space_.stepsBeyond(octave));
+  const int32_t count = std::min(height, static_cast<int32_t>(steps) - stepsBeyond(octave, height));
   if (count < kFewestBandRows) return;
   double pixels = 0;
   const int64_t begin = deadline.clock.now();
-  sweepRows(octave, {(height - count) / 2, count}, gray, own, 1, &pixels);
+  sweepRows(octave, {(height - count) / 2, count}, gray, {own, own}, &pixels);
   pixels_pace_.learn(pixels, elapsedNs(begin, deadline.clock.now()));
 }
 
-bool FeatureExtractor::sweepRows(int32_t octave, Rows rows, GrayView gray, const Deadline &deadline,
-                                 double most_for_probed, double *pixels) {
+uint32_t FeatureExtractor::pieceCount(int32_t rows) const {
+  const auto fitting = static_cast<uint32_t>(rows / kFewestPieceRows);
+  return std::max(std::min(fitting, config_.pieces), uint32_t{1});
+}
+
+// What is found is listed by rows, whatever the pieces are.
+bool FeatureExtractor::sweepRows(int32_t octave, Rows rows, GrayView gray, const Limits &limits, double *pixels) {
   space_.beginBand(octave, rows, gray);
-  finder_.beginOctave(octave, space_.width(octave), rows);
-  Watch watch(deadline, kPixelGrain);
-  const Deadline probe = deadline.afterShare(most_for_probed);
-  const int32_t steps = space_.stepCount(), probed = steps / kProbedRows / kRowsAtOnce * kRowsAtOnce;
-  int32_t y = 0;
-  for (; y < steps; y += kRowsAtOnce) {
-    if (watch.passed(static_cast<uint32_t>(kRowsAtOnce * space_.width(octave)))) break;
-    if (y == probed && probe.passed()) break;
-    space_.step(y);
-    for (int32_t i = 0; i < kRowsAtOnce; ++i) finder_.step(*kernels_, space_, y + i, &candidates_);
+  const uint32_t count = pieceCount(rows.count);
+  parallel_.forEach(count, [&](uint32_t i) {
+    const Part part = partOf(static_cast<size_t>(rows.count), count, i);
+    beginPiece({static_cast<int32_t>(part.first), static_cast<int32_t>(part.size())}, &pieces_[i]);
+    sweepPiece(limits, i == 0 ? &candidates_ : &pieces_[i].found, &pieces_[i]);
+  });
+  bool in_time = true;
+  for (Piece &piece : pieces_.first(count)) {
+    piece.found.moveTo(&candidates_);
+    sweepPiece(limits, &candidates_, &piece);  // what is left where its list was full
+    in_time = in_time && !piece.was_late;
+    *pixels += static_cast<double>(space_.width(octave)) * (std::min(piece.y, piece.end) - piece.begin);
   }
-  *pixels += static_cast<double>(space_.width(octave)) * std::min(y, steps);
-  return y >= steps;
+  return in_time;
+}
+
+void FeatureExtractor::beginPiece(Rows rows, Piece *piece) {
+  piece->sweep.begin(space_, rows, *kernels_);
+  piece->begin = piece->y = piece->sweep.firstStep();
+  piece->end = piece->sweep.endStep();
+  piece->was_late = false;
+}
+
+// Until its end, or time is over, or its own list is full.
+void FeatureExtractor::sweepPiece(const Limits &limits, CandidateList *found, Piece *piece) {
+  const auto step_pixels = static_cast<uint32_t>(kRowsAtOnce * piece->sweep.width());
+  const int32_t probed = piece->begin + (piece->end - piece->begin) / kProbedRows / kRowsAtOnce * kRowsAtOnce;
+  Watch watch(limits.all, kPixelGrain);
+  int32_t &y = piece->y;
+  for (; y < piece->end && !piece->was_late; y += kRowsAtOnce) {
+    if (found == &piece->found && !found->hasRoom(kSearchedLayers * step_pixels)) return;
+    piece->was_late = watch.passed(step_pixels) || (y == probed && limits.probe.passed());
+    if (piece->was_late) return;
+    piece->sweep.step(y);
+    for (int32_t i = 0; i < kRowsAtOnce; ++i) piece->finder.step(*kernels_, piece->sweep, y + i, found);
+  }
+}
+
+// In pieces where each candidate gives one keypoint at most, so that each piece has its room.
+uint32_t FeatureExtractor::describeAll(Span<const Candidate> chosen, uint32_t limit, const Deadline &deadline,
+                                       Keypoint *keypoints, Descriptor *descriptors) {
+  const uint32_t pieces = config_.max_orientations == 1 ? config_.pieces : 1;
+  uint32_t counts[Parallel::kMostPieces] = {};
+  bool cuts[Parallel::kMostPieces] = {};
+  parallel_.forEach(pieces, [&](uint32_t i) {
+    const Part part = partOf(chosen.size(), pieces, i);
+    const uint32_t most = pieces > 1 ? static_cast<uint32_t>(part.size()) : limit;
+    Watch watch(deadline, kDescribeGrain);
+    for (size_t c = part.first; c < part.end && counts[i] < most && !cuts[i]; ++c) {
+      cuts[i] = watch.passed(1);
+      const size_t at = part.first + counts[i];
+      if (!cuts[i]) counts[i] += describe(chosen[c], most - counts[i], keypoints + at, descriptors + at);
+    }
+  });
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < pieces; ++i) {
+    const size_t first = partOf(chosen.size(), pieces, i).first;
+    if (first > count) {
+      std::copy_n(keypoints + first, counts[i], keypoints + count);
+      std::copy_n(descriptors + first, counts[i], descriptors + count);
+    }
+    count += counts[i];
+    cut_ = cut_ || cuts[i];
+  }
+  return count;
 }
 
 uint32_t FeatureExtractor::describe(const Candidate &candidate, uint32_t room, Keypoint *keypoints,
-                                    Descriptor *descriptors) {
+                                    Descriptor *descriptors) const {
   const Plane &level = space_.kept(candidate.octave, candidate.level);
   const Rows rows = space_.rows(candidate.octave);
   const int32_t width = space_.width(candidate.octave);

@@ -5,7 +5,7 @@
 #include "runtime/base/arena.h"
 #include "runtime/stages/features/candidates.h"
 #include "runtime/stages/features/config.h"
-#include "runtime/stages/features/scale_space.h"
+#include "runtime/stages/features/sweep.h"
 
 namespace sphc {
 
@@ -20,20 +20,19 @@ class ExtremaFinder {
  public:
   static void layout(const FeatureConfig &config, Arena &scratch, ExtremaFinder *out);
 
-  void beginOctave(int32_t octave, int32_t width, Rows rows);
-  // After step y of the sweep: finds the extrema of the row that the sweep has made complete.
-  void step(const FeatureKernels &kernels, const ScaleSpace &space, int32_t y, CandidateList *found);
+  // After step y of the sweep: finds the extrema of the row that the sweep has made complete, if it is of its
+  // piece.
+  void step(const FeatureKernels &kernels, const Sweep &sweep, int32_t y, CandidateList *found);
 
  private:
-  void examine(const ScaleSpace &space, int32_t x, int32_t y, int32_t level, CandidateList *found) const;
+  void examine(const Sweep &sweep, int32_t x, int32_t y, int32_t level, CandidateList *found) const;
 
-  void accept(const Derivatives &derivatives, const float offset[3], int32_t x, int32_t y, int32_t level,
-              CandidateList *found) const;
+  void accept(const Sweep &sweep, const Derivatives &derivatives, const float offset[3], int32_t x, int32_t y,
+              int32_t level, CandidateList *found) const;
 
   float threshold_ = 0, edge_limit_ = 0;  // threshold in samples
   int16_t early_threshold_ = 0;
   Span<uint16_t> columns_;
-  int32_t octave_ = 0, width_ = 0, height_ = 0, top_ = 0;
 };
 
 }  // namespace sphc

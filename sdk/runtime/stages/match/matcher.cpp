@@ -1,6 +1,7 @@
 #include "runtime/stages/match/matcher.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace sphc {
 namespace {
@@ -12,6 +13,7 @@ constexpr uint32_t kGathered = 64, kCandidates = 1024;  // runs, and points in t
 // the search for its sectors, is worth; queries that are answered together.
 constexpr uint32_t kGrain = 4096, kRanking = 128, kTogether = 16, kTogetherExact = 16;
 
+constexpr size_t kBlock = 16;          // queries that one piece of those near an expected pose has in sequence
 constexpr uint32_t kFewestProbes = 4;  // in time: fewer find too little
 
 constexpr uint32_t kNobody = UINT32_MAX;
@@ -27,16 +29,23 @@ bool passesRatio(const NearestTwo &nearest, float max_ratio) {
          static_cast<double>(max_ratio) * static_cast<double>(max_ratio) * static_cast<double>(nearest.second2);
 }
 
+// The two nearest of what `nearest` has seen, and `later` after it.
+void join(const NearestTwo &later, NearestTwo *nearest) {
+  nearest->see(later.best2, later.best_index);
+  nearest->second2 = std::min(nearest->second2, later.second2);
+}
+
 // Of the groups of cells, those whose cells are looked at.
 uint32_t groupsVisited(uint32_t groups, uint32_t probes) { return std::min(groups, groups / 4 + probes / 4 + 2); }
 
 }  // namespace
 
-void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher) {
+void Matcher::layout(uint32_t max_queries, Arena &scratch, Matcher *matcher, const Parallel &parallel) {
   Matcher discarded;  // receives empty spans while measuring
   Matcher &m = matcher ? *matcher : discarded;
   m.nearest_ = scratch.take<NearestTwo>("match.nearest", max_queries);
   m.nearby_ = scratch.take<NearestTwo>("match.nearest", max_queries);
+  m.partial_ = scratch.take<NearestTwo>("match.nearest", size_t{parallel.pieces - 1} * max_queries);
   m.probed_ = scratch.take<uint16_t>("match.probed", size_t{max_queries} * kMaxProbes);
   m.starts_ = scratch.take<uint32_t>("match.askers", kMapMaxCells + 1);
   m.askers_ = scratch.take<uint32_t>("match.askers", size_t{max_queries} * kMaxProbes);
@@ -72,19 +81,31 @@ void Matcher::chooseCells(const Descriptor &query, Span<uint16_t> cells) const {
     cells[k] = ranked[k].index == kNobody ? kNoCell : static_cast<uint16_t>(ranked[k].index);
 }
 
-bool Matcher::rankUpTo(size_t count, Watch *watch) {
-  for (; ranked_ < count; ++ranked_) {
-    if (watch->passed(kRanking)) return false;
-    chooseCells(queries_[ranked_], {&probed_[ranked_ * ranks_], ranks_});
-  }
+bool Matcher::rank(size_t query, Watch *watch) const {
+  if (watch->passed(kRanking)) return false;
+  chooseCells(queries_[query], {&probed_[query * ranks_], ranks_});
   return true;
 }
 
+bool Matcher::rankUpTo(size_t count, const Deadline &deadline) {
+  if (ranked_ >= count) return true;
+  const uint32_t pieces = parallel_.pieces;
+  const bool in_time = parallel_.allOf(pieces, [&](uint32_t i) {
+    const Part part = partOf(count - ranked_, pieces, i);
+    Watch watch(deadline, kGrain);
+    for (size_t q = part.first; q < part.end; ++q)
+      if (!rank(ranked_ + q, &watch)) return false;
+    return true;
+  });
+  if (in_time) ranked_ = count;
+  return in_time;
+}
+
 // Turns "cells of a query" into "queries of a cell", in the order of the queries.
-void Matcher::listByCell(size_t first, size_t last) {
+void Matcher::listByCell(Part queries) {
   const Span<uint32_t> starts = starts_.first(map_->cellCount() + 1);
   std::fill(starts.begin(), starts.end(), 0u);
-  for (size_t q = first; q < last; ++q)
+  for (size_t q = queries.first; q < queries.end; ++q)
     for (const uint16_t cell : cellsOf(q).first(probes_))
       if (cell != kNoCell) ++starts[cell];
   uint32_t sum = 0;
@@ -92,7 +113,7 @@ void Matcher::listByCell(size_t first, size_t last) {
     sum += start;
     start = sum;
   }
-  for (size_t q = last; q > first; --q)  // backwards, so that the starts end where they should
+  for (size_t q = queries.end; q > queries.first; --q)  // backwards, so that the starts end where they should
     for (const uint16_t cell : cellsOf(q - 1).first(probes_))
       if (cell != kNoCell) askers_[--starts[cell]] = static_cast<uint32_t>(q - 1);
 }
@@ -109,33 +130,43 @@ uint32_t Matcher::matchExact(float max_ratio, Span<Match> matches, const Deadlin
 
 uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, float max_ratio, Span<Match> matches,
                             const Deadline &deadline) {
-  Watch watch(deadline, kGrain);
   const int64_t begin_ns = deadline.clock.now();
   cones_.prepare(map_->sectorSide(), cone_cosine);
-  size_t answered = 0;
-  for (; answered < expected.size(); ++answered) {
-    nearby_[answered] = kStart;
-    if (!rankUpTo(answered + 1, &watch)) break;
-    if (!searchNear(answered, {expected[answered], cone_cosine}, &watch, &nearby_[answered])) break;
-  }
-  cut_ = answered < expected.size();
-  if (deadline.isSet()) near_pace_.learn(static_cast<double>(answered), elapsedNs(begin_ns, deadline.clock.now()));
-  return select(nearby_.first(answered), max_ratio, matches);
+  std::fill_n(nearby_.begin(), expected.size(), kStart);
+  size_t answered[Parallel::kMostPieces] = {};
+  const uint32_t pieces = parallel_.pieces;
+  parallel_.forEach(pieces, [&](uint32_t i) {
+    Watch watch(deadline, kGrain);
+    // The first ones may be ranked, so that a query is no measure of work: pieces take turns.
+    for (size_t block = i; block * kBlock < expected.size(); block += pieces) {
+      const size_t end = std::min(expected.size(), (block + 1) * kBlock);
+      for (size_t q = block * kBlock; q < end; ++q, ++answered[i]) {
+        NearestTwo nearest = kStart;
+        if (q >= ranked_ && !rank(q, &watch)) return;
+        if (!searchNear(q, {expected[q], cone_cosine}, &watch, &nearest)) return;
+        nearby_[q] = nearest;
+      }
+    }
+  });
+  const size_t all = std::accumulate(answered, answered + pieces, size_t{0});
+  cut_ = all < expected.size();
+  if (!cut_) ranked_ = std::max(ranked_, all);
+  if (deadline.isSet()) near_pace_.learn(static_cast<double>(all), elapsedNs(begin_ns, deadline.clock.now()));
+  return select(nearby_.first(expected.size()), max_ratio, matches);
 }
 
 // A query is answered in full or not at all: the nearest point that was seen so far is none to be matched.
 void Matcher::search(size_t count, bool exact, const Deadline &deadline) {
   if (exact_ != exact) found_ = 0;
   exact_ = exact;
-  Watch watch(deadline, kGrain);
   const size_t begin = found_;
   const int64_t begin_ns = deadline.clock.now();
-  const size_t together = !deadline.isSet() ? count : exact ? kTogetherExact : kTogether;
+  const size_t together =
+      !deadline.isSet() ? count : size_t{parallel_.pieces} * (exact ? kTogetherExact : kTogether);
   while (found_ < count) {
-    const size_t last = std::min(count, found_ + together);
-    std::fill(nearest_.begin() + found_, nearest_.begin() + last, kStart);
-    if (!(exact ? searchPoints(found_, last, &watch) : searchCells(found_, last, &watch))) break;
-    found_ = last;
+    const Part queries = {found_, std::min(count, found_ + together)};
+    if (!searchTogether(queries, deadline)) break;
+    found_ = queries.end;
   }
   cut_ = found_ < count;
   if (!deadline.isSet()) return;
@@ -156,34 +187,67 @@ uint32_t Matcher::answerable(uint32_t count, const Deadline &deadline) const {
   return probes_pace_.fitting(deadline, rest * probes_) < rest * probes_ ? static_cast<uint32_t>(found_) : count;
 }
 
-bool Matcher::searchCells(size_t first, size_t last, Watch *watch) {
-  if (!rankUpTo(last, watch)) return false;
-  listByCell(first, last);
-  for (uint32_t c = 0; c < map_->cellCount(); ++c) {
-    const Span<const uint32_t> askers(askers_.data() + starts_[c], starts_[c + 1] - starts_[c]);
-    if (!askers.empty() && !searchRun(map_->cell(c), askers, watch)) return false;
+// In pieces of the map, so that each point is read once; of about as many comparisons each.
+bool Matcher::searchTogether(Part queries, const Deadline &deadline) {
+  if (!exact_ && !rankUpTo(queries.end, deadline)) return false;
+  if (exact_)
+    listForAll(queries);
+  else
+    listByCell(queries);
+  uint64_t work = 0;
+  for (uint32_t r = 0; r < runCount(); ++r) work += run(r).work();
+  const uint32_t pieces = parallel_.pieces;
+  const bool in_time = parallel_.allOf(pieces, [&](uint32_t i) {
+    const Span<NearestTwo> nearest = nearestOf(i);
+    std::fill(nearest.begin() + queries.first, nearest.begin() + queries.end, kStart);
+    Watch watch(deadline, kGrain);
+    return searchRuns({work * i / pieces, work * (i + 1) / pieces}, nearest, &watch);
+  });
+  for (uint32_t i = 1; i < pieces; ++i)
+    for (size_t q = queries.first; q < queries.end; ++q) join(nearestOf(i)[q], &nearest_[q]);
+  return in_time;
+}
+
+void Matcher::listForAll(Part queries) {
+  starts_[0] = 0;
+  starts_[1] = static_cast<uint32_t>(queries.size());
+  std::iota(askers_.begin(), askers_.begin() + queries.size(), static_cast<uint32_t>(queries.first));
+}
+
+Matcher::Run Matcher::run(uint32_t index) const {
+  const Span<const uint32_t> askers(askers_.data() + starts_[index], starts_[index + 1] - starts_[index]);
+  return {exact_ ? IndexRange{0, map_->pointCount()} : map_->cell(index), askers};
+}
+
+bool Matcher::searchRuns(const Share &share, Span<NearestTwo> nearest, Watch *watch) const {
+  uint64_t done = 0;
+  for (uint32_t r = 0; r < runCount() && done < share.end; ++r) {
+    const Run own = run(r);
+    const uint64_t before = done, askers = own.askers.size();
+    done += own.work();
+    if (done <= share.first || askers == 0) continue;
+    // A point belongs to the piece that its first comparison lies in.
+    const auto pointAt = [&](uint64_t at) {
+      return at <= before ? own.points.begin
+             : at >= done ? own.points.end
+                          : own.points.begin + static_cast<uint32_t>((at - before + askers - 1) / askers);
+    };
+    if (!searchRun({pointAt(share.first), pointAt(share.end)}, own.askers, nearest, watch)) return false;
   }
   return true;
 }
 
-bool Matcher::searchPoints(size_t first, size_t last, Watch *watch) {
-  const Span<uint32_t> all = askers_.first(last - first);
-  for (size_t q = first; q < last; ++q) all[q - first] = static_cast<uint32_t>(q);
-  return searchRun({0, map_->pointCount()}, all, watch);
-}
-
-// False where the deadline passed meanwhile.
-bool Matcher::searchRun(IndexRange points, Span<const uint32_t> askers, Watch *watch) {
+bool Matcher::searchRun(IndexRange points, Span<const uint32_t> askers, Span<NearestTwo> nearest,
+                        Watch *watch) const {
   const auto count = static_cast<uint32_t>(askers.size());
   for (uint32_t at = points.begin; at < points.end; at += kTile) {
     const uint32_t end = std::min(at + kTile, points.end);
     if (watch->passed(count * (end - at))) return false;
-    searchRange(map_->descriptors(), at, end, queries_, askers, nearest_);
+    searchRange(map_->descriptors(), at, end, queries_, askers, nearest);
   }
   return true;
 }
 
-// False where the deadline passed meanwhile.
 bool Matcher::searchNear(size_t q, const SearchCone &cone, Watch *watch, NearestTwo *nearest) const {
   const MapView &map = *map_;
   const Descriptor &query = queries_[q];

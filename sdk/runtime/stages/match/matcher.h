@@ -3,6 +3,7 @@
 #pragma once
 #include "runtime/base/arena.h"
 #include "runtime/base/pace.h"
+#include "runtime/base/parallel.h"
 #include "runtime/map/map_view.h"
 #include "runtime/stages/match/distance.h"
 #include "runtime/stages/match/sector_cones.h"
@@ -21,8 +22,10 @@ class Matcher {
  public:
   static constexpr uint32_t kMaxProbes = 32;
 
-  // Depends on no map.
-  static void layout(uint32_t max_queries, Arena &scratch, Matcher *matcher);
+  // Depends on no map.  Of `parallel` the number of pieces counts.
+  static void layout(uint32_t max_queries, Arena &scratch, Matcher *matcher, const Parallel &parallel = {});
+  // Once, where layout was told of one.
+  void setParallel(const Parallel &parallel) { parallel_ = parallel; }
 
   // Both are borrowed until the next ask.  `probes`: cells in which matchAll looks for each query, at most
   // kMaxProbes; docs/matching.md says what share of the exact matches that finds.
@@ -53,15 +56,35 @@ class Matcher {
 
  private:
   static constexpr double kGuessedProbeNs = 900, kGuessedNearNs = 1500;  // before anything was timed
+  // Points of a cell, or all, and the queries that are compared with them.
+  struct Run {
+    IndexRange points;
+    Span<const uint32_t> askers;
+
+    uint64_t work() const { return uint64_t{points.end - points.begin} * askers.size(); }
+  };
+  // Of the comparisons of all runs, in their order.
+  struct Share {
+    uint64_t first, end;
+  };
   // Neighbours in the whole map of the first `count` queries: of those that have none yet.
   void search(size_t count, bool exact, const Deadline &deadline);
-  bool searchCells(size_t first, size_t last, Watch *watch);
-  bool searchPoints(size_t first, size_t last, Watch *watch);
-  bool searchRun(IndexRange points, Span<const uint32_t> askers, Watch *watch);
+  // Of these queries; false where the deadline passed meanwhile, as all below.
+  bool searchTogether(Part queries, const Deadline &deadline);
+  bool rankUpTo(size_t count, const Deadline &deadline);
+  bool rank(size_t query, Watch *watch) const;
   void chooseCells(const Descriptor &query, Span<uint16_t> cells) const;
-  bool rankUpTo(size_t count, Watch *watch);
   Span<const uint16_t> cellsOf(size_t query) const { return {&probed_[query * ranks_], ranks_}; }
-  void listByCell(size_t first, size_t last);
+  void listByCell(Part queries);
+  void listForAll(Part queries);
+  uint32_t runCount() const { return exact_ ? 1 : map_->cellCount(); }
+  Run run(uint32_t index) const;
+  bool searchRuns(const Share &share, Span<NearestTwo> nearest, Watch *watch) const;
+  bool searchRun(IndexRange points, Span<const uint32_t> askers, Span<NearestTwo> nearest, Watch *watch) const;
+  // Of a piece: in the whole map, the first one's are those of all.
+  Span<NearestTwo> nearestOf(uint32_t piece) const {
+    return piece == 0 ? nearest_ : Span<NearestTwo>(&partial_[(piece - 1) * nearest_.size()], nearest_.size());
+  }
   bool searchNear(size_t query, const SearchCone &cone, Watch *watch, NearestTwo *nearest) const;
   static uint32_t select(Span<const NearestTwo> nearest, float max_ratio, Span<Match> matches);
 
@@ -73,18 +96,20 @@ class Matcher {
 
   Span<NearestTwo> nearest_;  // of the first `found_` queries in the whole map
   Span<NearestTwo> nearby_;   // in the cones
+  Span<NearestTwo> partial_;  // in the whole map, of each piece but the first among its points
   size_t found_ = 0;
   bool exact_ = false;  // over all points, not through the index
   bool cut_ = false;
   Pace near_pace_{kGuessedNearNs};
   Pace probes_pace_{kGuessedProbeNs};  // of queries times their probes
   Span<uint16_t> probed_;  // the nearest cells of each query, nearest first; kNoCell where there are fewer
-  Span<uint32_t> starts_;  // of each cell's queries in `askers_`
+  Span<uint32_t> starts_;  // of each run's queries in `askers_`
   Span<uint32_t> askers_;
   Span<WideRow> wide_cells_, wide_groups_;
   Span<uint32_t> cell_length2_, group_length2_;
   CellTable table_;  // of the map that is being matched
   SectorCones cones_;
+  Parallel parallel_;
 };
 
 }  // namespace sphc

@@ -24,8 +24,8 @@ inline FrameRecord goodFrame(uint32_t sequence, double error_m, double error_deg
   frame.total_us = 10000 + sequence;
   frame.truth_base_from_camera = poseAt(0.1 * sequence, 0.02 * sequence * sequence, 1);
   frame.base_from_camera = poseAt(0.1 * sequence + error_m, 0.02 * sequence * sequence, 1, error_deg);
-  frame.observations = {{20, 20, 2, 1, 0, 0},
-                        {30, 30, 2, 1, 1, SPHC_OBSERVATION_MATCHED | SPHC_OBSERVATION_INLIER}};
+  frame.observations = {{20, 20, 2, 1, 0, 0, 0},
+                        {30, 30, 2, 1, 1, SPHC_OBSERVATION_MATCHED | SPHC_OBSERVATION_INLIER, 0}};
   judge(&frame);
   return frame;
 }

@@ -46,7 +46,7 @@ TEST(Highlights, OfASingleFrameShowItOnce) {
 TEST(Overlay, MarksAnInlierInGreen) {
   const cv::Mat gray(60, 80, CV_8UC3, cv::Scalar(100, 100, 100));
   FrameRecord frame = goodFrame(1, 0.01, 0);
-  frame.observations = {{30.5f, 30.5f, 2, 1, 0, SPHC_OBSERVATION_MATCHED | SPHC_OBSERVATION_INLIER}};
+  frame.observations = {{30.5f, 30.5f, 2, 1, 0, SPHC_OBSERVATION_MATCHED | SPHC_OBSERVATION_INLIER, 0}};
   const cv::Mat picture = drawOverlay(gray, frame);
   ASSERT_EQ(picture.cols, 160);
   EXPECT_GT(picture.rows, 120);

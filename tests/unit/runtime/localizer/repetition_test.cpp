@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/backwards.h"
 #include "tests/unit/runtime/localizer/room_parts.h"
 
 namespace sphc {
@@ -50,6 +51,29 @@ TEST_F(RepetitionTest, SaysWhatRepeats) {
   ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
   EXPECT_LT(without_pattern, 0.6);
   EXPECT_GT(repeating(), 0.8);
+}
+
+TEST_F(RepetitionTest, SameInPieces) {
+  for (const uint32_t pieces : {2u, 3u, 8u}) {
+    uint32_t calls = 0;
+    const Parallel parallel = test::backwards(pieces, &calls);
+    Repetition cut;
+    const test::ArenaMemory memory([&](Arena &arena, bool real) {
+      Repetition::layout(parts_.config.max_keypoints, parallel, arena, real ? &cut : nullptr);
+    });
+    cut.setParallel(parallel);
+    for (const uint32_t period_px : {48u, 64u}) {
+      parts_.seeRepeated(0, period_px);
+      ASSERT_TRUE(parts_.repetition.look(parts_.front, {}));
+      ASSERT_TRUE(cut.look(parts_.front, {}));
+      const Span<const Vector3> alone = parts_.repetition.moves_m(), found = cut.moves_m();
+      ASSERT_EQ(found.size(), alone.size());
+      for (size_t i = 0; i < alone.size(); ++i) EXPECT_EQ(found[i], alone[i]);
+      for (uint32_t i = 0; i < parts_.front.liftedCount(); ++i)
+        EXPECT_EQ(cut.repeats(i), parts_.repetition.repeats(i));
+    }
+    EXPECT_GE(calls, 4u);
+  }
 }
 
 TEST_F(RepetitionTest, EndsWithTheDeadline) {

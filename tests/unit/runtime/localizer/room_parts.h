@@ -113,7 +113,7 @@ class RoomParts {
     Search::layout(config, arena, arena, real ? &search : nullptr);
     for (Hypothesis *hypothesis : {&found, &rival})
       MatchSet::layout(config.max_keypoints, arena, real ? &hypothesis->matched : nullptr);
-    Repetition::layout(config.max_keypoints, arena, real ? &repetition : nullptr);
+    Repetition::layout(config.max_keypoints, config.parallel, arena, real ? &repetition : nullptr);
     EstimatorConfig of_estimator;
     of_estimator.capacity = 2 * config.max_keypoints;
     of_estimator.max_iterations = config.search.max_iterations;

@@ -13,21 +13,23 @@ namespace {
 // All extrema of an image's first octave.
 std::vector<Candidate> extremaOf(const TestImage &image, const FeatureConfig &config) {
   ScaleSpace space;
+  Sweep sweep;
   ExtremaFinder finder;
   CandidateList found;
   const test::ArenaMemory memory([&](Arena &arena, bool real) {
-    ScaleSpace::layout(config, arena, arena, real ? &space : nullptr);
+    ScaleSpace::layout(config, arena, real ? &space : nullptr);
+    Sweep::layout(config, false, arena, real ? &sweep : nullptr);
     ExtremaFinder::layout(config, arena, real ? &finder : nullptr);
     CandidateList::layout(config, arena, real ? &found : nullptr);
   });
   const FeatureKernels &kernels = simdFeatureKernels();
-  space.init(kernels);
+  space.init();
   found.clear();
   space.beginOctave(0, image.view());
-  finder.beginOctave(0, space.width(0), {0, space.height(0)});
-  for (int32_t y = 0; y < space.stepCount(); y += kRowsAtOnce) {
-    space.step(y);
-    for (int32_t i = 0; i < kRowsAtOnce; ++i) finder.step(kernels, space, y + i, &found);
+  sweep.begin(space, {0, space.height(0)}, kernels);
+  for (int32_t y = sweep.firstStep(); y < sweep.endStep(); y += kRowsAtOnce) {
+    sweep.step(y);
+    for (int32_t i = 0; i < kRowsAtOnce; ++i) finder.step(kernels, sweep, y + i, &found);
   }
   const Span<Candidate> chosen = found.choose(config, config.max_keypoints);
   return {chosen.begin(), chosen.end()};

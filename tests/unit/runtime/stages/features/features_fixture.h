@@ -102,12 +102,12 @@ struct Features {
 class TestExtractor {
  public:
   explicit TestExtractor(const FeatureConfig &config, uint8_t fill = 0xA5,
-                         const FeatureKernels &kernels = simdFeatureKernels())
+                         const FeatureKernels &kernels = simdFeatureKernels(), const Parallel &parallel = {})
       : config_(config), state_(stateBytes(config), fill), scratch_(scratchBytes(config), fill) {
     Arena state(state_.data()), scratch(scratch_.data());
     FeatureExtractor::layout(config, state, scratch, &extractor_);
     used_as_measured_ = state.used() == state_.bytes() && scratch.used() == scratch_.bytes();
-    extractor_.init(kernels);
+    extractor_.init(kernels, parallel);
   }
 
   Features operator()(const TestImage &image, const Deadline &deadline = {}) {

@@ -1,9 +1,10 @@
-#include "runtime/stages/features/scale_space.h"
+#include "runtime/stages/features/sweep.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "runtime/base/parallel.h"
 #include "tests/support/arena_memory.h"
 #include "tests/unit/runtime/stages/features/features_fixture.h"
 
@@ -13,15 +14,28 @@ namespace {
 class TestSpace {
  public:
   explicit TestSpace(const FeatureConfig &config)
-      : memory_(
-            [&](Arena &arena, bool real) { ScaleSpace::layout(config, arena, arena, real ? &space : nullptr); }) {
-    space.init(simdFeatureKernels());
+      : memory_([&](Arena &arena, bool real) {
+          ScaleSpace::layout(config, arena, real ? &space : nullptr);
+          for (Sweep &sweep : sweeps_) Sweep::layout(config, true, arena, real ? &sweep : nullptr);
+        }) {
+    space.init();
   }
-  void sweep(const TestImage &image) {
-    for (int32_t octave = 0; octave < space.octaves(); ++octave) {
-      space.beginOctave(octave, image.view());
-      for (int32_t y = 0; y < space.stepCount(); y += kRowsAtOnce) space.step(y);
+  void sweepOctave(int32_t octave, const TestImage &image, uint32_t pieces = 1) {
+    space.beginOctave(octave, image.view());
+    for (uint32_t i = 0; i < pieces; ++i) {
+      const Part part = partOf(static_cast<size_t>(space.height(octave)), pieces, i);
+      sweeps_[i].begin(space, {static_cast<int32_t>(part.first), static_cast<int32_t>(part.size())},
+                       simdFeatureKernels());
+      for (int32_t y = sweeps_[i].firstStep(); y < sweeps_[i].endStep(); y += kRowsAtOnce) sweeps_[i].step(y);
     }
+  }
+  void sweep(const TestImage &image, uint32_t pieces = 1) {
+    for (int32_t octave = 0; octave < space.octaves(); ++octave) sweepOctave(octave, image, pieces);
+  }
+  void skimOctave(int32_t octave, const TestImage &image) {
+    space.beginOctave(octave, image.view());
+    sweeps_[0].begin(space, {0, space.height(octave)}, simdFeatureKernels());
+    for (int32_t y = 0; y < sweeps_[0].skimCount(); y += kRowsAtOnce) sweeps_[0].skim(y);
   }
   // Grey level, 0 to 255.
   double at(int32_t octave, int32_t level, int32_t x, int32_t y) const {
@@ -31,6 +45,7 @@ class TestSpace {
   ScaleSpace space;
 
  private:
+  Sweep sweeps_[Parallel::kMostPieces];
   test::ArenaMemory memory_;
 };
 
@@ -76,19 +91,33 @@ TEST(ScaleSpace, SkimmingMakesWhatTheNextOctaveNeeds) {
     config.first_octave = first_octave;
     TestSpace swept(config), skimmed(config);
     swept.sweep(image);
-    ScaleSpace &space = skimmed.space;
+    const ScaleSpace &space = skimmed.space;
     const int32_t last = 2;
-    for (int32_t octave = 0; octave < last; ++octave) {
-      space.beginOctave(octave, image.view());
-      for (int32_t y = 0; y < space.skimCount(); y += kRowsAtOnce) space.skim(y);
-    }
-    space.beginOctave(last, image.view());
-    for (int32_t y = 0; y < space.stepCount(); y += kRowsAtOnce) space.step(y);
+    for (int32_t octave = 0; octave < last; ++octave) skimmed.skimOctave(octave, image);
+    skimmed.sweepOctave(last, image);
     for (int32_t level = 1; level <= kScales; ++level)
       for (int32_t y = 0; y < space.height(last); ++y)
         for (int32_t x = 0; x < space.width(last); ++x)
           ASSERT_NEAR(skimmed.at(last, level, x, y), swept.at(last, level, x, y), 2.5) << x << ", " << y;
   }
+}
+
+// Pieces write each row of a kept level once: what the others do for themselves is nobody's.
+TEST(ScaleSpace, PiecesMakeTheSameLevels) {
+  const TestImage image = spots(161, 119, 5);
+  for (const int32_t first_octave : {0, -1})
+    for (const uint32_t pieces : {2u, 3u, 8u}) {
+      FeatureConfig config = configFor(image);
+      config.first_octave = first_octave;
+      TestSpace whole(config), cut(config);
+      whole.sweep(image);
+      cut.sweep(image, pieces);
+      for (int32_t octave = 0; octave < whole.space.octaves(); ++octave)
+        for (int32_t level = 1; level <= kScales; ++level)
+          for (int32_t y = 0; y < whole.space.height(octave); ++y)
+            for (int32_t x = 0; x < whole.space.width(octave); ++x)
+              ASSERT_EQ(cut.at(octave, level, x, y), whole.at(octave, level, x, y)) << x << ", " << y;
+    }
 }
 
 // A soft spot of sigma s, blurred by b, is one of sqrt(s^2 + b^2), and lower by the ratio of their areas.

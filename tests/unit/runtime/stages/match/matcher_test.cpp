@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 #include "runtime/stages/features/extractor.h"
+#include "tests/support/arena_memory.h"
+#include "tests/support/backwards.h"
 #include "tests/support/map_bytes.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/stepping_clock.h"
@@ -124,6 +127,47 @@ TEST_F(MatcherTest, StrangersDoNotMatch) {
   std::vector<Descriptor> queries;
   for (uint32_t q = 0; q < kQueries; ++q) queries.push_back(test::randomDescriptor(&random_));
   EXPECT_EQ(matchExact(queries, 0.95f).size(), 0u);
+}
+
+// All that a matcher says of some queries.
+std::vector<Match> allMatches(const MapView &view, const std::vector<Descriptor> &queries,
+                              const std::vector<Direction> &expected, Matcher *matcher) {
+  std::vector<Match> all, room(queries.size());
+  const Span<Match> to(room.data(), room.size());
+  const auto add = [&](uint32_t count) { all.insert(all.end(), room.begin(), room.begin() + count); };
+  matcher->ask(view, {queries.data(), queries.size()}, 8);
+  add(matcher->matchAll(7, 0.9f, to));
+  add(matcher->matchNear({expected.data(), expected.size()}, 0.7f, 0.9f, to));
+  add(matcher->matchAll(queries.size(), 0.9f, to));
+  add(matcher->matchExact(0.9f, to));
+  return all;
+}
+
+TEST_F(MatcherTest, SameInPieces) {
+  std::vector<Descriptor> queries;
+  std::vector<Direction> expected;
+  points_[100].descriptor = points_[400].descriptor;  // of equals the first one is found
+  for (uint32_t q = 0; q < kQueries; ++q) {
+    const test::MapPoint &point = points_[4 * q];
+    queries.push_back(jittered(point.descriptor, q % 40, &random_));
+    if (q > 100) continue;
+    expected.push_back({static_cast<float>(point.direction.x()), static_cast<float>(point.direction.y()),
+                        static_cast<float>(point.direction.z())});
+  }
+  const std::vector<Match> alone = allMatches(view(), queries, expected, &matcher_);
+  EXPECT_GT(alone.size(), 2 * kQueries);
+  for (const uint32_t pieces : {2u, 3u, 8u}) {
+    uint32_t calls = 0;
+    const Parallel parallel = test::backwards(pieces, &calls);
+    Matcher cut;
+    const test::ArenaMemory memory(
+        [&](Arena &arena, bool real) { Matcher::layout(kQueries, arena, real ? &cut : nullptr, parallel); });
+    cut.setParallel(parallel);
+    const std::vector<Match> found = allMatches(view(), queries, expected, &cut);
+    ASSERT_EQ(found.size(), alone.size());
+    EXPECT_EQ(std::memcmp(found.data(), alone.data(), alone.size() * sizeof(Match)), 0);
+    EXPECT_EQ(calls, 2u + 1 + 2 + 1);  // cells are ranked for as long as there are new queries
+  }
 }
 
 TEST_F(MatcherTest, NoQueries) { EXPECT_EQ(matchExact({}, 0.8f).size(), 0u); }

@@ -1,0 +1,194 @@
+// config.parallel: a frame by several threads gives the bytes of one.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "host/base/task_threads.h"
+#include "spherecloud/spherecloud.hpp"
+#include "tests/capi/bytes.h"
+#include "tests/support/session.h"
+
+namespace {
+
+using sphc::host::TaskThreads;
+using sphc::test::SceneFrame;
+using sphc::test::Session;
+
+constexpr uint32_t kFrames = 5;
+
+// One thread, and the last task first.
+void runBackwards(void *calls, uint32_t count, sphc_task_fn task, void *task_data) {
+  ++*static_cast<uint32_t *>(calls);
+  for (uint32_t i = count; i > 0; --i) task(task_data, i - 1);
+}
+
+// Each task on a thread of its own, all at the same time.
+void runOnThreads(void *, uint32_t count, sphc_task_fn task, void *task_data) {
+  std::vector<std::thread> threads;
+  for (uint32_t i = 0; i < count; ++i) threads.emplace_back(task, task_data, i);
+  for (std::thread &thread : threads) thread.join();
+}
+
+int64_t steadyNs(void *) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+struct Answer {
+  sphc_status status = SPHC_OK;
+  sphc_localizer_result result = spherecloud::emptyResult();
+  std::vector<sphc_localizer_observation> observations;
+};
+
+void expectSame(const Answer &a, const Answer &b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(std::memcmp(&a.result, &b.result, sizeof a.result), 0);
+  ASSERT_EQ(a.observations.size(), b.observations.size());
+  EXPECT_EQ(std::memcmp(a.observations.data(), b.observations.data(),
+                        a.observations.size() * sizeof(sphc_localizer_observation)),
+            0);
+}
+
+Answer answerOf(Session *session,
+                const std::function<sphc_status(sphc_localizer *, sphc_localizer_result *)> &call) {
+  Answer answer;
+  answer.status = call(session->localizer(), &answer.result);
+  uint32_t count = 0;
+  sphc_localizer_observations(session->localizer(), nullptr, sizeof(sphc_localizer_observation), 0, &count);
+  answer.observations.resize(count);
+  sphc_localizer_observations(session->localizer(), answer.observations.data(), sizeof(sphc_localizer_observation),
+                              count, &count);
+  return answer;
+}
+
+class ParallelFrames : public testing::Test {
+ protected:
+  ParallelFrames() {
+    for (uint32_t i = 0; i < kFrames; ++i) {
+      frames_.push_back(sphc::test::sceneFrame(config_, i % 4, i == 3));  // one of another room
+      frames_[i]->frame.color_time_ns = frames_[i]->frame.depth_time_ns = (i + 1) * int64_t{50000000};
+    }
+  }
+  sphc_localizer_config inTasks(uint32_t tasks, sphc_parallel_fn run, void *user) const {
+    sphc_localizer_config config = config_;
+    config.parallel = run;
+    config.parallel_user = user;
+    config.parallel_tasks = tasks;
+    return config;
+  }
+  std::vector<Answer> answers(const sphc_localizer_config &config, double probes) const {
+    Session session(config, 0.5, 2);
+    session.setParameter(SPHC_PARAMETER_PROBES, probes);
+    std::vector<Answer> all;
+    for (const auto &each : frames_)
+      all.push_back(answerOf(&session, [&](sphc_localizer *localizer, sphc_localizer_result *result) {
+        return sphc_localizer_process(localizer, &each->frame, result);
+      }));
+    return all;
+  }
+
+  sphc_localizer_config config_ = sphc::test::sceneConfig();
+  std::vector<std::unique_ptr<SceneFrame>> frames_;
+};
+
+TEST_F(ParallelFrames, SameBytes) {
+  TaskThreads pool(3);
+  for (const sphc_localizer_mode mode : {SPHC_MODE_TRACKING, SPHC_MODE_SINGLE})
+    for (const double probes : {8.0, 0.0}) {
+      config_.mode = mode;
+      const std::vector<Answer> alone = answers(config_, probes);
+      EXPECT_EQ(alone[0].status, SPHC_OK);
+      for (const uint32_t tasks : {1u, 2u, 3u, 8u}) {
+        uint32_t calls = 0;
+        const std::vector<Answer> by_others[] = {answers(inTasks(tasks, runOnThreads, nullptr), probes),
+                                                 answers(inTasks(tasks, TaskThreads::run, &pool), probes),
+                                                 answers(inTasks(tasks, runBackwards, &calls), probes)};
+        for (const std::vector<Answer> &others : by_others)
+          for (uint32_t i = 0; i < kFrames; ++i) expectSame(others[i], alone[i]);
+        EXPECT_TRUE(tasks == 1 ? calls == 0 : calls >= 3 * kFrames) << calls;
+      }
+    }
+}
+
+// Both halves call the function at the same time.
+TEST_F(ParallelFrames, SameBytesInTwoHalves) {
+  const std::vector<Answer> alone = answers(config_, 8);
+  TaskThreads threads(2);
+  const sphc_localizer_config config = inTasks(2, TaskThreads::run, &threads);
+  Session session(config, 0.5, 2);
+  spherecloud::Features of[2];
+  for (spherecloud::Features &features : of) ASSERT_TRUE(spherecloud::Features::make(config, &features).ok());
+  ASSERT_EQ(sphc_localizer_extract(session.localizer(), &frames_[0]->frame, of[0].get()), SPHC_OK);
+  for (uint32_t i = 0; i < kFrames; ++i) {
+    sphc_status next = SPHC_OK;
+    std::thread extracting([&] {
+      if (i + 1 < kFrames)
+        next = sphc_localizer_extract(session.localizer(), &frames_[i + 1]->frame, of[(i + 1) % 2].get());
+    });
+    const Answer answer = answerOf(&session, [&](sphc_localizer *localizer, sphc_localizer_result *result) {
+      return sphc_localizer_locate(localizer, &frames_[i]->frame, of[i % 2].get(), result);
+    });
+    extracting.join();
+    EXPECT_EQ(next, SPHC_OK);
+    expectSame(answer, alone[i]);
+  }
+}
+
+// The clock is read by all of the threads.
+TEST_F(ParallelFrames, EndAtTheirDeadline) {
+  TaskThreads threads(3);
+  sphc_localizer_config config = inTasks(3, TaskThreads::run, &threads);
+  config.clock = steadyNs;
+  Session session(config, 0.5, 2);
+  for (const uint32_t deadline_us : {1u, 500u, 2000u, 20000000u})
+    for (const auto &each : frames_) {
+      sphc_localizer_frame frame = each->frame;
+      frame.deadline_us = deadline_us;
+      sphc_localizer_result result = spherecloud::emptyResult();
+      EXPECT_GE(sphc_localizer_process(session.localizer(), &frame, &result), SPHC_OK);
+      if (deadline_us == 1) {
+        EXPECT_EQ(result.outcome, SPHC_OUTCOME_DEADLINE);
+      } else if (deadline_us > 1000000) {
+        EXPECT_EQ(result.cuts, 0u);
+      }
+    }
+}
+
+TEST(ParallelMemory, TasksNeedSomeAndBoundsHold) {
+  sphc_localizer_config config = sphc::test::sceneConfig();
+  uint32_t calls = 0;
+  for (const uint32_t width : {16u, 320u, 1280u, 8192u})
+    for (const uint32_t height : {16u, 240u, 960u, 8192u})
+      for (const uint32_t keypoints : {64u, 800u, 4096u}) {
+        config.rig.color_camera = sphc::test::pinhole(width, height, 500);
+        config.max_keypoints = keypoints;
+        config.parallel = nullptr;
+        config.parallel_tasks = 0;
+        sphc_memory alone = {};
+        ASSERT_EQ(sphc_localizer_memory(&config, &alone, nullptr), SPHC_OK);
+        config.parallel = runBackwards;
+        config.parallel_user = &calls;
+        for (uint32_t tasks = 1; tasks <= SPHC_PARALLEL_MAX; ++tasks) {
+          config.parallel_tasks = tasks;
+          sphc_memory need = {};
+          ASSERT_EQ(sphc_localizer_memory(&config, &need, nullptr), SPHC_OK);
+          ASSERT_LE(need.state_bytes, SPHC_LOCALIZER_STATE_BYTES_MAX(keypoints, config.max_maps));
+          ASSERT_LE(need.scratch_bytes - alone.scratch_bytes,
+                    SPHC_LOCALIZER_PARALLEL_BYTES_MAX(keypoints, width, tasks));
+          if (tasks == 1) {
+            EXPECT_EQ(need.scratch_bytes, alone.scratch_bytes);
+            EXPECT_EQ(need.state_bytes, alone.state_bytes);
+          } else {
+            EXPECT_GT(need.scratch_bytes, alone.scratch_bytes);
+          }
+        }
+      }
+  EXPECT_EQ(calls, 0u);
+}
+
+}  // namespace

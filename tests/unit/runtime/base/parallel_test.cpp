@@ -1,0 +1,50 @@
+#include "runtime/base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/backwards.h"
+
+namespace sphc {
+namespace {
+
+TEST(Parallel, PartsAreAllAndAboutAsLarge) {
+  for (const size_t size : {0u, 1u, 7u, 480u})
+    for (uint32_t pieces = 1; pieces <= Parallel::kMostPieces; ++pieces) {
+      size_t end = 0;
+      for (uint32_t i = 0; i < pieces; ++i) {
+        const Part part = partOf(size, pieces, i);
+        EXPECT_EQ(part.first, end);
+        EXPECT_LE(part.size(), size / pieces + 1);
+        end = part.end;
+      }
+      EXPECT_EQ(end, size);
+    }
+}
+
+TEST(Parallel, OnePieceNeedsNoFunction) {
+  const Parallel alone;
+  std::vector<uint32_t> order;
+  alone.forEach(0, [&](uint32_t i) { order.push_back(i); });
+  alone.forEach(1, [&](uint32_t i) { order.push_back(i); });
+  alone.both([&] { order.push_back(1); }, [&] { order.push_back(2); });
+  EXPECT_EQ(order, (std::vector<uint32_t>{0, 1, 2}));
+  EXPECT_TRUE(alone.allOf(1, [](uint32_t) { return true; }));
+  EXPECT_FALSE(alone.allOf(1, [](uint32_t) { return false; }));
+}
+
+TEST(Parallel, TheFunctionRunsSeveral) {
+  uint32_t calls = 0;
+  const Parallel parallel = test::backwards(3, &calls);
+  std::vector<uint32_t> order;
+  parallel.forEach(3, [&](uint32_t i) { order.push_back(i); });
+  parallel.both([&] { order.push_back(10); }, [&] { order.push_back(11); });
+  EXPECT_EQ(order, (std::vector<uint32_t>{2, 1, 0, 11, 10}));
+  EXPECT_TRUE(parallel.allOf(3, [](uint32_t) { return true; }));
+  EXPECT_FALSE(parallel.allOf(3, [](uint32_t i) { return i != 2; }));
+  EXPECT_EQ(calls, 4u);
+}
+
+}  // namespace
+}  // namespace sphc
