@@ -60,9 +60,10 @@ const char kRigHelp[] =
     "two, by three and by all, with as many keypoints in all.";
 const char kRigExample[] =
     "Example:\n"
+    "  spherecloud-lab rig --seed 7 --map room.sphc\n"
+    "The map is of lap one:\n"
     "  spherecloud simulate --out walk --seed 7 --walk-seed 7 --with bare --frames 100 --rate 6.25\n"
     "  spherecloud build --recording walk --map room.sphc\n"
-    "  spherecloud-lab rig --seed 7 --map room.sphc\n"
     "What comes out: a table; with --json rows.  The owner's note is sought beside the map.";
 
 }  // namespace

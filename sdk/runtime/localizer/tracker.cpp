@@ -70,10 +70,11 @@ bool Tracker::motionSince(int64_t then_ns, Rigid *now_from_then) const {
 }
 
 CameraRate Tracker::rate() const {
-  constexpr int64_t kApartNs = 5000000;
+  constexpr uint64_t kApartNs = 5000000;
   CameraRate rate;
   Rigid now_from_then;
-  if (!motionSince(time_ns_ - kApartNs, &now_from_then)) return rate;
+  const auto then_ns = static_cast<int64_t>(static_cast<uint64_t>(time_ns_) - kApartNs);  // times may be any
+  if (!motionSince(then_ns, &now_from_then)) return rate;
   rate.turn_rad_s = vectorFromRotation(now_from_then.rotation) / secondsOf(kApartNs);
   rate.shift_m_s = now_from_then.translation_m / secondsOf(kApartNs);
   return rate;
