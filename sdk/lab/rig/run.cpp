@@ -8,7 +8,8 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
+// Right is what is nearer, wrong what is farther.
+constexpr double kRightM = 0.05, kRightRad = 5 * M_PI / 180, kWrongM = 0.25, kWrongRad = 10 * M_PI / 180;
 constexpr uint32_t kHeadings = 16;
 
 struct Viewpoint {
@@ -56,8 +57,8 @@ void judge(const sphc_localizer_result &result, const Rigid &truth, RigRow *row)
   const double shift_m = (found.inverse().translation_m - truth.inverse().translation_m).norm(),
                turn_rad = rotationAngle(found.rotation * truth.rotation.transpose());
   ++row->localized;
-  row->right += shift_m < 0.05 && turn_rad < 5 * kDegree;
-  row->wrong += shift_m > 0.25 || turn_rad > 10 * kDegree;
+  row->right += shift_m < kRightM && turn_rad < kRightRad;
+  row->wrong += shift_m > kWrongM || turn_rad > kWrongRad;
   row->errors_mm.push_back(1000 * shift_m);
 }
 
