@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -317,7 +318,7 @@ TEST(Cameras, ABadConfigIsRefusedWithItsCause) {
        {"config.cameras[1].struct_size"}},
       {"reserved", [](Rig *r) { r->cameras[1].reserved = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
       {"camera",
-       [](Rig *r) { r->cameras[1].camera.params[0] = NAN; },
+       [](Rig *r) { r->cameras[1].camera.params[0] = std::numeric_limits<double>::quiet_NaN(); },
        SPHC_E_ARGUMENT,
        {"i = 1", "config.cameras[i].camera"}},
       {"quaternion",
@@ -333,7 +334,7 @@ TEST(Cameras, ABadConfigIsRefusedWithItsCause) {
        SPHC_E_ARGUMENT,
        {"config.color_row_time_ns"}},
       {"translation",
-       [](Rig *r) { r->cameras[0].color_from_camera.t_m[2] = NAN; },
+       [](Rig *r) { r->cameras[0].color_from_camera.t_m[2] = std::numeric_limits<double>::quiet_NaN(); },
        SPHC_E_ARGUMENT,
        {"i = 0", "color_from_camera"}},
   };

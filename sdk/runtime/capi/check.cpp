@@ -357,7 +357,8 @@ sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sp
   if (status != SPHC_OK) return status;
   const bool fine = checkNumbers(own, message) && checkTogether(own, message) && checkParallel(own, message) &&
                     checkDepthFormat(own.depth_format, own.rig, own.depth_max_m, message);
-  return fine ? readCameras(copy, message) : SPHC_E_ARGUMENT;
+  if (!fine) return SPHC_E_ARGUMENT;
+  return readCameras(copy, message);
 }
 
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message) {
