@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "spherecloud/spherecloud.h"
+#include "tests/capi/answers.h"
 #include "tests/capi/bytes.h"
 #include "tests/support/session.h"
 
@@ -17,6 +17,7 @@ using sphc::Rigid;
 using sphc::Vector3;
 using sphc::test::expectMentions;
 using sphc::test::GuardedMemory;
+using sphc::test::observationsOf;
 using sphc::test::SceneFrame;
 using sphc::test::Session;
 
@@ -69,25 +70,11 @@ struct RigFrame {
   sphc_localizer_frame frame;
 };
 
-sphc_localizer_result emptyResult() {
-  sphc_localizer_result result;
-  EXPECT_EQ(sphc_localizer_result_init(&result, sizeof result), SPHC_OK);
-  return result;
-}
-
-std::vector<sphc_localizer_observation> observationsOf(Session *session) {
-  uint32_t count = 0;
-  sphc_localizer_observations(session->localizer(), nullptr, sizeof(sphc_localizer_observation), 0, &count);
-  std::vector<sphc_localizer_observation> all(count);
-  sphc_localizer_observations(session->localizer(), all.data(), sizeof(sphc_localizer_observation), count, &count);
-  return all;
-}
-
 TEST(Cameras, AllOfThemLocalize) {
   const Rig rig;
   Session session(rig.config);
   const RigFrame made(rig, kViewpoint);
-  sphc_localizer_result result = emptyResult();
+  sphc_localizer_result result = spherecloud::emptyResult();
   ASSERT_EQ(session.process(made.frame, &result), SPHC_OK);
   EXPECT_LT(session.errorM(result, kViewpoint), 0.02);
   uint32_t seen[3] = {}, lifted[3] = {}, inliers[3] = {};
@@ -114,7 +101,7 @@ TEST(Cameras, TheOthersLocalizeWhereTheColourCameraIsBlind) {
   Session session(rig.config);
   RigFrame made(rig, kViewpoint);
   std::fill(made.color->images.gray.begin(), made.color->images.gray.end(), uint8_t{90});
-  sphc_localizer_result result = emptyResult();
+  sphc_localizer_result result = spherecloud::emptyResult();
   ASSERT_EQ(session.process(made.frame, &result), SPHC_OK);
   EXPECT_LT(session.errorM(result, kViewpoint), 0.03);
   for (const sphc_localizer_observation &o : observationsOf(&session)) EXPECT_NE(o.camera, 0u);
@@ -125,7 +112,7 @@ TEST(Cameras, OneWithoutAnImageIsLeftOut) {
   Session session(rig.config);
   RigFrame made(rig, kViewpoint);
   made.views[0].image.data = nullptr;
-  sphc_localizer_result result = emptyResult();
+  sphc_localizer_result result = spherecloud::emptyResult();
   ASSERT_EQ(session.process(made.frame, &result), SPHC_OK);
   bool has_second = false;
   for (const sphc_localizer_observation &o : observationsOf(&session)) {
@@ -162,7 +149,8 @@ TEST(Cameras, HalvesAnswerTheSame) {
   const Rig rig;
   const RigFrame made(rig, kViewpoint);
   Session whole(rig.config), halves(rig.config), set(rig.config);
-  sphc_localizer_result expected = emptyResult(), answer = emptyResult(), again = emptyResult();
+  sphc_localizer_result expected = spherecloud::emptyResult(), answer = spherecloud::emptyResult(),
+                        again = spherecloud::emptyResult();
   ASSERT_EQ(whole.process(made.frame, &expected), SPHC_OK);
   sphc_memory need = {};
   ASSERT_EQ(sphc_features_memory(&rig.config, &need, nullptr), SPHC_OK);
@@ -198,7 +186,7 @@ TEST(Cameras, CalibrationOfAFrameReplacesTheConfigs) {
   vague.config.rig.color_from_depth.t_m[1] += 0.2;
   RigFrame made(rig, kViewpoint);
   Session right(rig.config), wrong(vague.config);
-  sphc_localizer_result expected = emptyResult(), result = emptyResult();
+  sphc_localizer_result expected = spherecloud::emptyResult(), result = spherecloud::emptyResult();
   ASSERT_EQ(right.process(made.frame, &expected), SPHC_OK);
   wrong.process(made.frame, &result);
   EXPECT_NE(std::memcmp(&result, &expected, sizeof result), 0);
@@ -243,7 +231,7 @@ TEST(Cameras, OdometryTakesThemToTheTimeOfTheColourImage) {
         made.views[k].image = late.views[k].image;
         made.views[k].time_ns = made.frame.color_time_ns + (knows_time ? 33000000 : 0);
       }
-      sphc_localizer_result result = emptyResult();
+      sphc_localizer_result result = spherecloud::emptyResult();
       if (session.process(made.frame, &result) != SPHC_OK) return 1.0;
       error_m = session.errorM(result, i);
     }
@@ -285,7 +273,7 @@ TEST(Cameras, RowsOfARollingShutterAreTakenToOneTime) {
       prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
       made->frame.prior = &prior;
       made->frame.color_time_ns = made->frame.depth_time_ns = kFrameNs * (i + 1);
-      sphc_localizer_result result = emptyResult();
+      sphc_localizer_result result = spherecloud::emptyResult();
       EXPECT_EQ(session.process(made->frame, &result), SPHC_OK);
       error_m = session.errorM(result, i);
     }
@@ -390,12 +378,12 @@ TEST(Cameras, ABadFrameIsRefusedWithItsCause) {
     SCOPED_TRACE(bad.what);
     RigFrame made(rig, kViewpoint);
     bad.spoil(&made);
-    sphc_localizer_result result = emptyResult();
+    sphc_localizer_result result = spherecloud::emptyResult();
     EXPECT_EQ(session.process(made.frame, &result), bad.status);
     for (const char *words : bad.says) expectMentions(sphc_localizer_message(session.localizer()), words);
   }
   const RigFrame good(rig, kViewpoint);
-  sphc_localizer_result result = emptyResult();
+  sphc_localizer_result result = spherecloud::emptyResult();
   EXPECT_EQ(session.process(good.frame, &result), SPHC_OK);
   EXPECT_TRUE(session.state().guardsIntact() && session.scratch().guardsIntact());
 }

@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "spherecloud/spherecloud.hpp"
+#include "tests/capi/answers.h"
 #include "tests/capi/bytes.h"
 #include "tests/support/session.h"
 #include "tests/support/stepping_clock.h"
 
 namespace {
 
+using sphc::test::Answer;
+using sphc::test::answerOf;
 using sphc::test::expectMentions;
 using sphc::test::GuardedMemory;
 using sphc::test::Output;
@@ -48,33 +51,6 @@ struct Features {
   GuardedMemory memory;
   sphc_features *handle = nullptr;
 };
-
-// What a frame is answered with, to the last byte.
-struct Answer {
-  sphc_status status;
-  sphc_localizer_result result;
-  std::vector<sphc_localizer_observation> observations;
-
-  bool operator==(const Answer &other) const {
-    return status == other.status && std::memcmp(&result, &other.result, sizeof result) == 0 &&
-           observations.size() == other.observations.size() &&
-           (observations.empty() || std::memcmp(observations.data(), other.observations.data(),
-                                                observations.size() * sizeof observations[0]) == 0);
-  }
-};
-
-template <typename Call>
-Answer answerOf(Session *session, const Call &call) {
-  Answer answer = {};
-  answer.result.struct_size = sizeof answer.result;
-  answer.status = call(session->localizer(), &answer.result);
-  uint32_t count = 0;
-  sphc_localizer_observations(session->localizer(), nullptr, sizeof(sphc_localizer_observation), 0, &count);
-  answer.observations.resize(count);
-  sphc_localizer_observations(session->localizer(), answer.observations.data(), sizeof(sphc_localizer_observation),
-                              count, &count);
-  return answer;
-}
 
 class Halves : public testing::Test {
  protected:

@@ -3,19 +3,19 @@
 
 #include <chrono>
 #include <cstring>
-#include <functional>
 #include <memory>
 #include <thread>
 #include <vector>
 
 #include "host/base/task_threads.h"
-#include "spherecloud/spherecloud.hpp"
+#include "tests/capi/answers.h"
 #include "tests/capi/bytes.h"
-#include "tests/support/session.h"
 
 namespace {
 
 using sphc::host::TaskThreads;
+using sphc::test::Answer;
+using sphc::test::answerOf;
 using sphc::test::SceneFrame;
 using sphc::test::Session;
 
@@ -39,12 +39,6 @@ int64_t steadyNs(void *) {
       .count();
 }
 
-struct Answer {
-  sphc_status status = SPHC_OK;
-  sphc_localizer_result result = spherecloud::emptyResult();
-  std::vector<sphc_localizer_observation> observations;
-};
-
 void expectSame(const Answer &a, const Answer &b) {
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(std::memcmp(&a.result, &b.result, sizeof a.result), 0);
@@ -52,18 +46,6 @@ void expectSame(const Answer &a, const Answer &b) {
   EXPECT_EQ(std::memcmp(a.observations.data(), b.observations.data(),
                         a.observations.size() * sizeof(sphc_localizer_observation)),
             0);
-}
-
-Answer answerOf(Session *session,
-                const std::function<sphc_status(sphc_localizer *, sphc_localizer_result *)> &call) {
-  Answer answer;
-  answer.status = call(session->localizer(), &answer.result);
-  uint32_t count = 0;
-  sphc_localizer_observations(session->localizer(), nullptr, sizeof(sphc_localizer_observation), 0, &count);
-  answer.observations.resize(count);
-  sphc_localizer_observations(session->localizer(), answer.observations.data(), sizeof(sphc_localizer_observation),
-                              count, &count);
-  return answer;
 }
 
 class ParallelFrames : public testing::Test {

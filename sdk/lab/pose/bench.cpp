@@ -9,6 +9,7 @@
 
 #include "host/report/statistics.h"
 #include "lab/common/interleave.h"
+#include "lab/common/pose_error.h"
 
 namespace sphc::host {
 namespace {
@@ -89,10 +90,8 @@ void judgePose(const PoseAnswer &answer, const Rigid &truth, PoseSample *sample)
   sample->hypotheses = answer.hypotheses;
   sample->inliers = answer.inliers;
   sample->found = sound;
-  sample->rotation_error_deg =
-      sound ? rotationAngle(pose.rotation * truth.rotation.transpose()) * 180 / kPi : kMissingDeg;
-  sample->translation_error_m =
-      sound ? (pose.inverse().translation_m - truth.inverse().translation_m).norm() : kMissingM;
+  sample->rotation_error_deg = sound ? turnRad(pose, truth) * 180 / kPi : kMissingDeg;
+  sample->translation_error_m = sound ? shiftM(pose, truth) : kMissingM;
 }
 
 std::vector<VariantRuns> runPoseBench(const std::vector<PoseCase> &cases, const std::vector<PoseVariant> &variants,

@@ -5,7 +5,7 @@
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/played_odometry.h"
 #include "host/report/statistics.h"
-#include "runtime/geometry/rigid.h"
+#include "lab/common/pose_error.h"
 
 namespace sphc::host {
 namespace {
@@ -17,13 +17,7 @@ struct Errors {
   std::vector<double> m, deg, still_m, still_deg, shift_sigmas, turn_sigmas;
 };
 
-double shiftM(const Rigid &found, const Rigid &truth) {
-  return (found.inverse().translation_m - truth.inverse().translation_m).norm();
-}
-
-double turnDeg(const Rigid &found, const Rigid &truth) {
-  return rotationAngle(found.rotation * truth.rotation.transpose()) / kDegree;
-}
+double turnDeg(const Rigid &found, const Rigid &truth) { return turnRad(found, truth) / kDegree; }
 
 void add(const sphc_localizer_prediction &prediction, const Rigid &still, const Rigid &truth, Errors *errors) {
   const Rigid found = rigidFromC(prediction.camera_from_map), off = truth * found.inverse();

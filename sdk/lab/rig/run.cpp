@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "host/evaluate/localize_run.h"
+#include "lab/common/pose_error.h"
 
 namespace sphc::host {
 namespace {
@@ -54,8 +55,7 @@ void judge(const sphc_localizer_result &result, const Rigid &truth, RigRow *row)
   row->frame_us.push_back(result.features_us + result.align_us + result.match_us + result.pose_us);
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return;
   const Rigid found = rigidFromC(result.camera_from_map);
-  const double shift_m = (found.inverse().translation_m - truth.inverse().translation_m).norm(),
-               turn_rad = rotationAngle(found.rotation * truth.rotation.transpose());
+  const double shift_m = shiftM(found, truth), turn_rad = turnRad(found, truth);
   ++row->localized;
   row->right += shift_m < kRightM && turn_rad < kRightRad;
   row->wrong += shift_m > kWrongM || turn_rad > kWrongRad;

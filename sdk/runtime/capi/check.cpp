@@ -77,14 +77,17 @@ bool checkDirection(const char *name, const double *v, sphc_message *message) {
   return false;
 }
 
-bool isRigidWithin10Km(const sphc_rigid &transform) {
+constexpr double kMostPoseM = 1e4;  // of a pose or a map, from an origin
+
+// Is it a transform, with no part of its translation beyond this?
+bool isRigidWithin(double most_m, const sphc_rigid &transform) {
   bool near = isValidRigid(transform);
-  for (double t : transform.t_m) near = near && t >= -1e4 && t <= 1e4;
+  for (double t : transform.t_m) near = near && absOf(t) <= most_m;
   return near;
 }
 
 bool checkPose(const char *name, const sphc_rigid &pose, sphc_message *message) {
-  if (isRigidWithin10Km(pose)) return true;
+  if (isRigidWithin(kMostPoseM, pose)) return true;
   MessageWriter(message) << "prior." << name
                          << " is not a pose: its quaternion must have unit length, and its translation must lie "
                             "within 10 km";
@@ -130,9 +133,7 @@ bool checkDepthFormat(sphc_format configured, const sphc_rig &rig, double depth_
 
 // A transform between sensors of one rig.
 bool checkMount(const char *name, const sphc_rigid &mount, sphc_message *message) {
-  bool good = isValidRigid(mount);
-  for (const double t : mount.t_m) good = good && absOf(t) <= SPHC_RIG_MAX_OFFSET_M;
-  if (good) return true;
+  if (isRigidWithin(SPHC_RIG_MAX_OFFSET_M, mount)) return true;
   MessageWriter(message) << name
                          << " is no transform: its quaternion must have length 1 (order w x y z), and its "
                             "translation lie within "
@@ -413,7 +414,7 @@ sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera 
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
                            sphc_message *message) {
-  const bool near = isRigidWithin10Km(common_from_map);
+  const bool near = isRigidWithin(kMostPoseM, common_from_map);
   if (near && rotation_sigma_rad >= 0 && rotation_sigma_rad <= 0.5 && translation_sigma_m >= 0 &&
       translation_sigma_m <= 100)
     return SPHC_OK;
