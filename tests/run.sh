@@ -95,12 +95,14 @@ stage_quick() {
 # Where nobody edits between two builds, several files are compiled as one.  The folder build/release is the developer's.
 # The runtime's only where nothing of it ships.
 unity=-DSPHC_UNITY=ON
+# Links programs in a third of the time.
+linker=-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=gold
 
 stage_release() {
-  prepare runtime build openni2 test guest
+  prepare runtime build openni2 test guest bindings
   python_packages
   check "formatting" formatting
-  check "release: build" build build/unity all -DCMAKE_BUILD_TYPE=Release $unity
+  check "release: build" build build/unity all -DCMAKE_BUILD_TYPE=Release $unity $linker
   tests "release: tests" build/unity
 }
 
@@ -121,7 +123,7 @@ stage_arm64() {
   # The guest plays what the release's guests have recorded.
   if ! [ -d build/unity/tests/guest/recorded ]; then
     check "arm64: the release, to record with" build build/unity 'make_recording replay_poses spherecloud_cli' \
-      -DCMAKE_BUILD_TYPE=Release $unity
+      -DCMAKE_BUILD_TYPE=Release $unity $linker
     tests "arm64: what the cameras play" build/unity -R '^guest\.recording$'
   fi
   check "arm64: a kernel and libraries" tests/guest/fetch_arm64.sh "$arm64"
@@ -140,7 +142,7 @@ sanitized=(-DCMAKE_BUILD_TYPE=None -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER
 stage_sanitized() {
   prepare runtime build openni2 test
   python_packages
-  check "sanitized: build" build build/sanitized all "${sanitized[@]}" $unity -DSPHC_SANITIZE=address,undefined
+  check "sanitized: build" build build/sanitized all "${sanitized[@]}" $unity $linker -DSPHC_SANITIZE=address,undefined
   # The simulated headset's contract renders a thousand images: too slow under sanitizers; its unit tests run there.
   tests "sanitized: tests" build/sanitized -LE 'pipeline|memory' -E driver_contract_simulated
 }
@@ -148,7 +150,7 @@ stage_sanitized() {
 stage_tsan() {
   local programs='halves_test parallel_test driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
   prepare runtime build openni2 test
-  check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" $unity -DSPHC_SANITIZE=thread
+  check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" $unity $linker -DSPHC_SANITIZE=thread
   # The two halves of a frame, frames on several cores, the driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='Halves.*:ParallelFrames.*:*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"
@@ -168,6 +170,8 @@ for stage in "${@:-all}"; do
 done
 
 mkdir -p build
+# All at once is quicker than stage by stage.
+if [ ${#wanted[@]} -ge ${#stages[@]} ]; then prepare runtime build openni2 test guest portability bindings; fi
 for stage in "${wanted[@]}"; do
   "stage_$stage"
 done

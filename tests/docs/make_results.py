@@ -277,6 +277,10 @@ def memory_sections(folder):
     return [
         ("Memory", "memory/bytes.csv", "memory_results", "What a caller hands over. Method: [memory.md](memory.md).",
          memory(read(folder / "bytes.csv"))),
+        ("Code size", "portability/size.csv", "size_results",
+         "Code and constants of a program that calls the whole interface but capture, for each machine, and what a test allows.\n"
+         "A dynamic C library is not in it. Method: [boards.md](boards.md#code-size).",
+         flat(read(folder.parent / "portability" / "size.csv"), [])),
         ("Stack", "memory/stack.csv", "memory_results", "A ceiling for each call; the tests fail above it.",
          flat(read(folder / "stack.csv"), [])),
     ]

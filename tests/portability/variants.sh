@@ -28,20 +28,23 @@ arguments() {
       arguments+=("${release[@]}") ;;
     riscv64) mapfile -t arguments < <(machine riscv64-linux-gnu) && arguments+=("${small[@]}") ;;
     i686) mapfile -t arguments < <(machine i686-linux-gnu) && arguments+=("${small[@]}") ;;
-    newlib) mapfile -t arguments < <(machine arm-none-eabi) && arguments+=("${small[@]}") ;;
+    cortex-m7) mapfile -t arguments < <(machine arm-none-eabi) && arguments+=("${small[@]}") ;;
     *) echo "no variant \"$1\"; there are: $all" && return 1 ;;
   esac
 }
-all="scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 newlib"
+all="scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 cortex-m7"
 # Compiled several files at once, in half of the time.  The others show that every file compiles alone, with the headers of
 # glibc and of newlib, and what firmware links.
 unity=" debug clang clang-debug aarch64 armhf riscv64 i686 "
+
+# Those that size.csv has a row for.
+sized() { cut -d, -f1 "$here/size.csv" | grep -x "$1"; }
 
 variant() {
   local folder=build/portability/$1 arguments
   arguments "$1" || return
   case $unity in *" $1 "*) arguments+=(-DSPHC_UNITY_RUNTIME=ON) ;; esac
-  cmake -S "$here" -B "$folder" -G Ninja -DSPHC_WERROR=ON -DSPHC_PRECOMPILE_RUNTIME=ON "${arguments[@]}" &&
+  cmake -S "$here" -B "$folder" -G Ninja -DSPHC_WERROR=ON -DSPHC_PRECOMPILE_RUNTIME=ON "-DSPHC_VARIANT=$(sized "$1")" "${arguments[@]}" &&
     cmake --build "$folder" --parallel $((($(nproc) + 1) / 2)) && ctest --test-dir "$folder" --output-on-failure --no-tests=error
 }
 
