@@ -183,7 +183,11 @@ TEST_F(CInterfaceFailure, InitBadConfig) {
   }
   for (sphc_log_level level : {0, 5}) {
     bad = config_, bad.log_level = level;
+    bad.log = [](void *, sphc_log_level, const char *, size_t) {};
     expectRefused(i, SPHC_E_ARGUMENT, "config.log_level");
+    bad.log = nullptr;  // zeros are what was not set
+    sphc_memory need = {};
+    EXPECT_EQ(sphc_localizer_memory(&bad, &need, nullptr), SPHC_OK);
   }
   for (sphc_band band : {-1, 2}) {
     bad = config_, bad.color_band = band;

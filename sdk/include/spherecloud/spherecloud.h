@@ -25,7 +25,8 @@
  * 0.5 to an OpenCV principal point.
  *
  * Memory.  "Borrows": reads only until the call returns unless a longer time is stated.  "Caller memory": the
- * library never resizes, frees or copies it away.  No function of this header allocates.
+ * library never resizes, frees or copies it away.  No function of this header allocates, and none frees: where an
+ * instance is no longer wanted, its memory may also go without a call of _fini.
  *
  * Failure.  status < 0: outputs are untouched, except a message that explains.
  *
@@ -43,6 +44,9 @@
  * Threads.  The class stands in brackets behind every function.  [pure] touches no instance but those being made;
  * any thread, any time.  [shared] may run at the same time on one instance.  [exclusive]: one call at a time per
  * instance. The library starts no thread, takes no lock, and has no mutable global of its own.
+ *
+ * Callbacks are called on the thread of the call, config.parallel's tasks apart.  They must return: no exception,
+ * no longjmp.  They must not call the library with the instance that calls them.
  */
 #ifndef SPHERECLOUD_SPHERECLOUD_H
 #define SPHERECLOUD_SPHERECLOUD_H
@@ -119,7 +123,7 @@ enum {
 SPHC_API const char *sphc_status_name(sphc_status status);
 
 /* Room for one explanation: what was wrong, with the values seen, and what to do.  Every argument of this type is
- * caller memory and may be null.  Written only on failure; always terminated. */
+ * caller memory and may be null.  Written only on failure; always terminated; ASCII. */
 #define SPHC_MESSAGE_BYTES 256u
 typedef struct sphc_message {
   char text[SPHC_MESSAGE_BYTES];
@@ -233,9 +237,11 @@ typedef struct sphc_rig {
 } sphc_rig;
 
 typedef struct sphc_image {
-  const void *data; /* caller memory; top-left pixel, of the first plane where there are several */
+  /* Caller memory; top-left pixel, of the first plane where there are several.  Aligned to the bytes of a value: 2
+   * in 16-bit formats, 4 in float.  Nothing is read behind the last row's sphc_format_row_bytes. */
+  const void *data;
   uint32_t width, height;
-  uint32_t stride_bytes; /* from a row to the next; at least sphc_format_row_bytes */
+  uint32_t stride_bytes; /* from a row to the next; at least sphc_format_row_bytes, aligned as data */
   sphc_format format;
 } sphc_image;
 
@@ -485,14 +491,15 @@ typedef struct sphc_localizer_config {
   double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
 
   /* Bias of the depth sensor, which the localizer learns from frame to frame: true z = z + offset + slope (z -
-   * mid). 1 sigma of what is unknown of it before the first frame; offset sigma 0: no bias, and nothing is learnt.
+   * mid). 1 sigma of what is unknown of it before the first frame; both 0: no bias, and nothing is learnt.
    * A common scale of depths cannot be observed, so the offset's sigma at mid range should be small. */
   double depth_mid_m; /* 0: the geometric mean of depth_min_m and depth_max_m */
   double depth_offset_sigma_m, depth_slope_sigma;
 
   sphc_log_fn log; /* may be null */
   void *log_user;
-  sphc_log_level log_level; /* what says more is not made; SPHC_LOG_DEBUG has a line for every frame */
+  sphc_log_level log_level; /* what says more is not made; SPHC_LOG_DEBUG has a line for every frame; not looked at
+                             * where log is null */
   uint32_t reserved;
   sphc_clock_fn clock; /* may be null: stage times are then 0, and no frame has a deadline */
   void *clock_user;
@@ -825,11 +832,13 @@ SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sph
                                             sphc_localizer_result *result);
 
 /* Text about the failure of the last call on this instance that can fail, "" if it did not; owned by the instance,
- * valid until its next call. [exclusive] */
+ * valid until its next call.  ASCII.  Calls that take a const localizer leave it as it was, and
+ * sphc_localizer_extract has sphc_features_message. [exclusive] */
 SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
 
 /* The probability that the camera is within so many metres and radians of the pose.  0 where there is no pose, for
- * a bound that is not above 0, and for a null result.  From the result's covariance; docs/confidence.md. [pure] */
+ * a bound that is not above 0, and for a null result.  Of the result, outcome and covariance are read;
+ * docs/confidence.md. [pure] */
 SPHC_API double sphc_localizer_result_confidence(const sphc_localizer_result *result, double translation_m,
                                                  double rotation_rad);
 
@@ -919,7 +928,8 @@ typedef struct sphc_features_arrays {
   uint32_t struct_size;
   uint32_t extractor; /* that described them: sphc_extractor_id(), as that of all maps */
   uint32_t count;
-  uint32_t keypoint_stride_bytes;   /* from one to the next; a multiple of 4, at least sizeof(sphc_keypoint) */
+  /* From one to the next, also where count is 0; a multiple of 4, at least sizeof(sphc_keypoint). */
+  uint32_t keypoint_stride_bytes;
   uint32_t descriptor_stride_bytes; /* at least SPHC_DESCRIPTOR_BYTES */
   uint32_t reserved;
   const sphc_keypoint *keypoints; /* aligned to 4 bytes; may be null where count is 0, as may descriptors */

@@ -41,7 +41,7 @@ bool checkNumbers(const sphc_localizer_config &c, sphc_message *message) {
                  SPHC_ROW_TIME_MAX_NS, message) &&
          inRange("color_band", c.color_band, SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
-         inRange("log_level", c.log_level, SPHC_LOG_ERROR, SPHC_LOG_DEBUG, message);
+         (!c.log || inRange("log_level", c.log_level, SPHC_LOG_ERROR, SPHC_LOG_DEBUG, message));
 }
 
 bool checkTogether(const sphc_localizer_config &c, sphc_message *message) {

@@ -68,10 +68,11 @@ sphc_status sphc_clock_mapper_map(const sphc_clock_mapper *mapper, int64_t sourc
 
 sphc_status sphc_clock_mapper_get(const sphc_clock_mapper *mapper, sphc_clock_mapping *mapping) {
   if (!mapper || !mapping) return SPHC_E_ARGUMENT;
-  const sphc_status writable = sphc::checkStruct("mapping", mapping, nullptr);
+  uint32_t struct_size = 0;
+  const sphc_status writable = sphc::checkStruct("mapping", mapping, nullptr, &struct_size);
   if (writable != SPHC_OK) return writable;
   sphc_clock_mapping own = {};
   const sphc_status status = mapper->mapper.get(&own);
-  if (status == SPHC_OK) sphc::writeStruct(own, mapping);
+  if (status == SPHC_OK) sphc::writeStruct(own, struct_size, mapping);
   return status;
 }

@@ -196,7 +196,8 @@ sphc_status sphc_features_set(sphc_features *features, const sphc_localizer_fram
 
 sphc_status sphc_features_get(const sphc_features *features, sphc_features_arrays *arrays) {
   if (!features) return SPHC_E_ARGUMENT;
-  const sphc_status status = sphc::checkStruct("arrays", arrays, nullptr);
+  uint32_t struct_size = 0;
+  const sphc_status status = sphc::checkStruct("arrays", arrays, nullptr, &struct_size);
   if (status != SPHC_OK) return status;
   if (!features->of_frame) return SPHC_E_STATE;
   sphc_features_arrays own = {};
@@ -208,7 +209,7 @@ sphc_status sphc_features_get(const sphc_features *features, sphc_features_array
   own.keypoints = reinterpret_cast<const sphc_keypoint *>(room.keypoints.data());
   own.descriptors = room.descriptors.data()->bytes;
   own.cameras = room.camera_of.data();
-  sphc::writeStruct(own, arrays);
+  sphc::writeStruct(own, struct_size, arrays);
   return SPHC_OK;
 }
 

@@ -32,9 +32,9 @@ unsigned char *bytesOf(void *growing) { return static_cast<unsigned char *>(grow
 
 sphc_status readStructBytes(const StructKind &kind, const char *name, const void *from, void *known,
                             sphc_message *message) {
-  const sphc_status status = checkStructBytes(kind, name, from, message);
+  uint32_t struct_size = 0;
+  const sphc_status status = checkStructBytes(kind, name, from, message, &struct_size);
   if (status != SPHC_OK) return status;
-  const size_t struct_size = sizeOf(from);
   for (size_t i = kind.known_bytes; i < struct_size; ++i) {
     if (!bytesOf(from)[i]) continue;
     MessageWriter(message) << name << " is of a newer header than this library: byte " << static_cast<uint64_t>(i)
@@ -44,7 +44,7 @@ sphc_status readStructBytes(const StructKind &kind, const char *name, const void
     return SPHC_E_UNSUPPORTED;
   }
   std::memcpy(bytesOf(known) + kSizeBytes, bytesOf(from) + kSizeBytes,
-              std::min(struct_size, kind.known_bytes) - kSizeBytes);
+              std::min<size_t>(struct_size, kind.known_bytes) - kSizeBytes);
   const auto own_size = static_cast<uint32_t>(kind.known_bytes);
   std::memcpy(known, &own_size, kSizeBytes);
   for (const FieldBytes &field : kind.reserved) {
@@ -66,19 +66,21 @@ sphc_status checkElementSize(const char *name, uint32_t index, const void *first
   return SPHC_E_STRUCT_SIZE;
 }
 
-sphc_status checkStructBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message) {
+sphc_status checkStructBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message,
+                             uint32_t *struct_size) {
   if (!to) {
     MessageWriter(message) << name << " is null; give a " << kind.type;
     return SPHC_E_ARGUMENT;
   }
-  if (isSize(kind, sizeOf(to))) return SPHC_OK;
-  MessageWriter(message) << name << ".struct_size is " << sizeOf(to) << "; set it to sizeof(" << kind.type
+  *struct_size = sizeOf(to);
+  if (isSize(kind, *struct_size)) return SPHC_OK;
+  MessageWriter(message) << name << ".struct_size is " << *struct_size << "; set it to sizeof(" << kind.type
                          << "), here " << static_cast<uint64_t>(kind.known_bytes);
   return SPHC_E_STRUCT_SIZE;
 }
 
-void writeStructBytes(const StructKind &kind, const void *known, void *to) {
-  const size_t struct_size = sizeOf(to), shared = std::min(struct_size, kind.known_bytes);
+void writeStructBytes(const StructKind &kind, const void *known, uint32_t struct_size, void *to) {
+  const size_t shared = std::min<size_t>(struct_size, kind.known_bytes);
   std::memcpy(bytesOf(to) + kSizeBytes, bytesOf(known) + kSizeBytes, shared - kSizeBytes);
   std::memset(bytesOf(to) + shared, 0, struct_size - shared);
 }
@@ -88,7 +90,7 @@ sphc_status initStructBytes(const StructKind &kind, const void *known, size_t st
   if (!isSize(kind, struct_size)) return SPHC_E_STRUCT_SIZE;
   const auto told = static_cast<uint32_t>(struct_size);
   std::memcpy(to, &told, kSizeBytes);
-  writeStructBytes(kind, known, to);
+  writeStructBytes(kind, known, told, to);
   return SPHC_OK;
 }
 

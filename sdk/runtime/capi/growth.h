@@ -100,8 +100,9 @@ constexpr StructKind kindOf(const sphc_localizer_result *) {
 // Of any of them.
 sphc_status readStructBytes(const StructKind &kind, const char *name, const void *from, void *known,
                             sphc_message *message);
-sphc_status checkStructBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message);
-void writeStructBytes(const StructKind &kind, const void *known, void *to);
+sphc_status checkStructBytes(const StructKind &kind, const char *name, const void *to, sphc_message *message,
+                             uint32_t *struct_size);
+void writeStructBytes(const StructKind &kind, const void *known, uint32_t struct_size, void *to);
 sphc_status initStructBytes(const StructKind &kind, const void *known, size_t struct_size, void *to);
 
 // Copies what the caller's struct has over *known, which has the defaults; known->struct_size becomes that of this
@@ -111,10 +112,11 @@ template <typename T>
 sphc_status readStruct(const char *name, const T *from, T *known, sphc_message *message) {
   return readStructBytes(kindOf(from), name, from, known, message);
 }
-// Can it be read and written?  ARGUMENT for null, STRUCT_SIZE for a size that never was.
+// Can it be written?  ARGUMENT for null, STRUCT_SIZE for a size that never was.  The size is read here alone, so
+// that a struct that another thread changes meanwhile is written no further than this.
 template <typename T>
-sphc_status checkStruct(const char *name, const T *to, sphc_message *message) {
-  return checkStructBytes(kindOf(to), name, to, message);
+sphc_status checkStruct(const char *name, const T *to, sphc_message *message, uint32_t *struct_size) {
+  return checkStructBytes(kindOf(to), name, to, message, struct_size);
 }
 // Does element `index` of an array say the struct_size that all have, that of the first?
 sphc_status checkElementSize(const char *name, uint32_t index, const void *first, const void *element,
@@ -131,10 +133,10 @@ sphc_status readStructs(const char *name, const T *from, uint32_t count, T *know
   }
   return status;
 }
-// Copies as much as the caller's struct has room for and zeroes the rest of it; struct_size stays the caller's.
+// Copies as much as a struct of the checked size has room for and zeroes the rest of it; its own struct_size stays.
 template <typename T>
-void writeStruct(const T &known, T *to) {
-  writeStructBytes(kindOf(to), &known, to);
+void writeStruct(const T &known, uint32_t struct_size, T *to) {
+  writeStructBytes(kindOf(to), &known, struct_size, to);
 }
 // The same for a caller who tells struct_size beside the struct: the functions that set defaults.
 template <typename T>

@@ -79,9 +79,9 @@ sphc::FrameLimits limitsOf(const sphc_localizer &localizer, bool looks_at_images
 }
 
 sphc_status giveOut(const sphc_localizer &localizer, const LocalizerResult &answer,
-                    const sphc_localizer_frame &frame, sphc_localizer_result *result) {
+                    const sphc_localizer_frame &frame, uint32_t struct_size, sphc_localizer_result *result) {
   const sphc_localizer_result own = sphc::resultFrom(answer, frame);
-  sphc::writeStruct(own, result);
+  sphc::writeStruct(own, struct_size, result);
   logResult(localizer, own);
   return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
 }
@@ -296,9 +296,10 @@ uint32_t sphc_localizer_map_count(const sphc_localizer *localizer) {
 
 sphc_status sphc_localizer_get_parameter_range(sphc_localizer_parameter parameter,
                                                sphc_localizer_parameter_range *range) {
+  uint32_t struct_size = 0;
   sphc_status status = sphc::checkParameter(parameter, nullptr);
-  if (status == SPHC_OK) status = sphc::checkStruct("range", range, nullptr);
-  if (status == SPHC_OK) sphc::writeStruct(sphc::rangeOf(parameter), range);
+  if (status == SPHC_OK) status = sphc::checkStruct("range", range, nullptr, &struct_size);
+  if (status == SPHC_OK) sphc::writeStruct(sphc::rangeOf(parameter), struct_size, range);
   return status;
 }
 
@@ -338,12 +339,13 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
+  uint32_t struct_size = 0;
   sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, true), &copy, message);
-  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
+  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;
   const LocalizerResult answer = own_localizer.process(sphc::frameFrom(copy.frame, own_localizer.maps()));
-  return giveOut(*localizer, answer, copy.frame, result);
+  return giveOut(*localizer, answer, copy.frame, struct_size, result);
 }
 
 sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
@@ -367,13 +369,14 @@ sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localize
   if (!localizer) return SPHC_E_ARGUMENT;
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
+  uint32_t struct_size = 0;
   sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, false), &copy, message);
   if (status == SPHC_OK) status = checkFeaturesOf(copy.frame, features, *localizer, message);
-  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message);
+  if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;
   const sphc::FrameInput input = sphc::frameFrom(copy.frame, own_localizer.maps());
-  return giveOut(*localizer, own_localizer.locate(input, features->features), copy.frame, result);
+  return giveOut(*localizer, own_localizer.locate(input, features->features), copy.frame, struct_size, result);
 }
 
 const char *sphc_localizer_message(const sphc_localizer *localizer) {
@@ -390,7 +393,8 @@ double sphc_localizer_result_confidence(const sphc_localizer_result *result, dou
 sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int64_t time_ns,
                                    sphc_localizer_prediction *prediction) {
   if (!localizer) return SPHC_E_ARGUMENT;
-  const sphc_status status = sphc::checkStruct("prediction", prediction, nullptr);
+  uint32_t struct_size = 0;
+  const sphc_status status = sphc::checkStruct("prediction", prediction, nullptr, &struct_size);
   if (status != SPHC_OK) return status;
   const Localizer &own_localizer = localizer->localizer;
   sphc::MovedPose moved;
@@ -399,7 +403,7 @@ sphc_status sphc_localizer_predict(const sphc_localizer *localizer, int64_t time
       is_known ? sphc::predictionFrom(moved, own_localizer.maps().idOf(moved.map)) : emptyPrediction();
   own.time_ns = time_ns;
   own.state = sphc::stateFrom(own_localizer.state());
-  sphc::writeStruct(own, prediction);
+  sphc::writeStruct(own, struct_size, prediction);
   return is_known ? SPHC_OK : SPHC_NOT_LOCALIZED;
 }
 

@@ -41,7 +41,8 @@ sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, s
 
 sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
   if (!map) return SPHC_E_ARGUMENT;
-  const sphc_status status = sphc::checkStruct("info", info, nullptr);
+  uint32_t struct_size = 0;
+  const sphc_status status = sphc::checkStruct("info", info, nullptr, &struct_size);
   if (status != SPHC_OK) return status;
   const sphc::MapHeader &header = map->view.header();
   sphc_map_info own = {};
@@ -51,7 +52,7 @@ sphc_status sphc_map_get_info(const sphc_map *map, sphc_map_info *info) {
   own.file_bytes = header.file_bytes;
   own.band = map->view.band();
   std::memcpy(own.map_id, header.map_id, sizeof own.map_id);
-  sphc::writeStruct(own, info);
+  sphc::writeStruct(own, struct_size, info);
   return SPHC_OK;
 }
 

@@ -62,8 +62,9 @@ int64_t sphc_capture_middle_ns(const sphc_capture *capture) { return capture ? s
 
 sphc_status sphc_pairer_get_counts(const sphc_pairer *pairer, sphc_pairer_counts *counts) {
   if (!pairer || !counts) return SPHC_E_ARGUMENT;
-  const sphc_status status = sphc::checkStruct("counts", counts, nullptr);
-  if (status == SPHC_OK) sphc::writeStruct(pairer->pairer.counts(), counts);
+  uint32_t struct_size = 0;
+  const sphc_status status = sphc::checkStruct("counts", counts, nullptr, &struct_size);
+  if (status == SPHC_OK) sphc::writeStruct(pairer->pairer.counts(), struct_size, counts);
   return status;
 }
 

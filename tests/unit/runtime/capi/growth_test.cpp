@@ -72,14 +72,15 @@ TEST(Growth, SizesThatNeverWereAreRefused) {
     Later from, known;
     from.struct_size = size;
     sphc_message message = {};
+    uint32_t checked = 0;
     EXPECT_EQ(readStructBytes(kKnowsAll, "later", &from, &known, &message), SPHC_E_STRUCT_SIZE) << size;
     EXPECT_NE(std::strstr(message.text, "sizeof(later)"), nullptr) << message.text;
-    EXPECT_EQ(checkStructBytes(kKnowsAll, "later", &from, &message), SPHC_E_STRUCT_SIZE) << size;
+    EXPECT_EQ(checkStructBytes(kKnowsAll, "later", &from, &message, &checked), SPHC_E_STRUCT_SIZE) << size;
     EXPECT_EQ(initStructBytes(kKnowsAll, &known, size, &from), SPHC_E_STRUCT_SIZE) << size;
     EXPECT_EQ(from.first, 1u);
   }
   EXPECT_EQ(readStructBytes(kKnowsAll, "later", nullptr, nullptr, nullptr), SPHC_E_ARGUMENT);
-  EXPECT_EQ(checkStructBytes(kKnowsAll, "later", nullptr, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(checkStructBytes(kKnowsAll, "later", nullptr, nullptr, nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(initStructBytes(kKnowsAll, nullptr, sizeof(Later), nullptr), SPHC_E_ARGUMENT);
 }
 
@@ -89,7 +90,7 @@ TEST(Growth, AnOlderCallerGetsWhatItHasRoomFor) {
   to.struct_size = kFirst;
   to.first = 77;
   to.third = 77;
-  writeStructBytes(kKnowsAll, &result, &to);
+  writeStructBytes(kKnowsAll, &result, to.struct_size, &to);
   EXPECT_EQ(to.struct_size, kFirst);
   EXPECT_EQ(to.first, 1u);
   EXPECT_EQ(to.third, 77u);
@@ -100,10 +101,27 @@ TEST(Growth, ANewerCallerGetsZeroesForWhatIsNotKnown) {
   Later to;
   to.first = 77;
   to.third = 77;
-  writeStructBytes(kKnowsTwo, &result, &to);
+  writeStructBytes(kKnowsTwo, &result, to.struct_size, &to);
   EXPECT_EQ(to.struct_size, sizeof(Later));
   EXPECT_EQ(to.first, 1u);
   EXPECT_EQ(to.third, 0u);
+}
+
+// As by another thread of a careless caller.
+TEST(Growth, AStructThatChangesDuringACallIsWrittenAsFarAsItWasChecked) {
+  const Later result;
+  Later to;
+  uint32_t checked = 0;
+  to.struct_size = kFirst;
+  EXPECT_EQ(checkStructBytes(kKnowsAll, "later", &to, nullptr, &checked), SPHC_OK);
+  to.third = 77;
+  for (uint32_t meanwhile : {0u, UINT32_MAX}) {
+    to.struct_size = meanwhile;
+    to.first = 77;
+    writeStructBytes(kKnowsAll, &result, checked, &to);
+    EXPECT_EQ(to.first, 1u);
+    EXPECT_EQ(to.third, 77u);
+  }
 }
 
 TEST(Growth, DefaultsFillWhatTheCallerTells) {
