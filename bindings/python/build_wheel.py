@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Builds the wheel, with nothing but Python; pip calls it too (pyproject.toml).
+
+    build_wheel.py [--out FOLDER] [--library LIBSPHERECLOUD.SO] [--command SPHERECLOUD]
+
+With a library (or SPHERECLOUD_LIBRARY) the wheel carries it, and what it needs that no system must have, and is for
+machines of its kind.  Without one it is for any machine, and finds the installed library.  The same files and
+SOURCE_DATE_EPOCH give the same bytes.
+"""
+import argparse
+import base64
+import hashlib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+import zipfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+# What a manylinux machine has.
+SYSTEM = re.compile(r"(ld-linux.*|linux-vdso|libc|libm|libdl|libpthread|librt|libstdc\+\+|libgcc_s)\.so")
+OLDEST_GLIBC = (2, 17)  # that pip knows by this kind of name
+
+
+def told(key):
+    """A value of pyproject.toml; versions of Python before 3.11 cannot read the whole of it."""
+    found = re.search(rf'^{re.escape(key)} = "(.*)"$', (HERE / "pyproject.toml").read_text(encoding="utf-8"), re.MULTILINE)
+    return found.group(1)
+
+
+def needed_by(library):
+    """The files that a library needs and that not every system has: [(name, path)]."""
+    lines = subprocess.run(["ldd", library], capture_output=True, text=True, check=True).stdout.splitlines()
+    pairs = [line.split(" => ") for line in lines if " => " in line]
+    found = [(name.strip(), path.rpartition(" (")[0].strip()) for name, path in pairs]
+    missing = [name for name, path in found if "not found" in path or not path]
+    if missing:
+        sys.exit(f"{library} needs {', '.join(missing)}, which this system has not; install it")
+    return [(name, path) for name, path in found if not SYSTEM.match(name)]
+
+
+def licenses(carried):
+    """{name: bytes} of the project's licence, and of the carried libraries as Debian keeps them."""
+    found = {name: (ROOT / name).read_bytes() for name in ("LICENSE", "NOTICE")}
+    for name, _ in carried[1:]:
+        package = name.replace(".so.", "")  # libhwy.so.1 is of libhwy1
+        text = pathlib.Path(f"/usr/share/doc/{package}/copyright")
+        if not text.exists():
+            sys.exit(f"{text}, the licence of {name}, is missing; a wheel that carries the library needs it")
+        found[package] = text.read_bytes()
+    return found
+
+
+def tag_of(files):
+    """py3-none-manylinux_X_Y_MACHINE, of the youngest glibc that one of the files asks for."""
+    asked = [OLDEST_GLIBC]
+    for path in files:
+        versions = re.findall(rb"GLIBC_(\d+)\.(\d+)", pathlib.Path(path).read_bytes())
+        asked += [(int(major), int(minor)) for major, minor in versions]
+    major, minor = max(asked)
+    return f"py3-none-manylinux_{major}_{minor}_{os.uname().machine}"
+
+
+def metadata():
+    lines = ["Metadata-Version: 2.4", f"Name: {told('name')}", f"Version: {told('version')}", f"Summary: {told('description')}",
+             f"License-Expression: {told('license')}", "License-File: LICENSE", "License-File: NOTICE",
+             f"Requires-Python: {told('requires-python')}", "Requires-Dist: numpy>=1.22", "Provides-Extra: views",
+             'Requires-Dist: matplotlib; extra == "views"', "Description-Content-Type: text/markdown", ""]
+    return "\n".join(lines) + "\n" + (HERE / "README.md").read_text(encoding="utf-8")
+
+
+def contents(library, command):
+    """({name in the wheel: bytes}, tag)"""
+    files = {str(path.relative_to(HERE)): path.read_bytes() for path in sorted((HERE / "spherecloud").rglob("*"))
+             if path.suffix == ".py" or path.name == "py.typed"}
+    carried = [("libspherecloud.so", library), *needed_by(library)] if library else []
+    files.update({f"spherecloud/lib/{name}": pathlib.Path(path).read_bytes() for name, path in carried})
+    tag = tag_of([path for _, path in carried]) if carried else "py3-none-any"
+    if command:
+        files["spherecloud/bin/spherecloud"] = pathlib.Path(command).read_bytes()
+    info = f"{told('name')}-{told('version')}.dist-info"
+    files[f"{info}/METADATA"] = metadata().encode()
+    pure = "true" if tag.endswith("any") else "false"
+    files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: build_wheel.py\nRoot-Is-Purelib: {pure}\nTag: {tag}\n".encode()
+    files.update({f"{info}/licenses/{name}": text for name, text in licenses(carried).items()})
+    rows = [f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
+            for name, data in files.items()]
+    files[f"{info}/RECORD"] = ("\n".join([*rows, f"{info}/RECORD,,"]) + "\n").encode()
+    return files, tag
+
+
+def write(folder, files, tag):
+    """The wheel's path."""
+    when = time.gmtime(max(int(os.environ.get("SOURCE_DATE_EPOCH", "315532800")), 315532800))[:6]  # a zip begins in 1980
+    path = pathlib.Path(folder) / f"{told('name')}-{told('version')}-{tag}.whl"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with zipfile.ZipFile(path, "w") as wheel:
+        for name, data in files.items():
+            entry = zipfile.ZipInfo(name, when)
+            entry.compress_type, entry.create_system = zipfile.ZIP_DEFLATED, 3
+            entry.external_attr = (0o100755 if "/bin/" in name else 0o100644) << 16
+            wheel.writestr(entry, data)
+    return path
+
+
+# ---- what pip calls ----
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    return write(wheel_directory, *contents(os.environ.get("SPHERECLOUD_LIBRARY"), None)).name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise NotImplementedError("the package is built from the sources of the SDK")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", default="dist")
+    parser.add_argument("--library", default=os.environ.get("SPHERECLOUD_LIBRARY"))
+    parser.add_argument("--command")
+    arguments = parser.parse_args()
+    print(write(arguments.out, *contents(arguments.library, arguments.command)))

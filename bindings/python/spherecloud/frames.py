@@ -1,0 +1,151 @@
+"""What a frame is made of."""
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+import typing
+
+from . import _interface
+from .cameras import Camera
+from .enums import Format, PriorPart
+from .images import AMPLITUDE, COLOR, Array, Image, Slot, depth_kinds
+from .poses import Rigid, numbers
+
+Vector = typing.Sequence[float]
+
+
+@dataclasses.dataclass(frozen=True)
+class Prior:
+    """What is known of a pose before its frame is looked at.  Three parts, each of which may be missing:
+
+    `camera_from_map`, where the camera should be, with `rotation_sigma_rad` and `translation_sigma_m` (1 sigma an axis).
+    `up_camera` and `up_map`, the vertical in both frames, of any length but 0, with `up_sigma_rad`.
+    `odometry_from_camera`, dead reckoning at color_time_ns in a frame of its own, with the sigmas of a step.
+
+    `map_id` is the map whose frame the first two are in.  docs/localizer.md.
+    """
+
+    map_id: int = 0
+    camera_from_map: Rigid | None = None
+    rotation_sigma_rad: float = 0.0
+    translation_sigma_m: float = 0.0
+    up_camera: Vector | None = None
+    up_map: Vector | None = None
+    up_sigma_rad: float = 0.0
+    odometry_from_camera: Rigid | None = None
+    odometry_rotation_sigma_rad: float = 0.0
+    odometry_translation_sigma_m: float = 0.0
+
+    def parts(self) -> PriorPart:
+        """Which parts are there."""
+        up = self.up_map if self.up_camera is None else self.up_camera
+        said = {PriorPart.POSE: self.camera_from_map, PriorPart.UP: up, PriorPart.ODOMETRY: self.odometry_from_camera}
+        return PriorPart(sum(part for part, value in said.items() if value is not None))
+
+    def raw(self) -> _interface.sphc_localizer_prior:
+        up = [numbers(v, 3, "up") if v is not None else (0.0,) * 3 for v in (self.up_camera, self.up_map)]
+        return _interface.sphc_localizer_prior(
+            ctypes.sizeof(_interface.sphc_localizer_prior), self.parts(), self.map_id, 0,
+            (self.camera_from_map or Rigid()).raw(), self.rotation_sigma_rad, self.translation_sigma_m,
+            up[0], up[1], self.up_sigma_rad, (self.odometry_from_camera or Rigid()).raw(),
+            self.odometry_rotation_sigma_rad, self.odometry_translation_sigma_m)
+
+
+@dataclasses.dataclass(frozen=True)
+class RigCamera:
+    """A camera of a rig beside the colour camera: grey or colour, of any model and size, looking anywhere."""
+
+    camera: Camera
+    color_from_camera: Rigid
+    row_time_ns: int = 0  # of a rolling shutter
+
+    def raw(self) -> _interface.sphc_localizer_camera:
+        return _interface.sphc_localizer_camera(ctypes.sizeof(_interface.sphc_localizer_camera), 0, self.camera.raw(),
+                                                self.color_from_camera.raw(), self.row_time_ns)
+
+
+@dataclasses.dataclass(frozen=True)
+class View:
+    """The image of a further camera, mid-exposure at time_ns.  None: the camera has none in this frame.  `camera` and
+    `color_from_camera`: as they are in this frame; None: as in the config."""
+
+    image: Array | Image | None
+    time_ns: int
+    camera: Camera | None = None
+    color_from_camera: Rigid | None = None
+
+
+@dataclasses.dataclass
+class Frame:
+    """A colour and a depth image taken at about the same time.  Images are numpy arrays, or an Image where the array does
+    not say its format; they are read in place, and nothing of them is kept after a call.
+
+    Times are mid-exposure; the pose is that of the colour camera at color_time_ns.  `sequence` comes back in the result.
+    `deadline_us`: the frame is to be answered so long after the call began; 0: none.  `amplitude`: the ToF sensor's own
+    light, where the localizer has amplitude_min.  `views`: one for each further camera of the localizer, in its order.
+    `color_camera` and `color_from_depth`: as they are in this frame; None: as in the rig.
+    """
+
+    color: Array | Image | None
+    depth: Array | Image | None
+    color_time_ns: int
+    depth_time_ns: int
+    sequence: int = 0
+    prior: Prior | None = None
+    deadline_us: int = 0
+    amplitude: Array | Image | None = None
+    views: typing.Sequence[View] = ()
+    color_camera: Camera | None = None
+    color_from_depth: Rigid | None = None
+
+
+class FrameStruct:
+    """A struct that frames are put into, one after the other."""
+
+    def __init__(self, depth_format: Format) -> None:
+        self.raw = _interface.sphc_localizer_frame(struct_size=ctypes.sizeof(_interface.sphc_localizer_frame))
+        self._color = Slot(self.raw.color, COLOR, "color")
+        self._depth = Slot(self.raw.depth, depth_kinds(depth_format), "depth")
+        self._amplitude = Slot(self.raw.amplitude, AMPLITUDE, "amplitude")
+        self._plain = True  # nothing but two images was in the last frame
+
+    def fill(self, frame: Frame) -> list[object]:
+        """Returns what must stay alive until the call is over."""
+        raw, color, depth = self.raw, frame.color, frame.depth
+        raw.sequence, raw.deadline_us = frame.sequence, frame.deadline_us
+        raw.color_time_ns, raw.depth_time_ns = frame.color_time_ns, frame.depth_time_ns
+        self._color.put(color)
+        self._depth.put(depth)
+        told: list[object] = [color, depth]
+        plain = (frame.prior is None and frame.amplitude is None and not frame.views and frame.color_camera is None
+                 and frame.color_from_depth is None)
+        if not (plain and self._plain):
+            self._fill_the_rest(frame, told)
+            self._plain = plain
+        return told
+
+    def _fill_the_rest(self, frame: Frame, told: list[object]) -> None:
+        raw, amplitude, views = self.raw, frame.amplitude, frame.views
+        self._plain = False
+        self._amplitude.put(amplitude)
+        told.append(amplitude)
+        raw.prior = _address(frame.prior, told)
+        raw.color_camera, raw.color_from_depth = _address(frame.color_camera, told), _address(frame.color_from_depth, told)
+        raw.views, raw.view_count = self._views(views, told) if views else None, len(views)
+
+    def _views(self, given: typing.Sequence[View], told: list[object]) -> int:
+        views = (_interface.sphc_localizer_view * len(given))()
+        told.extend([views, *(view.image for view in given)])
+        for raw, view in zip(views, given):
+            raw.struct_size, raw.time_ns = ctypes.sizeof(raw), view.time_ns
+            Slot(raw.image, COLOR, "view").put(view.image)
+            raw.camera, raw.color_from_camera = _address(view.camera, told), _address(view.color_from_camera, told)
+        return ctypes.addressof(views)
+
+
+def _address(value: Prior | Camera | Rigid | None, told: list[object]) -> int | None:
+    if value is None:
+        return None
+    made = value.raw()
+    told.append(made)
+    return ctypes.addressof(made)

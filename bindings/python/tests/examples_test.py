@@ -1,0 +1,48 @@
+"""What the pages show works."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import session
+import spherecloud as sphc
+
+PACKAGE = pathlib.Path(__file__).parents[1]
+
+
+def block(page, begins):
+    """The first block of Python that begins so."""
+    return re.search(rf"```python\n({begins}.*?)```", page.read_text(encoding="utf-8"), re.DOTALL).group(1)
+
+
+class Examples(unittest.TestCase):
+    def test_first_pose(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for row in session.ROWS:
+                frame, number = session.frame(row), f"{int(row['sequence']):04}"
+                np.save(f"{folder}/{number}_color.npy", frame.color)
+                np.save(f"{folder}/{number}_depth.npy", frame.depth)
+            example = PACKAGE / "examples" / "first_pose.py"
+            said = subprocess.run([sys.executable, "-B", example, session.MAP, folder], capture_output=True, text=True, check=True)
+        self.assertEqual(len(re.findall(r"^\d+ \(.*\)$", said.stdout, re.MULTILINE)), 9, said)
+        self.assertIn("6 FEW_KEYPOINTS", said.stdout)
+
+    def test_pages(self):
+        frame, here = session.frame(session.ROWS[0]), os.getcwd()
+        names = {"color": frame.color, "depth": frame.depth, "color_time_ns": 1, "depth_time_ns": 1}
+        self.addCleanup(os.chdir, here)
+        os.chdir(session.FOLDER)
+        pages = [PACKAGE / "README.md", PACKAGE.parents[1] / "docs" / "python.md"]
+        self.assertEqual(*(block(page, "from spherecloud") for page in pages))
+        exec(block(pages[0], "from spherecloud").replace("print(", "("), names)
+        self.assertTrue(names["result"].localized)
+        exec(block(pages[1], "world_from_map"), {**vars(sphc), **names})
+
+
+if __name__ == "__main__":
+    unittest.main()

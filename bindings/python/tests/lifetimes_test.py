@@ -1,0 +1,116 @@
+"""Nothing goes while it is used, and all goes when it is not."""
+import gc
+import pickle
+import threading
+import time
+import unittest
+import weakref
+
+import numpy as np
+
+import session
+import spherecloud as sphc
+
+
+class Lifetimes(unittest.TestCase):
+    def test_a_localizer_keeps_its_map(self):
+        with sphc.Map.open(session.MAP) as room:
+            made, kept = session.localizer({session.MAP_ID: room}), weakref.ref(room.owned())
+        del room
+        gc.collect()
+        self.assertTrue(session.play(made))
+        self.assertIsNotNone(kept())
+        made.remove_map(session.MAP_ID)
+        self.assertIsNone(kept())
+
+    def test_a_map_that_is_replaced_goes(self):
+        made, kept = session.localizer(), []
+        for _ in range(3):
+            room = sphc.Map.open(session.MAP)
+            kept.append(weakref.ref(room.owned()))
+            made.set_map(session.MAP_ID, room)
+            del room
+        self.assertEqual([ref() is None for ref in kept], [True, True, False])
+        made.close()
+        self.assertIsNone(kept[2]())
+
+    def test_orders_of_the_end(self):
+        for order in ([0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]):
+            room = sphc.Map.open(session.MAP)
+            made = session.localizer({session.MAP_ID: room})
+            features = made.make_features()
+            made.extract(session.frame(session.ROWS[0]), features)
+            objects = [room, made, features]
+            del room, made, features
+            for index in order:
+                objects[index] = None
+                gc.collect()
+
+    def test_cycles_are_collected(self):
+        lines = []
+        made = session.localizer({0: sphc.Map.open(session.MAP)}, log=lambda level, text: lines.append((made, text)))
+        gone = weakref.ref(made)
+        lines.append(made)
+        del made, lines
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_results_outlive_the_localizer(self):
+        with sphc.Map.open(session.MAP) as room, session.localizer({session.MAP_ID: room}) as made:
+            result = made.process(session.frame(session.ROWS[0]))
+            seen = made.observations()
+        covariance = result.covariance
+        again = pickle.loads(pickle.dumps(result))
+        self.assertEqual(again, result)
+        del result
+        gc.collect()
+        self.assertEqual(covariance[0, 0], float(session.ROWS[0]["covariance_0"]))
+        self.assertEqual(len(seen), int(session.ROWS[0]["keypoints"]))
+
+    def test_images_may_go_after_the_call(self):
+        with sphc.Map.open(session.MAP) as room, session.localizer({session.MAP_ID: room}) as made:
+            features = made.make_features()
+            frame = session.frame(session.ROWS[0])
+            gone = weakref.ref(frame.color)
+            made.extract(frame, features)
+            frame.color = None
+            self.assertIsNone(gone())
+            self.assertTrue(session.same(made.locate(frame, features), session.ROWS[0]))
+
+    def test_a_frame_may_change_during_a_call(self):
+        with sphc.Map.open(session.MAP) as room, session.localizer({session.MAP_ID: room}) as made:
+            frame, end = session.frame(session.ROWS[0]), threading.Event()
+            images = frame.color, frame.depth
+
+            def change():
+                while not end.is_set():
+                    frame.color, frame.depth = np.array(images[0]), np.array(images[1])
+            other = threading.Thread(target=change)
+            other.start()
+            found = {made.process(frame).localized for _ in range(10)}
+            end.set()
+            other.join()
+            self.assertEqual(found, {True})
+
+    def test_closing_waits_for_the_call(self):
+        begun, order = threading.Event(), []
+
+        def clock():
+            begun.set()
+            time.sleep(0.02)
+            return time.monotonic_ns()
+
+        def work():
+            order.append(made.process(session.frame(session.ROWS[0])).localized)
+        made = session.localizer({session.MAP_ID: sphc.Map.open(session.MAP)}, clock=clock)
+        other = threading.Thread(target=work)
+        other.start()
+        begun.wait()
+        made.close()
+        order.append("closed")
+        other.join()
+        self.assertEqual(order, [True, "closed"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,135 @@
+"""What is wrong is an error that says what to do, and never a crash."""
+import unittest
+
+import numpy as np
+
+import session
+import spherecloud as sphc
+
+
+class Misuse(unittest.TestCase):
+    def setUp(self):
+        self.map = sphc.Map.open(session.MAP)
+        self.localizer = session.localizer({session.MAP_ID: self.map})
+        self.frame = session.frame(session.ROWS[0])
+
+    def refused(self, status, words, call, *arguments, **more):
+        with self.assertRaisesRegex(sphc.Error, words) as caught:
+            call(*arguments, **more)
+        self.assertEqual(caught.exception.status, status, caught.exception)
+        self.assertGreater(len(caught.exception.message), 10)
+
+    def goes_on(self):
+        self.assertTrue(session.play(session.localizer({session.MAP_ID: self.map})))
+        self.localizer.reset()
+        self.assertTrue(self.localizer.process(session.frame(session.ROWS[0])).localized)
+
+    def test_closed_objects(self):
+        features = self.localizer.make_features()
+        self.refused(sphc.Status.E_STATE, "no frame yet", features.arrays)
+        for closing in (features, self.localizer, self.map):
+            closing.close()
+            closing.close()
+        state = sphc.Status.E_STATE
+        self.refused(state, "the features is closed|the features are closed", features.arrays)
+        for call in (self.map.info, lambda: self.map.direction(0), self.map.__enter__, self.localizer.reset,
+                     lambda: self.localizer.process(self.frame), lambda: self.localizer.extract(self.frame, features),
+                     lambda: self.localizer.locate(self.frame, features), lambda: self.localizer.predict(0),
+                     self.localizer.observations, self.localizer.hypotheses, lambda: self.localizer.set_map(1, self.map),
+                     lambda: self.localizer.remove_map(7), lambda: self.localizer.map_count,
+                     lambda: self.localizer.set_parameter(sphc.Parameter.PROBES, 1)):
+            self.refused(state, "closed", call)
+
+    def test_images_that_do_not_fit(self):
+        color, depth, image = self.frame.color, self.frame.depth, sphc.Status.E_IMAGE
+        for wrong, words in ((color[:-1], "239"), (color.astype(np.float64), "float64"), (color[:, ::-1], "side by side"),
+                             (color[::-1], "downwards"), (np.broadcast_to(color[:1], color.shape), "downwards"),
+                             (color[:, :, None].repeat(2, 2), "none of"), (color.ravel(), "none of"),
+                             (np.zeros((240, 640), np.uint8)[:, ::2], "side by side"), (np.empty((0, 0), np.uint8), "stride|size|0 x 0"),
+                             (sphc.Image(color, sphc.Format.RGB8), "RGB8"), (sphc.Image(color, sphc.Format.GRAY10P), "a width"),
+                             (sphc.Image(color, sphc.Format.GRAY10P, 640), "a width that fits"), (None, "color")):
+            self.frame.color = wrong
+            self.refused(image, words, self.localizer.process, self.frame)
+        self.frame.color = color.tolist()
+        with self.assertRaisesRegex(TypeError, "numpy array"):
+            self.localizer.process(self.frame)
+        self.frame.color = color
+        odd = np.frombuffer(bytes(2 * depth.size + 1), np.uint8)[1:].view(np.uint16).reshape(depth.shape)
+        between = np.ndarray(depth.shape, np.uint16, bytearray(401 * 160), strides=(401, 2))
+        for wrong, words in ((depth.astype(">u2"), ">u2"), (depth.astype(np.int16), "int16"), (depth[:, :-1], "199"), (odd, "aligned"), (between, "stride")):
+            self.frame.depth = wrong
+            self.refused(image, words, self.localizer.process, self.frame)
+        self.goes_on()
+
+    def test_maps_that_are_none(self):
+        good = session.MAP.read_bytes()
+        flipped = bytearray(good)
+        flipped[len(good) // 2] ^= 1
+        self.refused(sphc.Status.E_MAP_CHECKSUM, ".", sphc.Map, flipped)
+        for cut in (b"", good[:10], good[:-1], bytes(len(good))):
+            self.refused(sphc.Status.E_MAP_FORMAT, ".", sphc.Map, cut)
+        with self.assertRaises(FileNotFoundError):
+            sphc.Map.open(session.FOLDER / "none.sphc")
+        with self.assertRaises(IndexError):
+            self.map.direction(self.map.info().point_count)
+
+    def test_configs_that_cannot_be(self):
+        bad = sphc.Rig(session.COLOR, session.DEPTH, sphc.Rigid(t_m=(float("nan"), 0, 0)))
+        self.refused(sphc.Status.E_ARGUMENT, "color_from_depth", sphc.Localizer, bad)
+        self.refused(sphc.Status.E_ARGUMENT, "color_from_depth", sphc.Aligner, bad)
+        self.refused(sphc.Status.E_ARGUMENT, "max_keypoints", sphc.Localizer, session.RIG, max_keypoints=1)
+        self.refused(sphc.Status.E_CAPACITY, "max_maps", session.localizer, {1: self.map, 2: self.map}, max_maps=1)
+        self.refused(sphc.Status.E_ARGUMENT, "band", session.localizer, self.map, color_band=sphc.Band.INFRARED)
+        with self.assertRaises(TypeError):
+            sphc.Localizer(session.RIG, max_keypoint=100)
+
+    def test_arguments_of_calls(self):
+        self.refused(sphc.Status.E_ARGUMENT, "map", self.localizer.remove_map, 3)
+        self.refused(sphc.Status.E_ARGUMENT, "sigmas", self.localizer.set_map_transform, 7, sphc.Rigid(), -1, 0)
+        self.refused(sphc.Status.E_UNSUPPORTED, "99", self.localizer.set_parameter, 99, 1)
+        self.refused(sphc.Status.E_UNSUPPORTED, "99", sphc.parameter_range, 99)
+        self.frame.prior = sphc.Prior(session.MAP_ID, up_camera=(0, 0, 0), up_map=(0, 1, 0), up_sigma_rad=0.1)
+        self.refused(sphc.Status.E_ARGUMENT, "up", self.localizer.process, self.frame)
+        self.frame.prior = sphc.Prior(session.MAP_ID, up_camera=(0, 0), up_map=(0, 1, 0))
+        with self.assertRaises(ValueError):
+            self.localizer.process(self.frame)
+        self.goes_on()
+
+    def test_features_that_do_not_fit(self):
+        features, other = self.localizer.make_features(), sphc.Localizer(session.RIG, max_keypoints=300).make_features()
+        self.refused(sphc.Status.E_STATE, "no frame", self.localizer.locate, self.frame, features)
+        self.refused(sphc.Status.E_ARGUMENT, "config", self.localizer.extract, self.frame, other)
+        self.localizer.extract(self.frame, features)
+        self.frame.color_time_ns += 1
+        self.refused(sphc.Status.E_ARGUMENT, "time", self.localizer.locate, self.frame, features)
+        arrays = features.arrays()
+        self.refused(sphc.Status.E_CAPACITY, ".", other.set, self.frame, arrays)
+        arrays.descriptors = arrays.descriptors[:-1]
+        self.refused(sphc.Status.E_ARGUMENT, "descriptor", features.set, self.frame, arrays)
+        arrays.descriptors = arrays.descriptors[:, :64]
+        self.refused(sphc.Status.E_ARGUMENT, "128", features.set, self.frame, arrays)
+
+    def test_aligned_images_that_are_too_small(self):
+        aligner = sphc.Aligner(session.RIG)
+        read_only = np.zeros((240, 320), np.uint16)
+        read_only.flags.writeable = False
+        for wrong in (np.zeros((240, 319), np.uint16), np.zeros((240, 320), np.int16), read_only,
+                      np.zeros((480, 320), np.uint16)[::-2]):
+            self.refused(sphc.Status.E_IMAGE, "out.depth", aligner.process, self.frame.depth, sphc.Aligned(depth=wrong))
+        self.refused(sphc.Status.E_IMAGE, "size|200", aligner.process, np.zeros((10, 10), np.uint16))
+
+    def test_calls_from_callbacks(self):
+        caught = []
+
+        def log(level, text):
+            try:
+                made.reset()
+            except sphc.Error as error:
+                caught.append(error)
+        made = session.localizer({session.MAP_ID: self.map}, log=log, log_level=sphc.LogLevel.DEBUG)
+        made.process(self.frame)
+        self.assertEqual(caught[0].status, sphc.Status.E_STATE)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,58 @@
+"""The wheel: the same bytes each time; it installs without a network, and carries all that it needs."""
+import os
+import pathlib
+import subprocess
+import sys
+import sysconfig
+import tempfile
+import unittest
+import zipfile
+
+HERE = pathlib.Path(__file__).parent
+BUILD = HERE.parent / "build_wheel.py"
+
+
+def run(*command, **variables):
+    kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "SPHERECLOUD_LIBRARY")}
+    done = subprocess.run([str(word) for word in command], env={**kept, **variables}, capture_output=True, text=True)
+    if done.returncode:
+        raise AssertionError(f"{command}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def build(out, **variables):
+    library = os.environ["SPHERECLOUD_LIBRARY"]
+    return pathlib.Path(run(sys.executable, "-B", BUILD, "--out", out, "--library", library, **variables).strip())
+
+
+class Wheel(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_the_same_bytes(self):
+        first, second, later = (build(self.folder / name, SOURCE_DATE_EPOCH=epoch)
+                                for name, epoch in (("1", "1700000000"), ("2", "1700000000"), ("3", "1700009999")))
+        self.assertEqual(first.read_bytes(), second.read_bytes())
+        self.assertNotEqual(first.read_bytes(), later.read_bytes())
+
+    def test_it_plays_the_session(self):
+        wheel, environment = build(self.folder), self.folder / "environment"
+        self.assertRegex(wheel.name, r"-py3-none-manylinux_2_\d+_")
+        run(sys.executable, "-m", "venv", "--without-pip", environment)
+        python = environment / "bin" / "python"
+        run(sys.executable, "-m", "pip", "--python", python, "install", "--no-index", "--no-deps", wheel)
+        golden = os.environ["SPHERECLOUD_GOLDEN"]
+        numpy = sysconfig.get_paths()["platlib"]
+        said = run(python, "-B", HERE / "session.py", PYTHONPATH=numpy, SPHERECLOUD_GOLDEN=golden).split()
+        self.assertEqual([path.startswith(str(environment)) for path in said], [True, True], said)
+
+    def test_without_a_library_it_is_for_any_machine(self):
+        wheel = pathlib.Path(run(sys.executable, "-B", BUILD, "--out", self.folder).strip())
+        self.assertTrue(wheel.name.endswith("-py3-none-any.whl"))
+        self.assertFalse([name for name in zipfile.ZipFile(wheel).namelist() if ".so" in name])
+
+
+if __name__ == "__main__":
+    unittest.main()

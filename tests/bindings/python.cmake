@@ -1,0 +1,11 @@
+# The Python package: the golden session, misuse and lifetimes; and the wheel, installed without a network.
+sphc_generated(python)
+execute_process(COMMAND ${SPHC_TEST_PYTHON} -c "import numpy" RESULT_VARIABLE python_lacks_numpy OUTPUT_QUIET ERROR_QUIET)
+if(python_lacks_numpy)
+  message(STATUS "bindings: no tests of the Python package; toolchains/install_python_packages.sh build/python installs numpy")
+  return()
+endif()
+set(python_package ${PROJECT_SOURCE_DIR}/bindings/python)
+set(python_tests ${SPHC_TEST_PYTHON} -B -m unittest discover -s ${python_package}/tests)
+sphc_binding_test(python ${CMAKE_COMMAND} -E env PYTHONPATH=${python_package} ${python_tests} -p "[!w]*_test.py")
+sphc_binding_test(python_wheel ${CMAKE_COMMAND} -E env PYTHONPATH=${python_package} ${python_tests} -p "wheel_test.py")
