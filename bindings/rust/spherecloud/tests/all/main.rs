@@ -1,0 +1,10 @@
+//! The binding plays the golden session, keeps its promises, and refuses what it should.
+mod aligner;
+mod conventions;
+mod features;
+mod golden;
+mod hooks;
+mod lifetimes;
+mod memory;
+mod misuse;
+mod session;
