@@ -62,8 +62,9 @@ def bare_option_faults(page, helps):
 def targets_of(root):
     """Names of all targets that some CMake file may make."""
     made = re.compile(r"(?:add_custom_target|add_executable|add_library|sphc_module)\(\s*(\w+)")
-    folders = ("sdk", "drivers", "examples", "tests")
-    files = [path for folder in folders for path in (root / folder).rglob("CMakeLists.txt")] + [*(root / "toolchains").glob("*.cmake")]
+    folders = ("sdk", "drivers", "examples", "tests", "bindings")
+    modules = [*(root / "toolchains").glob("*.cmake"), *(root / "tests" / "bindings").glob("*.cmake")]
+    files = [path for folder in folders for path in (root / folder).rglob("CMakeLists.txt")] + modules
     texts = [path.read_text(encoding="utf-8") for path in files]
     labels = {f"tests_{label}" for text in texts for label in re.findall(r"sphc_label\(\s*(\w+)", text)}
     return labels.union(*(made.findall(text) for text in texts))

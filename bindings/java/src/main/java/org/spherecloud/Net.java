@@ -1,0 +1,44 @@
+package org.spherecloud;
+
+import java.lang.ref.PhantomReference;
+import java.lang.ref.ReferenceQueue;
+import java.util.ArrayList;
+import java.util.Set;
+import java.util.concurrent.ConcurrentHashMap;
+
+/**
+ * What an object holds outside the heap: given back when it is closed, or else some time after it was lost.  Lost ones
+ * are looked for when the next object is made, so there is no thread, and no class that old releases of Android lack.
+ */
+final class Net extends PhantomReference<Object> {
+  private static final ReferenceQueue<Object> LOST = new ReferenceQueue<>();
+  private static final Set<Net> ALL = ConcurrentHashMap.newKeySet();
+  private final ArrayList<Holding> holdings = new ArrayList<>();
+
+  Net(Object owner) {
+    super(owner, LOST);
+    releaseLost();
+    ALL.add(this);
+  }
+
+  static void releaseLost() {
+    for (Net lost = (Net) LOST.poll(); lost != null; lost = (Net) LOST.poll()) lost.release();
+  }
+
+  <T extends Holding> T hold(T holding) {
+    holdings.add(holding);
+    return holding;
+  }
+
+  void drop(Holding holding) {
+    holdings.remove(holding);
+    holding.release();
+  }
+
+  /** In the order in which they were taken: an object ends before that which it borrows. */
+  void release() {
+    if (!ALL.remove(this)) return;
+    holdings.forEach(Holding::release);
+    holdings.clear();
+  }
+}

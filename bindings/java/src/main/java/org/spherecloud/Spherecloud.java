@@ -1,0 +1,16 @@
+package org.spherecloud;
+
+/** What the library says of itself.  Any thread may call it. */
+public final class Spherecloud {
+  private Spherecloud() {}
+
+  /** "major.minor.patch". */
+  public static String version() {
+    return Native.versionString();
+  }
+
+  /** The id of the library's keypoint extractor; a map whose points another one described is refused. */
+  public static int extractorId() {
+    return Native.extractorId();
+  }
+}

@@ -1,0 +1,56 @@
+# Java: its jar and its JNI library, in JUnit's hands.
+sphc_generated(java)
+find_package(Java 11 COMPONENTS Development Runtime)
+find_file(SPHC_JUNIT_JAR junit4.jar PATHS /usr/share/java)
+find_file(SPHC_HAMCREST_JAR hamcrest.jar PATHS /usr/share/java)
+if(NOT Java_Development_FOUND OR NOT Java_Runtime_FOUND OR NOT SPHC_JUNIT_JAR OR NOT SPHC_HAMCREST_JAR)
+  message(STATUS "Java's tests are left out; install openjdk-17-jdk-headless and junit4 for them")
+  return()
+endif()
+set(SPHC_JAVA_FOLDER ${PROJECT_SOURCE_DIR}/bindings/java)
+add_subdirectory(${SPHC_JAVA_FOLDER} ${PROJECT_BINARY_DIR}/bindings/java)
+get_target_property(jar spherecloud_jar JAR)
+
+# sphc_java_classes(NAME CLASS_PATH SOURCES...): compiled into a folder of that name.
+function(sphc_java_classes name class_path)
+  set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${name}.stamp)
+  add_custom_command(OUTPUT ${stamp} DEPENDS ${ARGN} ${jar} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${CMAKE_CURRENT_BINARY_DIR}/${name}
+    COMMAND ${Java_JAVAC_EXECUTABLE} --release 11 -Xlint:all,-try -Werror -cp ${class_path}
+      -d ${CMAKE_CURRENT_BINARY_DIR}/${name} ${ARGN}
+    COMMAND ${CMAKE_COMMAND} -E touch ${stamp})
+  add_custom_target(${name} DEPENDS ${stamp})
+  add_dependencies(${name} spherecloud_jar)
+endfunction()
+
+set(junit ${SPHC_JUNIT_JAR}:${SPHC_HAMCREST_JAR})
+file(GLOB sources CONFIGURE_DEPENDS ${SPHC_JAVA_FOLDER}/src/test/java/org/spherecloud/*.java)
+sphc_java_classes(java_tests ${jar}:${junit} ${sources})
+sphc_java_classes(java_example ${jar} ${SPHC_JAVA_FOLDER}/examples/FirstPose.java)
+set(tests ${sources})
+list(FILTER tests INCLUDE REGEX "Test\\.java$")
+list(TRANSFORM tests REPLACE "^.*/([A-Za-z]+)\\.java$" "org.spherecloud.\\1")
+
+set(run ${Java_JAVA_EXECUTABLE} -Xcheck:jni -ea -Xshare:auto -XX:TieredStopAtLevel=1
+  -Dspherecloud.jni=$<TARGET_FILE:spherecloud_jni>)
+sphc_binding_test(java COMMAND ${run} -Dspherecloud.layout=${PROJECT_SOURCE_DIR}/tests/abi/layout.csv
+  -cp ${jar}:${CMAKE_CURRENT_BINARY_DIR}/java_tests:${junit} org.junit.runner.JUnitCore ${tests})
+sphc_binding_test(java_example COMMAND ${run} -cp ${jar}:${CMAKE_CURRENT_BINARY_DIR}/java_example FirstPose ${SPHC_GOLDEN})
+set_tests_properties(bindings.java_example PROPERTIES PASS_REGULAR_EXPRESSION "0: q_wxyz 0.99975")
+sphc_binding_test(java_packages COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/java_packages_test.py
+  ${Java_JAVA_EXECUTABLE} ${Java_JAVAC_EXECUTABLE} ${jar} $<TARGET_FILE:spherecloud_jni> $<TARGET_FILE:spherecloud>)
+sphc_label(bindings spherecloud_java java_tests java_example)
+
+# What the binding costs a frame beside C: `ninja java_overhead`, on an idle machine.
+add_executable(java_overhead_c EXCLUDE_FROM_ALL ${SPHC_JAVA_FOLDER}/overhead/overhead.c)
+target_link_libraries(java_overhead_c PRIVATE spherecloud)
+set_target_properties(java_overhead_c PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF LINKER_LANGUAGE CXX)
+target_compile_definitions(java_overhead_c PRIVATE _POSIX_C_SOURCE=200112L)
+sphc_java_classes(java_overhead_classes ${jar} ${SPHC_JAVA_FOLDER}/overhead/Overhead.java)
+set_target_properties(java_overhead_classes PROPERTIES EXCLUDE_FROM_ALL ON)
+add_custom_target(java_overhead USES_TERMINAL VERBATIM
+  COMMAND write_golden ${SPHC_GOLDEN}
+  COMMAND ${Python3_EXECUTABLE} -B ${SPHC_JAVA_FOLDER}/overhead/overhead.py 200 $<TARGET_FILE:java_overhead_c> ${SPHC_GOLDEN}
+    -- ${Java_JAVA_EXECUTABLE} -Dspherecloud.jni=$<TARGET_FILE:spherecloud_jni>
+    -cp ${jar}:${CMAKE_CURRENT_BINARY_DIR}/java_overhead_classes Overhead)
+add_dependencies(java_overhead java_overhead_classes spherecloud_java)
