@@ -1,0 +1,93 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace SphereCloud {
+/// <summary>The native library behind this assembly.</summary>
+public static unsafe class Library {
+  private static readonly Exception problem = FindProblem();
+
+  /// <summary>"major.minor.patch" of the native library. Any thread. Throws SpherecloudException where the library
+  /// is of another version, and DllNotFoundException where it is missing.</summary>
+  public static string Version {
+    get {
+      Require();
+      return Text.Of(Native.sphc_version_string());
+    }
+  }
+
+  /// <summary>The id of the library's keypoint extractor: maps and features of another one are refused. Any
+  /// thread.</summary>
+  public static uint ExtractorId {
+    get {
+      Require();
+      return Native.sphc_extractor_id();
+    }
+  }
+
+  /// <summary>Bytes of a row of so many pixels, the least stride; 0 for a width that the format cannot have. Any
+  /// thread.</summary>
+  public static int RowBytes(PixelFormat format, int width) {
+    Require();
+    return width < 0 ? 0 : (int)Native.sphc_format_row_bytes(format, (uint)width);
+  }
+
+  /// <summary>Everything public passes here before its first native call.</summary>
+  internal static void Require() {
+    if (problem != null) throw Again(problem);
+  }
+
+  private static Exception FindProblem() {
+    try {
+#if NET5_0_OR_GREATER
+      LibraryResolver.Register();
+#endif
+      return VersionProblem(Native.sphc_abi(), Text.Of(Native.sphc_version_string()));
+    } catch (DllNotFoundException missing) {
+      return new DllNotFoundException(WhereToLook + " The system says: " + missing.Message, missing);
+    } catch (EntryPointNotFoundException other) {
+      return new DllNotFoundException("A library '" + Native.File + "' was found, but it is not that of SphereCloud " +
+                                      Native.Version + ": " + other.Message, other);
+    }
+  }
+
+  /// <summary>Null where this assembly and a library of that ABI and version fit each other. ABI 0 promises nothing
+  /// from one minor version to the next.</summary>
+  internal static Exception VersionProblem(uint abi, string version) {
+    bool fits = abi == Native.Abi && (abi != 0 || Minor(version) == Minor(Native.Version));
+    return fits ? null : new SpherecloudException(
+        Status.Unsupported, "the native library is " + version + " (ABI " + abi + "), and this assembly is made for " +
+                            Native.Version + " (ABI " + Native.Abi + "); install both from one release");
+  }
+
+  private static string Minor(string version) {
+    return version.Substring(0, version.LastIndexOf('.'));
+  }
+
+  /// <summary>An exception keeps the place where it was first thrown, so each caller gets its own.</summary>
+  private static Exception Again(Exception problem) {
+    var known = problem as SpherecloudException;
+    return known != null ? (Exception)new SpherecloudException(known.Status, known.Explanation)
+                         : new DllNotFoundException(problem.Message, problem.InnerException);
+  }
+
+  private const string WhereToLook =
+      "The native library '" + Native.File + "' was not found: libspherecloud.so, spherecloud.dll or " +
+      "libspherecloud.dylib. Looked beside the program and where the system looks for libraries. In Unity put it into " +
+      "Runtime/Plugins of the package with Tools~/place_library.py. With .NET set SPHERECLOUD_LIBRARY to its path or " +
+      "put it beside the program. With Mono name its folder in LD_LIBRARY_PATH or in a <dllmap>.";
+}
+
+/// <summary>Strings of the library.</summary>
+internal static unsafe class Text {
+  internal static string Of(byte* text) {
+    return Marshal.PtrToStringAnsi((IntPtr)text) ?? "";
+  }
+}
+
+/// <summary>size_t.</summary>
+internal static class Size {
+  internal static UIntPtr Of(long bytes) {
+    return (UIntPtr)(ulong)bytes;
+  }
+}
+}

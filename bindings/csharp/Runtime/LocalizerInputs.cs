@@ -1,0 +1,192 @@
+using System;
+using System.Collections.Generic;
+using System.Runtime.InteropServices;
+
+namespace SphereCloud {
+public sealed unsafe partial class LocalizerConfig {
+  /// <summary>Gets lines of the log, on the thread of the call that writes them; null: no log. What it throws, that call
+  /// throws at its end. It must not call the same localizer.</summary>
+  public Action<LogLevel, string> Log { get; set; }
+
+  /// <summary>Nanoseconds of a clock that only goes forward. Stage times and deadlines need it; null: there are none. At
+  /// first MonotonicClock.NowNs. With Features it is called by several threads.</summary>
+  public Func<long> Clock { get; set; } = MonotonicClock.NowNs;
+
+  /// <summary>How many threads work on a frame, the calling one among them: 1 to Limits.ParallelMax. A localizer starts the
+  /// others when it is made, and they end with it. Results are the same to the last bit, where no deadline is set. With
+  /// more than one, they may call Clock too; what it throws there is dropped.</summary>
+  public uint ParallelTasks { get; set; } = 1;
+
+  /// <summary>The rig's further cameras, in the order of LocalizerFrame.Views. At most Limits.CamerasMax - 1.</summary>
+  public List<LocalizerCamera> Cameras { get; } = new List<LocalizerCamera>();
+
+  /// <summary>Bytes of memory that a localizer of this config takes, piece by piece. Throws SpherecloudException where
+  /// the config cannot be used.</summary>
+  public List<MemoryPiece> MemoryPieces() {
+    var pieces = new List<MemoryPiece>();
+    Native.sphc_localizer_camera* cameras = stackalloc Native.sphc_localizer_camera[Limits.CamerasMax];
+    Native.sphc_localizer_config borrowed = Borrow(cameras);
+    for (;;) {
+      Native.sphc_memory_piece piece;
+      Status status = Native.sphc_localizer_memory_piece(&borrowed, (uint)pieces.Count, &piece);
+      SpherecloudException.Check(status);
+      if (status == Status.End) return pieces;
+      pieces.Add(new MemoryPiece(Text.Of(piece.name), (long)piece.bytes, piece.scratch != 0));
+    }
+  }
+
+  /// <summary>For one call; without log and clock. `cameras` has room for Limits.CamerasMax.</summary>
+  internal Native.sphc_localizer_config Borrow(Native.sphc_localizer_camera* cameras) {
+    if (Cameras.Count >= Limits.CamerasMax)
+      throw new ArgumentException("config.Cameras has " + Cameras.Count + "; at most " + (Limits.CamerasMax - 1));
+    Native.sphc_localizer_config borrowed = raw;
+    if (ParallelTasks != 1) {
+      borrowed.parallel = Callbacks.Parallel;
+      borrowed.parallel_tasks = ParallelTasks;
+    }
+    borrowed.camera_count = (uint)Cameras.Count;
+    borrowed.cameras = Cameras.Count > 0 ? cameras : null;
+    for (int i = 0; i < Cameras.Count; ++i) cameras[i] = Cameras[i].raw;
+    return borrowed;
+  }
+}
+
+/// <summary>A named piece of a localizer's memory.</summary>
+public readonly struct MemoryPiece {
+  internal MemoryPiece(string name, long bytes, bool isScratch) {
+    Name = name;
+    Bytes = bytes;
+    IsScratch = isScratch;
+  }
+
+  /// <summary>What it is for, such as "features.pyramid".</summary>
+  public string Name { get; }
+  /// <summary>Its size.</summary>
+  public long Bytes { get; }
+  /// <summary>True where nothing is kept in it from one frame to the next.</summary>
+  public bool IsScratch { get; }
+}
+
+public sealed unsafe partial class LocalizerView {
+  /// <summary>In any format that is not of depth. Unset: the camera has none in this frame.</summary>
+  public ImageData Image { get; set; }
+
+  /// <summary>The camera as it is in this frame, with heat or focus; null: as in the config. The size stays.</summary>
+  public CameraIntrinsics? Camera { get; set; }
+
+  /// <summary>The camera's place in this frame; null: as in the config.</summary>
+  public Rigid? ColorFromCamera { get; set; }
+}
+
+/// <remarks>One frame can be changed and used again for the next; a call keeps nothing of it.</remarks>
+public sealed unsafe partial class LocalizerFrame {
+  /// <summary>In any format that is not of depth; the size is that of config.Rig.ColorCamera.</summary>
+  public ImageData Color { get; set; }
+
+  /// <summary>In config.DepthFormat; the size is that of config.Rig.DepthCamera.</summary>
+  public ImageData Depth { get; set; }
+
+  /// <summary>How much of its own light the depth sensor saw in each pixel, or how sure it is of it: Gray8, Gray10,
+  /// Gray12 or Gray16, of the depth image's size. Every frame has one where config.AmplitudeMin is set.</summary>
+  public ImageData Amplitude { get; set; }
+
+  /// <summary>What is known of the pose beforehand; null: nothing but what earlier frames told.</summary>
+  public LocalizerPrior Prior { get; set; }
+
+  /// <summary>The images of config.Cameras, in their order.</summary>
+  public List<LocalizerView> Views { get; } = new List<LocalizerView>();
+
+  /// <summary>The colour camera as it is in this frame; null: as in config.Rig. The size stays.</summary>
+  public CameraIntrinsics? ColorCamera { get; set; }
+
+  /// <summary>The depth camera's place in this frame; null: as in config.Rig.</summary>
+  public Rigid? ColorFromDepth { get; set; }
+}
+
+/// <summary>A frame as C wants it, for one call: arrays are pinned until it is disposed of. Everything lies in the
+/// caller's block, so nothing is allocated.</summary>
+internal unsafe struct LentFrame : IDisposable {
+  private const int MaxViews = Limits.CamerasMax - 1, MaxPins = MaxViews + 3;
+
+  private struct Block {
+    internal Native.sphc_localizer_frame frame;
+    internal Native.sphc_localizer_prior prior;
+    internal CameraIntrinsics camera;
+    internal Rigid rigid;
+  }
+
+  private struct ViewBlock {
+    internal CameraIntrinsics camera;
+    internal Rigid rigid;
+  }
+
+  /// <summary>Room for a block; of long, for its alignment.</summary>
+  internal static readonly int Longs =
+      (sizeof(Block) + MaxViews * (sizeof(Native.sphc_localizer_view) + sizeof(ViewBlock))) / sizeof(long) + 1;
+
+  private fixed long pins[MaxPins];
+  private int pinned;
+  private readonly Block* block;
+
+  internal LentFrame(LocalizerFrame frame, long* room) : this() {
+    if (frame == null) throw new ArgumentNullException(nameof(frame));
+    if (frame.Views.Count > MaxViews)
+      throw new ArgumentException("frame.Views has " + frame.Views.Count + "; at most " + MaxViews);
+    block = (Block*)room;
+    block->frame = frame.raw;
+    if (frame.Prior != null) {
+      block->prior = frame.Prior.raw;
+      block->frame.prior = &block->prior;
+    }
+    block->frame.color_camera = Put(frame.ColorCamera, &block->camera);
+    block->frame.color_from_depth = Put(frame.ColorFromDepth, &block->rigid);
+    try {
+      Pin(frame.Color, &block->frame.color);
+      Pin(frame.Depth, &block->frame.depth);
+      Pin(frame.Amplitude, &block->frame.amplitude);
+      PutViews(frame.Views);
+    } catch {
+      Dispose();
+      throw;
+    }
+  }
+
+  internal Native.sphc_localizer_frame* Raw { get { return &block->frame; } }
+
+  private void PutViews(List<LocalizerView> views) {
+    var rest = (ViewBlock*)(block + 1);
+    var raw = (Native.sphc_localizer_view*)(rest + MaxViews);
+    for (int i = 0; i < views.Count; ++i) {
+      raw[i] = views[i].raw;
+      raw[i].camera = Put(views[i].Camera, &rest[i].camera);
+      raw[i].color_from_camera = Put(views[i].ColorFromCamera, &rest[i].rigid);
+      Pin(views[i].Image, &raw[i].image);
+    }
+    block->frame.views = views.Count > 0 ? raw : null;
+    block->frame.view_count = (uint)views.Count;
+  }
+
+  private static CameraIntrinsics* Put(CameraIntrinsics? camera, CameraIntrinsics* to) {
+    if (camera == null) return null;
+    *to = camera.GetValueOrDefault();
+    return to;
+  }
+
+  private static Rigid* Put(Rigid? rigid, Rigid* to) {
+    if (rigid == null) return null;
+    *to = rigid.GetValueOrDefault();
+    return to;
+  }
+
+  private void Pin(ImageData image, Native.sphc_image* to) {
+    GCHandle pin = image.Lend(to);
+    fixed (long* first = pins)
+      if (pin.IsAllocated) first[pinned++] = (long)GCHandle.ToIntPtr(pin);
+  }
+
+  public void Dispose() {
+    fixed (long* first = pins)
+      while (pinned > 0) GCHandle.FromIntPtr((IntPtr)first[--pinned]).Free();
+  }
+}
+}

@@ -1,0 +1,37 @@
+// As much of UnityEngine as the binding and its sample use, so that both are known to compile.
+namespace UnityEngine {
+public struct Vector3 {
+  public float x, y, z;
+  public Vector3(float x, float y, float z) { this.x = x; this.y = y; this.z = z; }
+}
+
+public struct Quaternion {
+  public float x, y, z, w;
+  public Quaternion(float x, float y, float z, float w) { this.x = x; this.y = y; this.z = z; this.w = w; }
+}
+
+public struct Pose {
+  public Vector3 position;
+  public Quaternion rotation;
+  public Pose(Vector3 position, Quaternion rotation) { this.position = position; this.rotation = rotation; }
+}
+
+public class Transform {
+  public void SetPositionAndRotation(Vector3 position, Quaternion rotation) {}
+}
+
+public class MonoBehaviour {
+  public Transform transform = new Transform();
+}
+
+public class TextAsset {
+  public byte[] bytes;
+}
+
+[System.AttributeUsage(System.AttributeTargets.Field)]
+public sealed class SerializeFieldAttribute : System.Attribute {}
+
+public static class Debug {
+  public static void LogWarning(object message) {}
+}
+}
