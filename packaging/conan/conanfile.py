@@ -19,10 +19,10 @@ class SphereCloud(ConanFile):
     description = "Where is the device in a prebuilt map? Relocalization from colour and time-of-flight images"
     license = "Apache-2.0"
     topics = ("localization", "tof", "embedded")
-    package_type = "library"
+    package_type = "static-library"
     settings = "os", "arch", "compiler", "build_type"
-    options = {"shared": [True, False], "simd": ["dispatch", "static", "scalar"], "system": [True, False]}
-    default_options = {"shared": False, "simd": "static", "system": False}
+    options = {"simd": ["dispatch", "static", "scalar"], "system": [True, False]}
+    default_options = {"simd": "static", "system": False}
 
     def set_version(self):
         told = load(self, os.path.join(self.recipe_folder, ROOT, "CMakeLists.txt"))

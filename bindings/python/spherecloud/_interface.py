@@ -96,11 +96,12 @@ class sphc_rig(ctypes.Structure):
 
 
 class sphc_image(ctypes.Structure):
-    # caller memory; top-left pixel, of the first plane where there are several
+    # Caller memory; top-left pixel, of the first plane where there are several. Aligned to the bytes of a value: 2
+    # in 16-bit formats, 4 in float. Nothing is read behind the last row's sphc_format_row_bytes.
     data: int | None
     width: int
     height: int
-    # from a row to the next; at least sphc_format_row_bytes
+    # from a row to the next; at least sphc_format_row_bytes, aligned as data
     stride_bytes: int
     format: int
     _fields_ = [
@@ -254,7 +255,7 @@ class sphc_localizer_config(ctypes.Structure):
     # may be null
     log: object
     log_user: int | None
-    # what says more is not made; SPHC_LOG_DEBUG has a line for every frame
+    # what says more is not made; SPHC_LOG_DEBUG has a line for every frame; not looked at where log is null
     log_level: int
     reserved: int
     # may be null: stage times are then 0, and no frame has a deadline
@@ -707,7 +708,7 @@ class sphc_features_arrays(ctypes.Structure):
     # that described them: sphc_extractor_id(), as that of all maps
     extractor: int
     count: int
-    # from one to the next; a multiple of 4, at least sizeof(sphc_keypoint)
+    # From one to the next, also where count is 0; a multiple of 4, at least sizeof(sphc_keypoint).
     keypoint_stride_bytes: int
     # at least SPHC_DESCRIPTOR_BYTES
     descriptor_stride_bytes: int
@@ -969,11 +970,12 @@ class Interface:
         self.sphc_localizer_process = bound("sphc_localizer_process", ctypes.c_int32, [
             ctypes.c_void_p, ctypes.POINTER(sphc_localizer_frame), ctypes.POINTER(sphc_localizer_result)])
         # Text about the failure of the last call on this instance that can fail, "" if it did not; owned by the
-        # instance, valid until its next call. [exclusive]
+        # instance, valid until its next call. ASCII. Calls that take a const localizer leave it as it was, and
+        # sphc_localizer_extract has sphc_features_message. [exclusive]
         self.sphc_localizer_message = bound("sphc_localizer_message", ctypes.c_char_p, [ctypes.c_void_p])
         # The probability that the camera is within so many metres and radians of the pose. 0 where there is no
-        # pose, for a bound that is not above 0, and for a null result. From the result's covariance;
-        # docs/confidence.md. [pure]
+        # pose, for a bound that is not above 0, and for a null result. Of the result, outcome and covariance are
+        # read; docs/confidence.md. [pure]
         self.sphc_localizer_result_confidence = bound("sphc_localizer_result_confidence", ctypes.c_double, [
             ctypes.POINTER(sphc_localizer_result), ctypes.c_double, ctypes.c_double])
         # Zero but for struct_size, map_id and the identity pose. STRUCT_SIZE as above. [pure]

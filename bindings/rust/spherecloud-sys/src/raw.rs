@@ -402,11 +402,12 @@ pub struct sphc_rig {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct sphc_image {
-    /// caller memory; top-left pixel, of the first plane where there are several
+    /// Caller memory; top-left pixel, of the first plane where there are several. Aligned to the bytes of a
+    /// value: 2 in 16-bit formats, 4 in float. Nothing is read behind the last row's sphc_format_row_bytes.
     pub data: *const c_void,
     pub width: u32,
     pub height: u32,
-    /// from a row to the next; at least sphc_format_row_bytes
+    /// from a row to the next; at least sphc_format_row_bytes, aligned as data
     pub stride_bytes: u32,
     pub format: sphc_format,
 }
@@ -528,7 +529,8 @@ pub struct sphc_localizer_config {
     /// may be null
     pub log: sphc_log_fn,
     pub log_user: *mut c_void,
-    /// what says more is not made; SPHC_LOG_DEBUG has a line for every frame
+    /// what says more is not made; SPHC_LOG_DEBUG has a line for every frame; not looked at where log is
+    /// null
     pub log_level: sphc_log_level,
     pub reserved: u32,
     /// may be null: stage times are then 0, and no frame has a deadline
@@ -845,7 +847,7 @@ pub struct sphc_features_arrays {
     /// that described them: sphc_extractor_id(), as that of all maps
     pub extractor: u32,
     pub count: u32,
-    /// from one to the next; a multiple of 4, at least sizeof(sphc_keypoint)
+    /// From one to the next, also where count is 0; a multiple of 4, at least sizeof(sphc_keypoint).
     pub keypoint_stride_bytes: u32,
     /// at least SPHC_DESCRIPTOR_BYTES
     pub descriptor_stride_bytes: u32,
@@ -1121,12 +1123,13 @@ extern "C" {
     pub fn sphc_localizer_process(localizer: *mut sphc_localizer, frame: *const sphc_localizer_frame, result: *mut sphc_localizer_result) -> sphc_status;
 
     /// Text about the failure of the last call on this instance that can fail, "" if it did not; owned by
-    /// the instance, valid until its next call. Thread class: exclusive.
+    /// the instance, valid until its next call. ASCII. Calls that take a const localizer leave it as it
+    /// was, and sphc_localizer_extract has sphc_features_message. Thread class: exclusive.
     pub fn sphc_localizer_message(localizer: *const sphc_localizer) -> *const c_char;
 
     /// The probability that the camera is within so many metres and radians of the pose. 0 where there is
-    /// no pose, for a bound that is not above 0, and for a null result. From the result's covariance;
-    /// docs/confidence.md. Thread class: pure.
+    /// no pose, for a bound that is not above 0, and for a null result. Of the result, outcome and
+    /// covariance are read; docs/confidence.md. Thread class: pure.
     pub fn sphc_localizer_result_confidence(result: *const sphc_localizer_result, translation_m: f64, rotation_rad: f64) -> f64;
 
     /// Zero but for struct_size, map_id and the identity pose. STRUCT_SIZE as above. Thread class: pure.

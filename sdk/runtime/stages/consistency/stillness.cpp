@@ -20,7 +20,7 @@ void Stillness::layout(size_t depth_samples, Arena &state, Stillness *stillness)
   Stillness &s = stillness ? *stillness : discarded;
   s.depth_ = state.take<uint16_t>("consistency.before", depth_samples);
   s.gray_ = state.take<uint8_t>("consistency.before", size_t{kColumns} * kRows);
-  // The first look compares with them too, and throws away what it finds.
+  // The first frame is compared with them too, and what is found is not used.
   std::fill(s.depth_.begin(), s.depth_.end(), uint16_t{0});
   std::fill(s.gray_.begin(), s.gray_.end(), uint8_t{0});
 }
