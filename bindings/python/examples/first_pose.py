@@ -3,8 +3,7 @@
 
     first_pose.py MAP.sphc FOLDER
 
-FOLDER has images as numpy keeps them, 30 a second: 0000_color.npy (240 x 320, uint8) and 0000_depth.npy (160 x 200,
-uint16, millimetres).
+FOLDER has images as bare bytes, 30 a second: color_00.gray8 (240 x 320) and depth_00.depth16 (160 x 200, millimetres).
 """
 import pathlib
 import sys
@@ -17,8 +16,9 @@ color, depth = Camera.pinhole(320, 240, 250, 250, 160, 120), Camera.pinhole(200,
 rig = Rig(color, depth, color_from_depth=Rigid(t_m=(0.04, 0, 0)))
 
 with Map.open(sys.argv[1]) as map, Localizer(rig, map) as localizer:
-    for index, path in enumerate(sorted(pathlib.Path(sys.argv[2]).glob("*_color.npy"))):
-        depth_path = path.with_name(path.name.replace("color", "depth"))
+    for index, path in enumerate(sorted(pathlib.Path(sys.argv[2]).glob("color_*.gray8"))):
+        gray = np.fromfile(path, np.uint8).reshape(240, 320)
+        depth_mm = np.fromfile(path.with_name(f"depth_{index:02}.depth16"), np.uint16).reshape(160, 200)
         time_ns = index * 33_333_333  # mid-exposure
-        result = localizer.process(Frame(np.load(path), np.load(depth_path), time_ns, time_ns))
+        result = localizer.process(Frame(gray, depth_mm, time_ns, time_ns))
         print(index, result.pose.inverse().t_m if result.pose else result.outcome.name)

@@ -4,10 +4,7 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
-
-import numpy as np
 
 import session
 import spherecloud as sphc
@@ -22,13 +19,8 @@ def block(page, begins):
 
 class Examples(unittest.TestCase):
     def test_first_pose(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for row in session.ROWS:
-                frame, number = session.frame(row), f"{int(row['sequence']):04}"
-                np.save(f"{folder}/{number}_color.npy", frame.color)
-                np.save(f"{folder}/{number}_depth.npy", frame.depth)
-            example = PACKAGE / "examples" / "first_pose.py"
-            said = subprocess.run([sys.executable, "-B", example, session.MAP, folder], capture_output=True, text=True, check=True)
+        example = PACKAGE / "examples" / "first_pose.py"
+        said = subprocess.run([sys.executable, "-B", example, session.MAP, session.FOLDER], capture_output=True, text=True, check=True)
         self.assertEqual(len(re.findall(r"^\d+ \(.*\)$", said.stdout, re.MULTILINE)), 9, said)
         self.assertIn("6 FEW_KEYPOINTS", said.stdout)
 

@@ -1,0 +1,49 @@
+#!/bin/bash
+# first_pose.sh LANGUAGE - from nothing to the first pose in c, python, rust, java or csharp: installs what is missing,
+# builds the runtime, makes a small session, and runs the language's first example on it.  Debian 12.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$here/..
+built=$root/build/first_pose
+language=${1:-}
+case $language in
+  c) packages=() ;;
+  python) packages=(python3-numpy) ;;
+  rust) packages=(cargo) ;;
+  java) packages=(openjdk-17-jdk-headless) ;;
+  csharp) packages=(mono-mcs mono-runtime) ;;
+  *) sed -n '2,3s/^# //p' "$0" && exit 2 ;;
+esac
+
+"$root/toolchains/install_packages.sh" runtime
+for package in "${packages[@]}"; do
+  dpkg -s "$package" >/dev/null 2>&1 && continue
+  as_root=$([ "$(id -u)" = 0 ] || echo sudo)
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$package" >/dev/null
+done
+cmake -S "$root/tests/portability" -B "$built" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake --build "$built" --target write_golden firmware_c spherecloud_shared | tail -n 1
+session=$built/session
+mkdir -p "$session"
+"$built/write_golden" "$session"
+
+libraries=$built/spherecloud/sdk/runtime
+export LD_LIBRARY_PATH=$libraries SPHERECLOUD_LIB_DIR=$libraries SPHERECLOUD_LIBRARY=$libraries/libspherecloud.so
+case $language in
+  c) "$built/firmware_c" ;;
+  python) PYTHONPATH=$here/python /usr/bin/python3 "$here/python/examples/first_pose.py" "$session/room.sphc" "$session" ;;
+  rust)
+    CARGO_TARGET_DIR=$built/rust cargo run --quiet --release --offline --locked --manifest-path "$here/rust/Cargo.toml" \
+      --package spherecloud --example first_pose -- "$session"
+    ;;
+  java)
+    cmake -S "$here/java" -B "$built/java" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+    cmake --build "$built/java" --target spherecloud_java | tail -n 1
+    java -cp "$built/java/spherecloud.jar" "-Dspherecloud.jni=$built/java/libspherecloud_jni.so" "$here/java/examples/FirstPose.java" "$session"
+    ;;
+  csharp)
+    mcs -langversion:7.2 -unsafe -optimize "-out:$built/FirstPose.exe" "$here"/csharp/Runtime/*.cs "$here"/csharp/Runtime/Generated/*.cs \
+      "$here/csharp/Samples~/FirstPose/FirstPose.cs"
+    mono "$built/FirstPose.exe" "$session/room.sphc" "$session/color_00.gray8" "$session/depth_00.depth16"
+    ;;
+esac
