@@ -39,7 +39,9 @@ sphc_binding_test(java_example COMMAND ${run} -cp ${jar}:${CMAKE_CURRENT_BINARY_
 set_tests_properties(bindings.java_example PROPERTIES PASS_REGULAR_EXPRESSION "0: q_wxyz 0.99975")
 sphc_binding_test(java_packages COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/java_packages_test.py
   ${Java_JAVA_EXECUTABLE} ${Java_JAVAC_EXECUTABLE} ${jar} $<TARGET_FILE:spherecloud_jni> $<TARGET_FILE:spherecloud>)
-sphc_label(bindings spherecloud_java java_tests java_example)
+add_custom_target(java_test_programs ALL)
+add_dependencies(java_test_programs spherecloud_java java_tests java_example)
+sphc_label(bindings java_test_programs)
 
 # What the binding costs a frame beside C: `ninja java_overhead`, on an idle machine.
 add_executable(java_overhead_c EXCLUDE_FROM_ALL ${SPHC_JAVA_FOLDER}/overhead/overhead.c)

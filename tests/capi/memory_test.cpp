@@ -39,6 +39,7 @@ struct Spoiled {
 };
 const double kNotANumber = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
+void logNothing(void *, sphc_log_level, const char *, size_t) {}
 void runNothing(void *, uint32_t, sphc_task_fn, void *) {}
 
 const Spoiled kSpoiled[] = {
@@ -46,7 +47,7 @@ const Spoiled kSpoiled[] = {
     {"max_keypoints is 4097", [](sphc_localizer_config *c) { c->max_keypoints = 4097; }},
     {"max_maps is 0", [](sphc_localizer_config *c) { c->max_maps = 0; }},
     {"max_maps is 65", [](sphc_localizer_config *c) { c->max_maps = 65; }},
-    {"log_level is 0", [](sphc_localizer_config *c) { c->log_level = 0; }},
+    {"log_level is 0", [](sphc_localizer_config *c) { c->log = logNothing, c->log_level = 0; }},
     {"color_camera.model is 0", [](sphc_localizer_config *c) { c->rig.color_camera.model = 0; }},
     {"depth_camera.model is 0", [](sphc_localizer_config *c) { c->rig.depth_camera.model = 0; }},
     {"color_camera", [](sphc_localizer_config *c) { c->rig.color_camera.params[0] = kNotANumber; }},

@@ -93,7 +93,8 @@ public sealed unsafe partial class LocalizerConfig {
   /// <summary>1 sigma of what is unknown of the slope before the first frame.</summary>
   public double DepthSlopeSigma { get { return raw.depth_slope_sigma; } set { raw.depth_slope_sigma = value; } }
 
-  /// <summary>What says more is not made; LogLevel.Debug has a line for every frame.</summary>
+  /// <summary>What says more is not made; LogLevel.Debug has a line for every frame; not looked at where log is
+  /// null.</summary>
   public LogLevel LogLevel { get { return raw.log_level; } set { raw.log_level = value; } }
 
   /// <summary>Of frame.Depth, a DEPTH or RANGE format; 0: PixelFormat.Depth16.</summary>

@@ -512,13 +512,14 @@ internal static unsafe class Native {
   internal static extern Status sphc_localizer_process(sphc_localizer* localizer, sphc_localizer_frame* frame, LocalizerResult* result);
 
   /// <summary>[exclusive] Text about the failure of the last call on this instance that can fail, "" if it did
-  /// not; owned by the instance, valid until its next call.</summary>
+  /// not; owned by the instance, valid until its next call. ASCII. Calls that take a const localizer leave it as
+  /// it was, and sphc_localizer_extract has sphc_features_message.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern byte* sphc_localizer_message(sphc_localizer* localizer);
 
   /// <summary>[pure] The probability that the camera is within so many metres and radians of the pose. 0 where
-  /// there is no pose, for a bound that is not above 0, and for a null result. From the result's covariance;
-  /// docs/confidence.md.</summary>
+  /// there is no pose, for a bound that is not above 0, and for a null result. Of the result, outcome and
+  /// covariance are read; docs/confidence.md.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern double sphc_localizer_result_confidence(LocalizerResult* result, double translation_m, double rotation_rad);
 

@@ -21,7 +21,7 @@ abstract class ImageFields extends Struct {
     return getInt(Layout.IMAGE_HEIGHT);
   }
 
-  /** From a row to the next; at least sphc_format_row_bytes. */
+  /** From a row to the next; at least sphc_format_row_bytes, aligned as data. */
   public int getStrideBytes() {
     return getInt(Layout.IMAGE_STRIDE_BYTES);
   }

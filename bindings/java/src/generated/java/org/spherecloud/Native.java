@@ -295,13 +295,15 @@ final class Native {
 
   /**
    * Text about the failure of the last call on this instance that can fail, "" if it did not; owned by the
-   * instance, valid until its next call.
+   * instance, valid until its next call. ASCII. Calls that take a const localizer leave it as it was, and
+   * sphc_localizer_extract has sphc_features_message.
    */
   static native String localizerMessage(long localizer);
 
   /**
    * The probability that the camera is within so many metres and radians of the pose. 0 where there is no pose, for
-   * a bound that is not above 0, and for a null result. From the result's covariance; docs/confidence.md.
+   * a bound that is not above 0, and for a null result. Of the result, outcome and covariance are read;
+   * docs/confidence.md.
    */
   static native double localizerResultConfidence(long result, double translationM, double rotationRad);
 
