@@ -94,9 +94,19 @@ def function(cursor, before):
             "threads": threads, "comment": comment}
 
 
+def field(cursor):
+    """A whole number that holds bits of an enum, or 0 and 1, says so in its comment."""
+    told = {"name": cursor.spelling, "type": cursor.type.spelling, "comment": comment_of(cursor)}
+    bits = re.match(r"(SPHC_[A-Z]+_) bits", told["comment"] or "")
+    if bits:
+        told["bits"] = bits.group(1)
+    if (told["comment"] or "").startswith("1: "):
+        told["boolean"] = True
+    return told
+
+
 def struct(cursor):
-    fields = [{"name": f.spelling, "type": f.type.spelling, "comment": comment_of(f)}
-              for f in cursor.type.get_fields()]
+    fields = [field(f) for f in cursor.type.get_fields()]
     return {"name": cursor.spelling, "header": header_of(cursor), "grows": fields[0]["name"] == "struct_size",
             "fields": fields, "comment": comment_of(cursor), "layouts": {}}
 
@@ -117,16 +127,17 @@ def enum(cursor, before):
 
 
 def macros(unit):
-    """The constants that are macros."""
-    found = {}
+    """The constants that are macros, and the header of each."""
+    found, headers = {}, {}
     for cursor in unit.cursor.get_children():
         if cursor.kind != CursorKind.MACRO_DEFINITION or header_of(cursor) not in FILES:
             continue
         words = [t.spelling for t in cursor.get_tokens()]
         if len(words) == 2 and re.fullmatch(r"(0x)?[0-9A-Fa-f.]+(e-?[0-9]+)?[uUlL]*", words[1]):
             number = words[1].rstrip("uUlL")
+            headers[words[0]] = header_of(cursor)
             found[words[0]] = int(number, 0) if re.fullmatch(r"(0x[0-9A-Fa-f]+)|[0-9]+", number) else float(number)
-    return found
+    return found, headers
 
 
 def declarations(unit):
@@ -143,9 +154,9 @@ def describe(headers=HEADERS):
 
 def described(standard, headers):
     unit = parse(MACHINES[0], standard, headers)
-    constants = macros(unit)
+    constants, constant_headers = macros(unit)
     told = {"version": "%d.%d.%d" % tuple(constants["SPHC_VERSION_" + p] for p in ("MAJOR", "MINOR", "PATCH")),
-            "abi": constants["SPHC_ABI"], "headers": FILES, "constants": constants, "types": {}, "callbacks": [],
+            "abi": constants["SPHC_ABI"], "headers": FILES, "constants": constants, "constant_headers": constant_headers, "types": {}, "callbacks": [],
             "opaque": [], "enums": [], "structs": [], "functions": []}
     every = declarations(unit)
     for i, cursor in enumerate(every):

@@ -37,8 +37,6 @@ ENUM_OF_TYPE = {e.type: ENUMS[e.prefix] for e in TOLD.enums if e.type != "uint32
 BITS = {("sphc_localizer_prior", "flags"): "PriorParts", ("sphc_localizer_observation", "flags"): "ObservationFlags",
         ("sphc_localizer_result", "faults"): "Faults", ("sphc_localizer_result", "cuts"): "Cuts",
         ("sphc_localizer_result", "hints"): "Hints", ("sphc_localizer_result", "events"): "PoseEvents"}
-YES_OR_NO = {("sphc_localizer_result", "guided"), ("sphc_localizer_hypothesis", "is_result"),
-             ("sphc_localizer_parameter_range", "whole")}
 ARRAYS = {("double", 3): "Vector3d", ("double", 36): "PoseCovariance"}
 BASES = {"void": "void", "char": "byte", "float": "float", "double": "double", "size_t": "UIntPtr", "uint8_t": "byte",
          "uint16_t": "ushort", "uint32_t": "uint", "int32_t": "int", "uint64_t": "ulong", "int64_t": "long"}
@@ -72,11 +70,9 @@ WORDS = {  # where C needs none
     "initial": "What it is where it was not set.",
     "lowest": "May be set to no less.",
     "highest": "May be set to no more.",
-    "whole": "True where only whole numbers are taken.",
     "color_from_depth": "Where the depth camera is, seen from the colour camera.",
     "depth_unit_m": "Metres for each unit of the depth image."}
-SKIPPED_CONSTANTS = ("VERSION", "ABI", "BYTES", "PAIRER", "CLOCK")  # of which the binding, or nobody, has a use
-COMMENTS = {e["prefix"]: e["comment"] for e in json.loads(interface.JSON.read_text(encoding="utf-8"))["enums"]}
+SKIPPED_CONSTANTS = ("VERSION", "ABI", "BYTES")  # of which the binding, or nobody, has a use
 KEYWORDS = {"event": "@event", "params": "@params"}
 FIELDS = {f.name for s in TOLD.structs for f in s.fields if "_" in f.name}
 
@@ -180,7 +176,7 @@ def enums():
     text = ""
     for e in TOLD.enums:
         bits = e.type == "uint32_t"
-        text += doc(COMMENTS[e.prefix] or WORDS[e.prefix], "")
+        text += doc(e.comment or WORDS[e.prefix], "")
         text += ("[Flags]\n" if bits else "") + f"public enum {ENUMS[e.prefix]} : {'uint' if bits else 'int'} {{\n"
         if bits:
             text += "  /// <summary>None of them.</summary>\n  None = 0,\n"
@@ -207,7 +203,7 @@ def value_struct(struct):
         public = pascal(field.name)
         if hidden(field):
             text += f"  internal uint {field.name};\n"
-        elif (struct.name, field.name) in YES_OR_NO:
+        elif field.boolean:
             text += f"  internal uint {field.name};\n" + doc_of(field).replace("1: ", "True: ")
             text += f"  public bool {public} => {field.name} != 0;\n"
         else:
@@ -286,7 +282,7 @@ def layouts():
 
 def offset_line(struct, field, machines):
     name = field.name
-    if struct.name in VALUES and not hidden(field) and (struct.name, name) not in YES_OR_NO:
+    if struct.name in VALUES and not hidden(field) and not field.boolean:
         name = name if "fixed" in raw_field(struct, field, name) else pascal(name)
     if struct.name == "sphc_rigid":
         name = {"q_wxyz": "Rotation", "t_m": "TranslationM"}[name]

@@ -43,6 +43,8 @@ class Variable:
     name: str
     type: Type
     comment: str | None
+    bits: str | None = None  # a field that holds bits: what their names begin with, SPHC_FAULT_
+    boolean: bool = False  # a field that is 0 or 1
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,6 +61,7 @@ class Enum:
     type: str  # uint32_t for bits
     prefix: str  # what its constants begin with: SPHC_FORMAT_
     values: list  # (name, value, comment)
+    comment: str | None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -92,9 +95,10 @@ def read(header=FROZEN):
         return [e for e in entries if header in (None, e["header"])]
 
     def variables(entries):
-        return [Variable(e["name"], type_of(e["type"]), e.get("comment")) for e in entries]
+        return [Variable(e["name"], type_of(e["type"]), e.get("comment"), e.get("bits"), e.get("boolean", False))
+                for e in entries]
 
-    enums = [Enum(e["type"], e["prefix"], [(v["name"], v["value"], v["comment"]) for v in e["values"]])
+    enums = [Enum(e["type"], e["prefix"], [(v["name"], v["value"], v["comment"]) for v in e["values"]], e["comment"])
              for e in here(told["enums"])]
     structs = [Struct(s["name"], s["grows"], variables(s["fields"]), s["comment"], s["layouts"])
                for s in here(told["structs"])]
@@ -102,7 +106,8 @@ def read(header=FROZEN):
                  for f in here(told["functions"])]
     named = {e.type for e in enums}
     used = {p.type.base for f in functions for p in f.parameters}
-    return Interface(told["version"], told["abi"], told["constants"],
+    return Interface(told["version"], told["abi"],
+                     {n: v for n, v in told["constants"].items() if header in (None, told["constant_headers"][n])},
                      {name: base for name, base in told["types"].items() if name in named},
                      {c["name"]: (c["type"], c["comment"]) for c in told["callbacks"]},
                      [name for name in told["opaque"] if name in used], enums, structs, functions)

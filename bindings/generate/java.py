@@ -20,9 +20,6 @@ CLASSES = {"sphc_localizer_config": "LocalizerConfig", "sphc_localizer_camera": 
 BITS = {"SPHC_PRIOR_": "PriorPart", "SPHC_FAULT_": "Fault", "SPHC_CUT_": "Cut", "SPHC_HINT_": "Hint", "SPHC_EVENT_": "Event",
         "SPHC_OBSERVATION_": "ObservationFlag"}
 FIELDS = {"q_wxyz": "quaternion_wxyz", "t_m": "translation_m"}
-BIT_FIELDS = {"faults": "Fault", "cuts": "Cut", "hints": "Hint", "events": "Event"}
-BIT_FIELDS_OF = {("sphc_localizer_observation", "flags"): "ObservationFlag", ("sphc_localizer_prior", "flags"): "PriorPart"}
-BOOLEANS = ("guided", "is_result", "whole")
 BY_HAND = ("struct_size", "log_level", "camera_count", "view_count", "parallel_tasks")  # a method sets them with their pointers
 
 UNUSED = ("sphc_memory_piece",)
@@ -81,7 +78,7 @@ INIT = {f.name.removesuffix("_init") for f in TOLD.functions
         if f.name.endswith("_init") and f.parameters[-1].name == "struct_size"}
 LINKS = {name: f"{enum_class(e)}#{constant_of(e, name)}" for e in TOLD.enums for name, _, _ in e.values}
 LIMITS = {name: value for name, value in TOLD.constants.items()
-          if not re.match("SPHC_(VERSION|PAIRER|CLOCK|ABI|MESSAGE|PARALLEL|MAP_BYTES)", name)}
+          if not re.match("SPHC_(VERSION|ABI|MESSAGE|PARALLEL|MAP_BYTES)", name)}
 LINKS.update({name: f"Limits#{name.removeprefix('SPHC_')}" for name in LIMITS})
 
 
@@ -225,14 +222,14 @@ def accessors(struct, field):
                 f"    return getDoubles({at}, {kind.length});\n  }}\n")
         set_ = f"\n  /** Sets all {kind.length} of them. */\n  public void set{name}(double... values) {{\n"
         return "", get + (set_ + f"    putDoubles({at}, {kind.length}, values);\n  }}\n" if writes else "")
-    bits = BIT_FIELDS_OF.get((struct.name, field.name)) or BIT_FIELDS.get(field.name)
+    bits = BITS.get(field.bits)
     if bits:
         return "", (said + f"  public java.util.Set<{bits}> get{name}() {{\n    return {bits}.of(get{bits}Bits());\n  }}\n\n"
                     f"  /** Whether it is among them; makes no set. */\n  public boolean has({bits} {lower(bits)}) {{\n"
                     f"    return (get{bits}Bits() & {lower(bits)}.bit) != 0;\n  }}\n\n"
                     f"  /** The same as bits; those that this version does not know are among them. */\n"
                     f"  public int get{bits}Bits() {{\n    return getInt({at});\n  }}\n")
-    if field.name in BOOLEANS:
+    if field.boolean:
         return "", said + f"  public boolean is{name.removeprefix('Is')}() {{\n    return getInt({at}) != 0;\n  }}\n"
     if kind.base in ENUMS:
         of = class_of(kind.base)

@@ -38,7 +38,6 @@ ABOUT = {"Status": "What a call answered: 0 done, above 0 an answer that is no f
 ANSWERS = {"sphc_map_info": "MapInfo", "sphc_localizer_result": "Result", "sphc_localizer_prediction": "Prediction",
            "sphc_localizer_hypothesis": "Hypothesis", "sphc_localizer_parameter_range": "ParameterRange"}
 ARRAYS = ("sphc_localizer_observation", "sphc_keypoint")  # numpy has them as structured arrays
-BOOLS = ("guided", "is_result", "whole")  # 0 or 1 in C
 NUMBERS = {"float": "ctypes.c_float", "double": "ctypes.c_double", "size_t": "ctypes.c_size_t",
            "char": "ctypes.c_char",
            **{f"{u}int{bits}_t": f"ctypes.c_{u}int{bits}" for u in ("", "u") for bits in (8, 16, 32, 64)}}
@@ -157,18 +156,12 @@ def function_text(function, types):
     return remark(comment.strip(), "        ") + plain
 
 
-def is_of_header(constant):
-    """Not of the other header, and no part of the version."""
-    header = (interface.JSON.parent / interface.FROZEN).read_text(encoding="utf-8")
-    return f"#define {constant} " in header.replace("(", " (") and "VERSION" not in constant
-
-
 def interface_text(told):
     types = Types(told)
     text = FIRST.format("the structs and functions of the C interface.")
     text += "from __future__ import annotations\n\nimport ctypes\nimport typing\n\n"
     text += f'VERSION = "{told.version}"\n'
-    text += "".join(f"{name} = {value}\n" for name, value in told.constants.items() if is_of_header(name))
+    text += "".join(f"{name} = {value}\n" for name, value in told.constants.items() if "VERSION" not in name)
     for name, (spelling, comment) in told.callbacks.items():
         text += f"\n{remark(comment, '')}{name} = ctypes.CFUNCTYPE({types.callback(spelling)})\n"
     text += "".join(struct_text(struct, types) for struct in told.structs)
@@ -186,11 +179,10 @@ def interface_text(told):
 def property_of(field, told):
     """(its type, its expression) for a property."""
     value, kind = f"self._raw.{field.name}", field.type
-    bits = re.search(r"SPHC_([A-Z]+)_ bits", field.comment or "")
-    if field.name in BOOLS:
+    if field.boolean:
         return "bool", f"bool({value})"
-    if kind.base == "uint32_t" and bits:
-        name = CLASSES[f"SPHC_{bits.group(1)}_"]
+    if field.bits:
+        name = CLASSES[field.bits]
         return f"enums.{name}", f"enums.{name}({value})"
     if kind.base in told.types:
         return f"enums.{CLASSES[kind.base]}", f"enums.{CLASSES[kind.base]}({value})"

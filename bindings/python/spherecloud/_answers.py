@@ -193,8 +193,7 @@ class ResultFields(Answer):
 
 
 class ParameterRangeFields(Answer):
-    """What a parameter is where it was not set, and may be set to. `whole`: 1 where only whole numbers are
-    taken."""
+    """What a parameter is where it was not set, and may be set to."""
     __slots__ = ()
     _raw: _interface.sphc_localizer_parameter_range
     FIELDS = (
@@ -203,6 +202,7 @@ class ParameterRangeFields(Answer):
 
     @property
     def whole(self) -> bool:
+        """1: only whole numbers are taken."""
         return bool(self._raw.whole)
 
     @property
@@ -326,6 +326,7 @@ class HypothesisFields(Answer):
 # scale_px: standard deviation of the Gaussian it was found at
 # depth_m: z in that camera; 0 unless LIFTED
 # point_index: of the matched map point, of the map that result.map_id names; valid when MATCHED
+# flags: SPHC_OBSERVATION_ bits
 # camera: 0: the colour camera; i: config.cameras[i - 1]
 OBSERVATION: np.dtype[np.void] = np.dtype(
     [("x_px", "f4"), ("y_px", "f4"), ("scale_px", "f4"), ("depth_m", "f4"), ("point_index", "u4"), ("flags", "u4"), ("camera", "u4")])

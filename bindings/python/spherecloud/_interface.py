@@ -327,7 +327,7 @@ class sphc_localizer_config(ctypes.Structure):
 
 class sphc_localizer_prior(ctypes.Structure):
     struct_size: int
-    # which of the parts below count
+    # SPHC_PRIOR_ bits: which of the parts below count
     flags: int
     # the map whose frame POSE and UP are in
     map_id: int
@@ -572,10 +572,10 @@ class sphc_memory_piece(ctypes.Structure):
 
 
 class sphc_localizer_parameter_range(ctypes.Structure):
-    """What a parameter is where it was not set, and may be set to. `whole`: 1 where only whole numbers are
-    taken."""
+    """What a parameter is where it was not set, and may be set to."""
 
     struct_size: int
+    # 1: only whole numbers are taken
     whole: int
     initial: float
     lowest: float
@@ -640,6 +640,7 @@ class sphc_localizer_observation(ctypes.Structure):
     depth_m: float
     # of the matched map point, of the map that result.map_id names; valid when MATCHED
     point_index: int
+    # SPHC_OBSERVATION_ bits
     flags: int
     # 0: the colour camera; i: config.cameras[i - 1]
     camera: int

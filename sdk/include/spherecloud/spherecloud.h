@@ -537,7 +537,7 @@ typedef struct sphc_localizer_config {
 enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u, SPHC_PRIOR_ODOMETRY = 4u };
 typedef struct sphc_localizer_prior {
   uint32_t struct_size;
-  uint32_t flags;  /* which of the parts below count */
+  uint32_t flags;  /* SPHC_PRIOR_ bits: which of the parts below count */
   uint32_t map_id; /* the map whose frame POSE and UP are in */
   uint32_t reserved;
   /* POSE: where the camera should be.  Only the map points that should be in view are looked at first; where that
@@ -797,10 +797,10 @@ enum {
   SPHC_PARAMETER_MIN_INLIERS = 4     /* a pose with fewer is not given out */
 };
 SPHC_API const char *sphc_localizer_parameter_name(sphc_localizer_parameter parameter); /* [pure] */
-/* What a parameter is where it was not set, and may be set to.  `whole`: 1 where only whole numbers are taken. */
+/* What a parameter is where it was not set, and may be set to. */
 typedef struct sphc_localizer_parameter_range {
   uint32_t struct_size;
-  uint32_t whole;
+  uint32_t whole; /* 1: only whole numbers are taken */
   double initial, lowest, highest;
 } sphc_localizer_parameter_range;
 /* Set range->struct_size first.  UNSUPPORTED for an id that this library does not know. [pure] */
@@ -874,8 +874,8 @@ typedef struct sphc_localizer_observation {
   float scale_px;       /* standard deviation of the Gaussian it was found at */
   float depth_m;        /* z in that camera; 0 unless LIFTED */
   uint32_t point_index; /* of the matched map point, of the map that result.map_id names; valid when MATCHED */
-  uint32_t flags;
-  uint32_t camera; /* 0: the colour camera; i: config.cameras[i - 1] */
+  uint32_t flags;       /* SPHC_OBSERVATION_ bits */
+  uint32_t camera;      /* 0: the colour camera; i: config.cameras[i - 1] */
 } sphc_localizer_observation;
 /* Copies up to `capacity` observations, one every stride_bytes, and sets *count to how many there are. stride_bytes
  * is sizeof(sphc_localizer_observation), by which the library knows which fields the caller has; ARGUMENT for one

@@ -146,7 +146,7 @@ public sealed unsafe partial class LocalizerPrior {
       SpherecloudException.Check(Native.sphc_localizer_prior_init(p, Size.Of(sizeof(Native.sphc_localizer_prior))));
   }
 
-  /// <summary>Which of the parts below count.</summary>
+  /// <summary>PriorParts bits: which of the parts below count.</summary>
   public PriorParts Flags { get { return raw.flags; } set { raw.flags = value; } }
 
   /// <summary>The map whose frame Pose and Up are in.</summary>

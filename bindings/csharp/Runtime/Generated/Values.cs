@@ -165,7 +165,7 @@ public unsafe partial struct LocalizerObservation {
   public float DepthM;
   /// <summary>Of the matched map point, of the map that result.MapId names; valid when Matched.</summary>
   public uint PointIndex;
-  /// <summary>What became of it.</summary>
+  /// <summary>ObservationFlags bits.</summary>
   public ObservationFlags Flags;
   /// <summary>0: the colour camera; i: config.Cameras[i - 1]</summary>
   public uint Camera;
@@ -191,13 +191,12 @@ public unsafe partial struct LocalizerHypothesis {
   public double LogChance;
 }
 
-/// <summary>What a parameter is where it was not set, and may be set to. `whole`: 1 where only whole numbers are
-/// taken.</summary>
+/// <summary>What a parameter is where it was not set, and may be set to.</summary>
 [StructLayout(LayoutKind.Sequential)]
 public unsafe partial struct LocalizerParameterRange {
   internal uint struct_size;
   internal uint whole;
-  /// <summary>True where only whole numbers are taken.</summary>
+  /// <summary>True: only whole numbers are taken.</summary>
   public bool Whole => whole != 0;
   /// <summary>What it is where it was not set.</summary>
   public double Initial;

@@ -570,7 +570,7 @@ pub struct sphc_localizer_config {
 #[derive(Clone, Copy)]
 pub struct sphc_localizer_prior {
     pub struct_size: u32,
-    /// which of the parts below count
+    /// SPHC_PRIOR_ bits: which of the parts below count
     pub flags: u32,
     /// the map whose frame POSE and UP are in
     pub map_id: u32,
@@ -746,12 +746,12 @@ pub struct sphc_memory_piece {
     pub reserved: u32,
 }
 
-/// What a parameter is where it was not set, and may be set to. whole: 1 where only whole numbers are
-/// taken.
+/// What a parameter is where it was not set, and may be set to.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct sphc_localizer_parameter_range {
     pub struct_size: u32,
+    /// 1: only whole numbers are taken
     pub whole: u32,
     pub initial: f64,
     pub lowest: f64,
@@ -800,6 +800,7 @@ pub struct sphc_localizer_observation {
     pub depth_m: f32,
     /// of the matched map point, of the map that result.map_id names; valid when MATCHED
     pub point_index: u32,
+    /// SPHC_OBSERVATION_ bits
     pub flags: u32,
     /// 0: the colour camera; i: config.cameras\[i - 1\]
     pub camera: u32,

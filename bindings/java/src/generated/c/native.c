@@ -9,7 +9,7 @@
 
 JNIEXPORT jint JNICALL Java_org_spherecloud_Library_fingerprint(JNIEnv *env, jclass type) {
   (void)env, (void)type;
-  return 248126841;
+  return 1903844362;
 }
 
 JNIEXPORT jintArray JNICALL Java_org_spherecloud_Native_layout(JNIEnv *env, jclass type) {

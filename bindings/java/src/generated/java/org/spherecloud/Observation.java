@@ -36,7 +36,7 @@ public final class Observation extends Struct {
     return getInt(Layout.LOCALIZER_OBSERVATION_POINT_INDEX);
   }
 
-  /** {@code flags} of {@code sphc_localizer_observation}. */
+  /** SPHC_OBSERVATION_ bits. */
   public java.util.Set<ObservationFlag> getFlags() {
     return ObservationFlag.of(getObservationFlagBits());
   }

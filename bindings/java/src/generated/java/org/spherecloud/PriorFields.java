@@ -15,7 +15,7 @@ abstract class PriorFields extends Struct {
     super(whole, at);
   }
 
-  /** Which of the parts below count. */
+  /** SPHC_PRIOR_ bits: which of the parts below count. */
   public java.util.Set<PriorPart> getFlags() {
     return PriorPart.of(getPriorPartBits());
   }
