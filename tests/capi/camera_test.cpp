@@ -41,16 +41,22 @@ TEST(CInterfaceCamera, FailureLeavesOutputsUntouched) {
   const sphc_camera good = sphc::test::pinhole(640, 480, 500);
   sphc_camera bad = good;
   bad.param_count = 5;
+  sphc_camera folded = good;  // distortion that no bearing brings so far out
+  folded.model = SPHC_CAMERA_BROWN5;
+  folded.param_count = 9;
+  folded.params[4] = -0.4;
+  const double far_pixel[2] = {5000, 5000};
   const double behind[3] = {0, 0, -1}, front[3] = {0, 0, 1}, nan_point[3] = {kNan, 0, 1};
   const double pixel[2] = {1, 1}, nan_pixel[2] = {kNan, 1};
   Output<double[2]> projected;
   Output<double[3]> bearing;
-  EXPECT_EQ(sphc_camera_project(&good, behind, *projected.get()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_project(&good, behind, *projected.get()), SPHC_OUTSIDE);
   EXPECT_EQ(sphc_camera_project(&good, nan_point, *projected.get()), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_camera_project(&bad, front, *projected.get()), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_camera_project(nullptr, front, *projected.get()), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_camera_project(&good, nullptr, *projected.get()), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_camera_project(&good, front, nullptr), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_camera_unproject(&folded, far_pixel, *bearing.get()), SPHC_OUTSIDE);
   EXPECT_EQ(sphc_camera_unproject(&good, nan_pixel, *bearing.get()), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_camera_unproject(&bad, pixel, *bearing.get()), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_camera_unproject(nullptr, pixel, *bearing.get()), SPHC_E_ARGUMENT);

@@ -50,8 +50,8 @@ class Camera:
     def project(self, points_m: npt.ArrayLike) -> Floats:
         """Pixels (..., 2) of points (..., 3) in camera coordinates.
 
-        A point that is not in front of the camera, or beyond its distortion, is an Error(E_ARGUMENT) where it is the
-        only one, and NaN among several.
+        A point that is not in front of the camera, or beyond its distortion, is an Error(OUTSIDE) where it is the only
+        one, and NaN among several.  Error(E_ARGUMENT): the camera fails its check, or a number is not finite.
         """
         return self._each(points_m, 3, 2, interface().sphc_camera_project, "the camera does not see this point")
 
@@ -68,10 +68,12 @@ class Camera:
         outputs = np.full((inputs.size // source, target), np.nan)
         for index, row in enumerate(inputs.reshape(-1, source)):
             read[:] = row.tolist()
-            if call(raw, read, made) == Status.OK:
+            status = call(raw, read, made)
+            check(status, f"the camera cannot be used, or a number is not finite: {row.tolist()}")
+            if status == Status.OK:
                 outputs[index] = made[:]
             elif inputs.ndim == 1:
-                raise Error(Status.E_ARGUMENT, f"{why}: {row.tolist()}")
+                raise Error(Status.OUTSIDE, f"{why}: {row.tolist()}")
         return outputs.reshape((*inputs.shape[:-1], target))
 
 

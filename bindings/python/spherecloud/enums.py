@@ -27,6 +27,8 @@ class Status(Known):
     prediction was asked for."""
     END = 3
     """A finite source (a recording) has no more captures."""
+    OUTSIDE = 4
+    """A camera has no pixel for this point, or no bearing for this pixel."""
     E_ARGUMENT = -10
     """Null, not finite, out of range, or at odds with another argument."""
     E_STRUCT_SIZE = -11

@@ -88,6 +88,8 @@ class Cameras(unittest.TestCase):
             self.CAMERA.project((0, 0, -1))
         with self.assertRaises(ValueError):
             self.CAMERA.project((1, 2))
+        with self.assertRaisesRegex(sphc.Error, "SPHC_E_ARGUMENT"):
+            sphc.Camera.pinhole(640, 480, 0, 500, 320, 240).project([[0, 0, 1], [0, 0, 2]])
 
     def test_checks(self):
         self.CAMERA.check()

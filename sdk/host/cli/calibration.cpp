@@ -1,6 +1,7 @@
 // spherecloud calibration: what calibration files hold, and the same in another format.
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include "host/base/usage_error.h"
@@ -68,8 +69,9 @@ double fieldOfViewDeg(const sphc_camera &camera, bool horizontal) {
   const double edges[2][2] = {{horizontal ? 0 : w / 2, horizontal ? h / 2 : 0},
                               {horizontal ? w : w / 2, horizontal ? h / 2 : h}};
   double a[3], b[3];
-  if (sphc_camera_unproject(&camera, edges[0], a) < 0 || sphc_camera_unproject(&camera, edges[1], b) < 0)
-    return NAN;
+  if (sphc_camera_unproject(&camera, edges[0], a) != SPHC_OK ||
+      sphc_camera_unproject(&camera, edges[1], b) != SPHC_OK)
+    return std::numeric_limits<double>::quiet_NaN();
   return std::acos(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * 180 / M_PI;
 }
 

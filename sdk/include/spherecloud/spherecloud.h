@@ -96,6 +96,7 @@ enum {
   SPHC_NOT_LOCALIZED = 2, /* there is no pose: none passed the checks, result.outcome says which; or none is known
                              at the time that a prediction was asked for */
   SPHC_END = 3,           /* a finite source (a recording) has no more captures */
+  SPHC_OUTSIDE = 4,       /* a camera has no pixel for this point, or no bearing for this pixel */
 
   SPHC_E_ARGUMENT = -10,    /* null, not finite, out of range, or at odds with another argument */
   SPHC_E_STRUCT_SIZE = -11, /* struct_size is none that this struct ever had */
@@ -268,10 +269,12 @@ typedef struct sphc_memory {
 /* SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the limits, fx and
  * fy > 0.  Else SPHC_E_ARGUMENT; the message names field, cause and cure. [pure] */
 SPHC_API sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message);
-/* Pixel of a point given in camera coordinates.  SPHC_E_ARGUMENT if it is not in front of the camera or lies beyond
- * the range in which the distortion is invertible. [pure] */
+/* Pixel of a point given in camera coordinates.  SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of the
+ * camera or lies beyond the range in which the distortion is invertible.  SPHC_E_ARGUMENT: null, not finite, or a
+ * camera that sphc_camera_check refuses. [pure] */
 SPHC_API sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]);
-/* Unit bearing (camera coordinates) of a pixel.  SPHC_E_ARGUMENT if no bearing projects there. [pure] */
+/* Unit bearing (camera coordinates) of a pixel.  SPHC_OUTSIDE, *bearing untouched, if no bearing projects there.
+ * SPHC_E_ARGUMENT: as above. [pure] */
 SPHC_API sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]);
 
 /* Identity and millimetres; the cameras stay zero and must be set.  Does nothing for null. [pure] */

@@ -1,5 +1,6 @@
 #include "runtime/geometry/camera.h"
 
+#include "runtime/base/elementary.h"
 #include "runtime/base/message.h"
 #include "runtime/geometry/rigid.h"
 
@@ -17,8 +18,10 @@ sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message) 
 
 sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[3], double pixel_px[2]) {
   if (!camera || !point_m || !pixel_px || !sphc::checkCamera(*camera, "camera", nullptr)) return SPHC_E_ARGUMENT;
+  const Vector3 point(point_m[0], point_m[1], point_m[2]);
   Vector2 pixel;
-  if (!Camera(*camera).project({point_m[0], point_m[1], point_m[2]}, &pixel)) return SPHC_E_ARGUMENT;
+  if (!sphc::isFinite(point.sum())) return SPHC_E_ARGUMENT;
+  if (!Camera(*camera).project(point, &pixel)) return SPHC_OUTSIDE;
   pixel_px[0] = pixel.x();
   pixel_px[1] = pixel.y();
   return SPHC_OK;
@@ -26,8 +29,10 @@ sphc_status sphc_camera_project(const sphc_camera *camera, const double point_m[
 
 sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_px[2], double bearing[3]) {
   if (!camera || !pixel_px || !bearing || !sphc::checkCamera(*camera, "camera", nullptr)) return SPHC_E_ARGUMENT;
+  const Vector2 pixel(pixel_px[0], pixel_px[1]);
   Vector2 ray;
-  if (!Camera(*camera).unproject({pixel_px[0], pixel_px[1]}, &ray)) return SPHC_E_ARGUMENT;
+  if (!sphc::isFinite(pixel.sum())) return SPHC_E_ARGUMENT;
+  if (!Camera(*camera).unproject(pixel, &ray)) return SPHC_OUTSIDE;
   const Vector3 unit = Vector3(ray.x(), ray.y(), 1).normalized();
   for (int i = 0; i < 3; ++i) bearing[i] = unit[i];
   return SPHC_OK;

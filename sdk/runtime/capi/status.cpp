@@ -19,6 +19,8 @@ const char *sphc_status_name(sphc_status status) {
       return "SPHC_NOT_LOCALIZED";
     case SPHC_END:
       return "SPHC_END";
+    case SPHC_OUTSIDE:
+      return "SPHC_OUTSIDE";
     case SPHC_E_ARGUMENT:
       return "SPHC_E_ARGUMENT";
     case SPHC_E_STRUCT_SIZE:

@@ -17,6 +17,8 @@ public enum Status : int {
   NotLocalized = 2,
   /// <summary>A finite source (a recording) has no more captures.</summary>
   End = 3,
+  /// <summary>A camera has no pixel for this point, or no bearing for this pixel.</summary>
+  Outside = 4,
   /// <summary>Null, not finite, out of range, or at odds with another argument.</summary>
   Argument = -10,
   /// <summary>StructSize is none that this struct ever had.</summary>

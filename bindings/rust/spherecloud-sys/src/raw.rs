@@ -38,6 +38,8 @@ pub const SPHC_AGAIN: sphc_status = 1;
 pub const SPHC_NOT_LOCALIZED: sphc_status = 2;
 /// a finite source (a recording) has no more captures
 pub const SPHC_END: sphc_status = 3;
+/// a camera has no pixel for this point, or no bearing for this pixel
+pub const SPHC_OUTSIDE: sphc_status = 4;
 /// null, not finite, out of range, or at odds with another argument
 pub const SPHC_E_ARGUMENT: sphc_status = -10;
 /// struct_size is none that this struct ever had
@@ -895,12 +897,13 @@ extern "C" {
     /// pure.
     pub fn sphc_camera_check(camera: *const sphc_camera, message: *mut sphc_message) -> sphc_status;
 
-    /// Pixel of a point given in camera coordinates. SPHC_E_ARGUMENT if it is not in front of the camera or
-    /// lies beyond the range in which the distortion is invertible. Thread class: pure.
+    /// Pixel of a point given in camera coordinates. SPHC_OUTSIDE, \*pixel_px untouched, if it is not in
+    /// front of the camera or lies beyond the range in which the distortion is invertible. SPHC_E_ARGUMENT:
+    /// null, not finite, or a camera that sphc_camera_check refuses. Thread class: pure.
     pub fn sphc_camera_project(camera: *const sphc_camera, point_m: *const [f64; 3], pixel_px: *mut [f64; 2]) -> sphc_status;
 
-    /// Unit bearing (camera coordinates) of a pixel. SPHC_E_ARGUMENT if no bearing projects there. Thread
-    /// class: pure.
+    /// Unit bearing (camera coordinates) of a pixel. SPHC_OUTSIDE, \*bearing untouched, if no bearing
+    /// projects there. SPHC_E_ARGUMENT: as above. Thread class: pure.
     pub fn sphc_camera_unproject(camera: *const sphc_camera, pixel_px: *const [f64; 2], bearing: *mut [f64; 3]) -> sphc_status;
 
     /// Identity and millimetres; the cameras stay zero and must be set. Does nothing for null. Thread

@@ -14,6 +14,8 @@ open_enum! {
         NotLocalized = sys::SPHC_NOT_LOCALIZED,
         /// a finite source (a recording) has no more captures
         End = sys::SPHC_END,
+        /// a camera has no pixel for this point, or no bearing for this pixel
+        Outside = sys::SPHC_OUTSIDE,
         /// null, not finite, out of range, or at odds with another argument
         Argument = sys::SPHC_E_ARGUMENT,
         /// struct_size is none that this struct ever had

@@ -26,7 +26,7 @@ double squares(const std::vector<RaySample> &samples, const sphc_camera &camera)
   for (const RaySample &sample : samples) {
     const double point[3] = {sample.ray.x(), sample.ray.y(), 1};
     double pixel[2];
-    if (sphc_camera_project(&camera, point, pixel) < 0) return HUGE_VAL;
+    if (sphc_camera_project(&camera, point, pixel) != SPHC_OK) return HUGE_VAL;
     sum += (Vector2(pixel[0], pixel[1]) - sample.pixel_px).squaredNorm();
   }
   return sum;

@@ -49,12 +49,16 @@ final class Native {
   static native int cameraCheck(long camera, long message);
 
   /**
-   * Pixel of a point given in camera coordinates. {@link Status#E_ARGUMENT} if it is not in front of the camera or
-   * lies beyond the range in which the distortion is invertible.
+   * Pixel of a point given in camera coordinates. {@link Status#OUTSIDE}, *pixel_px untouched, if it is not in
+   * front of the camera or lies beyond the range in which the distortion is invertible. {@link Status#E_ARGUMENT}:
+   * null, not finite, or a camera that sphc_camera_check refuses.
    */
   static native int cameraProject(long camera, long pointM, long pixelPx);
 
-  /** Unit bearing (camera coordinates) of a pixel. {@link Status#E_ARGUMENT} if no bearing projects there. */
+  /**
+   * Unit bearing (camera coordinates) of a pixel. {@link Status#OUTSIDE}, *bearing untouched, if no bearing
+   * projects there. {@link Status#E_ARGUMENT}: as above.
+   */
   static native int cameraUnproject(long camera, long pixelPx, long bearing);
 
   /** Identity and millimetres; the cameras stay zero and must be set. Does nothing for null. */

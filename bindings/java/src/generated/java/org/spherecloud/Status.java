@@ -14,6 +14,8 @@ public enum Status {
   NOT_LOCALIZED(2),
   /** A finite source (a recording) has no more captures. */
   END(3),
+  /** A camera has no pixel for this point, or no bearing for this pixel. */
+  OUTSIDE(4),
   /** Null, not finite, out of range, or at odds with another argument. */
   E_ARGUMENT(-10),
   /** struct_size is none that this struct ever had. */
