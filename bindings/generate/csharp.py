@@ -6,7 +6,6 @@ import hashlib
 import json
 import pathlib
 import re
-import subprocess
 import textwrap
 
 import interface
@@ -307,14 +306,20 @@ def meta(path):
             "  assetBundleName: \n  assetBundleVariant: \n")
 
 
+def is_of_package(path):
+    """Not what compilers leave there, and no native library, which place_library.py puts there with its settings."""
+    if path.parts[:2] == ("Runtime", "Plugins") and path.parts[2:] not in ((), ("README.md",)):
+        return False
+    return path.suffix != ".meta" and not any(part.endswith("~") or part[0] == "." or part in ("bin", "obj")
+                                              for part in path.parts)
+
+
 def metas():
-    """Of the files that git knows or will know, and their folders: what a program leaves there is not the package's."""
+    """Unity's settings for each file of the package and each folder."""
     root = interface.ROOT / PACKAGE
-    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "."], cwd=root,
-                            capture_output=True, text=True, check=True).stdout.split()
-    files = {pathlib.PurePath(name) for name in listed if (root / name).exists()}
+    files = {path.relative_to(root) for path in root.rglob("*") if path.is_file()}
     for path in sorted(files.union(*(file.parents[:-1] for file in files))):
-        if path.suffix != ".meta" and not any(part.endswith("~") or part.startswith(".") for part in path.parts):
+        if is_of_package(path):
             interface.write(f"{PACKAGE}/{path}.meta", meta(path))
 
 
