@@ -7,20 +7,10 @@ root=$here/..
 built=$root/build/first_pose
 language=${1:-}
 case $language in
-  c) packages=() ;;
-  python) packages=(python3-numpy) ;;
-  rust) packages=(cargo) ;;
-  java) packages=(openjdk-17-jdk-headless) ;;
-  csharp) packages=(mono-mcs mono-runtime) ;;
+  c) "$root/toolchains/install_packages.sh" runtime ;;
+  python | rust | java | csharp) "$root/toolchains/install_packages.sh" runtime "$language" ;;
   *) sed -n '2,3s/^# //p' "$0" && exit 2 ;;
 esac
-
-"$root/toolchains/install_packages.sh" runtime
-for package in "${packages[@]}"; do
-  dpkg -s "$package" >/dev/null 2>&1 && continue
-  as_root=$([ "$(id -u)" = 0 ] || echo sudo)
-  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$package" >/dev/null
-done
 cmake -S "$root/tests/portability" -B "$built" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$built" --target write_golden firmware_c spherecloud_shared | tail -n 1
 session=$built/session

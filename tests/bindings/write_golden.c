@@ -18,7 +18,6 @@
 enum { FRAMES = 10, BLANK = 6, UP_FROM = 8, MAP_ID = 7 };
 static const room_camera color_camera = {320, 240, 250}, depth_camera = {200, 160, 140};
 static const int32_t depth_right_um = 40000;
-static const char folder_is_missing[] = "cannot write; does the folder exist?";
 
 static _Alignas(64) uint8_t map_memory[SPHC_MAP_BYTES_MAX];
 static uint8_t gray[320 * 240];
@@ -43,7 +42,7 @@ static FILE *file(const char *folder, const char *name) {
   char path[4096];
   snprintf(path, sizeof path, "%s/%s", folder, name);
   FILE *opened = fopen(path, "wb");
-  if (!opened) stop(path, folder_is_missing);
+  if (!opened) stop(path, "cannot write; does the folder exist?");
   return opened;
 }
 
