@@ -356,7 +356,7 @@ TEST(Cameras, ABadFrameIsRefusedWithItsCause) {
       {"none",
        [](RigFrame *f) { f->frame.view_count = 0, f->frame.views = nullptr; },
        SPHC_E_ARGUMENT,
-       {"frame.view_count is 0", "image.data null"}},
+       {"frame.view_count is 0", "data null"}},
       {"null", [](RigFrame *f) { f->frame.views = nullptr; }, SPHC_E_ARGUMENT, {"frame.views is null"}},
       {"size", [](RigFrame *f) { f->views[0].struct_size = 0; }, SPHC_E_STRUCT_SIZE, {"struct_size"}},
       {"image",

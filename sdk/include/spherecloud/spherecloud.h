@@ -478,6 +478,24 @@ typedef struct sphc_localizer_camera {
 #define SPHC_CAMERAS_MAX 8u          /* of a rig, the colour camera among them */
 #define SPHC_ROW_TIME_MAX_NS 1000000 /* either sign */
 
+/* A depth camera of a rig beside the one in config.rig. */
+typedef struct sphc_localizer_depth_camera {
+  uint32_t struct_size;
+  sphc_format format; /* as config.depth_format */
+  sphc_camera camera;
+  sphc_rigid color_from_depth;  /* within the limits of sphc_rig.color_from_depth */
+  double unit_m;                /* metres per unit of the depth image */
+  double min_m, max_m;          /* measurements outside are ignored */
+  double sigma_m, sigma_per_m2; /* noise, as config.depth_sigma_m */
+  /* How it is off against the depth camera in config.rig: z of that one = z + offset + slope (z - depth_mid_m).  1
+   * sigma of what is unknown of it before the first frame; it is learnt where both measure what the colour camera
+   * sees.  Both 0: they measure alike. */
+  double offset_sigma_m, slope_sigma;
+  uint32_t amplitude_min; /* as config.amplitude_min, of its own amplitudes */
+  uint32_t reserved;
+} sphc_localizer_depth_camera;
+#define SPHC_DEPTH_CAMERAS_MAX 2u /* of a rig, the one in config.rig among them */
+
 typedef struct sphc_localizer_config {
   uint32_t struct_size;
   uint32_t max_keypoints; /* of all cameras together; strongest are kept; 64 to 4096 */
@@ -534,6 +552,12 @@ typedef struct sphc_localizer_config {
    * more than one needs memory.  0 where parallel is null. */
   uint32_t parallel_tasks;
   uint32_t reserved4;
+
+  /* The further depth camera of the rig: an array as `cameras` is.  Where both measure a keypoint's depth, the one
+   * that is surer of it counts.  docs/localizer.md. */
+  const sphc_localizer_depth_camera *depth_cameras; /* null where there is none */
+  uint32_t depth_camera_count;                      /* 0 to SPHC_DEPTH_CAMERAS_MAX - 1 */
+  uint32_t reserved5;
 } sphc_localizer_config;
 
 /* What is known of a pose before its frame is looked at. */
@@ -570,6 +594,18 @@ typedef struct sphc_localizer_view {
   const sphc_rigid *color_from_camera;
 } sphc_localizer_view;
 
+/* The image of a further depth camera; everything is borrowed. */
+typedef struct sphc_localizer_depth_view {
+  uint32_t struct_size;
+  uint32_t reserved;
+  int64_t time_ns;      /* mid-exposure; where odometry is given, the camera may have moved since color_time_ns */
+  sphc_image depth;     /* of the camera's format and size; data null: the camera has none in this frame */
+  sphc_image amplitude; /* as frame.amplitude; with every depth image where the camera's amplitude_min is set */
+  /* As they are in this frame, with heat or focus; null: as in the config.  The size stays. */
+  const sphc_camera *camera;
+  const sphc_rigid *color_from_depth;
+} sphc_localizer_depth_view;
+
 /* A colour and a depth image taken at about the same time; everything is borrowed. */
 typedef struct sphc_localizer_frame {
   uint32_t struct_size;
@@ -596,6 +632,12 @@ typedef struct sphc_localizer_frame {
   /* As they are in this frame, with heat or focus; null: as in config.rig.  The size stays. */
   const sphc_camera *color_camera;
   const sphc_rigid *color_from_depth;
+  /* The same; of a RANGE format, cosines stay those of config.rig.depth_camera. */
+  const sphc_camera *depth_camera;
+  /* Of each of config.depth_cameras one, as `views` are of cameras.  Null where the config has none. */
+  const sphc_localizer_depth_view *depth_views;
+  uint32_t depth_view_count; /* config.depth_camera_count */
+  uint32_t reserved4;
 } sphc_localizer_frame;
 
 typedef int32_t sphc_localizer_outcome;
@@ -718,6 +760,9 @@ SPHC_API sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size
 SPHC_API sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_camera_init(sphc_localizer_camera *camera, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_view_init(sphc_localizer_view *view, size_t struct_size);
+/* Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. */
+SPHC_API sphc_status sphc_localizer_depth_camera_init(sphc_localizer_depth_camera *camera, size_t struct_size);
+SPHC_API sphc_status sphc_localizer_depth_view_init(sphc_localizer_depth_view *view, size_t struct_size);
 
 /* What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memory *memory,
@@ -737,7 +782,10 @@ SPHC_API sphc_status sphc_localizer_memory(const sphc_localizer_config *config, 
 /* What is added to each of the two where config.camera_count is not 0; of width and height again the largest. */
 #define SPHC_LOCALIZER_CAMERAS_BYTES_MAX(max_keypoints, width, height) \
   (UINT64_C(65536) + UINT64_C(256) * (max_keypoints) + UINT64_C(1) * (width) * (height))
-
+/* What is added to each of the two for every one of config.depth_cameras, beside what its own format and
+ * amplitude_min add by SPHC_LOCALIZER_DEPTH_BYTES_MAX. */
+#define SPHC_LOCALIZER_DEPTH_CAMERA_BYTES_MAX(depth_width, depth_height) \
+  (UINT64_C(65536) + UINT64_C(1) * (depth_width) * (depth_height))
 /* What is added to the scratch where config.parallel_tasks is more than 1. */
 #define SPHC_LOCALIZER_PARALLEL_BYTES_MAX(max_keypoints, color_width, parallel_tasks) \
   (UINT64_C(1) * (parallel_tasks) *                                                   \

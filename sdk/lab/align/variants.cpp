@@ -95,8 +95,8 @@ std::function<SparseTime(const AlignFrame &)> sparseLift(const AlignCase &c, uin
   lifting->memory = spherecloud::AlignedBuffer(measure.used(), kArenaAlignment);
   Arena arena(lifting->memory.data());
   SparseAligner::layout(width, height, arena, &lifting->aligner);
-  lifting->aligner.init(Camera(c.color()), Camera(c.depth()), rigidFromC(c.rig.color_from_depth),
-                        {c.rig.depth_unit_m, kNearM, kFarM, 0.004, 0.002});
+  lifting->aligner.init({c.rig.depth_unit_m, kNearM, kFarM, 0.004, 0.002});
+  lifting->aligner.setCameras(Camera(c.color()), Camera(c.depth()), rigidFromC(c.rig.color_from_depth));
   Random random(1);
   for (uint32_t i = 0; i < keypoints; ++i)
     lifting->pixels.emplace_back(0.01 * random.below(100 * c.color().width),

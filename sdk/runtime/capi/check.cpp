@@ -7,52 +7,80 @@
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
+#include "runtime/capi/translate.h"
 #include "runtime/geometry/rigid.h"
 
 namespace sphc {
 namespace {
 
 constexpr double kLeastSigma = 1e-6;  // smaller ones would square to nothing
+constexpr double kMostAmplitude = 65535;
 
-// A field that has to lie in [low, high].
+// A field that has to lie in [low, high]; `owner` is what its name begins with.
 bool inRange(const char *owner, const char *name, double value, double low, double high, sphc_message *message) {
   if (value >= low && value <= high) return true;
-  MessageWriter(message) << owner << "." << name << " is " << value << "; it must lie in " << low << " to " << high;
+  MessageWriter(message) << owner << name << " is " << value << "; it must lie in " << low << " to " << high;
   return false;
 }
 bool inRange(const char *name, double value, double low, double high, sphc_message *message) {
-  return inRange("config", name, value, low, high, message);
+  return inRange("config.", name, value, low, high, message);
+}
+
+// What every depth camera has; so the names of its fields begin.
+constexpr const char *kDepthFields = "config.depth_", *kFurtherDepthFields = "config.depth_cameras[i].";
+
+// 1 sigma of a bias: both known, or none.
+bool checkBias(const char *owner, double offset_sigma_m, double slope_sigma, sphc_message *message) {
+  if (!inRange(owner, "offset_sigma_m", offset_sigma_m, 0, 1, message) ||
+      !inRange(owner, "slope_sigma", slope_sigma, 0, 0.5, message))
+    return false;
+  const bool known = offset_sigma_m == 0 && slope_sigma == 0;
+  if (known || (offset_sigma_m >= kLeastSigma && slope_sigma >= kLeastSigma)) return true;
+  MessageWriter(message) << owner << "offset_sigma_m and " << owner
+                         << "slope_sigma must both be 1e-6 or more, or both 0 for a sensor without bias";
+  return false;
+}
+
+// Can the camera have images of this format, and is what is said of its measurements possible?
+bool checkDepth(const char *owner, sphc_format configured, uint32_t width, const DepthSensor &sensor,
+                sphc_message *message) {
+  if (!inRange(owner, "min_m", sensor.min_m, 0.01, 100, message) ||
+      !inRange(owner, "max_m", sensor.max_m, sensor.min_m + 0.01, 200, message) ||
+      !inRange(owner, "sigma_m", sensor.sigma_m, 1e-5, 1, message) ||
+      !inRange(owner, "sigma_per_m2", sensor.sigma_per_m2, 0, 1, message))
+    return false;
+  const PixelFormat format = pixelFormatOf(depthFormatOf(configured));
+  if (!format.is_depth) {
+    MessageWriter(message) << owner << "format is " << configured
+                           << ", which is not of depth; give a DEPTH or RANGE format, or 0 for DEPTH16";
+    return false;
+  }
+  if (width % format.group_pixels) {
+    MessageWriter(message) << owner << "format is " << configured << ", of which " << format.group_pixels
+                           << " pixels share bytes, but the depth camera's width is " << width;
+    return false;
+  }
+  const double farthest_m = 65535 * sensor.unit_m;
+  if (format.depth.kind != DepthLayout::kMetres || sensor.max_m <= farthest_m) return true;
+  MessageWriter(message) << owner << "max_m is " << sensor.max_m << ", but 16 bits of the depth unit reach "
+                         << farthest_m << " m, and depth in metres is rounded to it; raise the unit or lower the "
+                         << "range";
+  return false;
 }
 
 bool checkNumbers(const sphc_localizer_config &c, sphc_message *message) {
   return inRange("max_keypoints", c.max_keypoints, 64, 4096, message) &&
          inRange("max_maps", c.max_maps, 1, SPHC_MAPS_MAX, message) &&
-         inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
-         inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
-         inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
-         inRange("depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1, message) &&
          inRange("pixel_sigma_px", c.pixel_sigma_px, 0.01, 20, message) &&
          inRange("map_sigma_m", c.map_sigma_m, 0, 1, message) &&
          inRange("depth_mid_m", c.depth_mid_m, 0, 200, message) &&
-         inRange("depth_offset_sigma_m", c.depth_offset_sigma_m, 0, 1, message) &&
-         inRange("depth_slope_sigma", c.depth_slope_sigma, 0, 0.5, message) &&
-         inRange("amplitude_min", c.amplitude_min, 0, 65535, message) &&
+         checkBias(kDepthFields, c.depth_offset_sigma_m, c.depth_slope_sigma, message) &&
+         inRange("amplitude_min", c.amplitude_min, 0, kMostAmplitude, message) &&
          inRange("color_row_time_ns", static_cast<double>(c.color_row_time_ns), -SPHC_ROW_TIME_MAX_NS,
                  SPHC_ROW_TIME_MAX_NS, message) &&
          inRange("color_band", c.color_band, SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED, message) &&
          inRange("mode", c.mode, SPHC_MODE_TRACKING, SPHC_MODE_SINGLE, message) &&
          (!c.log || inRange("log_level", c.log_level, SPHC_LOG_ERROR, SPHC_LOG_DEBUG, message));
-}
-
-bool checkTogether(const sphc_localizer_config &c, sphc_message *message) {
-  const bool known = c.depth_offset_sigma_m == 0 && c.depth_slope_sigma == 0;
-  if (!known && (c.depth_offset_sigma_m < kLeastSigma || c.depth_slope_sigma < kLeastSigma)) {
-    MessageWriter(message)
-        << "config.depth_offset_sigma_m and config.depth_slope_sigma must both be 1e-6 or more, or both "
-           "0 for a sensor without bias";
-    return false;
-  }
-  return true;
 }
 
 static_assert(SPHC_PARALLEL_MAX == Parallel::kMostPieces);
@@ -67,7 +95,7 @@ bool checkParallel(const sphc_localizer_config &c, sphc_message *message) {
 }
 
 bool priorInRange(const char *name, double value, double low, double high, sphc_message *message) {
-  return inRange("prior", name, value, low, high, message);
+  return inRange("prior.", name, value, low, high, message);
 }
 
 bool checkDirection(const char *name, const double *v, sphc_message *message) {
@@ -111,26 +139,6 @@ bool checkPriorOdometry(const sphc_localizer_prior &prior, sphc_message *message
          priorInRange("odometry_translation_sigma_m", prior.odometry_translation_sigma_m, 1e-6, 10, message);
 }
 
-// Can a depth camera have images of this format?
-bool checkDepthFormat(sphc_format configured, const sphc_rig &rig, double depth_max_m, sphc_message *message) {
-  const PixelFormat format = pixelFormatOf(depthFormatOf(configured));
-  if (!format.is_depth) {
-    MessageWriter(message) << "config.depth_format is " << configured
-                           << ", which is not of depth; give a DEPTH or RANGE format, or 0 for DEPTH16";
-    return false;
-  }
-  if (rig.depth_camera.width % format.group_pixels) {
-    MessageWriter(message) << "config.depth_format is " << configured << ", of which " << format.group_pixels
-                           << " pixels share bytes, but the depth camera's width is " << rig.depth_camera.width;
-    return false;
-  }
-  if (format.depth.kind != DepthLayout::kMetres || depth_max_m <= 65535 * rig.depth_unit_m) return true;
-  MessageWriter(message) << "config.depth_max_m is " << depth_max_m << ", but 16 bits of rig.depth_unit_m reach "
-                         << 65535 * rig.depth_unit_m
-                         << " m, and depth in metres is rounded to it; raise the unit or lower the range";
-  return false;
-}
-
 // A transform between sensors of one rig.
 bool checkMount(const char *name, const sphc_rigid &mount, sphc_message *message) {
   if (isRigidWithin(SPHC_RIG_MAX_OFFSET_M, mount)) return true;
@@ -147,17 +155,21 @@ sphc_status refuseElement(uint32_t i, sphc_status status, const sphc_message &fo
   return status;
 }
 
+// An array of the config: `count` elements, at most `most`, and null where there are none.
+sphc_status checkArray(const char *name, const void *array, uint32_t count, uint32_t most, sphc_message *message) {
+  if (count <= most && (count > 0) == (array != nullptr)) return SPHC_OK;
+  MessageWriter(message) << "config." << name << "_count is " << count << ", and config." << name << "s is "
+                         << (array ? "not null" : "null") << "; give an array of 1 to " << most
+                         << " further cameras, or 0 and null";
+  return SPHC_E_ARGUMENT;
+}
+
 sphc_status readCameras(ConfigCopy *copy, sphc_message *message) {
   sphc_localizer_config &config = copy->config;
-  if (config.camera_count > SPHC_CAMERAS_MAX - 1 || (config.camera_count > 0) != (config.cameras != nullptr)) {
-    MessageWriter(message) << "config.camera_count is " << config.camera_count << ", and config.cameras is "
-                           << (config.cameras ? "not null" : "null") << "; give an array of 1 to "
-                           << SPHC_CAMERAS_MAX - 1 << " further cameras, or 0 and null";
-    return SPHC_E_ARGUMENT;
-  }
+  sphc_status status = checkArray("camera", config.cameras, config.camera_count, SPHC_CAMERAS_MAX - 1, message);
+  if (status != SPHC_OK) return status;
   std::fill_n(copy->cameras, SPHC_CAMERAS_MAX - 1, emptyCamera());
-  const sphc_status status =
-      readStructs("config.cameras", config.cameras, config.camera_count, copy->cameras, message);
+  status = readStructs("config.cameras", config.cameras, config.camera_count, copy->cameras, message);
   if (status != SPHC_OK) return status;
   if (config.cameras) config.cameras = copy->cameras;
   for (uint32_t i = 0; i < config.camera_count; ++i) {
@@ -165,9 +177,36 @@ sphc_status readCameras(ConfigCopy *copy, sphc_message *message) {
     sphc_message found;
     if (!checkCamera(own.camera, "config.cameras[i].camera", &found) ||
         !checkMount("config.cameras[i].color_from_camera", own.color_from_camera, &found) ||
-        !inRange("config.cameras[i]", "row_time_ns", static_cast<double>(own.row_time_ns), -SPHC_ROW_TIME_MAX_NS,
+        !inRange("config.cameras[i].", "row_time_ns", static_cast<double>(own.row_time_ns), -SPHC_ROW_TIME_MAX_NS,
                  SPHC_ROW_TIME_MAX_NS, &found))
       return refuseElement(i, SPHC_E_ARGUMENT, found, message);
+  }
+  return SPHC_OK;
+}
+
+bool checkDepthCamera(const sphc_localizer_depth_camera &c, sphc_message *message) {
+  const char *const owner = kFurtherDepthFields;
+  return checkCamera(c.camera, "config.depth_cameras[i].camera", message) &&
+         checkMount("config.depth_cameras[i].color_from_depth", c.color_from_depth, message) &&
+         inRange(owner, "unit_m", c.unit_m, SPHC_RIG_MIN_UNIT_M, SPHC_RIG_MAX_UNIT_M, message) &&
+         checkDepth(owner, c.format, c.camera.width, depthSensorFrom(c), message) &&
+         checkBias(owner, c.offset_sigma_m, c.slope_sigma, message) &&
+         inRange(owner, "amplitude_min", c.amplitude_min, 0, kMostAmplitude, message);
+}
+
+sphc_status readDepthCameras(ConfigCopy *copy, sphc_message *message) {
+  sphc_localizer_config &config = copy->config;
+  sphc_status status = checkArray("depth_camera", config.depth_cameras, config.depth_camera_count,
+                                  SPHC_DEPTH_CAMERAS_MAX - 1, message);
+  if (status != SPHC_OK) return status;
+  std::fill_n(copy->depth_cameras, SPHC_DEPTH_CAMERAS_MAX - 1, emptyDepthCamera());
+  status = readStructs("config.depth_cameras", config.depth_cameras, config.depth_camera_count, copy->depth_cameras,
+                       message);
+  if (status != SPHC_OK) return status;
+  if (config.depth_cameras) config.depth_cameras = copy->depth_cameras;
+  for (uint32_t i = 0; i < config.depth_camera_count; ++i) {
+    sphc_message found;
+    if (!checkDepthCamera(copy->depth_cameras[i], &found)) return refuseElement(i, SPHC_E_ARGUMENT, found, message);
   }
   return SPHC_OK;
 }
@@ -195,28 +234,34 @@ sphc_status checkView(const sphc_localizer_view &view, const sphc_camera &known,
   return checkImage("frame.views[i]", view.image, known, 0, message);
 }
 
+// An array of a frame: one element for each of the config's `cameras`, and null where there are none.
+sphc_status checkViewArray(const char *prefix, const void *array, uint32_t count, uint32_t cameras,
+                           sphc_message *message) {
+  if (count == cameras && (cameras > 0) == (array != nullptr)) return SPHC_OK;
+  MessageWriter(message) << "frame." << prefix << "view_count is " << count << ", frame." << prefix << "views is "
+                         << (array ? "not null" : "null") << ", and config." << prefix << "camera_count is "
+                         << cameras << "; give a view for each camera, with data null where it has none";
+  return SPHC_E_ARGUMENT;
+}
+
 sphc_status readViews(const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
   sphc_localizer_frame &frame = copy->frame;
-  const auto cameras = static_cast<uint32_t>(limits.further.size());
-  if (frame.view_count != cameras || (cameras > 0) != (frame.views != nullptr)) {
-    MessageWriter(message) << "frame.view_count is " << frame.view_count << ", frame.views is "
-                           << (frame.views ? "not null" : "null") << ", and config.camera_count is " << cameras
-                           << "; give a view for each camera, with image.data null where it has none";
-    return SPHC_E_ARGUMENT;
-  }
-  sphc_status status = readStructs("frame.views", frame.views, cameras, copy->views, message);
+  const auto cameras = static_cast<uint32_t>(limits.config.further.size());
+  sphc_status status = checkViewArray("", frame.views, frame.view_count, cameras, message);
+  if (status == SPHC_OK) status = readStructs("frame.views", frame.views, cameras, copy->views, message);
   if (status != SPHC_OK) return status;
   if (frame.views) frame.views = copy->views;
   for (uint32_t i = 0; i < cameras; ++i) {
     sphc_message found;
-    status = checkView(copy->views[i], limits.further[i].camera.parameters(), limits.looks_at_images, &found);
+    status =
+        checkView(copy->views[i], limits.config.further[i].camera.parameters(), limits.looks_at_images, &found);
     if (status != SPHC_OK) return refuseElement(i, status, found, message);
   }
   return SPHC_OK;
 }
 
-sphc_status checkAmplitude(const sphc_image &image, const FrameLimits &limits, sphc_message *message) {
-  if (!limits.amplitude_min) return SPHC_OK;  // not looked at
+sphc_status checkAmplitude(const sphc_image &image, const RigDepthCamera &camera, sphc_message *message) {
+  if (!camera.least_amplitude) return SPHC_OK;  // not looked at
   if (!image.data) {
     MessageWriter(message)
         << "amplitude image is missing; give one with every frame, or set config.amplitude_min to 0";
@@ -229,7 +274,50 @@ sphc_status checkAmplitude(const sphc_image &image, const FrameLimits &limits, s
                            << "; give GRAY8, GRAY10, GRAY12 or GRAY16, as config.amplitude_min is set";
     return SPHC_E_IMAGE;
   }
-  return checkImage("amplitude", image, limits.depth, 0, message);
+  return checkImage("amplitude", image, camera.camera.parameters(), 0, message);
+}
+
+// The images of a depth camera, the i-th of the rig.
+sphc_status checkDepthImages(const FrameLimits &limits, uint32_t i, const sphc_image &depth,
+                             const sphc_image &amplitude, sphc_message *message) {
+  const RigDepthCamera &camera = limits.config.depth[i];
+  const sphc_status status =
+      checkImage("depth", depth, camera.camera.parameters(), limits.depth_formats[i], message);
+  return status == SPHC_OK ? checkAmplitude(amplitude, camera, message) : status;
+}
+
+sphc_status checkDepthView(const FrameLimits &limits, uint32_t i, const sphc_localizer_depth_view &view,
+                           sphc_message *message) {
+  if (!checkCameraNow("frame.depth_views[i].camera", view.camera, limits.config.depth[i].camera.parameters(),
+                      message) ||
+      !checkMountNow("frame.depth_views[i].color_from_depth", view.color_from_depth, message))
+    return SPHC_E_ARGUMENT;
+  return view.depth.data ? checkDepthImages(limits, i, view.depth, view.amplitude, message) : SPHC_OK;
+}
+
+sphc_status readDepthViews(const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
+  sphc_localizer_frame &frame = copy->frame;
+  const auto cameras = static_cast<uint32_t>(limits.config.depth.size()) - 1;
+  sphc_status status = checkViewArray("depth_", frame.depth_views, frame.depth_view_count, cameras, message);
+  if (status == SPHC_OK)
+    status = readStructs("frame.depth_views", frame.depth_views, cameras, copy->depth_views, message);
+  if (status != SPHC_OK) return status;
+  if (frame.depth_views) frame.depth_views = copy->depth_views;
+  for (uint32_t i = 0; i < cameras; ++i) {
+    sphc_message found;
+    status = checkDepthView(limits, i + 1, copy->depth_views[i], &found);
+    if (status != SPHC_OK) return refuseElement(i, status, found, message);
+  }
+  return SPHC_OK;
+}
+
+// What the second half of a frame looks at beside the first.
+sphc_status checkDepthFrame(const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
+  const sphc_localizer_frame &own = copy->frame;
+  if (!checkCameraNow("frame.depth_camera", own.depth_camera, limits.config.depth[0].camera.parameters(), message))
+    return SPHC_E_ARGUMENT;
+  const sphc_status status = checkDepthImages(limits, 0, own.depth, own.amplitude, message);
+  return status == SPHC_OK ? readDepthViews(limits, copy, message) : status;
 }
 
 sphc_status checkPrior(const sphc_localizer_prior &prior, const MapSet &maps, sphc_message *message) {
@@ -258,11 +346,11 @@ sphc_status checkDeadline(const sphc_localizer_frame &frame, bool has_clock, sph
 // What the first half of a frame looks at; reads the views.
 sphc_status checkFeatureFrame(const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
   const sphc_localizer_frame &own = copy->frame;
+  const sphc_camera &color = limits.config.color_camera.parameters();
   sphc_status status = checkDeadline(own, limits.has_clock, message);
-  if (status == SPHC_OK && limits.looks_at_images)
-    status = checkImage("color", own.color, limits.color, 0, message);
+  if (status == SPHC_OK && limits.looks_at_images) status = checkImage("color", own.color, color, 0, message);
   if (status != SPHC_OK) return status;
-  if (!checkCameraNow("frame.color_camera", own.color_camera, limits.color, message) ||
+  if (!checkCameraNow("frame.color_camera", own.color_camera, color, message) ||
       !checkMountNow("frame.color_from_depth", own.color_from_depth, message))
     return SPHC_E_ARGUMENT;
   return readViews(limits, copy, message);
@@ -320,6 +408,21 @@ sphc_localizer_camera emptyCamera() {
   return camera;
 }
 
+sphc_localizer_depth_camera emptyDepthCamera() {
+  const sphc_localizer_config config = defaultConfig();
+  sphc_localizer_depth_camera camera = {};
+  camera.struct_size = sizeof camera;
+  camera.color_from_depth = config.rig.color_from_depth;
+  camera.unit_m = config.rig.depth_unit_m;
+  camera.min_m = config.depth_min_m;
+  camera.max_m = config.depth_max_m;
+  camera.sigma_m = config.depth_sigma_m;
+  camera.sigma_per_m2 = config.depth_sigma_per_m2;
+  camera.offset_sigma_m = config.depth_offset_sigma_m;
+  camera.slope_sigma = config.depth_slope_sigma;
+  return camera;
+}
+
 sphc_localizer_config defaultConfig() {
   sphc_localizer_config config = {};
   config.struct_size = sizeof config;
@@ -356,10 +459,12 @@ sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sp
   sphc_status status = readStruct("config", config, &own, message);
   if (status == SPHC_OK) status = sphc_rig_check(&own.rig, message);
   if (status != SPHC_OK) return status;
-  const bool fine = checkNumbers(own, message) && checkTogether(own, message) && checkParallel(own, message) &&
-                    checkDepthFormat(own.depth_format, own.rig, own.depth_max_m, message);
+  const bool fine =
+      checkNumbers(own, message) && checkParallel(own, message) &&
+      checkDepth(kDepthFields, own.depth_format, own.rig.depth_camera.width, depthSensorFrom(own), message);
   if (!fine) return SPHC_E_ARGUMENT;
-  return readCameras(copy, message);
+  status = readCameras(copy, message);
+  return status == SPHC_OK ? readDepthCameras(copy, message) : status;
 }
 
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message) {
@@ -368,13 +473,11 @@ sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_co
   if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
   if (status != SPHC_OK) return status;
   const sphc_aligner_config &c = *copy;
-  const bool good = inRange("depth_min_m", c.depth_min_m, 0.01, 100, message) &&
-                    inRange("depth_max_m", c.depth_max_m, c.depth_min_m + 0.01, 200, message) &&
-                    inRange("depth_sigma_m", c.depth_sigma_m, 1e-5, 1, message) &&
-                    inRange("depth_sigma_per_m2", c.depth_sigma_per_m2, 0, 1, message) &&
+  const DepthSensor sensor = {c.rig.depth_unit_m, c.depth_min_m, c.depth_max_m, c.depth_sigma_m,
+                              c.depth_sigma_per_m2};
+  const bool good = checkDepth(kDepthFields, c.depth_format, c.rig.depth_camera.width, sensor, message) &&
                     (c.aligned_unit_m == 0 || inRange("aligned_unit_m", c.aligned_unit_m, SPHC_RIG_MIN_UNIT_M,
-                                                      SPHC_RIG_MAX_UNIT_M, message)) &&
-                    checkDepthFormat(c.depth_format, c.rig, c.depth_max_m, message);
+                                                      SPHC_RIG_MAX_UNIT_M, message));
   if (!good) return SPHC_E_ARGUMENT;
   const double unit_m = c.aligned_unit_m > 0 ? c.aligned_unit_m : c.rig.depth_unit_m;
   if (c.depth_max_m <= 62000 * unit_m) return SPHC_OK;
@@ -392,8 +495,7 @@ sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limi
   if (status != SPHC_OK) return status;
   if (own.prior) own.prior = &copy->prior;
   status = checkFeatureFrame(limits, copy, message);
-  if (status == SPHC_OK) status = checkImage("depth", own.depth, limits.depth, limits.depth_format, message);
-  if (status == SPHC_OK) status = checkAmplitude(own.amplitude, limits, message);
+  if (status == SPHC_OK) status = checkDepthFrame(limits, copy, message);
   if (status == SPHC_OK && own.prior) status = checkPrior(*own.prior, limits.maps, message);
   return status;
 }
@@ -435,7 +537,7 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
   const double offset_sigma_m = sqrtOf(prior.covariance(0, 0)) * kRounding,
                slope_sigma = sqrtOf(prior.covariance(1, 1)) * kRounding;
   const auto lies = [&](const char *name, double value, double low, double high) {
-    return inRange("depth", name, value, low, high, message);
+    return inRange("depth.", name, value, low, high, message);
   };
   const double most_m = prior.isKnown() ? 0 : kMostOffsetM, most_slope = prior.isKnown() ? 0 : kMostSlope;
   const double least = prior.isKnown() ? 0 : kLeastSigma;
@@ -451,7 +553,7 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
 
 sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &localizer, sphc_message *message) {
   const ImageSize &of = features.sizes.of[0];
-  const sphc_camera &own = localizer.color;
+  const sphc_camera &own = localizer.localizer.config().color_camera.parameters();
   const bool same = features.max_keypoints == localizer.max_keypoints &&
                     features.sizes == imageSizesOf(localizer.localizer.config());
   if (!same) {

@@ -10,30 +10,30 @@ namespace sphc {
 sphc_localizer_config defaultConfig();
 sphc_aligner_config defaultAlignerConfig();
 sphc_localizer_camera emptyCamera();
+sphc_localizer_depth_camera emptyDepthCamera();
 // Copies of what the caller gave, of any version (growth.h), and whether it can be used.
-// `config.cameras` of the copy are its own.
+// `config.cameras` and `config.depth_cameras` of the copy are its own.
 struct ConfigCopy {
   sphc_localizer_config config;
   sphc_localizer_camera cameras[SPHC_CAMERAS_MAX - 1];
+  sphc_localizer_depth_camera depth_cameras[SPHC_DEPTH_CAMERAS_MAX - 1];
 };
 sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sphc_message *message);
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message);
 // What a frame must fit.
 struct FrameLimits {
   bool looks_at_images;  // of the colour camera and of further ones
-  const sphc_camera &color;
-  const sphc_camera &depth;
-  const FurtherCameras &further;
-  sphc_format depth_format;
-  uint32_t amplitude_min;
+  const LocalizerConfig &config;
+  const sphc_format *depth_formats;  // of each of config.depth
   const MapSet &maps;
   bool has_clock;
 };
-// What is copied points to `prior` and `views`, where the caller gave some.
+// What is copied points to the others, where the caller gave some.
 struct FrameCopy {
   sphc_localizer_frame frame;
   sphc_localizer_prior prior;
   sphc_localizer_view views[SPHC_CAMERAS_MAX - 1];
+  sphc_localizer_depth_view depth_views[SPHC_DEPTH_CAMERAS_MAX - 1];
 };
 sphc_status readFrame(const sphc_localizer_frame *frame, const FrameLimits &limits, FrameCopy *copy,
                       sphc_message *message);

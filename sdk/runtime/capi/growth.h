@@ -17,7 +17,7 @@ struct StructKind {
   size_t first_bytes;  // when it was first published (tests/abi/headers); a smaller one never was
   size_t known_bytes;  // today
   size_t alignment;
-  FieldBytes reserved[4] = {};  // fields that a later library may read, so callers leave them zero
+  FieldBytes reserved[5] = {};  // fields that a later library may read, so callers leave them zero
 };
 
 // Of a struct that has not grown yet.
@@ -52,6 +52,16 @@ constexpr StructKind kindOf(const sphc_localizer_camera *) {
   kind.reserved[0] = {offsetof(sphc_localizer_camera, reserved), sizeof(uint32_t)};
   return kind;
 }
+constexpr StructKind kindOf(const sphc_localizer_depth_camera *) {
+  StructKind kind = ungrown<sphc_localizer_depth_camera>("sphc_localizer_depth_camera");
+  kind.reserved[0] = {offsetof(sphc_localizer_depth_camera, reserved), sizeof(uint32_t)};
+  return kind;
+}
+constexpr StructKind kindOf(const sphc_localizer_depth_view *) {
+  StructKind kind = ungrown<sphc_localizer_depth_view>("sphc_localizer_depth_view");
+  kind.reserved[0] = {offsetof(sphc_localizer_depth_view, reserved), sizeof(uint32_t)};
+  return kind;
+}
 constexpr StructKind kindOf(const sphc_localizer_config *) {
   StructKind kind =
       grown<sphc_localizer_config>("sphc_localizer_config", offsetof(sphc_localizer_config, depth_format));
@@ -59,6 +69,7 @@ constexpr StructKind kindOf(const sphc_localizer_config *) {
   kind.reserved[1] = {offsetof(sphc_localizer_config, reserved2), sizeof(uint32_t)};
   kind.reserved[2] = {offsetof(sphc_localizer_config, reserved3), sizeof(uint32_t)};
   kind.reserved[3] = {offsetof(sphc_localizer_config, reserved4), sizeof(uint32_t)};
+  kind.reserved[4] = {offsetof(sphc_localizer_config, reserved5), sizeof(uint32_t)};
   return kind;
 }
 constexpr StructKind kindOf(const sphc_localizer_frame *) {
@@ -66,6 +77,7 @@ constexpr StructKind kindOf(const sphc_localizer_frame *) {
   kind.reserved[0] = {offsetof(sphc_localizer_frame, reserved), sizeof(uint32_t)};
   kind.reserved[1] = {offsetof(sphc_localizer_frame, reserved2), sizeof(uint64_t)};
   kind.reserved[2] = {offsetof(sphc_localizer_frame, reserved3), sizeof(uint32_t)};
+  kind.reserved[3] = {offsetof(sphc_localizer_frame, reserved4), sizeof(uint32_t)};
   return kind;
 }
 constexpr StructKind kindOf(const sphc_map_info *) {

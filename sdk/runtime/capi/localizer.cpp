@@ -68,13 +68,7 @@ sphc_localizer_result emptyResult() {
 }
 
 sphc::FrameLimits limitsOf(const sphc_localizer &localizer, bool looks_at_images) {
-  return {looks_at_images,
-          localizer.color,
-          localizer.depth,
-          localizer.localizer.config().further,
-          localizer.depth_format,
-          localizer.amplitude_min,
-          localizer.localizer.maps(),
+  return {looks_at_images, localizer.localizer.config(), localizer.depth_formats, localizer.localizer.maps(),
           localizer.has_clock};
 }
 
@@ -163,6 +157,14 @@ sphc_status sphc_localizer_view_init(sphc_localizer_view *view, size_t struct_si
   return sphc::initStruct(sphc_localizer_view(), struct_size, view);
 }
 
+sphc_status sphc_localizer_depth_camera_init(sphc_localizer_depth_camera *camera, size_t struct_size) {
+  return sphc::initStruct(sphc::emptyDepthCamera(), struct_size, camera);
+}
+
+sphc_status sphc_localizer_depth_view_init(sphc_localizer_depth_view *view, size_t struct_size) {
+  return sphc::initStruct(sphc_localizer_depth_view(), struct_size, view);
+}
+
 sphc_status sphc_localizer_prediction_init(sphc_localizer_prediction *prediction, size_t struct_size) {
   return sphc::initStruct(emptyPrediction(), struct_size, prediction);
 }
@@ -226,11 +228,10 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   made->localizer.init(own);
   made->state = used_state;
   made->scratch = used_scratch;
-  made->color = checked.config.rig.color_camera;
-  made->depth = checked.config.rig.depth_camera;
   made->max_keypoints = checked.config.max_keypoints;
-  made->depth_format = sphc::depthFormatOf(checked.config.depth_format);
-  made->amplitude_min = checked.config.amplitude_min;
+  made->depth_formats[0] = sphc::depthFormatOf(checked.config.depth_format);
+  for (uint32_t i = 0; i < checked.config.depth_camera_count; ++i)
+    made->depth_formats[1 + i] = sphc::depthFormatOf(checked.config.depth_cameras[i].format);
   made->color_band = checked.config.color_band;
   made->has_clock = checked.config.clock != nullptr;
   made->log = checked.config.log;
@@ -357,7 +358,10 @@ sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localiz
   sphc_status status = sphc::readFeatureFrame(frame, limitsOf(*localizer, true), &copy, message);
   if (status == SPHC_OK) status = sphc::checkFeatures(*features, *localizer, message);
   if (status != SPHC_OK) return status;
-  copy.frame.prior = nullptr;  // not looked at, and not validated
+  // Not looked at, and not validated.
+  copy.frame.prior = nullptr;
+  copy.frame.depth_camera = nullptr;
+  copy.frame.depth_view_count = 0;
   localizer->localizer.extract(sphc::frameFrom(copy.frame, localizer->localizer.maps()), &features->features);
   features->color_time_ns = copy.frame.color_time_ns;
   features->of_frame = true;

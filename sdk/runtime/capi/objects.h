@@ -31,10 +31,8 @@ bool operator==(const ImageSizes &a, const ImageSizes &b);
 struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc::Localizer localizer;
   sphc::MemoryRange state, scratch;
-  sphc_camera color, depth;
   uint32_t max_keypoints;
-  sphc_format depth_format;
-  uint32_t amplitude_min;
+  sphc_format depth_formats[SPHC_DEPTH_CAMERAS_MAX];
   sphc_band color_band;
   bool has_clock;
   sphc_log_fn log;

@@ -59,6 +59,24 @@ FurtherView viewFrom(const sphc_localizer_view &view) {
   return own;
 }
 
+RigDepthCamera depthCameraFrom(const sphc_localizer_depth_camera &camera) {
+  return {Camera(camera.camera),   rigidFromC(camera.color_from_depth),
+          depthSensorFrom(camera), depthLayoutFrom(camera.format),
+          camera.amplitude_min,    Vector2(camera.offset_sigma_m, camera.slope_sigma)};
+}
+
+DepthView depthViewFrom(const sphc_image &depth, const sphc_image &amplitude, int64_t time_ns,
+                        const sphc_camera *camera, const sphc_rigid *color_from_depth) {
+  DepthView own;
+  own.depth = bytesOf(depth);
+  if (amplitude.data)
+    own.amplitude = {bytesOf(amplitude), static_cast<int32_t>(sphc_format_bytes(amplitude.format))};
+  own.time_ns = time_ns;
+  if (camera) own.camera = Camera(*camera);
+  if (color_from_depth) own.color_from_depth = rigidFromC(*color_from_depth);
+  return own;
+}
+
 void fillCovariance(const Matrix6 &own, double row_major[36]) {
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column) row_major[6 * row + column] = own(row, column);
@@ -71,6 +89,14 @@ sphc_depth_bias depthBiasFrom(const DepthCalibration &depth) {
 }
 
 }  // namespace
+
+DepthSensor depthSensorFrom(const sphc_localizer_config &c) {
+  return {c.rig.depth_unit_m, c.depth_min_m, c.depth_max_m, c.depth_sigma_m, c.depth_sigma_per_m2};
+}
+
+DepthSensor depthSensorFrom(const sphc_localizer_depth_camera &c) {
+  return {c.unit_m, c.min_m, c.max_m, c.sigma_m, c.sigma_per_m2};
+}
 
 DepthCalibration depthCalibrationFrom(const sphc_depth_bias &depth) {
   DepthCalibration own;
@@ -90,16 +116,13 @@ LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
   own.seed = config.seed;
   own.tracks = config.mode == SPHC_MODE_TRACKING;
   own.color_camera = Camera(config.rig.color_camera);
-  own.depth_camera = Camera(config.rig.depth_camera);
-  own.color_from_depth = rigidFromC(config.rig.color_from_depth);
   for (uint32_t i = 0; i < config.camera_count; ++i)
     own.further.push({Camera(config.cameras[i].camera), rigidFromC(config.cameras[i].color_from_camera),
                       signedSeconds(config.cameras[i].row_time_ns)});
   own.color_row_time_s = signedSeconds(config.color_row_time_ns);
-  own.depth_sensor = {config.rig.depth_unit_m, config.depth_min_m, config.depth_max_m, config.depth_sigma_m,
-                      config.depth_sigma_per_m2};
-  own.depth_layout = depthLayoutFrom(config.depth_format);
-  own.least_amplitude = config.amplitude_min;
+  own.depth.push({Camera(config.rig.depth_camera), rigidFromC(config.rig.color_from_depth), depthSensorFrom(config),
+                  depthLayoutFrom(config.depth_format), config.amplitude_min});
+  for (uint32_t i = 0; i < config.depth_camera_count; ++i) own.depth.push(depthCameraFrom(config.depth_cameras[i]));
   own.depth_prior = depthPriorFrom(config);
   own.pixel_sigma_px = config.pixel_sigma_px;
   own.map_sigma_m = config.map_sigma_m;
@@ -111,15 +134,16 @@ LocalizerConfig localizerConfigFrom(const sphc_localizer_config &config) {
 FrameInput frameFrom(const sphc_localizer_frame &frame, const MapSet &maps) {
   FrameInput own;
   own.color_time_ns = frame.color_time_ns;
-  own.depth_time_ns = frame.depth_time_ns;
   own.color = colorViewFrom(frame.color);
-  own.depth = bytesOf(frame.depth);
-  if (frame.amplitude.data)
-    own.amplitude = {bytesOf(frame.amplitude), static_cast<int32_t>(sphc_format_bytes(frame.amplitude.format))};
+  own.depth.push(
+      depthViewFrom(frame.depth, frame.amplitude, frame.depth_time_ns, frame.depth_camera, frame.color_from_depth));
+  for (uint32_t i = 0; i < frame.depth_view_count; ++i) {
+    const sphc_localizer_depth_view &view = frame.depth_views[i];
+    own.depth.push(depthViewFrom(view.depth, view.amplitude, view.time_ns, view.camera, view.color_from_depth));
+  }
   if (frame.prior) own.known = knownFrom(*frame.prior, maps);
   own.time_limit_ns = int64_t{frame.deadline_us} * 1000;
   if (frame.color_camera) own.color_camera = Camera(*frame.color_camera);
-  if (frame.color_from_depth) own.color_from_depth = rigidFromC(*frame.color_from_depth);
   for (uint32_t i = 0; i < frame.view_count; ++i) own.further.push(viewFrom(frame.views[i]));
   return own;
 }

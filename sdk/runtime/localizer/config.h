@@ -29,6 +29,18 @@ struct RigCamera {
 };
 using FurtherCameras = FixedVector<RigCamera, kMostCameras - 1>;
 
+constexpr uint32_t kMostDepthCameras = 2;  // of a rig
+
+struct RigDepthCamera {
+  Camera camera;
+  Rigid color_from_depth;
+  DepthSensor sensor = {};
+  DepthLayout layout;
+  uint32_t least_amplitude = 0;              // of a measurement that is believed; 0: amplitudes are not known
+  Vector2 relation_sigma = Vector2::Zero();  // offset in m, slope: of how it is off against the first
+};
+using DepthCameras = FixedVector<RigDepthCamera, kMostDepthCameras>;
+
 struct LocalizerConfig {
   uint32_t max_keypoints = 0;
   uint32_t max_maps = 1;
@@ -36,14 +48,11 @@ struct LocalizerConfig {
   bool tracks = false;  // do frames follow each other?
   SearchParameters search;
 
-  Camera color_camera, depth_camera;
-  Rigid color_from_depth;
+  Camera color_camera;
   double color_row_time_s = 0;
   FurtherCameras further;
-  DepthSensor depth_sensor = {};
-  DepthLayout depth_layout;
-  uint32_t least_amplitude = 0;  // of a measurement that is believed; 0: amplitudes are not known
-  DepthCalibration depth_prior;  // what is known of the sensor's bias before the first frame
+  DepthCameras depth;            // one at least
+  DepthCalibration depth_prior;  // what is known of the first one's bias before the first frame
   double pixel_sigma_px = 0;     // noise of a keypoint's position
   double map_sigma_m = 0;        // error of a map point across its direction
 

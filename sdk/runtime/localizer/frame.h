@@ -31,16 +31,24 @@ struct FurtherView {
 };
 using FurtherViews = FixedVector<FurtherView, kMostCameras - 1>;  // in the order of the cameras
 
+// The image of a depth camera, of its layout; without bytes it has none in this frame.
+struct DepthView {
+  ByteView depth;
+  AmplitudeView amplitude;
+  int64_t time_ns = 0;  // mid-exposure
+  // As they are in this frame, where they are not as in the config.
+  std::optional<Camera> camera;
+  std::optional<Rigid> color_from_depth;
+};
+using DepthViews = FixedVector<DepthView, kMostDepthCameras>;  // in the order of the cameras
+
 // Everything is borrowed.
 struct FrameInput {
-  int64_t color_time_ns = 0, depth_time_ns = 0;  // mid-exposure
+  int64_t color_time_ns = 0;  // mid-exposure
   ColorView color;
-  // As they are in this frame, where they are not as in the config.
-  std::optional<Camera> color_camera;
-  std::optional<Rigid> color_from_depth;
-  FurtherViews further;  // none, or one of each camera
-  ByteView depth;        // of the config's layout
-  AmplitudeView amplitude;
+  std::optional<Camera> color_camera;  // as it is in this frame, where it is not as in the config
+  FurtherViews further;                // none, or one of each camera
+  DepthViews depth;                    // one of each depth camera
   Known known;
   int64_t time_limit_ns = 0;  // from the beginning of its processing; 0: none
 };

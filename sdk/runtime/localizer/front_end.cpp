@@ -41,20 +41,23 @@ void FrontEnd::layout(const LocalizerConfig &config, Arena &state, Arena &scratc
   FeatureRoom::layout(kNames, config, scratch, front ? &f.room_ : nullptr);
   f.lifted_ = scratch.take<LiftedPoint>("localizer.lifted", n);
   f.keypoint_of_ = scratch.take<uint32_t>("localizer.lifted", n);
-  SparseAligner::layout(config.depth_camera.width(), config.depth_camera.height(), scratch,
-                        front ? &f.color_.aligner : nullptr);
+  for (size_t i = 0; i < config.depth.size(); ++i) {
+    const Camera &camera = config.depth[i].camera;
+    SparseAligner::layout(camera.width(), camera.height(), scratch, front ? &f.color_.aligners[i] : nullptr);
+  }
   RigExtractor::layout(config, state, scratch, front ? &f.extractor_ : nullptr);
 }
 
 void FrontEnd::init(const LocalizerConfig &config) {
   pixel_sigma_px_ = config.pixel_sigma_px;
   map_sigma_m_ = config.map_sigma_m;
-  color_.aligner.init(config.color_camera, config.depth_camera, config.color_from_depth, config.depth_sensor);
-  for (size_t i = 0; i < further_.size(); ++i) {
-    const RigCamera &given = config.further[i];
-    Eye &eye = *new (&further_[i]) Eye();
-    eye.aligner.init(given.camera, config.depth_camera, Rigid(), config.depth_sensor);
+  for (Eye &eye : further_) new (&eye) Eye();
+  for (size_t i = 0; i < config.depth.size(); ++i) {
+    const DepthSensor &sensor = config.depth[i].sensor;
+    color_.aligners[i].init(sensor);
+    for (Eye &eye : further_) eye.aligners[i].init(sensor);
   }
+  relation_.init(config.depth_prior.mid_m, config.depth[config.depth.size() - 1].relation_sigma);
   extractor_.init(config.parallel);
 }
 
@@ -88,7 +91,8 @@ void FrontEnd::setRig(const FrameRig &rig) {
   color_.focal_px = rig.color_camera.focal();
   color_.row_time_s = rig.color_row_time_s;
   color_.middle_row_px = 0.5 * rig.color_camera.height();
-  color_.aligner.setColor(rig.color_camera, rig.color_from_depth);
+  for (size_t d = 0; d < rig.depth.size(); ++d)
+    color_.aligners[d].setCameras(rig.color_camera, rig.depth[d].camera, rig.depth[d].color_from_depth);
   for (size_t i = 0; i < rig.further.size(); ++i) {
     const RigCamera &now = rig.further[i];
     Eye &eye = further_[i];
@@ -96,14 +100,21 @@ void FrontEnd::setRig(const FrameRig &rig) {
     eye.row_time_s = now.row_time_s;
     eye.middle_row_px = 0.5 * now.camera.height();
     eye.color_from_camera = now.color_from_camera;
-    eye.aligner.setColor(now.camera, now.color_from_camera.inverse() * rig.color_from_depth);
+    const Rigid camera_from_color = now.color_from_camera.inverse();
+    for (size_t d = 0; d < rig.depth.size(); ++d)
+      eye.aligners[d].setCameras(now.camera, rig.depth[d].camera,
+                                 camera_from_color * rig.depth[d].color_from_depth);
   }
 }
 
-void FrontEnd::lift(ImageView<uint16_t> depth, const FrameRig &rig, const Deadline &deadline) {
+void FrontEnd::lift(const DepthImages &depth, const FrameRig &rig, const Deadline &deadline) {
   setRig(rig);
-  color_.aligner.prepare(depth, further_.size() > 0);
-  for (Eye &eye : further_) eye.aligner.prepareLike(color_.aligner);
+  for (size_t d = 0; d < depth.size(); ++d) {
+    if (!depth[d].data) continue;
+    color_.aligners[d].prepare(depth[d], further_.size() > 0);
+    for (Eye &eye : further_) eye.aligners[d].prepareLike(color_.aligners[d]);
+  }
+  relation_.nextFrame();
   lifted_count_ = 0;
   Watch watch(deadline, kLiftGrain);
   for (uint32_t k = 0; k < keypoint_count_; ++k) {
@@ -132,13 +143,29 @@ void FrontEnd::mirror() {
   }
 }
 
+// Point seen at a pixel, in the frame of the eye, by the depth camera that is surest of it.
+bool FrontEnd::measure(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px, Vector3 *point_m,
+                       double *sigma_m) {
+  const bool is_first = eye.aligners[0].lift(depth[0], pixel_px, point_m, sigma_m);
+  if (depth.size() < 2 || !depth[1].data) return is_first;
+  Vector3 point;
+  double sigma = 0;
+  if (!eye.aligners[1].lift(depth[1], pixel_px, &point, &sigma)) return is_first;
+  if (is_first && &eye == &color_) relation_.learn({point_m->z(), *sigma_m}, {point.z(), sigma});
+  const DepthRelation::Measured related = relation_.asFirst({point.z(), sigma});
+  if (is_first && *sigma_m <= related.sigma_m) return true;
+  *point_m = point * (related.z_m / point.z());
+  *sigma_m = related.sigma_m;
+  return true;
+}
+
 // Of a rolling shutter: where a keypoint would be if its row had been exposed with the middle one.
-Vector2 FrontEnd::atMidTime(const Eye &eye, ImageView<uint16_t> depth, const Vector2 &pixel_px) const {
+Vector2 FrontEnd::atMidTime(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px) {
   if (eye.row_time_s == 0) return pixel_px;
   Vector3 point_m;
   double sigma_z = 0;
-  if (!eye.aligner.lift(depth, pixel_px, &point_m, &sigma_z)) {
-    if (!eye.aligner.bearing(pixel_px, &point_m)) return pixel_px;
+  if (!measure(eye, depth, pixel_px, &point_m, &sigma_z)) {
+    if (!eye.view().bearing(pixel_px, &point_m)) return pixel_px;
     point_m *= tuning::kRayM;
   }
   const double since_s = (eye.middle_row_px - pixel_px.y()) * eye.row_time_s;
@@ -146,11 +173,11 @@ Vector2 FrontEnd::atMidTime(const Eye &eye, ImageView<uint16_t> depth, const Vec
   const Vector3 moved_m = since_s * (motion_.turn_rad_s.cross(at_color_m) + motion_.shift_m_s);
   point_m += eye.color_from_camera.rotation.transpose() * moved_m;
   Vector2 middle_px;
-  return eye.aligner.project(point_m, &middle_px) ? middle_px : pixel_px;
+  return eye.view().project(point_m, &middle_px) ? middle_px : pixel_px;
 }
 
 // Fills lifted_[k]: with depth, else as a ray.
-bool FrontEnd::liftOne(ImageView<uint16_t> depth, uint32_t k, double *z_m) {
+bool FrontEnd::liftOne(const DepthImages &depth, uint32_t k, double *z_m) {
   const Eye &eye = eyeOf(k);
   const Keypoint &keypoint = room_.keypoints[k];
   const Vector2 pixel_px = atMidTime(eye, depth, {keypoint.x_px, keypoint.y_px});
@@ -158,13 +185,13 @@ bool FrontEnd::liftOne(ImageView<uint16_t> depth, uint32_t k, double *z_m) {
   const double sigma_px = pixel_sigma_px_ * (coarseness > 1 ? coarseness : 1.0);
   const bool is_further = &eye != &color_;
   LiftedPoint ray = {Vector3::UnitZ(), kUselessSigma, std::numeric_limits<double>::infinity()};
-  if (eye.aligner.bearing(pixel_px, &ray.point_m))
+  if (eye.view().bearing(pixel_px, &ray.point_m))
     ray.sideways_m = hypotOf(sigma_px / eye.focal_px, map_sigma_m_ / tuning::kRayM);
   if (is_further) toColor(eye.color_from_camera, &ray);
   lifted_[k] = ray;
   double sigma_z = 0;
   Vector3 point_m;
-  if (!eye.aligner.lift(depth, pixel_px, &point_m, &sigma_z)) return false;
+  if (!measure(eye, depth, pixel_px, &point_m, &sigma_z)) return false;
   const double z = *z_m = point_m.z();
   LiftedPoint lifted = {point_m, hypotOf(sigma_px * z / eye.focal_px, map_sigma_m_),
                         hypotOf(sigma_z * point_m.norm() / z, map_sigma_m_)};

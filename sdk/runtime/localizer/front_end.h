@@ -5,19 +5,29 @@
 #include "runtime/localizer/frame_features.h"
 #include "runtime/localizer/result.h"
 #include "runtime/localizer/tracker.h"
+#include "runtime/stages/align/depth_relation.h"
 #include "runtime/stages/align/sparse.h"
 #include "runtime/types/correspondence.h"
 
 namespace sphc {
 
+// Where a depth camera is in a frame.
+struct DepthPlace {
+  Camera camera;
+  Rigid color_from_depth;
+};
+
 // The cameras of a frame; transforms are between the times of their images.
 struct FrameRig {
   Camera color_camera;
-  Rigid color_from_depth;
+  FixedVector<DepthPlace, kMostDepthCameras> depth;
   FurtherCameras further;
   double color_row_time_s = 0;
   CameraRate motion;  // of the colour camera
 };
+
+// Of each depth camera; without data it has none in this frame.
+using DepthImages = FixedVector<ImageView<uint16_t>, kMostDepthCameras>;
 
 class FrontEnd {
  public:
@@ -32,7 +42,7 @@ class FrontEnd {
                    FrameFeatures *features);
   void show(const FrameFeatures &features);
   // After extract or show.  Those with depth come first from then on, then those without.
-  void lift(ImageView<uint16_t> depth, const FrameRig &rig, const Deadline &deadline = {});
+  void lift(const DepthImages &depth, const FrameRig &rig, const Deadline &deadline = {});
   // After lift.  Makes the frame its mirror image, left and right changed; a second time it is itself again.
   void mirror();
   // Did a deadline leave something out?
@@ -53,19 +63,25 @@ class FrontEnd {
   struct Eye {
     double focal_px = 0, row_time_s = 0, middle_row_px = 0;
     Rigid color_from_camera;
-    SparseAligner aligner;
+    SparseAligner aligners[kMostDepthCameras];  // one for each depth camera
+
+    // Of the camera's own pixels, whatever the depth camera.
+    const SparseAligner &view() const { return aligners[0]; }
   };
   const Eye &eyeOf(uint32_t keypoint) const {
     const uint32_t camera = room_.cameraOf(keypoint);
     return camera == 0 ? color_ : further_[camera - 1];
   }
   void setRig(const FrameRig &rig);
-  Vector2 atMidTime(const Eye &eye, ImageView<uint16_t> depth, const Vector2 &pixel_px) const;
-  bool liftOne(ImageView<uint16_t> depth, uint32_t keypoint, double *z_m);
+  bool measure(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px, Vector3 *point_m,
+               double *sigma_m);
+  Vector2 atMidTime(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px);
+  bool liftOne(const DepthImages &depth, uint32_t keypoint, double *z_m);
   void toFront(uint32_t keypoint);
 
   double pixel_sigma_px_ = 0, map_sigma_m_ = 0;
   CameraRate motion_;
+  DepthRelation relation_;  // of the second depth camera to the first
   RigExtractor extractor_;
   Eye color_;
   Span<Eye> further_;  // in state

@@ -15,8 +15,8 @@ namespace {
 
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }
 
-DepthReaderConfig readerConfig(const LocalizerConfig &config) {
-  return {config.depth_camera, config.depth_sensor.unit_m, config.depth_layout, config.least_amplitude};
+DepthReaderConfig readerConfig(const RigDepthCamera &depth) {
+  return {depth.camera, depth.sensor.unit_m, depth.layout, depth.least_amplitude};
 }
 
 // Where nothing localizes, the last global search of the likeliest map stands for the frame.
@@ -51,7 +51,9 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   estimator.max_iterations = config.search.max_iterations;
   estimator.has_centres = config.further.size() > 0;
 
-  DepthReader::layout(readerConfig(config), state, scratch, localizer ? &localizer->depth_reader_ : nullptr);
+  for (size_t i = 0; i < config.depth.size(); ++i)
+    DepthReader::layout(readerConfig(config.depth[i]), state, scratch,
+                        localizer ? &localizer->depth_readers_[i] : nullptr);
   FrontEnd::layout(config, state, scratch, localizer ? &localizer->front_ : nullptr);
   Fusion::layout(n, state, localizer ? &localizer->fusion_ : nullptr);
   Search::layout(config, state, scratch, localizer ? &localizer->search_ : nullptr);
@@ -65,12 +67,12 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
 
 void Localizer::init(const LocalizerConfig &config) {
   config_ = config;
-  depth_reader_.init(readerConfig(config));
+  for (size_t i = 0; i < config.depth.size(); ++i) depth_readers_[i].init(readerConfig(config.depth[i]));
   front_.init(config);
   search_.init(config);
   repetition_.setParallel(config.parallel);
   calibrator_.init(config.depth_prior);
-  consistency_.init({config.color_camera, config.depth_camera, config.depth_sensor, config.tracks});
+  consistency_.init({config.color_camera, config.depth[0].camera, config.depth[0].sensor, config.tracks});
 }
 
 bool Localizer::setMap(uint32_t id, const MapView &map) {
@@ -154,13 +156,13 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   LocalizerResult result;
   result.depth = calibrator_.current();
   const FrameRig rig = rigOf(frame);
-  const ImageView<uint16_t> depth = depth_reader_.read(frame.depth, frame.amplitude);
-  consistency_.setColorCamera(rig.color_camera);
+  const DepthImages depth = read(frame.depth);
+  consistency_.setCameras(rig.color_camera, rig.depth[0].camera);
   const Deadline lifted_by = deadline.afterShare(kLiftShare);
   config_.parallel.both([&] { front_.lift(depth, rig, lifted_by); },
                         [&] {
-                          result.faults = consistency_.look({front_.gray(), depth, rig.color_from_depth,
-                                                             frame.color_time_ns, frame.depth_time_ns, isDark});
+                          result.faults = consistency_.look({front_.gray(), depth[0], rig.depth[0].color_from_depth,
+                                                             frame.color_time_ns, frame.depth[0].time_ns, isDark});
                         });
   const int64_t aligned = config_.clock.now();
   Work work;
@@ -199,8 +201,6 @@ Rigid Localizer::atColorTime(const FrameInput &frame, int64_t time_ns, const Rig
 FrameRig Localizer::rigOf(const FrameInput &frame) const {
   FrameRig rig;
   rig.color_camera = frame.color_camera.value_or(config_.color_camera);
-  rig.color_from_depth =
-      atColorTime(frame, frame.depth_time_ns, frame.color_from_depth.value_or(config_.color_from_depth));
   rig.color_row_time_s = config_.color_row_time_s;
   if (config_.tracks) rig.motion = tracker_.rate();
   for (size_t i = 0; i < frame.further.size(); ++i) {
@@ -210,7 +210,21 @@ FrameRig Localizer::rigOf(const FrameInput &frame) const {
                       atColorTime(frame, view.time_ns, view.color_from_camera.value_or(known.color_from_camera)),
                       known.row_time_s});
   }
+  for (size_t i = 0; i < frame.depth.size(); ++i) {
+    const DepthView &view = frame.depth[i];
+    const RigDepthCamera &known = config_.depth[i];
+    rig.depth.push({view.camera.value_or(known.camera),
+                    atColorTime(frame, view.time_ns, view.color_from_depth.value_or(known.color_from_depth))});
+  }
   return rig;
+}
+
+DepthImages Localizer::read(const DepthViews &views) {
+  DepthImages images;
+  for (size_t i = 0; i < views.size(); ++i)
+    images.push(views[i].depth.data ? depth_readers_[i].read(views[i].depth, views[i].amplitude)
+                                    : ImageView<uint16_t>());
+  return images;
 }
 
 Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {

@@ -65,6 +65,7 @@ class Localizer {
  private:
   Rigid atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const;
   FrameRig rigOf(const FrameInput &frame) const;
+  DepthImages read(const DepthViews &views);
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
   void follow(const FrameInput &frame);
   LocalizerResult locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns);
@@ -88,7 +89,7 @@ class Localizer {
   void learn(int64_t time_ns, LocalizerResult *result);
 
   LocalizerConfig config_;
-  DepthReader depth_reader_;
+  DepthReader depth_readers_[kMostDepthCameras];
   FrontEnd front_;
   Search search_;
   PoseEstimator estimator_;

@@ -3,9 +3,10 @@
 namespace sphc {
 namespace {
 
-// Eight tables, so that eight bytes go in at a time ("slicing by 8", Kounavis and Berry 2005).
+// Four tables, so that four bytes go in at a time ("slicing by 4", Kounavis and Berry 2005).  Eight would take 4 KB
+// more of flash.
 struct Tables {
-  uint32_t entry[8][256];
+  uint32_t entry[4][256];
   constexpr Tables() : entry() {
     for (uint32_t i = 0; i < 256; ++i) {
       uint32_t crc = i;
@@ -13,7 +14,7 @@ struct Tables {
       entry[0][i] = crc;
     }
     for (uint32_t i = 0; i < 256; ++i)
-      for (int k = 1; k < 8; ++k) entry[k][i] = (entry[k - 1][i] >> 8) ^ entry[0][entry[k - 1][i] & 255];
+      for (int k = 1; k < 4; ++k) entry[k][i] = (entry[k - 1][i] >> 8) ^ entry[0][entry[k - 1][i] & 255];
   }
 };
 constexpr Tables kTables;
@@ -24,10 +25,9 @@ uint32_t crc32(uint32_t crc, const void *data, size_t bytes) {
   const uint8_t *p = static_cast<const uint8_t *>(data);
   const auto &t = kTables.entry;
   crc = ~crc;
-  for (; bytes >= 8; bytes -= 8, p += 8) {
+  for (; bytes >= 4; bytes -= 4, p += 4) {
     crc ^= p[0] | (uint32_t{p[1]} << 8) | (uint32_t{p[2]} << 16) | (uint32_t{p[3]} << 24);
-    crc = t[7][crc & 255] ^ t[6][(crc >> 8) & 255] ^ t[5][(crc >> 16) & 255] ^ t[4][crc >> 24] ^ t[3][p[4]] ^
-          t[2][p[5]] ^ t[1][p[6]] ^ t[0][p[7]];
+    crc = t[3][crc & 255] ^ t[2][(crc >> 8) & 255] ^ t[1][(crc >> 16) & 255] ^ t[0][crc >> 24];
   }
   for (; bytes; --bytes) crc = (crc >> 8) ^ t[0][(crc ^ *p++) & 255];
   return ~crc;

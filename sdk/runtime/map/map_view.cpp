@@ -55,11 +55,18 @@ class Validator {
   };
   Failure fail(sphc_status status) const { return {MessageWriter(message_), status}; }
 
+  // Byte by byte: firmware need not have memcmp.
+  bool hasMagic() const {
+    for (size_t i = 0; i < sizeof kMapMagic; ++i)
+      if (header().magic[i] != kMapMagic[i]) return false;
+    return true;
+  }
+
   sphc_status checkHeader() const {
     if (bytes_ < sizeof(MapHeader))
       return fail(SPHC_E_MAP_FORMAT) << "map is " << bytes_ << " bytes, shorter than its header of "
                                      << sizeof(MapHeader) << kRebuild;
-    if (std::memcmp(header().magic, kMapMagic, sizeof kMapMagic) != 0)
+    if (!hasMagic())
       return fail(SPHC_E_MAP_FORMAT) << "not a sphere-cloud file: it does not begin with the format's signature";
     if (header().version != kMapVersion)
       return fail(SPHC_E_MAP_VERSION) << "map has format version " << uint32_t{header().version}

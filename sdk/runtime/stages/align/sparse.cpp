@@ -56,15 +56,9 @@ struct SparseAligner::Walk {
   }
 };
 
-void SparseAligner::init(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
-                         const DepthSensor &sensor) {
-  depth_ = depth;
-  sensor_ = sensor;
-  setColor(color, color_from_depth);
-}
-
-void SparseAligner::setColor(const Camera &color, const Rigid &color_from_depth) {
+void SparseAligner::setCameras(const Camera &color, const Camera &depth, const Rigid &color_from_depth) {
   color_ = color;
+  depth_ = depth;
   depth_from_color_ = color_from_depth.inverse();
   registered_ = color_ == depth_ && rotationAngle(color_from_depth.rotation) < 1e-9 &&
                 color_from_depth.translation_m.norm() < 1e-9;

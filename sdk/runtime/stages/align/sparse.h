@@ -1,7 +1,8 @@
 // Depth of single colour pixels, from a depth image of another camera.
 //
 //     SparseAligner::layout(width, height, scratch, &aligner);   as every module's
-//     aligner.init(color, depth, color_from_depth, sensor);      once
+//     aligner.init(sensor);                                      once
+//     aligner.setCameras(color, depth, color_from_depth);        once, or whenever they change
 //     aligner.prepare(image);                                    once a frame
 //     aligner.lift(image, pixel, ...);                           for every keypoint
 //
@@ -22,16 +23,17 @@ class SparseAligner {
   // Without memory.
   SparseAligner(const Camera &color, const Camera &depth, const Rigid &color_from_depth,
                 const DepthSensor &sensor) {
-    init(color, depth, color_from_depth, sensor);
+    init(sensor);
+    setCameras(color, depth, color_from_depth);
   }
 
   // For depth images of this size; `aligner` is null while measuring.
   static void layout(int32_t depth_width, int32_t depth_height, Arena &scratch, SparseAligner *aligner) {
     DepthBlocks::layout(depth_width, depth_height, scratch, aligner ? &aligner->blocks_ : nullptr);
   }
-  void init(const Camera &color, const Camera &depth, const Rigid &color_from_depth, const DepthSensor &sensor);
-  // Replaces camera and transform of init for the frames that follow.
-  void setColor(const Camera &color, const Rigid &color_from_depth);
+  void init(const DepthSensor &sensor) { sensor_ = sensor; }
+  // For the frames that follow.
+  void setCameras(const Camera &color, const Camera &depth, const Rigid &color_from_depth);
   // Reads a depth image, so that rays can be followed in strides.  Call it for every new image, before lift.
   // `for_others`: even where this colour camera shares the depth image's pixels.
   void prepare(ImageView<uint16_t> depth, bool for_others = false);

@@ -30,8 +30,11 @@ class Consistency {
   static void layout(Arena &state, Arena &scratch, Consistency *consistency);
   // Once, after layout with memory.
   void init(const ConsistencyConfig &config);
-  // Replaces that of init for the frames that follow.
-  void setColorCamera(const Camera &camera) { config_.color_camera = camera; }
+  // Replaces those of init for the frames that follow.
+  void setCameras(const Camera &color, const Camera &depth) {
+    config_.color_camera = color;
+    config_.depth_camera = depth;
+  }
   // Every frame; what is wrong with it.
   Faults look(const ConsistencyView &view);
   // After look: too little for a fault, but enough not to be sure of a pose.

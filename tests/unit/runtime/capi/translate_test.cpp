@@ -29,9 +29,9 @@ TEST(TranslateConfig, TheRigArrives) {
   const LocalizerConfig own = localizerConfigFrom(test::sceneConfig());
   EXPECT_EQ(own.color_camera.width(), 320);
   EXPECT_EQ(own.color_camera.height(), 240);
-  EXPECT_EQ(own.depth_camera.width(), 200);
-  EXPECT_EQ(own.depth_camera.height(), 160);
-  EXPECT_EQ(own.color_from_depth.translation_m, Vector3(0.04, 0, 0));
+  EXPECT_EQ(own.depth[0].camera.width(), 200);
+  EXPECT_EQ(own.depth[0].camera.height(), 160);
+  EXPECT_EQ(own.depth[0].color_from_depth.translation_m, Vector3(0.04, 0, 0));
 }
 
 TEST(TranslateConfig, ModesAndTheClock) {
@@ -57,10 +57,10 @@ TEST(TranslateConfig, TheDepthSensor) {
   config.depth_slope_sigma = 0.03;
   config.depth_mid_m = 0;
   const LocalizerConfig own = localizerConfigFrom(config);
-  EXPECT_EQ(own.depth_sensor.min_m, 0.5);
-  EXPECT_EQ(own.depth_sensor.max_m, 8);
-  EXPECT_EQ(own.depth_sensor.sigma_m, 0.003);
-  EXPECT_EQ(own.depth_sensor.sigma_per_m2, 0.004);
+  EXPECT_EQ(own.depth[0].sensor.min_m, 0.5);
+  EXPECT_EQ(own.depth[0].sensor.max_m, 8);
+  EXPECT_EQ(own.depth[0].sensor.sigma_m, 0.003);
+  EXPECT_EQ(own.depth[0].sensor.sigma_per_m2, 0.004);
   EXPECT_DOUBLE_EQ(own.depth_prior.covariance(0, 0), 0.02 * 0.02);
   EXPECT_DOUBLE_EQ(own.depth_prior.covariance(1, 1), 0.03 * 0.03);
   EXPECT_EQ(own.depth_prior.covariance(0, 1), 0);
@@ -80,18 +80,18 @@ TEST(TranslateFrame, BorrowsItsImages) {
   frame.depth = {depth, 4, 3, 10, SPHC_FORMAT_DEPTH16};
   FrameInput own = frameFrom(frame, MapSet());
   EXPECT_EQ(own.color_time_ns, 100);
-  EXPECT_EQ(own.depth_time_ns, 103);
+  EXPECT_EQ(own.depth[0].time_ns, 103);
   EXPECT_EQ(own.time_limit_ns, 4000000000000);
   EXPECT_EQ(own.color.bytes.data, color);
   EXPECT_EQ(own.color.bytes.width, 4);
   EXPECT_EQ(own.color.bytes.height, 2);
   EXPECT_EQ(own.color.bytes.stride, 16);
   EXPECT_EQ(own.color.layout.kind, LumaLayout::kBgr);
-  EXPECT_EQ(own.depth.data, reinterpret_cast<const uint8_t *>(depth));
-  EXPECT_EQ(own.depth.width, 4);
-  EXPECT_EQ(own.depth.height, 3);
-  EXPECT_EQ(own.depth.stride, 10);
-  EXPECT_EQ(own.amplitude.bytes.data, nullptr);
+  EXPECT_EQ(own.depth[0].depth.data, reinterpret_cast<const uint8_t *>(depth));
+  EXPECT_EQ(own.depth[0].depth.width, 4);
+  EXPECT_EQ(own.depth[0].depth.height, 3);
+  EXPECT_EQ(own.depth[0].depth.stride, 10);
+  EXPECT_EQ(own.depth[0].amplitude.bytes.data, nullptr);
   EXPECT_FALSE(own.known.prior.has_pose || own.known.prior.has_up || own.known.has_odometry);
   frame.color.format = SPHC_FORMAT_RGB8;
   EXPECT_EQ(frameFrom(frame, MapSet()).color.layout.kind, LumaLayout::kRgb);
@@ -99,8 +99,8 @@ TEST(TranslateFrame, BorrowsItsImages) {
   EXPECT_EQ(frameFrom(frame, MapSet()).color.layout.kind, LumaLayout::kPlane);
   const uint8_t light[4 * 3 * 2] = {};
   frame.amplitude = {light, 4, 3, 8, SPHC_FORMAT_GRAY12};
-  EXPECT_EQ(frameFrom(frame, MapSet()).amplitude.bytes.data, light);
-  EXPECT_EQ(frameFrom(frame, MapSet()).amplitude.pixel_bytes, 2);
+  EXPECT_EQ(frameFrom(frame, MapSet()).depth[0].amplitude.bytes.data, light);
+  EXPECT_EQ(frameFrom(frame, MapSet()).depth[0].amplitude.pixel_bytes, 2);
 }
 
 class TranslatePrior : public testing::Test {

@@ -71,15 +71,17 @@ class RoomParts {
       std::fill_n(row, width / 8, uint16_t{0});
     const FrameInput frame = frameFrom(made.frame, MapSet());
     front.extract(frame.color, frame.further);
-    const auto height = static_cast<int32_t>(made.frame.depth.height), columns = static_cast<int32_t>(width);
-    front.lift({made.images.depth_mm.data(), columns, height, columns}, cameras());
+    lift(made.images.depth_mm);
   }
-  // As the config has them.
-  FrameRig cameras() const {
+  // By the cameras of the config.
+  void lift(const std::vector<uint16_t> &depth_mm) {
+    const RigDepthCamera &camera = config.depth[0];
     FrameRig rig;
     rig.color_camera = config.color_camera;
-    rig.color_from_depth = config.color_from_depth;
-    return rig;
+    rig.depth.push({camera.camera, camera.color_from_depth});
+    DepthImages images;
+    images.push({depth_mm.data(), camera.camera.width(), camera.camera.height(), camera.camera.width()});
+    front.lift(images, rig);
   }
   // The truth.
   Rigid cameraFromMap(uint32_t viewpoint, uint32_t room = 0) const {

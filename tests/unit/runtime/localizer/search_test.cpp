@@ -117,8 +117,7 @@ TEST_F(SearchTest, TheRoomThatIsSeenIsTheLikeliest) {
 // Where nothing speaks for any, the first ones are tried, and not all.
 TEST_F(SearchTest, WithoutASignOnlySoManyAreTried) {
   parts_.see(0);
-  const std::vector<uint16_t> nothing(200 * 160);
-  parts_.front.lift({nothing.data(), 200, 160, 200}, parts_.cameras());
+  parts_.lift(std::vector<uint16_t>(200 * 160));
   const MapOrder order = parts_.search.rankMaps(parts_.front, {}, &parts_.work);
   EXPECT_EQ((std::vector<uint32_t>(order.begin(), order.end())), (std::vector<uint32_t>{0, 1, 2}));
 }
