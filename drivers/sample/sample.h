@@ -2,7 +2,7 @@
  *
  * It needs no device: colour is a grey gradient that moves, depth a plane 2 m away, both at 30 Hz of a clock that
  * ticks with every capture.  sample.cpp shows the states and the book of loans that every driver keeps;
- * docs/drivers.md says what else a real one must do, and tests/contract checks it.
+ * docs/drivers.md says what else a real one must do, and drivers/contract checks it.
  */
 #ifndef SPHERECLOUD_DRIVERS_SAMPLE_SAMPLE_H
 #define SPHERECLOUD_DRIVERS_SAMPLE_SAMPLE_H

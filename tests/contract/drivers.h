@@ -1,38 +1,10 @@
-// The drivers that the contract suite runs on.
+// The drivers of this tree that the contract suite runs on; one file each.
 #pragma once
 
-#include <spherecloud/spherecloud_capture.h>
-
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <ostream>
-#include <string>
-#include <vector>
+#include "drivers/contract/contract.h"
 
 namespace sphc::contract {
 
-struct OpenedDriver {
-  sphc_source source;
-  std::shared_ptr<void> handle;  // closes the driver when the last copy goes
-  // Where there is a device that can be pulled out, or made to send nothing.
-  std::function<void()> unplug = nullptr, stall = nullptr;
-};
-
-struct Driver {
-  std::string name;  // letters and digits
-  std::function<OpenedDriver()> open;
-  uint32_t captures_until_end = 0;  // 0: endless
-  bool opens_twice = true;          // two at the same time; a real device cannot
-  uint32_t streams = 2;             // that come; a camera of colour or depth alone has one
-  uint32_t spare_buffers = 0;       // beyond those that may be on loan
-};
-inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
-
-// Each program of the suite has its own.
-std::vector<Driver> driversUnderTest();
-
-// One file each.
 std::vector<Driver> sampleDrivers();
 std::vector<Driver> replayDrivers();
 std::vector<Driver> libcameraDrivers();

@@ -18,17 +18,35 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))
 from markdown import Page  # noqa: E402
 
 FILE = re.compile(r"(?:/\*|//|#) ([\w.]+)(?: \*/)?\n")
+HEADING = re.compile(r"###? ")
 PROGRAMS = "Two programs"
+ENVIRONMENT = dict(os.environ, CMAKE_GENERATOR="Ninja")
 POSES = 6  # of the examples: as many as the section records
 
 
 def section(page, title):
-    """The blocks under a heading."""
-    lines = [number for number, line in enumerate(page.lines, 1) if line.startswith("## ")] + [len(page.lines)]
+    """The blocks under a heading, up to the next one."""
+    lines = [number for number, line in enumerate(page.lines, 1) if HEADING.match(line)] + [len(page.lines)]
     for begin, end in zip(lines, lines[1:]):
-        if page.lines[begin - 1] == "## " + title:
+        if HEADING.sub("", page.lines[begin - 1]) == title:
             return [block for block in page.blocks if begin < block.line < end]
     sys.exit(f"{page.path} has no section \"{title}\"")
+
+
+def here(text, options):
+    """What a page shows, with our folders in place of its own."""
+    places = (("/opt/spherecloud/lib", f"{options.prefix}/{options.libdir}"), ("/opt/spherecloud", str(options.prefix)),
+              ("/src/spherecloud", str(options.root)), ("cmake -S . -B build", f"cmake -S . -B build {options.cmake}"))
+    for shown, ours in places:
+        text = text.replace(shown, ours)
+    return text
+
+
+def write_files(blocks, folder, options):
+    for block in blocks:
+        named = FILE.match(block.text)
+        if named and block.info != "sh":
+            (folder / named[1]).write_text(here(block.text, options), encoding="utf-8")
 
 
 def run(script, folder, environment):
@@ -36,6 +54,12 @@ def run(script, folder, environment):
     if done.returncode:
         sys.exit(f"failed with {done.returncode}:\n{script}\n{done.stdout}{done.stderr}")
     return done.stdout
+
+
+def follow_blocks(blocks, folder, options):
+    """Writes the files that blocks are and runs those of `sh`; what these print."""
+    write_files(blocks, folder, options)
+    return "".join(run(here(block.text, options), folder, ENVIRONMENT) for block in blocks if block.info == "sh")
 
 
 def libraries_of(program):
@@ -49,19 +73,9 @@ def follow(options, folder):
     if answer != f"spherecloud {options.version}, ABI {options.version.split('.')[0]}":
         sys.exit(f"the page shows \"{answer}\", and this is version {options.version}")
 
-    def here(text):
-        places = (("/opt/spherecloud/lib", f"{options.prefix}/{options.libdir}"), ("/opt/spherecloud", str(options.prefix)),
-                  ("/src/spherecloud", str(options.root)), ("cmake -S . -B build", f"cmake -S . -B build {options.cmake}"))
-        for shown, ours in places:
-            text = text.replace(shown, ours)
-        return text
-
     blocks = section(page, options.section)
-    for block in programs + blocks:
-        named = FILE.match(block.text)
-        if named and block.info != "sh":
-            (folder / named[1]).write_text(here(block.text), encoding="utf-8")
-    printed = "".join(run(here(block.text), folder, dict(os.environ, CMAKE_GENERATOR="Ninja")) for block in blocks if block.info == "sh")
+    write_files(programs, folder, options)
+    printed = follow_blocks(blocks, folder, options)
     print(printed)
 
     if options.section.startswith("The examples"):
@@ -78,8 +92,9 @@ def follow(options, folder):
             sys.exit(f"{program.name} was to link the {'static' if options.static else 'shared'} library:\n{libraries_of(program)}")
 
 
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def options_of(doc):
+    """What the command line says; the folder is there, and empty."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("root", type=Path)
     parser.add_argument("section")
     parser.add_argument("--folder", type=Path, required=True)
@@ -88,7 +103,12 @@ if __name__ == "__main__":
     parser.add_argument("--version", required=True)
     parser.add_argument("--static", action="store_true", help="programs need no shared library of ours")
     parser.add_argument("--cmake", default="", help="more arguments for the page's cmake")
-    chosen = parser.parse_args()
-    shutil.rmtree(chosen.folder, ignore_errors=True)
-    chosen.folder.mkdir(parents=True)
+    options = parser.parse_args()
+    shutil.rmtree(options.folder, ignore_errors=True)
+    options.folder.mkdir(parents=True)
+    return options
+
+
+if __name__ == "__main__":
+    chosen = options_of(__doc__)
     follow(chosen, chosen.folder)

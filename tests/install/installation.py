@@ -16,7 +16,7 @@ RUNTIME = ("include/spherecloud/spherecloud.h", "include/spherecloud/spherecloud
            "{lib}/cmake/SphereCloud/SphereCloudConfig.cmake", "{lib}/pkgconfig/spherecloud.pc", "share/doc/spherecloud/LICENSE",
            "share/doc/spherecloud/NOTICE")
 ALL = RUNTIME + ("bin/spherecloud", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
-                 "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c")
+                 "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c", "include/spherecloud/drivers/contract/contract.cpp")
 
 
 def missing(needed, prefix, libdir):

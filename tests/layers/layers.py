@@ -20,7 +20,7 @@ STD_C = {"assert.h", "errno.h", "float.h", "inttypes.h", "limits.h", "math.h", "
 POSIX = re.compile(r"^(sys/.+|linux/.+|unistd\.h|fcntl\.h|dirent\.h|poll\.h|pthread\.h|dlfcn\.h|termios\.h)$")
 LIBRARIES = {"eigen": re.compile(r"^Eigen/"), "highway": re.compile(r"^hwy/"), "opencv": re.compile(r"^opencv2/"),
              "openni2": re.compile(r"^(OniCAPI|PS1080)\.h$"), "sqlite": re.compile(r"^sqlite3\.h$"),
-             "json": re.compile(r"^nlohmann/"), "posix": POSIX, "turbojpeg": re.compile(r"^turbojpeg\.h$"),
+             "gtest": re.compile(r"^gtest/"), "json": re.compile(r"^nlohmann/"), "posix": POSIX, "turbojpeg": re.compile(r"^turbojpeg\.h$"),
              "libcamera": re.compile(r"^libcamera/"), "zlib": re.compile(r"^zlib\.h$"),
              "zstd": re.compile(r"^zstd\.h$")}
 # The device side makes no calls that need these, however standard they are.

@@ -1,7 +1,8 @@
 # find_package(SphereCloud [VERSION] [COMPONENTS runtime drivers host]); without components: runtime.
 #
 #   runtime  SphereCloud::spherecloud (static), SphereCloud::spherecloud_shared
-#   drivers  SphereCloud::replay, ::raw, ::sample, ::simulated, ::v4l2, ::libcamera, ::openni2, as far as they were built
+#   drivers  SphereCloud::replay, ::raw, ::sample, ::simulated, ::v4l2, ::libcamera, ::openni2, as far as they were built;
+#            ::contract, the suite that every driver passes
 #   host     SphereCloud::command, the program `spherecloud`
 function(_spherecloud_find component)
   set(known runtime drivers host)

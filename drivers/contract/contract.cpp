@@ -1,15 +1,14 @@
-// The contract of sphc_source (spherecloud.h), clause by clause, on every driver.
-#include <gmock/gmock.h>
+// The contract of sphc_source (spherecloud_capture.h), clause by clause, on every driver of a program.
+#include "drivers/contract/contract.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <set>
-
-#include "drivers.h"
 
 namespace sphc::contract {
 
@@ -334,8 +333,7 @@ TEST_P(DriverContract, ReusesItsMemory) {
   EXPECT_LE(buffers.size(), opened_.source.loan_limit + GetParam().spare_buffers);
 }
 
-// ---- failure, end, time
-// ------------------------------------------------------------------------------------------
+// ---- failure, end, time ----------------------------------------------------------------------------------------
 
 TEST_P(DriverContract, LeavesTheCaptureUntouchedWhenItGivesNone) {
   sphc_capture capture;
