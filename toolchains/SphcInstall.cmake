@@ -127,6 +127,9 @@ function(sphc_install_package)
   endif()
 
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/sdk/include/spherecloud TYPE INCLUDE COMPONENT development)
+  # Where Debian's Python looks, so it is for Debian's package alone; docs/python.md has the ways for all others.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/python/spherecloud DESTINATION lib/python3/dist-packages COMPONENT python
+    EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   # One of them all: packages of the others depend on this one.
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC COMPONENT runtime)
   if(PROJECT_IS_TOP_LEVEL)

@@ -10,7 +10,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # by dpkg-shlibdeps, of dpkg-dev
 get_property(CPACK_COMPONENTS_ALL GLOBAL PROPERTY SPHC_INSTALLED_COMPONENTS)
 list(REMOVE_DUPLICATES CPACK_COMPONENTS_ALL)
-list(APPEND CPACK_COMPONENTS_ALL development)
+list(APPEND CPACK_COMPONENTS_ALL development python)
 
 # sphc_package(COMPONENT NAME SECTION DESCRIPTION DEPENDS)
 macro(sphc_package component name section description depends)
@@ -30,5 +30,8 @@ sphc_package(runtime ${library} libs "Relocalizer for headsets with a time-of-fl
 sphc_package(development libspherecloud-dev libdevel "Headers and static library of spherecloud" "${library} ${same}${of_static}")
 sphc_package(drivers libspherecloud-drivers-dev libdevel "Capture drivers of spherecloud" "libspherecloud-dev ${same}")
 sphc_package(host spherecloud-tools utils "Recordings to maps, maps to poses: the command spherecloud" "${library} ${same}")
+sphc_package(python python3-spherecloud python "Python package of spherecloud" "${library} ${same}, python3 (>= 3.9), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, spherecloud-tools")
 set(CPACK_DEBIAN_DRIVERS_PACKAGE_RECOMMENDS "libopencv-dev, libzstd-dev, zlib1g-dev, libturbojpeg0-dev, libopenni2-dev")
 include(CPack)

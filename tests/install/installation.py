@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What an installation holds, whom it refuses, and how it is removed.
 
-    installation.py CHECK --root ROOT --build BUILD --prefix PREFIX --libdir LIBDIR --version VERSION [--names] [--cmake ARGUMENTS]
+    installation.py CHECK --root ROOT --build BUILD --prefix PREFIX --libdir LIBDIR --version VERSION --python PYTHON [--names] [--cmake ARGUMENTS]
 """
 import argparse
 import os
@@ -17,6 +17,8 @@ RUNTIME = ("include/spherecloud/spherecloud.h", "include/spherecloud/spherecloud
            "share/doc/spherecloud/NOTICE")
 ALL = RUNTIME + ("bin/spherecloud", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
                  "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c", "include/spherecloud/drivers/contract/contract.cpp")
+
+PYTHON_PACKAGE = "python3-spherecloud"  # no other way of installing has its files
 
 
 def missing(needed, prefix, libdir):
@@ -126,7 +128,8 @@ def packages(options):
     shutil.rmtree(folder, ignore_errors=True)
     subprocess.run(["cpack", "--config", options.build / "CPackConfig.cmake", "-B", folder], check=True, capture_output=True)
     library = "libspherecloud" + options.version.split(".")[0]
-    depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "spherecloud-tools": library}
+    depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "spherecloud-tools": library,
+               PYTHON_PACKAGE: library}
     faults, owners = [], {}
     for package, other in depends.items():
         file, = folder.glob(f"{package}_{options.version}_*.deb")
@@ -139,10 +142,27 @@ def packages(options):
         for name in names_in(unpacked / "usr"):
             owners.setdefault(name, []).append(package)
     faults += [f"{name} is in {who}" for name, who in owners.items() if len(who) > 1]
-    faults += [f"{name} is installed and in no package, or the other way round" for name in names_in(options.prefix) ^ owners.keys()]
+    installed = {name for name, who in owners.items() if who != [PYTHON_PACKAGE]}
+    faults += [f"{name} is installed and in no package, or the other way round" for name in names_in(options.prefix) ^ installed]
     said, went_on = find("REQUIRED COMPONENTS drivers host", folder / "root" / "usr")
     if not went_on:
         faults.append(f"from the unpacked packages find_package says: {said}")
+    return faults + python_faults(options, folder / "root" / "usr")
+
+
+def python_faults(options, usr):
+    """The unpacked Python package finds the library beside it, and runs the command."""
+    environment = dict(os.environ, PYTHONPATH=str(usr / "lib/python3/dist-packages"), LD_LIBRARY_PATH=str(usr / options.libdir),
+                       PATH=f"{usr / 'bin'}:{os.environ['PATH']}")
+    environment.pop("SPHERECLOUD_LIBRARY", None)
+    asks = "import spherecloud; print(spherecloud.__file__, spherecloud.version())"
+    wanted = {("-c", asks): f"{usr}/lib/python3/dist-packages/spherecloud/__init__.py {options.version}",
+              ("-m", "spherecloud", "--version"): f"spherecloud {options.version}"}
+    faults = []
+    for words, answer in wanted.items():
+        done = subprocess.run([options.python, "-B", *words], env=environment, text=True, capture_output=True, check=False)
+        if done.returncode or not done.stdout.startswith(answer):
+            faults.append(f"python {' '.join(words)} says: {done.stdout}{done.stderr} instead of {answer}")
     return faults
 
 
@@ -159,6 +179,7 @@ if __name__ == "__main__":
     parser.add_argument("--prefix", type=Path, required=True)
     parser.add_argument("--libdir", required=True)
     parser.add_argument("--version", required=True)
+    parser.add_argument("--python", type=Path, required=True, help="one that has numpy")
     parser.add_argument("--names", action="store_true", help="the code may name its source: no release")
     parser.add_argument("--cmake", default="", help="more arguments for cmake where the tree is built")
     chosen = parser.parse_args()
