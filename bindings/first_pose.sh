@@ -6,10 +6,14 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$here/..
 built=$root/build/first_pose
 language=${1:-}
+usage() { sed -n '2,3s/^# //p' "$0"; }
+fail() { printf 'first_pose.sh: %s\n\n%s\n' "$1" "$(usage)" >&2 && exit 2; }
+[ $# = 1 ] || fail "one language is wanted, and there are $# words"
 case $language in
   c) "$root/toolchains/install_packages.sh" runtime ;;
   python | rust | java | csharp) "$root/toolchains/install_packages.sh" runtime "$language" ;;
-  *) sed -n '2,3s/^# //p' "$0" && exit 2 ;;
+  -h | --help) usage && exit 0 ;;
+  *) fail "there is no language \"$language\"" ;;
 esac
 cmake -S "$root/tests/portability" -B "$built" -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$built" --target write_golden firmware_c spherecloud_shared | tail -n 1

@@ -4,7 +4,7 @@
 #   tests/run.sh [STAGE...]     without a stage: all
 #
 # Stages:
-#   all          everything below but quick, in this order
+#   all          everything below but quick and first_pose, in this order
 #   quick        formatting, unit tests, layers, the golden session: what to run while working
 #   release      formatting; the release with gcc and all its tests, guests included
 #   device       the runtime alone, as firmware links it
@@ -12,6 +12,7 @@
 #   arm64        the drivers of cameras on a stock arm64 kernel in an emulator
 #   sanitized    clang with AddressSanitizer and UndefinedBehaviorSanitizer
 #   tsan         ThreadSanitizer on what has threads
+#   first_pose   the first pose in each language, in a Debian that has nothing else; needs root and Debian's mirror
 #
 # A test case counts as one; so does a step without test cases of its own, such as a build.  What was skipped is listed
 # and counts as neither.
@@ -22,6 +23,7 @@ exec </dev/null
 jobs=$(nproc)
 passed=0 failed=0 skipped=0 begin=$SECONDS
 stages=(release device portability arm64 sanitized tsan)
+apart=(quick first_pose) # not of all
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
@@ -159,9 +161,17 @@ stage_tsan() {
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"
 }
 
+stage_first_pose() {
+  local language
+  prepare bare_root
+  for language in c python $languages; do
+    check "first pose: $language, in a Debian that has nothing else" tests/bindings/first_pose_in_bare_root.sh "$language"
+  done
+}
+
 wanted=()
 for stage in "${@:-all}"; do
-  case " all quick ${stages[*]} " in
+  case " all ${apart[*]} ${stages[*]} " in
     *" $stage "*) ;;
     *)
       case $stage in -h | --help) usage && exit 0 ;; esac
