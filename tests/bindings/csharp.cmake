@@ -49,3 +49,9 @@ sphc_binding_test(csharp ${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=$<TARGET_FILE_D
 sphc_binding_test(csharp_first_pose ${SPHC_MONO} ${SPHC_CSHARP_BUILT}/FirstPose.exe ${SPHC_FIRST_FRAME})
 sphc_binding_test(csharp_without_library ${SPHC_MONO} ${SPHC_CSHARP_BUILT}/lost/FirstPose.exe ${SPHC_FIRST_FRAME})
 set_tests_properties(bindings.csharp_without_library PROPERTIES PASS_REGULAR_EXPRESSION "was not found.*place_library.py")
+
+set(csharp_overhead ${PROJECT_SOURCE_DIR}/bindings/overhead/Overhead.cs)
+add_custom_command(OUTPUT ${SPHC_CSHARP_BUILT}/Overhead.exe DEPENDS ${SPHC_CSHARP_BUILT}/SphereCloud.dll ${csharp_overhead} VERBATIM
+  COMMAND ${SPHC_CSHARP_COMPILE} -out:${SPHC_CSHARP_BUILT}/Overhead.exe -reference:${SPHC_CSHARP_BUILT}/SphereCloud.dll ${csharp_overhead})
+add_custom_target(csharp_overhead DEPENDS ${SPHC_CSHARP_BUILT}/Overhead.exe)
+sphc_overhead(csharp PACKAGES ${SPHC_CSHARP_BUILT}/SphereCloud.dll $<TARGET_FILE:spherecloud_shared> COMMAND ${SPHC_MONO} ${SPHC_CSHARP_BUILT}/Overhead.exe DEPENDS csharp_overhead)

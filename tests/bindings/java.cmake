@@ -43,16 +43,7 @@ add_custom_target(java_test_programs ALL)
 add_dependencies(java_test_programs spherecloud_java java_tests java_example)
 sphc_label(bindings java_test_programs)
 
-# What the binding costs a frame beside C: `ninja java_overhead`, on an idle machine.
-add_executable(java_overhead_c EXCLUDE_FROM_ALL ${SPHC_JAVA_FOLDER}/overhead/overhead.c)
-target_link_libraries(java_overhead_c PRIVATE spherecloud)
-set_target_properties(java_overhead_c PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF LINKER_LANGUAGE CXX)
-target_compile_definitions(java_overhead_c PRIVATE _POSIX_C_SOURCE=200112L)
-sphc_java_classes(java_overhead_classes ${jar} ${SPHC_JAVA_FOLDER}/overhead/Overhead.java)
-set_target_properties(java_overhead_classes PROPERTIES EXCLUDE_FROM_ALL ON)
-add_custom_target(java_overhead USES_TERMINAL VERBATIM
-  COMMAND write_golden ${SPHC_GOLDEN}
-  COMMAND ${Python3_EXECUTABLE} -B ${SPHC_JAVA_FOLDER}/overhead/overhead.py 200 $<TARGET_FILE:java_overhead_c> ${SPHC_GOLDEN}
-    -- ${Java_JAVA_EXECUTABLE} -Dspherecloud.jni=$<TARGET_FILE:spherecloud_jni>
-    -cp ${jar}:${CMAKE_CURRENT_BINARY_DIR}/java_overhead_classes Overhead)
-add_dependencies(java_overhead java_overhead_classes spherecloud_java)
+sphc_java_classes(java_overhead ${jar} ${PROJECT_SOURCE_DIR}/bindings/overhead/Overhead.java)
+sphc_overhead(java PACKAGES ${jar} $<TARGET_FILE:spherecloud_jni> # which has the library in it
+  COMMAND ${Java_JAVA_EXECUTABLE} -Dspherecloud.jni=$<TARGET_FILE:spherecloud_jni> -cp ${jar}:${CMAKE_CURRENT_BINARY_DIR}/java_overhead Overhead
+  DEPENDS java_overhead spherecloud_java)

@@ -39,3 +39,9 @@ foreach(heap no_heap alloc)
     --offline --locked --quiet --lib --no-default-features ${features} --manifest-path ${rust_folder}/spherecloud/Cargo.toml)
   set_tests_properties(bindings.rust_no_std_${heap} PROPERTIES LABELS bindings RESOURCE_LOCK cargo)
 endforeach()
+
+set(rust_release ${CMAKE_COMMAND} -E env ${rust_environment} ${SPHC_CARGO} build --release --offline --locked --quiet --examples
+  --manifest-path ${rust_folder}/Cargo.toml)
+add_custom_target(rust_overhead COMMAND ${rust_release} DEPENDS spherecloud_shared VERBATIM)
+set(rust_examples ${CMAKE_CURRENT_BINARY_DIR}/rust/release/examples)
+sphc_overhead(rust PACKAGES ${rust_examples}/first_pose $<TARGET_FILE:spherecloud_shared> COMMAND ${rust_examples}/overhead DEPENDS rust_overhead)

@@ -15,6 +15,7 @@ import check_code
 import check_commands
 import check_links
 import check_words
+import make_bindings
 import make_decisions
 import make_results
 import tutorial
@@ -200,6 +201,35 @@ class Checks(unittest.TestCase):
         stack = self.root / "tests" / "memory" / "stack.csv"
         stack.write_text(stack.read_text().replace("sphc_map_init,", "sphc_map_init,9"), encoding="utf-8")
         self.assertNotEqual(make_results.page(self.root), make_results.page(ROOT))
+
+    def bindings(self):
+        """What the table of the README is made of, and a README that has a place for it."""
+        for _, _, program in make_bindings.LANGUAGES:
+            self.write(program, (ROOT / program).read_text(encoding="utf-8"))
+        for ledger in ("bindings/overhead.csv", "tests/portability/size.csv"):
+            self.write(ledger, (ROOT / ledger).read_text(encoding="utf-8"))
+        self.write("README.md", f"# Project\n\n{make_bindings.BEGIN}{make_bindings.END}\nMore.\n")
+
+    def test_what_the_table_of_bindings_is_made_of(self):
+        self.bindings()
+        self.assertEqual(make_bindings.main([str(self.root)]), 0)
+        self.assertEqual(make_bindings.main([str(self.root), "--check"]), 0)
+        made = (self.root / "README.md").read_text(encoding="utf-8")
+        self.assertTrue(made.endswith(f"{make_bindings.END}\nMore.\n"))
+        self.assertIn(make_bindings.table(ROOT), made)
+        for path, old, new in (("bindings/overhead.csv", ",1.", ",2."), ("tests/portability/size.csv", "-O2,", "-O2,7"),
+                               ("bindings/python/examples/first_pose.py", "import sys\n", "import sys\nimport os\n")):
+            whole = (self.root / path).read_text(encoding="utf-8")
+            self.write(path, whole.replace(old, new))
+            self.assertEqual(make_bindings.main([str(self.root), "--check"]), 1, path)
+            self.write(path, whole)
+        self.write("bindings/overhead.csv", "language\nc\n")
+        self.assertEqual(make_bindings.main([str(self.root)]), 1)
+
+    def test_what_a_line_of_code_is(self):
+        for name, text in (("a.py", '#!/usr/bin/env python3\n"""A page\nof words.\n"""\nimport a  # one\n\n  # none\nb = """c"""\n'),
+                           ("a.c", "/* A page\n   of words. */\nint a; // one\n\n  // none\nint b; /* c */\n")):
+            self.assertEqual(make_bindings.lines_of_code(self.write(name, text)), 2, name)
 
     def test_every_row_of_a_file_is_in_its_table(self):
         text = make_results.flat([{"place": "a", "value": "1"}, {"place": "b", "value": "2"}], ["place"])
