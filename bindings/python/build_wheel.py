@@ -68,7 +68,8 @@ def metadata():
     lines = ["Metadata-Version: 2.4", f"Name: {told('name')}", f"Version: {told('version')}", f"Summary: {told('description')}",
              f"License-Expression: {told('license')}", "License-File: LICENSE", "License-File: NOTICE",
              f"Requires-Python: {told('requires-python')}", "Requires-Dist: numpy>=1.22", "Provides-Extra: views",
-             'Requires-Dist: matplotlib; extra == "views"', "Description-Content-Type: text/markdown", ""]
+             'Requires-Dist: matplotlib; extra == "views"', "Provides-Extra: rerun",
+             'Requires-Dist: rerun-sdk>=0.23; extra == "rerun"', "Description-Content-Type: text/markdown", ""]
     return "\n".join(lines) + "\n" + (HERE / "README.md").read_text(encoding="utf-8")
 
 

@@ -9,6 +9,10 @@ set(python_package ${PROJECT_SOURCE_DIR}/bindings/python)
 set(python_tests ${SPHC_TEST_PYTHON} -B -m unittest discover -s ${python_package}/tests)
 sphc_binding_test(python ${CMAKE_COMMAND} -E env PYTHONPATH=${python_package} ${python_tests} -p "[!w]*_test.py")
 sphc_binding_test(python_wheel ${CMAKE_COMMAND} -E env PYTHONPATH=${python_package} ${python_tests} -p "wheel_test.py")
+if(TARGET spherecloud_cli) # the notebook calls it
+  sphc_binding_test(python_walk ${CMAKE_COMMAND} -E env --modify PATH=path_list_prepend:$<TARGET_FILE_DIR:spherecloud_cli>
+    PYTHONPATH=${python_package} ${python_tests} -p "walk_test.py")
+endif()
 
 set(python_wheel ${CMAKE_CURRENT_BINARY_DIR}/python_wheel)
 add_custom_target(python_overhead VERBATIM

@@ -27,6 +27,7 @@ from .images import Image
 from .localizer import Localizer, to_logging
 from .maps import Map, MapInfo, extractor_id
 from .poses import Rigid, make_world, read_camera, read_map, write_camera, write_map
+from .recordings import RecordedFrame, Recording
 from .results import DepthBias, Hypothesis, MemoryPiece, ParameterRange, Prediction, Result, parameter_range
 
 __all__ = [
@@ -34,7 +35,7 @@ __all__ = [
     "DepthBias", "Error", "Event", "Fault", "FeatureArrays", "Features", "Format", "Frame", "Hint", "Hypothesis",
     "Image", "KEYPOINT", "LibraryError", "Localizer", "LogLevel", "MAPS_MAX", "MAP_NONE", "Map", "MapInfo",
     "MemoryPiece", "Mode", "OBSERVATION", "ObservationFlag", "Outcome", "Parameter", "ParameterRange",
-    "Prediction", "Prior", "PriorPart", "Result", "Rig", "RigCamera", "Rigid", "State", "Status", "View",
+    "Prediction", "Prior", "PriorPart", "RecordedFrame", "Recording", "Result", "Rig", "RigCamera", "Rigid", "State", "Status", "View",
     "__version__", "extractor_id", "load", "make_world", "parameter_range", "read_camera", "read_map",
     "to_logging", "version", "write_camera", "write_map",
 ]

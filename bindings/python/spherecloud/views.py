@@ -6,8 +6,8 @@ import typing
 import numpy as np
 import numpy.typing as npt
 
-from .enums import ObservationFlag
-from .images import Array
+from ._overlays import KINDS, as_rgb, best_kinds
+from .images import Array, Image
 from .poses import Rigid
 
 try:
@@ -16,27 +16,25 @@ try:
 except ImportError as fault:
     raise ImportError("spherecloud.views draws with matplotlib: pip install spherecloud[views]") from fault
 
-# What became of a keypoint, the least first: its flags, colour, and name.
-KINDS = ((ObservationFlag(0), "0.6", "keypoint"), (ObservationFlag.LIFTED, "tab:blue", "with depth"),
-         (ObservationFlag.MATCHED, "tab:orange", "matched"), (ObservationFlag.INLIER, "tab:green", "inlier"))
 
-
-def draw_observations(axes: Axes, image: Array, observations: npt.NDArray[np.void], camera: int = 0) -> None:
+def draw_observations(axes: Axes, image: Array | Image, observations: npt.NDArray[np.void], camera: int = 0) -> None:
     """A frame's keypoints over its image, each at the size it was found at.
 
-    `image`: (height, width) or (height, width, 3), in matplotlib's order of colours.  `observations`: those of
+    `image`: (height, width) or (height, width, 3), red first, or an Image.  `observations`: those of
     Localizer.observations().  `camera`: whose image it is, 0 the colour camera.
     """
-    height, width = image.shape[:2]
-    axes.imshow(image, cmap="gray", extent=(0, width, height, 0))  # pixels begin at 0, and their centres are at 0.5
+    pixels = as_rgb(image)
+    height, width = pixels.shape[:2]
+    axes.imshow(pixels, cmap="gray", extent=(0, width, height, 0))  # pixels begin at 0, and their centres are at 0.5
     seen = observations[observations["camera"] == camera]
-    best = [max(index for index, (flag, _, _) in enumerate(KINDS) if not flag or flags & flag) for flags in seen["flags"]]
+    best = best_kinds(seen)
     for index, (_, color, name) in enumerate(KINDS):
-        kept = seen[np.array(best, int) == index]
+        kept = seen[best == index]
         size = (axes.figure.dpi / 72 * kept["scale_px"]).clip(4) ** 2
-        axes.scatter(kept["x_px"], kept["y_px"], s=size, facecolors="none", edgecolors=color, label=f"{len(kept)} {name}")
+        axes.scatter(kept["x_px"], kept["y_px"], s=size, facecolors="none", edgecolors=color)
+        axes.plot([], [], "o", color=color, markerfacecolor="none", label=f"{len(kept)} {name}")
     axes.set(xlim=(0, width), ylim=(height, 0), xlabel="x [px]", ylabel="y [px]")
-    axes.legend(loc="upper right", fontsize="small")
+    _legend_below(axes)
 
 
 def draw_trajectory(axes: Axes, poses: typing.Iterable[Rigid | None], up_map: npt.ArrayLike = (0, -1, 0),
@@ -57,5 +55,11 @@ def draw_trajectory(axes: Axes, poses: typing.Iterable[Rigid | None], up_map: np
     axes.plot(centres[:, 0], centres[:, 1], ".-", color="tab:blue", label=f"{sum(map(bool, walk))} of {len(walk)} frames")
     axes.add_collection(LineCollection(list(np.stack([centres, ahead], 1)), colors="tab:orange", linewidths=1, label="looks along"))
     axes.autoscale()
-    axes.set(aspect="equal", xlabel="right [m]", ylabel="forward [m]")
-    axes.legend(fontsize="small")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set(xlabel="right [m]", ylabel="forward [m]")
+    _legend_below(axes)
+
+
+def _legend_below(axes: Axes) -> None:
+    """Where it hides nothing."""
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=4, frameon=False, fontsize="small")
