@@ -1,4 +1,5 @@
 """Raw recordings, written here by the page of their format: what is read, and what is refused."""
+import dataclasses
 import pathlib
 import struct
 import tempfile
@@ -53,6 +54,9 @@ class Recordings(unittest.TestCase):
     def test_gives_what_was_written(self):
         recording = self.recording()
         self.assertEqual((recording.rig, recording.color_format), (session.RIG, sphc.Format.GRAY8))
+        rig = dataclasses.replace(session.RIG, depth_unit_m=0.00025)
+        self.assertEqual(self.recording(header(rig, 0, 1)).rig, rig)
+        recording = self.recording()
         self.assertEqual([recorded.world_from_camera for recorded in recording], self.poses)
         for recorded, written in zip(recording, self.frames, strict=True):
             np.testing.assert_array_equal(recorded.frame.color, written.color)
