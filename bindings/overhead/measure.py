@@ -4,8 +4,10 @@
     measure.py LANGUAGE C_PROGRAM FOLDER PACKAGE... -- COMMAND...
 
 C_PROGRAM is overhead.c, and COMMAND the program that does the same in LANGUAGE.  Each plays the golden session of FOLDER
-whenever it is told to, and prints the processor time of its thread, so by turns both meet the same noise.  PACKAGE: what a
-program ships, the library too; code is counted without symbols.
+whenever it is told to, and prints the processor time of its thread.  Both play by turns, and the ratio is taken of two
+sessions side by side, which meet the same noise.  The ratio of a repeat is the median of its rounds; that of the row is the
+median of the repeats, with its lower and upper quartile.  PACKAGE: what a program ships, the library too; code is counted
+without symbols.
 """
 import csv
 import statistics
@@ -15,8 +17,8 @@ import tempfile
 from pathlib import Path
 
 LEDGER = Path(__file__).resolve().parent.parent / "overhead.csv"
-COLUMNS = ("language", "c_us", "binding_us", "ratio", "ratio_least", "ratio_most", "call_ns", "package_bytes")
-REPEATS, ROUNDS, WARM_UP = 9, 40, 20
+COLUMNS = ("language", "c_us", "binding_us", "ratio", "ratio_low", "ratio_high", "call_ns", "package_bytes")
+REPEATS, ROUNDS, WARM_UP = 16, 24, 20
 
 
 def start(command):
@@ -28,18 +30,16 @@ def play(program):
     return [int(number) for number in program.stdout.readline().split()]
 
 
-def medians(rounds):
-    """Of each frame, in ns, over the rounds; the last number is a prediction's."""
-    return [statistics.median(column) for column in zip(*rounds)]
-
-
 def repeat(programs):
-    """(of C, of the binding): the medians of one repeat, in which each is the first as often."""
-    played = [[], []]
+    """(ratio, of C in us, of the binding in us, ns that a prediction takes longer): the medians of one repeat, in which each
+    program is the first as often."""
+    rounds = []
     for index in range(ROUNDS):
-        for which in ((0, 1) if index % 2 else (1, 0)):
-            played[which].append(play(programs[which]))
-    return [medians(rounds) for rounds in played]
+        order = (0, 1) if index % 2 else (1, 0)
+        played = {which: play(programs[which]) for which in order}
+        c_us, binding_us = (statistics.mean(played[which][:-1]) / 1e3 for which in (0, 1))
+        rounds.append((binding_us / c_us, c_us, binding_us, played[1][-1] - played[0][-1]))
+    return [statistics.median(column) for column in zip(*rounds)]
 
 
 def bytes_of(package):
@@ -55,12 +55,10 @@ def measured(language, programs, packages):
     for _ in range(WARM_UP):
         for program in programs:
             play(program)
-    repeats = [repeat(programs) for _ in range(REPEATS)]
-    ratios = [sum(binding[:-1]) / sum(c[:-1]) for c, binding in repeats]
-    c_us, binding_us = (statistics.median(statistics.mean(pair[which][:-1]) / 1e3 for pair in repeats) for which in (0, 1))
-    call_ns = statistics.median(binding[-1] - c[-1] for c, binding in repeats)
-    values = (language, f"{c_us:.0f}", f"{binding_us:.0f}", *(f"{of(ratios):.4f}" for of in (statistics.median, min, max)),
-              f"{call_ns:.0f}", sum(map(bytes_of, packages)))
+    ratios, c_us, binding_us, call_ns = zip(*(repeat(programs) for _ in range(REPEATS)))
+    low, middle, high = statistics.quantiles(ratios, method="inclusive")
+    values = (language, *(f"{statistics.median(of):.0f}" for of in (c_us, binding_us)), *(f"{ratio:.4f}" for ratio in (middle, low, high)),
+              f"{statistics.median(call_ns):.0f}", sum(map(bytes_of, packages)))
     return dict(zip(COLUMNS, map(str, values)))
 
 

@@ -41,9 +41,9 @@ def read(path, key):
 
 
 def beside_c(row):
-    """The median of the repeats, and the least and the most of them, in percent."""
-    middle, least, most = (f"{round(100 * float(row[name]) - 100, 1) + 0:+.1f}" for name in ("ratio", "ratio_least", "ratio_most"))
-    return f"{middle} % ({least} to {most})"
+    """The median of the repeats, and their quartiles, in percent."""
+    middle, low, high = (f"{round(100 * float(row[name]) - 100, 1) + 0:+.1f}" for name in ("ratio", "ratio_low", "ratio_high"))
+    return f"{middle} % ({low} to {high})"
 
 
 def table(root):
