@@ -15,7 +15,7 @@ from pathlib import Path
 BEGIN = "<!-- Made by tests/docs/make_bindings.py: run `ninja bindings_table`. -->\n"
 END = "<!-- The end of what is made. -->\n"
 HEAD = """
-| language or board | from nothing to the first pose | lines of code | a frame beside C | bytes |
+| language or board | command to the first pose | lines of code | a frame beside C | bytes |
 | --- | --- | --- | --- | --- |
 """
 C_PROGRAM = "examples/firmware_c/main.c"
