@@ -16,7 +16,7 @@ def main() -> None:
     found = command()
     if found is None:
         sys.exit("python -m spherecloud: the command `spherecloud` is neither in this package nor in PATH; "
-                 "build and install it as docs/install.md says")
+                 "install Debian's spherecloud-tools, or build it as docs/install.md says")
     os.execv(found, [found, *sys.argv[1:]])
 
 
