@@ -97,6 +97,9 @@ int main(void) {
   FIELD(sphc_localizer_config, parallel_user);
   FIELD(sphc_localizer_config, parallel_tasks);
   FIELD(sphc_localizer_config, reserved4);
+  FIELD(sphc_localizer_config, depth_cameras);
+  FIELD(sphc_localizer_config, depth_camera_count);
+  FIELD(sphc_localizer_config, reserved5);
   WHOLE(sphc_localizer_prior);
   FIELD(sphc_localizer_prior, struct_size);
   FIELD(sphc_localizer_prior, flags);
@@ -117,6 +120,20 @@ int main(void) {
   FIELD(sphc_localizer_camera, camera);
   FIELD(sphc_localizer_camera, color_from_camera);
   FIELD(sphc_localizer_camera, row_time_ns);
+  WHOLE(sphc_localizer_depth_camera);
+  FIELD(sphc_localizer_depth_camera, struct_size);
+  FIELD(sphc_localizer_depth_camera, format);
+  FIELD(sphc_localizer_depth_camera, camera);
+  FIELD(sphc_localizer_depth_camera, color_from_depth);
+  FIELD(sphc_localizer_depth_camera, unit_m);
+  FIELD(sphc_localizer_depth_camera, min_m);
+  FIELD(sphc_localizer_depth_camera, max_m);
+  FIELD(sphc_localizer_depth_camera, sigma_m);
+  FIELD(sphc_localizer_depth_camera, sigma_per_m2);
+  FIELD(sphc_localizer_depth_camera, offset_sigma_m);
+  FIELD(sphc_localizer_depth_camera, slope_sigma);
+  FIELD(sphc_localizer_depth_camera, amplitude_min);
+  FIELD(sphc_localizer_depth_camera, reserved);
 
   WHOLE(sphc_localizer_view);
   FIELD(sphc_localizer_view, struct_size);
@@ -125,6 +142,14 @@ int main(void) {
   FIELD(sphc_localizer_view, image);
   FIELD(sphc_localizer_view, camera);
   FIELD(sphc_localizer_view, color_from_camera);
+  WHOLE(sphc_localizer_depth_view);
+  FIELD(sphc_localizer_depth_view, struct_size);
+  FIELD(sphc_localizer_depth_view, reserved);
+  FIELD(sphc_localizer_depth_view, time_ns);
+  FIELD(sphc_localizer_depth_view, depth);
+  FIELD(sphc_localizer_depth_view, amplitude);
+  FIELD(sphc_localizer_depth_view, camera);
+  FIELD(sphc_localizer_depth_view, color_from_depth);
 
   WHOLE(sphc_localizer_frame);
   FIELD(sphc_localizer_frame, struct_size);
@@ -143,6 +168,10 @@ int main(void) {
   FIELD(sphc_localizer_frame, reserved3);
   FIELD(sphc_localizer_frame, color_camera);
   FIELD(sphc_localizer_frame, color_from_depth);
+  FIELD(sphc_localizer_frame, depth_camera);
+  FIELD(sphc_localizer_frame, depth_views);
+  FIELD(sphc_localizer_frame, depth_view_count);
+  FIELD(sphc_localizer_frame, reserved4);
   WHOLE(sphc_depth_bias);
   FIELD(sphc_depth_bias, mid_m);
   FIELD(sphc_depth_bias, offset_m);

@@ -20,6 +20,7 @@ SPHC_MAP_BYTES_MAX = 256
 SPHC_PARALLEL_MAX = 8
 SPHC_CAMERAS_MAX = 8
 SPHC_ROW_TIME_MAX_NS = 1000000
+SPHC_DEPTH_CAMERAS_MAX = 2
 SPHC_MAPS_MAX = 64
 SPHC_MAP_NONE = 4294967295
 SPHC_HYPOTHESES_MAX = 8
@@ -228,6 +229,48 @@ class sphc_localizer_camera(ctypes.Structure):
     ]
 
 
+class sphc_localizer_depth_camera(ctypes.Structure):
+    """A depth camera of a rig beside the one in config.rig."""
+
+    struct_size: int
+    # as config.depth_format
+    format: int
+    camera: sphc_camera
+    # within the limits of sphc_rig.color_from_depth
+    color_from_depth: sphc_rigid
+    # metres per unit of the depth image
+    unit_m: float
+    # measurements outside are ignored
+    min_m: float
+    max_m: float
+    # noise, as config.depth_sigma_m
+    sigma_m: float
+    sigma_per_m2: float
+    # How it is off against the depth camera in config.rig: z of that one = z + offset + slope (z - depth_mid_m). 1
+    # sigma of what is unknown of it before the first frame; it is learnt where both measure what the colour camera
+    # sees. Both 0: they measure alike.
+    offset_sigma_m: float
+    slope_sigma: float
+    # as config.amplitude_min, of its own amplitudes
+    amplitude_min: int
+    reserved: int
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("format", ctypes.c_int32),
+        ("camera", sphc_camera),
+        ("color_from_depth", sphc_rigid),
+        ("unit_m", ctypes.c_double),
+        ("min_m", ctypes.c_double),
+        ("max_m", ctypes.c_double),
+        ("sigma_m", ctypes.c_double),
+        ("sigma_per_m2", ctypes.c_double),
+        ("offset_sigma_m", ctypes.c_double),
+        ("slope_sigma", ctypes.c_double),
+        ("amplitude_min", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+    ]
+
+
 class sphc_localizer_config(ctypes.Structure):
     struct_size: int
     # of all cameras together; strongest are kept; 64 to 4096
@@ -288,6 +331,11 @@ class sphc_localizer_config(ctypes.Structure):
     # more than one needs memory. 0 where parallel is null.
     parallel_tasks: int
     reserved4: int
+    # null where there is none
+    depth_cameras: int | None
+    # 0 to SPHC_DEPTH_CAMERAS_MAX - 1
+    depth_camera_count: int
+    reserved5: int
     _fields_ = [
         ("struct_size", ctypes.c_uint32),
         ("max_keypoints", ctypes.c_uint32),
@@ -322,6 +370,9 @@ class sphc_localizer_config(ctypes.Structure):
         ("parallel_user", ctypes.c_void_p),
         ("parallel_tasks", ctypes.c_uint32),
         ("reserved4", ctypes.c_uint32),
+        ("depth_cameras", ctypes.c_void_p),
+        ("depth_camera_count", ctypes.c_uint32),
+        ("reserved5", ctypes.c_uint32),
     ]
 
 
@@ -391,6 +442,31 @@ class sphc_localizer_view(ctypes.Structure):
     ]
 
 
+class sphc_localizer_depth_view(ctypes.Structure):
+    """The image of a further depth camera; everything is borrowed."""
+
+    struct_size: int
+    reserved: int
+    # mid-exposure; where odometry is given, the camera may have moved since color_time_ns
+    time_ns: int
+    # of the camera's format and size; data null: the camera has none in this frame
+    depth: sphc_image
+    # as frame.amplitude; with every depth image where the camera's amplitude_min is set
+    amplitude: sphc_image
+    # As they are in this frame, with heat or focus; null: as in the config. The size stays.
+    camera: int | None
+    color_from_depth: int | None
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+        ("time_ns", ctypes.c_int64),
+        ("depth", sphc_image),
+        ("amplitude", sphc_image),
+        ("camera", ctypes.c_void_p),
+        ("color_from_depth", ctypes.c_void_p),
+    ]
+
+
 class sphc_localizer_frame(ctypes.Structure):
     """A colour and a depth image taken at about the same time; everything is borrowed."""
 
@@ -425,6 +501,13 @@ class sphc_localizer_frame(ctypes.Structure):
     # As they are in this frame, with heat or focus; null: as in config.rig. The size stays.
     color_camera: int | None
     color_from_depth: int | None
+    # The same; of a RANGE format, cosines stay those of config.rig.depth_camera.
+    depth_camera: int | None
+    # Of each of config.depth_cameras one, as `views` are of cameras. Null where the config has none.
+    depth_views: int | None
+    # config.depth_camera_count
+    depth_view_count: int
+    reserved4: int
     _fields_ = [
         ("struct_size", ctypes.c_uint32),
         ("sequence", ctypes.c_uint32),
@@ -442,6 +525,10 @@ class sphc_localizer_frame(ctypes.Structure):
         ("reserved3", ctypes.c_uint32),
         ("color_camera", ctypes.c_void_p),
         ("color_from_depth", ctypes.c_void_p),
+        ("depth_camera", ctypes.c_void_p),
+        ("depth_views", ctypes.c_void_p),
+        ("depth_view_count", ctypes.c_uint32),
+        ("reserved4", ctypes.c_uint32),
     ]
 
 
@@ -906,6 +993,12 @@ class Interface:
         # above. [pure]
         self.sphc_localizer_view_init = bound("sphc_localizer_view_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_view), ctypes.c_size_t])
+        # Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [None]
+        self.sphc_localizer_depth_camera_init = bound("sphc_localizer_depth_camera_init", ctypes.c_int32, [
+            ctypes.POINTER(sphc_localizer_depth_camera), ctypes.c_size_t])
+        # Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [None]
+        self.sphc_localizer_depth_view_init = bound("sphc_localizer_depth_view_init", ctypes.c_int32, [
+            ctypes.POINTER(sphc_localizer_depth_view), ctypes.c_size_t])
         # What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure]
         self.sphc_localizer_memory = bound("sphc_localizer_memory", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_config), ctypes.POINTER(sphc_memory), ctypes.POINTER(sphc_message)])

@@ -110,9 +110,27 @@ internal static unsafe class GeneratedLayouts {
       test.Same("sphc_localizer_camera.row_time_ns", (byte*)&s.row_time_ns - at, 176, 176, 176, 176, 176);
     }
     {
+      var s = new Native.sphc_localizer_depth_camera();
+      byte* at = (byte*)&s;
+      test.Same("sphc_localizer_depth_camera", sizeof(Native.sphc_localizer_depth_camera), 240, 240, 240, 240, 240);
+      test.Same("sphc_localizer_depth_camera.struct_size", (byte*)&s.struct_size - at, 0, 0, 0, 0, 0);
+      test.Same("sphc_localizer_depth_camera.format", (byte*)&s.format - at, 4, 4, 4, 4, 4);
+      test.Same("sphc_localizer_depth_camera.camera", (byte*)&s.camera - at, 8, 8, 8, 8, 8);
+      test.Same("sphc_localizer_depth_camera.color_from_depth", (byte*)&s.color_from_depth - at, 120, 120, 120, 120, 120);
+      test.Same("sphc_localizer_depth_camera.unit_m", (byte*)&s.unit_m - at, 176, 176, 176, 176, 176);
+      test.Same("sphc_localizer_depth_camera.min_m", (byte*)&s.min_m - at, 184, 184, 184, 184, 184);
+      test.Same("sphc_localizer_depth_camera.max_m", (byte*)&s.max_m - at, 192, 192, 192, 192, 192);
+      test.Same("sphc_localizer_depth_camera.sigma_m", (byte*)&s.sigma_m - at, 200, 200, 200, 200, 200);
+      test.Same("sphc_localizer_depth_camera.sigma_per_m2", (byte*)&s.sigma_per_m2 - at, 208, 208, 208, 208, 208);
+      test.Same("sphc_localizer_depth_camera.offset_sigma_m", (byte*)&s.offset_sigma_m - at, 216, 216, 216, 216, 216);
+      test.Same("sphc_localizer_depth_camera.slope_sigma", (byte*)&s.slope_sigma - at, 224, 224, 224, 224, 224);
+      test.Same("sphc_localizer_depth_camera.amplitude_min", (byte*)&s.amplitude_min - at, 232, 232, 232, 232, 232);
+      test.Same("sphc_localizer_depth_camera.reserved", (byte*)&s.reserved - at, 236, 236, 236, 236, 236);
+    }
+    {
       var s = new Native.sphc_localizer_config();
       byte* at = (byte*)&s;
-      test.Same("sphc_localizer_config", sizeof(Native.sphc_localizer_config), 488, 488, 488, 460, 464);
+      test.Same("sphc_localizer_config", sizeof(Native.sphc_localizer_config), 504, 504, 504, 472, 480);
       test.Same("sphc_localizer_config.struct_size", (byte*)&s.struct_size - at, 0, 0, 0, 0, 0);
       test.Same("sphc_localizer_config.max_keypoints", (byte*)&s.max_keypoints - at, 4, 4, 4, 4, 4);
       test.Same("sphc_localizer_config.max_maps", (byte*)&s.max_maps - at, 8, 8, 8, 8, 8);
@@ -146,6 +164,9 @@ internal static unsafe class GeneratedLayouts {
       test.Same("sphc_localizer_config.parallel_user", (byte*)&s.parallel_user - at, 472, 472, 472, 448, 452);
       test.Same("sphc_localizer_config.parallel_tasks", (byte*)&s.parallel_tasks - at, 480, 480, 480, 452, 456);
       test.Same("sphc_localizer_config.reserved4", (byte*)&s.reserved4 - at, 484, 484, 484, 456, 460);
+      test.Same("sphc_localizer_config.depth_cameras", (byte*)&s.depth_cameras - at, 488, 488, 488, 460, 464);
+      test.Same("sphc_localizer_config.depth_camera_count", (byte*)&s.depth_camera_count - at, 496, 496, 496, 464, 468);
+      test.Same("sphc_localizer_config.reserved5", (byte*)&s.reserved5 - at, 500, 500, 500, 468, 472);
     }
     {
       var s = new Native.sphc_localizer_prior();
@@ -177,9 +198,21 @@ internal static unsafe class GeneratedLayouts {
       test.Same("sphc_localizer_view.color_from_camera", (byte*)&s.color_from_camera - at, 48, 48, 48, 40, 40);
     }
     {
+      var s = new Native.sphc_localizer_depth_view();
+      byte* at = (byte*)&s;
+      test.Same("sphc_localizer_depth_view", sizeof(Native.sphc_localizer_depth_view), 80, 80, 80, 64, 64);
+      test.Same("sphc_localizer_depth_view.struct_size", (byte*)&s.struct_size - at, 0, 0, 0, 0, 0);
+      test.Same("sphc_localizer_depth_view.reserved", (byte*)&s.reserved - at, 4, 4, 4, 4, 4);
+      test.Same("sphc_localizer_depth_view.time_ns", (byte*)&s.time_ns - at, 8, 8, 8, 8, 8);
+      test.Same("sphc_localizer_depth_view.depth", (byte*)&s.depth - at, 16, 16, 16, 16, 16);
+      test.Same("sphc_localizer_depth_view.amplitude", (byte*)&s.amplitude - at, 40, 40, 40, 36, 36);
+      test.Same("sphc_localizer_depth_view.camera", (byte*)&s.camera - at, 64, 64, 64, 56, 56);
+      test.Same("sphc_localizer_depth_view.color_from_depth", (byte*)&s.color_from_depth - at, 72, 72, 72, 60, 60);
+    }
+    {
       var s = new Native.sphc_localizer_frame();
       byte* at = (byte*)&s;
-      test.Same("sphc_localizer_frame", sizeof(Native.sphc_localizer_frame), 152, 152, 152, 124, 128);
+      test.Same("sphc_localizer_frame", sizeof(Native.sphc_localizer_frame), 176, 176, 176, 140, 144);
       test.Same("sphc_localizer_frame.struct_size", (byte*)&s.struct_size - at, 0, 0, 0, 0, 0);
       test.Same("sphc_localizer_frame.sequence", (byte*)&s.sequence - at, 4, 4, 4, 4, 4);
       test.Same("sphc_localizer_frame.color_time_ns", (byte*)&s.color_time_ns - at, 8, 8, 8, 8, 8);
@@ -196,6 +229,10 @@ internal static unsafe class GeneratedLayouts {
       test.Same("sphc_localizer_frame.reserved3", (byte*)&s.reserved3 - at, 132, 132, 132, 112, 116);
       test.Same("sphc_localizer_frame.color_camera", (byte*)&s.color_camera - at, 136, 136, 136, 116, 120);
       test.Same("sphc_localizer_frame.color_from_depth", (byte*)&s.color_from_depth - at, 144, 144, 144, 120, 124);
+      test.Same("sphc_localizer_frame.depth_camera", (byte*)&s.depth_camera - at, 152, 152, 152, 124, 128);
+      test.Same("sphc_localizer_frame.depth_views", (byte*)&s.depth_views - at, 160, 160, 160, 128, 132);
+      test.Same("sphc_localizer_frame.depth_view_count", (byte*)&s.depth_view_count - at, 168, 168, 168, 132, 136);
+      test.Same("sphc_localizer_frame.reserved4", (byte*)&s.reserved4 - at, 172, 172, 172, 136, 140);
     }
     {
       var s = new DepthBias();

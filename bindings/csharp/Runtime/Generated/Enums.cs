@@ -427,6 +427,8 @@ public static class Limits {
   public const int CamerasMax = 8;
   /// <summary>SPHC_ROW_TIME_MAX_NS of the C interface.</summary>
   public const int RowTimeMaxNs = 1000000;
+  /// <summary>SPHC_DEPTH_CAMERAS_MAX of the C interface.</summary>
+  public const int DepthCamerasMax = 2;
   /// <summary>SPHC_MAPS_MAX of the C interface.</summary>
   public const int MapsMax = 64;
   /// <summary>SPHC_MAP_NONE of the C interface.</summary>

@@ -111,6 +111,9 @@ public sealed unsafe partial class LocalizerConfig {
   /// LocalizerMode.Tracking, rows are taken to the time of the middle one, which is the image's. 0: all at
   /// once.</summary>
   public long ColorRowTimeNs { get { return raw.color_row_time_ns; } set { raw.color_row_time_ns = value; } }
+
+  /// <summary>0 to Limits.DepthCamerasMax - 1.</summary>
+  public uint DepthCameraCount { get { return raw.depth_camera_count; } set { raw.depth_camera_count = value; } }
 }
 
 /// <summary>A camera of a rig beside the colour camera: grey or colour, of any model and size, looking
@@ -222,5 +225,8 @@ public sealed unsafe partial class LocalizerFrame {
   /// Needs config.Clock, and counts in its time. result.Cuts says what was left out for it;
   /// docs/localizer.md.</summary>
   public uint DeadlineUs { get { return raw.deadline_us; } set { raw.deadline_us = value; } }
+
+  /// <summary>Config.DepthCameraCount.</summary>
+  public uint DepthViewCount { get { return raw.depth_view_count; } set { raw.depth_view_count = value; } }
 }
 }

@@ -80,6 +80,24 @@ internal static unsafe class Native {
     internal long row_time_ns;
   }
 
+  /// <summary>A depth camera of a rig beside the one in config.rig.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  internal struct sphc_localizer_depth_camera {
+    internal uint struct_size;
+    internal PixelFormat format;
+    internal CameraIntrinsics camera;
+    internal Rigid color_from_depth;
+    internal double unit_m;
+    internal double min_m;
+    internal double max_m;
+    internal double sigma_m;
+    internal double sigma_per_m2;
+    internal double offset_sigma_m;
+    internal double slope_sigma;
+    internal uint amplitude_min;
+    internal uint reserved;
+  }
+
   [StructLayout(LayoutKind.Sequential)]
   internal struct sphc_localizer_config {
     internal uint struct_size;
@@ -115,6 +133,9 @@ internal static unsafe class Native {
     internal void* parallel_user;
     internal uint parallel_tasks;
     internal uint reserved4;
+    internal sphc_localizer_depth_camera* depth_cameras;
+    internal uint depth_camera_count;
+    internal uint reserved5;
   }
 
   [StructLayout(LayoutKind.Sequential)]
@@ -145,6 +166,18 @@ internal static unsafe class Native {
     internal Rigid* color_from_camera;
   }
 
+  /// <summary>The image of a further depth camera; everything is borrowed.</summary>
+  [StructLayout(LayoutKind.Sequential)]
+  internal struct sphc_localizer_depth_view {
+    internal uint struct_size;
+    internal uint reserved;
+    internal long time_ns;
+    internal sphc_image depth;
+    internal sphc_image amplitude;
+    internal CameraIntrinsics* camera;
+    internal Rigid* color_from_depth;
+  }
+
   /// <summary>A colour and a depth image taken at about the same time; everything is borrowed.</summary>
   [StructLayout(LayoutKind.Sequential)]
   internal struct sphc_localizer_frame {
@@ -164,6 +197,10 @@ internal static unsafe class Native {
     internal uint reserved3;
     internal CameraIntrinsics* color_camera;
     internal Rigid* color_from_depth;
+    internal CameraIntrinsics* depth_camera;
+    internal sphc_localizer_depth_view* depth_views;
+    internal uint depth_view_count;
+    internal uint reserved4;
   }
 
   /// <summary>One named piece of the memory, for an account of its bytes: `index` from 0 until SPHC_END. `name` is
@@ -426,6 +463,16 @@ internal static unsafe class Native {
   /// STRUCT_SIZE as above.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_view_init(sphc_localizer_view* view, UIntPtr struct_size);
+
+  /// <summary>[None] Of the depth camera, the defaults of config for range, noise and bias too, and
+  /// millimetres.</summary>
+  [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+  internal static extern Status sphc_localizer_depth_camera_init(sphc_localizer_depth_camera* camera, UIntPtr struct_size);
+
+  /// <summary>[None] Of the depth camera, the defaults of config for range, noise and bias too, and
+  /// millimetres.</summary>
+  [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+  internal static extern Status sphc_localizer_depth_view_init(sphc_localizer_depth_view* view, UIntPtr struct_size);
 
   /// <summary>[pure] What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

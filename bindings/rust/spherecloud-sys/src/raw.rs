@@ -24,6 +24,7 @@ pub const SPHC_MAP_BYTES_MAX: u32 = 256;
 pub const SPHC_PARALLEL_MAX: u32 = 8;
 pub const SPHC_CAMERAS_MAX: u32 = 8;
 pub const SPHC_ROW_TIME_MAX_NS: u32 = 1000000;
+pub const SPHC_DEPTH_CAMERAS_MAX: u32 = 2;
 pub const SPHC_MAPS_MAX: u32 = 64;
 pub const SPHC_MAP_NONE: u32 = 4294967295;
 pub const SPHC_HYPOTHESES_MAX: u32 = 8;
@@ -500,6 +501,39 @@ pub struct sphc_localizer_camera {
     pub row_time_ns: i64,
 }
 
+/// A depth camera of a rig beside the one in config.rig.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct sphc_localizer_depth_camera {
+    pub struct_size: u32,
+    /// as config.depth_format
+    pub format: sphc_format,
+    pub camera: sphc_camera,
+    /// within the limits of sphc_rig.color_from_depth
+    pub color_from_depth: sphc_rigid,
+    /// metres per unit of the depth image
+    pub unit_m: f64,
+    /// measurements outside are ignored
+    pub min_m: f64,
+    /// measurements outside are ignored
+    pub max_m: f64,
+    /// noise, as config.depth_sigma_m
+    pub sigma_m: f64,
+    /// noise, as config.depth_sigma_m
+    pub sigma_per_m2: f64,
+    /// How it is off against the depth camera in config.rig: z of that one = z + offset + slope (z -
+    /// depth_mid_m). 1 sigma of what is unknown of it before the first frame; it is learnt where both
+    /// measure what the colour camera sees. Both 0: they measure alike.
+    pub offset_sigma_m: f64,
+    /// How it is off against the depth camera in config.rig: z of that one = z + offset + slope (z -
+    /// depth_mid_m). 1 sigma of what is unknown of it before the first frame; it is learnt where both
+    /// measure what the colour camera sees. Both 0: they measure alike.
+    pub slope_sigma: f64,
+    /// as config.amplitude_min, of its own amplitudes
+    pub amplitude_min: u32,
+    pub reserved: u32,
+}
+
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct sphc_localizer_config {
@@ -566,6 +600,11 @@ pub struct sphc_localizer_config {
     /// SPHC_PARALLEL_MAX; each more than one needs memory. 0 where parallel is null.
     pub parallel_tasks: u32,
     pub reserved4: u32,
+    /// null where there is none
+    pub depth_cameras: *const sphc_localizer_depth_camera,
+    /// 0 to SPHC_DEPTH_CAMERAS_MAX - 1
+    pub depth_camera_count: u32,
+    pub reserved5: u32,
 }
 
 #[repr(C)]
@@ -615,6 +654,23 @@ pub struct sphc_localizer_view {
     pub color_from_camera: *const sphc_rigid,
 }
 
+/// The image of a further depth camera; everything is borrowed.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct sphc_localizer_depth_view {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// mid-exposure; where odometry is given, the camera may have moved since color_time_ns
+    pub time_ns: i64,
+    /// of the camera's format and size; data null: the camera has none in this frame
+    pub depth: sphc_image,
+    /// as frame.amplitude; with every depth image where the camera's amplitude_min is set
+    pub amplitude: sphc_image,
+    /// As they are in this frame, with heat or focus; null: as in the config. The size stays.
+    pub camera: *const sphc_camera,
+    pub color_from_depth: *const sphc_rigid,
+}
+
 /// A colour and a depth image taken at about the same time; everything is borrowed.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -651,6 +707,13 @@ pub struct sphc_localizer_frame {
     /// As they are in this frame, with heat or focus; null: as in config.rig. The size stays.
     pub color_camera: *const sphc_camera,
     pub color_from_depth: *const sphc_rigid,
+    /// The same; of a RANGE format, cosines stay those of config.rig.depth_camera.
+    pub depth_camera: *const sphc_camera,
+    /// Of each of config.depth_cameras one, as views are of cameras. Null where the config has none.
+    pub depth_views: *const sphc_localizer_depth_view,
+    /// config.depth_camera_count
+    pub depth_view_count: u32,
+    pub reserved4: u32,
 }
 
 /// How the depth sensor is off, as learnt up to this frame: true z = z + offset_m + slope (z - mid_m),
@@ -1053,6 +1116,14 @@ extern "C" {
     /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
     /// above. Thread class: pure.
     pub fn sphc_localizer_view_init(view: *mut sphc_localizer_view, struct_size: usize) -> sphc_status;
+
+    /// Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. Thread
+    /// class: None.
+    pub fn sphc_localizer_depth_camera_init(camera: *mut sphc_localizer_depth_camera, struct_size: usize) -> sphc_status;
+
+    /// Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. Thread
+    /// class: None.
+    pub fn sphc_localizer_depth_view_init(view: *mut sphc_localizer_depth_view, struct_size: usize) -> sphc_status;
 
     /// What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. Thread class:
     /// pure.

@@ -9,7 +9,7 @@
 
 JNIEXPORT jint JNICALL Java_org_spherecloud_Library_fingerprint(JNIEnv *env, jclass type) {
   (void)env, (void)type;
-  return 1903844362;
+  return 2125669537;
 }
 
 JNIEXPORT jintArray JNICALL Java_org_spherecloud_Native_layout(JNIEnv *env, jclass type) {
@@ -73,6 +73,20 @@ JNIEXPORT jintArray JNICALL Java_org_spherecloud_Native_layout(JNIEnv *env, jcla
     (jint)offsetof(sphc_localizer_camera, camera),
     (jint)offsetof(sphc_localizer_camera, color_from_camera),
     (jint)offsetof(sphc_localizer_camera, row_time_ns),
+    (jint)sizeof(sphc_localizer_depth_camera),
+    (jint)offsetof(sphc_localizer_depth_camera, struct_size),
+    (jint)offsetof(sphc_localizer_depth_camera, format),
+    (jint)offsetof(sphc_localizer_depth_camera, camera),
+    (jint)offsetof(sphc_localizer_depth_camera, color_from_depth),
+    (jint)offsetof(sphc_localizer_depth_camera, unit_m),
+    (jint)offsetof(sphc_localizer_depth_camera, min_m),
+    (jint)offsetof(sphc_localizer_depth_camera, max_m),
+    (jint)offsetof(sphc_localizer_depth_camera, sigma_m),
+    (jint)offsetof(sphc_localizer_depth_camera, sigma_per_m2),
+    (jint)offsetof(sphc_localizer_depth_camera, offset_sigma_m),
+    (jint)offsetof(sphc_localizer_depth_camera, slope_sigma),
+    (jint)offsetof(sphc_localizer_depth_camera, amplitude_min),
+    (jint)offsetof(sphc_localizer_depth_camera, reserved),
     (jint)sizeof(sphc_localizer_config),
     (jint)offsetof(sphc_localizer_config, struct_size),
     (jint)offsetof(sphc_localizer_config, max_keypoints),
@@ -107,6 +121,9 @@ JNIEXPORT jintArray JNICALL Java_org_spherecloud_Native_layout(JNIEnv *env, jcla
     (jint)offsetof(sphc_localizer_config, parallel_user),
     (jint)offsetof(sphc_localizer_config, parallel_tasks),
     (jint)offsetof(sphc_localizer_config, reserved4),
+    (jint)offsetof(sphc_localizer_config, depth_cameras),
+    (jint)offsetof(sphc_localizer_config, depth_camera_count),
+    (jint)offsetof(sphc_localizer_config, reserved5),
     (jint)sizeof(sphc_localizer_prior),
     (jint)offsetof(sphc_localizer_prior, struct_size),
     (jint)offsetof(sphc_localizer_prior, flags),
@@ -128,6 +145,14 @@ JNIEXPORT jintArray JNICALL Java_org_spherecloud_Native_layout(JNIEnv *env, jcla
     (jint)offsetof(sphc_localizer_view, image),
     (jint)offsetof(sphc_localizer_view, camera),
     (jint)offsetof(sphc_localizer_view, color_from_camera),
+    (jint)sizeof(sphc_localizer_depth_view),
+    (jint)offsetof(sphc_localizer_depth_view, struct_size),
+    (jint)offsetof(sphc_localizer_depth_view, reserved),
+    (jint)offsetof(sphc_localizer_depth_view, time_ns),
+    (jint)offsetof(sphc_localizer_depth_view, depth),
+    (jint)offsetof(sphc_localizer_depth_view, amplitude),
+    (jint)offsetof(sphc_localizer_depth_view, camera),
+    (jint)offsetof(sphc_localizer_depth_view, color_from_depth),
     (jint)sizeof(sphc_localizer_frame),
     (jint)offsetof(sphc_localizer_frame, struct_size),
     (jint)offsetof(sphc_localizer_frame, sequence),
@@ -145,6 +170,10 @@ JNIEXPORT jintArray JNICALL Java_org_spherecloud_Native_layout(JNIEnv *env, jcla
     (jint)offsetof(sphc_localizer_frame, reserved3),
     (jint)offsetof(sphc_localizer_frame, color_camera),
     (jint)offsetof(sphc_localizer_frame, color_from_depth),
+    (jint)offsetof(sphc_localizer_frame, depth_camera),
+    (jint)offsetof(sphc_localizer_frame, depth_views),
+    (jint)offsetof(sphc_localizer_frame, depth_view_count),
+    (jint)offsetof(sphc_localizer_frame, reserved4),
     (jint)sizeof(sphc_depth_bias),
     (jint)offsetof(sphc_depth_bias, mid_m),
     (jint)offsetof(sphc_depth_bias, offset_m),
@@ -483,6 +512,16 @@ JNIEXPORT jint JNICALL Java_org_spherecloud_Native_localizerCameraInit(JNIEnv *e
 JNIEXPORT jint JNICALL Java_org_spherecloud_Native_localizerViewInit(JNIEnv *env, jclass type, jlong view, jlong struct_size) {
   (void)env, (void)type;
   return (jint)sphc_localizer_view_init(POINTER(view), (size_t)struct_size);
+}
+
+JNIEXPORT jint JNICALL Java_org_spherecloud_Native_localizerDepthCameraInit(JNIEnv *env, jclass type, jlong camera, jlong struct_size) {
+  (void)env, (void)type;
+  return (jint)sphc_localizer_depth_camera_init(POINTER(camera), (size_t)struct_size);
+}
+
+JNIEXPORT jint JNICALL Java_org_spherecloud_Native_localizerDepthViewInit(JNIEnv *env, jclass type, jlong view, jlong struct_size) {
+  (void)env, (void)type;
+  return (jint)sphc_localizer_depth_view_init(POINTER(view), (size_t)struct_size);
 }
 
 JNIEXPORT jint JNICALL Java_org_spherecloud_Native_localizerMemory(JNIEnv *env, jclass type, jlong config, jlong memory, jlong message) {

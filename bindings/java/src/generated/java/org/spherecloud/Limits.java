@@ -27,6 +27,8 @@ public final class Limits {
   public static final int CAMERAS_MAX = 8;
   /** {@code SPHC_ROW_TIME_MAX_NS}. */
   public static final int ROW_TIME_MAX_NS = 1000000;
+  /** {@code SPHC_DEPTH_CAMERAS_MAX}. */
+  public static final int DEPTH_CAMERAS_MAX = 2;
   /** {@code SPHC_MAPS_MAX}. */
   public static final int MAPS_MAX = 64;
   /** {@code SPHC_MAP_NONE}. */

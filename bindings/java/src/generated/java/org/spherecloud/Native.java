@@ -221,6 +221,12 @@ final class Native {
    */
   static native int localizerViewInit(long view, long structSize);
 
+  /** Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. */
+  static native int localizerDepthCameraInit(long camera, long structSize);
+
+  /** Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. */
+  static native int localizerDepthViewInit(long view, long structSize);
+
   /** What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. */
   static native int localizerMemory(long config, long memory, long message);
 

@@ -7,5 +7,5 @@ final class Release {
 
   static final String VERSION = "0.2.0";
   static final int ABI = 0;
-  static final int FINGERPRINT = 1903844362;
+  static final int FINGERPRINT = 2125669537;
 }
