@@ -23,6 +23,18 @@ const sphc_localizer_camera &sideCamera() {
   return camera;
 }
 
+// A second depth camera, as large as the first one.
+const sphc_localizer_depth_camera &secondDepthCamera() {
+  static const sphc_localizer_depth_camera camera = [] {
+    sphc_localizer_depth_camera made;
+    sphc_localizer_depth_camera_init(&made, sizeof made);
+    made.camera = smallConfig().rig.depth_camera;
+    made.color_from_depth = {{0.995, 0, -0.0998749, 0}, {-0.04, 0, 0.01}};
+    return made;
+  }();
+  return camera;
+}
+
 // The order of a caller's threads is anybody's guess.
 void runBackwards(void *, uint32_t count, sphc_task_fn task, void *task_data) {
   for (uint32_t i = count; i > 0; --i) task(task_data, i - 1);
@@ -32,6 +44,8 @@ sphc_localizer_config trackingConfig() {
   sphc_localizer_config config = smallConfig();
   config.cameras = &sideCamera();
   config.camera_count = 1;
+  config.depth_cameras = &secondDepthCamera();
+  config.depth_camera_count = 1;
   config.color_row_time_ns = 50000;
   config.mode = SPHC_MODE_TRACKING;
   config.max_maps = kMaps - 1;  // so that it can be full
@@ -111,6 +125,9 @@ class Play {
     fillView();
     frame.views = &view_.its;
     frame.view_count = around(1, &reader_);
+    fillDepthView();
+    frame.depth_views = &depth_view_.its;
+    frame.depth_view_count = around(1, &reader_);
     if (reader_.next() < 100) {
       prior_.its = priorFrom(&reader_);
       frame.prior = &prior_.its;
@@ -133,6 +150,20 @@ class Play {
     if (reader_.next() < 50) {
       fill(&mount_, &reader_);
       view.color_from_camera = &mount_;
+    }
+  }
+  void fillDepthView() {
+    sphc_localizer_depth_view &view = depth_view_.its;
+    view = {};
+    view.struct_size = around(sizeof view, &reader_);
+    view.time_ns = time_ns_ + around(0, &reader_);
+    view.depth = material_.frames[reader_.next() % kViewpoints]->frame.depth;
+    view.depth.width = around(view.depth.width, &reader_);
+    if (reader_.next() < 50) view.depth.data = nullptr;
+    if (reader_.next() < 50) {
+      depth_camera_ = secondDepthCamera().camera;
+      depth_camera_.params[reader_.next() % 12] = anyNumber(&reader_);
+      view.camera = &depth_camera_;
     }
   }
   void isAnswered(sphc_status status) const {
@@ -267,7 +298,8 @@ class Play {
   sphc_features *features_ = nullptr;
   Roomy<sphc_localizer_prior> prior_;
   Roomy<sphc_localizer_view> view_;
-  sphc_camera camera_ = {};  // what a view points to
+  Roomy<sphc_localizer_depth_view> depth_view_;
+  sphc_camera camera_ = {}, depth_camera_ = {};  // what a view points to
   sphc_rigid mount_ = {};
   sphc_localizer_result result_ = {};
   int64_t time_ns_ = 0;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What further cameras bring: frames of a rig of four grey cameras and a wide ToF camera, by one camera, two, three and all.
+"""What further cameras bring: frames of a rig of four grey cameras and a wide ToF camera, by one camera, two, three and all; and by
+all with a narrow ToF camera ahead, and with another to the left of it, which says 1 cm too much.
 
     rig.py --spherecloud BIN --lab BIN [--results FILE] [--rooms N] [--keep FOLDER]      rewrites rig.csv, for review
 
@@ -23,7 +24,7 @@ RESULTS = HERE / "rig.csv"
 ROOMS = list(range(5001, 5013))  # seeds of room, walk and key that nothing else uses
 LAP_S, MAP_FRAMES, VIEWS = 16, 100, 25
 ETA, FAKES = 0.33, "patchwork"
-COLUMNS = ["view", "cameras", "frames", "localized_percent", "within_5cm_5deg_percent", "worst_room_percent", "wrong_accepted",
+COLUMNS = ["view", "cameras", "tof", "frames", "localized_percent", "within_5cm_5deg_percent", "worst_room_percent", "wrong_accepted",
            "median_mm", "p95_mm", "features_ms_median", "frame_ms_median"]
 
 
@@ -43,13 +44,13 @@ def percent(part, whole):
     return "%.1f" % (100 * part / max(1, whole))
 
 
-def row_of(view, cameras, rooms):
+def row_of(view, cameras, tof, rooms):
     """rooms: the same row of each."""
     whole = lambda name: sum(row[name] for row in rooms)
     every = lambda name: sorted(value for row in rooms for value in row[name])
     errors = every("errors_mm") or [0]
     return dict(zip(COLUMNS, [
-        view, cameras, whole("frames"), percent(whole("localized"), whole("frames")), percent(whole("right"), whole("frames")),
+        view, cameras, tof, whole("frames"), percent(whole("localized"), whole("frames")), percent(whole("right"), whole("frames")),
         min((percent(row["right"], row["frames"]) for row in rooms if row["frames"]), key=float), whole("wrong"),
         "%.1f" % statistics.median(errors), "%.1f" % errors[int(0.95 * (len(errors) - 1))],
         *("%.2f" % (statistics.median(every(name)) / 1000) for name in ("features_us", "frame_us"))]))
@@ -59,7 +60,7 @@ def measure(tool, lab, folder, count):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         rooms = list(pool.map(lambda seed: rows_of(tool, lab, folder, seed), ROOMS[:count]))
     for rows in zip(*rooms):
-        yield row_of(rows[0]["view"], rows[0]["cameras"], rows)
+        yield row_of(rows[0]["view"], rows[0]["cameras"], rows[0]["tof"], rows)
 
 
 def main():

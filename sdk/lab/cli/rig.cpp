@@ -1,4 +1,4 @@
-// spherecloud-lab rig: what do further cameras bring?
+// spherecloud-lab rig: what do further cameras bring, grey ones and of depth?
 #include <memory>
 
 #include "host/base/checked_call.h"
@@ -57,7 +57,9 @@ const char kRigHelp[] =
     "the\n"
     "walk's second lap does and with nothing but a wall ahead, and localizes each frame alone by the first "
     "camera, by\n"
-    "two, by three and by all, with as many keypoints in all.";
+    "two, by three and by all, with as many keypoints in all; by all also with a narrow ToF camera ahead in place "
+    "of\n"
+    "the wide one, and with that and another to the left, which says 1 cm too much.";
 const char kRigExample[] =
     "Example:\n"
     "  spherecloud-lab rig --seed 7 --map room.sphc\n"

@@ -11,6 +11,7 @@ constexpr double kDegree = M_PI / 180;
 constexpr uint32_t kWidth = 640, kHeight = 480, kDepthWidth = 320, kDepthHeight = 288;
 constexpr double kMostOffPlane = 0.01;                            // of inverse depth
 constexpr double kLeastWall = 0.9;                                // of the view
+constexpr double kLeftIsOffM = 0.01;                              // of the ToF camera to the left
 constexpr double kSideways = 50 * kDegree, kDown = 40 * kDegree;  // of the further cameras
 
 sphc_camera grayCamera() {
@@ -23,6 +24,9 @@ sphc_camera coarseCamera() { return {SPHC_CAMERA_BROWN5, 64, 48, 9, {40, 40, 32,
 sphc_camera wideCamera() {
   return {SPHC_CAMERA_KANNALA_BRANDT4, kDepthWidth, kDepthHeight, 8, {152.2, 152.4, 159.1, 144.6, 0.01, -0.004}};
 }
+
+// 56 x 51 degrees.
+sphc_camera narrowCamera() { return {SPHC_CAMERA_BROWN5, kDepthWidth, kDepthHeight, 9, {300, 300, 160, 144}}; }
 
 Matrix3 aboutX(double angle_rad) { return rotationFromVector(angle_rad * Vector3::UnitX()); }
 Matrix3 aboutY(double angle_rad) { return rotationFromVector(angle_rad * Vector3::UnitY()); }
@@ -41,12 +45,24 @@ Rigid colorFromCamera(uint32_t camera) {
 }
 
 Rigid colorFromDepth() { return {aboutX(0.004), Vector3(0.021, 0.018, 0.003)}; }
+Rigid colorFromLeftDepth() { return {aboutY(-kSideways), Vector3(-0.04, 0.015, -0.01)}; }
 
 void render(const sphc_simulated *room, int64_t time_ns, const sphc_camera &camera, const Rigid &world_from_camera,
             uint8_t *rgb, uint16_t *depth, float *depth_m) {
   const sphc_rigid pose = rigidToC(world_from_camera);
   if (sphc_simulated_render_view(room, time_ns, &camera, &pose, rgb, depth, depth_m) != SPHC_OK)
     throw std::runtime_error("the simulated room cannot be rendered");
+}
+
+std::vector<uint16_t> depthFrom(const sphc_simulated *room, int64_t time_ns, const sphc_camera &camera,
+                                const Rigid &world_from_depth) {
+  std::vector<uint16_t> depth(size_t{kDepthWidth} * kDepthHeight);
+  render(room, time_ns, camera, world_from_depth, nullptr, depth.data(), nullptr);
+  return depth;
+}
+
+sphc_image depthImage(const std::vector<uint16_t> &depth) {
+  return {depth.data(), kDepthWidth, kDepthHeight, 2 * kDepthWidth, SPHC_FORMAT_DEPTH16};
 }
 
 std::vector<uint8_t> grayFrom(const std::vector<uint8_t> &rgb) {
@@ -92,17 +108,25 @@ double shareOfMiddlePlane(const std::vector<float> &depth_m, const sphc_camera &
 
 }  // namespace
 
-void RigHeadset::setCameras(uint32_t cameras, std::vector<sphc_localizer_camera> *further,
-                            sphc_localizer_config *config) {
+void RigHeadset::setCameras(const RigSetup &setup, RigArrays *arrays, sphc_localizer_config *config) {
   config->rig.color_camera = grayCamera();
-  config->rig.depth_camera = wideCamera();
+  config->rig.depth_camera = setup.tof == RigTof::kWide ? wideCamera() : narrowCamera();
   config->rig.color_from_depth = rigidToC(colorFromDepth());
   config->rig.depth_unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
-  further->clear();
-  for (uint32_t i = 1; i < cameras; ++i)
-    further->push_back({sizeof(sphc_localizer_camera), 0, grayCamera(), rigidToC(colorFromCamera(i)), 0});
-  config->cameras = further->empty() ? nullptr : further->data();
-  config->camera_count = static_cast<uint32_t>(further->size());
+  arrays->cameras.clear();
+  for (uint32_t i = 1; i < setup.cameras; ++i)
+    arrays->cameras.push_back({sizeof(sphc_localizer_camera), 0, grayCamera(), rigidToC(colorFromCamera(i)), 0});
+  config->cameras = arrays->cameras.empty() ? nullptr : arrays->cameras.data();
+  config->camera_count = static_cast<uint32_t>(arrays->cameras.size());
+  if (setup.tof != RigTof::kAheadAndLeft) return;
+  sphc_localizer_depth_camera *left = &arrays->depth_camera;
+  sphc_localizer_depth_camera_init(left, sizeof *left);
+  left->camera = narrowCamera();
+  left->color_from_depth = rigidToC(colorFromLeftDepth());
+  left->unit_m = SPHC_SIMULATED_DEPTH_UNIT_M;
+  left->offset_sigma_m = kLeftIsOffM;
+  config->depth_cameras = left;
+  config->depth_camera_count = 1;
 }
 
 RigShot RigHeadset::look(const Rigid &world_from_camera, int64_t time_ns) const {
@@ -112,26 +136,36 @@ RigShot RigHeadset::look(const Rigid &world_from_camera, int64_t time_ns) const 
     render(room_, time_ns, grayCamera(), world_from_camera * colorFromCamera(i), rgb.data(), nullptr, nullptr);
     shot.gray.push_back(grayFrom(rgb));
   }
-  shot.depth.resize(size_t{kDepthWidth} * kDepthHeight);
-  render(room_, time_ns, wideCamera(), world_from_camera * colorFromDepth(), nullptr, shot.depth.data(), nullptr);
+  shot.wide = depthFrom(room_, time_ns, wideCamera(), world_from_camera * colorFromDepth());
+  shot.ahead = depthFrom(room_, time_ns, narrowCamera(), world_from_camera * colorFromDepth());
+  shot.left = depthFrom(room_, time_ns, narrowCamera(), world_from_camera * colorFromLeftDepth());
+  for (uint16_t &units : shot.left)
+    if (units) units = static_cast<uint16_t>(units + std::lround(kLeftIsOffM / SPHC_SIMULATED_DEPTH_UNIT_M));
   return shot;
 }
 
-sphc_localizer_frame RigHeadset::frameOf(const RigShot &shot, int64_t time_ns, uint32_t cameras,
-                                         std::vector<sphc_localizer_view> *views) {
+sphc_localizer_frame RigHeadset::frameOf(const RigShot &shot, int64_t time_ns, const RigSetup &setup,
+                                         RigArrays *arrays) {
   const auto imageOf = [&](uint32_t i) {
     return sphc_image{shot.gray[i].data(), kWidth, kHeight, kWidth, SPHC_FORMAT_GRAY8};
   };
-  views->clear();
-  for (uint32_t i = 1; i < cameras; ++i)
-    views->push_back({sizeof(sphc_localizer_view), 0, time_ns, imageOf(i), nullptr, nullptr});
+  std::vector<sphc_localizer_view> &views = arrays->views;
+  views.clear();
+  for (uint32_t i = 1; i < setup.cameras; ++i)
+    views.push_back({sizeof(sphc_localizer_view), 0, time_ns, imageOf(i), nullptr, nullptr});
   sphc_localizer_frame frame = {};
   frame.struct_size = sizeof frame;
   frame.color_time_ns = frame.depth_time_ns = time_ns;
   frame.color = imageOf(0);
-  frame.depth = {shot.depth.data(), kDepthWidth, kDepthHeight, 2 * kDepthWidth, SPHC_FORMAT_DEPTH16};
-  frame.views = views->empty() ? nullptr : views->data();
-  frame.view_count = static_cast<uint32_t>(views->size());
+  frame.depth = depthImage(setup.tof == RigTof::kWide ? shot.wide : shot.ahead);
+  frame.views = views.empty() ? nullptr : views.data();
+  frame.view_count = static_cast<uint32_t>(views.size());
+  if (setup.tof != RigTof::kAheadAndLeft) return frame;
+  sphc_localizer_depth_view_init(&arrays->depth_view, sizeof arrays->depth_view);
+  arrays->depth_view.time_ns = time_ns;
+  arrays->depth_view.depth = depthImage(shot.left);
+  frame.depth_views = &arrays->depth_view;
+  frame.depth_view_count = 1;
   return frame;
 }
 

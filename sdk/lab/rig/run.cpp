@@ -1,6 +1,7 @@
 #include "lab/rig/run.h"
 
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "host/evaluate/localize_run.h"
@@ -12,6 +13,8 @@ namespace {
 // Right is what is nearer, wrong what is farther.
 constexpr double kRightM = 0.05, kRightRad = 5 * M_PI / 180, kWrongM = 0.25, kWrongRad = 10 * M_PI / 180;
 constexpr uint32_t kHeadings = 16;
+const RigSetup kSetups[] = {{1, RigTof::kWide}, {2, RigTof::kWide},  {3, RigTof::kWide},
+                            {4, RigTof::kWide}, {4, RigTof::kAhead}, {4, RigTof::kAheadAndLeft}};
 
 struct Viewpoint {
   std::string view;
@@ -62,11 +65,11 @@ void judge(const sphc_localizer_result &result, const Rigid &truth, RigRow *row)
   row->errors_mm.push_back(1000 * shift_m);
 }
 
-spherecloud::Localizer localizerOf(const RigInput &input, uint32_t cameras) {
+spherecloud::Localizer localizerOf(const RigInput &input, const RigSetup &setup) {
   sphc_localizer_config config = spherecloud::defaultConfig();
   setCameras(config.rig, &config);  // the clock
-  std::vector<sphc_localizer_camera> further;
-  RigHeadset::setCameras(cameras, &further, &config);
+  RigArrays arrays;
+  RigHeadset::setCameras(setup, &arrays, &config);
   config.mode = SPHC_MODE_SINGLE;
   config.max_keypoints = input.keypoints;
   return makeLocalizer(config, *input.maps);
@@ -77,13 +80,12 @@ spherecloud::Localizer localizerOf(const RigInput &input, uint32_t cameras) {
 std::vector<RigRow> runRig(const RigInput &input, const RigProgress &progress) {
   std::vector<spherecloud::Localizer> localizers;
   std::vector<RigRow> rows;
-  for (uint32_t cameras = 1; cameras <= RigHeadset::kCameras; ++cameras)
-    localizers.push_back(localizerOf(input, cameras));
+  for (const RigSetup &setup : kSetups) localizers.push_back(localizerOf(input, setup));
   for (const char *view : {"walk", "wall"})
-    for (uint32_t cameras = 1; cameras <= RigHeadset::kCameras; ++cameras) {
+    for (const RigSetup &setup : kSetups) {
       rows.emplace_back();
       rows.back().view = view;
-      rows.back().cameras = cameras;
+      rows.back().setup = setup;
     }
   const RigHeadset headset(input.room);
   const std::vector<Viewpoint> viewpoints = viewpointsOf(input);
@@ -91,13 +93,13 @@ std::vector<RigRow> runRig(const RigInput &input, const RigProgress &progress) {
     const Viewpoint &at = viewpoints[i];
     const RigShot shot = headset.look(at.world_from_camera, at.time_ns);
     const Rigid world_from_map = {Matrix3::Identity(), input.centre_in_world_m};
-    for (uint32_t cameras = 1; cameras <= RigHeadset::kCameras; ++cameras) {
-      std::vector<sphc_localizer_view> views;
-      const sphc_localizer_frame frame = RigHeadset::frameOf(shot, at.time_ns, cameras, &views);
+    for (size_t s = 0; s < std::size(kSetups); ++s) {
+      RigArrays arrays;
+      const sphc_localizer_frame frame = RigHeadset::frameOf(shot, at.time_ns, kSetups[s], &arrays);
       sphc_localizer_result result = spherecloud::emptyResult();
-      const spherecloud::Status status = localizers[cameras - 1].process(frame, &result);
+      const spherecloud::Status status = localizers[s].process(frame, &result);
       if (status.failed()) throw std::runtime_error(status.text());
-      RigRow &row = rows[(at.view == "walk" ? 0 : RigHeadset::kCameras) + cameras - 1];
+      RigRow &row = rows[(at.view == "walk" ? 0 : std::size(kSetups)) + s];
       judge(result, at.world_from_camera.inverse() * world_from_map, &row);
     }
     progress(i + 1, static_cast<uint32_t>(viewpoints.size()));

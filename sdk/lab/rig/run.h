@@ -1,4 +1,5 @@
-// Frames of a rig, localized by one of its cameras, by two, by three and by all of them.
+// Frames of a rig, localized by one of its cameras, by two, by three and by all of them, and with other ToF
+// cameras.
 #pragma once
 #include <functional>
 #include <string>
@@ -19,7 +20,7 @@ struct RigInput {
 
 struct RigRow {
   std::string view;  // "walk": as the walk looks; "wall": with a bare wall ahead
-  uint32_t cameras = 0;
+  RigSetup setup;
   uint32_t frames = 0, localized = 0, right = 0,
            wrong = 0;             // right: within 5 cm and 5 deg; wrong: beyond 25 cm or 10 deg
   std::vector<double> errors_mm;  // of the localized

@@ -7,17 +7,30 @@
 namespace sphc::host {
 namespace {
 
+const char *nameOf(RigTof tof) {
+  switch (tof) {
+    case RigTof::kWide:
+      return "wide";
+    case RigTof::kAhead:
+      return "ahead";
+    case RigTof::kAheadAndLeft:
+      return "ahead and left";
+  }
+  return "";
+}
+
 double medianOf(const std::vector<double> &values) { return values.empty() ? 0 : percentile(values, 0.5); }
 
 }  // namespace
 
 std::string rigText(const std::vector<RigRow> &rows) {
-  std::string text = "view  cameras  frames  localized  right  wrong  mm (median)  features ms  frame ms\n";
+  std::string text =
+      "view  cameras  tof             frames  localized  right  wrong  mm (median)  features ms  frame ms\n";
   for (const RigRow &row : rows) {
     char line[160];
-    std::snprintf(line, sizeof line, "%-5s %7u %7u %10u %6u %6u %12.1f %12.2f %9.2f\n", row.view.c_str(),
-                  row.cameras, row.frames, row.localized, row.right, row.wrong, medianOf(row.errors_mm),
-                  medianOf(row.features_us) / 1e3, medianOf(row.frame_us) / 1e3);
+    std::snprintf(line, sizeof line, "%-5s %7u  %-14s %7u %10u %6u %6u %12.1f %12.2f %9.2f\n", row.view.c_str(),
+                  row.setup.cameras, nameOf(row.setup.tof), row.frames, row.localized, row.right, row.wrong,
+                  medianOf(row.errors_mm), medianOf(row.features_us) / 1e3, medianOf(row.frame_us) / 1e3);
     text += line;
   }
   return text;
@@ -27,7 +40,8 @@ nlohmann::ordered_json rigJson(const std::vector<RigRow> &rows) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const RigRow &row : rows)
     json.push_back({{"view", row.view},
-                    {"cameras", row.cameras},
+                    {"cameras", row.setup.cameras},
+                    {"tof", nameOf(row.setup.tof)},
                     {"frames", row.frames},
                     {"localized", row.localized},
                     {"right", row.right},
