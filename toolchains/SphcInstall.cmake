@@ -102,13 +102,8 @@ function(sphc_install_package)
     install(EXPORT SphereCloud-${component} NAMESPACE SphereCloud:: DESTINATION ${SPHC_INSTALL_CMAKEDIR}
       COMPONENT ${development})
   endforeach()
-  # While the ABI is 0 a minor release may break programs (docs/abi.md).
-  set(rule SameMajorVersion)
-  if(PROJECT_VERSION_MAJOR EQUAL 0)
-    set(rule SameMinorVersion)
-  endif()
   set(description ${PROJECT_BINARY_DIR}/install/SphereCloudConfigVersion.cmake)
-  write_basic_package_version_file(${description} VERSION ${PROJECT_VERSION} COMPATIBILITY ${rule})
+  write_basic_package_version_file(${description} VERSION ${PROJECT_VERSION} COMPATIBILITY SameMajorVersion)
   install(FILES ${SPHC_INSTALL_FILES}/SphereCloudConfig.cmake ${description} DESTINATION ${SPHC_INSTALL_CMAKEDIR}
     COMPONENT development)
 

@@ -17,6 +17,6 @@ endif()
 set(python_wheel ${CMAKE_CURRENT_BINARY_DIR}/python_wheel)
 add_custom_target(python_overhead VERBATIM
   COMMAND ${CMAKE_COMMAND} -E env --unset=SPHERECLOUD_LIBRARY ${SPHC_TEST_PYTHON} -B ${python_package}/build_wheel.py --out ${python_wheel})
-sphc_overhead(python PACKAGES ${python_wheel}/spherecloud-${PROJECT_VERSION}-py3-none-any.whl $<TARGET_FILE:spherecloud_shared>
+sphc_overhead(python PACKAGES ${python_wheel}/spherecloud-${PROJECT_VERSION}${SPHC_CANDIDATE}-py3-none-any.whl $<TARGET_FILE:spherecloud_shared>
   COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${python_package} ${SPHC_TEST_PYTHON} ${PROJECT_SOURCE_DIR}/bindings/overhead/overhead.py
   DEPENDS python_overhead)

@@ -101,8 +101,9 @@ TEST(CInterfaceStatus, EachHintHasAName) {
 
 TEST(CInterfaceStatus, Version) {
   EXPECT_EQ(sphc_abi(), SPHC_ABI);
+  const std::string candidate = SPHC_VERSION_CANDIDATE ? "-rc" + std::to_string(SPHC_VERSION_CANDIDATE) : "";
   const std::string version = std::to_string(SPHC_VERSION_MAJOR) + "." + std::to_string(SPHC_VERSION_MINOR) + "." +
-                              std::to_string(SPHC_VERSION_PATCH);
+                              std::to_string(SPHC_VERSION_PATCH) + candidate;
   EXPECT_EQ(sphc_version_string(), version);
 }
 

@@ -70,7 +70,7 @@ def follow(options, folder):
     page = Page(options.root / "docs" / "install.md")
     programs = section(page, PROGRAMS)
     answer = next(block.text for block in programs if block.info == "text").strip()
-    if answer != f"spherecloud {options.version}, ABI {options.version.split('.')[0]}":
+    if not re.fullmatch(rf"spherecloud {re.escape(options.version)}(-rc\d+)?, ABI {options.version.split('.')[0]}", answer):
         sys.exit(f"the page shows \"{answer}\", and this is version {options.version}")
 
     blocks = section(page, options.section)

@@ -66,8 +66,7 @@ def refusals(options):
     cases = [(f"{next_minor} REQUIRED", version), (f"{other} REQUIRED", version), (f"{mine}.{patch + 1} REQUIRED", version),
              ("REQUIRED COMPONENTS gpu", unknown), ("REQUIRED COMPONENTS drivers gpu", unknown),
              ("REQUIRED COMPONENTS runtime drivers host OPTIONAL_COMPONENTS gpu", None), (f"{mine} REQUIRED", None), (f"{options.version} EXACT REQUIRED", None)]
-    if major == 0 and minor > 0:  # nothing is promised yet
-        cases.append((f"0.{minor - 1} REQUIRED", version))
+    cases.append(("0.2 REQUIRED", version))  # before the interface was frozen
     faults = []
     for arguments, why in cases:
         said, went_on = find(arguments, options.prefix)
@@ -132,7 +131,7 @@ def packages(options):
                PYTHON_PACKAGE: library}
     faults, owners = [], {}
     for package, other in depends.items():
-        file, = folder.glob(f"{package}_{options.version}_*.deb")
+        file, = folder.glob(f"{package}_{options.version}*_*.deb")
         asked = subprocess.run(["dpkg-deb", "-f", file, "Depends"], text=True, capture_output=True, check=True).stdout
         if other not in asked:
             faults.append(f"{package} does not depend on {other}: {asked}")

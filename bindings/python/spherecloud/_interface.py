@@ -4,8 +4,8 @@ from __future__ import annotations
 import ctypes
 import typing
 
-VERSION = "0.2.0"
-SPHC_ABI = 0
+VERSION = "1.0.0-rc1"
+SPHC_ABI = 1
 SPHC_MESSAGE_BYTES = 256
 SPHC_CAMERA_MIN_PX = 16
 SPHC_CAMERA_MAX_PX = 8192
@@ -830,7 +830,7 @@ class Interface:
 
         # ABI the library was built with; compare with SPHC_ABI before anything else. [pure]
         self.sphc_abi = bound("sphc_abi", ctypes.c_uint32, [])
-        # "major.minor.patch"; static storage. [pure]
+        # "major.minor.patch", of a candidate with "-rc1" behind it, or its number; static storage. [pure]
         self.sphc_version_string = bound("sphc_version_string", ctypes.c_char_p, [])
         # "SPHC_OK" and so on; "SPHC_?" for a value this library does not know; never null; static storage. [pure]
         self.sphc_status_name = bound("sphc_status_name", ctypes.c_char_p, [ctypes.c_int32])

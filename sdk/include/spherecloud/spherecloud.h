@@ -74,15 +74,16 @@ extern "C" {
 
 /* ---- version ---- */
 
-#define SPHC_VERSION_MAJOR 0
-#define SPHC_VERSION_MINOR 2
+#define SPHC_VERSION_MAJOR 1
+#define SPHC_VERSION_MINOR 0
 #define SPHC_VERSION_PATCH 0
-#define SPHC_ABI \
-  0u /* raised only when an existing symbol or the prefix of a struct changes; 0 promises nothing yet */
+#define SPHC_VERSION_CANDIDATE 1 /* n: candidate n, which comes before the release of these numbers; 0: a release \
+                                  */
+#define SPHC_ABI 1u              /* raised only when an existing symbol or the prefix of a struct changes */
 
 /* ABI the library was built with; compare with SPHC_ABI before anything else. [pure] */
 SPHC_API uint32_t sphc_abi(void);
-/* "major.minor.patch"; static storage. [pure] */
+/* "major.minor.patch", of a candidate with "-rc1" behind it, or its number; static storage. [pure] */
 SPHC_API const char *sphc_version_string(void);
 
 /* ---- status and message ---- */

@@ -3,10 +3,16 @@
 #define SPHC_TEXT2(x) #x
 #define SPHC_TEXT(x) SPHC_TEXT2(x)
 
+#if SPHC_VERSION_CANDIDATE
+#define SPHC_CANDIDATE_TEXT "-rc" SPHC_TEXT(SPHC_VERSION_CANDIDATE)
+#else
+#define SPHC_CANDIDATE_TEXT ""
+#endif
+
 uint32_t sphc_abi(void) { return SPHC_ABI; }
 
 const char *sphc_version_string(void) {
-  return SPHC_TEXT(SPHC_VERSION_MAJOR) "." SPHC_TEXT(SPHC_VERSION_MINOR) "." SPHC_TEXT(SPHC_VERSION_PATCH);
+  return SPHC_TEXT(SPHC_VERSION_MAJOR) "." SPHC_TEXT(SPHC_VERSION_MINOR) "." SPHC_TEXT(SPHC_VERSION_PATCH) SPHC_CANDIDATE_TEXT;
 }
 
 const char *sphc_status_name(sphc_status status) {

@@ -12,8 +12,8 @@ internal static unsafe class Native {
 #else
   internal const string File = "spherecloud";
 #endif
-  internal const uint Abi = 0;
-  internal const string Version = "0.2.0";
+  internal const uint Abi = 1;
+  internal const string Version = "1.0.0-rc1";
   internal const int DescriptorBytes = 128;
 
   internal struct sphc_aligner {}
@@ -231,7 +231,8 @@ internal static unsafe class Native {
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern uint sphc_abi();
 
-  /// <summary>[pure] "major.minor.patch"; static storage.</summary>
+  /// <summary>[pure] "major.minor.patch", of a candidate with "-rc1" behind it, or its number; static
+  /// storage.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern byte* sphc_version_string();
 

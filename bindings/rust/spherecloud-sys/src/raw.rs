@@ -5,11 +5,12 @@ use core::marker::PhantomData;
 use crate::c_char;
 
 /// The version whose header this crate was made of.
-pub const VERSION: &str = "0.2.0";
-pub const SPHC_VERSION_MAJOR: u32 = 0;
-pub const SPHC_VERSION_MINOR: u32 = 2;
+pub const VERSION: &str = "1.0.0-rc1";
+pub const SPHC_VERSION_MAJOR: u32 = 1;
+pub const SPHC_VERSION_MINOR: u32 = 0;
 pub const SPHC_VERSION_PATCH: u32 = 0;
-pub const SPHC_ABI: u32 = 0;
+pub const SPHC_VERSION_CANDIDATE: u32 = 1;
+pub const SPHC_ABI: u32 = 1;
 pub const SPHC_MESSAGE_BYTES: u32 = 256;
 pub const SPHC_CAMERA_MIN_PX: u32 = 16;
 pub const SPHC_CAMERA_MAX_PX: u32 = 8192;
@@ -930,7 +931,8 @@ extern "C" {
     /// ABI the library was built with; compare with SPHC_ABI before anything else. Thread class: pure.
     pub fn sphc_abi() -> u32;
 
-    /// "major.minor.patch"; static storage. Thread class: pure.
+    /// "major.minor.patch", of a candidate with "-rc1" behind it, or its number; static storage. Thread
+    /// class: pure.
     pub fn sphc_version_string() -> *const c_char;
 
     /// "SPHC_OK" and so on; "SPHC_?" for a value this library does not know; never null; static storage.

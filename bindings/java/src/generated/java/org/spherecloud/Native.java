@@ -15,7 +15,7 @@ final class Native {
   /** ABI the library was built with; compare with SPHC_ABI before anything else. */
   static native int abi();
 
-  /** "major.minor.patch"; static storage. */
+  /** "major.minor.patch", of a candidate with "-rc1" behind it, or its number; static storage. */
   static native String versionString();
 
   /**

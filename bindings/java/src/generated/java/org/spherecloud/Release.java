@@ -5,7 +5,7 @@ package org.spherecloud;
 final class Release {
   private Release() {}
 
-  static final String VERSION = "0.2.0";
-  static final int ABI = 0;
+  static final String VERSION = "1.0.0-rc1";
+  static final int ABI = 1;
   static final int FINGERPRINT = 2125669537;
 }
