@@ -77,8 +77,7 @@ extern "C" {
 #define SPHC_VERSION_MAJOR 1
 #define SPHC_VERSION_MINOR 0
 #define SPHC_VERSION_PATCH 0
-#define SPHC_VERSION_CANDIDATE 1 /* n: candidate n, which comes before the release of these numbers; 0: a release \
-                                  */
+#define SPHC_VERSION_CANDIDATE 1 /* which candidate for that release; 0: the release */
 #define SPHC_ABI 1u              /* raised only when an existing symbol or the prefix of a struct changes */
 
 /* ABI the library was built with; compare with SPHC_ABI before anything else. [pure] */

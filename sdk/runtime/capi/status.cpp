@@ -12,7 +12,8 @@
 uint32_t sphc_abi(void) { return SPHC_ABI; }
 
 const char *sphc_version_string(void) {
-  return SPHC_TEXT(SPHC_VERSION_MAJOR) "." SPHC_TEXT(SPHC_VERSION_MINOR) "." SPHC_TEXT(SPHC_VERSION_PATCH) SPHC_CANDIDATE_TEXT;
+  return SPHC_TEXT(SPHC_VERSION_MAJOR) "." SPHC_TEXT(SPHC_VERSION_MINOR) "." SPHC_TEXT(SPHC_VERSION_PATCH)
+      SPHC_CANDIDATE_TEXT;
 }
 
 const char *sphc_status_name(sphc_status status) {
