@@ -12,6 +12,7 @@
 """
 from ._answers import KEYPOINT, OBSERVATION
 from ._interface import SPHC_CAMERAS_MAX as CAMERAS_MAX
+from ._interface import SPHC_DEPTH_CAMERAS_MAX as DEPTH_CAMERAS_MAX
 from ._interface import SPHC_MAP_NONE as MAP_NONE
 from ._interface import SPHC_MAPS_MAX as MAPS_MAX
 from ._interface import VERSION as __version__
@@ -22,7 +23,7 @@ from .enums import (AlignedPixel, Band, CameraModel, Convention, Cut, Event, Fau
                     ObservationFlag, Outcome, Parameter, PriorPart, State, Status)
 from .errors import Error, LibraryError
 from .features import FeatureArrays, Features
-from .frames import Frame, Prior, RigCamera, View
+from .frames import DepthView, Frame, Prior, RigCamera, RigDepthCamera, View
 from .images import Image
 from .localizer import Localizer, to_logging
 from .maps import Map, MapInfo, extractor_id
@@ -32,10 +33,10 @@ from .results import DepthBias, Hypothesis, MemoryPiece, ParameterRange, Predict
 
 __all__ = [
     "Aligned", "AlignedPixel", "Aligner", "Band", "CAMERAS_MAX", "Camera", "CameraModel", "Convention", "Cut",
-    "DepthBias", "Error", "Event", "Fault", "FeatureArrays", "Features", "Format", "Frame", "Hint", "Hypothesis",
+    "DEPTH_CAMERAS_MAX", "DepthBias", "DepthView", "Error", "Event", "Fault", "FeatureArrays", "Features", "Format", "Frame", "Hint", "Hypothesis",
     "Image", "KEYPOINT", "LibraryError", "Localizer", "LogLevel", "MAPS_MAX", "MAP_NONE", "Map", "MapInfo",
     "MemoryPiece", "Mode", "OBSERVATION", "ObservationFlag", "Outcome", "Parameter", "ParameterRange",
-    "Prediction", "Prior", "PriorPart", "RecordedFrame", "Recording", "Result", "Rig", "RigCamera", "Rigid", "State", "Status", "View",
+    "Prediction", "Prior", "PriorPart", "RecordedFrame", "Recording", "Result", "Rig", "RigCamera", "RigDepthCamera", "Rigid", "State", "Status", "View",
     "__version__", "extractor_id", "load", "make_world", "parameter_range", "read_camera", "read_map",
     "to_logging", "version", "write_camera", "write_map",
 ]

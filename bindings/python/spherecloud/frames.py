@@ -6,6 +6,8 @@ import dataclasses
 import typing
 
 from . import _interface
+from ._calls import check
+from ._library import interface
 from .cameras import Camera
 from .enums import Format, PriorPart
 from .images import AMPLITUDE, COLOR, Array, Image, Slot, depth_kinds
@@ -65,6 +67,43 @@ class RigCamera:
 
 
 @dataclasses.dataclass(frozen=True)
+class RigDepthCamera:
+    """A depth camera of a rig beside the one in the rig.  What is None has the library's default
+    (sphc_localizer_depth_camera_init).
+
+    `unit_m`: metres per unit of its image.  What is measured below `min_m` or above `max_m` is ignored, as is what its
+    amplitudes say is below `amplitude_min`.  Noise, 1 sigma: sigma_m + sigma_per_m2 z^2.
+
+    How it is off against the depth camera in the rig: z of that one = z + offset + slope (z - depth_mid_m).
+    `offset_sigma_m` and `slope_sigma` are 1 sigma of what is unknown of it before the first frame; it is learnt where
+    both measure what the colour camera sees.  Both 0: they measure alike.
+    """
+
+    camera: Camera
+    color_from_depth: Rigid
+    format: Format = Format.DEPTH16
+    unit_m: float | None = None
+    min_m: float | None = None
+    max_m: float | None = None
+    sigma_m: float | None = None
+    sigma_per_m2: float | None = None
+    offset_sigma_m: float | None = None
+    slope_sigma: float | None = None
+    amplitude_min: int | None = None
+
+    def raw(self) -> _interface.sphc_localizer_depth_camera:
+        raw = _interface.sphc_localizer_depth_camera()
+        status = interface().sphc_localizer_depth_camera_init(raw, ctypes.sizeof(raw))
+        check(status, "sphc_localizer_depth_camera_init")
+        raw.camera, raw.color_from_depth = self.camera.raw(), self.color_from_depth.raw()
+        for field in dataclasses.fields(self)[2:]:
+            value = getattr(self, field.name)
+            if value is not None:
+                setattr(raw, field.name, value)
+        return raw
+
+
+@dataclasses.dataclass(frozen=True)
 class View:
     """The image of a further camera, mid-exposure at time_ns.  None: the camera has none in this frame.  `camera` and
     `color_from_camera`: as they are in this frame; None: as in the config."""
@@ -75,6 +114,19 @@ class View:
     color_from_camera: Rigid | None = None
 
 
+@dataclasses.dataclass(frozen=True)
+class DepthView:
+    """The image of a further depth camera, mid-exposure at time_ns.  None: the camera has none in this frame.
+    `amplitude`: its own light, where the camera has amplitude_min.  `camera` and `color_from_depth`: as they are in this
+    frame; None: as in the config."""
+
+    depth: Array | Image | None
+    time_ns: int
+    amplitude: Array | Image | None = None
+    camera: Camera | None = None
+    color_from_depth: Rigid | None = None
+
+
 @dataclasses.dataclass
 class Frame:
     """A colour and a depth image taken at about the same time.  Images are numpy arrays, or an Image where the array does
@@ -83,7 +135,8 @@ class Frame:
     Times are mid-exposure; the pose is that of the colour camera at color_time_ns.  `sequence` comes back in the result.
     `deadline_us`: the frame is to be answered so long after the call began; 0: none.  `amplitude`: the ToF sensor's own
     light, where the localizer has amplitude_min.  `views`: one for each further camera of the localizer, in its order.
-    `color_camera` and `color_from_depth`: as they are in this frame; None: as in the rig.
+    `depth_views`: the same of its further depth cameras.  `color_camera`, `color_from_depth` and `depth_camera`: as they
+    are in this frame; None: as in the rig.
     """
 
     color: Array | Image | None
@@ -97,16 +150,19 @@ class Frame:
     views: typing.Sequence[View] = ()
     color_camera: Camera | None = None
     color_from_depth: Rigid | None = None
+    depth_camera: Camera | None = None
+    depth_views: typing.Sequence[DepthView] = ()
 
 
 class FrameStruct:
-    """A struct that frames are put into, one after the other."""
+    """A struct that frames are put into, one after the other.  `depth_formats`: of the further depth cameras."""
 
-    def __init__(self, depth_format: Format) -> None:
+    def __init__(self, depth_format: Format, depth_formats: typing.Sequence[Format] = ()) -> None:
         self.raw = _interface.sphc_localizer_frame(struct_size=ctypes.sizeof(_interface.sphc_localizer_frame))
         self._color = Slot(self.raw.color, COLOR, "color")
         self._depth = Slot(self.raw.depth, depth_kinds(depth_format), "depth")
         self._amplitude = Slot(self.raw.amplitude, AMPLITUDE, "amplitude")
+        self._depth_kinds = [depth_kinds(format) for format in depth_formats]
         self._plain = True  # nothing but two images was in the last frame
 
     def fill(self, frame: Frame) -> list[object]:
@@ -118,20 +174,23 @@ class FrameStruct:
         self._depth.put(depth)
         told: list[object] = [color, depth]
         plain = (frame.prior is None and frame.amplitude is None and not frame.views and frame.color_camera is None
-                 and frame.color_from_depth is None)
+                 and frame.color_from_depth is None and frame.depth_camera is None and not frame.depth_views)
         if not (plain and self._plain):
             self._fill_the_rest(frame, told)
             self._plain = plain
         return told
 
     def _fill_the_rest(self, frame: Frame, told: list[object]) -> None:
-        raw, amplitude, views = self.raw, frame.amplitude, frame.views
+        raw, amplitude, views, depth_views = self.raw, frame.amplitude, frame.views, frame.depth_views
         self._plain = False
         self._amplitude.put(amplitude)
         told.append(amplitude)
         raw.prior = _address(frame.prior, told)
         raw.color_camera, raw.color_from_depth = _address(frame.color_camera, told), _address(frame.color_from_depth, told)
+        raw.depth_camera = _address(frame.depth_camera, told)
         raw.views, raw.view_count = self._views(views, told) if views else None, len(views)
+        raw.depth_views = self._depth_views(depth_views, told) if depth_views else None
+        raw.depth_view_count = len(depth_views)
 
     def _views(self, given: typing.Sequence[View], told: list[object]) -> int:
         views = (_interface.sphc_localizer_view * len(given))()
@@ -140,6 +199,17 @@ class FrameStruct:
             raw.struct_size, raw.time_ns = ctypes.sizeof(raw), view.time_ns
             Slot(raw.image, COLOR, "view").put(view.image)
             raw.camera, raw.color_from_camera = _address(view.camera, told), _address(view.color_from_camera, told)
+        return ctypes.addressof(views)
+
+    def _depth_views(self, given: typing.Sequence[DepthView], told: list[object]) -> int:
+        views = (_interface.sphc_localizer_depth_view * len(given))()
+        told.extend([views, *(view.depth for view in given), *(view.amplitude for view in given)])
+        # Of more views than cameras the library says that they are too many, before it looks at one.
+        for raw, view, kinds in zip(views, given, self._depth_kinds):
+            raw.struct_size, raw.time_ns = ctypes.sizeof(raw), view.time_ns
+            Slot(raw.depth, kinds, "depth view").put(view.depth)
+            Slot(raw.amplitude, AMPLITUDE, "amplitude of a depth view").put(view.amplitude)
+            raw.camera, raw.color_from_depth = _address(view.camera, told), _address(view.color_from_depth, told)
         return ctypes.addressof(views)
 
 

@@ -19,7 +19,7 @@ from .cameras import Rig
 from .enums import Band, Format, LogLevel, Mode, Parameter, Status
 from .errors import Error
 from .features import Features
-from .frames import Frame, FrameStruct, RigCamera
+from .frames import Frame, FrameStruct, RigCamera, RigDepthCamera
 from .maps import Map
 from .poses import Rigid
 from .results import DepthBias, Hypothesis, MemoryPiece, Prediction, Result
@@ -92,13 +92,14 @@ class Localizer:
                  map_sigma_m: float | None = None, depth_mid_m: float | None = None,
                  depth_offset_sigma_m: float | None = None, depth_slope_sigma: float | None = None,
                  depth_format: Format = Format.DEPTH16, amplitude_min: int | None = None, color_band: Band | None = None,
-                 cameras: typing.Sequence[RigCamera] = (), color_row_time_ns: int | None = None, log: Log | None = to_logging,
-                 log_level: LogLevel | None = None, clock: Clock | None = time.monotonic_ns) -> None:
+                 cameras: typing.Sequence[RigCamera] = (), depth_cameras: typing.Sequence[RigDepthCamera] = (),
+                 color_row_time_ns: int | None = None, log: Log | None = to_logging, log_level: LogLevel | None = None,
+                 clock: Clock | None = time.monotonic_ns) -> None:
         """Takes its memory once, here.  What is None has the library's default (sphc_localizer_config_init).
 
-        `maps`: a map, whose id is 0, or maps by id.  `cameras`: the further cameras of the rig.  `log` is called with a
-        level and a line, on the calling thread; None: no log.  `clock` gives monotonic nanoseconds, from any thread;
-        None: stage times are 0 and no frame has a deadline.  Neither may call the localizer.
+        `maps`: a map, whose id is 0, or maps by id.  `cameras` and `depth_cameras`: the further ones of the rig.  `log` is
+        called with a level and a line, on the calling thread; None: no log.  `clock` gives monotonic nanoseconds, from
+        any thread; None: stage times are 0 and no frame has a deadline.  Neither may call the localizer.
         Error(E_ARGUMENT): the rig or a parameter cannot be used; the message names field, cause and cure.
         """
         given = {"max_keypoints": max_keypoints, "max_maps": max_maps, "mode": mode, "seed": seed,
@@ -110,9 +111,12 @@ class Localizer:
         self._c, self._callbacks = interface(), _Callbacks(log, clock)
         self._process, self._made_result = self._c.sphc_localizer_process, _interface.sphc_localizer_result.from_buffer_copy
         self._cameras = (_interface.sphc_localizer_camera * len(cameras))(*(camera.raw() for camera in cameras))
+        self._depth_cameras = (_interface.sphc_localizer_depth_camera * len(depth_cameras))(
+            *(camera.raw() for camera in depth_cameras))
         self._config = self._made_config(rig, given)
         self._extracting, self._locating = threading.RLock(), threading.RLock()
-        self._extract_frame, self._locate_frame = FrameStruct(depth_format), FrameStruct(depth_format)
+        depth_formats = [camera.format for camera in depth_cameras]
+        self._extract_frame, self._locate_frame = (FrameStruct(depth_format, depth_formats) for _ in range(2))
         self._no_result, self._no_prediction = _interface.sphc_localizer_result(), _interface.sphc_localizer_prediction()
         self._c.sphc_localizer_result_init(self._no_result, ctypes.sizeof(self._no_result))
         self._c.sphc_localizer_prediction_init(self._no_prediction, ctypes.sizeof(self._no_prediction))
@@ -129,6 +133,8 @@ class Localizer:
         config.rig, config.log, config.clock = rig.raw(), self._callbacks.log, self._callbacks.clock
         config.cameras = ctypes.addressof(self._cameras) if len(self._cameras) else None
         config.camera_count = len(self._cameras)
+        config.depth_cameras = ctypes.addressof(self._depth_cameras) if len(self._depth_cameras) else None
+        config.depth_camera_count = len(self._depth_cameras)
         return config
 
     def _made(self) -> Owned:

@@ -24,7 +24,7 @@ class Layouts(unittest.TestCase):
         self.machine = MACHINES[platform.machine()]
 
     def test_structs(self):
-        self.assertEqual(len(self.structs), 23)
+        self.assertEqual(len(self.structs), 25)
         for struct in self.structs:
             bound, layout = getattr(_interface, struct["name"]), struct["layouts"][self.machine]
             self.assertEqual(ctypes.sizeof(bound), layout["bytes"], struct["name"])

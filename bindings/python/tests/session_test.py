@@ -134,15 +134,18 @@ class Session(unittest.TestCase):
 
     def test_what_one_frame_was_told_is_not_told_of_the_next(self):
         beside = sphc.RigCamera(session.COLOR, sphc.Rigid())
-        told = dict(prior=session.prior(session.ROWS[-1]), color_camera=session.COLOR, color_from_depth=sphc.Rigid())
-        with session.localizer({session.MAP_ID: self.map}, cameras=[beside]) as rig:
-            frame = self.first(views=[sphc.View(None, 0)], deadline_us=10**6, amplitude=self.first().color, **told)
+        second = sphc.RigDepthCamera(session.DEPTH, sphc.Rigid())
+        told = dict(prior=session.prior(session.ROWS[-1]), color_camera=session.COLOR, color_from_depth=sphc.Rigid(),
+                    depth_camera=session.DEPTH, views=[sphc.View(None, 0)], depth_views=[sphc.DepthView(None, 0)])
+        with session.localizer({session.MAP_ID: self.map}, cameras=[beside], depth_cameras=[second]) as rig:
+            frame = self.first(deadline_us=10**6, amplitude=self.first().color, **told)
             rig.process(frame)
             with self.assertRaises(sphc.Error):
                 rig.process(self.first())
             raw = rig._locate_frame.raw
-            left = raw.prior, raw.color_camera, raw.color_from_depth, raw.views, raw.amplitude.data, raw.deadline_us
-            self.assertEqual(left, (None,) * 5 + (0,))
+            left = (raw.prior, raw.color_camera, raw.color_from_depth, raw.depth_camera, raw.views, raw.depth_views,
+                    raw.amplitude.data, raw.deadline_us)
+            self.assertEqual(left, (None,) * 7 + (0,))
 
     def test_clock_log_and_deadline(self):
         lines = []
@@ -176,9 +179,35 @@ class Session(unittest.TestCase):
             with self.assertRaisesRegex(sphc.Error, "view"):
                 rig.process(frame)
 
+    def test_a_second_depth_camera(self):
+        frame = self.first()
+        second = sphc.RigDepthCamera(session.DEPTH, session.RIG.color_from_depth, sigma_m=0.02, amplitude_min=10)
+        with session.localizer({session.MAP_ID: self.map}, depth_cameras=[second]) as rig:
+            bright = np.full(frame.depth.shape, 100, np.uint8)
+            known = dict(amplitude=bright, camera=session.DEPTH, color_from_depth=session.RIG.color_from_depth)
+            blind = np.zeros_like(frame.depth)
+            frame.depth, frame.depth_views = blind, [sphc.DepthView(frame.depth, frame.depth_time_ns, **known)]
+            self.assertTrue(rig.process(frame).localized)
+            frame.depth_views = [sphc.DepthView(None, frame.depth_time_ns)]
+            self.assertFalse(rig.process(frame).localized)
+            for views, words in (([sphc.DepthView(blind[1:], 0, bright[1:])], "depth.*159"), ((), "depth_view_count is 0"),
+                                 ([sphc.DepthView(blind, 0)], "amplitude"), ([sphc.DepthView(blind, 0, bright)] * 2, "is 2")):
+                frame.depth_views = views
+                with self.assertRaisesRegex(sphc.Error, words):
+                    rig.process(frame)
+
+    def test_of_a_depth_camera_the_library_has_defaults(self):
+        raw = sphc.RigDepthCamera(session.DEPTH, sphc.Rigid(), min_m=0.75, format=sphc.Format.RANGE16).raw()
+        config = self.localizer._config
+        self.assertEqual((raw.format, raw.min_m, raw.max_m), (sphc.Format.RANGE16, 0.75, config.depth_max_m))
+        self.assertEqual((raw.unit_m, raw.sigma_per_m2), (0.001, config.depth_sigma_per_m2))
+
     def test_cameras_of_a_frame(self):
-        result = self.localizer.process(self.first(color_camera=session.COLOR, color_from_depth=session.RIG.color_from_depth))
-        self.assertTrue(session.same(result, session.ROWS[0]))
+        known = dict(color_camera=session.COLOR, color_from_depth=session.RIG.color_from_depth, depth_camera=session.DEPTH)
+        self.assertTrue(session.same(self.localizer.process(self.first(**known)), session.ROWS[0]))
+        known["depth_camera"] = session.COLOR
+        with self.assertRaisesRegex(sphc.Error, "depth_camera"):
+            self.localizer.process(self.first(**known))
 
     def test_answers_can_be_read(self):
         info = self.map.info()
