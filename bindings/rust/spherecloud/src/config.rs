@@ -52,6 +52,8 @@ pub struct Config<'a> {
     pub color_row_time_ns: i64,
     cameras: [RigCamera; FURTHER_CAMERAS],
     camera_count: usize,
+    depth_cameras: [RigDepthCamera; FURTHER_DEPTH_CAMERAS],
+    depth_camera_count: usize,
     log: Option<(LogLevel, Hook<'a, LogFn>)>,
     clock: Option<Hook<'a, ClockFn>>,
     parallel: Option<(u32, Hook<'a, ParallelFn>)>,
@@ -86,8 +88,82 @@ impl RigCamera {
     }
 }
 
+/// A depth camera of a rig beside the one in [`Config::rig`].
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct RigDepthCamera {
+    /// Of its image.
+    pub format: Format,
+    /// Its intrinsics.
+    pub camera: Camera,
+    /// Where it is, seen from the colour camera.
+    pub color_from_depth: Rigid,
+    /// Metres per unit of its image.
+    pub unit_m: f64,
+    /// Measurements below are ignored.
+    pub min_m: f64,
+    /// Measurements above are ignored.
+    pub max_m: f64,
+    /// Its noise, 1 sigma: sigma(z) = sigma_m + sigma_per_m2 z^2.
+    pub sigma_m: f64,
+    /// As above.
+    pub sigma_per_m2: f64,
+    /// How it is off against the depth camera in [`Config::rig`]: z of that one = z + offset + slope (z - depth_mid_m).
+    /// 1 sigma of the offset before the first frame; it is learnt where both measure what the colour camera sees. This
+    /// and the slope's 0: they measure alike.
+    pub offset_sigma_m: f64,
+    /// 1 sigma of that slope before the first frame.
+    pub slope_sigma: f64,
+    /// Measurements whose pixel in [`DepthView::amplitude`](crate::DepthView::amplitude) is below are ignored. 0: no
+    /// amplitude is looked at.
+    pub amplitude_min: u32,
+}
+
+impl RigDepthCamera {
+    /// The library's defaults: those of the config for range, noise and bias, and millimetres.
+    pub fn new(camera: Camera, color_from_depth: Rigid) -> Self {
+        let size = size_of::<sys::sphc_localizer_depth_camera>();
+        // SAFETY: all zero is a value of it; the call is [pure], and the size is right.
+        let mut raw: sys::sphc_localizer_depth_camera = unsafe { zeroed() };
+        unsafe { sys::sphc_localizer_depth_camera_init(&mut raw, size) };
+        Self {
+            format: Format::Depth16,
+            camera,
+            color_from_depth,
+            unit_m: raw.unit_m,
+            min_m: raw.min_m,
+            max_m: raw.max_m,
+            sigma_m: raw.sigma_m,
+            sigma_per_m2: raw.sigma_per_m2,
+            offset_sigma_m: raw.offset_sigma_m,
+            slope_sigma: raw.slope_sigma,
+            amplitude_min: raw.amplitude_min,
+        }
+    }
+
+    fn to_raw(self) -> sys::sphc_localizer_depth_camera {
+        sys::sphc_localizer_depth_camera {
+            struct_size: size_of::<sys::sphc_localizer_depth_camera>() as u32,
+            format: self.format.raw(),
+            camera: self.camera.to_raw(),
+            color_from_depth: self.color_from_depth.to_raw(),
+            unit_m: self.unit_m,
+            min_m: self.min_m,
+            max_m: self.max_m,
+            sigma_m: self.sigma_m,
+            sigma_per_m2: self.sigma_per_m2,
+            offset_sigma_m: self.offset_sigma_m,
+            slope_sigma: self.slope_sigma,
+            amplitude_min: self.amplitude_min,
+            reserved: 0,
+        }
+    }
+}
+
 /// Cameras of a rig beside the colour camera, at most.
 pub(crate) const FURTHER_CAMERAS: usize = sys::SPHC_CAMERAS_MAX as usize - 1;
+/// Depth cameras of a rig beside the one in [`Config::rig`], at most.
+pub(crate) const FURTHER_DEPTH_CAMERAS: usize = sys::SPHC_DEPTH_CAMERAS_MAX as usize - 1;
 
 /// A piece of a localizer's memory, for an account of its bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,6 +203,8 @@ impl<'a> Config<'a> {
             color_band: Band::from_raw(raw.color_band),
             cameras: [RigCamera::new(rig.color_camera, Rigid::IDENTITY); FURTHER_CAMERAS],
             camera_count: 0,
+            depth_cameras: [RigDepthCamera::new(rig.depth_camera, Rigid::IDENTITY); FURTHER_DEPTH_CAMERAS],
+            depth_camera_count: 0,
             color_row_time_ns: raw.color_row_time_ns,
             log: None,
             clock: None,
@@ -144,6 +222,16 @@ impl<'a> Config<'a> {
             *free = camera;
         }
         self.camera_count += 1;
+        self
+    }
+
+    /// Adds a depth camera to the rig; with more than 1, no localizer can be made.
+    #[must_use]
+    pub fn with_depth_camera(mut self, camera: RigDepthCamera) -> Self {
+        if let Some(free) = self.depth_cameras.get_mut(self.depth_camera_count) {
+            *free = camera;
+        }
+        self.depth_camera_count += 1;
         self
     }
 
@@ -205,7 +293,14 @@ impl<'a> Config<'a> {
                 "the rig has {} further cameras, {} is the most", self.camera_count, FURTHER_CAMERAS
             ));
         }
+        if self.depth_camera_count > FURTHER_DEPTH_CAMERAS {
+            return Err(error!(
+                Argument,
+                "the rig has {} further depth cameras, {} is the most", self.depth_camera_count, FURTHER_DEPTH_CAMERAS
+            ));
+        }
         let cameras = self.cameras.map(RigCamera::to_raw);
+        let depth_cameras = self.depth_cameras.map(RigDepthCamera::to_raw);
         let raw = sys::sphc_localizer_config {
             struct_size: size_of::<sys::sphc_localizer_config>() as u32,
             max_keypoints: self.max_keypoints,
@@ -240,6 +335,9 @@ impl<'a> Config<'a> {
             parallel_user: self.parallel.as_ref().map_or(null_mut(), |(_, hook)| hook.user()),
             parallel_tasks: self.parallel.as_ref().map_or(0, |(tasks, _)| *tasks),
             reserved4: 0,
+            depth_cameras: if self.depth_camera_count == 0 { null() } else { depth_cameras.as_ptr() },
+            depth_camera_count: self.depth_camera_count as u32,
+            reserved5: 0,
         };
         Ok(call(&raw))
     }

@@ -58,11 +58,20 @@ fn of_a_result() {
 
 #[test]
 fn of_a_frame() {
-    let (bytes, widths) = ([0; 100 * 100 * 2], [90, 91, 92, 93]);
-    let [color, depth, amplitude, seen] = widths.map(|width| Image::new(Format::Gray8, width, 100, &bytes).unwrap());
+    let (bytes, widths) = ([0; 100 * 100 * 2], [90, 91, 92, 93, 94, 95]);
+    let [color, depth, amplitude, seen, deep, bright] =
+        widths.map(|width| Image::new(Format::Gray8, width, 100, &bytes).unwrap());
     let view = View { camera: Some(camera(20)), color_from_camera: Some(at(7.0)), ..View::new(5, seen) };
     let views = [view, View::none()];
+    let depth_views = [DepthView {
+        amplitude: Some(bright),
+        camera: Some(camera(22)),
+        color_from_depth: Some(at(9.0)),
+        ..DepthView::new(10, deep)
+    }];
     let mut frame = Frame::new(2, color, 3, depth);
+    frame.depth_camera = Some(camera(23));
+    frame.depth_views = &depth_views;
     frame.sequence = 1;
     frame.amplitude = Some(amplitude);
     frame.deadline = Some(Duration::from_micros(4));
@@ -84,6 +93,10 @@ fn of_a_frame() {
         assert_eq!((views[0].time_ns, views[0].image.width, views.len()), (5, 93, 2));
         assert_eq!(((*views[0].camera).width, (*views[0].color_from_camera).t_m[0]), (20, 7.0));
         assert!(views[1].image.data.is_null() && views[1].camera.is_null() && views[1].color_from_camera.is_null());
+        let (second, count) = (&*raw.depth_views, raw.depth_view_count);
+        assert_eq!((second.time_ns, second.depth.width, second.amplitude.width, count), (10, 94, 95, 1));
+        assert_eq!(((*second.camera).width, (*second.color_from_depth).t_m[0]), (22, 9.0));
+        assert_eq!((*raw.depth_camera).width, 23);
         let prior = &*raw.prior;
         assert_eq!((prior.flags, prior.map_id), (7, 6));
         assert_eq!((prior.camera_from_map.t_m[0], prior.odometry_from_camera.t_m[0]), (1.0, 7.0));
@@ -94,10 +107,37 @@ fn of_a_frame() {
     frame.with_raw(seen).unwrap();
 }
 
+fn depth_camera() -> RigDepthCamera {
+    RigDepthCamera {
+        format: Format::Range16,
+        camera: camera(33),
+        color_from_depth: at(0.3),
+        unit_m: 20.0,
+        min_m: 21.0,
+        max_m: 22.0,
+        sigma_m: 23.0,
+        sigma_per_m2: 24.0,
+        offset_sigma_m: 25.0,
+        slope_sigma: 26.0,
+        amplitude_min: 27,
+    }
+}
+
+#[test]
+fn of_a_depth_camera_the_library_has_defaults() {
+    let (config, made) =
+        (Config::new(Rig::new(camera(30), camera(31), at(0.1))), RigDepthCamera::new(camera(1), at(0.1)));
+    assert_eq!((made.format, made.unit_m, made.amplitude_min), (Format::Depth16, 0.001, 0));
+    assert_eq!((made.min_m, made.max_m), (config.depth_min_m, config.depth_max_m));
+    assert_eq!((made.sigma_m, made.sigma_per_m2), (config.depth_sigma_m, config.depth_sigma_per_m2));
+    assert_eq!((made.offset_sigma_m, made.slope_sigma), (config.depth_offset_sigma_m, config.depth_slope_sigma));
+}
+
 #[test]
 fn of_a_config() {
     let mut config = Config::new(Rig::new(camera(30), camera(31), at(0.1)))
-        .with_camera(RigCamera { row_time_ns: 11, ..RigCamera::new(camera(32), at(0.2)) });
+        .with_camera(RigCamera { row_time_ns: 11, ..RigCamera::new(camera(32), at(0.2)) })
+        .with_depth_camera(depth_camera());
     (config.max_keypoints, config.max_maps, config.mode, config.seed) = (1, 2, Mode::Single, 3);
     (config.depth_min_m, config.depth_max_m, config.depth_mid_m) = (4.0, 5.0, 6.0);
     (config.depth_sigma_m, config.depth_sigma_per_m2) = (7.0, 8.0);
@@ -122,6 +162,11 @@ fn of_a_config() {
         let further = &*raw.cameras;
         assert_eq!((raw.camera_count, further.camera.width, further.row_time_ns), (1, 32, 11));
         assert_eq!(further.color_from_camera.t_m[0], 0.2);
+        let second = &*raw.depth_cameras;
+        assert_eq!((raw.depth_camera_count, second.camera.width, second.color_from_depth.t_m[0]), (1, 33, 0.3));
+        assert_eq!((second.format, second.unit_m, second.amplitude_min), (sys::SPHC_FORMAT_RANGE16, 20.0, 27));
+        assert_eq!((second.min_m, second.max_m, second.sigma_m, second.sigma_per_m2), (21.0, 22.0, 23.0, 24.0));
+        assert_eq!((second.offset_sigma_m, second.slope_sigma), (25.0, 26.0));
     };
     config.with_raw(seen).unwrap();
 }

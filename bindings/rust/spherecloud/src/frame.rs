@@ -5,7 +5,7 @@ use core::time::Duration;
 
 use spherecloud_sys as sys;
 
-use crate::config::FURTHER_CAMERAS;
+use crate::config::{FURTHER_CAMERAS, FURTHER_DEPTH_CAMERAS};
 use crate::error::error;
 use crate::{Camera, Image, Result, Rigid};
 
@@ -49,6 +49,11 @@ pub struct Frame<'a> {
     pub color_camera: Option<Camera>,
     /// As it is in this frame, if it differs from the config's.
     pub color_from_depth: Option<Rigid>,
+    /// As it is in this frame, with heat or focus, if it differs from the config's. The size stays. Of a range format,
+    /// cosines stay those of the config's.
+    pub depth_camera: Option<Camera>,
+    /// One for each camera that [`Config::with_depth_camera`](crate::Config::with_depth_camera) added, in their order.
+    pub depth_views: &'a [DepthView<'a>],
 }
 
 /// The image of a further camera.
@@ -63,6 +68,22 @@ pub struct View<'a> {
     pub camera: Option<Camera>,
     /// As it is in this frame, if it differs from the config's.
     pub color_from_camera: Option<Rigid>,
+}
+
+/// The image of a further depth camera.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct DepthView<'a> {
+    /// Mid-exposure.
+    pub time_ns: i64,
+    /// Of the camera's format and size. `None`: the camera has no image in this frame.
+    pub depth: Option<Image<'a>>,
+    /// As [`Frame::amplitude`]. Needed with every depth image where the camera's `amplitude_min` is set.
+    pub amplitude: Option<Image<'a>>,
+    /// As it is in this frame, if it differs from the config's. The size stays.
+    pub camera: Option<Camera>,
+    /// As it is in this frame, if it differs from the config's.
+    pub color_from_depth: Option<Rigid>,
 }
 
 /// What is known of a pose before its frame is looked at.
@@ -141,6 +162,8 @@ impl<'a> Frame<'a> {
             views: &[],
             color_camera: None,
             color_from_depth: None,
+            depth_camera: None,
+            depth_views: &[],
         }
     }
 
@@ -149,8 +172,14 @@ impl<'a> Frame<'a> {
         if self.views.len() > FURTHER_CAMERAS {
             return Err(error!(Argument, "the frame has {} views, {} is the most", self.views.len(), FURTHER_CAMERAS));
         }
+        if self.depth_views.len() > FURTHER_DEPTH_CAMERAS {
+            let (has, most) = (self.depth_views.len(), FURTHER_DEPTH_CAMERAS);
+            return Err(error!(Argument, "the frame has {} depth views, {} is the most", has, most));
+        }
         let mut views = [View::none().lend(); FURTHER_CAMERAS];
         views.iter_mut().zip(self.views).for_each(|(raw, view)| *raw = view.lend());
+        let mut depth_views = [DepthView::none().lend(); FURTHER_DEPTH_CAMERAS];
+        depth_views.iter_mut().zip(self.depth_views).for_each(|(raw, view)| *raw = view.lend());
         let prior = self.prior.as_ref().map(Prior::lend);
         let raw = sys::sphc_localizer_frame {
             struct_size: size_of::<sys::sphc_localizer_frame>() as u32,
@@ -170,6 +199,10 @@ impl<'a> Frame<'a> {
             reserved3: 0,
             color_camera: self.color_camera.as_ref().map_or(null(), Camera::as_raw),
             color_from_depth: self.color_from_depth.as_ref().map_or(null(), Rigid::as_raw),
+            depth_camera: self.depth_camera.as_ref().map_or(null(), Camera::as_raw),
+            depth_views: if self.depth_views.is_empty() { null() } else { depth_views.as_ptr() },
+            depth_view_count: self.depth_views.len() as u32,
+            reserved4: 0,
         };
         Ok(call(&raw))
     }
@@ -195,6 +228,31 @@ impl<'a> View<'a> {
             image: self.image.map_or(Image::none(), Image::to_raw),
             camera: self.camera.as_ref().map_or(null(), Camera::as_raw),
             color_from_camera: self.color_from_camera.as_ref().map_or(null(), Rigid::as_raw),
+        }
+    }
+}
+
+impl<'a> DepthView<'a> {
+    /// An image, with the camera as it is in the config.
+    pub fn new(time_ns: i64, depth: Image<'a>) -> Self {
+        Self { time_ns, depth: Some(depth), ..Self::none() }
+    }
+
+    /// The camera has no image in this frame.
+    pub fn none() -> Self {
+        Self { time_ns: 0, depth: None, amplitude: None, camera: None, color_from_depth: None }
+    }
+
+    /// It points into the view.
+    fn lend(&self) -> sys::sphc_localizer_depth_view {
+        sys::sphc_localizer_depth_view {
+            struct_size: size_of::<sys::sphc_localizer_depth_view>() as u32,
+            reserved: 0,
+            time_ns: self.time_ns,
+            depth: self.depth.map_or(Image::none(), Image::to_raw),
+            amplitude: self.amplitude.map_or(Image::none(), Image::to_raw),
+            camera: self.camera.as_ref().map_or(null(), Camera::as_raw),
+            color_from_depth: self.color_from_depth.as_ref().map_or(null(), Rigid::as_raw),
         }
     }
 }

@@ -66,11 +66,11 @@ mod split;
 mod values;
 
 pub use aligner::{Aligned, Aligner, AlignerConfig};
-pub use config::{Config, MemoryPiece, RigCamera};
+pub use config::{Config, MemoryPiece, RigCamera, RigDepthCamera};
 pub use enums::*;
 pub use error::{check_library, library_version, Error, Result};
 pub use features::{FeatureSet, Features, Keypoint, DESCRIPTOR_BYTES};
-pub use frame::{Frame, Odometry, PosePrior, Prior, UpPrior, View};
+pub use frame::{DepthView, Frame, Odometry, PosePrior, Prior, UpPrior, View};
 pub use geometry::{Camera, Rig, Rigid};
 #[cfg(feature = "std")]
 pub use hooks::MonotonicClock;

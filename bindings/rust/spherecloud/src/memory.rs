@@ -61,7 +61,7 @@ pub const MAP_BYTES_MAX: usize = sys::SPHC_MAP_BYTES_MAX as usize;
 
 /// Upper bounds of what localizers and features need, in any library of this ABI: for memory whose size the compiler
 /// must know, such as `Block<{ bounds::localizer_state(800, 4) }>`. Of sizes of images count the largest width and the
-/// largest height of all cameras but the depth camera. The macros `_BYTES_MAX` of the C header, in bytes.
+/// largest height of all cameras but depth cameras. The macros `_BYTES_MAX` of the C header, in bytes.
 pub mod bounds {
     /// State of a localizer.
     pub const fn localizer_state(max_keypoints: usize, max_maps: usize) -> usize {
@@ -82,6 +82,12 @@ pub mod bounds {
     /// Added to state and to scratch where the rig has further cameras.
     pub const fn localizer_cameras(max_keypoints: usize, width: usize, height: usize) -> usize {
         65536 + 256 * max_keypoints + width * height
+    }
+
+    /// Added to state and to scratch where the rig has a second depth camera, beside what its own format and
+    /// `amplitude_min` add by [`localizer_depth`]; of its image.
+    pub const fn localizer_depth_camera(width: usize, height: usize) -> usize {
+        65536 + width * height
     }
 
     /// Added to scratch where a frame's work is cut into `tasks` pieces.

@@ -1,6 +1,7 @@
 //! The binding plays the golden session, keeps its promises, and refuses what it should.
 mod aligner;
 mod conventions;
+mod depth_cameras;
 mod features;
 mod golden;
 mod hooks;

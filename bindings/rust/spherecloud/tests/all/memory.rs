@@ -81,6 +81,11 @@ fn bounds_hold() {
     assert!(config.features_memory().unwrap().state_bytes <= bounds::features(400, 320, 240));
 
     let alone = (need.state_bytes, need.scratch_bytes);
+    let second = spherecloud::RigDepthCamera::new(config.rig.depth_camera, config.rig.color_from_depth);
+    let both = config.clone().with_depth_camera(second).localizer_memory().unwrap();
+    assert!(both.state_bytes + both.scratch_bytes > alone.0 + alone.1);
+    assert!(both.state_bytes <= alone.0 + bounds::localizer_depth_camera(200, 160));
+    assert!(both.scratch_bytes <= alone.1 + bounds::localizer_depth_camera(200, 160));
     config.depth_format = spherecloud::Format::Range16;
     let need = config.localizer_memory().unwrap();
     assert!(need.state_bytes + need.scratch_bytes > alone.0 + alone.1);

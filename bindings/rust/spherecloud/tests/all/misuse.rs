@@ -1,8 +1,8 @@
 //! What is wrong is an error that says what, and never a crash.
 use crate::session::{config, golden, localizer, map, rig, steps, MAP_ID};
 use spherecloud::{
-    Camera, Config, Error, Features, Format, Frame, Image, Localizer, Map, Outcome, Parameter, RigCamera, Rigid,
-    Status, View,
+    Camera, Config, Error, Features, Format, Frame, Image, Localizer, Map, Outcome, Parameter, RigCamera,
+    RigDepthCamera, Rigid, Status, View,
 };
 
 fn refused<T: std::fmt::Debug>(answer: Result<T, Error>, status: Status, word: &str) {
@@ -43,6 +43,9 @@ fn configs_that_are_none() {
     let eight =
         (0..8).fold(config(), |config, _| config.with_camera(RigCamera::new(rig().color_camera, Rigid::IDENTITY)));
     refused(Localizer::new(&eight), Status::Argument, "8 further cameras");
+    let second = RigDepthCamera::new(rig().depth_camera, Rigid::IDENTITY);
+    let three = config().with_depth_camera(second).with_depth_camera(second);
+    refused(Localizer::new(&three), Status::Argument, "2 further depth cameras");
 }
 
 #[test]
