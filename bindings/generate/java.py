@@ -20,12 +20,13 @@ CLASSES = {"sphc_localizer_config": "LocalizerConfig", "sphc_localizer_camera": 
 BITS = {"SPHC_PRIOR_": "PriorPart", "SPHC_FAULT_": "Fault", "SPHC_CUT_": "Cut", "SPHC_HINT_": "Hint", "SPHC_EVENT_": "Event",
         "SPHC_OBSERVATION_": "ObservationFlag"}
 FIELDS = {"q_wxyz": "quaternion_wxyz", "t_m": "translation_m"}
-BY_HAND = ("struct_size", "log_level", "camera_count", "view_count", "parallel_tasks")  # a method sets them with their pointers
+# A method sets them with their pointers.
+BY_HAND = ("struct_size", "log_level", "camera_count", "view_count", "depth_camera_count", "depth_view_count", "parallel_tasks")
 
 UNUSED = ("sphc_memory_piece",)
 WITHOUT_CLASS = UNUSED + ("sphc_message", "sphc_memory", "sphc_aligned", "sphc_features_arrays")
 BASES = ("sphc_rigid", "sphc_camera", "sphc_rig", "sphc_image", "sphc_localizer_config", "sphc_localizer_prior",
-         "sphc_localizer_view", "sphc_localizer_frame", "sphc_localizer_result")
+         "sphc_localizer_view", "sphc_localizer_depth_view", "sphc_localizer_frame", "sphc_localizer_result")
 READ_ONLY = ("sphc_image", "sphc_map_info", "sphc_localizer_result", "sphc_localizer_prediction", "sphc_localizer_observation",
              "sphc_localizer_hypothesis", "sphc_localizer_parameter_range")
 TEXTS = {"sphc_map_info": "What a map file says of itself.",

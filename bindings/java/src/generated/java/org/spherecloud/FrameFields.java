@@ -77,14 +77,4 @@ abstract class FrameFields extends Struct {
   public Image getAmplitude() {
     return amplitude;
   }
-
-  /** config.depth_camera_count. */
-  public int getDepthViewCount() {
-    return getInt(Layout.LOCALIZER_FRAME_DEPTH_VIEW_COUNT);
-  }
-
-  /** Sets {@link #getDepthViewCount}. */
-  public void setDepthViewCount(int depthViewCount) {
-    putInt(Layout.LOCALIZER_FRAME_DEPTH_VIEW_COUNT, depthViewCount);
-  }
 }

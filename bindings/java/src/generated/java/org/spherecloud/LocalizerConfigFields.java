@@ -194,14 +194,4 @@ abstract class LocalizerConfigFields extends Struct {
   public void setColorRowTimeNs(long colorRowTimeNs) {
     putLong(Layout.LOCALIZER_CONFIG_COLOR_ROW_TIME_NS, colorRowTimeNs);
   }
-
-  /** 0 to {@link Limits#DEPTH_CAMERAS_MAX} - 1. */
-  public int getDepthCameraCount() {
-    return getInt(Layout.LOCALIZER_CONFIG_DEPTH_CAMERA_COUNT);
-  }
-
-  /** Sets {@link #getDepthCameraCount}. */
-  public void setDepthCameraCount(int depthCameraCount) {
-    putInt(Layout.LOCALIZER_CONFIG_DEPTH_CAMERA_COUNT, depthCameraCount);
-  }
 }

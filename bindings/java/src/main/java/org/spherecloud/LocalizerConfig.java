@@ -3,6 +3,7 @@ package org.spherecloud;
 /** What a {@link Localizer} is made for.  New ones have the defaults; their cameras are zero and must be set. */
 public final class LocalizerConfig extends LocalizerConfigFields {
   private StructList<RigCamera> cameras;
+  private StructList<DepthCamera> depthCameras;
   private Log log;
   private Clock clock;
 
@@ -22,6 +23,20 @@ public final class LocalizerConfig extends LocalizerConfigFields {
   /** How many further cameras the rig has. */
   public int getCameraCount() {
     return getInt(Layout.LOCALIZER_CONFIG_CAMERA_COUNT);
+  }
+
+  /** The further depth cameras of the rig, beside that of {@link #getRig}.  They are copied. */
+  public void setDepthCameras(DepthCamera... further) {
+    depthCameras = further.length == 0 ? null
+        : new StructList<>(further.length, Layout.LOCALIZER_DEPTH_CAMERA_BYTES, DepthCamera::new);
+    for (int i = 0; i < further.length; i++) depthCameras.at(i).set(further[i]);
+    putPointer(Layout.LOCALIZER_CONFIG_DEPTH_CAMERAS, depthCameras);
+    putInt(Layout.LOCALIZER_CONFIG_DEPTH_CAMERA_COUNT, further.length);
+  }
+
+  /** How many further depth cameras the rig has. */
+  public int getDepthCameraCount() {
+    return getInt(Layout.LOCALIZER_CONFIG_DEPTH_CAMERA_COUNT);
   }
 
   /** Lines of this level, and of those that say less, go to the log; {@link LogLevel#DEBUG} has one for every frame. */

@@ -2,17 +2,16 @@
 package org.spherecloud;
 
 /** The image of a further depth camera; everything is borrowed. */
-public final class DepthView extends Struct {
+abstract class DepthViewFields extends Struct {
   private final Image depth = new Image(this, Layout.LOCALIZER_DEPTH_VIEW_DEPTH);
   private final Image amplitude = new Image(this, Layout.LOCALIZER_DEPTH_VIEW_AMPLITUDE);
 
-  /** With defaults, or zeros where it has none. */
-  public DepthView() {
+  DepthViewFields() {
     super(Layout.LOCALIZER_DEPTH_VIEW_BYTES);
     Failure.check(Native.localizerDepthViewInit(address, Layout.LOCALIZER_DEPTH_VIEW_BYTES), "sphc_localizer_depth_view");
   }
 
-  DepthView(Struct whole, int at) {
+  DepthViewFields(Struct whole, int at) {
     super(whole, at);
   }
 
