@@ -23,7 +23,8 @@ VALUES = {  # come out of the library
 INPUTS = {  # go into it, and begin as the library says
     "sphc_aligner_config": "AlignerConfig", "sphc_localizer_config": "LocalizerConfig",
     "sphc_localizer_camera": "LocalizerCamera", "sphc_localizer_prior": "LocalizerPrior",
-    "sphc_localizer_view": "LocalizerView", "sphc_localizer_frame": "LocalizerFrame"}
+    "sphc_localizer_view": "LocalizerView", "sphc_localizer_depth_camera": "LocalizerDepthCamera",
+    "sphc_localizer_depth_view": "LocalizerDepthView", "sphc_localizer_frame": "LocalizerFrame"}
 BY_HAND = {"sphc_rigid": "Rigid", "sphc_camera": "CameraIntrinsics"}
 PUBLIC = {**VALUES, **BY_HAND}
 ENUMS = {
@@ -214,7 +215,7 @@ def value_struct(struct):
 def by_hand(field):
     """Borrowed memory and calls back: a person writes what a program sees of them."""
     return (hidden(field) or field.type.pointers or field.type.base in (*TOLD.callbacks, "sphc_image")
-            or field.name in ("camera_count", "view_count", "parallel_tasks"))
+            or field.name in ("camera_count", "view_count", "depth_camera_count", "depth_view_count", "parallel_tasks"))
 
 
 def input_class(struct):

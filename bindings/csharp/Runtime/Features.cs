@@ -105,8 +105,8 @@ public sealed unsafe class FeatureArrays {
 
 internal sealed unsafe class FeaturesHandle : NativeHandle {
   internal FeaturesHandle(LocalizerConfig config) : base("Features") {
-    Native.sphc_localizer_camera* cameras = stackalloc Native.sphc_localizer_camera[Limits.CamerasMax];
-    Native.sphc_localizer_config raw = config.Borrow(cameras);
+    long* room = stackalloc long[LocalizerConfig.CameraLongs];
+    Native.sphc_localizer_config raw = config.Borrow(room);
     Native.sphc_memory need;
     Native.sphc_features* features = null;
     var message = new Native.sphc_message();

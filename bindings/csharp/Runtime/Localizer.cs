@@ -234,8 +234,8 @@ internal sealed unsafe class LocalizerHandle : NativeHandle {
   private GCHandle callbacks;  // of the same
 
   internal LocalizerHandle(LocalizerConfig config) : base("Localizer") {
-    Native.sphc_localizer_camera* cameras = stackalloc Native.sphc_localizer_camera[Limits.CamerasMax];
-    Native.sphc_localizer_config raw = config.Borrow(cameras);
+    long* room = stackalloc long[LocalizerConfig.CameraLongs];
+    Native.sphc_localizer_config raw = config.Borrow(room);
     Native.sphc_memory need;
     Native.sphc_localizer* localizer = null;
     var message = new Native.sphc_message();

@@ -20,12 +20,16 @@ public sealed unsafe partial class LocalizerConfig {
   /// <summary>The rig's further cameras, in the order of LocalizerFrame.Views. At most Limits.CamerasMax - 1.</summary>
   public List<LocalizerCamera> Cameras { get; } = new List<LocalizerCamera>();
 
+  /// <summary>The rig's further depth cameras, in the order of LocalizerFrame.DepthViews. At most
+  /// Limits.DepthCamerasMax - 1.</summary>
+  public List<LocalizerDepthCamera> DepthCameras { get; } = new List<LocalizerDepthCamera>();
+
   /// <summary>Bytes of memory that a localizer of this config takes, piece by piece. Throws SpherecloudException where
   /// the config cannot be used.</summary>
   public List<MemoryPiece> MemoryPieces() {
     var pieces = new List<MemoryPiece>();
-    Native.sphc_localizer_camera* cameras = stackalloc Native.sphc_localizer_camera[Limits.CamerasMax];
-    Native.sphc_localizer_config borrowed = Borrow(cameras);
+    long* room = stackalloc long[CameraLongs];
+    Native.sphc_localizer_config borrowed = Borrow(room);
     for (;;) {
       Native.sphc_memory_piece piece;
       Status status = Native.sphc_localizer_memory_piece(&borrowed, (uint)pieces.Count, &piece);
@@ -35,18 +39,32 @@ public sealed unsafe partial class LocalizerConfig {
     }
   }
 
-  /// <summary>For one call; without log and clock. `cameras` has room for Limits.CamerasMax.</summary>
-  internal Native.sphc_localizer_config Borrow(Native.sphc_localizer_camera* cameras) {
-    if (Cameras.Count >= Limits.CamerasMax)
-      throw new ArgumentException("config.Cameras has " + Cameras.Count + "; at most " + (Limits.CamerasMax - 1));
+  private const int MaxCameras = Limits.CamerasMax - 1, MaxDepthCameras = Limits.DepthCamerasMax - 1;
+
+  /// <summary>Room for the further cameras; of long, for its alignment.</summary>
+  internal static readonly int CameraLongs =
+      (MaxCameras * sizeof(Native.sphc_localizer_camera) + MaxDepthCameras * sizeof(Native.sphc_localizer_depth_camera)) /
+      sizeof(long) + 1;
+
+  /// <summary>For one call; without log and clock. `room` is of CameraLongs.</summary>
+  internal Native.sphc_localizer_config Borrow(long* room) {
+    if (Cameras.Count > MaxCameras)
+      throw new ArgumentException("config.Cameras has " + Cameras.Count + "; at most " + MaxCameras);
+    if (DepthCameras.Count > MaxDepthCameras)
+      throw new ArgumentException("config.DepthCameras has " + DepthCameras.Count + "; at most " + MaxDepthCameras);
     Native.sphc_localizer_config borrowed = raw;
     if (ParallelTasks != 1) {
       borrowed.parallel = Callbacks.Parallel;
       borrowed.parallel_tasks = ParallelTasks;
     }
+    var cameras = (Native.sphc_localizer_camera*)room;
     borrowed.camera_count = (uint)Cameras.Count;
     borrowed.cameras = Cameras.Count > 0 ? cameras : null;
     for (int i = 0; i < Cameras.Count; ++i) cameras[i] = Cameras[i].raw;
+    var depthCameras = (Native.sphc_localizer_depth_camera*)(cameras + MaxCameras);
+    borrowed.depth_camera_count = (uint)DepthCameras.Count;
+    borrowed.depth_cameras = DepthCameras.Count > 0 ? depthCameras : null;
+    for (int i = 0; i < DepthCameras.Count; ++i) depthCameras[i] = DepthCameras[i].raw;
     return borrowed;
   }
 }
@@ -78,6 +96,20 @@ public sealed unsafe partial class LocalizerView {
   public Rigid? ColorFromCamera { get; set; }
 }
 
+public sealed unsafe partial class LocalizerDepthView {
+  /// <summary>In the camera's format and size. Unset: the camera has none in this frame.</summary>
+  public ImageData Depth { get; set; }
+
+  /// <summary>As LocalizerFrame.Amplitude. Every depth image has one where the camera's AmplitudeMin is set.</summary>
+  public ImageData Amplitude { get; set; }
+
+  /// <summary>The camera as it is in this frame, with heat or focus; null: as in the config. The size stays.</summary>
+  public CameraIntrinsics? Camera { get; set; }
+
+  /// <summary>The camera's place in this frame; null: as in the config.</summary>
+  public Rigid? ColorFromDepth { get; set; }
+}
+
 /// <remarks>One frame can be changed and used again for the next; a call keeps nothing of it.</remarks>
 public sealed unsafe partial class LocalizerFrame {
   /// <summary>In any format that is not of depth; the size is that of config.Rig.ColorCamera.</summary>
@@ -101,18 +133,27 @@ public sealed unsafe partial class LocalizerFrame {
 
   /// <summary>The depth camera's place in this frame; null: as in config.Rig.</summary>
   public Rigid? ColorFromDepth { get; set; }
+
+  /// <summary>The depth camera as it is in this frame; null: as in config.Rig. The size stays. Of a Range format, cosines
+  /// stay those of config.Rig.</summary>
+  public CameraIntrinsics? DepthCamera { get; set; }
+
+  /// <summary>The images of config.DepthCameras, in their order.</summary>
+  public List<LocalizerDepthView> DepthViews { get; } = new List<LocalizerDepthView>();
 }
 
 /// <summary>A frame as C wants it, for one call: arrays are pinned until it is disposed of. Everything lies in the
 /// caller's block, so nothing is allocated.</summary>
 internal unsafe struct LentFrame : IDisposable {
-  private const int MaxViews = Limits.CamerasMax - 1, MaxPins = MaxViews + 3;
+  private const int MaxViews = Limits.CamerasMax - 1, MaxDepthViews = Limits.DepthCamerasMax - 1;
+  private const int MaxPins = 3 + MaxViews + 2 * MaxDepthViews;
 
   private struct Block {
     internal Native.sphc_localizer_frame frame;
     internal Native.sphc_localizer_prior prior;
     internal CameraIntrinsics camera;
     internal Rigid rigid;
+    internal CameraIntrinsics depthCamera;
   }
 
   private struct ViewBlock {
@@ -120,9 +161,11 @@ internal unsafe struct LentFrame : IDisposable {
     internal Rigid rigid;
   }
 
-  /// <summary>Room for a block; of long, for its alignment.</summary>
+  /// <summary>Room for a block, a ViewBlock of each view and depth view, the views and the depth views; of long, for its
+  /// alignment.</summary>
   internal static readonly int Longs =
-      (sizeof(Block) + MaxViews * (sizeof(Native.sphc_localizer_view) + sizeof(ViewBlock))) / sizeof(long) + 1;
+      (sizeof(Block) + MaxViews * (sizeof(Native.sphc_localizer_view) + sizeof(ViewBlock)) +
+       MaxDepthViews * (sizeof(Native.sphc_localizer_depth_view) + sizeof(ViewBlock))) / sizeof(long) + 1;
 
   private fixed long pins[MaxPins];
   private int pinned;
@@ -132,6 +175,8 @@ internal unsafe struct LentFrame : IDisposable {
     if (frame == null) throw new ArgumentNullException(nameof(frame));
     if (frame.Views.Count > MaxViews)
       throw new ArgumentException("frame.Views has " + frame.Views.Count + "; at most " + MaxViews);
+    if (frame.DepthViews.Count > MaxDepthViews)
+      throw new ArgumentException("frame.DepthViews has " + frame.DepthViews.Count + "; at most " + MaxDepthViews);
     block = (Block*)room;
     block->frame = frame.raw;
     if (frame.Prior != null) {
@@ -140,11 +185,13 @@ internal unsafe struct LentFrame : IDisposable {
     }
     block->frame.color_camera = Put(frame.ColorCamera, &block->camera);
     block->frame.color_from_depth = Put(frame.ColorFromDepth, &block->rigid);
+    block->frame.depth_camera = Put(frame.DepthCamera, &block->depthCamera);
     try {
       Pin(frame.Color, &block->frame.color);
       Pin(frame.Depth, &block->frame.depth);
       Pin(frame.Amplitude, &block->frame.amplitude);
       PutViews(frame.Views);
+      PutDepthViews(frame.DepthViews);
     } catch {
       Dispose();
       throw;
@@ -155,7 +202,7 @@ internal unsafe struct LentFrame : IDisposable {
 
   private void PutViews(List<LocalizerView> views) {
     var rest = (ViewBlock*)(block + 1);
-    var raw = (Native.sphc_localizer_view*)(rest + MaxViews);
+    var raw = (Native.sphc_localizer_view*)(rest + MaxViews + MaxDepthViews);
     for (int i = 0; i < views.Count; ++i) {
       raw[i] = views[i].raw;
       raw[i].camera = Put(views[i].Camera, &rest[i].camera);
@@ -164,6 +211,20 @@ internal unsafe struct LentFrame : IDisposable {
     }
     block->frame.views = views.Count > 0 ? raw : null;
     block->frame.view_count = (uint)views.Count;
+  }
+
+  private void PutDepthViews(List<LocalizerDepthView> views) {
+    ViewBlock* rest = (ViewBlock*)(block + 1) + MaxViews;
+    var raw = (Native.sphc_localizer_depth_view*)((Native.sphc_localizer_view*)(rest + MaxDepthViews) + MaxViews);
+    for (int i = 0; i < views.Count; ++i) {
+      raw[i] = views[i].raw;
+      raw[i].camera = Put(views[i].Camera, &rest[i].camera);
+      raw[i].color_from_depth = Put(views[i].ColorFromDepth, &rest[i].rigid);
+      Pin(views[i].Depth, &raw[i].depth);
+      Pin(views[i].Amplitude, &raw[i].amplitude);
+    }
+    block->frame.depth_views = views.Count > 0 ? raw : null;
+    block->frame.depth_view_count = (uint)views.Count;
   }
 
   private static CameraIntrinsics* Put(CameraIntrinsics? camera, CameraIntrinsics* to) {

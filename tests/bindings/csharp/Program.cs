@@ -6,7 +6,8 @@ using System.Reflection;
 internal static class Program {
   private static readonly Type[] suites = {
       typeof(LayoutTest), typeof(GoldenTest), typeof(ConventionTest), typeof(CameraTest), typeof(AlignerTest),
-      typeof(FeaturesTest), typeof(ConfigTest), typeof(MisuseTest), typeof(LifetimeTest), typeof(ThreadTest), typeof(UnityTest)};
+      typeof(FeaturesTest), typeof(ConfigTest), typeof(DepthCameraTest), typeof(MisuseTest), typeof(LifetimeTest),
+      typeof(ThreadTest), typeof(UnityTest)};
 
   private static int Main(string[] names) {
     int passed = 0, failed = 0;

@@ -111,9 +111,6 @@ public sealed unsafe partial class LocalizerConfig {
   /// LocalizerMode.Tracking, rows are taken to the time of the middle one, which is the image's. 0: all at
   /// once.</summary>
   public long ColorRowTimeNs { get { return raw.color_row_time_ns; } set { raw.color_row_time_ns = value; } }
-
-  /// <summary>0 to Limits.DepthCamerasMax - 1.</summary>
-  public uint DepthCameraCount { get { return raw.depth_camera_count; } set { raw.depth_camera_count = value; } }
 }
 
 /// <summary>A camera of a rig beside the colour camera: grey or colour, of any model and size, looking
@@ -201,6 +198,70 @@ public sealed unsafe partial class LocalizerView {
   public long TimeNs { get { return raw.time_ns; } set { raw.time_ns = value; } }
 }
 
+/// <summary>A depth camera of a rig beside the one in config.Rig.</summary>
+public sealed unsafe partial class LocalizerDepthCamera {
+  internal Native.sphc_localizer_depth_camera raw;
+
+  /// <summary>Has the library's defaults.</summary>
+  public LocalizerDepthCamera() {
+    Library.Require();
+    fixed (Native.sphc_localizer_depth_camera* p = &raw)
+      SpherecloudException.Check(Native.sphc_localizer_depth_camera_init(p, Size.Of(sizeof(Native.sphc_localizer_depth_camera))));
+  }
+
+  /// <summary>As config.DepthFormat.</summary>
+  public PixelFormat Format { get { return raw.format; } set { raw.format = value; } }
+
+  /// <summary>What it is like.</summary>
+  public CameraIntrinsics Camera { get { return raw.camera; } set { raw.camera = value; } }
+
+  /// <summary>Within the limits of Rig.ColorFromDepth.</summary>
+  public Rigid ColorFromDepth { get { return raw.color_from_depth; } set { raw.color_from_depth = value; } }
+
+  /// <summary>Metres per unit of the depth image.</summary>
+  public double UnitM { get { return raw.unit_m; } set { raw.unit_m = value; } }
+
+  /// <summary>Measurements outside are ignored.</summary>
+  public double MinM { get { return raw.min_m; } set { raw.min_m = value; } }
+
+  /// <summary>Measurements outside are ignored.</summary>
+  public double MaxM { get { return raw.max_m; } set { raw.max_m = value; } }
+
+  /// <summary>Noise, as config.DepthSigmaM.</summary>
+  public double SigmaM { get { return raw.sigma_m; } set { raw.sigma_m = value; } }
+
+  /// <summary>Noise, as config.DepthSigmaM.</summary>
+  public double SigmaPerM2 { get { return raw.sigma_per_m2; } set { raw.sigma_per_m2 = value; } }
+
+  /// <summary>How it is off against the depth camera in config.Rig: z of that one = z + offset + slope (z -
+  /// DepthMidM). 1 sigma of what is unknown of it before the first frame; it is learnt where both measure what the
+  /// colour camera sees. Both 0: they measure alike.</summary>
+  public double OffsetSigmaM { get { return raw.offset_sigma_m; } set { raw.offset_sigma_m = value; } }
+
+  /// <summary>How it is off against the depth camera in config.Rig: z of that one = z + offset + slope (z -
+  /// DepthMidM). 1 sigma of what is unknown of it before the first frame; it is learnt where both measure what the
+  /// colour camera sees. Both 0: they measure alike.</summary>
+  public double SlopeSigma { get { return raw.slope_sigma; } set { raw.slope_sigma = value; } }
+
+  /// <summary>As config.AmplitudeMin, of its own amplitudes.</summary>
+  public uint AmplitudeMin { get { return raw.amplitude_min; } set { raw.amplitude_min = value; } }
+}
+
+/// <summary>The image of a further depth camera; everything is borrowed.</summary>
+public sealed unsafe partial class LocalizerDepthView {
+  internal Native.sphc_localizer_depth_view raw;
+
+  /// <summary>Has the library's defaults.</summary>
+  public LocalizerDepthView() {
+    Library.Require();
+    fixed (Native.sphc_localizer_depth_view* p = &raw)
+      SpherecloudException.Check(Native.sphc_localizer_depth_view_init(p, Size.Of(sizeof(Native.sphc_localizer_depth_view))));
+  }
+
+  /// <summary>Mid-exposure; where odometry is given, the camera may have moved since ColorTimeNs.</summary>
+  public long TimeNs { get { return raw.time_ns; } set { raw.time_ns = value; } }
+}
+
 /// <summary>A colour and a depth image taken at about the same time; everything is borrowed.</summary>
 public sealed unsafe partial class LocalizerFrame {
   internal Native.sphc_localizer_frame raw;
@@ -225,8 +286,5 @@ public sealed unsafe partial class LocalizerFrame {
   /// Needs config.Clock, and counts in its time. result.Cuts says what was left out for it;
   /// docs/localizer.md.</summary>
   public uint DeadlineUs { get { return raw.deadline_us; } set { raw.deadline_us = value; } }
-
-  /// <summary>Config.DepthCameraCount.</summary>
-  public uint DepthViewCount { get { return raw.depth_view_count; } set { raw.depth_view_count = value; } }
 }
 }
