@@ -50,17 +50,11 @@ public static unsafe class Library {
     }
   }
 
-  /// <summary>Null where this assembly and a library of that ABI and version fit each other. ABI 0 promises nothing
-  /// from one minor version to the next.</summary>
+  /// <summary>Null where this assembly and a library of that ABI fit each other.</summary>
   internal static Exception VersionProblem(uint abi, string version) {
-    bool fits = abi == Native.Abi && (abi != 0 || Minor(version) == Minor(Native.Version));
-    return fits ? null : new SpherecloudException(
+    return abi == Native.Abi ? null : new SpherecloudException(
         Status.Unsupported, "the native library is " + version + " (ABI " + abi + "), and this assembly is made for " +
                             Native.Version + " (ABI " + Native.Abi + "); install both from one release");
-  }
-
-  private static string Minor(string version) {
-    return version.Substring(0, version.LastIndexOf('.'));
   }
 
   /// <summary>An exception keeps the place where it was first thrown, so each caller gets its own.</summary>

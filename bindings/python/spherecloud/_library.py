@@ -35,15 +35,14 @@ def _opened(place: str) -> ctypes.CDLL:
 
 
 def _checked(library: ctypes.CDLL, place: str) -> _interface.Interface:
-    """The library's functions, if it is of this ABI; while that is 0 and promises nothing, of this version too."""
+    """The library's functions, if it is of this ABI."""
     try:
         library.sphc_abi.restype, library.sphc_version_string.restype = ctypes.c_uint32, ctypes.c_char_p
         abi, version = library.sphc_abi(), library.sphc_version_string().decode()
     except AttributeError as fault:
         raise LibraryError(f"{place} is not the library spherecloud: {fault}; name another in {VARIABLE}") from None
-    minor = _interface.VERSION.rpartition(".")[0]
-    if abi != _interface.SPHC_ABI or (abi == 0 and version.rpartition(".")[0] != minor):
-        raise LibraryError(f"{place} has version {version} and ABI {abi}, and this package is for version {minor} and ABI "
+    if abi != _interface.SPHC_ABI:
+        raise LibraryError(f"{place} has version {version} and ABI {abi}, and this package is for version {_interface.VERSION} and ABI "
                            f"{_interface.SPHC_ABI}; install the package and the library of one release")
     try:
         return _interface.Interface(library)

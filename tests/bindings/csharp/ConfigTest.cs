@@ -8,7 +8,8 @@ internal static class ConfigTest {
     Expect.Equal(Native.Version, Library.Version, "version");
     Expect.Equal(null, Library.VersionProblem(Native.Abi, Native.Version), "problem of the same version");
     Expect.True(Library.VersionProblem(Native.Abi + 1, Native.Version).Message.Contains("one release"), "another ABI");
-    Expect.True(Library.VersionProblem(Native.Abi, "0.1.0").Message.Contains("0.1.0"), "another version");
+    Expect.Equal(null, Library.VersionProblem(Native.Abi, "1.99.0"), "problem of a newer version");
+    Expect.True(Library.VersionProblem(0, "0.2.0").Message.Contains("0.2.0"), "no ABI");
   }
 
   public static unsafe void ConstantsHaveTheNamesThatTheLibraryGives() {
