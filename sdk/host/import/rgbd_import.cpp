@@ -89,7 +89,7 @@ class Census {
     if (s.frames_used == 0)
       throw std::runtime_error(
           "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
-          "groundtruth.txt)");
+          "groundtruth.txt); spherecloud map finds them where there are none");
     if (poses_ > 1 && !moved_)
       throw std::runtime_error("all " + count(poses_) +
                                " poses are the same; a map needs the pose that each frame was really taken from");
@@ -114,7 +114,7 @@ PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOption
   const uint32_t total = reader->frameCount();
   for (uint32_t i = 0; i < total; ++i) {
     if (options.takes_part && !options.takes_part(i)) continue;
-    const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
+    const std::optional<sphc_rigid> pose = options.poses ? options.poses(i) : reader->worldFromCamera(i);
     std::string why;
     const std::optional<sphc_localizer_frame> frame = pose ? reader->tryRead(i, &why) : std::nullopt;
     if (!pose) {

@@ -1,7 +1,8 @@
-// Builds a point model from a recording of colour, depth and known poses.
+// Builds a point model from a recording of colour and depth, and poses: its own or others.
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ struct RgbdImportOptions {
   double max_descriptor_distance = 260;            // and whose descriptor is within this (L2 of bytes)
   bool keep_moving = false;                        // points on people, hands, feet and what was moved
   std::function<bool(uint32_t index)> takes_part;  // of the recording's frames; empty: all
+  // world_from_camera of a frame, none where it is not known; empty: the recording's own.
+  std::function<std::optional<sphc_rigid>(uint32_t index)> poses;
 };
 
 // Points on what moved while the frames were taken.
@@ -39,7 +42,7 @@ struct RgbdImportSummary {
 // Told after each frame; may be empty.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
-// All frames of the recording that have a pose take part.  Throws std::runtime_error, with cause and cure, when no
+// All frames that have a pose take part.  Throws std::runtime_error, with cause and cure, when no
 // map can come of it.
 PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options,
                       const Progress &progress, RgbdImportSummary *summary);

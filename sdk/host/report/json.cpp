@@ -88,6 +88,7 @@ Json summaryJson(const Run &run, const Summary &s) {
   for (size_t i = 0; i < s.faults.size(); ++i) json["faults"][kFaultWords[i].name] = s.faults[i];
   for (size_t i = 0; i < s.hints.size(); ++i) json["hints"][kHintWords[i].name] = s.hints[i];
   json["cut"] = s.cut;
+  if (run.aligned_frames) json["aligned_frames"] = run.aligned_frames;
   json["with_truth"] = s.with_truth;
   json["within_5cm_5deg"] = s.good;
   json["within_5cm_5deg_percent"] = s.with_truth ? Json(percent(s.good, s.with_truth)) : Json(nullptr);

@@ -72,6 +72,8 @@ struct Run {
   std::vector<Setting> settings;
   std::vector<FrameRecord> frames;
   uint32_t unreadable = 0;  // frames that could not be decoded; not part of `frames`
+  // Poses by which the truth was brought to the base (aligned_truth.h); 0: it is as it was recorded.
+  uint32_t aligned_frames = 0;
 };
 
 uint64_t mapBytes(const Run &run);

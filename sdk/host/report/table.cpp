@@ -77,6 +77,9 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
         {"cut by the deadline", share(s.cut, s.frames), "--frames-json says of each frame what was left out"});
   addFaults(s, &rows);
   addHints(s, &rows);
+  if (run.aligned_frames)
+    rows.push_back({"TRUTH ALIGNED", std::to_string(run.aligned_frames) + " poses",
+                    "the errors are what a rigid alignment of the recording's poses to the map leaves (--align)"});
   addErrors(s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});

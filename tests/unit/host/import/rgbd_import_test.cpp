@@ -52,6 +52,18 @@ TEST_F(RgbdImportTest, NoPosesAreNamedAsTheCause) {
   EXPECT_THAT(refusal(), HasSubstr("a map needs poses"));
 }
 
+TEST_F(RgbdImportTest, PosesFromElsewhereStandForTheRecordings) {
+  setPoses("");
+  RecordingOptions recording;
+  recording.folder = walk();
+  RgbdImportOptions options;
+  options.poses = [](uint32_t i) { return i == 1 ? std::nullopt : std::make_optional(contract::tinyPose(i)); };
+  RgbdImportSummary summary;
+  importRgbd(openRecording(recording).get(), options, {}, &summary);
+  EXPECT_EQ(summary.frames_used, 2u);
+  EXPECT_EQ(summary.frames_without_pose, 1u);
+}
+
 TEST_F(RgbdImportTest, ImagesThatAreCutAreNamedAsTheCause) {
   for (const auto &image : std::filesystem::directory_iterator(walk() + "/rgb"))
     std::filesystem::resize_file(image.path(), 20);

@@ -1,0 +1,35 @@
+// Bundle adjustment (Triggs, McLauchlan, Hartley, Fitzgibbon 2000) with depth: poses, points and the depth sensor's
+// bias from where keypoints lie and how deep they are.
+#pragma once
+#include <vector>
+
+#include "host/mapping/tracks.h"
+#include "runtime/types/depth_calibration.h"
+
+namespace sphc::host {
+
+struct AdjustmentOptions {
+  int most_steps = 20;
+  int threads = 1;  // one: the same bytes every time
+};
+
+struct AdjustmentSummary {
+  size_t points = 0, sightings = 0;
+  double ray_sigmas = 0;    // median length of the residuals of rays, in sigmas; 1.18 is what noise gives
+  double depth_sigmas = 0;  // median size of those of depths; 0.67
+  double depth_off_m = 0;   // median size of what depths are off, metres
+  double far_depths = 0;    // share of depths that are off by more than 3 sigma
+};
+
+// What is adjusted: where it begins, and where it ends.
+struct Adjusted {
+  FramePoses world_from_camera;
+  std::vector<Track> tracks;       // sightings that are far off in the end leave them
+  Vector2 bias = Vector2::Zero();  // of depths: offset_m, slope, as in DepthCalibration
+};
+
+// `prior`: what is believed of the depth sensor.  The first frame with a pose stays where it is.
+AdjustmentSummary adjust(const std::vector<WalkFrame> &frames, const DepthCalibration &prior,
+                         const AdjustmentOptions &options, Adjusted *adjusted);
+
+}  // namespace sphc::host

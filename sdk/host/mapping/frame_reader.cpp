@@ -1,0 +1,62 @@
+#include "host/mapping/frame_reader.h"
+
+#include <algorithm>
+
+#include "host/frames/frame_images.h"
+#include "host/import/point_tracks.h"
+#include "runtime/localizer/hints.h"
+#include "runtime/localizer/tuning.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr double kPixelSigma = 0.8;  // of a fine keypoint, as the localizer's default has it
+
+}  // namespace
+
+FrameReader::FrameReader(const sphc_rig &rig, const FrameReaderOptions &options)
+    : camera_(rig.color_camera), features_(camera_.width(), camera_.height(), options.max_keypoints) {
+  const DepthSensor sensor = {rig.depth_unit_m, options.depth_min_m, options.depth_max_m, kMappingNoise.sigma_m,
+                              kMappingNoise.sigma_per_m2};
+  aligner_ = SparseAligner(camera_, Camera(rig.depth_camera), rigidFromC(rig.color_from_depth), sensor);
+}
+
+WalkFrame FrameReader::describe(const sphc_localizer_frame &images) {
+  const GrayView gray = grayOf(images.color, &gray_);
+  features_.extract(gray);
+  WalkFrame frame;
+  uint32_t lifted = 0;
+  for (uint32_t k = 0; k < features_.count(); ++k) {
+    SeenPoint point;
+    if (!see(depthOf(images.depth), k, &point)) continue;
+    lifted += point.hasDepth();
+    frame.points.push_back(point);
+    frame.descriptors.push_back(features_.descriptor(k));
+  }
+  frame.hints = hintsOf(gray, lifted);
+  return frame;
+}
+
+bool FrameReader::see(ImageView<uint16_t> depth, uint32_t k, SeenPoint *point) const {
+  const Vector2 pixel_px = features_.pixel(k);
+  if (!camera_.unproject(pixel_px, &point->ray)) return false;
+  const double coarseness = static_cast<double>(features_.keypoint(k).scale_px) / tuning::kFineScalePx;
+  point->sigma = kPixelSigma * std::max(1.0, coarseness) / camera_.focal();
+  point->bearing = Vector3(point->ray.x(), point->ray.y(), 1).normalized();
+  Vector3 lifted_m;
+  if (aligner_.lift(depth, pixel_px, &lifted_m, &point->depth_sigma_m)) point->depth_m = lifted_m.z();
+  return true;
+}
+
+// As the localizer would say it of a frame without a pose.
+Hints FrameReader::hintsOf(GrayView gray, uint32_t lifted) const {
+  const ImageQuality image = qualityOf(gray, camera_.focal());
+  Hints hints = 0;
+  if (image.isDark()) hints |= kTooDark;
+  if (image.isBlurredAlongALine()) hints |= kTooFast;
+  if (image.isPlain() || features_.count() < tuning::kFewestKeypoints) hints |= kTooPlain;
+  if (lifted * tuning::kOneWithDepthIn < features_.count()) hints |= kNoDepthInRange;
+  return hints;
+}
+
+}  // namespace sphc::host

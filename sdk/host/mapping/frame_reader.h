@@ -1,0 +1,30 @@
+// Images of a recording through the device's own stages.
+#pragma once
+#include "host/frames/frame_features.h"
+#include "host/mapping/walk_frame.h"
+#include "runtime/stages/align/sparse.h"
+
+namespace sphc::host {
+
+struct FrameReaderOptions {
+  uint32_t max_keypoints = 1000;  // of a frame
+  double depth_min_m = 0.3, depth_max_m = 6.0;
+};
+
+class FrameReader {
+ public:
+  FrameReader(const sphc_rig &rig, const FrameReaderOptions &options);
+  // Without index and time.
+  WalkFrame describe(const sphc_localizer_frame &images);
+
+ private:
+  bool see(ImageView<uint16_t> depth, uint32_t k, SeenPoint *point) const;
+  Hints hintsOf(GrayView gray, uint32_t lifted) const;
+
+  Camera camera_;
+  FrameFeatures features_;
+  SparseAligner aligner_;
+  std::vector<uint8_t> gray_;
+};
+
+}  // namespace sphc::host

@@ -1,0 +1,26 @@
+// Which frames of a walk are worth comparing.
+#pragma once
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "host/mapping/frame_links.h"
+
+namespace sphc::host {
+
+// Frames further apart in the list are a loop.
+constexpr uint32_t kMostGapInTime = 17;
+
+// Poses of frames, world_from_camera; none of those that are not connected.
+using FramePoses = std::vector<std::optional<Rigid>>;
+
+// Each frame and those 1 to 17 before it, in growing steps.
+std::vector<FramePair> pairsInTime(size_t frames);
+// Loops: frames that have many rare words in common.  Words are cells of the descriptors (Sivic and Zisserman
+// 2003).
+std::vector<FramePair> pairsByLook(const std::vector<WalkFrame> &frames);
+// Frames that see the same surfaces by these poses, but for those that were tried.
+std::vector<FramePair> pairsByOverlap(const std::vector<WalkFrame> &frames, const FramePoses &world_from_camera,
+                                      const std::set<FramePair> &tried);
+
+}  // namespace sphc::host

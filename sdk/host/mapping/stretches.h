@@ -1,0 +1,26 @@
+// Stretches of a walk that found no place in its map.
+#pragma once
+#include <vector>
+
+#include "host/mapping/walk.h"
+
+namespace sphc::host {
+
+// Keyframes that follow each other, `first` and `last` among them.
+struct Stretch {
+  uint32_t first = 0, last = 0;
+  uint32_t frames = 0;  // followers too
+  Hints hints = 0;      // that at least half of the keyframes have
+};
+
+struct Stretches {
+  std::vector<Stretch> mapped;
+  // Of each part that is connected in itself, but never met the largest.
+  std::vector<std::vector<Stretch>> apart;
+  std::vector<Stretch> left_out;  // connected with nothing, or with next to nothing
+};
+
+// `parts`: a label for each keyframe, 0 for those of the map.
+Stretches stretchesOf(const Walk &walk, const std::vector<uint32_t> &parts);
+
+}  // namespace sphc::host

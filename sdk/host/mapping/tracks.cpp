@@ -1,0 +1,83 @@
+#include "host/mapping/tracks.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace sphc::host {
+namespace {
+
+// Sets of keypoints, none with two of one frame.
+class Joiner {
+ public:
+  explicit Joiner(const std::vector<WalkFrame> &frames) {
+    for (uint32_t f = 0; f < frames.size(); ++f) {
+      first_of_frame_.push_back(static_cast<uint32_t>(members_.size()));
+      for (uint32_t k = 0; k < frames[f].points.size(); ++k) members_.push_back({{f, k}});
+    }
+    parent_.resize(members_.size());
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+
+  void join(const Sighting &x, const Sighting &y) {
+    uint32_t into = rootOf(x), from = rootOf(y);
+    if (into == from) return;
+    if (members_[into].size() < members_[from].size()) std::swap(into, from);
+    Track both;
+    std::merge(members_[into].begin(), members_[into].end(), members_[from].begin(), members_[from].end(),
+               std::back_inserter(both), [](const Sighting &a, const Sighting &b) { return a.frame < b.frame; });
+    const auto twice = std::adjacent_find(both.begin(), both.end(),
+                                          [](const Sighting &a, const Sighting &b) { return a.frame == b.frame; });
+    if (twice != both.end()) return;
+    parent_[from] = into;
+    members_[into] = std::move(both);
+    members_[from].clear();
+  }
+
+  std::vector<Track> takeLongerThan(size_t least) {
+    std::vector<Track> tracks;
+    for (Track &track : members_)
+      if (track.size() >= least) tracks.push_back(std::move(track));
+    return tracks;
+  }
+
+ private:
+  uint32_t rootOf(const Sighting &sighting) {
+    uint32_t i = first_of_frame_[sighting.frame] + sighting.point;
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  std::vector<uint32_t> first_of_frame_, parent_;
+  std::vector<Track> members_;  // of the roots; empty of the others
+};
+
+}  // namespace
+
+std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links,
+                            size_t least) {
+  std::vector<const FrameLink *> surest;
+  for (const FrameLink &link : links) surest.push_back(&link);
+  std::stable_sort(surest.begin(), surest.end(),
+                   [](const FrameLink *x, const FrameLink *y) { return x->inliers > y->inliers; });
+  Joiner joiner(frames);
+  for (const FrameLink *link : surest)
+    for (const PointMatch &match : link->matches) joiner.join({link->frames.a, match.a}, {link->frames.b, match.b});
+  return joiner.takeLongerThan(least);
+}
+
+std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted) {
+  std::stable_sort(tracks.begin(), tracks.end(),
+                   [](const Track &x, const Track &y) { return x.size() > y.size(); });
+  std::vector<size_t> sightings(frames);
+  std::vector<Track> taken;
+  for (Track &track : tracks) {
+    const bool is_wanted =
+        std::any_of(track.begin(), track.end(), [&](const Sighting &s) { return sightings[s.frame] < wanted; });
+    if (!is_wanted) continue;
+    for (const Sighting &s : track) ++sightings[s.frame];
+    taken.push_back(std::move(track));
+  }
+  return taken;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,26 @@
+// Points of the world that several frames see: matches of links, joined.
+#pragma once
+#include <vector>
+
+#include "host/mapping/frame_links.h"
+#include "host/mapping/likely_pairs.h"
+
+namespace sphc::host {
+
+// A keypoint of a frame.
+struct Sighting {
+  uint32_t frame, point;
+};
+
+// At most one of a frame, in order of frames.
+using Track = std::vector<Sighting>;
+
+// Joins matches, those of the surest links first.  A match that would put two keypoints of one frame into a track
+// is wrong and left out.  Tracks of fewer frames than `least` are left out.
+std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links,
+                            size_t least);
+
+// The longest tracks, as many as give every frame that many sightings where there are such.
+std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted);
+
+}  // namespace sphc::host

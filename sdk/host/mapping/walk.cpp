@@ -1,0 +1,74 @@
+#include "host/mapping/walk.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sphc::host {
+namespace {
+
+constexpr double kNewView = 0.02;  // median shift of what both frames show, as rays
+constexpr LinkDemands kFollows = {40, 0.5};
+
+double middle(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double shiftOf(const FrameLink &link, const std::vector<WalkFrame> &frames) {
+  std::vector<double> shifts;
+  for (const PointMatch &match : link.matches)
+    shifts.push_back(
+        (frames[link.frames.a].points[match.a].ray - frames[link.frames.b].points[match.b].ray).norm());
+  return middle(std::move(shifts));
+}
+
+double middleDepth(const std::vector<WalkFrame> &frames) {
+  std::vector<double> depths;
+  for (const WalkFrame &frame : frames)
+    for (const SeenPoint &point : frame.points)
+      if (point.hasDepth()) depths.push_back(point.depth_m);
+  return middle(std::move(depths));
+}
+
+// Takes the last keyframe out again where it follows the one before.
+void compareLast(FrameLinker *linker, Walk *walk) {
+  if (walk->keyframes.size() < 2) return;
+  const auto last = static_cast<uint32_t>(walk->keyframes.size() - 1);
+  const auto link = linker->link(walk->keyframes, {last - 1, last}, kFollows);
+  if (!link || shiftOf(*link, walk->keyframes) > kNewView) return;
+  walk->followers.push_back({walk->keyframes.back().index, last - 1, link->b_from_a.inverse()});
+  walk->keyframes.pop_back();
+}
+
+}  // namespace
+
+Walk readWalk(recording::RecordingReader *reader, const FrameReaderOptions &options, const WalkProgress &progress) {
+  FrameReader frames(reader->calibration(), options);
+  FrameLinker linker(options.max_keypoints);
+  Walk walk;
+  std::string first_fault;
+  for (uint32_t i = 0; i < reader->frameCount(); ++i) {
+    std::string why;
+    if (const std::optional<sphc_localizer_frame> images = reader->tryRead(i, &why)) {
+      walk.keyframes.push_back(frames.describe(*images));
+      walk.keyframes.back().index = i;
+      compareLast(&linker, &walk);
+    } else if (walk.unreadable++ == 0) {
+      first_fault = why;
+    }
+    if (progress) progress(i + 1, reader->frameCount());
+  }
+  if (walk.keyframes.empty())
+    throw std::runtime_error("not one frame can be read: of " + std::to_string(walk.unreadable) +
+                             " the first says: " + first_fault);
+  walk.middle_depth_m = middleDepth(walk.keyframes);
+  if (!(walk.middle_depth_m > 0))
+    throw std::runtime_error(
+        "no keypoint has depth: do the images show something, are depth images and depth_unit_m of the calibration "
+        "right, and is the room within --depth-min and --depth-max?");
+  return walk;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,80 @@
+#include "host/report/aligned_truth.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "host/report/statistics.h"
+#include "runtime/geometry/rigid.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr int kRounds = 10;
+constexpr double kFarOverMedian = 4, kNeverFarM = 0.01;
+
+struct PosePair {
+  Rigid estimated, truth;  // base_from_camera
+};
+
+// The camera's place and what lies 1 m along its axes: places alone tell little of the rotation where they are near
+// each other.
+using Corners = Eigen::Matrix<double, 3, 4>;
+Corners cornersOf(const Rigid &pose) {
+  Corners corners;
+  corners << pose.rotation, Vector3::Zero();
+  return corners.colwise() + pose.translation_m;
+}
+
+Rigid truthFromEstimate(const std::vector<PosePair> &poses) {
+  if (poses.size() < 3)
+    throw std::runtime_error(
+        "only " + std::to_string(poses.size()) +
+        " localized frames have a pose in the recording; 3 are needed to align the two worlds");
+  const auto count = static_cast<Eigen::Index>(poses.size());
+  Eigen::Matrix3Xd estimated(3, 4 * count), truth(3, 4 * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    estimated.middleCols<4>(4 * i) = cornersOf(poses[static_cast<size_t>(i)].estimated);
+    truth.middleCols<4>(4 * i) = cornersOf(poses[static_cast<size_t>(i)].truth);
+  }
+  const Eigen::Matrix4d rigid = Eigen::umeyama(estimated, truth, false);  // Umeyama 1991
+  return {rigid.topLeftCorner<3, 3>(), rigid.col(3).head<3>()};
+}
+
+double offM(const PosePair &pose, const Rigid &true_from_estimated) {
+  return (true_from_estimated * pose.estimated.translation_m - pose.truth.translation_m).norm();
+}
+
+// Those that are not far off: wrong poses must not pull the worlds apart.
+std::vector<PosePair> near(const std::vector<PosePair> &poses, const Rigid &true_from_estimated) {
+  std::vector<double> off_m;
+  for (const PosePair &pose : poses) off_m.push_back(offM(pose, true_from_estimated));
+  const double limit_m = std::max(kNeverFarM, kFarOverMedian * percentile(off_m, 0.5));
+  std::vector<PosePair> kept;
+  for (size_t i = 0; i < poses.size(); ++i)
+    if (off_m[i] <= limit_m) kept.push_back(poses[i]);
+  return kept;
+}
+
+}  // namespace
+
+void alignTruth(Run *run) {
+  std::vector<PosePair> all;
+  for (const FrameRecord &frame : run->frames)
+    if (frame.localized && frame.has_truth)
+      all.push_back({rigidFromC(frame.base_from_camera), rigidFromC(frame.truth_base_from_camera)});
+  std::vector<PosePair> used = all;
+  Rigid true_from_estimated = truthFromEstimate(used);
+  for (int round = 0; round < kRounds; ++round) {
+    used = near(all, true_from_estimated);
+    true_from_estimated = truthFromEstimate(used);
+  }
+  run->aligned_frames = static_cast<uint32_t>(used.size());
+  const Rigid estimated_from_true = true_from_estimated.inverse();
+  for (FrameRecord &frame : run->frames) {
+    if (!frame.has_truth) continue;
+    frame.truth_base_from_camera = rigidToC(estimated_from_true * rigidFromC(frame.truth_base_from_camera));
+    judge(&frame);
+  }
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,50 @@
+#include "host/report/trajectory_score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sphc::host {
+namespace {
+
+using Places = Eigen::Matrix3Xd;
+
+double rmse(const Eigen::Matrix4d &true_from_estimated, const Places &estimated, const Places &truth) {
+  const Places moved =
+      (true_from_estimated.topLeftCorner<3, 3>() * estimated).colwise() + true_from_estimated.col(3).head<3>();
+  return std::sqrt((moved - truth).squaredNorm() / static_cast<double>(truth.cols()));
+}
+
+}  // namespace
+
+TrajectoryScore scoreTrajectory(const std::vector<PosePair> &poses) {
+  if (poses.size() < 3)
+    throw std::runtime_error(
+        "only " + std::to_string(poses.size()) +
+        " frames have both a pose that was found and one that is known; 3 are needed to compare");
+  const auto count = static_cast<Eigen::Index>(poses.size());
+  Places estimated(3, count), truth(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    estimated.col(i) = poses[static_cast<size_t>(i)].estimated.translation_m;
+    truth.col(i) = poses[static_cast<size_t>(i)].truth.translation_m;
+  }
+  const Eigen::Matrix4d rigid = Eigen::umeyama(estimated, truth, false),
+                        similar = Eigen::umeyama(estimated, truth, true);
+  TrajectoryScore score;
+  score.frames = poses.size();
+  score.true_from_estimated = {rigid.topLeftCorner<3, 3>(), rigid.col(3).head<3>()};
+  score.rigid_rmse_m = rmse(rigid, estimated, truth);
+  score.similarity_rmse_m = rmse(similar, estimated, truth);
+  score.scale = 1 / std::cbrt(similar.topLeftCorner<3, 3>().determinant());
+  std::vector<double> turns_deg;
+  for (const PosePair &pose : poses) {
+    const Matrix3 placed = score.true_from_estimated.rotation * pose.estimated.rotation;
+    turns_deg.push_back(rotationAngle(pose.truth.rotation.transpose() * placed) * 180 / kPi);
+  }
+  std::sort(turns_deg.begin(), turns_deg.end());
+  score.rotation_median_deg = turns_deg[turns_deg.size() / 2];
+  score.rotation_worst_deg = turns_deg.back();
+  return score;
+}
+
+}  // namespace sphc::host

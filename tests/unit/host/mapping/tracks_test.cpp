@@ -1,0 +1,54 @@
+#include "host/mapping/tracks.h"
+
+#include <gtest/gtest.h>
+
+namespace sphc::host {
+namespace {
+
+FrameLink linkOf(uint32_t a, uint32_t b, std::vector<PointMatch> matches, uint32_t inliers) {
+  FrameLink link;
+  link.frames = {a, b};
+  link.matches = std::move(matches);
+  link.inliers = inliers;
+  return link;
+}
+
+class TracksTest : public testing::Test {
+ protected:
+  TracksTest() {
+    for (WalkFrame &frame : frames_) frame.points.resize(4);
+  }
+  std::vector<WalkFrame> frames_ = std::vector<WalkFrame>(4);
+};
+
+TEST_F(TracksTest, MatchesAreJoinedOverFrames) {
+  const std::vector<Track> tracks = tracksOf(frames_, {linkOf(0, 1, {{0, 1}}, 50), linkOf(1, 3, {{1, 2}}, 40)}, 3);
+  ASSERT_EQ(tracks.size(), 1u);
+  ASSERT_EQ(tracks[0].size(), 3u);
+  EXPECT_EQ(tracks[0][2].frame, 3u);
+  EXPECT_EQ(tracks[0][2].point, 2u);
+}
+
+TEST_F(TracksTest, TwoKeypointsOfOneFrameAreNeverOnePoint) {
+  // The weaker link says that keypoints 0 and 3 of frame 0 are one.
+  const std::vector<Track> tracks =
+      tracksOf(frames_, {linkOf(1, 2, {{1, 1}}, 90), linkOf(0, 2, {{3, 1}}, 20), linkOf(0, 1, {{0, 1}}, 60)}, 2);
+  ASSERT_EQ(tracks.size(), 1u);
+  ASSERT_EQ(tracks[0].size(), 3u);
+  EXPECT_EQ(tracks[0][0].point, 0u);
+}
+
+TEST_F(TracksTest, ShortTracksAreLeftOut) {
+  EXPECT_TRUE(tracksOf(frames_, {linkOf(0, 1, {{0, 0}}, 50)}, 3).empty());
+}
+
+TEST_F(TracksTest, LongTracksComeFirstUntilEveryFrameHasEnough) {
+  const Track longer = {{0, 0}, {1, 0}, {2, 0}}, shorter = {{0, 1}, {1, 1}}, other = {{2, 1}, {3, 1}};
+  const std::vector<Track> taken = enoughTracks({shorter, other, longer}, 4, 1);
+  ASSERT_EQ(taken.size(), 2u);
+  EXPECT_EQ(taken[0].size(), 3u);
+  EXPECT_EQ(taken[1][1].frame, 3u);
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,56 @@
+#include "host/report/trajectory_score.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/support/random_numbers.h"
+
+namespace sphc::host {
+namespace {
+
+const Rigid kOther = {rotationFromVector(Vector3(0.3, -1, 2)), Vector3(4, 5, -6)};
+
+std::vector<PosePair> pairs(double scale) {
+  std::vector<PosePair> poses;
+  Random random(1);
+  for (int i = 0; i < 20; ++i) {
+    const Rigid truth = {test::randomRotation(&random), test::normalVector(&random)};
+    Rigid estimated = kOther * truth;
+    estimated.translation_m *= scale;
+    poses.push_back({estimated, truth});
+  }
+  return poses;
+}
+
+TEST(TrajectoryScoreTest, TheSamePathInAnotherWorldIsExact) {
+  const TrajectoryScore score = scoreTrajectory(pairs(1));
+  EXPECT_EQ(score.frames, 20u);
+  EXPECT_LT(score.rigid_rmse_m, 1e-9);
+  EXPECT_LT(score.rotation_worst_deg, 1e-6);
+  EXPECT_NEAR(score.scale, 1, 1e-9);
+}
+
+TEST(TrajectoryScoreTest, ScaleIsToldApart) {
+  const TrajectoryScore score = scoreTrajectory(pairs(1.02));
+  EXPECT_NEAR(score.scale, 1.02, 1e-9);
+  EXPECT_LT(score.similarity_rmse_m, 1e-9);
+  EXPECT_GT(score.rigid_rmse_m, 0.005);
+}
+
+TEST(TrajectoryScoreTest, ErrorsAreMeasured) {
+  std::vector<PosePair> poses = pairs(1);
+  poses[7].estimated.rotation *= rotationFromVector(Vector3(0.01, 0, 0));
+  const TrajectoryScore score = scoreTrajectory(poses);
+  EXPECT_NEAR(score.rotation_worst_deg, 0.573, 0.001);
+  EXPECT_LT(score.rotation_median_deg, 1e-6);
+}
+
+TEST(TrajectoryScoreTest, TwoPosesAreTooFew) {
+  std::vector<PosePair> poses = pairs(1);
+  poses.resize(2);
+  EXPECT_THROW(scoreTrajectory(poses), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace sphc::host
