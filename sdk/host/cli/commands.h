@@ -15,6 +15,7 @@ Command infoCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
 Command liveCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
+Command mapCommand(CLI::App *root);
 Command recordCommand(CLI::App *root);
 Command simulateCommand(CLI::App *root);
 

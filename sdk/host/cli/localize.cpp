@@ -13,6 +13,7 @@
 #include "host/cli/common/recording_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
+#include "host/report/aligned_truth.h"
 #include "host/report/json.h"
 #include "host/report/overlay.h"
 #include "host/report/page.h"
@@ -28,7 +29,7 @@ struct LocalizeOptions {
   RecordingOptions recording;
   std::vector<std::string> maps, owner_notes;
   std::string trajectory, frames_json, report;
-  bool odometry = false, force = false;
+  bool odometry = false, align = false, force = false;
   sphc_localizer_config config = spherecloud::defaultConfig();
   Parameters parameters;
   uint32_t deadline_us = 0;
@@ -106,7 +107,8 @@ void writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReade
 int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
-  const Run done = localize(options, reader.get(), console);
+  Run done = localize(options, reader.get(), console);
+  if (options.align) alignTruth(&done);
   const Summary summary = summarize(done);
   console.say(tableText(tableRows(done, summary)));
   writeOutputs(options, done, reader.get(), console);
@@ -196,6 +198,9 @@ Command localizeCommand(CLI::App *root) {
       ->expected(1)
       ->take_all()
       ->type_name("FILE");
+  app->add_flag("--align", options->align,
+                "Compare after a rigid alignment of the recording's poses to the map: for maps of spherecloud map")
+      ->needs("--owner-note");
   app->add_flag("--odometry", options->odometry,
                 "Give the localizer the recording's poses as odometry, each step disturbed by 0.1 deg and 2 mm");
   addOutputs(app, options.get());

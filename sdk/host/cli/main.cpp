@@ -16,16 +16,17 @@ const char kAbout[] =
 
 const char kExitCodes[] =
     "Exit status: 0 done, 1 failure (the message has cause and cure), 2 wrong use, 3 not one frame localized,\n"
-    "4 a limit of the audit is broken, 5 a limit of the audit was not measured.";
+    "4 a limit of the audit is broken, 5 a limit of the audit was not measured, 6 parts of a walk never "
+    "met.";
 
 std::vector<Command> declare(CLI::App *root) {
   return {
 #if SPHC_HAVE_SIMULATED  // else the build has no driver to record from
     simulateCommand(root),
 #endif
-        buildCommand(root), localizeCommand(root), inspectCommand(root), infoCommand(root), convertCommand(root),
-        recordCommand(root), liveCommand(root), devicesCommand(root), doctorCommand(root), calibrationCommand(root),
-        auditCommand(root), adviseCommand(root)
+        buildCommand(root), mapCommand(root), localizeCommand(root), inspectCommand(root), infoCommand(root),
+        convertCommand(root), recordCommand(root), liveCommand(root), devicesCommand(root), doctorCommand(root),
+        calibrationCommand(root), auditCommand(root), adviseCommand(root)
   };
 }
 

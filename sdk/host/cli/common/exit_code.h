@@ -9,6 +9,7 @@ enum ExitCode {
   kExitNotLocalized = 3,     // localize ran through, but not one frame was localized
   kExitAuditFailed = 4,      // audit ran through, and a limit is broken
   kExitAuditIncomplete = 5,  // audit ran through, no limit is broken, but one was not measured
+  kExitWalkApart = 6,        // map ran through, but parts of the walk never met; the map is of the largest alone
 };
 
 }  // namespace sphc::host

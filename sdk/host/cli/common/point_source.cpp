@@ -39,29 +39,6 @@ void addColmapOptions(CLI::App *app, PointSource *source) {
       ->group(group);
 }
 
-void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
-  const char *group = "Mapping";
-  app->add_option("--max-keypoints", import->max_keypoints, "Strongest keypoints of a frame")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 100000u))
-      ->group(group);
-  app->add_option("--min-observations", import->min_observations, "Frames that must agree on a point")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, 100000u))
-      ->group(group);
-  app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
-      ->capture_default_str()
-      ->check(notNegative())
-      ->group(group);
-  app->add_option("--depth-max", import->depth_max_m, "Farthest depth used, metres")
-      ->capture_default_str()
-      ->check(notNegative())
-      ->group(group);
-  app->add_flag("--keep-moving", import->keep_moving,
-                "Keep points on people, hands, feet and things that were moved")
-      ->group(group);
-}
-
 std::optional<Vector3> gravityFrom(const std::string &text) {
   if (text == "level") return std::nullopt;
   if (text == "none") return Vector3(Vector3::Zero());
@@ -167,6 +144,29 @@ ImportedPoints fromModel(const PointSource &source) {
 }
 
 }  // namespace
+
+void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
+  const char *group = "Mapping";
+  app->add_option("--max-keypoints", import->max_keypoints, "Strongest keypoints of a frame")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 100000u))
+      ->group(group);
+  app->add_option("--min-observations", import->min_observations, "Frames that must agree on a point")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 100000u))
+      ->group(group);
+  app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
+      ->capture_default_str()
+      ->check(notNegative())
+      ->group(group);
+  app->add_option("--depth-max", import->depth_max_m, "Farthest depth used, metres")
+      ->capture_default_str()
+      ->check(notNegative())
+      ->group(group);
+  app->add_flag("--keep-moving", import->keep_moving,
+                "Keep points on people, hands, feet and things that were moved")
+      ->group(group);
+}
 
 void addPointSourceOptions(CLI::App *app, PointSource *source) {
   addRecordingOptions(app, &source->recording)->required(false);

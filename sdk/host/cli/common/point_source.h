@@ -17,6 +17,8 @@ struct PointSource {
   std::string model;  // a saved one
 };
 void addPointSourceOptions(CLI::App *app, PointSource *source);
+// Those of a recording alone: how its frames become points.
+void addMappingOptions(CLI::App *app, RgbdImportOptions *import);
 
 struct ImportedPoints {
   PointModel model;
