@@ -200,6 +200,11 @@ def others(pipeline):
          "Simulated rooms that combine what makes real ones hard. Wrong: beyond 25 cm or 10 deg. Method:\n"
          "[testing.md](testing.md#hard-worlds).",
          flat(rows("nasty.csv"), ["world"])),
+        ("Mapping without poses", "pipeline/mapping.csv", "mapping_results",
+         "Walks mapped by their images and depths alone, beside the poses that the recordings hold. `ate`: root of the mean square of\n"
+         "the places' errors, after the best rigid alignment and after the best similarity; `scale`: a true metre as mapped.\n"
+         "Rotations after the rigid alignment by places. Method: [mapping.md](mapping.md).",
+         flat(rows("mapping.csv"), ["world"])),
         ("Many maps", "pipeline/maps.csv", "maps_results",
          "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a double for every fourth\n"
          "room. Wrong: in the map of another room, or beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#several-maps).",
