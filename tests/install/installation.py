@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 RUNTIME = ("include/spherecloud/spherecloud.h", "include/spherecloud/spherecloud.hpp", "include/spherecloud/spherecloud_capture.h",
-           "include/spherecloud/spherecloud.json", "{lib}/libspherecloud.a", "{lib}/libspherecloud.so",
+           "include/spherecloud/spherecloud.json", "include/spherecloud/module.modulemap", "{lib}/libspherecloud.a", "{lib}/libspherecloud.so",
            "{lib}/cmake/SphereCloud/SphereCloudConfig.cmake", "{lib}/pkgconfig/spherecloud.pc", "share/doc/spherecloud/LICENSE",
            "share/doc/spherecloud/NOTICE")
 ALL = RUNTIME + ("bin/spherecloud", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
