@@ -18,7 +18,7 @@ using Matrix67 = Eigen::Matrix<double, 6, 7, Eigen::RowMajor>;
 
 // A link is never surer than this: its depths share a bias, and its matches one image.
 constexpr double kLeastRad = 0.002, kLeastM = 0.004;
-constexpr double kLossSigmas = 3;
+constexpr double kLinkLossSigmas = 3;
 constexpr int kMostSteps = 50;
 constexpr uint32_t kFewestBridges = 3, kSureInliers = 60;
 constexpr double kMostOffM = 0.15, kMostOffRad = 0.08;
@@ -169,8 +169,8 @@ void adjustToLinks(const std::vector<FrameLink> &links, FramePoses *world_from_c
   }
   for (const FrameLink &link : links) {
     if (!(*world_from_camera)[link.frames.a] || !(*world_from_camera)[link.frames.b]) continue;
-    problem.AddResidualBlock(new LinkCost(link), new ceres::CauchyLoss(kLossSigmas), blocks[link.frames.a].data(),
-                             blocks[link.frames.b].data());
+    problem.AddResidualBlock(new LinkCost(link), new ceres::CauchyLoss(kLinkLossSigmas),
+                             blocks[link.frames.a].data(), blocks[link.frames.b].data());
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;

@@ -25,7 +25,7 @@ TEST(CommandLine, HelpIsNoError) {
 TEST(CommandLine, VersionIsOneLine) {
   const Answer answer = runCommand("--version");
   EXPECT_EQ(answer.exit_code, kExitDone);
-  EXPECT_THAT(answer.out, testing::MatchesRegex("spherecloud [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(answer.out, testing::MatchesRegex("spherecloud [0-9]+\\.[0-9]+\\.[0-9]+(-rc[0-9]+)?\n"));
 }
 
 class HelpTest : public testing::TestWithParam<const char *> {};
