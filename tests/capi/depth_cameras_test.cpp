@@ -19,11 +19,11 @@ using sphc::test::observationsOf;
 using sphc::test::SceneFrame;
 using sphc::test::Session;
 
-constexpr uint32_t kViewpoint = 1;
+constexpr uint32_t kSeenFrom = 1;
 
 // The room's cameras, but the first depth camera sees the middle alone; a second one sees all, from elsewhere.
-struct Rig {
-  Rig() {
+struct DepthRig {
+  DepthRig() {
     config.rig.depth_camera = sphc::test::pinhole(96, 72, 300);
     EXPECT_EQ(sphc_localizer_depth_camera_init(&second, sizeof second), SPHC_OK);
     second.camera = sphc::test::pinhole(240, 180, 170);
@@ -32,15 +32,15 @@ struct Rig {
     config.depth_cameras = &second;
     config.depth_camera_count = 1;
   }
-  Rig(const Rig &) = delete;
+  DepthRig(const DepthRig &) = delete;
 
   sphc_localizer_config config = sphc::test::sceneConfig();
   sphc_localizer_depth_camera second;
 };
 
-struct RigFrame {
+struct DepthFrame {
   // The second camera says `offset_m` more than is true.
-  RigFrame(const Rig &rig, uint32_t viewpoint, double offset_m = 0)
+  DepthFrame(const DepthRig &rig, uint32_t viewpoint, double offset_m = 0)
       : made(sphc::test::sceneFrame(rig.config, viewpoint)),
         second(sphc::test::renderScene(rig.config.rig.color_camera, rig.second.camera,
                                        sphc::test::sceneViewpoint(viewpoint),
@@ -54,7 +54,7 @@ struct RigFrame {
     made->frame.depth_views = &view;
     made->frame.depth_view_count = 1;
   }
-  RigFrame(const RigFrame &) = delete;
+  DepthFrame(const DepthFrame &) = delete;
   sphc_localizer_frame &frame() { return made->frame; }
 
   std::unique_ptr<SceneFrame> made;
@@ -69,22 +69,22 @@ sphc_localizer_result resultOf(Session *session, const sphc_localizer_frame &fra
 }
 
 TEST(DepthCameras, TheSecondLiftsWhatTheFirstDoesNotSee) {
-  const Rig rig;
-  RigFrame made(rig, kViewpoint);
+  const DepthRig rig;
+  DepthFrame made(rig, kSeenFrom);
   Session both(rig.config);
   const sphc_localizer_result with = resultOf(&both, made.frame());
   made.view.depth.data = nullptr;
   Session one(rig.config);
   const sphc_localizer_result without = resultOf(&one, made.frame());
   ASSERT_EQ(with.outcome, SPHC_OUTCOME_LOCALIZED);
-  EXPECT_LT(both.errorM(with, kViewpoint), 0.02);
+  EXPECT_LT(both.errorM(with, kSeenFrom), 0.02);
   EXPECT_GT(with.lifted, 3 * without.lifted);
   EXPECT_GT(with.inliers, 2 * without.inliers);
 }
 
 TEST(DepthCameras, WithoutAnImageTheSecondIsAsIfItWereNotThere) {
-  const Rig rig;
-  RigFrame made(rig, kViewpoint);
+  const DepthRig rig;
+  DepthFrame made(rig, kSeenFrom);
   made.view.depth.data = nullptr;
   Session both(rig.config);
   const sphc_localizer_result with = resultOf(&both, made.frame());
@@ -115,15 +115,15 @@ double differenceM(Session *a, Session *b) {
 
 TEST(DepthCameras, HowTheSecondIsOffIsLearntWhereBothMeasure) {
   constexpr double kOffM = 0.03;
-  Rig rig;
+  DepthRig rig;
   rig.second.offset_sigma_m = 0.03;
-  Rig believed;
+  DepthRig believed;
   believed.second.offset_sigma_m = believed.second.slope_sigma = 0;
-  const Rig exact;
+  const DepthRig exact;
   Session learning(rig.config), believing(believed.config), right(exact.config);
   double first_m = 0, last_m = 0, believed_m = 0;
   for (uint32_t i = 0; i < 6; ++i) {
-    RigFrame off(rig, i % 3, kOffM), good(exact, i % 3);
+    DepthFrame off(rig, i % 3, kOffM), good(exact, i % 3);
     resultOf(&learning, off.frame());
     resultOf(&believing, off.frame());
     resultOf(&right, good.frame());
@@ -138,8 +138,8 @@ TEST(DepthCameras, HowTheSecondIsOffIsLearntWhereBothMeasure) {
 }
 
 TEST(DepthCameras, HalvesAnswerTheSame) {
-  const Rig rig;
-  RigFrame made(rig, kViewpoint);
+  const DepthRig rig;
+  DepthFrame made(rig, kSeenFrom);
   Session whole(rig.config), halves(rig.config);
   const sphc_localizer_result expected = resultOf(&whole, made.frame());
   sphc_memory need = {};
@@ -160,12 +160,12 @@ TEST(DepthCameras, HalvesAnswerTheSame) {
 
 // Where heat has changed a depth camera, the frame says so.
 TEST(DepthCameras, CalibrationOfAFrameReplacesTheConfigs) {
-  const Rig rig;
-  Rig vague;
+  const DepthRig rig;
+  DepthRig vague;
   vague.config.rig.depth_camera.params[0] *= 1.5;
   vague.second.camera.params[2] += 20;
   vague.second.color_from_depth.t_m[1] += 0.2;
-  RigFrame made(rig, kViewpoint);
+  DepthFrame made(rig, kSeenFrom);
   Session right(rig.config), wrong(vague.config), told(vague.config);
   const sphc_localizer_result expected = resultOf(&right, made.frame());
   EXPECT_NE(resultOf(&wrong, made.frame()).inliers, expected.inliers);
@@ -180,9 +180,9 @@ TEST(DepthCameras, CalibrationOfAFrameReplacesTheConfigs) {
 }
 
 TEST(DepthCameras, FaintMeasurementsOfTheSecondAreIgnored) {
-  Rig rig;
+  DepthRig rig;
   rig.second.amplitude_min = 50;
-  RigFrame made(rig, kViewpoint);
+  DepthFrame made(rig, kSeenFrom);
   const sphc_camera &camera = rig.second.camera;
   std::vector<uint8_t> amplitude(camera.width * camera.height, 200);
   made.view.amplitude = {amplitude.data(), camera.width, camera.height, camera.width, SPHC_FORMAT_GRAY8};
@@ -192,53 +192,59 @@ TEST(DepthCameras, FaintMeasurementsOfTheSecondAreIgnored) {
   EXPECT_LT(3 * resultOf(&faint, made.frame()).lifted, all);
 }
 
-struct BadConfig {
+struct BadDepthConfig {
   const char *what;
-  void (*spoil)(Rig *);
+  void (*spoil)(DepthRig *);
   sphc_status status;
   std::vector<const char *> says;
 };
 
 TEST(DepthCameras, ABadConfigIsRefusedWithItsCause) {
   static const double nan = std::numeric_limits<double>::quiet_NaN();
-  const BadConfig cases[] = {
+  const BadDepthConfig cases[] = {
       {"too many",
-       [](Rig *r) { r->config.depth_camera_count = SPHC_DEPTH_CAMERAS_MAX; },
+       [](DepthRig *r) { r->config.depth_camera_count = SPHC_DEPTH_CAMERAS_MAX; },
        SPHC_E_ARGUMENT,
        {"config.depth_camera_count is 2", "1 to 1"}},
       {"null",
-       [](Rig *r) { r->config.depth_cameras = nullptr; },
+       [](DepthRig *r) { r->config.depth_cameras = nullptr; },
        SPHC_E_ARGUMENT,
        {"config.depth_cameras is null"}},
-      {"size", [](Rig *r) { r->second.struct_size = 4; }, SPHC_E_STRUCT_SIZE, {"config.depth_cameras"}},
-      {"reserved", [](Rig *r) { r->second.reserved = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
-      {"reserved of the config", [](Rig *r) { r->config.reserved5 = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
-      {"camera", [](Rig *r) { r->second.camera.params[0] = nan; }, SPHC_E_ARGUMENT, {"i = 0", "[i].camera"}},
-      {"mount", [](Rig *r) { r->second.color_from_depth.t_m[0] = nan; }, SPHC_E_ARGUMENT, {"color_from_depth"}},
-      {"unit", [](Rig *r) { r->second.unit_m = 0; }, SPHC_E_ARGUMENT, {"config.depth_cameras[i].unit_m is 0"}},
-      {"range", [](Rig *r) { r->second.max_m = 0.2; }, SPHC_E_ARGUMENT, {"depth_cameras[i].max_m is 0.2"}},
-      {"noise", [](Rig *r) { r->second.sigma_m = 0; }, SPHC_E_ARGUMENT, {"depth_cameras[i].sigma_m is 0"}},
-      {"growth of noise", [](Rig *r) { r->second.sigma_per_m2 = nan; }, SPHC_E_ARGUMENT, {"sigma_per_m2"}},
+      {"size", [](DepthRig *r) { r->second.struct_size = 4; }, SPHC_E_STRUCT_SIZE, {"config.depth_cameras"}},
+      {"reserved", [](DepthRig *r) { r->second.reserved = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
+      {"reserved of the config", [](DepthRig *r) { r->config.reserved5 = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
+      {"camera", [](DepthRig *r) { r->second.camera.params[0] = nan; }, SPHC_E_ARGUMENT, {"i = 0", "[i].camera"}},
+      {"mount",
+       [](DepthRig *r) { r->second.color_from_depth.t_m[0] = nan; },
+       SPHC_E_ARGUMENT,
+       {"color_from_depth"}},
+      {"unit", [](DepthRig *r) { r->second.unit_m = 0; }, SPHC_E_ARGUMENT, {"config.depth_cameras[i].unit_m is 0"}},
+      {"range", [](DepthRig *r) { r->second.max_m = 0.2; }, SPHC_E_ARGUMENT, {"depth_cameras[i].max_m is 0.2"}},
+      {"noise", [](DepthRig *r) { r->second.sigma_m = 0; }, SPHC_E_ARGUMENT, {"depth_cameras[i].sigma_m is 0"}},
+      {"growth of noise", [](DepthRig *r) { r->second.sigma_per_m2 = nan; }, SPHC_E_ARGUMENT, {"sigma_per_m2"}},
       {"bias",
-       [](Rig *r) { r->second.slope_sigma = 0; },
+       [](DepthRig *r) { r->second.slope_sigma = 0; },
        SPHC_E_ARGUMENT,
        {"depth_cameras[i].slope_sigma", "both"}},
-      {"amplitude", [](Rig *r) { r->second.amplitude_min = 70000; }, SPHC_E_ARGUMENT, {"amplitude_min is 70000"}},
+      {"amplitude",
+       [](DepthRig *r) { r->second.amplitude_min = 70000; },
+       SPHC_E_ARGUMENT,
+       {"amplitude_min is 70000"}},
       {"format",
-       [](Rig *r) { r->second.format = SPHC_FORMAT_GRAY8; },
+       [](DepthRig *r) { r->second.format = SPHC_FORMAT_GRAY8; },
        SPHC_E_ARGUMENT,
        {"depth_cameras[i].format is 1", "not of depth"}},
       {"width",
-       [](Rig *r) {
+       [](DepthRig *r) {
          r->second.camera = sphc::test::pinhole(241, 180, 170);
          r->second.format = SPHC_FORMAT_DEPTH12P;
        },
        SPHC_E_ARGUMENT,
        {"share bytes", "241"}},
   };
-  for (const BadConfig &bad : cases) {
+  for (const BadDepthConfig &bad : cases) {
     SCOPED_TRACE(bad.what);
-    Rig rig;
+    DepthRig rig;
     bad.spoil(&rig);
     sphc_memory need = {};
     sphc_message message = {};
@@ -247,9 +253,9 @@ TEST(DepthCameras, ABadConfigIsRefusedWithItsCause) {
   }
 }
 
-struct BadFrame {
+struct BadDepthFrame {
   const char *what;
-  void (*spoil)(RigFrame *);
+  void (*spoil)(DepthFrame *);
   sphc_status status;
   std::vector<const char *> says;
 };
@@ -257,32 +263,32 @@ struct BadFrame {
 TEST(DepthCameras, ABadFrameIsRefusedWithItsCause) {
   static const sphc_camera other = sphc::test::pinhole(320, 240, 300);
   static const sphc_rigid bent = {{1, 1, 0, 0}, {0, 0, 0}};
-  const BadFrame cases[] = {
+  const BadDepthFrame cases[] = {
       {"none",
-       [](RigFrame *f) { f->frame().depth_views = nullptr, f->frame().depth_view_count = 0; },
+       [](DepthFrame *f) { f->frame().depth_views = nullptr, f->frame().depth_view_count = 0; },
        SPHC_E_ARGUMENT,
        {"frame.depth_view_count is 0", "config.depth_camera_count is 1"}},
-      {"null", [](RigFrame *f) { f->frame().depth_views = nullptr; }, SPHC_E_ARGUMENT, {"depth_views is null"}},
-      {"size", [](RigFrame *f) { f->view.struct_size = 0; }, SPHC_E_STRUCT_SIZE, {"struct_size"}},
-      {"reserved", [](RigFrame *f) { f->view.reserved = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
-      {"reserved of the frame", [](RigFrame *f) { f->frame().reserved4 = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
-      {"image", [](RigFrame *f) { f->view.depth.width = 96; }, SPHC_E_IMAGE, {"i = 0", "depth", "240"}},
-      {"stride", [](RigFrame *f) { f->view.depth.stride_bytes = 240; }, SPHC_E_IMAGE, {"stride of 240"}},
-      {"format", [](RigFrame *f) { f->view.depth.format = SPHC_FORMAT_RANGE16; }, SPHC_E_IMAGE, {"format"}},
-      {"no amplitude", [](RigFrame *) {}, SPHC_E_IMAGE, {"amplitude image is missing"}},
-      {"camera", [](RigFrame *f) { f->view.camera = &other; }, SPHC_E_ARGUMENT, {"depth_views[i].camera", "240"}},
-      {"mount", [](RigFrame *f) { f->view.color_from_depth = &bent; }, SPHC_E_ARGUMENT, {"color_from_depth"}},
+      {"null", [](DepthFrame *f) { f->frame().depth_views = nullptr; }, SPHC_E_ARGUMENT, {"depth_views is null"}},
+      {"size", [](DepthFrame *f) { f->view.struct_size = 0; }, SPHC_E_STRUCT_SIZE, {"struct_size"}},
+      {"reserved", [](DepthFrame *f) { f->view.reserved = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
+      {"reserved of the frame", [](DepthFrame *f) { f->frame().reserved4 = 1; }, SPHC_E_UNSUPPORTED, {"reserved"}},
+      {"image", [](DepthFrame *f) { f->view.depth.width = 96; }, SPHC_E_IMAGE, {"i = 0", "depth", "240"}},
+      {"stride", [](DepthFrame *f) { f->view.depth.stride_bytes = 240; }, SPHC_E_IMAGE, {"stride of 240"}},
+      {"format", [](DepthFrame *f) { f->view.depth.format = SPHC_FORMAT_RANGE16; }, SPHC_E_IMAGE, {"format"}},
+      {"no amplitude", [](DepthFrame *) {}, SPHC_E_IMAGE, {"amplitude image is missing"}},
+      {"camera", [](DepthFrame *f) { f->view.camera = &other; }, SPHC_E_ARGUMENT, {"depth_views[i].camera", "240"}},
+      {"mount", [](DepthFrame *f) { f->view.color_from_depth = &bent; }, SPHC_E_ARGUMENT, {"color_from_depth"}},
       {"first camera",
-       [](RigFrame *f) { f->frame().depth_camera = &other; },
+       [](DepthFrame *f) { f->frame().depth_camera = &other; },
        SPHC_E_ARGUMENT,
        {"frame.depth_camera"}},
   };
-  for (const BadFrame &bad : cases) {
+  for (const BadDepthFrame &bad : cases) {
     SCOPED_TRACE(bad.what);
-    Rig rig;
+    DepthRig rig;
     if (std::strcmp(bad.what, "no amplitude") == 0) rig.second.amplitude_min = 10;
     Session session(rig.config);
-    RigFrame made(rig, kViewpoint);
+    DepthFrame made(rig, kSeenFrom);
     bad.spoil(&made);
     sphc_localizer_result result = spherecloud::emptyResult();
     EXPECT_EQ(session.process(made.frame(), &result), bad.status);
@@ -292,7 +298,7 @@ TEST(DepthCameras, ABadFrameIsRefusedWithItsCause) {
 
 TEST(DepthCameras, BoundsOfMemoryHold) {
   for (const uint32_t side : {32u, 480u, 1024u}) {
-    Rig rig;
+    DepthRig rig;
     rig.second.camera = sphc::test::pinhole(side, side, 300);
     const uint32_t n = rig.config.max_keypoints;
     for (const bool in_place : {true, false}) {

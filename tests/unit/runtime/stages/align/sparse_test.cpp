@@ -140,7 +140,8 @@ TEST(Sparse, MemoryDoesNotChangeAnswers) {
   const test::ArenaMemory memory([&](Arena &arena, bool has_memory) {
     SparseAligner::layout(320, 288, arena, has_memory ? &prepared : nullptr);
   });
-  prepared.init(rig.color, rig.depth, rig.color_from_depth, kSparseSensor);
+  prepared.init(kSparseSensor);
+  prepared.setCameras(rig.color, rig.depth, rig.color_from_depth);
   prepared.prepare(view);
   int lifted = 0;
   for (int i = 0; i < 3000; ++i) {
