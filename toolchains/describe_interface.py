@@ -155,7 +155,8 @@ def describe(headers=HEADERS):
 def described(standard, headers):
     unit = parse(MACHINES[0], standard, headers)
     constants, constant_headers = macros(unit)
-    candidate = "-rc%d" % constants["SPHC_VERSION_CANDIDATE"] if constants["SPHC_VERSION_CANDIDATE"] else ""
+    number = constants.get("SPHC_VERSION_CANDIDATE")  # headers before 1.0 have none
+    candidate = f"-rc{number}" if number else ""
     told = {"version": "%d.%d.%d" % tuple(constants["SPHC_VERSION_" + p] for p in ("MAJOR", "MINOR", "PATCH")) + candidate,
             "abi": constants["SPHC_ABI"], "headers": FILES, "constants": constants, "constant_headers": constant_headers, "types": {}, "callbacks": [],
             "opaque": [], "enums": [], "structs": [], "functions": []}

@@ -62,12 +62,9 @@ class Compared(unittest.TestCase):
         self.assertEqual(self.today["i686"], interface(machine="i686"))
 
     def test_a_frozen_baseline_takes_additions_alone(self):
-        def frozen(change):
-            return interface(lambda text: change(text.replace("  0u /* raised", "  1u /* raised", 1)))
-
-        kept, added = frozen(str), frozen(ADDITIONS["a function more"])
+        kept, added = self.today["x86-64"], interface(ADDITIONS["a function more"])
         with self.assertRaisesRegex(SystemExit, "libspherecloud.so.1 is frozen"):
-            compare_abi.renewed(kept, frozen(BREAKS["a field in the middle"]), GROWING)
+            compare_abi.renewed(kept, interface(BREAKS["a field in the middle"]), GROWING)
         self.assertEqual(compare_abi.renewed(kept, added, GROWING), added)
 
 

@@ -993,10 +993,10 @@ class Interface:
         # above. [pure]
         self.sphc_localizer_view_init = bound("sphc_localizer_view_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_view), ctypes.c_size_t])
-        # Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [None]
+        # Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [pure]
         self.sphc_localizer_depth_camera_init = bound("sphc_localizer_depth_camera_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_depth_camera), ctypes.c_size_t])
-        # Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [None]
+        # Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [pure]
         self.sphc_localizer_depth_view_init = bound("sphc_localizer_depth_view_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_depth_view), ctypes.c_size_t])
         # What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. [pure]

@@ -465,12 +465,12 @@ internal static unsafe class Native {
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_view_init(sphc_localizer_view* view, UIntPtr struct_size);
 
-  /// <summary>[None] Of the depth camera, the defaults of config for range, noise and bias too, and
+  /// <summary>[pure] Of the depth camera, the defaults of config for range, noise and bias too, and
   /// millimetres.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_depth_camera_init(sphc_localizer_depth_camera* camera, UIntPtr struct_size);
 
-  /// <summary>[None] Of the depth camera, the defaults of config for range, noise and bias too, and
+  /// <summary>[pure] Of the depth camera, the defaults of config for range, noise and bias too, and
   /// millimetres.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_depth_view_init(sphc_localizer_depth_view* view, UIntPtr struct_size);

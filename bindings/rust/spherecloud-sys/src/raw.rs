@@ -1120,11 +1120,11 @@ extern "C" {
     pub fn sphc_localizer_view_init(view: *mut sphc_localizer_view, struct_size: usize) -> sphc_status;
 
     /// Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. Thread
-    /// class: None.
+    /// class: pure.
     pub fn sphc_localizer_depth_camera_init(camera: *mut sphc_localizer_depth_camera, struct_size: usize) -> sphc_status;
 
     /// Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. Thread
-    /// class: None.
+    /// class: pure.
     pub fn sphc_localizer_depth_view_init(view: *mut sphc_localizer_depth_view, struct_size: usize) -> sphc_status;
 
     /// What sphc_localizer_init will need for this config. Errors: ARGUMENT, STRUCT_SIZE. Thread class:

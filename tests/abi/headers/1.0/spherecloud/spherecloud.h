@@ -760,7 +760,7 @@ SPHC_API sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size
 SPHC_API sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_camera_init(sphc_localizer_camera *camera, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_view_init(sphc_localizer_view *view, size_t struct_size);
-/* Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. */
+/* Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [pure] */
 SPHC_API sphc_status sphc_localizer_depth_camera_init(sphc_localizer_depth_camera *camera, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_depth_view_init(sphc_localizer_depth_view *view, size_t struct_size);
 
