@@ -121,17 +121,24 @@ def staged(options):
     return faults
 
 
+def made_into(folder, options):
+    """{name of a package: its bytes}, made at a time of their own, and dated by SOURCE_DATE_EPOCH."""
+    subprocess.run(["cpack", "--config", options.build / "CPackConfig.cmake", "-B", folder], check=True, capture_output=True,
+                   env=dict(os.environ, SOURCE_DATE_EPOCH="1700000000"))
+    return {file.name: file.read_bytes() for file in folder.glob("*.deb")}
+
+
 def packages(options):
     """The Debian packages hold each installed file once, depend on each other, and are found when unpacked."""
     folder = options.prefix.parent / "packages"
     shutil.rmtree(folder, ignore_errors=True)
-    subprocess.run(["cpack", "--config", options.build / "CPackConfig.cmake", "-B", folder], check=True, capture_output=True)
+    once, again = (made_into(folder / name, options) for name in ("once", "again"))
     library = "libspherecloud" + options.version.split(".")[0]
     depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "spherecloud-tools": library,
                PYTHON_PACKAGE: library}
-    faults, owners = [], {}
+    faults, owners = [f"{name} has other bytes when it is made again" for name in once if once[name] != again[name]], {}
     for package, other in depends.items():
-        file, = folder.glob(f"{package}_{options.version}*_*.deb")
+        file, = (folder / "once").glob(f"{package}_{options.version}*_*.deb")
         asked = subprocess.run(["dpkg-deb", "-f", file, "Depends"], text=True, capture_output=True, check=True).stdout
         if other not in asked:
             faults.append(f"{package} does not depend on {other}: {asked}")
