@@ -292,7 +292,8 @@ sphc_status checkDepthView(const FrameLimits &limits, uint32_t i, const sphc_loc
                       message) ||
       !checkMountNow("frame.depth_views[i].color_from_depth", view.color_from_depth, message))
     return SPHC_E_ARGUMENT;
-  return view.depth.data ? checkDepthImages(limits, i, view.depth, view.amplitude, message) : SPHC_OK;
+  if (!view.depth.data) return SPHC_OK;
+  return checkDepthImages(limits, i, view.depth, view.amplitude, message);
 }
 
 sphc_status readDepthViews(const FrameLimits &limits, FrameCopy *copy, sphc_message *message) {
