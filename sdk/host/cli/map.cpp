@@ -3,7 +3,6 @@
 #include <ctime>
 #include <memory>
 
-#include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
@@ -267,8 +266,7 @@ int run(const MapOptions &options, const Console &console) {
   files.writes("--model", options.model, isModelFile);
   files.writes("--trajectory", options.trajectory, holds(kTumHead));
   files.check();
-  if (options.source.import.depth_min_m >= options.source.import.depth_max_m)
-    throw UsageError("--depth-min must be less than --depth-max, or no depth is left");
+  checkPointSource(options.source);
   const auto reader = openRecording(options.source.recording);
   const Outcome outcome = mapRecording(options, reader.get());
   const Clock clock(*reader, outcome.walk);
