@@ -76,7 +76,15 @@ void sphc_replay_close(sphc_replay **replay);
 /* ---- what is in it ------------------------------------------------------------------------------------------ */
 
 typedef int32_t sphc_replay_layout;
-enum { SPHC_REPLAY_7SCENES = 1, SPHC_REPLAY_TUM = 2, SPHC_REPLAY_MCAP = 3, SPHC_REPLAY_RAW = 4 };
+enum {
+  SPHC_REPLAY_7SCENES = 1,
+  SPHC_REPLAY_TUM = 2,
+  SPHC_REPLAY_MCAP = 3,
+  SPHC_REPLAY_RAW = 4,
+  SPHC_REPLAY_STRAY_SCANNER = 5,
+  SPHC_REPLAY_ROS2 = 6,
+  SPHC_REPLAY_RECORD3D = 7 /* 5 to 7: of other programs, docs/imports.md */
+};
 
 typedef struct sphc_replay_info {
   uint32_t struct_size;

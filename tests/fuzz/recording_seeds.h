@@ -1,4 +1,4 @@
-// Seeds of fuzz_recording.cpp and fuzz_recording_raw.cpp.
+// Seeds of fuzz_recording.cpp, fuzz_recording_raw.cpp and fuzz_imports.cpp.
 #pragma once
 #include "tests/fuzz/targets.h"
 
@@ -8,5 +8,8 @@ std::vector<std::vector<uint8_t>> recordingSeeds();
 std::vector<std::vector<uint8_t>> rawRecordingSeeds();
 std::vector<std::vector<uint8_t>> messageSeeds();
 std::vector<std::vector<uint8_t>> rvlSeeds();
+std::vector<std::vector<uint8_t>> straySeeds();
+std::vector<std::vector<uint8_t>> record3dSeeds();
+std::vector<std::vector<uint8_t>> ros2Seeds();
 
 }  // namespace sphc::fuzz

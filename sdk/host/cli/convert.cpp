@@ -246,8 +246,9 @@ int convert(ConvertOptions options, const Console &console) {
 }
 
 const char kConvertHelp[] =
-    "Reads a recording in any layout (TUM, 7-Scenes, MCAP) and writes it in another, with its calibration and\n"
-    "poses.  Images stay the same to the bit, unless --jpeg is given.  A recording that was cut off becomes "
+    "Reads a recording in any layout (TUM, 7-Scenes, MCAP, other programs') and writes it in another, with its\n"
+    "calibration and poses.  Images stay the same to the bit, unless --jpeg is given.  A recording that was cut "
+    "off becomes "
     "whole.\n"
     "Raw is for devices: frames as they are in memory, which drivers/raw reads without a library.";
 const char kConvertExample[] =

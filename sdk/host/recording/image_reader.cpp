@@ -15,6 +15,7 @@ ImageReader::ImageReader(const Recording &recording, const sphc_rig &calibration
       color_format_(color_format) {
   if (recording.layout == Layout::kMcap) messages_.emplace(recording.path);
   if (recording.layout == Layout::kRaw) raw_.emplace(recording.path);
+  if (recording.images) images_ = recording.images();
 }
 
 const sphc_camera &ImageReader::cameraOf(sphc_stream stream) const {
@@ -78,6 +79,8 @@ sphc_image ImageReader::read(sphc_stream stream, const RecordedImage &image, uin
       messages_->decoder.decode(image.place.kind, loadMessage(image.place), camera, format, pixels);
     else if (raw_)
       readRaw(stream, static_cast<uint32_t>(image.place.start), pixels);
+    else if (images_)
+      images_->read(stream, image, camera, format, pixels);
     else
       decodeImage(load(image), imageTypeOf(image.file), camera, format, pixels);
   } catch (const Failure &failure) {

@@ -45,8 +45,9 @@ class ImageReader {
   sphc_camera depth_camera_;
   sphc_format color_format_;
   std::optional<Messages> messages_;
-  std::optional<RawFile> raw_;  // likewise
-  Bytes encoded_;               // of the last file; grows to the largest
+  std::optional<RawFile> raw_;            // likewise
+  std::unique_ptr<LayoutImages> images_;  // of a layout that reads its images itself
+  Bytes encoded_;                         // of the last file; grows to the largest
 };
 
 }  // namespace sphc::recording

@@ -36,19 +36,26 @@ bool holdsSequences(const fs::path &folder) {
 }  // namespace
 
 Recording openRecording(const fs::path &folder) {
-  if (fs::is_regular_file(folder)) return isRaw(folder) ? openRaw(folder) : openMcap(folder);
+  if (fs::is_regular_file(folder)) {
+    refuseForeignFile(folder);
+    return isRaw(folder) ? openRaw(folder) : openMcap(folder);
+  }
   const std::string name = shortPath(folder.string());
   if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder or file; give a recording");
   if (isUnfinished(folder))
     throw Failure(SPHC_E_DEVICE, name + ": was not finished (unfinished.txt is in it); write it again, or remove " +
                                      "that file to read what is there");
   if (isTum(folder)) return openTum(folder);
+  if (isRecord3d(folder)) return openRecord3d(folder);
+  if (isRosBag(folder)) return openRosBag(folder);
+  if (isStrayScanner(folder)) return openStrayScanner(folder);
   if (is7Scenes(folder)) return open7Scenes(folder);
   if (holdsSequences(folder))
     throw Failure(SPHC_E_DEVICE, name + ": holds several sequences; give one of its seq-* folders");
   throw Failure(SPHC_E_DEVICE, name +
-                                   ": no recording here; expected rgb.txt and depth.txt (TUM) or "
-                                   "frame-000000.color.png and so on (7-Scenes)");
+                                   ": no recording here; expected rgb.txt and depth.txt (TUM), "
+                                   "frame-000000.color.png and so on (7-Scenes), or what another program recorded "
+                                   "(docs/imports.md)");
 }
 
 void selectFrames(const Selection &selection, Recording &recording) {
@@ -73,6 +80,7 @@ void selectFrames(const Selection &selection, Recording &recording) {
 std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_ns) {
   std::vector<FramePair> pairs;
   if (recording.depth.empty()) return pairs;
+  if (recording.is_by_frame) tolerance_ns = 0;
   pairs.reserve(recording.color.size());
   for (size_t i = 0; i < recording.color.size(); ++i) {
     const size_t nearest = nearestInTime(recording.depth, recording.color[i].time_ns);

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "calibration.h"
+#include "host/recording/foreign/layout_images.h"
 #include "host/recording/mcap/messages.h"
 #include "host/recording/mcap/walk.h"
 #include "pose_track.h"
 
 namespace sphc::recording {
 
-enum class Layout { kSevenScenes = 1, kTum = 2, kMcap = 3, kRaw = 4 };
+enum class Layout { kSevenScenes = 1, kTum = 2, kMcap = 3, kRaw = 4, kStrayScanner = 5, kRos2 = 6, kRecord3d = 7 };
 
 // Frames are chosen by the number of their colour image: of first to last every step-th.
 struct Selection {
@@ -48,7 +49,11 @@ struct Recording {
   PoseTrack poses;
   uint32_t bad_pose_count = 0;
 
-  std::optional<sphc_rig> calibration;  // of a file that holds one
+  std::optional<sphc_rig> calibration;  // of a recording that holds one, but for calibration.json in a folder
+  std::string calibration_fault;        // why it holds none, with name and cure; empty where nothing is to be said
+  // A depth image belongs to the colour image of its time alone, however near the next one is.
+  bool is_by_frame = false;
+  LayoutImagesMaker images;  // of a layout that reads its images itself
 
   // Of an MCAP file.
   std::vector<ChunkPlace> chunks;
@@ -68,8 +73,13 @@ Recording openRecording(const std::filesystem::path &path);
 // Keeps the frames that are chosen; throws Failure when that is none.
 void selectFrames(const Selection &selection, Recording &recording);
 
-// Each colour image with the depth image nearest in time, where there is one within the tolerance.
+// Each colour image with the depth image nearest in time, where there is one within the tolerance; of a recording
+// by frames, with its own.
 std::vector<FramePair> pairFrames(const Recording &recording, int64_t tolerance_ns);
+
+// Poses that stand by themselves, in the TUM format: a line "seconds tx ty tz qx qy qz qw" each.  Lines without a
+// finite pose are counted.  Throws Failure.
+PoseTrack readTumPoses(const std::filesystem::path &file, uint32_t *bad_count);
 
 // The layouts.
 bool is7Scenes(const std::filesystem::path &folder);
@@ -79,5 +89,14 @@ Recording openTum(const std::filesystem::path &folder);
 bool isRaw(const std::filesystem::path &file);
 Recording openRaw(const std::filesystem::path &file);
 Recording openMcap(const std::filesystem::path &file);
+// Of other programs (docs/imports.md).
+bool isStrayScanner(const std::filesystem::path &folder);
+Recording openStrayScanner(const std::filesystem::path &folder);
+bool isRosBag(const std::filesystem::path &folder);
+Recording openRosBag(const std::filesystem::path &path);  // a folder or an MCAP file
+bool isRecord3d(const std::filesystem::path &folder);
+Recording openRecord3d(const std::filesystem::path &folder);
+// Throws Failure with the way out for a file that another program recorded and that is not read.
+void refuseForeignFile(const std::filesystem::path &file);
 
 }  // namespace sphc::recording

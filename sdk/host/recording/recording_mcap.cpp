@@ -27,6 +27,7 @@ class McapScan {
 
   Recording run();
   bool inOrder() const { return in_order_; }
+  bool isOurs() const;
 
  private:
   void readRecord(const RecordPlace &record);
@@ -186,6 +187,12 @@ void McapScan::readCalibration(const RecordPlace &record) {
   }
 }
 
+// Some of its channels are those of recorder.h, which stand at the head of the file.
+bool McapScan::isOurs() const {
+  return std::any_of(kinds_.begin(), kinds_.end(),
+                     [](const auto &channel) { return channel.second != Kind::kNone; });
+}
+
 Recording McapScan::run() {
   recording_.layout = Layout::kMcap;
   const WalkEnd end = walkRecords(window_, sizeof kMcapMagic, window_.fileSize(),
@@ -204,6 +211,7 @@ Recording openMcap(const fs::path &path) {
   const bool is_whole = hasMagic(window, window.fileSize() - sizeof kMcapMagic);
   McapScan quick(file, !is_whole);
   Recording recording = quick.run();
+  if (!quick.isOurs()) return openRosBag(path);
   if (is_whole && !quick.inOrder()) recording = McapScan(file, true).run();
   recording.path = path;
   if (recording.color.empty())

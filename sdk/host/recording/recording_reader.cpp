@@ -18,7 +18,8 @@ Recording openSelected(const std::filesystem::path &path, const Selection &selec
 sphc_rig calibrationFor(const Recording &recording, const std::filesystem::path &given) {
   if (!given.empty()) return readCalibration(given);
   if (recording.calibration) return *recording.calibration;
-  if (recording.layout != Layout::kMcap) return readCalibration(recording.path / "calibration.json");
+  if (!recording.calibration_fault.empty()) throw Failure(SPHC_E_ARGUMENT, recording.calibration_fault);
+  if (std::filesystem::is_directory(recording.path)) return readCalibration(recording.path / "calibration.json");
   throw Failure(SPHC_E_ARGUMENT, shortPath(recording.path.string()) +
                                      ": no calibration in it; give a calibration file (docs/drivers.md)");
 }

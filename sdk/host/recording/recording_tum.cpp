@@ -66,7 +66,10 @@ std::vector<RecordedImage> readImageList(const fs::path &path) {
   return images;
 }
 
-void readGroundTruth(const fs::path &path, Recording &recording) {
+}  // namespace
+
+PoseTrack readTumPoses(const fs::path &path, uint32_t *bad_count) {
+  PoseTrack poses;
   int64_t last_ns = INT64_MIN;
   forEachLine(path, "seconds tx ty tz qx qy qz qw", [&](std::string_view line, uint32_t number) {
     int64_t time_ns = 0;
@@ -78,14 +81,13 @@ void readGroundTruth(const fs::path &path, Recording &recording) {
     last_ns = time_ns;
     sphc_rigid pose{{value[6], value[3], value[4], value[5]}, {value[0], value[1], value[2]}};
     if (isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2))
-      recording.poses.add(time_ns, pose);
+      poses.add(time_ns, pose);
     else
-      ++recording.bad_pose_count;
+      ++*bad_count;
     return true;
   });
+  return poses;
 }
-
-}  // namespace
 
 bool isTum(const fs::path &folder) { return fs::exists(folder / "rgb.txt") || fs::exists(folder / "depth.txt"); }
 
@@ -95,7 +97,8 @@ Recording openTum(const fs::path &folder) {
   recording.path = folder;
   recording.color = readImageList(folder / "rgb.txt");
   recording.depth = readImageList(folder / "depth.txt");
-  if (fs::exists(folder / "groundtruth.txt")) readGroundTruth(folder / "groundtruth.txt", recording);
+  if (fs::exists(folder / "groundtruth.txt"))
+    recording.poses = readTumPoses(folder / "groundtruth.txt", &recording.bad_pose_count);
   return recording;
 }
 

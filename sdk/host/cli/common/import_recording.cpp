@@ -12,7 +12,7 @@ PointModel importRecording(const RecordingOptions &recording, const char *what) 
   ProgressBar bar(what);
   RgbdImportSummary summary;
   return importRgbd(
-      reader.get(), {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+      {{reader.get()}}, {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
 }
 
 std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what) {
@@ -24,7 +24,7 @@ std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t
     one.first += k * std::max(1u, available / count) * recording.step;
     one.last = one.first + recording.step - 1;
     RgbdImportSummary summary;
-    models.push_back(importRgbd(openRecording(one).get(), {}, {}, &summary));
+    models.push_back(importRgbd({{openRecording(one).get()}}, {}, {}, &summary));
     bar.show(k + 1, count);
   }
   return models;

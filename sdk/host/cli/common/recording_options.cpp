@@ -1,23 +1,44 @@
 #include "host/cli/common/recording_options.h"
 
 namespace sphc::host {
-CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {
-  const char *group = "Recording";
-  CLI::Option *recording = app->add_option("-r,--recording", options->folder,
-                                           "Recording: a folder (7-Scenes or TUM layout) or a .mcap file")
-                               ->required()
-                               ->type_name("PATH")
-                               ->group(group);
+namespace {
+
+const char kGroup[] = "Recording";
+
+void addFrameOptions(CLI::App *app, RecordingOptions *options) {
   app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")
       ->type_name("FILE")
-      ->group(group);
-  app->add_option("--first", options->first, "Number of the first frame [0]")->type_name("N")->group(group);
-  app->add_option("--last", options->last, "Number of the last frame [all]")->type_name("N")->group(group);
+      ->group(kGroup);
+  app->add_option("--first", options->first, "Number of the first frame [0]")->type_name("N")->group(kGroup);
+  app->add_option("--last", options->last, "Number of the last frame [all]")->type_name("N")->group(kGroup);
   app->add_option("--step", options->step, "Take every N-th: first, first + N, ... [1]")
       ->type_name("N")
       ->check(CLI::PositiveNumber)
-      ->group(group);
+      ->group(kGroup);
+}
+
+}  // namespace
+
+CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {
+  CLI::Option *recording = app->add_option("-r,--recording", options->folder,
+                                           "Recording: a folder, a .mcap or .raw file, or another program's")
+                               ->required()
+                               ->type_name("PATH")
+                               ->group(kGroup);
+  addFrameOptions(app, options);
   return recording;
+}
+
+void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each) {
+  app->add_option(
+         "-r,--recording", *recordings,
+         "Recording: a folder (7-Scenes or TUM layout) or a .mcap file; once for each of several, the oldest "
+         "first")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("PATH")
+      ->group(kGroup);
+  addFrameOptions(app, of_each);
 }
 
 }  // namespace sphc::host

@@ -2,6 +2,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "host/frames/recording.h"
 
@@ -9,5 +10,7 @@ namespace sphc::host {
 
 // Gives --recording, which is required unless the caller says otherwise.
 CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options);
+// --recording as often as there are recordings; the other options are of each of them.
+void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each);
 
 }  // namespace sphc::host

@@ -1,0 +1,116 @@
+#include "host/recording/foreign/record3d_metadata.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/recording/failure.h"
+#include "host/recording/pose_track.h"
+
+namespace sphc::recording {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kMostFrames = 10000000;
+
+[[noreturn]] void failKey(const std::string &key, const std::string &cause) {
+  throw Failure(SPHC_E_ARGUMENT, key + ": " + cause + "; export the recording again");
+}
+
+std::vector<double> numbersOf(const json &value, size_t count, const std::string &key) {
+  const bool is_list = value.is_array() && value.size() == count;
+  if (!is_list || !std::all_of(value.begin(), value.end(), [](const json &each) { return each.is_number(); }))
+    failKey(key, "expected " + std::to_string(count) + " numbers");
+  return value.get<std::vector<double>>();
+}
+
+double positiveOf(const json &root, const char *key) {
+  const auto found = root.find(key);
+  if (found == root.end() || !found->is_number() || !(found->get<double>() > 0))
+    failKey(key, "expected a number over 0");
+  return found->get<double>();
+}
+
+const json &listOf(const json &root, const char *key) {
+  const auto found = root.find(key);
+  if (found == root.end() || !found->is_array() || found->empty() || found->size() > kMostFrames)
+    failKey(key, "expected a list with an entry for every frame");
+  return *found;
+}
+
+// The quaternion x, y, z, w, then the place.
+std::optional<sphc_rigid> record3dPose(const json &entry) {
+  const std::vector<double> value = numbersOf(entry, 7, "poses");
+  sphc_rigid pose = {{value[3], value[0], value[1], value[2]}, {value[4], value[5], value[6]}};
+  if (!isFinite(pose) || !normalizeQuaternion(pose.q_wxyz, 1e-2)) return {};
+  return fromArkitAxes(pose);
+}
+
+// K column by column; or the middle of the frames' own, where there are some.
+std::array<double, 4> paramsOf(const json &root) {
+  const auto frames = root.find("perFrameIntrinsicCoeffs");
+  if (frames == root.end() || !frames->is_array() || frames->empty()) {
+    const auto matrix = root.find("K");
+    const std::vector<double> k = numbersOf(matrix == root.end() ? json() : *matrix, 9, "K");
+    return {k[0], k[4], k[6], k[7]};
+  }
+  std::array<std::vector<double>, 4> columns;
+  for (const json &entry : *frames) {
+    const std::vector<double> value = numbersOf(entry, 4, "perFrameIntrinsicCoeffs");
+    for (size_t i = 0; i < 4; ++i) columns[i].push_back(value[i]);
+  }
+  std::array<double, 4> middle;
+  for (size_t i = 0; i < 4; ++i) {
+    std::sort(columns[i].begin(), columns[i].end());
+    middle[i] = columns[i][columns[i].size() / 2];
+  }
+  return middle;
+}
+
+int64_t nanosecondsOf(double seconds, const char *key) {
+  if (!(seconds >= 0 && seconds < 9e9)) failKey(key, "expected seconds");
+  return static_cast<int64_t>(std::llround(seconds * 1e9));
+}
+
+std::vector<int64_t> timesOf(const json &root, size_t count) {
+  std::vector<int64_t> times;
+  const auto told = root.find("frameTimestamps");
+  if (told == root.end() || !told->is_array() || told->empty()) {
+    const double rate = positiveOf(root, "fps");
+    for (size_t i = 0; i < count; ++i) times.push_back(nanosecondsOf(static_cast<double>(i) / rate, "fps"));
+  } else {
+    for (const double seconds : numbersOf(*told, count, "frameTimestamps"))
+      times.push_back(nanosecondsOf(seconds, "frameTimestamps"));
+  }
+  const auto stuck = std::adjacent_find(times.begin(), times.end(), [](int64_t a, int64_t b) { return a >= b; });
+  if (stuck != times.end())
+    failKey("frameTimestamps", "time does not increase at frame " + std::to_string(stuck - times.begin() + 1));
+  return times;
+}
+
+}  // namespace
+
+sphc_rigid fromArkitAxes(const sphc_rigid &world_from_camera) {
+  const sphc_rigid half_turn = {{0, 1, 0, 0}, {0, 0, 0}};  // about x: y and z the other way
+  sphc_rigid turned;
+  sphc_rigid_compose(&world_from_camera, &half_turn, &turned);
+  return turned;
+}
+
+Record3dMetadata record3dMetadataFrom(std::string_view text) {
+  const json root = json::parse(text.begin(), text.end(), nullptr, false);
+  if (!root.is_object()) failKey("metadata", "is no JSON object");
+  Record3dMetadata metadata;
+  metadata.params = paramsOf(root);
+  metadata.width = positiveOf(root, "w");
+  metadata.height = positiveOf(root, "h");
+  const json &poses = listOf(root, "poses");
+  for (const json &entry : poses) metadata.world_from_camera.push_back(record3dPose(entry));
+  metadata.time_ns = timesOf(root, poses.size());
+  return metadata;
+}
+
+}  // namespace sphc::recording

@@ -1,0 +1,120 @@
+#include "host/recording/foreign/ros_images.h"
+
+#include <cmath>
+
+#include "host/recording/encoded_image.h"
+#include "host/recording/failure.h"
+#include "host/recording/foreign/ros_messages.h"
+#include "host/recording/mcap/depth_rvl.h"
+#include "host/recording/mcap/messages.h"
+
+namespace sphc::recording {
+
+namespace {
+
+constexpr size_t kCompressedDepthHeadBytes = 12;  // its format and two numbers of the quantization
+
+[[noreturn]] void failRos(const std::string &what) {
+  throw Failure(SPHC_E_DEVICE, "is malformed (" + what + "); record it again");
+}
+[[noreturn]] void failEncoding(std::string_view encoding, const char *cure) {
+  throw Failure(SPHC_E_UNSUPPORTED, "is of the encoding \"" + std::string(encoding.substr(0, 40)) + "\"; " + cure);
+}
+
+RosImage rawImage(ByteView message, const sphc_camera &camera, bool is_color) {
+  RosImage image;
+  if (!readRosImage(message, image)) failRos("Image");
+  requireSize(image.width, image.height, camera, is_color);
+  return image;
+}
+
+void requireRows(const RosImage &image, uint32_t pixel_bytes) {
+  if (image.step < uint64_t{image.width} * pixel_bytes || uint64_t{image.step} * image.height > image.data.size)
+    failRos("its rows");
+}
+
+// Without the fourth channel, which says nothing.
+Bytes withoutAlpha(const RosImage &image) {
+  Bytes colors;
+  colors.reserve(size_t{image.width} * image.height * 3);
+  for (uint32_t y = 0; y < image.height; ++y)
+    for (uint32_t x = 0; x < image.width; ++x) append(colors, image.data.data + size_t{y} * image.step + 4 * x, 3);
+  return colors;
+}
+
+void decodeRawColor(const RosImage &image, sphc_format format, uint8_t *pixels) {
+  const bool has_alpha = image.encoding == "rgba8" || image.encoding == "bgra8";
+  if (has_alpha) {
+    requireRows(image, 4);
+    const Bytes colors = withoutAlpha(image);
+    const sphc_format recorded = image.encoding == "rgba8" ? SPHC_FORMAT_RGB8 : SPHC_FORMAT_BGR8;
+    return packPixels({colors.data(), image.width, image.height, image.width * 3, recorded}, format, pixels);
+  }
+  const sphc_format recorded = image.encoding == "8UC1"   ? SPHC_FORMAT_GRAY8
+                               : image.encoding == "8UC3" ? SPHC_FORMAT_BGR8
+                                                          : formatOf(image.encoding);
+  if (recorded != SPHC_FORMAT_GRAY8 && recorded != SPHC_FORMAT_RGB8 && recorded != SPHC_FORMAT_BGR8)
+    failEncoding(image.encoding, "rgb8, bgr8, rgba8, bgra8, mono8 and JPEG are read: record such a topic");
+  requireRows(image, sphc_format_bytes(recorded));
+  packPixels({image.data.data, image.width, image.height, image.step, recorded}, format, pixels);
+}
+
+void decodeRawDepth(const RosImage &image, uint16_t *depth_mm) {
+  const bool is_float = image.encoding == "32FC1";
+  if (!is_float && image.encoding != "16UC1" && image.encoding != "mono16")
+    failEncoding(image.encoding, "16UC1, mono16 and 32FC1 are read: record such a topic");
+  requireRows(image, is_float ? 4 : 2);
+  for (uint32_t y = 0; y < image.height; ++y) {
+    const uint8_t *row = image.data.data + size_t{y} * image.step;
+    for (uint32_t x = 0; x < image.width; ++x, ++depth_mm) {
+      float depth_m;
+      if (is_float) std::memcpy(&depth_m, row + 4 * x, sizeof depth_m);
+      *depth_mm = is_float ? millimetresOf(depth_m) : loadLittle<uint16_t>(row + 2 * x);
+    }
+  }
+}
+
+RosCompressedImage compressedImage(ByteView message) {
+  RosCompressedImage image;
+  if (!readRosCompressedImage(message, image)) failRos("CompressedImage");
+  return image;
+}
+
+void decodeRvlDepth(ByteView data, const sphc_camera &camera, uint16_t *depth_mm) {
+  ByteReader reader(data);
+  const uint32_t width = reader.little<uint32_t>();
+  const uint32_t height = reader.little<uint32_t>();
+  if (!reader.ok()) failRos("its head");
+  requireSize(width, height, camera, false);
+  if (!decodeRvl(reader.take(reader.left()), depth_mm, size_t{width} * height)) failRos("RVL");
+}
+
+}  // namespace
+
+uint16_t millimetresOf(float depth_m) {
+  const float depth_mm = std::round(depth_m * 1000.0f);
+  return depth_mm >= 1.0f && depth_mm <= 65535.0f ? static_cast<uint16_t>(depth_mm) : uint16_t{0};
+}
+
+void decodeRosColor(ByteView message, bool is_compressed, const sphc_camera &camera, sphc_format format,
+                    uint8_t *pixels) {
+  if (!is_compressed) return decodeRawColor(rawImage(message, camera, true), format, pixels);
+  const RosCompressedImage image = compressedImage(message);
+  const bool is_png = image.data.size > 0 && image.data.data[0] == 0x89;
+  decodeImage(image.data, is_png ? ImageType::kPng : ImageType::kJpeg, camera, format, pixels);
+}
+
+void decodeRosDepth(ByteView message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm) {
+  if (!is_compressed) return decodeRawDepth(rawImage(message, camera, false), depth_mm);
+  const RosCompressedImage image = compressedImage(message);
+  if (image.format.substr(0, 5) != "16UC1")
+    failEncoding(image.format, "compressed depth is read where it was 16UC1: record the raw topic");
+  ByteReader reader(image.data);
+  reader.take(kCompressedDepthHeadBytes);
+  if (!reader.ok()) failRos("its head");
+  const ByteView data = reader.take(reader.left());
+  if (image.format.find("rvl") != std::string_view::npos) return decodeRvlDepth(data, camera, depth_mm);
+  decodeImage(data, ImageType::kPng, camera, SPHC_FORMAT_DEPTH16, reinterpret_cast<uint8_t *>(depth_mm));
+}
+
+}  // namespace sphc::recording

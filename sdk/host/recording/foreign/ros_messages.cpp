@@ -1,0 +1,100 @@
+#include "host/recording/foreign/ros_messages.h"
+
+#include <algorithm>
+
+#include "host/recording/pose_track.h"
+
+namespace sphc::recording {
+
+namespace {
+
+// Names of frames are told with and without a slash before them.
+std::string takeFrame(CdrReader &reader) {
+  std::string_view name = reader.takeText();
+  if (!name.empty() && name[0] == '/') name.remove_prefix(1);
+  return std::string(name);
+}
+
+RosHeader takeHeader(CdrReader &reader) {
+  const int64_t seconds = reader.takeInt32();
+  const int64_t time_ns = seconds * 1000000000 + reader.take<uint32_t>();
+  return {time_ns, takeFrame(reader)};
+}
+
+template <size_t N>
+void takeDoubles(CdrReader &reader, double (&numbers)[N]) {
+  for (double &number : numbers) number = reader.takeDouble();
+}
+
+// Position or translation, then the quaternion x, y, z, w.  False unless it is a pose.
+bool takeRigid(CdrReader &reader, sphc_rigid &pose) {
+  takeDoubles(reader, pose.t_m);
+  for (const int i : {1, 2, 3, 0}) pose.q_wxyz[i] = reader.takeDouble();
+  return isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2);
+}
+
+}  // namespace
+
+bool readRosImage(ByteView message, RosImage &image) {
+  CdrReader reader(message);
+  image.header = takeHeader(reader);
+  image.height = reader.take<uint32_t>();
+  image.width = reader.take<uint32_t>();
+  image.encoding = reader.takeText();
+  const bool is_big_endian = reader.take<uint8_t>() != 0;
+  image.step = reader.take<uint32_t>();
+  image.data = reader.takeBytes();
+  const bool has_bytes = image.encoding.find('8') != std::string_view::npos;  // "rgb8", which have no order
+  return reader.ok() && (!is_big_endian || has_bytes);
+}
+
+bool readRosCompressedImage(ByteView message, RosCompressedImage &image) {
+  CdrReader reader(message);
+  image.header = takeHeader(reader);
+  image.format = reader.takeText();
+  image.data = reader.takeBytes();
+  return reader.ok();
+}
+
+bool readRosCameraInfo(ByteView message, RosCameraInfo &info) {
+  constexpr uint32_t kMostCoefficients = 14;
+  CdrReader reader(message);
+  info.header = takeHeader(reader);
+  info.height = reader.take<uint32_t>();
+  info.width = reader.take<uint32_t>();
+  info.distortion_model = reader.takeText();
+  const uint32_t count = reader.take<uint32_t>();
+  if (count > kMostCoefficients) return false;
+  info.d.resize(count);
+  for (double &coefficient : info.d) coefficient = reader.takeDouble();
+  double rectification[9];
+  takeDoubles(reader, info.k);
+  takeDoubles(reader, rectification);
+  takeDoubles(reader, info.p);
+  info.binning = reader.take<uint32_t>();
+  info.binning = std::max(info.binning, reader.take<uint32_t>());
+  info.offset = reader.take<uint32_t>();
+  info.offset = std::max(info.offset, reader.take<uint32_t>());
+  return reader.ok();
+}
+
+bool readRosTransforms(ByteView message, std::vector<RosTransform> &transforms) {
+  CdrReader reader(message);
+  const uint32_t count = reader.take<uint32_t>();
+  for (uint32_t i = 0; i < count && reader.ok(); ++i) {
+    RosTransform transform;
+    transform.header = takeHeader(reader);
+    transform.child = takeFrame(reader);
+    if (takeRigid(reader, transform.parent_from_child) && reader.ok()) transforms.push_back(std::move(transform));
+  }
+  return reader.ok();
+}
+
+bool readRosOdometry(ByteView message, RosTransform &transform) {
+  CdrReader reader(message);
+  transform.header = takeHeader(reader);
+  transform.child = takeFrame(reader);
+  return takeRigid(reader, transform.parent_from_child) && reader.ok();
+}
+
+}  // namespace sphc::recording

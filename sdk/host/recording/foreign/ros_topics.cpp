@@ -1,0 +1,94 @@
+#include "host/recording/foreign/ros_topics.h"
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+
+#include "host/recording/failure.h"
+
+namespace sphc::recording {
+
+namespace {
+
+bool has(const std::string &text, const char *part) {
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower.find(part) != std::string::npos;
+}
+
+bool isDepthTopic(const RosImageTopic &topic) {
+  if (topic.is_compressed) return has(topic.encoding, "compresseddepth");
+  return topic.encoding == "16UC1" || topic.encoding == "32FC1" ||
+         (topic.encoding == "mono16" && has(topic.name, "depth"));
+}
+
+// 0: none.  What is called colour comes first, then what has colours; raw images before the same ones compressed.
+int colorScore(const RosImageTopic &topic) {
+  if (isDepthTopic(topic) || topic.images.empty()) return 0;
+  const bool is_read = topic.is_compressed || has(topic.encoding, "8");
+  if (!is_read) return 0;
+  const bool is_infrared = has(topic.name, "infra") || has(topic.name, "/ir/");
+  return 1 + (topic.is_compressed ? 0 : 1) + (topic.encoding == "mono8" ? 0 : 2) + (is_infrared ? 0 : 4) +
+         (has(topic.name, "color") || has(topic.name, "rgb") ? 8 : 0);
+}
+
+// Depth that lies on colour comes first.
+int depthScore(const RosImageTopic &topic, const RosImageTopic &color) {
+  if (!isDepthTopic(topic) || topic.images.empty()) return 0;
+  return 1 + (topic.is_compressed ? 0 : 1) + (has(topic.name, "rect") ? 2 : 0) +
+         (topic.frame == color.frame ? 4 : 0);
+}
+
+const RosImageTopic &chooseTopic(const RosContent &content, const char *what, const std::string &file,
+                                 const std::function<int(const RosImageTopic &)> &score) {
+  const RosImageTopic *best = nullptr, *other = nullptr;
+  int highest = 0;
+  std::string topics;
+  for (const auto &[name, topic] : content.images) {
+    topics += (topics.empty() ? "" : ", ") + name;
+    if (score(topic) < std::max(highest, 1)) continue;
+    other = score(topic) == highest ? best : nullptr;
+    best = &topic;
+    highest = score(topic);
+  }
+  if (!best)
+    throw Failure(SPHC_E_ARGUMENT, file + ": holds no " + what + " image that is read (topics of images: " +
+                                       (topics.empty() ? "none" : shortPath(topics)) +
+                                       "); docs/imports.md says which are");
+  if (other)
+    throw Failure(SPHC_E_ARGUMENT, file + ": both " + other->name + " and " + best->name + " may be the " + what +
+                                       " images; leave one out: mcap filter IN -o OUT -n TOPIC");
+  return *best;
+}
+
+std::string parentOf(const std::string &topic) { return topic.substr(0, topic.rfind('/')); }
+
+}  // namespace
+
+const RosImageTopic &chooseColor(const RosContent &content, const std::string &file) {
+  return chooseTopic(content, "colour", file, colorScore);
+}
+
+const RosImageTopic &chooseDepth(const RosContent &content, const RosImageTopic &color, const std::string &file) {
+  return chooseTopic(content, "depth", file, [&](const RosImageTopic &topic) { return depthScore(topic, color); });
+}
+
+std::string infoTopicOf(const std::string &image_topic) {
+  const std::string last = image_topic.substr(image_topic.rfind('/') + 1);
+  const bool is_transport = last == "compressed" || last == "compressedDepth";
+  return parentOf(is_transport ? parentOf(image_topic) : image_topic) + "/camera_info";
+}
+
+const RosCameraInfo *infoOf(const RosContent &content, const RosImageTopic &topic) {
+  const auto beside = content.infos.find(infoTopicOf(topic.name));
+  if (beside != content.infos.end()) return &beside->second;
+  const RosCameraInfo *only = nullptr;
+  for (const auto &[name, info] : content.infos) {
+    if (info.header.frame != topic.frame) continue;
+    if (only) return nullptr;
+    only = &info;
+  }
+  return only;
+}
+
+}  // namespace sphc::recording

@@ -1,0 +1,42 @@
+// Which topics of a ROS recording are its colour and its depth.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/recording/foreign/bag_file.h"
+#include "host/recording/foreign/ros_messages.h"
+
+namespace sphc::recording {
+
+struct RosStamped {
+  int64_t time_ns;
+  BagPlace place;
+};
+
+// A topic of images, by its first message.
+struct RosImageTopic {
+  std::string name, encoding;  // of a compressed image: its format
+  std::string frame;
+  bool is_compressed;
+  uint32_t width, height;  // 0 of a compressed image
+  std::vector<RosStamped> images;
+};
+
+// What a ROS recording holds that is read.
+struct RosContent {
+  std::map<std::string, RosImageTopic> images;  // by topic
+  std::map<std::string, RosCameraInfo> infos;   // likewise, the first of each
+};
+
+// Throw Failure (ARGUMENT) that begins with `file`, where there is none or where several are as good.
+const RosImageTopic &chooseColor(const RosContent &content, const std::string &file);
+const RosImageTopic &chooseDepth(const RosContent &content, const RosImageTopic &color, const std::string &file);
+
+// The camera_info beside a topic of images, or the only one of its frame; null when there is none.
+const RosCameraInfo *infoOf(const RosContent &content, const RosImageTopic &topic);
+// ".../camera_info", as it should be called.
+std::string infoTopicOf(const std::string &image_topic);
+
+}  // namespace sphc::recording

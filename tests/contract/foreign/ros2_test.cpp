@@ -1,0 +1,323 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+
+#include "host/recording/recording_reader.h"
+#include "tests/contract/temp_folder.h"
+#include "tests/support/refusal.h"
+#include "tests/support/ros_bag.h"
+
+namespace sphc::contract {
+namespace {
+
+using recording::RecordingReader;
+using test::Bytes;
+using test::NamedTransform;
+using test::refusal;
+using test::RosBag;
+using ::testing::HasSubstr;
+
+constexpr const char *kImage = "sensor_msgs/msg/Image", *kCompressed = "sensor_msgs/msg/CompressedImage",
+                     *kInfo = "sensor_msgs/msg/CameraInfo", *kTf = "tf2_msgs/msg/TFMessage",
+                     *kOdometry = "nav_msgs/msg/Odometry";
+constexpr uint32_t kWidth = 32, kHeight = 24, kDepthSide = 16;
+constexpr int64_t kStartNs = 1700000000000000000, kStepNs = 33000000;
+constexpr const char *kColorFrame = "color_optical", *kDepthFrame = "depth_optical";
+const sphc_rigid kSame = {{1, 0, 0, 0}, {0, 0, 0}};
+// Of the optical frame in a body with x forward, y left, z up: right is -y, down is -z, forward is x.
+const sphc_rigid kBodyFromOptical = {{0.5, -0.5, 0.5, -0.5}, {0.1, 0, 0}};
+
+Bytes colorPixels(uint8_t level) { return Bytes(kWidth * kHeight * 3, level); }
+
+Bytes depthPixels(uint16_t mm) {
+  Bytes pixels;
+  for (uint32_t i = 0; i < kDepthSide * kDepthSide; ++i) recording::putLittle(pixels, mm);
+  return pixels;
+}
+
+Bytes floatDepth(float first, float rest) {
+  Bytes pixels;
+  for (uint32_t i = 0; i < kDepthSide * kDepthSide; ++i) {
+    uint32_t bits;
+    const float depth = i == 0 ? first : rest;
+    std::memcpy(&bits, &depth, sizeof bits);
+    recording::putLittle(pixels, bits);
+  }
+  return pixels;
+}
+
+Bytes encoded(const cv::Mat &image, const char *ending) {
+  Bytes bytes;
+  cv::imencode(ending, image, bytes);
+  return bytes;
+}
+
+class Ros2 : public ::testing::Test {
+ protected:
+  void addColor(uint32_t i, const char *topic = "/camera/color/image_raw", const char *encoding = "rgb8") {
+    bag_.add(topic, kImage, kStartNs + i * kStepNs + 5000000,
+             test::rosImage(kStartNs + i * kStepNs, kColorFrame, kWidth, kHeight, encoding,
+                            colorPixels(static_cast<uint8_t>(10 * i))));
+  }
+  void addDepth(uint32_t i, const char *topic = "/camera/depth/image_rect_raw") {
+    bag_.add(topic, kImage, kStartNs + i * kStepNs + 9000000,
+             test::rosImage(kStartNs + i * kStepNs + 2000000, kDepthFrame, kDepthSide, kDepthSide, "16UC1",
+                            depthPixels(static_cast<uint16_t>(1000 + i))));
+  }
+  void addColorInfo(const std::vector<double> &d = {0.1, -0.05, 0.001, 0, 0.02}, const char *model = "plumb_bob",
+                    uint32_t binning = 0) {
+    bag_.add("/camera/color/camera_info", kInfo, kStartNs,
+             test::rosCameraInfo(kColorFrame, kWidth, kHeight, model, d, {30, 31, 15.5, 11.5}, binning));
+  }
+  void addDepthInfo() {
+    bag_.add(
+        "/camera/depth/camera_info", kInfo, kStartNs,
+        test::rosCameraInfo(kDepthFrame, kDepthSide, kDepthSide, "plumb_bob", {0, 0, 0, 0, 0}, {10, 11, 7.5, 7.5}));
+  }
+  // The depth camera is 5 cm to the left of the colour camera.
+  void addBody() {
+    sphc_rigid body_from_depth = kBodyFromOptical;
+    body_from_depth.t_m[1] = 0.05;
+    bag_.add("/tf_static", kTf, kStartNs,
+             test::rosTransforms(0, {{"base_link", "camera_link", kSame},
+                                     {"camera_link", kColorFrame, kBodyFromOptical},
+                                     {"/camera_link", kDepthFrame, body_from_depth}}));
+  }
+  // Forward by 10 cm every 11 ms; between the times of images.
+  void addOdometry(const char *topic = "/odom", bool is_tf = false) {
+    for (int64_t j = -1; j < 9; ++j) {
+      const int64_t time_ns = kStartNs + j * 11000000 + 5500000;
+      const NamedTransform pose = {"odom", "base_link", {{1, 0, 0, 0}, {0.1 * static_cast<double>(j), 0, 0}}};
+      bag_.add(topic, is_tf ? kTf : kOdometry, static_cast<uint64_t>(time_ns),
+               is_tf ? test::rosTransforms(time_ns, {pose}) : test::rosOdometry(time_ns, pose));
+    }
+  }
+  void addImagesAndCameras() {
+    for (uint32_t i = 0; i < 3; ++i) {
+      addColor(i);
+      addDepth(i);
+    }
+    addColorInfo();
+    addDepthInfo();
+  }
+
+  std::string write(RosBag::Chunks chunks = RosBag::Chunks::kStored) {
+    folder_.write("bag.mcap", bag_.bytes(chunks));
+    return folder_ / "bag.mcap";
+  }
+  std::string refusalOfOpen() {
+    const std::string path = write();
+    return refusal([&] { RecordingReader reader(path); });
+  }
+
+  RosBag bag_;
+  TempFolder folder_;
+};
+
+void expectSamePixels(RecordingReader &reader) {
+  ASSERT_EQ(reader.frameCount(), 3u);
+  for (uint32_t i = 0; i < 3; ++i) {
+    const sphc_localizer_frame frame = reader.read(i);
+    EXPECT_EQ(frame.color_time_ns, kStartNs + i * kStepNs) << "the header's time";
+    EXPECT_EQ(frame.depth_time_ns, frame.color_time_ns + 2000000);
+    EXPECT_EQ(frame.sequence, i);
+    EXPECT_EQ(static_cast<const uint8_t *>(frame.color.data)[kWidth * kHeight * 3 - 1], 10 * i);
+    EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[kDepthSide * kDepthSide - 1], 1000 + i);
+  }
+}
+
+TEST_F(Ros2, ImagesInChunksAndWithout) {
+  addImagesAndCameras();
+  addBody();
+  for (const RosBag::Chunks chunks : {RosBag::Chunks::kNone, RosBag::Chunks::kStored, RosBag::Chunks::kZstd}) {
+    RecordingReader reader(write(chunks));
+    expectSamePixels(reader);
+    EXPECT_FALSE(reader.recording().is_cut);
+    EXPECT_FALSE(reader.worldFromCamera(0));
+  }
+}
+
+TEST_F(Ros2, CamerasAndTheTransformBetweenThem) {
+  addImagesAndCameras();
+  addBody();
+  const RecordingReader reader(write());
+  const sphc_camera &color = reader.calibration().color_camera, &depth = reader.calibration().depth_camera;
+  EXPECT_EQ(color.model, SPHC_CAMERA_BROWN5);
+  EXPECT_EQ(color.params[0], 30);
+  EXPECT_EQ(color.params[2], 16) << "ROS's pixel centres are at 0";
+  EXPECT_EQ(color.params[8], 0.02);
+  EXPECT_EQ(depth.model, SPHC_CAMERA_PINHOLE) << "of a rectified topic, whose projection counts";
+  EXPECT_EQ(depth.params[0], 20);
+  const sphc_rigid &color_from_depth = reader.calibration().color_from_depth;
+  EXPECT_NEAR(std::abs(color_from_depth.q_wxyz[0]), 1, 1e-12);
+  EXPECT_NEAR(color_from_depth.t_m[0], -0.05, 1e-12) << "left is -x of a camera";
+  EXPECT_NEAR(color_from_depth.t_m[2], 0, 1e-12);
+}
+
+void expectWalksForward(const RecordingReader &reader) {
+  for (uint32_t i = 0; i < 3; ++i) {
+    const std::optional<sphc_rigid> pose = reader.worldFromCamera(i);
+    ASSERT_TRUE(pose);
+    EXPECT_NEAR(pose->t_m[0], 0.1 * (3 * i - 0.5) + 0.1, 1e-9);
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(pose->q_wxyz[k], kBodyFromOptical.q_wxyz[k], 1e-12);
+  }
+}
+
+TEST_F(Ros2, PosesAreTheBodysThroughToTheCamera) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry();
+  expectWalksForward(RecordingReader(write()));
+}
+
+TEST_F(Ros2, PosesOfTransforms) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry("/tf", true);
+  // A map that is told seldom, and moved against the odometry by a metre to the left.
+  for (const int64_t at : {-40000000, 200000000})
+    bag_.add("/tf", kTf, kStartNs,
+             test::rosTransforms(kStartNs + at, {{"map", "odom", {{1, 0, 0, 0}, {0, 1, 0}}}}));
+  const RecordingReader reader(write());
+  expectWalksForward(reader);
+  EXPECT_NEAR(reader.worldFromCamera(1)->t_m[1], 1, 1e-9);
+}
+
+TEST_F(Ros2, FramesThatHangInARingHaveNoPoses) {
+  addImagesAndCameras();
+  bag_.add("/tf", kTf, kStartNs,
+           test::rosTransforms(kStartNs, {{"a", kColorFrame, kSame}, {kColorFrame, "a", kSame}}));
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("no transform from depth_optical to color_optical in tf_static"));
+}
+
+TEST_F(Ros2, DepthThatLiesOnColourComesFirst) {
+  addImagesAndCameras();
+  addBody();
+  const char *topic = "/camera/aligned_depth_to_color/image_raw";
+  bag_.add(topic, kImage, kStartNs,
+           test::rosImage(kStartNs, kColorFrame, kWidth, kHeight, "16UC1", Bytes(kWidth * kHeight * 2, 3)));
+  bag_.add("/camera/aligned_depth_to_color/camera_info", kInfo, kStartNs,
+           test::rosCameraInfo(kColorFrame, kWidth, kHeight, "plumb_bob", {}, {30, 31, 15.5, 11.5}));
+  RecordingReader reader(write());
+  ASSERT_EQ(reader.frameCount(), 1u);
+  EXPECT_EQ(static_cast<const uint16_t *>(reader.read(0).depth.data)[0], 0x303);
+  EXPECT_EQ(reader.calibration().color_from_depth.t_m[0], 0);
+}
+
+TEST_F(Ros2, FloatDepthBecomesMillimetres) {
+  addColor(0);
+  addColorInfo();
+  addDepthInfo();
+  addBody();
+  for (const float first :
+       {-1.0f, 0.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 65.6f})
+    bag_.add("/camera/depth/image_raw", kImage, kStartNs,
+             test::rosImage(kStartNs + static_cast<int64_t>(bag_.bytes(RosBag::Chunks::kNone).size()), kDepthFrame,
+                            kDepthSide, kDepthSide, "32FC1", floatDepth(first, 1.2344f)));
+  RecordingReader reader(write());
+  ASSERT_EQ(reader.recording().depth.size(), 5u);
+  ASSERT_EQ(reader.frameCount(), 1u);
+  recording::ImageReader images(reader.recording(), reader.calibration(), SPHC_FORMAT_BGR8);
+  std::vector<uint16_t> depth(kDepthSide * kDepthSide);
+  for (const recording::RecordedImage &image : reader.recording().depth) {
+    images.read(SPHC_STREAM_DEPTH, image, reinterpret_cast<uint8_t *>(depth.data()));
+    EXPECT_EQ(depth[0], 0);
+    EXPECT_EQ(depth[1], 1234);
+  }
+}
+
+TEST_F(Ros2, CompressedImages) {
+  addColorInfo();
+  addDepthInfo();
+  addBody();
+  const cv::Mat color(kHeight, kWidth, CV_8UC3, cv::Scalar::all(70)), depth(kDepthSide, kDepthSide, CV_16UC1, 2345);
+  Bytes png = encoded(depth, ".png");
+  png.insert(png.begin(), 12, uint8_t{0});
+  bag_.add("/camera/color/image_raw/compressed", kCompressed, kStartNs,
+           test::rosCompressedImage(kStartNs, kColorFrame, "rgb8; jpeg compressed bgr8", encoded(color, ".jpg")));
+  bag_.add("/camera/depth/image_raw/compressedDepth", kCompressed, kStartNs,
+           test::rosCompressedImage(kStartNs, kDepthFrame, "16UC1; compressedDepth png", png));
+  RecordingReader reader(write());
+  ASSERT_EQ(reader.frameCount(), 1u);
+  const sphc_localizer_frame frame = reader.read(0);
+  EXPECT_NEAR(static_cast<const uint8_t *>(frame.color.data)[0], 70, 2);
+  EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[0], 2345);
+}
+
+TEST_F(Ros2, ABagIsAFolderToo) {
+  addImagesAndCameras();
+  addBody();
+  folder_.write("walk/metadata.yaml", "rosbag2_bagfile_information:\n");
+  EXPECT_THAT(refusal([&] { RecordingReader reader(folder_ / "walk"); }), HasSubstr("without its .mcap"));
+  folder_.write("walk/walk_0.mcap", bag_.bytes(RosBag::Chunks::kZstd));
+  RecordingReader reader(folder_ / "walk");
+  expectSamePixels(reader);
+  folder_.write("walk/walk_1.mcap", "");
+  EXPECT_THAT(refusal([&] { RecordingReader again(folder_ / "walk"); }), HasSubstr("mcap merge"));
+  folder_.write("walk/walk_0.db3", "");
+  std::filesystem::remove(folder_ / "walk/walk_0.mcap");
+  std::filesystem::remove(folder_ / "walk/walk_1.mcap");
+  EXPECT_THAT(refusal([&] { RecordingReader again(folder_ / "walk"); }), HasSubstr("ros2 bag convert"));
+}
+
+TEST_F(Ros2, ACutFileGivesWhatIsWhole) {
+  addImagesAndCameras();
+  addBody();
+  addColor(3);
+  const std::string whole = bag_.bytes(RosBag::Chunks::kNone);
+  folder_.write("bag.mcap", whole.substr(0, whole.size() - 500));
+  const RecordingReader reader(folder_ / "bag.mcap");
+  EXPECT_EQ(reader.recording().color.size(), 3u);
+  EXPECT_TRUE(reader.recording().is_cut);
+}
+
+TEST_F(Ros2, ACameraThatIsNotToldIsGivenByAFile) {
+  addColor(0);
+  addDepth(0);
+  EXPECT_THAT(refusalOfOpen(),
+              HasSubstr("no /camera/color/camera_info; record it too, or give a calibration file"));
+  folder_.write("c.json", R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+    "color_camera": {"model": "pinhole", "width": 32, "height": 24, "params": [30, 30, 16, 12]},
+    "depth_camera": {"model": "pinhole", "width": 16, "height": 16, "params": [20, 20, 8, 8]},
+    "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}, "depth_unit_m": 0.001})");
+  recording::ReaderOptions options;
+  options.calibration = folder_ / "c.json";
+  EXPECT_EQ(RecordingReader(write(), options).frameCount(), 1u);
+}
+
+TEST_F(Ros2, WhatIsNotReadIsNamed) {
+  addDepth(0);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("holds no colour image that is read (topics of images: /camera/depth/"));
+  addColor(0);
+  addColorInfo({0.1, 0, 0}, "plumb_bob");
+  EXPECT_THAT(refusalOfOpen(),
+              HasSubstr("/camera/color/camera_info: its distortion is of the model \"plumb_bob\""));
+  folder_.write("bag.mcap", bag_.bytes(RosBag::Chunks::kLz4));
+  EXPECT_THAT(refusal([&] { RecordingReader reader(folder_ / "bag.mcap"); }), HasSubstr("mcap compress"));
+  addColor(0, "/other/color/image_raw");
+  EXPECT_THAT(refusalOfOpen(),
+              HasSubstr("both /camera/color/image_raw and /other/color/image_raw may be the colour"));
+}
+
+TEST_F(Ros2, BinnedImagesAreRefused) {
+  addColor(0);
+  addDepth(0);
+  addColorInfo({}, "plumb_bob", 2);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("binned"));
+}
+
+TEST_F(Ros2, AnEncodingThatIsNotReadIsNamed) {
+  addColor(0, "/camera/color/image_raw", "bayer_rggb8");
+  addDepth(0);
+  addColorInfo();
+  addDepthInfo();
+  addBody();
+  RecordingReader reader(write());
+  EXPECT_THAT(refusal([&] { reader.read(0); }), HasSubstr("is of the encoding \"bayer_rggb8\"; rgb8, bgr8"));
+}
+
+}  // namespace
+}  // namespace sphc::contract

@@ -1,0 +1,228 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#ifdef SPHC_TEST_VIDEO
+#include <opencv2/videoio.hpp>
+#endif
+
+#include "host/recording/failure.h"
+#include "host/recording/foreign/stray_text.h"
+#include "host/recording/recording_reader.h"
+#include "tests/contract/temp_folder.h"
+#include "tests/support/refusal.h"
+
+namespace sphc::contract {
+namespace {
+
+using recording::Failure;
+using recording::RecordingReader;
+using test::refusal;
+using ::testing::HasSubstr;
+
+constexpr uint32_t kFrames = 6;
+constexpr int kColorCols = 128, kColorRows = 96, kDepthCols = 32, kDepthRows = 24;
+constexpr const char *kHeader = "timestamp, frame, x, y, z, qx, qy, qz, qw\n";
+
+std::string numbered(const char *format, uint32_t number) {
+  char name[64];
+  std::snprintf(name, sizeof name, format, number);
+  return name;
+}
+
+// Every frame has a grey of its own, brighter in the upper half.
+cv::Mat strayColor(uint32_t i) {
+  cv::Mat image(kColorRows, kColorCols, CV_8UC3, cv::Scalar::all(20 + 20 * i));
+  image.rowRange(0, kColorRows / 2) += cv::Scalar::all(60);
+  return image;
+}
+
+cv::Mat strayDepth(uint32_t i) { return cv::Mat(kDepthRows, kDepthCols, CV_16UC1, cv::Scalar(1000 + i)); }
+
+// Columns of low, medium and high confidence.
+cv::Mat strayConfidence() {
+  cv::Mat image(kDepthRows, kDepthCols, CV_8UC1, cv::Scalar(2));
+  image.colRange(0, 4) = 0;
+  image.colRange(4, 8) = 1;
+  return image;
+}
+
+class StrayScanner : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string odometry = kHeader;
+    for (uint32_t i = 0; i < kFrames; ++i) {
+      odometry += numbered("100.%03u", 16 * i) + numbered(", %06u", i) + numbered(", 0.%u, 1, 2", i) +
+                  ", 0.7071067811865476, 0, 0, 0.7071067811865476\n";
+      writeImage(numbered("rgb/%06u.png", i), strayColor(i));
+      writeImage(numbered("depth/%06u.png", i), strayDepth(i));
+      writeImage(numbered("confidence/%06u.png", i), strayConfidence());
+    }
+    folder_.write("odometry.csv", odometry);
+    folder_.write("camera_matrix.csv", "100.0, 0.0, 66.0\n0.0, 101.0, 47.0\n0.0, 0.0, 1.0\n");
+  }
+
+  void writeImage(const std::string &name, const cv::Mat &image) {
+    folder_.write(name, "");
+    ASSERT_TRUE(cv::imwrite(folder_ / name, image));
+  }
+  std::string refusalOfOpen() {
+    return refusal([&] { RecordingReader reader(folder_.path()); });
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(StrayScanner, ImagesPosesAndCameras) {
+  RecordingReader reader(folder_.path());
+  ASSERT_EQ(reader.frameCount(), kFrames);
+  const sphc_localizer_frame frame = reader.read(3);
+  EXPECT_EQ(frame.color_time_ns, 100048000000);
+  EXPECT_EQ(frame.depth_time_ns, frame.color_time_ns);
+  EXPECT_EQ(frame.sequence, 3u);
+  EXPECT_EQ(static_cast<const uint8_t *>(frame.color.data)[0], 140);
+  EXPECT_EQ(reader.calibration().color_camera.params[0], 100);
+  EXPECT_EQ(reader.calibration().color_camera.params[3], 47);
+  const sphc_camera &depth = reader.calibration().depth_camera;
+  EXPECT_EQ(depth.width, 32u);
+  EXPECT_DOUBLE_EQ(depth.params[0], 25) << "one camera, a quarter of the size";
+  EXPECT_DOUBLE_EQ(depth.params[1], 25.25);
+  EXPECT_DOUBLE_EQ(depth.params[2], 16.5);
+  EXPECT_DOUBLE_EQ(depth.params[3], 11.75);
+  EXPECT_EQ(reader.calibration().depth_unit_m, 0.001);
+}
+
+// The app turns ARKit's axes into right, down, forward before it writes: nothing is left to turn here.
+TEST_F(StrayScanner, CameraAxesAreOurs) {
+  const RecordingReader reader(folder_.path());
+  const std::optional<sphc_rigid> pose = reader.worldFromCamera(2);
+  ASSERT_TRUE(pose);
+  EXPECT_DOUBLE_EQ(pose->q_wxyz[0], 0.7071067811865476);
+  EXPECT_DOUBLE_EQ(pose->q_wxyz[1], 0.7071067811865476);
+  EXPECT_EQ(pose->t_m[0], 0.2);
+  EXPECT_EQ(pose->t_m[2], 2);
+}
+
+TEST_F(StrayScanner, DepthOfLowConfidenceIsNone) {
+  RecordingReader reader(folder_.path());
+  const auto *depth = static_cast<const uint16_t *>(reader.read(1).depth.data);
+  EXPECT_EQ(depth[3], 0);
+  EXPECT_EQ(depth[4], 1001) << "medium";
+  EXPECT_EQ(depth[8], 1001);
+  std::filesystem::remove(folder_ / "confidence/000001.png");
+  EXPECT_THAT(refusal([&] { reader.read(1); }), HasSubstr("its confidence, confidence/000001.png"));
+  std::filesystem::remove_all(folder_ / "confidence");
+  EXPECT_EQ(static_cast<const uint16_t *>(reader.read(1).depth.data)[3], 1001) << "a recording of no confidences";
+}
+
+TEST_F(StrayScanner, AFrameWithoutDepthTakesNoNeighbours) {
+  std::filesystem::remove(folder_ / "depth/000002.png");
+  RecordingReader reader(folder_.path());
+  EXPECT_EQ(reader.recording().color.size(), kFrames);
+  ASSERT_EQ(reader.frameCount(), kFrames - 1) << "the next one is 16 ms away, within the tolerance";
+  EXPECT_EQ(reader.colorOf(2).sequence, 3u);
+  EXPECT_EQ(reader.depthOf(2).sequence, 3u);
+}
+
+TEST_F(StrayScanner, CamerasOfFramesGiveTheirMedian) {
+  std::string odometry = "timestamp, frame, x, y, z, qx, qy, qz, qw, fx, fy, cx, cy\n";
+  for (uint32_t i = 0; i < 3; ++i)
+    odometry += numbered("%u.5", i) + numbered(", %06u, 0, 0, 0, 0, 0, 0, 1", i) + numbered(", %u", 110 + i * i) +
+                ", 120, 60, 50\n";
+  folder_.write("odometry.csv", odometry);
+  const RecordingReader reader(folder_.path());
+  EXPECT_EQ(reader.calibration().color_camera.params[0], 111);
+  EXPECT_EQ(reader.calibration().color_camera.params[1], 120);
+}
+
+TEST_F(StrayScanner, AnAbortedLineIsNotThere) {
+  folder_.write("odometry.csv", folder_.read("odometry.csv") + "100.2, 0000");
+  EXPECT_EQ(RecordingReader(folder_.path()).frameCount(), kFrames);
+}
+
+TEST_F(StrayScanner, PosesThatAreNoneAreCounted) {
+  folder_.write("odometry.csv", std::string(kHeader) + "1, 0, 0, 0, 0, 0, 0, 0, 0\n2, 1, 0, 0, nan, 0, 0, 0, 1\n");
+  const RecordingReader reader(folder_.path());
+  EXPECT_EQ(reader.frameCount(), 2u);
+  EXPECT_EQ(reader.recording().bad_pose_count, 2u);
+  EXPECT_FALSE(reader.worldFromCamera(0));
+}
+
+TEST_F(StrayScanner, WhatIsWrongIsNamed) {
+  const std::string odometry = folder_.read("odometry.csv");
+  folder_.write("odometry.csv", "timestamp, frame, x\n");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("odometry.csv, line 1: no column \"y\""));
+  folder_.write("odometry.csv", kHeader);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("no line of a frame"));
+  folder_.write("odometry.csv", std::string(kHeader) + "1, 0, 0, 0, 0, 0, 0, 1\n");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("line 2: expected a number"));
+  folder_.write("odometry.csv", std::string(kHeader) + "2, 0, 0, 0, 0, 0, 0, 0, 1\n1, 1, 0, 0, 0, 0, 0, 0, 1\n");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("line 3: time or frame"));
+  folder_.write("odometry.csv", odometry);
+  folder_.write("camera_matrix.csv", "1, 0\n");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("camera_matrix.csv, line 1"));
+  folder_.write("camera_matrix.csv", "0, 0, 60\n0, 100, 40\n0, 0, 1\n");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("its camera: "));
+  folder_.write("camera_matrix.csv", "100, 0, 60\n0, 100, 40\n0, 0, 1\n");
+  writeImage("rgb/000000.png", cv::Mat(kColorCols, kColorRows, CV_8UC3, cv::Scalar::all(9)));
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("neither turned nor cropped"));
+  std::filesystem::remove_all(folder_ / "depth");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("no depth/000000.png"));
+  std::filesystem::remove_all(folder_ / "rgb");
+  folder_.write("rgb.mp4", "#EXTM3U\nhttp://example.com/a.mp4\n");
+#ifdef SPHC_TEST_VIDEO
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("rgb.mp4: is no MP4 file"));
+#else
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("this build reads no video"));
+#endif
+}
+
+#ifdef SPHC_TEST_VIDEO
+class StrayVideo : public StrayScanner {
+ protected:
+  void SetUp() override {
+    StrayScanner::SetUp();
+    std::filesystem::remove_all(folder_ / "rgb");
+    cv::VideoWriter writer(folder_ / "rgb.mp4", cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), 60,
+                           {kColorCols, kColorRows});
+    if (!writer.isOpened()) GTEST_SKIP() << "FFmpeg writes no MPEG-4 here";
+    for (uint32_t i = 0; i < kFrames - 1; ++i) writer.write(strayColor(i));
+  }
+  static void expectFrame(RecordingReader &reader, uint32_t i) {
+    const sphc_image image = reader.read(i).color;
+    const auto *pixels = static_cast<const uint8_t *>(image.data);
+    EXPECT_NEAR(pixels[0], 80 + 20 * i, 5) << "frame " << i;
+    EXPECT_NEAR(pixels[(image.height - 1) * image.stride_bytes], 20 + 20 * i, 5) << "frame " << i;
+  }
+};
+
+TEST_F(StrayVideo, FramesInAnyOrder) {
+  RecordingReader reader(folder_.path());
+  ASSERT_EQ(reader.frameCount(), kFrames - 1) << "the video is one shorter than the odometry";
+  for (const uint32_t i : {0u, 1u, 4u, 2u, 2u, 3u}) expectFrame(reader, i);
+}
+
+// A player turns the picture by the matrix of its track; the depth beside it is as the sensor lies.
+TEST_F(StrayVideo, IsNotTurned) {
+  std::string file = folder_.read("rgb.mp4");
+  const size_t matrix = file.find("tkhd") + 44;
+  const char quarter[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, static_cast<char>(0xFF), static_cast<char>(0xFF),
+                          0, 0, 0, 0, 0, 0};
+  file.replace(matrix, sizeof quarter, quarter, sizeof quarter);
+  folder_.write("rgb.mp4", file);
+  cv::VideoCapture player(folder_ / "rgb.mp4", cv::CAP_FFMPEG);
+  ASSERT_EQ(player.get(cv::CAP_PROP_FRAME_WIDTH), kColorRows) << "the matrix counts";
+  RecordingReader reader(folder_.path());
+  EXPECT_EQ(reader.calibration().color_camera.width, static_cast<uint32_t>(kColorCols));
+  expectFrame(reader, 1);
+}
+
+TEST_F(StrayVideo, ACutOneIsRefused) {
+  const std::string file = folder_.read("rgb.mp4");
+  folder_.write("rgb.mp4", file.substr(0, file.size() / 2));
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("rgb.mp4: cannot be decoded"));
+}
+#endif
+
+}  // namespace
+}  // namespace sphc::contract

@@ -1,0 +1,147 @@
+// A small recording of ROS 2 in MCAP, written message by message.
+#pragma once
+
+#include <spherecloud/spherecloud.h>
+#include <zstd.h>
+
+#include <string>
+#include <vector>
+
+#include "host/recording/mcap/cdr.h"
+#include "host/recording/mcap/records.h"
+
+namespace sphc::test {
+
+using recording::Bytes;
+using recording::CdrWriter;
+
+// The records of a file between its magics; `bytes()` puts them in one chunk, or in none.
+class RosBag {
+ public:
+  enum class Chunks { kNone, kStored, kZstd, kLz4 };
+
+  void add(const std::string &topic, const std::string &type, uint64_t log_ns, const Bytes &message) {
+    uint16_t id = 0;
+    while (id < topics_.size() && topics_[id] != topic) ++id;
+    if (id == topics_.size()) {
+      topics_.push_back(topic);
+      recording::putSchema(records_, static_cast<uint16_t>(id + 1), type, "ros2msg", "");
+      recording::putChannel(records_, id, static_cast<uint16_t>(id + 1), topic, "cdr", {});
+    }
+    recording::putMessage(records_, id, 0, log_ns, recording::viewOf(message));
+  }
+
+  std::string bytes(Chunks chunks) const {
+    Bytes file(recording::kMcapMagic, recording::kMcapMagic + sizeof recording::kMcapMagic);
+    recording::putHeader(file, "ros2", "test");
+    if (chunks == Chunks::kNone)
+      file.insert(file.end(), records_.begin(), records_.end());
+    else
+      putChunk(file, chunks);
+    recording::putDataEnd(file);
+    return {file.begin(), file.end()};
+  }
+
+ private:
+  void putChunk(Bytes &file, Chunks chunks) const {
+    Bytes stored = records_;
+    if (chunks == Chunks::kZstd) {
+      stored.resize(ZSTD_compressBound(records_.size()));
+      stored.resize(ZSTD_compress(stored.data(), stored.size(), records_.data(), records_.size(), 1));
+    }
+    const char *name = chunks == Chunks::kZstd ? "zstd" : chunks == Chunks::kLz4 ? "lz4" : "";
+    recording::putRecord(file, recording::Op::kChunk, [&] {
+      recording::putChunkHead(file, {0, 0, records_.size(), 0, name, stored.size()});
+      recording::append(file, stored.data(), stored.size());
+    });
+  }
+
+  std::vector<std::string> topics_;
+  Bytes records_;
+};
+
+inline void putRosHeader(CdrWriter &writer, int64_t time_ns, const std::string &frame) {
+  writer.put(static_cast<uint32_t>(time_ns / 1000000000));
+  writer.put(static_cast<uint32_t>(time_ns % 1000000000));
+  writer.putText(frame);
+}
+
+inline Bytes rosImage(int64_t time_ns, const std::string &frame, uint32_t width, uint32_t height,
+                      const std::string &encoding, const Bytes &pixels) {
+  Bytes message;
+  CdrWriter writer(message);
+  putRosHeader(writer, time_ns, frame);
+  writer.put(height);
+  writer.put(width);
+  writer.putText(encoding);
+  writer.put(uint8_t{0});
+  writer.put(static_cast<uint32_t>(pixels.size() / height));
+  writer.putLength(pixels.size());
+  recording::append(message, pixels.data(), pixels.size());
+  return message;
+}
+
+inline Bytes rosCompressedImage(int64_t time_ns, const std::string &frame, const std::string &format,
+                                const Bytes &data) {
+  Bytes message;
+  CdrWriter writer(message);
+  putRosHeader(writer, time_ns, frame);
+  writer.putText(format);
+  writer.putLength(data.size());
+  recording::append(message, data.data(), data.size());
+  return message;
+}
+
+// `k`: fx, fy, cx, cy with the centre of the first pixel at 0; the projection has twice the focal length.
+inline Bytes rosCameraInfo(const std::string &frame, uint32_t width, uint32_t height, const std::string &model,
+                           const std::vector<double> &d, const double (&k)[4], uint32_t binning = 0) {
+  Bytes message;
+  CdrWriter writer(message);
+  putRosHeader(writer, 0, frame);
+  writer.put(height);
+  writer.put(width);
+  writer.putText(model);
+  writer.putLength(d.size());
+  for (const double each : d) writer.put(each);
+  for (const double each : {k[0], 0.0, k[2], 0.0, k[1], k[3], 0.0, 0.0, 1.0}) writer.put(each);
+  for (const double each : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) writer.put(each);
+  for (const double each : {2 * k[0], 0.0, k[2], 0.0, 0.0, 2 * k[1], k[3], 0.0, 0.0, 0.0, 1.0, 0.0})
+    writer.put(each);
+  for (const uint32_t each : {binning, binning, 0u, 0u, 0u, 0u}) writer.put(each);
+  writer.put(uint8_t{0});
+  return message;
+}
+
+inline void putRosPose(CdrWriter &writer, const sphc_rigid &pose) {
+  for (const double each : pose.t_m) writer.put(each);
+  for (const int i : {1, 2, 3, 0}) writer.put(pose.q_wxyz[i]);
+}
+
+struct NamedTransform {
+  std::string parent, child;
+  sphc_rigid parent_from_child;
+};
+
+inline Bytes rosTransforms(int64_t time_ns, const std::vector<NamedTransform> &transforms) {
+  Bytes message;
+  CdrWriter writer(message);
+  writer.putLength(transforms.size());
+  for (const NamedTransform &each : transforms) {
+    putRosHeader(writer, time_ns, each.parent);
+    writer.putText(each.child);
+    putRosPose(writer, each.parent_from_child);
+  }
+  return message;
+}
+
+// Without the covariances and the twist, which nobody reads.
+inline Bytes rosOdometry(int64_t time_ns, const NamedTransform &pose) {
+  Bytes message;
+  CdrWriter writer(message);
+  putRosHeader(writer, time_ns, pose.parent);
+  writer.putText(pose.child);
+  putRosPose(writer, pose.parent_from_child);
+  return message;
+}
+
+}  // namespace sphc::test
