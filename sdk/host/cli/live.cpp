@@ -11,6 +11,7 @@
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
 #include "host/live/interrupt.h"
+#include "host/live/pair_frame.h"
 #include "host/live/rate.h"
 #include "host/live/status_line.h"
 #include "host/report/fault_words.h"
@@ -77,18 +78,6 @@ nlohmann::ordered_json frameJson(const CapturePair &pair, const sphc_localizer_r
   out["confidence"] = result.confidence;
   out["camera_from_map"] = {{"q_wxyz", result.camera_from_map.q_wxyz}, {"t_m", result.camera_from_map.t_m}};
   return out;
-}
-
-sphc_localizer_frame frameOf(const CapturePair &pair) {
-  sphc_localizer_frame frame = {};
-  frame.struct_size = sizeof frame;
-  frame.sequence = pair.color.sequence;
-  frame.color_time_ns = sphc_capture_middle_ns(&pair.color);
-  frame.depth_time_ns = sphc_capture_middle_ns(&pair.depth);
-  frame.color = pair.color.image;
-  frame.depth = pair.depth.image;
-  frame.amplitude = pair.depth.amplitude;
-  return frame;
 }
 
 // When frames come faster than they are looked at, the newest is the one that matters.

@@ -1,4 +1,5 @@
 // spherecloud record: cameras to one crash-safe file.
+#include <csignal>
 #include <filesystem>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/recording_out.h"
 #include "host/cli/common/rig_options.h"
+#include "host/cli/record_guide.h"
 #include "host/live/interrupt.h"
 #include "host/live/rate.h"
 #include "host/live/status_line.h"
@@ -24,6 +26,7 @@ struct RecordOptions {
   RigOptions rig;
   std::string out;
   double seconds = 0;
+  bool guide = false;
   sphc_recorder_config recorder = {};
 };
 
@@ -72,7 +75,7 @@ std::string statusText(const sphc_recorder_statistics &s, const RecordTally &tal
 }
 
 void sayResult(const RecordOptions &options, const RecordTally &tally, const sphc_recorder_statistics &s,
-               const Rig &rig, const Console &console) {
+               const Rig &rig, RecordGuide *guide, const Console &console) {
   const uint64_t file_bytes = std::filesystem::file_size(options.out);
   console.say("Wrote " + options.out + ": " + std::to_string(tally.color) + " colour and " +
               std::to_string(tally.depth) + " depth images, " + humanBytes(static_cast<double>(file_bytes)) +
@@ -81,18 +84,18 @@ void sayResult(const RecordOptions &options, const RecordTally &tally, const sph
               ", most waiting at once: " + std::to_string(s.queue_most));
   const std::string troubles = rig.troubles();
   if (!troubles.empty()) console.say(troubles);
-  console.give({{"file", options.out},
-                {"color", tally.color},
-                {"depth", tally.depth},
-                {"dropped", s.dropped_count},
-                {"missing", s.missing_count},
-                {"raw_bytes", tally.raw_bytes},
-                {"file_bytes", file_bytes}});
+  nlohmann::ordered_json json = {{"file", options.out},        {"color", tally.color},
+                                 {"depth", tally.depth},       {"dropped", s.dropped_count},
+                                 {"missing", s.missing_count}, {"raw_bytes", tally.raw_bytes},
+                                 {"file_bytes", file_bytes}};
+  if (!guide) return console.give(json);
+  json["guide"] = guide->end(console);
+  console.giveLine(json);
 }
 
 // Until the cameras end, a signal comes or the time is over.
 void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *rig, sphc_recorder *recorder,
-               StatusLine *line, RecordTally *tally, const Rig::Tell &tell) {
+               StatusLine *line, RecordTally *tally, RecordGuide *guide, const Rig::Tell &tell) {
   rig->watch([recorder, tally, &options, &tell](const sphc_capture &capture) {
     sphc_message message = {};
     const sphc_status status = sphc_recorder_add(recorder, &capture, &message);
@@ -111,8 +114,11 @@ void recordAll(const RecordOptions &options, const Interrupt &interrupt, Rig *ri
     CapturePair pair;
     const Rig::Got got = rig->next(std::chrono::milliseconds(200), &pair);
     if (got == Rig::Got::kEnd) break;
-    if (got == Rig::Got::kPair) rig->release(pair);
-    line->show(statusText(statisticsOf(recorder), *tally));
+    if (got == Rig::Got::kPair) {
+      if (guide) guide->see(pair);
+      rig->release(pair);
+    }
+    line->show((guide ? guide->text() + " | " : "") + statusText(statisticsOf(recorder), *tally));
   }
   line->wipe();
 }
@@ -131,13 +137,16 @@ int run(const RecordOptions &options, const Console &console) {
   };
   Rig rig(options.rig, tell);
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
-  const Interrupt interrupt;  // from before there is a file
+  const sphc_rig calibration = calibrationOf(options.rig, rig);
+  const auto guide = options.guide ? std::make_unique<RecordGuide>(calibration, rig.waits(), console) : nullptr;
+  if (guide) std::signal(SIGPIPE, SIG_IGN);  // a recording outlives the program that reads the advice
+  const Interrupt interrupt;                 // from before there is a file
   NewRecording recording(options.out, NewRecording::IfCut::kKeep);
-  Recorder recorder = openRecorder(recording.part(), options, calibrationOf(options.rig, rig));
+  Recorder recorder = openRecorder(recording.part(), options, calibration);
   RecordTally tally;
   sphc_recorder_statistics statistics = {};
   try {
-    recordAll(options, interrupt, &rig, recorder.get(), &line, &tally, tell);
+    recordAll(options, interrupt, &rig, recorder.get(), &line, &tally, guide.get(), tell);
     statistics = statisticsOf(recorder.get());
     sphc_recorder *ended = recorder.release();
     orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });
@@ -146,7 +155,7 @@ int run(const RecordOptions &options, const Console &console) {
     throw std::runtime_error(std::string(error.what()) + "; what was recorded until then is in " +
                              recording.part());
   }
-  sayResult(options, tally, statistics, rig, console);
+  sayResult(options, tally, statistics, rig, guide.get(), console);
   return tally.color > 0 && tally.depth > 0 ? kExitDone : kExitFailure;
 }
 
@@ -154,6 +163,7 @@ const char kRecordExample[] =
     "Example:\n"
     "  spherecloud record --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --out walk.mcap\n"
     "  spherecloud record --device openni2: -c kinect.json --out walk.mcap --seconds 60\n"
+    "  spherecloud record --device openni2: -c kinect.json --out walk.mcap --guide\n"
     "Ctrl-C or SIGTERM ends it.  The file plays everywhere a recording does, and opens in Foxglove.  Its name is\n"
     "walk.mcap.part until it is whole; after a crash that plays too, and `spherecloud convert` makes it whole.";
 
@@ -170,6 +180,9 @@ Command recordCommand(CLI::App *root) {
   app->footer(kRecordExample);
   addRigOptions(app, &options->rig);
   app->add_option("-o,--out", options->out, "The file, ending in .mcap")->required()->type_name("FILE");
+  app->add_flag("--guide", options->guide,
+                "Say on the way what to do, so that `map` can make a map of the walk; with --json a line for each "
+                "frame it sees");
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_option("--jpeg", options->recorder.jpeg_quality,
                   "Colour as JPEG of this quality, 1 to 100; 0: as it came")

@@ -1,0 +1,86 @@
+// Guidance while a walk is recorded, and afterwards, as a user asks for it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "command_runner.h"
+#include "host/cli/common/exit_code.h"
+#include "host/recording/recording_writer.h"
+#include "tests/unit/host/guide/made_up_wall.h"
+#include "tests/unit/host/tiny_map.h"
+
+namespace sphc::host {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr uint32_t kFramesOfWall = 12;
+
+// A second along a wall; the last frames are dark.
+void writeWall(const std::string &folder) {
+  MadeUpWall wall(1);
+  const sphc_rig rig = wallRig();
+  sphc_recording_writer *writer = nullptr;
+  ASSERT_EQ(sphc_recording_create(folder.c_str(), &rig, &writer, nullptr), SPHC_OK);
+  for (uint32_t i = 0; i < kFramesOfWall; ++i) {
+    const bool is_dark = i + 4 > kFramesOfWall;
+    const sphc_localizer_frame frame =
+        wall.view(20 * static_cast<int>(i), 100000000 * int64_t{i + 1}, is_dark ? 0.04 : 1);
+    ASSERT_EQ(sphc_recording_add_frame(writer, &frame, nullptr), SPHC_OK);
+  }
+  ASSERT_EQ(sphc_recording_close(&writer, nullptr), SPHC_OK);
+}
+
+std::vector<nlohmann::json> linesOf(const std::string &text) {
+  std::vector<nlohmann::json> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(nlohmann::json::parse(line));
+  return lines;
+}
+
+class GuideTest : public testing::Test {
+ protected:
+  void SetUp() override { writeWall(at("wall")); }
+  std::string at(const std::string &name) const { return folder_ / name; }
+  TempFolder folder_;
+};
+
+TEST_F(GuideTest, ARecordingIsGuidedAndLosesNothing) {
+  const Answer answer =
+      runCommand("record --guide --json --device replay:" + at("wall") + " --out " + at("walk.mcap"));
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  const std::vector<nlohmann::json> lines = linesOf(answer.out);
+  ASSERT_EQ(lines.size(), kFramesOfWall + 1);
+  EXPECT_EQ(lines[3]["advice"], "");
+  EXPECT_THAT(lines[kFramesOfWall - 1]["advice"].get<std::string>(), HasSubstr("too dark"));
+  const nlohmann::json &result = lines.back();
+  EXPECT_EQ(result["color"], kFramesOfWall);
+  EXPECT_EQ(result["dropped"], 0);
+  EXPECT_EQ(result["guide"]["frames"], kFramesOfWall);
+  EXPECT_EQ(result["guide"]["skipped"], 0);
+}
+
+TEST_F(GuideTest, PeopleGetATableAtTheEnd) {
+  const Answer answer = runCommand("record --guide --device replay:" + at("wall") + " --out " + at("walk.mcap"));
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("frames followed"));
+  EXPECT_THAT(answer.out, HasSubstr("hard to map"));
+  EXPECT_THAT(answer.out, HasSubstr("closed no loop"));
+}
+
+// What is said afterwards is what was said on the way.
+TEST_F(GuideTest, ARecordingIsLookedAtAfterwards) {
+  const Answer recorded =
+      runCommand("record --guide --json --device replay:" + at("wall") + " --out " + at("walk.mcap"));
+  const Answer answer = runCommand("guide --json --score --recording " + at("wall"));
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  const std::vector<nlohmann::json> then = linesOf(recorded.out), now = linesOf(answer.out);
+  ASSERT_EQ(now.size(), then.size());
+  for (size_t i = 0; i + 1 < now.size(); ++i) EXPECT_EQ(now[i]["advice"], then[i]["advice"]) << i;
+  EXPECT_EQ(now.back()["summary"]["path_m"], then.back()["guide"]["path_m"]);
+}
+
+}  // namespace
+}  // namespace sphc::host
