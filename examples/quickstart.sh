@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # From nothing to a report with pictures: installs what is missing, builds, records a walk with the simulated headset,
-# makes a map of its first lap and localizes its second lap in it.
+# finds where the frames of its first lap were taken from, makes a map of them, and localizes its second lap in it.
+# The simulated poses are used only to score.
 #
 #     examples/quickstart.sh
 #
@@ -12,7 +13,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/quickstart
 out=$root/out/quickstart
-steps=5
+steps=6
 begin=$SECONDS
 
 bold='' plain=''
@@ -70,15 +71,21 @@ step "Record: two laps of a simulated headset through a furnished room"
   fail "the recording failed, see above"
 finished
 
-step "Map: lap one becomes a sphere cloud, one direction in three real"
-"$spherecloud" build --recording "$out/walk" --last 99 --map "$out/room.sphc" |
+step "Map: where each frame of lap one was taken from, by images and depths alone"
+"$spherecloud" map --recording "$out/walk" --last 99 --model "$out/room.model" --score >"$out/map.txt" ||
+  { cat "$out/map.txt"; fail "mapping failed, see above"; }
+sed '/^$/,$d; s/^/    /' "$out/map.txt"
+finished
+
+step "Release: the model becomes a sphere cloud, one direction in three real"
+"$spherecloud" build --model "$out/room.model" --map "$out/room.sphc" |
   sed "s|$root/||; s|^|      |" || fail "making the map failed, see above"
 finished
 
 step "Localize: lap two, frame by frame"
 echo
 "$spherecloud" localize --recording "$out/walk" --first 100 --map "$out/room.sphc" \
-  --owner-note "$out/room.sphc.owner.json" --trajectory "$out/path.tum" --report "$out/report" >"$out/table.txt" ||
+  --owner-note "$out/room.sphc.owner.json" --align --trajectory "$out/path.tum" --report "$out/report" >"$out/table.txt" ||
   { cat "$out/table.txt"; fail "localizing failed, see above"; }
 sed '/^$/,$d' "$out/table.txt"
 echo

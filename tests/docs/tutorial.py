@@ -67,7 +67,7 @@ def follow(root, build, compiler, folder):
     for command, shown in commands:
         if command.startswith(("toolchains/", "cmake ")):
             continue  # BUILD has them
-        if " build --recording" in command:
+        if " build --model" in command:
             command += f" --key {private_key(folder)}"
         printed = run(re.sub(r"^cc ", f"{compiler} -Werror ", command), folder)
         print(command, printed, sep="\n")

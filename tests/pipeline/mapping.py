@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""How well are walks mapped without poses?  Real recordings and simulated rooms through `spherecloud map --score`.
+"""How well are walks mapped?  Real recordings and simulated rooms through `spherecloud map --score`.
 
-    mapping.py --spherecloud BIN [--rooms N]      rewrites mapping.csv, for review
+    mapping.py --spherecloud BIN [--rooms N] [--poses KIND ...]      rewrites mapping.csv, for review
 
-The poses of a recording are compared with those that were found, and used for nothing else.
+The poses of a recording are compared with those that were found.  KIND is what the mapper is told: none, or those poses
+disturbed as disturbed_poses.py says.  Rows of other kinds stay as they are.
 """
 import argparse
 import concurrent.futures
@@ -14,6 +15,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+import disturbed_poses
 from recordings import HERE, Recording, frames, run
 
 RESULTS = HERE / "mapping.csv"
@@ -21,28 +23,50 @@ ROOMS = list(range(6001, 6013))  # seeds of room and walk that nothing else uses
 FRAMES, LAP_S = 100, 16  # one lap
 # Frames of each: what maps are made of elsewhere, and all of the walk.
 REAL = {"redkitchen": (0, 597, 3), "hololens": (0, 199, 1), "hololens2": (0, 999, 1)}
-COLUMNS = ["world", "recording", "frames", "frames_mapped", "parts", "ate_rigid_m", "ate_similarity_m", "scale", "rotation_median_deg",
+KINDS = ["none", "approximate", "odometry"]
+COLUMNS = ["world", "recording", "poses", "frames", "frames_mapped", "parts", "ate_rigid_m", "ate_unaligned_m", "ate_similarity_m", "scale", "rotation_median_deg",
            "rotation_worst_deg", "processor_s"]
 
 
-def row_of(world, name, tool, source, folder):
-    summary = run([tool, "map", *source, "--model", folder / (name + ".model"), "--score", "--json"])
+def told(kind, recording, name, folder):
+    """Options that tell the mapper the disturbed poses."""
+    if kind == "none":
+        return []
+    file = folder / ("%s_%s.tum" % (name, kind))
+    disturbed_poses.write(kind, recording, file)
+    return ["--poses", kind, "--poses-from", file]
+
+
+def row_of(world, name, kind, tool, source, folder):
+    recording = pathlib.Path(source[source.index("--recording") + 1])
+    summary = run([tool, "map", *source, *told(kind, recording, name, folder), "--model", folder / ("%s_%s.model" % (name, kind)),
+                   "--score", "--json"])
     score = summary["score"]
-    return [world, name, summary["frames"], summary["frames_mapped"], summary["parts"], "%.4f" % score["rigid_rmse_m"],
+    unaligned = "%.4f" % score["unaligned_rmse_m"] if "unaligned_rmse_m" in score else ""
+    return [world, name, kind, summary["frames"], summary["frames_mapped"], summary["parts"], "%.4f" % score["rigid_rmse_m"], unaligned,
             "%.4f" % score["similarity_rmse_m"], "%.4f" % score["scale"], "%.2f" % score["rotation_median_deg"],
             "%.2f" % score["rotation_worst_deg"], "%.0f" % summary["processor_seconds"]]
 
 
-def measure_real(name, tool, folder):
+def measure_real(name, kinds, tool, folder):
     recording = Recording(name, tool, folder)
-    return row_of("real", name, tool, recording.place("map") + frames(REAL[name]), folder) if recording.is_there() else None
+    source = recording.place("map") + frames(REAL[name])
+    return [row_of("real", name, kind, tool, source, folder) for kind in kinds] if recording.is_there() else []
 
 
-def measure_room(seed, tool, folder):
+def measure_room(seed, kinds, tool, folder):
     walk = folder / ("room%d" % seed)
     run([tool, "simulate", "--out", walk, "--seed", seed, "--walk-seed", seed, "--frames", FRAMES, "--rate", FRAMES / LAP_S,
          "--threads", 1, "--json"])
-    return row_of("simulated", walk.name, tool, ["--recording", walk], folder)
+    return [row_of("simulated", walk.name, kind, tool, ["--recording", walk], folder) for kind in kinds]
+
+
+def kept_rows(path, kinds):
+    """Rows of the file that are not measured anew."""
+    if not path.exists():
+        return []
+    with path.open(newline="") as file:
+        return [[row.get(column, "") for column in COLUMNS] for row in csv.DictReader(file) if row.get("poses") not in kinds]
 
 
 def main():
@@ -50,14 +74,16 @@ def main():
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [mapping.csv]")
     parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(0, len(ROOMS) + 1), metavar="N", help="how many [12]")
+    parser.add_argument("--poses", nargs="+", default=KINDS, choices=KINDS, metavar="KIND", help="what the mapper is told [all]")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         folder = pathlib.Path(scratch)
-        jobs = [pool.submit(measure_real, name, arguments.spherecloud, folder) for name in REAL]
-        jobs += [pool.submit(measure_room, seed, arguments.spherecloud, folder) for seed in ROOMS[:arguments.rooms]]
-        rows = [job.result() for job in jobs]
+        jobs = [pool.submit(measure_real, name, arguments.poses, arguments.spherecloud, folder) for name in REAL]
+        jobs += [pool.submit(measure_room, seed, arguments.poses, arguments.spherecloud, folder) for seed in ROOMS[:arguments.rooms]]
+        rows = kept_rows(arguments.results, arguments.poses) + [row for job in jobs for row in job.result()]
+    rows.sort(key=lambda row: (row[0], KINDS.index(row[2])))
     with arguments.results.open("w", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *(row for row in rows if row)])
+        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
 
 
 if __name__ == "__main__":

@@ -110,7 +110,7 @@ Advice advise(const AdviceOptions &options, const std::function<void(uint32_t do
   const std::vector<Block> blocks = blocksOf(*reader, options.folds);
   Advice advice;
   RgbdImportSummary summary;
-  const PointModel whole = importRgbd(reader.get(), options.import, nullptr, &summary);
+  const PointModel whole = importRgbd({{reader.get()}}, options.import, nullptr, &summary);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);
   advice.coverage = coverageOf(advice.directions, kMostHoles);
@@ -119,9 +119,9 @@ Advice advise(const AdviceOptions &options, const std::function<void(uint32_t do
   for (uint32_t k = 0; k < blocks.size(); ++k) {
     const Block &block = blocks[k];
     progress(k + 1, options.folds + 1);
-    RgbdImportOptions others = options.import;
-    others.takes_part = [&block](uint32_t index) { return index < block.first || index > block.last; };
-    const PointModel model = importRgbd(reader.get(), others, nullptr, &summary);
+    const RgbdSource others = {reader.get(),
+                               [&block](uint32_t index) { return index < block.first || index > block.last; }};
+    const PointModel model = importRgbd({others}, options.import, nullptr, &summary);
     RecordingOptions held_out = options.recording;
     held_out.first = block.first_sequence;
     held_out.last = block.last_sequence;

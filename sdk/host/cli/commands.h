@@ -11,6 +11,7 @@ Command calibrationCommand(CLI::App *root);
 Command convertCommand(CLI::App *root);
 Command devicesCommand(CLI::App *root);
 Command doctorCommand(CLI::App *root);
+Command guideCommand(CLI::App *root);
 Command infoCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
 Command liveCommand(CLI::App *root);

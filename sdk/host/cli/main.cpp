@@ -24,9 +24,9 @@ std::vector<Command> declare(CLI::App *root) {
 #if SPHC_HAVE_SIMULATED  // else the build has no driver to record from
     simulateCommand(root),
 #endif
-        buildCommand(root), mapCommand(root), localizeCommand(root), inspectCommand(root), infoCommand(root),
-        convertCommand(root), recordCommand(root), liveCommand(root), devicesCommand(root), doctorCommand(root),
-        calibrationCommand(root), auditCommand(root), adviseCommand(root)
+        buildCommand(root), mapCommand(root), guideCommand(root), localizeCommand(root), inspectCommand(root),
+        infoCommand(root), convertCommand(root), recordCommand(root), liveCommand(root), devicesCommand(root),
+        doctorCommand(root), calibrationCommand(root), auditCommand(root), adviseCommand(root)
   };
 }
 

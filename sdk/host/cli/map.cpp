@@ -1,49 +1,48 @@
-// spherecloud map: from a walk without poses to a point model and a path.
+// spherecloud map: from walks without poses, or with poses that are a little wrong, to a point model and a path.
 #include <chrono>
 #include <ctime>
 #include <memory>
 
+#include "host/base/usage_error.h"
 #include "host/base/write_file.h"
+#include "host/calibration/compare.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
-#include "host/cli/common/point_source.h"
 #include "host/cli/common/progress.h"
+#include "host/cli/map_report.h"
 #include "host/import/model_file.h"
-#include "host/mapping/stretches.h"
-#include "host/mapping/walk_mapper.h"
-#include "host/report/hint_words.h"
-#include "host/report/table.h"
+#include "host/mapping/calibration_fit.h"
+#include "host/recording/calibration_json.h"
 #include "host/report/trajectory.h"
-#include "host/report/trajectory_score.h"
 
 namespace sphc::host {
 namespace {
 
-// Residuals that a sound recording does not have.  Depths far off: redkitchen 2.7 %, hololens 0.8 %; redkitchen as
-// if its depth lay on the image 12.8 %, with a focal length 10 % off 10.8 %.  Keypoints, median: 0.2 to 0.9 sigma.
-constexpr double kMostFarDepths = 0.06, kMostRaySigmas = 2;
-
 struct MapOptions {
-  PointSource source;
+  std::vector<std::string> recordings, trajectories, told;  // told: files of poses
+  RecordingOptions of_each;                                 // of the recordings
+  RgbdImportOptions import;
+  PoseTrust trust;
+  double sigma_deg = 1, drift_percent = 1, drift_deg = 1;
   sphc_band band = SPHC_BAND_VISIBLE;
-  std::string model, trajectory;
+  std::string model, refined_calibration;
+  uint32_t threads = 0;
   bool score = false, force = false;
-};
 
-// What a frame of the recording got; none of those that found no place.
-using RecordingPoses = std::vector<std::optional<Rigid>>;
-
-struct Outcome {
-  Walk walk;
-  MappedWalk mapped;
-  Stretches stretches;
-  RecordingPoses poses;
-  std::optional<TrajectoryScore> score;
-  ImportedPoints import;
-  double seconds = 0, processor_seconds = 0;
+  MappingOptions mapping() const {
+    MappingOptions mapping;
+    mapping.trust = trust;
+    mapping.threads = threads;
+    return mapping;
+  }
+  std::vector<RecordingOptions> all() const {
+    std::vector<RecordingOptions> all(recordings.size(), of_each);
+    for (size_t i = 0; i < all.size(); ++i) all[i].folder = recordings[i];
+    return all;
+  }
 };
 
 // A bar for each of the mapper's steps.
@@ -60,243 +59,280 @@ class Steps {
   std::unique_ptr<ProgressBar> bar_;
 };
 
-RecordingPoses posesOf(const Walk &walk, const MappedWalk &mapped, uint32_t frames) {
-  RecordingPoses poses(frames);
-  for (size_t i = 0; i < walk.keyframes.size(); ++i) poses[walk.keyframes[i].index] = mapped.world_from_camera[i];
-  for (const Follower &follower : walk.followers)
-    if (const auto &keyframe = mapped.world_from_camera[follower.keyframe])
-      poses[follower.index] = *keyframe * follower.keyframe_from_frame;
-  return poses;
-}
-
-TrajectoryScore scoreOf(const RecordingPoses &poses, const RecordingReader &reader) {
-  std::vector<PosePair> pairs;
-  for (uint32_t i = 0; i < poses.size(); ++i) {
-    const std::optional<sphc_rigid> truth = reader.worldFromCamera(i);
-    if (poses[i] && truth) pairs.push_back({*poses[i], rigidFromC(*truth)});
+// What the recording, or the file of poses, tells of its keyframes.
+void tell(const MapOptions &options, size_t recording, const RecordingReader &reader, Walk *walk) {
+  recording::PoseTrack file;
+  uint32_t bad = 0;
+  if (!options.told.empty()) file = recording::readTumPoses(options.told[recording], &bad);
+  const int64_t gap_ns = recording::ReaderOptions().pose_gap_ns;
+  for (WalkFrame &frame : walk->keyframes) {
+    sphc_rigid pose;
+    if (options.told.empty()) {
+      if (const auto own = reader.worldFromCamera(frame.index)) frame.told_world_from_camera = rigidFromC(*own);
+    } else if (file.at(frame.time_ns, gap_ns, pose)) {
+      frame.told_world_from_camera = rigidFromC(pose);
+    }
   }
-  return scoreTrajectory(pairs);
 }
 
-// The recording's points, seen from the poses that were found.
-ImportedPoints importFrom(const MapOptions &options, const Outcome &outcome) {
-  PointSource source = options.source;
-  std::vector<bool> is_keyframe(outcome.poses.size());
-  for (const WalkFrame &frame : outcome.walk.keyframes) is_keyframe[frame.index] = true;
-  source.import.takes_part = [&](uint32_t index) { return is_keyframe[index] && outcome.poses[index]; };
-  source.import.poses = [&](uint32_t index) { return std::make_optional(rigidToC(*outcome.poses[index])); };
-  ImportedPoints points = importPoints(source);
+void checkTold(const MapOptions &options, const Walk &walk) {
+  if (options.trust.use == PoseUse::kNone) return;
+  for (const WalkFrame &frame : walk.keyframes)
+    if (frame.told_world_from_camera) return;
+  throw std::runtime_error(
+      options.told.empty() ? "--poses: the recording holds no pose; give --poses-from FILE, or leave --poses out"
+                           : "--poses-from: no pose is of the time of a frame; is it the file of this recording?");
+}
+
+std::vector<MappedRecording> openAll(const MapOptions &options) {
+  std::vector<MappedRecording> recordings;
+  for (const RecordingOptions &recording : options.all())
+    recordings.push_back({recording.folder, openRecording(recording), {}, {}});
+  return recordings;
+}
+
+// `trial`: in place of the recordings' calibrations; null: those.
+Walk readAll(const MapOptions &options, const TrialCalibration *trial,
+             const std::vector<MappedRecording> &recordings, Steps *steps) {
+  FrameReaderOptions frames;
+  frames.depth_min_m = options.import.depth_min_m;
+  frames.depth_max_m = options.import.depth_max_m;
+  frames.surfaces = trial && trial->surfaces;
+  std::vector<Walk> walks;
+  for (const MappedRecording &recording : recordings) {
+    const std::string what = recordings.size() > 1 ? "reading " + recording.name : "reading";
+    walks.push_back(readWalk(recording.reader.get(), trial ? trial->rig : recording.reader->calibration(), frames,
+                             [&](uint32_t done, uint32_t total) { steps->show(what, done, total); }));
+    if (options.trust.use != PoseUse::kNone) tell(options, walks.size() - 1, *recording.reader, &walks.back());
+  }
+  return joinWalks(std::move(walks));
+}
+
+sphc_rig commonCalibration(const std::vector<MappedRecording> &recordings) {
+  const sphc_rig &rig = recordings.front().reader->calibration();
+  for (const MappedRecording &recording : recordings)
+    if (recording::calibrationToJson(recording.reader->calibration()) != recording::calibrationToJson(rig))
+      throw UsageError("--refine-calibration: the calibrations of " + recordings.front().name + " and " +
+                       recording.name + " differ; refine that of each alone, or give --calibration for both");
+  return rig;
+}
+
+void tellOfFit(const MapOptions &options, const CalibrationFit &fit, const CalibrationDifference &moved,
+               const Console &console) {
+  if (fit.rounds == 0) {
+    console.say("The calibration stays as it is, in " + options.refined_calibration +
+                " too: the walk agrees with no other by much better.");
+    return;
+  }
+  console.say("Calibration refined: " + options.refined_calibration + ". Keypoints are off by " +
+              fixed(fit.after.ray_sigmas, 2) + " sigma, where they were by " + fixed(fit.before.ray_sigmas, 2) +
+              ", and depths by " + fixed(1000 * fit.after.depth_off_m, 1) + " mm, where they were by " +
+              fixed(1000 * fit.before.depth_off_m, 1) + " (medians). Rays of the colour camera moved by up to " +
+              fixed(moved.color.largest_px, 1) + " px, depth at 1 m by up to " +
+              fixed(moved.depth_to_color[1].largest_px, 1) + " px in the colour image.");
+}
+
+// Writes the calibration that the walk agrees with best; the map is then made with it.  How far it moved pixels.
+CalibrationDifference refineCalibration(MapOptions *options, const Console &console) {
+  const std::vector<MappedRecording> recordings = openAll(*options);
+  const sphc_rig given = commonCalibration(recordings);
+  Steps steps;
+  const auto read = [&](const TrialCalibration &trial) { return readAll(*options, &trial, recordings, &steps); };
+  const CalibrationFit fit = fitCalibration(
+      given, read, options->mapping(),
+      [&](const std::string &what, uint32_t done, uint32_t total) { steps.show(what, done, total); });
+  recording::writeCalibration(options->refined_calibration, fit.calibration);
+  options->of_each.calibration = options->refined_calibration;
+  const CalibrationDifference moved = compareCalibrations(given, fit.calibration);
+  tellOfFit(*options, fit, moved, console);
+  return moved;
+}
+
+void takePoses(MapOutcome *outcome) {
+  const Walk &walk = outcome->walk;
+  const FramePoses &mapped = outcome->mapped.world_from_camera;
+  for (MappedRecording &recording : outcome->recordings) recording.poses.resize(recording.reader->frameCount());
+  for (size_t i = 0; i < walk.keyframes.size(); ++i)
+    outcome->recordings[walk.keyframes[i].recording].poses[walk.keyframes[i].index] = mapped[i];
+  for (const Follower &follower : walk.followers)
+    if (const auto &keyframe = mapped[follower.keyframe])
+      outcome->recordings[follower.recording].poses[follower.index] = *keyframe * follower.keyframe_from_frame;
+}
+
+void score(MappedRecording *recording) {
+  std::vector<PosePair> pairs;
+  double squared_m2 = 0;
+  for (uint32_t i = 0; i < recording->poses.size(); ++i) {
+    const std::optional<sphc_rigid> truth = recording->reader->worldFromCamera(i);
+    if (!recording->poses[i] || !truth) continue;
+    pairs.push_back({*recording->poses[i], rigidFromC(*truth)});
+    squared_m2 += (pairs.back().estimated.translation_m - pairs.back().truth.translation_m).squaredNorm();
+  }
+  if (pairs.empty() && recording->framesMapped() == 0) return;
+  recording->score = scoreTrajectory(pairs);
+  recording->unaligned_rmse_m = std::sqrt(squared_m2 / static_cast<double>(pairs.size()));
+}
+
+// The recordings' points, seen by the keyframes from the poses that were found.
+ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) {
+  std::vector<std::vector<bool>> is_keyframe;
+  for (const MappedRecording &recording : outcome.recordings) is_keyframe.emplace_back(recording.poses.size());
+  for (const WalkFrame &frame : outcome.walk.keyframes) is_keyframe[frame.recording][frame.index] = true;
+  std::vector<RgbdSource> sources;
+  for (size_t r = 0; r < outcome.recordings.size(); ++r) {
+    const MappedRecording &recording = outcome.recordings[r];
+    sources.push_back({recording.reader.get(),
+                       [&, r](uint32_t i) { return is_keyframe[r][i] && recording.poses[i]; },
+                       [&](uint32_t i) { return std::make_optional(rigidToC(*recording.poses[i])); }});
+  }
+  ImportedPoints points = importRecordings(sources, options.import, describeSelection(options.of_each));
   points.model.band = options.band;
   return points;
 }
 
-std::string trajectoryText(const RecordingPoses &poses, const RecordingReader &reader) {
+std::string trajectoryText(const MappedRecording &recording) {
   std::string text = std::string(kTumHead) + "world_from_camera, metres)\n";
-  for (uint32_t i = 0; i < poses.size(); ++i)
-    if (poses[i]) text += tumLine(reader.colorOf(i).time_ns, rigidToC(*poses[i]));
+  for (uint32_t i = 0; i < recording.poses.size(); ++i)
+    if (recording.poses[i]) text += tumLine(recording.reader->colorOf(i).time_ns, rigidToC(*recording.poses[i]));
   return text;
 }
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-Outcome mapRecording(const MapOptions &options, RecordingReader *reader) {
+MapOutcome mapRecordings(const MapOptions &options) {
   const auto start = std::chrono::steady_clock::now();
   const double processor_start = processorSeconds();
-  Outcome outcome;
+  MapOutcome outcome;
   Steps steps;
-  const RgbdImportOptions &import = options.source.import;
-  FrameReaderOptions frames;
-  frames.depth_min_m = import.depth_min_m;
-  frames.depth_max_m = import.depth_max_m;
-  outcome.walk =
-      readWalk(reader, frames, [&](uint32_t done, uint32_t total) { steps.show("reading", done, total); });
-  outcome.mapped = mapWalk(
-      outcome.walk, [&](const std::string &what, uint32_t done, uint32_t total) { steps.show(what, done, total); });
+  outcome.use = options.trust.use;
+  outcome.recordings = openAll(options);
+  outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
+  checkTold(options, outcome.walk);
+  outcome.mapped =
+      mapWalk(outcome.walk, options.mapping(),
+              [&](const std::string &what, uint32_t done, uint32_t total) { steps.show(what, done, total); });
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts);
-  outcome.poses = posesOf(outcome.walk, outcome.mapped, reader->frameCount());
-  if (options.score) outcome.score = scoreOf(outcome.poses, *reader);
+  takePoses(&outcome);
+  if (options.score)
+    for (MappedRecording &recording : outcome.recordings) score(&recording);
   outcome.processor_seconds = processorSeconds() - processor_start;
   outcome.import = importFrom(options, outcome);
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
 }
 
-// Stretches as seconds since the recording's first frame.
-class Clock {
- public:
-  Clock(const RecordingReader &reader, const Walk &walk) : reader_(reader), walk_(walk) {}
-
-  double secondsOf(uint32_t keyframe) const {
-    const int64_t ns = reader_.colorOf(walk_.keyframes[keyframe].index).time_ns - reader_.colorOf(0).time_ns;
-    return 1e-9 * static_cast<double>(ns);
-  }
-  std::string timesOf(const std::vector<Stretch> &stretches) const {
-    std::string text;
-    for (const Stretch &s : stretches)
-      text +=
-          (text.empty() ? "" : ", ") + fixed(secondsOf(s.first), 1) + " to " + fixed(secondsOf(s.last), 1) + " s";
-    return text;
-  }
-  nlohmann::ordered_json jsonOf(const std::vector<Stretch> &stretches) const {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const Stretch &s : stretches)
-      json.push_back({{"from_s", secondsOf(s.first)},
-                      {"to_s", secondsOf(s.last)},
-                      {"frames", s.frames},
-                      {"hints", hintNames(s.hints)}});
-    return json;
-  }
-
- private:
-  const RecordingReader &reader_;
-  const Walk &walk_;
-};
-
-uint32_t framesOf(const std::vector<Stretch> &stretches) {
-  uint32_t frames = 0;
-  for (const Stretch &s : stretches) frames += s.frames;
-  return frames;
+void checkCount(const char *option, const std::vector<std::string> &files, size_t recordings) {
+  if (!files.empty() && files.size() != recordings)
+    throw UsageError(std::string(option) + " is given " + std::to_string(files.size()) + " times for " +
+                     std::to_string(recordings) + " recordings; give it once for each, in the same order");
 }
 
-void warnOfParts(const Outcome &outcome, const Clock &clock, const Console &console) {
-  const Stretches &s = outcome.stretches;
-  if (s.apart.empty()) return;
-  console.warn("The walk falls apart. The map is of its largest part alone, " + std::to_string(framesOf(s.mapped)) +
-               " of " + std::to_string(outcome.walk.frameCount()) + " frames: " + clock.timesOf(s.mapped) + ".");
-  for (const std::vector<Stretch> &part : s.apart)
-    console.warn("It never met " + clock.timesOf(part) + " (" + std::to_string(framesOf(part)) +
-                 " frames). Walk from what is seen there to what is seen at " + clock.timesOf(s.mapped) +
-                 " once more, slowly, in one recording with the rest.");
-}
-
-void warnOfStretches(const Outcome &outcome, const Clock &clock, const Console &console) {
-  for (const Stretch &s : outcome.stretches.left_out) {
-    const std::string why = hintNames(s.hints);
-    console.warn("note: left out: " + clock.timesOf({s}) + " (" + std::to_string(s.frames) +
-                 " frames): " + (why.empty() ? "they show nothing that other frames show" : why));
-  }
-  if (outcome.walk.unreadable)
-    console.warn("note: " + std::to_string(outcome.walk.unreadable) + " frames could not be read");
-}
-
-void warnOfResiduals(const Outcome &outcome, const Console &console) {
-  const AdjustmentSummary &residuals = outcome.mapped.residuals;
-  if (residuals.far_depths > kMostFarDepths)
-    console.warn(
-        "note: " + fixed(100 * residuals.far_depths, 0) +
-        " % of the depths contradict the images: is the calibration right, and does depth lie where it says "
-        "(both cameras, color_from_depth)? spherecloud doctor shows it");
-  if (residuals.ray_sigmas > kMostRaySigmas)
-    console.warn("note: keypoints are off by " + fixed(residuals.ray_sigmas, 1) +
-                 " sigma: is the calibration of the colour camera right?");
-}
-
-std::string count(size_t n) { return std::to_string(n); }
-
-std::vector<Row> tableOf(const Outcome &outcome) {
-  const MappedWalk &m = outcome.mapped;
-  const size_t parts = 1 + outcome.stretches.apart.size();
-  std::vector<Row> rows = {
-      {"frames", count(framesOf(outcome.stretches.mapped)),
-       "of " + count(outcome.walk.frameCount()) + "; " + count(outcome.walk.keyframes.size()) + " keyframes"},
-      {"parts", count(parts),
-       parts == 1 ? "all that was connected is in the map" : "only the largest is in the map"},
-      {"links", count(m.links),
-       "between frames near in time; " + count(m.loops) + " loops, " + count(m.contradicting) +
-           " left out as contradicting"},
-      {"points adjusted", count(m.residuals.points), "seen " + count(m.residuals.sightings) + " times"},
-      {"residuals, median", fixed(m.residuals.ray_sigmas, 2),
-       "sigma, of keypoints; of depths " + fixed(m.residuals.depth_sigmas, 2) + ", " +
-           fixed(1000 * m.residuals.depth_off_m, 1) + " mm"},
-      {"depth bias", fixed(1000 * m.depth.mean[0], 1) + " mm",
-       "at " + fixed(m.depth.mid_m, 2) + " m, and " + fixed(1000 * m.depth.mean[1], 1) + " mm more a metre"},
-      {"time", fixed(outcome.seconds, 1) + " s",
-       fixed(outcome.processor_seconds, 1) + " s of a processor for poses"}};
-  if (const auto &s = outcome.score) {
-    rows.push_back({"path error, RMSE", fixed(100 * s->rigid_rmse_m, 2) + " cm",
-                    "beside the recording's poses, after a rigid alignment; worst turn " +
-                        fixed(s->rotation_worst_deg, 2) + " deg, median " + fixed(s->rotation_median_deg, 2)});
-    rows.push_back({"scale", fixed(s->scale, 4),
-                    "after it the path error is " + fixed(100 * s->similarity_rmse_m, 2) + " cm"});
-  }
-  return rows;
-}
-
-nlohmann::ordered_json jsonOf(const MapOptions &options, const Outcome &outcome, const Clock &clock) {
-  const MappedWalk &m = outcome.mapped;
-  nlohmann::ordered_json json = {
-      {"model", options.model},
-      {"frames", outcome.walk.frameCount()},
-      {"frames_mapped", framesOf(outcome.stretches.mapped)},
-      {"keyframes", outcome.walk.keyframes.size()},
-      {"unreadable", outcome.walk.unreadable},
-      {"parts", 1 + outcome.stretches.apart.size()},
-      {"mapped", clock.jsonOf(outcome.stretches.mapped)},
-      {"apart", nlohmann::ordered_json::array()},
-      {"left_out", clock.jsonOf(outcome.stretches.left_out)},
-      {"links", m.links},
-      {"loops", m.loops},
-      {"contradicting", m.contradicting},
-      {"points_adjusted", m.residuals.points},
-      {"sightings", m.residuals.sightings},
-      {"residuals",
-       {{"ray_sigmas", m.residuals.ray_sigmas},
-        {"depth_sigmas", m.residuals.depth_sigmas},
-        {"depth_m", m.residuals.depth_off_m},
-        {"far_depths", m.residuals.far_depths}}},
-      {"depth_bias", {{"offset_m", m.depth.mean[0]}, {"slope", m.depth.mean[1]}, {"mid_m", m.depth.mid_m}}}};
-  for (const std::vector<Stretch> &part : outcome.stretches.apart) json["apart"].push_back(clock.jsonOf(part));
-  if (!options.trajectory.empty()) json["trajectory"] = options.trajectory;
-  if (const auto &s = outcome.score)
-    json["score"] = {{"frames", s->frames},
-                     {"rigid_rmse_m", s->rigid_rmse_m},
-                     {"similarity_rmse_m", s->similarity_rmse_m},
-                     {"scale", s->scale},
-                     {"rotation_median_deg", s->rotation_median_deg},
-                     {"rotation_worst_deg", s->rotation_worst_deg}};
-  json["points"] = outcome.import.facts;
-  json["seconds"] = outcome.seconds;
-  json["processor_seconds"] = outcome.processor_seconds;
-  return json;
-}
-
-int run(const MapOptions &options, const Console &console) {
+void check(const MapOptions &options) {
   FileUse files(options.force);
-  files.reads(options.source.recording);
+  for (const RecordingOptions &recording : options.all()) files.reads(recording);
+  for (const std::string &file : options.told) files.reads("--poses-from", file);
   files.writes("--model", options.model, isModelFile);
-  files.writes("--trajectory", options.trajectory, holds(kTumHead));
+  for (const std::string &file : options.trajectories) files.writes("--trajectory", file, holds(kTumHead));
+  files.writes("--refine-calibration", options.refined_calibration, never());
   files.check();
-  checkPointSource(options.source);
-  const auto reader = openRecording(options.source.recording);
-  const Outcome outcome = mapRecording(options, reader.get());
-  const Clock clock(*reader, outcome.walk);
-  console.say(tableText(tableOf(outcome)));
-  for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
-  warnOfStretches(outcome, clock, console);
-  warnOfResiduals(outcome, console);
-  warnOfParts(outcome, clock, console);
+  checkMappingOptions(options.import);
+  checkCount("--trajectory", options.trajectories, options.recordings.size());
+  checkCount("--poses-from", options.told, options.recordings.size());
+  if (options.trust.use == PoseUse::kNone && !options.told.empty())
+    throw UsageError("--poses-from needs --poses, which says how much to believe of them");
+  if (options.trust.use != PoseUse::kOdometry && options.trust.keeps_axes)
+    throw UsageError("--upright needs --poses odometry; approximate poses keep the recording's world anyway");
+}
+
+int run(MapOptions options, const Console &console) {
+  check(options);
+  options.trust.sigma_rad = options.sigma_deg * kPi / 180;
+  options.trust.drift_m = options.drift_percent / 100;
+  options.trust.drift_rad = options.drift_deg * kPi / 180;
+  std::optional<CalibrationDifference> refined;
+  if (!options.refined_calibration.empty()) refined = refineCalibration(&options, console);
+  const MapOutcome outcome = mapRecordings(options);
+  console.say(tableText(mapTable(outcome)));
+  warnOfMap(outcome, console);
   writeModelFile(options.model, outcome.import.model);
   console.say(outcome.import.told);
   console.say("Wrote " + options.model +
               ": where every point is. Keep it, never ship it. Next:\n  spherecloud build "
               "--model " +
               options.model + " --map room.sphc");
-  if (!options.trajectory.empty()) {
-    writeFile(options.trajectory, trajectoryText(outcome.poses, *reader));
-    console.say("Trajectory (world_from_camera): " + options.trajectory);
+  for (size_t i = 0; i < options.trajectories.size(); ++i) {
+    writeFile(options.trajectories[i], trajectoryText(outcome.recordings[i]));
+    console.say("Trajectory (world_from_camera): " + options.trajectories[i]);
   }
-  console.give(jsonOf(options, outcome, clock));
-  return outcome.stretches.apart.empty() ? kExitDone : kExitWalkApart;
+  nlohmann::ordered_json json = {{"model", options.model}};
+  json.update(mapJson(outcome));
+  if (options.trajectories.size() == 1) json["trajectory"] = options.trajectories[0];
+  if (refined)
+    json["refined_calibration"] = {{"path", options.refined_calibration},
+                                   {"color_px", refined->color.largest_px},
+                                   {"depth_at_1_m_px", refined->depth_to_color[1].largest_px}};
+  console.give(json);
+  return outcome.isApart() ? kExitWalkApart : kExitDone;
+}
+
+void addPoseOptions(CLI::App *app, MapOptions *options) {
+  const char *group = "Poses that are known";
+  const std::map<std::string, PoseUse> uses = {
+      {"none", PoseUse::kNone}, {"odometry", PoseUse::kOdometry}, {"approximate", PoseUse::kApproximate}};
+  app->add_option("--poses", options->trust.use,
+                  "What to believe of the recording's poses [none]:\n"
+                  "  none          nothing\n"
+                  "  odometry      how neighbouring frames moved; it drifts\n"
+                  "  approximate   where each frame was, but for noise; the map is in their world")
+      ->transform(CLI::CheckedTransformer(uses).description(""))
+      ->type_name("HOW")
+      ->group(group);
+  app->add_option("--poses-from", options->told,
+                  "File of poses in TUM format, in place of the recording's; once for each recording")
+      ->allow_extra_args(false)
+      ->type_name("FILE")
+      ->group(group);
+  app->add_option("--pose-sigma", options->trust.sigma_m, "Approximate: how far places are off, metres, 1 sigma")
+      ->capture_default_str()
+      ->check(between(1e-4, 10))
+      ->type_name("M")
+      ->group(group);
+  app->add_option("--pose-sigma-deg", options->sigma_deg, "Approximate: how far they are turned, degrees")
+      ->capture_default_str()
+      ->check(between(1e-3, 90))
+      ->type_name("DEG")
+      ->group(group);
+  app->add_option("--drift", options->drift_percent,
+                  "Odometry: how far a metre of the way is off, per cent, 1 sigma")
+      ->capture_default_str()
+      ->check(between(0, 100))
+      ->type_name("PERCENT")
+      ->group(group);
+  app->add_option("--drift-deg", options->drift_deg, "Odometry: how far a metre turns it, degrees")
+      ->capture_default_str()
+      ->check(between(0, 90))
+      ->type_name("DEG")
+      ->group(group);
+  app->add_flag("--upright", options->trust.keeps_axes,
+                "Odometry: the axes of its world become the map's, so that what is vertical there is so here")
+      ->group(group);
 }
 
 const char kMapHelp[] =
-    "Finds where each frame of a walk was taken from, by its images and depths alone, and makes the private point\n"
-    "model that build makes a map of.  Poses that the recording holds are not used; --score compares with them.";
+    "Finds where each frame of a walk was taken from, by its images and depths, and makes the private point model\n"
+    "that build makes a map of.  Poses that the recording holds are not used, unless --poses says what to believe "
+    "of\n"
+    "them; --score compares with them.  Several recordings of one place become one map; what later ones see "
+    "through\n"
+    "is gone and left out.";
 const char kMapExample[] =
     "Example:\n"
     "  spherecloud record --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --out walk.mcap\n"
     "  spherecloud map    --recording walk.mcap --model room.model --trajectory walk.tum\n"
     "  spherecloud build  --model room.model --map room.sphc\n"
+    "  spherecloud map    --recording monday.mcap --recording friday.mcap --model room.model\n"
+    "  spherecloud map    --recording walk.mcap --model room.model --refine-calibration headset2.json\n"
+    "  spherecloud map    --recording walk.mcap --poses odometry --poses-from headset.tum --model room.model\n"
     "The world is the first frame's camera, in metres.  Exit status 6: parts of the walk never met, the model is "
     "of\n"
     "the largest; stderr says which, and where to walk once more.";
@@ -308,13 +344,24 @@ Command mapCommand(CLI::App *root) {
   CLI::App *app = root->add_subcommand("map");
   app->description("Make a point model from a recording without poses.\n\n" + std::string(kMapHelp));
   app->footer(kMapExample);
-  addRecordingOptions(app, &options->source.recording);
+  addRecordingsOptions(app, &options->recordings, &options->of_each);
   app->add_option("--model", options->model, "Private file for the points, for build --model")
       ->required()
       ->type_name("FILE");
-  app->add_option("--trajectory", options->trajectory, "Poses of all frames in TUM format")->type_name("FILE");
+  app->add_option("--trajectory", options->trajectories,
+                  "Poses of all frames in TUM format; once for each recording, in the same order")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  app->add_option("--refine-calibration", options->refined_calibration,
+                  "Adjust the calibration too, write it there and map with it; about three times as long")
+      ->type_name("FILE");
+  app->add_option("--threads", options->threads, "At most so many; 0: one for each core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 256).description(""))
+      ->type_name("N");
   app->add_flag("--score", options->score, "Compare with the recording's own poses");
-  addMappingOptions(app, &options->source.import);
+  addPoseOptions(app, options.get());
+  addMappingOptions(app, &options->import);
   addBandOption(app, &options->band, "The light of the images; a camera must see the same to localize in the map");
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};

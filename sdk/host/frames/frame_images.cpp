@@ -4,15 +4,24 @@
 
 namespace sphc::host {
 
+namespace {
+
+LumaLayout layoutOf(sphc_format format) {
+  LumaLayout layout;
+  if (format == SPHC_FORMAT_GRAY8) return layout;
+  layout.kind = format == SPHC_FORMAT_RGB8 ? LumaLayout::kRgb : LumaLayout::kBgr;
+  layout.group_bytes = 3;
+  return layout;
+}
+
+}  // namespace
+
 GrayView grayOf(const sphc_image &color, std::vector<uint8_t> *pixels) {
   const auto width = static_cast<int32_t>(color.width), height = static_cast<int32_t>(color.height);
   pixels->resize(static_cast<size_t>(width) * static_cast<size_t>(height));
-  LumaLayout layout;
-  layout.kind = LumaLayout::kBgr;
-  layout.group_bytes = 3;
   const GrayView bytes = {static_cast<const uint8_t *>(color.data), width, height,
                           static_cast<int32_t>(color.stride_bytes)};
-  return sphc::grayOf({bytes, layout}, {pixels->data(), pixels->size()});
+  return sphc::grayOf({bytes, layoutOf(color.format)}, {pixels->data(), pixels->size()});
 }
 
 ImageView<uint16_t> depthOf(const sphc_image &depth) {

@@ -8,7 +8,7 @@
 
 namespace sphc::host {
 
-// `pixels` are made to hold what the view shows.
+// Of GRAY8, RGB8 or BGR8, as recordings have them; `pixels` are made to hold what the view shows.
 GrayView grayOf(const sphc_image &color, std::vector<uint8_t> *pixels);
 ImageView<uint16_t> depthOf(const sphc_image &depth);
 

@@ -17,6 +17,7 @@ constexpr double kComparable = 0.25;  // farther off it is another surface; a sh
 constexpr size_t kSampled = 5000;     // points that tell how much views disagree
 // Static points at depth edges are contradicted at times, so one contradiction counts against two confirmations.
 constexpr uint32_t kConfirmationsPerContradiction = 2;
+constexpr uint32_t kAgainAndAgain = 3;    // views of a later recording, so that one that is off is not enough
 constexpr double kMostDropped = 1.0 / 3;  // more is no movement
 // Fewer are no movement either: of rooms where nothing moved 0 to 0.5 % are points at depth edges that would go.
 constexpr double kLeastDropped = 0.01;
@@ -30,51 +31,87 @@ bool didSee(const Vector3 &camera_m, const TrackedPoint &tracked) {
 }
 
 // Of points with the views that did not make them.
-double medianDisagreement(const DepthViews &views, const std::vector<TrackedPoint> &points) {
+double medianDisagreement(const std::vector<DepthViews> &recordings, const std::vector<TrackedPoint> &points) {
   std::array<uint64_t, 250> histogram = {};
   uint64_t total = 0;
+  const auto compare = [&](const DepthViews &views, size_t k, const TrackedPoint &point) {
+    Sight sight;
+    if (didSee(views.camera_m(k), point) || !views.look(k, point.point.position_m, &sight)) return;
+    const double off = sight.off_m / sight.depth_m;
+    if (!(off < kComparable)) return;
+    ++histogram[static_cast<size_t>(off / kComparable * static_cast<double>(histogram.size()))];
+    ++total;
+  };
   const size_t step = points.size() / kSampled + 1;
   for (size_t i = 0; i < points.size(); i += step)
-    for (size_t k = 0; k < views.count(); ++k) {
-      Sight sight;
-      if (didSee(views.camera_m(k), points[i]) || !views.look(k, points[i].point.position_m, &sight)) continue;
-      const double off = sight.off_m / sight.depth_m;
-      if (!(off < kComparable)) continue;
-      ++histogram[static_cast<size_t>(off / kComparable * static_cast<double>(histogram.size()))];
-      ++total;
-    }
+    for (const DepthViews &views : recordings)
+      for (size_t k = 0; k < views.count(); ++k) compare(views, k, points[i]);
   uint64_t below = 0;
   size_t bin = 0;
   while (bin < histogram.size() && 2 * (below + histogram[bin]) < total) below += histogram[bin++];
   return total ? kComparable * (static_cast<double>(bin) + 0.5) / static_cast<double>(histogram.size()) : 0;
 }
 
-enum class Verdict : uint8_t { kStays, kSeenThrough, kWithinReach };
+enum class Verdict : uint8_t { kStays, kSeenThrough, kWithinReach, kGone };
+
+// What the views of a recording say of a point.
+struct Votes {
+  uint32_t confirmed = 0, confirmed_elsewhere = 0, contradicted = 0;
+  bool areAgainst() const { return kConfirmationsPerContradiction * contradicted > confirmed; }
+};
+
+std::vector<Matrix3> cameraFromWorld(const std::vector<DepthViews> &recordings) {
+  std::vector<Matrix3> all;
+  for (const DepthViews &views : recordings)
+    for (const Matrix3 &rotation : views.cameraFromWorld()) all.push_back(rotation);
+  return all;
+}
 
 class Judge {
  public:
-  Judge(const DepthViews &views, double disagreement)
-      : views_(views),
-        down_(downByCameras(views.cameraFromWorld())),
+  Judge(const std::vector<DepthViews> &recordings, double disagreement)
+      : recordings_(recordings),
+        down_(downByCameras(cameraFromWorld(recordings))),
         margin_per_m_(std::max(kMarginPerM, kMarginOfDisagreement * disagreement)) {}
 
   Verdict judge(const TrackedPoint &tracked) const {
     const Vector3 *holder_m = holderNear(tracked);
-    uint32_t confirmed = 0, confirmed_elsewhere = 0, contradicted = 0;
-    for (size_t k = 0; k < views_.count(); ++k) {
-      Sight sight;
-      if (!views_.look(k, tracked.point.position_m, &sight)) continue;
-      const double margin_m = kMarginM + margin_per_m_ * sight.depth_m;
-      if (sight.beyond_m > margin_m) ++contradicted;
-      if (sight.off_m > margin_m) continue;
-      ++confirmed;
-      if (holder_m && (views_.camera_m(k) - *holder_m).norm() > kElsewhereM) ++confirmed_elsewhere;
+    std::vector<Votes> votes;
+    bool is_confirmed_elsewhere = false;
+    for (const DepthViews &views : recordings_) {
+      votes.push_back(votesOf(views, tracked, holder_m));
+      is_confirmed_elsewhere = is_confirmed_elsewhere || votes.back().confirmed_elsewhere > 0;
     }
-    if (kConfirmationsPerContradiction * contradicted > confirmed) return Verdict::kSeenThrough;
-    return holder_m && confirmed_elsewhere == 0 ? Verdict::kWithinReach : Verdict::kStays;
+    if (isGone(votes, tracked.recording)) return Verdict::kGone;
+    // What an earlier recording saw there says nothing of a thing that is new.
+    if (votes[tracked.recording].areAgainst()) return Verdict::kSeenThrough;
+    return holder_m && !is_confirmed_elsewhere ? Verdict::kWithinReach : Verdict::kStays;
   }
 
  private:
+  Votes votesOf(const DepthViews &views, const TrackedPoint &tracked, const Vector3 *holder_m) const {
+    Votes votes;
+    for (size_t k = 0; k < views.count(); ++k) {
+      Sight sight;
+      if (!views.look(k, tracked.point.position_m, &sight)) continue;
+      const double margin_m = kMarginM + margin_per_m_ * sight.depth_m;
+      if (sight.beyond_m > margin_m) ++votes.contradicted;
+      if (sight.off_m > margin_m) continue;
+      ++votes.confirmed;
+      if (holder_m && (views.camera_m(k) - *holder_m).norm() > kElsewhereM) ++votes.confirmed_elsewhere;
+    }
+    return votes;
+  }
+
+  // The last recording whose views say something decides.
+  static bool isGone(const std::vector<Votes> &votes, uint32_t last_seen) {
+    for (size_t later = votes.size() - 1; later > last_seen; --later) {
+      if (votes[later].areAgainst() && votes[later].contradicted >= kAgainAndAgain) return true;
+      if (!votes[later].areAgainst() && votes[later].confirmed >= kAgainAndAgain) return false;
+    }
+    return false;
+  }
+
   // A camera that saw the point and whose holder it may be part of; null where there is none.
   const Vector3 *holderNear(const TrackedPoint &tracked) const {
     for (const Vector3 &camera_m : tracked.cameras_m) {
@@ -86,7 +123,7 @@ class Judge {
     return nullptr;
   }
 
-  const DepthViews &views_;
+  const std::vector<DepthViews> &recordings_;
   Vector3 down_;
   double margin_per_m_;
 };
@@ -123,11 +160,21 @@ constexpr char kAllIsNear[] =
     "it was "
     "kept, hands and feet as well; record each thing from several sides";
 
+constexpr char kMostIsGone[] =
+    " of what was seen is seen through by later recordings: that is another arrangement of the whole place, or the "
+    "recordings do not lie where their poses say; all of it was kept; map the later recordings alone";
+
+size_t countOf(const std::vector<DepthViews> &recordings) {
+  size_t count = 0;
+  for (const DepthViews &views : recordings) count += views.count();
+  return count;
+}
+
 }  // namespace
 
-MovingSummary dropMoving(const DepthViews &views, std::vector<TrackedPoint> *points) {
+MovingSummary dropMoving(const std::vector<DepthViews> &views, std::vector<TrackedPoint> *points) {
   MovingSummary summary;
-  if (views.count() < 2 || points->empty()) return summary;
+  if (countOf(views) < 2 || points->empty()) return summary;
   summary.disagreement = medianDisagreement(views, *points);
   if (summary.disagreement > kMostDisagreement) {
     summary.doubts.push_back(
@@ -141,8 +188,10 @@ MovingSummary dropMoving(const DepthViews &views, std::vector<TrackedPoint> *poi
   for (const TrackedPoint &point : *points) verdicts.push_back(judge.judge(point));
   summary.seen_through = settle(*points, Verdict::kSeenThrough, kNoMovement, &verdicts, &summary);
   summary.within_reach = settle(*points, Verdict::kWithinReach, kAllIsNear, &verdicts, &summary);
-  if (summary.seen_through + summary.within_reach < kLeastDropped * static_cast<double>(points->size())) {
-    summary.seen_through = summary.within_reach = 0;
+  summary.gone = settle(*points, Verdict::kGone, kMostIsGone, &verdicts, &summary);
+  if (summary.seen_through + summary.within_reach + summary.gone <
+      kLeastDropped * static_cast<double>(points->size())) {
+    summary.seen_through = summary.within_reach = summary.gone = 0;
     return summary;
   }
   size_t kept = 0;

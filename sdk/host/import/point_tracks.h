@@ -23,12 +23,14 @@ struct Observation {
   double sigma_m;         // along the view
   double metric_scale_m;  // size of the keypoint's Gaussian in space
   Descriptor descriptor;
+  uint32_t recording = 0;  // of those that are imported together, the oldest first
 };
 
 // A point as the frames agree on it.
 struct TrackedPoint {
   ModelPoint point;
   std::vector<Vector3> cameras_m;  // where those were that saw it, world; the last ones of many
+  uint32_t recording = 0;          // the last that saw it
 };
 // Near-duplicates are merged.
 PointModel modelOf(const std::vector<TrackedPoint> &points);

@@ -102,46 +102,76 @@ class Census {
   std::string why_;
 };
 
+class Importer {
+ public:
+  Importer(const RgbdImportOptions &options, const Progress &progress, RgbdImportSummary *summary)
+      : options_(options), progress_(progress), tracks_(options), summary_(summary) {
+    *summary = {};
+  }
+
+  PointModel import(const std::vector<RgbdSource> &recordings) {
+    for (const RgbdSource &source : recordings) total_ += source.reader->frameCount();
+    for (const RgbdSource &source : recordings) add(source);
+    census_.check(*summary_);
+    std::vector<TrackedPoint> points = tracks_.points();
+    summary_->moving = dropMoving(views_, &points);
+    PointModel model = modelOf(points);
+    summary_->points_kept = static_cast<uint32_t>(model.points.size());
+    summary_->points_dropped = static_cast<uint32_t>(tracks_.count() - model.points.size());
+    return model;
+  }
+
+ private:
+  void add(const RgbdSource &source) {
+    const sphc_rig &rig = source.reader->calibration();
+    FrameDescriber describer(rig, options_);
+    views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);
+    for (uint32_t i = 0; i < source.reader->frameCount(); ++i) {
+      if (!source.takes_part || source.takes_part(i)) addFrame(source, i, &describer);
+      if (progress_) progress_(++done_, total_);
+    }
+  }
+
+  void addFrame(const RgbdSource &source, uint32_t i, FrameDescriber *describer) {
+    const std::optional<sphc_rigid> pose = source.poses ? source.poses(i) : source.reader->worldFromCamera(i);
+    std::string why;
+    const std::optional<sphc_localizer_frame> frame = pose ? source.reader->tryRead(i, &why) : std::nullopt;
+    if (!pose) {
+      ++summary_->frames_without_pose;
+    } else if (!frame) {
+      ++summary_->frames_unreadable;
+      census_.unreadable(why);
+    } else {
+      census_.pose(*pose);
+      place(*frame, rigidFromC(*pose), describer);
+    }
+  }
+
+  void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera, FrameDescriber *describer) {
+    uint32_t keypoints = 0;
+    std::vector<Observation> observations = describer->describe(frame, world_from_camera, &keypoints);
+    for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
+    if (!options_.keep_moving) views_.back().add(depthOf(frame.depth), world_from_camera);
+    summary_->merged += tracks_.add(describer->camera(), world_from_camera.inverse(), observations);
+    summary_->keypoints += keypoints;
+    summary_->lifted += observations.size();
+    ++summary_->frames_used;
+  }
+
+  const RgbdImportOptions &options_;
+  const Progress &progress_;
+  PointTracks tracks_;
+  std::vector<DepthViews> views_;  // of each recording
+  Census census_;
+  RgbdImportSummary *summary_;
+  uint32_t done_ = 0, total_ = 0;
+};
+
 }  // namespace
 
-PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options,
+PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
                       const Progress &progress, RgbdImportSummary *summary) {
-  *summary = {};
-  FrameDescriber describer(reader->calibration(), options);
-  PointTracks tracks(options);
-  DepthViews views(reader->calibration(), options.depth_min_m, options.depth_max_m);
-  Census census;
-  const uint32_t total = reader->frameCount();
-  for (uint32_t i = 0; i < total; ++i) {
-    if (options.takes_part && !options.takes_part(i)) continue;
-    const std::optional<sphc_rigid> pose = options.poses ? options.poses(i) : reader->worldFromCamera(i);
-    std::string why;
-    const std::optional<sphc_localizer_frame> frame = pose ? reader->tryRead(i, &why) : std::nullopt;
-    if (!pose) {
-      ++summary->frames_without_pose;
-    } else if (!frame) {
-      ++summary->frames_unreadable;
-      census.unreadable(why);
-    } else {
-      census.pose(*pose);
-      const Rigid world_from_camera = rigidFromC(*pose);
-      uint32_t keypoints = 0;
-      const std::vector<Observation> observations = describer.describe(*frame, world_from_camera, &keypoints);
-      if (!options.keep_moving) views.add(depthOf(frame->depth), world_from_camera);
-      summary->merged += tracks.add(describer.camera(), world_from_camera.inverse(), observations);
-      summary->keypoints += keypoints;
-      summary->lifted += observations.size();
-      ++summary->frames_used;
-    }
-    if (progress) progress(i + 1, total);
-  }
-  census.check(*summary);
-  std::vector<TrackedPoint> points = tracks.points();
-  summary->moving = dropMoving(views, &points);
-  PointModel model = modelOf(points);
-  summary->points_kept = static_cast<uint32_t>(model.points.size());
-  summary->points_dropped = static_cast<uint32_t>(tracks.count() - model.points.size());
-  return model;
+  return Importer(options, progress, summary).import(recordings);
 }
 
 }  // namespace sphc::host

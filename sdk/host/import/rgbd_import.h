@@ -16,18 +16,24 @@ struct RgbdImportOptions {
   uint32_t max_keypoints = 1200;  // of a frame
   uint32_t min_observations = 1;  // frames that must agree on a point; 2 halves the map and costs recall
   double depth_min_m = 0.3, depth_max_m = 6.0;
-  double merge_pixels = 4;                         // an observation joins a point that reprojects within this
-  double max_descriptor_distance = 260;            // and whose descriptor is within this (L2 of bytes)
-  bool keep_moving = false;                        // points on people, hands, feet and what was moved
-  std::function<bool(uint32_t index)> takes_part;  // of the recording's frames; empty: all
+  double merge_pixels = 4;               // an observation joins a point that reprojects within this
+  double max_descriptor_distance = 260;  // and whose descriptor is within this (L2 of bytes)
+  bool keep_moving = false;              // points on people, hands, feet, what was moved and what is gone
+};
+
+// A recording, and what of it a model is made of.
+struct RgbdSource {
+  recording::RecordingReader *reader;
+  std::function<bool(uint32_t index)> takes_part = {};  // of its frames; empty: all
   // world_from_camera of a frame, none where it is not known; empty: the recording's own.
-  std::function<std::optional<sphc_rigid>(uint32_t index)> poses;
+  std::function<std::optional<sphc_rigid>(uint32_t index)> poses = {};
 };
 
 // Points on what moved while the frames were taken.
 struct MovingSummary {
   uint32_t seen_through = 0;        // points that were dropped: views of the place see what lies behind it
   uint32_t within_reach = 0;        // dropped too: near the holder's body, and no view from elsewhere confirms them
+  uint32_t gone = 0;                // dropped too: views of a later recording see through them again and again
   double disagreement = 0;          // of two views of one surface, median, as a share of depth
   std::vector<std::string> doubts;  // why points that look as if they moved were kept, with cause and cure
 };
@@ -42,9 +48,9 @@ struct RgbdImportSummary {
 // Told after each frame; may be empty.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
-// All frames that have a pose take part.  Throws std::runtime_error, with cause and cure, when no
-// map can come of it.
-PointModel importRgbd(recording::RecordingReader *reader, const RgbdImportOptions &options,
+// All frames that have a pose take part.  Of several recordings in one world, the oldest comes first: what a later
+// one sees through is gone.  Throws std::runtime_error, with cause and cure, when no map can come of it.
+PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
                       const Progress &progress, RgbdImportSummary *summary);
 
 }  // namespace sphc::host

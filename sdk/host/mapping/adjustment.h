@@ -1,8 +1,10 @@
-// Bundle adjustment (Triggs, McLauchlan, Hartley, Fitzgibbon 2000) with depth: poses, points and the depth sensor's
-// bias from where keypoints lie and how deep they are.
+// Bundle adjustment (Triggs, McLauchlan, Hartley, Fitzgibbon 2000) with depth: poses, points, the depth sensor's
+// bias and, where asked, the calibration, from where keypoints lie and how deep they are.
 #pragma once
 #include <vector>
 
+#include "host/mapping/calibration_change.h"
+#include "host/mapping/pose_beliefs.h"
 #include "host/mapping/tracks.h"
 #include "runtime/types/depth_calibration.h"
 
@@ -10,7 +12,10 @@ namespace sphc::host {
 
 struct AdjustmentOptions {
   int most_steps = 20;
-  int threads = 1;  // one: the same bytes every time
+  int threads = 1;                                   // one: the same bytes every time
+  const PoseBeliefs *beliefs = nullptr;              // of the poses; null: none
+  bool lens_is_free = false, mount_is_free = false;  // of the calibration
+  CalibrationChange change_so_far = {};              // what it was changed by before, which the prior counts
 };
 
 struct AdjustmentSummary {
@@ -26,9 +31,11 @@ struct Adjusted {
   FramePoses world_from_camera;
   std::vector<Track> tracks;       // sightings that are far off in the end leave them
   Vector2 bias = Vector2::Zero();  // of depths: offset_m, slope, as in DepthCalibration
+  CalibrationChange change;
 };
 
-// `prior`: what is believed of the depth sensor.  The first frame with a pose stays where it is.
+// `prior`: what is believed of the depth sensor.  Where no belief holds the world, the first frame with a
+// pose stays where it is.
 AdjustmentSummary adjust(const std::vector<WalkFrame> &frames, const DepthCalibration &prior,
                          const AdjustmentOptions &options, Adjusted *adjusted);
 

@@ -21,6 +21,7 @@ struct FrameLink {
   Rigid b_from_a;
   Matrix6 covariance = Matrix6::Zero();  // of (rotation rad, translation m), frame b, T = exp(xi) b_from_a
   uint32_t inliers = 0;                  // the fewer of the two directions
+  bool is_loop = false;                  // of two recordings, or far apart in one
   std::vector<PointMatch> matches;       // that agree with it
 };
 

@@ -1,6 +1,7 @@
 #include "host/mapping/frame_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/frames/frame_images.h"
 #include "host/import/point_tracks.h"
@@ -10,12 +11,16 @@
 namespace sphc::host {
 namespace {
 
+constexpr double kBesidePx = 8;      // of a keypoint, where its surface is looked at
+constexpr double kMostBend = 0.03;   // of the depth between two neighbours, relative
 constexpr double kPixelSigma = 0.8;  // of a fine keypoint, as the localizer's default has it
 
 }  // namespace
 
 FrameReader::FrameReader(const sphc_rig &rig, const FrameReaderOptions &options)
-    : camera_(rig.color_camera), features_(camera_.width(), camera_.height(), options.max_keypoints) {
+    : camera_(rig.color_camera),
+      features_(camera_.width(), camera_.height(), options.max_keypoints),
+      surfaces_(options.surfaces) {
   const DepthSensor sensor = {rig.depth_unit_m, options.depth_min_m, options.depth_max_m, kMappingNoise.sigma_m,
                               kMappingNoise.sigma_per_m2};
   aligner_ = SparseAligner(camera_, Camera(rig.depth_camera), rigidFromC(rig.color_from_depth), sensor);
@@ -45,7 +50,26 @@ bool FrameReader::see(ImageView<uint16_t> depth, uint32_t k, SeenPoint *point) c
   point->bearing = Vector3(point->ray.x(), point->ray.y(), 1).normalized();
   Vector3 lifted_m;
   if (aligner_.lift(depth, pixel_px, &lifted_m, &point->depth_sigma_m)) point->depth_m = lifted_m.z();
+  if (surfaces_ && point->hasDepth()) point->depth_by_move = depthByMove(depth, pixel_px, *point);
   return true;
+}
+
+// The inverse depth of a plane is linear in the ray.  Its slope is that of two neighbours on either side; without
+// them, or where they are not of one surface, the surface is taken to face the camera.
+Vector3 FrameReader::depthByMove(ImageView<uint16_t> depth, const Vector2 &pixel_px, const SeenPoint &point) const {
+  Vector2 slope;
+  for (int axis = 0; axis < 2; ++axis) {
+    Vector3 side_m[2];
+    for (int side = 0; side < 2; ++side) {
+      const Vector2 at_px = pixel_px + (side ? kBesidePx : -kBesidePx) * Vector2::Unit(axis);
+      double sigma_m;
+      if (!aligner_.lift(depth, at_px, &side_m[side], &sigma_m)) return Vector3::UnitZ();
+    }
+    const double before = 1 / side_m[0].z(), after = 1 / side_m[1].z();
+    if (std::abs(0.5 * (before + after) * point.depth_m - 1) > kMostBend) return Vector3::UnitZ();
+    slope[axis] = (after - before) / (side_m[1][axis] / side_m[1].z() - side_m[0][axis] / side_m[0].z());
+  }
+  return Vector3(slope.x() * point.depth_m, slope.y() * point.depth_m, 1 - slope.dot(point.ray) * point.depth_m);
 }
 
 // As the localizer would say it of a frame without a pose.

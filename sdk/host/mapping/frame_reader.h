@@ -9,6 +9,7 @@ namespace sphc::host {
 struct FrameReaderOptions {
   uint32_t max_keypoints = 1000;  // of a frame
   double depth_min_m = 0.3, depth_max_m = 6.0;
+  bool surfaces = false;  // find depth_by_move of each point, which costs four depths a keypoint
 };
 
 class FrameReader {
@@ -19,10 +20,12 @@ class FrameReader {
 
  private:
   bool see(ImageView<uint16_t> depth, uint32_t k, SeenPoint *point) const;
+  Vector3 depthByMove(ImageView<uint16_t> depth, const Vector2 &pixel_px, const SeenPoint &point) const;
   Hints hintsOf(GrayView gray, uint32_t lifted) const;
 
   Camera camera_;
   FrameFeatures features_;
+  bool surfaces_;
   SparseAligner aligner_;
   std::vector<uint8_t> gray_;
 };

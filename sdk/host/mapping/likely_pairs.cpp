@@ -111,11 +111,15 @@ double overlapOf(const WalkFrame &frame, const Rigid &other_from_frame, const Ra
 
 }  // namespace
 
-std::vector<FramePair> pairsInTime(size_t frames) {
+bool isLoop(const std::vector<WalkFrame> &frames, const FramePair &pair) {
+  return pair.gap() > kMostGapInTime || frames[pair.a].recording != frames[pair.b].recording;
+}
+
+std::vector<FramePair> pairsInTime(const std::vector<WalkFrame> &frames) {
   std::vector<FramePair> pairs;
-  for (uint32_t b = 1; b < frames; ++b)
+  for (uint32_t b = 1; b < frames.size(); ++b)
     for (uint32_t gap : kGaps)
-      if (gap <= b) pairs.push_back({b - gap, b});
+      if (gap <= b && !isLoop(frames, {b - gap, b})) pairs.push_back({b - gap, b});
   return pairs;
 }
 
@@ -124,10 +128,12 @@ std::vector<FramePair> pairsByLook(const std::vector<WalkFrame> &frames) {
   weigh(&words);
   std::set<FramePair> pairs;
   for (uint32_t i = 0; i < frames.size(); ++i) {
-    std::vector<Partner> partners;
+    std::vector<Partner> within, across;
     for (uint32_t j = 0; j < frames.size(); ++j)
-      if (pairOf(i, j).gap() > kMostGapInTime) partners.push_back({product(words[i], words[j]), j});
-    for (uint32_t j : spreadPartners(std::move(partners), kLoopsOfFrame)) pairs.insert(pairOf(i, j));
+      if (isLoop(frames, pairOf(i, j)))
+        (frames[i].recording == frames[j].recording ? within : across).push_back({product(words[i], words[j]), j});
+    for (auto *partners : {&within, &across})
+      for (uint32_t j : spreadPartners(std::move(*partners), kLoopsOfFrame)) pairs.insert(pairOf(i, j));
   }
   return {pairs.begin(), pairs.end()};
 }
@@ -138,16 +144,18 @@ std::vector<FramePair> pairsByOverlap(const std::vector<WalkFrame> &frames, cons
   std::set<FramePair> pairs;
   for (uint32_t i = 0; i < frames.size(); ++i) {
     if (!world_from_camera[i]) continue;
-    std::vector<Partner> partners;
+    std::vector<Partner> within, across;
     for (uint32_t j = 0; j < frames.size(); ++j) {
       const FramePair pair = pairOf(i, j);
-      if (!world_from_camera[j] || pair.gap() <= kNearInTime || tried.count(pair)) continue;
+      const bool is_loop = isLoop(frames, pair);
+      if (!world_from_camera[j] || (!is_loop && pair.gap() <= kNearInTime) || tried.count(pair)) continue;
       const Rigid j_from_i = world_from_camera[j]->inverse() * *world_from_camera[i];
-      const double overlap =
-          overlapOf(frames[i], j_from_i, view) * (pair.gap() > kMostGapInTime ? 1 : kOverlapOfNeighbours);
-      if (overlap > kLeastOverlap) partners.push_back({overlap, j});
+      const double overlap = overlapOf(frames[i], j_from_i, view) * (is_loop ? 1 : kOverlapOfNeighbours);
+      if (overlap > kLeastOverlap)
+        (frames[i].recording == frames[j].recording ? within : across).push_back({overlap, j});
     }
-    for (uint32_t j : spreadPartners(std::move(partners), kOverlapsOfFrame)) pairs.insert(pairOf(i, j));
+    for (auto *partners : {&within, &across})
+      for (uint32_t j : spreadPartners(std::move(*partners), kOverlapsOfFrame)) pairs.insert(pairOf(i, j));
   }
   return {pairs.begin(), pairs.end()};
 }

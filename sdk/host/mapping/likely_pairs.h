@@ -14,10 +14,12 @@ constexpr uint32_t kMostGapInTime = 17;
 // Poses of frames, world_from_camera; none of those that are not connected.
 using FramePoses = std::vector<std::optional<Rigid>>;
 
-// Each frame and those 1 to 17 before it, in growing steps.
-std::vector<FramePair> pairsInTime(size_t frames);
+// Of two recordings, or far apart in one.
+bool isLoop(const std::vector<WalkFrame> &frames, const FramePair &pair);
+// Each frame and those 1 to 17 before it in its recording, in growing steps.
+std::vector<FramePair> pairsInTime(const std::vector<WalkFrame> &frames);
 // Loops: frames that have many rare words in common.  Words are cells of the descriptors (Sivic and Zisserman
-// 2003).
+// 2003).  As many of its own recording as of all others.
 std::vector<FramePair> pairsByLook(const std::vector<WalkFrame> &frames);
 // Frames that see the same surfaces by these poses, but for those that were tried.
 std::vector<FramePair> pairsByOverlap(const std::vector<WalkFrame> &frames, const FramePoses &world_from_camera,

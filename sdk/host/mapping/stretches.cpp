@@ -29,7 +29,9 @@ std::vector<Stretch> runsOf(const Walk &walk, const std::vector<uint32_t> &label
   std::vector<Stretch> runs;
   for (uint32_t i = 0; i < labels.size(); ++i) {
     if (labels[i] != label) continue;
-    if (runs.empty() || runs.back().last + 1 != i) runs.push_back({i, i, 0, 0});
+    const bool follows = !runs.empty() && runs.back().last + 1 == i &&
+                         walk.keyframes[i - 1].recording == walk.keyframes[i].recording;
+    if (!follows) runs.push_back({i, i, 0, 0});
     runs.back().last = i;
   }
   for (Stretch &run : runs) {

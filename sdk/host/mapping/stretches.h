@@ -6,7 +6,7 @@
 
 namespace sphc::host {
 
-// Keyframes that follow each other, `first` and `last` among them.
+// Keyframes of a recording that follow each other, `first` and `last` among them.
 struct Stretch {
   uint32_t first = 0, last = 0;
   uint32_t frames = 0;  // followers too

@@ -16,14 +16,6 @@ double middle(std::vector<double> values) {
   return *at;
 }
 
-double shiftOf(const FrameLink &link, const std::vector<WalkFrame> &frames) {
-  std::vector<double> shifts;
-  for (const PointMatch &match : link.matches)
-    shifts.push_back(
-        (frames[link.frames.a].points[match.a].ray - frames[link.frames.b].points[match.b].ray).norm());
-  return middle(std::move(shifts));
-}
-
 double middleDepth(const std::vector<WalkFrame> &frames) {
   std::vector<double> depths;
   for (const WalkFrame &frame : frames)
@@ -38,14 +30,46 @@ void compareLast(FrameLinker *linker, Walk *walk) {
   const auto last = static_cast<uint32_t>(walk->keyframes.size() - 1);
   const auto link = linker->link(walk->keyframes, {last - 1, last}, kFollows);
   if (!link || shiftOf(*link, walk->keyframes) > kNewView) return;
-  walk->followers.push_back({walk->keyframes.back().index, last - 1, link->b_from_a.inverse()});
+  walk->followers.push_back({0, walk->keyframes.back().index, last - 1, link->b_from_a.inverse()});
   walk->keyframes.pop_back();
 }
 
 }  // namespace
 
+Walk joinWalks(std::vector<Walk> walks) {
+  Walk all;
+  for (uint32_t recording = 0; recording < walks.size(); ++recording) {
+    const auto before = static_cast<uint32_t>(all.keyframes.size());
+    for (WalkFrame &frame : walks[recording].keyframes) {
+      all.keyframes.push_back(std::move(frame));
+      all.keyframes.back().recording = recording;
+    }
+    for (Follower follower : walks[recording].followers) {
+      follower.recording = recording;
+      follower.keyframe += before;
+      all.followers.push_back(follower);
+    }
+    all.unreadable += walks[recording].unreadable;
+  }
+  all.middle_depth_m = middleDepth(all.keyframes);
+  return all;
+}
+
+double shiftOf(const FrameLink &link, const std::vector<WalkFrame> &frames) {
+  std::vector<double> shifts;
+  for (const PointMatch &match : link.matches)
+    shifts.push_back(
+        (frames[link.frames.a].points[match.a].ray - frames[link.frames.b].points[match.b].ray).norm());
+  return middle(std::move(shifts));
+}
+
 Walk readWalk(recording::RecordingReader *reader, const FrameReaderOptions &options, const WalkProgress &progress) {
-  FrameReader frames(reader->calibration(), options);
+  return readWalk(reader, reader->calibration(), options, progress);
+}
+
+Walk readWalk(recording::RecordingReader *reader, const sphc_rig &calibration, const FrameReaderOptions &options,
+              const WalkProgress &progress) {
+  FrameReader frames(calibration, options);
   FrameLinker linker(options.max_keypoints);
   Walk walk;
   std::string first_fault;
@@ -54,6 +78,7 @@ Walk readWalk(recording::RecordingReader *reader, const FrameReaderOptions &opti
     if (const std::optional<sphc_localizer_frame> images = reader->tryRead(i, &why)) {
       walk.keyframes.push_back(frames.describe(*images));
       walk.keyframes.back().index = i;
+      walk.keyframes.back().time_ns = reader->colorOf(i).time_ns;
       compareLast(&linker, &walk);
     } else if (walk.unreadable++ == 0) {
       first_fault = why;

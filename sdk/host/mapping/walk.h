@@ -11,8 +11,9 @@ namespace sphc::host {
 
 // A frame beside its keyframe.
 struct Follower {
-  uint32_t index = 0;     // in the recording
-  uint32_t keyframe = 0;  // its place among the keyframes
+  uint32_t recording = 0;  // of those that are mapped together
+  uint32_t index = 0;      // in the recording
+  uint32_t keyframe = 0;   // its place among the keyframes
   Rigid keyframe_from_frame;
 };
 
@@ -25,6 +26,12 @@ struct Walk {
   size_t frameCount() const { return keyframes.size() + followers.size(); }
 };
 
+// Walks one after another, each with its number as the recording of its frames.
+Walk joinWalks(std::vector<Walk> walks);
+
+// How far the view moved between the two frames of a link: median over their matches, as rays.
+double shiftOf(const FrameLink &link, const std::vector<WalkFrame> &frames);
+
 // Told after each frame; may be empty.
 using WalkProgress = std::function<void(uint32_t done, uint32_t total)>;
 
@@ -32,5 +39,8 @@ using WalkProgress = std::function<void(uint32_t done, uint32_t total)>;
 // of the focal length.  Poses of the recording are not read.  Throws std::runtime_error, with cause and cure, where
 // there is nothing to map.
 Walk readWalk(recording::RecordingReader *reader, const FrameReaderOptions &options, const WalkProgress &progress);
+// The same as if the recording had this calibration.
+Walk readWalk(recording::RecordingReader *reader, const sphc_rig &calibration, const FrameReaderOptions &options,
+              const WalkProgress &progress);
 
 }  // namespace sphc::host

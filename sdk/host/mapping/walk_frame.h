@@ -1,7 +1,9 @@
 // A frame of a walk as the mapper sees it: the device's own keypoints, with depth where there is some.
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "runtime/geometry/rigid.h"
 #include "runtime/geometry/rotation.h"
 #include "runtime/types/hint.h"
 #include "runtime/types/keypoint.h"
@@ -14,13 +16,19 @@ struct SeenPoint {
   double depth_m = 0;                 // z; 0: none
   double depth_sigma_m = 0;           // 1 sigma of it
   Vector3 bearing = Vector3::Zero();  // unit, along the ray
+  // By how much the depth along the ray changes where the surface is moved: the dot product with the move.
+  Vector3 depth_by_move = Vector3::UnitZ();
 
   bool hasDepth() const { return depth_m > 0; }
   Vector3 point_m() const { return Vector3(ray.x() * depth_m, ray.y() * depth_m, depth_m); }
 };
 
 struct WalkFrame {
-  uint32_t index = 0;                   // in the recording
+  uint32_t recording = 0;  // of those that are mapped together
+  uint32_t index = 0;      // in the recording
+  int64_t time_ns = 0;     // of the colour image
+  // As the recording tells it; for those alone who ask for it (pose_beliefs.h).
+  std::optional<Rigid> told_world_from_camera;
   std::vector<SeenPoint> points;        // strongest keypoint first
   std::vector<Descriptor> descriptors;  // of the same
   Hints hints = 0;                      // why the frame may be worth little

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "host/mapping/pair_linker.h"
 #include "host/mapping/pose_graph.h"
 
 namespace sphc::host {
@@ -16,30 +17,37 @@ constexpr double kOffsetSigmaM = 0.003, kSlopeSigma = 0.02;
 
 class WalkMapper {
  public:
-  WalkMapper(const Walk &walk, const MappingProgress &progress)
-      : frames_(walk.keyframes), progress_(progress), linker_(mostKeypoints(walk.keyframes)) {
+  WalkMapper(const Walk &walk, const MappingOptions &options, const MappingProgress &progress)
+      : frames_(walk.keyframes),
+        options_(options),
+        progress_(progress),
+        linker_(mostKeypoints(walk.keyframes), options.threads),
+        beliefs_(walk.keyframes, options.trust) {
     prior_.mid_m = walk.middle_depth_m;
     prior_.covariance.diagonal() << kOffsetSigmaM * kOffsetSigmaM, kSlopeSigma * kSlopeSigma;
   }
 
   MappedWalk run() {
-    addLinks("linking", pairsInTime(frames_.size()), kNeighbours, nullptr);
+    addLinks("linking", pairsInTime(frames_), kNeighbours, nullptr);
     addLinks("looking for loops", pairsByLook(frames_), kLoops, nullptr);
+    if (options_.trust.use == PoseUse::kApproximate)
+      addLinks("looking where poses tell", pairsByOverlap(frames_, beliefs_.told(), tried_), kLoops, nullptr);
     if (links_.empty())
       throw std::runtime_error(
           "no two frames of the walk agree on how they lie to each other: are the images sharp, does depth lie on "
           "them (spherecloud doctor), and are the frames near enough in time to show the same?");
     mapped_.contradicting = dropWeakBridges(frames_.size(), &links_);
-    mapped_.parts = connectedParts(frames_.size(), links_);
-    adjusted_.world_from_camera = posesAlongLinks(frames_.size(), links_, mapped_.parts);
-    adjustToLinks(links_, &adjusted_.world_from_camera);
+    beliefs_.judge(links_);
+    mapped_.parts = beliefs_.parts(links_);
+    adjusted_.world_from_camera = posesAlongLinks(links_, mapped_.parts, beliefs_);
+    adjustToLinks(links_, beliefs_, &adjusted_.world_from_camera);
     dropContradicting();
-    adjustPoints(kFirstSteps);
+    mapped_.at_first = adjustPoints(kFirstSteps, false);
     const FramePoses expected = adjusted_.world_from_camera;
     addLinks("looking for overlaps", pairsByOverlap(frames_, expected, tried_), kExpected, &expected);
     dropContradicting();
-    adjustPoints(kLastSteps);
-    mapped_.residuals = adjustAgain(kLastSteps);  // without what was far off
+    adjustPoints(kLastSteps, true);
+    mapped_.residuals = adjustAgain(kLastSteps, true);  // without what was far off
     return result();
   }
 
@@ -52,14 +60,18 @@ class WalkMapper {
 
   void addLinks(const char *what, const std::vector<FramePair> &pairs, const LinkDemands &demands,
                 const FramePoses *expected) {
-    uint32_t done = 0;
-    for (const FramePair &pair : pairs) {
-      tried_.insert(pair);
-      Rigid b_from_a;
-      if (expected) b_from_a = (*expected)[pair.b]->inverse() * *(*expected)[pair.a];
-      if (auto link = linker_.link(frames_, pair, demands, expected ? &b_from_a : nullptr))
+    for (size_t first = 0; first < pairs.size(); first += linker_.batch()) {
+      const auto begin = pairs.begin() + static_cast<ptrdiff_t>(first);
+      const std::vector<FramePair> batch(
+          begin, begin + static_cast<ptrdiff_t>(std::min(linker_.batch(), pairs.size() - first)));
+      tried_.insert(batch.begin(), batch.end());
+      for (std::optional<FrameLink> &link : linker_.link(frames_, batch, demands, expected)) {
+        if (!link) continue;
+        link->is_loop = isLoop(frames_, link->frames);
         links_.push_back(std::move(*link));
-      if (progress_) progress_(what, ++done, static_cast<uint32_t>(pairs.size()));
+      }
+      if (progress_)
+        progress_(what, static_cast<uint32_t>(first + batch.size()), static_cast<uint32_t>(pairs.size()));
     }
   }
 
@@ -72,23 +84,38 @@ class WalkMapper {
     };
     links_.erase(std::remove_if(links_.begin(), links_.end(), contradicts), links_.end());
     mapped_.contradicting += before - links_.size();
-    mapped_.parts = connectedParts(frames_.size(), links_);
+    beliefs_.dropContradicted(poses);
+    mapped_.parts = beliefs_.parts(links_);
     for (size_t i = 0; i < poses.size(); ++i)
       if (mapped_.parts[i] != 0) poses[i].reset();
   }
 
-  void adjustPoints(int steps) {
+  AdjustmentSummary adjustPoints(int steps, bool is_last) {
     adjusted_.tracks = enoughTracks(tracksOf(frames_, links_, kLeastOfTrack), frames_.size(), kSightingsOfFrame);
-    adjustAgain(steps);
+    return adjustAgain(steps, is_last);
   }
 
-  AdjustmentSummary adjustAgain(int steps) {
+  AdjustmentSummary adjustAgain(int steps, bool is_last) {
     AdjustmentOptions options;
     options.most_steps = steps;
+    options.beliefs = &beliefs_;
+    options.lens_is_free = is_last && options_.lens_is_free;
+    options.mount_is_free = is_last && options_.mount_is_free;
+    options.change_so_far = options_.change_so_far;
     return adjust(frames_, prior_, options, &adjusted_);
   }
 
-  // In the world of the first frame that has a pose.
+  // In the world of the first frame that has a pose, with the axes that were told where they are asked for; in the
+  // told world where anchors hold it.
+  Rigid worldFromAdjusted(const Rigid &first) const {
+    if (mapped_.is_in_told_world) return {};
+    const Rigid world_from_adjusted = first.inverse();
+    if (!options_.trust.keeps_axes || mapped_.is_unbelieved) return world_from_adjusted;
+    return Rigid{toldAxesFromMapped(beliefs_.told(), adjusted_.world_from_camera) * first.rotation,
+                 Vector3::Zero()} *
+           world_from_adjusted;
+  }
+
   MappedWalk result() {
     const FramePoses &poses = adjusted_.world_from_camera;
     const auto first = std::find_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); });
@@ -97,18 +124,26 @@ class WalkMapper {
           "the links between the frames of the walk contradict each other; walk once more, slowly, where things do "
           "not "
           "look all alike");
+    mapped_.told = beliefs_.toldCount();
+    mapped_.told_wrong = beliefs_.contradictedBy(poses);
+    mapped_.is_in_told_world = beliefs_.hasAnchors();
+    mapped_.is_unbelieved = mapped_.told > 0 && !beliefs_.hasAnchors() && beliefs_.steps().empty();
+    const Rigid world_from_adjusted = worldFromAdjusted(**first);
     for (const auto &pose : poses)
-      mapped_.world_from_camera.push_back(pose ? std::make_optional((*first)->inverse() * *pose) : std::nullopt);
+      mapped_.world_from_camera.push_back(pose ? std::make_optional(world_from_adjusted * *pose) : std::nullopt);
     for (const FrameLink &link : links_)
-      if (poses[link.frames.a]) ++(link.frames.gap() > kMostGapInTime ? mapped_.loops : mapped_.links);
+      if (poses[link.frames.a]) ++(link.is_loop ? mapped_.loops : mapped_.links);
     mapped_.depth = prior_;
     mapped_.depth.mean = adjusted_.bias;
+    mapped_.change = adjusted_.change;
     return mapped_;
   }
 
   const std::vector<WalkFrame> &frames_;
+  MappingOptions options_;
   const MappingProgress &progress_;
-  FrameLinker linker_;
+  PairLinker linker_;
+  PoseBeliefs beliefs_;
   DepthCalibration prior_;
   std::vector<FrameLink> links_;
   std::set<FramePair> tried_;
@@ -118,6 +153,8 @@ class WalkMapper {
 
 }  // namespace
 
-MappedWalk mapWalk(const Walk &walk, const MappingProgress &progress) { return WalkMapper(walk, progress).run(); }
+MappedWalk mapWalk(const Walk &walk, const MappingOptions &options, const MappingProgress &progress) {
+  return WalkMapper(walk, options, progress).run();
+}
 
 }  // namespace sphc::host

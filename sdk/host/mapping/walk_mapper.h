@@ -11,15 +11,29 @@ namespace sphc::host {
 // Told what is being done, and how far; may be empty.
 using MappingProgress = std::function<void(const std::string &what, uint32_t done, uint32_t total)>;
 
-struct MappedWalk {
-  FramePoses world_from_camera;  // of the keyframes; the world is the first one that has a pose
-  std::vector<uint32_t> parts;   // of each keyframe, 0 for the largest; those of part 0 have poses
-  size_t links = 0, loops = 0;   // between keyframes near in time, and between others
-  size_t contradicting = 0;      // links that the others contradicted; left out
-  AdjustmentSummary residuals;
-  DepthCalibration depth;  // as learnt
+struct MappingOptions {
+  PoseTrust trust = {};                              // what to believe of the poses that the frames were told
+  bool lens_is_free = false, mount_is_free = false;  // the calibration is adjusted too, in the end
+  CalibrationChange change_so_far = {};              // as in AdjustmentOptions
+  uint32_t threads = 0;  // at most so many; 0: one for each core.  The result is the same
 };
 
-MappedWalk mapWalk(const Walk &walk, const MappingProgress &progress);
+struct MappedWalk {
+  // Of the keyframes.  The world is the first one that has a pose, or what the recording told.
+  FramePoses world_from_camera;
+  std::vector<uint32_t> parts;  // of each keyframe, 0 for the largest; those of part 0 have poses
+  size_t links = 0, loops = 0;  // between keyframes near in time, and between others
+  size_t contradicting = 0;     // links that the others contradicted; left out
+  AdjustmentSummary at_first;   // residuals before the second round of pairs, with the calibration held
+  AdjustmentSummary residuals;
+  DepthCalibration depth;    // as learnt
+  CalibrationChange change;  // zero where it was not free
+  // Poses (of odometry: steps) that were told, and how many of them the map contradicts.
+  size_t told = 0, told_wrong = 0;
+  bool is_in_told_world = false;
+  bool is_unbelieved = false;  // the links contradict what was told altogether; none of it was used
+};
+
+MappedWalk mapWalk(const Walk &walk, const MappingOptions &options, const MappingProgress &progress);
 
 }  // namespace sphc::host

@@ -96,25 +96,37 @@ void checkPoints(const RgbdImportSummary &summary, const RgbdImportOptions &opti
 
 std::string movingText(const MovingSummary &moving) {
   const uint32_t dropped = moving.seen_through + moving.within_reach;
-  return dropped ? ", " + std::to_string(dropped) + " of them on what moved" : "";
+  std::string text = dropped ? ", " + std::to_string(dropped) + " of them on what moved" : "";
+  if (moving.gone) text += ", " + std::to_string(moving.gone) + " of them on what later recordings see through";
+  return text;
 }
 
-ImportedPoints fromRecording(const PointSource &source) {
-  const auto reader = openRecording(source.recording);
-  const uint32_t frames = reader->frameCount();
-  if (source.import.min_observations > frames)
-    throw UsageError("--min-observations " + std::to_string(source.import.min_observations) + ": there are " +
+ImportedPoints fromModel(const PointSource &source) {
+  ImportedPoints imported;
+  imported.model = readModelFile(source.model);
+  imported.told = "Read " + std::to_string(imported.model.points.size()) + " points of " + source.model + ".";
+  imported.facts = {{"model", source.model}, {"points_kept", imported.model.points.size()}};
+  return imported;
+}
+
+}  // namespace
+
+ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
+                                const std::string &selection) {
+  uint32_t frames = 0;
+  for (const RgbdSource &source : recordings) frames += source.reader->frameCount();
+  if (options.min_observations > frames)
+    throw UsageError("--min-observations " + std::to_string(options.min_observations) + ": there are " +
                      std::to_string(frames) + " frames, so no point can be seen in as many");
   ProgressBar bar("mapping   ");
   ImportedPoints imported;
   RgbdImportSummary summary;
   imported.model = importRgbd(
-      reader.get(), source.import, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
-  checkPoints(summary, source.import);
-  imported.told = "Mapped " + std::to_string(summary.frames_used) + " frames (" +
-                  describeSelection(source.recording) + "): " + std::to_string(summary.points_kept) +
-                  " points kept, " + std::to_string(summary.points_dropped) + " dropped" +
-                  movingText(summary.moving) + ".";
+      recordings, options, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
+  checkPoints(summary, options);
+  imported.told = "Mapped " + std::to_string(summary.frames_used) + " frames (" + selection +
+                  "): " + std::to_string(summary.points_kept) + " points kept, " +
+                  std::to_string(summary.points_dropped) + " dropped" + movingText(summary.moving) + ".";
   imported.warnings = summary.moving.doubts;
   const auto warn = [&imported](uint32_t count, const char *what) {
     if (count) imported.warnings.push_back(std::to_string(count) + " frames " + what);
@@ -131,19 +143,10 @@ ImportedPoints fromRecording(const PointSource &source) {
                     {"points_dropped", summary.points_dropped},
                     {"points_seen_through", summary.moving.seen_through},
                     {"points_within_reach", summary.moving.within_reach},
+                    {"points_gone", summary.moving.gone},
                     {"views_disagree", summary.moving.disagreement}};
   return imported;
 }
-
-ImportedPoints fromModel(const PointSource &source) {
-  ImportedPoints imported;
-  imported.model = readModelFile(source.model);
-  imported.told = "Read " + std::to_string(imported.model.points.size()) + " points of " + source.model + ".";
-  imported.facts = {{"model", source.model}, {"points_kept", imported.model.points.size()}};
-  return imported;
-}
-
-}  // namespace
 
 void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
   const char *group = "Mapping";
@@ -176,13 +179,17 @@ void addPointSourceOptions(CLI::App *app, PointSource *source) {
       ->type_name("FILE");
 }
 
+void checkMappingOptions(const RgbdImportOptions &import) {
+  if (import.depth_min_m >= import.depth_max_m)
+    throw UsageError("--depth-min must be less than --depth-max, or no depth is left");
+}
+
 void checkPointSource(const PointSource &source) {
   const ColmapImportOptions &colmap = source.colmap;
   const int sources = !source.recording.folder.empty() + !colmap.model.empty() + !source.model.empty();
   if (sources != 1) throw UsageError("--recording, --colmap or --model is required, one of the three");
   gravityFrom(source.gravity);
-  if (source.import.depth_min_m >= source.import.depth_max_m)
-    throw UsageError("--depth-min must be less than --depth-max, or no depth is left");
+  checkMappingOptions(source.import);
   if (colmap.model.empty()) return;
   if (colmap.images.empty() && colmap.database.empty())
     throw UsageError("--colmap needs --images, to describe them for the device, or --database");
@@ -193,7 +200,9 @@ void checkPointSource(const PointSource &source) {
 
 ImportedPoints importPoints(const PointSource &source) {
   if (!source.model.empty()) return fromModel(source);
-  return source.colmap.model.empty() ? fromRecording(source) : fromColmap(source);
+  if (!source.colmap.model.empty()) return fromColmap(source);
+  const auto reader = openRecording(source.recording);
+  return importRecordings({{reader.get()}}, source.import, describeSelection(source.recording));
 }
 
 }  // namespace sphc::host

@@ -26,9 +26,13 @@ struct ImportedPoints {
   std::vector<std::string> warnings;  // frames that took no part
   nlohmann::ordered_json facts;       // for --json
 };
-// Throws UsageError for options that make no sense together.
+// Throw UsageError for options that make no sense together.
+void checkMappingOptions(const RgbdImportOptions &import);
 void checkPointSource(const PointSource &source);
 // Of a source that passed the check.  Throws std::runtime_error with cause and cure.
 ImportedPoints importPoints(const PointSource &source);
+// Of recordings that are open, the oldest first; `selection` says which of their frames (describeSelection()).
+ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
+                                const std::string &selection);
 
 }  // namespace sphc::host

@@ -2,12 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "host/recording/calibration_json.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -61,6 +66,45 @@ TEST_F(MapTest, TheScoreComparesWithThePosesOfTheRecording) {
   EXPECT_LT(summary["score"]["rotation_worst_deg"], 5);  // aligned by places on a path of a step
 }
 
+TEST_F(MapTest, PosesOfAnotherScaleThanTheDepthsAreNamed) {
+  fs::copy(at("walk"), at("large"), fs::copy_options::recursive);
+  std::ifstream from(at("walk/groundtruth.txt"));
+  std::ofstream to(at("large/groundtruth.txt"));
+  for (std::string line; std::getline(from, line);) {
+    if (line[0] == '#') continue;
+    std::istringstream words(line);
+    std::string time, rotation;
+    double x, y, z;
+    words >> time >> x >> y >> z;
+    std::getline(words, rotation);
+    to << time << " " << 1.3 * x << " " << 1.3 * y << " " << 1.3 * z << rotation << "\n";
+  }
+  to.close();
+  const std::string map = " --model " + at("scale.model") + " --score --json";
+  EXPECT_THAT(runCommand("map -r " + at("large") + map).err, HasSubstr("depth_unit_m"));
+  EXPECT_THAT(runCommand("map -r " + at("walk") + map + " --force").err, Not(HasSubstr("depth_unit_m")));
+}
+
+// Focal length and principal point are off in the file that the tool is given.
+TEST_F(MapTest, ACalibrationThatIsOffIsRefined) {
+  sphc_rig rig = recording::readCalibration(at("walk/calibration.json"));
+  const double fx = rig.color_camera.params[0], cx = rig.color_camera.params[2];
+  rig.color_camera.params[0] *= 1.02;
+  rig.color_camera.params[1] *= 1.02;
+  rig.color_camera.params[2] += 5;
+  recording::writeCalibration(at("off.json"), rig);
+  const std::string map = "map -r " + at("walk") + " --calibration " + at("off.json") + " --model " +
+                          at("off.model") + " --refine-calibration " + at("refined.json") + " --json";
+  const Answer mapped = runCommand(map);
+  ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  const sphc_rig refined = recording::readCalibration(at("refined.json"));
+  EXPECT_LT(std::abs(refined.color_camera.params[0] / fx - 1), 0.01);
+  EXPECT_LT(std::abs(refined.color_camera.params[2] - cx), 3);
+  EXPECT_GT(nlohmann::json::parse(mapped.out)["refined_calibration"]["color_px"], 1);
+  // A calibration may be somebody's measurement: none is replaced.
+  EXPECT_THAT(runCommand(map).err, HasSubstr("--force"));
+}
+
 // Adds the images of another walk, 100 s later.
 void append(const std::string &walk, const std::string &other) {
   for (const std::string kind : {"rgb", "depth"}) {
@@ -88,6 +132,54 @@ TEST_F(MapTest, PartsThatNeverMetAreNamedAndTheStatusSaysSo) {
   const auto summary = nlohmann::json::parse(mapped.out);
   EXPECT_EQ(summary["parts"], 2);
   EXPECT_EQ(summary["frames_mapped"], 10);
+}
+
+TEST_F(MapTest, ApproximatePosesKeepTheirWorld) {
+  const Answer mapped = runCommand("map -r " + at("walk") + " --poses approximate --pose-sigma 0.02 --model " +
+                                   at("told.model") + " --score --json");
+  ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  const auto summary = nlohmann::json::parse(mapped.out);
+  EXPECT_EQ(summary["poses"]["told"], 10);
+  EXPECT_TRUE(summary["poses"]["used"]);
+  EXPECT_LT(summary["score"]["unaligned_rmse_m"], 0.02);
+}
+
+// Poses of a file stand for those of the recording, and are of no use to another.
+TEST_F(MapTest, PosesComeFromAFileAndAreCheckedAgainstTheImages) {
+  std::ofstream(at("wrong.tum")) << "1 0 0 0 0 0 0 1\n1.2 50 0 0 0 0 0 1\n1.4 0 90 0 0 0 0 1\n1.6 0 0 70 0 0 0 1\n";
+  const std::string map = "map -r " + at("walk") + " --model " + at("file.model") + " --force";
+  const Answer wrong = runCommand(map + " --poses odometry --poses-from " + at("wrong.tum") + " --score --json");
+  ASSERT_EQ(wrong.exit_code, kExitDone) << wrong.err;
+  EXPECT_THAT(wrong.err, HasSubstr("contradict the recording's poses altogether"));
+  EXPECT_LT(nlohmann::json::parse(wrong.out)["score"]["rigid_rmse_m"], 0.01);
+  std::ofstream(at("late.tum")) << "500 0 0 0 0 0 0 1\n";
+  EXPECT_THAT(runCommand(map + " --poses odometry --poses-from " + at("late.tum")).err,
+              HasSubstr("no pose is of the time of a frame"));
+  EXPECT_EQ(runCommand(map + " --poses-from " + at("late.tum")).exit_code, kExitUsage);
+  EXPECT_EQ(runCommand(map + " --upright").exit_code, kExitUsage);
+}
+
+TEST_F(MapTest, SeveralRecordingsBecomeOneMapAndAStrangerIsNamed) {
+  const Answer again = runCommand("simulate --frames 8 --rate 5 --walk-seed 4 --out " + at("again"));
+  ASSERT_EQ(again.exit_code, kExitDone) << again.err;
+  const Answer stranger = runCommand("simulate --frames 6 --rate 5 --seed 9 --out " + at("stranger"));
+  ASSERT_EQ(stranger.exit_code, kExitDone) << stranger.err;
+  const std::string three = "map -r " + at("walk") + " -r " + at("again") + " -r " + at("stranger") + " --model " +
+                            at("three.model") + " --json";
+  const std::string files = " --trajectory " + at("1.tum") + " --trajectory " + at("2.tum");
+  EXPECT_EQ(runCommand(three + files).exit_code, kExitUsage);
+  const Answer mapped = runCommand(three + files + " --trajectory " + at("3.tum") + " --score");
+  EXPECT_EQ(mapped.exit_code, kExitWalkApart);
+  EXPECT_THAT(mapped.err, HasSubstr("stranger never met the others: none of its 6 frames"));
+  const auto recordings = nlohmann::json::parse(mapped.out)["recordings"];
+  ASSERT_EQ(recordings.size(), 3u);
+  EXPECT_EQ(recordings[0]["frames_mapped"], 10);
+  EXPECT_EQ(recordings[1]["frames_mapped"], 8);
+  EXPECT_EQ(recordings[2]["frames_mapped"], 0);
+  EXPECT_LT(recordings[1]["score"]["rigid_rmse_m"], 0.01);
+  EXPECT_FALSE(recordings[2].contains("score"));
+  std::ifstream second(at("2.tum"));
+  EXPECT_EQ(std::count(std::istreambuf_iterator<char>(second), {}, '\n'), 9);
 }
 
 TEST_F(MapTest, WhatCannotBeMappedIsRefusedWithItsCure) {

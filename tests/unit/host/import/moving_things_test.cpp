@@ -36,11 +36,16 @@ class RecordedRoom {
     for (uint16_t &mm : view.depth_mm) mm = static_cast<uint16_t>(faults_.scale * mm);
     view.world_from_camera.translation_m += faults_.position_m * test::normalVector(&random_);
     view.world_from_camera.rotation *= rotationFromVector(faults_.turn_rad * test::normalVector(&random_));
-    views_.add(view.image(), view.world_from_camera);
+    views_.back().add(view.image(), view.world_from_camera);
     for (int32_t row = 2; row < kViewHeight; row += 7)
-      for (int32_t column = 2; column < kViewWidth; column += 7) points_.push_back(pointOf(view, column, row));
+      for (int32_t column = 2; column < kViewWidth; column += 7) {
+        points_.push_back(pointOf(view, column, row));
+        points_.back().recording = static_cast<uint32_t>(views_.size() - 1);
+      }
     ++count_;
   }
+  // What is seen from now on is of a later recording.
+  void beginAnother() { views_.emplace_back(depthRig(), 0.3, 6); }
   size_t points() const { return points_.size(); }
   MovingSummary drop() { return dropMoving(views_, &points_); }
   size_t pointsOn(const Box &box) const {
@@ -54,7 +59,7 @@ class RecordedRoom {
  private:
   Faults faults_;
   Random random_;
-  DepthViews views_{depthRig(), 0.3, 6};
+  std::vector<DepthViews> views_{{depthRig(), 0.3, 6}};
   std::vector<TrackedPoint> points_;
   int count_ = 0;
 };
@@ -178,6 +183,54 @@ TEST(MovingThings, MoreThanAThirdIsNoMovement) {
   EXPECT_EQ(recording.points(), before);
   EXPECT_EQ(summary.seen_through, 0u);
   EXPECT_THAT(summary.doubts, ElementsAre(HasSubstr("that is no movement")));
+}
+
+// Most frames saw the thing, few of a later day see through it: the later ones are right.
+TEST(MovingThings, WhatALaterRecordingSeesThroughIsGoneAndWhatItShowsIsNew) {
+  Box elsewhere = kSomebody;
+  for (Vector3 *corner : {&elsewhere.low_m, &elsewhere.high_m}) corner->x() += 1;
+  for (bool are_days : {false, true}) {
+    RecordedRoom recording;
+    for (int i = 0; i < 10; ++i) recording.seeFrom(standing({0.1 * i - 0.5, 0, 0}, 0), {kSomebody});
+    if (are_days) recording.beginAnother();
+    for (int i = 0; i < 4; ++i) recording.seeFrom(standing({0.2 * i - 0.4, 0, 0}, 0), {elsewhere});
+    const size_t new_ones = recording.pointsOn(elsewhere);
+    ASSERT_GT(recording.pointsOn(kSomebody), 100u);
+    ASSERT_GT(new_ones, 20u);
+    const MovingSummary summary = recording.drop();
+    EXPECT_EQ(recording.pointsOn(kSomebody) == 0, are_days);
+    EXPECT_EQ(recording.pointsOn(elsewhere) > new_ones * 9 / 10, are_days);
+    EXPECT_EQ(summary.gone > 100, are_days);
+  }
+}
+
+// The first day's view says nothing of what came later, and two views of a day are too few.
+TEST(MovingThings, OnlyLaterRecordingsTakeAwayAndNotByTwoViews) {
+  for (bool is_first : {false, true}) {
+    RecordedRoom recording;
+    const auto empty = [&] {
+      for (int i = 0; i < (is_first ? 6 : 2); ++i) recording.seeFrom(standing({0.2 * i - 0.4, 0, 0}, 0), {});
+    };
+    if (is_first) empty(), recording.beginAnother();
+    for (int i = 0; i < 5; ++i) recording.seeFrom(standing({0.1 * i - 0.2, 0, 0}, 0), {kSomebody});
+    if (!is_first) recording.beginAnother(), empty();
+    const size_t on_somebody = recording.pointsOn(kSomebody);
+    const MovingSummary summary = recording.drop();
+    EXPECT_EQ(recording.pointsOn(kSomebody), on_somebody);
+    EXPECT_EQ(summary.gone, 0u);
+  }
+}
+
+TEST(MovingThings, AnotherArrangementOfTheWholePlaceIsNamed) {
+  const Box wall = {{-3, -1.1, 2}, {3, 1.5, 2.2}};
+  RecordedRoom recording;
+  for (int i = 0; i < 8; ++i) recording.seeFrom(standing({0.1 * i, 0, 0}, 0), {wall});
+  recording.beginAnother();
+  for (int i = 0; i < 4; ++i) recording.seeFrom(standing({0.1 * i, 0.1, 0}, 0), {});
+  const size_t before = recording.points();
+  const MovingSummary summary = recording.drop();
+  EXPECT_EQ(recording.points(), before);
+  EXPECT_THAT(summary.doubts, ElementsAre(HasSubstr("map the later recordings alone")));
 }
 
 TEST(MovingThings, OneFrameContradictsNothing) {

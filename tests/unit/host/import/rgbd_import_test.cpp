@@ -24,7 +24,7 @@ class RgbdImportTest : public testing::Test {
     options.folder = walk();
     RgbdImportSummary summary;
     try {
-      importRgbd(openRecording(options).get(), {}, {}, &summary);
+      importRgbd({{openRecording(options).get()}}, {}, {}, &summary);
     } catch (const std::runtime_error &error) {
       return error.what();
     }
@@ -56,10 +56,9 @@ TEST_F(RgbdImportTest, PosesFromElsewhereStandForTheRecordings) {
   setPoses("");
   RecordingOptions recording;
   recording.folder = walk();
-  RgbdImportOptions options;
-  options.poses = [](uint32_t i) { return i == 1 ? std::nullopt : std::make_optional(contract::tinyPose(i)); };
+  const auto poses = [](uint32_t i) { return i == 1 ? std::nullopt : std::make_optional(contract::tinyPose(i)); };
   RgbdImportSummary summary;
-  importRgbd(openRecording(recording).get(), options, {}, &summary);
+  importRgbd({{openRecording(recording).get(), {}, poses}}, {}, {}, &summary);
   EXPECT_EQ(summary.frames_used, 2u);
   EXPECT_EQ(summary.frames_without_pose, 1u);
 }

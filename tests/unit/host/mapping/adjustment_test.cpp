@@ -19,6 +19,12 @@ DepthCalibration priorOf(double slope_sigma) {
   return prior;
 }
 
+AdjustmentOptions steps(int most) {
+  AdjustmentOptions options;
+  options.most_steps = most;
+  return options;
+}
+
 class AdjustmentTest : public testing::Test {
  protected:
   // Exact tracks, poses that are off by about 2 cm and 1 degree but for the first.
@@ -51,7 +57,7 @@ TEST_F(AdjustmentTest, PosesAreFound) {
   Adjusted adjusted = beginning(made);
   const Rigid first = *adjusted.world_from_camera[0];
   EXPECT_GT(score(made, adjusted).rigid_rmse_m, 0.01);
-  const AdjustmentSummary summary = adjust(made.walk.keyframes, priorOf(0.02), {60}, &adjusted);
+  const AdjustmentSummary summary = adjust(made.walk.keyframes, priorOf(0.02), steps(60), &adjusted);
   const TrajectoryScore found = score(made, adjusted);
   EXPECT_LT(found.rigid_rmse_m, 0.003);
   EXPECT_LT(found.rotation_worst_deg, 0.6);  // the worlds are aligned by places on a circle of 1 m
@@ -72,9 +78,57 @@ TEST_F(AdjustmentTest, NoisyDepthsDoNotShrinkTheWorld) {
 TEST_F(AdjustmentTest, TheBiasOfDepthsIsFound) {
   const MadeUpWalk made = makeWalk({kFrames, 1, 0.2, 0, 0.03});
   Adjusted adjusted = beginning(made);
-  adjust(made.walk.keyframes, priorOf(0.5), {60}, &adjusted);
+  adjust(made.walk.keyframes, priorOf(0.5), steps(60), &adjusted);
   EXPECT_NEAR(adjusted.bias[1], 0.03, 0.006);
   EXPECT_NEAR(adjusted.bias[0], 0, 0.005);
+}
+
+// A calibration with a focal length that is 1.5 % too long, and a principal point that is 2 and 3 px off.
+TEST_F(AdjustmentTest, WhatTheLensIsOffIsFound) {
+  MadeUpWalk made = makeWalk({kFrames, 1, 0.5});
+  CalibrationChange off;
+  off.lens << -0.015, 0.004, -0.006;
+  for (WalkFrame &frame : made.walk.keyframes)
+    for (SeenPoint &seen : frame.points) seen.ray = assumedRay(seen.ray, off.lens.data());
+  Adjusted adjusted = beginning(made), held = adjusted;
+  AdjustmentOptions options = steps(60);
+  const double with_it_held = adjust(made.walk.keyframes, priorOf(0.02), options, &held).ray_sigmas;
+  EXPECT_EQ(held.change.lens.norm(), 0);
+  options.lens_is_free = true;
+  EXPECT_LT(adjust(made.walk.keyframes, priorOf(0.02), options, &adjusted).ray_sigmas, 0.9 * with_it_held);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(adjusted.change.lens[i], off.lens[i], 0.0015) << i;
+  EXPECT_EQ(adjusted.change.mount.norm(), 0);
+}
+
+// A depth sensor that is turned by 0.4 degrees and shifted by a centimetre, before surfaces that face all ways.
+TEST_F(AdjustmentTest, WhatTheDepthSensorIsOffItsPlaceIsFound) {
+  MadeUpWalk made = makeWalk({kFrames, 1, 0.5});
+  CalibrationChange off;
+  off.mount << 0.004, -0.006, 0.003, 0.010, -0.008;
+  for (WalkFrame &frame : made.walk.keyframes)
+    for (size_t i = 0; i < frame.points.size(); ++i) {
+      SeenPoint &seen = frame.points[i];
+      const Vector2 slope(0.8 * std::sin(double(i)), 0.8 * std::cos(1.7 * double(i)));
+      seen.depth_by_move << slope, 1 - slope.dot(seen.ray);
+      seen.depth_m -= depthByMount(seen).dot(off.mount);
+    }
+  Adjusted adjusted = beginning(made);
+  AdjustmentOptions options = steps(60);
+  options.mount_is_free = true;
+  adjust(made.walk.keyframes, priorOf(0.02), options, &adjusted);
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(adjusted.change.mount[i], off.mount[i], 0.0015) << i;
+}
+
+// Many sightings outvote the prior; what was changed before counts in it.
+TEST_F(AdjustmentTest, AChangeIsHeldBackByWhatWasChangedBefore) {
+  const MadeUpWalk made = makeWalk({kFrames, 1, 0.5});
+  AdjustmentOptions options = steps(60);
+  options.lens_is_free = true;
+  Adjusted without = beginning(made), with = without;
+  adjust(made.walk.keyframes, priorOf(0.02), options, &without);
+  options.change_so_far.lens[0] = 0.5;
+  adjust(made.walk.keyframes, priorOf(0.02), options, &with);
+  EXPECT_LT(with.change.lens[0], without.change.lens[0] - 0.001);
 }
 
 TEST_F(AdjustmentTest, ASightingThatIsWrongLeavesItsTrack) {

@@ -28,6 +28,25 @@ TEST(FrameReaderTest, KeypointsHaveRaysAndDepths) {
   EXPECT_EQ(frame.hints, 0u);
 }
 
+// A wall that is turned comes nearer where the sensor is shifted along it, and one ahead does not.
+TEST(FrameReaderTest, SurfacesSayHowDepthFollowsAMove) {
+  SpottedImages images(400, 128, 2000);
+  images.slant(0.3);
+  FrameReaderOptions options;
+  options.surfaces = true;
+  const WalkFrame frame = FrameReader(spottedRig(), options).describe(images.frame(0, 0));
+  size_t sloped = 0;
+  for (const SeenPoint &point : frame.points) {
+    if (!point.hasDepth() || point.depth_by_move == Vector3::UnitZ()) continue;
+    const Vector2 slope(0.3 * point.depth_m, 0);
+    const Vector3 expected(slope.x(), slope.y(), 1 - slope.dot(point.ray));
+    EXPECT_LT((point.depth_by_move - expected).norm(), 0.1);  // depths are whole millimetres
+    ++sloped;
+  }
+  EXPECT_GT(sloped, 100u);
+  for (const SeenPoint &point : describe({400, 128, 2000}).points) EXPECT_EQ(point.depth_by_move, Vector3::UnitZ());
+}
+
 TEST(FrameReaderTest, FramesOfLittleWorthSayWhy) {
   EXPECT_TRUE(describe({0, 128, 2000}).hints & kTooPlain);
   EXPECT_TRUE(describe({0, 3, 2000}).hints & kTooDark);

@@ -35,11 +35,31 @@ int withPartner(const std::vector<FramePair> &pairs) {
 }
 
 TEST(LikelyPairsTest, NeighboursInTimeOverGrowingGaps) {
-  const std::vector<FramePair> pairs = pairsInTime(20);
+  const std::vector<FramePair> pairs = pairsInTime(std::vector<WalkFrame>(20));
   EXPECT_TRUE(holds(pairs, 18, 19));
   EXPECT_TRUE(holds(pairs, 2, 19));
   EXPECT_FALSE(holds(pairs, 0, 19)) << "19 apart";
-  EXPECT_TRUE(pairsInTime(1).empty());
+  EXPECT_TRUE(pairsInTime(std::vector<WalkFrame>(1)).empty());
+}
+
+TEST(LikelyPairsTest, FramesOfTwoRecordingsAreNoNeighboursButLoops) {
+  std::vector<WalkFrame> frames(20);
+  for (uint32_t i = 10; i < 20; ++i) frames[i].recording = 1;
+  const std::vector<FramePair> pairs = pairsInTime(frames);
+  EXPECT_TRUE(holds(pairs, 8, 9));
+  EXPECT_TRUE(holds(pairs, 10, 11));
+  EXPECT_FALSE(holds(pairs, 9, 10));
+  EXPECT_TRUE(isLoop(frames, {9, 10}));
+  EXPECT_FALSE(isLoop(frames, {10, 11}));
+}
+
+// The second recording shows nothing that the end of the first does not, one frame later.
+TEST(LikelyPairsTest, AFrameHasPartnersInOtherRecordings) {
+  MadeUpWalk made = twoTurns();
+  for (uint32_t i = 30; i < 60; ++i) made.walk.keyframes[i].recording = 1;
+  for (const auto &pairs :
+       {pairsByLook(made.walk.keyframes), pairsByOverlap(made.walk.keyframes, truthOf(made), {})})
+    EXPECT_TRUE(holds(pairs, 29, 30) || holds(pairs, 29, 31) || holds(pairs, 28, 30)) << "beside each other";
 }
 
 TEST(LikelyPairsTest, LoopsAreFoundByTheirLook) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/mapping/likely_pairs.h"
 #include "tests/support/random_numbers.h"
 
 namespace sphc::host {
@@ -67,6 +68,7 @@ MadeUpWalk makeWalk(const MadeUpOptions &options) {
     made.world_from_camera.push_back(poseAt(2 * kPi * options.turns * i / options.frames));
     made.walk.keyframes.push_back(see(room, made.world_from_camera.back().inverse(), options, &random));
     made.walk.keyframes.back().index = i;
+    made.walk.keyframes.back().time_ns = 500000000 * int64_t{i};
   }
   return made;
 }
@@ -90,6 +92,7 @@ FrameLink exactLink(const MadeUpWalk &made, const FramePair &frames, uint32_t in
   link.b_from_a = stepOf(made, frames);
   link.covariance = 1e-6 * Matrix6::Identity();
   link.inliers = inliers;
+  link.is_loop = isLoop(made.walk.keyframes, frames);
   return link;
 }
 

@@ -40,6 +40,14 @@ class SpottedImages {
       color_[i] = static_cast<uint8_t>(std::min(255.0, std::max(0.0, gray[i / 3])));
   }
 
+  // Turns the wall about the vertical: its inverse depth grows by so much over a focal length to the right.
+  void slant(double slope_per_m) {
+    for (size_t i = 0; i < depth_.size(); ++i) {
+      const double x = (static_cast<double>(i % kSpottedWidth) + 0.5 - kSpottedWidth / 2.0) / kSpottedFocalPx;
+      depth_[i] = static_cast<uint16_t>(std::lround(1000 / (1000.0 / depth_[i] + slope_per_m * x)));
+    }
+  }
+
   // Borrows the images.
   sphc_localizer_frame frame(uint32_t sequence, int64_t time_ns) const {
     const sphc_image color = {color_.data(), kSpottedWidth, kSpottedHeight, kSpottedWidth * 3, SPHC_FORMAT_BGR8};

@@ -21,6 +21,14 @@ TEST_F(StretchesTest, AWholeWalkIsOneStretch) {
   EXPECT_TRUE(stretches.left_out.empty());
 }
 
+TEST_F(StretchesTest, AStretchEndsWithItsRecording) {
+  for (uint32_t i = 12; i < 20; ++i) walk_.keyframes[i].recording = 1;
+  const Stretches stretches = stretchesOf(walk_, std::vector<uint32_t>(20, 0));
+  ASSERT_EQ(stretches.mapped.size(), 2u);
+  EXPECT_EQ(stretches.mapped[0].last, 11u);
+  EXPECT_EQ(stretches.mapped[1].first, 12u);
+}
+
 TEST_F(StretchesTest, APartThatNeverMetIsNamedByItsStretches) {
   std::vector<uint32_t> parts(20, 0);
   for (uint32_t i : {4u, 5u, 6u, 15u, 16u}) parts[i] = 1;

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "host/mapping/stretches.h"
 #include "host/report/trajectory_score.h"
 #include "made_up_walk.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/refusal.h"
 
 namespace sphc::host {
@@ -20,7 +23,7 @@ TrajectoryScore scoreOf(const MadeUpWalk &made, const MappedWalk &mapped) {
 
 TEST(WalkMapperTest, AWalkOfTwoTurnsIsMapped) {
   const MadeUpWalk made = makeWalk({50, 2, 1});
-  const MappedWalk mapped = mapWalk(made.walk, {});
+  const MappedWalk mapped = mapWalk(made.walk, {}, {});
   const TrajectoryScore score = scoreOf(made, mapped);
   EXPECT_EQ(score.frames, 50u);
   EXPECT_LT(score.rigid_rmse_m, 0.003);
@@ -32,7 +35,7 @@ TEST(WalkMapperTest, AWalkOfTwoTurnsIsMapped) {
 
 TEST(WalkMapperTest, TheSameWalkGivesTheSameBits) {
   const MadeUpWalk made = makeWalk({20, 0.5, 1});
-  const MappedWalk once = mapWalk(made.walk, {}), again = mapWalk(made.walk, {});
+  const MappedWalk once = mapWalk(made.walk, {}, {}), again = mapWalk(made.walk, {}, {});
   for (size_t i = 0; i < 20; ++i) {
     EXPECT_EQ(once.world_from_camera[i]->rotation, again.world_from_camera[i]->rotation);
     EXPECT_EQ(once.world_from_camera[i]->translation_m, again.world_from_camera[i]->translation_m);
@@ -41,7 +44,7 @@ TEST(WalkMapperTest, TheSameWalkGivesTheSameBits) {
 
 TEST(WalkMapperTest, TwoPartsThatNeverMetAreToldApart) {
   const MadeUpWalk made = joined(makeWalk({30, 1, 1}), makeWalk({20, 0.5, 1, 0, 0, 2}));
-  const MappedWalk mapped = mapWalk(made.walk, {});
+  const MappedWalk mapped = mapWalk(made.walk, {}, {});
   const Stretches stretches = stretchesOf(made.walk, mapped.parts);
   ASSERT_EQ(stretches.mapped.size(), 1u);
   EXPECT_EQ(stretches.mapped[0].first, 0u);
@@ -58,15 +61,145 @@ TEST(WalkMapperTest, AFrameThatAgreesWithNoneIsLeftOut) {
   const MadeUpWalk other = makeWalk({1, 1, 1, 0, 0, 2});
   made.walk.keyframes[10].points = other.walk.keyframes[0].points;
   made.walk.keyframes[10].descriptors = other.walk.keyframes[0].descriptors;
-  const MappedWalk mapped = mapWalk(made.walk, {});
+  const MappedWalk mapped = mapWalk(made.walk, {}, {});
   EXPECT_FALSE(mapped.world_from_camera[10]);
   EXPECT_TRUE(mapped.world_from_camera[19]);
   EXPECT_EQ(stretchesOf(made.walk, mapped.parts).left_out.size(), 1u);
 }
 
+// Moves and turns the told poses by chance, and shifts all of them into a world of their own.
+const Rigid kToldWorld = {rotationFromVector(Vector3(0.3, 1, -0.2)), Vector3(5, -3, 2)};
+void tellTheTruth(MadeUpWalk *made, double off_m, double off_rad) {
+  Random random(5);
+  for (size_t i = 0; i < made->world_from_camera.size(); ++i) {
+    made->world_from_camera[i] = kToldWorld * made->world_from_camera[i];
+    Rigid told = made->world_from_camera[i];
+    told.translation_m += off_m * test::normalVector(&random);
+    told.rotation *= rotationFromVector(off_rad * test::normalVector(&random));
+    made->walk.keyframes[i].told_world_from_camera = told;
+  }
+}
+
+PoseTrust trustIn(PoseUse use) {
+  PoseTrust trust;
+  trust.use = use;
+  return trust;
+}
+
+double worstOffM(const MadeUpWalk &made, const MappedWalk &mapped) {
+  double worst_m = 0;
+  for (size_t i = 0; i < made.world_from_camera.size(); ++i)
+    if (mapped.world_from_camera[i])
+      worst_m = std::max(
+          worst_m, (mapped.world_from_camera[i]->translation_m - made.world_from_camera[i].translation_m).norm());
+  return worst_m;
+}
+
+TEST(WalkMapperTest, ApproximatePosesGiveTheirWorldAndCostNothing) {
+  MadeUpWalk made = makeWalk({50, 2, 1});
+  tellTheTruth(&made, 0.05, 0.0175);
+  const MappedWalk mapped = mapWalk(made.walk, {trustIn(PoseUse::kApproximate)}, {});
+  EXPECT_TRUE(mapped.is_in_told_world);
+  EXPECT_LT(scoreOf(made, mapped).rigid_rmse_m, 0.003);
+  EXPECT_LT(worstOffM(made, mapped), 0.04);
+  EXPECT_LE(mapped.told_wrong, 1u);
+}
+
+// A jump, a pose that is no number, and a tracking that begins anew elsewhere.
+TEST(WalkMapperTest, HostilePosesAreNamedAndSpoilNothing) {
+  MadeUpWalk made = makeWalk({50, 2, 1});
+  tellTheTruth(&made, 0.002, 0.001);
+  std::vector<WalkFrame> &frames = made.walk.keyframes;
+  frames[7].told_world_from_camera->translation_m.x() += 100;
+  frames[8].told_world_from_camera->translation_m.x() = std::nan("");
+  for (size_t i = 40; i < 50; ++i)
+    frames[i].told_world_from_camera =
+        Rigid{Matrix3::Identity(), Vector3(100, 0, 0)} * *frames[i].told_world_from_camera;
+  for (PoseUse use : {PoseUse::kApproximate, PoseUse::kOdometry}) {
+    const MappedWalk mapped = mapWalk(made.walk, {trustIn(use)}, {});
+    const TrajectoryScore score = scoreOf(made, mapped);
+    EXPECT_EQ(score.frames, 50u);
+    EXPECT_LT(score.rigid_rmse_m, 0.003);
+    EXPECT_EQ(mapped.told, use == PoseUse::kApproximate ? 49u : 48u);
+    EXPECT_GE(mapped.told_wrong, use == PoseUse::kApproximate ? 11u : 3u);
+    EXPECT_LE(mapped.told_wrong, 14u);
+  }
+}
+
+TEST(WalkMapperTest, PosesOfAnotherWalkAreNotUsed) {
+  MadeUpWalk made = makeWalk({50, 2, 1});
+  tellTheTruth(&made, 3, 1);
+  for (PoseUse use : {PoseUse::kApproximate, PoseUse::kOdometry}) {
+    const MappedWalk mapped = mapWalk(made.walk, {trustIn(use)}, {});
+    EXPECT_TRUE(mapped.is_unbelieved);
+    EXPECT_FALSE(mapped.is_in_told_world);
+    EXPECT_LT(scoreOf(made, mapped).rigid_rmse_m, 0.003);
+    EXPECT_TRUE(mapped.world_from_camera[0]->rotation.isIdentity(1e-9));
+  }
+}
+
+// Half a turn, frames that show nothing, and what was behind: no image links the two.
+MadeUpWalk acrossABareCorridor() {
+  MadeUpWalk made = makeWalk({40, 1, 1});
+  for (uint32_t i = 11; i < 40; ++i) {
+    if (i >= 19 && i < 28) continue;
+    made.walk.keyframes[i].points.clear();
+    made.walk.keyframes[i].descriptors.clear();
+  }
+  return made;
+}
+
+TEST(WalkMapperTest, OdometryBridgesWhatImagesDoNot) {
+  MadeUpWalk made = acrossABareCorridor();
+  tellTheTruth(&made, 0, 0);
+  const MappedWalk without = mapWalk(made.walk, {}, {}),
+                   with = mapWalk(made.walk, {trustIn(PoseUse::kOdometry)}, {});
+  EXPECT_TRUE(!without.world_from_camera[4] || !without.world_from_camera[24]);
+  EXPECT_TRUE(with.world_from_camera[4] && with.world_from_camera[14] && with.world_from_camera[24]);
+  EXPECT_LT(scoreOf(made, with).rigid_rmse_m, 0.01);
+  EXPECT_EQ(with.told_wrong, 0u);
+}
+
+TEST(WalkMapperTest, ApproximatePosesPlacePartsThatNeverMet) {
+  MadeUpWalk made = acrossABareCorridor();
+  tellTheTruth(&made, 0.02, 0.005);
+  const MappedWalk mapped = mapWalk(made.walk, {trustIn(PoseUse::kApproximate)}, {});
+  EXPECT_TRUE(mapped.world_from_camera[4] && mapped.world_from_camera[24]);
+  EXPECT_FALSE(mapped.world_from_camera[14]) << "nothing was seen from there";
+  EXPECT_LT(worstOffM(made, mapped), 0.05);
+}
+
+TEST(WalkMapperTest, OdometryGivesTheAxesWhereThatIsAskedFor) {
+  MadeUpWalk made = makeWalk({20, 0.5, 1});
+  tellTheTruth(&made, 0, 0);
+  PoseTrust trust = trustIn(PoseUse::kOdometry);
+  trust.keeps_axes = true;
+  const MappedWalk mapped = mapWalk(made.walk, {trust}, {});
+  for (size_t i = 0; i < 20; ++i)
+    EXPECT_LT(rotationAngle(mapped.world_from_camera[i]->rotation * made.world_from_camera[i].rotation.transpose()),
+              0.005);
+  EXPECT_TRUE(mapped.world_from_camera[0]->translation_m.isZero(1e-9));
+}
+
+// The other half of the turn, and the first half once more, by somebody else.
+TEST(WalkMapperTest, RecordingsAreJoinedByLoopsAndOneThatNeverMetStaysAway) {
+  const MadeUpWalk made =
+      joined(joined(makeWalk({30, 1, 1}), makeWalk({30, 1, 1})), makeWalk({12, 0.3, 1, 0, 0, 2}));
+  std::vector<Walk> walks(3);
+  for (size_t i = 0; i < made.walk.keyframes.size(); ++i)
+    walks[i < 30 ? 0 : i < 60 ? 1 : 2].keyframes.push_back(made.walk.keyframes[i]);
+  const Walk all = joinWalks(walks);
+  EXPECT_EQ(all.keyframes[45].recording, 1u);
+  const MappedWalk mapped = mapWalk(all, {}, {});
+  EXPECT_GT(mapped.loops, 30u);
+  EXPECT_LT(scoreOf(made, mapped).rigid_rmse_m, 0.003);
+  EXPECT_TRUE(mapped.world_from_camera[59]);
+  EXPECT_FALSE(mapped.world_from_camera[60]);
+}
+
 TEST(WalkMapperTest, FramesOfWhichNoTwoAgreeAreRefused) {
   const MadeUpWalk made = joined(makeWalk({1}), makeWalk({1, 1, 0, 0, 0, 2}));
-  EXPECT_THAT(test::refusal([&] { mapWalk(made.walk, {}); }),
+  EXPECT_THAT(test::refusal([&] { mapWalk(made.walk, {}, {}); }),
               testing::HasSubstr("no two frames of the walk agree"));
 }
 

@@ -1,0 +1,247 @@
+#include "host/cli/map_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/report/hint_words.h"
+#include "host/report/run.h"
+
+namespace sphc::host {
+namespace {
+
+// Residuals that a sound recording does not have.  Depths far off: redkitchen 2.7 %, hololens 0.8 %; redkitchen as
+// if its depth lay on the image 12.8 %, with a focal length 10 % off 10.8 %.  Keypoints, median: 0.2 to 0.9 sigma.
+constexpr double kMostFarDepths = 0.06, kMostRaySigmas = 2;
+// A metre of the recording's poses may differ so much from one of the depths, or more where that explains less than
+// half of what the path is off (squared): a short path has no scale of its own.
+constexpr double kMostScale = 0.02, kExplained = 0.7;
+
+std::string count(size_t n) { return std::to_string(n); }
+
+// Stretches as seconds since their recording's first frame.
+class Clock {
+ public:
+  explicit Clock(const MapOutcome &outcome) : outcome_(outcome) {}
+
+  const MappedRecording &recordingOf(const Stretch &s) const {
+    return outcome_.recordings[outcome_.walk.keyframes[s.first].recording];
+  }
+  double secondsOf(uint32_t keyframe) const {
+    const WalkFrame &frame = outcome_.walk.keyframes[keyframe];
+    return 1e-9 *
+           static_cast<double>(frame.time_ns - outcome_.recordings[frame.recording].reader->colorOf(0).time_ns);
+  }
+  std::string timesOf(const std::vector<Stretch> &stretches) const {
+    std::string text;
+    for (const Stretch &s : stretches)
+      text += (text.empty() ? "" : ", ") + (outcome_.recordings.size() > 1 ? recordingOf(s).name + " " : "") +
+              fixed(secondsOf(s.first), 1) + " to " + fixed(secondsOf(s.last), 1) + " s";
+    return text;
+  }
+  nlohmann::ordered_json jsonOf(const std::vector<Stretch> &stretches) const {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const Stretch &s : stretches)
+      json.push_back({{"recording", recordingOf(s).name},
+                      {"from_s", secondsOf(s.first)},
+                      {"to_s", secondsOf(s.last)},
+                      {"frames", s.frames},
+                      {"hints", hintNames(s.hints)}});
+    return json;
+  }
+
+ private:
+  const MapOutcome &outcome_;
+};
+
+uint32_t framesOf(const std::vector<Stretch> &stretches) {
+  uint32_t frames = 0;
+  for (const Stretch &s : stretches) frames += s.frames;
+  return frames;
+}
+
+void warnOfRecordings(const MapOutcome &outcome, const Console &console) {
+  for (const MappedRecording &recording : outcome.recordings)
+    if (recording.framesMapped() == 0)
+      console.warn(
+          recording.name + " never met the others: none of its " + count(recording.poses.size()) +
+          " frames is in the map. Record it once more, and begin at a place that one of the others shows.");
+}
+
+void warnOfParts(const MapOutcome &outcome, const Clock &clock, const Console &console) {
+  const Stretches &s = outcome.stretches;
+  if (s.apart.empty()) return;
+  console.warn("The walk falls apart. The map is of its largest part alone, " + count(framesOf(s.mapped)) + " of " +
+               count(outcome.walk.frameCount()) + " frames: " + clock.timesOf(s.mapped) + ".");
+  for (const std::vector<Stretch> &part : s.apart)
+    console.warn("It never met " + clock.timesOf(part) + " (" + count(framesOf(part)) +
+                 " frames). Walk from what is seen there to what is seen at " + clock.timesOf(s.mapped) +
+                 " once more, slowly, in one recording with the rest.");
+}
+
+void warnOfStretches(const MapOutcome &outcome, const Clock &clock, const Console &console) {
+  for (const Stretch &s : outcome.stretches.left_out) {
+    const std::string why = hintNames(s.hints);
+    console.warn("note: left out: " + clock.timesOf({s}) + " (" + count(s.frames) +
+                 " frames): " + (why.empty() ? "they show nothing that other frames show" : why));
+  }
+  if (outcome.walk.unreadable)
+    console.warn("note: " + count(outcome.walk.unreadable) + " frames could not be read");
+}
+
+void warnOfResiduals(const MapOutcome &outcome, const Console &console) {
+  const AdjustmentSummary &residuals = outcome.mapped.residuals;
+  if (residuals.far_depths > kMostFarDepths)
+    console.warn(
+        "note: " + fixed(100 * residuals.far_depths, 0) +
+        " % of the depths contradict the images: is the calibration right, and does depth lie where it says "
+        "(both cameras, color_from_depth)? spherecloud doctor shows it");
+  if (residuals.ray_sigmas > kMostRaySigmas)
+    console.warn("note: keypoints are off by " + fixed(residuals.ray_sigmas, 1) +
+                 " sigma: is the calibration of the colour camera right?");
+}
+
+const char *toldWord(const MapOutcome &outcome) {
+  return outcome.use == PoseUse::kOdometry ? "steps of the odometry" : "poses";
+}
+
+void warnOfPoses(const MapOutcome &outcome, const Console &console) {
+  const MappedWalk &m = outcome.mapped;
+  if (m.is_unbelieved)
+    console.warn(
+        "note: the images contradict the recording's poses altogether, so none was used" +
+        std::string(outcome.use == PoseUse::kApproximate ? ", and the world is the first frame's camera" : "") +
+        ": are they of this recording, world_from_camera, and in metres?");
+  else if (m.told_wrong)
+    console.warn("note: " + count(m.told_wrong) + " of " + count(m.told) + " " + toldWord(outcome) +
+                 " are off by more than 4 sigma of what was stated; the images were believed more");
+}
+
+void warnOfScale(const MapOutcome &outcome, const Console &console) {
+  for (const MappedRecording &recording : outcome.recordings) {
+    const auto &s = recording.score;
+    if (s && std::abs(s->scale - 1) > kMostScale && s->similarity_rmse_m < kExplained * s->rigid_rmse_m)
+      console.warn("note: a metre of the poses of " + recording.name + " is " + fixed(s->scale, 3) +
+                   " m of its depths: check depth_unit_m, the focal lengths, and the unit of the poses");
+  }
+}
+
+nlohmann::ordered_json scoreJson(const MapOutcome &outcome, const MappedRecording &recording) {
+  const TrajectoryScore &s = *recording.score;
+  nlohmann::ordered_json json = {{"frames", s.frames},
+                                 {"rigid_rmse_m", s.rigid_rmse_m},
+                                 {"similarity_rmse_m", s.similarity_rmse_m},
+                                 {"scale", s.scale},
+                                 {"rotation_median_deg", s.rotation_median_deg},
+                                 {"rotation_worst_deg", s.rotation_worst_deg}};
+  if (outcome.mapped.is_in_told_world) json["unaligned_rmse_m"] = recording.unaligned_rmse_m;
+  return json;
+}
+
+void addScore(const MapOutcome &outcome, const MappedRecording &recording, std::vector<Row> *rows) {
+  const auto &s = recording.score;
+  if (!s) return;
+  const std::string of = outcome.recordings.size() > 1 ? " of " + recording.name : "";
+  rows->push_back({"path error, RMSE" + of, fixed(100 * s->rigid_rmse_m, 2) + " cm",
+                   "beside the recording's poses, after a rigid alignment; worst turn " +
+                       fixed(s->rotation_worst_deg, 2) + " deg, median " + fixed(s->rotation_median_deg, 2)});
+  if (outcome.mapped.is_in_told_world)
+    rows->push_back({"without alignment", fixed(100 * recording.unaligned_rmse_m, 2) + " cm", "of the same"});
+  rows->push_back(
+      {"scale", fixed(s->scale, 4), "after it the path error is " + fixed(100 * s->similarity_rmse_m, 2) + " cm"});
+}
+
+}  // namespace
+
+uint32_t MappedRecording::framesMapped() const {
+  return static_cast<uint32_t>(
+      std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); }));
+}
+
+bool MapOutcome::isApart() const {
+  return !stretches.apart.empty() ||
+         std::any_of(recordings.begin(), recordings.end(), [](const auto &r) { return r.framesMapped() == 0; });
+}
+
+std::vector<Row> mapTable(const MapOutcome &outcome) {
+  const MappedWalk &m = outcome.mapped;
+  const size_t parts = 1 + outcome.stretches.apart.size();
+  std::vector<Row> rows = {
+      {"frames", count(framesOf(outcome.stretches.mapped)),
+       "of " + count(outcome.walk.frameCount()) + "; " + count(outcome.walk.keyframes.size()) + " keyframes"},
+      {"parts", count(parts),
+       parts == 1 ? "all that was connected is in the map" : "only the largest is in the map"},
+      {"links", count(m.links),
+       "between frames near in time; " + count(m.loops) + " loops, " + count(m.contradicting) +
+           " left out as contradicting"},
+      {"points adjusted", count(m.residuals.points), "seen " + count(m.residuals.sightings) + " times"},
+      {"residuals, median", fixed(m.residuals.ray_sigmas, 2),
+       "sigma, of keypoints; of depths " + fixed(m.residuals.depth_sigmas, 2) + ", " +
+           fixed(1000 * m.residuals.depth_off_m, 1) + " mm"},
+      {"depth bias", fixed(1000 * m.depth.mean[0], 1) + " mm",
+       "at " + fixed(m.depth.mid_m, 2) + " m, and " + fixed(1000 * m.depth.mean[1], 1) + " mm more a metre"},
+      {"time", fixed(outcome.seconds, 1) + " s",
+       fixed(outcome.processor_seconds, 1) + " s of a processor for poses"}};
+  if (outcome.use != PoseUse::kNone)
+    rows.push_back({toldWord(outcome), count(m.told), count(m.told_wrong) + " of them off by more than 4 sigma"});
+  if (outcome.recordings.size() > 1)
+    for (const MappedRecording &recording : outcome.recordings)
+      rows.push_back(
+          {recording.name, count(recording.framesMapped()), "of " + count(recording.poses.size()) + " frames"});
+  for (const MappedRecording &recording : outcome.recordings) addScore(outcome, recording, &rows);
+  return rows;
+}
+
+void warnOfMap(const MapOutcome &outcome, const Console &console) {
+  const Clock clock(outcome);
+  for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
+  warnOfStretches(outcome, clock, console);
+  warnOfResiduals(outcome, console);
+  warnOfPoses(outcome, console);
+  warnOfScale(outcome, console);
+  warnOfParts(outcome, clock, console);
+  warnOfRecordings(outcome, console);
+}
+
+nlohmann::ordered_json mapJson(const MapOutcome &outcome) {
+  const MappedWalk &m = outcome.mapped;
+  const Clock clock(outcome);
+  nlohmann::ordered_json json = {
+      {"frames", outcome.walk.frameCount()},
+      {"frames_mapped", framesOf(outcome.stretches.mapped)},
+      {"keyframes", outcome.walk.keyframes.size()},
+      {"unreadable", outcome.walk.unreadable},
+      {"parts", 1 + outcome.stretches.apart.size()},
+      {"mapped", clock.jsonOf(outcome.stretches.mapped)},
+      {"apart", nlohmann::ordered_json::array()},
+      {"left_out", clock.jsonOf(outcome.stretches.left_out)},
+      {"links", m.links},
+      {"loops", m.loops},
+      {"contradicting", m.contradicting},
+      {"points_adjusted", m.residuals.points},
+      {"sightings", m.residuals.sightings},
+      {"residuals",
+       {{"ray_sigmas", m.residuals.ray_sigmas},
+        {"depth_sigmas", m.residuals.depth_sigmas},
+        {"depth_m", m.residuals.depth_off_m},
+        {"far_depths", m.residuals.far_depths}}},
+      {"depth_bias", {{"offset_m", m.depth.mean[0]}, {"slope", m.depth.mean[1]}, {"mid_m", m.depth.mid_m}}}};
+  for (const std::vector<Stretch> &part : outcome.stretches.apart) json["apart"].push_back(clock.jsonOf(part));
+  if (outcome.use != PoseUse::kNone)
+    json["poses"] = {{"told", m.told}, {"off", m.told_wrong}, {"used", !m.is_unbelieved}};
+  json["recordings"] = nlohmann::ordered_json::array();
+  for (const MappedRecording &recording : outcome.recordings) {
+    nlohmann::ordered_json one = {{"recording", recording.name},
+                                  {"frames", recording.poses.size()},
+                                  {"frames_mapped", recording.framesMapped()}};
+    if (recording.score) one["score"] = scoreJson(outcome, recording);
+    json["recordings"].push_back(one);
+  }
+  if (outcome.recordings.size() == 1 && outcome.recordings[0].score)
+    json["score"] = scoreJson(outcome, outcome.recordings[0]);
+  json["points"] = outcome.import.facts;
+  json["seconds"] = outcome.seconds;
+  json["processor_seconds"] = outcome.processor_seconds;
+  return json;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,42 @@
+// What `spherecloud map` tells: a table, notes, and JSON.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "host/cli/common/console.h"
+#include "host/cli/common/point_source.h"
+#include "host/mapping/stretches.h"
+#include "host/mapping/walk_mapper.h"
+#include "host/report/table.h"
+#include "host/report/trajectory_score.h"
+
+namespace sphc::host {
+
+// One of the recordings that were mapped together.
+struct MappedRecording {
+  std::string name;  // as it was given
+  std::unique_ptr<RecordingReader> reader;
+  std::vector<std::optional<Rigid>> poses;  // of its frames, world_from_camera; none of those that found no place
+  std::optional<TrajectoryScore> score;
+  double unaligned_rmse_m = 0;  // of the score too, where the world is the recording's
+
+  uint32_t framesMapped() const;
+};
+
+struct MapOutcome {
+  PoseUse use = PoseUse::kNone;
+  Walk walk;
+  MappedWalk mapped;
+  Stretches stretches;
+  std::vector<MappedRecording> recordings;
+  ImportedPoints import;
+  double seconds = 0, processor_seconds = 0;
+
+  // Parts of a walk, or whole recordings, that never met the rest.
+  bool isApart() const;
+};
+
+std::vector<Row> mapTable(const MapOutcome &outcome);
+void warnOfMap(const MapOutcome &outcome, const Console &console);
+nlohmann::ordered_json mapJson(const MapOutcome &outcome);
+
+}  // namespace sphc::host

@@ -1,0 +1,41 @@
+#include "host/mapping/calibration_fit.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr int kMostRounds = 6;
+constexpr double kBetter = 0.95;  // of what was off before; sound calibrations gain less
+
+double offness(const AdjustmentSummary &residuals) { return residuals.ray_sigmas * residuals.depth_sigmas; }
+
+CalibrationChange sum(const CalibrationChange &first, const CalibrationChange &second) {
+  return {first.lens + second.lens, first.mount + second.mount};
+}
+
+}  // namespace
+
+CalibrationFit fitCalibration(const sphc_rig &given, const ReadTrial &read, const MappingOptions &mapping,
+                              const MappingProgress &progress) {
+  CalibrationFit fit;
+  const bool is_apart = !isRegistered(given);
+  MappingOptions options = mapping;
+  options.lens_is_free = true;
+  options.mount_is_free = is_apart;
+  options.change_so_far = {};
+  TrialCalibration trial = {given, is_apart};
+  for (int round = 0; round < kMostRounds; ++round) {
+    const MappedWalk mapped = mapWalk(read(trial), options, progress);
+    if (round == 0)
+      fit.before = mapped.at_first;
+    else if (offness(mapped.at_first) > kBetter * offness(fit.after))
+      break;
+    fit.calibration = trial.rig;
+    fit.rounds = round;
+    fit.after = mapped.at_first;
+    trial.rig = changedBy(mapped.change, trial.rig);
+    options.change_so_far = sum(options.change_so_far, mapped.change);
+  }
+  return fit;
+}
+
+}  // namespace sphc::host
