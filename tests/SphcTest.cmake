@@ -1,5 +1,13 @@
 # How the programs of the tests are declared.
-find_package(GTest REQUIRED)
+if(CMAKE_CROSSCOMPILING)
+  include(${CMAKE_CURRENT_LIST_DIR}/SphcGoogleTest.cmake)
+  set(SPHC_TEST_SHARES 4) # an emulator is slow: each process runs a share of a program's cases
+  set(SPHC_TEST_TIMEOUT 3600)
+else()
+  find_package(GTest REQUIRED)
+  set(SPHC_TEST_SHARES 1)
+  set(SPHC_TEST_TIMEOUT 600)
+endif()
 
 # GoogleTest and Eigen are read once for all test programs.  It is a program, as they are: a library's code is compiled
 # with other flags.
@@ -22,6 +30,29 @@ function(sphc_label label)
   add_dependencies(tests_${label} ${ARGN})
 endfunction()
 
+# The entries of ctest that run a program's cases.
+function(sphc_test_entries name labels cost)
+  math(EXPR last "${SPHC_TEST_SHARES} - 1")
+  foreach(share RANGE ${last})
+    # ThreadSanitizer says nothing of a race whose first access is no longer in its history: a frame is long.
+    set(environment
+      TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt:history_size=7)
+    set(entry ${name})
+    if(last)
+      string(APPEND entry .${share})
+      list(APPEND environment GTEST_TOTAL_SHARDS=${SPHC_TEST_SHARES} GTEST_SHARD_INDEX=${share})
+    endif()
+    add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1)
+    # OpenNI2 asks threads that have ended whether they live, which wants their stacks to be kept.
+    set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT ${SPHC_TEST_TIMEOUT}
+      ENVIRONMENT "${environment}"
+      ENVIRONMENT_MODIFICATION "GLIBC_TUNABLES=path_list_append:glibc.pthread.stack_cache_size=1073741824")
+    if(cost)
+      set_tests_properties(${entry} PROPERTIES COST ${cost})
+    endif()
+  endforeach()
+endfunction()
+
 # sphc_test(NAME SOURCES... LINKS... LABELS... [COST]): a GoogleTest program.  The longest have a COST, in seconds or so: they
 # begin first, so that no core waits at the end.  A program is one entry of ctest, since a process for each
 # test case takes longer than most cases do; tests/run.sh counts the cases that it reports.
@@ -33,15 +64,7 @@ function(sphc_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/sdk)
   target_compile_options(${name} PRIVATE ${SPHC_TEST_OPTIONS})
   target_precompile_headers(${name} REUSE_FROM sphc_test_headers)
-  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
-  # OpenNI2 asks threads that have ended whether they live, which wants their stacks to be kept.
-  # ThreadSanitizer says nothing of a race whose first access is no longer in its history: a frame is long.
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600
-    ENVIRONMENT "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt:history_size=7"
-    ENVIRONMENT_MODIFICATION "GLIBC_TUNABLES=path_list_append:glibc.pthread.stack_cache_size=1073741824")
-  if(arg_COST)
-    set_tests_properties(${name} PROPERTIES COST ${arg_COST})
-  endif()
+  sphc_test_entries(${name} "${arg_LABELS}" "${arg_COST}")
   foreach(label ${arg_LABELS})
     sphc_label(${label} ${name})
   endforeach()

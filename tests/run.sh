@@ -4,7 +4,7 @@
 #   tests/run.sh [STAGE...]     without a stage: all
 #
 # Stages:
-#   all          everything below but quick and first_pose, in this order
+#   all          everything below but quick, emulated and first_pose, in this order
 #   quick        formatting, unit tests, layers, the golden session: what to run while working
 #   release      formatting; the release with gcc and all its tests, guests included
 #   device       the runtime alone, as firmware links it
@@ -12,6 +12,7 @@
 #   arm64        the drivers of cameras on a stock arm64 kernel in an emulator
 #   sanitized    clang with AddressSanitizer and UndefinedBehaviorSanitizer
 #   tsan         ThreadSanitizer on what has threads
+#   emulated     the runtime's unit tests on other machines, in emulators
 #   first_pose   the first pose in each language, in a Debian that has nothing else; needs root and Debian's mirror
 #
 # A test case counts as one; so does a step without test cases of its own, such as a build.  What was skipped is listed
@@ -23,7 +24,7 @@ exec </dev/null
 jobs=$(nproc)
 passed=0 failed=0 skipped=0 begin=$SECONDS
 stages=(release device portability arm64 sanitized tsan)
-apart=(quick first_pose) # not of all
+apart=(quick emulated first_pose) # not of all
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
@@ -135,7 +136,7 @@ stage_arm64() {
   check "arm64: build" build build/arm64 'vhci_camera guest_capture' -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_TOOLCHAIN_FILE=toolchains/aarch64-linux-gnu.cmake -DSPHC_SYSROOT="$arm64/sysroot" -DSPHC_HOST=OFF \
     -DSPHC_EXAMPLES=OFF -DSPHC_GUEST_RECORDED="$root/build/unity/tests/guest/recorded" $unity -DSPHC_UNITY_RUNTIME=ON
-  tests "arm64: on a stock kernel in an emulator" build/arm64
+  tests "arm64: on a stock kernel in an emulator" build/arm64 -L guest
 }
 
 # Sanitizers by clang, so that its warnings are seen too; with a little optimisation they are fast enough.  Keeps asserts.
@@ -159,6 +160,17 @@ stage_tsan() {
   # The two halves of a frame, frames on several cores, the driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='Halves.*:ParallelFrames.*:*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"
+}
+
+stage_emulated() {
+  local machine folder
+  prepare runtime portability
+  for machine in aarch64 armhf riscv64 i686; do
+    folder=build/emulated/$machine
+    check "emulated: build for $machine" build "$folder" tests_unit --preset "$machine" -DSPHC_TESTS=ON $unity \
+      -DSPHC_UNITY_RUNTIME=ON -DSPHC_PRECOMPILE_RUNTIME=ON
+    tests "emulated: the runtime's unit tests on $machine" "$folder"
+  done
 }
 
 stage_first_pose() {

@@ -1,7 +1,7 @@
 // The session once with each instruction set that this machine and the runtime's kernels have.
-#include <hwy/highway.h>
-
 #include <cstdio>
+
+#include "tests/support/every_instruction_set.h"
 
 extern "C" {
 #include "data.h"
@@ -16,11 +16,9 @@ void print(void *, const char *text) { std::puts(text); }
 
 int main() {
   int failed = 0;
-  for (int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
-    hwy::SetSupportedTargetsForTest(left & -left);
-    hwy::GetChosenTarget().DeInit();
-    std::printf("%s\n", hwy::TargetName(left & -left));
+  sphc::test::withEveryInstructionSet([&](const char *name) {
+    std::puts(name);
     failed |= replay_check(data_map, static_cast<size_t>(data_map_end - data_map), data_expected, print, nullptr);
-  }
+  });
   return failed;
 }

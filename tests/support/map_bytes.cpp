@@ -117,7 +117,8 @@ void signHeader(std::vector<uint8_t> *file) {
 
 void signSection(std::vector<uint8_t> *file, uint32_t section) {
   const size_t at = kHeader + kEntry * section;
-  put32(file, at + 24, slowCrc32(file->data() + get64(*file, at + 8), get64(*file, at + 16)));
+  const auto bytes = static_cast<size_t>(get64(*file, at + 16));
+  put32(file, at + 24, slowCrc32(file->data() + get64(*file, at + 8), bytes));
   signHeader(file);
 }
 

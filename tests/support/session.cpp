@@ -17,8 +17,9 @@ void require(sphc_status status, const sphc_message &message) {
 
 }  // namespace
 
-GuardedMemory::GuardedMemory(size_t bytes, size_t alignment)
-    : storage_(bytes + alignment + 2 * kGuard, kGuardByte), bytes_(bytes) {
+GuardedMemory::GuardedMemory(uint64_t bytes, size_t alignment)
+    : storage_(static_cast<size_t>(bytes) + alignment + 2 * kGuard, kGuardByte),
+      bytes_(static_cast<size_t>(bytes)) {
   const auto first = reinterpret_cast<uintptr_t>(storage_.data()) + kGuard;
   start_ = storage_.data() + kGuard + (alignment - first % alignment) % alignment;
   for (size_t i = 0; i < bytes_; ++i) start_[i] = kDirt;  // the library must not count on zeros

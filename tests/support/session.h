@@ -14,7 +14,7 @@ namespace sphc::test {
 class GuardedMemory {
  public:
   GuardedMemory() = default;
-  GuardedMemory(size_t bytes, size_t alignment);
+  GuardedMemory(uint64_t bytes, size_t alignment);  // of sphc_memory
 
   void *data() { return start_; }
   size_t size() const { return bytes_; }

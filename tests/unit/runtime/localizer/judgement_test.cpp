@@ -77,7 +77,7 @@ TEST(Judgement, ADistantOriginIsNoUncertainty) {
 
 TEST(Judgement, RandomOutliersAreNotAccepted) {
   test::TestEstimator estimator(400, 2000);
-  for (uint64_t seed = 1; seed <= 60; ++seed) {
+  for (uint32_t seed = 1; seed <= 60; ++seed) {
     test::PoseWorldOptions options;
     options.seed = seed;
     options.true_share = 0;
@@ -93,7 +93,7 @@ TEST(Judgement, RandomOutliersAreNotAccepted) {
 TEST(Judgement, RandomDirectionsNearAnExpectedPoseAreNotAccepted) {
   test::TestEstimator estimator(400, 2000);
   constexpr double kCone = 2.5 * kPi / 180;
-  for (uint64_t seed = 1; seed <= 300; ++seed) {
+  for (uint32_t seed = 1; seed <= 300; ++seed) {
     test::PoseWorldOptions options;
     options.seed = seed;
     options.true_share = 0;

@@ -21,7 +21,9 @@ constexpr size_t kFirstEntry = 64, kSecondEntry = 96, kDirections = 256;
 constexpr uint32_t kRunSection = 2, kGroupSection = 4;
 
 // Where a section's bytes begin.
-size_t placeOf(const Bytes &file, uint32_t section) { return test::get64(file, kFirstEntry + 32 * section + 8); }
+size_t placeOf(const Bytes &file, uint32_t section) {
+  return static_cast<size_t>(test::get64(file, kFirstEntry + 32 * section + 8));
+}
 
 // Opens a copy that ends exactly where the file does, so that a sanitizer sees a step too far.
 sphc_status open(const Bytes &file, std::string *text = nullptr) {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 #include <string>
-#include <vector>
 
 #include "tests/support/random_numbers.h"
 
@@ -165,7 +165,7 @@ TEST(Pairer, RandomStreamsGiveBackEveryLoanOnce) {
   Random random(5);
   for (int trial = 0; trial < 300; ++trial) {
     Pairer pairer = makePairer(1 + random.below(8), random.below(30));
-    std::vector<int> given[3] = {{}, std::vector<int>(200), std::vector<int>(200)};
+    std::map<uint64_t, int> given[3];  // times that a token came back, for each stream
     int64_t time[3] = {}, last_pair = -1;
     uint64_t count[3] = {};
     const auto pop = [&] {
@@ -194,8 +194,10 @@ TEST(Pairer, RandomStreamsGiveBackEveryLoanOnce) {
     }
     pairer.flush();
     pop();
-    for (int stream = 1; stream < 3; ++stream)
+    for (int stream = 1; stream < 3; ++stream) {
       for (uint64_t i = 0; i < count[stream]; ++i) ASSERT_EQ(given[stream][i], 1);
+      ASSERT_EQ(given[stream].size(), count[stream]);
+    }
   }
 }
 

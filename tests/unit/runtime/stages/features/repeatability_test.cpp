@@ -1,7 +1,7 @@
 // The same bytes again: from call to call, from memory to memory, from one instruction set to another.
 #include <gtest/gtest.h>
 
-#include "hwy/highway.h"
+#include "tests/support/every_instruction_set.h"
 #include "tests/unit/runtime/stages/features/features_fixture.h"
 
 namespace sphc {
@@ -30,17 +30,12 @@ TEST(Repeatability, ScratchKeepsNothing) {
 TEST(Repeatability, InstructionSetsAgree) {
   const TestImage a = spots(333, 211, 1), b = noise(160, 121, 2);
   const Features first = extractFrom(a), second = extractFrom(b);
-  const int64_t all = hwy::SupportedTargets();
   int tried = 0;
-  for (int64_t left = all; left != 0; left &= left - 1) {
-    hwy::SetSupportedTargetsForTest(left & -left);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    EXPECT_TRUE(same(first, extractFrom(a))) << hwy::TargetName(left & -left);
-    EXPECT_TRUE(same(second, extractFrom(b))) << hwy::TargetName(left & -left);
+  test::withEveryInstructionSet([&](const char *name) {
+    EXPECT_TRUE(same(first, extractFrom(a))) << name;
+    EXPECT_TRUE(same(second, extractFrom(b))) << name;
     ++tried;
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  });
   EXPECT_GE(tried, 1);
 }
 

@@ -2,12 +2,12 @@
 #include "runtime/stages/pose/kernels.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cstring>
 #include <limits>
 #include <set>
 
+#include "tests/support/every_instruction_set.h"
 #include "tests/support/pose_rows.h"
 #include "tests/support/random_numbers.h"
 
@@ -15,17 +15,6 @@ namespace sphc {
 namespace {
 
 constexpr uint32_t kCounts[] = {1, 15, 16, 63, 64, 65, 300};
-
-// Runs `check` once for each instruction set of this machine.
-template <typename Check>
-void onEveryTarget(const Check &check) {
-  for (int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
-    hwy::SetSupportedTargetsForTest(left & -left);
-    SCOPED_TRACE(hwy::TargetName(left & -left));
-    check();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-}
 
 ::testing::AssertionResult sameBits(const float *a, const float *b, size_t count) {
   for (size_t i = 0; i < count; ++i)
@@ -74,7 +63,8 @@ NormalTask taskAt(const Rigid &pose, bool with_bias) {
 
 template <typename Check>
 void onRandomProblems(const Check &check) {
-  onEveryTarget([&] {
+  test::withEveryInstructionSet([&](const char *name) {
+    SCOPED_TRACE(name);
     Random random(1);
     for (uint32_t count : kCounts)
       for (int trial = 0; trial < 6; ++trial) check(randomProblem(count, trial % 2 == 1, &random));
@@ -173,7 +163,8 @@ void expectSamePoses(const PoseBatch &ours, const PoseBatch &scalar, uint32_t *v
 }
 
 TEST(Kernels, SolversGiveTheScalarBits) {
-  onEveryTarget([] {
+  test::withEveryInstructionSet([](const char *name) {
+    SCOPED_TRACE(name);
     Random random(2);
     uint32_t valid = 0, valid_upright = 0;
     for (int trial = 0; trial < 200; ++trial) {
@@ -199,7 +190,8 @@ TEST(Kernels, SolversGiveTheScalarBits) {
 TEST(Kernels, EveryTargetIsAnother) {
   int targets = 0;
   std::set<const PoseKernels *> kernels;
-  onEveryTarget([&] {
+  test::withEveryInstructionSet([&](const char *name) {
+    SCOPED_TRACE(name);
     ++targets;
     kernels.insert(&simdPoseKernels());
   });

@@ -16,7 +16,7 @@ struct Errors {
 };
 
 // Medians over worlds.
-Errors medianErrors(test::PoseWorldOptions options, uint64_t worlds) {
+Errors medianErrors(test::PoseWorldOptions options, uint32_t worlds) {
   test::TestEstimator estimator;
   std::vector<double> rotation, translation;
   for (uint64_t seed = 1; seed <= worlds; ++seed) {
