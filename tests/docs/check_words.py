@@ -37,8 +37,10 @@ def faults_in(text, name):
     lines = text.split("\n")
     words = [(pattern, use) for pattern, use, where in PRIVATE_WORDS if not (where and where.search(name))]
     for number, line in enumerate(lines, 1):
+        if not line or line.isspace():  # most lines of a source say nothing to people
+            continue
+        following = line + " " + (lines[number].lstrip() if number < len(lines) else "")
         for pattern, use in words:
-            following = line + " " + (lines[number].lstrip() if number < len(lines) else "")
             for match in pattern.finditer(following):
                 if match.start() < len(line):
                     faults.append(f"{name}:{number}: \"{match.group(0)}\"; say: {use}")

@@ -201,10 +201,25 @@ def others(pipeline):
          "[testing.md](testing.md#hard-worlds).",
          flat(rows("nasty.csv"), ["world"])),
         ("Mapping without poses", "pipeline/mapping.csv", "mapping_results",
-         "Walks mapped by their images and depths alone, beside the poses that the recordings hold. `ate`: root of the mean square of\n"
-         "the places' errors, after the best rigid alignment and after the best similarity; `scale`: a true metre as mapped.\n"
+         "Walks mapped by their images and depths alone (`none`), and with poses that are off by 5 cm and 1 deg each (`approximate`) or\n"
+         "drift by 1 % and 1 deg after a metre (`odometry`), beside the poses that the recordings hold. `ate`: root of the mean square of\n"
+         "the places' errors, after the best rigid alignment, without any, and after the best similarity; `scale`: a true metre as mapped.\n"
          "Rotations after the rigid alignment by places. Method: [mapping.md](mapping.md).",
-         flat(rows("mapping.csv"), ["world"])),
+         flat(rows("mapping.csv"), ["world", "poses"])),
+        ("Mapping by others", "pipeline/mapping_peers.csv", "mapping_peers_results",
+         "The same real walks by COLMAP (its scale from depth) and by Open3D's RGB-D odometry and pose graph, one after another on the\n"
+         "same machine. `processor_s`: of all threads. Method: [mapping.md](mapping.md#beside-others).",
+         flat(rows("mapping_peers.csv"), ["recording"])),
+        ("Calibrations refined", "pipeline/calibration_fit.csv", "calibration_fit_results",
+         "Walks mapped with a calibration as it was given, and with `--refine-calibration`: by how much focal length, principal\n"
+         "point, and turn and shift of `color_from_depth` are off, and the path's error after a rigid alignment. *spoiled*: off at\n"
+         "random; *sound*: as the recording has it, which for real ones counts as the truth. Method: [mapping.md](mapping.md).",
+         flat(rows("calibration_fit.csv"), ["given", "calibration"])),
+        ("Guidance", "pipeline/guide.csv", "guide_results",
+         "What is said while a walk is recorded. `confirmed`: pairs of views that two comparisons take for a loop; `false`: of these,\n"
+         "beyond 25 cm or 10 deg of the recording's poses; `loops`: what is told of them. The last columns count frames, each alone.\n"
+         "Method: [guide.md](guide.md).",
+         flat(rows("guide.csv"), ["world"])),
         ("Many maps", "pipeline/maps.csv", "maps_results",
          "Cold frames of simulated rooms in the map of their room alone, and in all maps of one localizer, a double for every fourth\n"
          "room. Wrong: in the map of another room, or beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#several-maps).",

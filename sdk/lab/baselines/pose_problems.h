@@ -7,7 +7,7 @@ namespace sphc::host {
 
 // Keypoints are at focal length 1: (x, y) of the viewing ray (x, y, 1).
 
-struct PointMatch {
+struct PointPoseMatch {
   Vector2 keypoint;
   Vector3 point_m;
 };
@@ -15,7 +15,7 @@ struct PointMatch {
 // Perspective-three-point; the error is the distance from the projected point.
 class PointPoseProblem : public PoseProblem {
  public:
-  PointPoseProblem(std::vector<PointMatch> matches, double focal_px)
+  PointPoseProblem(std::vector<PointPoseMatch> matches, double focal_px)
       : matches_(std::move(matches)), focal_px_(focal_px) {}
   uint32_t count() const override { return static_cast<uint32_t>(matches_.size()); }
   uint32_t sampleSize() const override { return 3; }
@@ -24,7 +24,7 @@ class PointPoseProblem : public PoseProblem {
   void addEquations(uint32_t match, const Rigid &camera_from_map, PoseEquations *equations) const override;
 
  private:
-  std::vector<PointMatch> matches_;
+  std::vector<PointPoseMatch> matches_;
   double focal_px_;
 };
 

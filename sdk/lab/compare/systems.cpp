@@ -30,7 +30,7 @@ PoseAnswer timed(const PoseProblem &problem, double gate_px, uint64_t seed) {
 PoseVariant pointSystem() {
   return {"point cloud", true,
           [](const PoseCase &c, uint64_t seed) {
-            std::vector<PointMatch> matches;
+            std::vector<PointPoseMatch> matches;
             for (size_t i = 0; i < c.true_pixels_px.size(); ++i)
               matches.push_back({keypointOf(c.camera, c.true_pixels_px[i]), c.true_points_map_m[i]});
             return timed(PointPoseProblem(std::move(matches), c.focalPx()), kPointGatePx, seed);

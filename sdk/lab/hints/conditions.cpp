@@ -16,7 +16,7 @@ constexpr double kTypicalDepthM = 2;  // of what moves past the camera
 
 uint64_t seedOf(const Shot &shot) { return static_cast<uint64_t>(shot.color_time_ns); }
 
-std::function<void(Sequence *)> exposed(const Exposure &exposure) {
+std::function<void(Sequence *)> exposed(const ExposureSetting &exposure) {
   return [exposure](Sequence *sequence) {
     for (Shot &shot : sequence->shots) expose(exposure, seedOf(shot), &shot.color);
   };
@@ -72,7 +72,7 @@ std::function<void(Sequence *)> seenUpTo(double range_m) {
 
 }  // namespace
 
-void expose(const Exposure &exposure, uint64_t seed, std::vector<uint8_t> *values) {
+void expose(const ExposureSetting &exposure, uint64_t seed, std::vector<uint8_t> *values) {
   Random random(seed);
   const double read2 = kReadNoise * kReadNoise;
   for (uint8_t &value : *values) {

@@ -18,11 +18,11 @@ struct HintCondition {
 std::vector<HintCondition> hintConditions();
 
 // How a colour image is exposed: how much of the light is left, and by how much it is amplified.
-struct Exposure {
+struct ExposureSetting {
   double light = 1, gain = 1;
 };
 // With the noise of photons and of reading; values are roots of the light.  A Gaussian stands for Poisson's law.
-void expose(const Exposure &exposure, uint64_t seed, std::vector<uint8_t> *values);
+void expose(const ExposureSetting &exposure, uint64_t seed, std::vector<uint8_t> *values);
 // Mixes the light along a line through each pixel, so many pixels long, in the direction of (x, y).
 void blurAlong(double x, double y, double length_px, const Sequence &sequence, Shot *shot);
 

@@ -16,7 +16,7 @@ PointModel pointsOf(const char *recording) {
   RecordingOptions options;
   options.folder = recording;
   RgbdImportSummary summary;
-  return importRgbd(openRecording(options).get(), {}, {}, &summary);
+  return importRgbd({{openRecording(options).get()}}, {}, {}, &summary);
 }
 
 void write(const PointModel &model, const std::string &path) {

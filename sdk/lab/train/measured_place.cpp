@@ -104,7 +104,7 @@ MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
   const Description described = parse(description);
   const auto reader = openRecording(described.recording);
   RgbdImportSummary summary;
-  const PointModel model = importRgbd(reader.get(), {}, {}, &summary);
+  const PointModel model = importRgbd({{reader.get()}}, {}, {}, &summary);
   MeasuredPlace place;
   place.name = described.name;
   const Vector3 centre_m = centreOf(model.points);

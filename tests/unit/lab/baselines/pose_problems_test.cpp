@@ -37,7 +37,7 @@ World makeWorld(size_t count, double sigma_px, uint64_t seed) {
 
 // Every `wrong`-th keypoint is matched with its neighbour's point or line.
 PointPoseProblem pointProblem(const World &world, size_t wrong = 0) {
-  std::vector<PointMatch> matches;
+  std::vector<PointPoseMatch> matches;
   for (size_t i = 0; i < world.points_m.size(); ++i) {
     const size_t point = wrong && i % wrong == 0 ? (i + 1) % world.points_m.size() : i;
     matches.push_back({world.keypoints[i], world.points_m[point]});
@@ -86,7 +86,7 @@ TEST(PoseProblems, EverySystemStandsNoiseAndWrongMatches) {
 }
 
 TEST(PoseProblems, ErrorsArePixels) {
-  const std::vector<PointMatch> points = {{Vector2(0, 0), Vector3(0.02, 0, 2)}};
+  const std::vector<PointPoseMatch> points = {{Vector2(0, 0), Vector3(0.02, 0, 2)}};
   EXPECT_NEAR(PointPoseProblem(points, kFocalPx).squaredError(0, {}), 25, 1e-9);
   const std::vector<LineMatch> lines = {{Vector2(0, 0), Line::through({0.02, 0, 2}, {0, 1, 0.3})}};
   const double aside_px =

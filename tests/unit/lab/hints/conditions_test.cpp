@@ -61,7 +61,7 @@ TEST(HintConditions, BlurGoesAlongTheMotion) {
 }
 
 TEST(HintConditions, LessLightHasMoreNoise) {
-  const auto spread = [](const Exposure &exposure) {
+  const auto spread = [](const ExposureSetting &exposure) {
     std::vector<uint8_t> values(10000, 128);
     expose(exposure, 1, &values);
     double sum = 0, sum2 = 0;
