@@ -131,6 +131,8 @@ function(sphc_install_package)
   if(PROJECT_IS_TOP_LEVEL)
     add_custom_target(uninstall VERBATIM
       COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${SPHC_INSTALL_FILES}/uninstall.cmake)
+    include(SphcSbom)
+    set(SPHC_SBOM ${SPHC_SBOM} PARENT_SCOPE) # for its test
     include(SphcPackages)
   endif()
 endfunction()

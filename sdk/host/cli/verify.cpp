@@ -15,21 +15,15 @@ struct VerifyOptions {
 };
 
 int verify(const VerifyOptions &options, const Console &console) {
-  const std::string path = options.signature.empty() ? signaturePath(options.map) : options.signature;
   Trust trust = trustOf(options.trust);
   trust.name = options.name;
-  const MapFile map = openMapFile(options.map);
-  const sphc_signature_statement said =
-      checkSignature(trust, options.map, map.bytes.data(), map.bytes.size(), path);
+  trust.signature = options.signature;
+  const sphc_signature_statement said = openMapFile(options.map, trust).statement;
   const std::string id = keyIdText(trust.keys[said.key_index]), name = said.name;
   console.say(options.map + ": release " + std::to_string(said.release) +
               (name.empty() ? ", without a name" : " of " + name) + ", signed by the trusted key " + id);
-  console.give({{"map", options.map},
-                {"signature", path},
-                {"accepted", true},
-                {"release", said.release},
-                {"name", name},
-                {"key_id", id}});
+  console.give(
+      {{"map", options.map}, {"accepted", true}, {"release", said.release}, {"name", name}, {"key_id", id}});
   return kExitDone;
 }
 

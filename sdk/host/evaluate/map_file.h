@@ -12,6 +12,7 @@ namespace sphc::host {
 struct MapFile {
   spherecloud::AlignedBuffer bytes;  // outlives the map
   spherecloud::Map map;
+  sphc_signature_statement statement = {};  // where keys were trusted
 };
 
 // Throws std::runtime_error, which says what is wanted, when something is there that is no file.

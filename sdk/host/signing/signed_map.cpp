@@ -48,8 +48,9 @@ Signature signMap(const void *map, size_t map_bytes, const SigningKey &key, uint
   return made;
 }
 
-sphc_signature_statement checkSignature(const Trust &trust, const std::string &map, const void *bytes, size_t count,
-                                        const std::string &signature_path) {
+sphc_signature_statement checkSignature(const Trust &trust, const std::string &map, const void *bytes,
+                                        size_t count) {
+  const std::string signature_path = trust.signature.empty() ? signaturePath(map) : trust.signature;
   const sphc_signature_policy policy = policyOf(trust);
   const std::vector<uint8_t> signature = readSignature(signature_path);
   sphc_signature_statement statement = {};

@@ -25,13 +25,14 @@ Signature signMap(const void *map, size_t map_bytes, const SigningKey &key, uint
 struct Trust {
   std::vector<sphc_signature_key> keys;
   uint64_t least_release = 0;
-  std::string name;  // empty: any
+  std::string name;       // empty: any
+  std::string signature;  // file; empty: signaturePath of the map
 };
 
-// Throws std::runtime_error with cause and cure unless the signature file makes the map one to accept.  `map` names
-// the map in the message.
-sphc_signature_statement checkSignature(const Trust &trust, const std::string &map, const void *bytes, size_t count,
-                                        const std::string &signature_path);
+// Throws std::runtime_error with cause and cure unless the signature file makes the map one to accept.  `map` is
+// the path of the map, whose bytes were read already.
+sphc_signature_statement checkSignature(const Trust &trust, const std::string &map, const void *bytes,
+                                        size_t count);
 
 // Of a signature file that is there, unless it is another key's or of another name: which release it states.  0:
 // none.

@@ -17,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+TEST(SignatureFile, StandsBesideTheMap) { EXPECT_EQ(signaturePath("maps/a.sphc"), "maps/a.sphc.sig"); }
+
 class SignedMapTest : public testing::Test {
  protected:
   SignedMapTest() : path_((fs::path(testing::TempDir()) / "signed_map_test.sig").string()) {
@@ -25,6 +27,7 @@ class SignedMapTest : public testing::Test {
     std::copy(bytes.begin(), bytes.end(), seed.begin());
     key_ = std::make_unique<SigningKey>(seed);
     trust_.keys = {key_->publicKey()};
+    trust_.signature = path_;
   }
   ~SignedMapTest() override { fs::remove(path_); }
 
@@ -32,9 +35,7 @@ class SignedMapTest : public testing::Test {
     const Signature signature = signMap(map_.data(), map_.size(), *key_, release, name);
     writeFile(path_, signature.data(), signature.size());
   }
-  sphc_signature_statement check() const {
-    return checkSignature(trust_, "a.sphc", map_.data(), map_.size(), path_);
-  }
+  sphc_signature_statement check() const { return checkSignature(trust_, "a.sphc", map_.data(), map_.size()); }
   std::string refusal() const {
     try {
       check();
@@ -74,7 +75,7 @@ TEST_F(SignedMapTest, RefusalsSayWhyAndName) {
   sign(3, "hall");
   trust_.least_release = 4;
   EXPECT_THAT(refusal(), HasSubstr("older release"));
-  trust_ = {{test::keyOfHex(test::kOtherKey)}, 0, ""};
+  trust_ = {{test::keyOfHex(test::kOtherKey)}, 0, "", path_};
   EXPECT_THAT(refusal(), HasSubstr("not trusted"));
 }
 
