@@ -23,12 +23,12 @@
  * Time of check.  The map's bytes must not change between the call and sphc_map_fini.  Verify bytes in memory that
  * nobody else writes; a file that others can write may not be mapped (mmap), but has to be read.
  *
- * Memory: about 10 kB of stack, no heap, nothing global.  Time: one Ed25519 verification and one reading of the
+ * Memory: about 14 kB of stack, no heap, nothing global.  Time: one Ed25519 verification and one reading of the
  * map. What is compared is public, so times tell nothing secret.
  *
  * Conventions are those of spherecloud.h: status < 0 is a failure, and outputs are untouched but for the message.
- * The library is static, so it and its header are of one release: struct_size must be sizeof.  SPHC_SIGNATURE_ABI is
- * raised when a program would have to be changed.
+ * The library is static, so it and its header are of one release: struct_size must be sizeof.  SPHC_SIGNATURE_ABI
+ * is raised when a program would have to be changed.
  */
 #ifndef SPHERECLOUD_SPHERECLOUD_SIGNATURE_H
 #define SPHERECLOUD_SPHERECLOUD_SIGNATURE_H
