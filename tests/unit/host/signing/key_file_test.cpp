@@ -39,7 +39,9 @@ class KeyFileTest : public testing::Test {
       read(at(name));
     } catch (const std::runtime_error &error) {
       EXPECT_THAT(error.what(), HasSubstr(at(name)));
-      if (!secret.empty()) EXPECT_THAT(error.what(), Not(HasSubstr(secret)));
+      if (!secret.empty()) {
+        EXPECT_THAT(error.what(), Not(HasSubstr(secret)));
+      }
       return error.what();
     }
     ADD_FAILURE() << name << " was read";
