@@ -27,8 +27,10 @@ LICENSES = {  # by source package, as their copyright files say
 
 
 def run(*words):
-    done = subprocess.run(words, text=True, capture_output=True, check=False)
-    return done.stdout if done.returncode == 0 else ""
+    """What a command prints, whatever its status: dpkg-query tells of what it knows.  Nothing where it is not there."""
+    if not shutil.which(words[0]):
+        return ""
+    return subprocess.run(words, text=True, capture_output=True, check=False).stdout
 
 
 def listed(path, sections):
@@ -52,14 +54,11 @@ def owners(sonames):
     paths = {}
     for soname, path in re.findall(r"^\s+(\S+) \(.*\) => (\S+)$", run("/sbin/ldconfig", "-p"), re.MULTILINE):
         paths.setdefault(soname, Path(path).resolve())  # the first is of this machine, and may be an alternative
-    found = {}
-    for soname in sonames & paths.keys():
-        path = str(paths[soname])
-        for name in (path, path.removeprefix("/usr")):
-            found.setdefault(soname, run("dpkg-query", "-S", name).split(":")[0])
-            if not found[soname]:
-                del found[soname]
-    return found
+    real = {soname: str(paths[soname]) for soname in sonames & paths.keys()}
+    ways = sorted({way for path in real.values() for way in (path, path.removeprefix("/usr"))})
+    told = run("dpkg-query", "-S", *ways) if ways else ""
+    owned = {line.split(": ")[1].removeprefix("/usr"): line.split(":")[0] for line in told.splitlines() if ": /" in line}
+    return {soname: owned[path.removeprefix("/usr")] for soname, path in real.items() if path.removeprefix("/usr") in owned}
 
 
 def of_debian(name):
