@@ -59,6 +59,19 @@ if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-pass-failed>) # loops asked to be vectors
 endif()
 
+# Programs and libraries of an operating system, and what they are linked with; docs/hardening.md.  What devices link has
+# no stack protector: it would ask firmware for two symbols, and the runtime writes into memory of its caller alone.
+add_library(sphc_host_flags INTERFACE)
+target_link_libraries(sphc_host_flags INTERFACE sphc_flags)
+set(SPHC_HARDENED_LINK)
+if(CMAKE_EXECUTABLE_FORMAT STREQUAL "ELF" AND NOT CMAKE_SYSTEM_NAME STREQUAL "Generic")
+  set(SPHC_HARDENED_LINK -Wl,-z,relro,-z,now,-z,noexecstack)
+  target_compile_options(sphc_host_flags INTERFACE -fstack-protector-strong)
+  if(NOT SPHC_SANITIZE) # which checks the same functions, and more
+    target_compile_options(sphc_host_flags INTERFACE "$<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
+  endif()
+endif()
+
 # The device side: no exceptions, no RTTI; Eigen may neither allocate nor print.  gcc's vectorizer of straight-line code
 # makes fused vfmaddsub for processors that have it, -ffp-contract=off or not.
 add_library(sphc_runtime_flags INTERFACE)
@@ -92,7 +105,7 @@ function(sphc_headers name)
   target_precompile_headers(${name} PRIVATE ${headers})
 endfunction()
 
-sphc_headers(sphc_host_headers FLAGS sphc_flags HEADERS Eigen/Core Eigen/Geometry)
+sphc_headers(sphc_host_headers FLAGS sphc_host_flags HEADERS Eigen/Core Eigen/Geometry)
 if(SPHC_SANITIZE)
   set(SPHC_PRECOMPILE_RUNTIME ON)
 else()
@@ -125,19 +138,23 @@ function(sphc_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# sphc_module(NAME SOURCES... [RUNTIME] [SMALL] [LINKS...] [HEADERS...]): a folder is a target.
-# RUNTIME modules are objects gathered into the one library `spherecloud`; others are static libraries.
+# sphc_module(NAME SOURCES... [RUNTIME] [DEVICE] [SMALL] [LINKS...] [HEADERS...]): a folder is a target.
+# RUNTIME modules are objects gathered into the one library `spherecloud`; others are static libraries, those of DEVICE in C.
 # SMALL: small rather than fast.
 # HEADERS: a library of precompiled headers, where it is not that of all.
 function(sphc_module name)
-  cmake_parse_arguments(arg "RUNTIME;SMALL" "HEADERS" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "RUNTIME;DEVICE;SMALL" "HEADERS" "SOURCES;LINKS" ${ARGN})
   if(arg_RUNTIME)
     add_library(${name} OBJECT ${arg_SOURCES})
     target_link_libraries(${name} PUBLIC sphc_runtime_flags PRIVATE sphc_runtime_code ${arg_LINKS})
     set_property(GLOBAL APPEND PROPERTY SPHC_RUNTIME_OBJECTS ${name})
   else()
+    set(module_flags sphc_host_flags)
+    if(arg_DEVICE)
+      set(module_flags sphc_flags)
+    endif()
     add_library(${name} STATIC ${arg_SOURCES})
-    target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:sphc_flags> PUBLIC ${arg_LINKS})
+    target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:${module_flags}> PUBLIC ${arg_LINKS})
   endif()
   if(arg_RUNTIME)
     set(SPHC_UNITY ${SPHC_UNITY_RUNTIME})

@@ -60,6 +60,7 @@ void walk(const char *name, int runs) {
 }
 
 TEST(Mutations, Map) { walk("map", 20000); }
+TEST(Mutations, Signature) { walk("signature", 1500); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Session) { walk("session", 2000); }
 TEST(Mutations, Align) { walk("align", 3000); }

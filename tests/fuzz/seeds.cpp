@@ -9,6 +9,7 @@
 #ifdef SPHC_FUZZ_CAMERAS
 #include "tests/support/jpeg_frame.h"
 #endif
+#include "tests/support/golden_signature.h"
 #include "tests/support/map_bytes.h"
 #include "tests/support/scene.h"
 #ifdef SPHC_FUZZ_FOREIGN
@@ -32,6 +33,13 @@ std::vector<uint8_t> colmapSeed(const host::ColmapFiles &files);  // fuzz_colmap
 namespace {
 
 std::vector<uint8_t> bytesOf(const std::string &text) { return {text.begin(), text.end()}; }
+
+std::vector<uint8_t> signedMap() {
+  std::vector<uint8_t> seed = test::bytesOfHex(test::kGoldenSignature);
+  const std::vector<uint8_t> map = test::goldenMap();
+  seed.insert(seed.end(), map.begin(), map.end());
+  return seed;
+}
 
 std::vector<uint8_t> infraredMap() {
   std::vector<uint8_t> file = test::randomMap(16, 3);
@@ -143,6 +151,7 @@ void broken(const char *promise) {
 std::vector<Target> allTargets() {
   std::vector<Target> targets = {
       {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2), infraredMap()}},
+      {"signature", signature, {signedMap(), test::bytesOfHex(test::kGoldenSignature)}},
       {"frame", frame, {frameSeed(0), frameSeed(2), {}}},
       {"session", session, {sessionSeed(0), sessionSeed(1)}},
       {"align",

@@ -9,6 +9,8 @@ namespace sphc::fuzz {
 
 // A map file; when it is accepted, everything is read and one frame localized in it.
 void map(const uint8_t *data, size_t bytes);
+// A signature, then the map that it is of.
+void signature(const uint8_t *data, size_t bytes);
 // First a header of sizes, strides and formats, then pixels.
 void frame(const uint8_t *data, size_t bytes);
 // Calls of the C interface on one localizer, in any order.

@@ -9,7 +9,7 @@ import sys
 
 TREES = ("sdk", "drivers", "examples")
 SOURCES = (".h", ".hpp", ".c", ".cc", ".cpp", ".inl")
-ROOTS = ("sdk/include", "sdk", "")  # where a quoted path is looked up, after the file's own folder
+ROOTS = ("sdk/include", "sdk/signature/include", "sdk", "")  # where a quoted path is looked up, after the file's own folder
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 COMPUTED = re.compile(r"^\s*#\s*include\s+[^<\"\s]")
 
@@ -21,6 +21,7 @@ POSIX = re.compile(r"^(sys/.+|linux/.+|unistd\.h|fcntl\.h|dirent\.h|poll\.h|pthr
 LIBRARIES = {"eigen": re.compile(r"^Eigen/"), "highway": re.compile(r"^hwy/"), "opencv": re.compile(r"^opencv2/"),
              "openni2": re.compile(r"^(OniCAPI|PS1080)\.h$"), "sqlite": re.compile(r"^sqlite3\.h$"),
              "gtest": re.compile(r"^gtest/"), "json": re.compile(r"^nlohmann/"), "posix": POSIX, "turbojpeg": re.compile(r"^turbojpeg\.h$"),
+             "openssh_ed25519": re.compile(r"^third_party/openssh_ed25519/"),
              "libcamera": re.compile(r"^libcamera/"), "zlib": re.compile(r"^zlib\.h$"),
              "zstd": re.compile(r"^zstd\.h$")}
 # The device side makes no calls that need these, however standard they are.

@@ -14,10 +14,13 @@ Command doctorCommand(CLI::App *root);
 Command guideCommand(CLI::App *root);
 Command infoCommand(CLI::App *root);
 Command inspectCommand(CLI::App *root);
+Command keyCommand(CLI::App *root);
 Command liveCommand(CLI::App *root);
 Command localizeCommand(CLI::App *root);
 Command mapCommand(CLI::App *root);
 Command recordCommand(CLI::App *root);
+Command signCommand(CLI::App *root);
 Command simulateCommand(CLI::App *root);
+Command verifyCommand(CLI::App *root);
 
 }  // namespace sphc::host

@@ -4,6 +4,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/cli/common/trust_options.h"
 #include "host/evaluate/map_anatomy.h"
 #include "host/report/direction_picture.h"
 #include "host/report/picture_file.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct InspectOptions {
   std::string map, picture;
+  TrustOptions trust;
   bool no_picture = false, force = false;
 };
 
@@ -72,9 +74,10 @@ std::string picturePath(const InspectOptions &options) {
 int inspect(const InspectOptions &options, const Console &console) {
   FileUse files(options.force);
   files.reads("the map", options.map);
+  readsTrust(options.trust, &files);
   files.writes("--picture", picturePath(options), holds(kPictureMark));
   files.check();
-  const MapFile file = openMapFile(options.map);
+  const MapFile file = openMapFile(options.map, trustOf(options.trust));
   const MapFacts facts = mapFacts(file, options.map);
   const MapAnatomy anatomy = dissect(file, facts);
   tell(facts, anatomy, console);
@@ -106,6 +109,7 @@ Command inspectCommand(CLI::App *root) {
   app->add_option("map", options->map, "Map file")->required()->type_name("FILE");
   app->add_option("--picture", options->picture, "Where the picture goes [FILE.directions.png]")->type_name("PNG");
   app->add_flag("--no-picture", options->no_picture, "No picture");
+  addTrustOptions(app, &options->trust);
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return inspect(*options, console); }};
 }

@@ -8,6 +8,7 @@
 #include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/rig_options.h"
+#include "host/cli/common/trust_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
 #include "host/live/interrupt.h"
@@ -22,6 +23,7 @@ namespace {
 
 struct LiveOptions {
   RigOptions rig;
+  TrustOptions trust;
   std::vector<std::string> maps;
   uint32_t frames = 0;
   double seconds = 0;
@@ -142,7 +144,8 @@ void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
 int run(const LiveOptions &options, const Console &console) {
   checkRigOptions(options.rig);
   std::vector<MapFile> maps;
-  for (const std::string &path : options.maps) maps.push_back(openMapFile(path));
+  const Trust trust = trustOf(options.trust);
+  for (const std::string &path : options.maps) maps.push_back(openMapFile(path, trust));
   StatusLine line;
   Rig rig(options.rig, [&](const std::string &trouble) {
     line.wipe();
@@ -202,6 +205,7 @@ Command liveCommand(CLI::App *root) {
       ->expected(1)
       ->take_all()
       ->type_name("FILE");
+  addTrustOptions(app, &options->trust);
   addBandOption(app, &options->config.color_band,
                 "The light that the colour camera sees; a map must be of the same");
   addAmplitudeOption(app, &options->config.amplitude_min);

@@ -11,6 +11,7 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
+#include "host/cli/common/trust_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
 #include "host/report/aligned_truth.h"
@@ -27,6 +28,7 @@ namespace {
 
 struct LocalizeOptions {
   RecordingOptions recording;
+  TrustOptions trust;
   std::vector<std::string> maps, owner_notes;
   std::string trajectory, frames_json, report;
   bool odometry = false, align = false, force = false;
@@ -40,6 +42,7 @@ FileUse fileUse(const LocalizeOptions &options) {
   files.reads(options.recording);
   for (const std::string &map : options.maps) files.reads("--map", map);
   for (const std::string &note : options.owner_notes) files.reads("--owner-note", note);
+  readsTrust(options.trust, &files);
   files.writes("--trajectory", options.trajectory, holds(kTumHead));
   files.writes("--frames-json", options.frames_json, holds("{\"sequence\":"));
   files.writesFolder("--report", options.report, holds(kReportHead));
@@ -62,8 +65,9 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
   LocalizeInput input;
+  const Trust trust = trustOf(options.trust);
   for (const std::string &path : options.maps) {
-    input.maps.push_back(openMapFile(path));
+    input.maps.push_back(openMapFile(path, trust));
     run.maps.push_back(mapFacts(input.maps.back(), path));
   }
   input.reader = reader;
@@ -203,6 +207,7 @@ Command localizeCommand(CLI::App *root) {
       ->needs("--owner-note");
   app->add_flag("--odometry", options->odometry,
                 "Give the localizer the recording's poses as odometry, each step disturbed by 0.1 deg and 2 mm");
+  addTrustOptions(app, &options->trust);
   addOutputs(app, options.get());
   addLocalizerOptions(app, &options->config, &options->parameters);
   app->add_option("--deadline-us", options->deadline_us,

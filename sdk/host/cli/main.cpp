@@ -26,7 +26,8 @@ std::vector<Command> declare(CLI::App *root) {
 #endif
         buildCommand(root), mapCommand(root), guideCommand(root), localizeCommand(root), inspectCommand(root),
         infoCommand(root), convertCommand(root), recordCommand(root), liveCommand(root), devicesCommand(root),
-        doctorCommand(root), calibrationCommand(root), auditCommand(root), adviseCommand(root)
+        doctorCommand(root), calibrationCommand(root), auditCommand(root), adviseCommand(root), keyCommand(root),
+        signCommand(root), verifyCommand(root)
   };
 }
 

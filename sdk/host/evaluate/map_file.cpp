@@ -25,10 +25,11 @@ void checkIsFile(const std::string &path) {
                            "; give the map file itself, which spherecloud build wrote");
 }
 
-MapFile openMapFile(const std::string &path) {
+MapFile openMapFile(const std::string &path, const Trust &trust) {
   checkIsFile(path);
   MapFile file;
   checkUsable("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
+  if (!trust.keys.empty()) file.statement = checkSignature(trust, path, file.bytes.data(), file.bytes.size());
   checkUsable("cannot use the map " + path,
               spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));
   return file;

@@ -5,18 +5,21 @@
 
 #include "host/publish/map_writer.h"
 #include "host/report/run.h"
+#include "host/signing/signed_map.h"
 
 namespace sphc::host {
 
 struct MapFile {
   spherecloud::AlignedBuffer bytes;  // outlives the map
   spherecloud::Map map;
+  sphc_signature_statement statement = {};  // where keys were trusted
 };
 
 // Throws std::runtime_error, which says what is wanted, when something is there that is no file.
 void checkIsFile(const std::string &path);
-// Validates every byte.  Throws std::runtime_error with cause and cure.
-MapFile openMapFile(const std::string &path);
+// Validates every byte; where keys are trusted, first that one of them signed the map, in the file beside it.
+// Throws std::runtime_error with cause and cure.
+MapFile openMapFile(const std::string &path, const Trust &trust = {});
 // The same of a map that is no file.
 MapFile openMapBytes(const std::vector<uint8_t> &bytes);
 MapFacts mapFacts(const MapFile &file, const std::string &path);

@@ -1,7 +1,6 @@
 #include "host/publish/secret_random.h"
 
 #include <sodium.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,21 +8,13 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "host/base/private_file.h"
+
 namespace sphc::host {
 namespace {
 
 void startSodium() {
   if (sodium_init() < 0) throw std::runtime_error("libsodium cannot start: no source of randomness on this system");
-}
-
-void checkKeyFile(const std::string &path) {
-  struct stat facts = {};
-  if (stat(path.c_str(), &facts) != 0) return;  // reading it says so
-  if (S_ISDIR(facts.st_mode)) throw std::runtime_error("key file " + path + " is a folder; give the file itself");
-  if (facts.st_mode & (S_IRWXG | S_IRWXO))
-    throw std::runtime_error("key file " + path +
-                             ": others may read it, and it tells real points from fake ones; run: chmod 600 " +
-                             path);
 }
 
 }  // namespace
@@ -37,7 +28,7 @@ SecretKey newSecretKey() {
 
 SecretKey readSecretKey(const std::string &path) {
   startSodium();
-  checkKeyFile(path);
+  checkPrivate(path, "it tells real points from fake ones");
   std::ifstream in(path);
   std::string text;
   if (!in || !(in >> text))

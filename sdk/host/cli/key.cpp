@@ -1,0 +1,60 @@
+// spherecloud key: a pair of keys with which maps are signed and verified.
+#include <cstdio>
+#include <memory>
+
+#include "host/cli/commands.h"
+#include "host/cli/common/exit_code.h"
+#include "host/cli/common/file_use.h"
+#include "host/signing/key_file.h"
+
+namespace sphc::host {
+namespace {
+
+// As sphc_signature_key is initialised in C.
+std::string inC(const sphc_signature_key &key) {
+  std::string text = "{{";
+  for (const uint8_t byte : key.bytes) {
+    char digits[8];
+    std::snprintf(digits, sizeof digits, "0x%02x,", byte);
+    text += digits;
+  }
+  text.back() = '}';
+  return text + "}";
+}
+
+int makeKey(const std::string &path, const Console &console) {
+  const std::string public_path = path + ".pub";
+  FileUse files(false);  // a key that is lost is lost for ever: nothing is replaced
+  files.writes("--out", path, never());
+  files.writes("--out", public_path, never());
+  files.check();
+  const SigningKey key = SigningKey::draw();
+  key.write(path, public_path);
+  const std::string id = keyIdText(key.publicKey());
+  console.say("Wrote " + path + ": the secret key. Keep it off every device, back it up, show it to nobody.");
+  console.say("Wrote " + public_path + ": the public key, id " + id + ". For firmware:");
+  console.say("static const sphc_signature_key key = " + inC(key.publicKey()) + ";");
+  console.give({{"secret_key", path}, {"public_key", public_path}, {"key_id", id}});
+  return kExitDone;
+}
+
+}  // namespace
+
+Command keyCommand(CLI::App *root) {
+  auto path = std::make_shared<std::string>();
+  CLI::App *app = root->add_subcommand("key");
+  app->description(
+      "Make a pair of keys that sign maps.\n\nDraws an Ed25519 key.  Whoever has the secret file signs maps that "
+      "your "
+      "devices accept; the public one\ngoes into the devices.  Files that are there are never replaced.");
+  app->footer(
+      "Example:\n  spherecloud key --out maps.key\nWhat comes out:\n"
+      "  maps.key        the secret key, readable by you alone: keep it, back it up, never ship it\n"
+      "  maps.key.pub    the public key: for --trusted-key, and as a line of C for firmware");
+  app->add_option("--out", *path, "File for the secret key; the public one is FILE.pub")
+      ->required()
+      ->type_name("FILE");
+  return {app, [path](const Console &console) { return makeKey(*path, console); }};
+}
+
+}  // namespace sphc::host

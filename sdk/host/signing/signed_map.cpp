@@ -1,0 +1,75 @@
+#include "host/signing/signed_map.h"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/usage_error.h"
+#include "signature/statement.h"
+
+namespace sphc::host {
+namespace {
+
+// One byte more than a signature has, where it is there: that is enough to refuse it.
+std::vector<uint8_t> readSignature(const std::string &path) {
+  std::vector<uint8_t> bytes(SPHC_SIGNATURE_BYTES + 1);
+  std::ifstream in(path, std::ios::binary);
+  in.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<size_t>(in.gcount()));
+  return bytes;
+}
+
+sphc_signature_policy policyOf(const Trust &trust) {
+  sphc_signature_policy policy;
+  sphc_signature_policy_init(&policy, sizeof policy);
+  policy.keys = trust.keys.data();
+  policy.key_count = static_cast<uint32_t>(trust.keys.size());
+  policy.least_release = trust.least_release;
+  policy.name = trust.name.empty() ? nullptr : trust.name.c_str();
+  return policy;
+}
+
+}  // namespace
+
+Signature signMap(const void *map, size_t map_bytes, const SigningKey &key, uint64_t release,
+                  const std::string &name) {
+  if (name.size() >= SPHC_SIGNATURE_NAME_BYTES || name.find('\0') != std::string::npos)
+    throw UsageError("--name: a name has at most 31 bytes");
+  sphc_statement statement = {};
+  statement.release = release;
+  statement.map_bytes = map_bytes;
+  sphc_statement_key_id(key.publicKey().bytes, statement.key_id);
+  std::copy(name.begin(), name.end(), statement.name);
+  sphc_sha512(map, map_bytes, statement.map_sha512);
+  Signature made;
+  sphc_statement_write(&statement, made.data());
+  const auto signature = key.sign(made.data(), SPHC_STATEMENT_BYTES);
+  std::copy(signature.begin(), signature.end(), made.begin() + SPHC_STATEMENT_BYTES);
+  return made;
+}
+
+sphc_signature_statement checkSignature(const Trust &trust, const std::string &map, const void *bytes,
+                                        size_t count) {
+  const std::string signature_path = trust.signature.empty() ? signaturePath(map) : trust.signature;
+  const sphc_signature_policy policy = policyOf(trust);
+  const std::vector<uint8_t> signature = readSignature(signature_path);
+  sphc_signature_statement statement = {};
+  statement.struct_size = sizeof statement;
+  sphc_message message = {};
+  const sphc_status status =
+      sphc_signature_verify(&policy, bytes, count, signature.data(), signature.size(), &statement, &message);
+  if (status == SPHC_OK) return statement;
+  throw std::runtime_error("cannot use the map " + map + " with the signature " + signature_path + ": " +
+                           message.text + " [" + sphc_signature_status_name(status) + "]");
+}
+
+uint64_t statedRelease(const std::string &signature_path, const sphc_signature_key &key, const std::string &name) {
+  const std::vector<uint8_t> bytes = readSignature(signature_path);
+  sphc_statement statement;
+  if (bytes.size() != SPHC_SIGNATURE_BYTES || !sphc_statement_read(bytes.data(), &statement)) return 0;
+  uint8_t id[SPHC_KEY_ID_BYTES];
+  sphc_statement_key_id(key.bytes, id);
+  return std::equal(id, id + sizeof id, statement.key_id) && name == statement.name ? statement.release : 0;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,118 @@
+#include "host/signing/key_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "tests/support/golden_signature.h"
+
+namespace sphc::host {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+class KeyFileTest : public testing::Test {
+ protected:
+  KeyFileTest() : folder_(fs::path(testing::TempDir()) / "key_file_test") { fs::create_directories(folder_); }
+  ~KeyFileTest() override { fs::remove_all(folder_); }
+
+  std::string at(const std::string &name) const { return (folder_ / name).string(); }
+  std::string text(const std::string &name) const {
+    std::ifstream in(at(name));
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  void put(const std::string &name, const std::string &content) const {
+    std::ofstream(at(name)) << content;
+    fs::permissions(at(name), fs::perms::owner_read | fs::perms::owner_write);
+  }
+  // What reading says, which names the file and never what it holds.
+  template <typename Read>
+  std::string refusal(const Read &read, const std::string &name, const std::string &secret = "") const {
+    try {
+      read(at(name));
+    } catch (const std::runtime_error &error) {
+      EXPECT_THAT(error.what(), HasSubstr(at(name)));
+      if (!secret.empty()) {
+        EXPECT_THAT(error.what(), Not(HasSubstr(secret)));
+      }
+      return error.what();
+    }
+    ADD_FAILURE() << name << " was read";
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+SigningKey goldenKey() {
+  SigningKey::Seed seed;
+  const std::vector<uint8_t> bytes = test::bytesOfHex(test::kSeed);
+  std::copy(bytes.begin(), bytes.end(), seed.begin());
+  return SigningKey(seed);
+}
+
+TEST_F(KeyFileTest, AKeyIsReadAsItWasWritten) {
+  const SigningKey key = SigningKey::draw();
+  key.write(at("maps.key"), at("maps.key.pub"));
+  struct stat facts = {};
+  ASSERT_EQ(stat(at("maps.key").c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0777, 0600u);
+  const SigningKey read = SigningKey::read(at("maps.key"));
+  const uint8_t bytes[] = {1, 2, 3};
+  EXPECT_EQ(read.sign(bytes, 3), key.sign(bytes, 3));
+  EXPECT_EQ(keyIdText(readPublicKey(at("maps.key.pub"))), keyIdText(key.publicKey()));
+  EXPECT_THAT(text("maps.key.pub"), Not(HasSubstr(text("maps.key").substr(33, 64))));
+}
+
+TEST_F(KeyFileTest, TheSeedGivesThePublicKeyOfTheStandard) {
+  goldenKey().write(at("golden.key"), at("golden.pub"));
+  EXPECT_EQ(text("golden.key"), std::string("spherecloud secret signing key 1\n") + test::kSeed + "\n");
+  EXPECT_EQ(text("golden.pub"), std::string("spherecloud public signing key 1\n") + test::kKey + "\n");
+}
+
+TEST_F(KeyFileTest, TwoKeysDiffer) {
+  EXPECT_NE(keyIdText(SigningKey::draw().publicKey()), keyIdText(SigningKey::draw().publicKey()));
+}
+
+TEST_F(KeyFileTest, ASecretThatOthersReadIsRefused) {
+  goldenKey().write(at("open.key"), at("open.pub"));
+  fs::permissions(at("open.key"), fs::perms::others_read, fs::perm_options::add);
+  EXPECT_THAT(refusal(SigningKey::read, "open.key", test::kSeed), HasSubstr("chmod 600"));
+}
+
+TEST_F(KeyFileTest, FilesThatHoldNoSecretKeyAreRefused) {
+  const std::string head = "spherecloud secret signing key 1\n", seed = test::kSeed;
+  const std::string bad[] = {"",
+                             seed + "\n",
+                             head,
+                             head + seed.substr(1) + "\n",
+                             head + seed + "0\n",
+                             head + seed + "\nmore",
+                             head + "z" + seed.substr(1) + "\n",
+                             "spherecloud public signing key 1\n" + seed + "\n"};
+  for (const std::string &content : bad) {
+    put("bad.key", content);
+    EXPECT_THAT(refusal(SigningKey::read, "bad.key", seed.substr(1)), HasSubstr("holds no secret key")) << content;
+  }
+  EXPECT_THAT(refusal(SigningKey::read, "absent.key"), HasSubstr("spherecloud key makes one"));
+}
+
+TEST_F(KeyFileTest, ASecretIsNeverTakenForAPublicKey) {
+  goldenKey().write(at("maps.key"), at("maps.key.pub"));
+  EXPECT_THAT(refusal(readPublicKey, "maps.key", test::kSeed), HasSubstr("ending in .pub"));
+}
+
+TEST_F(KeyFileTest, AKeyForWhichAnybodySignsIsRefused) {
+  put("weak.pub", "spherecloud public signing key 1\n01" + std::string(62, '0') + "\n");
+  EXPECT_THAT(refusal(readPublicKey, "weak.pub"), HasSubstr("anybody can sign"));
+}
+
+}  // namespace
+}  // namespace sphc::host

@@ -1,0 +1,98 @@
+#include "host/signing/signed_map.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "host/base/usage_error.h"
+#include "host/base/write_file.h"
+#include "tests/support/golden_signature.h"
+
+namespace sphc::host {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(SignatureFile, StandsBesideTheMap) { EXPECT_EQ(signaturePath("maps/a.sphc"), "maps/a.sphc.sig"); }
+
+class SignedMapTest : public testing::Test {
+ protected:
+  SignedMapTest() : path_((fs::path(testing::TempDir()) / "signed_map_test.sig").string()) {
+    SigningKey::Seed seed;
+    const std::vector<uint8_t> bytes = test::bytesOfHex(test::kSeed);
+    std::copy(bytes.begin(), bytes.end(), seed.begin());
+    key_ = std::make_unique<SigningKey>(seed);
+    trust_.keys = {key_->publicKey()};
+    trust_.signature = path_;
+  }
+  ~SignedMapTest() override { fs::remove(path_); }
+
+  void sign(uint64_t release, const std::string &name) {
+    const Signature signature = signMap(map_.data(), map_.size(), *key_, release, name);
+    writeFile(path_, signature.data(), signature.size());
+  }
+  sphc_signature_statement check() const { return checkSignature(trust_, "a.sphc", map_.data(), map_.size()); }
+  std::string refusal() const {
+    try {
+      check();
+    } catch (const std::runtime_error &error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::string path_;
+  std::vector<uint8_t> map_ = test::goldenMap();
+  std::unique_ptr<SigningKey> key_;
+  Trust trust_;
+};
+
+TEST_F(SignedMapTest, IsTheGoldenOne) {
+  const Signature signature = signMap(map_.data(), map_.size(), *key_, test::kGoldenRelease, test::kGoldenName);
+  EXPECT_EQ(std::vector<uint8_t>(signature.begin(), signature.end()), test::bytesOfHex(test::kGoldenSignature));
+}
+
+TEST_F(SignedMapTest, IsAcceptedByWhoTrustsTheKey) {
+  sign(3, "hall");
+  trust_.name = "hall";
+  trust_.least_release = 3;
+  const sphc_signature_statement said = check();
+  EXPECT_EQ(said.release, 3u);
+  EXPECT_STREQ(said.name, "hall");
+}
+
+TEST_F(SignedMapTest, RefusalsSayWhyAndName) {
+  EXPECT_THAT(refusal(), HasSubstr("not signed"));  // no file
+  EXPECT_THAT(refusal(), HasSubstr("a.sphc"));
+  EXPECT_THAT(refusal(), HasSubstr("[SPHC_E_SIGNATURE_MISSING]"));
+  sign(3, "hall");
+  fs::resize_file(path_, SPHC_SIGNATURE_BYTES + 1000);
+  EXPECT_THAT(refusal(), HasSubstr("[SPHC_E_SIGNATURE_FORMAT]"));
+  sign(3, "hall");
+  trust_.least_release = 4;
+  EXPECT_THAT(refusal(), HasSubstr("older release"));
+  trust_ = {{test::keyOfHex(test::kOtherKey)}, 0, "", path_};
+  EXPECT_THAT(refusal(), HasSubstr("not trusted"));
+}
+
+TEST_F(SignedMapTest, NamesThatDoNotFitAreWrongUse) {
+  EXPECT_THROW(sign(1, std::string(32, 'x')), UsageError);
+  EXPECT_THROW(sign(1, std::string("a\0b", 3)), UsageError);
+  EXPECT_NO_THROW(sign(1, std::string(31, 'x')));
+  EXPECT_EQ(check().release, 1u);
+}
+
+TEST_F(SignedMapTest, AFileStatesItsRelease) {
+  EXPECT_EQ(statedRelease(path_, key_->publicKey(), "hall"), 0u);
+  sign(9, "hall");
+  EXPECT_EQ(statedRelease(path_, key_->publicKey(), "hall"), 9u);
+  EXPECT_EQ(statedRelease(path_, key_->publicKey(), "kitchen"), 0u);
+  EXPECT_EQ(statedRelease(path_, test::keyOfHex(test::kOtherKey), "hall"), 0u);
+}
+
+}  // namespace
+}  // namespace sphc::host
