@@ -187,6 +187,7 @@ stage_bare_packages() {
   python_packages
   check "packages: build" build build/unity all -DCMAKE_BUILD_TYPE=Release $unity $linker
   check "packages: installed in a Debian that has nothing else" tests/install/packages_in_bare_root.sh build/unity
+  check "packages: the runtime's, built twice" tests/install/built_twice.sh
 }
 
 wanted=()
