@@ -42,11 +42,11 @@ void openFolder(const contract::TempFolder &folder) {
 }  // namespace
 
 void tum(const uint8_t *data, size_t bytes) {
-  static const contract::TempFolder *folder = new contract::TempFolder;
+  static const contract::TempFolder folder;
   std::string rest(data, data + bytes);
-  folder->write("calibration.json", kCalibration);
-  for (const char *name : {"rgb.txt", "depth.txt", "groundtruth.txt"}) folder->write(name, takeFile(&rest));
-  openFolder(*folder);
+  folder.write("calibration.json", kCalibration);
+  for (const char *name : {"rgb.txt", "depth.txt", "groundtruth.txt"}) folder.write(name, takeFile(&rest));
+  openFolder(folder);
 }
 
 std::vector<std::vector<uint8_t>> tumSeeds() {
@@ -57,15 +57,15 @@ std::vector<std::vector<uint8_t>> tumSeeds() {
 }
 
 void sevenScenes(const uint8_t *data, size_t bytes) {
-  static const contract::TempFolder *folder = new contract::TempFolder;
+  static const contract::TempFolder folder;
   std::string rest(data, data + bytes);
-  folder->write("calibration.json", kCalibration);
+  folder.write("calibration.json", kCalibration);
   for (const char *name : {"frame-000000", "frame-000001"}) {
-    folder->write(std::string(name) + ".color.png", "");
-    folder->write(std::string(name) + ".depth.png", "");
-    folder->write(std::string(name) + ".pose.txt", takeFile(&rest));
+    folder.write(std::string(name) + ".color.png", "");
+    folder.write(std::string(name) + ".depth.png", "");
+    folder.write(std::string(name) + ".pose.txt", takeFile(&rest));
   }
-  openFolder(*folder);
+  openFolder(folder);
 }
 
 std::vector<std::vector<uint8_t>> sevenScenesSeeds() {
