@@ -14,7 +14,8 @@ namespace {
 
 constexpr int64_t kTickNs = 33333333, kSecondNs = 1000000000;
 constexpr double kWrongM = 0.25, kWrongRad = 0.175;
-constexpr uint64_t kFramesOfADay = 5000;  // from init to fini
+constexpr uint64_t kFramesOfADay = 5000;         // from init to fini
+constexpr uint32_t kContradictionsToReset = 15;  // in a row; the test room shows too little to take them back soon
 
 [[noreturn]] void fail(const char *promise) {
   test::unsealHeap();
@@ -229,7 +230,7 @@ void Day::frame(const Shot &color, const Shot &depth) {
           "a time near a sample is mapped");
   require(color.time_ns > last_ns_, "times of pairs increase");
   last_ns_ = color.time_ns;
-  const bool is_broken = chance(0.08) || color.room != depth.room;
+  const bool is_broken = chance(0.04) || color.room != depth.room;
   if (is_broken) breakFrame(&frame);
   if (chance(0.3)) addPrior(color, &frame);
   if (chance(0.1)) frame.deadline_us = 20 + random_.below(3000);
@@ -271,11 +272,12 @@ void Day::breakFrame(sphc_localizer_frame *frame) {
 
 // Of the truth, or of anything.
 void Day::addPrior(const Shot &shot, sphc_localizer_frame *frame) {
-  sphc_localizer_prior_init(prior_.get(), sizeof *prior_);
-  prior_->flags = 1 + random_.below(7);
   const uint32_t room = chance(0.8) ? shot.room : random_.below(kRooms), mapped = std::min(room, kMappedRooms - 1);
   const uint32_t place = chance(0.8) ? shot.place : random_.below(kPlaces);
+  if (!has_map_[mapped]) return;  // a map that is not there is a mistake
+  sphc_localizer_prior_init(prior_.get(), sizeof *prior_);
   const Rigid camera_from_map = world_.cameraFromMap(mapped, release_[mapped], place);
+  prior_->flags = 1 + random_.below(7);
   prior_->map_id = mapped;
   prior_->camera_from_map = rigidToC(camera_from_map);
   prior_->rotation_sigma_rad = 0.02 + 0.5 * random_.uniform();
@@ -319,6 +321,8 @@ void Day::judge(const Shot &shot, const sphc_localizer_frame &frame, sphc_status
   ++totals_.frames;
   totals_.elsewhere += shot.room >= kMappedRooms;
   totals_.tracked += result_->state == SPHC_STATE_TRACKING;
+  contradictions_ = result_->outcome == SPHC_OUTCOME_CONTRADICTION ? contradictions_ + 1 : 0;
+  if (contradictions_ == kContradictionsToReset) reset();
   if (status != SPHC_OK) return;
   ++totals_.localized;
   const bool wrong_room = result_->map_id != shot.room;
@@ -328,6 +332,12 @@ void Day::judge(const Shot &shot, const sphc_localizer_frame &frame, sphc_status
   const Rigid error = rigidFromC(result_->camera_from_map) * truth.inverse();
   const double angle_rad = std::acos(std::min(1.0, std::max(-1.0, (error.rotation.trace() - 1) / 2)));
   totals_.wrong_pose += !is_broken && (error.translation_m.norm() > kWrongM || angle_rad > kWrongRad);
+}
+
+void Day::reset() {
+  sealed([&] { return sphc_localizer_reset(localizer_), true; });
+  contradictions_ = 0;
+  ++totals_.resets;
 }
 
 void Day::ask() {

@@ -12,7 +12,7 @@ struct Totals {
   uint64_t frames = 0, localized = 0, tracked = 0, elsewhere = 0;  // elsewhere: of the room that has no map
   uint64_t wrong_room = 0, wrong_pose = 0;  // given out; wrong: beyond 25 cm or 10 degrees, of unbroken frames
   uint64_t broken = 0, priors = 0, deadlines = 0, halves = 0;
-  uint64_t refused_calls = 0, rooms = 0, unplugs = 0, swaps = 0, restarts = 0;
+  uint64_t refused_calls = 0, rooms = 0, unplugs = 0, swaps = 0, resets = 0, restarts = 0;
   uint64_t digest = 0xCBF29CE484222325u;  // of all results
 };
 
@@ -52,6 +52,7 @@ class Day {
   sphc_status answer(const sphc_localizer_frame &frame);
   sphc_status answerInHalves(const sphc_localizer_frame &frame);
   void judge(const Shot &shot, const sphc_localizer_frame &frame, sphc_status status, bool is_broken);
+  void reset();
   void ask();
   void refusedCall();
   void checkGuards() const;
@@ -73,7 +74,7 @@ class Day {
   uint32_t room_ = 0, place_ = 0;
   bool forward_ = true;
   int64_t source_ns_ = 0, host_ns_ = 0, last_ns_ = INT64_MIN;
-  uint32_t sequence_ = 0;
+  uint32_t sequence_ = 0, contradictions_ = 0;
   Shot shots_[64] = {};  // of captures on loan to the pairer, by their token
   uint64_t token_ = 0;
 

@@ -61,7 +61,8 @@ void print(const Totals &totals, double seconds) {
                 {"priors", totals.priors},         {"deadlines", totals.deadlines},
                 {"halves", totals.halves},         {"refused_calls", totals.refused_calls},
                 {"rooms", totals.rooms},           {"unplugs", totals.unplugs},
-                {"swaps", totals.swaps},           {"restarts", totals.restarts}};
+                {"swaps", totals.swaps},           {"resets", totals.resets},
+                {"restarts", totals.restarts}};
   for (const auto &count : counts)
     std::printf("%s,%llu\n", count.name, static_cast<unsigned long long>(count.value));
 }

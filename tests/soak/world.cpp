@@ -13,8 +13,8 @@ constexpr uint32_t kViews = 3;
 
 sphc_localizer_config soakConfig() {
   sphc_localizer_config config = test::sceneConfig();
-  config.rig.color_camera = test::pinhole(160, 120, 130);
-  config.rig.depth_camera = test::pinhole(80, 64, 58);
+  config.rig.color_camera = test::pinhole(240, 180, 190);
+  config.rig.depth_camera = test::pinhole(150, 120, 105);
   config.mode = SPHC_MODE_TRACKING;
   config.max_keypoints = 200;
   config.max_maps = kMappedRooms;

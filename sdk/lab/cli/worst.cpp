@@ -1,4 +1,5 @@
 // spherecloud-lab worst: what do hostile frames and maps cost?
+#include <algorithm>
 #include <memory>
 
 #include "host/cli/common/exit_code.h"
@@ -16,18 +17,17 @@ struct Options {
   sphc_localizer_config config = spherecloud::defaultConfig();
 };
 
-// So many frames, spread over the recording.
+// So many frames, spread over the recording: the first of each of so many sequences.
 Sequence spreadFrames(const Options &options) {
   const auto reader = openRecording(options.recording);
   Sequence spread;
-  std::vector<Shot> shots;
-  for (Sequence &sequence : readSequences(reader.get(), reader->frameCount())) {
+  for (Sequence &sequence : readSequences(reader.get(), options.frames)) {
     spread.rig = sequence.rig;
     spread.color_format = sequence.color_format;
-    for (Shot &shot : sequence.shots) shots.push_back(std::move(shot));
+    const size_t shots = std::max<size_t>(1, options.frames * kSequenceFrames / reader->frameCount());
+    for (size_t i = 0; i < shots && i < sequence.shots.size() && spread.shots.size() < options.frames; ++i)
+      spread.shots.push_back(std::move(sequence.shots[i * sequence.shots.size() / shots]));
   }
-  for (size_t i = 0; i < options.frames && i < shots.size(); ++i)
-    spread.shots.push_back(std::move(shots[i * shots.size() / options.frames]));
   return spread;
 }
 
