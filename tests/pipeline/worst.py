@@ -36,10 +36,10 @@ def main():
             for row in run([*source, "--frames", arguments.frames, "--json"]):
                 table.append([name, row["case"]] + [row[column] for column in FIGURES])
                 print(name, row["case"], row["times_normal_median"], flush=True)
-    with RESULTS.open("w", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(["recording", "case"] + FIGURES)
-        writer.writerows(table)
+        with RESULTS.open("w", newline="") as out:  # after each recording, so that the next one can be given up
+            writer = csv.writer(out, lineterminator="\n")
+            writer.writerow(["recording", "case"] + FIGURES)
+            writer.writerows(table)
 
 
 if __name__ == "__main__":

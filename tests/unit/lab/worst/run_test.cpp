@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "lab/worst/cases.h"
 #include "lab/worst/table.h"
 #include "tests/unit/lab/common/room_frames.h"
 
