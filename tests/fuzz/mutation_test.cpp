@@ -71,11 +71,13 @@ TEST(Mutations, Recording) { walk("recording", 3000); }
 TEST(Mutations, RawRecording) { walk("rawRecording", 20000); }
 TEST(Mutations, Message) { walk("message", 20000); }
 TEST(Mutations, Rvl) { walk("rvl", 20000); }
+TEST(Mutations, Ros1) { walk("ros1", 3000); }
 TEST(Mutations, Ros2) { walk("ros2", 3000); }
 TEST(Mutations, Record3d) { walk("record3d", 10000); }
 TEST(Mutations, Stray) { walk("stray", 10000); }
 TEST(Mutations, Tum) { walk("tum", 1000); }
 TEST(Mutations, SevenScenes) { walk("sevenScenes", 1000); }
+TEST(Mutations, Hololens) { walk("hololens", 20000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
 TEST(Mutations, V4l2) { walk("v4l2", 5000); }

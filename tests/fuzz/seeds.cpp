@@ -182,11 +182,13 @@ std::vector<Target> allTargets() {
   targets.push_back({"rawRecording", rawRecording, rawRecordingSeeds()});
   targets.push_back({"message", message, messageSeeds()});
   targets.push_back({"rvl", rvl, rvlSeeds()});
+  targets.push_back({"ros1", ros1, ros1Seeds()});
   targets.push_back({"ros2", ros2, ros2Seeds()});
   targets.push_back({"record3d", record3d, record3dSeeds()});
   targets.push_back({"stray", stray, straySeeds()});
   targets.push_back({"tum", tum, tumSeeds()});
   targets.push_back({"sevenScenes", sevenScenes, sevenScenesSeeds()});
+  targets.push_back({"hololens", hololens, hololensSeeds()});
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
 #endif
 #ifdef SPHC_FUZZ_COLMAP

@@ -31,6 +31,8 @@ void message(const uint8_t *data, size_t bytes);
 void rvl(const uint8_t *data, size_t bytes);
 // Whether to repair checksums, then a raw recording.
 void rawRecording(const uint8_t *data, size_t bytes);
+// A bag of ROS 1, as RealSense's; otherwise as `recording`.
+void ros1(const uint8_t *data, size_t bytes);
 // A recording of ROS 2 in one file; otherwise as `recording`.
 void ros2(const uint8_t *data, size_t bytes);
 // The metadata of Record3D.
@@ -41,6 +43,9 @@ void stray(const uint8_t *data, size_t bytes);
 void tum(const uint8_t *data, size_t bytes);
 // Two poses of a recording in the layout of 7-Scenes, with a zero between them.
 void sevenScenes(const uint8_t *data, size_t bytes);
+// A file of a HoloLens' recording; the first byte says which: the colour camera's, poses, a transform, an image,
+// rays.
+void hololens(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
 // A frame of Motion JPEG.
