@@ -4,7 +4,7 @@
 #   tests/run.sh [STAGE...]     without a stage: all
 #
 # Stages:
-#   all          everything below but quick, emulated and first_pose, in this order
+#   all          everything below but quick, emulated, first_pose and bare_packages, in this order
 #   quick        formatting, unit tests, layers, the golden session: what to run while working
 #   release      formatting; the release with gcc and all its tests, guests included
 #   device       the runtime alone, as firmware links it
@@ -14,6 +14,7 @@
 #   tsan         ThreadSanitizer on what has threads
 #   emulated     the runtime's unit tests on other machines, in emulators
 #   first_pose   the first pose in each language, in a Debian that has nothing else; needs root and Debian's mirror
+#   bare_packages  the Debian packages, installed and used in such a Debian
 #
 # A test case counts as one; so does a step without test cases of its own, such as a build.  What was skipped is listed
 # and counts as neither.
@@ -24,7 +25,7 @@ exec </dev/null
 jobs=$(nproc)
 passed=0 failed=0 skipped=0 begin=$SECONDS
 stages=(release device portability arm64 sanitized tsan)
-apart=(quick emulated first_pose) # not of all
+apart=(quick emulated first_pose bare_packages) # not of all
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
@@ -154,11 +155,11 @@ stage_sanitized() {
 }
 
 stage_tsan() {
-  local programs='halves_test parallel_test driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
+  local programs='halves_test parallel_test shared_map_test driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
   prepare runtime build openni2 test
   check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" $unity $linker -DSPHC_SANITIZE=thread
-  # The two halves of a frame, frames on several cores, the driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
-  GTEST_FILTER='Halves.*:ParallelFrames.*:*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
+  # The two halves of a frame, frames on several cores, one map under several localizers, the driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
+  GTEST_FILTER='Halves.*:ParallelFrames.*:SharedMap.*:*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"
 }
 
@@ -179,6 +180,14 @@ stage_first_pose() {
   for language in c python $languages; do
     check "first pose: $language, in a Debian that has nothing else" tests/bindings/first_pose_in_bare_root.sh "$language"
   done
+}
+
+stage_bare_packages() {
+  prepare runtime build openni2 test bare_root
+  python_packages
+  check "packages: build" build build/unity all -DCMAKE_BUILD_TYPE=Release $unity $linker
+  check "packages: installed in a Debian that has nothing else" tests/install/packages_in_bare_root.sh build/unity
+  check "packages: the runtime's, built twice" tests/install/built_twice.sh
 }
 
 wanted=()

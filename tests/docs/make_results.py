@@ -245,6 +245,10 @@ def others(pipeline):
          "Frames that end within their deadline and 0.3 ms, in processor time, and what is left of the poses. A deadline of 0 is none.\n"
          "Right: within 5 cm and 5 deg; wrong: beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#a-deadline).",
          flat(rows("deadline.csv"), ["recording", "case"])),
+        ("Worst cases", "pipeline/worst.csv", "worst_results",
+         "Frames and maps made to cost the most, beside the frames and the map that they were made of, each by itself. `times normal`: processor\n"
+         "time over the median of a normal frame; `times deadline`: over a deadline of twice that. Method: [testing.md](testing.md#worst-cases).",
+         flat(rows("worst.csv"), ["recording"])),
         ("Several cores", "pipeline/parallel.csv", "parallel_results",
          "Cold frames on a map of 50 000 points, by one thread and by several in turn: the median wall time of one over that of\n"
          "the row. `same bytes`: frames with the result of one thread. Method: [localizer.md](localizer.md#on-several-cores).",
@@ -261,6 +265,21 @@ def others(pipeline):
          "Coarser descriptors, and descriptors under a key: what localization loses and what a stranger can still tell.\n"
          "Method: [descriptors.md](descriptors.md).",
          flat(rows("descriptors.csv"), ["place"])),
+    ]
+
+
+def robustness(pipeline):
+    """Fuzzers and the soak."""
+    return [
+        ("Fuzzing", "pipeline/fuzz.csv", "fuzz_results",
+         "libFuzzer on one core of a machine that did other work too. `edges`: of the code, reached; `inputs`: that add coverage; `findings`:\n"
+         "inputs that crashed, took more than 20 s or left a promise unkept. A run of `map` reads a map twice, as it is and with its checksums\n"
+         "made right; a run of `session` makes up to 40 calls. Method: [testing.md](testing.md#fuzzing).",
+         flat(read(pipeline / "fuzz.csv"), ["sanitizers"])),
+        ("Soak", "pipeline/soak.csv", "soak_results",
+         "A headset in fast motion; every answer is checked, and a promise that is not kept ends the run. `elsewhere`: frames of a room without a\n"
+         "map; wrong poses: of frames that are not broken, beyond 25 cm or 10 deg. Method: [testing.md](testing.md#soak).",
+         flat(read(pipeline / "soak.csv"), [])),
     ]
 
 
@@ -310,7 +329,7 @@ def page(root):
     pipeline = Path(root) / "tests" / "pipeline"
     parts = [INTRO, f"## At a glance\n\nThe default fakes (patchwork, eta 1/3), each frame by itself:\n\n"
                     f"{at_a_glance(read(pipeline / 'accuracy.csv'))}"]
-    sections = (localization(pipeline) + others(pipeline) + privacy(read(pipeline / "privacy.csv"))
+    sections = (localization(pipeline) + others(pipeline) + robustness(pipeline) + privacy(read(pipeline / "privacy.csv"))
                 + memory_sections(Path(root) / "tests" / "memory"))
     for title, file, target, words, tables in sections:
         parts.append(f"## {title}\n\n[`tests/{file}`](../tests/{file}), measured by `ninja {target}`.\n{words}\n\n{tables}")

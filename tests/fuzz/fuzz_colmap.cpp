@@ -1,13 +1,10 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "host/import/colmap_descriptors.h"
 #include "host/import/colmap_model.h"
+#include "tests/fuzz/files.h"
 #include "tests/fuzz/targets.h"
 #include "tests/unit/host/import/tiny_colmap.h"
 
@@ -66,11 +63,8 @@ void colmap(const uint8_t *data, size_t bytes) {
 }
 
 void colmapDatabase(const uint8_t *data, size_t bytes) {
-  const std::string path = std::filesystem::temp_directory_path() / ("fuzz" + std::to_string(getpid()) + ".db");
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char *>(data), static_cast<std::streamsize>(bytes));
-  refuseOrDo([&path] { describeFromDatabase(test::tinyColmapModel(1), path); });
-  std::filesystem::remove(path);
+  const NamedFile file(data, bytes);
+  refuseOrDo([&file] { describeFromDatabase(test::tinyColmapModel(1), file.path()); });
 }
 
 }  // namespace sphc::fuzz

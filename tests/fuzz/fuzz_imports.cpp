@@ -3,13 +3,21 @@
 #include <string_view>
 
 #include "host/recording/failure.h"
+#include "host/recording/foreign/depth_lut.h"
+#include "host/recording/foreign/pgm.h"
 #include "host/recording/foreign/record3d_metadata.h"
 #include "host/recording/foreign/stray_text.h"
+#include "host/recording/foreign/stream_recorder_text.h"
 #include "tests/fuzz/recording_seeds.h"
 #include "tests/fuzz/targets.h"
-#include "tests/support/ros_bag.h"
+#include "tests/support/ros1_bag.h"
 
 namespace sphc::fuzz {
+namespace {
+
+constexpr uint32_t kLutSide = 8;
+
+}  // namespace
 
 void stray(const uint8_t *data, size_t bytes) {
   if (bytes == 0) return;
@@ -29,6 +37,33 @@ void stray(const uint8_t *data, size_t bytes) {
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_ARGUMENT) broken("the failure is the text's");
   }
+}
+
+void ros1(const uint8_t *data, size_t bytes) { recording(data, bytes); }
+
+std::vector<std::vector<uint8_t>> ros1Seeds() {
+  constexpr uint32_t kSide = 16;
+  using Writer = test::Ros1Writer;
+  test::Ros1Bag bag;
+  for (const std::string stream : {"/device_0/sensor_0/Depth_0", "/device_0/sensor_1/Color_0"}) {
+    const bool is_depth = stream.find("Depth") != std::string::npos;
+    bag.add(stream + "/info/camera_info", "sensor_msgs/CameraInfo", 5,
+            test::rosCameraInfo<Writer>("", kSide, kSide, "Brown Conrady", {0.1, 0, 0, 0, 0}, {20, 20, 7.5, 7.5}));
+    recording::Bytes transform, unit;
+    Writer writer(transform);
+    test::putRosPose(writer, {{1, 0, 0, 0}, {0.1, 0, 0}});
+    bag.add(stream + "/tf/0", "geometry_msgs/Transform", 5, transform);
+    Writer(unit).put(0.0005f);
+    bag.add(stream.substr(0, 18) + "/option/Depth_Units/value", "std_msgs/Float32", 5, unit);
+    for (int64_t i = 1; i < 3; ++i)
+      bag.add(stream + "/image/data", "sensor_msgs/Image", 5,
+              test::rosImage<Writer>(1000000000 * i, "1", kSide, kSide, is_depth ? "mono16" : "bgr8",
+                                     recording::Bytes(kSide * kSide * (is_depth ? 2 : 3), 77)));
+  }
+  const std::string plain = bag.bytes(test::Ros1Bag::Chunks::kNone),
+                    stored = bag.bytes(test::Ros1Bag::Chunks::kStored),
+                    packed = bag.bytes(test::Ros1Bag::Chunks::kLz4);
+  return {{plain.begin(), plain.end()}, {stored.begin(), stored.end()}, {packed.begin(), packed.end()}};
 }
 
 void ros2(const uint8_t *data, size_t bytes) { recording(data, bytes); }
@@ -79,6 +114,56 @@ std::vector<std::vector<uint8_t>> record3dSeeds() {
       R"(, "frameTimestamps": [1.5, 2], "perFrameIntrinsicCoeffs": [[1, 2, 3, 4], [5, 6, 7, 8]]})";
   const std::string old = text + "}", all = text + more;
   return {{old.begin(), old.end()}, {all.begin(), all.end()}};
+}
+
+void hololens(const uint8_t *data, size_t bytes) {
+  if (bytes == 0) return;
+  const std::vector<uint8_t> exact(data + 1, data + bytes);
+  const recording::ByteView view = recording::viewOf(exact);
+  try {
+    switch (data[0] % 5) {
+      case 0:
+        for (const recording::PvFrame &frame : recording::pvFileFrom(textOf(view)).frames)
+          if (frame.time_ns < 0) broken("times are after 1970");
+        return;
+      case 1:
+        recording::rigTrackFrom(textOf(view));
+        return;
+      case 2:
+        recording::sensorFromRigFrom(textOf(view));
+        return;
+      case 3: {
+        const recording::ImageSize size = recording::pgmSizeOf(view);
+        std::vector<uint16_t> pixels(size_t{size.width} * size.height);
+        recording::decodePgm(view, pixels.data());
+        return;
+      }
+      default:
+        const recording::DepthLut lut(view, {kLutSide, kLutSide});
+        std::vector<uint16_t> depth(kLutSide * kLutSide);
+        lut.toPinhole(std::vector<uint16_t>(depth.size(), UINT16_MAX), depth.data());
+    }
+  } catch (const recording::Failure &failure) {
+    if (failure.status() != SPHC_E_ARGUMENT && failure.status() != SPHC_E_DEVICE)
+      broken("the failure is the file's");
+  }
+}
+
+// The first characters are digits whose codes choose the files.
+std::vector<std::vector<uint8_t>> hololensSeeds() {
+  const std::string matrix = ",1,0,0,0.5,0,1,0,0,0,0,1,0,0,0,0,1\n", ticks = "132697151403874938";
+  std::string table = "1";
+  for (uint32_t i = 0; i < kLutSide * kLutSide; ++i) {
+    const float x = (static_cast<float>(i % kLutSide) - 3.5f) / 20,
+                y = (static_cast<float>(i / kLutSide) - 3.5f) / 20;
+    const float norm = std::sqrt(x * x + y * y + 1), ray[3] = {x / norm, y / norm, 1 / norm};
+    table.append(reinterpret_cast<const char *>(ray), sizeof ray);
+  }
+  std::vector<std::vector<uint8_t>> seeds;
+  for (const std::string &text : {"21.5,2.5,16,16\n" + ticks + ",20,21" + matrix, "3" + ticks + matrix,
+                                  "4" + matrix.substr(1), "0P5\n4 2\n65535\n" + std::string(16, 'x'), table})
+    seeds.emplace_back(text.begin(), text.end());
+  return seeds;
 }
 
 std::vector<std::vector<uint8_t>> straySeeds() {

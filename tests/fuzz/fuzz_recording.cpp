@@ -1,6 +1,3 @@
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstring>
 #include <iterator>
@@ -10,23 +7,11 @@
 #include "host/recording/failure.h"
 #include "host/recording/mcap/depth_rvl.h"
 #include "host/recording/message_image.h"
+#include "tests/fuzz/files.h"
 #include "tests/fuzz/targets.h"
 
 namespace sphc::fuzz {
 namespace {
-
-// The bytes as a file that is nowhere on the disk.
-class MemoryFile {
- public:
-  MemoryFile(const uint8_t *data, size_t bytes) : descriptor_(memfd_create("fuzz", 0)) {
-    if (write(descriptor_, data, bytes) != static_cast<ssize_t>(bytes)) broken("a file in memory takes its bytes");
-  }
-  ~MemoryFile() { close(descriptor_); }
-  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 // To the last byte, so that a sanitizer sees a step too far.
 void readAmplitude(const sphc_image &image) {

@@ -61,16 +61,23 @@ void walk(const char *name, int runs) {
 
 TEST(Mutations, Map) { walk("map", 20000); }
 TEST(Mutations, Signature) { walk("signature", 500); }
+TEST(Mutations, Config) { walk("config", 1500); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Session) { walk("session", 2000); }
 TEST(Mutations, Align) { walk("align", 3000); }
+TEST(Mutations, Pairer) { walk("pairer", 20000); }
+TEST(Mutations, ClockMapper) { walk("clockMapper", 10000); }
 TEST(Mutations, Recording) { walk("recording", 3000); }
 TEST(Mutations, RawRecording) { walk("rawRecording", 20000); }
 TEST(Mutations, Message) { walk("message", 20000); }
 TEST(Mutations, Rvl) { walk("rvl", 20000); }
+TEST(Mutations, Ros1) { walk("ros1", 3000); }
 TEST(Mutations, Ros2) { walk("ros2", 3000); }
 TEST(Mutations, Record3d) { walk("record3d", 10000); }
 TEST(Mutations, Stray) { walk("stray", 10000); }
+TEST(Mutations, Tum) { walk("tum", 1000); }
+TEST(Mutations, SevenScenes) { walk("sevenScenes", 1000); }
+TEST(Mutations, Hololens) { walk("hololens", 20000); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
 TEST(Mutations, V4l2) { walk("v4l2", 5000); }
@@ -78,6 +85,8 @@ TEST(Mutations, Foreign) { walk("foreign", 10000); }
 TEST(Mutations, Colmap) { walk("colmap", 10000); }
 TEST(Mutations, PointModel) { walk("pointModel", 20000); }
 TEST(Mutations, ColmapDatabase) { walk("colmapDatabase", 1000); }
+TEST(Mutations, OwnerNote) { walk("ownerNote", 10000); }
+TEST(Mutations, Ledger) { walk("ledger", 500); }
 
 #ifdef SPHC_FUZZ_RECORDINGS
 TEST(Mutations, TheCalibrationSeedIsGood) {  // else its mutations would all end at the first key

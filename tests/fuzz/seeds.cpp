@@ -30,6 +30,10 @@ namespace sphc::fuzz {
 #ifdef SPHC_FUZZ_COLMAP
 std::vector<uint8_t> colmapSeed(const host::ColmapFiles &files);  // fuzz_colmap.cpp
 #endif
+#ifdef SPHC_FUZZ_OWNER
+std::vector<std::vector<uint8_t>> ownerNoteSeeds();  // fuzz_owner.cpp
+std::vector<std::vector<uint8_t>> ledgerSeeds();
+#endif
 namespace {
 
 std::vector<uint8_t> bytesOf(const std::string &text) { return {text.begin(), text.end()}; }
@@ -74,6 +78,13 @@ std::vector<uint8_t> sessionSeed(uint8_t viewpoint) {
        {set_maps, frame,      rank,   frame, predict, place, frame,  bias,  frame,   parameter, frame,
         observe,  confidence, camera, map,   halves,  given, remove, frame, predict, reset,     halves})
     seed.insert(seed.end(), call.begin(), call.end());
+  return seed;
+}
+
+// Captures of both streams by turns, all of whose fields are sound.
+std::vector<uint8_t> pairerSeed() {
+  std::vector<uint8_t> seed = {3, 0, 0, 100};
+  for (uint8_t i = 0; i < 20; ++i) seed.insert(seed.end(), {0, i, 0, 16, 0, 0, 0, 0, 0});
   return seed;
 }
 
@@ -152,6 +163,9 @@ std::vector<Target> allTargets() {
   std::vector<Target> targets = {
       {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2), infraredMap()}},
       {"signature", signature, {signedMap(), test::bytesOfHex(test::kGoldenSignature)}},
+      {"config", config, {std::vector<uint8_t>(200), std::vector<uint8_t>(200, 7), std::vector<uint8_t>(200, 130)}},
+      {"pairer", pairer, {std::vector<uint8_t>(100), pairerSeed()}},
+      {"clockMapper", clockMapper, {std::vector<uint8_t>(100, 9), std::vector<uint8_t>(400, 30)}},
       {"frame", frame, {frameSeed(0), frameSeed(2), {}}},
       {"session", session, {sessionSeed(0), sessionSeed(1)}},
       {"align",
@@ -168,9 +182,13 @@ std::vector<Target> allTargets() {
   targets.push_back({"rawRecording", rawRecording, rawRecordingSeeds()});
   targets.push_back({"message", message, messageSeeds()});
   targets.push_back({"rvl", rvl, rvlSeeds()});
+  targets.push_back({"ros1", ros1, ros1Seeds()});
   targets.push_back({"ros2", ros2, ros2Seeds()});
   targets.push_back({"record3d", record3d, record3dSeeds()});
   targets.push_back({"stray", stray, straySeeds()});
+  targets.push_back({"tum", tum, tumSeeds()});
+  targets.push_back({"sevenScenes", sevenScenes, sevenScenesSeeds()});
+  targets.push_back({"hololens", hololens, hololensSeeds()});
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
 #endif
 #ifdef SPHC_FUZZ_COLMAP
@@ -184,6 +202,10 @@ std::vector<Target> allTargets() {
                      pointModel,
                      {host::encodeModel(test::madeUpRoom(2, 1)), host::encodeModel(test::madeUpRoom(20, 2)),
                       host::encodeModel(infrared)}});
+#endif
+#ifdef SPHC_FUZZ_OWNER
+  targets.push_back({"ownerNote", ownerNote, ownerNoteSeeds()});
+  targets.push_back({"ledger", ledger, ledgerSeeds()});
 #endif
 #ifdef SPHC_FUZZ_CAMERAS
   const std::vector<uint8_t> rgb = test::gradientRgb(32, 16), frame = test::jpegFrame(rgb, 32, 16);

@@ -11,12 +11,18 @@ namespace sphc::fuzz {
 void map(const uint8_t *data, size_t bytes);
 // A signature, then the map that it is of.
 void signature(const uint8_t *data, size_t bytes);
+// Changes to a localizer's config, then priors of frames.
+void config(const uint8_t *data, size_t bytes);
 // First a header of sizes, strides and formats, then pixels.
 void frame(const uint8_t *data, size_t bytes);
 // Calls of the C interface on one localizer, in any order.
 void session(const uint8_t *data, size_t bytes);
 // An aligner's config, then pixels of a depth image.
 void align(const uint8_t *data, size_t bytes);
+// Captures of two streams, in any order.
+void pairer(const uint8_t *data, size_t bytes);
+// Times of a device's clock and of the host's.
+void clockMapper(const uint8_t *data, size_t bytes);
 // A recording in one file; when it is accepted, images are read from it.
 void recording(const uint8_t *data, size_t bytes);
 // The kind of an image message of a recording, then the message.
@@ -25,12 +31,21 @@ void message(const uint8_t *data, size_t bytes);
 void rvl(const uint8_t *data, size_t bytes);
 // Whether to repair checksums, then a raw recording.
 void rawRecording(const uint8_t *data, size_t bytes);
+// A bag of ROS 1, as RealSense's; otherwise as `recording`.
+void ros1(const uint8_t *data, size_t bytes);
 // A recording of ROS 2 in one file; otherwise as `recording`.
 void ros2(const uint8_t *data, size_t bytes);
 // The metadata of Record3D.
 void record3d(const uint8_t *data, size_t bytes);
 // A text file of StrayScanner: an odd first byte says the camera, else the odometry.
 void stray(const uint8_t *data, size_t bytes);
+// The lists of a recording in the TUM layout, with a zero between them.
+void tum(const uint8_t *data, size_t bytes);
+// Two poses of a recording in the layout of 7-Scenes, with a zero between them.
+void sevenScenes(const uint8_t *data, size_t bytes);
+// A file of a HoloLens' recording; the first byte says which: the colour camera's, poses, a transform, an image,
+// rays.
+void hololens(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
 // A frame of Motion JPEG.
@@ -45,6 +60,10 @@ void colmap(const uint8_t *data, size_t bytes);
 void colmapDatabase(const uint8_t *data, size_t bytes);
 // A private point model.
 void pointModel(const uint8_t *data, size_t bytes);
+// The owner's note beside a map.
+void ownerNote(const uint8_t *data, size_t bytes);
+// A ledger of releases.
+void ledger(const uint8_t *data, size_t bytes);
 
 struct Target {
   const char *name;

@@ -1,40 +1,15 @@
-// Prints how deep the stack of each call goes: call,bytes.  The call runs on a thread whose stack was painted
-// before.
-#include <pthread.h>
-
+// Prints how deep the stack of each call goes: call,bytes.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <functional>
 
+#include "lab/common/painted_stack.h"
 #include "tests/support/session.h"
 
 namespace {
 
-constexpr size_t kStackBytes = 1 << 20;
-constexpr uint8_t kPaint = 0xD7;
-
-void *runFunction(void *function) {
-  (*static_cast<std::function<void()> *>(function))();
-  return nullptr;
-}
-
-size_t deepestOf(std::function<void()> call) {
-  uint8_t *stack = static_cast<uint8_t *>(std::aligned_alloc(4096, kStackBytes));
-  std::memset(stack, kPaint, kStackBytes);
-  pthread_attr_t attributes;
-  pthread_t thread;
-  pthread_attr_init(&attributes);
-  if (pthread_attr_setstack(&attributes, stack, kStackBytes) ||
-      pthread_create(&thread, &attributes, runFunction, &call))
-    std::abort();
-  pthread_join(thread, nullptr);
-  const size_t clean =
-      static_cast<size_t>(std::find_if(stack, stack + kStackBytes, [](uint8_t b) { return b != kPaint; }) - stack);
-  std::free(stack);
-  return kStackBytes - clean;
-}
+using sphc::host::deepestOf;
 
 // Runs each task on a thread of its own, and knows how deep the deepest went.
 void runTasks(void *deepest, uint32_t count, sphc_task_fn task, void *task_data) {

@@ -1,4 +1,4 @@
-// A small recording of ROS 2 in MCAP, written message by message.
+// A small recording of ROS 2 in MCAP, written message by message; the messages are those of ROS 1 too.
 #pragma once
 
 #include <spherecloud/spherecloud.h>
@@ -18,15 +18,16 @@ using recording::CdrWriter;
 // The records of a file between its magics; `bytes()` puts them in one chunk, or in none.
 class RosBag {
  public:
-  enum class Chunks { kNone, kStored, kZstd, kLz4 };
+  enum class Chunks { kNone, kStored, kZstd, kBrotli };
 
-  void add(const std::string &topic, const std::string &type, uint64_t log_ns, const Bytes &message) {
+  void add(const std::string &topic, const std::string &type, uint64_t log_ns, const Bytes &message,
+           const std::string &encoding = "cdr") {
     uint16_t id = 0;
     while (id < topics_.size() && topics_[id] != topic) ++id;
     if (id == topics_.size()) {
       topics_.push_back(topic);
       recording::putSchema(records_, static_cast<uint16_t>(id + 1), type, "ros2msg", "");
-      recording::putChannel(records_, id, static_cast<uint16_t>(id + 1), topic, "cdr", {});
+      recording::putChannel(records_, id, static_cast<uint16_t>(id + 1), topic, encoding, {});
     }
     recording::putMessage(records_, id, 0, log_ns, recording::viewOf(message));
   }
@@ -49,7 +50,7 @@ class RosBag {
       stored.resize(ZSTD_compressBound(records_.size()));
       stored.resize(ZSTD_compress(stored.data(), stored.size(), records_.data(), records_.size(), 1));
     }
-    const char *name = chunks == Chunks::kZstd ? "zstd" : chunks == Chunks::kLz4 ? "lz4" : "";
+    const char *name = chunks == Chunks::kZstd ? "zstd" : chunks == Chunks::kBrotli ? "brotli" : "";
     recording::putRecord(file, recording::Op::kChunk, [&] {
       recording::putChunkHead(file, {0, 0, records_.size(), 0, name, stored.size()});
       recording::append(file, stored.data(), stored.size());
@@ -60,16 +61,41 @@ class RosBag {
   Bytes records_;
 };
 
-inline void putRosHeader(CdrWriter &writer, int64_t time_ns, const std::string &frame) {
+// The encoding of ROS 1; as CdrWriter.
+class Ros1Writer {
+ public:
+  explicit Ros1Writer(Bytes &out) : out_(out) {}
+
+  template <typename Number>
+  void put(Number value) {
+    recording::append(out_, &value, sizeof value);
+  }
+  void putText(const std::string &text) {
+    putLength(text.size());
+    recording::append(out_, text.data(), text.size());
+  }
+  void putLength(size_t size) { put(static_cast<uint32_t>(size)); }
+
+ private:
+  Bytes &out_;
+};
+
+inline void putRosNumber(CdrWriter &) {}
+inline void putRosNumber(Ros1Writer &writer) { writer.put(uint32_t{7}); }
+
+template <typename Writer>
+void putRosHeader(Writer &writer, int64_t time_ns, const std::string &frame) {
+  putRosNumber(writer);
   writer.put(static_cast<uint32_t>(time_ns / 1000000000));
   writer.put(static_cast<uint32_t>(time_ns % 1000000000));
   writer.putText(frame);
 }
 
-inline Bytes rosImage(int64_t time_ns, const std::string &frame, uint32_t width, uint32_t height,
-                      const std::string &encoding, const Bytes &pixels) {
+template <typename Writer = CdrWriter>
+Bytes rosImage(int64_t time_ns, const std::string &frame, uint32_t width, uint32_t height,
+               const std::string &encoding, const Bytes &pixels) {
   Bytes message;
-  CdrWriter writer(message);
+  Writer writer(message);
   putRosHeader(writer, time_ns, frame);
   writer.put(height);
   writer.put(width);
@@ -81,10 +107,10 @@ inline Bytes rosImage(int64_t time_ns, const std::string &frame, uint32_t width,
   return message;
 }
 
-inline Bytes rosCompressedImage(int64_t time_ns, const std::string &frame, const std::string &format,
-                                const Bytes &data) {
+template <typename Writer = CdrWriter>
+Bytes rosCompressedImage(int64_t time_ns, const std::string &frame, const std::string &format, const Bytes &data) {
   Bytes message;
-  CdrWriter writer(message);
+  Writer writer(message);
   putRosHeader(writer, time_ns, frame);
   writer.putText(format);
   writer.putLength(data.size());
@@ -93,10 +119,11 @@ inline Bytes rosCompressedImage(int64_t time_ns, const std::string &frame, const
 }
 
 // `k`: fx, fy, cx, cy with the centre of the first pixel at 0; the projection has twice the focal length.
-inline Bytes rosCameraInfo(const std::string &frame, uint32_t width, uint32_t height, const std::string &model,
-                           const std::vector<double> &d, const double (&k)[4], uint32_t binning = 0) {
+template <typename Writer = CdrWriter>
+Bytes rosCameraInfo(const std::string &frame, uint32_t width, uint32_t height, const std::string &model,
+                    const std::vector<double> &d, const double (&k)[4], uint32_t binning = 0) {
   Bytes message;
-  CdrWriter writer(message);
+  Writer writer(message);
   putRosHeader(writer, 0, frame);
   writer.put(height);
   writer.put(width);
@@ -112,7 +139,8 @@ inline Bytes rosCameraInfo(const std::string &frame, uint32_t width, uint32_t he
   return message;
 }
 
-inline void putRosPose(CdrWriter &writer, const sphc_rigid &pose) {
+template <typename Writer>
+void putRosPose(Writer &writer, const sphc_rigid &pose) {
   for (const double each : pose.t_m) writer.put(each);
   for (const int i : {1, 2, 3, 0}) writer.put(pose.q_wxyz[i]);
 }
@@ -122,9 +150,10 @@ struct NamedTransform {
   sphc_rigid parent_from_child;
 };
 
-inline Bytes rosTransforms(int64_t time_ns, const std::vector<NamedTransform> &transforms) {
+template <typename Writer = CdrWriter>
+Bytes rosTransforms(int64_t time_ns, const std::vector<NamedTransform> &transforms) {
   Bytes message;
-  CdrWriter writer(message);
+  Writer writer(message);
   writer.putLength(transforms.size());
   for (const NamedTransform &each : transforms) {
     putRosHeader(writer, time_ns, each.parent);
@@ -135,9 +164,10 @@ inline Bytes rosTransforms(int64_t time_ns, const std::vector<NamedTransform> &t
 }
 
 // Without the covariances and the twist, which nobody reads.
-inline Bytes rosOdometry(int64_t time_ns, const NamedTransform &pose) {
+template <typename Writer = CdrWriter>
+Bytes rosOdometry(int64_t time_ns, const NamedTransform &pose) {
   Bytes message;
-  CdrWriter writer(message);
+  Writer writer(message);
   putRosHeader(writer, time_ns, pose.parent);
   writer.putText(pose.child);
   putRosPose(writer, pose.parent_from_child);

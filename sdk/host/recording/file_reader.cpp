@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "failure.h"
+#include "host/recording/mcap/file.h"
 
 namespace sphc::recording {
 
@@ -62,6 +63,14 @@ void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &conte
     if (filled == content.size()) content.resize(filled + kPieceBytes);  // it grows while it is read
   }
   content.resize(filled);
+}
+
+bool beginsWith(const std::filesystem::path &path, std::string_view head) {
+  const File file(path);
+  if (file.size() < head.size()) return false;
+  Bytes begin(head.size());
+  file.read(0, begin.data(), begin.size());
+  return textOf(viewOf(begin)) == head;
 }
 
 std::string readText(const std::filesystem::path &path) {

@@ -15,6 +15,8 @@ int openRegularFile(const std::filesystem::path &path);
 // `content` becomes the file's.  Throws Failure without the name: DEVICE when it cannot be read or is no regular
 // file, ARGUMENT when it is longer than `most_bytes`.
 void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &content);
+// Whether the file's first bytes are these.  Throws Failure with the name when it cannot be read.
+bool beginsWith(const std::filesystem::path &path, std::string_view head);
 // A list or another small text.  Throws Failure with the name.
 std::string readText(const std::filesystem::path &path);
 

@@ -38,7 +38,8 @@ bool holdsSequences(const fs::path &folder) {
 Recording openRecording(const fs::path &folder) {
   if (fs::is_regular_file(folder)) {
     refuseForeignFile(folder);
-    return isRaw(folder) ? openRaw(folder) : openMcap(folder);
+    if (isRaw(folder)) return openRaw(folder);
+    return isRos1Bag(folder) ? openRos1Bag(folder) : openMcap(folder);
   }
   const std::string name = shortPath(folder.string());
   if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder or file; give a recording");
@@ -48,6 +49,7 @@ Recording openRecording(const fs::path &folder) {
   if (isTum(folder)) return openTum(folder);
   if (isRecord3d(folder)) return openRecord3d(folder);
   if (isRosBag(folder)) return openRosBag(folder);
+  if (isStreamRecorder(folder)) return openStreamRecorder(folder);
   if (isStrayScanner(folder)) return openStrayScanner(folder);
   if (is7Scenes(folder)) return open7Scenes(folder);
   if (holdsSequences(folder))

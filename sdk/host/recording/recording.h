@@ -15,7 +15,17 @@
 
 namespace sphc::recording {
 
-enum class Layout { kSevenScenes = 1, kTum = 2, kMcap = 3, kRaw = 4, kStrayScanner = 5, kRos2 = 6, kRecord3d = 7 };
+enum class Layout {
+  kSevenScenes = 1,
+  kTum = 2,
+  kMcap = 3,
+  kRaw = 4,
+  kStrayScanner = 5,
+  kRos2 = 6,
+  kRecord3d = 7,
+  kRos1 = 8,
+  kStreamRecorder = 9
+};
 
 // Frames are chosen by the number of their colour image: of first to last every step-th.
 struct Selection {
@@ -94,8 +104,12 @@ bool isStrayScanner(const std::filesystem::path &folder);
 Recording openStrayScanner(const std::filesystem::path &folder);
 bool isRosBag(const std::filesystem::path &folder);
 Recording openRosBag(const std::filesystem::path &path);  // a folder or an MCAP file
+bool isRos1Bag(const std::filesystem::path &file);        // RealSense's too
+Recording openRos1Bag(const std::filesystem::path &file);
 bool isRecord3d(const std::filesystem::path &folder);
 Recording openRecord3d(const std::filesystem::path &folder);
+bool isStreamRecorder(const std::filesystem::path &folder);
+Recording openStreamRecorder(const std::filesystem::path &folder);
 // Throws Failure with the way out for a file that another program recorded and that is not read.
 void refuseForeignFile(const std::filesystem::path &file);
 

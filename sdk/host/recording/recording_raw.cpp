@@ -2,6 +2,7 @@
 #include <string>
 
 #include "failure.h"
+#include "file_reader.h"
 #include "raw_file.h"
 #include "recording.h"
 
@@ -49,12 +50,6 @@ Recording openRaw(const fs::path &path) {
   return recording;
 }
 
-bool isRaw(const fs::path &path) {
-  const File file(path);
-  char magic[8] = {};
-  if (file.size() < sizeof magic) return false;
-  file.read(0, reinterpret_cast<uint8_t *>(magic), sizeof magic);
-  return std::string_view(magic, sizeof magic) == "SPHC-RAW";
-}
+bool isRaw(const fs::path &path) { return beginsWith(path, "SPHC-RAW"); }
 
 }  // namespace sphc::recording

@@ -18,6 +18,7 @@ Command poseCommand(CLI::App *root);
 Command predictCommand(CLI::App *root);
 Command recordingCommand(CLI::App *root);
 Command releasesCommand(CLI::App *root);
+Command worstCommand(CLI::App *root);
 Command rigCommand(CLI::App *root);  // where there is a simulated headset
 
 }  // namespace sphc::host

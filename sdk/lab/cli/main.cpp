@@ -12,11 +12,11 @@ const char kAbout[] =
 const char kFooter[] = "Exit status: 0 done, 1 failure (the message has cause and cure), 2 wrong use.";
 
 std::vector<Command> declare(CLI::App *root) {
-  std::vector<Command> commands = {alignCommand(root),     compareCommand(root), deadlineCommand(root),
-                                   featuresCommand(root),  frameCommand(root),   hintsCommand(root),
-                                   mapCommand(root),       matchCommand(root),   negativeCommand(root),
-                                   parallelCommand(root),  poseCommand(root),    predictCommand(root),
-                                   recordingCommand(root), releasesCommand(root)};
+  std::vector<Command> commands = {alignCommand(root),     compareCommand(root),  deadlineCommand(root),
+                                   featuresCommand(root),  frameCommand(root),    hintsCommand(root),
+                                   mapCommand(root),       matchCommand(root),    negativeCommand(root),
+                                   parallelCommand(root),  poseCommand(root),     predictCommand(root),
+                                   recordingCommand(root), releasesCommand(root), worstCommand(root)};
 #if SPHC_HAVE_SIMULATED  // else the build has no room to look around in
   commands.push_back(rigCommand(root));
 #endif

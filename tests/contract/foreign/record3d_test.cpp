@@ -82,7 +82,7 @@ TEST(FilesThatAreNotRead, SayTheWayOut) {
   const TempFolder folder;
   const std::pair<std::string, const char *> files[] = {
       {std::string("PK\x03\x04") + std::string(30, '\0'), "EXR + RGB"},
-      {"#ROSBAG V2.0\n", "record that in MCAP"},
+      {"#ROSBAG V1.2\n", "rosbag fix"},
       {"\x1A\x45\xDF\xA3 matroska ", "TUM layout"},
       {std::string("SQLite format 3\0", 16), "ros2 bag convert"}};
   for (const auto &[bytes, cure] : files) {

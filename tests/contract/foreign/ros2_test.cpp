@@ -295,11 +295,32 @@ TEST_F(Ros2, WhatIsNotReadIsNamed) {
   addColorInfo({0.1, 0, 0}, "plumb_bob");
   EXPECT_THAT(refusalOfOpen(),
               HasSubstr("/camera/color/camera_info: its distortion is of the model \"plumb_bob\""));
-  folder_.write("bag.mcap", bag_.bytes(RosBag::Chunks::kLz4));
+  folder_.write("bag.mcap", bag_.bytes(RosBag::Chunks::kBrotli));
   EXPECT_THAT(refusal([&] { RecordingReader reader(folder_ / "bag.mcap"); }), HasSubstr("mcap compress"));
   addColor(0, "/other/color/image_raw");
   EXPECT_THAT(refusalOfOpen(),
               HasSubstr("both /camera/color/image_raw and /other/color/image_raw may be the colour"));
+}
+
+// As "mcap convert" makes one of a bag of ROS 1.
+TEST_F(Ros2, MessagesOfRos1InMcap) {
+  const auto add = [&](const char *topic, const char *type, const Bytes &message) {
+    bag_.add(topic, type, kStartNs, message, "ros1");
+  };
+  using Writer = test::Ros1Writer;
+  add("/tf_static", "tf2_msgs/TFMessage",
+      test::rosTransforms<Writer>(0, {{"b", kColorFrame, kSame}, {"b", kDepthFrame, kSame}}));
+  add("/color/camera_info", "sensor_msgs/CameraInfo",
+      test::rosCameraInfo<Writer>(kColorFrame, kWidth, kHeight, "plumb_bob", {}, {30, 31, 15.5, 11.5}));
+  add("/depth/camera_info", "sensor_msgs/CameraInfo",
+      test::rosCameraInfo<Writer>(kDepthFrame, kDepthSide, kDepthSide, "plumb_bob", {}, {10, 11, 7.5, 7.5}));
+  add("/color/image", "sensor_msgs/Image",
+      test::rosImage<Writer>(kStartNs, kColorFrame, kWidth, kHeight, "rgb8", colorPixels(9)));
+  add("/depth/image", "sensor_msgs/Image",
+      test::rosImage<Writer>(kStartNs, kDepthFrame, kDepthSide, kDepthSide, "16UC1", depthPixels(1234)));
+  RecordingReader reader(write());
+  ASSERT_EQ(reader.frameCount(), 1u);
+  EXPECT_EQ(static_cast<const uint16_t *>(reader.read(0).depth.data)[5], 1234);
 }
 
 TEST_F(Ros2, BinnedImagesAreRefused) {

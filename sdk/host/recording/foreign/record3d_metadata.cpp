@@ -6,6 +6,8 @@
 #include <string>
 
 #include "host/recording/failure.h"
+#include "host/recording/foreign/camera_axes.h"
+#include "host/recording/foreign/comma_text.h"
 #include "host/recording/pose_track.h"
 
 namespace sphc::recording {
@@ -46,7 +48,7 @@ std::optional<sphc_rigid> record3dPose(const json &entry) {
   const std::vector<double> value = numbersOf(entry, 7, "poses");
   sphc_rigid pose = {{value[3], value[0], value[1], value[2]}, {value[4], value[5], value[6]}};
   if (!isFinite(pose) || !normalizeQuaternion(pose.q_wxyz, 1e-2)) return {};
-  return fromArkitAxes(pose);
+  return fromUpBackAxes(pose);
 }
 
 // K column by column; or the middle of the frames' own, where there are some.
@@ -62,12 +64,7 @@ std::array<double, 4> paramsOf(const json &root) {
     const std::vector<double> value = numbersOf(entry, 4, "perFrameIntrinsicCoeffs");
     for (size_t i = 0; i < 4; ++i) columns[i].push_back(value[i]);
   }
-  std::array<double, 4> middle;
-  for (size_t i = 0; i < 4; ++i) {
-    std::sort(columns[i].begin(), columns[i].end());
-    middle[i] = columns[i][columns[i].size() / 2];
-  }
-  return middle;
+  return {medianOf(columns[0]), medianOf(columns[1]), medianOf(columns[2]), medianOf(columns[3])};
 }
 
 int64_t nanosecondsOf(double seconds, const char *key) {
@@ -92,13 +89,6 @@ std::vector<int64_t> timesOf(const json &root, size_t count) {
 }
 
 }  // namespace
-
-sphc_rigid fromArkitAxes(const sphc_rigid &world_from_camera) {
-  const sphc_rigid half_turn = {{0, 1, 0, 0}, {0, 0, 0}};  // about x: y and z the other way
-  sphc_rigid turned;
-  sphc_rigid_compose(&world_from_camera, &half_turn, &turned);
-  return turned;
-}
 
 Record3dMetadata record3dMetadataFrom(std::string_view text) {
   const json root = json::parse(text.begin(), text.end(), nullptr, false);

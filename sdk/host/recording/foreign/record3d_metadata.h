@@ -20,7 +20,4 @@ struct Record3dMetadata {
 // Throws Failure (ARGUMENT); its text begins with the key.
 Record3dMetadata record3dMetadataFrom(std::string_view text);
 
-// A pose of a camera with ARKit's axes (right, up, back) as one with ours (right, down, forward).
-sphc_rigid fromArkitAxes(const sphc_rigid &world_from_camera);
-
 }  // namespace sphc::recording

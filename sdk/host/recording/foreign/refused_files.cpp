@@ -20,9 +20,7 @@ constexpr RefusedKind kRefusedKinds[] = {
      "is a zip, as Record3D's .r3d files are; their depth is compressed by LZFSE, which is not read: export \"EXR "
      "+ "
      "RGB\" in the app"},
-    {"#ROSBAG"sv,
-     "is a bag of ROS 1, as RealSense's .bag files are, which is not read: play it to ROS 2 and record that in "
-     "MCAP"},
+    {"#ROSBAG V1"sv, "is a bag of ROS 1 of version 1, which is not read: \"rosbag fix\" writes version 2.0"},
     {"\x1A\x45\xDF\xA3"sv,
      "is a Matroska file, as Azure Kinect's .mkv files are, which is not read: take images and depth out of it "
      "into "

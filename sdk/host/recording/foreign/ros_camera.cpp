@@ -15,9 +15,14 @@ struct RosModel {
   sphc_camera_model model;
   size_t fewest, most;  // coefficients
 };
+// A RealSense has names of its own.  Its software projects by the last two in the same way, with coefficients that
+// differ from Brown's in how tangential and radial distortion multiply.
 constexpr RosModel kRosModels[] = {{"plumb_bob", SPHC_CAMERA_BROWN5, 4, 5},
                                    {"rational_polynomial", SPHC_CAMERA_BROWN8, 8, 8},
-                                   {"equidistant", SPHC_CAMERA_KANNALA_BRANDT4, 4, 4}};
+                                   {"equidistant", SPHC_CAMERA_KANNALA_BRANDT4, 4, 4},
+                                   {"Brown Conrady", SPHC_CAMERA_BROWN5, 5, 5},
+                                   {"Modified Brown Conrady", SPHC_CAMERA_BROWN5, 5, 5},
+                                   {"Inverse Brown Conrady", SPHC_CAMERA_BROWN5, 5, 5}};
 
 sphc_camera pinholeOf(const RosCameraInfo &info, double fx, double fy, double cx, double cy) {
   return {SPHC_CAMERA_PINHOLE, info.width, info.height, 4, {fx, fy, cx + kHalfPixel, cy + kHalfPixel}};

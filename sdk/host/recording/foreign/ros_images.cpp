@@ -4,6 +4,7 @@
 
 #include "host/recording/encoded_image.h"
 #include "host/recording/failure.h"
+#include "host/recording/foreign/opaque_pixels.h"
 #include "host/recording/foreign/ros_messages.h"
 #include "host/recording/mcap/depth_rvl.h"
 #include "host/recording/mcap/messages.h"
@@ -21,7 +22,7 @@ constexpr size_t kCompressedDepthHeadBytes = 12;  // its format and two numbers 
   throw Failure(SPHC_E_UNSUPPORTED, "is of the encoding \"" + std::string(encoding.substr(0, 40)) + "\"; " + cure);
 }
 
-RosImage rawImage(ByteView message, const sphc_camera &camera, bool is_color) {
+RosImage rawImage(const RosMessage &message, const sphc_camera &camera, bool is_color) {
   RosImage image;
   if (!readRosImage(message, image)) failRos("Image");
   requireSize(image.width, image.height, camera, is_color);
@@ -33,20 +34,11 @@ void requireRows(const RosImage &image, uint32_t pixel_bytes) {
     failRos("its rows");
 }
 
-// Without the fourth channel, which says nothing.
-Bytes withoutAlpha(const RosImage &image) {
-  Bytes colors;
-  colors.reserve(size_t{image.width} * image.height * 3);
-  for (uint32_t y = 0; y < image.height; ++y)
-    for (uint32_t x = 0; x < image.width; ++x) append(colors, image.data.data + size_t{y} * image.step + 4 * x, 3);
-  return colors;
-}
-
 void decodeRawColor(const RosImage &image, sphc_format format, uint8_t *pixels) {
   const bool has_alpha = image.encoding == "rgba8" || image.encoding == "bgra8";
   if (has_alpha) {
     requireRows(image, 4);
-    const Bytes colors = withoutAlpha(image);
+    const Bytes colors = opaquePixels(image.data.data, image.width, image.height, image.step);
     const sphc_format recorded = image.encoding == "rgba8" ? SPHC_FORMAT_RGB8 : SPHC_FORMAT_BGR8;
     return packPixels({colors.data(), image.width, image.height, image.width * 3, recorded}, format, pixels);
   }
@@ -74,7 +66,7 @@ void decodeRawDepth(const RosImage &image, uint16_t *depth_mm) {
   }
 }
 
-RosCompressedImage compressedImage(ByteView message) {
+RosCompressedImage compressedImage(const RosMessage &message) {
   RosCompressedImage image;
   if (!readRosCompressedImage(message, image)) failRos("CompressedImage");
   return image;
@@ -96,7 +88,7 @@ uint16_t millimetresOf(float depth_m) {
   return depth_mm >= 1.0f && depth_mm <= 65535.0f ? static_cast<uint16_t>(depth_mm) : uint16_t{0};
 }
 
-void decodeRosColor(ByteView message, bool is_compressed, const sphc_camera &camera, sphc_format format,
+void decodeRosColor(const RosMessage &message, bool is_compressed, const sphc_camera &camera, sphc_format format,
                     uint8_t *pixels) {
   if (!is_compressed) return decodeRawColor(rawImage(message, camera, true), format, pixels);
   const RosCompressedImage image = compressedImage(message);
@@ -104,7 +96,7 @@ void decodeRosColor(ByteView message, bool is_compressed, const sphc_camera &cam
   decodeImage(image.data, is_png ? ImageType::kPng : ImageType::kJpeg, camera, format, pixels);
 }
 
-void decodeRosDepth(ByteView message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm) {
+void decodeRosDepth(const RosMessage &message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm) {
   if (!is_compressed) return decodeRawDepth(rawImage(message, camera, false), depth_mm);
   const RosCompressedImage image = compressedImage(message);
   if (image.format.substr(0, 5) != "16UC1")

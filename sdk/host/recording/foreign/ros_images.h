@@ -1,18 +1,18 @@
 // Images of ROS's messages: raw, JPEG, PNG, compressedDepth.
 #pragma once
 
-#include "host/recording/foreign/bag_file.h"
-#include "host/recording/foreign/layout_images.h"
-#include "host/recording/recording.h"
+#include <spherecloud/spherecloud.h>
+
+#include "host/recording/foreign/ros_reader.h"
 
 namespace sphc::recording {
 
 // Each fills `pixels` with an image of the camera's size.  Throw Failure without a name: DEVICE when the message is
 // malformed, IMAGE when the image does not fit the calibration, UNSUPPORTED for an encoding that is not read.
 // Depth becomes DEPTH16 in millimetres, whatever it was in.
-void decodeRosColor(ByteView message, bool is_compressed, const sphc_camera &camera, sphc_format format,
+void decodeRosColor(const RosMessage &message, bool is_compressed, const sphc_camera &camera, sphc_format format,
                     uint8_t *pixels);
-void decodeRosDepth(ByteView message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm);
+void decodeRosDepth(const RosMessage &message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm);
 
 // Metres as millimetres; 0 for what is no measurement or beyond 65 m.
 uint16_t millimetresOf(float depth_m);

@@ -9,25 +9,26 @@ namespace sphc::recording {
 namespace {
 
 // Names of frames are told with and without a slash before them.
-std::string takeFrame(CdrReader &reader) {
+std::string takeFrame(RosReader &reader) {
   std::string_view name = reader.takeText();
   if (!name.empty() && name[0] == '/') name.remove_prefix(1);
   return std::string(name);
 }
 
-RosHeader takeHeader(CdrReader &reader) {
-  const int64_t seconds = reader.takeInt32();
+RosHeader takeHeader(RosReader &reader) {
+  if (reader.isRos1()) reader.take<uint32_t>();  // the message's number
+  const int64_t seconds = static_cast<int32_t>(reader.take<uint32_t>());
   const int64_t time_ns = seconds * 1000000000 + reader.take<uint32_t>();
   return {time_ns, takeFrame(reader)};
 }
 
 template <size_t N>
-void takeDoubles(CdrReader &reader, double (&numbers)[N]) {
+void takeDoubles(RosReader &reader, double (&numbers)[N]) {
   for (double &number : numbers) number = reader.takeDouble();
 }
 
 // Position or translation, then the quaternion x, y, z, w.  False unless it is a pose.
-bool takeRigid(CdrReader &reader, sphc_rigid &pose) {
+bool takeRigid(RosReader &reader, sphc_rigid &pose) {
   takeDoubles(reader, pose.t_m);
   for (const int i : {1, 2, 3, 0}) pose.q_wxyz[i] = reader.takeDouble();
   return isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2);
@@ -35,8 +36,8 @@ bool takeRigid(CdrReader &reader, sphc_rigid &pose) {
 
 }  // namespace
 
-bool readRosImage(ByteView message, RosImage &image) {
-  CdrReader reader(message);
+bool readRosImage(const RosMessage &message, RosImage &image) {
+  RosReader reader(message);
   image.header = takeHeader(reader);
   image.height = reader.take<uint32_t>();
   image.width = reader.take<uint32_t>();
@@ -48,17 +49,17 @@ bool readRosImage(ByteView message, RosImage &image) {
   return reader.ok() && (!is_big_endian || has_bytes);
 }
 
-bool readRosCompressedImage(ByteView message, RosCompressedImage &image) {
-  CdrReader reader(message);
+bool readRosCompressedImage(const RosMessage &message, RosCompressedImage &image) {
+  RosReader reader(message);
   image.header = takeHeader(reader);
   image.format = reader.takeText();
   image.data = reader.takeBytes();
   return reader.ok();
 }
 
-bool readRosCameraInfo(ByteView message, RosCameraInfo &info) {
+bool readRosCameraInfo(const RosMessage &message, RosCameraInfo &info) {
   constexpr uint32_t kMostCoefficients = 14;
-  CdrReader reader(message);
+  RosReader reader(message);
   info.header = takeHeader(reader);
   info.height = reader.take<uint32_t>();
   info.width = reader.take<uint32_t>();
@@ -78,8 +79,8 @@ bool readRosCameraInfo(ByteView message, RosCameraInfo &info) {
   return reader.ok();
 }
 
-bool readRosTransforms(ByteView message, std::vector<RosTransform> &transforms) {
-  CdrReader reader(message);
+bool readRosTransforms(const RosMessage &message, std::vector<RosTransform> &transforms) {
+  RosReader reader(message);
   const uint32_t count = reader.take<uint32_t>();
   for (uint32_t i = 0; i < count && reader.ok(); ++i) {
     RosTransform transform;
@@ -90,11 +91,16 @@ bool readRosTransforms(ByteView message, std::vector<RosTransform> &transforms) 
   return reader.ok();
 }
 
-bool readRosOdometry(ByteView message, RosTransform &transform) {
-  CdrReader reader(message);
+bool readRosOdometry(const RosMessage &message, RosTransform &transform) {
+  RosReader reader(message);
   transform.header = takeHeader(reader);
   transform.child = takeFrame(reader);
   return takeRigid(reader, transform.parent_from_child) && reader.ok();
+}
+
+bool readRosRigid(const RosMessage &message, sphc_rigid &rigid) {
+  RosReader reader(message);
+  return takeRigid(reader, rigid) && reader.ok();
 }
 
 }  // namespace sphc::recording

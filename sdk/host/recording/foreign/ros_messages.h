@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/recording/mcap/cdr.h"
+#include "host/recording/foreign/ros_reader.h"
 
 namespace sphc::recording {
 
@@ -45,12 +45,14 @@ struct RosTransform {
 };
 
 // False when malformed, of big-endian bytes, or a transform's numbers are none.
-bool readRosImage(ByteView message, RosImage &image);
-bool readRosCompressedImage(ByteView message, RosCompressedImage &image);
-bool readRosCameraInfo(ByteView message, RosCameraInfo &info);
+bool readRosImage(const RosMessage &message, RosImage &image);
+bool readRosCompressedImage(const RosMessage &message, RosCompressedImage &image);
+bool readRosCameraInfo(const RosMessage &message, RosCameraInfo &info);
 // tf2_msgs/TFMessage; those that are malformed are left out.
-bool readRosTransforms(ByteView message, std::vector<RosTransform> &transforms);
+bool readRosTransforms(const RosMessage &message, std::vector<RosTransform> &transforms);
 // nav_msgs/Odometry: its pose.
-bool readRosOdometry(ByteView message, RosTransform &transform);
+bool readRosOdometry(const RosMessage &message, RosTransform &transform);
+// geometry_msgs/Transform: parent_from_child of frames that it does not name.
+bool readRosRigid(const RosMessage &message, sphc_rigid &rigid);
 
 }  // namespace sphc::recording

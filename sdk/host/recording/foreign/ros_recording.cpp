@@ -1,12 +1,13 @@
-// Recordings of ROS 2 in MCAP: images, cameras and transforms by topic.
+// Recordings of ROS, in MCAP or a bag of ROS 1: images, cameras and transforms by topic.
 #include <algorithm>
 
 #include "host/recording/calibration_json.h"
 #include "host/recording/failure.h"
-#include "host/recording/foreign/frame_tree.h"
+#include "host/recording/file_reader.h"
+#include "host/recording/foreign/realsense_topics.h"
 #include "host/recording/foreign/ros_camera.h"
+#include "host/recording/foreign/ros_content.h"
 #include "host/recording/foreign/ros_images.h"
-#include "host/recording/foreign/ros_topics.h"
 #include "host/recording/recording.h"
 
 namespace sphc::recording {
@@ -15,94 +16,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct RosBag {
-  RosContent content;
-  FrameTree frames;
-  std::shared_ptr<const std::vector<BagChunk>> chunks;
-  uint32_t bad_chunk_count = 0;
-  bool is_cut = false;
-};
-
-// The time of the header is that of the measurement; that of the log is when it was written.
-int64_t timeOfRos(const RosHeader &header, uint64_t log_ns) {
-  return header.time_ns > 0 ? header.time_ns : static_cast<int64_t>(std::min<uint64_t>(log_ns, INT64_MAX));
-}
-
-void addImage(const BagMessage &message, bool is_compressed, RosContent *content) {
-  RosImage raw = {};
-  RosCompressedImage compressed;
-  if (is_compressed ? !readRosCompressedImage(message.data, compressed) : !readRosImage(message.data, raw)) return;
-  const RosHeader &header = is_compressed ? compressed.header : raw.header;
-  RosImageTopic &topic = content->images[message.channel.topic];
-  if (topic.images.empty())
-    topic = {message.channel.topic,
-             std::string(is_compressed ? compressed.format : raw.encoding),
-             header.frame,
-             is_compressed,
-             raw.width,
-             raw.height,
-             {}};
-  topic.images.push_back({timeOfRos(header, message.log_ns), message.place});
-}
-
-void addTransforms(const BagMessage &message, bool is_odometry, FrameTree *frames) {
-  std::vector<RosTransform> transforms(is_odometry ? 1 : 0);
-  if (is_odometry ? !readRosOdometry(message.data, transforms[0]) : !readRosTransforms(message.data, transforms))
-    return;
-  const std::string &topic = message.channel.topic;
-  const bool is_fixed = !is_odometry && topic.size() >= 9 && topic.substr(topic.size() - 9) == "tf_static";
-  for (const RosTransform &transform : transforms) {
-    if (is_fixed)
-      frames->addFixed(transform.header.frame, transform.child, transform.parent_from_child);
-    else
-      frames->addMoving(transform.header.frame, transform.child,
-                        {timeOfRos(transform.header, message.log_ns), transform.parent_from_child});
-  }
-}
-
-void addMessage(const BagMessage &message, RosBag *bag) {
-  const std::string &type = message.channel.type;
-  if (!message.channel.is_cdr) return;
-  if (type == "sensor_msgs/msg/Image") addImage(message, false, &bag->content);
-  if (type == "sensor_msgs/msg/CompressedImage") addImage(message, true, &bag->content);
-  if (type == "tf2_msgs/msg/TFMessage") addTransforms(message, false, &bag->frames);
-  if (type == "nav_msgs/msg/Odometry") addTransforms(message, true, &bag->frames);
-  if (type != "sensor_msgs/msg/CameraInfo" || bag->content.infos.count(message.channel.topic)) return;
-  RosCameraInfo info;
-  if (readRosCameraInfo(message.data, info)) bag->content.infos[message.channel.topic] = info;
-}
-
-RosBag readBag(const fs::path &path) {
-  RosBag bag;
-  BagFile file(path);
-  file.forEachMessage([&bag](const BagMessage &message) { addMessage(message, &bag); });
-  bag.frames.sort();
-  bag.chunks = file.chunks();
-  bag.bad_chunk_count = file.badChunkCount();
-  bag.is_cut = file.isCut();
-  return bag;
-}
-
 class RosImages : public LayoutImages {
  public:
-  RosImages(const fs::path &path, std::shared_ptr<const std::vector<BagChunk>> chunks, bool color_is_compressed,
-            bool depth_is_compressed)
-      : file_(path, std::move(chunks)),
-        color_is_compressed_(color_is_compressed),
-        depth_is_compressed_(depth_is_compressed) {}
+  RosImages(const fs::path &path, std::shared_ptr<const BagChunks> chunks, RosImageCoding color,
+            RosImageCoding depth)
+      : file_(path, std::move(chunks)), color_(color), depth_(depth) {}
 
   void read(sphc_stream stream, const RecordedImage &image, const sphc_camera &camera, sphc_format format,
             uint8_t *pixels) override {
-    const ByteView message = file_.load({image.place.chunk, image.place.start, image.place.bytes});
+    const ByteView bytes = file_.load({image.place.chunk, image.place.start, image.place.bytes});
     if (stream == SPHC_STREAM_COLOR)
-      decodeRosColor(message, color_is_compressed_, camera, format, pixels);
+      decodeRosColor({bytes, color_.encoding}, color_.is_compressed, camera, format, pixels);
     else
-      decodeRosDepth(message, depth_is_compressed_, camera, reinterpret_cast<uint16_t *>(pixels));
+      decodeRosDepth({bytes, depth_.encoding}, depth_.is_compressed, camera, reinterpret_cast<uint16_t *>(pixels));
   }
 
  private:
   BagFile file_;
-  bool color_is_compressed_, depth_is_compressed_;
+  RosImageCoding color_, depth_;
 };
 
 // In order of time, numbered; of equal times the first counts.
@@ -146,24 +77,26 @@ sphc_rig rigOf(const RosBag &bag, const RosImageTopic &color, const RosImageTopi
     throw Failure(SPHC_E_ARGUMENT, "no transform from " + depth.frame + " to " + color.frame +
                                        " in tf_static; record it too, or give a calibration file");
   rig.color_from_depth = *color_from_depth;
-  rig.depth_unit_m = 0.001;
+  const auto unit = bag.content.depth_unit_m.find(realsenseSensorOf(depth.name));
+  rig.depth_unit_m = unit == bag.content.depth_unit_m.end() ? 0.001 : static_cast<double>(unit->second);
   return requireGood(rig);
 }
 
-Recording recordingOf(const fs::path &path, const RosBag &bag) {
+Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   const std::string name = shortPath(path.string());
   const RosImageTopic &color = chooseColor(bag.content, name);
   const RosImageTopic &depth = chooseDepth(bag.content, color, name);
   Recording recording;
-  recording.layout = Layout::kRos2;
+  recording.layout = layout;
   recording.path = path;
   recording.color = imagesOf(color, &recording.lost_count);
   recording.depth = imagesOf(depth, &recording.lost_count);
   recording.poses = bag.frames.track(color.frame);
-  recording.bad_chunk_count = bag.bad_chunk_count;
-  recording.is_cut = bag.is_cut;
-  recording.images = [path, chunks = bag.chunks, color_is = color.is_compressed, depth_is = depth.is_compressed] {
-    return std::make_unique<RosImages>(path, chunks, color_is, depth_is);
+  recording.bad_chunk_count = bag.walk.bad_chunk_count;
+  recording.is_cut = bag.walk.is_cut;
+  recording.images = [path, chunks = std::make_shared<const BagChunks>(bag.walk.chunks),
+                      color_coding = color.coding, depth_coding = depth.coding] {
+    return std::make_unique<RosImages>(path, chunks, color_coding, depth_coding);
   };
   try {
     recording.calibration = rigOf(bag, color, depth);
@@ -200,7 +133,11 @@ bool isRosBag(const fs::path &folder) { return fs::exists(folder / "metadata.yam
 
 Recording openRosBag(const fs::path &path) {
   const fs::path file = fs::is_directory(path) ? fileOfBag(path) : path;
-  return recordingOf(file, readBag(file));
+  return recordingOf(file, Layout::kRos2, readRosBag(file, false));
 }
+
+bool isRos1Bag(const fs::path &file) { return beginsWith(file, kRos1Magic); }
+
+Recording openRos1Bag(const fs::path &file) { return recordingOf(file, Layout::kRos1, readRosBag(file, true)); }
 
 }  // namespace sphc::recording

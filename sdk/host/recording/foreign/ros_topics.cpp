@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "host/recording/failure.h"
+#include "host/recording/foreign/realsense_topics.h"
 
 namespace sphc::recording {
 
@@ -16,8 +17,11 @@ bool has(const std::string &text, const char *part) {
   return lower.find(part) != std::string::npos;
 }
 
+bool isInfrared(const RosImageTopic &topic) { return has(topic.name, "infra") || has(topic.name, "/ir/"); }
+
 bool isDepthTopic(const RosImageTopic &topic) {
-  if (topic.is_compressed) return has(topic.encoding, "compresseddepth");
+  if (isInfrared(topic)) return false;
+  if (topic.coding.is_compressed) return has(topic.encoding, "compresseddepth");
   return topic.encoding == "16UC1" || topic.encoding == "32FC1" ||
          (topic.encoding == "mono16" && has(topic.name, "depth"));
 }
@@ -25,17 +29,16 @@ bool isDepthTopic(const RosImageTopic &topic) {
 // 0: none.  What is called colour comes first, then what has colours; raw images before the same ones compressed.
 int colorScore(const RosImageTopic &topic) {
   if (isDepthTopic(topic) || topic.images.empty()) return 0;
-  const bool is_read = topic.is_compressed || has(topic.encoding, "8");
+  const bool is_read = topic.coding.is_compressed || has(topic.encoding, "8");
   if (!is_read) return 0;
-  const bool is_infrared = has(topic.name, "infra") || has(topic.name, "/ir/");
-  return 1 + (topic.is_compressed ? 0 : 1) + (topic.encoding == "mono8" ? 0 : 2) + (is_infrared ? 0 : 4) +
-         (has(topic.name, "color") || has(topic.name, "rgb") ? 8 : 0);
+  return 1 + (topic.coding.is_compressed ? 0 : 1) + (topic.encoding == "mono8" ? 0 : 2) +
+         (isInfrared(topic) ? 0 : 4) + (has(topic.name, "color") || has(topic.name, "rgb") ? 8 : 0);
 }
 
 // Depth that lies on colour comes first.
 int depthScore(const RosImageTopic &topic, const RosImageTopic &color) {
   if (!isDepthTopic(topic) || topic.images.empty()) return 0;
-  return 1 + (topic.is_compressed ? 0 : 1) + (has(topic.name, "rect") ? 2 : 0) +
+  return 1 + (topic.coding.is_compressed ? 0 : 1) + (has(topic.name, "rect") ? 2 : 0) +
          (topic.frame == color.frame ? 4 : 0);
 }
 
@@ -57,7 +60,7 @@ const RosImageTopic &chooseTopic(const RosContent &content, const char *what, co
                                        "); docs/imports.md says which are");
   if (other)
     throw Failure(SPHC_E_ARGUMENT, file + ": both " + other->name + " and " + best->name + " may be the " + what +
-                                       " images; leave one out: mcap filter IN -o OUT -n TOPIC");
+                                       " images; leave one out (docs/imports.md says how)");
   return *best;
 }
 
@@ -74,6 +77,8 @@ const RosImageTopic &chooseDepth(const RosContent &content, const RosImageTopic 
 }
 
 std::string infoTopicOf(const std::string &image_topic) {
+  const std::string stream = realsenseStreamOf(image_topic);
+  if (!stream.empty()) return stream + "/info/camera_info";
   const std::string last = image_topic.substr(image_topic.rfind('/') + 1);
   const bool is_transport = last == "compressed" || last == "compressedDepth";
   return parentOf(is_transport ? parentOf(image_topic) : image_topic) + "/camera_info";

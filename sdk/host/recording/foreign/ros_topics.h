@@ -15,11 +15,17 @@ struct RosStamped {
   BagPlace place;
 };
 
+// How the images of a topic are written.
+struct RosImageCoding {
+  RosEncoding encoding;
+  bool is_compressed;
+};
+
 // A topic of images, by its first message.
 struct RosImageTopic {
-  std::string name, encoding;  // of a compressed image: its format
+  std::string name, encoding;  // of the pixels; of a compressed image its format
   std::string frame;
-  bool is_compressed;
+  RosImageCoding coding;
   uint32_t width, height;  // 0 of a compressed image
   std::vector<RosStamped> images;
 };
@@ -28,6 +34,7 @@ struct RosImageTopic {
 struct RosContent {
   std::map<std::string, RosImageTopic> images;  // by topic
   std::map<std::string, RosCameraInfo> infos;   // likewise, the first of each
+  std::map<std::string, float> depth_unit_m;    // by sensor, of a RealSense
 };
 
 // Throw Failure (ARGUMENT) that begins with `file`, where there is none or where several are as good.

@@ -4,31 +4,13 @@
 #include <string>
 
 #include "host/recording/failure.h"
+#include "host/recording/foreign/comma_text.h"
 #include "host/recording/pose_track.h"
 #include "host/recording/text_field.h"
 
 namespace sphc::recording {
 
 namespace {
-
-using Fields = std::vector<std::string_view>;
-
-Fields fieldsOf(std::string_view line) {
-  Fields fields;
-  for (size_t end = 0; end != std::string_view::npos;) {
-    end = line.find(',');
-    fields.push_back(trimmed(line.substr(0, end)));
-    if (end != std::string_view::npos) line.remove_prefix(end + 1);
-  }
-  return fields;
-}
-
-std::string_view takeLine(std::string_view &text) {
-  const size_t end = text.find('\n');
-  const std::string_view line = trimmed(text.substr(0, end));
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return line;
-}
 
 [[noreturn]] void failStray(uint32_t line, const std::string &cause) {
   throw Failure(SPHC_E_ARGUMENT, "line " + std::to_string(line) + ": " + cause + "; copy the recording again");
@@ -62,12 +44,6 @@ std::optional<sphc_rigid> poseOf(const double value[7]) {
   sphc_rigid pose = {{value[6], value[3], value[4], value[5]}, {value[0], value[1], value[2]}};
   if (!isFinite(pose) || !normalizeQuaternion(pose.q_wxyz, 1e-2)) return {};
   return pose;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

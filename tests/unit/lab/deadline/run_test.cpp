@@ -6,35 +6,21 @@
 
 #include "lab/deadline/frames.h"
 #include "lab/deadline/table.h"
-#include "tests/support/session.h"
+#include "tests/unit/lab/common/room_frames.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr uint32_t kShots = 3;
 
-// The test room as frames of a recording, and its map.
 class DeadlineTest : public testing::Test {
  protected:
   DeadlineTest() {
-    input_.config = sphc::test::sceneConfig();
-    const sphc::test::SceneMap made =
-        sphc::test::makeSceneMap(input_.config.rig.color_camera, input_.config.max_keypoints, 3, 0.5);
-    maps_.push_back(openMapBytes(made.file));
-    Sequence sequence;
-    sequence.rig = input_.config.rig;
-    sequence.color_format = SPHC_FORMAT_GRAY8;
-    for (uint32_t i = 0; i < kShots; ++i) {
-      const auto frame = sphc::test::sceneFrame(input_.config, i);
-      Shot shot;
-      shot.color = frame->images.gray;
-      shot.depth = frame->images.depth_mm;
-      shot.color_time_ns = shot.depth_time_ns = int64_t{1000000000} * (i + 1);
-      shot.world_from_camera = rigidToC(sphc::test::sceneViewpoint(i).inverse());
-      sequence.shots.push_back(shot);
-    }
-    for (size_t k = 0; k < 3; ++k) input_.centre_in_world_m[k] = made.centre_in_world_m[static_cast<int>(k)];
-    input_.sequences = {sequence};
+    sphc::test::RoomFrames room(kShots);
+    input_.config = room.config;
+    input_.sequences = {room.sequence};
+    input_.centre_in_world_m = room.centre_in_world_m;
+    maps_.push_back(std::move(room.map));
     input_.maps = &maps_;
   }
 

@@ -1,0 +1,205 @@
+// Recordings of a HoloLens 2 in research mode, by the sample StreamRecorder: colour and "Depth Long Throw".
+#include <algorithm>
+
+#include "host/recording/calibration_json.h"
+#include "host/recording/encoded_image.h"
+#include "host/recording/failure.h"
+#include "host/recording/file_reader.h"
+#include "host/recording/foreign/comma_text.h"
+#include "host/recording/foreign/depth_lut.h"
+#include "host/recording/foreign/opaque_pixels.h"
+#include "host/recording/foreign/pgm.h"
+#include "host/recording/foreign/stream_recorder_text.h"
+#include "host/recording/recording.h"
+
+namespace sphc::recording {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t kMostHoloLensBytes = size_t{1} << 28;
+constexpr const char *kSensor = "Depth Long Throw";
+constexpr int64_t kMostPvGapNs = 250000000;  // between colour poses around a depth image
+
+template <typename Read>
+auto inFile(const fs::path &file, Read &&read) {
+  try {
+    return read();
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), shortPath(file.string()) + ": " + failure.what());
+  }
+}
+
+template <typename Parse>
+auto parsedText(const fs::path &file, Parse &&parse) {
+  const std::string text = readText(file);
+  return inFile(file, [&] { return parse(text); });
+}
+
+class HoloLensImages : public LayoutImages {
+ public:
+  HoloLensImages(fs::path folder, std::shared_ptr<const DepthLut> lut)
+      : folder_(std::move(folder)), lut_(std::move(lut)) {}
+
+  void read(sphc_stream stream, const RecordedImage &image, const sphc_camera &camera, sphc_format format,
+            uint8_t *pixels) override {
+    readFile(folder_ / image.file, kMostHoloLensBytes, encoded_);
+    if (stream == SPHC_STREAM_DEPTH)
+      readDepth(camera, reinterpret_cast<uint16_t *>(pixels));
+    else if (fs::path(image.file).extension() == ".bytes")
+      readBytes(camera, format, pixels);
+    else
+      decodeImage(viewOf(encoded_), ImageType::kPng, camera, format, pixels);
+  }
+
+ private:
+  void readDepth(const sphc_camera &camera, uint16_t *depth_mm) {
+    const ImageSize size = pgmSizeOf(viewOf(encoded_));
+    requireSize(size.width, size.height, lut_->camera(), false);
+    requireSize(size.width, size.height, camera, false);
+    range_mm_.resize(size_t{size.width} * size.height);
+    decodePgm(viewOf(encoded_), range_mm_.data());
+    lut_->toPinhole(range_mm_, depth_mm);
+  }
+  void readBytes(const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
+    if (encoded_.size() != size_t{camera.width} * camera.height * 4)
+      throw Failure(SPHC_E_IMAGE,
+                    "is not four bytes for each pixel of the calibration's color_camera; copy it again");
+    const Bytes colors = opaquePixels(encoded_.data(), camera.width, camera.height, camera.width * 4);
+    packPixels({colors.data(), camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
+  }
+
+  fs::path folder_;
+  std::shared_ptr<const DepthLut> lut_;
+  Bytes encoded_;
+  std::vector<uint16_t> range_mm_;
+};
+
+fs::path pvFileIn(const fs::path &folder) {
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() > 6 && name.substr(name.size() - 6) == "pv.txt") return entry.path();
+  }
+  throw Failure(SPHC_E_DEVICE, shortPath(folder.string()) + ": no *_pv.txt, the colour camera's; record PV too");
+}
+
+// "PV/132697151403874938.png", as the sample's own scripts leave it, or .bytes; empty without one.
+std::string pvImage(const fs::path &folder, const std::string &name) {
+  for (const char *ending : {".png", ".bytes"}) {
+    const std::string file = "PV/" + name + ending;
+    if (fs::exists(folder / file)) return file;
+  }
+  return "";
+}
+
+void addColor(const PvFile &pv, Recording &recording) {
+  for (size_t i = 0; i < pv.frames.size(); ++i) {
+    const PvFrame &frame = pv.frames[i];
+    const std::string file = pvImage(recording.path, frame.name);
+    if (!file.empty()) recording.color.push_back({frame.time_ns, static_cast<uint32_t>(i), file});
+    if (frame.world_from_camera)
+      recording.poses.add(frame.time_ns, *frame.world_from_camera);
+    else
+      ++recording.bad_pose_count;
+  }
+}
+
+void addDepth(Recording &recording) {
+  const fs::path folder = recording.path / kSensor;
+  if (fs::is_directory(folder))
+    for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+      int64_t time_ns = 0;  // not in the names of the infrared images, "132697151403874938_ab.pgm"
+      if (entry.path().extension() == ".pgm" && parseTicks(entry.path().stem().string(), time_ns))
+        recording.depth.push_back({time_ns, 0, kSensor + ("/" + entry.path().filename().string())});
+    }
+  std::sort(recording.depth.begin(), recording.depth.end(),
+            [](const RecordedImage &a, const RecordedImage &b) { return a.time_ns < b.time_ns; });
+  for (size_t i = 0; i < recording.depth.size(); ++i) recording.depth[i].sequence = static_cast<uint32_t>(i);
+}
+
+std::shared_ptr<const DepthLut> lutOf(const Recording &recording) {
+  const fs::path image = recording.path / recording.depth.front().file;
+  const fs::path table = recording.path / (kSensor + std::string("_lut.bin"));
+  Bytes bytes;
+  const ImageSize size = inFile(image, [&] {
+    readFile(image, kMostHoloLensBytes, bytes);
+    return pgmSizeOf(viewOf(bytes));
+  });
+  return inFile(table, [&] {
+    readFile(table, kMostHoloLensBytes, bytes);
+    return std::make_shared<const DepthLut>(viewOf(bytes), size);
+  });
+}
+
+// The files tell where both cameras were in the world, and not where one is on the other: the median over all times
+// at which both are known.
+std::optional<sphc_rigid> colorFromDepth(const PoseTrack &world_from_color, const PoseTrack &world_from_rig,
+                                         const sphc_rigid &depth_from_rig) {
+  sphc_rigid rig_from_depth;
+  sphc_rigid_inverse(&depth_from_rig, &rig_from_depth);
+  std::vector<double> q[4], t[3];
+  for (const TimedPose &rig : world_from_rig.poses()) {
+    sphc_rigid color, color_from_world, color_from_rig, sample;
+    if (!world_from_color.at(rig.time_ns, kMostPvGapNs, color)) continue;
+    sphc_rigid_inverse(&color, &color_from_world);
+    sphc_rigid_compose(&color_from_world, &rig.pose, &color_from_rig);
+    sphc_rigid_compose(&color_from_rig, &rig_from_depth, &sample);
+    double alike = 0;  // to the first: a quaternion and its negative are one rotation
+    for (int i = 0; i < 4; ++i) alike += q[i].empty() ? 1 : q[i].front() * sample.q_wxyz[i];
+    for (int i = 0; i < 4; ++i) q[i].push_back(alike < 0 ? -sample.q_wxyz[i] : sample.q_wxyz[i]);
+    for (int i = 0; i < 3; ++i) t[i].push_back(sample.t_m[i]);
+  }
+  if (t[0].empty()) return {};
+  sphc_rigid middle = {{medianOf(q[0]), medianOf(q[1]), medianOf(q[2]), medianOf(q[3])},
+                       {medianOf(t[0]), medianOf(t[1]), medianOf(t[2])}};
+  if (!normalizeQuaternion(middle.q_wxyz, 1e-2)) return {};
+  return middle;
+}
+
+sphc_rig rigOfHoloLens(const PvFile &pv, const DepthLut &lut, const Recording &recording) {
+  const std::string sensor = kSensor;
+  const PoseTrack rig_track = parsedText(recording.path / (sensor + "_rig2world.txt"), rigTrackFrom);
+  const sphc_rigid depth_from_rig = parsedText(recording.path / (sensor + "_extrinsics.txt"), sensorFromRigFrom);
+  const std::optional<sphc_rigid> color_from_depth = colorFromDepth(recording.poses, rig_track, depth_from_rig);
+  if (!color_from_depth)
+    throw Failure(SPHC_E_ARGUMENT,
+                  "colour and depth have no time at which both know where they are; record while the headset "
+                  "knows its place, or give a calibration file");
+  sphc_rig rig;
+  sphc_rig_init(&rig);
+  rig.color_camera = {
+      SPHC_CAMERA_PINHOLE, pv.width, pv.height, 4, {pv.params[0], pv.params[1], pv.params[2], pv.params[3]}};
+  rig.depth_camera = lut.camera();
+  rig.color_from_depth = *color_from_depth;
+  rig.depth_unit_m = 0.001;
+  return requireGood(rig);
+}
+
+}  // namespace
+
+bool isStreamRecorder(const fs::path &folder) { return fs::exists(folder / (kSensor + std::string("_lut.bin"))); }
+
+Recording openStreamRecorder(const fs::path &folder) {
+  Recording recording;
+  recording.layout = Layout::kStreamRecorder;
+  recording.path = folder;
+  const PvFile pv = parsedText(pvFileIn(folder), pvFileFrom);
+  addColor(pv, recording);
+  addDepth(recording);
+  const std::string name = shortPath(folder.string());
+  for (const auto &[images, where] : {std::pair(&recording.color, "PV"), std::pair(&recording.depth, kSensor)})
+    if (images->empty())
+      throw Failure(SPHC_E_DEVICE, name + ": no images in the folder \"" + where + "\"; unpack " + where +
+                                       ".tar into a folder of that name");
+  const std::shared_ptr<const DepthLut> lut = lutOf(recording);
+  recording.images = [folder, lut] { return std::make_unique<HoloLensImages>(folder, lut); };
+  try {
+    recording.calibration = rigOfHoloLens(pv, *lut, recording);
+  } catch (const Failure &failure) {  // told only where nobody gives a calibration file
+    recording.calibration_fault = name + ": " + failure.what();
+  }
+  return recording;
+}
+
+}  // namespace sphc::recording
