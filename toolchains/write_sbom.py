@@ -21,14 +21,16 @@ TOOLS = {"ccache", "cmake", "g++", "ninja-build", "pkg-config", "gnuplot-nox"}  
 LICENSES = {  # by source package, as their copyright files say
     "atlas": "BSD-3-Clause", "ceres-solver": "BSD-3-Clause", "cli11": "BSD-3-Clause", "eigen3": "MPL-2.0", "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1",
     "glibc": "LGPL-2.1-or-later", "google-glog": "BSD-3-Clause", "highway": "Apache-2.0", "libjpeg-turbo": "IJG AND BSD-3-Clause AND Zlib",
-    "libsodium": "ISC", "libyaml-cpp": "MIT", "yaml-cpp": "MIT", "libzstd": "BSD-3-Clause", "nanoflann": "BSD-2-Clause", "nlohmann-json3": "MIT",
+    "libsodium": "ISC", "libyaml-cpp": "MIT", "yaml-cpp": "MIT", "libzstd": "BSD-3-Clause", "lz4": "BSD-2-Clause", "nanoflann": "BSD-2-Clause", "nlohmann-json3": "MIT",
     "opencv": "Apache-2.0", "openexr": "BSD-3-Clause", "openni2": "Apache-2.0", "lapack": "BSD-3-Clause", "sqlite3": "blessing",
     "suitesparse": "LGPL-2.1-or-later AND GPL-2.0-or-later", "zlib": "Zlib"}
 
 
 def run(*words):
-    done = subprocess.run(words, text=True, capture_output=True, check=False)
-    return done.stdout if done.returncode == 0 else ""
+    """What a command prints, whatever its status: dpkg-query tells of what it knows.  Nothing where it is not there."""
+    if not shutil.which(words[0]):
+        return ""
+    return subprocess.run(words, text=True, capture_output=True, check=False).stdout
 
 
 def listed(path, sections):
@@ -52,14 +54,11 @@ def owners(sonames):
     paths = {}
     for soname, path in re.findall(r"^\s+(\S+) \(.*\) => (\S+)$", run("/sbin/ldconfig", "-p"), re.MULTILINE):
         paths.setdefault(soname, Path(path).resolve())  # the first is of this machine, and may be an alternative
-    found = {}
-    for soname in sonames & paths.keys():
-        path = str(paths[soname])
-        for name in (path, path.removeprefix("/usr")):
-            found.setdefault(soname, run("dpkg-query", "-S", name).split(":")[0])
-            if not found[soname]:
-                del found[soname]
-    return found
+    real = {soname: str(paths[soname]) for soname in sonames & paths.keys()}
+    ways = sorted({way for path in real.values() for way in (path, path.removeprefix("/usr"))})
+    told = run("dpkg-query", "-S", *ways) if ways else ""
+    owned = {line.split(": ")[1].removeprefix("/usr"): line.split(":")[0] for line in told.splitlines() if ": /" in line}
+    return {soname: owned[path.removeprefix("/usr")] for soname, path in real.items() if path.removeprefix("/usr") in owned}
 
 
 def of_debian(name):
@@ -91,6 +90,8 @@ def document(root, version, sections, files):
     ours = {"libspherecloud.so." + version.split(".", maxsplit=1)[0]}
     sonames = {soname for file in files for soname in needed(file)} - ours
     names = sorted(set(listed(root / "toolchains" / "packages.txt", sections)) | set(owners(sonames).values()))
+    if shutil.which("dpkg-query"):  # some of packages.txt are optional
+        names = [name for name in names if run("dpkg-query", "-W", "-f", "${Version}", name)]
     vendored = [of_others(origin) for origin in sorted((root / "third_party").glob("*/origin.json"))]
     packages = [own, *vendored, *map(of_debian, names)]
     kinds = ["CONTAINS"] * len(vendored) + ["DEPENDS_ON"] * len(names)

@@ -60,7 +60,7 @@ void walk(const char *name, int runs) {
 }
 
 TEST(Mutations, Map) { walk("map", 20000); }
-TEST(Mutations, Signature) { walk("signature", 1500); }
+TEST(Mutations, Signature) { walk("signature", 500); }
 TEST(Mutations, Config) { walk("config", 1500); }
 TEST(Mutations, Frame) { walk("frame", 600); }
 TEST(Mutations, Session) { walk("session", 2000); }

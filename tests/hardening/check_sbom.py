@@ -3,6 +3,7 @@
 
     check_sbom.py ROOT SBOM VERSION FILE...
 """
+import functools
 import json
 import re
 import subprocess
@@ -28,25 +29,25 @@ def form_faults(sbom):
     return faults + [f"{name} is related to nothing" for name in ids[1:] if name not in related]
 
 
+@functools.cache
 def linked_packages(path):
-    """(library, Debian package) of all that the loader loads for a program itself, and not for its libraries."""
+    """[(library, Debian package)] of all that the loader loads for a program itself, and not for its libraries."""
     dynamic = subprocess.run(["readelf", "--wide", "--dynamic", path], text=True, capture_output=True, check=True).stdout
     loaded = dict(re.findall(r"(\S+) => (/\S+)", subprocess.run(["ldd", path], text=True, capture_output=True, check=True).stdout))
-    for soname in re.findall(r"\(NEEDED\).*\[(.+)\]", dynamic):
-        if soname.startswith("libspherecloud") or soname not in loaded: # ours, and the loader itself
-            continue
-        real = Path(loaded[soname]).resolve()
-        owner = ""
-        for name in (str(real), str(real).removeprefix("/usr")):
-            owner = owner or subprocess.run(["dpkg", "-S", name], text=True, capture_output=True, check=False).stdout.split(":")[0]
-        yield soname, owner
+    wanted = [name for name in re.findall(r"\(NEEDED\).*\[(.+)\]", dynamic)
+              if name in loaded and not name.startswith("libspherecloud")]  # not the loader itself, and not ours
+    real = {name: str(Path(loaded[name]).resolve()) for name in wanted}
+    names = [way for path in real.values() for way in (path, path.removeprefix("/usr"))]
+    told = subprocess.run(["dpkg", "-S", *names], text=True, capture_output=True, check=False).stdout
+    owners = {line.split(": ")[1].removeprefix("/usr"): line.split(":")[0] for line in told.splitlines() if ": /" in line}
+    return [(name, owners.get(real[name].removeprefix("/usr"), "")) for name in wanted]
 
 
 def faults_of(root, sbom, version, files):
     faults = form_faults(sbom)
     packages = {package["name"]: package for package in sbom.get("packages", [])}
     for path in files:
-        linked = list(linked_packages(path))
+        linked = linked_packages(path)
         if not linked:
             faults.append(f"{path} links nothing: is it a program?")
         faults += [f"{path} links {soname} of {owner or 'no package'}, which the SBOM does not name"
