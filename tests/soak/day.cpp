@@ -94,14 +94,13 @@ void Day::end() {
 
 void Day::play(uint64_t frames) {
   const uint64_t last = totals_.frames + frames;
-  uint64_t day_ends = totals_.frames + kFramesOfADay;
   while (totals_.frames < last) {
     tick();
-    if (totals_.frames < day_ends) continue;
+    if (totals_.frames < day_ends_) continue;
     end();
     begin();
     ++totals_.restarts;
-    day_ends += kFramesOfADay;
+    day_ends_ += kFramesOfADay;
   }
 }
 
