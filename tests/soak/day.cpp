@@ -14,7 +14,6 @@ namespace {
 
 constexpr int64_t kTickNs = 33333333, kSecondNs = 1000000000;
 constexpr double kWrongM = 0.25, kWrongRad = 0.175;
-constexpr uint64_t kFramesOfADay = 5000;         // from init to fini
 constexpr uint32_t kContradictionsToReset = 15;  // in a row; the test room shows too little to take them back soon
 
 [[noreturn]] void fail(const char *promise) {
