@@ -14,7 +14,6 @@ namespace {
 
 constexpr int64_t kTickNs = 33333333, kSecondNs = 1000000000;
 constexpr double kWrongM = 0.25, kWrongRad = 0.175;
-constexpr uint64_t kFramesOfADay = 5000;         // from init to fini
 constexpr uint32_t kContradictionsToReset = 15;  // in a row; the test room shows too little to take them back soon
 
 [[noreturn]] void fail(const char *promise) {
@@ -94,14 +93,13 @@ void Day::end() {
 
 void Day::play(uint64_t frames) {
   const uint64_t last = totals_.frames + frames;
-  uint64_t day_ends = totals_.frames + kFramesOfADay;
   while (totals_.frames < last) {
     tick();
-    if (totals_.frames < day_ends) continue;
+    if (totals_.frames < day_ends_) continue;
     end();
     begin();
     ++totals_.restarts;
-    day_ends += kFramesOfADay;
+    day_ends_ += kFramesOfADay;
   }
 }
 

@@ -62,6 +62,8 @@ class Day {
   test::SteppingClock clock_{1000};
   sphc_localizer_config config_ = soakConfig();
   Totals totals_;
+  static constexpr uint64_t kFramesOfADay = 1500;  // from init to fini
+  uint64_t day_ends_ = kFramesOfADay;
 
   test::GuardedMemory state_, scratch_, features_memory_, pairer_memory_, mapper_memory_;
   sphc_localizer *localizer_ = nullptr;
