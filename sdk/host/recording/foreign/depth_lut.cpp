@@ -37,11 +37,12 @@ DepthLut::DepthLut(ByteView file, const ImageSize &size) : size_(size) {
   if (file.size != count * 3 * sizeof(float)) failLut("is not three floats for each pixel of the depth images");
   rays_.reserve(count);
   for (const uint8_t *at = file.data; rays_.size() < count; at += 3 * sizeof(float)) {
-    float ray[3];
-    std::memcpy(ray, at, sizeof ray);
-    const double x = double{ray[0]} / double{ray[2]}, y = double{ray[1]} / double{ray[2]};
-    const bool is_ray = ray[2] > 0 && ray[2] < 1.001f && std::abs(x) < 10 && std::abs(y) < 10;
-    rays_.push_back(is_ray ? Ray{x, y, std::min(1.0, double{ray[2]})} : Ray{0, 0, 0});
+    float told[3];
+    std::memcpy(told, at, sizeof told);
+    const auto number = [&told](int i) { return static_cast<double>(told[i]); };
+    const double x = number(0) / number(2), y = number(1) / number(2), z = number(2);
+    const bool is_ray = z > 0 && z < 1.001 && std::abs(x) < 10 && std::abs(y) < 10;
+    rays_.push_back(is_ray ? Ray{x, y, std::min(1.0, z)} : Ray{0, 0, 0});
   }
   fitCamera();
   sources_.reserve(count);
