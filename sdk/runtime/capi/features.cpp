@@ -82,7 +82,7 @@ sphc_status checkShape(const sphc_features_arrays &arrays, uint32_t max_keypoint
   }
   if (arrays.count && (!arrays.keypoints || !arrays.descriptors)) {
     MessageWriter(message) << "arrays." << (arrays.keypoints ? "descriptors" : "keypoints")
-                           << " is null, and count is " << arrays.count;
+                           << " is null, and count is " << arrays.count << "; give as many, or count 0";
     return SPHC_E_ARGUMENT;
   }
   return SPHC_OK;
@@ -144,7 +144,7 @@ sphc_status sphc_features_memory(const sphc_localizer_config *config, sphc_memor
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!memory) {
-    MessageWriter(message) << "memory is null";
+    MessageWriter(message) << "memory is null; give one to write the answer to";
     return SPHC_E_ARGUMENT;
   }
   *memory = {bytesFor(sphc::localizerConfigFrom(checked.config)), 0, sphc::kArenaAlignment, 0};
@@ -157,7 +157,7 @@ sphc_status sphc_features_init(void *memory, size_t memory_bytes, const sphc_loc
   sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!features) {
-    MessageWriter(message) << "features is null";
+    MessageWriter(message) << "features is null; give a pointer to set";
     return SPHC_E_ARGUMENT;
   }
   const LocalizerConfig own = sphc::localizerConfigFrom(checked.config);
