@@ -35,6 +35,8 @@ SUBJECTS = {  # the longest that a source's path begins with
     "sdk/host/base": "Files",
     "sdk/host/cli": "The command",
 }
+DRIVERS = ("libcamera", "openni2", "raw", "sample", "simulated", "v4l2")  # whose functions explain themselves
+CURE = re.compile(r"; |\b(must|give|use|say|needs|choose|is it|are they|check|write|record|known|takes)\b")
 INTRO = """# Error cases
 
 <!-- Made by tests/docs/make_error_cases.py: run `ninja error_cases`. -->
@@ -44,6 +46,7 @@ The cases are {count} messages, of {provoked} of the {sites} statements that ref
 
 - *Where* is the function of the C interface, the command, or the source that refused.
 - Numbers and names in a message are those of the case; `...` is a path of the machine.
+- Where the cure is empty, the cause says what must be.
 - A library that is called from the command line ends the command with exit code 1, and `exit 2` is a wrong command line. Of several functions that refuse alike, all are named.
 """
 
@@ -51,7 +54,17 @@ The cases are {count} messages, of {provoked} of the {sites} statements that ref
 class Refusal:
     def __init__(self, case, where, code, message, sites):
         self.case, self.where, self.code, self.message = case, where, code, message
-        self.sites = origins(sites, message)
+        self.sites = origins([site for site in sites if self.may_be_of(site.path)], message)
+
+    def may_be_of(self, path):
+        """Could a statement of this source have said it?"""
+        if self.where.startswith("spherecloud"):
+            return True
+        if self.where:
+            driver = self.where.split("_")[1]
+            return path.startswith((f"drivers/{driver}/", "drivers/pixels/") if driver in DRIVERS else "sdk/runtime/")
+        is_status = self.code.startswith("SPHC_")  # of a Failure
+        return path.startswith(("sdk/host/recording/", "drivers/replay/") if is_status else "sdk/host/")
 
 
 def plain(message, root):
@@ -114,6 +127,10 @@ def cause_and_cure(message):
     return (cause, cure) if mark else (message, "")
 
 
+def without_cure(refusals):
+    return sorted({refusal.message for refusal in refusals if not CURE.search(refusal.message)})
+
+
 def rows(refusals):
     """(subject, row) of each message, in the order of the sources."""
     groups = {}
@@ -155,6 +172,10 @@ def check(root, records):
     if missing:
         print("skipped: these tests did not run yet:", *missing)
         return SKIPPED
+    lost = without_cure(read(root, records)[1])
+    if lost:
+        print("These messages have no cure, \"cause; cure\":", *lost, sep="\n  ")
+        return 1
     made, path = page(root, records), root / "docs" / "error_cases.md"
     there = path.read_text(encoding="utf-8") if path.exists() else ""
     if made == there:

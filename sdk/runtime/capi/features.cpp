@@ -53,7 +53,8 @@ const char *faultOf(const Keypoint &k, uint32_t camera, const sphc::ImageSizes &
   if (!isWithin(k.x_px, 0, static_cast<float>(image.width)) ||
       !isWithin(k.y_px, 0, static_cast<float>(image.height)))
     return " lies outside the image; give pixels of its camera's image";
-  if (!(k.scale_px > 0) || !(k.scale_px <= kMostScalePx)) return " has a scale_px that is not within 0 to 8192";
+  if (!(k.scale_px > 0) || !(k.scale_px <= kMostScalePx))
+    return " has a scale_px that is not within 0 to 8192; give pixels";
   if (!isWithin(k.orientation_rad, -kMostAngleRad, kMostAngleRad))
     return " has an angle_rad that is not within -7 to 7; give radians";
   if (!isWithin(k.response, 0, 1)) return " has a response that is not within 0 to 1; divide by the largest";
