@@ -37,6 +37,9 @@ function(sphc_test_entries name labels cost)
     # ThreadSanitizer says nothing of a race whose first access is no longer in its history: a frame is long.
     set(environment
       TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt:history_size=7)
+    if(TARGET sphc_refusals AND NOT SPHC_SANITIZE)
+      list(APPEND environment SPHC_REFUSALS=${SPHC_REFUSALS})
+    endif()
     set(entry ${name})
     if(last)
       string(APPEND entry .${share})
@@ -53,6 +56,27 @@ function(sphc_test_entries name labels cost)
   endforeach()
 endfunction()
 
+# A program writes down what its tests are refused, for docs/error_cases.md (tests/support/refusals).
+set(SPHC_REFUSALS ${PROJECT_BINARY_DIR}/refusals)
+file(MAKE_DIRECTORY ${SPHC_REFUSALS})
+function(sphc_records_refusals name)
+  if(NOT TARGET sphc_refusals)
+    return()
+  endif()
+  set(recorders sphc_refusals)
+  list(TRANSFORM ARGN REPLACE "^sphc_driver_" "sphc_refusals_" OUTPUT_VARIABLE of_drivers)
+  foreach(recorder ${of_drivers})
+    if(recorder MATCHES "^sphc_refusals_" AND TARGET ${recorder})
+      list(APPEND recorders ${recorder})
+    endif()
+  endforeach()
+  foreach(recorder ${recorders}) # linked, and no more: the tests are compiled as they would be without
+    target_sources(${name} PRIVATE $<TARGET_OBJECTS:${recorder}>)
+    target_link_options(${name} PRIVATE $<TARGET_PROPERTY:${recorder},INTERFACE_LINK_OPTIONS>)
+  endforeach()
+  target_link_libraries(${name} PRIVATE $<LINK_ONLY:spherecloud>)
+endfunction()
+
 # sphc_test(NAME SOURCES... LINKS... LABELS... [COST]): a GoogleTest program.  The longest have a COST, in seconds or so: they
 # begin first, so that no core waits at the end.  A program is one entry of ctest, since a process for each
 # test case takes longer than most cases do; tests/run.sh counts the cases that it reports.
@@ -60,6 +84,7 @@ function(sphc_test name)
   cmake_parse_arguments(arg "" "COST" "SOURCES;LINKS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE sphc_flags ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
+  sphc_records_refusals(${name} ${arg_LINKS})
   sphc_unity(${name})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/sdk)
   target_compile_options(${name} PRIVATE ${SPHC_TEST_OPTIONS})

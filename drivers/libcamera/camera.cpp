@@ -23,8 +23,8 @@ sphc_status Camera::open(const char *id, sphc_message *message) {
   buffers_.resize(setup_.mode.buffers);
   for (uint32_t i = 0; i < setup_.mode.buffers; ++i)
     if (plugin_.buffer(device_, i, &buffers_[i]) != SPHC_OK)
-      return explain(message, SPHC_E_DEVICE, "%s: buffer %u is missing", name_.id, i);
-  if (!decoder_.isReady()) return explain(message, SPHC_E_DEVICE, "out of memory for a JPEG decoder");
+      return explain(message, SPHC_E_DEVICE, "%s: buffer %u is missing; open the camera again", name_.id, i);
+  if (!decoder_.isReady()) return explain(message, SPHC_E_DEVICE, "out of memory for a JPEG decoder; free some");
   slots_.resize(config_.loan_limit);
   for (Slot &slot : slots_) slot.pixels.reset(new uint8_t[imageOf(slot).bytes]());
   clock_ = FrameClock(config_.rate_hz == 0 ? 0 : 1000000000 / config_.rate_hz);
@@ -104,7 +104,7 @@ sphc_status Camera::convertInto(const Slot &slot, const sphc_libcamera_frame &fr
 }
 
 sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
-  if (!capture) return explain(&message_, SPHC_E_ARGUMENT, "acquire: capture is null");
+  if (!capture) return explain(&message_, SPHC_E_ARGUMENT, "acquire: capture is null; give one");
   if (capture->struct_size != sizeof *capture)
     return explain(&message_, SPHC_E_STRUCT_SIZE, "acquire: set capture.struct_size to sizeof(sphc_capture)");
   if (!running_) return explain(&message_, SPHC_E_STATE, "acquire: not running; call start first");
@@ -128,8 +128,8 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
   const int64_t exposure_us = frame.exposure_us > 0 ? frame.exposure_us : config_.exposure_us;
   const FrameTime time = clock_.frameTime(frame.sensor_time_ns, exposure_us, now);
   if (time.time_ns <= last_ns_) {
-    explain(&message_, SPHC_E_DEVICE, "frame %u: its time lies %.3f ms before that of the last one", frame.sequence,
-            static_cast<double>(last_ns_ - time.time_ns) * 1e-6);
+    explain(&message_, SPHC_E_DEVICE, "frame %u: its time lies %.3f ms before that of the last one; take the next",
+            frame.sequence, static_cast<double>(last_ns_ - time.time_ns) * 1e-6);
     return refuse(frame);
   }
   if (convertInto(*free_slot, frame) != SPHC_OK) return refuse(frame);

@@ -20,19 +20,20 @@ constexpr uint32_t kMostLoans = 64;
 
 sphc_status checkConfig(const sphc_libcamera_config &config, sphc_message *message) {
   if (config.format != SPHC_FORMAT_BGR8 && config.format != SPHC_FORMAT_RGB8 && config.format != SPHC_FORMAT_GRAY8)
-    return explain(message, SPHC_E_ARGUMENT, "config.format %d: BGR8, RGB8 or GRAY8", config.format);
+    return explain(message, SPHC_E_ARGUMENT, "config.format %d; give BGR8, RGB8 or GRAY8", config.format);
   if ((config.width == 0) != (config.height == 0) || config.width > 8192 || config.height > 8192)
-    return explain(message, SPHC_E_ARGUMENT, "config size %u x %u: both 16 to 8192, or both 0", config.width,
-                   config.height);
+    return explain(message, SPHC_E_ARGUMENT, "config size %u x %u; both must be 16 to 8192, or both 0",
+                   config.width, config.height);
   if (config.rate_hz > 1000)
-    return explain(message, SPHC_E_ARGUMENT, "config.rate_hz %u: 0 to 1000", config.rate_hz);
+    return explain(message, SPHC_E_ARGUMENT, "config.rate_hz %u; it must be 0 to 1000", config.rate_hz);
   if (config.exposure_us > 10000000)
-    return explain(message, SPHC_E_ARGUMENT, "config.exposure_us %u: 0 to 10000000", config.exposure_us);
+    return explain(message, SPHC_E_ARGUMENT, "config.exposure_us %u; it must be 0 to 10000000", config.exposure_us);
   if (config.loan_limit < 2 || config.loan_limit > kMostLoans)
-    return explain(message, SPHC_E_ARGUMENT, "config.loan_limit %u: 2 to %u", config.loan_limit, kMostLoans);
+    return explain(message, SPHC_E_ARGUMENT, "config.loan_limit %u; it must be 2 to %u", config.loan_limit,
+                   kMostLoans);
   if (config.pixel_format && !sphc::libcamera::findPixelFormat(config.pixel_format))
     return explain(message, SPHC_E_ARGUMENT,
-                   "config.pixel_format %.16s: known are RG24 BG24 XR24 YUYV UYVY NV12 R8 MJPG",
+                   "config.pixel_format %.16s; known are RG24 BG24 XR24 YUYV UYVY NV12 R8 MJPG",
                    config.pixel_format);
   return SPHC_OK;
 }
@@ -59,7 +60,8 @@ extern "C" {
 
 sphc_status sphc_libcamera_list(const char *plugin_path, sphc_libcamera_name *names, uint32_t capacity,
                                 uint32_t *count, sphc_message *message) {
-  if (!count || (!names && capacity > 0)) return explain(message, SPHC_E_ARGUMENT, "names or count is null");
+  if (!count || (!names && capacity > 0))
+    return explain(message, SPHC_E_ARGUMENT, "names or count is null; give both");
   const sphc_libcamera_plugin *plugin = sphc::libcamera::loadPlugin(plugin_path, message);
   return plugin ? plugin->list(names, capacity, count, message) : SPHC_E_UNSUPPORTED;
 }
@@ -78,7 +80,7 @@ sphc_status sphc_libcamera_config_init(sphc_libcamera_config *config, size_t str
 
 sphc_status sphc_libcamera_open(const char *id, const sphc_libcamera_config *config, sphc_libcamera **camera,
                                 sphc_message *message) try {
-  if (!camera) return explain(message, SPHC_E_ARGUMENT, "camera is null");
+  if (!camera) return explain(message, SPHC_E_ARGUMENT, "camera is null; give a pointer to set");
   if (config && config->struct_size != sizeof *config)
     return explain(message, SPHC_E_STRUCT_SIZE, "config.struct_size %u: must be %zu", config->struct_size,
                    sizeof *config);
@@ -95,7 +97,7 @@ sphc_status sphc_libcamera_open(const char *id, const sphc_libcamera_config *con
   *camera = opened.release();
   return SPHC_OK;
 } catch (const std::bad_alloc &) {
-  return explain(message, SPHC_E_DEVICE, "out of memory");
+  return explain(message, SPHC_E_DEVICE, "out of memory; free some");
 }
 
 void sphc_libcamera_close(sphc_libcamera **camera) {

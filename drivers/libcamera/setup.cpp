@@ -40,7 +40,7 @@ sphc_status chooseMode(const sphc_libcamera_plugin &plugin, sphc_libcamera_devic
   const sphc_status status = plugin.configure(device, &mode, message);
   if (status < 0) return status;
   if (mode.fourcc != setup->format->fourcc)
-    return explain(message, SPHC_E_UNSUPPORTED, "pixel format %s: the camera would send another (%.4s)",
+    return explain(message, SPHC_E_UNSUPPORTED, "pixel format %s: the camera would send another; ask for %.4s",
                    setup->format->name, reinterpret_cast<const char *>(&mode.fourcc));
   if (config.width != 0 && (mode.width != config.width || mode.height != config.height))
     return explain(message, SPHC_E_UNSUPPORTED,
@@ -73,8 +73,9 @@ sphc_status chooseExposure(const sphc_libcamera_plugin &plugin, sphc_libcamera_d
     return explain(message, SPHC_E_UNSUPPORTED, "exposure_us %u: this camera's exposure cannot be set; use 0",
                    config.exposure_us);
   if (config.exposure_us < range.min || config.exposure_us > range.max)
-    return explain(message, SPHC_E_UNSUPPORTED, "exposure_us %u: this camera takes %lld to %lld",
-                   config.exposure_us, static_cast<long long>(range.min), static_cast<long long>(range.max));
+    return explain(message, SPHC_E_UNSUPPORTED,
+                   "exposure_us %u: this camera takes %lld to %lld; choose between them", config.exposure_us,
+                   static_cast<long long>(range.min), static_cast<long long>(range.max));
   return plugin.set(device, "ExposureTime", config.exposure_us);
 }
 
@@ -87,7 +88,8 @@ sphc_status chooseRate(const sphc_libcamera_plugin &plugin, sphc_libcamera_devic
     return explain(message, SPHC_E_UNSUPPORTED, "rate_hz %u: this camera's rate cannot be set; use 0",
                    config.rate_hz);
   if (period_us < range.min || period_us > range.max)
-    return explain(message, SPHC_E_UNSUPPORTED, "rate_hz %u: a frame of this camera takes %lld to %lld us",
+    return explain(message, SPHC_E_UNSUPPORTED,
+                   "rate_hz %u: a frame of this camera takes %lld to %lld us; choose a rate between",
                    config.rate_hz, static_cast<long long>(range.min), static_cast<long long>(range.max));
   return plugin.set(device, "FrameDurationLimits", period_us);
 }

@@ -65,7 +65,8 @@ sphc_status Camera::listen(sphc_message *message) {
         ONI_STATUS_OK)
       continue;
     listener = {};
-    return explain(message, SPHC_E_DEVICE, "OpenNI2 refuses to tell of new frames (%s)", LibraryError().text);
+    return explain(message, SPHC_E_DEVICE, "OpenNI2 refuses to tell of new frames (%s); open the device again",
+                   LibraryError().text);
   }
   return SPHC_OK;
 }
@@ -129,7 +130,7 @@ QueueConfig Camera::queueConfig() const {
 }
 
 sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
-  if (!capture) return explain(&message_, SPHC_E_ARGUMENT, "acquire: capture is null");
+  if (!capture) return explain(&message_, SPHC_E_ARGUMENT, "acquire: capture is null; give one");
   if (capture->struct_size != sizeof *capture)
     return explain(&message_, SPHC_E_STRUCT_SIZE, "acquire: set capture.struct_size to sizeof(sphc_capture)");
   const int64_t until_ns = monotonicNs() + int64_t{timeout_us} * 1000;

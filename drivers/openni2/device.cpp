@@ -94,8 +94,8 @@ sphc_status Device::openStream(int stream, const sphc_openni2_mode &wanted, sphc
                    kStreamNames[stream]);
   if (oniDeviceCreateStream(device_, kSensors[stream], &streams_[stream]) != ONI_STATUS_OK) {
     streams_[stream] = nullptr;
-    return explain(message, SPHC_E_DEVICE, "the %s stream cannot be made (%s)", kStreamNames[stream],
-                   LibraryError().text);
+    return explain(message, SPHC_E_DEVICE, "the %s stream cannot be made (%s); plug the device in again",
+                   kStreamNames[stream], LibraryError().text);
   }
   const sphc_status status = setMode(stream, wanted, message);
   return status == SPHC_OK ? makePlain(stream, message) : status;
@@ -117,7 +117,8 @@ sphc_status Device::setMode(int stream, const sphc_openni2_mode &wanted, sphc_me
   const bool granted = is_recording_ || setProperty(handle, ONI_STREAM_PROPERTY_VIDEO_MODE, asked);
   if (!granted || !getProperty(handle, ONI_STREAM_PROPERTY_VIDEO_MODE, &mode) || !modeFits(mode, stream, wanted) ||
       mode.pixelFormat != asked.pixelFormat)
-    return explain(message, SPHC_E_UNSUPPORTED, "the %s mode %s was offered, but the device runs %s (%s)",
+    return explain(message, SPHC_E_UNSUPPORTED,
+                   "the %s mode %s was offered, but the device runs %s (%s); ask for that one",
                    kStreamNames[stream], ModeList(&asked, 1).text, ModeList(&mode, 1).text, LibraryError().text);
   return SPHC_OK;
 }
@@ -128,13 +129,15 @@ sphc_status Device::makePlain(int stream, sphc_message *message) {
   OniBool mirrored = FALSE;
   setProperty(handle, ONI_STREAM_PROPERTY_MIRRORING, mirrored);
   if (getProperty(handle, ONI_STREAM_PROPERTY_MIRRORING, &mirrored) && mirrored)
-    return explain(message, SPHC_E_UNSUPPORTED, "the %s stream is mirrored, and the device refuses to change that",
+    return explain(message, SPHC_E_UNSUPPORTED,
+                   "the %s stream is mirrored, and the device refuses to change that; use another device",
                    kStreamNames[stream]);
   OniCropping cropping = {};
   if (getProperty(handle, ONI_STREAM_PROPERTY_CROPPING, &cropping) && cropping.enabled) {
     cropping.enabled = FALSE;
     if (!setProperty(handle, ONI_STREAM_PROPERTY_CROPPING, cropping))
-      return explain(message, SPHC_E_UNSUPPORTED, "the %s stream is cropped, and the device refuses to change that",
+      return explain(message, SPHC_E_UNSUPPORTED,
+                     "the %s stream is cropped, and the device refuses to change that; use another device",
                      kStreamNames[stream]);
   }
   return SPHC_OK;
@@ -171,7 +174,7 @@ sphc_status Device::playByHand(sphc_message *message) {
   if (oniDeviceSetProperty(device_, ONI_DEVICE_PROPERTY_PLAYBACK_REPEAT_ENABLED, &repeat, sizeof repeat) !=
           ONI_STATUS_OK ||
       oniDeviceSetProperty(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED, &speed, sizeof speed) != ONI_STATUS_OK)
-    return explain(message, SPHC_E_DEVICE, "the recording cannot be played frame by frame (%s)",
+    return explain(message, SPHC_E_DEVICE, "the recording cannot be played frame by frame (%s); record it again",
                    LibraryError().text);
   return SPHC_OK;
 }
@@ -283,7 +286,7 @@ sphc_status Device::setControl(sphc_openni2_control control, int32_t value, sphc
 
 sphc_status Device::getControl(sphc_openni2_control control, int32_t *value, sphc_message *message) const {
   const ControlName name = nameOf(control);
-  if (name.property < 0) return explain(message, SPHC_E_ARGUMENT, "control %d: there are 1 to 4", control);
+  if (name.property < 0) return explain(message, SPHC_E_ARGUMENT, "control %d; it must be 1 to 4", control);
   int32_t is = 0;
   if (!has(kColor) || !oniStreamIsPropertySupported(streams_[kColor], name.property) ||
       !getProperty(streams_[kColor], name.property, &is))

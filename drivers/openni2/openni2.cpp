@@ -99,7 +99,8 @@ extern "C" {
 
 sphc_status sphc_openni2_list(sphc_openni2_device *devices, uint32_t capacity, uint32_t *count,
                               sphc_message *message) {
-  if (!count || (!devices && capacity != 0)) return explain(message, SPHC_E_ARGUMENT, "devices or count is null");
+  if (!count || (!devices && capacity != 0))
+    return explain(message, SPHC_E_ARGUMENT, "devices or count is null; give both");
   Library library;
   const sphc_status status = library.start(message);
   if (status != SPHC_OK) return status;
@@ -123,7 +124,7 @@ sphc_status sphc_openni2_config_init(sphc_openni2_config *config, size_t struct_
 
 sphc_status sphc_openni2_open(const char *uri, const sphc_openni2_config *config, sphc_openni2 **openni2,
                               sphc_message *message) {
-  if (!openni2) return explain(message, SPHC_E_ARGUMENT, "openni2 is null");
+  if (!openni2) return explain(message, SPHC_E_ARGUMENT, "openni2 is null; give a pointer to set");
   sphc_openni2_config chosen;
   sphc_openni2_config_init(&chosen, sizeof chosen);
   if (config && config->struct_size != sizeof *config)
@@ -133,7 +134,7 @@ sphc_status sphc_openni2_open(const char *uri, const sphc_openni2_config *config
   sphc_status status = checkConfig(chosen, message);
   if (status != SPHC_OK) return status;
   sphc_openni2 *opened = new (std::nothrow) sphc_openni2;
-  if (!opened) return explain(message, SPHC_E_DEVICE, "out of memory");
+  if (!opened) return explain(message, SPHC_E_DEVICE, "out of memory; free some");
   Library library;
   status = library.start(message);
   char its_uri[ONI_MAX_STR];
@@ -179,13 +180,13 @@ sphc_status sphc_openni2_get_statistics(const sphc_openni2 *openni2, sphc_openni
 
 sphc_status sphc_openni2_set_control(sphc_openni2 *openni2, sphc_openni2_control control, int32_t value,
                                      sphc_message *message) {
-  if (!openni2) return explain(message, SPHC_E_ARGUMENT, "openni2 is null");
+  if (!openni2) return explain(message, SPHC_E_ARGUMENT, "openni2 is null; give a pointer to set");
   return openni2->camera.device().setControl(control, value, message);
 }
 
 sphc_status sphc_openni2_get_control(sphc_openni2 *openni2, sphc_openni2_control control, int32_t *value,
                                      sphc_message *message) {
-  if (!openni2 || !value) return explain(message, SPHC_E_ARGUMENT, "openni2 or value is null");
+  if (!openni2 || !value) return explain(message, SPHC_E_ARGUMENT, "openni2 or value is null; give both");
   return openni2->camera.device().getControl(control, value, message);
 }
 

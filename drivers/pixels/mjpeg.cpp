@@ -43,12 +43,13 @@ MjpegDecoder::~MjpegDecoder() {
 }
 
 sphc_status MjpegDecoder::decode(const uint8_t *data, size_t bytes, const OutImage &out, sphc_message *message) {
-  if (!handle_) return explain(message, SPHC_E_STATE, "JPEG decoder: was not made, memory ran out");
+  if (!handle_) return explain(message, SPHC_E_STATE, "JPEG decoder: was not made, memory ran out; free some");
   const sphc_status status = checkOut(out, message);
   if (status < 0) return status;
   if (out.format == SPHC_FORMAT_DEPTH16)
-    return explain(message, SPHC_E_UNSUPPORTED, "JPEG becomes GRAY8, RGB8 or BGR8, no other format");
-  if (!data || bytes == 0) return explain(message, SPHC_E_IMAGE, "JPEG frame of %zu bytes: empty", bytes);
+    return explain(message, SPHC_E_UNSUPPORTED, "JPEG is not of depth; give an output of GRAY8, RGB8 or BGR8");
+  if (!data || bytes == 0)
+    return explain(message, SPHC_E_IMAGE, "JPEG frame of %zu bytes: empty; take the next", bytes);
 
   int width = 0, height = 0, subsampling = 0, colorspace = 0;
   if (tjDecompressHeader3(handle_, data, bytes, &width, &height, &subsampling, &colorspace) != 0) {

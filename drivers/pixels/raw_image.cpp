@@ -19,7 +19,7 @@ sphc_status checkSize(const char *what, uint32_t width, uint32_t height, sphc_me
 
 sphc_status checkPlane(const char *what, const void *data, size_t bytes, uint32_t stride_bytes, uint32_t row_bytes,
                        uint32_t rows, sphc_message *message) {
-  if (!data) return explain(message, SPHC_E_IMAGE, "%s: data is null", what);
+  if (!data) return explain(message, SPHC_E_IMAGE, "%s: data is null; give the pixels", what);
   if (stride_bytes < row_bytes || stride_bytes > kMaxStrideBytes)
     return explain(message, SPHC_E_IMAGE, "%s: stride of %u bytes; must be %u, a row's, to %u", what, stride_bytes,
                    row_bytes, kMaxStrideBytes);
@@ -86,7 +86,7 @@ bool isDelivered(sphc_format format) {
 sphc_status checkOut(const OutImage &out, sphc_message *message) {
   const uint32_t pixel_bytes = sphc_format_bytes(out.format);
   if (!isDelivered(out.format))
-    return explain(message, SPHC_E_IMAGE, "the output's format %d is none of GRAY8, RGB8, BGR8 and DEPTH16",
+    return explain(message, SPHC_E_IMAGE, "the output's format is %d; it must be GRAY8, RGB8, BGR8 or DEPTH16",
                    out.format);
   const sphc_status status = checkSize("the output", out.width, out.height, message);
   if (status < 0) return status;

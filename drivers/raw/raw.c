@@ -90,12 +90,12 @@ static sphc_status get_rig(const uint8_t *header, sphc_raw *raw, sphc_message *m
 sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_t file_bytes,
                           sphc_message *message) {
   uint8_t header[kHeaderBytes];
-  if (!raw || !read) return refuse(message, SPHC_E_ARGUMENT, "raw or read is null");
+  if (!raw || !read) return refuse(message, SPHC_E_ARGUMENT, "raw or read is null; give both");
   memset(raw, 0, sizeof *raw);
   if (file_bytes < kHeaderBytes)
     return refuse(message, SPHC_E_ARGUMENT, "no raw recording: shorter than its header; copy the file again");
   if (read(user, 0, header, kHeaderBytes) != 0)
-    return refuse(message, SPHC_E_DEVICE, "raw recording: the header cannot be read");
+    return refuse(message, SPHC_E_DEVICE, "raw recording: the header cannot be read; check the storage");
   if (memcmp(header, "SPHC-RAW", 8) != 0)
     return refuse(message, SPHC_E_ARGUMENT,
                   "no raw recording; make one with: spherecloud convert IN OUT.raw --to raw");
@@ -141,9 +141,9 @@ sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_fra
                                sphc_message *message) {
   uint8_t head[kHeadBytes];
   if (!raw || !recorded || index >= raw->frame_count)
-    return refuse(message, SPHC_E_ARGUMENT, "raw or recorded is null, or there is no such frame");
+    return refuse(message, SPHC_E_ARGUMENT, "raw or recorded is null, or there is no such frame; give an index below frame_count");
   if (raw->read(raw->user, place_of(raw, index), head, kHeadBytes) != 0)
-    return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read");
+    return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read; check the storage");
   return get_head(head, recorded, message);
 }
 
@@ -151,11 +151,11 @@ sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memor
                                 sphc_raw_frame *recorded, sphc_message *message) {
   uint8_t *const bytes = memory;
   if (!raw || !recorded || index >= raw->frame_count)
-    return refuse(message, SPHC_E_ARGUMENT, "raw or recorded is null, or there is no such frame");
+    return refuse(message, SPHC_E_ARGUMENT, "raw or recorded is null, or there is no such frame; give an index below frame_count");
   if (!memory || (uintptr_t)memory % 2 != 0 || memory_bytes < raw->frame_bytes)
-    return refuse(message, SPHC_E_ARGUMENT, "memory is null, odd or less than raw->frame_bytes");
+    return refuse(message, SPHC_E_ARGUMENT, "memory is null, odd or too small; give raw->frame_bytes, aligned to 2");
   if (raw->read(raw->user, place_of(raw, index), bytes, raw->frame_bytes) != 0)
-    return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read");
+    return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read; check the storage");
   const sphc_status status = get_head(bytes, recorded, message);
   if (status != SPHC_OK) return status;
   if (crc32_of(0, bytes + kHeadBytes, raw->frame_bytes - kHeadBytes) != get32(bytes + kHeadBytes - 8))

@@ -105,7 +105,7 @@ sphc_status startPlayer(void *self) {
 sphc_status acquireFromPlayer(void *self, uint32_t timeout_us, sphc_capture *capture) {
   if (!self) return SPHC_E_ARGUMENT;
   return guarded(playerOf(self)->messageRoom(), [&] {
-    if (!capture) throw Failure(SPHC_E_ARGUMENT, "acquire: capture is null");
+    if (!capture) throw Failure(SPHC_E_ARGUMENT, "acquire: capture is null; give one");
     return playerOf(self)->acquire(timeout_us, *capture);
   });
 }

@@ -79,7 +79,7 @@ sphc_status sphc_replay_config_init(sphc_replay_config *config, size_t struct_si
 sphc_status sphc_replay_open(const char *path, const char *calibration_path, const sphc_replay_config *config,
                              sphc_replay **replay, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!path || !replay) throw Failure(SPHC_E_ARGUMENT, "path or replay is null");
+    if (!path || !replay) throw Failure(SPHC_E_ARGUMENT, "path or replay is null; give both");
     sphc_replay_config chosen;
     sphc_replay_config_init(&chosen, sizeof chosen);
     if (config && config->struct_size != sizeof *config)
@@ -142,7 +142,7 @@ sphc_status sphc_replay_get_frame_info(const sphc_replay *replay, uint32_t index
 sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_localizer_frame *frame,
                                    sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!replay || !frame) throw Failure(SPHC_E_ARGUMENT, "replay or frame is null");
+    if (!replay || !frame) throw Failure(SPHC_E_ARGUMENT, "replay or frame is null; give both");
     *frame = replay->reader.read(index);
     return SPHC_OK;
   });

@@ -77,7 +77,7 @@ sphc_status start(void *self) {
 sphc_status acquire(void *self, uint32_t /*timeout_us*/, sphc_capture *capture) {
   if (!self) return SPHC_E_ARGUMENT;
   sphc_sample *sample = sampleOf(self);
-  if (!capture) return fail(sample, SPHC_E_ARGUMENT, "acquire: capture is null");
+  if (!capture) return fail(sample, SPHC_E_ARGUMENT, "acquire: capture is null; give one");
   if (capture->struct_size != sizeof *capture)
     return fail(sample, SPHC_E_STRUCT_SIZE, "acquire: set capture.struct_size to sizeof(sphc_capture)");
   if (!sample->running) return fail(sample, SPHC_E_STATE, "acquire: not running; call start first");

@@ -33,7 +33,7 @@ sphc_status guarded(sphc_message *message, const Action &action) {
     explain(message, "simulated: %s", error.what());
     return SPHC_E_INTERNAL;
   } catch (...) {
-    explain(message, "simulated: unknown failure");
+    explain(message, "simulated: unknown failure; please report it");
     return SPHC_E_INTERNAL;
   }
 }

@@ -62,7 +62,7 @@ sphc_status Camera::open(const char *path, const sphc_v4l2_config &config, sphc_
 }
 
 sphc_status Camera::makeSlots(sphc_message *message) {
-  if (!decoder_.isReady()) return explain(message, SPHC_E_DEVICE, "out of memory for a JPEG decoder");
+  if (!decoder_.isReady()) return explain(message, SPHC_E_DEVICE, "out of memory for a JPEG decoder; free some");
   slot_stride_bytes_ = mode_.width * sphc_format_bytes(config_.format);
   if (is_zero_copy_) return SPHC_OK;
   for (uint32_t i = 0; i < config_.loan_limit; ++i) {
@@ -162,9 +162,10 @@ sphc_status Camera::dmabuf(const sphc_capture &capture, int32_t *fd) const {
 // ---- capturing -------------------------------------------------------------------------------------------------
 
 sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
-  if (!capture) return fail(SPHC_E_ARGUMENT, "acquire: capture is null");
+  if (!capture) return fail(SPHC_E_ARGUMENT, "acquire: capture is null; give one");
   if (capture->struct_size != sizeof *capture)
-    return fail(SPHC_E_STRUCT_SIZE, "acquire: capture->struct_size is none this library knows");
+    return fail(SPHC_E_STRUCT_SIZE,
+                "acquire: capture->struct_size is none this library knows; set it to sizeof(sphc_capture)");
   if (!is_running_) return fail(SPHC_E_STATE, "acquire: not running; call start first");
   if (is_lost_) return SPHC_E_DEVICE_LOST;  // the message says why
   Loan *loan = freeLoan();
@@ -260,7 +261,7 @@ bool Camera::countFrame(const FilledBuffer &filled, sphc_capture *capture) {
   stats_.uncounted += step.kind == FrameCounter::Kind::Uncounted;
   if (step.kind != FrameCounter::Kind::Duplicate) return true;
   ++stats_.duplicated;
-  explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: came before, with the same time", filled.sequence);
+  explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: came before, with the same time; take the next", filled.sequence);
   return false;
 }
 
@@ -268,7 +269,7 @@ bool Camera::stampTime(const FilledBuffer &filled, int64_t arrival_ns, sphc_capt
   FrameClock::Stamp stamp;
   if (!clock_.stamp(filled.time_ns, filled.flags, arrival_ns, &stamp)) {
     ++stats_.time_refused;
-    explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: no later than the last one", filled.sequence);
+    explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: no later than the last one; take the next", filled.sequence);
     return false;
   }
   stats_.time_replaced += stamp.is_replaced;
@@ -284,7 +285,8 @@ bool Camera::stampTime(const FilledBuffer &filled, int64_t arrival_ns, sphc_capt
 bool Camera::isWhole(const FilledBuffer &filled) {
   if (filled.flags & V4L2_BUF_FLAG_ERROR || filled.bytes_used > ring_.bytes(filled.index)) {
     ++stats_.corrupt;
-    explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: the kernel says that its data are damaged", filled.sequence);
+    explain(&bad_frame_, SPHC_E_DEVICE, "frame %u: the kernel says that its data are damaged; take the next",
+            filled.sequence);
     return false;
   }
   if (mode_.pixel_format.is_jpeg) return true;  // the decoder sees

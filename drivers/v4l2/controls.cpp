@@ -91,13 +91,13 @@ int readDescription(const Node &node, uint32_t id, v4l2_query_ext_ctrl *reply) {
 }
 
 sphc_status explainPayload(const Node &node, const v4l2_query_ext_ctrl &reply, sphc_message *message) {
-  return explain(message, SPHC_E_UNSUPPORTED, "%s: %.32s is a text or a list, not one number", node.path(),
-                 reply.name);
+  return explain(message, SPHC_E_UNSUPPORTED, "%s: %.32s is a text or a list, not one number; set it with v4l2-ctl",
+                 node.path(), reply.name);
 }
 
 sphc_status checkSetting(const Node &node, const sphc_v4l2_control &control, int64_t value, sphc_message *message) {
   if (control.is_read_only)
-    return explain(message, SPHC_E_UNSUPPORTED, "%s: %s is read only", node.path(), control.name);
+    return explain(message, SPHC_E_UNSUPPORTED, "%s: %s is read only; leave it", node.path(), control.name);
   if (control.is_inactive)
     return explain(message, SPHC_E_STATE, "%s: %s is overruled by another control now; switch the automatic off",
                    node.path(), control.name);

@@ -32,9 +32,9 @@ const char *cure(int error) {
       return "out of memory for buffers; ask for fewer or smaller ones";
     case EMFILE:
     case ENFILE:
-      return "too many open files";
+      return "too many open files; close some";
     case ENOTTY:
-      return "no video device, or its driver cannot do this";
+      return "no video device, or its driver cannot do this; give another node";
     case EIO:
       return "the camera does not answer properly; plug it in again if it stays so";
     default:

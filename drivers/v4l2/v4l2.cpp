@@ -34,7 +34,8 @@ sphc_status checkConfig(const sphc_v4l2_config &config, sphc_message *message) {
   for (const uint32_t fourcc : config.fourccs) {
     const PixelFormat *format = fourcc ? findPixelFormat(fourcc) : nullptr;
     if (fourcc && (!format || format->stream != config.stream))
-      return explain(message, SPHC_E_ARGUMENT, "config.fourccs: %s is no %s layout that this driver knows",
+      return explain(message, SPHC_E_ARGUMENT,
+                     "config.fourccs: %s is no %s layout that this driver knows; leave it 0 for any",
                      fourccText(fourcc).text, is_depth ? "depth" : "colour");
   }
   if (config.buffers < 3 || config.buffers > SPHC_V4L2_MAX_BUFFERS) return refuse("buffers: must be 3 to 32");
@@ -77,7 +78,7 @@ namespace sphc::v4l2 {
 
 sphc_status openCamera(const Syscalls &syscalls, const char *camera, const sphc_v4l2_config *config,
                        sphc_v4l2 **v4l2, sphc_message *message) {
-  if (!camera || !v4l2) return explain(message, SPHC_E_ARGUMENT, "camera or v4l2 is null");
+  if (!camera || !v4l2) return explain(message, SPHC_E_ARGUMENT, "camera or v4l2 is null; give both");
   sphc_v4l2_config chosen;
   sphc_status status = chooseConfig(config, &chosen, message);
   if (status < 0) return status;
@@ -88,7 +89,7 @@ sphc_status openCamera(const Syscalls &syscalls, const char *camera, const sphc_
     camera = found.text;
   }
   std::unique_ptr<sphc_v4l2> opened(new (std::nothrow) sphc_v4l2(syscalls));
-  if (!opened) return explain(message, SPHC_E_DEVICE, "out of memory");
+  if (!opened) return explain(message, SPHC_E_DEVICE, "out of memory; free some");
   sphc_message text = {};  // a try that fails before one that does not leaves no message
   status = opened->camera.open(camera, chosen, &text);
   if (status < 0) return explain(message, status, "%s", text.text);
@@ -161,23 +162,24 @@ sphc_status sphc_v4l2_dmabuf(sphc_v4l2 *v4l2, const sphc_capture *capture, int32
 sphc_status sphc_v4l2_list_controls(sphc_v4l2 *v4l2, sphc_v4l2_control *controls, uint32_t capacity,
                                     uint32_t *count, sphc_message *message) {
   if (!v4l2 || !count || (!controls && capacity > 0))
-    return explain(message, SPHC_E_ARGUMENT, "v4l2, controls or count is null");
+    return explain(message, SPHC_E_ARGUMENT, "v4l2, controls or count is null; give all");
   return listControls(v4l2->camera.node(), controls, capacity, count, message);
 }
 
 sphc_status sphc_v4l2_find_control(sphc_v4l2 *v4l2, const char *name, sphc_v4l2_control *control,
                                    sphc_message *message) {
-  if (!v4l2 || !name || !control) return explain(message, SPHC_E_ARGUMENT, "v4l2, name or control is null");
+  if (!v4l2 || !name || !control)
+    return explain(message, SPHC_E_ARGUMENT, "v4l2, name or control is null; give all");
   return findControl(v4l2->camera.node(), name, control, message);
 }
 
 sphc_status sphc_v4l2_get_control(sphc_v4l2 *v4l2, uint32_t id, int64_t *value, sphc_message *message) {
-  if (!v4l2 || !value) return explain(message, SPHC_E_ARGUMENT, "v4l2 or value is null");
+  if (!v4l2 || !value) return explain(message, SPHC_E_ARGUMENT, "v4l2 or value is null; give both");
   return getControl(v4l2->camera.node(), id, value, message);
 }
 
 sphc_status sphc_v4l2_set_control(sphc_v4l2 *v4l2, uint32_t id, int64_t value, sphc_message *message) {
-  if (!v4l2) return explain(message, SPHC_E_ARGUMENT, "v4l2 is null");
+  if (!v4l2) return explain(message, SPHC_E_ARGUMENT, "v4l2 is null; give one");
   return setControl(v4l2->camera.node(), id, value, message);
 }
 

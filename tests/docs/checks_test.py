@@ -17,6 +17,7 @@ import check_links
 import check_words
 import make_bindings
 import make_decisions
+import make_error_cases
 import make_results
 import tutorial
 from commands import help_texts
@@ -230,6 +231,25 @@ class Checks(unittest.TestCase):
         for name, text in (("a.py", '#!/usr/bin/env python3\n"""A page\nof words.\n"""\nimport a  # one\n\n  # none\nb = """c"""\n'),
                            ("a.c", "/* A page\n   of words. */\nint a; // one\n\n  // none\nint b; /* c */\n")):
             self.assertEqual(make_bindings.lines_of_code(self.write(name, text)), 2, name)
+
+    def test_an_error_case_that_is_lost_or_new(self):
+        self.write("sdk/runtime/a.cpp", 'MessageWriter(message) << name << " is null; give one";\nthrow Failure("never " "said; wait");\n')
+        text = "A.Case\tsphc_a\tSPHC_E_ARGUMENT\tmap is null; give one\n"
+        records = [self.write("refusals/a_test.tsv", text)]
+        made = make_error_cases.page(self.root, records)
+        self.assertIn("| `A.Case` | `sphc_a` | SPHC_E_ARGUMENT | map is null | give one |", made)
+        self.assertIn("1 of the 2 statements", made)
+        self.write("docs/error_cases.md", made)
+        self.assertEqual(make_error_cases.check(self.root, records), 0)
+        for other in ("", text.replace("give one", "give two"), text.replace("; give one", ""), text + text.replace("map", "file")):
+            self.write("refusals/a_test.tsv", other)
+            self.assertEqual(make_error_cases.check(self.root, records), 1, other)
+        self.assertEqual(make_error_cases.check(self.root, [self.root / "none.tsv"]), make_error_cases.SKIPPED)
+
+    def test_of_a_failure_thrown_again_the_last_counts(self):
+        inner, outer = ["A.B", "", "exit 1", "is cut; copy it"], ["A.B", "", "exit 1", "a.bin: is cut; copy it"]
+        self.assertEqual(make_error_cases.outermost([inner, outer]), [outer])
+        self.assertEqual(make_error_cases.outermost([inner, ["A.C", *outer[1:]]]), [inner, ["A.C", *outer[1:]]])
 
     def test_every_row_of_a_file_is_in_its_table(self):
         text = make_results.flat([{"place": "a", "value": "1"}, {"place": "b", "value": "2"}], ["place"])

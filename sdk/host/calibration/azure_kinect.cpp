@@ -113,7 +113,9 @@ NamedCamera readCamera(const Value &value, const char *name, const std::vector<I
   if (p.size() != kParameterCount && p.size() != kParameterCount + 1)  // the metric radius may follow
     list.fail("has " + std::to_string(p.size()) + " numbers; must be 14");
   if (p[kCenterX] != 0 || p[kCenterY] != 0)
-    list.fail("has a centre of distortion of its own (numbers 11 and 12), which no camera model here has");
+    list.fail(
+        "has a centre of distortion of its own (numbers 11 and 12), which no camera model here has; calibrate the "
+        "camera with OpenCV");
   const Intrinsics intrinsics = {
       p[kFx] * width, p[kFy] * height, p[kCx] * width + kCornerCentered, p[kCy] * height + kCornerCentered,
       width,          height};
@@ -167,7 +169,7 @@ Json parse(const TextFile &file) {
   try {
     return Json::parse(file.text.substr(0, end == std::string::npos ? 0 : end + 1));
   } catch (const Json::exception &error) {
-    refuse(file.name, "the file", std::string("no valid JSON: ") + error.what());
+    refuse(file.name, "the file", std::string("no valid JSON; copy the file again: ") + error.what());
   }
 }
 
@@ -183,7 +185,8 @@ CalibrationPart readAzureKinect(const TextFile &file) {
     if (purpose == kDepthPurpose) part.cameras.push_back(readCamera(camera, "depth", kDepthModes));
   }
   if (part.cameras.empty())
-    cameras.fail(std::string("has no camera of purpose ") + kColorPurpose + " or " + kDepthPurpose);
+    cameras.fail(std::string("has no camera of purpose ") + kColorPurpose + " or " + kDepthPurpose +
+                 "; give the raw calibration of the whole device");
   return part;
 }
 

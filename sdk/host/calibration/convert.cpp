@@ -18,9 +18,10 @@ TextFile readText(const std::string &path) {
   if (!stream || !std::filesystem::is_regular_file(path))
     throw std::runtime_error(path + ": no such file, or it may not be read; check its name and permissions");
   stream.read(file.text.data(), static_cast<std::streamsize>(file.text.size()));
-  if (stream.bad()) throw std::runtime_error(path + ": cannot be read");
+  if (stream.bad()) throw std::runtime_error(path + ": cannot be read to its end; check the disk");
   file.text.resize(static_cast<size_t>(stream.gcount()));
-  if (file.text.size() > kMostFileBytes) throw std::runtime_error(path + ": over 256 KiB: no calibration file");
+  if (file.text.size() > kMostFileBytes)
+    throw std::runtime_error(path + ": over 256 KiB, so no calibration file; give the calibration alone");
   return file;
 }
 

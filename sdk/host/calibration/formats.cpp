@@ -70,7 +70,7 @@ CalibrationPart readCalibration(Format format, const TextFile &file, const TextF
     case Format::kAzureKinect:
       return readAzureKinect(file);
   }
-  refuse(file.name, "the file", "unknown format");
+  refuse(file.name, "the file", "unknown format; name one of those that the help lists");
 }
 
 std::vector<TextFile> writeCalibration(Format format, const sphc_rig &calibration) {

@@ -80,7 +80,7 @@ sphc_camera resized(const NamedCamera &named, ImageSize size, const std::string 
     sizes += ", " + sizeText(mode.width, mode.height);
   }
   throw std::runtime_error(option + " " + sizeText(size.width, size.height) + ": camera " + shown(named.name) +
-                           " is calibrated for " + sizes);
+                           " is calibrated for " + sizes + "; choose one of them");
 }
 
 sphc_rigid colorFromDepth(const std::vector<CalibrationPart> &parts, const JoinOptions &options,

@@ -59,7 +59,7 @@ class Reader {
     if (!data.isSeq() || data.size() > kMostElements) fail(key, "must be a matrix with rows, cols and data");
     std::vector<double> result;
     for (const cv::FileNode value : data) {
-      if (!value.isInt() && !value.isReal()) fail(key, "holds something that is no number");
+      if (!value.isInt() && !value.isReal()) fail(key, "holds something that is no number; write the file anew");
       result.push_back(value.real());
       if (!std::isfinite(result.back())) fail(key, "holds a number that is not finite; calibrate again");
     }
@@ -89,7 +89,7 @@ class Reader {
   void checkShape(const std::string &key, const cv::FileNode &node, size_t count) const {
     const cv::FileNode rows = node["rows"], cols = node["cols"];
     if (!rows.isInt() || !cols.isInt() || rows.real() * cols.real() != static_cast<double>(count))
-      fail(key, "has " + std::to_string(count) + " numbers, which is not rows x cols");
+      fail(key, "has " + std::to_string(count) + " numbers, which is not rows x cols; correct these");
   }
 
   std::string name_;
@@ -157,7 +157,7 @@ std::string opencvCamera(const std::string &n, const sphc_camera &camera) {
 
 CalibrationPart readOpencv(const TextFile &file) {
   const QuietOpencv quiet;
-  const char *what = "no valid OpenCV FileStorage (begins with %YAML:1.0, { or <?xml): ";
+  const char *what = "no valid OpenCV FileStorage, which begins with %YAML:1.0, { or <?xml; write the file anew: ";
   try {
     return read(file);
   } catch (const cv::Exception &error) {

@@ -44,7 +44,8 @@ YamlMap YamlMap::parse(const TextFile &file) {
   try {
     return {YAML::Load(file.text), file.name, ""};
   } catch (const YAML::Exception &error) {
-    host::refuse(file.name, "line " + std::to_string(error.mark.line + 1), "no valid YAML: " + error.msg);
+    host::refuse(file.name, "line " + std::to_string(error.mark.line + 1),
+                 "no valid YAML; correct this line: " + error.msg);
   }
 }
 

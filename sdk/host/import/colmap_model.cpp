@@ -33,7 +33,8 @@ void checkImages(const ColmapModel &model) {
              "is of camera " + std::to_string(image.camera) +
                  ", which cameras does not have; take files of one model");
     if (!staysInside(image.name))
-      refuse("images", place, "its name " + shown(image.name) + " is not one inside the folder of images");
+      refuse("images", place,
+             "its name " + shown(image.name) + " is not one inside the folder of images; name it as it lies there");
   }
 }
 

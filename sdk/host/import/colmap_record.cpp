@@ -18,7 +18,8 @@ bool isSane(const Vector3 &v) { return v.allFinite() && v.cwiseAbs().maxCoeff() 
 
 void addColmapCamera(const std::string &place, uint32_t id, const ColmapCameraModel &kind, uint64_t width,
                      uint64_t height, const std::vector<double> &params, ColmapModel *model) {
-  if (width > UINT32_MAX || height > UINT32_MAX) refuse("COLMAP model", place, "its width or height is absurd");
+  if (width > UINT32_MAX || height > UINT32_MAX)
+    refuse("COLMAP model", place, "its width or height is absurd; take the file from COLMAP again");
   const sphc_camera camera =
       colmapCamera(kind, static_cast<uint32_t>(width), static_cast<uint32_t>(height), params);
   sphc_message message = {};

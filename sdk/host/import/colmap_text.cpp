@@ -86,7 +86,9 @@ void readTextCameras(const std::string &text, ColmapModel *model) {
     const uint64_t width = words.integer<uint64_t>(), height = words.integer<uint64_t>();
     std::vector<double> params;
     for (size_t i = 0; i < known->slots.size(); ++i) params.push_back(words.number());
-    if (!words.done()) refuse("COLMAP model", words.place(), "has more parameters than its camera model");
+    if (!words.done())
+      refuse("COLMAP model", words.place(),
+             "has more parameters than its camera model; take the file from COLMAP again");
     addColmapCamera(words.place(), id, *known, width, height, params, model);
   }
 }

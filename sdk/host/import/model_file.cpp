@@ -97,7 +97,7 @@ std::vector<uint8_t> readAll(int file, size_t count) {
   std::vector<uint8_t> bytes(count);
   for (size_t done = 0; done < count;) {
     const ssize_t got = read(file, bytes.data() + done, count - done);
-    if (got == 0 || (got < 0 && errno != EINTR)) refuse("it cannot be read to its end");
+    if (got == 0 || (got < 0 && errno != EINTR)) refuse("it cannot be read to its end; check the disk");
     if (got > 0) done += static_cast<size_t>(got);
   }
   return bytes;

@@ -178,7 +178,9 @@ Ledger::Ledger(const std::string &path, int flags) : path_(path) {
   sqlite3 *database = nullptr;
   const int result = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
   database_.reset(database);
-  if (result != SQLITE_OK) refuse(path, std::string("cannot be opened: ") + sqlite3_errmsg(database));
+  if (result != SQLITE_OK)
+    refuse(path,
+           std::string("cannot be opened: ") + sqlite3_errmsg(database) + "; choose the right file with --ledger");
 }
 
 void Ledger::run(const char *statement) {

@@ -76,7 +76,7 @@ std::vector<Descriptor> descriptorsOf(const SphereCloud &cloud) {
 MapId unhex(const std::string &text) {
   MapId id = {};
   if (text.size() != 2 * id.size() || text.find_first_not_of("0123456789abcdef") != std::string::npos)
-    throw std::runtime_error("map_id is not 32 hexadecimal digits");
+    throw std::runtime_error("map_id is not 32 hexadecimal digits; build the map again");
   for (size_t i = 0; i < id.size(); ++i)
     id[i] = static_cast<uint8_t>(std::stoul(text.substr(2 * i, 2), nullptr, 16));
   return id;
@@ -153,11 +153,12 @@ OwnerNote readOwnerNote(const std::string &path) {
   try {
     const nlohmann::json json = nlohmann::json::parse(in);
     if (json.at("format") != "spherecloud-owner-note" || json.at("version") != 1)
-      throw std::runtime_error("it is not an owner's note of version 1");
+      throw std::runtime_error("it is not an owner's note of version 1; give the one that spherecloud build wrote");
     const auto &centre = json.at("centre_in_world_m");
     OwnerNote note;
     note.map_id = unhex(json.at("map_id").get<std::string>());
-    if (centre.size() != 3) throw std::runtime_error("centre_in_world_m must have three numbers");
+    if (centre.size() != 3)
+      throw std::runtime_error("centre_in_world_m must have three numbers; build the map again");
     for (int i = 0; i < 3; ++i) note.centre_in_world_m[i] = centre.at(static_cast<size_t>(i)).get<double>();
     note.eta = json.at("eta").get<double>();
     note.strategy = json.at("strategy").get<std::string>();

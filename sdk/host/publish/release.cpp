@@ -63,9 +63,10 @@ void refuseChange(const Place &place, sphc_band band, const ReleaseRequest &requ
       ". Its published points stay as they are: two maps that hide the same points in two ways expose them. Leave "
       "the option out, or publish with --new-place only what is not released yet, or say --i-understand";
   if (band != place.band)
-    throw std::runtime_error("place " + std::to_string(place.number) +
-                             " was released for another band, and the "
-                             "recording shows the same: its --band, or that of the first release, is wrong");
+    throw std::runtime_error(
+        "place " + std::to_string(place.number) +
+        " was released for another band, and the recording shows the same; give the --band of that "
+        "release, or make a new place if that was wrong");
   if (request.eta && std::abs(*request.eta - place.eta) > 1e-9) throw std::runtime_error(was + std::string(cure));
   if (request.strategy && request.strategy->name() != place.strategy)
     throw std::runtime_error(was + (" and fakes '" + place.strategy + "', not '" + request.strategy->name() + "'") +

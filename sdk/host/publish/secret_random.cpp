@@ -14,7 +14,9 @@ namespace sphc::host {
 namespace {
 
 void startSodium() {
-  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot start: no source of randomness on this system");
+  if (sodium_init() < 0)
+    throw std::runtime_error(
+        "libsodium cannot start: no source of randomness on this system; give it /dev/urandom");
 }
 
 }  // namespace
@@ -39,7 +41,9 @@ SecretKey readSecretKey(const std::string &path) {
       sodium_hex2bin(key.data(), key.size(), text.data(), text.size(), nullptr, &bytes, nullptr) == 0;
   std::string rest;
   if (!parsed || bytes != key.size() || text.size() != 2 * key.size() || (in >> rest))
-    throw std::runtime_error("key file " + path + " does not hold exactly 64 hexadecimal digits");
+    throw std::runtime_error(
+        "key file " + path +
+        " does not hold exactly 64 hexadecimal digits; leave --key out, and the ledger draws one");
   return key;
 }
 

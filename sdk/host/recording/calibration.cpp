@@ -95,7 +95,7 @@ extern "C" {
 
 sphc_status sphc_calibration_read(const char *path, sphc_rig *rig, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!path || !rig) throw Failure(SPHC_E_ARGUMENT, "path or rig is null");
+    if (!path || !rig) throw Failure(SPHC_E_ARGUMENT, "path or rig is null; give both");
     *rig = readCalibration(path);
     return SPHC_OK;
   });
@@ -104,7 +104,7 @@ sphc_status sphc_calibration_read(const char *path, sphc_rig *rig, sphc_message 
 sphc_status sphc_calibration_parse(const char *text, size_t bytes, const char *name, sphc_rig *rig,
                                    sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!text || !name || !rig) throw Failure(SPHC_E_ARGUMENT, "text, name or rig is null");
+    if (!text || !name || !rig) throw Failure(SPHC_E_ARGUMENT, "text, name or rig is null; give all");
     *rig = parseText({text, bytes}, shortPath(name));
     return SPHC_OK;
   });
@@ -112,7 +112,7 @@ sphc_status sphc_calibration_parse(const char *text, size_t bytes, const char *n
 
 sphc_status sphc_calibration_write(const char *path, const sphc_rig *rig, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!path || !rig) throw Failure(SPHC_E_ARGUMENT, "path or rig is null");
+    if (!path || !rig) throw Failure(SPHC_E_ARGUMENT, "path or rig is null; give both");
     writeCalibration(path, *rig);
     return SPHC_OK;
   });

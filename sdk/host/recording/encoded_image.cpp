@@ -59,8 +59,8 @@ void decodeImage(ByteView encoded, ImageType type, const sphc_camera &camera, sp
   if (decoded.empty()) throw Failure(SPHC_E_DEVICE, "cannot be decoded; remove the frame or copy the file again");
   requireSize(static_cast<uint32_t>(decoded.cols), static_cast<uint32_t>(decoded.rows), camera, is_color);
   if (decoded.type() != typeOf(format))
-    throw Failure(SPHC_E_IMAGE, "is not a single-channel 16-bit PNG, as depth must be");
-  if (decoded.data != pixels) throw Failure(SPHC_E_INTERNAL, "was decoded elsewhere");
+    throw Failure(SPHC_E_IMAGE, "is not a single-channel 16-bit PNG, as depth must be; convert it");
+  if (decoded.data != pixels) throw Failure(SPHC_E_INTERNAL, "was decoded elsewhere; please report it");
   if (format == SPHC_FORMAT_RGB8) swapRedAndBlue(pixels, size_t{camera.width} * camera.height);
 }
 

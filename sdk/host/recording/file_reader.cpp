@@ -59,7 +59,8 @@ void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &conte
                     "cannot be read: " + std::generic_category().message(errno) + "; check the disk");
     if (got == 0) break;
     filled += static_cast<size_t>(got);
-    if (filled > most_bytes) throw Failure(SPHC_E_ARGUMENT, "is over " + std::to_string(most_bytes >> 20) + " MiB");
+    if (filled > most_bytes)
+      throw Failure(SPHC_E_ARGUMENT, "is over " + std::to_string(most_bytes >> 20) + " MiB; is it the right file?");
     if (filled == content.size()) content.resize(filled + kPieceBytes);  // it grows while it is read
   }
   content.resize(filled);

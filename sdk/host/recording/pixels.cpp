@@ -46,7 +46,7 @@ std::string sizeText(uint32_t width, uint32_t height) {
 void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_color) {
   const std::string name = is_color ? "colour image" : "depth image";
   const bool is_depth_format = image.format == SPHC_FORMAT_DEPTH16;
-  if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null");
+  if (!image.data) throw Failure(SPHC_E_IMAGE, name + ": data is null; give the pixels");
   if (!isRecorded(image.format) || is_depth_format == is_color)
     throw Failure(SPHC_E_IMAGE, name + ": format " + std::to_string(image.format) + " does not fit; " +
                                     (is_color ? "give GRAY8, RGB8 or BGR8" : "give DEPTH16"));
@@ -56,8 +56,8 @@ void checkImage(const sphc_image &image, const sphc_camera &camera, bool is_colo
                                     "; they must be equal");
   const uint64_t row_bytes = uint64_t{image.width} * sphc_format_bytes(image.format);
   if (image.stride_bytes < row_bytes || (is_depth_format && image.stride_bytes % 2 != 0))
-    throw Failure(SPHC_E_IMAGE,
-                  name + ": stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row or odd");
+    throw Failure(SPHC_E_IMAGE, name + ": stride_bytes " + std::to_string(image.stride_bytes) +
+                                    " is less than a row or odd; give the bytes from row to row");
 }
 
 void checkAmplitude(const sphc_image &image, const sphc_camera &depth_camera) {
@@ -70,8 +70,8 @@ void checkAmplitude(const sphc_image &image, const sphc_camera &depth_camera) {
                                     ", the depth camera in the calibration " +
                                     sizeText(depth_camera.width, depth_camera.height) + "; they must be equal");
   if (image.stride_bytes < uint64_t{image.width} * sphc_format_bytes(f))
-    throw Failure(SPHC_E_IMAGE,
-                  "amplitude image: stride_bytes " + std::to_string(image.stride_bytes) + " is less than a row");
+    throw Failure(SPHC_E_IMAGE, "amplitude image: stride_bytes " + std::to_string(image.stride_bytes) +
+                                    " is less than a row; give the bytes from row to row");
 }
 
 void packAmplitude(const sphc_image &image, uint16_t *out) {

@@ -105,7 +105,7 @@ bool normalizeQuaternion(double q_wxyz[4], double tolerance) {
 
 sphc_rigid checkedPose(const sphc_rigid &pose) {
   sphc_rigid checked = pose;
-  if (!isFinite(checked)) throw Failure(SPHC_E_ARGUMENT, "pose: not finite");
+  if (!isFinite(checked)) throw Failure(SPHC_E_ARGUMENT, "pose: not finite; leave out frames that have none");
   if (!normalizeQuaternion(checked.q_wxyz, 1e-3))
     throw Failure(SPHC_E_ARGUMENT, "pose: q_wxyz is not of unit length; divide by its length");
   return checked;

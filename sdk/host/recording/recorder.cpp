@@ -326,7 +326,7 @@ sphc_status sphc_recorder_config_init(sphc_recorder_config *config, size_t struc
 sphc_status sphc_recorder_open(const char *path, const sphc_rig *rig, const sphc_recorder_config *config,
                                sphc_recorder **recorder, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!path || !recorder) throw Failure(SPHC_E_ARGUMENT, "path or recorder is null");
+    if (!path || !recorder) throw Failure(SPHC_E_ARGUMENT, "path or recorder is null; give both");
     const sphc_status status = sphc_rig_check(rig, message);
     if (status < 0) return status;
     sphc_recorder_config chosen;
@@ -342,8 +342,9 @@ sphc_status sphc_recorder_open(const char *path, const sphc_rig *rig, const sphc
 
 sphc_status sphc_recorder_add(sphc_recorder *recorder, const sphc_capture *capture, sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!recorder || !capture) throw Failure(SPHC_E_ARGUMENT, "recorder or capture is null");
-    if (capture->struct_size != sizeof *capture) throw Failure(SPHC_E_STRUCT_SIZE, "capture.struct_size");
+    if (!recorder || !capture) throw Failure(SPHC_E_ARGUMENT, "recorder or capture is null; give both");
+    if (capture->struct_size != sizeof *capture)
+      throw Failure(SPHC_E_STRUCT_SIZE, "capture.struct_size; set it to sizeof(sphc_capture)");
     return recorder->add(*capture);
   });
 }
@@ -351,7 +352,8 @@ sphc_status sphc_recorder_add(sphc_recorder *recorder, const sphc_capture *captu
 sphc_status sphc_recorder_add_pose(sphc_recorder *recorder, int64_t time_ns, const sphc_rigid *world_from_camera,
                                    sphc_message *message) {
   return guarded(message, [&]() -> sphc_status {
-    if (!recorder || !world_from_camera) throw Failure(SPHC_E_ARGUMENT, "recorder or world_from_camera is null");
+    if (!recorder || !world_from_camera)
+      throw Failure(SPHC_E_ARGUMENT, "recorder or world_from_camera is null; give both");
     return recorder->addPose(time_ns, *world_from_camera);
   });
 }

@@ -61,7 +61,7 @@ ByteView RecordingEncoder::encodeDepth(Kind kind, const sphc_image &image) {
   }
   putZstdHead(out, image.width, image.height);
   const size_t bytes = zstd_.encode(depth, count, out + kZstdHeadBytes, depth_.size() - kZstdHeadBytes);
-  if (bytes == 0) throw Failure(SPHC_E_DEVICE, "zstd cannot encode a depth image: out of memory");
+  if (bytes == 0) throw Failure(SPHC_E_DEVICE, "zstd cannot encode a depth image: out of memory; free some");
   return {out, kZstdHeadBytes + bytes};
 }
 

@@ -36,7 +36,7 @@ RecordingReader::RecordingReader(const std::filesystem::path &path, const Reader
 sphc_localizer_frame RecordingReader::read(uint32_t index) {
   if (index >= frameCount())
     throw Failure(SPHC_E_ARGUMENT, "frame " + std::to_string(index) + ": there are " +
-                                       std::to_string(frameCount()) + ", counted from 0");
+                                       std::to_string(frameCount()) + ", counted from 0; choose one of them");
   const RecordedImage &color = colorOf(index);
   const RecordedImage &depth = depthOf(index);
   color_pixels_.resize(images_.colorBytes());

@@ -29,7 +29,8 @@ std::vector<uint8_t> writePicture(const std::string &path, const cv::Mat &pictur
                                   const std::vector<int> &options) {
   std::vector<uint8_t> encoded;
   if (!cv::imencode(std::filesystem::path(path).extension().string(), picture, encoded, options))
-    throw std::runtime_error("cannot encode " + path + ": OpenCV has no encoder for this kind");
+    throw std::runtime_error("cannot encode " + path +
+                             ": OpenCV has no encoder for this kind; end its name in .png");
   writeFile(path, encoded);
   return encoded;
 }

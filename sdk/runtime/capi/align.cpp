@@ -85,7 +85,7 @@ sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc_memory *
   const sphc_status status = sphc::readAlignerConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!memory) {
-    MessageWriter(message) << "memory is null";
+    MessageWriter(message) << "memory is null; give one to write the answer to";
     return SPHC_E_ARGUMENT;
   }
   *memory = {bytesOf(denseConfig(checked), readerConfig(checked)), 0, sphc::kArenaAlignment, 0};
@@ -98,7 +98,7 @@ sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_alig
   sphc_status status = sphc::readAlignerConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!aligner) {
-    MessageWriter(message) << "aligner is null";
+    MessageWriter(message) << "aligner is null; give a pointer to set";
     return SPHC_E_ARGUMENT;
   }
   const DenseConfig dense = denseConfig(checked);
@@ -127,7 +127,8 @@ sphc_status sphc_aligner_process(sphc_aligner *aligner, const sphc_image *depth,
     MessageWriter(&aligner->message) << "depth is null; give an image";
     return SPHC_E_ARGUMENT;
   }
-  sphc_status status = sphc::checkImage("depth", *depth, aligner->depth, aligner->depth_format, &aligner->message);
+  sphc_status status = sphc::checkImage("depth", *depth, aligner->depth,
+                                        {aligner->depth_format, "config.depth_format"}, &aligner->message);
   sphc_aligned to = {};
   if (status == SPHC_OK) status = readAligned(aligned, aligner->color.width, &to, &aligner->message);
   if (status != SPHC_OK) return status;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kLeastSigma = 1e-6;  // smaller ones would square to nothing
 constexpr double kMostAmplitude = 65535;
+constexpr uint32_t kMostStrideBytes = 1u << 20;
 
 // A field that has to lie in [low, high]; `owner` is what its name begins with.
 bool inRange(const char *owner, const char *name, double value, double low, double high, sphc_message *message) {
@@ -57,7 +58,8 @@ bool checkDepth(const char *owner, sphc_format configured, uint32_t width, const
   }
   if (width % format.group_pixels) {
     MessageWriter(message) << owner << "format is " << configured << ", of which " << format.group_pixels
-                           << " pixels share bytes, but the depth camera's width is " << width;
+                           << " pixels share bytes, but the depth camera's width is " << width
+                           << "; give a format or a width that fit each other";
     return false;
   }
   const double farthest_m = 65535 * sensor.unit_m;
@@ -231,7 +233,7 @@ sphc_status checkView(const sphc_localizer_view &view, const sphc_camera &known,
       !checkMountNow("frame.views[i].color_from_camera", view.color_from_camera, message))
     return SPHC_E_ARGUMENT;
   if (!looks_at_images || !view.image.data) return SPHC_OK;
-  return checkImage("frame.views[i]", view.image, known, 0, message);
+  return checkImage("frame.views[i]", view.image, known, {}, message);
 }
 
 // An array of a frame: one element for each of the config's `cameras`, and null where there are none.
@@ -260,30 +262,34 @@ sphc_status readViews(const FrameLimits &limits, FrameCopy *copy, sphc_message *
   return SPHC_OK;
 }
 
-sphc_status checkAmplitude(const sphc_image &image, const RigDepthCamera &camera, sphc_message *message) {
+// `owner` is how the names of the camera's fields begin.
+sphc_status checkAmplitude(const char *owner, const sphc_image &image, const RigDepthCamera &camera,
+                           sphc_message *message) {
   if (!camera.least_amplitude) return SPHC_OK;  // not looked at
   if (!image.data) {
-    MessageWriter(message)
-        << "amplitude image is missing; give one with every frame, or set config.amplitude_min to 0";
+    MessageWriter(message) << "amplitude image is missing; give one with every frame, or set " << owner
+                           << "amplitude_min to 0";
     return SPHC_E_IMAGE;
   }
   const LumaLayout layout = pixelFormatOf(image.format).luma;
   const bool is_number = layout.kind == LumaLayout::kWords || image.format == SPHC_FORMAT_GRAY8;
   if (!is_number || layout.green != LumaLayout::kNoFilter) {
     MessageWriter(message) << "amplitude image has format " << image.format
-                           << "; give GRAY8, GRAY10, GRAY12 or GRAY16, as config.amplitude_min is set";
+                           << "; give GRAY8, GRAY10, GRAY12 or GRAY16, as " << owner << "amplitude_min is set";
     return SPHC_E_IMAGE;
   }
-  return checkImage("amplitude", image, camera.camera.parameters(), 0, message);
+  return checkImage("amplitude", image, camera.camera.parameters(), {}, message);
 }
 
 // The images of a depth camera, the i-th of the rig.
 sphc_status checkDepthImages(const FrameLimits &limits, uint32_t i, const sphc_image &depth,
                              const sphc_image &amplitude, sphc_message *message) {
   const RigDepthCamera &camera = limits.config.depth[i];
-  const sphc_status status =
-      checkImage("depth", depth, camera.camera.parameters(), limits.depth_formats[i], message);
-  return status == SPHC_OK ? checkAmplitude(amplitude, camera, message) : status;
+  const DepthWanted wanted = {limits.depth_formats[i],
+                              i == 0 ? "config.depth_format" : "config.depth_cameras[i].format"};
+  const sphc_status status = checkImage("depth", depth, camera.camera.parameters(), wanted, message);
+  if (status != SPHC_OK) return status;
+  return checkAmplitude(i == 0 ? "config." : kFurtherDepthFields, amplitude, camera, message);
 }
 
 sphc_status checkDepthView(const FrameLimits &limits, uint32_t i, const sphc_localizer_depth_view &view,
@@ -323,7 +329,8 @@ sphc_status checkDepthFrame(const FrameLimits &limits, FrameCopy *copy, sphc_mes
 
 sphc_status checkPrior(const sphc_localizer_prior &prior, const MapSet &maps, sphc_message *message) {
   if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP | SPHC_PRIOR_ODOMETRY)) {
-    MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags;
+    MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags
+                           << "; use SPHC_PRIOR_POSE, _UP and _ODOMETRY";
     return SPHC_E_ARGUMENT;
   }
   if (prior.flags & (SPHC_PRIOR_POSE | SPHC_PRIOR_UP) && maps.slotOf(prior.map_id) == kNoMap) {
@@ -349,7 +356,7 @@ sphc_status checkFeatureFrame(const FrameLimits &limits, FrameCopy *copy, sphc_m
   const sphc_localizer_frame &own = copy->frame;
   const sphc_camera &color = limits.config.color_camera.parameters();
   sphc_status status = checkDeadline(own, limits.has_clock, message);
-  if (status == SPHC_OK && limits.looks_at_images) status = checkImage("color", own.color, color, 0, message);
+  if (status == SPHC_OK && limits.looks_at_images) status = checkImage("color", own.color, color, {}, message);
   if (status != SPHC_OK) return status;
   if (!checkCameraNow("frame.color_camera", own.color_camera, color, message) ||
       !checkMountNow("frame.color_from_depth", own.color_from_depth, message))
@@ -360,14 +367,14 @@ sphc_status checkFeatureFrame(const FrameLimits &limits, FrameCopy *copy, sphc_m
 }  // namespace
 
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
-                       sphc_format depth_format, sphc_message *message) {
+                       const DepthWanted &wanted, sphc_message *message) {
   const PixelFormat format = pixelFormatOf(image.format);
-  const bool fits = depth_format ? image.format == depth_format : format.group_bytes && !format.is_depth;
+  const bool fits = wanted.format ? image.format == wanted.format : format.group_bytes && !format.is_depth;
   if (!fits) {
     MessageWriter text(message);
     text << name << " image has format " << image.format << "; give ";
-    if (depth_format)
-      text << sphc_format_name(depth_format) << " as config.depth_format says, or set that to another";
+    if (wanted.format)
+      text << sphc_format_name(wanted.format) << " as " << wanted.field << " says, or set that to another";
     else
       text << "GRAY8, RGB8, BGR8 or another that is not of depth";
     return SPHC_E_IMAGE;
@@ -384,19 +391,20 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
                            << " pixels of its format share bytes; give a multiple";
     return SPHC_E_IMAGE;
   }
-  if (image.stride_bytes < row || image.stride_bytes > (1u << 20) || image.stride_bytes % format.alignment) {
+  if (image.stride_bytes < row || image.stride_bytes > kMostStrideBytes || image.stride_bytes % format.alignment) {
     MessageWriter text(message);
-    text << name << " image has a stride of " << image.stride_bytes << " bytes; a row has " << row;
-    if (format.alignment > 1) text << " and the stride must be a multiple of " << format.alignment;
+    text << name << " image has a stride of " << image.stride_bytes << " bytes; a row has " << row
+         << ": give that to " << kMostStrideBytes;
+    if (format.alignment > 1) text << ", a multiple of " << format.alignment;
     return SPHC_E_IMAGE;
   }
   if (!image.data || reinterpret_cast<uintptr_t>(image.data) % format.alignment) {
     MessageWriter text(message);
     text << name << " image's data pointer is ";
     if (image.data)
-      text << "not aligned to " << format.alignment << " bytes";
+      text << "not aligned to " << format.alignment << " bytes; begin the pixels there";
     else
-      text << "null";
+      text << "null; give the pixels";
     return SPHC_E_IMAGE;
   }
   return SPHC_OK;
@@ -512,7 +520,7 @@ sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera 
                            sphc_message *message) {
   *copy = {};
   const sphc_status status = readStruct("frame", frame, copy, message);
-  return status == SPHC_OK ? checkImage("color", copy->color, color, 0, message) : status;
+  return status == SPHC_OK ? checkImage("color", copy->color, color, {}, message) : status;
 }
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
@@ -572,7 +580,7 @@ sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &l
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message) {
   if (!memory) {
-    MessageWriter(message) << what << " memory is null";
+    MessageWriter(message) << what << " memory is null; give as many bytes as were asked for";
     return SPHC_E_ARGUMENT;
   }
   if (reinterpret_cast<uintptr_t>(memory) % alignment) {
@@ -581,7 +589,8 @@ sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t 
   }
   if (bytes < needed) {
     MessageWriter(message) << what << " memory has " << static_cast<uint64_t>(bytes) << " bytes, "
-                           << static_cast<uint64_t>(needed) << " are needed";
+                           << static_cast<uint64_t>(needed)
+                           << " are needed; ask again with this config and this version";
     return SPHC_E_MEMORY_SIZE;
   }
   return SPHC_OK;

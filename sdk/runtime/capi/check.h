@@ -47,9 +47,14 @@ sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_si
                            sphc_message *message);
 // Can a localizer of this prior go on from what was learnt of its depth sensor?
 sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message);
-// Does an image fit its camera?  `name` is that of the image.  Of colour or grey where depth_format is 0.
+// The format that a depth image must have, and the field of the config that says so; 0 for colour or grey.
+struct DepthWanted {
+  sphc_format format = 0;
+  const char *field = "";
+};
+// Does an image fit its camera?  `name` is that of the image.
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
-                       sphc_format depth_format, sphc_message *message);
+                       const DepthWanted &wanted, sphc_message *message);
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);

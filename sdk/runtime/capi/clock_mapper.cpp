@@ -37,7 +37,7 @@ sphc_status sphc_clock_mapper_init(void *memory, size_t memory_bytes, const sphc
   sphc_status status = sphc::readStruct("config", config, &own, message);
   if (status != SPHC_OK) return status;
   if (!mapper) {
-    sphc::MessageWriter(message) << "mapper is null";
+    sphc::MessageWriter(message) << "mapper is null; give a pointer to set";
     return SPHC_E_ARGUMENT;
   }
   if (!isInRange(own)) {

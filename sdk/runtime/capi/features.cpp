@@ -53,7 +53,8 @@ const char *faultOf(const Keypoint &k, uint32_t camera, const sphc::ImageSizes &
   if (!isWithin(k.x_px, 0, static_cast<float>(image.width)) ||
       !isWithin(k.y_px, 0, static_cast<float>(image.height)))
     return " lies outside the image; give pixels of its camera's image";
-  if (!(k.scale_px > 0) || !(k.scale_px <= kMostScalePx)) return " has a scale_px that is not within 0 to 8192";
+  if (!(k.scale_px > 0) || !(k.scale_px <= kMostScalePx))
+    return " has a scale_px that is not within 0 to 8192; give pixels";
   if (!isWithin(k.orientation_rad, -kMostAngleRad, kMostAngleRad))
     return " has an angle_rad that is not within -7 to 7; give radians";
   if (!isWithin(k.response, 0, 1)) return " has a response that is not within 0 to 1; divide by the largest";
@@ -82,7 +83,7 @@ sphc_status checkShape(const sphc_features_arrays &arrays, uint32_t max_keypoint
   }
   if (arrays.count && (!arrays.keypoints || !arrays.descriptors)) {
     MessageWriter(message) << "arrays." << (arrays.keypoints ? "descriptors" : "keypoints")
-                           << " is null, and count is " << arrays.count;
+                           << " is null, and count is " << arrays.count << "; give as many, or count 0";
     return SPHC_E_ARGUMENT;
   }
   return SPHC_OK;
@@ -144,7 +145,7 @@ sphc_status sphc_features_memory(const sphc_localizer_config *config, sphc_memor
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!memory) {
-    MessageWriter(message) << "memory is null";
+    MessageWriter(message) << "memory is null; give one to write the answer to";
     return SPHC_E_ARGUMENT;
   }
   *memory = {bytesFor(sphc::localizerConfigFrom(checked.config)), 0, sphc::kArenaAlignment, 0};
@@ -157,7 +158,7 @@ sphc_status sphc_features_init(void *memory, size_t memory_bytes, const sphc_loc
   sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!features) {
-    MessageWriter(message) << "features is null";
+    MessageWriter(message) << "features is null; give a pointer to set";
     return SPHC_E_ARGUMENT;
   }
   const LocalizerConfig own = sphc::localizerConfigFrom(checked.config);

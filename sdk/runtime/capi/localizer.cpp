@@ -56,7 +56,8 @@ void logResult(const sphc_localizer &localizer, const sphc_localizer_result &res
 }
 
 sphc_status refuseMap(uint32_t map_id, sphc_message *message) {
-  MessageWriter(message) << "the localizer has no map with id " << map_id;
+  MessageWriter(message) << "the localizer has no map with id " << map_id
+                         << "; give one that sphc_localizer_set_map was called with";
   return SPHC_E_ARGUMENT;
 }
 
@@ -174,7 +175,7 @@ sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memo
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!memory) {
-    MessageWriter(message) << "memory is null";
+    MessageWriter(message) << "memory is null; give one to write the answer to";
     return SPHC_E_ARGUMENT;
   }
   *memory = measure(sphc::localizerConfigFrom(checked.config));
@@ -209,7 +210,7 @@ sphc_status sphc_localizer_init(void *state, size_t state_bytes, void *scratch, 
   sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
   if (!localizer) {
-    MessageWriter(message) << "localizer is null";
+    MessageWriter(message) << "localizer is null; give a pointer to set";
     return SPHC_E_ARGUMENT;
   }
   const LocalizerConfig own = sphc::localizerConfigFrom(checked.config);

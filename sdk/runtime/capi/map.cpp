@@ -19,7 +19,8 @@ sphc_status sphc_map_memory(sphc_memory *memory) {
 sphc_status sphc_map_init(void *memory, size_t memory_bytes, const void *file, size_t file_bytes, sphc_map **map,
                           sphc_message *message) {
   if (!map || !file) {
-    sphc::MessageWriter(message) << (map ? "file" : "map") << " is null";
+    sphc::MessageWriter(message) << (map ? "file is null; give the bytes of a map file"
+                                         : "map is null; give a pointer to set");
     return SPHC_E_ARGUMENT;
   }
   const sphc_status memory_status =

@@ -29,7 +29,7 @@ sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const sphc_paire
   sphc_status status = sphc::readStruct("config", config, &own, message);
   if (status != SPHC_OK) return status;
   if (!pairer) {
-    sphc::MessageWriter(message) << "pairer is null";
+    sphc::MessageWriter(message) << "pairer is null; give a pointer to set";
     return SPHC_E_ARGUMENT;
   }
   if (own.slots < 1 || own.slots > SPHC_PAIRER_SLOTS || own.tolerance_ns < 0) {

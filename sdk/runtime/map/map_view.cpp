@@ -67,7 +67,8 @@ class Validator {
       return fail(SPHC_E_MAP_FORMAT) << "map is " << bytes_ << " bytes, shorter than its header of "
                                      << sizeof(MapHeader) << kRebuild;
     if (!hasMagic())
-      return fail(SPHC_E_MAP_FORMAT) << "not a sphere-cloud file: it does not begin with the format's signature";
+      return fail(SPHC_E_MAP_FORMAT) << "not a sphere-cloud file: it does not begin with the format's signature; "
+                                        "give the file that the builder wrote";
     if (header().version != kMapVersion)
       return fail(SPHC_E_MAP_VERSION) << "map has format version " << uint32_t{header().version}
                                       << ", this library reads " << kMapVersion
@@ -90,7 +91,7 @@ class Validator {
       return fail(SPHC_E_MAP_CHECKSUM) << "the map's header or section table was changed after writing" << kRebuild;
     if (header().point_count < kMapMinPoints || header().point_count > kMapMaxPoints)
       return fail(SPHC_E_MAP_FORMAT) << "map has " << header().point_count << " points; allowed are "
-                                     << kMapMinPoints << " to " << kMapMaxPoints;
+                                     << kMapMinPoints << " to " << kMapMaxPoints << kRebuild;
     const uint32_t cells = header().cell_count, groups = header().group_count, side = header().sector_side;
     if (cells == 0 || cells > kMapMaxCells || groups == 0 || groups > kMapMaxGroups || groups > cells)
       return fail(SPHC_E_MAP_FORMAT) << "map has an impossible index of " << cells << " cells in " << groups

@@ -50,7 +50,7 @@ void checkParent(const std::string &option, const std::string &path) {
   std::error_code error;
   const fs::path folder = plain(path).parent_path();
   if (!fs::is_directory(folder, error))
-    refuse(option, path, "cannot be written: there is no folder " + folder.string());
+    refuse(option, path, "cannot be written: there is no folder " + folder.string() + "; make it first");
 }
 
 }  // namespace
@@ -109,14 +109,16 @@ void FileUse::check() const {
   for (const Output &output : outputs_) {
     for (const Input &input : inputs_) {
       if (areSame(output.path, input.path))
-        throw UsageError(output.option + " would replace what " + input.option + " reads: " + output.path);
+        throw UsageError(output.option + " would replace what " + input.option + " reads: " + output.path +
+                         "; choose another name");
       if (liesIn(output.path, input.path))
         throw UsageError(output.option + " " + output.path + " lies in the folder that " + input.option +
                          " reads; choose a place outside of it");
     }
     for (const Output *other = outputs_.data(); other != &output; ++other)
       if (areSame(output.path, other->path))
-        throw UsageError(output.option + " and " + other->option + " are one file: " + output.path);
+        throw UsageError(output.option + " and " + other->option + " are one file: " + output.path +
+                         "; choose two names");
   }
   for (const Output &output : outputs_) {
     if (output.kind == Kind::kFolder) checkFolder(output);
@@ -133,7 +135,8 @@ void FileUse::checkFile(const Output &output) const {
   if (!fs::exists(status)) return;
   if (fs::is_directory(status)) refuse(output.option, path, "is a folder; give the name of a file");
   if (output.kind == Kind::kKept || fs::is_character_file(status) || fs::is_fifo(status)) return;
-  if (!fs::is_regular_file(status)) refuse(output.option, path, "is no file that can be written");
+  if (!fs::is_regular_file(status))
+    refuse(output.option, path, "is no file that can be written; choose another name");
   if (isLedger(path)) refuse(output.option, path, "is a ledger, which is never replaced; choose another name");
   if (force_ || fs::file_size(path, error) == 0 || output.is_ours(path)) return;
   refuse(output.option, path,

@@ -117,7 +117,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
   for (const RgbdSource &source : recordings) frames += source.reader->frameCount();
   if (options.min_observations > frames)
     throw UsageError("--min-observations " + std::to_string(options.min_observations) + ": there are " +
-                     std::to_string(frames) + " frames, so no point can be seen in as many");
+                     std::to_string(frames) + " frames, so no point can be seen in as many; give a smaller number");
   ProgressBar bar("mapping   ");
   ImportedPoints imported;
   RgbdImportSummary summary;

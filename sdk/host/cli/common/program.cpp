@@ -9,6 +9,7 @@
 
 #include "host/base/usage_error.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/option_names.h"
 
 namespace sphc::host {
 namespace {
@@ -64,6 +65,8 @@ int parseAndRun(const Program &program, int argc, char **argv) {
     return runChosen(commands, console);
   } catch (const UsageError &error) {
     return usage(root, error.what());
+  } catch (const std::runtime_error &error) {
+    throw std::runtime_error(withOptionNames(error.what(), *root.get_subcommands().front()));
   }
 }
 

@@ -23,7 +23,8 @@ class ExrStream : public Imf::IStream {
   explicit ExrStream(ByteView bytes) : Imf::IStream("depth"), bytes_(bytes) {}
 
   bool read(char out[], int count) override {
-    if (count < 0 || static_cast<uint64_t>(count) > bytes_.size - at_) throw std::runtime_error("ends early");
+    if (count < 0 || static_cast<uint64_t>(count) > bytes_.size - at_)
+      throw std::runtime_error("ends early; copy it again");
     std::copy_n(bytes_.data + at_, count, out);
     at_ += static_cast<uint64_t>(count);
     return at_ < bytes_.size;

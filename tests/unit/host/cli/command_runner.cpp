@@ -3,7 +3,10 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include <sstream>
+
 #include "host/report/file.h"
+#include "tests/support/refusals/record.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -12,6 +15,17 @@ namespace {
 std::string textOf(const std::string &path) {
   const auto bytes = readBytes(path);
   return {bytes.begin(), bytes.end()};
+}
+
+// What the command says it cannot do: "spherecloud build: why".
+void record(const Answer &answer) {
+  std::istringstream lines(answer.err);
+  for (std::string line; std::getline(lines, line);) {
+    const size_t colon = line.find(": ");
+    if (line.rfind("spherecloud", 0) == 0 && colon != std::string::npos)
+      test::recordRefusal(line.substr(0, colon), "exit " + std::to_string(answer.exit_code),
+                          line.substr(colon + 2));
+  }
 }
 
 }  // namespace
@@ -23,7 +37,9 @@ Answer runProgram(const std::string &program, const std::string &arguments) {
   const std::string command =
       program + " " + arguments + " >" + (folder / "out") + " 2>" + (folder / "err") + " </dev/null";
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
+  Answer answer = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
+  if (answer.exit_code > 0) record(answer);
+  return answer;
 }
 
 }  // namespace sphc::host

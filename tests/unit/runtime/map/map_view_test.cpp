@@ -38,6 +38,13 @@ sphc_status open(const Bytes &file, std::string *text = nullptr) {
     for (uint32_t g = 0; g < view.groupCount(); ++g) EXPECT_LE(view.group(g).end, view.cellCount());
     for (uint32_t c = 0; c < view.cellCount(); ++c) EXPECT_LE(view.cell(c).end, view.pointCount());
   }
+  if (status != SPHC_OK) {  // a caller of the C interface is told the same
+    alignas(8) unsigned char state[SPHC_MAP_BYTES_MAX];
+    sphc_message told = {};
+    sphc_map *map = nullptr;
+    EXPECT_EQ(sphc_map_init(state, sizeof state, copy, file.size(), &map, &told), status);
+    EXPECT_STREQ(told.text, message.text);
+  }
   if (text) *text = message.text;
   return status;
 }
