@@ -206,6 +206,12 @@ def others(pipeline):
          "the places' errors, after the best rigid alignment, without any, and after the best similarity; `scale`: a true metre as mapped.\n"
          "Rotations after the rigid alignment by places. Method: [mapping.md](mapping.md).",
          flat(rows("mapping.csv"), ["world", "poses"])),
+        ("Localization in maps without poses", "pipeline/mapping_localized.csv", "mapping_localized_results",
+         "Frames that are in neither map, localized one by one (eta 33 %, `--align`) in maps of the same frames: with the poses that the\n"
+         "recording holds (`given`), and mapped without (`found`). `truth`: the poses that the answers are compared with, the recording's or\n"
+         "those that `map` finds for all of its frames. Counts are sums over the keys; `worst key`: within 5 cm and 5 deg. Errors are medians\n"
+         "over the keys. Method: [mapping.md](mapping.md).",
+         flat(rows("mapping_localized.csv"), ["recording"])),
         ("Mapping by others", "pipeline/mapping_peers.csv", "mapping_peers_results",
          "The same real walks by COLMAP (its scale from depth) and by Open3D's RGB-D odometry and pose graph, one after another on the\n"
          "same machine. `processor_s`: of all threads. Method: [mapping.md](mapping.md#beside-others).",

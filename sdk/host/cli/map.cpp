@@ -36,8 +36,11 @@ struct MapOptions {
     MappingOptions mapping;
     mapping.trust = trust;
     mapping.threads = threads;
+    mapping.judges_told = judgesTold();
     return mapping;
   }
+  // The poses of the recording are not used, but compared.  Those of several are in several worlds.
+  bool judgesTold() const { return score && trust.use == PoseUse::kNone && recordings.size() == 1; }
   std::vector<RecordingOptions> all() const {
     std::vector<RecordingOptions> all(recordings.size(), of_each);
     for (size_t i = 0; i < all.size(); ++i) all[i].folder = recordings[i];
@@ -87,7 +90,7 @@ void checkTold(const MapOptions &options, const Walk &walk) {
 std::vector<MappedRecording> openAll(const MapOptions &options) {
   std::vector<MappedRecording> recordings;
   for (const RecordingOptions &recording : options.all())
-    recordings.push_back({recording.folder, openRecording(recording), {}, {}});
+    recordings.push_back({recording.folder, openRecording(recording), {}, {}, {}});
   return recordings;
 }
 
@@ -103,7 +106,8 @@ Walk readAll(const MapOptions &options, const TrialCalibration *trial,
     const std::string what = recordings.size() > 1 ? "reading " + recording.name : "reading";
     walks.push_back(readWalk(recording.reader.get(), trial ? trial->rig : recording.reader->calibration(), frames,
                              [&](uint32_t done, uint32_t total) { steps->show(what, done, total); }));
-    if (options.trust.use != PoseUse::kNone) tell(options, walks.size() - 1, *recording.reader, &walks.back());
+    if (options.trust.use != PoseUse::kNone || options.judgesTold())
+      tell(options, walks.size() - 1, *recording.reader, &walks.back());
   }
   return joinWalks(std::move(walks));
 }
@@ -208,10 +212,11 @@ MapOutcome mapRecordings(const MapOptions &options) {
   outcome.recordings = openAll(options);
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome.walk);
+  for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
   outcome.mapped =
       mapWalk(outcome.walk, options.mapping(),
               [&](const std::string &what, uint32_t done, uint32_t total) { steps.show(what, done, total); });
-  outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts);
+  outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   takePoses(&outcome);
   if (options.score)
     for (MappedRecording &recording : outcome.recordings) score(&recording);

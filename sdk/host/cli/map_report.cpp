@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/guide/stretch_causes.h"
+#include "host/guide/time_words.h"
 #include "host/report/hint_words.h"
 #include "host/report/run.h"
 
@@ -17,6 +19,13 @@ constexpr double kMostFarDepths = 0.06, kMostRaySigmas = 2;
 constexpr double kMostScale = 0.02, kExplained = 0.7;
 
 std::string count(size_t n) { return std::to_string(n); }
+
+nlohmann::ordered_json causesJson(const Stretch &stretch) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const StretchCause &cause : causesOf(stretch))
+    json.push_back({{"name", cause.name}, {"measured", cause.measured}, {"cure", cause.cure}});
+  return json;
+}
 
 // Stretches as seconds since their recording's first frame.
 class Clock {
@@ -45,7 +54,8 @@ class Clock {
                       {"from_s", secondsOf(s.first)},
                       {"to_s", secondsOf(s.last)},
                       {"frames", s.frames},
-                      {"hints", hintNames(s.hints)}});
+                      {"hints", hintNames(s.hints)},
+                      {"causes", causesJson(s)}});
     return json;
   }
 
@@ -67,6 +77,14 @@ void warnOfRecordings(const MapOutcome &outcome, const Console &console) {
           " frames is in the map. Record it once more, and begin at a place that one of the others shows.");
 }
 
+// What is known of why the stretches of a part met nothing else.
+std::string causesOfPart(const std::vector<Stretch> &part) {
+  std::string text;
+  for (const Stretch &stretch : part)
+    if (const auto causes = causesOf(stretch); !causes.empty()) text += " Measured: " + causesText(causes) + ".";
+  return text;
+}
+
 void warnOfParts(const MapOutcome &outcome, const Clock &clock, const Console &console) {
   const Stretches &s = outcome.stretches;
   if (s.apart.empty()) return;
@@ -75,17 +93,23 @@ void warnOfParts(const MapOutcome &outcome, const Clock &clock, const Console &c
   for (const std::vector<Stretch> &part : s.apart)
     console.warn("It never met " + clock.timesOf(part) + " (" + count(framesOf(part)) +
                  " frames). Walk from what is seen there to what is seen at " + clock.timesOf(s.mapped) +
-                 " once more, slowly, in one recording with the rest.");
+                 " once more, slowly, in one recording with the rest." + causesOfPart(part));
 }
 
 void warnOfStretches(const MapOutcome &outcome, const Clock &clock, const Console &console) {
   for (const Stretch &s : outcome.stretches.left_out) {
-    const std::string why = hintNames(s.hints);
     console.warn("note: left out: " + clock.timesOf({s}) + " (" + count(s.frames) +
-                 " frames): " + (why.empty() ? "they show nothing that other frames show" : why));
+                 " frames): " + causesText(causesOf(s)));
   }
   if (outcome.walk.unreadable)
-    console.warn("note: " + count(outcome.walk.unreadable) + " frames could not be read");
+    console.warn("note: " + count(outcome.walk.unreadable) +
+                 " frames could not be read; the first: " + outcome.walk.first_fault);
+}
+
+void warnOfTimes(const MapOutcome &outcome, const Console &console) {
+  for (const MappedRecording &recording : outcome.recordings)
+    for (const std::string &said : complaintsOf(recording.times))
+      console.warn("note: " + (outcome.recordings.size() > 1 ? recording.name + ": " : "") + said);
 }
 
 void warnOfResiduals(const MapOutcome &outcome, const Console &console) {
@@ -123,6 +147,23 @@ void warnOfScale(const MapOutcome &outcome, const Console &console) {
       console.warn("note: a metre of the poses of " + recording.name + " is " + fixed(s->scale, 3) +
                    " m of its depths: check depth_unit_m, the focal lengths, and the unit of the poses");
   }
+}
+
+nlohmann::ordered_json residualsJson(const AdjustmentSummary &residuals) {
+  return {{"ray_sigmas", residuals.ray_sigmas},
+          {"depth_sigmas", residuals.depth_sigmas},
+          {"depth_m", residuals.depth_off_m},
+          {"far_depths", residuals.far_depths}};
+}
+
+nlohmann::ordered_json timesJson(const WalkTimes &times) {
+  nlohmann::ordered_json pauses = nlohmann::ordered_json::array();
+  for (const Pause &pause : times.pauses) pauses.push_back({{"from_s", pause.from_s}, {"to_s", pause.to_s}});
+  return {{"backward", times.backward},
+          {"unpaired", times.unpaired},
+          {"apart_s", times.apart_s},
+          {"drift_s_per_s", times.drift_s_per_s},
+          {"pauses", pauses}};
 }
 
 nlohmann::ordered_json scoreJson(const MapOutcome &outcome, const MappedRecording &recording) {
@@ -181,6 +222,10 @@ std::vector<Row> mapTable(const MapOutcome &outcome) {
        "at " + fixed(m.depth.mid_m, 2) + " m, and " + fixed(1000 * m.depth.mean[1], 1) + " mm more a metre"},
       {"time", fixed(outcome.seconds, 1) + " s",
        fixed(outcome.processor_seconds, 1) + " s of a processor for poses"}};
+  if (const auto &told = m.residuals_of_told)
+    rows.push_back({"with the poses of the recording", fixed(told->ray_sigmas, 2),
+                    "sigma, of keypoints; of depths " + fixed(told->depth_sigmas, 2) + ", " +
+                        fixed(1000 * told->depth_off_m, 1) + " mm: the same sightings, points adjusted"});
   if (outcome.use != PoseUse::kNone)
     rows.push_back({toldWord(outcome), count(m.told), count(m.told_wrong) + " of them off by more than 4 sigma"});
   if (outcome.recordings.size() > 1)
@@ -194,6 +239,7 @@ std::vector<Row> mapTable(const MapOutcome &outcome) {
 void warnOfMap(const MapOutcome &outcome, const Console &console) {
   const Clock clock(outcome);
   for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
+  warnOfTimes(outcome, console);
   warnOfStretches(outcome, clock, console);
   warnOfResiduals(outcome, console);
   warnOfPoses(outcome, console);
@@ -219,12 +265,9 @@ nlohmann::ordered_json mapJson(const MapOutcome &outcome) {
       {"contradicting", m.contradicting},
       {"points_adjusted", m.residuals.points},
       {"sightings", m.residuals.sightings},
-      {"residuals",
-       {{"ray_sigmas", m.residuals.ray_sigmas},
-        {"depth_sigmas", m.residuals.depth_sigmas},
-        {"depth_m", m.residuals.depth_off_m},
-        {"far_depths", m.residuals.far_depths}}},
+      {"residuals", residualsJson(m.residuals)},
       {"depth_bias", {{"offset_m", m.depth.mean[0]}, {"slope", m.depth.mean[1]}, {"mid_m", m.depth.mid_m}}}};
+  if (m.residuals_of_told) json["residuals_of_poses"] = residualsJson(*m.residuals_of_told);
   for (const std::vector<Stretch> &part : outcome.stretches.apart) json["apart"].push_back(clock.jsonOf(part));
   if (outcome.use != PoseUse::kNone)
     json["poses"] = {{"told", m.told}, {"off", m.told_wrong}, {"used", !m.is_unbelieved}};
@@ -233,6 +276,7 @@ nlohmann::ordered_json mapJson(const MapOutcome &outcome) {
     nlohmann::ordered_json one = {{"recording", recording.name},
                                   {"frames", recording.poses.size()},
                                   {"frames_mapped", recording.framesMapped()}};
+    one["times"] = timesJson(recording.times);
     if (recording.score) one["score"] = scoreJson(outcome, recording);
     json["recordings"].push_back(one);
   }

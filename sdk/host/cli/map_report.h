@@ -6,6 +6,7 @@
 #include "host/cli/common/point_source.h"
 #include "host/mapping/stretches.h"
 #include "host/mapping/walk_mapper.h"
+#include "host/mapping/walk_times.h"
 #include "host/report/table.h"
 #include "host/report/trajectory_score.h"
 
@@ -17,6 +18,7 @@ struct MappedRecording {
   std::unique_ptr<RecordingReader> reader;
   std::vector<std::optional<Rigid>> poses;  // of its frames, world_from_camera; none of those that found no place
   std::optional<TrajectoryScore> score;
+  WalkTimes times;
   double unaligned_rmse_m = 0;  // of the score too, where the world is the recording's
 
   uint32_t framesMapped() const;

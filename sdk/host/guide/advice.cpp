@@ -1,5 +1,7 @@
 #include "host/guide/advice.h"
 
+#include <algorithm>
+
 namespace sphc::host {
 
 const std::array<BitWords, 6> kAdviceWords = {{
@@ -10,6 +12,11 @@ const std::array<BitWords, 6> kAdviceWords = {{
     {kMoreTexture, "too plain", "look at something with more texture"},
     {kLookAgain, "thin", "look at this corner again, from elsewhere"},
 }};
+
+const BitWords &wordsOf(GuideAdvice bit) {
+  return *std::find_if(kAdviceWords.begin(), kAdviceWords.end(),
+                       [&](const BitWords &words) { return words.bit == bit; });
+}
 
 GuideAdvice adviceOf(Hints hints) {
   GuideAdvice advice = 0;

@@ -21,6 +21,9 @@ constexpr GuideAdvice kLookAgain = 32;  // thin: few keypoints hold this place t
 // Each bit's name and what to do about it.
 extern const std::array<BitWords, 6> kAdviceWords;
 
+// Of one bit.
+const BitWords &wordsOf(GuideAdvice bit);
+
 GuideAdvice adviceOf(Hints hints);
 
 // The frame shows what was seen long before.

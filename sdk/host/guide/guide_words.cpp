@@ -16,11 +16,7 @@ std::string ago(double seconds) { return fixed(seconds, 0) + " s ago"; }
 // The lowest bit is the most urgent.
 GuideAdvice mostUrgent(GuideAdvice advice) { return advice & (~advice + 1); }
 
-std::string cureOf(GuideAdvice bit) {
-  for (const BitWords &words : kAdviceWords)
-    if (words.bit == bit) return words.cure;
-  return "";
-}
+std::string cureOf(GuideAdvice bit) { return bit ? wordsOf(bit).cure : ""; }
 
 std::string adviceText(GuideAdvice urgent, const GuideStep &step) {
   if (urgent != kGoBack) return cureOf(urgent);

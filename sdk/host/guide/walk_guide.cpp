@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "host/mapping/view_speed.h"
+
 namespace sphc::host {
 namespace {
 
 constexpr LinkDemands kFollows = {20, 0.25};
 constexpr double kNewPlace = 0.15;      // shift of the view, as rays
 constexpr uint32_t kFewestPoints = 40;  // with depth, of a frame that begins a part
-// The view moves by so much a second, as rays: a turn of 115 degrees, or 4 m/s past things 2 m away.
-constexpr double kFastPerS = 2.0;
-constexpr uint32_t kFewestOfPart = 5;  // places; what is smaller is nothing to go back to
+constexpr uint32_t kFewestOfPart = 5;   // places; what is smaller is nothing to go back to
 constexpr int64_t kLostNs = 1000000000;
 constexpr int64_t kQuietNs = 5000000000;  // loops that follow each other faster are one
 
@@ -158,7 +158,7 @@ bool WalkGuide::isTooFast(const Rigid &part_from_camera, const WalkFrame &frame)
   const auto middle = depths.begin() + static_cast<ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   const double depth_m = middle == depths.end() ? 1 : *middle;
-  return rotationAngle(moved.rotation) + moved.translation_m.norm() / depth_m > kFastPerS * seconds;
+  return viewShift(moved, depth_m) > kFastPerS * seconds;
 }
 
 void WalkGuide::addLost(bool is_located, GuideStep *step) {

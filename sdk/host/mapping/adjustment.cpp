@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/mapping/middle.h"
 #include "host/mapping/pose_block.h"
 
 namespace sphc::host {
@@ -156,13 +157,6 @@ class ChangePrior : public ceres::SizedCostFunction<kNumbers, kNumbers> {
   double weight_;
 };
 
-double middle(std::vector<double> *values) {
-  if (values->empty()) return 0;
-  const auto at = values->begin() + static_cast<ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), at, values->end());
-  return *at;
-}
-
 class Adjustment {
  public:
   Adjustment(const std::vector<WalkFrame> &frames, const DepthCalibration &prior, Adjusted *adjusted)
@@ -185,7 +179,7 @@ class Adjustment {
     ceres::Problem problem(shared);
     ceres::Solver::Options solver;
     auto order = std::make_shared<ceres::ParameterBlockOrdering>();
-    state(&problem, &loss, &manifold, order.get(), options.beliefs && options.beliefs->hasAnchors());
+    state(&problem, &loss, &manifold, order.get(), options);
     if (options.beliefs) options.beliefs->addTo(&problem, &loss, poses_, &blocks_);
     stateCalibration(&problem, order.get(), options);
     solver.linear_solver_ordering = order;
@@ -229,9 +223,9 @@ class Adjustment {
     const auto far =
         std::count_if(depth_sigmas.begin(), depth_sigmas.end(), [](double d) { return d > kFarDepth; });
     if (far > 0) summary.far_depths = static_cast<double>(far) / static_cast<double>(depth_sigmas.size());
-    summary.ray_sigmas = middle(&ray_sigmas);
-    summary.depth_sigmas = middle(&depth_sigmas);
-    summary.depth_off_m = middle(&depths_m);
+    summary.ray_sigmas = middle(std::move(ray_sigmas));
+    summary.depth_sigmas = middle(std::move(depth_sigmas));
+    summary.depth_off_m = middle(std::move(depths_m));
     tracks_.erase(
         std::remove_if(tracks_.begin(), tracks_.end(), [](const Track &track) { return track.size() < 2; }),
         tracks_.end());
@@ -261,12 +255,13 @@ class Adjustment {
       const Vector3 point_m = *poses_[s.frame] * seen.point_m();
       for (int i = 0; i < 3; ++i) along[i].push_back(point_m[i]);
     }
-    return {middle(&along[0]), middle(&along[1]), middle(&along[2])};
+    return {middle(along[0]), middle(along[1]), middle(along[2])};
   }
 
   void state(ceres::Problem *problem, ceres::LossFunction *loss, ceres::Manifold *manifold,
-             ceres::ParameterBlockOrdering *order, bool is_held) {
+             ceres::ParameterBlockOrdering *order, const AdjustmentOptions &options) {
     size_t depths = 0;
+    bool is_held = options.beliefs && options.beliefs->hasAnchors();
     for (size_t t = 0; t < tracks_.size(); ++t) {
       for (const Sighting &s : tracks_[t]) {
         const SeenPoint &seen = frames_[s.frame].points[s.point];
@@ -282,7 +277,7 @@ class Adjustment {
     for (size_t i = 0; i < poses_.size(); ++i) {
       if (!poses_[i]) continue;
       problem->AddParameterBlock(blocks_[i].data(), 7, manifold);
-      if (!is_held) problem->SetParameterBlockConstant(blocks_[i].data());
+      if (!is_held || options.poses_are_held) problem->SetParameterBlockConstant(blocks_[i].data());
       is_held = true;
       order->AddElementToGroup(blocks_[i].data(), 1);
     }

@@ -5,7 +5,6 @@
 
 #include "host/frames/frame_images.h"
 #include "host/import/point_tracks.h"
-#include "runtime/localizer/hints.h"
 #include "runtime/localizer/tuning.h"
 
 namespace sphc::host {
@@ -14,13 +13,16 @@ namespace {
 constexpr double kBesidePx = 8;      // of a keypoint, where its surface is looked at
 constexpr double kMostBend = 0.03;   // of the depth between two neighbours, relative
 constexpr double kPixelSigma = 0.8;  // of a fine keypoint, as the localizer's default has it
+constexpr int32_t kRangeStep = 8;    // pixels of a depth image, where its range is looked at
 
 }  // namespace
 
 FrameReader::FrameReader(const sphc_rig &rig, const FrameReaderOptions &options)
     : camera_(rig.color_camera),
       features_(camera_.width(), camera_.height(), options.max_keypoints),
-      surfaces_(options.surfaces) {
+      surfaces_(options.surfaces),
+      least_(options.depth_min_m / rig.depth_unit_m),
+      most_(options.depth_max_m / rig.depth_unit_m) {
   const DepthSensor sensor = {rig.depth_unit_m, options.depth_min_m, options.depth_max_m, kMappingNoise.sigma_m,
                               kMappingNoise.sigma_per_m2};
   aligner_ = SparseAligner(camera_, Camera(rig.depth_camera), rigidFromC(rig.color_from_depth), sensor);
@@ -38,7 +40,12 @@ WalkFrame FrameReader::describe(const sphc_localizer_frame &images) {
     frame.points.push_back(point);
     frame.descriptors.push_back(features_.descriptor(k));
   }
-  frame.hints = hintsOf(gray, lifted);
+  const ImageQuality image = qualityOf(gray, camera_.focal());
+  frame.hints = hintsOf(image, lifted);
+  frame.evidence.level = image.level;
+  frame.evidence.keypoints = features_.count();
+  if (lifted > 0) frame.evidence.with_depth = static_cast<double>(lifted) / features_.count();
+  measureRange(depthOf(images.depth), &frame.evidence);
   return frame;
 }
 
@@ -73,14 +80,27 @@ Vector3 FrameReader::depthByMove(ImageView<uint16_t> depth, const Vector2 &pixel
 }
 
 // As the localizer would say it of a frame without a pose.
-Hints FrameReader::hintsOf(GrayView gray, uint32_t lifted) const {
-  const ImageQuality image = qualityOf(gray, camera_.focal());
+Hints FrameReader::hintsOf(const ImageQuality &image, uint32_t lifted) const {
   Hints hints = 0;
   if (image.isDark()) hints |= kTooDark;
   if (image.isBlurredAlongALine()) hints |= kTooFast;
   if (image.isPlain() || features_.count() < tuning::kFewestKeypoints) hints |= kTooPlain;
   if (lifted * tuning::kOneWithDepthIn < features_.count()) hints |= kNoDepthInRange;
   return hints;
+}
+
+void FrameReader::measureRange(ImageView<uint16_t> depth, ImageEvidence *evidence) const {
+  uint32_t measured = 0, nearer = 0, farther = 0;
+  for (int32_t y = kRangeStep / 2; y < depth.height; y += kRangeStep)
+    for (int32_t x = kRangeStep / 2; x < depth.width; x += kRangeStep) {
+      const uint16_t value = depth.row(y)[x];
+      measured += value > 0;
+      nearer += value > 0 && value < least_;
+      farther += value > most_;
+    }
+  if (measured == 0) return;
+  evidence->nearer = static_cast<double>(nearer) / measured;
+  evidence->farther = static_cast<double>(farther) / measured;
 }
 
 }  // namespace sphc::host

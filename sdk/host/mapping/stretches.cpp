@@ -25,35 +25,37 @@ Hints commonHints(const Walk &walk, uint32_t first, uint32_t last) {
 }
 
 // Runs of keyframes with this label.
-std::vector<Stretch> runsOf(const Walk &walk, const std::vector<uint32_t> &labels, uint32_t label) {
+std::vector<Stretch> runsOf(const Walk &walk, const std::vector<uint32_t> &labels, uint32_t label,
+                            const FramePoses &poses) {
   std::vector<Stretch> runs;
   for (uint32_t i = 0; i < labels.size(); ++i) {
     if (labels[i] != label) continue;
     const bool follows = !runs.empty() && runs.back().last + 1 == i &&
                          walk.keyframes[i - 1].recording == walk.keyframes[i].recording;
-    if (!follows) runs.push_back({i, i, 0, 0});
+    if (!follows) runs.push_back({i, i, 0, 0, {}});
     runs.back().last = i;
   }
   for (Stretch &run : runs) {
     run.frames = framesOf(walk, run.first, run.last);
     run.hints = commonHints(walk, run.first, run.last);
+    run.evidence = evidenceOf(walk, run.first, run.last, poses);
   }
   return runs;
 }
 
 }  // namespace
 
-Stretches stretchesOf(const Walk &walk, const std::vector<uint32_t> &parts) {
+Stretches stretchesOf(const Walk &walk, const std::vector<uint32_t> &parts, const FramePoses &poses) {
   const uint32_t count = parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end()) + 1;
   std::vector<uint32_t> size(count), labels(parts);
   for (uint32_t part : parts) ++size[part];
   for (uint32_t &label : labels)
     if (label > 0 && size[label] < kFewestOfPart) label = count;
   Stretches stretches;
-  stretches.mapped = runsOf(walk, labels, 0);
+  stretches.mapped = runsOf(walk, labels, 0, poses);
   for (uint32_t part = 1; part < count; ++part)
-    if (size[part] >= kFewestOfPart) stretches.apart.push_back(runsOf(walk, labels, part));
-  stretches.left_out = runsOf(walk, labels, count);
+    if (size[part] >= kFewestOfPart) stretches.apart.push_back(runsOf(walk, labels, part, poses));
+  stretches.left_out = runsOf(walk, labels, count, poses);
   return stretches;
 }
 

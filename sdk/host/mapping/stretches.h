@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "host/mapping/walk.h"
+#include "host/mapping/stretch_evidence.h"
 
 namespace sphc::host {
 
@@ -11,6 +11,7 @@ struct Stretch {
   uint32_t first = 0, last = 0;
   uint32_t frames = 0;  // followers too
   Hints hints = 0;      // that at least half of the keyframes have
+  StretchEvidence evidence;
 };
 
 struct Stretches {
@@ -20,7 +21,7 @@ struct Stretches {
   std::vector<Stretch> left_out;  // connected with nothing, or with next to nothing
 };
 
-// `parts`: a label for each keyframe, 0 for those of the map.
-Stretches stretchesOf(const Walk &walk, const std::vector<uint32_t> &parts);
+// `parts`: a label for each keyframe, 0 for those of the map; `poses`: theirs.
+Stretches stretchesOf(const Walk &walk, const std::vector<uint32_t> &parts, const FramePoses &poses);
 
 }  // namespace sphc::host

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "host/mapping/middle.h"
+
 namespace sphc::host {
 namespace {
 
 constexpr double kNewView = 0.02;  // median shift of what both frames show, as rays
 constexpr LinkDemands kFollows = {40, 0.5};
-
-double middle(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 double middleDepth(const std::vector<WalkFrame> &frames) {
   std::vector<double> depths;
@@ -50,6 +45,7 @@ Walk joinWalks(std::vector<Walk> walks) {
       all.followers.push_back(follower);
     }
     all.unreadable += walks[recording].unreadable;
+    if (all.first_fault.empty()) all.first_fault = walks[recording].first_fault;
   }
   all.middle_depth_m = middleDepth(all.keyframes);
   return all;
@@ -72,22 +68,25 @@ Walk readWalk(recording::RecordingReader *reader, const sphc_rig &calibration, c
   FrameReader frames(calibration, options);
   FrameLinker linker(options.max_keypoints);
   Walk walk;
-  std::string first_fault;
+  int64_t before_ns = 0;
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
     std::string why;
     if (const std::optional<sphc_localizer_frame> images = reader->tryRead(i, &why)) {
       walk.keyframes.push_back(frames.describe(*images));
       walk.keyframes.back().index = i;
-      walk.keyframes.back().time_ns = reader->colorOf(i).time_ns;
+      const int64_t time_ns = reader->colorOf(i).time_ns;
+      walk.keyframes.back().time_ns = time_ns;
+      if (walk.keyframes.size() > 1) walk.keyframes.back().gap_ns = time_ns - before_ns;
+      before_ns = time_ns;
       compareLast(&linker, &walk);
     } else if (walk.unreadable++ == 0) {
-      first_fault = why;
+      walk.first_fault = why;
     }
     if (progress) progress(i + 1, reader->frameCount());
   }
   if (walk.keyframes.empty())
     throw std::runtime_error("not one frame can be read: of " + std::to_string(walk.unreadable) +
-                             " the first says: " + first_fault);
+                             " the first says: " + walk.first_fault);
   walk.middle_depth_m = middleDepth(walk.keyframes);
   if (!(walk.middle_depth_m > 0))
     throw std::runtime_error(

@@ -1,6 +1,7 @@
 // A walk: its keyframes, and frames that show what their keyframe does.
 #pragma once
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "host/mapping/frame_links.h"
@@ -21,6 +22,7 @@ struct Walk {
   std::vector<WalkFrame> keyframes;  // in order of time
   std::vector<Follower> followers;   // the same
   uint32_t unreadable = 0;           // frames whose images cannot be read
+  std::string first_fault;           // why the first of them cannot
   double middle_depth_m = 0;         // median over all keypoints with depth
 
   size_t frameCount() const { return keyframes.size() + followers.size(); }

@@ -23,6 +23,14 @@ struct SeenPoint {
   Vector3 point_m() const { return Vector3(ray.x() * depth_m, ray.y() * depth_m, depth_m); }
 };
 
+// What was measured of a frame's images, whatever they show.
+struct ImageEvidence {
+  double level = 0;                // median grey level, of 255
+  double keypoints = 0;            // how many
+  double with_depth = 0;           // share of them
+  double nearer = 0, farther = 0;  // shares of what the depth image measured that are out of the range of depths
+};
+
 struct WalkFrame {
   uint32_t recording = 0;  // of those that are mapped together
   uint32_t index = 0;      // in the recording
@@ -32,6 +40,8 @@ struct WalkFrame {
   std::vector<SeenPoint> points;        // strongest keypoint first
   std::vector<Descriptor> descriptors;  // of the same
   Hints hints = 0;                      // why the frame may be worth little
+  ImageEvidence evidence;               // likewise
+  int64_t gap_ns = 0;                   // since the frame before it in the recording; 0: it is the first
 };
 
 }  // namespace sphc::host

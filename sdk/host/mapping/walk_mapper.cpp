@@ -48,6 +48,7 @@ class WalkMapper {
     dropContradicting();
     adjustPoints(kLastSteps, true);
     mapped_.residuals = adjustAgain(kLastSteps, true);  // without what was far off
+    if (options_.judges_told) mapped_.residuals_of_told = residualsOfTold();
     return result();
   }
 
@@ -103,6 +104,17 @@ class WalkMapper {
     options.mount_is_free = is_last && options_.mount_is_free;
     options.change_so_far = options_.change_so_far;
     return adjust(frames_, prior_, options, &adjusted_);
+  }
+
+  std::optional<AdjustmentSummary> residualsOfTold() const {
+    Adjusted told = adjusted_;
+    for (size_t i = 0; i < frames_.size(); ++i)
+      told.world_from_camera[i] = adjusted_.world_from_camera[i] ? frames_[i].told_world_from_camera : std::nullopt;
+    AdjustmentOptions options;
+    options.most_steps = kLastSteps;
+    options.poses_are_held = true;
+    const AdjustmentSummary summary = adjust(frames_, prior_, options, &told);
+    return summary.sightings > 0 ? std::make_optional(summary) : std::nullopt;
   }
 
   // In the world of the first frame that has a pose, with the axes that were told where they are asked for; in the

@@ -15,6 +15,7 @@ struct MappingOptions {
   PoseTrust trust = {};                              // what to believe of the poses that the frames were told
   bool lens_is_free = false, mount_is_free = false;  // the calibration is adjusted too, in the end
   CalibrationChange change_so_far = {};              // as in AdjustmentOptions
+  bool judges_told = false;                          // find what residuals the told poses leave, as they are
   uint32_t threads = 0;  // at most so many; 0: one for each core.  The result is the same
 };
 
@@ -26,6 +27,8 @@ struct MappedWalk {
   size_t contradicting = 0;     // links that the others contradicted; left out
   AdjustmentSummary at_first;   // residuals before the second round of pairs, with the calibration held
   AdjustmentSummary residuals;
+  // What the same sightings leave where the frames stand as they were told; where that was asked for.
+  std::optional<AdjustmentSummary> residuals_of_told;
   DepthCalibration depth;    // as learnt
   CalibrationChange change;  // zero where it was not free
   // Poses (of odometry: steps) that were told, and how many of them the map contradicts.

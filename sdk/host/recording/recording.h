@@ -58,6 +58,7 @@ struct Recording {
   std::vector<RecordedImage> depth;  // times increase
   PoseTrack poses;
   uint32_t bad_pose_count = 0;
+  uint32_t backward_count = 0;  // images left out, whose time is not after that of the image before
 
   std::optional<sphc_rig> calibration;  // of a recording that holds one, but for calibration.json in a folder
   std::string calibration_fault;        // why it holds none, with name and cure; empty where nothing is to be said

@@ -160,6 +160,7 @@ void McapScan::addImage(Kind kind, const MessageHead &head, const RecordPlace &r
   if (!images.empty() && images.back().time_ns >= image.time_ns) {
     in_order_ = false;
     ++recording_.lost_count;
+    ++recording_.backward_count;
     return;
   }
   images.push_back(std::move(image));

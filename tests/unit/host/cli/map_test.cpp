@@ -13,6 +13,7 @@
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
 #include "host/recording/calibration_json.h"
+#include "tests/contract/tiny_recording.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -41,6 +42,7 @@ TEST_F(MapTest, AWalkWithoutPosesBecomesAMapThatLocalizes) {
   const Answer mapped =
       runCommand("map -r " + at("blind") + " --model " + at("blind.model") + " --trajectory " + at("blind.tum"));
   ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  EXPECT_THAT(mapped.err, Not(HasSubstr("note:")));  // nothing is wrong with it
   const Answer built = runCommand("build --model " + at("blind.model") + " -m " + at("blind.sphc"));
   ASSERT_EQ(built.exit_code, kExitDone) << built.err;
   const std::string localize = "localize -r " + at("walk") + " -m " + at("blind.sphc") + " --owner-note " +
@@ -63,6 +65,8 @@ TEST_F(MapTest, TheScoreComparesWithThePosesOfTheRecording) {
   EXPECT_EQ(summary["parts"], 1);
   EXPECT_LT(summary["score"]["rigid_rmse_m"], 0.01);
   EXPECT_NEAR(summary["score"]["scale"], 1, 0.02);
+  EXPECT_GT(summary["residuals_of_poses"]["ray_sigmas"], 0.05);
+  EXPECT_LT(summary["residuals_of_poses"]["ray_sigmas"], 1);
   EXPECT_LT(summary["score"]["rotation_worst_deg"], 5);  // aligned by places on a path of a step
 }
 
@@ -129,9 +133,43 @@ TEST_F(MapTest, PartsThatNeverMetAreNamedAndTheStatusSaysSo) {
   EXPECT_EQ(mapped.exit_code, kExitWalkApart) << mapped.err;
   EXPECT_THAT(mapped.err, HasSubstr("10 of 16 frames: 0.0 to 1.8 s"));
   EXPECT_THAT(mapped.err, HasSubstr("never met 100.0 to 101.0 s (6 frames)"));
+  EXPECT_THAT(mapped.err, HasSubstr("gap in time (no frame for 98.2 s): go back"));
+  EXPECT_THAT(mapped.err, HasSubstr("no frame was taken from 1.8 to 100.0 s"));
   const auto summary = nlohmann::json::parse(mapped.out);
   EXPECT_EQ(summary["parts"], 2);
   EXPECT_EQ(summary["frames_mapped"], 10);
+}
+
+TEST_F(MapTest, TimesThatGoBackwardsAreRefusedWithTheirPlace) {
+  fs::copy(at("walk"), at("backwards"), fs::copy_options::recursive);
+  std::ifstream from(at("walk/rgb.txt"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(from, line);) lines.push_back(line);
+  std::swap(lines[lines.size() - 3], lines[lines.size() - 4]);
+  std::ofstream to(at("backwards/rgb.txt"));
+  for (const std::string &line : lines) to << line << "\n";
+  to.close();
+  const Answer refused = runCommand("map -r " + at("backwards") + " --model " + at("backwards.model"));
+  EXPECT_EQ(refused.exit_code, kExitFailure);
+  EXPECT_THAT(refused.err, HasSubstr("rgb.txt, line " + std::to_string(lines.size() - 2)));
+  EXPECT_THAT(refused.err, HasSubstr("time does not increase; sort the list"));
+}
+
+TEST_F(MapTest, ImagesThatChangeTheirSizeAreLeftOutAndNamed) {
+  contract::writeTinyRecording(at("tiny"), 1);
+  fs::copy(at("walk"), at("sizes"), fs::copy_options::recursive);
+  const fs::path tiny = fs::directory_iterator(at("tiny/rgb"))->path();
+  std::vector<fs::path> images;
+  for (const auto &image : fs::directory_iterator(at("sizes/rgb"))) images.push_back(image.path());
+  fs::copy_file(tiny, images[0], fs::copy_options::overwrite_existing);
+  const std::string map = "map -r " + at("sizes") + " --json --force --model " + at("sizes.model");
+  const Answer mapped = runCommand(map);
+  ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  EXPECT_EQ(nlohmann::json::parse(mapped.out)["frames_mapped"], 9);
+  EXPECT_THAT(mapped.err, HasSubstr("1 frames could not be read; the first: "));
+  EXPECT_THAT(mapped.err, HasSubstr("48 x 32"));
+  for (const fs::path &image : images) fs::copy_file(tiny, image, fs::copy_options::overwrite_existing);
+  EXPECT_THAT(runCommand(map).err, HasSubstr("not one frame can be read"));
 }
 
 TEST_F(MapTest, ApproximatePosesKeepTheirWorld) {

@@ -53,5 +53,16 @@ TEST(FrameReaderTest, FramesOfLittleWorthSayWhy) {
   EXPECT_TRUE(describe({400, 128, 0}).hints & kNoDepthInRange);
 }
 
+TEST(FrameReaderTest, WhatWasMeasuredOfTheImagesIsKept) {
+  const ImageEvidence sound = describe({400, 128, 2000}).evidence;
+  EXPECT_NEAR(sound.level, 128, 20);
+  EXPECT_GT(sound.keypoints, 100);
+  EXPECT_GT(sound.with_depth, 0.9);
+  EXPECT_EQ(sound.nearer + sound.farther, 0);
+  EXPECT_EQ(describe({400, 128, 200}).evidence.nearer, 1);
+  EXPECT_EQ(describe({400, 128, 7000}).evidence.farther, 1);
+  EXPECT_EQ(describe({400, 128, 0}).evidence.with_depth, 0);
+}
+
 }  // namespace
 }  // namespace sphc::host

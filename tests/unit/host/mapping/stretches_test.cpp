@@ -13,7 +13,7 @@ class StretchesTest : public testing::Test {
 
 TEST_F(StretchesTest, AWholeWalkIsOneStretch) {
   walk_.followers.resize(3);
-  const Stretches stretches = stretchesOf(walk_, std::vector<uint32_t>(20, 0));
+  const Stretches stretches = stretchesOf(walk_, std::vector<uint32_t>(20, 0), FramePoses(20));
   ASSERT_EQ(stretches.mapped.size(), 1u);
   EXPECT_EQ(stretches.mapped[0].last, 19u);
   EXPECT_EQ(stretches.mapped[0].frames, 23u);
@@ -23,7 +23,7 @@ TEST_F(StretchesTest, AWholeWalkIsOneStretch) {
 
 TEST_F(StretchesTest, AStretchEndsWithItsRecording) {
   for (uint32_t i = 12; i < 20; ++i) walk_.keyframes[i].recording = 1;
-  const Stretches stretches = stretchesOf(walk_, std::vector<uint32_t>(20, 0));
+  const Stretches stretches = stretchesOf(walk_, std::vector<uint32_t>(20, 0), FramePoses(20));
   ASSERT_EQ(stretches.mapped.size(), 2u);
   EXPECT_EQ(stretches.mapped[0].last, 11u);
   EXPECT_EQ(stretches.mapped[1].first, 12u);
@@ -32,7 +32,7 @@ TEST_F(StretchesTest, AStretchEndsWithItsRecording) {
 TEST_F(StretchesTest, APartThatNeverMetIsNamedByItsStretches) {
   std::vector<uint32_t> parts(20, 0);
   for (uint32_t i : {4u, 5u, 6u, 15u, 16u}) parts[i] = 1;
-  const Stretches stretches = stretchesOf(walk_, parts);
+  const Stretches stretches = stretchesOf(walk_, parts, FramePoses(20));
   ASSERT_EQ(stretches.apart.size(), 1u);
   ASSERT_EQ(stretches.apart[0].size(), 2u);
   EXPECT_EQ(stretches.apart[0][0].first, 4u);
@@ -47,7 +47,7 @@ TEST_F(StretchesTest, SingleFramesAreLeftOutAndSayWhy) {
   parts[9] = 3;
   walk_.keyframes[7].hints = walk_.keyframes[8].hints = kTooFast;
   walk_.keyframes[9].hints = kTooDark;
-  const Stretches stretches = stretchesOf(walk_, parts);
+  const Stretches stretches = stretchesOf(walk_, parts, FramePoses(20));
   ASSERT_EQ(stretches.left_out.size(), 1u);
   EXPECT_EQ(stretches.left_out[0].frames, 3u);
   EXPECT_EQ(stretches.left_out[0].hints, kTooFast);

@@ -42,10 +42,27 @@ TEST(WalkMapperTest, TheSameWalkGivesTheSameBits) {
   }
 }
 
+// The poses are not used, and their residuals say that they are bent.
+TEST(WalkMapperTest, PosesThatWereToldAreJudged) {
+  MadeUpWalk made = makeWalk({20, 0.5, 1});
+  MappingOptions options;
+  options.judges_told = true;
+  EXPECT_FALSE(mapWalk(made.walk, options, {}).residuals_of_told);  // nothing was told
+  for (size_t i = 0; i < 20; ++i) made.walk.keyframes[i].told_world_from_camera = made.world_from_camera[i];
+  const MappedWalk sound = mapWalk(made.walk, options, {});
+  EXPECT_NEAR(sound.residuals_of_told->ray_sigmas, sound.residuals.ray_sigmas, 0.1);
+  EXPECT_NEAR(sound.residuals_of_told->depth_sigmas, sound.residuals.depth_sigmas, 0.1);
+  for (size_t i = 0; i < 20; ++i)
+    made.walk.keyframes[i].told_world_from_camera->translation_m.x() += 0.03 * std::sin(static_cast<double>(i));
+  const MappedWalk bent = mapWalk(made.walk, options, {});
+  EXPECT_GT(bent.residuals_of_told->ray_sigmas, 2 * bent.residuals.ray_sigmas);
+  EXPECT_EQ(bent.world_from_camera[7]->translation_m, sound.world_from_camera[7]->translation_m);
+}
+
 TEST(WalkMapperTest, TwoPartsThatNeverMetAreToldApart) {
   const MadeUpWalk made = joined(makeWalk({30, 1, 1}), makeWalk({20, 0.5, 1, 0, 0, 2}));
   const MappedWalk mapped = mapWalk(made.walk, {}, {});
-  const Stretches stretches = stretchesOf(made.walk, mapped.parts);
+  const Stretches stretches = stretchesOf(made.walk, mapped.parts, mapped.world_from_camera);
   ASSERT_EQ(stretches.mapped.size(), 1u);
   EXPECT_EQ(stretches.mapped[0].first, 0u);
   EXPECT_EQ(stretches.mapped[0].last, 29u);
@@ -64,7 +81,7 @@ TEST(WalkMapperTest, AFrameThatAgreesWithNoneIsLeftOut) {
   const MappedWalk mapped = mapWalk(made.walk, {}, {});
   EXPECT_FALSE(mapped.world_from_camera[10]);
   EXPECT_TRUE(mapped.world_from_camera[19]);
-  EXPECT_EQ(stretchesOf(made.walk, mapped.parts).left_out.size(), 1u);
+  EXPECT_EQ(stretchesOf(made.walk, mapped.parts, mapped.world_from_camera).left_out.size(), 1u);
 }
 
 // Moves and turns the told poses by chance, and shifts all of them into a world of their own.
