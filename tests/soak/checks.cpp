@@ -26,7 +26,8 @@ bool isPositive(const double *covariance) {
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j <= i; ++j) {
       const double a = covariance[6 * i + j];
-      if (!(std::abs(a - covariance[6 * j + i]) <= 1e-9 * std::abs(a))) return false;
+      const double scale = std::sqrt(covariance[7 * i] * covariance[7 * j]);
+      if (!(std::abs(a - covariance[6 * j + i]) <= 1e-9 * scale)) return false;
       double rest = a;
       for (int k = 0; k < j; ++k) rest -= lower[i][k] * lower[j][k];
       if (i == j && !(rest > 0)) return false;
