@@ -63,10 +63,10 @@ sphc_status sphc_replay_config_init(sphc_replay_config *config, size_t struct_si
 /* ---- open, close -------------------------------------------------------------------------------------------- */
 
 /* Opens the recording at `path`, a folder or a file.  `calibration_path` null: calibration.json in it.  `config`
- * null: the defaults; it is copied.  No image is read yet; an MCAP file that was cut off is read through for its
- * checksums, and so is one with poses. Errors: ARGUMENT (null, config, contents of the calibration or of a list),
- * STRUCT_SIZE, DEVICE (folder or file cannot be read, or holds no finished recording); each with file, place, cause
- * and cure in the message. [pure]
+ * null: the defaults; it is copied.  No image is read yet; an MCAP file is read through for its checksums, and
+ * refused where bytes outside of its chunks have changed. Errors: ARGUMENT (null, config, contents of the
+ * calibration or of a list), STRUCT_SIZE, DEVICE (folder or file cannot be read, or holds no finished recording);
+ * each with file, place, cause and cure in the message. [pure]
  */
 sphc_status sphc_replay_open(const char *path, const char *calibration_path, const sphc_replay_config *config,
                              sphc_replay **replay, sphc_message *message);

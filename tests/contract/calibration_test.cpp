@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "file_size_limit.h"
 #include "temp_folder.h"
 #include "tiny_recording.h"
 
@@ -45,6 +46,25 @@ Parsed parse(const std::string &text) {
   parsed.status = sphc_calibration_parse(text.data(), text.size(), "rig.json", &parsed.calibration, &message);
   parsed.message = message.text;
   return parsed;
+}
+
+TEST(Calibration, AFullDiskLeavesTheOldFile) {
+  const TempFolder temp;
+  const std::string path = temp / "rig.json";
+  sphc_rig rig = tinyCalibration();
+  ASSERT_EQ(sphc_calibration_write(path.c_str(), &rig, nullptr), SPHC_OK);
+  const std::string before = temp.read("rig.json");
+  rig.depth_unit_m = 0.002;
+  sphc_message message{};
+  {
+    const FileSizeLimit limit(before.size() / 2);
+    EXPECT_EQ(sphc_calibration_write(path.c_str(), &rig, &message), SPHC_E_DEVICE);
+  }
+  EXPECT_THAT(message.text, HasSubstr("rig.json"));
+  EXPECT_EQ(temp.read("rig.json"), before);
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  ASSERT_EQ(sphc_calibration_write(path.c_str(), &rig, nullptr), SPHC_OK);
+  EXPECT_NE(temp.read("rig.json"), before);
 }
 
 TEST(Calibration, ReadsEveryField) {

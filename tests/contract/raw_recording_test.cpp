@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "drivers/raw/raw.h"
+#include "file_size_limit.h"
 #include "host/recording/failure.h"
 #include "host/recording/recording_reader.h"
 #include "host/recording/writer_raw.h"
@@ -295,6 +296,13 @@ TEST_F(RawRecording, IsWrittenWholeOrNotAtAll) {
   EXPECT_FALSE(std::filesystem::exists(path + ".unfinished")) << "given up";
   EXPECT_THROW(RawWriter(folder_ / "walk.raw", tinyCalibration(), SPHC_FORMAT_BGR8), recording::Failure);
   EXPECT_EQ(folder_.read("walk.raw"), medium_.bytes) << "nothing is overwritten";
+}
+
+TEST_F(RawRecording, AFullDiskAtItsBeginningLeavesNothing) {
+  const std::string path = folder_ / "new.raw";
+  const FileSizeLimit limit(100);
+  EXPECT_THROW(RawWriter(path, tinyCalibration(), SPHC_FORMAT_BGR8), recording::Failure);
+  EXPECT_FALSE(std::filesystem::exists(path + ".unfinished"));
 }
 
 // A frame from the raw recording gives the pose that the same frame from the replay driver gives, to the bit.

@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstring>
 
+#include "file_size_limit.h"
 #include "temp_folder.h"
 #include "tiny_mcap.h"
 
@@ -377,6 +377,79 @@ TEST_F(Recorder, AChangedPoseIsNotBelieved) {
   EXPECT_EQ(read.t_m[0], tinyPose(29).t_m[0]);
 }
 
+// All that is read of a recording; nothing where a change of its bytes is told.
+std::string readAll(const std::string &path) {
+  const sphc_replay_config tight = tightConfig();
+  const OpenReplay replay(path, nullptr, &tight);
+  if (replay.status() != SPHC_OK) return "";
+  const sphc_replay_info info = infoOf(replay);
+  if (info.bad_chunk_count > 0 || info.is_cut || info.lost_count > 0 || info.bad_pose_count > 0) return "";
+  std::string all;
+  const auto add = [&all](const void *bytes, size_t size) { all.append(static_cast<const char *>(bytes), size); };
+  sphc_rig rig{};
+  EXPECT_EQ(sphc_replay_rig(replay.get(), &rig), SPHC_OK);
+  add(&rig, sizeof rig);
+  for (uint32_t i = 0; i < sphc_replay_frame_count(replay.get()); ++i) {
+    sphc_localizer_frame frame;
+    if (sphc_replay_read_frame(replay.get(), i, &frame, nullptr) != SPHC_OK) return "";
+    const int64_t head[] = {frame.sequence, frame.color_time_ns, frame.depth_time_ns};
+    add(head, sizeof head);
+    add(frame.color.data, size_t{frame.color.stride_bytes} * frame.color.height);
+    add(frame.depth.data, size_t{frame.depth.stride_bytes} * frame.depth.height);
+  }
+  for (uint32_t i = 0; i < info.pose_count; ++i) {
+    int64_t time_ns = 0;
+    sphc_rigid pose;
+    if (sphc_replay_recorded_pose(replay.get(), i, &time_ns, &pose) != SPHC_OK) return "";
+    add(&time_ns, sizeof time_ns);
+    add(&pose, sizeof pose);
+  }
+  return all;
+}
+
+TEST_F(Recorder, AFlippedBitIsFoundOrHasNoEffect) {
+  config_.chunk_bytes = 65536;
+  writeTinyMcap(file(), 3, config_);
+  const std::string whole = temp_.read("walk.mcap"), truth = readAll(file());
+  ASSERT_GT(truth.size(), 3u * 1000);
+  uint32_t found = 0, without_effect = 0;
+  for (size_t at = 0; at < whole.size(); at += 5) {
+    std::string changed = whole;
+    changed[at] = static_cast<char>(changed[at] ^ (1 << at % 8));
+    temp_.write("changed.mcap", changed);
+    const std::string read = readAll(temp_ / "changed.mcap");
+    ASSERT_TRUE(read.empty() || read == truth) << "byte " << at << " of " << whole.size();
+    ++(read.empty() ? found : without_effect);
+  }
+  EXPECT_GT(found, 500u);
+  EXPECT_GT(without_effect, 50u);  // the index behind the data
+}
+
+TEST_F(Recorder, AChangedHeadIsRefusedWithACure) {
+  writeTinyMcap(file(), 3, config_);
+  std::string bytes = temp_.read("walk.mcap");
+  const size_t topic = bytes.find("/pose");
+  ASSERT_NE(topic, std::string::npos);
+  bytes[topic + 1] ^= 1;
+  temp_.write("changed.mcap", bytes);
+  const OpenReplay replay(temp_ / "changed.mcap");
+  EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
+  EXPECT_THAT(replay.message(), AllOf(HasSubstr("changed.mcap"), HasSubstr("copy it again")));
+}
+
+// As files of before, and of writers that make none.
+TEST_F(Recorder, AFileWithoutAChecksumOfItsDataIsRead) {
+  writeTinyMcap(file(), 3, config_);
+  std::string bytes = temp_.read("walk.mcap");
+  const std::string head = std::string("\x0F\x04", 2) + std::string(7, '\0');
+  const size_t data_end = bytes.find(head, chunksOf(bytes).back().end);
+  ASSERT_NE(data_end, std::string::npos);
+  ASSERT_NE(bytes.substr(data_end + head.size(), 4), std::string(4, '\0'));
+  bytes.replace(data_end + head.size(), 4, 4, '\0');
+  temp_.write("before.mcap", bytes);
+  EXPECT_EQ(readAll(temp_ / "before.mcap"), readAll(file()));
+}
+
 TEST_F(Recorder, AnAbandonedRecordingCountsAsCutAndKeepsAll) {
   sphc_recorder *recorder = nullptr;
   const sphc_rig calibration = tinyCalibration();
@@ -421,24 +494,6 @@ TEST_F(Recorder, AKilledRecordingIsReplayed) {
   ASSERT_GT(frames, 10u);
   for (uint32_t i = 0; i < frames; ++i) expectTinyFrame(replay, i);  // from 0 on, none missing
 }
-
-// Files of this process may grow to `bytes` only: writing more fails, as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_ = {};
-};
 
 TEST_F(Recorder, AFullDiskEndsTheRecordingAndKeepsWhatIsThere) {
   config_.chunk_bytes = 65536;

@@ -221,6 +221,11 @@ def others(pipeline):
          "point, and turn and shift of `color_from_depth` are off, and the path's error after a rigid alignment. *spoiled*: off at\n"
          "random; *sound*: as the recording has it, which for real ones counts as the truth. Method: [mapping.md](mapping.md).",
          flat(rows("calibration_fit.csv"), ["given", "calibration"])),
+        ("Faults of the system", "pipeline/faults.csv", "faults_results",
+         "Commands that write, with one call of the system that fails in each run, or with the end of the process there. `calls`: how many\n"
+         "of the kind the command makes; `tried`: how many of them failed, one a run. *Refused*: exit status 1 with a cause; *done*: all files\n"
+         "are there. Method: [testing.md](testing.md#faults-of-the-system).",
+         flat(rows("faults.csv"), ["command"])),
         ("Guidance", "pipeline/guide.csv", "guide_results",
          "What is said while a walk is recorded. `confirmed`: pairs of views that two comparisons take for a loop; `false`: of these,\n"
          "beyond 25 cm or 10 deg of the recording's poses; `loops`: what is told of them. The last columns count frames, each alone.\n"

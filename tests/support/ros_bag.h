@@ -39,7 +39,7 @@ class RosBag {
       file.insert(file.end(), records_.begin(), records_.end());
     else
       putChunk(file, chunks);
-    recording::putDataEnd(file);
+    recording::putDataEnd(file, 0);
     return {file.begin(), file.end()};
   }
 

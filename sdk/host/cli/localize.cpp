@@ -111,6 +111,8 @@ void writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReade
 int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
+  const std::string damage = damageOf(*reader);
+  if (!damage.empty()) console.warn("note: " + damage);
   Run done = localize(options, reader.get(), console);
   if (options.align) alignTruth(&done);
   const Summary summary = summarize(done);

@@ -37,6 +37,15 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
                            ": check --first, --last, --step, and that depth images are there");
 }
 
+std::string damageOf(const RecordingReader &reader) {
+  const recording::Recording &recording = reader.recording();
+  const std::string name = recording.path.string();
+  if (recording.bad_chunk_count > 0)
+    return name + ": " + std::to_string(recording.bad_chunk_count) +
+           " parts with changed bytes are left out; copy it again from where it was recorded";
+  return recording.is_cut ? name + " was cut off; all of its whole chunks are kept" : "";
+}
+
 std::string describeSelection(const RecordingOptions &options) {
   const bool all = options.first == 0 && options.last == UINT32_MAX;
   std::string text = all ? "all frames" : "frames " + std::to_string(options.first) + " to ";

@@ -1,4 +1,4 @@
-// Small files, written whole or not at all.
+// Small files, written whole or not at all: what fails or is killed leaves the old one, and at most NAME.part.
 #pragma once
 
 #include <filesystem>

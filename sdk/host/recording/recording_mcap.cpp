@@ -17,9 +17,9 @@ namespace {
 constexpr uint64_t kMostSmallBytes = FileWindow::kMostBytes;  // of records that describe
 constexpr uint64_t kMostCalibrationBytes = 1 << 20;
 
-// One walk through the file's records.  Of a whole file, a chunk is checked when an image of it is read, and at
-// once when it holds poses, which nobody reads again; of a cut one every chunk is checked, because a power cut may
-// leave garbage at its end.
+// One walk through the file's records.  Of a file whose data have the checksum that was written at their end, all
+// is true.  Of another whole file, a chunk is checked when an image of it is read, and at once when it holds poses,
+// which nobody reads again; of a cut one every chunk is checked, because a power cut may leave garbage at its end.
 class McapScan {
  public:
   McapScan(const File &file, bool checks_all)
@@ -27,6 +27,8 @@ class McapScan {
 
   Recording run();
   bool inOrder() const { return in_order_; }
+  // The file says what the checksum of its data is, and it is another one.
+  bool isChanged() const { return is_changed_; }
   bool isOurs() const;
 
  private:
@@ -34,6 +36,7 @@ class McapScan {
   void readChunkRecords(const RecordPlace &record);
   void readMessage(const RecordPlace &record);
   bool holdsTrueBytes();
+  void checkData(uint64_t bytes, uint32_t crc);
   void readSmallMessage(Kind kind, const MessageHead &head, ByteView data);
   void addImage(Kind kind, const MessageHead &head, const RecordPlace &record);
   MessagePlace placeOf(Kind kind, const RecordPlace &record) const;
@@ -46,6 +49,7 @@ class McapScan {
   ChunkReader chunks_;
   bool checks_all_;
   bool in_order_ = true;
+  bool is_changed_ = false;
   std::optional<bool> chunk_is_true_;  // of the chunk being read, once its checksum was compared
   std::map<uint16_t, std::string> schemas_;
   std::map<uint16_t, Kind> kinds_;
@@ -71,6 +75,8 @@ void McapScan::readRecord(const RecordPlace &record) {
     readChunkRecords(record);
   } else if (record.op == Op::kAttachment) {
     readCalibration(record);
+  } else if (record.op == Op::kDataEnd && content) {
+    checkData(record.start, readDataEnd(*content));
   } else if (record.op == Op::kSchema && content && readSchema(*content, schema)) {
     schemas_[schema.id] = schema.name;
   } else if (record.op == Op::kChannel && content && readChannel(*content, channel)) {
@@ -91,7 +97,7 @@ void McapScan::readChunkRecords(const RecordPlace &record) {
       walkRecords(window_, place.start, place.start + place.bytes, [this](const RecordPlace &inner) {
         if (inner.op == Op::kMessage)
           readMessage(inner);
-        else if (inner.op != Op::kChunk && inner.op != Op::kAttachment)
+        else if (inner.op == Op::kSchema || inner.op == Op::kChannel)
           readRecord(inner);
       });
   if (end != WalkEnd::kEdge) in_order_ = false;
@@ -104,6 +110,10 @@ bool McapScan::holdsTrueBytes() {
     if (!*chunk_is_true_) ++recording_.bad_chunk_count;
   }
   return *chunk_is_true_;
+}
+
+void McapScan::checkData(uint64_t bytes, uint32_t crc) {
+  is_changed_ = crc != 0 && crcOfStart(file_, bytes) != crc;
 }
 
 void McapScan::readMessage(const RecordPlace &record) {
@@ -202,6 +212,19 @@ Recording McapScan::run() {
   return std::move(recording_);
 }
 
+// Of changed data, all that is in no chunk is believed unchecked: channels, calibration, where chunks are.  Chunks
+// are left out one by one.
+void requireBadChunk(const File &file, Recording &recording) {
+  ChunkReader chunks(file);
+  const auto bad = std::count_if(recording.chunks.begin(), recording.chunks.end(),
+                                 [&chunks](const ChunkPlace &place) { return !chunks.load(place); });
+  recording.bad_chunk_count = std::max(recording.bad_chunk_count, static_cast<uint32_t>(bad));
+  if (recording.bad_chunk_count == 0)
+    throw Failure(SPHC_E_DEVICE, file.name() +
+                                     ": bytes outside of its chunks have changed since it was written, so it "
+                                     "cannot be believed; copy it again from where it was recorded");
+}
+
 }  // namespace
 
 Recording openMcap(const fs::path &path) {
@@ -213,6 +236,7 @@ Recording openMcap(const fs::path &path) {
   McapScan quick(file, !is_whole);
   Recording recording = quick.run();
   if (!quick.isOurs()) return openRosBag(path);
+  if (quick.isChanged()) requireBadChunk(file, recording);
   if (is_whole && !quick.inOrder()) recording = McapScan(file, true).run();
   recording.path = path;
   if (recording.color.empty())

@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <utility>
+
 #include "calibration_json.h"
 #include "failure.h"
 #include "pixels.h"
@@ -45,12 +47,17 @@ fs::path unfinishedName(const fs::path &path) {
 
 }  // namespace
 
-RawWriter::RawWriter(const fs::path &path, const sphc_rig &calibration, sphc_format color_format)
+RawWriter::RawWriter(const fs::path &path, fs::path unfinished, const sphc_rig &calibration,
+                     sphc_format color_format)
     : path_(path),
-      unfinished_(unfinishedName(path)),
+      unfinished_(std::move(unfinished)),
       calibration_(requireGood(calibration)),
       color_format_(color_format),
-      file_(File::create(unfinished_)) {
+      file_(File::create(unfinished_)) {}
+
+// Delegates, so that the destructor removes the file when its first bytes cannot be written.
+RawWriter::RawWriter(const fs::path &path, const sphc_rig &calibration, sphc_format color_format)
+    : RawWriter(path, unfinishedName(path), calibration, color_format) {
   file_.append({viewOf(header())});
 }
 

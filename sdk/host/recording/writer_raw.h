@@ -23,6 +23,9 @@ class RawWriter {
   void finish();
 
  private:
+  // Makes the file, empty.
+  RawWriter(const std::filesystem::path &path, std::filesystem::path unfinished, const sphc_rig &calibration,
+            sphc_format color_format);
   Bytes header() const;
 
   std::filesystem::path path_, unfinished_;

@@ -202,7 +202,10 @@ ImportedPoints importPoints(const PointSource &source) {
   if (!source.model.empty()) return fromModel(source);
   if (!source.colmap.model.empty()) return fromColmap(source);
   const auto reader = openRecording(source.recording);
-  return importRecordings({{reader.get()}}, source.import, describeSelection(source.recording));
+  ImportedPoints imported = importRecordings({{reader.get()}}, source.import, describeSelection(source.recording));
+  const std::string damage = damageOf(*reader);
+  if (!damage.empty()) imported.warnings.push_back(damage);
+  return imported;
 }
 
 }  // namespace sphc::host

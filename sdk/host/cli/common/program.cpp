@@ -3,8 +3,10 @@
 #include <spherecloud/spherecloud.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
+#include <new>
 #include <sstream>
 
 #include "host/base/usage_error.h"
@@ -44,7 +46,7 @@ int parseAndRun(const Program &program, int argc, char **argv) {
   const auto formatter = std::make_shared<Formatter>();
   formatter->column_width(32);
   root.formatter(formatter);
-  root.set_version_flag("--version", program.name + " " + sphc_version_string());
+  root.set_version_flag("--version", std::string(program.name) + " " + sphc_version_string());
   root.require_subcommand(1);
   root.footer(program.footer);
   Console console;
@@ -70,15 +72,33 @@ int parseAndRun(const Program &program, int argc, char **argv) {
   }
 }
 
+const char kNoMemory[] = "there is not enough memory; end other programs, or take fewer frames or keypoints";
+
+// Where an exception cannot go on: destructors of JSON values allocate, and so do threads.  What was being written
+// has another name than the file, as after a kill.
+[[noreturn]] void endWithoutMemory() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc &) {
+    std::fprintf(stderr, "%s\n", kNoMemory);
+    std::_Exit(kExitFailure);
+  } catch (...) {  // a defect, for a debugger
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int runProgram(const Program &program, int argc, char **argv) {
+  std::set_terminate(endWithoutMemory);
   try {
     return parseAndRun(program, argc, argv);
+  } catch (const std::bad_alloc &) {
+    std::fprintf(stderr, "%s: %s\n", program.name, kNoMemory);
   } catch (const std::exception &error) {
-    std::fprintf(stderr, "%s: %s\n", program.name.c_str(), error.what());
+    std::fprintf(stderr, "%s: %s\n", program.name, error.what());
   } catch (...) {
-    std::fprintf(stderr, "%s: an unknown error; please report it with the command line\n", program.name.c_str());
+    std::fprintf(stderr, "%s: an unknown error; please report it with the command line\n", program.name);
   }
   return kExitFailure;
 }

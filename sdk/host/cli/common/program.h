@@ -1,6 +1,5 @@
 // A program of subcommands: help, wrong use, failure and exit status are alike in each.
 #pragma once
-#include <string>
 #include <vector>
 
 #include "host/cli/common/command.h"
@@ -8,7 +7,7 @@
 namespace sphc::host {
 
 struct Program {
-  std::string name, about, footer;
+  const char *name, *about, *footer;
   std::vector<Command> (*declare)(CLI::App *root);
 };
 

@@ -76,8 +76,14 @@ void File::write(ByteView part) {
 }
 
 void File::writeAt(uint64_t offset, ByteView part) {
-  const ssize_t done = ::pwrite(descriptor_, part.data, part.size, static_cast<off_t>(offset));
-  if (done != static_cast<ssize_t>(part.size)) fail(name_, "cannot be written", "make room on the disk");
+  while (part.size > 0) {
+    const ssize_t done = ::pwrite(descriptor_, part.data, part.size, static_cast<off_t>(offset));
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) fail(name_, "cannot be written", "make room on the disk");
+    part.data += done;
+    part.size -= static_cast<size_t>(done);
+    offset += static_cast<uint64_t>(done);
+  }
 }
 
 void File::append(std::initializer_list<ByteView> parts) {

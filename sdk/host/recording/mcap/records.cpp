@@ -87,10 +87,8 @@ void putMetadata(Bytes &out, std::string_view name, const TextMap &metadata) {
   });
 }
 
-void putDataEnd(Bytes &out) {
-  putRecord(out, Op::kDataEnd, [&] {
-    putLittle(out, uint32_t{0});  // no checksum of all: every chunk has its own
-  });
+void putDataEnd(Bytes &out, uint32_t crc) {
+  putRecord(out, Op::kDataEnd, [&] { putLittle(out, crc); });
 }
 
 bool readSchema(ByteView content, Schema &schema) {
@@ -119,6 +117,8 @@ bool readAttachment(ByteView content, Attachment &attachment) {
   const uint32_t crc = reader.little<uint32_t>();
   return reader.ok() && (crc == 0 || crc == crcOf(content.data, checked));
 }
+
+uint32_t readDataEnd(ByteView content) { return ByteReader(content).little<uint32_t>(); }
 
 bool readMessageHead(ByteView content, MessageHead &head) {
   ByteReader reader(content);

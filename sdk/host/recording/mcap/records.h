@@ -56,7 +56,8 @@ void putChannel(Bytes &out, uint16_t id, uint16_t schema, std::string_view topic
 void putMessage(Bytes &out, uint16_t channel, uint32_t sequence, uint64_t time_ns, ByteView data);
 void putAttachment(Bytes &out, std::string_view name, std::string_view media_type, ByteView data);
 void putMetadata(Bytes &out, std::string_view name, const TextMap &metadata);
-void putDataEnd(Bytes &out);
+// crc: of all bytes of the file before this record; 0: none.
+void putDataEnd(Bytes &out, uint32_t crc);
 
 struct Schema {
   uint16_t id;
@@ -87,6 +88,8 @@ struct ChunkHead {
 bool readSchema(ByteView content, Schema &schema);
 bool readChannel(ByteView content, Channel &channel);
 bool readAttachment(ByteView content, Attachment &attachment);
+// The checksum of a Data End; 0: none.
+uint32_t readDataEnd(ByteView content);
 // The first kMessageHeadBytes of a message.
 bool readMessageHead(ByteView content, MessageHead &head);
 void putChunkHead(Bytes &out, const ChunkHead &head);

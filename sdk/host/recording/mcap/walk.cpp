@@ -8,12 +8,24 @@ namespace sphc::recording {
 
 namespace {
 constexpr uint64_t kMostChunkBytes = uint64_t{1} << 30;
-constexpr size_t kMostHeadBytes = 128;  // the compression's name is a word
+constexpr size_t kMostHeadBytes = 128;   // the compression's name is a word
+constexpr size_t kPieceBytes = 1 << 18;  // of a file that is read through
 }  // namespace
 
 bool hasMagic(FileWindow &window, uint64_t at) {
   return window.fileSize() >= sizeof kMcapMagic && at <= window.fileSize() - sizeof kMcapMagic &&
          std::memcmp(window.at(at, sizeof kMcapMagic).data, kMcapMagic, sizeof kMcapMagic) == 0;
+}
+
+uint32_t crcOfStart(const File &file, uint64_t bytes) {
+  Bytes piece(static_cast<size_t>(std::min<uint64_t>(bytes, kPieceBytes)));
+  uLong crc = 0;
+  for (uint64_t at = 0; at < bytes; at += piece.size()) {
+    piece.resize(static_cast<size_t>(std::min<uint64_t>(bytes - at, piece.size())));
+    file.read(at, piece.data(), piece.size());
+    crc = crc32_z(crc, piece.data(), piece.size());
+  }
+  return static_cast<uint32_t>(crc);
 }
 
 bool readChunk(FileWindow &window, const RecordPlace &record, ChunkHead &head, ChunkPlace &place) {

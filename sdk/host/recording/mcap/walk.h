@@ -20,7 +20,7 @@ enum class WalkEnd {
   kTorn      // what is there next is no whole record
 };
 
-// Shows every whole record from `at` up to `end` to visit(const RecordPlace &).
+// Shows every whole record from `at` up to `end`, or to the end of the data section, to visit(const RecordPlace &).
 template <typename Visit>
 WalkEnd walkRecords(FileWindow &window, uint64_t at, uint64_t end, Visit &&visit) {
   while (at < end) {
@@ -29,12 +29,15 @@ WalkEnd walkRecords(FileWindow &window, uint64_t at, uint64_t end, Visit &&visit
     const RecordPlace record{static_cast<Op>(head.data[0]), at, at + kRecordHeadBytes,
                              loadLittle<uint64_t>(head.data + 1)};
     if (head.data[0] == 0 || record.bytes > end - record.content) return WalkEnd::kTorn;
-    if (record.op == Op::kDataEnd) return WalkEnd::kDataEnd;
     visit(record);
+    if (record.op == Op::kDataEnd) return WalkEnd::kDataEnd;
     at = record.end();
   }
   return WalkEnd::kEdge;
 }
+
+// The CRC-32 of the first `bytes` of the file.
+uint32_t crcOfStart(const File &file, uint64_t bytes);
 
 // True when there is a recording's beginning.
 bool hasMagic(FileWindow &window, uint64_t at);

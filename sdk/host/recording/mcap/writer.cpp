@@ -28,8 +28,13 @@ McapWriter::McapWriter(const std::filesystem::path &path, size_t chunk_bytes, si
 void McapWriter::begin(const Bytes &records) {
   Bytes start(std::begin(kMcapMagic), std::end(kMcapMagic));
   putHeader(start, "ros2", kLibrary);
-  file_.append({viewOf(start), viewOf(records)});
+  append({viewOf(start), viewOf(records)});
   file_.sync();
+}
+
+void McapWriter::append(std::initializer_list<ByteView> parts) {
+  file_.append(parts);
+  for (const ByteView &part : parts) crc_ = static_cast<uint32_t>(crc32_z(crc_, part.data, part.size));
 }
 
 Bytes &McapWriter::beginMessage(Kind kind, uint32_t sequence, int64_t time_ns) {
@@ -74,6 +79,9 @@ void McapWriter::endChunk() {
   putChunkHead(head_, {first->time_ns, last->time_ns, chunk_.size(), crc, "", chunk_.size()});
   putMessageIndexes();
   file_.append({viewOf(head_), viewOf(chunk_), viewOf(index_)});
+  const uLong with_head = crc32_z(crc_, head_.data(), head_.size());
+  const uLong with_chunk = crc32_combine(with_head, crc, static_cast<z_off_t>(chunk_.size()));  // is not read again
+  crc_ = static_cast<uint32_t>(crc32_z(with_chunk, index_.data(), index_.size()));
   chunk_.clear();
   entries_.clear();
 }
@@ -82,9 +90,10 @@ void McapWriter::finish(const Bytes &records) {
   endChunk();
   const uint64_t recorded = file_.size();
   try {
+    append({viewOf(records)});
     Bytes end;
-    putDataEnd(end);
-    file_.append({viewOf(records), viewOf(end)});
+    putDataEnd(end, crc_);
+    file_.append({viewOf(end)});
     writeSummary(file_);
     file_.sync();
   } catch (...) {

@@ -33,8 +33,10 @@ class McapWriter {
     uint64_t time_ns, offset;
   };
   void putMessageIndexes();
+  void append(std::initializer_list<ByteView> parts);
 
   File file_;
+  uint32_t crc_ = 0;  // of all that is in the file
   size_t chunk_bytes_;
   Bytes chunk_, head_, index_;
   std::vector<Entry> entries_;  // of the messages in the chunk

@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""A command that is careless with its file has every defect that faults.py looks for."""
+import argparse
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from faults import Server, chosen_calls
+from scenarios import Scenario
+
+EXPECTED = [("write", 1, 28, "neither the old nor the new"), ("write", 2, 28, "exit status 0 without out"),
+            ("write", 2, "kill", "neither the old nor the new"), ("write", 1, "torn", "neither the old nor the new"),
+            ("write", 1, "short", "neither the old nor the new"), ("open", 1, 5, "exit status 0 without out"),
+            ("malloc", 1, 12, "ended by SIGSEGV")]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--careless", required=True, type=pathlib.Path)
+    parser.add_argument("--library", required=True, type=pathlib.Path)
+    arguments = parser.parse_args()
+    assert chosen_calls(7, 2) == [1, 2, 3, 5, 6, 7] and chosen_calls(1000, 50)[-1] == 1000 and chosen_calls(0, 50) == []
+    with tempfile.TemporaryDirectory() as scratch:
+        scenario = Scenario("careless", [], lambda folder: (folder / "out").write_text("old"))
+        server = Server(arguments.careless, arguments.library, scenario, pathlib.Path(scratch) / "careless")
+        for call, at, fault, expected in EXPECTED:
+            became, defects = server.judge(call, at, fault)
+            assert any(expected in defect for defect in defects), (call, at, fault, became, defects)
+        server.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,154 @@
+"""The commands that write, on inputs as small as they can be."""
+import dataclasses
+import os
+import pathlib
+import shutil
+import subprocess
+import typing
+
+KEY = pathlib.Path(__file__).resolve().parent.parent / "pipeline" / "test_key.txt"
+FEW_POINTS = ["--max-keypoints", 150]
+
+
+@dataclasses.dataclass
+class Scenario:
+    name: str
+    arguments: list
+    prepare: typing.Callable = lambda folder: None  # makes the files that were there before
+    secret: str = ""
+    is_recording: bool = False  # which is never replaced, nor what a killed command left of one
+    keeps_cut: bool = False  # what was recorded stays as NAME.part
+    most: int = 50
+
+
+class Scenarios:
+    NAMES = ["build", "build first", "build model", "map", "map refine", "localize", "convert", "convert folder", "convert 7scenes",
+             "convert raw", "record", "record guide", "guide", "doctor", "calibration", "inspect", "advise", "audit", "live", "simulate"]
+    QUICK = ["build model", "convert", "calibration"]
+
+    def __init__(self, tool, folder):
+        self.tool, self.inputs = tool, folder / "inputs"
+        self.inputs.mkdir()
+        self.walk = self.inputs / "walk.mcap"
+        self.run("simulate", "--out", self.walk, "--frames", 4, "--rate", 6.25)
+        self.key = self.inputs / "key.txt"
+        shutil.copy(KEY, self.key)
+        self.key.chmod(0o600)
+        self.secret = self.key.read_text().strip().lower()
+
+    def run(self, *arguments):
+        command = [str(part) for part in (self.tool, *arguments)]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=dict(os.environ, PATH="/nonexistent"))
+
+    def frames(self, last):
+        return ["--recording", self.walk, "--last", last, *FEW_POINTS]
+
+    def build(self, folder, last, *more):
+        self.run("build", *self.frames(last), "--map", folder / "room.sphc", "--key", self.key, *more)
+
+    def model(self, last):
+        path = self.inputs / ("room%d.model" % last)
+        if not path.exists():
+            self.build(self.fresh("model%d" % last), last, "--save-model", path)
+        return path
+
+    def released(self):
+        folder = self.inputs / "released"
+        if not folder.exists():
+            self.build(self.fresh("released"), 3)
+        return folder
+
+    def fresh(self, name):
+        folder = self.inputs / name
+        folder.mkdir()
+        return folder
+
+    def make(self, name):
+        scenario = getattr(self, "make_" + name.replace(" ", "_"))()
+        return dataclasses.replace(scenario, name=name)
+
+    def make_build(self):  # an update of a place
+        arguments = ["build", *self.frames(3), "--map", "room.sphc", "--save-model", "room.model"]
+        return Scenario("", arguments, lambda folder: self.build(folder, 1, "--save-model", folder / "room.model"), self.secret)
+
+    def make_build_first(self):
+        return Scenario("", ["build", *self.frames(1), "--map", "room.sphc", "--key", self.key], secret=self.secret)
+
+    def make_build_model(self):
+        before, after = self.model(1), self.model(3)
+
+        def prepare(folder):
+            self.run("build", "--model", before, "--map", folder / "room.sphc", "--key", self.key)
+        return Scenario("", ["build", "--model", after, "--map", "room.sphc"], prepare, self.secret)
+
+    def make_map(self, *more):
+        outputs = ["--model", "room.model", "--trajectory", "walk.tum", *more]
+
+        def prepare(folder):
+            self.run("map", *self.frames(2), *[folder / part if "." in part else part for part in outputs])
+        return Scenario("", ["map", *self.frames(3), *outputs, "--threads", 1], prepare)
+
+    def make_map_refine(self):
+        return dataclasses.replace(self.make_map("--refine-calibration", "refined.json"), most=10)
+
+    def make_localize(self):
+        outputs = ["--trajectory", "walk.tum", "--frames-json", "frames.jsonl", "--report", "report"]
+        room = self.released() / "room.sphc"
+        source = ["--recording", self.walk, "--map", room, "--owner-note", "%s.owner.json" % room]
+
+        def prepare(folder):
+            self.run("localize", *source, "--last", 1, *[folder / part if part[0] != "-" else part for part in outputs])
+        return Scenario("", ["localize", *source, "--last", 3, *outputs], prepare, most=20)
+
+    def make_convert(self):
+        return Scenario("", ["convert", self.walk, "out.mcap"], is_recording=True)
+
+    def make_convert_folder(self):
+        return Scenario("", ["convert", self.walk, "out"], is_recording=True)
+
+    def make_convert_7scenes(self):
+        return Scenario("", ["convert", self.walk, "out", "--to", "7scenes"], is_recording=True)
+
+    def make_convert_raw(self):
+        return Scenario("", ["convert", self.walk, "out.raw"], is_recording=True)
+
+    def make_record(self):
+        return Scenario("", ["record", "--device", "replay:%s" % self.walk, "--out", "out.mcap"], is_recording=True, keeps_cut=True, most=10)
+
+    def make_record_guide(self):
+        return Scenario("", ["record", "--device", "replay:%s" % self.walk, "--out", "out.mcap", "--guide"], is_recording=True, keeps_cut=True, most=10)
+
+    def make_guide(self):
+        return Scenario("", ["guide", "--recording", self.walk, "--json"])
+
+    def make_doctor(self):
+        return Scenario("", ["doctor", "--device", "replay:%s" % self.walk, "--frames", 4], most=10)
+
+    def make_calibration(self):
+        ours = self.inputs / "rig.json"
+        if not ours.exists():
+            self.run("convert", self.walk, self.inputs / "rig")
+            shutil.copy(self.inputs / "rig" / "calibration.json", ours)
+
+        def prepare(folder):
+            self.run("calibration", ours, "--out", folder / "rig.yaml", "--to", "opencv", "--depth-unit", 0.002)
+        return Scenario("", ["calibration", ours, "--out", "rig.yaml", "--to", "opencv", "--force"], prepare)
+
+    def make_inspect(self):
+        def prepare(folder):
+            (folder / "sky.png").write_bytes(b"")
+        return Scenario("", ["inspect", self.released() / "room.sphc", "--picture", "sky.png"], prepare)
+
+    def make_advise(self):
+        return Scenario("", ["advise", *self.frames(3), "--folds", 2, "--picture", "sky.png"], most=10)
+
+    def make_audit(self):
+        ledger, room = self.released() / "spherecloud.ledger", self.released() / "room.sphc"
+        arguments = ["audit", room, "--truth", ledger, "--only", "file", "--report", "report", "--figures", "figures.csv"]
+        return Scenario("", [*arguments, "--allow-unmeasured", "photos"], secret=self.secret, most=20)
+
+    def make_live(self):
+        return Scenario("", ["live", "--device", "replay:%s" % self.walk, "--map", self.released() / "room.sphc", "--every", "--json"])
+
+    def make_simulate(self):
+        return Scenario("", ["simulate", "--out", "walk", "--frames", 1, "--threads", 1], is_recording=True, most=2)
