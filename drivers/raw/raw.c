@@ -141,7 +141,8 @@ sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_fra
                                sphc_message *message) {
   uint8_t head[kHeadBytes];
   if (!raw || !recorded || index >= raw->frame_count)
-    return refuse(message, SPHC_E_ARGUMENT, "raw or recorded is null, or there is no such frame; give an index below frame_count");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "raw or recorded is null, or there is no such frame; give an index below frame_count");
   if (raw->read(raw->user, place_of(raw, index), head, kHeadBytes) != 0)
     return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read; check the storage");
   return get_head(head, recorded, message);
@@ -151,9 +152,11 @@ sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memor
                                 sphc_raw_frame *recorded, sphc_message *message) {
   uint8_t *const bytes = memory;
   if (!raw || !recorded || index >= raw->frame_count)
-    return refuse(message, SPHC_E_ARGUMENT, "raw or recorded is null, or there is no such frame; give an index below frame_count");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "raw or recorded is null, or there is no such frame; give an index below frame_count");
   if (!memory || (uintptr_t)memory % 2 != 0 || memory_bytes < raw->frame_bytes)
-    return refuse(message, SPHC_E_ARGUMENT, "memory is null, odd or too small; give raw->frame_bytes, aligned to 2");
+    return refuse(message, SPHC_E_ARGUMENT,
+                  "memory is null, odd or too small; give raw->frame_bytes, aligned to 2");
   if (raw->read(raw->user, place_of(raw, index), bytes, raw->frame_bytes) != 0)
     return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read; check the storage");
   const sphc_status status = get_head(bytes, recorded, message);

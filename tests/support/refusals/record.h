@@ -1,5 +1,5 @@
-// What tests are refused, written down for docs/error_cases.md: one line of a file for each refusal, in the folder that
-// the environment variable SPHC_REFUSALS names.  Without it nothing is written.
+// What tests are refused, written down for docs/error_cases.md: one line of a file for each refusal, in the folder
+// that the environment variable SPHC_REFUSALS names.  Without it nothing is written.
 #pragma once
 #include <string>
 

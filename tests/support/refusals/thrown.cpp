@@ -17,7 +17,8 @@ const std::exception *asException(std::type_info *type, void *thrown) {
 
 // What the command makes of it: host/cli/common/program.cpp.
 std::string codeOf(const std::exception &error) {
-  if (const auto *failure = dynamic_cast<const recording::Failure *>(&error)) return sphc_status_name(failure->status());
+  if (const auto *failure = dynamic_cast<const recording::Failure *>(&error))
+    return sphc_status_name(failure->status());
   return dynamic_cast<const host::UsageError *>(&error) ? "exit 2" : "exit 1";
 }
 

@@ -43,7 +43,7 @@ class CheckImageTest : public testing::Test {
     sphc_camera camera = {};
     camera.width = 8;
     camera.height = 4;
-    return checkImage("color", image, camera, depth_format, &message_);
+    return checkImage("color", image, camera, {depth_format, "config.depth_format"}, &message_);
   }
   alignas(2) uint8_t pixels_[8 * 4 * 3 + 1] = {};
   sphc_message message_ = {};
