@@ -126,7 +126,7 @@ static int serve(int argc, char **argv, char **environment) {
   return 0;
 }
 
-#define NEXT(name) ((__typeof__(&name))next_of(#name))
+#define NEXT(name) (__extension__(__typeof__(&name)) next_of(#name))
 static void *next_of(const char *name) { return dlsym(RTLD_NEXT, name); }
 
 typedef int start_main(int (*)(int, char **, char **), int, char **, void (*)(void), void (*)(void), void (*)(void),

@@ -82,7 +82,7 @@ TEST_F(WalkTimesTest, ImagesWhoseTimesGoBackwardsAreCounted) {
     recording::putChunkHead(file, {0, 0, records.size(), 0, "", records.size()});
     recording::append(file, records.data(), records.size());
   });
-  recording::putDataEnd(file);
+  recording::putDataEnd(file, 0);
   folder_.write("walk.mcap", {file.begin(), file.end()});
   recording::ReaderOptions options;
   options.calibration = folder_ / "calibration.json";
