@@ -33,6 +33,8 @@ SUBJECTS = {  # the longest that a source's path begins with
     "sdk/host/audit": "Audit",
     "sdk/host/live": "Cameras",
     "sdk/host/base": "Files",
+    "sdk/host/signing": "Signed maps",
+    "sdk/signature": "Signed maps",
     "sdk/host/cli": "The command",
 }
 DRIVERS = ("libcamera", "openni2", "raw", "sample", "simulated", "v4l2")  # whose functions explain themselves
