@@ -3,8 +3,9 @@
 
     wrap_calls.py HEADER WRAPPERS.cpp OPTIONS.txt
 
-OPTIONS.txt tells the linker to bring calls of a function to its wrapper.  Wrapped are functions that give a status and
-explain it: by a parameter `message`, or by a function OBJECT_message of their first parameter.
+OPTIONS.txt is for the compiler that links (@OPTIONS.txt), and tells the linker to bring calls of a function to its wrapper.
+Wrapped are functions that give a status and explain it: by a parameter `message`, or by a function OBJECT_message of their
+first parameter.
 """
 import re
 import sys
@@ -43,7 +44,7 @@ def main():
             declared = ", ".join(parameters)
             code.append(f"sphc_status __real_{name}({declared});\n"
                         f"sphc_status __wrap_{name}({declared}) {{\n  return sphc::test::{called};\n}}\n")
-            wrapped.append(f"--wrap={name}\n")
+            wrapped.append(f"-Wl,--wrap={name}\n")
     wrappers.write_text(f'#include "{header}"\n#include "tests/support/refusals/record.h"\n\nextern "C" {{\n'
                         + "\n".join(code) + "}\n", encoding="utf-8")
     options.write_text("".join(wrapped), encoding="utf-8")
