@@ -17,7 +17,7 @@ CALL = re.compile(r"(?:^|[\s/])(spherecloud(?:-lab)?) +(?!-)([a-z]\S*)(.*)$")
 BUILD_TOOL = re.compile(r"\s*(cmake|ninja)\b")
 OPTION = re.compile(r"--[a-z][a-z0-9-]*$")
 # Options of other programs that pages speak of by themselves.
-OTHERS = {"--wrap", "--most"}
+OTHERS = {"--wrap"}
 TARGETS = re.compile(r"(?:\bninja(?: -C \S+)?|--target)((?: [a-z]\w+)+)")
 
 
