@@ -14,7 +14,9 @@ endif()
 add_executable(sphc_test_headers test_headers.cpp)
 target_link_libraries(sphc_test_headers PRIVATE sphc_flags GTest::gtest GTest::gmock)
 set(SPHC_TEST_OPTIONS
-  $<$<CONFIG:Release>:-O1> # the tests' own code: what it calls is compiled as it ships
+  # The tests' own code: what it calls is compiled as it ships.  Clang, which has the sanitizers, takes half as long with -O0.
+  $<$<CONFIG:Release>:-O1>
+  $<$<CONFIG:None>:-O0>
   $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>
   "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 target_compile_options(sphc_test_headers PRIVATE ${SPHC_TEST_OPTIONS})
@@ -37,7 +39,8 @@ function(sphc_test_entries name labels cost)
     # ThreadSanitizer says nothing of a race whose first access is no longer in its history: a frame is long.
     set(environment
       TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt:history_size=7)
-    if(TARGET sphc_refusals AND NOT SPHC_SANITIZE)
+    get_property(recording GLOBAL PROPERTY SPHC_RECORDING_TESTS)
+    if(name IN_LIST recording)
       list(APPEND environment SPHC_REFUSALS=${SPHC_REFUSALS})
     endif()
     set(entry ${name})
@@ -46,23 +49,23 @@ function(sphc_test_entries name labels cost)
       list(APPEND environment GTEST_TOTAL_SHARDS=${SPHC_TEST_SHARES} GTEST_SHARD_INDEX=${share})
     endif()
     add_test(NAME ${entry} COMMAND ${name} --gtest_brief=1)
-    # OpenNI2 asks threads that have ended whether they live, which wants their stacks to be kept.
     set_tests_properties(${entry} PROPERTIES LABELS "${labels}" TIMEOUT ${SPHC_TEST_TIMEOUT}
-      ENVIRONMENT "${environment}"
-      ENVIRONMENT_MODIFICATION "GLIBC_TUNABLES=path_list_append:glibc.pthread.stack_cache_size=1073741824")
+      ENVIRONMENT "${environment}")
     if(cost)
       set_tests_properties(${entry} PROPERTIES COST ${cost})
     endif()
   endforeach()
 endfunction()
 
-# A program writes down what its tests are refused, for docs/error_cases.md (tests/support/refusals).
+# A program that writes down what its tests are refused, for docs/error_cases.md (tests/support/refusals).  The property
+# SPHC_RECORDING_TESTS lists these programs.
 set(SPHC_REFUSALS ${PROJECT_BINARY_DIR}/refusals)
 file(MAKE_DIRECTORY ${SPHC_REFUSALS})
 function(sphc_records_refusals name)
-  if(NOT TARGET sphc_refusals)
+  if(NOT TARGET sphc_refusals OR SPHC_SANITIZE)
     return()
   endif()
+  set_property(GLOBAL APPEND PROPERTY SPHC_RECORDING_TESTS ${name})
   set(recorders sphc_refusals)
   list(TRANSFORM ARGN REPLACE "^sphc_driver_" "sphc_refusals_" OUTPUT_VARIABLE of_drivers)
   foreach(recorder ${of_drivers})
@@ -77,14 +80,16 @@ function(sphc_records_refusals name)
   target_link_libraries(${name} PRIVATE $<LINK_ONLY:spherecloud>)
 endfunction()
 
-# sphc_test(NAME SOURCES... LINKS... LABELS... [COST]): a GoogleTest program.  The longest have a COST, in seconds or so: they
+# sphc_test(NAME [RECORDS_REFUSALS] SOURCES... LINKS... LABELS... [COST]): a GoogleTest program.  The longest have a COST, in seconds or so: they
 # begin first, so that no core waits at the end.  A program is one entry of ctest, since a process for each
 # test case takes longer than most cases do; tests/run.sh counts the cases that it reports.
 function(sphc_test name)
-  cmake_parse_arguments(arg "" "COST" "SOURCES;LINKS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "RECORDS_REFUSALS" "COST" "SOURCES;LINKS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE sphc_flags ${arg_LINKS} GTest::gtest GTest::gmock GTest::gtest_main)
-  sphc_records_refusals(${name} ${arg_LINKS})
+  if(arg_RECORDS_REFUSALS)
+    sphc_records_refusals(${name} ${arg_LINKS})
+  endif()
   sphc_unity(${name})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/sdk)
   target_compile_options(${name} PRIVATE ${SPHC_TEST_OPTIONS})

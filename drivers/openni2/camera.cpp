@@ -10,8 +10,6 @@ namespace sphc::openni2 {
 namespace {
 
 using Lock = std::lock_guard<std::mutex>;
-// Frames of any other device wake OpenNI2's wait and make it begin anew: it is asked for a little at a time.
-constexpr int64_t kSliceNs = 5000000;
 
 }  // namespace
 
@@ -20,6 +18,7 @@ constexpr int64_t kSliceNs = 5000000;
 sphc_status Camera::open(const char *uri, const sphc_openni2_config &config, sphc_message *message) {
   config_ = config;
   sphc_status status = library_.start(message);
+  if (status == SPHC_OK) status = startReader(message);
   if (status != SPHC_OK) return status;
   copyText(uri_, uri);
   if (!enroll(uri_))
@@ -49,22 +48,20 @@ sphc_status Camera::openDevice(sphc_message *message) {
 // A callback that is still running when its stream goes is killed by OpenNI2: ours are short, and ended before.
 void Camera::closeDevice() {
   for (int stream = 0; stream < kStreams; ++stream) {
-    if (listeners_[stream].camera)
-      oniStreamUnregisterNewFrameCallback(device_.stream(stream), listeners_[stream].handle);
-    listeners_[stream] = {};
+    if (listeners_[stream]) oniStreamUnregisterNewFrameCallback(device_.stream(stream), listeners_[stream]);
+    listeners_[stream] = nullptr;
   }
+  withdraw();
   device_.close();
 }
 
 sphc_status Camera::listen(sphc_message *message) {
   for (int stream = 0; stream < kStreams; ++stream) {
     if (!device_.has(stream)) continue;
-    Listener &listener = listeners_[stream];
-    listener = {this, stream, nullptr};
-    if (oniStreamRegisterNewFrameCallback(device_.stream(stream), onNewFrame, &listener, &listener.handle) ==
+    if (oniStreamRegisterNewFrameCallback(device_.stream(stream), onNewFrame, this, &listeners_[stream]) ==
         ONI_STATUS_OK)
       continue;
-    listener = {};
+    listeners_[stream] = nullptr;
     return explain(message, SPHC_E_DEVICE, "OpenNI2 refuses to tell of new frames (%s); open the device again",
                    LibraryError().text);
   }
@@ -141,7 +138,7 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
 void Camera::stop() {
   if (!running_) return;
   running_ = false;
-  {  // from here no callback reads: a read whose frame OpenNI2's stop has cleared would wait for ever
+  {  // from here nothing is read: a read whose frame OpenNI2's stop has cleared would wait for ever
     const Lock lock(reading_);
     listening_ = false;
   }
@@ -165,19 +162,17 @@ void Camera::onState(OniDeviceState state) {
 // ---- frames ----
 
 // On a thread of OpenNI2, one a stream.
-void ONI_CALLBACK_TYPE Camera::onNewFrame(OniStreamHandle, void *cookie) {
-  const Listener &listener = *static_cast<const Listener *>(cookie);
-  listener.camera->readWaiting(listener.stream);
-}
+void ONI_CALLBACK_TYPE Camera::onNewFrame(OniStreamHandle, void *camera) { static_cast<Camera *>(camera)->ask(); }
 
-void Camera::readWaiting(int stream) {
+void Camera::read() {
   const Lock lock(reading_);
   if (!listening_) return;
-  OniStreamHandle handle = device_.stream(stream);
-  int index = 0;
+  OniStreamHandle handles[kStreams];
+  int streams[kStreams], index = 0;
+  const int count = device_.listStreams(handles, streams);
   // Reading without a frame would block, perhaps for ever.
-  while (oniWaitForAnyStream(&handle, 1, &index, 0) == ONI_STATUS_OK)
-    if (!readOne(stream)) return;
+  while (oniWaitForAnyStream(handles, count, &index, 0) == ONI_STATUS_OK)
+    if (!readOne(streams[index])) return;
 }
 
 sphc_status Camera::acquireFromFile(int64_t until_ns, sphc_capture *capture) {
@@ -186,17 +181,18 @@ sphc_status Camera::acquireFromFile(int64_t until_ns, sphc_capture *capture) {
     if (status != SPHC_AGAIN) return status;
     const int64_t before_ns = monotonicNs();
     const int64_t left_ns = std::max(until_ns - before_ns, int64_t{0});
-    const bool read = readFromFile(static_cast<int>(std::min(left_ns, kSliceNs) / 1000000));
-    noticeSilence(read ? 0 : silent_ns_ + monotonicNs() - before_ns);
+    bool has_read = false;
+    const auto slice_ms = static_cast<int>(std::min<int64_t>(left_ns / 1000000, kSliceMs));
+    onReader([&] { has_read = readFromFile(slice_ms); });
+    noticeSilence(has_read ? 0 : silent_ns_ + monotonicNs() - before_ns);
     if (left_ns == 0) return queue_.take(0, capture, &message_);
   }
 }
 
 bool Camera::readFromFile(int timeout_ms) {
   OniStreamHandle handles[kStreams];
-  int streams[kStreams], count = 0, index = 0;
-  for (int stream = 0; stream < kStreams; ++stream)
-    if (device_.has(stream)) streams[count] = stream, handles[count++] = device_.stream(stream);
+  int streams[kStreams], index = 0;
+  const int count = device_.listStreams(handles, streams);
   if (oniWaitForAnyStream(handles, count, &index, timeout_ms) != ONI_STATUS_OK) return false;
   const Lock lock(reading_);
   return readOne(streams[index]);

@@ -6,12 +6,13 @@
 
 #include "capture_queue.h"
 #include "device.h"
+#include "reader.h"
 #include "spherecloud/spherecloud_capture.h"
 #include "timeline.h"
 
 namespace sphc::openni2 {
 
-class Camera final : private DeviceWatcher {
+class Camera final : private DeviceWatcher, private ReaderJob {
  public:
   Camera() = default;
   ~Camera();
@@ -31,14 +32,7 @@ class Camera final : private DeviceWatcher {
   const char *message() const { return message_.text; }
 
  private:
-  // What a callback of OpenNI2 is given: whose frame it is.
-  struct Listener {
-    Camera *camera;
-    int stream;
-    OniCallbackHandle handle;
-  };
-
-  static void ONI_CALLBACK_TYPE onNewFrame(OniStreamHandle handle, void *listener);
+  static void ONI_CALLBACK_TYPE onNewFrame(OniStreamHandle handle, void *camera);
   void onGone() override;
   void onState(OniDeviceState state) override;
 
@@ -53,7 +47,7 @@ class Camera final : private DeviceWatcher {
   bool readFromFile(int timeout_ms);
   void noticeSilence(int64_t silent_ns);
   bool beginsAnew(int stream, const OniFrame &frame);
-  void readWaiting(int stream);
+  void read() override;
   bool readOne(int stream);
   void accept(int stream, const OniFrame &frame, int64_t arrival_ns);
   sphc_capture makeCapture(int stream, const Place &place, int64_t arrival_ns) const;
@@ -63,7 +57,7 @@ class Camera final : private DeviceWatcher {
   sphc_openni2_config config_ = {};
   sphc_openni2_info info_ = {};
   Device device_;
-  Listener listeners_[kStreams] = {};
+  OniCallbackHandle listeners_[kStreams] = {};
   CaptureQueue queue_;
   bool running_ = false;
   // Of a recording:
@@ -72,8 +66,8 @@ class Camera final : private DeviceWatcher {
   int64_t silent_ns_ = 0;  // how long it was asked in vain
   std::atomic<bool> gone_{false};
 
-  std::mutex reading_;      // one frame at a time leaves OpenNI2; what follows is under it
-  bool listening_ = false;  // a callback that comes later finds nothing to do
+  std::mutex reading_;      // what follows is under it
+  bool listening_ = false;  // the reader, if it comes later, finds nothing to do
   Timeline timeline_;
 
   sphc_message message_ = {};

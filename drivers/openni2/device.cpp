@@ -8,6 +8,7 @@
 #include "explain.h"
 #include "frame_check.h"
 #include "modes.h"
+#include "reader.h"
 
 namespace sphc::openni2 {
 
@@ -186,7 +187,8 @@ bool Device::awaitPlayer() {
   int count = 0, index = 0;
   for (const OniStreamHandle stream : streams_)
     if (stream && oniStreamStart(stream) == ONI_STATUS_OK) handles[count++] = stream;
-  player_awake_ = oniWaitForAnyStream(handles, count, &index, kPlayerPatienceMs) == ONI_STATUS_OK;
+  for (int waited_ms = 0; !player_awake_ && waited_ms < kPlayerPatienceMs; waited_ms += kSliceMs)
+    onReader([&] { player_awake_ = oniWaitForAnyStream(handles, count, &index, kSliceMs) == ONI_STATUS_OK; });
   return player_awake_;
 }
 
@@ -213,6 +215,16 @@ void Device::stop() {
   if (frame_sync_ && oniDeviceGetDepthColorSyncEnabled(device_)) oniDeviceDisableDepthColorSync(device_);
   for (const OniStreamHandle stream : streams_)
     if (stream) oniStreamStop(stream);
+}
+
+int Device::listStreams(OniStreamHandle (&handles)[kStreams], int (&streams)[kStreams]) const {
+  int count = 0;
+  for (int stream = 0; stream < kStreams; ++stream) {
+    if (!has(stream)) continue;
+    handles[count] = streams_[stream];
+    streams[count++] = stream;
+  }
+  return count;
 }
 
 size_t Device::frameBytes(int stream) const {

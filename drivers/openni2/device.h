@@ -24,6 +24,8 @@ class Device {
   bool isRecording() const { return is_recording_; }
   bool has(int stream) const { return streams_[stream] != nullptr; }
   OniStreamHandle stream(int stream) const { return streams_[stream]; }
+  // All that it has, and which they are; how many.
+  int listStreams(OniStreamHandle (&handles)[kStreams], int (&streams)[kStreams]) const;
   const OniVideoMode &mode(int stream) const { return modes_[stream]; }
   size_t frameBytes(int stream) const;
   void describe(sphc_openni2_info *info) const;

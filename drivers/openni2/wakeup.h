@@ -34,7 +34,8 @@ class Wakeup {
   void lock() { pthread_mutex_lock(&mutex_); }
   void unlock() { pthread_mutex_unlock(&mutex_); }
   void wake() { pthread_cond_broadcast(&condition_); }
-  // Under the lock; comes back under it.
+  // Under the lock; both come back under it.
+  void wait() { pthread_cond_wait(&condition_, &mutex_); }
   void waitUntil(int64_t time_ns) {
     const timespec time = {time_ns / 1000000000, time_ns % 1000000000};
     pthread_cond_timedwait(&condition_, &mutex_, &time);

@@ -6,7 +6,7 @@
 namespace sphc::fuzz {
 namespace {
 
-constexpr uint32_t kWidth = 40, kHeight = 32;
+constexpr uint32_t kMostWidth = 40, kMostHeight = 32;
 
 // The bytes of a config, with what would only end it at once put right: sizes stay small, and so does a run.
 sphc_aligner_config configFrom(const uint8_t *data, size_t bytes) {
@@ -14,8 +14,8 @@ sphc_aligner_config configFrom(const uint8_t *data, size_t bytes) {
   std::memcpy(&config, data, bytes < sizeof config ? bytes : sizeof config);
   config.struct_size = sizeof config;
   for (sphc_camera *camera : {&config.rig.color_camera, &config.rig.depth_camera}) {
-    camera->width = 16 + camera->width % (kWidth - 15);
-    camera->height = 16 + camera->height % (kHeight - 15);
+    camera->width = 16 + camera->width % (kMostWidth - 15);
+    camera->height = 16 + camera->height % (kMostHeight - 15);
   }
   return config;
 }

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 
 #include "host/import/colmap_descriptors.h"
 #include "host/import/colmap_model.h"
 #include "tests/fuzz/files.h"
+#include "tests/fuzz/refuse_or_do.h"
 #include "tests/fuzz/targets.h"
 #include "tests/unit/host/import/tiny_colmap.h"
 
@@ -21,15 +21,6 @@ std::string takePart(const uint8_t **data, size_t *left, size_t wanted) {
   *data += bytes;
   *left -= bytes;
   return part;
-}
-
-template <typename Action>
-void refuseOrDo(const Action &action) {
-  try {
-    action();
-  } catch (const std::runtime_error &error) {
-    if (!*error.what()) broken("a refusal explains itself");
-  }
 }
 
 }  // namespace

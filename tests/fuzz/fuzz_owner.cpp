@@ -1,10 +1,10 @@
 // What the owner of a map keeps: the note beside the map, and the ledger of releases.
 #include <cmath>
-#include <stdexcept>
 
 #include "host/publish/ledger.h"
 #include "host/publish/map_writer.h"
 #include "tests/fuzz/files.h"
+#include "tests/fuzz/refuse_or_do.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/made_up_model.h"
 
@@ -28,15 +28,6 @@ host::Place smallPlace() {
 std::vector<uint8_t> bytesAt(const std::string &path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-template <typename Action>
-void refuseOrDo(const Action &action) {
-  try {
-    action();
-  } catch (const std::runtime_error &error) {
-    if (!*error.what()) broken("a refusal explains itself");
-  }
 }
 
 }  // namespace

@@ -63,11 +63,11 @@ bool isFinite(const double *values, size_t count) {
 }
 
 // Maps and frames, made once.
-struct Material {
+struct SessionMaterial {
   test::Session rooms{smallConfig(), 0.7, kMaps};
   std::vector<std::unique_ptr<test::SceneFrame>> frames;
 
-  Material() {
+  SessionMaterial() {
     for (uint32_t i = 0; i < kViewpoints; ++i) frames.push_back(test::sceneFrame(smallConfig(), i));
   }
 };
@@ -75,7 +75,7 @@ struct Material {
 // One localizer from its first call to its last.
 class Play {
  public:
-  Play(Material *material, Reader *reader) : material_(*material), reader_(*reader) {
+  Play(SessionMaterial *material, Reader *reader) : material_(*material), reader_(*reader) {
     const sphc_localizer_config config = trackingConfig();
     sphc_memory need = {};
     sphc_localizer_memory(&config, &need, nullptr);
@@ -291,7 +291,7 @@ class Play {
   }
   uint32_t anyId() { return around(reader_.next() % kMaps, &reader_); }
 
-  Material &material_;
+  SessionMaterial &material_;
   Reader &reader_;
   test::GuardedMemory state_, scratch_, features_memory_;
   sphc_localizer *localizer_ = nullptr;
@@ -308,7 +308,7 @@ class Play {
 }  // namespace
 
 void session(const uint8_t *data, size_t bytes) {
-  static Material *material = new Material;
+  static SessionMaterial *material = new SessionMaterial;
   Reader reader(data, bytes);
   Play play(material, &reader);
   for (uint32_t calls = 0; calls < kMostCalls && !reader.isAtEnd(); ++calls) play.call();

@@ -10,7 +10,7 @@
 namespace sphc::fuzz {
 namespace {
 
-constexpr uint32_t kWidth = 32, kHeight = 16;
+constexpr uint32_t kCameraWidth = 32, kCameraHeight = 16;
 
 // The fake kernel, lying: of each two bytes one says whether and where the next answer is wrong, one how.
 struct Liar {
@@ -84,13 +84,13 @@ void captureSome(const sphc_source &source) {
 }
 
 void runCamera(Liar &liar, uint32_t fourcc, sphc_stream stream) {
-  liar.kernel.plugIn(0, test::FakeCamera({{fourcc, kWidth, kHeight, 30}}));
+  liar.kernel.plugIn(0, test::FakeCamera({{fourcc, kCameraWidth, kCameraHeight, 30}}));
   const v4l2::Syscalls syscalls = liar.syscalls();
   sphc_v4l2_config config;
   sphc_v4l2_config_init(&config, sizeof config);
   config.stream = stream;
-  config.width = kWidth;
-  config.height = kHeight;
+  config.width = kCameraWidth;
+  config.height = kCameraHeight;
   config.allow_adjusting = liar.next() & 1;
   sphc_v4l2 *camera = nullptr;
   sphc_message message = {};
