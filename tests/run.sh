@@ -155,8 +155,7 @@ stage_sanitized() {
 stage_tsan() {
   local programs='halves_test parallel_test shared_map_test driver_contract_test driver_contract_openni2_test openni2_driver_test driver_simulated_test replay_driver_test'
   prepare runtime build openni2 test
-  # Of the kernels one instruction set: they have no threads.
-  check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" $unity $linker -DSPHC_SANITIZE=thread -DSPHC_SIMD=static
+  check "tsan: build" build build/tsan "$programs" "${sanitized[@]}" $unity $linker -DSPHC_SANITIZE=thread
   # The two halves of a frame, frames on several cores, one map under several localizers, the driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='Halves.*:ParallelFrames.*:SharedMap.*:*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:*SameConfigSameBytesWhateverTheThreads*' \
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"

@@ -60,6 +60,24 @@ static ALIGNED uint8_t features_memory[SPHC_FEATURES_BYTES_MAX(MAX_KEYPOINTS, CO
 static uint8_t gray[COLOR_HEIGHT * COLOR_WIDTH], color[3 * COLOR_HEIGHT * COLOR_WIDTH];
 static uint16_t depth[DEPTH_HEIGHT * DEPTH_WIDTH];
 
+/* What the caller gives is not set: MemorySanitizer, where it is compiled in, says if something reads it first. */
+#ifdef __has_feature
+#if __has_feature(memory_sanitizer)
+#include <sanitizer/msan_interface.h>
+#define FORGET(memory) __msan_allocated_memory(memory, sizeof memory)
+#endif
+#endif
+#ifndef FORGET
+#define FORGET(memory) (void)(memory)
+#endif
+
+static void forget_memory(void) {
+  FORGET(view_memory);
+  FORGET(state_memory);
+  FORGET(scratch_memory);
+  FORGET(features_memory);
+}
+
 typedef struct session {
   replay_line_fn print;
   void *user;
@@ -358,6 +376,7 @@ static void replay_map(session *s) {
 
 int replay_run(const void *map_file, size_t map_bytes, replay_line_fn print_line, void *user) {
   session s = {print_line, user, NULL, {""}, 0};
+  forget_memory();
   if (!works(&s, "map", sphc_map_init(view_memory, sizeof view_memory, map_file, map_bytes, &s.map, &s.message)))
     return 1;
   replay_map(&s);

@@ -21,6 +21,9 @@ arguments() {
     x86-64-v3) mapfile -t arguments < <(flags -march=x86-64-v3) && arguments+=("${small[@]}" -DSPHC_SIMD=static) ;;
     debug) arguments=("${debug[@]}" -DSPHC_SIMD=dispatch) ;;
     clang) arguments=("${release[@]}" "${clang[@]}" -DSPHC_SIMD=dispatch) ;;
+    memory) # nothing is read before it was written; vectors read, and do not use, what lies behind a row
+      mapfile -t arguments < <(flags '-O1 -g1 -fsanitize=memory')
+      arguments+=(-DCMAKE_BUILD_TYPE=None "${clang[@]}" -DSPHC_SIMD=scalar -DSPHC_SANITIZE=memory) ;;
     clang-debug) arguments=("${debug[@]}" "${clang[@]}" -DSPHC_SIMD=static) ;;
     aarch64) mapfile -t arguments < <(machine aarch64-linux-gnu) && arguments+=("${release[@]}") ;;
     armhf) # a compiler that may use NEON
@@ -33,9 +36,10 @@ arguments() {
   esac
 }
 all="scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 cortex-m7"
-# Compiled several files at once, in half of the time.  The other one shows that every file compiles alone with the headers
-# of newlib, and what firmware links; with those of glibc the release does.
-unity=" scalar x86-64-v3 debug clang clang-debug aarch64 armhf riscv64 i686 "
+# Too slow for all: memory.
+# Compiled several files at once, in half of the time.  The others show that every file compiles alone, with the headers of
+# glibc and of newlib, and what firmware links.
+unity=" debug clang clang-debug memory aarch64 armhf riscv64 i686 "
 
 # Those that size.csv has a row for.
 sized() { cut -d, -f1 "$here/size.csv" | grep -x "$1"; }

@@ -82,10 +82,7 @@ struct PoseBounds {
 // A pose is challenged by the keypoints that do not speak for it.  In simulated rooms with equal furniture, or with
 // the holder's feet in map and query, 8 wrong poses of up to 80 inliers all had a rival of 0.55 to 2.2 times their
 // gain; of 1311 right poses on real recordings one had (decision 42).
-constexpr uint32_t kInliersSeldomWrong = 100;
-// A pose of more inliers than that, and less than this, is replaced by a rival that gains more, but not doubted for
-// one that gains less: docs/localizer.md, "One of two equal places".
-constexpr uint32_t kInliersBeyondOthers = 150;
+constexpr uint32_t kInliersBeyondOthers = 100;
 constexpr double kAmbiguousGain = 0.5;
 constexpr PoseBounds kSamePose = {0.15, degrees(8)};
 constexpr uint32_t kSamplesOfOthers = 2000;

@@ -181,8 +181,7 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
 // twice, or where some of what is seen goes with the camera, as its holder's feet do.
 void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
-  const bool is_seldom_wrong = found->estimate.inliers >= kInliersSeldomWrong;
-  if (is_seldom_wrong ? isCut(task) : isLeftOut(task, found)) return;
+  if (isLeftOut(task, found)) return;
   PoseTask other = task;
   other.query.seed += kOtherSeed;
   other.query.deadline = task.query.deadline.afterShare(kAgainShare);
@@ -202,7 +201,6 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
   if (!rival->isLocalized() || areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePose))
     return;
   if (rival_gain > gain) std::swap(*found, *rival);
-  if (is_seldom_wrong) return;
   if (std::min(gain, rival_gain) > kAmbiguousGain * std::max(gain, rival_gain)) found->doubtForRival();
 }
 
@@ -220,9 +218,9 @@ bool Verification::restsOnRepetition(const Hypothesis &found) const {
 }
 
 // A pose that rests on a pattern must gain clearly more than those that are off by its period, once or twice.  The
-// last step; a pose may lack it for its deadline.
+// last step, and the only one that a pose may lack for its deadline.
 void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersSeldomWrong) return;
+  if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
   if (isCut(task) || (!repetition_.look(*task.question.front, task.query.deadline) && isCut(task))) return;
   if (repetition_.moves_m().empty() || !restsOnRepetition(*found)) return;
   PoseTask near = task;
