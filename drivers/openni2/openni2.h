@@ -8,9 +8,9 @@
  *
  * Conventions (frames, units, pixels, failure, thread classes) are those of spherecloud.h.  Opening allocates,
  * once: from start on only OpenNI2 itself does.  Every frame is checked and copied into a buffer of ours; the
- * library's own hold one frame a stream and grow when frames are kept.  The copying is done by one thread, which the
- * first opening starts and which lives as long as the process.  docs/drivers_openni2.md says why, what else OpenNI2
- * leaves open, and what is done about it.
+ * library's own hold one frame a stream and grow when frames are kept.  The copying is done by one thread, which
+ * the first opening starts and which lives as long as the process.  docs/drivers_openni2.md says why, what else
+ * OpenNI2 leaves open, and what is done about it.
  */
 #ifndef SPHERECLOUD_DRIVERS_OPENNI2_OPENNI2_H
 #define SPHERECLOUD_DRIVERS_OPENNI2_OPENNI2_H

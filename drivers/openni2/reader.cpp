@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <mutex>
+#include <new>
 
 #include "explain.h"
 #include "wakeup.h"
@@ -19,7 +20,8 @@ using Lock = std::lock_guard<Wakeup>;
 // Never deleted: its thread runs until the process ends.
 struct Reader {
   static Reader &theOne() {
-    static Reader &reader = *new Reader;
+    alignas(Reader) static unsigned char memory[sizeof(Reader)];
+    static Reader &reader = *new (memory) Reader;
     return reader;
   }
 
@@ -69,7 +71,8 @@ sphc_status ReaderJob::startReader(sphc_message *message) {
   const auto run = [](void *self) -> void * { static_cast<Reader *>(self)->run(); };
   const int error = pthread_create(&thread, nullptr, run, &reader);
   if (error != 0)
-    return explain(message, SPHC_E_DEVICE, "no thread can be made (%s); end some of this user's", std::strerror(error));
+    return explain(message, SPHC_E_DEVICE, "no thread can be made (%s); end some of this user's",
+                   std::strerror(error));
   pthread_detach(thread);
   reader.is_running_ = true;
   return SPHC_OK;
