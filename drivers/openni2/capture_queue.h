@@ -1,4 +1,4 @@
-// The buffers of a source: filled by the threads of OpenNI2, waiting in order of time, on loan to the caller.
+// The buffers of a source: filled by the reader, waiting in order of time, on loan to the caller.
 #pragma once
 
 #include <memory>
