@@ -4,7 +4,7 @@
 #   tests/run.sh [STAGE...]     without a stage: all
 #
 # Stages:
-#   all          everything below but quick, emulated, first_pose and bare_packages, in this order
+#   all          everything below but quick, coverage, emulated, first_pose and bare_packages, in this order
 #   quick        formatting, unit tests, layers, the golden session: what to run while working
 #   release      formatting; the release with gcc and all its tests, guests included
 #   device       the runtime alone, as firmware links it
@@ -12,6 +12,7 @@
 #   arm64        the drivers of cameras on a stock arm64 kernel in an emulator
 #   sanitized    clang with AddressSanitizer and UndefinedBehaviorSanitizer
 #   tsan         ThreadSanitizer on what has threads
+#   coverage     lines and branches of the runtime that its tests reach, against floors
 #   emulated     the runtime's unit tests on other machines, in emulators
 #   first_pose   the first pose in each language, in a Debian that has nothing else; needs root and Debian's mirror
 #   bare_packages  the Debian packages, installed and used in such a Debian
@@ -25,7 +26,7 @@ exec </dev/null
 jobs=$(nproc)
 passed=0 failed=0 skipped=0 begin=$SECONDS
 stages=(release device portability arm64 sanitized tsan)
-apart=(quick emulated first_pose bare_packages) # not of all
+apart=(quick coverage emulated first_pose bare_packages) # not of all
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
@@ -159,6 +160,14 @@ stage_tsan() {
   # The two halves of a frame, frames on several cores, one map under several localizers, the driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='Halves.*:ParallelFrames.*:SharedMap.*:*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:OneReader.*:*SameConfigSameBytesWhateverTheThreads*' \
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"
+}
+
+stage_coverage() {
+  local counted='-O1 -g1 -fprofile-instr-generate -fcoverage-mapping'
+  prepare runtime build test coverage
+  check "coverage: build" build build/coverage 'unit_runtime unit_signature capi_test halves_test' "${sanitized[@]}" $unity $linker \
+    "-DCMAKE_CXX_FLAGS=$counted" "-DCMAKE_C_FLAGS=$counted"
+  check "coverage: the runtime" tests/coverage/coverage.py --build build/coverage --results tests/coverage/coverage.csv
 }
 
 stage_emulated() {
