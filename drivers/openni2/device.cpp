@@ -54,11 +54,11 @@ ControlName nameOf(sphc_openni2_control control) {
 sphc_status Device::open(const char *uri, const sphc_openni2_config &config, sphc_message *message) {
   if (oniDeviceOpen(uri, &device_) != ONI_STATUS_OK) {
     device_ = nullptr;
-    return explain(
-        message, SPHC_E_DEVICE,
-        "%.60s cannot be opened (%s): another program has it, it is none of OpenNI2's, or its file or USB "
-        "node may not be read",
-        uri, LibraryError().text);
+    return explain(message, SPHC_E_DEVICE,
+                   "%.60s cannot be opened (%s): end the program that has it, give another URI, or permission to "
+                   "read its file "
+                   "or USB node",
+                   uri, LibraryError().text);
   }
   is_recording_ = oniDeviceIsPropertySupported(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED);
   player_awake_ = false;
@@ -303,7 +303,7 @@ sphc_status Device::getControl(sphc_openni2_control control, int32_t *value, sph
   if (!has(kColor) || !oniStreamIsPropertySupported(streams_[kColor], name.property) ||
       !getProperty(streams_[kColor], name.property, &is))
     return explain(message, SPHC_E_UNSUPPORTED, "%s: the device has no such control%s", name.text,
-                   has(kColor) ? "" : " without its colour stream");
+                   has(kColor) ? "; leave it out" : " without its colour stream; open that too");
   *value = is;
   return SPHC_OK;
 }

@@ -30,7 +30,7 @@ class SphereCloud(ConanFile):
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, ROOT)
-        for pattern in ("CMakeLists.txt", "LICENSE", "NOTICE", "sdk/include/*", "sdk/runtime/*", "sdk/signature/*", "drivers/raw/*", "examples/*", "CHANGELOG.md",
+        for pattern in ("CMakeLists.txt", "LICENSE", "NOTICE", "sdk/include/*", "sdk/runtime/*", "sdk/signature/*", "sdk/encryption/*", "drivers/raw/*", "examples/*", "CHANGELOG.md",
                         "third_party/*", "toolchains/*"):
             copy(self, pattern, root, self.export_sources_folder)
 

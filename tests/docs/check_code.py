@@ -43,7 +43,7 @@ def command_of(block, root, compilers):
     """How a block is compiled; its text comes by standard input."""
     language = [compilers[0], "-std=c99", "-x", "c"] if is_c(block) else [compilers[1], "-std=c++17", "-x", "c++"]
     relaxed = ["-Wno-unused"] if is_fragment(block) else []
-    return [*language, *STRICT, *relaxed, "-I", root / "sdk" / "include", "-I", root / "sdk" / "signature" / "include", "-I", root, "-I", root / "sdk", "-"]
+    return [*language, *STRICT, *relaxed, "-I", root / "sdk" / "include", "-I", root / "sdk" / "signature" / "include", "-I", root / "sdk" / "encryption" / "include", "-I", root, "-I", root / "sdk", "-"]
 
 
 def compile_block(block, root, compilers):

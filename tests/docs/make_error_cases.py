@@ -35,6 +35,9 @@ SUBJECTS = {  # the longest that a source's path begins with
     "sdk/host/base": "Files",
     "sdk/host/signing": "Signed maps",
     "sdk/signature": "Signed maps",
+    "sdk/host/keys": "Signed maps",
+    "sdk/encryption": "Encrypted maps",
+    "sdk/host/encryption": "Encrypted maps",
     "sdk/host/cli": "The command",
 }
 DRIVERS = ("libcamera", "openni2", "raw", "sample", "simulated", "v4l2")  # whose functions explain themselves

@@ -291,10 +291,10 @@ def robustness(pipeline):
          "A headset in fast motion; every answer is checked, and a promise that is not kept ends the run. `elsewhere`: frames of a room without a\n"
          "map; wrong poses: of frames that are not broken, beyond 25 cm or 10 deg. Method: [testing.md](testing.md#soak).",
          flat(read(pipeline / "soak.csv"), [])),
-        ("Coverage", "coverage/coverage.csv", "coverage_results",
+        ("Coverage", "pipeline/coverage.csv", "coverage_results",
          "Lines and branches of the runtime that its unit tests and those of the C interface reach (clang).\n"
          "Method: [testing.md](testing.md#coverage).",
-         flat(read(pipeline.parent / "coverage" / "coverage.csv"), [])),
+         flat(read(pipeline / "coverage.csv"), [])),
     ]
 
 

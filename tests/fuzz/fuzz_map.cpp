@@ -58,7 +58,7 @@ void localizeIn(const sphc_map *map) {
   if (!state.guardsIntact() || !scratch.guardsIntact()) broken("the localizer keeps inside its memory");
 }
 
-void open(const std::vector<uint8_t> &file) {
+void open(const std::vector<uint8_t> &file, bool localizes) {
   // Exactly as many bytes as the file has, so that a sanitizer sees a step too far.
   const std::unique_ptr<uint64_t[]> copy(new uint64_t[file.size() / 8 + 1]);
   uint8_t *start = reinterpret_cast<uint8_t *>(copy.get());
@@ -69,18 +69,16 @@ void open(const std::vector<uint8_t> &file) {
   const sphc_status status = sphc_map_init(memory, sizeof memory, start, file.size(), &map, &message);
   if (status == SPHC_OK) {
     readAll(map, file.size());
-    localizeIn(map);
+    if (localizes) localizeIn(map);
     sphc_map_fini(&map);
   } else if (status > 0 || map || !message.text[0]) {
     broken("a refusal is a failure that explains itself");
   }
 }
 
-}  // namespace
-
-void map(const uint8_t *data, size_t bytes) {
+void openAsIsAndSigned(const uint8_t *data, size_t bytes, bool localizes) {
   std::vector<uint8_t> file(data, data + bytes);
-  open(file);
+  open(file, localizes);
   // And with checksums that fit, to come past them.
   constexpr uint32_t kSections = 6;
   if (file.size() < 64 + 32 * kSections || test::get32(file, 28) != kSections) return;
@@ -89,7 +87,13 @@ void map(const uint8_t *data, size_t bytes) {
     if (offset <= file.size() && length <= file.size() - offset) test::signSection(&file, section);
   }
   test::signHeader(&file);
-  open(file);
+  open(file, localizes);
 }
+
+}  // namespace
+
+void map(const uint8_t *data, size_t bytes) { openAsIsAndSigned(data, bytes, true); }
+
+void mapRead(const uint8_t *data, size_t bytes) { openAsIsAndSigned(data, bytes, false); }
 
 }  // namespace sphc::fuzz

@@ -60,6 +60,8 @@ void walk(const char *name, int runs) {
 }
 
 TEST(Mutations, Map) { walk("map", 20000); }
+TEST(Mutations, MapRead) { walk("mapRead", 2000); }
+TEST(Mutations, Encryption) { walk("encryption", 5000); }
 TEST(Mutations, Signature) { walk("signature", 500); }
 TEST(Mutations, Config) { walk("config", 1500); }
 TEST(Mutations, Frame) { walk("frame", 600); }

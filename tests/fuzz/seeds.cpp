@@ -9,6 +9,7 @@
 #ifdef SPHC_FUZZ_CAMERAS
 #include "tests/support/jpeg_frame.h"
 #endif
+#include "tests/support/golden_encryption.h"
 #include "tests/support/golden_signature.h"
 #include "tests/support/map_bytes.h"
 #include "tests/support/scene.h"
@@ -162,6 +163,8 @@ void broken(const char *promise) {
 std::vector<Target> allTargets() {
   std::vector<Target> targets = {
       {"map", map, {test::randomMap(16, 1), test::randomMap(33, 2), infraredMap()}},
+      {"mapRead", mapRead, {test::randomMap(16, 1), test::randomMap(33, 2), infraredMap()}},
+      {"encryption", encryption, {test::goldenEncrypted()}},
       {"signature", signature, {signedMap(), test::bytesOfHex(test::kGoldenSignature)}},
       {"config", config, {std::vector<uint8_t>(200), std::vector<uint8_t>(200, 7), std::vector<uint8_t>(200, 130)}},
       {"pairer", pairer, {std::vector<uint8_t>(100), pairerSeed()}},

@@ -9,8 +9,12 @@ namespace sphc::fuzz {
 
 // A map file; when it is accepted, everything is read and one frame localized in it.
 void map(const uint8_t *data, size_t bytes);
+// The same without a frame, which takes a thousand times as long.
+void mapRead(const uint8_t *data, size_t bytes);
 // A signature, then the map that it is of.
 void signature(const uint8_t *data, size_t bytes);
+// An encrypted map.
+void encryption(const uint8_t *data, size_t bytes);
 // Changes to a localizer's config, then priors of frames.
 void config(const uint8_t *data, size_t bytes);
 // First a header of sizes, strides and formats, then pixels.

@@ -15,7 +15,8 @@ RUNTIME = ("include/spherecloud/spherecloud.h", "include/spherecloud/spherecloud
            "include/spherecloud/spherecloud.json", "include/spherecloud/module.modulemap", "{lib}/libspherecloud.a", "{lib}/libspherecloud.so",
            "{lib}/cmake/SphereCloud/SphereCloudConfig.cmake", "{lib}/pkgconfig/spherecloud.pc", "share/doc/spherecloud/LICENSE",
            "share/doc/spherecloud/NOTICE", "include/spherecloud/spherecloud_signature.h", "{lib}/libspherecloud_signature.a",
-           "{lib}/pkgconfig/spherecloud-signature.pc", "share/doc/spherecloud/spherecloud.spdx.json")
+           "{lib}/pkgconfig/spherecloud-signature.pc", "include/spherecloud/spherecloud_encryption.h",
+           "{lib}/libspherecloud_encryption.a", "{lib}/pkgconfig/spherecloud-encryption.pc", "share/doc/spherecloud/spherecloud.spdx.json")
 ALL = RUNTIME + ("bin/spherecloud", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
                  "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c", "include/spherecloud/drivers/contract/contract.cpp")
 
@@ -63,10 +64,10 @@ def refusals(options):
     version = f"{options.prefix}/{options.libdir}/cmake/SphereCloud/SphereCloudConfig.cmake, version: {options.version}"
     major, minor, patch = map(int, options.version.split("."))
     mine, other, next_minor = f"{major}.{minor}", f"{major + 1}.0", f"{major}.{minor + 1}"
-    unknown = 'SphereCloud has no component "gpu"; its components are runtime, signature, drivers, host.'
+    unknown = 'SphereCloud has no component "gpu"; its components are runtime, signature, encryption, drivers, host.'
     cases = [(f"{next_minor} REQUIRED", version), (f"{other} REQUIRED", version), (f"{mine}.{patch + 1} REQUIRED", version),
              ("REQUIRED COMPONENTS gpu", unknown), ("REQUIRED COMPONENTS drivers gpu", unknown),
-             ("REQUIRED COMPONENTS runtime signature drivers host OPTIONAL_COMPONENTS gpu", None), (f"{mine} REQUIRED", None), (f"{options.version} EXACT REQUIRED", None)]
+             ("REQUIRED COMPONENTS runtime signature encryption drivers host OPTIONAL_COMPONENTS gpu", None), (f"{mine} REQUIRED", None), (f"{options.version} EXACT REQUIRED", None)]
     cases.append(("0.2 REQUIRED", version))  # before the interface was frozen
     faults = []
     for arguments, why in cases:
@@ -135,7 +136,8 @@ def packages(options):
     shutil.rmtree(folder, ignore_errors=True)
     once, again = (made_into(folder / name, options) for name in ("once", "again"))
     library = "libspherecloud" + options.version.split(".")[0]
-    depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "libspherecloud-signature-dev": "libspherecloud-dev", "spherecloud-tools": library,
+    depends = {library: "libc6", "libspherecloud-dev": library, "libspherecloud-drivers-dev": "libspherecloud-dev", "libspherecloud-signature-dev": "libspherecloud-dev",
+               "libspherecloud-encryption-dev": "libspherecloud-dev", "spherecloud-tools": library,
                PYTHON_PACKAGE: library}
     faults, owners = [f"{name} has other bytes when it is made again" for name in once if once[name] != again[name]], {}
     for package, other in depends.items():
@@ -151,7 +153,7 @@ def packages(options):
     faults += [f"{name} is in {who}" for name, who in owners.items() if len(who) > 1]
     installed = {name for name, who in owners.items() if who != [PYTHON_PACKAGE]}
     faults += [f"{name} is installed and in no package, or the other way round" for name in names_in(options.prefix) ^ installed]
-    said, went_on = find("REQUIRED COMPONENTS signature drivers host", folder / "root" / "usr")
+    said, went_on = find("REQUIRED COMPONENTS signature encryption drivers host", folder / "root" / "usr")
     if not went_on:
         faults.append(f"from the unpacked packages find_package says: {said}")
     return faults + python_faults(options, folder / "root" / "usr")

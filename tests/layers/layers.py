@@ -9,7 +9,7 @@ import sys
 
 TREES = ("sdk", "drivers", "examples")
 SOURCES = (".h", ".hpp", ".c", ".cc", ".cpp", ".inl")
-ROOTS = ("sdk/include", "sdk/signature/include", "sdk", "")  # where a quoted path is looked up, after the file's own folder
+ROOTS = ("sdk/include", "sdk/signature/include", "sdk/encryption/include", "sdk", "")  # where a quoted path is looked up, after the file's own folder
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 COMPUTED = re.compile(r"^\s*#\s*include\s+[^<\"\s]")
 

@@ -13,7 +13,7 @@ ALLOWED = [
     r"mem(cpy|move|set|cmp)", r"str(len|cmp|ncmp)", r"sqrtf?", r"bcmp",
     r"_GLOBAL_OFFSET_TABLE_", r"__stack_chk_fail", r"__cpu_model", r"__cpu_indicator_init",
     r"_Unwind_Resume", r"__gxx_personality_v0",  # unwind tables; nothing throws
-    r"sphc_(map_init|status_name)",  # of the runtime, for the library that verifies signatures
+    r"sphc_(map_init|status_name)",  # of the runtime, for the libraries of signatures and of encrypted maps
     r"hwy::.*", r"_ZN3hwy.*", r"_ZTV.*N10__cxxabiv1.*",
     r"__(asan|ubsan|tsan|sanitizer|msan|lsan|sancov)_.*", r"__start___sancov.*", r"__stop___sancov.*", r"__sancov.*",
 ]

@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "spherecloud/spherecloud_signature.h"
+#include "tests/support/hex_bytes.h"
 #include "tests/support/map_bytes.h"
 
 namespace sphc::test {
-
-inline std::vector<uint8_t> bytesOfHex(const std::string &text) {
-  std::vector<uint8_t> bytes;
-  for (size_t i = 0; i + 1 < text.size(); i += 2)
-    bytes.push_back(static_cast<uint8_t>(std::stoi(text.substr(i, 2), nullptr, 16)));
-  return bytes;
-}
 
 inline sphc_signature_key keyOfHex(const std::string &text) {
   sphc_signature_key key = {};

@@ -1,12 +1,13 @@
-# find_package(SphereCloud [VERSION] [COMPONENTS runtime signature drivers host]); without components: runtime.
+# find_package(SphereCloud [VERSION] [COMPONENTS runtime signature encryption drivers host]); without components: runtime.
 #
 #   runtime  SphereCloud::spherecloud (static), SphereCloud::spherecloud_shared
 #   signature  SphereCloud::signature, which refuses maps that are not signed
+#   encryption  SphereCloud::encryption, which decrypts maps
 #   drivers  SphereCloud::replay, ::raw, ::sample, ::simulated, ::v4l2, ::libcamera, ::openni2, as far as they were built;
 #            ::contract, the suite that every driver passes
 #   host     SphereCloud::command, the program `spherecloud`
 function(_spherecloud_find component)
-  set(known runtime signature drivers host)
+  set(known runtime signature encryption drivers host)
   set(targets ${CMAKE_CURRENT_LIST_DIR}/SphereCloud-${component}.cmake)
   if(NOT component IN_LIST known)
     list(JOIN known ", " names)

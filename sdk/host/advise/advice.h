@@ -33,6 +33,7 @@ struct Failure {
 };
 
 struct Advice {
+  std::string damage;  // of the recording, as damageOf says it
   size_t points = 0;
   Coverage coverage;
   std::vector<std::array<double, 3>> directions;  // of all points, from their centre

@@ -88,6 +88,7 @@ int run(const AdviseOptions &options, const Console &console) {
   files.check();
   ProgressBar bar("holding out");
   const Advice advice = advise(options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
+  noteDamage(advice.damage, console);
   tell(options, advice, console);
   if (!options.picture.empty()) {
     drawAdvice(options.picture, advice);

@@ -205,6 +205,7 @@ int run(const AuditOptions &options, const Console &console) {
     throw UsageError("--photos tell nothing without --recording; give what the map was made of too");
   const AuditRules rules = rulesOf(options);
   fileUse(options).check();
+  if (!options.recording.folder.empty()) noteDamage(damageOf(*openRecording(options.recording)), console);
   const AuditInput input = inputOf(options);
   ProgressBar bar("auditing  ");
   const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/base/hex_text.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"

@@ -1,14 +1,17 @@
-// spherecloud key: a pair of keys with which maps are signed and verified.
+// spherecloud key: keys with which maps are signed, or encrypted.
 #include <cstdio>
 #include <memory>
 
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/encryption/encrypted_map.h"
 #include "host/signing/key_file.h"
 
 namespace sphc::host {
 namespace {
+
+constexpr char kSignatures[] = "signatures", kEncryption[] = "encryption";
 
 // As sphc_signature_key is initialised in C.
 std::string inC(const sphc_signature_key &key) {
@@ -22,7 +25,7 @@ std::string inC(const sphc_signature_key &key) {
   return text + "}";
 }
 
-int makeKey(const std::string &path, const Console &console) {
+int makeSigningKey(const std::string &path, const Console &console) {
   const std::string public_path = path + ".pub";
   FileUse files(false);  // a key that is lost is lost for ever: nothing is replaced
   files.writes("--out", path, never());
@@ -38,23 +41,43 @@ int makeKey(const std::string &path, const Console &console) {
   return kExitDone;
 }
 
+int makeEncryptionKey(const std::string &path, const Console &console) {
+  FileUse files(false);  // as above
+  files.writes("--out", path, never());
+  files.check();
+  const EncryptionKey key = EncryptionKey::draw();
+  key.write(path);
+  console.say("Wrote " + path + ": the secret key, id " + key.idText() +
+              ". Bring it into the devices' protected storage, back it up, show it to nobody.");
+  console.give({{"secret_key", path}, {"key_id", key.idText()}});
+  return kExitDone;
+}
+
 }  // namespace
 
 Command keyCommand(CLI::App *root) {
-  auto path = std::make_shared<std::string>();
+  auto path = std::make_shared<std::string>(), purpose = std::make_shared<std::string>(kSignatures);
   CLI::App *app = root->add_subcommand("key");
   app->description(
-      "Make a pair of keys that sign maps.\n\nDraws an Ed25519 key.  Whoever has the secret file signs maps that "
-      "your "
-      "devices accept; the public one\ngoes into the devices.  Files that are there are never replaced.");
+      "Make keys that sign maps, or encrypt them.\n\nFor signatures, a pair of Ed25519: whoever has the secret "
+      "file "
+      "signs maps that your devices accept; the\npublic one goes into the devices.  For encryption, one secret "
+      "key, "
+      "which your devices need too.  Files that\nare there are never replaced.");
   app->footer(
       "Example:\n  spherecloud key --out maps.key\nWhat comes out:\n"
       "  maps.key        the secret key, readable by you alone: keep it, back it up, never ship it\n"
-      "  maps.key.pub    the public key: for --trusted-key, and as a line of C for firmware");
+      "  maps.key.pub    the public key: for --trusted-key, and as a line of C for firmware\n"
+      "With --for encryption: the secret key alone, for spherecloud encrypt and decrypt.");
   app->add_option("--out", *path, "File for the secret key; the public one is FILE.pub")
       ->required()
       ->type_name("FILE");
-  return {app, [path](const Console &console) { return makeKey(*path, console); }};
+  app->add_option("--for", *purpose, "What the key is for: signatures or encryption [signatures]")
+      ->check(CLI::IsMember({kSignatures, kEncryption}))
+      ->type_name("USE");
+  return {app, [path, purpose](const Console &console) {
+            return *purpose == kEncryption ? makeEncryptionKey(*path, console) : makeSigningKey(*path, console);
+          }};
 }
 
 }  // namespace sphc::host

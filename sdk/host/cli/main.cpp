@@ -27,7 +27,7 @@ std::vector<Command> declare(CLI::App *root) {
         buildCommand(root), mapCommand(root), guideCommand(root), localizeCommand(root), inspectCommand(root),
         infoCommand(root), convertCommand(root), recordCommand(root), liveCommand(root), devicesCommand(root),
         doctorCommand(root), calibrationCommand(root), auditCommand(root), adviseCommand(root), keyCommand(root),
-        signCommand(root), verifyCommand(root)
+        signCommand(root), verifyCommand(root), encryptCommand(root), decryptCommand(root)
   };
 }
 

@@ -259,10 +259,7 @@ int run(MapOptions options, const Console &console) {
   const MapOutcome outcome = mapRecordings(options);
   console.say(tableText(mapTable(outcome)));
   warnOfMap(outcome, console);
-  for (const MappedRecording &recording : outcome.recordings) {
-    const std::string damage = damageOf(*recording.reader);
-    if (!damage.empty()) console.warn("note: " + damage);
-  }
+  for (const MappedRecording &recording : outcome.recordings) noteDamage(damageOf(*recording.reader), console);
   writeModelFile(options.model, outcome.import.model);
   console.say(outcome.import.told);
   console.say("Wrote " + options.model +

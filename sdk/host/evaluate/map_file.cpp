@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "host/base/hex_text.h"
+#include "host/encryption/encrypted_map.h"
+
 namespace sphc::host {
 namespace {
 
@@ -12,6 +15,14 @@ constexpr size_t kMapAlignment = 64;
 
 void checkUsable(const std::string &what, const spherecloud::Status &status) {
   if (!status.ok()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
+}
+
+// Whose cause the map's reader cannot know.
+void checkIsNotEncrypted(const std::string &path, const spherecloud::AlignedBuffer &bytes) {
+  const std::string head = kEncryptionHead;
+  if (bytes.size() < head.size() || std::memcmp(bytes.data(), head.data(), head.size()) != 0) return;
+  throw std::runtime_error("cannot use the map " + path +
+                           ": it is encrypted; spherecloud decrypt makes the map of it, with the key");
 }
 
 }  // namespace
@@ -29,6 +40,7 @@ MapFile openMapFile(const std::string &path, const Trust &trust) {
   checkIsFile(path);
   MapFile file;
   checkUsable("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
+  checkIsNotEncrypted(path, file.bytes);
   if (!trust.keys.empty()) file.statement = checkSignature(trust, path, file.bytes.data(), file.bytes.size());
   checkUsable("cannot use the map " + path,
               spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));

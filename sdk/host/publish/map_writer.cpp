@@ -1,12 +1,12 @@
 #include "host/publish/map_writer.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "host/base/hex_text.h"
 #include "host/base/write_file.h"
 #include "runtime/map/crc32.h"
 #include "runtime/map/layout.h"
@@ -123,16 +123,6 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id, co
   return file;
 }
 
-std::string hexText(const uint8_t *bytes, size_t count) {
-  std::string text;
-  char digits[3];
-  for (size_t i = 0; i < count; ++i) {
-    std::snprintf(digits, sizeof digits, "%02x", bytes[i]);
-    text += digits;
-  }
-  return text;
-}
-
 void writeOwnerNote(const std::string &path, const OwnerNote &note) {
   const nlohmann::ordered_json json = {
       {"format", "spherecloud-owner-note"},
@@ -163,7 +153,10 @@ OwnerNote readOwnerNote(const std::string &path) {
     note.eta = json.at("eta").get<double>();
     note.strategy = json.at("strategy").get<std::string>();
     return note;
-  } catch (const std::exception &error) {
+  } catch (const nlohmann::json::exception &error) {
+    throw std::runtime_error("owner's note " + path + " is damaged (" + error.what() +
+                             "); give the one that spherecloud build wrote beside the map");
+  } catch (const std::runtime_error &error) {
     throw std::runtime_error("owner's note " + path + ": " + error.what());
   }
 }

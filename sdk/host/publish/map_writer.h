@@ -17,9 +17,6 @@ std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id);
 // With an index of the caller's.
 std::vector<uint8_t> encodeMap(const SphereCloud &cloud, const MapId &map_id, const DescriptorIndex &index);
 
-// Two lower-case digits a byte, as map ids are written.
-std::string hexText(const uint8_t *bytes, size_t count);
-
 // What the owner keeps and never ships: where the centre is in the world of the recording.  JSON.
 struct OwnerNote {
   MapId map_id;

@@ -53,7 +53,8 @@ std::vector<uint8_t> keyedHash(const SecretKey &key, const std::string &purpose,
   crypto_generichash_state state;
   std::vector<uint8_t> hash(count);
   if (crypto_generichash_init(&state, key.data(), key.size(), count) != 0)
-    throw std::runtime_error("a hash of " + std::to_string(count) + " bytes cannot be made");
+    throw std::runtime_error("libsodium makes no hash of " + std::to_string(count) +
+                             " bytes: a defect of this program; please report it");
   crypto_generichash_update(&state, reinterpret_cast<const uint8_t *>(purpose.c_str()), purpose.size() + 1);
   crypto_generichash_update(&state, content.data(), content.size());
   crypto_generichash_final(&state, hash.data(), count);

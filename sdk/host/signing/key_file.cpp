@@ -3,11 +3,11 @@
 #include <sodium.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
+#include "host/base/hex_text.h"
 #include "host/base/private_file.h"
-#include "host/base/write_file.h"
+#include "host/keys/key_text.h"
 #include "signature/statement.h"
 #include "signature/strict_ed25519.h"
 
@@ -16,39 +16,6 @@ namespace {
 
 constexpr char kSecretHead[] = "spherecloud secret signing key 1";
 constexpr char kPublicHead[] = "spherecloud public signing key 1";
-
-void startSodium() {
-  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot start: no source of randomness on this system");
-}
-
-// Text that held a secret leaves nothing in memory.
-struct WipedText {
-  std::string text;
-  ~WipedText() { sodium_memzero(text.data(), text.size()); }
-};
-
-std::string hexOf(const uint8_t *bytes, size_t count) {
-  std::string text(2 * count + 1, '\0');
-  sodium_bin2hex(text.data(), text.size(), bytes, count);
-  text.pop_back();
-  return text;
-}
-
-// Reads the two lines of a key file; false when it holds anything else.
-bool readKey(const std::string &path, const std::string &head, std::array<uint8_t, 32> *key) {
-  std::ifstream in(path);
-  if (!in) throw std::runtime_error("key file " + path + " cannot be read; spherecloud key makes one");
-  WipedText read{std::string(head.size() + 1 + 2 * key->size() + 2, '\0')};
-  in.read(read.text.data(), static_cast<std::streamsize>(read.text.size()));
-  const size_t got = static_cast<size_t>(in.gcount());
-  const size_t wanted = head.size() + 1 + 2 * key->size();
-  if (got < wanted || got > wanted + 1 || (got == wanted + 1 && read.text[wanted] != '\n')) return false;
-  if (read.text.compare(0, head.size() + 1, head + "\n") != 0) return false;
-  size_t bytes = 0;
-  return sodium_hex2bin(key->data(), key->size(), read.text.data() + head.size() + 1, 2 * key->size(), nullptr,
-                        &bytes, nullptr) == 0 &&
-         bytes == key->size();
-}
 
 }  // namespace
 
@@ -64,11 +31,9 @@ SigningKey::SigningKey(SigningKey &&other) noexcept : secret_(other.secret_), pu
 }
 
 SigningKey SigningKey::draw() {
-  startSodium();
-  Seed seed;
-  randombytes_buf(seed.data(), seed.size());
+  Seed seed = drawKey();
   SigningKey key(seed);
-  sodium_memzero(seed.data(), seed.size());
+  wipe(&seed);
   return key;
 }
 
@@ -76,11 +41,11 @@ SigningKey SigningKey::read(const std::string &path) {
   startSodium();
   checkPrivate(path, "whoever has it signs maps in your name");
   Seed seed;
-  if (!readKey(path, kSecretHead, &seed))
+  if (!readKeyText(path, kSecretHead, &seed))
     throw std::runtime_error("key file " + path +
                              " holds no secret key; give the file without .pub that spherecloud key wrote");
   SigningKey key(seed);
-  sodium_memzero(seed.data(), seed.size());
+  wipe(&seed);
   return key;
 }
 
@@ -91,16 +56,13 @@ std::array<uint8_t, 64> SigningKey::sign(const uint8_t *bytes, size_t count) con
 }
 
 void SigningKey::write(const std::string &path, const std::string &public_path) const {
-  const WipedText digits{hexOf(secret_.data(), 32)};
-  const WipedText text{std::string(kSecretHead) + "\n" + digits.text + "\n"};
-  writeFile(path, text.text, Readers::kOwner);
-  writeFile(public_path,
-            std::string(kPublicHead) + "\n" + hexOf(public_key_.bytes, sizeof public_key_.bytes) + "\n");
+  writeKeyText(path, kSecretHead, secret_.data(), Readers::kOwner);
+  writeKeyText(public_path, kPublicHead, public_key_.bytes, Readers::kAll);
 }
 
 sphc_signature_key readPublicKey(const std::string &path) {
-  std::array<uint8_t, 32> bytes;
-  if (!readKey(path, kPublicHead, &bytes))
+  KeyBytes bytes;
+  if (!readKeyText(path, kPublicHead, &bytes))
     throw std::runtime_error("key file " + path +
                              " holds no public key; give the file ending in .pub that spherecloud key wrote");
   if (!sphc_ed25519_is_good_key(bytes.data()))
@@ -114,7 +76,7 @@ sphc_signature_key readPublicKey(const std::string &path) {
 std::string keyIdText(const sphc_signature_key &key) {
   uint8_t id[SPHC_KEY_ID_BYTES];
   sphc_statement_key_id(key.bytes, id);
-  return hexOf(id, sizeof id);
+  return hexText(id, sizeof id);
 }
 
 }  // namespace sphc::host

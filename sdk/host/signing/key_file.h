@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "host/keys/key_text.h"
 #include "spherecloud/spherecloud_signature.h"
 
 namespace sphc::host {
@@ -11,7 +12,7 @@ namespace sphc::host {
 // A secret key with its public one.  Wiped from memory at its end.
 class SigningKey {
  public:
-  using Seed = std::array<uint8_t, 32>;
+  using Seed = KeyBytes;
 
   // From the operating system's randomness.
   static SigningKey draw();

@@ -41,4 +41,8 @@ void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, R
   addFrameOptions(app, of_each);
 }
 
+void noteDamage(const std::string &damage, const Console &console) {
+  if (!damage.empty()) console.warn("note: " + damage);
+}
+
 }  // namespace sphc::host

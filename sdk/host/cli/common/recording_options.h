@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/cli/common/console.h"
 #include "host/frames/recording.h"
 
 namespace sphc::host {
@@ -12,5 +13,8 @@ namespace sphc::host {
 CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options);
 // --recording as often as there are recordings; the other options are of each of them.
 void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each);
+
+// What of a recording is left out, with the cure; nothing where nothing is.
+void noteDamage(const std::string &damage, const Console &console);
 
 }  // namespace sphc::host

@@ -19,10 +19,5 @@ TEST(MapAnatomy, OfAnEvenSpiral) {
   EXPECT_NEAR(anatomy.nearest_median_deg, 3.5, 0.5);
 }
 
-TEST(HexText, HasTwoDigitsAByte) {
-  const uint8_t bytes[] = {0x00, 0xA5, 0xFF};
-  EXPECT_EQ(hexText(bytes, 3), "00a5ff");
-}
-
 }  // namespace
 }  // namespace sphc::host

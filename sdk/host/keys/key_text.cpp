@@ -1,0 +1,60 @@
+#include "host/keys/key_text.h"
+
+#include <sodium.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace sphc::host {
+namespace {
+
+// Text that held a secret leaves nothing in memory.
+struct WipedText {
+  std::string text;
+  ~WipedText() { sodium_memzero(text.data(), text.size()); }
+};
+
+std::string secretDigits(const uint8_t *bytes, size_t count) {
+  std::string text(2 * count + 1, '\0');
+  sodium_bin2hex(text.data(), text.size(), bytes, count);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+void startSodium() {
+  if (sodium_init() < 0) throw std::runtime_error("libsodium cannot start: no source of randomness on this system");
+}
+
+KeyBytes drawKey() {
+  startSodium();
+  KeyBytes key;
+  randombytes_buf(key.data(), key.size());
+  return key;
+}
+
+void wipe(KeyBytes *key) { sodium_memzero(key->data(), key->size()); }
+
+bool readKeyText(const std::string &path, const std::string &head, KeyBytes *key) {
+  std::ifstream in(path);
+  if (!in) throw std::runtime_error("key file " + path + " cannot be read; spherecloud key makes one");
+  WipedText read{std::string(head.size() + 1 + 2 * key->size() + 2, '\0')};
+  in.read(read.text.data(), static_cast<std::streamsize>(read.text.size()));
+  const size_t got = static_cast<size_t>(in.gcount());
+  const size_t wanted = head.size() + 1 + 2 * key->size();
+  if (got < wanted || got > wanted + 1 || (got == wanted + 1 && read.text[wanted] != '\n')) return false;
+  if (read.text.compare(0, head.size() + 1, head + "\n") != 0) return false;
+  size_t bytes = 0;
+  return sodium_hex2bin(key->data(), key->size(), read.text.data() + head.size() + 1, 2 * key->size(), nullptr,
+                        &bytes, nullptr) == 0 &&
+         bytes == key->size();
+}
+
+void writeKeyText(const std::string &path, const std::string &head, const uint8_t *key, Readers readers) {
+  const WipedText digits{secretDigits(key, KeyBytes().size())};
+  const WipedText text{head + "\n" + digits.text + "\n"};
+  writeFile(path, text.text, readers);
+}
+
+}  // namespace sphc::host
