@@ -84,6 +84,11 @@ target_compile_options(sphc_runtime_flags INTERFACE
 add_library(sphc_runtime_code INTERFACE)
 target_link_libraries(sphc_runtime_code INTERFACE sphc_runtime_flags)
 target_compile_definitions(sphc_runtime_code INTERFACE SPHC_BUILDING EIGEN_NO_MALLOC EIGEN_NO_IO EIGEN_UNROLLING_LIMIT=40)
+if(SPHC_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID MATCHES "Clang") # integers that do not fit where they go
+  set(SPHC_INTEGERS ,implicit-integer-truncation)
+  target_compile_options(sphc_runtime_code INTERFACE -fsanitize=implicit-integer-truncation)
+  target_link_options(sphc_flags INTERFACE -fsanitize=implicit-integer-truncation)
+endif()
 
 # Of decisions and checks, a few times a frame: firmware has all of them in flash, but for what it never calls.
 set(SPHC_SMALL $<$<CONFIG:Release>:-Os> -ffunction-sections)
@@ -165,7 +170,7 @@ function(sphc_module name)
   string(FIND "${arg_SOURCES}" ".cpp" has_cpp)
   list(FILTER arg_SOURCES INCLUDE REGEX "_simd.cpp$")
   if(SPHC_SANITIZE MATCHES "address" AND arg_SOURCES) # with both sanitizers they take three times as long
-    set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS -fno-sanitize=undefined
+    set_source_files_properties(${arg_SOURCES} PROPERTIES COMPILE_OPTIONS -fno-sanitize=undefined${SPHC_INTEGERS}
       SKIP_PRECOMPILE_HEADERS ON)
   endif()
   if(NOT arg_HEADERS AND NOT arg_RUNTIME)

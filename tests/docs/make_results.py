@@ -292,7 +292,8 @@ def robustness(pipeline):
          "map; wrong poses: of frames that are not broken, beyond 25 cm or 10 deg. Method: [testing.md](testing.md#soak).",
          flat(read(pipeline / "soak.csv"), [])),
         ("Coverage", "pipeline/coverage.csv", "coverage_results",
-         "Lines and branches of the runtime that its unit tests and those of the C interface reach (clang).\n"
+         "Lines and branches that tests reach (clang). `device`: the libraries of a device, by their unit tests and those of the C interface; `parsers`:\n"
+         "what reads files of others, by its unit tests and mutations of seeds.\n"
          "Method: [testing.md](testing.md#coverage).",
          flat(read(pipeline / "coverage.csv"), [])),
     ]

@@ -16,14 +16,14 @@ class Scenario:
     arguments: list
     prepare: typing.Callable = lambda folder: None  # makes the files that were there before
     secret: str = ""
-    is_recording: bool = False  # which is never replaced, nor what a killed command left of one
+    is_recording: bool = False  # or a key or a calibration: never replaced, nor what a killed command left of one
     keeps_cut: bool = False  # what was recorded stays as NAME.part
     most: int = 50
 
 
 class Scenarios:
     NAMES = ["build", "build first", "build model", "map", "map refine", "localize", "convert", "convert folder", "convert 7scenes",
-             "convert raw", "record", "record guide", "guide", "doctor", "calibration", "inspect", "advise", "audit", "live", "simulate"]
+             "convert raw", "record", "record guide", "guide", "doctor", "calibration", "inspect", "advise", "audit", "live", "simulate", "key", "sign", "encrypt", "decrypt"]
     QUICK = ["build model", "convert", "calibration"]
 
     def __init__(self, tool, folder):
@@ -85,11 +85,12 @@ class Scenarios:
         outputs = ["--model", "room.model", "--trajectory", "walk.tum", *more]
 
         def prepare(folder):
-            self.run("map", *self.frames(2), *[folder / part if "." in part else part for part in outputs])
+            self.run("map", *self.frames(2), *[folder / part if "." in part else part for part in outputs[:4]])  # no calibration is replaced
         return Scenario("", ["map", *self.frames(3), *outputs, "--threads", 1], prepare)
 
     def make_map_refine(self):
-        return dataclasses.replace(self.make_map("--refine-calibration", "refined.json"), most=10)
+        # A calibration is never replaced either.
+        return dataclasses.replace(self.make_map("--refine-calibration", "refined.json"), is_recording=True, most=10)
 
     def make_localize(self):
         outputs = ["--trajectory", "walk.tum", "--frames-json", "frames.jsonl", "--report", "report"]
@@ -140,15 +141,49 @@ class Scenarios:
         return Scenario("", ["inspect", self.released() / "room.sphc", "--picture", "sky.png"], prepare)
 
     def make_advise(self):
-        return Scenario("", ["advise", *self.frames(3), "--folds", 2, "--picture", "sky.png"], most=10)
+        return Scenario("", ["advise", "--recording", self.walk, "--last", 3, "--folds", 2, "--picture", "sky.png"], most=10)
 
     def make_audit(self):
         ledger, room = self.released() / "spherecloud.ledger", self.released() / "room.sphc"
         arguments = ["audit", room, "--truth", ledger, "--only", "file", "--report", "report", "--figures", "figures.csv"]
-        return Scenario("", [*arguments, "--allow-unmeasured", "photos"], secret=self.secret, most=20)
+        others = ["file.cues_sigma", "density", "real_or_fake", "inversion", "triangulation", "intersection.gain"]
+        allowed = [part for name in others for part in ("--allow-unmeasured", name)]
+        return Scenario("", [*arguments, *allowed], secret=self.secret, most=20)
 
     def make_live(self):
         return Scenario("", ["live", "--device", "replay:%s" % self.walk, "--map", self.released() / "room.sphc", "--every", "--json"])
+
+    def make_key(self):  # a key that is there is never replaced
+        return Scenario("", ["key", "--out", "maps.key"], is_recording=True)
+
+    def key_for(self, use):
+        path = self.inputs / ("%s.key" % use)
+        if not path.exists():
+            self.run("key", "--for", use, "--out", path)
+        return path
+
+    def secret_of(self, key):
+        return key.read_text().split()[-1]
+
+    def make_sign(self):
+        room, key = self.released() / "room.sphc", self.key_for("signatures")
+
+        def prepare(folder):
+            self.run("sign", room, "--key", key, "--release", 1, "--out", folder / "room.sig")
+        return Scenario("", ["sign", room, "--key", key, "--release", 2, "--out", "room.sig"], prepare, self.secret_of(key))
+
+    def make_encrypt(self):
+        room, key = self.released() / "room.sphc", self.key_for("encryption")
+
+        def prepare(folder):
+            self.run("encrypt", room, "--key", key, "--out", folder / "room.enc")
+        return Scenario("", ["encrypt", room, "--key", key, "--out", "room.enc"], prepare, self.secret_of(key))
+
+    def make_decrypt(self):
+        room, key, encrypted = self.released() / "room.sphc", self.key_for("encryption"), self.inputs / "room.enc"
+        if not encrypted.exists():
+            self.run("encrypt", room, "--key", key, "--out", encrypted)
+        return Scenario("", ["decrypt", encrypted, "--key", key, "--out", "room.again"], lambda folder: None, self.secret_of(key), is_recording=True)
 
     def make_simulate(self):
         return Scenario("", ["simulate", "--out", "walk", "--frames", 1, "--threads", 1], is_recording=True, most=2)

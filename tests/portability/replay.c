@@ -3,6 +3,7 @@
 
 #include <spherecloud/spherecloud_capture.h>
 
+#include "forget.h"
 #include "line.h"
 
 /* ---- what is seen ---- */
@@ -59,17 +60,6 @@ static ALIGNED uint8_t view_memory[1024], state_memory[1 << 18], scratch_memory[
 static ALIGNED uint8_t features_memory[SPHC_FEATURES_BYTES_MAX(MAX_KEYPOINTS, COLOR_WIDTH, COLOR_HEIGHT)];
 static uint8_t gray[COLOR_HEIGHT * COLOR_WIDTH], color[3 * COLOR_HEIGHT * COLOR_WIDTH];
 static uint16_t depth[DEPTH_HEIGHT * DEPTH_WIDTH];
-
-/* What the caller gives is not set: MemorySanitizer, where it is compiled in, says if something reads it first. */
-#ifdef __has_feature
-#if __has_feature(memory_sanitizer)
-#include <sanitizer/msan_interface.h>
-#define FORGET(memory) __msan_allocated_memory(memory, sizeof memory)
-#endif
-#endif
-#ifndef FORGET
-#define FORGET(memory) (void)(memory)
-#endif
 
 static void forget_memory(void) {
   FORGET(view_memory);

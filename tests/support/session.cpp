@@ -1,5 +1,6 @@
 #include "tests/support/session.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -22,7 +23,7 @@ GuardedMemory::GuardedMemory(uint64_t bytes, size_t alignment)
       bytes_(static_cast<size_t>(bytes)) {
   const auto first = reinterpret_cast<uintptr_t>(storage_.data()) + kGuard;
   start_ = storage_.data() + kGuard + (alignment - first % alignment) % alignment;
-  for (size_t i = 0; i < bytes_; ++i) start_[i] = kDirt;  // the library must not count on zeros
+  std::fill_n(start_, bytes_, kDirt);  // the library must not count on zeros
 }
 
 bool GuardedMemory::guardsIntact() const {

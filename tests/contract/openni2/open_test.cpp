@@ -64,7 +64,7 @@ TEST_F(Opening, SaysWhyADeviceCannotBeOpened) {
   vtof::Faults faults = {};
   faults.does_not_open = true;
   vtof::setFaults(0, faults);
-  expectRefused(cameraConfig(), SPHC_E_DEVICE, "another program has it");
+  expectRefused(cameraConfig(), SPHC_E_DEVICE, "end the program that has it");
   const OpenCamera endless(cameraConfig(), std::string(300, 'x').c_str());
   EXPECT_EQ(endless.status(), SPHC_E_ARGUMENT);
 }

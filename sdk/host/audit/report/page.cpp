@@ -83,11 +83,10 @@ std::string outcomeText(const MapAudit &audit) {
 std::string writeAuditPage(const std::string &folder, const std::string &map, const MapAudit &audit) {
   makeFolder(folder);
   std::string pictures;
+  std::vector<uint8_t> png;
   const cv::Mat sheet = inversionSheet(audit.views, audit.inversions);
   if (!sheet.empty()) {
-    std::vector<uint8_t> png;
     cv::imencode(".png", sheet, png);
-    writeFile(folder + "/inversion.png", png);
     pictures =
         "<section><h2>What inversion shows</h2><p class=soft>Views from the centre. The network has never seen the "
         "place. A picture tells its place when it is more like its own truth than like that of any other view.</p>"
@@ -103,7 +102,8 @@ std::string writeAuditPage(const std::string &folder, const std::string &map, co
       (audit.quick ? "<p class=soft>A quick audit: fewer lines and views.</p>" : "") + figuresTable(audit) +
       "</section>" + pictures + "</main></html>\n";
   const std::string page = folder + "/audit.html";
-  writeFile(page, html);
+  writeFile(page, html);  // first: by it the next audit knows the folder
+  if (!png.empty()) writeFile(folder + "/inversion.png", png);
   return page;
 }
 

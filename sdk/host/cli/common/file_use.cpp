@@ -148,9 +148,13 @@ void FileUse::checkFolder(const Output &output) const {
   const fs::file_status status = fs::status(output.path, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) refuse(output.option, output.path, "is a file; give a folder");
-  if (force_ || fs::is_empty(output.path, error)) return;
-  for (const fs::directory_entry &entry : fs::directory_iterator(output.path))
+  if (force_) return;
+  bool holds_others = false;
+  for (const fs::directory_entry &entry : fs::directory_iterator(output.path)) {
     if (entry.is_regular_file(error) && output.is_ours(entry.path().string())) return;
+    holds_others |= entry.path().extension() != ".part";  // which is what a killed command leaves
+  }
+  if (!holds_others) return;
   refuse(output.option, output.path,
          "holds files that this command did not write; choose another folder, or write into it with --force");
 }

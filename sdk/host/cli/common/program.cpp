@@ -2,6 +2,7 @@
 
 #include <spherecloud/spherecloud.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -74,22 +75,37 @@ int parseAndRun(const Program &program, int argc, char **argv) {
 
 const char kNoMemory[] = "there is not enough memory; end other programs, or take fewer frames or keypoints";
 
-// Where an exception cannot go on: destructors of JSON values allocate, and so do threads.  What was being written
-// has another name than the file, as after a kill.
-[[noreturn]] void endWithoutMemory() {
+std::atomic<bool> ran_out_of_memory{false};
+
+void noteThatMemoryRanOut() {
+  ran_out_of_memory = true;
+  throw std::bad_alloc();
+}
+
+// Of the exception that ends the program.  One that leaves a destructor cannot be looked at.
+bool isOfNoMemory() {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc &) {
-    std::fprintf(stderr, "%s\n", kNoMemory);
-    std::_Exit(kExitFailure);
+    return true;
   } catch (...) {  // a defect, for a debugger
+    return false;
   }
-  std::abort();
+  return ran_out_of_memory;
+}
+
+// Where an exception cannot go on: destructors of JSON values and of Ceres allocate, and so do threads.  What was
+// being written has another name than the file, as after a kill.
+[[noreturn]] void endWithoutMemory() {
+  if (!isOfNoMemory()) std::abort();
+  std::fprintf(stderr, "%s\n", kNoMemory);
+  std::_Exit(kExitFailure);
 }
 
 }  // namespace
 
 int runProgram(const Program &program, int argc, char **argv) {
+  std::set_new_handler(noteThatMemoryRanOut);
   std::set_terminate(endWithoutMemory);
   try {
     return parseAndRun(program, argc, argv);

@@ -131,6 +131,19 @@ TEST_F(FileUseTest, AFolderIsOursByOneOfItsFiles) {
   EXPECT_THAT(refused("file", true), HasSubstr("is a file"));
 }
 
+TEST_F(FileUseTest, AFolderOfUnfinishedFilesIsWhatAKilledCommandLeft) {
+  const auto check = [this] {
+    FileUse files(false);
+    files.writesFolder("--report", folder_ / "report", holds("a page of ours"));
+    files.check();
+  };
+  std::filesystem::create_directory(folder_ / "report");
+  std::ofstream(folder_ / "report/page.html.1234.part") << "a pa";
+  check();
+  std::ofstream(folder_ / "report/letter.txt") << "I owe you";
+  EXPECT_THROW(check(), std::runtime_error);
+}
+
 TEST_F(FileUseTest, ARecordingIsNeverReplaced) {
   const auto refused = [&](const std::string &name) {
     FileUse files(true);
