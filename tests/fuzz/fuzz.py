@@ -2,6 +2,7 @@
 """Fuzzes all targets of a build with SPHC_FUZZ, one after another on one core, and writes what they did to tests/pipeline/fuzz.csv.
 
     fuzz.py BUILD [--seconds N] [--only TARGET]...        with --only the rows of these, and keeps the others
+    fuzz.py BUILD --keep [--only TARGET]...               fuzzes nothing; the smallest inputs that add coverage go to corpora/ of the tree
 
 BUILD/corpora/TARGET keeps inputs from one run to the next, and BUILD/findings what ended a target. map and session, the doors of a
 device, take a third of the time each. Exit status 1: there is a finding.
@@ -12,11 +13,14 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import time
 
 RESULTS = pathlib.Path(__file__).resolve().parent.parent / "pipeline" / "fuzz.csv"
 COLUMNS = ["sanitizers", "target", "executions", "seconds", "edges", "inputs", "findings"]
 DOORS = ["map", "session"]
+KEPT = pathlib.Path(__file__).resolve().parent / "corpora"
+MOST_KEPT_BYTES = 16384  # of a target
 LIMITS = ["-timeout=20", "-rss_limit_mb=3000", "-print_final_stats=1"]
 
 
@@ -64,14 +68,36 @@ def fuzz(build, target, seconds):
     return row
 
 
+def keep(build, target):
+    """One file of the tree: the smallest inputs of those that together reach all that the corpus reaches, each behind its length."""
+    with tempfile.TemporaryDirectory() as merged:
+        corpora = [path for path in (build / "corpora" / target, build / "tests" / "fuzz" / "seeds" / target) if path.is_dir()]
+        subprocess.run([build / "tests" / "fuzz" / f"fuzz_{target}", *LIMITS, "-merge=1", merged, *corpora], stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL, check=True)
+        inputs = sorted((path.read_bytes() for path in pathlib.Path(merged).iterdir()), key=lambda input: (len(input), input))
+    written, total = [], 0
+    for each in inputs:
+        if written and total + len(each) > MOST_KEPT_BYTES:
+            break
+        written.append(len(each).to_bytes(4, "little") + each)
+        total += len(each)
+    (KEPT / f"{target}.inputs").write_bytes(b"".join(written))
+    print(f"{target}: {len(written)} of {len(inputs)} inputs, {total} bytes", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path, help="folder of the build")
     parser.add_argument("--seconds", type=int, default=3600, help="of all targets together")
     parser.add_argument("--only", action="append", metavar="TARGET")
+    parser.add_argument("--keep", action="store_true", help="write corpora/ of the tree instead")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
     targets = arguments.only or sorted(path.name for path in (build / "tests" / "fuzz" / "seeds").iterdir())
+    if arguments.keep:
+        for target in targets:
+            keep(build, target)
+        return 0
     rows = {}
     if RESULTS.exists():
         with RESULTS.open(encoding="utf-8", newline="") as file:
