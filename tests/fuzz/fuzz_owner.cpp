@@ -17,6 +17,7 @@ host::Place smallPlace() {
   Random random(5);
   host::Place place;
   place.number = 1;
+  place.centre_m = {1.5, -2, 0.25};
   place.eta = 0.5;
   place.strategy = "gaussian";
   for (const ModelPoint &point : test::madeUpRoom(3, 5).points)

@@ -1,5 +1,5 @@
-/* forget.h - memory that the caller has not set: MemorySanitizer, where it is compiled in, or Valgrind, where a program
- * runs under it, says if something depends on what it holds. */
+/* forget.h - memory that the caller has not set: MemorySanitizer, where it is compiled in, or Valgrind, where a
+ * program runs under it, says if something depends on what it holds. */
 #ifndef SPHC_TESTS_PORTABILITY_FORGET_H
 #define SPHC_TESTS_PORTABILITY_FORGET_H
 

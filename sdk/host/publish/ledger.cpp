@@ -145,7 +145,7 @@ void writePoints(sqlite3 *database, const Place &place) {
 }
 
 void writeReleases(sqlite3 *database, const Place &place) {
-  SqliteStatement insert(database, "INSERT OR IGNORE INTO release VALUES (?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(database, "INSERT INTO release VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
   for (size_t i = 0; i < place.releases.size(); ++i) {
     const Release &release = place.releases[i];
     insert.bind(int64_t{place.number}).bind(static_cast<int64_t>(i + 1));
@@ -154,8 +154,9 @@ void writeReleases(sqlite3 *database, const Place &place) {
   }
 }
 
+// One that is there stays; what is no number is an error, which OR IGNORE would hide.
 void writePlace(sqlite3 *database, const Place &place) {
-  SqliteStatement insert(database, "INSERT OR IGNORE INTO place VALUES (?, ?, ?, ?, ?, ?, ?)");
+  SqliteStatement insert(database, "INSERT INTO place VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
   const Vector3 &c = place.centre_m;
   insert.bind(int64_t{place.number}).bind(c.x()).bind(c.y()).bind(c.z()).bind(place.eta).bind(place.strategy);
   insert.bind(int64_t{place.band}).run();

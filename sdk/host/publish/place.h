@@ -31,8 +31,8 @@ struct Release {
 };
 
 struct Place {
-  uint32_t number = 0;  // in its ledger, from 1
-  Vector3 centre_m;     // in the place's frame, which is the world of its first recording
+  uint32_t number = 0;                 // in its ledger, from 1
+  Vector3 centre_m = Vector3::Zero();  // in the place's frame, which is the world of its first recording
   double eta = 0;
   std::string strategy;  // of the fakes
   sphc_band band = SPHC_BAND_VISIBLE;

@@ -28,10 +28,10 @@ extern "C" {
 #endif
 
 #define SPHC_ENCRYPTION_ABI 1u
-#define SPHC_ENCRYPTION_HEADER_BYTES \
-  64u /* before the map; a file that is aligned for a map decrypts to one that is */
-#define SPHC_ENCRYPTION_ADDED_BYTES 80u /* header and tag: an encrypted file has so many bytes more than its map \
-                                         */
+/* Bytes before the map: a file that is aligned as a map must be decrypts in place to one that is. */
+#define SPHC_ENCRYPTION_HEADER_BYTES 64u
+/* Header and tag: an encrypted file has so many bytes more than its map. */
+#define SPHC_ENCRYPTION_ADDED_BYTES 80u
 
 /* Statuses of this library; those of spherecloud.h are never between -70 and -79. */
 enum {

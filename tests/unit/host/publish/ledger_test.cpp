@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -111,6 +112,16 @@ TEST_F(LedgerTest, RoundTripAndGrowth) {
   ASSERT_EQ(places.size(), 2u);
   expectSame(places[0], grown);
   expectSame(places[1], second);
+}
+
+TEST_F(LedgerTest, APlaceWithoutACentreIsNotHalfRecorded) {
+  Place place = makePlace(1, 10);
+  place.centre_m.y() = std::nan("");
+  Ledger ledger = Ledger::openOrMake(path_, nullptr);
+  EXPECT_THROW(ledger.record(place), std::runtime_error);
+  EXPECT_TRUE(ledger.places().empty());
+  ledger.record(makePlace(1, 10));
+  EXPECT_EQ(ledger.places().size(), 1u);
 }
 
 // As one was written before places had a band.
