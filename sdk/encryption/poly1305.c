@@ -37,8 +37,8 @@ static void carry(uint64_t wide[kLimbs], uint32_t limbs[kLimbs]) {
 
 /* sum = (sum + block) r.  2^130 is 5, so limbs that would lie beyond the fifth come back five times. */
 static void add_block(sphc_poly1305 *state, const uint8_t block[kBlockBytes]) {
-  uint32_t limbs[kLimbs];
-  uint64_t wide[kLimbs];
+  uint32_t *limbs = state->limbs;
+  uint64_t *wide = state->wide;
   split(block, limbs);
   limbs[4] |= 1u << 24; /* the bit behind the block */
   for (int i = 0; i < kLimbs; ++i) limbs[i] += state->sum[i];
@@ -69,14 +69,11 @@ void sphc_poly1305_add_padded(sphc_poly1305 *state, const uint8_t *data, size_t 
   add_block(state, last);
 }
 
-/* The sum modulo 2^130 - 5: that of it and of it + 5 - 2^130 which is not negative. */
-static void reduce(const uint32_t sum[kLimbs], uint32_t limbs[kLimbs]) {
-  uint64_t wide[kLimbs];
-  uint32_t less[kLimbs], over = 5;
-  for (int i = 0; i < kLimbs; ++i) wide[i] = sum[i];
-  carry(wide, limbs);
-  for (int i = 0; i < kLimbs; ++i) wide[i] = limbs[i];
-  carry(wide, limbs); /* now every limb is below 2^26 */
+/* The sum modulo 2^130 - 5, in the limbs: that of it and of it + 5 - 2^130 which is not negative. */
+static void reduce(sphc_poly1305 *state) {
+  uint32_t *limbs = state->limbs, *less = state->sum, over = 5;
+  for (int i = 0; i < kLimbs; ++i) state->wide[i] = state->sum[i];
+  carry(state->wide, limbs); /* now every limb is below 2^26 */
   for (int i = 0; i < kLimbs; ++i) {
     over += limbs[i];
     less[i] = over & kLimbMask;
@@ -86,14 +83,14 @@ static void reduce(const uint32_t sum[kLimbs], uint32_t limbs[kLimbs]) {
   for (int i = 0; i < kLimbs; ++i) limbs[i] = (limbs[i] & ~take_less) | (less[i] & take_less);
 }
 
-void sphc_poly1305_tag(const sphc_poly1305 *state, uint8_t tag[16]) {
-  uint32_t limbs[kLimbs], over = 0;
+void sphc_poly1305_tag(sphc_poly1305 *state, uint8_t tag[16]) {
+  uint32_t over = 0;
   uint64_t bits = 0;
   int have = 0, limb = 0;
-  reduce(state->sum, limbs);
+  reduce(state);
   for (int i = 0; i < kBlockBytes; ++i) {
     if (have < 8) {
-      bits |= (uint64_t)limbs[limb++] << have;
+      bits |= (uint64_t)state->limbs[limb++] << have;
       have += kLimbBits;
     }
     over += (uint32_t)(bits & 255) + state->pad[i];

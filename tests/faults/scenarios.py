@@ -23,7 +23,7 @@ class Scenario:
 
 class Scenarios:
     NAMES = ["build", "build first", "build model", "map", "map refine", "localize", "convert", "convert folder", "convert 7scenes",
-             "convert raw", "record", "record guide", "guide", "doctor", "calibration", "inspect", "advise", "audit", "live", "simulate", "key", "sign", "encrypt", "decrypt"]
+             "convert raw", "record", "record guide", "guide", "doctor", "calibration", "inspect", "advise", "audit", "live", "simulate", "key", "key encryption", "sign", "encrypt", "decrypt"]
     QUICK = ["build model", "convert", "calibration"]
 
     def __init__(self, tool, folder):
@@ -155,6 +155,9 @@ class Scenarios:
 
     def make_key(self):  # a key that is there is never replaced
         return Scenario("", ["key", "--out", "maps.key"], is_recording=True)
+
+    def make_key_encryption(self):
+        return Scenario("", ["key", "--for", "encryption", "--out", "rooms.key"], is_recording=True)
 
     def key_for(self, use):
         path = self.inputs / ("%s.key" % use)

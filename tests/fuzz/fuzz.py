@@ -77,10 +77,10 @@ def keep(build, target):
         inputs = sorted((path.read_bytes() for path in pathlib.Path(merged).iterdir()), key=lambda input: (len(input), input))
     written, total = [], 0
     for each in inputs:
-        if written and total + len(each) > MOST_KEPT_BYTES:
+        if written and total + 4 + len(each) > MOST_KEPT_BYTES:
             break
         written.append(len(each).to_bytes(4, "little") + each)
-        total += len(each)
+        total += 4 + len(each)
     (KEPT / f"{target}.inputs").write_bytes(b"".join(written))
     print(f"{target}: {len(written)} of {len(inputs)} inputs, {total} bytes", flush=True)
 

@@ -120,4 +120,19 @@ void renameToNew(const std::string &from, const std::string &to) {
   syncFolderOf(to);
 }
 
+void writeNewFile(const std::string &path, const std::string &text, Readers readers) {
+  const std::string beside = besideOf(path);
+  bool is_written = false;
+  try {
+    writeFile(beside, text, readers);
+    is_written = true;
+    renameToNew(beside, path);
+  } catch (const std::runtime_error &) {
+    unlink(beside.c_str());
+    if (!is_written) throw;
+    throw std::runtime_error("cannot write " + path +
+                             ": something has taken its name, or the disk refuses it; choose another name");
+  }
+}
+
 }  // namespace sphc::host

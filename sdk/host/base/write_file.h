@@ -18,6 +18,9 @@ void writeFile(const std::string &path, const void *bytes, size_t count, Readers
 void writeFile(const std::string &path, const std::vector<uint8_t> &bytes, Readers readers = Readers::kAll);
 void writeFile(const std::string &path, const std::string &text, Readers readers = Readers::kAll);
 
+// As writeFile, unless something has the name already, though it came by it at the last moment.
+void writeNewFile(const std::string &path, const std::string &text, Readers readers = Readers::kAll);
+
 // Brings a file, or a folder and all in it, to the disk and gives it its name, unless something has that name
 // already. Throws std::runtime_error with cause and cure, and then `from` stays.
 void renameToNew(const std::string &from, const std::string &to);

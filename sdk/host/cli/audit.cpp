@@ -62,7 +62,9 @@ std::vector<InversionView> viewsOf(const AuditOptions &options, const Place &pla
 
 std::vector<uint8_t> readMap(const std::string &path) {
   checkIsFile(path);
-  return readMapFile(path);
+  std::vector<uint8_t> bytes = readMapFile(path);
+  checkIsNotEncrypted(path, bytes.data(), bytes.size());
+  return bytes;
 }
 
 std::string networksOf(const AuditOptions &options) {
@@ -206,6 +208,7 @@ int run(const AuditOptions &options, const Console &console) {
   const AuditRules rules = rulesOf(options);
   fileUse(options).check();
   if (!options.recording.folder.empty()) noteDamage(damageOf(*openRecording(options.recording)), console);
+  if (options.has_photos) noteDamage(damageOf(*openRecording(photosOf(options))), console);
   const AuditInput input = inputOf(options);
   ProgressBar bar("auditing  ");
   const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });

@@ -28,8 +28,8 @@ std::string inC(const sphc_signature_key &key) {
 int makeSigningKey(const std::string &path, const Console &console) {
   const std::string public_path = path + ".pub";
   FileUse files(false);  // a key that is lost is lost for ever: nothing is replaced
-  files.writes("--out", path, never());
-  files.writes("--out", public_path, never());
+  files.writesNew("--out", path);
+  files.writesNew("--out", public_path);
   files.check();
   const SigningKey key = SigningKey::draw();
   key.write(path, public_path);
@@ -43,7 +43,7 @@ int makeSigningKey(const std::string &path, const Console &console) {
 
 int makeEncryptionKey(const std::string &path, const Console &console) {
   FileUse files(false);  // as above
-  files.writes("--out", path, never());
+  files.writesNew("--out", path);
   files.check();
   const EncryptionKey key = EncryptionKey::draw();
   key.write(path);

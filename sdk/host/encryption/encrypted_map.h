@@ -29,7 +29,7 @@ class EncryptionKey {
   const sphc_encryption_key &bytes() const { return key_; }
   // By this name a file says which key it is of; it tells nothing of the key.
   std::string idText() const;
-  // The file with mode 0600.  Throws as writeFile does.
+  // The file with mode 0600.  Throws as writeNewFile does.
   void write(const std::string &path) const;
 
  private:

@@ -17,14 +17,6 @@ void checkUsable(const std::string &what, const spherecloud::Status &status) {
   if (!status.ok()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
 }
 
-// Whose cause the map's reader cannot know.
-void checkIsNotEncrypted(const std::string &path, const spherecloud::AlignedBuffer &bytes) {
-  const std::string head = kEncryptionHead;
-  if (bytes.size() < head.size() || std::memcmp(bytes.data(), head.data(), head.size()) != 0) return;
-  throw std::runtime_error("cannot use the map " + path +
-                           ": it is encrypted; spherecloud decrypt makes the map of it, with the key");
-}
-
 }  // namespace
 
 void checkIsFile(const std::string &path) {
@@ -36,11 +28,18 @@ void checkIsFile(const std::string &path) {
                            "; give the map file itself, which spherecloud build wrote");
 }
 
+void checkIsNotEncrypted(const std::string &path, const void *bytes, size_t count) {
+  const std::string head = kEncryptionHead;
+  if (count < head.size() || std::memcmp(bytes, head.data(), head.size()) != 0) return;
+  throw std::runtime_error("cannot use the map " + path +
+                           ": it is encrypted; spherecloud decrypt makes the map of it, with the key");
+}
+
 MapFile openMapFile(const std::string &path, const Trust &trust) {
   checkIsFile(path);
   MapFile file;
   checkUsable("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
-  checkIsNotEncrypted(path, file.bytes);
+  checkIsNotEncrypted(path, file.bytes.data(), file.bytes.size());
   if (!trust.keys.empty()) file.statement = checkSignature(trust, path, file.bytes.data(), file.bytes.size());
   checkUsable("cannot use the map " + path,
               spherecloud::Map::open(file.bytes.data(), file.bytes.size(), &file.map));

@@ -37,7 +37,9 @@ KeyBytes drawKey() {
 void wipe(KeyBytes *key) { sodium_memzero(key->data(), key->size()); }
 
 bool readKeyText(const std::string &path, const std::string &head, KeyBytes *key) {
-  std::ifstream in(path);
+  std::ifstream in;
+  in.rdbuf()->pubsetbuf(nullptr, 0);  // which would keep the digits
+  in.open(path);
   if (!in) throw std::runtime_error("key file " + path + " cannot be read; spherecloud key makes one");
   WipedText read{std::string(head.size() + 1 + 2 * key->size() + 2, '\0')};
   in.read(read.text.data(), static_cast<std::streamsize>(read.text.size()));
@@ -46,15 +48,17 @@ bool readKeyText(const std::string &path, const std::string &head, KeyBytes *key
   if (got < wanted || got > wanted + 1 || (got == wanted + 1 && read.text[wanted] != '\n')) return false;
   if (read.text.compare(0, head.size() + 1, head + "\n") != 0) return false;
   size_t bytes = 0;
-  return sodium_hex2bin(key->data(), key->size(), read.text.data() + head.size() + 1, 2 * key->size(), nullptr,
-                        &bytes, nullptr) == 0 &&
-         bytes == key->size();
+  const bool is_read = sodium_hex2bin(key->data(), key->size(), read.text.data() + head.size() + 1, 2 * key->size(),
+                                      nullptr, &bytes, nullptr) == 0 &&
+                       bytes == key->size();
+  if (!is_read) wipe(key);
+  return is_read;
 }
 
 void writeKeyText(const std::string &path, const std::string &head, const uint8_t *key, Readers readers) {
   const WipedText digits{secretDigits(key, KeyBytes().size())};
   const WipedText text{head + "\n" + digits.text + "\n"};
-  writeFile(path, text.text, readers);
+  writeNewFile(path, text.text, readers);
 }
 
 }  // namespace sphc::host

@@ -21,7 +21,7 @@ void wipe(KeyBytes *key);
 // False when the file holds anything but `head` and a key.  Throws std::runtime_error when it cannot be read.  What
 // it holds is told nobody and stays nowhere else in memory.
 bool readKeyText(const std::string &path, const std::string &head, KeyBytes *key);
-// Throws as writeFile does.
+// Throws as writeNewFile does: no key is ever replaced.
 void writeKeyText(const std::string &path, const std::string &head, const uint8_t *key, Readers readers);
 
 }  // namespace sphc::host

@@ -103,6 +103,8 @@ PlacePoint pointOf(SqliteStatement *row) {
   return point;
 }
 
+bool isSound(const Place &place) { return isNear(place.centre_m) && place.eta > 0 && place.eta <= 1; }
+
 std::vector<PlacePoint> readPoints(sqlite3 *database, uint32_t place) {
   SqliteStatement rows(database,
                        "SELECT x, y, z, sigma, observations, descriptor, u, v, shown, real, release FROM point "
@@ -260,8 +262,8 @@ std::vector<Place> Ledger::places() const {
       place.eta = rows.real(4);
       place.strategy = rows.text(5);
       place.band = static_cast<sphc_band>(rows.integer(6));
-      if (place.number != places.size() + 1 || !isNear(place.centre_m) || !(place.eta > 0 && place.eta <= 1) ||
-          rows.integer(6) < SPHC_BAND_VISIBLE || rows.integer(6) > SPHC_BAND_INFRARED)
+      if (place.number != places.size() + 1 || !isSound(place) || rows.integer(6) < SPHC_BAND_VISIBLE ||
+          rows.integer(6) > SPHC_BAND_INFRARED)
         throw std::runtime_error("a place is damaged; take the backup");
       place.points = readPoints(database_.get(), place.number);
       place.releases = readReleases(database_.get(), place);
@@ -274,6 +276,10 @@ std::vector<Place> Ledger::places() const {
 }
 
 void Ledger::record(const Place &place) {
+  if (!isSound(place))
+    refuse(path_,
+           "a place's centre must lie within 1000 km of the world's origin and its eta in 0 to 1; build the map "
+           "of other poses");
   run("BEGIN IMMEDIATE");
   try {
     writePlace(database_.get(), place);

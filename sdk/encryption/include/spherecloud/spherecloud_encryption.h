@@ -13,7 +13,7 @@
  *
  * Memory: less than 1 kB of stack, no heap, nothing global.  Time: the file is read twice.  Times and addresses do
  * not depend on the key or on the map, but on the file's size and on whether it is accepted.  What was derived from
- * the key on the stack is wiped; the key and the decrypted map are the caller's to wipe.
+ * the key in memory is wiped; the key and the decrypted map are the caller's to wipe.
  *
  * Conventions are those of spherecloud.h: status < 0 is a failure, and outputs are untouched but for the message.
  * SPHC_ENCRYPTION_ABI is raised when a program would have to be changed.

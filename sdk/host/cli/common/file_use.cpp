@@ -53,6 +53,14 @@ void checkParent(const std::string &option, const std::string &path) {
     refuse(option, path, "cannot be written: there is no folder " + folder.string() + "; make it first");
 }
 
+// What a killed command leaves, by the name that writeFile gives.
+bool isUnfinished(const std::string &name) {
+  constexpr size_t kEnding = sizeof ".01234567.part" - 1;
+  if (name.size() <= kEnding || name.substr(name.size() - 5) != ".part") return false;
+  const std::string digits = name.substr(name.size() - kEnding + 1, 8);
+  return name[name.size() - kEnding] == '.' && digits.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 }  // namespace
 
 IsOurs holds(const std::string &text) {
@@ -103,6 +111,10 @@ void FileUse::writesRecording(const std::string &option, const std::string &path
   add(option, path, Kind::kRecording, never());
 }
 
+void FileUse::writesNew(const std::string &option, const std::string &path) {
+  add(option, path, Kind::kNew, never());
+}
+
 void FileUse::keeps(const std::string &option, const std::string &path) { add(option, path, Kind::kKept, never()); }
 
 void FileUse::check() const {
@@ -123,7 +135,7 @@ void FileUse::check() const {
   for (const Output &output : outputs_) {
     if (output.kind == Kind::kFolder) checkFolder(output);
     if (output.kind == Kind::kRecording) checkRecording(output);
-    if (output.kind == Kind::kFile || output.kind == Kind::kKept) checkFile(output);
+    if (output.kind == Kind::kFile || output.kind == Kind::kNew || output.kind == Kind::kKept) checkFile(output);
   }
 }
 
@@ -137,6 +149,8 @@ void FileUse::checkFile(const Output &output) const {
   if (output.kind == Kind::kKept || fs::is_character_file(status) || fs::is_fifo(status)) return;
   if (!fs::is_regular_file(status))
     refuse(output.option, path, "is no file that can be written; choose another name");
+  if (output.kind == Kind::kNew)
+    refuse(output.option, path, "is there already, and keys are never replaced; choose another name");
   if (isLedger(path)) refuse(output.option, path, "is a ledger, which is never replaced; choose another name");
   if (force_ || fs::file_size(path, error) == 0 || output.is_ours(path)) return;
   refuse(output.option, path,
@@ -152,7 +166,7 @@ void FileUse::checkFolder(const Output &output) const {
   bool holds_others = false;
   for (const fs::directory_entry &entry : fs::directory_iterator(output.path)) {
     if (entry.is_regular_file(error) && output.is_ours(entry.path().string())) return;
-    holds_others |= entry.path().extension() != ".part";  // which is what a killed command leaves
+    holds_others |= !isUnfinished(entry.path().filename().string());
   }
   if (!holds_others) return;
   refuse(output.option, output.path,

@@ -32,6 +32,8 @@ class FileUse {
   void writesFolder(const std::string &option, const std::string &path, IsOurs is_ours);
   // A new recording: nothing that is there is replaced, even by force.
   void writesRecording(const std::string &option, const std::string &path);
+  // A new file, as a key: nothing that is there is replaced, even by force.
+  void writesNew(const std::string &option, const std::string &path);
   // What the command keeps by itself, as a ledger: never replaced, so never refused because it is there.
   void keeps(const std::string &option, const std::string &path);
 
@@ -40,7 +42,7 @@ class FileUse {
   void check() const;
 
  private:
-  enum class Kind { kFile, kFolder, kRecording, kKept };
+  enum class Kind { kFile, kNew, kFolder, kRecording, kKept };
   struct Input {
     std::string option, path;
   };

@@ -117,6 +117,20 @@ TEST_F(WriteFileTest, AFolderThatIsNotThereIsNamed) {
   EXPECT_EQ(entries(), 0u);
 }
 
+TEST_F(WriteFileTest, ANewFileTakesNobodysPlaceAndLeavesNothing) {
+  writeNewFile(*this / "key", "first", Readers::kOwner);
+  EXPECT_EQ(modeOf(*this / "key"), 0600u);
+  try {
+    writeNewFile(*this / "key", "second", Readers::kOwner);
+    ADD_FAILURE() << "it was replaced";
+  } catch (const std::runtime_error &error) {
+    EXPECT_THAT(error.what(), HasSubstr("something has taken its name"));
+  }
+  EXPECT_THROW(writeNewFile(*this / "absent/key", "third"), std::runtime_error);
+  EXPECT_EQ(textOf(*this / "key"), "first");
+  EXPECT_EQ(entries(), 1u);
+}
+
 TEST_F(WriteFileTest, ANewNameTakesNobodysPlace) {
   writeFile(*this / "a", std::string("old"));
   writeFile(*this / "b", std::string("new"));

@@ -116,9 +116,11 @@ TEST_F(LedgerTest, RoundTripAndGrowth) {
 
 TEST_F(LedgerTest, APlaceWithoutACentreIsNotHalfRecorded) {
   Place place = makePlace(1, 10);
-  place.centre_m.y() = std::nan("");
   Ledger ledger = Ledger::openOrMake(path_, nullptr);
-  EXPECT_THROW(ledger.record(place), std::runtime_error);
+  for (const double bad : {std::nan(""), 1e7, -HUGE_VAL}) {
+    place.centre_m.y() = bad;
+    EXPECT_THROW(ledger.record(place), std::runtime_error);
+  }
   EXPECT_TRUE(ledger.places().empty());
   ledger.record(makePlace(1, 10));
   EXPECT_EQ(ledger.places().size(), 1u);

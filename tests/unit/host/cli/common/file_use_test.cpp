@@ -138,9 +138,9 @@ TEST_F(FileUseTest, AFolderOfUnfinishedFilesIsWhatAKilledCommandLeft) {
     files.check();
   };
   std::filesystem::create_directory(folder_ / "report");
-  std::ofstream(folder_ / "report/page.html.1234.part") << "a pa";
+  std::ofstream(folder_ / "report/page.html.0a1b2c3d.part") << "a pa";
   check();
-  std::ofstream(folder_ / "report/letter.txt") << "I owe you";
+  std::ofstream(folder_ / "report/film.mp4.part") << "a browser's";
   EXPECT_THROW(check(), std::runtime_error);
 }
 
