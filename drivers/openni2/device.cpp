@@ -56,8 +56,7 @@ sphc_status Device::open(const char *uri, const sphc_openni2_config &config, sph
     device_ = nullptr;
     return explain(message, SPHC_E_DEVICE,
                    "%.60s cannot be opened (%s): end the program that has it, give another URI, or permission to "
-                   "read its file "
-                   "or USB node",
+                   "read its file or USB node",
                    uri, LibraryError().text);
   }
   is_recording_ = oniDeviceIsPropertySupported(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED);

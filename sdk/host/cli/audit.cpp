@@ -86,7 +86,7 @@ RecordingOptions photosOf(const AuditOptions &options) {
   return photos;
 }
 
-AuditInput inputOf(const AuditOptions &options) {
+AuditInput inputOf(const AuditOptions &options, const Console &console) {
   AuditInput input;
   input.file = readMap(options.map);
   input.quick = options.quick;
@@ -96,10 +96,10 @@ AuditInput inputOf(const AuditOptions &options) {
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
   if (isRun("inversion", options)) input.views = viewsOf(options, *input.place);
-  for (PointModel &frame : importFrames(options.recording, options.queries, "querying  "))
+  for (PointModel &frame : importFrames(options.recording, options.queries, "querying  ", console))
     input.queries.push_back(std::move(frame.points));
   if (options.has_photos)
-    for (PointModel &frame : importFrames(photosOf(options), options.queries, "photos    "))
+    for (PointModel &frame : importFrames(photosOf(options), options.queries, "photos    ", console))
       input.photos.push_back(std::move(frame.points));
   return input;
 }
@@ -207,9 +207,7 @@ int run(const AuditOptions &options, const Console &console) {
     throw UsageError("--photos tell nothing without --recording; give what the map was made of too");
   const AuditRules rules = rulesOf(options);
   fileUse(options).check();
-  if (!options.recording.folder.empty()) noteDamage(damageOf(*openRecording(options.recording)), console);
-  if (options.has_photos) noteDamage(damageOf(*openRecording(photosOf(options))), console);
-  const AuditInput input = inputOf(options);
+  const AuditInput input = inputOf(options, console);
   ProgressBar bar("auditing  ");
   const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   bar.show(1, 1);

@@ -1,7 +1,5 @@
 // spherecloud decrypt: a map as it was before it was encrypted.
 #include <memory>
-#include <spherecloud/spherecloud.hpp>
-#include <stdexcept>
 
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
@@ -9,6 +7,7 @@
 #include "host/cli/common/file_use.h"
 #include "host/encryption/encrypted_map.h"
 #include "host/evaluate/map_file.h"
+#include "host/report/file.h"
 
 namespace sphc::host {
 namespace {
@@ -18,17 +17,6 @@ struct DecryptOptions {
   bool force = false;
 };
 
-std::vector<uint8_t> readWhole(const std::string &path) {
-  checkIsFile(path);
-  spherecloud::AlignedBuffer bytes;
-  const spherecloud::Status status = spherecloud::readFile(path.c_str(), &bytes);
-  if (!status.ok())
-    throw std::runtime_error("cannot read the encrypted map " + path + ": " + status.text() + " [" + status.name() +
-                             "]");
-  const auto *start = reinterpret_cast<const uint8_t *>(bytes.data());
-  return {start, start + bytes.size()};
-}
-
 int decrypt(const DecryptOptions &options, const Console &console) {
   FileUse files(options.force);
   files.reads("the encrypted map", options.encrypted);
@@ -36,7 +24,8 @@ int decrypt(const DecryptOptions &options, const Console &console) {
   files.writes("--out", options.out, never());
   files.check();
   const EncryptionKey key = EncryptionKey::read(options.key);
-  writeFile(options.out, decryptMap(options.encrypted, readWhole(options.encrypted), key));
+  checkIsFile(options.encrypted);
+  writeFile(options.out, decryptMap(options.encrypted, readBytes(options.encrypted), key));
   console.say("Wrote " + options.out + ": the map of " + options.encrypted + ".");
   console.give({{"encrypted", options.encrypted}, {"map", options.out}, {"key_id", key.idText()}});
   return kExitDone;

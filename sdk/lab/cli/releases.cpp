@@ -52,8 +52,8 @@ int run(ReleasesOptions options, const Console &console) {
   input.first = importRecording(options.recording, "mapping   ");
   input.more = importRecording(more, "10 % more ");
   input.other = importRecording(options.other, "others    ");
-  input.queries = importFrames(options.other, options.frames, "querying  ");
-  input.strangers = importFrames(options.strangers, options.frames, "strangers ");
+  input.queries = importFrames(options.other, options.frames, "querying  ", console);
+  input.strangers = importFrames(options.strangers, options.frames, "strangers ", console);
   const auto strategy = makeFakes(options.fakes);
   const std::vector<PrivacyRow> rows = auditReleases(input, *strategy, options.eta);
   tell(rows, console);

@@ -15,8 +15,11 @@ PointModel importRecording(const RecordingOptions &recording, const char *what) 
       {{reader.get()}}, {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
 }
 
-std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what) {
-  const uint32_t available = openRecording(recording)->frameCount();
+std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what,
+                                     const Console &console) {
+  const auto reader = openRecording(recording);
+  noteDamage(damageOf(*reader), console);
+  const uint32_t available = reader->frameCount();
   std::vector<PointModel> models;
   ProgressBar bar(what);
   for (uint32_t k = 0; k < count && k < available; ++k) {

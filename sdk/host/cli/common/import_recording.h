@@ -10,7 +10,9 @@ namespace sphc::host {
 // Of all its frames together.  `what` begins the progress bar.
 PointModel importRecording(const RecordingOptions &recording, const char *what);
 
-// Of at most `count` frames, evenly chosen, each by itself: what a client sees.
-std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what);
+// Of at most `count` frames, evenly chosen, each by itself: what a client sees.  Says what of the recording is left
+// out.
+std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what,
+                                     const Console &console);
 
 }  // namespace sphc::host
