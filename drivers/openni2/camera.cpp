@@ -178,34 +178,30 @@ void Camera::read() {
 sphc_status Camera::acquireFromFile(int64_t until_ns, sphc_capture *capture) {
   for (;;) {
     const sphc_status status = queue_.take(0, capture, &message_);
-    if (status != SPHC_AGAIN) return status;
-    const int64_t before_ns = monotonicNs();
-    const int64_t left_ns = std::max(until_ns - before_ns, int64_t{0});
-    bool has_read = false;
-    const auto slice_ms = static_cast<int>(std::min<int64_t>(left_ns / 1000000, kSliceMs));
-    onReader([&] { has_read = readFromFile(slice_ms); });
-    noticeSilence(has_read ? 0 : silent_ns_ + monotonicNs() - before_ns);
-    if (left_ns == 0) return queue_.take(0, capture, &message_);
+    if (status != SPHC_AGAIN || !readFromFile(until_ns)) return status;
   }
 }
 
-bool Camera::readFromFile(int timeout_ms) {
-  OniStreamHandle handles[kStreams];
-  int streams[kStreams], index = 0;
-  const int count = device_.listStreams(handles, streams);
-  if (oniWaitForAnyStream(handles, count, &index, timeout_ms) != ONI_STATUS_OK) return false;
-  const Lock lock(reading_);
-  return readOne(streams[index]);
-}
-
-void Camera::noticeSilence(int64_t silent_ns) {
-  const int64_t limit_ns = int64_t{config_.stall_us} * 1000;
-  if (silent_ns_ < limit_ns && silent_ns >= limit_ns)
-    queue_.report(
-        SPHC_E_DEVICE,
-        "acquire: the recording gives no more frames and does not end: it is cut short, damaged, or was made "
-        "of a device without the cropping property; record it anew");
-  silent_ns_ = silent_ns;
+// False: the time is over, and what there is to say of it is in the queue.
+bool Camera::readFromFile(int64_t until_ns) {
+  const int64_t before_ns = monotonicNs(), limit_ns = int64_t{config_.stall_us} * 1000;
+  const bool is_told = silent_ns_ >= limit_ns;
+  const int64_t silent_at_ns = before_ns + limit_ns - silent_ns_;
+  if (device_.player().await(is_told ? until_ns : std::min(until_ns, silent_at_ns))) {
+    silent_ns_ = 0;
+    onReader([&] {
+      const Lock lock(reading_);
+      readOne(device_.player().take());
+    });
+    return true;
+  }
+  silent_ns_ += monotonicNs() - before_ns;
+  if (is_told || silent_ns_ < limit_ns) return false;
+  queue_.report(
+      SPHC_E_DEVICE,
+      "acquire: the recording gives no more frames and does not end: it is cut short, damaged, or was made "
+      "of a device without the cropping property; record it anew");
+  return true;
 }
 
 // The first frame of a stream once more: the player is through, and repeats.

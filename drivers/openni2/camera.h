@@ -44,8 +44,7 @@ class Camera final : private DeviceWatcher, private ReaderJob {
   int64_t periodNs(int stream) const { return 1000000000 / device_.mode(stream).fps; }
 
   sphc_status acquireFromFile(int64_t until_ns, sphc_capture *capture);
-  bool readFromFile(int timeout_ms);
-  void noticeSilence(int64_t silent_ns);
+  bool readFromFile(int64_t until_ns);
   bool beginsAnew(int stream, const OniFrame &frame);
   void read() override;
   bool readOne(int stream);

@@ -8,13 +8,12 @@
 #include "explain.h"
 #include "frame_check.h"
 #include "modes.h"
-#include "reader.h"
 
 namespace sphc::openni2 {
 
 namespace {
 
-constexpr int kPlayerPatienceMs = 1000;
+constexpr int64_t kPlayerPatienceNs = 1000000000;
 constexpr OniSensorType kSensors[kStreams] = {ONI_SENSOR_COLOR, ONI_SENSOR_DEPTH};
 
 template <typename Value>
@@ -66,7 +65,7 @@ sphc_status Device::open(const char *uri, const sphc_openni2_config &config, sph
     status = openStream(kColor, config.color, message);
   if (status == SPHC_OK && config.streams & SPHC_OPENNI2_STREAM_DEPTH)
     status = openStream(kDepth, config.depth, message);
-  if (status == SPHC_OK && is_recording_ && !awaitPlayer())
+  if (status == SPHC_OK && is_recording_ && !startPlayer())
     status = explain(message, SPHC_E_DEVICE,
                      "the recording gives no frames: it is cut short, damaged, or was made of a device without the "
                      "cropping property; record it anew");
@@ -78,7 +77,8 @@ sphc_status Device::open(const char *uri, const sphc_openni2_config &config, sph
 }
 
 void Device::close() {
-  if (device_ && is_recording_ && !player_awake_) awaitPlayer();
+  if (device_ && is_recording_ && !player_awake_) startPlayer();
+  player_.close();
   for (OniStreamHandle &stream : streams_) {
     if (stream) oniStreamDestroy(stream);
     stream = nullptr;
@@ -181,13 +181,10 @@ sphc_status Device::playByHand(sphc_message *message) {
 
 // Until the file's first frame is there.  A player that is closed before its thread runs is not ended but killed, 3
 // s later, and takes the process with it.
-bool Device::awaitPlayer() {
-  OniStreamHandle handles[kStreams];
-  int count = 0, index = 0;
-  for (const OniStreamHandle stream : streams_)
-    if (stream && oniStreamStart(stream) == ONI_STATUS_OK) handles[count++] = stream;
-  for (int waited_ms = 0; !player_awake_ && waited_ms < kPlayerPatienceMs; waited_ms += kSliceMs)
-    onReader([&] { player_awake_ = oniWaitForAnyStream(handles, count, &index, kSliceMs) == ONI_STATUS_OK; });
+bool Device::startPlayer() {
+  player_.close();
+  const bool started = player_.start(streams_);
+  player_awake_ = player_.await(monotonicNs() + kPlayerPatienceNs) && started;
   return player_awake_;
 }
 

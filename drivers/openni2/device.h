@@ -3,6 +3,7 @@
 
 #include "library.h"
 #include "openni2.h"
+#include "player.h"
 #include "streams.h"
 
 namespace sphc::openni2 {
@@ -20,6 +21,8 @@ class Device {
 
   sphc_status start(sphc_message *message);
   void stop();
+  // Of a recording, whose frames come as they are asked for.
+  Player &player() { return player_; }
 
   bool isRecording() const { return is_recording_; }
   bool has(int stream) const { return streams_[stream] != nullptr; }
@@ -40,12 +43,13 @@ class Device {
   sphc_status setRegistration(bool on, sphc_message *message);
   sphc_status checkFrameSync(sphc_message *message) const;
   sphc_status playByHand(sphc_message *message);
-  bool awaitPlayer();
+  bool startPlayer();
   sphc_camera cameraHint(int stream) const;
 
   OniDeviceHandle device_ = nullptr;
   OniStreamHandle streams_[kStreams] = {};
   OniVideoMode modes_[kStreams] = {};
+  Player player_;
   bool is_recording_ = false, player_awake_ = false, registration_ = false, frame_sync_ = false;
 };
 

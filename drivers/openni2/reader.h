@@ -7,10 +7,6 @@
 
 namespace sphc::openni2 {
 
-// How long the reader waits for a frame of a file: other devices' frames wait for it meanwhile, and each of them
-// makes OpenNI2's wait begin anew.
-constexpr int kSliceMs = 5;
-
 // Done by the reader, one at a time.  Its memory is the caller's: it is withdrawn, or was done, before that goes.
 class ReaderJob {
  public:
