@@ -45,7 +45,7 @@ DepthViews::Block DepthViews::blockOf(ImageView<uint16_t> depth, int32_t column,
 void DepthViews::add(ImageView<uint16_t> depth, const Rigid &world_from_camera) {
   if (offered_++ % every_ != 0) return;
   if (views_.size() == kMost) {
-    for (size_t i = 0; i < kMost / 2; ++i) views_[i] = std::move(views_[2 * i]);
+    for (size_t i = 1; i < kMost / 2; ++i) views_[i] = std::move(views_[2 * i]);  // the first one stays
     views_.resize(kMost / 2);
     every_ *= 2;
     if ((offered_ - 1) % every_ != 0) return;

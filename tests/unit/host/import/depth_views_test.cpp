@@ -75,8 +75,13 @@ TEST(DepthViews, OfManyFramesEvenlyChosenOnesAreKept) {
   for (int i = 0; i < kFrames; ++i) views.add(view.image(), standing(Vector3(0.001 * i, 0, 0), 0));
   EXPECT_LE(views.count(), DepthViews::kMost);
   EXPECT_GE(views.count(), DepthViews::kMost / 2);
-  for (size_t k = 0; k < views.count(); ++k)
-    EXPECT_NEAR(views.camera_m(k).x(), 0.004 * static_cast<double>(k), 1e-9);
+  for (size_t k = 0; k < views.count(); ++k) {
+    const Vector3 camera_m = views.camera_m(k);
+    EXPECT_NEAR(camera_m.x(), 0.004 * static_cast<double>(k), 1e-9);
+    Sight sight = {};
+    ASSERT_TRUE(views.look(k, camera_m + Vector3(0, 0, 2), &sight));
+    EXPECT_NEAR(sight.beyond_m, 2, 0.002) << k;  // the same image each
+  }
 }
 
 }  // namespace
