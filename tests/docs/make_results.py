@@ -206,6 +206,10 @@ def others(pipeline):
          "the places' errors, after the best rigid alignment, without any, and after the best similarity; `scale`: a true metre as mapped.\n"
          "Rotations after the rigid alignment by places. Method: [mapping.md](mapping.md).",
          flat(rows("mapping.csv"), ["world", "poses"])),
+        ("Growth of mapping", "pipeline/mapping_growth.csv", "mapping_growth_results",
+         "A walk round and round in one simulated room at 30 Hz. `times faster than walk`: its length over the time of the whole command,\n"
+         "on two cores; `processor s a walk s`: of all threads; memory: the most that was resident. Method: [mapping.md](mapping.md#long-walks).",
+         flat(rows("mapping_growth.csv"), [])),
         ("Localization in maps without poses", "pipeline/mapping_localized.csv", "mapping_localized_results",
          "Frames that are in neither map, localized one by one (eta 33 %, `--align`) in maps of the same frames: with the poses that the\n"
          "recording holds (`given`), and mapped without (`found`). `truth`: the poses that the answers are compared with, the recording's or\n"

@@ -1,6 +1,7 @@
 #include "host/mapping/tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace sphc::host {
@@ -51,6 +52,17 @@ class Joiner {
   std::vector<Track> members_;  // of the roots; empty of the others
 };
 
+// Evenly spread sightings of a track, others for another `turn`.
+Track thinned(Track track, size_t most, size_t turn) {
+  if (track.size() <= most) return track;
+  constexpr double kGolden = 0.6180339887498949;
+  const double begin = std::fmod(kGolden * static_cast<double>(turn), 1.0),
+               step = static_cast<double>(track.size()) / static_cast<double>(most);
+  for (size_t i = 0; i < most; ++i) track[i] = track[static_cast<size_t>((begin + static_cast<double>(i)) * step)];
+  track.resize(most);
+  return track;
+}
+
 }  // namespace
 
 std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links,
@@ -65,9 +77,10 @@ std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vec
   return joiner.takeLongerThan(least);
 }
 
-std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted) {
+std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted, size_t longest) {
   std::stable_sort(tracks.begin(), tracks.end(),
                    [](const Track &x, const Track &y) { return x.size() > y.size(); });
+  for (size_t i = 0; i < tracks.size(); ++i) tracks[i] = thinned(std::move(tracks[i]), longest, i);
   std::vector<size_t> sightings(frames);
   std::vector<Track> taken;
   for (Track &track : tracks) {

@@ -20,7 +20,8 @@ using Track = std::vector<Sighting>;
 std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links,
                             size_t least);
 
-// The longest tracks, as many as give every frame that many sightings where there are such.
-std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted);
+// The longest tracks, as many as give every frame that many sightings where there are such.  Of a track that has
+// more than `longest` sightings so many stay, evenly spread: an adjustment takes the square of them in time.
+std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted, size_t longest);
 
 }  // namespace sphc::host

@@ -8,7 +8,8 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kNewView = 0.02;  // median shift of what both frames show, as rays
+constexpr double kLeastShift = 0.02, kMostShift = 0.2;
+constexpr double kFewFrames = 300;  // of a walk whose keyframes may lie as near as the least
 constexpr LinkDemands kFollows = {40, 0.5};
 
 double middleDepth(const std::vector<WalkFrame> &frames) {
@@ -20,11 +21,11 @@ double middleDepth(const std::vector<WalkFrame> &frames) {
 }
 
 // Takes the last keyframe out again where it follows the one before.
-void compareLast(FrameLinker *linker, Walk *walk) {
+void compareLast(double keyframe_shift, FrameLinker *linker, Walk *walk) {
   if (walk->keyframes.size() < 2) return;
   const auto last = static_cast<uint32_t>(walk->keyframes.size() - 1);
   const auto link = linker->link(walk->keyframes, {last - 1, last}, kFollows);
-  if (!link || shiftOf(*link, walk->keyframes) > kNewView) return;
+  if (!link || shiftOf(*link, walk->keyframes) > keyframe_shift) return;
   walk->followers.push_back({0, walk->keyframes.back().index, last - 1, link->b_from_a.inverse()});
   walk->keyframes.pop_back();
 }
@@ -51,6 +52,10 @@ Walk joinWalks(std::vector<Walk> walks) {
   return all;
 }
 
+double keyframeShift(uint32_t frames) {
+  return std::clamp(kLeastShift * frames / kFewFrames, kLeastShift, kMostShift);
+}
+
 double shiftOf(const FrameLink &link, const std::vector<WalkFrame> &frames) {
   std::vector<double> shifts;
   for (const PointMatch &match : link.matches)
@@ -67,6 +72,7 @@ Walk readWalk(recording::RecordingReader *reader, const sphc_rig &calibration, c
               const WalkProgress &progress) {
   FrameReader frames(calibration, options);
   FrameLinker linker(options.max_keypoints);
+  const double keyframe_shift = keyframeShift(reader->frameCount());
   Walk walk;
   int64_t before_ns = 0;
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
@@ -78,7 +84,7 @@ Walk readWalk(recording::RecordingReader *reader, const sphc_rig &calibration, c
       walk.keyframes.back().time_ns = time_ns;
       if (walk.keyframes.size() > 1) walk.keyframes.back().gap_ns = time_ns - before_ns;
       before_ns = time_ns;
-      compareLast(&linker, &walk);
+      compareLast(keyframe_shift, &linker, &walk);
     } else if (walk.unreadable++ == 0) {
       walk.first_fault = why;
     }

@@ -34,12 +34,16 @@ Walk joinWalks(std::vector<Walk> walks);
 // How far the view moved between the two frames of a link: median over their matches, as rays.
 double shiftOf(const FrameLink &link, const std::vector<WalkFrame> &frames);
 
+// How far the view moves from a keyframe to the next, in focal lengths, in a walk of so many frames: 1/50, and more
+// where the frames are many.  Mapping takes more than in proportion to the keyframes, and near ones tell the same.
+double keyframeShift(uint32_t frames);
+
 // Told after each frame; may be empty.
 using WalkProgress = std::function<void(uint32_t done, uint32_t total)>;
 
-// A frame is a keyframe when it does not agree with the keyframe before it, or shows a view that is shifted by 1/50
-// of the focal length.  Poses of the recording are not read.  Throws std::runtime_error, with cause and cure, where
-// there is nothing to map.
+// A frame is a keyframe when it does not agree with the keyframe before it, or its view is shifted by
+// keyframeShift. Poses of the recording are not read.  Throws std::runtime_error, with cause and cure, where there
+// is nothing to map.
 Walk readWalk(recording::RecordingReader *reader, const FrameReaderOptions &options, const WalkProgress &progress);
 // The same as if the recording had this calibration.
 Walk readWalk(recording::RecordingReader *reader, const sphc_rig &calibration, const FrameReaderOptions &options,

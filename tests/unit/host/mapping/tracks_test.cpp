@@ -44,10 +44,25 @@ TEST_F(TracksTest, ShortTracksAreLeftOut) {
 
 TEST_F(TracksTest, LongTracksComeFirstUntilEveryFrameHasEnough) {
   const Track longer = {{0, 0}, {1, 0}, {2, 0}}, shorter = {{0, 1}, {1, 1}}, other = {{2, 1}, {3, 1}};
-  const std::vector<Track> taken = enoughTracks({shorter, other, longer}, 4, 1);
+  const std::vector<Track> taken = enoughTracks({shorter, other, longer}, 4, 1, 10);
   ASSERT_EQ(taken.size(), 2u);
   EXPECT_EQ(taken[0].size(), 3u);
   EXPECT_EQ(taken[1][1].frame, 3u);
+}
+
+TEST_F(TracksTest, OfALongTrackEvenlySpreadSightingsStay) {
+  constexpr uint32_t kFrames = 100, kTracks = 50, kLongest = 10;
+  std::vector<Track> tracks(kTracks);
+  for (uint32_t i = 0; i < kTracks; ++i)
+    for (uint32_t frame = 0; frame < kFrames; ++frame) tracks[i].push_back({frame, i});
+  std::vector<size_t> of_frame(kFrames);
+  for (const Track &track : enoughTracks(tracks, kFrames, kTracks, kLongest)) {
+    ASSERT_EQ(track.size(), size_t{kLongest});
+    for (size_t i = 1; i < track.size(); ++i) EXPECT_NEAR(track[i].frame - track[i - 1].frame, 10, 1);
+    for (const Sighting &sighting : track) ++of_frame[sighting.frame];
+  }
+  // The same in every frame, though no track has them all.
+  for (size_t sightings : of_frame) EXPECT_NEAR(static_cast<double>(sightings), 5, 1);
 }
 
 }  // namespace

@@ -47,6 +47,13 @@ TEST_F(WalkTest, ImagesThatAreCutAreNamedAsTheCause) {
 }
 
 // A frame that shows what the one before it did takes its pose from it.
+TEST(WalkKeyframes, LieFartherApartInALongWalk) {
+  EXPECT_EQ(keyframeShift(1), 0.02);
+  EXPECT_EQ(keyframeShift(300), 0.02);
+  EXPECT_NEAR(keyframeShift(600), 0.04, 1e-12);
+  EXPECT_EQ(keyframeShift(9000), 0.2);
+}
+
 TEST(SpottedWalkTest, FramesThatShowTheSameFollowTheirKeyframe) {
   const contract::TempFolder folder;
   const sphc_rig rig = spottedRig();
