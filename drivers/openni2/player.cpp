@@ -1,5 +1,6 @@
 #include "player.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "reader.h"
@@ -13,10 +14,13 @@ using Lock = std::lock_guard<Wakeup>;
 }  // namespace
 
 bool Player::start(const OniStreamHandle (&streams)[kStreams]) {
-  asked_ = false;
-  stream_ = kStreams;
+  {
+    const Lock lock(wakeup_);
+    std::copy(streams, streams + kStreams, streams_);
+    asked_ = false;
+    stream_ = kStreams;
+  }
   for (int stream = 0; stream < kStreams; ++stream) {
-    streams_[stream] = streams[stream];
     if (!streams[stream]) continue;
     if (oniStreamRegisterNewFrameCallback(streams[stream], onNewFrame, this, &listeners_[stream]) !=
         ONI_STATUS_OK) {
@@ -32,7 +36,6 @@ void Player::close() {
   for (int stream = 0; stream < kStreams; ++stream) {
     if (listeners_[stream]) oniStreamUnregisterNewFrameCallback(streams_[stream], listeners_[stream]);
     listeners_[stream] = nullptr;
-    streams_[stream] = nullptr;
   }
 }
 

@@ -32,9 +32,9 @@ class Player {
   static void ONI_CALLBACK_TYPE onNewFrame(OniStreamHandle handle, void *player);
   void askForFrame();
 
-  OniStreamHandle streams_[kStreams] = {};
   OniCallbackHandle listeners_[kStreams] = {};
   Wakeup wakeup_;  // for all that follows
+  OniStreamHandle streams_[kStreams] = {};
   bool asked_ = false;
   int stream_ = kStreams;  // of the frame that is there; kStreams: none is
 };
