@@ -47,24 +47,16 @@ sphc_status Camera::openDevice(sphc_message *message) {
 
 // A callback that is still running when its stream goes is killed by OpenNI2: ours are short, and ended before.
 void Camera::closeDevice() {
-  for (int stream = 0; stream < kStreams; ++stream) {
-    if (listeners_[stream]) oniStreamUnregisterNewFrameCallback(device_.stream(stream), listeners_[stream]);
-    listeners_[stream] = nullptr;
-  }
+  listeners_.removeAll();
   withdraw();
   device_.close();
 }
 
 sphc_status Camera::listen(sphc_message *message) {
-  for (int stream = 0; stream < kStreams; ++stream) {
-    if (!device_.has(stream)) continue;
-    if (oniStreamRegisterNewFrameCallback(device_.stream(stream), onNewFrame, this, &listeners_[stream]) ==
-        ONI_STATUS_OK)
-      continue;
-    listeners_[stream] = nullptr;
-    return explain(message, SPHC_E_DEVICE, "OpenNI2 refuses to tell of new frames (%s); open the device again",
-                   LibraryError().text);
-  }
+  for (int stream = 0; stream < kStreams; ++stream)
+    if (device_.has(stream) && !listeners_.add(device_.stream(stream), onNewFrame, this))
+      return explain(message, SPHC_E_DEVICE, "OpenNI2 refuses to tell of new frames (%s); open the device again",
+                     LibraryError().text);
   return SPHC_OK;
 }
 
@@ -182,7 +174,8 @@ sphc_status Camera::acquireFromFile(int64_t until_ns, sphc_capture *capture) {
   }
 }
 
-// False: the time is over, and what there is to say of it is in the queue.
+// True when the queue may have more: a frame, the end, or the news that the file is silent.  False: the time is
+// over.
 bool Camera::readFromFile(int64_t until_ns) {
   const int64_t before_ns = monotonicNs(), limit_ns = int64_t{config_.stall_us} * 1000;
   const bool is_told = silent_ns_ >= limit_ns;

@@ -6,6 +6,7 @@
 
 #include "capture_queue.h"
 #include "device.h"
+#include "listeners.h"
 #include "reader.h"
 #include "spherecloud/spherecloud_capture.h"
 #include "timeline.h"
@@ -56,7 +57,7 @@ class Camera final : private DeviceWatcher, private ReaderJob {
   sphc_openni2_config config_ = {};
   sphc_openni2_info info_ = {};
   Device device_;
-  OniCallbackHandle listeners_[kStreams] = {};
+  Listeners listeners_;
   CaptureQueue queue_;
   bool running_ = false;
   // Of a recording:

@@ -18,46 +18,37 @@ bool Player::start(const OniStreamHandle (&streams)[kStreams]) {
     const Lock lock(wakeup_);
     std::copy(streams, streams + kStreams, streams_);
     asked_ = false;
-    stream_ = kStreams;
+    std::fill(is_there_, is_there_ + kStreams, false);
   }
-  for (int stream = 0; stream < kStreams; ++stream) {
-    if (!streams[stream]) continue;
-    if (oniStreamRegisterNewFrameCallback(streams[stream], onNewFrame, this, &listeners_[stream]) !=
-        ONI_STATUS_OK) {
-      listeners_[stream] = nullptr;
+  for (const OniStreamHandle stream : streams)
+    if (stream && !(listeners_.add(stream, onNewFrame, this) && oniStreamStart(stream) == ONI_STATUS_OK))
       return false;
-    }
-    if (oniStreamStart(streams[stream]) != ONI_STATUS_OK) return false;
-  }
   return true;
-}
-
-void Player::close() {
-  for (int stream = 0; stream < kStreams; ++stream) {
-    if (listeners_[stream]) oniStreamUnregisterNewFrameCallback(streams_[stream], listeners_[stream]);
-    listeners_[stream] = nullptr;
-  }
 }
 
 bool Player::await(int64_t until_ns) {
   bool asks = false;
   {
     const Lock lock(wakeup_);
-    asks = !asked_ && stream_ == kStreams;
+    asks = !asked_ && firstThere() == kStreams;
     asked_ = asked_ || asks;
   }
   if (asks) onReader([this] { askForFrame(); });
   const Lock lock(wakeup_);
-  while (stream_ == kStreams && monotonicNs() < until_ns) wakeup_.waitUntil(until_ns);
-  return stream_ != kStreams;
+  while (firstThere() == kStreams && monotonicNs() < until_ns) wakeup_.waitUntil(until_ns);
+  return firstThere() != kStreams;
 }
 
 int Player::take() {
   const Lock lock(wakeup_);
-  const int stream = stream_;
-  stream_ = kStreams;
-  asked_ = false;
+  const int stream = firstThere();
+  is_there_[stream] = false;
   return stream;
+}
+
+// Under the lock; kStreams: none is.
+int Player::firstThere() const {
+  return static_cast<int>(std::find(is_there_, is_there_ + kStreams, true) - is_there_);
 }
 
 // A wait that was woken asks again.  The first one, for no stream, asks nothing and leaves no frame's wake-up
@@ -75,7 +66,8 @@ void Player::askForFrame() {
 void ONI_CALLBACK_TYPE Player::onNewFrame(OniStreamHandle handle, void *player) {
   Player &self = *static_cast<Player *>(player);
   const Lock lock(self.wakeup_);
-  self.stream_ = handle == self.streams_[kColor] ? kColor : kDepth;
+  self.is_there_[handle == self.streams_[kColor] ? kColor : kDepth] = true;
+  self.asked_ = false;
   self.wakeup_.wake();
 }
 

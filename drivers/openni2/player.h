@@ -7,6 +7,7 @@
 
 #include <OniCAPI.h>
 
+#include "listeners.h"
 #include "streams.h"
 #include "wakeup.h"
 
@@ -21,22 +22,23 @@ class Player {
   // Null: no such stream.  Nothing was started before.  False: OpenNI2 refuses.
   bool start(const OniStreamHandle (&streams)[kStreams]);
   // Before the streams are destroyed.
-  void close();
+  void close() { listeners_.removeAll(); }
 
   // True when a frame is there.  Asks for one unless it did, or one is.
   bool await(int64_t until_ns);
-  // The stream of the frame that is there, which is read by this.
+  // The stream of a frame that is there, which is read by this.
   int take();
 
  private:
   static void ONI_CALLBACK_TYPE onNewFrame(OniStreamHandle handle, void *player);
   void askForFrame();
+  int firstThere() const;
 
-  OniCallbackHandle listeners_[kStreams] = {};
+  Listeners listeners_;
   Wakeup wakeup_;  // for all that follows
   OniStreamHandle streams_[kStreams] = {};
-  bool asked_ = false;
-  int stream_ = kStreams;  // of the frame that is there; kStreams: none is
+  bool asked_ = false;  // and nothing came yet
+  bool is_there_[kStreams] = {};
 };
 
 }  // namespace sphc::openni2

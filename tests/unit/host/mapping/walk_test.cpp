@@ -46,7 +46,6 @@ TEST_F(WalkTest, ImagesThatAreCutAreNamedAsTheCause) {
   EXPECT_THAT(why, HasSubstr(".png"));
 }
 
-// A frame that shows what the one before it did takes its pose from it.
 TEST(WalkKeyframes, LieFartherApartInALongWalk) {
   EXPECT_EQ(keyframeShift(1), 0.02);
   EXPECT_EQ(keyframeShift(300), 0.02);
@@ -54,6 +53,7 @@ TEST(WalkKeyframes, LieFartherApartInALongWalk) {
   EXPECT_EQ(keyframeShift(9000), 0.2);
 }
 
+// A frame that shows what the one before it did takes its pose from it.
 TEST(SpottedWalkTest, FramesThatShowTheSameFollowTheirKeyframe) {
   const contract::TempFolder folder;
   const sphc_rig rig = spottedRig();
