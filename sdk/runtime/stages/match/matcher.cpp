@@ -150,7 +150,10 @@ uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, f
   });
   const size_t all = std::accumulate(answered, answered + pieces, size_t{0});
   cut_ = all < expected.size();
-  if (!cut_) ranked_ = std::max(ranked_, all);
+  size_t in_sequence = expected.size();  // of these queries all are answered
+  for (uint32_t i = 0; i < pieces; ++i)
+    in_sequence = std::min(in_sequence, (i + answered[i] / kBlock * pieces) * kBlock + answered[i] % kBlock);
+  ranked_ = std::max(ranked_, in_sequence);
   if (deadline.isSet()) near_pace_.learn(static_cast<double>(all), elapsedNs(begin_ns, deadline.clock.now()));
   return select(nearby_.first(expected.size()), max_ratio, matches);
 }

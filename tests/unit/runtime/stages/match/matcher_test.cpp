@@ -227,6 +227,16 @@ class IndexedMatcherTest : public MatcherTest {
     return taken(matcher_.matchAll(queries.size(), ratio, room()));
   }
 
+  // Where the points lie that the queries are of.
+  std::vector<Direction> expectedDirections() const {
+    std::vector<Direction> expected;
+    for (uint32_t q = 0; q < kQueries; ++q) {
+      const Vector3 &d = points_[3 * q].direction;
+      expected.push_back({static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())});
+    }
+    return expected;
+  }
+
   std::vector<Descriptor> queries_;
 };
 
@@ -337,11 +347,7 @@ TEST_F(MatcherDeadline, QueriesAreAnsweredInFullOrNotAtAll) {
 }
 
 TEST_F(MatcherDeadline, GuidedMatchingToo) {
-  std::vector<Direction> expected;
-  for (uint32_t q = 0; q < kQueries; ++q) {
-    const Vector3 &d = points_[3 * q].direction;
-    expected.push_back({static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())});
-  }
+  const std::vector<Direction> expected = expectedDirections();
   useCells(1);
   const auto match = [&](const Deadline &deadline) {
     matcher_.ask(view_, queries(), 8);
@@ -381,13 +387,47 @@ TEST_F(MatcherDeadline, WhatWasLeftOutIsFoundWhenThereIsTimeAgain) {
   EXPECT_FALSE(matcher_.wasCut());
 }
 
+// Guided matching that a deadline cut, and then again with time: the cells of what was answered are ranked already.
+TEST_F(MatcherDeadline, WhatWasRankedBeforeTheCutIsNotRankedAgain) {
+  const std::vector<Direction> expected = expectedDirections();
+  const Span<const Direction> directions(expected.data(), expected.size());
+  const std::vector<Descriptor> others(queries_.rbegin(), queries_.rend());
+  for (const uint32_t pieces : {1u, 3u}) {
+    const Parallel parallel = test::backwards(pieces);
+    Matcher matcher;
+    const test::ArenaMemory memory(
+        [&](Arena &arena, bool real) { Matcher::layout(kQueries, arena, real ? &matcher : nullptr, parallel); });
+    matcher.setParallel(parallel);
+    const auto match = [&](const Deadline &deadline) {
+      return taken(matcher.matchNear(directions, 0.9f, 1, room(), deadline));
+    };
+    matcher.ask(view_, queries(), 8);
+    const auto whole = match({});
+    ASSERT_GT(whole.size(), kQueries / 2);
+    matcher.ask(view_, queries(), 8);
+    uint64_t before = clock_.reads;
+    match(after(1 << 20));
+    const uint64_t reads_anew = clock_.reads - before;
+    bool cut = true;
+    for (int64_t looks = 2; cut; ++looks) {
+      matcher.ask(view_, {others.data(), others.size()}, 8);
+      match({});  // the cells of others lie where those of these will
+      matcher.ask(view_, queries(), 8);
+      match(after(looks));
+      cut = matcher.wasCut();
+      before = clock_.reads;
+      EXPECT_TRUE(same(whole, match(after(1 << 20)))) << pieces << " pieces, cut after " << looks << " looks";
+      if (pieces == 1 && looks > 4) {
+        EXPECT_LT(clock_.reads - before, reads_anew) << looks;
+      }
+      ASSERT_LT(looks, 1000);
+    }
+  }
+}
+
 // What is found out about a query for one call serves the others, in any order.
 TEST_F(IndexedMatcherTest, CallsAboutTheSameQueriesDoNotDisturbEachOther) {
-  std::vector<Direction> expected;
-  for (uint32_t q = 0; q < kQueries; ++q) {
-    const Vector3 &d = points_[3 * q].direction;
-    expected.push_back({static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())});
-  }
+  const std::vector<Direction> expected = expectedDirections();
   const Span<const Direction> few(expected.data(), kQueries / 2);
   const auto part = all(view_, {queries_.data(), kQueries / 3}, 0.9f, 12), whole = all(view_, queries(), 0.9f, 12);
   matcher_.ask(view_, queries(), 12);
