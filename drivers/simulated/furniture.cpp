@@ -193,6 +193,14 @@ void addDoor(Builder &b, const Place &place) {
   b.box(place, {0, 0.03, 2.1}, {0.52, 0.03, 0.045}, kWood);
 }
 
+void addDoorway(Builder &b, const Place &place, double half, double height) {
+  b.newStyle();
+  constexpr double kFrame = 0.045;
+  for (const double side : {-half - kFrame, half + kFrame})
+    b.box(place, {side, 0.015, 0.5 * height}, {kFrame, 0.015, 0.5 * height}, kWood);
+  b.box(place, {0, 0.015, height + kFrame}, {half + 2 * kFrame, 0.015, kFrame}, kWood);
+}
+
 void addBoxes(Builder &b, const Place &place) {
   constexpr Finish kCarton{Material::kCardboard, 0.003f};
   b.box(at(place, -0.05, 0.3, 0, b.rng().real(-0.2, 0.2)), {0, 0, 0.2}, {0.3, 0.24, 0.2}, kCarton);

@@ -13,6 +13,7 @@ void addTvBench(Builder &builder, const Place &place, double width);
 void addDesk(Builder &builder, const Place &place, double width);
 void addDiningSet(Builder &builder, const Place &place);
 void addDoor(Builder &builder, const Place &place);
+void addDoorway(Builder &builder, const Place &place, double half, double height);  // the frame around a gap
 void addBoxes(Builder &builder, const Place &place);
 void addWindow(Builder &builder, const Place &place, double width);  // no floor space needed
 void addMirror(Builder &builder, const Place &place, double width, double height);

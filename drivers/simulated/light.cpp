@@ -147,7 +147,7 @@ void glow(const Lighting &lighting, const Shape &shape, Material material, const
   }
 }
 
-void shade(const Bvh &bvh, const RoomPlan &plan, const Lighting &lighting, const Shape &shape, int face,
+void shade(const Bvh &bvh, const FloorPlan &plan, const Lighting &lighting, const Shape &shape, int face,
            const Texture &texture, Texel *texels) {
   constexpr float kPitch = 0.12f;
   float width_m = 0, height_m = 0;
@@ -170,7 +170,8 @@ void shade(const Bvh &bvh, const RoomPlan &plan, const Lighting &lighting, const
       const float v = even ? 0.5f : 0.02f + 0.96f * static_cast<float>(j) / static_cast<float>(rows - 1);
       Vec3f unit, normal;
       facePoint(shape, face, u, v, &unit, &normal);
-      grid[cell(i, j)] = rootLight(bvh, plan, lighting, worldPoint(shape, unit) + normal * kLift, normal);
+      const Vec3f point = worldPoint(shape, unit) + normal * kLift;
+      grid[cell(i, j)] = rootLight(bvh, plan.roomAt(point), lighting, point, normal);
     }
   }
   const float to_column = static_cast<float>(columns - 1) / static_cast<float>(texture.width);

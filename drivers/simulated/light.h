@@ -23,7 +23,7 @@ struct Lighting {
 Lighting lightingOf(uint32_t with);
 
 // Multiplies the painted texels of one face by the light that falls on it.
-void shade(const Bvh &bvh, const RoomPlan &plan, const Lighting &lighting, const Shape &shape, int face,
+void shade(const Bvh &bvh, const FloorPlan &plan, const Lighting &lighting, const Shape &shape, int face,
            const Texture &texture, Texel *texels);
 // The same for a face that shines by itself.
 void glow(const Lighting &lighting, const Shape &shape, Material material, const Texture &texture, Texel *texels);

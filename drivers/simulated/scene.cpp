@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "drivers/simulated/flat.h"
 #include "drivers/simulated/parallel.h"
 
 namespace sphc::simulated {
@@ -30,7 +31,11 @@ std::vector<Portal> portalsOf(const std::vector<Job> &jobs, bool clear_windows) 
 Scene buildScene(const sphc_simulated_config &config, std::vector<Job> &jobs) {
   Builder builder(config.seed, config.arrangement_seed);
   Scene scene;
-  scene.plan = layOut(builder, config.with);
+  if ((config.with & SPHC_SIMULATED_FLAT) != 0) {
+    scene.plan = layOutFlat(builder, config.with);
+  } else {
+    scene.plan.rooms.push_back(layOutRoom(builder, config.with));
+  }
   scene.lighting = lightingOf(config.with);
   scene.fixed_count = static_cast<uint32_t>(builder.shapes.size());
   scene.actors = Actors(builder, config.with);

@@ -19,13 +19,13 @@ struct Portal {
 };
 
 struct Scene {
-  std::vector<Shape> shapes;  // the first is the room, the last are the actors'
+  std::vector<Shape> shapes;  // the first is the room, or the box that a flat is in; the last are the actors'
   uint32_t fixed_count = 0;   // those before the actors'
   Actors actors;
   std::vector<Shape> outdoors;  // empty, or a room around the room, and no more
   std::vector<Portal> portals;
   TexturePool pool;
-  RoomPlan plan;
+  FloorPlan plan;
   Lighting lighting;
 };
 

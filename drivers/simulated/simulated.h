@@ -52,8 +52,10 @@ enum {
   SPHC_SIMULATED_WINDOW = 1u << 9, /* a large window with a street far behind it, where depth has no measurement */
   SPHC_SIMULATED_DAY = 1u << 10,   /* light: lamps off, a bright sky and the sun through the window */
   SPHC_SIMULATED_NIGHT = 1u << 11, /* light: one floor lamp, warm and dim, black windows; more noise */
-  SPHC_SIMULATED_DARK = 1u << 12   /* light: lamps off at dusk; much noise, longer exposure */
+  SPHC_SIMULATED_DARK = 1u << 12,  /* light: lamps off at dusk; much noise, longer exposure */
+  SPHC_SIMULATED_FLAT = 1u << 13   /* eight rooms in a ring, with doorways; a lap goes through all of them */
 };
+#define SPHC_SIMULATED_LAP_OF_FLAT_S 150.0 /* lap_s for a flat: about a third of a metre a second */
 
 typedef struct sphc_simulated_config {
   uint32_t struct_size;
@@ -61,7 +63,8 @@ typedef struct sphc_simulated_config {
   uint64_t seed;          /* the room: its size, furniture, textures, pictures; default 1 */
   uint64_t walk_seed;     /* the walk and all noise; default 1 */
   double frame_rate_hz;   /* 0.1 to 240; default 30 */
-  double lap_s;           /* seconds a lap; 4 to 3600; default 16 (about 0.45 m/s and 25 degrees/s) */
+  double lap_s;           /* seconds a lap; 4 to 3600; default 16 (about 0.45 m/s and 25 degrees/s), which is for a
+                             room: see SPHC_SIMULATED_LAP_OF_FLAT_S */
   int64_t start_time_ns;  /* 0 to 2^61; default 1 s */
   int64_t depth_delay_ns; /* depth minus colour mid-exposure time; less than half a frame period either way; 4 ms */
   uint32_t threads;       /* at most this many in a render; 0: as many as the machine has cores; at most 64 */

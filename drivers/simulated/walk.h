@@ -1,8 +1,11 @@
-// walk.h - the path of the colour camera: two closed laps around the middle of the room, smooth at every time.
+// walk.h - the path of the colour camera: two closed laps around the middle of the room, or through all rooms,
+// smooth at every time.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
+#include "drivers/simulated/route.h"
 #include "drivers/simulated/scene.h"
 #include "drivers/simulated/vec.h"
 
@@ -15,7 +18,7 @@ class Walk {
   Walk(const Scene &scene, uint64_t seed, double lap_s, bool glances);
   // world_from_camera at `time_s` after the start; any time.
   Pose at(double time_s) const;
-  // The place on the floor `lead` radians further along the lap, at a share of its radius.
+  // The place on the floor `lead` radians of a room's lap further along, at a share of its radius.
   Vec3d ahead(double time_s, double lead, double reach) const;
   // Smallest distance to a surface on the way.
   float clearance() const { return clearance_; }
@@ -33,7 +36,8 @@ class Walk {
 
   static constexpr int kWaves = 3;
   Wave advance_[kWaves], radius_[kWaves], height_[kWaves], gaze_[kWaves], pitch_[kWaves];
-  double lap_s_, glance_, start_, direction_, half_x_, half_y_, gaze_mean_, step_cycles_, roll_phase_;
+  std::unique_ptr<Route> route_;
+  double lap_s_, glance_, start_, direction_, gaze_mean_, step_cycles_, roll_phase_;
   float clearance_ = 0;
 };
 

@@ -170,6 +170,7 @@ nlohmann::ordered_json scoreJson(const MapOutcome &outcome, const MappedRecordin
   const TrajectoryScore &s = *recording.score;
   nlohmann::ordered_json json = {{"frames", s.frames},
                                  {"rigid_rmse_m", s.rigid_rmse_m},
+                                 {"rigid_worst_m", s.rigid_worst_m},
                                  {"similarity_rmse_m", s.similarity_rmse_m},
                                  {"scale", s.scale},
                                  {"rotation_median_deg", s.rotation_median_deg},
@@ -183,8 +184,9 @@ void addScore(const MapOutcome &outcome, const MappedRecording &recording, std::
   if (!s) return;
   const std::string of = outcome.recordings.size() > 1 ? " of " + recording.name : "";
   rows->push_back({"path error, RMSE" + of, fixed(100 * s->rigid_rmse_m, 2) + " cm",
-                   "beside the recording's poses, after a rigid alignment; worst turn " +
-                       fixed(s->rotation_worst_deg, 2) + " deg, median " + fixed(s->rotation_median_deg, 2)});
+                   "beside the recording's poses, after a rigid alignment; worst " +
+                       fixed(100 * s->rigid_worst_m, 2) + " cm; worst turn " + fixed(s->rotation_worst_deg, 2) +
+                       " deg, median " + fixed(s->rotation_median_deg, 2)});
   if (outcome.mapped.is_in_told_world)
     rows->push_back({"without alignment", fixed(100 * recording.unaligned_rmse_m, 2) + " cm", "of the same"});
   rows->push_back(

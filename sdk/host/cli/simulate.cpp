@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "drivers/simulated/simulated.h"
 #include "host/base/checked_call.h"
@@ -20,6 +21,7 @@ namespace {
 struct SimulateOptions {
   std::string out;
   sphc_simulated_config config = {};
+  std::optional<double> lap_s;
   std::string with;
   bool ideal_depth = false, raw_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
 };
@@ -29,7 +31,7 @@ struct SimulatedCloser {
 };
 using Simulated = std::unique_ptr<sphc_simulated, SimulatedCloser>;
 
-Simulated openHeadset(const SimulateOptions &options) {
+sphc_simulated_config configOf(const SimulateOptions &options) {
   sphc_simulated_config config = options.config;
   config.ideal_depth = options.ideal_depth ? 1 : 0;
   config.raw_depth = options.raw_depth ? 1 : 0;
@@ -39,6 +41,12 @@ Simulated openHeadset(const SimulateOptions &options) {
   orThrow("--with", [&](sphc_message *message) {
     return sphc_simulated_parse_with(options.with.c_str(), &config.with, message);
   });
+  const bool is_flat = (config.with & SPHC_SIMULATED_FLAT) != 0;
+  config.lap_s = options.lap_s.value_or(is_flat ? SPHC_SIMULATED_LAP_OF_FLAT_S : config.lap_s);
+  return config;
+}
+
+Simulated openHeadset(const sphc_simulated_config &config) {
   sphc_simulated *simulated = nullptr;
   orThrow("cannot make the simulated headset",
           [&](sphc_message *message) { return sphc_simulated_open(&config, &simulated, message); });
@@ -83,12 +91,12 @@ void record(sphc_simulated *simulated, RecordingOut *out) {
 }
 
 // Which frames belong to which lap, so that the hint after the run can be copied.
-void tellNext(const SimulateOptions &options, const Console &console) {
-  const double lap_frames = (options.config.lap_s - options.config.walk_start_s) * options.config.frame_rate_hz;
+void tellNext(const std::string &out, const sphc_simulated_config &config, const Console &console) {
+  const double lap_frames = (config.lap_s - config.walk_start_s) * config.frame_rate_hz;
   const auto second_lap = static_cast<uint32_t>(std::lround(std::max(lap_frames, 0.0)));
-  if (second_lap == 0 || second_lap >= options.config.frame_count) return;
+  if (second_lap == 0 || second_lap >= config.frame_count) return;
   console.say("Lap one is frames 0 to " + std::to_string(second_lap - 1) +
-              ": make a map of it with\n  spherecloud build --recording " + options.out + " --last " +
+              ": make a map of it with\n  spherecloud build --recording " + out + " --last " +
               std::to_string(second_lap - 1) + " --map room.sphc\nLap two, from frame " +
               std::to_string(second_lap) + " on, can then be localized in it.");
 }
@@ -98,20 +106,21 @@ int simulate(const SimulateOptions &options, const Console &console) {
   files.writesRecording("--out", options.out);
   files.check();
   const auto start = std::chrono::steady_clock::now();
-  const Simulated simulated = openHeadset(options);
+  const sphc_simulated_config config = configOf(options);
+  const Simulated simulated = openHeadset(config);
   const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
   record(simulated.get(), out.get());
   out->close();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  console.say("Recorded " + std::to_string(options.config.frame_count) + " frames to " + options.out + " in " +
+  console.say("Recorded " + std::to_string(config.frame_count) + " frames to " + options.out + " in " +
               fixed(seconds, 1) + " s: colour, depth, calibration and exact poses.");
   if (options.raw_depth && !isMcap(options.out))
     console.warn("note: a folder keeps no amplitudes of the depth; --out X.mcap does");
-  tellNext(options, console);
+  tellNext(options.out, config, console);
   console.give({{"recording", options.out},
-                {"frames", options.config.frame_count},
-                {"rate_hz", options.config.frame_rate_hz},
-                {"lap_s", options.config.lap_s},
+                {"frames", config.frame_count},
+                {"rate_hz", config.frame_rate_hz},
+                {"lap_s", config.lap_s},
                 {"seconds", seconds}});
   return kExitDone;
 }
@@ -126,6 +135,7 @@ const char kSimulateExample[] =
     "  spherecloud simulate --out walk30 --frames 960 --rate 30 --seed 7\n"
     "  spherecloud simulate --out walk.mcap       the same in one file\n"
     "  spherecloud simulate --out hard --with feet,people,tiles,doubles\n"
+    "  spherecloud simulate --out flat.mcap --with flat --frames 9000 --rate 30   five minutes\n"
     "  spherecloud simulate --out later --from 16 --frames 100 --arrangement 2   lap two, things moved\n"
     "What comes out: a folder in the TUM layout, with calibration.json, rgb/, depth/ and groundtruth.txt; or one\n"
     "MCAP file with all of that.\n"
@@ -139,7 +149,8 @@ const char kWithHelp[] =
     "  bare            walls and ceiling with nothing on them\n"
     "  doubles         each piece of furniture twice, one poster several times\n"
     "  mirror, window  depth goes on behind the glass: to the image, to nothing\n"
-    "  day, night, dark   the sun alone, a floor lamp alone, hardly any light";
+    "  day, night, dark   the sun alone, a floor lamp alone, hardly any light\n"
+    "  flat            eight rooms in a ring, with doorways; a lap goes through all";
 
 void addOptions(CLI::App *app, SimulateOptions *options) {
   sphc_simulated_config &config = options->config;
@@ -151,8 +162,8 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->capture_default_str()
       ->check(notNegative())
       ->type_name("HZ");
-  app->add_option("--lap", config.lap_s, "Seconds for a lap around the room")
-      ->capture_default_str()
+  app->add_option("--lap", options->lap_s, "Seconds for a lap around the room, or through all of them")
+      ->default_str("16; of a flat 150")
       ->check(notNegative())
       ->type_name("S");
   app->add_option(

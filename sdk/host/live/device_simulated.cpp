@@ -42,6 +42,7 @@ sphc_simulated_config configOf(const std::string &address) {
   }
   orThrow("simulated:",
           [&](sphc_message *message) { return sphc_simulated_parse_with(names.c_str(), &config.with, message); });
+  if ((config.with & SPHC_SIMULATED_FLAT) != 0) config.lap_s = SPHC_SIMULATED_LAP_OF_FLAT_S;
   return config;
 }
 

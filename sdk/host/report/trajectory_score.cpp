@@ -9,11 +9,13 @@ namespace {
 
 using Places = Eigen::Matrix3Xd;
 
-double rmse(const Eigen::Matrix4d &true_from_estimated, const Places &estimated, const Places &truth) {
-  const Places moved =
-      (true_from_estimated.topLeftCorner<3, 3>() * estimated).colwise() + true_from_estimated.col(3).head<3>();
-  return std::sqrt((moved - truth).squaredNorm() / static_cast<double>(truth.cols()));
+Places errorsOf(const Eigen::Matrix4d &true_from_estimated, const Places &estimated, const Places &truth) {
+  return ((true_from_estimated.topLeftCorner<3, 3>() * estimated).colwise() +
+          true_from_estimated.col(3).head<3>()) -
+         truth;
 }
+
+double rmse(const Places &errors) { return std::sqrt(errors.colwise().squaredNorm().mean()); }
 
 }  // namespace
 
@@ -33,8 +35,10 @@ TrajectoryScore scoreTrajectory(const std::vector<PosePair> &poses) {
   TrajectoryScore score;
   score.frames = poses.size();
   score.true_from_estimated = {rigid.topLeftCorner<3, 3>(), rigid.col(3).head<3>()};
-  score.rigid_rmse_m = rmse(rigid, estimated, truth);
-  score.similarity_rmse_m = rmse(similar, estimated, truth);
+  const Places errors = errorsOf(rigid, estimated, truth);
+  score.rigid_rmse_m = rmse(errors);
+  score.rigid_worst_m = errors.colwise().norm().maxCoeff();
+  score.similarity_rmse_m = rmse(errorsOf(similar, estimated, truth));
   score.scale = 1 / std::cbrt(similar.topLeftCorner<3, 3>().determinant());
   std::vector<double> turns_deg;
   for (const PosePair &pose : poses) {

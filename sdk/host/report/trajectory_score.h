@@ -16,6 +16,7 @@ struct TrajectoryScore {
   size_t frames = 0;
   Rigid true_from_estimated;     // world to world, least squares over the cameras' places (Umeyama 1991)
   double rigid_rmse_m = 0;       // of the places after it: the absolute trajectory error
+  double rigid_worst_m = 0;      // of one place
   double similarity_rmse_m = 0;  // the same after the best scale too
   double scale = 1;              // a true metre as the estimate has it
   double rotation_median_deg = 0, rotation_worst_deg = 0;  // after the rigid alignment

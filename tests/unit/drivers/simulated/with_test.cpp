@@ -23,8 +23,8 @@ TEST(SimulatedWith, NamesBecomeBits) {
   uint32_t with = 77;
   EXPECT_EQ(sphc_simulated_parse_with("", &with, nullptr), SPHC_OK);
   EXPECT_EQ(with, 0u);
-  EXPECT_EQ(sphc_simulated_parse_with("tiles,feet", &with, nullptr), SPHC_OK);
-  EXPECT_EQ(with, uint32_t{SPHC_SIMULATED_FEET | SPHC_SIMULATED_TILES});
+  EXPECT_EQ(sphc_simulated_parse_with("tiles,feet,flat", &with, nullptr), SPHC_OK);
+  EXPECT_EQ(with, uint32_t{SPHC_SIMULATED_FEET | SPHC_SIMULATED_TILES | SPHC_SIMULATED_FLAT});
 }
 
 TEST(SimulatedWith, AnUnknownNameIsNamedWithTheOthers) {

@@ -71,6 +71,15 @@ INSTANTIATE_TEST_SUITE_P(
         "build --recording r --map m --eta 1.5", "build --recording r --map m --against",
         "localize --recording r --map m --step 0", "localize --recording r --map m --first 9 --last 3"));
 
+TEST(CommandLine, ALapOfAFlatTakesLongerThanOneOfARoom) {
+  const TempFolder folder;
+  const Answer answer = runCommand("simulate --json --with flat --frames 1 --out " + (folder / "flat"));
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("\"lap_s\": 150"));
+  EXPECT_THAT(runCommand("simulate --json --with tiles --frames 1 --out " + (folder / "room")).out,
+              HasSubstr("\"lap_s\": 16"));
+}
+
 TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
   const TempFolder folder;
   writeTinyMap(folder / "m.sphc", 200);

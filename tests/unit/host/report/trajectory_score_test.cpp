@@ -46,6 +46,16 @@ TEST(TrajectoryScoreTest, ErrorsAreMeasured) {
   EXPECT_LT(score.rotation_median_deg, 1e-6);
 }
 
+TEST(TrajectoryScoreTest, OnePlaceThatIsOffIsTheWorst) {
+  const std::vector<PosePair> once = pairs(1);
+  std::vector<PosePair> poses;
+  for (int i = 0; i < 10; ++i) poses.insert(poses.end(), once.begin(), once.end());
+  poses[7].estimated.translation_m += Vector3(0.3, 0, 0);
+  const TrajectoryScore score = scoreTrajectory(poses);
+  EXPECT_NEAR(score.rigid_worst_m, 0.3, 0.01);
+  EXPECT_LT(score.rigid_rmse_m, 0.03);
+}
+
 TEST(TrajectoryScoreTest, TwoPosesAreTooFew) {
   std::vector<PosePair> poses = pairs(1);
   poses.resize(2);
