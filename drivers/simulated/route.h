@@ -12,7 +12,7 @@ class Route {
   virtual ~Route() = default;
   // A point of the floor: 2 pi of `angle` are a lap; `reach` 1 is on the line, more is outside of it.
   virtual Vec3d at(double angle, double reach) const = 0;
-  // Yaw of who has the line's way to the left, as the middle is for those who walk around it.
+  // Yaw of what is to the right of somebody who goes along by growing angles: away from the middle of a room.
   virtual double outwards(double angle) const = 0;
   // Nearer to the middle of each room, where its furniture leaves too little space.
   virtual void shrink() = 0;

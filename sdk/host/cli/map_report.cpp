@@ -175,6 +175,7 @@ nlohmann::ordered_json scoreJson(const MapOutcome &outcome, const MappedRecordin
                                  {"scale", s.scale},
                                  {"rotation_median_deg", s.rotation_median_deg},
                                  {"rotation_worst_deg", s.rotation_worst_deg}};
+  if (s.revisit_worst_m) json["revisit_worst_m"] = *s.revisit_worst_m;
   if (outcome.mapped.is_in_told_world) json["unaligned_rmse_m"] = recording.unaligned_rmse_m;
   return json;
 }
@@ -187,6 +188,9 @@ void addScore(const MapOutcome &outcome, const MappedRecording &recording, std::
                    "beside the recording's poses, after a rigid alignment; worst " +
                        fixed(100 * s->rigid_worst_m, 2) + " cm; worst turn " + fixed(s->rotation_worst_deg, 2) +
                        " deg, median " + fixed(s->rotation_median_deg, 2)});
+  if (s->revisit_worst_m)
+    rows->push_back({"where it came back", fixed(100 * *s->revisit_worst_m, 2) + " cm",
+                     "at worst, of two places less than 0.5 m apart and 5 m or more of the way"});
   if (outcome.mapped.is_in_told_world)
     rows->push_back({"without alignment", fixed(100 * recording.unaligned_rmse_m, 2) + " cm", "of the same"});
   rows->push_back(

@@ -15,6 +15,21 @@ Places errorsOf(const Eigen::Matrix4d &true_from_estimated, const Places &estima
          truth;
 }
 
+std::optional<double> worstRevisit(const Places &truth, const Places &errors) {
+  constexpr double kNearM = 0.5, kWayM = 5;
+  std::vector<double> way_m(static_cast<size_t>(truth.cols()));
+  std::optional<double> worst2;
+  for (Eigen::Index i = 1; i < truth.cols(); ++i) {
+    const auto now = static_cast<size_t>(i);
+    way_m[now] = way_m[now - 1] + (truth.col(i) - truth.col(i - 1)).norm();
+    for (Eigen::Index j = 0; way_m[now] - way_m[static_cast<size_t>(j)] > kWayM; ++j) {
+      if ((truth.col(i) - truth.col(j)).squaredNorm() > kNearM * kNearM) continue;
+      worst2 = std::max(worst2.value_or(0), (errors.col(i) - errors.col(j)).squaredNorm());
+    }
+  }
+  return worst2 ? std::optional(std::sqrt(*worst2)) : std::nullopt;
+}
+
 double rmse(const Places &errors) { return std::sqrt(errors.colwise().squaredNorm().mean()); }
 
 }  // namespace
@@ -38,6 +53,7 @@ TrajectoryScore scoreTrajectory(const std::vector<PosePair> &poses) {
   const Places errors = errorsOf(rigid, estimated, truth);
   score.rigid_rmse_m = rmse(errors);
   score.rigid_worst_m = errors.colwise().norm().maxCoeff();
+  score.revisit_worst_m = worstRevisit(truth, errors);
   score.similarity_rmse_m = rmse(errorsOf(similar, estimated, truth));
   score.scale = 1 / std::cbrt(similar.topLeftCorner<3, 3>().determinant());
   std::vector<double> turns_deg;

@@ -56,6 +56,26 @@ TEST(TrajectoryScoreTest, OnePlaceThatIsOffIsTheWorst) {
   EXPECT_LT(score.rigid_rmse_m, 0.03);
 }
 
+// Two laps, the second drawn 4 cm higher than it is.
+TEST(TrajectoryScoreTest, ALoopThatDoesNotCloseIsMeasuredWhereThePathComesBack) {
+  constexpr int kFrames = 100;
+  std::vector<PosePair> poses;
+  for (int i = 0; i < 2 * kFrames; ++i) {
+    const double angle = 2 * kPi * i / kFrames;
+    Rigid truth;
+    truth.translation_m = Vector3(2 * std::cos(angle), 2 * std::sin(angle), 0);
+    Rigid estimated = truth;
+    if (i >= kFrames) estimated.translation_m.z() += 0.04;
+    poses.push_back({estimated, truth});
+  }
+  const TrajectoryScore score = scoreTrajectory(poses);
+  ASSERT_TRUE(score.revisit_worst_m);
+  EXPECT_NEAR(*score.revisit_worst_m, 0.04, 0.001);
+  EXPECT_LT(score.rigid_worst_m, 0.03) << "the alignment halves it";
+  poses.resize(kFrames / 2);
+  EXPECT_FALSE(scoreTrajectory(poses).revisit_worst_m) << "it does not come back";
+}
+
 TEST(TrajectoryScoreTest, TwoPosesAreTooFew) {
   std::vector<PosePair> poses = pairs(1);
   poses.resize(2);
