@@ -58,15 +58,17 @@ def row_of(world, frames, tool, folder):
 
 
 def plot(rows, path):
-    from matplotlib.figure import Figure  # Debian: python3-matplotlib
+    from matplotlib import rcParams  # Debian: python3-matplotlib
+    from matplotlib.figure import Figure
 
+    rcParams["svg.hashsalt"] = "growth"  # the same names in each drawing
     figure = Figure(figsize=(9, 3.2), layout="constrained")
     panels = [("times_faster_than_walk", "length of the walk over the time of map"), ("most_memory_mib", "most memory, MiB"),
-              ("worst_m", "path error, cm: worst frame")]
+              ("ate_rigid_m", "path error, cm")]
     for axes, (column, title) in zip(figure.subplots(1, len(panels)), panels):
         for world in WORLDS:
             own = [row for row in rows if row["world"] == world]
-            scale = 100 if column == "worst_m" else 1
+            scale = 100 if column.endswith("_m") else 1
             axes.plot([int(row["frames"]) for row in own], [scale * float(row[column]) for row in own], "o-", label=world)
         axes.set(title=title, xlabel="frames", ylim=(0, None))
         axes.title.set_fontsize(9)
