@@ -133,27 +133,29 @@ uint32_t Matcher::matchNear(Span<const Direction> expected, float cone_cosine, f
   const int64_t begin_ns = deadline.clock.now();
   cones_.prepare(map_->sectorSide(), cone_cosine);
   std::fill_n(nearby_.begin(), expected.size(), kStart);
-  size_t answered[Parallel::kMostPieces] = {};
   const uint32_t pieces = parallel_.pieces;
+  size_t ends[Parallel::kMostPieces];  // of each piece the first query that it left
+  std::fill_n(ends, pieces, expected.size());
   parallel_.forEach(pieces, [&](uint32_t i) {
     Watch watch(deadline, kGrain);
     // The first ones may be ranked, so that a query is no measure of work: pieces take turns.
     for (size_t block = i; block * kBlock < expected.size(); block += pieces) {
       const size_t end = std::min(expected.size(), (block + 1) * kBlock);
-      for (size_t q = block * kBlock; q < end; ++q, ++answered[i]) {
+      for (size_t q = block * kBlock; q < end; ++q) {
         NearestTwo nearest = kStart;
-        if (q >= ranked_ && !rank(q, &watch)) return;
-        if (!searchNear(q, {expected[q], cone_cosine}, &watch, &nearest)) return;
+        const bool is_answered =
+            (q < ranked_ || rank(q, &watch)) && searchNear(q, {expected[q], cone_cosine}, &watch, &nearest);
+        if (!is_answered) {
+          ends[i] = q;
+          return;
+        }
         nearby_[q] = nearest;
       }
     }
   });
-  const size_t all = std::accumulate(answered, answered + pieces, size_t{0});
+  const size_t all = *std::min_element(ends, ends + pieces);  // the first ones, which are answered
   cut_ = all < expected.size();
-  size_t in_sequence = expected.size();  // of these queries all are answered
-  for (uint32_t i = 0; i < pieces; ++i)
-    in_sequence = std::min(in_sequence, (i + answered[i] / kBlock * pieces) * kBlock + answered[i] % kBlock);
-  ranked_ = std::max(ranked_, in_sequence);
+  ranked_ = std::max(ranked_, all);
   if (deadline.isSet()) near_pace_.learn(static_cast<double>(all), elapsedNs(begin_ns, deadline.clock.now()));
   return select(nearby_.first(expected.size()), max_ratio, matches);
 }
