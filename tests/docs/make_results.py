@@ -259,6 +259,8 @@ def others(pipeline):
          flat(rows("hints.csv"), ["place"])),
         ("Deadlines", "pipeline/deadline.csv", "deadline_results",
          "Frames that end within their deadline and 0.3 ms, in processor time, and what is left of the poses. A deadline of 0 is none.\n"
+         "Each frame goes through all deadlines of a table before the next one does. The last of `single` and `tracking` is half of the median\n"
+         "time without one of the last 31 frames; what stands there is its median.\n"
          "Right: within 5 cm and 5 deg; wrong: beyond 25 cm or 10 deg. Method: [localizer.md](localizer.md#a-deadline).",
          flat(rows("deadline.csv"), ["recording", "case"])),
         ("Worst cases", "pipeline/worst.csv", "worst_results",

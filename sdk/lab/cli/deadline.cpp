@@ -31,6 +31,8 @@ DeadlineInput inputOf(const Options &options, const std::vector<MapFile> &maps, 
   input.parameters = options.parameters;
   input.config.mode = options.tracking ? SPHC_MODE_TRACKING : SPHC_MODE_SINGLE;
   input.repeats = options.repeats;
+  input.deadlines_us = options.deadlines_us;
+  input.half = options.half;
   uint64_t seed = 0;
   for (Sequence &sequence : input.sequences)
     for (Shot &shot : sequence.shots)
@@ -43,15 +45,9 @@ int run(const Options &options, const Console &console) {
   maps.push_back(openMapFile(options.map));
   const Vector3 centre = centreByNote(options.map + ".owner.json", maps[0], options.map);
   if (options.one_cell) maps[0] = inOneCell(maps[0]);
-  const DeadlineInput input = inputOf(options, maps, centre);
-  std::vector<DeadlineRow> rows = {runDeadline(input, 0)};
-  std::vector<uint32_t> deadlines_us = options.deadlines_us;
-  if (options.half) deadlines_us.push_back(static_cast<uint32_t>(rows[0].median_us / 2));
   ProgressBar bar("deadlines ");
-  for (const uint32_t deadline_us : deadlines_us) {
-    bar.show(static_cast<uint32_t>(rows.size()), static_cast<uint32_t>(deadlines_us.size() + 1));
-    rows.push_back(runDeadline(input, deadline_us));
-  }
+  const std::vector<DeadlineRow> rows =
+      runDeadlines(inputOf(options, maps, centre), [&](uint32_t done, uint32_t total) { bar.show(done, total); });
   console.say(deadlineText(rows));
   console.give(deadlineJson(rows));
   return kExitDone;
@@ -87,7 +83,7 @@ Command deadlineCommand(CLI::App *root) {
       ->check(CLI::Range(1u, 100000000u))
       ->expected(1)
       ->take_all();
-  app->add_flag("--half", options->half, "Half of the median time without a deadline, in addition");
+  app->add_flag("--half", options->half, "Half of what frames take without a deadline, in addition");
   app->add_flag("--tracking", options->tracking, "Frames follow each other; else each is looked at alone");
   app->add_flag("--noise", options->noise, "White noise in place of every colour image");
   app->add_flag("--one-cell", options->one_cell, "All points of the map in one cell of its index");

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "host/evaluate/localize_run.h"
 #include "host/report/statistics.h"
@@ -31,35 +32,88 @@ void count(const DeadlineInput &input, const Shot &shot, const sphc_localizer_re
   row->wrong += error.translation_m > kWrongM || error.rotation_deg > kWrongDeg;
 }
 
+// One deadline, and what came of the frames under it.
+struct Lane {
+  DeadlineRow row;
+  bool half = false;
+  std::vector<double> times_us;
+  std::vector<uint32_t> deadlines_us;
+};
+
+std::vector<Lane> lanesOf(const DeadlineInput &input) {
+  std::vector<Lane> lanes(1);
+  for (const uint32_t deadline_us : input.deadlines_us) {
+    lanes.emplace_back();
+    lanes.back().row.deadline_us = deadline_us;
+  }
+  if (input.half) lanes.emplace_back();
+  lanes.back().half = input.half;
+  return lanes;
+}
+
+std::vector<spherecloud::Localizer> localizersOf(const DeadlineInput &input, size_t count, uint32_t repeat) {
+  sphc_localizer_config config = input.config;
+  setCameras(input.sequences.front().rig, &config);
+  config.clock = processorNanoseconds;
+  config.seed += repeat;
+  std::vector<spherecloud::Localizer> localizers;
+  for (size_t i = 0; i < count; ++i) localizers.push_back(makeLocalizer(config, *input.maps, input.parameters));
+  return localizers;
+}
+
+uint32_t halfOf(const std::vector<double> &times_us) {
+  constexpr std::ptrdiff_t kLast = 31;
+  const auto count = std::min(static_cast<std::ptrdiff_t>(times_us.size()), kLast);
+  return static_cast<uint32_t>(percentile({times_us.end() - count, times_us.end()}, 0.5) / 2);
+}
+
+void process(const DeadlineInput &input, const Sequence &sequence, const Shot &shot,
+             spherecloud::Localizer *localizer, Lane *lane) {
+  DeadlineRow &row = lane->row;
+  sphc_localizer_frame frame = frameOf(sequence, shot, row.frames++);
+  frame.prior = nullptr;
+  frame.deadline_us = row.deadline_us;
+  sphc_localizer_result result = spherecloud::emptyResult();
+  const int64_t begin = processorNanoseconds(nullptr);
+  const spherecloud::Status status = localizer->process(frame, &result);
+  lane->times_us.push_back(static_cast<double>(processorNanoseconds(nullptr) - begin) / 1000);
+  if (status.failed()) throw std::runtime_error(status.text());
+  row.in_time += row.deadline_us == 0 || lane->times_us.back() <= row.deadline_us + kLateUs;
+  count(input, shot, result, &row);
+}
+
+DeadlineRow rowOf(Lane lane) {
+  lane.row.median_us = percentile(lane.times_us, 0.5);
+  lane.row.worst_us = *std::max_element(lane.times_us.begin(), lane.times_us.end());
+  if (lane.half) {
+    std::sort(lane.deadlines_us.begin(), lane.deadlines_us.end());
+    lane.row.deadline_us = lane.deadlines_us[lane.deadlines_us.size() / 2];
+  }
+  return lane.row;
+}
+
 }  // namespace
 
-DeadlineRow runDeadline(const DeadlineInput &input, uint32_t deadline_us) {
-  DeadlineRow row;
-  row.deadline_us = deadline_us;
-  std::vector<double> times_us;
+std::vector<DeadlineRow> runDeadlines(const DeadlineInput &input,
+                                      const std::function<void(uint32_t, uint32_t)> &progress) {
+  std::vector<Lane> lanes = lanesOf(input);
+  uint32_t total = 0;
+  for (const Sequence &sequence : input.sequences)
+    total += input.repeats * static_cast<uint32_t>(sequence.shots.size());
   for (uint32_t repeat = 0; repeat < input.repeats; ++repeat) {
-    sphc_localizer_config config = input.config;
-    setCameras(input.sequences.front().rig, &config);
-    config.clock = processorNanoseconds;
-    config.seed += repeat;
-    spherecloud::Localizer localizer = makeLocalizer(config, *input.maps, input.parameters);
+    std::vector<spherecloud::Localizer> localizers = localizersOf(input, lanes.size(), repeat);
     for (const Sequence &sequence : input.sequences)
       for (const Shot &shot : sequence.shots) {
-        sphc_localizer_frame frame = frameOf(sequence, shot, row.frames++);
-        frame.prior = nullptr;
-        frame.deadline_us = deadline_us;
-        sphc_localizer_result result = spherecloud::emptyResult();
-        const int64_t begin = processorNanoseconds(nullptr);
-        const spherecloud::Status status = localizer.process(frame, &result);
-        times_us.push_back(static_cast<double>(processorNanoseconds(nullptr) - begin) / 1000);
-        if (status.failed()) throw std::runtime_error(status.text());
-        row.in_time += deadline_us == 0 || times_us.back() <= deadline_us + kLateUs;
-        count(input, shot, result, &row);
+        for (size_t i = 0; i < lanes.size(); ++i) {
+          if (lanes[i].half) lanes[i].deadlines_us.push_back(lanes[i].row.deadline_us = halfOf(lanes[0].times_us));
+          process(input, sequence, shot, &localizers[i], &lanes[i]);
+        }
+        if (progress) progress(lanes[0].row.frames, total);
       }
   }
-  row.median_us = percentile(times_us, 0.5);
-  row.worst_us = *std::max_element(times_us.begin(), times_us.end());
-  return row;
+  std::vector<DeadlineRow> rows;
+  for (Lane &lane : lanes) rows.push_back(rowOf(std::move(lane)));
+  return rows;
 }
 
 }  // namespace sphc::host

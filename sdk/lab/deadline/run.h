@@ -19,16 +19,22 @@ struct DeadlineInput {
   sphc_localizer_config config = {};  // without rig and clock
   Parameters parameters;
   uint32_t repeats = 1;
+  std::vector<uint32_t> deadlines_us;  // 0: none
+  bool half = false;                   // one more: half of what a frame takes without
 };
 
 struct DeadlineRow {
-  uint32_t deadline_us = 0;  // 0: none
+  uint32_t deadline_us = 0;  // 0: none; the median where it changed
   uint32_t frames = 0, in_time = 0;
   double median_us = 0, worst_us = 0;  // processor time of a frame
   uint32_t right = 0, wrong = 0;       // within 5 cm and 5 deg; beyond 25 cm or 10 deg
   uint32_t features_cut = 0, matches_cut = 0, search_cut = 0, verification_cut = 0;  // frames
 };
 
-DeadlineRow runDeadline(const DeadlineInput &input, uint32_t deadline_us);
+// A row without a deadline, and then one for each.  Each frame goes through all of them before the next one, so
+// that they meet the machine at the same speed; half of a frame's time is that of the median of the last ones.
+// `progress` hears after each frame how many of how many are done.
+std::vector<DeadlineRow> runDeadlines(const DeadlineInput &input,
+                                      const std::function<void(uint32_t, uint32_t)> &progress = nullptr);
 
 }  // namespace sphc::host

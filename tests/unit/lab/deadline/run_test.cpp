@@ -29,7 +29,7 @@ class DeadlineTest : public testing::Test {
 };
 
 TEST_F(DeadlineTest, WithoutADeadlineEveryFrameIsInTimeAndNothingIsCut) {
-  const DeadlineRow row = runDeadline(input_, 0);
+  const DeadlineRow row = runDeadlines(input_)[0];
   EXPECT_EQ(row.frames, kShots);
   EXPECT_EQ(row.in_time, kShots);
   EXPECT_EQ(row.right, kShots);
@@ -40,10 +40,22 @@ TEST_F(DeadlineTest, WithoutADeadlineEveryFrameIsInTimeAndNothingIsCut) {
 
 TEST_F(DeadlineTest, ADeadlineThatNothingCanMeetLeavesNoPose) {
   input_.repeats = 2;
-  const DeadlineRow row = runDeadline(input_, 1);
+  input_.deadlines_us = {1};
+  const DeadlineRow row = runDeadlines(input_)[1];
   EXPECT_EQ(row.frames, 2 * kShots);
   EXPECT_EQ(row.right + row.wrong, 0u);
   EXPECT_GT(row.features_cut + row.matches_cut + row.search_cut, 0u);
+}
+
+TEST_F(DeadlineTest, HalfIsOfWhatFramesTakeWithoutADeadline) {
+  input_.deadlines_us = {100000000};
+  input_.half = true;
+  const std::vector<DeadlineRow> rows = runDeadlines(input_);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1].right, kShots) << "there was time";
+  EXPECT_GT(rows[2].deadline_us, 0u);
+  EXPECT_LT(rows[2].deadline_us, 0.5 * rows[0].worst_us + 1);
+  EXPECT_GT(rows[2].features_cut + rows[2].matches_cut + rows[2].search_cut + rows[2].verification_cut, 0u);
 }
 
 TEST_F(DeadlineTest, TablesSayWhatWasCounted) {
@@ -69,7 +81,7 @@ TEST_F(DeadlineTest, NoiseIsTheSameOfTheSameSeed) {
 TEST_F(DeadlineTest, AMapInOneCellHasTheSamePoints) {
   maps_.push_back(inOneCell(maps_[0]));
   maps_.erase(maps_.begin());
-  EXPECT_EQ(runDeadline(input_, 0).right, kShots);
+  EXPECT_EQ(runDeadlines(input_)[0].right, kShots);
 }
 
 }  // namespace
