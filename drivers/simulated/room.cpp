@@ -96,11 +96,12 @@ void fill(Builder &b, RoomPlan &plan, Wall (&walls)[4], int window_wall, uint64_
   hangLamps(b, plan);
 }
 
-Doorway openDoorway(Wall &wall, const RoomSite &site, const RoomSite::Gap &gap) {
+Doorway openDoorway(Wall (&walls)[4], const Vec3d &center, const RoomSite::Gap &gap) {
+  Wall &wall = walls[gap.wall];
   const Mat3d turn = yawRotation(wall.place.yaw);
   const Vec3d along = turn * Vec3d{1, 0, 0};
   const bool is_x = gap.wall % 2 == 0;
-  const double x = is_x ? (gap.world - site.center.x) * along.x : (gap.world - site.center.y) * along.y;
+  const double x = is_x ? (gap.world - center.x) * along.x : (gap.world - center.y) * along.y;
   wall.doorway = x;
   wall.taken.push_back({x - kDoorwayHalf - 0.2, x + kDoorwayHalf + 0.2, 0, kDoorwayHeight + 0.2});
   return {at(wall.place, x, 0).origin, turn * Vec3d{0, 1, 0}};
@@ -140,8 +141,8 @@ RoomPlan layOutRoomOfFlat(Builder &b, const RoomSite &site, uint32_t with) {
   plan.half = site.half;
   Wall walls[4];
   placeWalls(site.center, site.half, walls);
-  plan.in = openDoorway(walls[site.in.wall], site, site.in);
-  plan.out = openDoorway(walls[site.out.wall], site, site.out);
+  plan.in = openDoorway(walls, site.center, site.in);
+  plan.out = openDoorway(walls, site.center, site.out);
   buildOpenShell(b, site.center, site.half, walls, with);
   fill(b, plan, walls, site.window_wall, site.doubles_seed, with);
   return plan;
