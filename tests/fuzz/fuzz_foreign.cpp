@@ -1,7 +1,7 @@
 #include <stdexcept>
 
 #include "host/calibration/formats.h"
-#include "host/calibration/join.h"
+#include "host/cameras/join.h"
 #include "tests/fuzz/targets.h"
 
 namespace sphc::fuzz {

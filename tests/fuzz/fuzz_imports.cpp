@@ -10,6 +10,7 @@
 #include "host/recording/foreign/stream_recorder_text.h"
 #include "tests/fuzz/recording_seeds.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/matroska.h"
 #include "tests/support/ros1_bag.h"
 
 namespace sphc::fuzz {
@@ -37,6 +38,35 @@ void stray(const uint8_t *data, size_t bytes) {
   } catch (const recording::Failure &failure) {
     if (failure.status() != SPHC_E_ARGUMENT) broken("the failure is the text's");
   }
+}
+
+void kinect(const uint8_t *data, size_t bytes) { recording(data, bytes); }
+
+std::vector<std::vector<uint8_t>> kinectSeeds() {
+  constexpr uint32_t kSide = 16;
+  const std::string camera =
+      R"({"Intrinsics": {"ModelParameters": [0.5, 0.5, 0.8, 0.8, 0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0], )"
+      R"("ModelType": "CALIBRATION_LensDistortionModelBrownConrady"}, "Rt": {"Rotation": )"
+      R"([1, 0, 0, 0, 1, 0, 0, 0, 1], "Translation": [0, 0, 0]}, "SensorHeight": 16, "SensorWidth": 16, "Purpose": )";
+  const std::string calibration = R"({"CalibrationInformation": {"Cameras": [)" + camera +
+                                  R"("CALIBRATION_CameraPurposeDepth"}, )" + camera +
+                                  R"("CALIBRATION_CameraPurposePhotoVideo"}]}})";
+  std::vector<std::vector<uint8_t>> seeds;
+  for (const auto &[fourcc, color_bytes] : {std::pair("BGRA", 1024), {"NV12", 384}, {"YUY2", 512}}) {
+    test::KinectFile file;
+    file.addTrack({"COLOR", fourcc, kSide, kSide});
+    file.addTrack({"DEPTH", "b16g", kSide, kSide});
+    for (const int i : {0, 1}) {
+      file.beginCluster(33333u * i);
+      file.addBlock(1, 0, std::string(color_bytes, 'c'), seeds.empty());
+      file.addBlock(2, 100, std::string(2 * kSide * kSide, '\4'));
+    }
+    file.attach("calibration.json", calibration);
+    file.tag("K4A_START_OFFSET_NS", "1000000");
+    const std::string bytes = file.bytes(seeds.size() == 1);
+    seeds.emplace_back(bytes.begin(), bytes.end());
+  }
+  return seeds;
 }
 
 void ros1(const uint8_t *data, size_t bytes) { recording(data, bytes); }

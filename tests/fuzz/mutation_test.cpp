@@ -91,6 +91,7 @@ TEST(Mutations, Recording) { walk("recording", 3000); }
 TEST(Mutations, RawRecording) { walk("rawRecording", 20000); }
 TEST(Mutations, Message) { walk("message", 20000); }
 TEST(Mutations, Rvl) { walk("rvl", 20000); }
+TEST(Mutations, Kinect) { walk("kinect", 3000); }
 TEST(Mutations, Ros1) { walk("ros1", 3000); }
 TEST(Mutations, Ros2) { walk("ros2", 3000); }
 TEST(Mutations, Record3d) { walk("record3d", 10000); }

@@ -11,6 +11,7 @@ std::vector<std::vector<uint8_t>> rvlSeeds();
 std::vector<std::vector<uint8_t>> straySeeds();
 std::vector<std::vector<uint8_t>> record3dSeeds();
 std::vector<std::vector<uint8_t>> hololensSeeds();
+std::vector<std::vector<uint8_t>> kinectSeeds();
 std::vector<std::vector<uint8_t>> ros1Seeds();
 std::vector<std::vector<uint8_t>> ros2Seeds();
 std::vector<std::vector<uint8_t>> tumSeeds();

@@ -185,6 +185,7 @@ std::vector<Target> allTargets() {
   targets.push_back({"rawRecording", rawRecording, rawRecordingSeeds()});
   targets.push_back({"message", message, messageSeeds()});
   targets.push_back({"rvl", rvl, rvlSeeds()});
+  targets.push_back({"kinect", kinect, kinectSeeds()});
   targets.push_back({"ros1", ros1, ros1Seeds()});
   targets.push_back({"ros2", ros2, ros2Seeds()});
   targets.push_back({"record3d", record3d, record3dSeeds()});

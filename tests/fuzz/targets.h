@@ -35,6 +35,8 @@ void message(const uint8_t *data, size_t bytes);
 void rvl(const uint8_t *data, size_t bytes);
 // Whether to repair checksums, then a raw recording.
 void rawRecording(const uint8_t *data, size_t bytes);
+// A recording of an Azure Kinect; otherwise as `recording`.
+void kinect(const uint8_t *data, size_t bytes);
 // A bag of ROS 1, as RealSense's; otherwise as `recording`.
 void ros1(const uint8_t *data, size_t bytes);
 // A recording of ROS 2 in one file; otherwise as `recording`.

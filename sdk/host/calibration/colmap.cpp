@@ -4,13 +4,12 @@
 #include <map>
 
 #include "host/calibration/colmap_camera.h"
-#include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
-#include "host/calibration/intrinsics.h"
-#include "host/calibration/number_text.h"
-#include "host/calibration/rigid_matrix.h"
-#include "host/recording/calibration_json.h"
-#include "host/recording/pose_track.h"
+#include "host/cameras/camera_models.h"
+#include "host/cameras/fault.h"
+#include "host/cameras/intrinsics.h"
+#include "host/cameras/number_text.h"
+#include "host/cameras/rigid_matrix.h"
 #include "host/recording/text_field.h"
 
 namespace sphc::host {
@@ -46,8 +45,8 @@ double number(const std::string &file, const Line &line, size_t index) {
 
 uint32_t pixels(const std::string &file, const Line &line, size_t index) {
   uint32_t value = 0;
-  if (!recording::parseUnsigned(line.words[index], value) || !recording::isImageSide(value))
-    refuse(file, line.place, "width or height is " + shown(line.words[index]) + "; " + recording::imageSideCure());
+  if (!recording::parseUnsigned(line.words[index], value) || !isImageSide(value))
+    refuse(file, line.place, "width or height is " + shown(line.words[index]) + "; " + imageSideCure());
   return value;
 }
 
@@ -74,7 +73,7 @@ sphc_rigid readPose(const std::string &file, const Line &line, size_t first) {
   double values[7];
   for (size_t i = 0; i < 7; ++i) values[i] = number(file, line, first + i);
   sphc_rigid pose = {{values[0], values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
-  if (!recording::normalizeQuaternion(pose.q_wxyz, 1e-3))
+  if (!normalizeQuaternion(pose.q_wxyz, 1e-3))
     refuse(file, line.place,
            "word " + std::to_string(first + 1) + ": the quaternion is not of unit length; order QW QX QY QZ");
   return pose;

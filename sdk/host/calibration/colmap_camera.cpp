@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "host/calibration/intrinsics.h"
+#include "host/cameras/intrinsics.h"
 
 namespace sphc::host {
 namespace {
@@ -37,7 +37,7 @@ const std::vector<ColmapCameraModel> &models() {
 }
 
 template <typename Matches>
-const ColmapCameraModel *findModel(const Matches &matches) {
+const ColmapCameraModel *findColmapModel(const Matches &matches) {
   const auto found = std::find_if(models().begin(), models().end(), matches);
   return found == models().end() ? nullptr : &*found;
 }
@@ -45,11 +45,11 @@ const ColmapCameraModel *findModel(const Matches &matches) {
 }  // namespace
 
 const ColmapCameraModel *findColmapModel(int id) {
-  return findModel([id](const ColmapCameraModel &model) { return model.id == id; });
+  return findColmapModel([id](const ColmapCameraModel &model) { return model.id == id; });
 }
 
 const ColmapCameraModel *findColmapModel(std::string_view name) {
-  return findModel([name](const ColmapCameraModel &model) { return model.name == name; });
+  return findColmapModel([name](const ColmapCameraModel &model) { return model.name == name; });
 }
 
 std::string knownColmapModels() {

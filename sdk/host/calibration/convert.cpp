@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/calibration/fault.h"
 #include "host/calibration/nearest_camera.h"
-#include "host/recording/calibration_json.h"
+#include "host/cameras/camera_models.h"
+#include "host/cameras/fault.h"
 
 namespace sphc::host {
 namespace {
@@ -42,7 +42,7 @@ sphc_camera fitCamera(const sphc_camera &camera, const char *role, Format format
   if (formatHolds(format, camera)) return camera;
   if (!approximate)
     throw std::runtime_error(std::string(nameOf(format).name) + " cannot hold the " + role + " camera's model, " +
-                             recording::findModel(camera.model)->name +
+                             findModel(camera.model)->name +
                              ", exactly; choose another format, or accept the nearest with --approximate");
   const std::vector<RaySample> samples = sampleCamera(camera);
   if (samples.empty())

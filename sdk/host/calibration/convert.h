@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/calibration/formats.h"
-#include "host/calibration/join.h"
+#include "host/cameras/join.h"
 
 namespace sphc::host {
 

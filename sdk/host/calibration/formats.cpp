@@ -1,7 +1,9 @@
 #include "host/calibration/formats.h"
 
-#include "host/calibration/fault.h"
-#include "host/calibration/intrinsics.h"
+#include "host/calibration/rational6kt.h"
+#include "host/cameras/azure_kinect.h"
+#include "host/cameras/fault.h"
+#include "host/cameras/intrinsics.h"
 #include "host/recording/calibration_json.h"
 
 namespace sphc::host {
@@ -68,7 +70,7 @@ CalibrationPart readCalibration(Format format, const TextFile &file, const TextF
     case Format::kColmap:
       return readColmap(file, rigs);
     case Format::kAzureKinect:
-      return readAzureKinect(file);
+      return withNearestCameras(readAzureKinect(file));
   }
   refuse(file.name, "the file", "unknown format; name one of those that the help lists");
 }

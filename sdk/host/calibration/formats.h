@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/part.h"
+#include "host/cameras/part.h"
 
 namespace sphc::host {
 
@@ -32,7 +32,6 @@ CalibrationPart readOpencv(const TextFile &file);
 CalibrationPart readKalibr(const TextFile &file);
 CalibrationPart readRos(const TextFile &file);
 CalibrationPart readColmap(const TextFile &cameras, const TextFile *rigs);
-CalibrationPart readAzureKinect(const TextFile &file);
 
 // One text; ROS and COLMAP files by their names in the folder.
 std::string opencvText(const sphc_rig &calibration);
@@ -41,6 +40,5 @@ std::string opencvExtrinsics(const sphc_rigid &depth_from_color);
 std::string kalibrText(const sphc_rig &calibration);
 std::vector<TextFile> rosTexts(const sphc_rig &calibration);
 std::vector<TextFile> colmapTexts(const sphc_rig &calibration);
-std::string azureKinectText(const sphc_rig &calibration);
 
 }  // namespace sphc::host

@@ -1,13 +1,13 @@
 // Kalibr's camchain.yaml: cameras cam0, cam1, ... of which each holds the transform from the one before it.
 #include <algorithm>
 
-#include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
-#include "host/calibration/intrinsics.h"
-#include "host/calibration/number_text.h"
-#include "host/calibration/rigid_matrix.h"
 #include "host/calibration/yaml_map.h"
-#include "host/recording/calibration_json.h"
+#include "host/cameras/camera_models.h"
+#include "host/cameras/fault.h"
+#include "host/cameras/intrinsics.h"
+#include "host/cameras/number_text.h"
+#include "host/cameras/rigid_matrix.h"
 
 namespace sphc::host {
 namespace {
@@ -23,8 +23,8 @@ sphc_camera readCamera(const YamlMap &map) {
   if (k.size() != 4)
     map.refuse("intrinsics", "has " + std::to_string(k.size()) + " numbers; pinhole takes 4: fu fv pu pv");
   const std::vector<double> size = map.numbers("resolution", "[640, 480]");
-  if (size.size() != 2 || !std::all_of(size.begin(), size.end(), recording::isImageSide))
-    map.refuse("resolution", "must be [width, height]; each " + recording::imageSideCure());
+  if (size.size() != 2 || !std::all_of(size.begin(), size.end(), isImageSide))
+    map.refuse("resolution", "must be [width, height]; each " + imageSideCure());
   const Intrinsics intrinsics = {k[0],
                                  k[1],
                                  k[2] + kZeroCentered,

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/recording/calibration_json.h"
+#include "host/cameras/camera_models.h"
 
 namespace sphc::host {
 namespace {
@@ -39,8 +39,7 @@ Eigen::MatrixXd jacobian(const std::vector<RaySample> &samples, const sphc_camer
 }
 
 sphc_camera firstGuess(WantedModel wanted, const sphc_camera &start) {
-  sphc_camera camera = {
-      wanted.model, start.width, start.height, recording::findModel(wanted.model)->param_count, {}};
+  sphc_camera camera = {wanted.model, start.width, start.height, findModel(wanted.model)->param_count, {}};
   const bool related =
       (start.model == SPHC_CAMERA_KANNALA_BRANDT4) == (wanted.model == SPHC_CAMERA_KANNALA_BRANDT4);
   std::copy_n(start.params, related ? std::min(wanted.free_params, start.param_count) : 4, camera.params);

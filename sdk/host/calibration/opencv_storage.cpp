@@ -5,12 +5,12 @@
 #include <set>
 #include <stdexcept>
 
-#include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
-#include "host/calibration/intrinsics.h"
-#include "host/calibration/number_text.h"
-#include "host/calibration/rigid_matrix.h"
-#include "host/recording/calibration_json.h"
+#include "host/cameras/camera_models.h"
+#include "host/cameras/fault.h"
+#include "host/cameras/intrinsics.h"
+#include "host/cameras/number_text.h"
+#include "host/cameras/rigid_matrix.h"
 
 namespace sphc::host {
 namespace {
@@ -72,7 +72,7 @@ class Reader {
     const cv::FileNode node = storage_[key];
     if (node.empty()) return 0;
     const double value = node.isInt() ? node.real() : -1;
-    if (!recording::isImageSide(value)) fail(key, recording::imageSideCure());
+    if (!isImageSide(value)) fail(key, imageSideCure());
     return static_cast<uint32_t>(value);
   }
 

@@ -1,12 +1,12 @@
 // ROS camera_info as camera_calibration_parsers writes it: one camera a file.
 #include <array>
 
-#include "host/calibration/fault.h"
 #include "host/calibration/formats.h"
-#include "host/calibration/intrinsics.h"
-#include "host/calibration/number_text.h"
-#include "host/calibration/rigid_matrix.h"
 #include "host/calibration/yaml_map.h"
+#include "host/cameras/fault.h"
+#include "host/cameras/intrinsics.h"
+#include "host/cameras/number_text.h"
+#include "host/cameras/rigid_matrix.h"
 
 namespace sphc::host {
 namespace {

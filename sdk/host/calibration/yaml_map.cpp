@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include "host/calibration/fault.h"
-#include "host/recording/calibration_json.h"
+#include "host/cameras/camera_models.h"
+#include "host/cameras/fault.h"
 #include "host/recording/text_field.h"
 
 namespace sphc::host {
@@ -86,8 +86,8 @@ std::vector<double> YamlMap::numbers(const std::string &key, const std::string &
 uint32_t YamlMap::pixels(const std::string &key) const {
   const std::string value = text(key, "640");
   uint32_t result = 0;
-  if (!recording::parseUnsigned(value, result) || !recording::isImageSide(result))
-    refuse(key, "is " + shown(value) + "; " + recording::imageSideCure());
+  if (!recording::parseUnsigned(value, result) || !isImageSide(result))
+    refuse(key, "is " + shown(value) + "; " + imageSideCure());
   return result;
 }
 

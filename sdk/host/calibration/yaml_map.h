@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/calibration/part.h"
+#include "host/cameras/part.h"
 
 namespace sphc::host {
 

@@ -8,6 +8,7 @@
 #include "host/base/write_file.h"
 #include "host/calibration/compare.h"
 #include "host/calibration/convert.h"
+#include "host/cameras/camera_models.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
@@ -76,7 +77,7 @@ double fieldOfViewDeg(const sphc_camera &camera, bool horizontal) {
 }
 
 std::string modelOf(const sphc_camera &camera) {
-  return recording::findModel(camera.model)->name;
+  return host::findModel(camera.model)->name;
 }  // checked when it was read
 
 double baselineM(const sphc_rigid &rigid) { return std::hypot(rigid.t_m[0], rigid.t_m[1], rigid.t_m[2]); }

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "host/calibration/colmap_camera.h"
-#include "host/calibration/fault.h"
+#include "host/cameras/fault.h"
 #include "host/import/colmap_record.h"
 
 namespace sphc::host {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "host/calibration/fault.h"
+#include "host/cameras/fault.h"
 #include "host/import/colmap_descriptors.h"
 
 namespace sphc::host {

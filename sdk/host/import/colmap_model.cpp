@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "host/calibration/fault.h"
+#include "host/cameras/fault.h"
 
 namespace sphc::host {
 namespace {

@@ -1,7 +1,7 @@
 #include "host/import/colmap_record.h"
 
 #include "host/calibration/colmap_camera.h"
-#include "host/calibration/fault.h"
+#include "host/cameras/fault.h"
 
 namespace sphc::host {
 namespace {

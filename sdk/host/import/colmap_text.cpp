@@ -3,7 +3,7 @@
 #include <charconv>
 
 #include "host/calibration/colmap_camera.h"
-#include "host/calibration/fault.h"
+#include "host/cameras/fault.h"
 #include "host/import/colmap_record.h"
 #include "host/recording/text_field.h"
 

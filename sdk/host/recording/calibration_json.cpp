@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "failure.h"
+#include "host/cameras/camera_models.h"
+#include "host/cameras/rigid_matrix.h"
 #include "pose_track.h"
 
 namespace sphc::recording {
@@ -73,8 +75,8 @@ class ObjectReader {
 
   uint32_t pixels(const char *key) {
     const Json &value = require(key, "640");
-    if (!value.is_number_unsigned() || !isImageSide(value.get<double>()))
-      fail(path(key), "is " + shown(value) + "; " + imageSideCure());
+    if (!value.is_number_unsigned() || !host::isImageSide(value.get<double>()))
+      fail(path(key), "is " + shown(value) + "; " + host::imageSideCure());
     return value.get<uint32_t>();
   }
 
@@ -108,8 +110,8 @@ class ObjectReader {
 sphc_camera readCamera(const Json &json, const std::string &key, double pixel_shift) {
   ObjectReader reader(json, key);
   const Json &model_json = reader.require("model", "\"pinhole\"");
-  const ModelName *model = model_json.is_string() ? findModel(model_json.get<std::string>()) : nullptr;
-  if (!model) fail(key + ".model", "is " + ObjectReader::shown(model_json) + "; known: " + modelNames());
+  const host::ModelName *model = model_json.is_string() ? host::findModel(model_json.get<std::string>()) : nullptr;
+  if (!model) fail(key + ".model", "is " + ObjectReader::shown(model_json) + "; known: " + host::modelNames());
   sphc_camera camera{};
   camera.model = model->model;
   camera.width = reader.pixels("width");
@@ -181,7 +183,7 @@ void readDepthSide(ObjectReader &reader, double pixel_shift, sphc_rig &rig) {
 
 Json cameraToJson(const sphc_camera &camera) {
   Json json;
-  json["model"] = findModel(camera.model)->name;
+  json["model"] = host::findModel(camera.model)->name;
   json["width"] = camera.width;
   json["height"] = camera.height;
   json["params"] = std::vector<double>(camera.params, camera.params + camera.param_count);
@@ -201,7 +203,7 @@ sphc_rig calibrationFromJson(std::string_view text) {
   rig.depth_unit_m = reader.number("depth_unit_m", "0.001");
   reader.refuseOthers();
   requireGood(rig);
-  normalizeQuaternion(rig.color_from_depth.q_wxyz, 1.0);
+  host::normalizeQuaternion(rig.color_from_depth.q_wxyz, 1.0);
   return rig;
 }
 

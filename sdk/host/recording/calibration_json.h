@@ -9,22 +9,6 @@
 
 namespace sphc::recording {
 
-struct ModelName {
-  sphc_camera_model model;
-  const char *name;
-  uint32_t param_count;
-  const char *params;
-};
-// Null when there is none.
-const ModelName *findModel(sphc_camera_model model);
-const ModelName *findModel(std::string_view name);
-// "pinhole, brown5, ..."
-std::string modelNames();
-
-// A width or height that a camera can have, and what to say of another.
-bool isImageSide(double value);
-std::string imageSideCure();
-
 // The rig, where it can be used; else throws Failure with sphc_rig_check's message.
 const sphc_rig &requireGood(const sphc_rig &rig);
 

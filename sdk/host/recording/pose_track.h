@@ -29,11 +29,7 @@ class PoseTrack {
 sphc_rigid interpolate(const sphc_rigid &from, const sphc_rigid &to, double s);
 
 bool isFinite(const sphc_rigid &pose);
-// Makes the quaternion one of unit length; false if it was further from it than `tolerance`.
-bool normalizeQuaternion(double q_wxyz[4], double tolerance);
 // The pose with its quaternion of unit length; throws Failure (ARGUMENT) when it is not finite or far from one.
 sphc_rigid checkedPose(const sphc_rigid &pose);
-// False when `rows` (row-major 3 x 4 of a 4 x 4 matrix) is not finite or its left part no rotation.
-bool rigidFromMatrix(const double rows[12], sphc_rigid &pose);
 
 }  // namespace sphc::recording

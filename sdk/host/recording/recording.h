@@ -24,7 +24,8 @@ enum class Layout {
   kRos2 = 6,
   kRecord3d = 7,
   kRos1 = 8,
-  kStreamRecorder = 9
+  kStreamRecorder = 9,
+  kAzureKinect = 10
 };
 
 // Frames are chosen by the number of their colour image: of first to last every step-th.
@@ -111,6 +112,8 @@ bool isRecord3d(const std::filesystem::path &folder);
 Recording openRecord3d(const std::filesystem::path &folder);
 bool isStreamRecorder(const std::filesystem::path &folder);
 Recording openStreamRecorder(const std::filesystem::path &folder);
+bool isMatroska(const std::filesystem::path &file);
+Recording openAzureKinect(const std::filesystem::path &file);
 // Throws Failure with the way out for a file that another program recorded and that is not read.
 void refuseForeignFile(const std::filesystem::path &file);
 

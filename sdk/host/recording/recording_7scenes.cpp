@@ -4,6 +4,7 @@
 
 #include "failure.h"
 #include "file_reader.h"
+#include "host/cameras/rigid_matrix.h"
 #include "recording.h"
 #include "text_field.h"
 
@@ -52,7 +53,7 @@ bool readPose(const fs::path &path, sphc_rigid &pose) {
   double matrix[16];
   for (double &value : matrix)
     if (!parseDouble(takeWord(rest), value)) return false;
-  return rigidFromMatrix(matrix, pose);
+  return host::rigidFromRows(matrix, &pose);
 }
 
 // Frames whose tracking failed have a pose of NaN: they simply have none.

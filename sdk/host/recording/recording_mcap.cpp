@@ -6,6 +6,7 @@
 
 #include "calibration_json.h"
 #include "failure.h"
+#include "host/cameras/rigid_matrix.h"
 #include "recording.h"
 
 namespace sphc::recording {
@@ -179,7 +180,7 @@ void McapScan::addImage(Kind kind, const MessageHead &head, const RecordPlace &r
 void McapScan::addPose(int64_t time_ns, sphc_rigid pose) {
   const std::vector<TimedPose> &poses = recording_.poses.poses();
   const bool is_later = poses.empty() || poses.back().time_ns < time_ns;
-  if (is_later && isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2))
+  if (is_later && isFinite(pose) && host::normalizeQuaternion(pose.q_wxyz, 1e-2))
     recording_.poses.add(time_ns, pose);
   else
     ++recording_.bad_pose_count;

@@ -5,6 +5,7 @@
 
 #include "failure.h"
 #include "file_reader.h"
+#include "host/cameras/rigid_matrix.h"
 #include "recording.h"
 #include "text_field.h"
 
@@ -80,7 +81,7 @@ PoseTrack readTumPoses(const fs::path &path, uint32_t *bad_count) {
     if (time_ns < last_ns) failLine(path, number, "time decreases; sort the list");
     last_ns = time_ns;
     sphc_rigid pose{{value[6], value[3], value[4], value[5]}, {value[0], value[1], value[2]}};
-    if (isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2))
+    if (isFinite(pose) && host::normalizeQuaternion(pose.q_wxyz, 1e-2))
       poses.add(time_ns, pose);
     else
       ++*bad_count;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "host/cameras/rigid_matrix.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/camera_axes.h"
 #include "host/recording/foreign/comma_text.h"
@@ -47,7 +48,7 @@ const json &listOf(const json &root, const char *key) {
 std::optional<sphc_rigid> record3dPose(const json &entry) {
   const std::vector<double> value = numbersOf(entry, 7, "poses");
   sphc_rigid pose = {{value[3], value[0], value[1], value[2]}, {value[4], value[5], value[6]}};
-  if (!isFinite(pose) || !normalizeQuaternion(pose.q_wxyz, 1e-2)) return {};
+  if (!isFinite(pose) || !host::normalizeQuaternion(pose.q_wxyz, 1e-2)) return {};
   return fromUpBackAxes(pose);
 }
 

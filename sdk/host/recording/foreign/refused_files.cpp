@@ -21,10 +21,6 @@ constexpr RefusedKind kRefusedKinds[] = {
      "+ "
      "RGB\" in the app"},
     {"#ROSBAG V1"sv, "is a bag of ROS 1 of version 1, which is not read: \"rosbag fix\" writes version 2.0"},
-    {"\x1A\x45\xDF\xA3"sv,
-     "is a Matroska file, as Azure Kinect's .mkv files are, which is not read: take images and depth out of it "
-     "into "
-     "the TUM layout (docs/drivers.md)"},
     {"SQLite format 3"sv,
      "is a database, as ROS 2's .db3 files are, which is not read: \"ros2 bag convert\" writes MCAP"},
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/cameras/rigid_matrix.h"
 #include "host/recording/pose_track.h"
 
 namespace sphc::recording {
@@ -31,7 +32,7 @@ void takeDoubles(RosReader &reader, double (&numbers)[N]) {
 bool takeRigid(RosReader &reader, sphc_rigid &pose) {
   takeDoubles(reader, pose.t_m);
   for (const int i : {1, 2, 3, 0}) pose.q_wxyz[i] = reader.takeDouble();
-  return isFinite(pose) && normalizeQuaternion(pose.q_wxyz, 1e-2);
+  return isFinite(pose) && host::normalizeQuaternion(pose.q_wxyz, 1e-2);
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // Recordings of ROS, in MCAP or a bag of ROS 1: images, cameras and transforms by topic.
-#include <algorithm>
-
 #include "host/recording/calibration_json.h"
 #include "host/recording/failure.h"
 #include "host/recording/file_reader.h"
+#include "host/recording/foreign/ordered_images.h"
 #include "host/recording/foreign/realsense_topics.h"
 #include "host/recording/foreign/ros_camera.h"
 #include "host/recording/foreign/ros_content.h"
@@ -36,24 +35,16 @@ class RosImages : public LayoutImages {
   RosImageCoding color_, depth_;
 };
 
-// In order of time, numbered; of equal times the first counts.
 std::vector<RecordedImage> imagesOf(const RosImageTopic &topic, uint64_t *lost_count) {
-  std::vector<RosStamped> stamped = topic.images;
-  std::stable_sort(stamped.begin(), stamped.end(),
-                   [](const RosStamped &a, const RosStamped &b) { return a.time_ns < b.time_ns; });
   std::vector<RecordedImage> images;
-  for (const RosStamped &each : stamped) {
-    if (!images.empty() && images.back().time_ns == each.time_ns) {
-      ++*lost_count;
-      continue;
-    }
+  images.reserve(topic.images.size());
+  for (const RosStamped &stamped : topic.images) {
     RecordedImage image = {};
-    image.time_ns = each.time_ns;
-    image.sequence = static_cast<uint32_t>(images.size());
-    image.place = {Kind::kNone, each.place.chunk, each.place.start, each.place.bytes};
+    image.time_ns = stamped.time_ns;
+    image.place = {Kind::kNone, stamped.place.chunk, stamped.place.start, stamped.place.bytes};
     images.push_back(std::move(image));
   }
-  return images;
+  return inOrderOfTime(std::move(images), lost_count);
 }
 
 sphc_camera cameraOfTopic(const RosContent &content, const RosImageTopic &topic) {

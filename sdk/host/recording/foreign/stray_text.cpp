@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "host/cameras/rigid_matrix.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/comma_text.h"
 #include "host/recording/pose_track.h"
@@ -42,7 +43,7 @@ class Columns {
 
 std::optional<sphc_rigid> poseOf(const double value[7]) {
   sphc_rigid pose = {{value[6], value[3], value[4], value[5]}, {value[0], value[1], value[2]}};
-  if (!isFinite(pose) || !normalizeQuaternion(pose.q_wxyz, 1e-2)) return {};
+  if (!isFinite(pose) || !host::normalizeQuaternion(pose.q_wxyz, 1e-2)) return {};
   return pose;
 }
 

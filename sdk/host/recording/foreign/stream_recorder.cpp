@@ -1,6 +1,7 @@
 // Recordings of a HoloLens 2 in research mode, by the sample StreamRecorder: colour and "Depth Long Throw".
 #include <algorithm>
 
+#include "host/cameras/rigid_matrix.h"
 #include "host/recording/calibration_json.h"
 #include "host/recording/encoded_image.h"
 #include "host/recording/failure.h"
@@ -153,7 +154,7 @@ std::optional<sphc_rigid> colorFromDepth(const PoseTrack &world_from_color, cons
   if (t[0].empty()) return {};
   sphc_rigid middle = {{medianOf(q[0]), medianOf(q[1]), medianOf(q[2]), medianOf(q[3])},
                        {medianOf(t[0]), medianOf(t[1]), medianOf(t[2])}};
-  if (!normalizeQuaternion(middle.q_wxyz, 1e-2)) return {};
+  if (!host::normalizeQuaternion(middle.q_wxyz, 1e-2)) return {};
   return middle;
 }
 

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdint>
 
+#include "host/cameras/rigid_matrix.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/camera_axes.h"
 #include "host/recording/foreign/comma_text.h"
@@ -23,7 +24,7 @@ bool poseIn(const Fields &fields, size_t first, sphc_rigid &pose) {
   double matrix[kMatrixFields];
   for (size_t i = 0; i < kMatrixFields; ++i)
     if (first + i >= fields.size() || !parseDouble(fields[first + i], matrix[i])) return false;
-  return rigidFromMatrix(matrix, pose);
+  return host::rigidFromRows(matrix, &pose);
 }
 
 // Time, focal lengths, world_from_camera with axes right, up, back.

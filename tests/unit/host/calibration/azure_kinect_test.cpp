@@ -2,7 +2,8 @@
 
 #include "golden.h"
 #include "host/calibration/compare.h"
-#include "host/calibration/join.h"
+#include "host/cameras/azure_kinect.h"
+#include "host/cameras/join.h"
 
 namespace sphc::host {
 namespace {
@@ -41,7 +42,7 @@ TEST(AzureKinect, TakesTheZeroThatTheKitLeavesAtTheEnd) {
 
 TEST(AzureKinect, AnotherModelIsTakenOnlyWhenToldSo) {
   const std::string text = changed(kAzureKinectFile, "ModelBrownConrady", "ModelRational6KT");
-  const CalibrationPart part = readAzureKinect({"k.json", text});
+  const CalibrationPart part = readCalibration(Format::kAzureKinect, {"k.json", text}, nullptr);
   EXPECT_THROW(joinParts({part}, {}), std::runtime_error);
   JoinOptions options;
   options.approximate = true;

@@ -1,5 +1,5 @@
 #include "golden.h"
-#include "host/calibration/join.h"
+#include "host/cameras/join.h"
 
 namespace sphc::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/calibration/join.h"
+#include "host/cameras/join.h"
 
 #include <gmock/gmock.h>
 
@@ -92,7 +92,7 @@ TEST(Join, SaysWhatIsMissing) {
   options = {};
   options.color_size = {1280, 720};
   EXPECT_THAT(refusal({color, depth, extrinsics}, options),
-              HasSubstr("--color-size 1280x720: camera 'narrow_stereo' is calibrated for 640x480"));
+              HasSubstr("color images of 1280x720: camera 'narrow_stereo' is calibrated for 640x480"));
   options = {};
   options.depth_unit_m = 5;
   EXPECT_THAT(refusal({color, depth, extrinsics}, options), HasSubstr("depth_unit_m"));

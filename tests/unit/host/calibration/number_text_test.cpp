@@ -1,4 +1,4 @@
-#include "host/calibration/number_text.h"
+#include "host/cameras/number_text.h"
 
 #include <gtest/gtest.h>
 

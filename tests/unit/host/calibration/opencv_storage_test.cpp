@@ -1,7 +1,7 @@
 #include <opencv2/core.hpp>
 
 #include "golden.h"
-#include "host/calibration/join.h"
+#include "host/cameras/join.h"
 
 namespace sphc::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/part.h"
+#include "host/cameras/part.h"
 
 namespace sphc::host {
 

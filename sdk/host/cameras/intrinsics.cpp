@@ -1,8 +1,8 @@
-#include "host/calibration/intrinsics.h"
+#include "host/cameras/intrinsics.h"
 
 #include <algorithm>
 
-#include "host/calibration/number_text.h"
+#include "host/cameras/number_text.h"
 
 namespace sphc::host {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/calibration/join.h"
+#include "host/cameras/join.h"
 
 #include <stdexcept>
 
-#include "host/calibration/fault.h"
-#include "host/calibration/rigid_matrix.h"
+#include "host/cameras/fault.h"
+#include "host/cameras/rigid_matrix.h"
 
 namespace sphc::host {
 namespace {
@@ -64,10 +64,9 @@ sphc_camera inMode(sphc_camera camera, const ImageMode &mode) {
 sphc_camera resized(const NamedCamera &named, ImageSize size, const std::string &role) {
   sphc_camera camera = named.camera;
   const bool known = camera.width != 0 && camera.height != 0;
-  const std::string option = "--" + role + "-size";
   if (size.width == 0 && !known)
-    throw std::runtime_error("camera " + shown(named.name) + ": the file does not say the image's size; give " +
-                             option + " WIDTHxHEIGHT");
+    throw std::runtime_error("camera " + shown(named.name) + ": the file does not say the image's size; give --" +
+                             role + "-size WIDTHxHEIGHT");
   if (size.width == 0) return camera;
   if (!known) {
     camera.width = size.width;
@@ -79,8 +78,8 @@ sphc_camera resized(const NamedCamera &named, ImageSize size, const std::string 
     if (mode.width == size.width && mode.height == size.height) return inMode(camera, mode);
     sizes += ", " + sizeText(mode.width, mode.height);
   }
-  throw std::runtime_error(option + " " + sizeText(size.width, size.height) + ": camera " + shown(named.name) +
-                           " is calibrated for " + sizes + "; choose one of them");
+  throw std::runtime_error(role + " images of " + sizeText(size.width, size.height) + ": camera " +
+                           shown(named.name) + " is calibrated for " + sizes + "; choose one of them");
 }
 
 sphc_rigid colorFromDepth(const std::vector<CalibrationPart> &parts, const JoinOptions &options,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/recording/calibration.h"
+#include "spherecloud/spherecloud.h"
 
 namespace sphc::host {
 

@@ -1,15 +1,13 @@
-// Azure Kinect's raw calibration.  Lengths are in units of the sensor's width and height from its corner; of the
-// distortion OpenCV's rational model; Rt is camera_from_rig in metres, the rig being the depth camera.
+#include "host/cameras/azure_kinect.h"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/calibration/fault.h"
-#include "host/calibration/formats.h"
-#include "host/calibration/intrinsics.h"
-#include "host/calibration/nearest_camera.h"
-#include "host/calibration/number_text.h"
-#include "host/calibration/rigid_matrix.h"
-#include "host/recording/calibration_json.h"
+#include "host/cameras/camera_models.h"
+#include "host/cameras/fault.h"
+#include "host/cameras/intrinsics.h"
+#include "host/cameras/number_text.h"
+#include "host/cameras/rigid_matrix.h"
 
 namespace sphc::host {
 namespace {
@@ -63,7 +61,7 @@ class Value {
   }
   uint32_t pixels() const {
     const double value = number();
-    if (!recording::isImageSide(value)) fail(recording::imageSideCure());
+    if (!isImageSide(value)) fail(imageSideCure());
     return static_cast<uint32_t>(value);
   }
   std::string text() const {
@@ -76,30 +74,6 @@ class Value {
   const Json &json_;
   std::string file_, path_;
 };
-
-// Rational6KT: as OpenCV's rational model but for half the tangential cross terms.
-Vector2 projectRational6kt(const sphc_camera &brown8, const Vector2 &ray) {
-  const double *k = brown8.params + 4;
-  const double x = ray.x(), y = ray.y(), r2 = x * x + y * y, p1 = k[2], p2 = k[3];
-  const double radial = (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
-  const double u = x * radial + p2 * (r2 + 2 * x * x) + p1 * x * y;
-  const double v = y * radial + p1 * (r2 + 2 * y * y) + p2 * x * y;
-  return {brown8.params[0] * u + brown8.params[2], brown8.params[1] * v + brown8.params[3]};
-}
-
-// The file's model is none of ours: the nearest of ours, over the image.
-void approximateRational6kt(NamedCamera *named) {
-  sphc_camera brown8 = named->camera;
-  brown8.model = SPHC_CAMERA_BROWN8;
-  brown8.param_count = 12;
-  std::vector<RaySample> samples = sampleCamera(brown8);
-  if (samples.empty()) return;
-  for (RaySample &sample : samples) sample.pixel_px = projectRational6kt(brown8, sample.ray);
-  const NearestCamera nearest = nearestCamera(samples, {SPHC_CAMERA_BROWN8, 12}, brown8);
-  named->camera = nearest.camera;
-  named->inexact = "its model Rational6KT is not OpenCV's; the nearest brown8 is off by up to " +
-                   briefText(nearest.largest_px) + " px";
-}
 
 NamedCamera readCamera(const Value &value, const char *name, const std::vector<ImageMode> &modes) {
   NamedCamera result;
@@ -120,7 +94,7 @@ NamedCamera readCamera(const Value &value, const char *name, const std::vector<I
       p[kFx] * width, p[kFy] * height, p[kCx] * width + kCornerCentered, p[kCy] * height + kCornerCentered,
       width,          height};
   result.camera = brownCamera(intrinsics, {p[kK1], p[kK2], p[kP1], p[kP2], p[kK3], p[kK4], p[kK5], p[kK6]});
-  if (rational && (p[kP1] != 0 || p[kP2] != 0)) approximateRational6kt(&result);
+  if (rational && (p[kP1] != 0 || p[kP2] != 0)) result.inexact = "its model Rational6KT is not OpenCV's";
   if ((width == 1024 && height == 1024) || (width == 4096 && height == 3072)) result.modes = modes;
 
   const Value rt = value.at("Rt");

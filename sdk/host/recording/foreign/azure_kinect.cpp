@@ -1,0 +1,201 @@
+// Recordings of k4arecorder and of what writes as it does: Matroska with a track each of colour and depth, and the
+// device's raw calibration attached.
+#include <charconv>
+#include <opencv2/imgproc.hpp>
+
+#include "host/cameras/azure_kinect.h"
+#include "host/cameras/join.h"
+#include "host/recording/calibration_json.h"
+#include "host/recording/encoded_image.h"
+#include "host/recording/failure.h"
+#include "host/recording/file_reader.h"
+#include "host/recording/foreign/matroska.h"
+#include "host/recording/foreign/opaque_pixels.h"
+#include "host/recording/foreign/ordered_images.h"
+#include "host/recording/recording.h"
+
+namespace sphc::recording {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *kCodec = "V_MS/VFW/FOURCC";
+constexpr size_t kMostCalibrationBytes = 1 << 20;
+constexpr uint64_t kMostImageBytes = uint64_t{1} << 28;
+
+enum class KinectColor { kMjpg, kNv12, kYuy2, kBgra };
+
+[[noreturn]] void failImage(const char *what) {
+  throw Failure(SPHC_E_DEVICE, std::string("is malformed (") + what + "); record it again");
+}
+
+void requireBytes(const Bytes &stored, uint64_t wanted) {
+  if (stored.size() != wanted) failImage("its bytes are not those of its size");
+}
+
+// Through OpenCV: of two bytes a pixel, or of one and a half.
+void decodeYuv(const Bytes &stored, bool is_nv12, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
+  const int width = static_cast<int>(camera.width), height = static_cast<int>(camera.height);
+  if (width % 2 != 0 || (is_nv12 && height % 2 != 0)) failImage("its size is odd");
+  requireBytes(stored, uint64_t{camera.width} * camera.height * (is_nv12 ? 3 : 4) / 2);
+  const cv::Mat yuv(is_nv12 ? height * 3 / 2 : height, width, is_nv12 ? CV_8UC1 : CV_8UC2,
+                    const_cast<uint8_t *>(stored.data()));
+  cv::Mat bgr;
+  cv::cvtColor(yuv, bgr, is_nv12 ? cv::COLOR_YUV2BGR_NV12 : cv::COLOR_YUV2BGR_YUY2);
+  packPixels({bgr.data, camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
+}
+
+void decodeBgra(const Bytes &stored, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
+  requireBytes(stored, uint64_t{camera.width} * camera.height * 4);
+  const Bytes colors = opaquePixels(stored.data(), camera.width, camera.height, camera.width * 4);
+  packPixels({colors.data(), camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
+}
+
+void decodeDepth(const Bytes &stored, const sphc_camera &camera, uint16_t *depth) {
+  const size_t count = size_t{camera.width} * camera.height;
+  requireBytes(stored, 2 * count);
+  for (size_t i = 0; i < count; ++i)
+    depth[i] = static_cast<uint16_t>(stored[2 * i] << 8 | stored[2 * i + 1]);  // b16g: big-endian
+}
+
+class KinectImages : public LayoutImages {
+ public:
+  KinectImages(const fs::path &path, KinectColor color, host::ImageSize color_size, host::ImageSize depth_size)
+      : file_(path), color_(color), color_size_(color_size), depth_size_(depth_size) {}
+
+  void read(sphc_stream stream, const RecordedImage &image, const sphc_camera &camera, sphc_format format,
+            uint8_t *pixels) override {
+    if (image.place.bytes > kMostImageBytes) failImage("its length");
+    stored_.resize(image.place.bytes);
+    file_.read(image.place.start, stored_.data(), stored_.size());
+    const bool is_color = stream == SPHC_STREAM_COLOR;
+    const host::ImageSize size = is_color ? color_size_ : depth_size_;
+    requireSize(size.width, size.height, camera, is_color);
+    if (!is_color) return decodeDepth(stored_, camera, reinterpret_cast<uint16_t *>(pixels));
+    switch (color_) {
+      case KinectColor::kMjpg:
+        return decodeImage(viewOf(stored_), ImageType::kJpeg, camera, format, pixels);
+      case KinectColor::kNv12:
+        return decodeYuv(stored_, true, camera, format, pixels);
+      case KinectColor::kYuy2:
+        return decodeYuv(stored_, false, camera, format, pixels);
+      case KinectColor::kBgra:
+        return decodeBgra(stored_, camera, format, pixels);
+    }
+  }
+
+ private:
+  File file_;
+  KinectColor color_;
+  host::ImageSize color_size_, depth_size_;
+  Bytes stored_;
+};
+
+const MatroskaTrack &trackOf(const MatroskaFile &file, const char *name, const char *option,
+                             const std::string &recording_name) {
+  for (const auto &[number, track] : file.tracks) {
+    if (track.name != name) continue;
+    if (track.is_encoded || track.codec != kCodec)
+      throw Failure(SPHC_E_UNSUPPORTED, recording_name + ": its track " + name +
+                                            " was encoded again; give the file as k4arecorder wrote it");
+    return track;
+  }
+  throw Failure(SPHC_E_UNSUPPORTED, recording_name + ": a Matroska file without a track " + name +
+                                        ", which is no recording of an Azure Kinect with colour and depth; record "
+                                        "with " +
+                                        option);
+}
+
+KinectColor colorOf(const MatroskaTrack &track, const std::string &recording_name) {
+  if (track.fourcc == "MJPG") return KinectColor::kMjpg;
+  if (track.fourcc == "NV12") return KinectColor::kNv12;
+  if (track.fourcc == "YUY2") return KinectColor::kYuy2;
+  if (track.fourcc == "BGRA") return KinectColor::kBgra;
+  throw Failure(SPHC_E_UNSUPPORTED, recording_name + ": colour is not MJPG, NV12, YUY2 or BGRA; record with " +
+                                        "\"k4arecorder -c 1080p\"");
+}
+
+// Blocks count from the first one; the tag says when that was by the device's clock.
+int64_t startOf(const MatroskaFile &file) {
+  const auto tag = file.tags.find("K4A_START_OFFSET_NS");
+  int64_t start_ns = 0;
+  if (tag != file.tags.end())
+    std::from_chars(tag->second.data(), tag->second.data() + tag->second.size(), start_ns);
+  return std::clamp<int64_t>(start_ns, 0, INT64_MAX / 4);
+}
+
+std::vector<RecordedImage> imagesOf(const MatroskaTrack &track, int64_t start_ns, uint64_t *lost_count) {
+  std::vector<RecordedImage> images;
+  images.reserve(track.blocks.size());
+  for (const MatroskaBlock &block : track.blocks) {
+    RecordedImage image = {};
+    image.time_ns = start_ns + block.time_ns;
+    image.place = {Kind::kNone, 0, block.start, block.bytes};
+    images.push_back(std::move(image));
+  }
+  return inOrderOfTime(std::move(images), lost_count);
+}
+
+std::string calibrationText(const fs::path &path, const MatroskaFile &file) {
+  const auto named = file.tags.find("K4A_CALIBRATION_FILE");
+  const auto attached =
+      file.attachments.find(named == file.tags.end() ? std::string("calibration.json") : named->second);
+  if (attached == file.attachments.end())
+    throw Failure(SPHC_E_ARGUMENT, "no calibration.json is attached; give a calibration file");
+  const uint64_t bytes = attached->second.end - attached->second.start;
+  if (bytes > kMostCalibrationBytes)
+    throw Failure(SPHC_E_ARGUMENT, "its calibration.json is over 1 MiB; give a calibration file");
+  std::string text(bytes, '\0');
+  File(path).read(attached->second.start, reinterpret_cast<uint8_t *>(text.data()), text.size());
+  return text;
+}
+
+sphc_rig rigOfKinect(const fs::path &path, const MatroskaFile &file, host::ImageSize color, host::ImageSize depth) {
+  const host::CalibrationPart part = host::readAzureKinect({"calibration.json", calibrationText(path, file)});
+  for (const host::NamedCamera &camera : part.cameras)
+    if (!camera.inexact.empty())
+      throw Failure(SPHC_E_ARGUMENT, "camera " + camera.name + ": " + camera.inexact +
+                                         "; take calibration.json out (\"mkvextract attachments\"), convert it by "
+                                         "\"spherecloud calibration --approximate\" and give that");
+  host::JoinOptions options;
+  options.color_size = color;
+  options.depth_size = depth;
+  options.depth_unit_m = 0.001;
+  return requireGood(host::joinParts({part}, options));
+}
+
+}  // namespace
+
+bool isMatroska(const fs::path &file) { return beginsWith(file, kMatroskaMagic); }
+
+Recording openAzureKinect(const fs::path &path) {
+  const MatroskaFile file = readMatroska(path);
+  const std::string name = shortPath(path.string());
+  const MatroskaTrack &color = trackOf(file, "COLOR", "\"k4arecorder -c 1080p\"", name);
+  const MatroskaTrack &depth = trackOf(file, "DEPTH", "\"k4arecorder -d NFOV_UNBINNED\"", name);
+  const host::ImageSize color_size = {color.width, color.height}, depth_size = {depth.width, depth.height};
+  const KinectColor coding = colorOf(color, name);
+  Recording recording;
+  recording.layout = Layout::kAzureKinect;
+  recording.path = path;
+  recording.lost_count = file.lost_count;
+  recording.is_cut = file.is_cut;
+  const int64_t start_ns = startOf(file);
+  recording.color = imagesOf(color, start_ns, &recording.lost_count);
+  recording.depth = imagesOf(depth, start_ns, &recording.lost_count);
+  for (const auto &[images, track] : {std::pair(&recording.color, "COLOR"), std::pair(&recording.depth, "DEPTH")})
+    if (images->empty())
+      throw Failure(SPHC_E_DEVICE, name + ": its track " + track + " has no images; copy the file again");
+  recording.images = [path, coding, color_size, depth_size] {
+    return std::make_unique<KinectImages>(path, coding, color_size, depth_size);
+  };
+  try {
+    recording.calibration = rigOfKinect(path, file, color_size, depth_size);
+  } catch (const std::runtime_error &failure) {  // told only where nobody gives a calibration file
+    recording.calibration_fault = name + ": " + failure.what();
+  }
+  return recording;
+}
+
+}  // namespace sphc::recording

@@ -1,0 +1,281 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "host/recording/recording_reader.h"
+#include "tests/contract/temp_folder.h"
+#include "tests/support/matroska.h"
+#include "tests/support/refusal.h"
+#include "tests/unit/host/calibration/golden_files.h"
+
+namespace sphc::contract {
+namespace {
+
+using recording::RecordingReader;
+using test::KinectFile;
+using test::KinectTrack;
+using test::refusal;
+using ::testing::HasSubstr;
+
+// The smallest mode of each camera.
+constexpr uint32_t kColorWidth = 1280, kColorHeight = 720, kDepthWidth = 320, kDepthHeight = 288;
+constexpr size_t kColorPixels = size_t{kColorWidth} * kColorHeight,
+                 kDepthPixels = size_t{kDepthWidth} * kDepthHeight;
+constexpr int kColor = 1, kDepth = 2;
+constexpr int64_t kKinectStartNs = 7000000000;
+
+std::string repeated(const std::string &bytes, size_t count) {
+  std::string all;
+  all.reserve(bytes.size() * count);
+  for (size_t i = 0; i < count; ++i) all += bytes;
+  return all;
+}
+std::string depthImage(uint16_t depth_mm) { return repeated(test::bigEndian(depth_mm, 2), kDepthPixels); }
+// A reddish grey, so that channels cannot be taken for each other.
+std::string bgraImage(uint8_t value) {
+  const char bgra[] = {static_cast<char>(value), static_cast<char>(value + 5), static_cast<char>(value + 90), 7};
+  return repeated({bgra, 4}, kColorPixels);
+}
+std::string jpegImage(uint8_t value) {
+  const cv::Mat image(kColorHeight, kColorWidth, CV_8UC3, cv::Scalar(value, value + 5, value + 90));
+  std::vector<uint8_t> bytes;
+  cv::imencode(".jpg", image, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+// Y 110, U 120, V 180: by BT.601 red 193, green 70, blue 93.
+std::string nv12Image() {
+  return std::string(kColorPixels, '\x6E') + repeated(std::string("\x78\xB4", 2), kColorPixels / 4);
+}
+std::string yuy2Image() { return repeated(std::string("\x6E\x78\x6E\xB4", 4), kColorPixels / 2); }
+
+class AzureKinect : public ::testing::Test {
+ protected:
+  void addTracks(const std::string &fourcc) {
+    file_.addTrack({"COLOR", fourcc, kColorWidth, kColorHeight});
+    file_.addTrack({"DEPTH", "b16g", kDepthWidth, kDepthHeight});
+    file_.addTrack({"IR", "b16g", kDepthWidth, kDepthHeight});
+    file_.addTrack({"IMU", "", 0, 0, "S_K4A/IMU"});
+  }
+  void addEnd() {
+    file_.attach("calibration.json", host::kAzureKinectFile);
+    file_.tag("K4A_DEPTH_MODE", "NFOV_2X2BINNED");
+    file_.tag("K4A_CALIBRATION_FILE", "calibration.json");
+    file_.tag("K4A_START_OFFSET_NS", std::to_string(kKinectStartNs));
+  }
+  // Two frames in two clusters, depth a millisecond after colour.
+  void addFrames(const std::vector<std::string> &color, bool in_group = false) {
+    for (uint16_t i = 0; i < color.size(); ++i) {
+      file_.beginCluster(33333u * i + 100);
+      file_.addBlock(kDepth, 900, depthImage(static_cast<uint16_t>(1000 + i)), in_group);
+      file_.addBlock(kColor, -100, color[i], in_group);
+      file_.addBlock(3, 0, depthImage(5));
+      file_.addBlock(4, 1, std::string(40, 'i'));
+    }
+  }
+  std::string write(const std::string &bytes) {
+    folder_.write("walk.mkv", bytes);
+    return folder_ / "walk.mkv";
+  }
+  std::string write() { return write(file_.bytes()); }
+  std::string refusalOfOpen() {
+    const std::string path = write();
+    return refusal([&] { RecordingReader reader(path); });
+  }
+
+  KinectFile file_;
+  TempFolder folder_;
+};
+
+void expectKinectFrames(RecordingReader &reader) {
+  ASSERT_EQ(reader.frameCount(), 2u);
+  EXPECT_FALSE(reader.worldFromCamera(0)) << "it knows no poses";
+  for (uint32_t i = 0; i < 2; ++i) {
+    const sphc_localizer_frame frame = reader.read(i);
+    EXPECT_EQ(frame.sequence, i);
+    EXPECT_EQ(frame.color_time_ns, kKinectStartNs + 33333000 * i) << "by the device's clock";
+    EXPECT_EQ(frame.depth_time_ns, frame.color_time_ns + 1000000);
+    EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[kDepthPixels - 1], 1000 + i);
+  }
+}
+
+void expectPixel(RecordingReader &reader, uint32_t index, int red, int green, int blue) {
+  const sphc_localizer_frame frame = reader.read(index);
+  ASSERT_EQ(frame.color.format, SPHC_FORMAT_BGR8);
+  const uint8_t *last = static_cast<const uint8_t *>(frame.color.data) + 3 * (kColorPixels - 1);
+  EXPECT_NEAR(last[2], red, 2);
+  EXPECT_NEAR(last[1], green, 2);
+  EXPECT_NEAR(last[0], blue, 2);
+}
+
+TEST_F(AzureKinect, ColourAsMjpg) {
+  addTracks("MJPG");
+  addFrames({jpegImage(20), jpegImage(60)});
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+  expectPixel(reader, 0, 110, 25, 20);
+  expectPixel(reader, 1, 150, 65, 60);
+  EXPECT_FALSE(reader.recording().is_cut);
+  EXPECT_EQ(reader.recording().lost_count, 0u);
+}
+
+TEST_F(AzureKinect, ColourAsBgra) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)});
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+  expectPixel(reader, 1, 150, 65, 60);
+}
+
+TEST_F(AzureKinect, ColourAsNv12) {
+  addTracks("NV12");
+  addFrames({nv12Image(), nv12Image()});
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+  expectPixel(reader, 0, 193, 70, 93);
+}
+
+TEST_F(AzureKinect, ColourAsYuy2) {
+  addTracks("YUY2");
+  addFrames({yuy2Image(), yuy2Image()});
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+  expectPixel(reader, 0, 193, 70, 93);
+}
+
+// The attached calibration is of the whole sensors; the tracks say which mode was recorded.
+TEST_F(AzureKinect, CalibrationOfTheModeThatWasRecorded) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)});
+  addEnd();
+  RecordingReader reader(write());
+  const sphc_rig &rig = reader.calibration();
+  EXPECT_EQ(rig.color_camera.width, kColorWidth);
+  EXPECT_EQ(rig.color_camera.model, SPHC_CAMERA_BROWN8);
+  EXPECT_NEAR(rig.color_camera.params[1], 0.8 * 960, 1e-9);
+  EXPECT_NEAR(rig.color_camera.params[3], 0.48 * 960 - 120, 1e-9);
+  EXPECT_EQ(rig.depth_camera.height, kDepthHeight);
+  EXPECT_NEAR(rig.depth_camera.params[2], 0.51 * 512 - 96, 1e-9);
+  EXPECT_NEAR(rig.color_from_depth.t_m[0], -0.032, 1e-9);
+  EXPECT_EQ(rig.depth_unit_m, 0.001);
+}
+
+TEST_F(AzureKinect, BlocksInGroups) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)}, true);
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+}
+
+TEST_F(AzureKinect, SizesThatAreNotSaid) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)});
+  addEnd();
+  RecordingReader reader(write(file_.bytes(true)));
+  expectKinectFrames(reader);
+  EXPECT_FALSE(reader.recording().is_cut);
+}
+
+TEST_F(AzureKinect, FramesOutOfOrderAreSorted) {
+  addTracks("BGRA");
+  for (const int late : {1, 0}) {
+    file_.beginCluster(33333u * late);
+    file_.addBlock(kColor, 0, bgraImage(static_cast<uint8_t>(20 + 40 * late)));
+    file_.addBlock(kDepth, 1000, depthImage(static_cast<uint16_t>(1000 + late)));
+  }
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+  expectPixel(reader, 1, 150, 65, 60);
+}
+
+TEST_F(AzureKinect, CutFileGivesWhatIsWhole) {
+  file_.tag("K4A_START_OFFSET_NS", "5");
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)});
+  const std::string bytes = file_.bytes();
+  const std::string path = write(bytes.substr(0, bytes.size() - 2 * kDepthPixels * 2));  // in the last colour image
+  const std::string calibration = folder_ / "rig.json";
+  folder_.write("rig.json", R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+    "depth_unit_m": 0.001,
+    "color_camera": {"model": "pinhole", "width": 1280, "height": 720, "params": [600, 600, 640, 360]},
+    "depth_camera": {"model": "pinhole", "width": 320, "height": 288, "params": [250, 250, 160, 144]},
+    "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}})");
+  recording::ReaderOptions options;
+  options.calibration = calibration;
+  RecordingReader reader(path, options);
+  EXPECT_TRUE(reader.recording().is_cut);
+  ASSERT_EQ(reader.frameCount(), 1u) << "tags and calibration come last";
+  EXPECT_EQ(reader.read(0).color_time_ns, 0);
+  EXPECT_THAT(refusal([&] { RecordingReader again(path); }), HasSubstr("no calibration.json is attached"));
+}
+
+TEST_F(AzureKinect, BlocksOfSeveralFramesAreCountedAsLost) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)});
+  file_.addBlock(kColor, 500, bgraImage(99), false, 0x02);
+  file_.addBlock(9, 500, "a track that is not there");
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+  EXPECT_EQ(reader.recording().lost_count, 2u);
+}
+
+TEST_F(AzureKinect, WhatIsMissingIsNamed) {
+  file_.addTrack({"COLOR", "MJPG", kColorWidth, kColorHeight});
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("without a track DEPTH"));
+  file_.addTrack({"DEPTH", "b16g", kDepthWidth, kDepthHeight});
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("track COLOR has no images"));
+  folder_.write("walk.mkv", test::ebml(0x1A45DFA3, ""));
+  EXPECT_THAT(refusal([&] { RecordingReader reader(folder_ / "walk.mkv"); }), HasSubstr("is no Matroska file"));
+}
+
+TEST_F(AzureKinect, OtherCodingsAreRefused) {
+  file_.addTrack({"COLOR", "H264", kColorWidth, kColorHeight});
+  file_.addTrack({"DEPTH", "b16g", kDepthWidth, kDepthHeight});
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("colour is not MJPG"));
+  file_ = {};
+  file_.addTrack({"COLOR", "", kColorWidth, kColorHeight, "V_MPEG4/ISO/AVC"});
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("track COLOR was encoded again"));
+  file_ = {};
+  file_.addTrack({"COLOR", "MJPG", kColorWidth, kColorHeight, "V_MS/VFW/FOURCC", test::ebml(0x6D80, "")});
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("track COLOR was encoded again"));
+}
+
+TEST_F(AzureKinect, ImagesOfAnotherLengthAreRefused) {
+  addTracks("BGRA");
+  file_.beginCluster(0);
+  file_.addBlock(kColor, 0, "short");
+  file_.addBlock(kDepth, 0, depthImage(1));
+  addEnd();
+  RecordingReader reader(write());
+  EXPECT_THAT(refusal([&] { reader.read(0); }), HasSubstr("its bytes are not those of its size"));
+}
+
+// Of the one lens that is none of ours; by hand the nearest can be taken.
+TEST_F(AzureKinect, LensThatIsNoneOfOursIsRefused) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20)});
+  std::string calibration = host::kAzureKinectFile;
+  calibration.replace(calibration.find("BrownConrady"), 12, "Rational6KT");
+  file_.attach("calibration.json", calibration);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("Rational6KT is not OpenCV's; take calibration.json out"));
+}
+
+TEST_F(AzureKinect, SizesThatTheSensorDoesNotHaveAreRefused) {
+  file_.addTrack({"COLOR", "BGRA", 640, 480});
+  file_.addTrack({"DEPTH", "b16g", kDepthWidth, kDepthHeight});
+  file_.beginCluster(0);
+  file_.addBlock(kColor, 0, "x");
+  file_.addBlock(kDepth, 0, "x");
+  addEnd();
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("color images of 640x480: camera 'color' is calibrated for 4096x3072"));
+}
+
+}  // namespace
+}  // namespace sphc::contract
