@@ -85,6 +85,9 @@ std::vector<std::vector<uint8_t>> ros1Seeds() {
     bag.add(stream + "/tf/0", "geometry_msgs/Transform", 5, transform);
     Writer(unit).put(0.0005f);
     bag.add(stream.substr(0, 18) + "/option/Depth_Units/value", "std_msgs/Float32", 5, unit);
+    bag.add("/device_0/sensor_2/Accel_0/imu/data", "sensor_msgs/Imu", 5,
+            test::rosImu<Writer>(5, "0", {0, -9.8, 0}));
+    bag.add("/device_0/sensor_2/Accel_0/tf/0", "geometry_msgs/Transform", 5, transform);
     for (int64_t i = 1; i < 3; ++i)
       bag.add(stream + "/image/data", "sensor_msgs/Image", 5,
               test::rosImage<Writer>(1000000000 * i, "1", kSide, kSide, is_depth ? "mono16" : "bgr8",
@@ -114,6 +117,7 @@ std::vector<std::vector<uint8_t>> ros2Seeds() {
     bag.add("/color/image_raw", type + "Image", 5, test::rosImage(time_ns, "color", kSide, kSide, "rgb8", color));
     bag.add("/depth/image_raw", type + "Image", 5,
             test::rosImage(time_ns, "depth", kSide, kSide, i == 1 ? "16UC1" : "32FC1", depth));
+    bag.add("/imu", type + "Imu", 5, test::rosImu(time_ns, "base", {0, 0, 9.8}));
     bag.add("/odom", "nav_msgs/msg/Odometry", 5, test::rosOdometry(time_ns, {"odom", "base", same}));
     bag.add("/tf", "tf2_msgs/msg/TFMessage", 5, test::rosTransforms(time_ns, {{"map", "odom", same}}));
   }

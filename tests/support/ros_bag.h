@@ -163,6 +163,19 @@ Bytes rosTransforms(int64_t time_ns, const std::vector<NamedTransform> &transfor
   return message;
 }
 
+// `is_measured`: by the covariance of the acceleration, whose first number ROS has for it.
+template <typename Writer = CdrWriter>
+Bytes rosImu(int64_t time_ns, const std::string &frame, const double (&felt_mps2)[3], bool is_measured = true) {
+  Bytes message;
+  Writer writer(message);
+  putRosHeader(writer, time_ns, frame);
+  for (int i = 0; i < 4 + 9 + 3 + 9; ++i) writer.put(0.5);
+  for (const double each : felt_mps2) writer.put(each);
+  writer.put(is_measured ? 0.0 : -1.0);
+  for (int i = 1; i < 9; ++i) writer.put(0.0);
+  return message;
+}
+
 // Without the covariances and the twist, which nobody reads.
 template <typename Writer = CdrWriter>
 Bytes rosOdometry(int64_t time_ns, const NamedTransform &pose) {

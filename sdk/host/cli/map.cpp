@@ -14,6 +14,7 @@
 #include "host/cli/common/progress.h"
 #include "host/cli/map_report.h"
 #include "host/import/model_file.h"
+#include "host/import/upright.h"
 #include "host/mapping/calibration_fit.h"
 #include "host/recording/calibration_json.h"
 #include "host/report/trajectory.h"
@@ -163,6 +164,26 @@ void takePoses(MapOutcome *outcome) {
       outcome->recordings[follower.recording].poses[follower.index] = *keyframe * follower.keyframe_from_frame;
 }
 
+// Turns the world so that up is +z, where the recordings say what that is.
+void standUpright(const MapOptions &options, MapOutcome *outcome) {
+  if (options.trust.use == PoseUse::kApproximate || options.trust.keeps_axes) return;  // the world is given
+  std::vector<FeltPath> paths;
+  for (const MappedRecording &recording : outcome->recordings) {
+    FeltPath path;
+    path.felt = recording.reader->recording().accelerations;
+    for (uint32_t i = 0; i < recording.poses.size(); ++i)
+      if (recording.poses[i])
+        path.world_from_camera.add(recording.reader->colorOf(i).time_ns, rigidToC(*recording.poses[i]));
+    paths.push_back(std::move(path));
+  }
+  outcome->vertical = measureVertical(paths);
+  if (!outcome->vertical.isKnown()) return;
+  const Rigid upright_from_world = {uprightAxes(-outcome->vertical.up_world), Vector3::Zero()};
+  for (std::optional<Rigid> &pose : outcome->mapped.world_from_camera)
+    if (pose) pose = upright_from_world * *pose;
+  takePoses(outcome);
+}
+
 void score(MappedRecording *recording) {
   std::vector<PosePair> pairs;
   double squared_m2 = 0;
@@ -218,6 +239,7 @@ MapOutcome mapRecordings(const MapOptions &options) {
               [&](const std::string &what, uint32_t done, uint32_t total) { steps.show(what, done, total); });
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   takePoses(&outcome);
+  standUpright(options, &outcome);
   if (options.score)
     for (MappedRecording &recording : outcome.recordings) score(&recording);
   outcome.processor_seconds = processorSeconds() - processor_start;

@@ -232,6 +232,9 @@ std::vector<Row> mapTable(const MapOutcome &outcome) {
     rows.push_back({"with the poses of the recording", fixed(told->ray_sigmas, 2),
                     "sigma, of keypoints; of depths " + fixed(told->depth_sigmas, 2) + ", " +
                         fixed(1000 * told->depth_off_m, 1) + " mm: the same sightings, points adjusted"});
+  if (outcome.vertical.isKnown())
+    rows.push_back({"vertical", fixed(outcome.vertical.sigma_rad * 180 / kPi, 2) + " deg",
+                    "1 sigma, by " + count(outcome.vertical.accelerations) + " accelerations; up is +z"});
   if (outcome.use != PoseUse::kNone)
     rows.push_back({toldWord(outcome), count(m.told), count(m.told_wrong) + " of them off by more than 4 sigma"});
   if (outcome.recordings.size() > 1)
@@ -249,6 +252,8 @@ void warnOfMap(const MapOutcome &outcome, const Console &console) {
   warnOfStretches(outcome, clock, console);
   warnOfResiduals(outcome, console);
   warnOfPoses(outcome, console);
+  if (!outcome.vertical.doubt.empty())
+    console.warn("note: the accelerations do not tell the vertical: " + outcome.vertical.doubt);
   warnOfScale(outcome, console);
   warnOfParts(outcome, clock, console);
   warnOfRecordings(outcome, console);
@@ -274,6 +279,10 @@ nlohmann::ordered_json mapJson(const MapOutcome &outcome) {
       {"residuals", residualsJson(m.residuals)},
       {"depth_bias", {{"offset_m", m.depth.mean[0]}, {"slope", m.depth.mean[1]}, {"mid_m", m.depth.mid_m}}}};
   if (m.residuals_of_told) json["residuals_of_poses"] = residualsJson(*m.residuals_of_told);
+  if (outcome.vertical.accelerations > 0)
+    json["vertical"] = {{"accelerations", outcome.vertical.accelerations},
+                        {"sigma_rad", outcome.vertical.sigma_rad},
+                        {"used", outcome.vertical.isKnown()}};
   for (const std::vector<Stretch> &part : outcome.stretches.apart) json["apart"].push_back(clock.jsonOf(part));
   if (outcome.use != PoseUse::kNone)
     json["poses"] = {{"told", m.told}, {"off", m.told_wrong}, {"used", !m.is_unbelieved}};

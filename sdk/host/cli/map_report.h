@@ -5,6 +5,7 @@
 #include "host/cli/common/console.h"
 #include "host/cli/common/point_source.h"
 #include "host/mapping/stretches.h"
+#include "host/mapping/vertical.h"
 #include "host/mapping/walk_mapper.h"
 #include "host/mapping/walk_times.h"
 #include "host/report/table.h"
@@ -30,6 +31,7 @@ struct MapOutcome {
   MappedWalk mapped;
   Stretches stretches;
   std::vector<MappedRecording> recordings;
+  MeasuredVertical vertical;  // of recordings with inertial data
   ImportedPoints import;
   double seconds = 0, processor_seconds = 0;
 

@@ -9,6 +9,7 @@
 #include "host/import/colmap_world.h"
 #include "host/import/descriptors.h"
 #include "host/import/near_duplicates.h"
+#include "host/import/upright.h"
 #include "runtime/geometry/camera.h"
 
 namespace sphc::host {

@@ -1,6 +1,5 @@
 #include "host/import/colmap_world.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -113,10 +112,6 @@ Vector3 downByCameras(const ColmapModel &model) {
   std::vector<Matrix3> camera_from_model;
   for (const auto &[id, image] : model.images) camera_from_model.push_back(image.camera_from_model.rotation);
   return downByCameras(camera_from_model);
-}
-
-Matrix3 uprightAxes(const Vector3 &down) {
-  return Eigen::Quaterniond::FromTwoVectors(down, -Vector3::UnitZ()).toRotationMatrix();
 }
 
 ColmapScale scaleByDepth(const ColmapModel &model, const std::string &depth, const std::string &calibration) {

@@ -7,8 +7,6 @@ namespace sphc::host {
 
 // Down in the model's world when its cameras were held level, more or less (upright.h).
 Vector3 downByCameras(const ColmapModel &model);
-// The shortest rotation that turns `down` to -z.
-Matrix3 uprightAxes(const Vector3 &down);
 
 struct ColmapScale {
   double metres_per_unit = 0, spread = 0;  // relative, 1 sigma of an image's own scale

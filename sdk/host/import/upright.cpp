@@ -1,6 +1,7 @@
 #include "host/import/upright.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 namespace sphc::host {
 namespace {
@@ -19,6 +20,10 @@ Vector3 downByCameras(const std::vector<Matrix3> &camera_from_world) {
   }
   const Vector3 axis = Eigen::SelfAdjointEigenSolver<Matrix3>(across).eigenvectors().col(0);
   return axis.dot(down) < 0 ? Vector3(-axis) : axis;
+}
+
+Matrix3 uprightAxes(const Vector3 &down) {
+  return Eigen::Quaterniond::FromTwoVectors(down, -Vector3::UnitZ()).toRotationMatrix();
 }
 
 }  // namespace sphc::host

@@ -52,12 +52,19 @@ struct RecordedImage {
   MessagePlace amplitude = {};
 };
 
+// What an accelerometer felt, in the axes of the colour camera: at rest 9.81 m/s^2 upwards.
+struct TimedAcceleration {
+  int64_t time_ns;
+  double felt_mps2[3];
+};
+
 struct Recording {
   Layout layout = Layout::kTum;
   std::filesystem::path path;        // of the folder or the file
   std::vector<RecordedImage> color;  // times increase
   std::vector<RecordedImage> depth;  // times increase
   PoseTrack poses;
+  std::vector<TimedAcceleration> accelerations;  // times do not decrease; empty where there is none
   uint32_t bad_pose_count = 0;
   uint32_t backward_count = 0;  // images left out, whose time is not after that of the image before
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "host/recording/recording_reader.h"
 #include "tests/contract/temp_folder.h"
 #include "tests/support/refusal.h"
@@ -185,6 +187,28 @@ TEST_F(RealSense, WhatIsNotReadIsNamed) {
            test::rosImage<Ros1Writer>(kRos1StartNs, "1", kRos1Side, kRos1Side, "rgb8",
                                       Bytes(kRos1Side * kRos1Side * 3)));
   EXPECT_THAT(refusalOfOpen(), HasSubstr("Color_1/image/data may be the colour"));
+}
+
+// The accelerometer's axes are those of its stream; the gyroscope's messages have none.
+TEST_F(RealSense, AccelerationsInTheColourCamerasAxes) {
+  const std::string accelerometer = "/device_0/sensor_2/Accel_0", gyroscope = "/device_0/sensor_2/Gyro_0";
+  Bytes transform;
+  Ros1Writer writer(transform);
+  test::putRosPose(writer, {{std::sqrt(0.5), 0, 0, std::sqrt(0.5)}, {0.1, 0, 0}});  // a quarter turn about z
+  bag_.add(accelerometer + "/tf/0", kRos1Rigid, 0, transform);
+  bag_.add(gyroscope + "/tf/0", kRos1Rigid, 0, transform);
+  for (uint32_t i = 0; i < 3; ++i) {
+    bag_.add(accelerometer + "/imu/data", "sensor_msgs/Imu", 0,
+             test::rosImu<Ros1Writer>(kRos1StartNs + 5 * i, "0", {9.5, 1, 2}));
+    bag_.add(gyroscope + "/imu/data", "sensor_msgs/Imu", 0, test::rosImu<Ros1Writer>(1, "0", {0, 0, 0}));
+  }
+  RecordingReader reader(write());
+  const std::vector<recording::TimedAcceleration> &felt = reader.recording().accelerations;
+  ASSERT_EQ(felt.size(), 3u);
+  EXPECT_EQ(felt[2].time_ns, kRos1StartNs + 10);
+  EXPECT_NEAR(felt[0].felt_mps2[0], 1, 1e-12);
+  EXPECT_NEAR(felt[0].felt_mps2[1], -9.5, 1e-12) << "upwards";
+  EXPECT_NEAR(felt[0].felt_mps2[2], 2, 1e-12);
 }
 
 // By `rosbag record`: frames in the headers, transforms, odometry.

@@ -340,5 +340,28 @@ TEST_F(Ros2, AnEncodingThatIsNotReadIsNamed) {
   EXPECT_THAT(refusal([&] { reader.read(0); }), HasSubstr("is of the encoding \"bayer_rggb8\"; rgb8, bgr8"));
 }
 
+// Of several inertial sensors the one that says most; one that is not fixed to the camera says nothing of it.
+TEST_F(Ros2, AccelerationsOfTheBodyThatHasTheCamera) {
+  addImagesAndCameras();
+  addBody();
+  addOdometry();
+  for (int64_t i = 4; i >= 0; --i) {  // in no order
+    bag_.add("/imu", "sensor_msgs/msg/Imu", kStartNs, test::rosImu(kStartNs + i, "base_link", {1, 2, 9.5}));
+    if (i < 3)
+      bag_.add("/imu_slow", "sensor_msgs/msg/Imu", kStartNs, test::rosImu(kStartNs + i, "base_link", {5, 5, 5}));
+  }
+  for (int64_t i = 0; i < 9; ++i) {
+    bag_.add("/arm/imu", "sensor_msgs/msg/Imu", kStartNs, test::rosImu(kStartNs + i, "arm", {7, 7, 7}));
+    bag_.add("/imu", "sensor_msgs/msg/Imu", kStartNs, test::rosImu(kStartNs + i, "base_link", {7, 7, 7}, false));
+  }
+  RecordingReader reader(write());
+  const std::vector<recording::TimedAcceleration> &felt = reader.recording().accelerations;
+  ASSERT_EQ(felt.size(), 5u);
+  for (int64_t i = 0; i < 5; ++i) EXPECT_EQ(felt[i].time_ns, kStartNs + i);
+  EXPECT_NEAR(felt[0].felt_mps2[0], -2, 1e-12) << "left is -x";
+  EXPECT_NEAR(felt[0].felt_mps2[1], -9.5, 1e-12) << "up is -y";
+  EXPECT_NEAR(felt[0].felt_mps2[2], 1, 1e-12) << "forward is z";
+}
+
 }  // namespace
 }  // namespace sphc::contract

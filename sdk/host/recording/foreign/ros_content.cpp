@@ -74,6 +74,15 @@ void addRealsenseTransform(const BagMessage &message, FrameTree *frames) {
   frames->addFixed(reference, realsenseStreamOf(message.channel.topic), reference_from_stream);
 }
 
+void addAcceleration(const BagMessage &message, RosContent *content) {
+  RosAcceleration felt;
+  if (!readRosAcceleration(contentOf(message), felt)) return;
+  RosInertialTopic &topic = content->inertial[message.channel.topic];
+  if (topic.accelerations.empty()) topic.frame = frameOf(message.channel.topic, felt.header);
+  const double *a = felt.felt_mps2;
+  topic.accelerations.push_back({timeOfRos(felt.header, message.log_ns), {a[0], a[1], a[2]}});
+}
+
 void addOption(const BagMessage &message, RosContent *content) {
   if (!isRealsenseDepthUnit(message.channel.topic)) return;
   RosReader reader(contentOf(message));
@@ -90,6 +99,7 @@ void addMessage(const BagMessage &message, RosBag *bag) {
   if (type == "tf2_msgs/TFMessage" || type == "tf/tfMessage") addTransforms(message, false, &bag->frames);
   if (type == "nav_msgs/Odometry") addTransforms(message, true, &bag->frames);
   if (type == "geometry_msgs/Transform") addRealsenseTransform(message, &bag->frames);
+  if (type == "sensor_msgs/Imu") addAcceleration(message, &bag->content);
   if (type == "std_msgs/Float32") addOption(message, &bag->content);
 }
 

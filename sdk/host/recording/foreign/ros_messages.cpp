@@ -1,6 +1,7 @@
 #include "host/recording/foreign/ros_messages.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/cameras/rigid_matrix.h"
 #include "host/recording/pose_track.h"
@@ -97,6 +98,22 @@ bool readRosOdometry(const RosMessage &message, RosTransform &transform) {
   transform.header = takeHeader(reader);
   transform.child = takeFrame(reader);
   return takeRigid(reader, transform.parent_from_child) && reader.ok();
+}
+
+bool readRosAcceleration(const RosMessage &message, RosAcceleration &acceleration) {
+  RosReader reader(message);
+  acceleration.header = takeHeader(reader);
+  double orientation[4], turning[3], covariance[9];
+  takeDoubles(reader, orientation);
+  takeDoubles(reader, covariance);
+  takeDoubles(reader, turning);
+  takeDoubles(reader, covariance);
+  takeDoubles(reader, acceleration.felt_mps2);
+  takeDoubles(reader, covariance);
+  const bool is_measured = covariance[0] != -1;  // ROS's word for what a sensor does not have
+  const double *a = acceleration.felt_mps2;
+  const double norm2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  return reader.ok() && is_measured && norm2 > 0 && std::isfinite(norm2);
 }
 
 bool readRosRigid(const RosMessage &message, sphc_rigid &rigid) {

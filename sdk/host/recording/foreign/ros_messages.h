@@ -44,6 +44,11 @@ struct RosTransform {
   sphc_rigid parent_from_child;
 };
 
+struct RosAcceleration {
+  RosHeader header;
+  double felt_mps2[3];
+};
+
 // False when malformed, of big-endian bytes, or a transform's numbers are none.
 bool readRosImage(const RosMessage &message, RosImage &image);
 bool readRosCompressedImage(const RosMessage &message, RosCompressedImage &image);
@@ -52,6 +57,8 @@ bool readRosCameraInfo(const RosMessage &message, RosCameraInfo &info);
 bool readRosTransforms(const RosMessage &message, std::vector<RosTransform> &transforms);
 // nav_msgs/Odometry: its pose.
 bool readRosOdometry(const RosMessage &message, RosTransform &transform);
+// sensor_msgs/Imu: its acceleration.  False too where it says that it has none, or is a gyroscope's alone.
+bool readRosAcceleration(const RosMessage &message, RosAcceleration &acceleration);
 // geometry_msgs/Transform: parent_from_child of frames that it does not name.
 bool readRosRigid(const RosMessage &message, sphc_rigid &rigid);
 

@@ -73,6 +73,24 @@ sphc_rig rigOf(const RosBag &bag, const RosImageTopic &color, const RosImageTopi
   return requireGood(rig);
 }
 
+// Of the inertial sensor that says most and stands still against the camera.
+std::vector<TimedAcceleration> accelerationsOf(const RosBag &bag, const std::string &color_frame) {
+  std::vector<TimedAcceleration> chosen;
+  for (const auto &[name, topic] : bag.content.inertial) {
+    std::optional<sphc_rigid> color_from_sensor = bag.frames.fixed(color_frame, topic.frame);
+    if (!color_from_sensor || topic.accelerations.size() <= chosen.size()) continue;
+    std::fill_n(color_from_sensor->t_m, 3, 0.0);  // a direction
+    chosen = topic.accelerations;
+    for (TimedAcceleration &each : chosen) {
+      const TimedAcceleration felt = each;
+      sphc_rigid_apply(&*color_from_sensor, felt.felt_mps2, each.felt_mps2);
+    }
+  }
+  std::stable_sort(chosen.begin(), chosen.end(),
+                   [](const TimedAcceleration &a, const TimedAcceleration &b) { return a.time_ns < b.time_ns; });
+  return chosen;
+}
+
 Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   const std::string name = shortPath(path.string());
   const RosImageTopic &color = chooseColor(bag.content, name);
@@ -83,6 +101,7 @@ Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   recording.color = imagesOf(color, &recording.lost_count);
   recording.depth = imagesOf(depth, &recording.lost_count);
   recording.poses = bag.frames.track(color.frame);
+  recording.accelerations = accelerationsOf(bag, color.frame);
   recording.bad_chunk_count = bag.walk.bad_chunk_count;
   recording.is_cut = bag.walk.is_cut;
   recording.images = [path, chunks = std::make_shared<const BagChunks>(bag.walk.chunks),

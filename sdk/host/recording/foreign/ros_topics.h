@@ -7,6 +7,7 @@
 
 #include "host/recording/foreign/bag_file.h"
 #include "host/recording/foreign/ros_messages.h"
+#include "host/recording/recording.h"
 
 namespace sphc::recording {
 
@@ -30,11 +31,18 @@ struct RosImageTopic {
   std::vector<RosStamped> images;
 };
 
+// A topic of inertial data.
+struct RosInertialTopic {
+  std::string frame;
+  std::vector<TimedAcceleration> accelerations;  // in the axes of its frame
+};
+
 // What a ROS recording holds that is read.
 struct RosContent {
-  std::map<std::string, RosImageTopic> images;  // by topic
-  std::map<std::string, RosCameraInfo> infos;   // likewise, the first of each
-  std::map<std::string, float> depth_unit_m;    // by sensor, of a RealSense
+  std::map<std::string, RosImageTopic> images;       // by topic
+  std::map<std::string, RosCameraInfo> infos;        // likewise, the first of each
+  std::map<std::string, RosInertialTopic> inertial;  // likewise
+  std::map<std::string, float> depth_unit_m;         // by sensor, of a RealSense
 };
 
 // Throw Failure (ARGUMENT) that begins with `file`, where there is none or where several are as good.

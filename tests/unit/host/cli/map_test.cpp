@@ -13,7 +13,10 @@
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
 #include "host/recording/calibration_json.h"
+#include "host/recording/recording_reader.h"
+#include "runtime/geometry/rigid.h"
 #include "tests/contract/tiny_recording.h"
+#include "tests/support/ros_bag.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -195,6 +198,68 @@ TEST_F(MapTest, PosesComeFromAFileAndAreCheckedAgainstTheImages) {
               HasSubstr("no pose is of the time of a frame"));
   EXPECT_EQ(runCommand(map + " --poses-from " + at("late.tum")).exit_code, kExitUsage);
   EXPECT_EQ(runCommand(map + " --upright").exit_code, kExitUsage);
+}
+
+// The walk as a ROS bag with an accelerometer, of which the transform may be wrong by a quarter turn about the
+// view.
+std::string bagOfWalk(const std::string &walk, double gravity_mps2) {
+  constexpr int64_t kStepNs = 400000000;
+  recording::RecordingReader reader(walk);
+  const sphc_rig &rig = reader.calibration();
+  test::RosBag bag;
+  const std::string type = "sensor_msgs/msg/";
+  for (const auto &[name, camera] : {std::pair("color", rig.color_camera), {"depth", rig.depth_camera}}) {
+    const double *p = camera.params;
+    const std::vector<double> distortion =
+        camera.model == SPHC_CAMERA_PINHOLE ? std::vector<double>(5) : std::vector<double>(p + 4, p + 9);
+    bag.add("/" + std::string(name) + "/camera_info", type + "CameraInfo", 1,
+            test::rosCameraInfo(name, camera.width, camera.height, "plumb_bob", distortion,
+                                {p[0], p[1], p[2] - 0.5, p[3] - 0.5}));
+  }
+  const sphc_rigid same = {{1, 0, 0, 0}, {0, 0, 0}};
+  bag.add("/tf_static", "tf2_msgs/msg/TFMessage", 1,
+          test::rosTransforms(0, {{"color", "depth", rig.color_from_depth}, {"color", "imu", same}}));
+  for (uint32_t i = 0; i < reader.frameCount(); ++i) {
+    const sphc_localizer_frame frame = reader.read(i);
+    const auto pixels = [](const sphc_image &image) {
+      const auto *begin = static_cast<const uint8_t *>(image.data);
+      return test::Bytes(begin, begin + size_t{image.stride_bytes} * image.height);
+    };
+    const int64_t time_ns = 1000000000 + i * kStepNs;
+    bag.add("/color/image_raw", type + "Image", 1,
+            test::rosImage(time_ns, "color", frame.color.width, frame.color.height, "bgr8", pixels(frame.color)));
+    bag.add("/depth/image_raw", type + "Image", 1,
+            test::rosImage(time_ns, "depth", frame.depth.width, frame.depth.height, "16UC1", pixels(frame.depth)));
+    const Vector3 up = rigidFromC(*reader.worldFromCamera(i)).rotation.transpose() * Vector3(0, 0, gravity_mps2);
+    bag.add("/imu", type + "Imu", 1, test::rosImu(time_ns, "imu", {up.x(), up.y(), up.z()}));
+  }
+  return bag.bytes(test::RosBag::Chunks::kZstd);
+}
+
+TEST_F(MapTest, AccelerationsTurnTheMapUpright) {
+  std::ofstream(at("imu.mcap"), std::ios::binary) << bagOfWalk(at("walk"), 9.81);
+  const Answer mapped = runCommand("map -r " + at("imu.mcap") + " --model " + at("imu.model") + " --trajectory " +
+                                   at("imu.tum") + " --json");
+  ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  const auto summary = nlohmann::json::parse(mapped.out);
+  EXPECT_EQ(summary["vertical"]["used"], true);
+  EXPECT_EQ(summary["vertical"]["accelerations"], 10);
+  uint32_t bad = 0;
+  const recording::PoseTrack found = recording::readTumPoses(at("imu.tum"), &bad);
+  recording::RecordingReader truth(at("walk"));
+  ASSERT_EQ(found.poses().size(), truth.frameCount());
+  for (uint32_t i = 0; i < truth.frameCount(); ++i) {
+    const Vector3 up_camera = rigidFromC(*truth.worldFromCamera(i)).rotation.transpose() * Vector3::UnitZ();
+    EXPECT_GT((rigidFromC(found.poses()[i].pose).rotation * up_camera).z(), std::cos(0.01)) << i;
+  }
+}
+
+TEST_F(MapTest, AccelerationsOfOtherUnitsAreNamed) {
+  std::ofstream(at("units.mcap"), std::ios::binary) << bagOfWalk(at("walk"), 1);
+  const Answer mapped = runCommand("map -r " + at("units.mcap") + " --model " + at("units.model"));
+  ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  EXPECT_THAT(mapped.err, HasSubstr("note: the accelerations do not tell the vertical: their mean is 1.0 m/s^2"));
+  EXPECT_THAT(mapped.out, Not(HasSubstr("up is +z")));
 }
 
 TEST_F(MapTest, SeveralRecordingsBecomeOneMapAndAStrangerIsNamed) {

@@ -9,6 +9,7 @@
 
 #include "host/import/colmap_descriptors.h"
 #include "host/import/colmap_world.h"
+#include "host/import/upright.h"
 #include "tests/contract/temp_folder.h"
 #include "tests/support/refusal.h"
 #include "tests/unit/host/import/tiny_colmap.h"
