@@ -83,7 +83,10 @@ enum {
   SPHC_REPLAY_RAW = 4,
   SPHC_REPLAY_STRAY_SCANNER = 5,
   SPHC_REPLAY_ROS2 = 6,
-  SPHC_REPLAY_RECORD3D = 7 /* 5 to 7: of other programs, docs/imports.md */
+  SPHC_REPLAY_RECORD3D = 7,
+  SPHC_REPLAY_ROS1 = 8,
+  SPHC_REPLAY_STREAM_RECORDER = 9,
+  SPHC_REPLAY_AZURE_KINECT = 10 /* 5 to 10: of other programs, docs/imports.md */
 };
 
 typedef struct sphc_replay_info {

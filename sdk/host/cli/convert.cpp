@@ -23,10 +23,15 @@ namespace {
 
 enum class Target { kByName, kMcap, kTum, k7Scenes, kRaw };
 
+constexpr int64_t kPosesAroundNs = 1000000000;  // of a part of a recording
+
 struct ConvertOptions {
-  std::string in, out, calibration;
+  RecordingOptions in;
+  std::string out;
   Target target = Target::kByName;
   sphc_recorder_config recorder = {};
+
+  bool isPart() const { return in.first > 0 || in.last < UINT32_MAX || in.step > 1; }
 };
 
 struct Result {
@@ -46,9 +51,15 @@ using Replay = std::unique_ptr<sphc_replay, ReplayCloser>;
 
 Replay openStreams(const ConvertOptions &options) {
   sphc_replay *replay = nullptr;
-  const char *calibration = options.calibration.empty() ? nullptr : options.calibration.c_str();
+  const RecordingOptions &in = options.in;
+  const char *calibration = in.calibration.empty() ? nullptr : in.calibration.c_str();
+  sphc_replay_config config;
+  sphc_replay_config_init(&config, sizeof config);
+  config.first = in.first;
+  config.last = in.last;
+  config.step = in.step;
   orThrow("cannot open the recording", [&](sphc_message *message) {
-    return sphc_replay_open(options.in.c_str(), calibration, nullptr, &replay, message);
+    return sphc_replay_open(in.folder.c_str(), calibration, &config, &replay, message);
   });
   return Replay(replay);
 }
@@ -66,28 +77,31 @@ sphc_rig calibrationOf(const sphc_replay *replay) {
   return rig;
 }
 
-// Poses up to a time; each goes once.
+// Poses up to a time; each goes once, and those before `from_ns` are left out.
 class Poses {
  public:
   Poses(const sphc_replay *replay, uint32_t count) : replay_(replay), count_(count) {}
 
-  void writeUpTo(int64_t time_ns, RecordingOut *out) {
+  void writeUpTo(int64_t time_ns, int64_t from_ns, RecordingOut *out) {
     for (; next_ < count_; ++next_) {
       int64_t pose_ns = 0;
       sphc_rigid pose;
       orThrow("pose", [&](sphc_message *) { return sphc_replay_recorded_pose(replay_, next_, &pose_ns, &pose); });
       if (pose_ns > time_ns) return;
+      if (pose_ns < from_ns) continue;
       out->addPose(pose_ns, pose);
+      ++written_;
     }
   }
+  uint32_t written() const { return written_; }
 
  private:
   const sphc_replay *replay_;
-  uint32_t count_, next_ = 0;
+  uint32_t count_, next_ = 0, written_ = 0;
 };
 
-// Both streams in order of time, poses among them.
-Result copyStreams(sphc_replay *replay, RecordingOut *out, const Console &console) {
+// Both streams in order of time, poses among them; of a part of a recording those around it.
+Result copyStreams(sphc_replay *replay, bool is_part, RecordingOut *out, const Console &console) {
   const sphc_replay_info info = infoOf(replay);
   Poses poses(replay, info.pose_count);
   sphc_source source = {};
@@ -95,7 +109,7 @@ Result copyStreams(sphc_replay *replay, RecordingOut *out, const Console &consol
   if (source.start(source.self) < 0) throw std::runtime_error(source.message(source.self));
   ProgressBar bar("converting ");
   Result result;
-  result.poses = info.pose_count;
+  int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   for (uint32_t done = 1;; ++done) {
     sphc_capture capture = {};
     capture.struct_size = sizeof capture;
@@ -107,13 +121,16 @@ Result copyStreams(sphc_replay *replay, RecordingOut *out, const Console &consol
       ++result.unreadable;
       continue;
     }
-    poses.writeUpTo(capture.time_ns, out);
+    if (is_part && from_ns == INT64_MIN) from_ns = capture.time_ns - kPosesAroundNs;
+    if (is_part) to_ns = capture.time_ns + kPosesAroundNs;
+    poses.writeUpTo(capture.time_ns, from_ns, out);
     out->add(capture);
     ++(capture.stream == SPHC_STREAM_COLOR ? result.color : result.depth);
     result.amplitudes += capture.amplitude.data != nullptr;
     source.release(source.self, &capture);
   }
-  poses.writeUpTo(INT64_MAX, out);
+  poses.writeUpTo(to_ns, from_ns, out);
+  result.poses = poses.written();
   return result;
 }
 
@@ -165,10 +182,7 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
 }
 
 Result convertFrames(const ConvertOptions &options, const Console &console, Facts *facts) {
-  RecordingOptions in;
-  in.folder = options.in;
-  in.calibration = options.calibration;
-  const auto reader = openRecording(in);
+  const auto reader = openRecording(options.in);
   const recording::Recording &recording = reader->recording();
   *facts = {recording.is_cut, recording.layout == recording::Layout::kMcap,
             static_cast<uint32_t>(recording.depth.size()), static_cast<uint32_t>(recording.poses.poses().size()),
@@ -183,7 +197,7 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
   *facts = {info.is_cut != 0, info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count,
             info.bad_chunk_count};
   const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
-  const Result result = copyStreams(replay.get(), out.get(), console);
+  const Result result = copyStreams(replay.get(), options.isPart(), out.get(), console);
   out->close();
   return result;
 }
@@ -191,7 +205,7 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
 // What the new layout does not keep.
 void tellLosses(const ConvertOptions &options, const Facts &facts, const Result &result, const Console &console) {
   const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
-  if (facts.is_cut) console.warn("note: " + options.in + " was cut off; all of its whole chunks are kept");
+  if (facts.is_cut) console.warn("note: " + options.in.folder + " was cut off; all of its whole chunks are kept");
   if (facts.bad_chunk_count)
     console.warn("note: " + std::to_string(facts.bad_chunk_count) + " parts with changed bytes are left out");
   if (options.target == Target::k7Scenes)
@@ -202,7 +216,7 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
   if (is_by_frame && facts.depth_count > result.depth)
     console.warn("note: " + std::to_string(facts.depth_count - result.depth) +
                  " depth images that belong to no frame are left out");
-  if (is_by_frame && facts.pose_count > result.poses)
+  if (is_by_frame && !options.isPart() && facts.pose_count > result.poses)
     console.warn("note: " + std::to_string(facts.pose_count - result.poses) + " poses between frames are left out");
   if (options.target == Target::kTum && facts.is_mcap)
     console.warn("note: the TUM layout has no sequence numbers, clocks and exposures");
@@ -225,8 +239,8 @@ int convert(ConvertOptions options, const Console &console) {
     throw UsageError("a file's name must end with .mcap or .raw, as --to says, and a folder's name with neither: " +
                      options.out);
   FileUse files(false);
-  files.reads("the recording", options.in);
-  files.reads("--calibration", options.calibration);
+  files.reads("the recording", options.in.folder);
+  files.reads("--calibration", options.in.calibration);
   files.writesRecording("the new recording", options.out);
   files.check();
   Facts facts = {};
@@ -257,6 +271,7 @@ const char kConvertExample[] =
     "  spherecloud convert walk.mcap walk                 a file into a folder of the TUM layout\n"
     "  spherecloud convert walk.mcap seq-01 --to 7scenes  times become N / 30 s\n"
     "  spherecloud convert walk.mcap walk.raw --to raw    to replay on a device\n"
+    "  spherecloud convert walk.mcap part.mcap --first 300 --last 599   a part of it\n"
     "  spherecloud convert seq-01 a.mcap --calibration kinect.json --jpeg 95";
 
 }  // namespace
@@ -267,10 +282,11 @@ Command convertCommand(CLI::App *root) {
   CLI::App *app = root->add_subcommand("convert");
   app->description("Turn a recording into another layout.\n\n" + std::string(kConvertHelp));
   app->footer(kConvertExample);
-  app->add_option("in", options->in, "Recording: a folder or a .mcap file")->required()->type_name("IN");
+  app->add_option("in", options->in.folder, "Recording: a folder, a .mcap or .raw file, or another program's")
+      ->required()
+      ->type_name("IN");
   app->add_option("out", options->out, "New folder, or new file X.mcap or X.raw")->required()->type_name("OUT");
-  app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")
-      ->type_name("FILE");
+  addFrameOptions(app, &options->in);
   const std::map<std::string, Target> targets = {
       {"mcap", Target::kMcap}, {"tum", Target::kTum}, {"7scenes", Target::k7Scenes}, {"raw", Target::kRaw}};
   app->add_option("--to", options->target, "Layout of OUT [by its name: mcap or raw for a file, tum for a folder]")

@@ -72,10 +72,12 @@ void selectFrames(const Selection &selection, Recording &recording) {
   for (const RecordedImage &image : recording.color)
     if (isChosen(selection, image.sequence)) color.push_back(image);
   if (color.empty())
-    throw Failure(SPHC_E_ARGUMENT, "selection: first " + std::to_string(selection.first) + ", last " +
-                                       std::to_string(selection.last) + ", step " + std::to_string(selection.step) +
-                                       " chooses no frame; the recording has numbers " + std::to_string(lowest) +
-                                       " to " + std::to_string(highest));
+    throw Failure(SPHC_E_ARGUMENT,
+                  "selection: first " + std::to_string(selection.first) +
+                      (selection.last < UINT32_MAX ? ", last " + std::to_string(selection.last) : "") +
+                      (selection.step > 1 ? ", step " + std::to_string(selection.step) : "") +
+                      " chooses no frame; the recording has numbers " + std::to_string(lowest) + " to " +
+                      std::to_string(highest));
   recording.color = std::move(color);
   recording.depth = std::move(depth);
 }

@@ -5,6 +5,8 @@ namespace {
 
 const char kGroup[] = "Recording";
 
+}  // namespace
+
 void addFrameOptions(CLI::App *app, RecordingOptions *options) {
   app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")
       ->type_name("FILE")
@@ -16,8 +18,6 @@ void addFrameOptions(CLI::App *app, RecordingOptions *options) {
       ->check(CLI::PositiveNumber)
       ->group(kGroup);
 }
-
-}  // namespace
 
 CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {
   CLI::Option *recording = app->add_option("-r,--recording", options->folder,

@@ -9,7 +9,9 @@
 
 namespace sphc::host {
 
-// Gives --recording, which is required unless the caller says otherwise.
+// The calibration and the frames, of a recording that is named elsewhere.
+void addFrameOptions(CLI::App *app, RecordingOptions *options);
+// These too.  Gives --recording, which is required unless the caller says otherwise.
 CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options);
 // --recording as often as there are recordings; the other options are of each of them.
 void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each);

@@ -9,6 +9,7 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "host/recording/recording_reader.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -159,6 +160,32 @@ TEST(Inspect, NamesAPictureItCannotWrite) {
 // Files of two folders, compared to the byte.
 bool sameFiles(const std::string &a, const std::string &b) {
   return std::system(("diff -r " + a + " " + b + " >/dev/null").c_str()) == 0;
+}
+
+// Frames keep their times; poses are those of the part and of a second around it.
+TEST(Convert, TakesAPartOfARecording) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk.mcap", part = folder / "part", one = folder / "one.raw";
+  ASSERT_EQ(runCommand("simulate --frames 9 --rate 2 --out " + walk).exit_code, kExitDone);
+  const Answer cut = runCommand("convert --json " + walk + " " + part + " --first 3 --last 6 --step 2");
+  ASSERT_EQ(cut.exit_code, kExitDone) << cut.err;
+  const auto json = nlohmann::json::parse(cut.out);
+  EXPECT_EQ(json["color"], 2);
+  EXPECT_EQ(json["depth"], 2);
+  EXPECT_EQ(json["poses"], 7) << "of 0.5 to 3.5 s";
+  const recording::RecordingReader whole(walk), reader(part);
+  ASSERT_EQ(reader.frameCount(), 2u);
+  EXPECT_EQ(reader.colorOf(0).time_ns, whole.colorOf(3).time_ns);
+  EXPECT_EQ(reader.colorOf(1).time_ns, whole.colorOf(5).time_ns);
+  EXPECT_TRUE(reader.worldFromCamera(1));
+  const Answer last = runCommand("convert --json " + walk + " " + one + " --first 8");
+  ASSERT_EQ(last.exit_code, kExitDone) << last.err;
+  EXPECT_EQ(nlohmann::json::parse(last.out)["color"], 1);
+  EXPECT_THAT(last.err, Not(HasSubstr("poses between frames")));
+  const Answer beyond = runCommand("convert " + walk + " " + (folder / "none") + " --first 9");
+  EXPECT_EQ(beyond.exit_code, kExitFailure);
+  EXPECT_THAT(beyond.err, HasSubstr("first 9 chooses no frame; the recording has numbers 0 to 8"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
 TEST(Convert, GoesThroughEveryLayoutAndBack) {
