@@ -56,10 +56,11 @@ std::vector<std::vector<uint8_t>> kinectSeeds() {
     test::KinectFile file;
     file.addTrack({"COLOR", fourcc, kSide, kSide});
     file.addTrack({"DEPTH", "b16g", kSide, kSide});
+    file.addTrack({"IR", "b16g", kSide, kSide});
     for (const int i : {0, 1}) {
       file.beginCluster(33333u * i);
       file.addBlock(1, 0, std::string(color_bytes, 'c'), seeds.empty());
-      file.addBlock(2, 100, std::string(2 * kSide * kSide, '\4'));
+      for (const int track : {2, 3}) file.addBlock(track, 100, std::string(2 * kSide * kSide, '\4'));
     }
     file.attach("calibration.json", calibration);
     file.tag("K4A_START_OFFSET_NS", "1000000");

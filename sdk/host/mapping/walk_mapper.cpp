@@ -28,6 +28,9 @@ class WalkMapper {
   }
 
   MappedWalk run() {
+    if (frames_.size() < 2)
+      throw std::runtime_error(
+          "the walk has one frame, or shows one view alone; record while you walk and turn, and give more frames");
     addLinks("linking", pairsInTime(frames_), kNeighbours, nullptr);
     addLinks("looking for loops", pairsByLook(frames_), kLoops, nullptr);
     if (options_.trust.use == PoseUse::kApproximate)

@@ -63,8 +63,11 @@ sphc_image ImageReader::readAmplitude(const RecordedImage &depth, uint8_t *pixel
   if (depth.amplitude.kind == Kind::kNone) return {};
   const sphc_camera &camera = depth_camera_;
   try {
-    messages_->decoder.decode(depth.amplitude.kind, loadMessage(depth.amplitude), camera, SPHC_FORMAT_GRAY16,
-                              pixels);
+    if (images_)
+      images_->readAmplitude(depth, camera, reinterpret_cast<uint16_t *>(pixels));
+    else
+      messages_->decoder.decode(depth.amplitude.kind, loadMessage(depth.amplitude), camera, SPHC_FORMAT_GRAY16,
+                                pixels);
   } catch (const Failure &failure) {
     throw Failure(failure.status(), nameOf(SPHC_STREAM_DEPTH, depth) + ", its amplitudes: " + failure.what());
   }

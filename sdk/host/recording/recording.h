@@ -48,7 +48,8 @@ struct RecordedImage {
   std::string file;         // relative to the folder
   CaptureNote note = {};    // what else is known, in an MCAP file
   MessagePlace place = {};  // likewise
-  // Of a depth image, whose amplitudes the file has; else of no kind.
+  // Of a depth image, whose amplitudes the file has; else of no kind.  Of a layout that reads its images itself
+  // kAmplitudeImage.
   MessagePlace amplitude = {};
 };
 

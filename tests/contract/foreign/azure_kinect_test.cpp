@@ -69,7 +69,7 @@ class AzureKinect : public ::testing::Test {
       file_.beginCluster(33333u * i + 100);
       file_.addBlock(kDepth, 900, depthImage(static_cast<uint16_t>(1000 + i)), in_group);
       file_.addBlock(kColor, -100, color[i], in_group);
-      file_.addBlock(3, 0, depthImage(5));
+      file_.addBlock(3, 900, depthImage(static_cast<uint16_t>(70 + i)));
       file_.addBlock(4, 1, std::string(40, 'i'));
     }
   }
@@ -162,6 +162,26 @@ TEST_F(AzureKinect, CalibrationOfTheModeThatWasRecorded) {
   EXPECT_NEAR(rig.depth_camera.params[2], 0.51 * 512 - 96, 1e-9);
   EXPECT_NEAR(rig.color_from_depth.t_m[0], -0.032, 1e-9);
   EXPECT_EQ(rig.depth_unit_m, 0.001);
+}
+
+// What comes back of the sensor's own light is the amplitude of the depth image of the same time.
+TEST_F(AzureKinect, InfraredImagesAreAmplitudes) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)});
+  file_.beginCluster(66666);
+  file_.addBlock(kColor, 0, bgraImage(60));
+  file_.addBlock(kDepth, 1000, depthImage(1));
+  file_.addBlock(3, 999, depthImage(9));
+  addEnd();
+  RecordingReader reader(write());
+  ASSERT_EQ(reader.frameCount(), 3u);
+  for (uint32_t i = 0; i < 2; ++i) {
+    const sphc_image amplitude = reader.read(i).amplitude;
+    ASSERT_EQ(amplitude.format, SPHC_FORMAT_GRAY16);
+    EXPECT_EQ(amplitude.width, kDepthWidth);
+    EXPECT_EQ(static_cast<const uint16_t *>(amplitude.data)[kDepthPixels - 1], 70 + i);
+  }
+  EXPECT_EQ(reader.read(2).amplitude.data, nullptr) << "of another time";
 }
 
 TEST_F(AzureKinect, BlocksInGroups) {

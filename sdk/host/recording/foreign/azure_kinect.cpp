@@ -1,5 +1,5 @@
-// Recordings of k4arecorder and of what writes as it does: Matroska with a track each of colour and depth, and the
-// device's raw calibration attached.
+// Recordings of k4arecorder and of what writes as it does: Matroska with a track each of colour, depth and
+// infrared, and the device's raw calibration attached.
 #include <charconv>
 #include <opencv2/imgproc.hpp>
 
@@ -52,11 +52,11 @@ void decodeBgra(const Bytes &stored, const sphc_camera &camera, sphc_format form
   packPixels({colors.data(), camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
 }
 
-void decodeDepth(const Bytes &stored, const sphc_camera &camera, uint16_t *depth) {
+// b16g, which is big-endian: depth and infrared.
+void decodeNumbers(const Bytes &stored, const sphc_camera &camera, uint16_t *numbers) {
   const size_t count = size_t{camera.width} * camera.height;
   requireBytes(stored, 2 * count);
-  for (size_t i = 0; i < count; ++i)
-    depth[i] = static_cast<uint16_t>(stored[2 * i] << 8 | stored[2 * i + 1]);  // b16g: big-endian
+  for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<uint16_t>(stored[2 * i] << 8 | stored[2 * i + 1]);
 }
 
 class KinectImages : public LayoutImages {
@@ -66,13 +66,11 @@ class KinectImages : public LayoutImages {
 
   void read(sphc_stream stream, const RecordedImage &image, const sphc_camera &camera, sphc_format format,
             uint8_t *pixels) override {
-    if (image.place.bytes > kMostImageBytes) failImage("its length");
-    stored_.resize(image.place.bytes);
-    file_.read(image.place.start, stored_.data(), stored_.size());
+    load(image.place);
     const bool is_color = stream == SPHC_STREAM_COLOR;
     const host::ImageSize size = is_color ? color_size_ : depth_size_;
     requireSize(size.width, size.height, camera, is_color);
-    if (!is_color) return decodeDepth(stored_, camera, reinterpret_cast<uint16_t *>(pixels));
+    if (!is_color) return decodeNumbers(stored_, camera, reinterpret_cast<uint16_t *>(pixels));
     switch (color_) {
       case KinectColor::kMjpg:
         return decodeImage(viewOf(stored_), ImageType::kJpeg, camera, format, pixels);
@@ -85,26 +83,43 @@ class KinectImages : public LayoutImages {
     }
   }
 
+  void readAmplitude(const RecordedImage &depth, const sphc_camera &camera, uint16_t *pixels) override {
+    load(depth.amplitude);
+    decodeNumbers(stored_, camera, pixels);
+  }
+
  private:
+  void load(const MessagePlace &place) {
+    if (place.bytes > kMostImageBytes) failImage("its length");
+    stored_.resize(place.bytes);
+    file_.read(place.start, stored_.data(), stored_.size());
+  }
+
   File file_;
   KinectColor color_;
   host::ImageSize color_size_, depth_size_;
   Bytes stored_;
 };
 
+const MatroskaTrack *findTrack(const MatroskaFile &file, const char *name) {
+  for (const auto &[number, track] : file.tracks)
+    if (track.name == name) return &track;
+  return nullptr;
+}
+
 const MatroskaTrack &trackOf(const MatroskaFile &file, const char *name, const char *option,
                              const std::string &recording_name) {
-  for (const auto &[number, track] : file.tracks) {
-    if (track.name != name) continue;
-    if (track.is_encoded || track.codec != kCodec)
-      throw Failure(SPHC_E_UNSUPPORTED, recording_name + ": its track " + name +
-                                            " was encoded again; give the file as k4arecorder wrote it");
-    return track;
-  }
-  throw Failure(SPHC_E_UNSUPPORTED, recording_name + ": a Matroska file without a track " + name +
-                                        ", which is no recording of an Azure Kinect with colour and depth; record "
-                                        "with " +
-                                        option);
+  const MatroskaTrack *track = findTrack(file, name);
+  if (!track)
+    throw Failure(SPHC_E_UNSUPPORTED,
+                  recording_name + ": a Matroska file without a track " + name +
+                      ", which is no recording of an Azure Kinect with colour and depth; record "
+                      "with " +
+                      option);
+  if (track->is_encoded || track->codec != kCodec)
+    throw Failure(SPHC_E_UNSUPPORTED, recording_name + ": its track " + name +
+                                          " was encoded again; give the file as k4arecorder wrote it");
+  return *track;
 }
 
 KinectColor colorOf(const MatroskaTrack &track, const std::string &recording_name) {
@@ -135,6 +150,22 @@ std::vector<RecordedImage> imagesOf(const MatroskaTrack &track, int64_t start_ns
     images.push_back(std::move(image));
   }
   return inOrderOfTime(std::move(images), lost_count);
+}
+
+// Infrared is what comes back of the sensor's own light, taken with the depth image of the same time.
+void addAmplitudes(const MatroskaFile &file, const MatroskaTrack &depth_track, Recording *recording) {
+  const MatroskaTrack *track = findTrack(file, "IR");
+  if (!track || track->is_encoded || track->width != depth_track.width || track->height != depth_track.height)
+    return;
+  uint64_t ignored = 0;
+  const std::vector<RecordedImage> infrared = imagesOf(*track, startOf(file), &ignored);
+  size_t next = 0;
+  for (RecordedImage &depth : recording->depth) {
+    while (next < infrared.size() && infrared[next].time_ns < depth.time_ns) ++next;
+    if (next == infrared.size() || infrared[next].time_ns != depth.time_ns) continue;
+    depth.amplitude = infrared[next].place;
+    depth.amplitude.kind = Kind::kAmplitudeImage;
+  }
 }
 
 std::string calibrationText(const fs::path &path, const MatroskaFile &file) {
@@ -187,6 +218,7 @@ Recording openAzureKinect(const fs::path &path) {
   for (const auto &[images, track] : {std::pair(&recording.color, "COLOR"), std::pair(&recording.depth, "DEPTH")})
     if (images->empty())
       throw Failure(SPHC_E_DEVICE, name + ": its track " + track + " has no images; copy the file again");
+  addAmplitudes(file, depth, &recording);
   recording.images = [path, coding, color_size, depth_size] {
     return std::make_unique<KinectImages>(path, coding, color_size, depth_size);
   };

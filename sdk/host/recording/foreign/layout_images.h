@@ -17,6 +17,8 @@ class LayoutImages {
   // name, as decodeImage does.
   virtual void read(sphc_stream stream, const RecordedImage &image, const sphc_camera &camera, sphc_format format,
                     uint8_t *pixels) = 0;
+  // Likewise the amplitudes of a depth image that has a place of them, as GRAY16.
+  virtual void readAmplitude(const RecordedImage &, const sphc_camera &, uint16_t *) {}
 };
 
 // Each reader of a recording has its own, since they remember where they are.
