@@ -45,14 +45,14 @@ double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_ar
 
 bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found) {
   Rigid step;
-  double unused_rad, unused_m;
-  if (!tracker.step(&step, &unused_rad, &unused_m)) travel_.reset();
+  double unused_rad, step_sigma_m;
+  if (!tracker.step(&step, &unused_rad, &step_sigma_m)) travel_.reset();
   if (!known.has_odometry || !found.isLocalized()) return false;
   if (found.map != map_) travel_.reset();
   map_ = found.map;
   travel_.add(found.estimate.camera_from_map.inverse().translation_m,
               known.odometry.odometry_from_camera.translation_m, meanSigma(found.estimate, 3));
-  return travel_.isScaled();
+  return travel_.isScaled(step_sigma_m);
 }
 
 }  // namespace sphc

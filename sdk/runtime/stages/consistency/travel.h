@@ -10,10 +10,8 @@ class Travel {
   // The camera's centre by a pose and by odometry, each in a frame of its own; sigma: of the pose's, one axis.
   void add(const Vector3 &centre_in_map_m, const Vector3 &centre_in_odometry_m, double sigma_m);
   void reset() { count_ = 0; }
-  // Do the two disagree for sure?
-  bool isScaled() const;
-  // Of the way by poses over that by odometry; 0 where neither has gone far.
-  double scale() const;
+  // Do the two disagree for sure?  `step_sigma_m`: of odometry from one place to the next, along each axis.
+  bool isScaled(double step_sigma_m) const;
 
  private:
   static constexpr uint32_t kCapacity = 64;
@@ -25,7 +23,6 @@ class Travel {
     double map2 = 0, odometry2 = 0, sigma2 = 0;  // means of squares, m^2
   };
   Spread spread() const;
-  static double scaleOf(const Spread &spread);
 
   Place places_[kCapacity];
   uint32_t count_ = 0, next_ = 0;

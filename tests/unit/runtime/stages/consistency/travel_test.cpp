@@ -7,7 +7,7 @@
 namespace sphc {
 namespace {
 
-constexpr double kSigmaM = 0.003;
+constexpr double kSigmaM = 0.003, kStepM = 0.0005;
 
 Travel walked(double scale, double length_m, int places) {
   Travel travel;
@@ -20,24 +20,40 @@ Travel walked(double scale, double length_m, int places) {
   return travel;
 }
 
-TEST(Travel, MeasuresTheScale) {
-  EXPECT_NEAR(walked(1.1, 2, 30).scale(), 1.1, 1e-9);
-  EXPECT_TRUE(walked(1.1, 2, 30).isScaled());
-  EXPECT_TRUE(walked(0.5, 2, 30).isScaled());
+TEST(Travel, AnotherScaleIsSeen) {
+  for (const double scale : {0.5, 0.92, 1.1, 2.0}) EXPECT_TRUE(walked(scale, 2, 30).isScaled(kStepM)) << scale;
+  for (const double scale : {0.96, 1.0, 1.04}) EXPECT_FALSE(walked(scale, 2, 30).isScaled(kStepM)) << scale;
 }
 
-TEST(Travel, TheSameWayIsNotScaled) { EXPECT_FALSE(walked(1, 2, 30).isScaled()); }
+// 17 cm are 5 cm about their mean: half the way is told from what poses are off there, a tenth is not.
+TEST(Travel, AShortWayTellsALargeChangeAlone) {
+  EXPECT_TRUE(walked(0.5, 0.17, 30).isScaled(kStepM));
+  EXPECT_FALSE(walked(1.1, 0.17, 30).isScaled(kStepM));
+  EXPECT_FALSE(walked(0.5, 0.05, 30).isScaled(kStepM));
+  EXPECT_FALSE(walked(0.5, 2, 3).isScaled(kStepM)) << "too few places";
+}
 
-TEST(Travel, AShortWaySaysNothing) {
-  EXPECT_EQ(walked(1.1, 0.05, 30).scale(), 0);
-  EXPECT_FALSE(walked(0.5, 0.05, 30).isScaled());
-  EXPECT_FALSE(walked(0.5, 2, 3).isScaled());
+// 30 steps of 2 cm lead off by as much as half the way does.
+TEST(Travel, OdometryThatDriftsIsNotBelieved) {
+  EXPECT_TRUE(walked(0.7, 0.3, 30).isScaled(0.002));
+  EXPECT_FALSE(walked(0.7, 0.3, 30).isScaled(0.02));
+}
+
+TEST(Travel, WhoStandsStillIsNotScaled) {
+  Travel still, shaken;
+  for (int i = 0; i < 30; ++i) {
+    still.add(Vector3::Zero(), Vector3::Zero(), kSigmaM);
+    shaken.add(Vector3(0.004 * (i % 3), 0, 0), Vector3(0.0001 * (i % 2), 0, 0), kSigmaM);
+  }
+  EXPECT_FALSE(still.isScaled(kStepM));
+  EXPECT_FALSE(shaken.isScaled(kStepM)) << "poses are off by their sigma";
 }
 
 TEST(Travel, ForgetsWhatLiesFarBack) {
   Travel travel = walked(1.3, 2, 30);
+  EXPECT_TRUE(travel.isScaled(kStepM));
   for (int i = 0; i < 64; ++i) travel.add(Vector3(0.03 * i, 0, 0), Vector3(0.03 * i, 0, 0), kSigmaM);
-  EXPECT_NEAR(travel.scale(), 1, 1e-9);
+  EXPECT_FALSE(travel.isScaled(kStepM));
 }
 
 }  // namespace
