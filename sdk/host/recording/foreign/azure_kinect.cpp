@@ -1,16 +1,14 @@
 // Recordings of k4arecorder and of what writes as it does: Matroska with a track each of colour, depth and
 // infrared, and the device's raw calibration attached.
 #include <charconv>
-#include <opencv2/imgproc.hpp>
 
 #include "host/cameras/azure_kinect.h"
 #include "host/cameras/join.h"
 #include "host/recording/calibration_json.h"
-#include "host/recording/encoded_image.h"
 #include "host/recording/failure.h"
 #include "host/recording/file_reader.h"
+#include "host/recording/foreign/kinect_images.h"
 #include "host/recording/foreign/matroska.h"
-#include "host/recording/foreign/opaque_pixels.h"
 #include "host/recording/foreign/ordered_images.h"
 #include "host/recording/recording.h"
 
@@ -22,84 +20,6 @@ namespace {
 
 constexpr const char *kCodec = "V_MS/VFW/FOURCC";
 constexpr size_t kMostCalibrationBytes = 1 << 20;
-constexpr uint64_t kMostImageBytes = uint64_t{1} << 28;
-
-enum class KinectColor { kMjpg, kNv12, kYuy2, kBgra };
-
-[[noreturn]] void failImage(const char *what) {
-  throw Failure(SPHC_E_DEVICE, std::string("is malformed (") + what + "); record it again");
-}
-
-void requireBytes(const Bytes &stored, uint64_t wanted) {
-  if (stored.size() != wanted) failImage("its bytes are not those of its size");
-}
-
-// Through OpenCV: of two bytes a pixel, or of one and a half.
-void decodeYuv(const Bytes &stored, bool is_nv12, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
-  const int width = static_cast<int>(camera.width), height = static_cast<int>(camera.height);
-  if (width % 2 != 0 || (is_nv12 && height % 2 != 0)) failImage("its size is odd");
-  requireBytes(stored, uint64_t{camera.width} * camera.height * (is_nv12 ? 3 : 4) / 2);
-  const cv::Mat yuv(is_nv12 ? height * 3 / 2 : height, width, is_nv12 ? CV_8UC1 : CV_8UC2,
-                    const_cast<uint8_t *>(stored.data()));
-  cv::Mat bgr;
-  cv::cvtColor(yuv, bgr, is_nv12 ? cv::COLOR_YUV2BGR_NV12 : cv::COLOR_YUV2BGR_YUY2);
-  packPixels({bgr.data, camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
-}
-
-void decodeBgra(const Bytes &stored, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
-  requireBytes(stored, uint64_t{camera.width} * camera.height * 4);
-  const Bytes colors = opaquePixels(stored.data(), camera.width, camera.height, camera.width * 4);
-  packPixels({colors.data(), camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
-}
-
-// b16g, which is big-endian: depth and infrared.
-void decodeNumbers(const Bytes &stored, const sphc_camera &camera, uint16_t *numbers) {
-  const size_t count = size_t{camera.width} * camera.height;
-  requireBytes(stored, 2 * count);
-  for (size_t i = 0; i < count; ++i) numbers[i] = static_cast<uint16_t>(stored[2 * i] << 8 | stored[2 * i + 1]);
-}
-
-class KinectImages : public LayoutImages {
- public:
-  KinectImages(const fs::path &path, KinectColor color, host::ImageSize color_size, host::ImageSize depth_size)
-      : file_(path), color_(color), color_size_(color_size), depth_size_(depth_size) {}
-
-  void read(sphc_stream stream, const RecordedImage &image, const sphc_camera &camera, sphc_format format,
-            uint8_t *pixels) override {
-    load(image.place);
-    const bool is_color = stream == SPHC_STREAM_COLOR;
-    const host::ImageSize size = is_color ? color_size_ : depth_size_;
-    requireSize(size.width, size.height, camera, is_color);
-    if (!is_color) return decodeNumbers(stored_, camera, reinterpret_cast<uint16_t *>(pixels));
-    switch (color_) {
-      case KinectColor::kMjpg:
-        return decodeImage(viewOf(stored_), ImageType::kJpeg, camera, format, pixels);
-      case KinectColor::kNv12:
-        return decodeYuv(stored_, true, camera, format, pixels);
-      case KinectColor::kYuy2:
-        return decodeYuv(stored_, false, camera, format, pixels);
-      case KinectColor::kBgra:
-        return decodeBgra(stored_, camera, format, pixels);
-    }
-  }
-
-  void readAmplitude(const RecordedImage &depth, const sphc_camera &camera, uint16_t *pixels) override {
-    load(depth.amplitude);
-    decodeNumbers(stored_, camera, pixels);
-  }
-
- private:
-  void load(const MessagePlace &place) {
-    if (place.bytes > kMostImageBytes) failImage("its length");
-    stored_.resize(place.bytes);
-    file_.read(place.start, stored_.data(), stored_.size());
-  }
-
-  File file_;
-  KinectColor color_;
-  host::ImageSize color_size_, depth_size_;
-  Bytes stored_;
-};
 
 const MatroskaTrack *findTrack(const MatroskaFile &file, const char *name) {
   for (const auto &[number, track] : file.tracks)
