@@ -23,6 +23,7 @@ SUBJECTS = {  # the longest that a source's path begins with
     "sdk/host/recording/foreign": "Recordings of other programs",
     "sdk/host/frames": "Recordings",
     "sdk/host/calibration": "Calibration files of other programs",
+    "sdk/host/cameras": "Calibration files of other programs",
     "sdk/host/import": "Models of COLMAP, and point models",
     "sdk/host/mapping": "Mapping without poses",
     "sdk/host/guide": "Mapping without poses",

@@ -352,7 +352,7 @@ const char kMapHelp[] =
     "of\n"
     "them; --score compares with them.  Several recordings of one place become one map; what later ones see "
     "through\n"
-    "is gone and left out.";
+    "is gone and left out.  Where a recording has accelerations, up is +z in the map.";
 const char kMapExample[] =
     "Example:\n"
     "  spherecloud record --color v4l2:/dev/video0 --depth v4l2:/dev/video2 -c headset.json --out walk.mcap\n"

@@ -274,7 +274,8 @@ TEST_F(AzureKinect, ImagesOfAnotherLengthAreRefused) {
   file_.addBlock(kDepth, 0, depthImage(1));
   addEnd();
   RecordingReader reader(write());
-  EXPECT_THAT(refusal([&] { reader.read(0); }), HasSubstr("its bytes are not those of its size"));
+  EXPECT_THAT(refusal([&] { reader.read(0); }),
+              HasSubstr("is no image of the recording's size (it has more or fewer bytes)"));
 }
 
 // Of the one lens that is none of ours; by hand the nearest can be taken.

@@ -13,17 +13,18 @@ namespace {
 constexpr uint64_t kMostImageBytes = uint64_t{1} << 28;
 
 [[noreturn]] void failImage(const char *what) {
-  throw Failure(SPHC_E_DEVICE, std::string("is malformed (") + what + "); record it again");
+  throw Failure(SPHC_E_DEVICE,
+                std::string("is no image of the recording's size (") + what + "); copy the file again");
 }
 
 void requireBytes(const Bytes &stored, uint64_t wanted) {
-  if (stored.size() != wanted) failImage("its bytes are not those of its size");
+  if (stored.size() != wanted) failImage("it has more or fewer bytes");
 }
 
 // Through OpenCV: of two bytes a pixel, or of one and a half.
 void decodeYuv(const Bytes &stored, bool is_nv12, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
   const int width = static_cast<int>(camera.width), height = static_cast<int>(camera.height);
-  if (width % 2 != 0 || (is_nv12 && height % 2 != 0)) failImage("its size is odd");
+  if (width % 2 != 0 || (is_nv12 && height % 2 != 0)) failImage("its sides are odd");
   requireBytes(stored, uint64_t{camera.width} * camera.height * (is_nv12 ? 3 : 4) / 2);
   const cv::Mat yuv(is_nv12 ? height * 3 / 2 : height, width, is_nv12 ? CV_8UC1 : CV_8UC2,
                     const_cast<uint8_t *>(stored.data()));
@@ -72,7 +73,7 @@ void KinectImages::readAmplitude(const RecordedImage &depth, const sphc_camera &
 }
 
 void KinectImages::load(const MessagePlace &place) {
-  if (place.bytes > kMostImageBytes) failImage("its length");
+  if (place.bytes > kMostImageBytes) failImage("it is too long");
   stored_.resize(place.bytes);
   file_.read(place.start, stored_.data(), stored_.size());
 }
