@@ -211,6 +211,10 @@ def others(pipeline):
          "rigid alignment; `times faster than walk`: its length over the time of the whole command, on two cores; `processor s a walk s`: of\n"
          "all threads; memory: the most that was resident. Method: [mapping.md](mapping.md#long-walks).",
          flat(rows("mapping_growth.csv"), ["world"])),
+        ("Mapping of flats", "pipeline/mapping_flats.csv", "mapping_flats_results",
+         "Simulated flats of eight rooms at 4 Hz, each once through all rooms and on into the first ones again, 165 s. `revisit worst m`: how\n"
+         "far the path misses itself at most where it comes back. Other columns as above. Method: [mapping.md](mapping.md#long-walks).",
+         flat(rows("mapping_flats.csv"), [])),
         ("Localization in maps without poses", "pipeline/mapping_localized.csv", "mapping_localized_results",
          "Frames that are in neither map, localized one by one (eta 33 %, `--align`) in maps of the same frames: with the poses that the\n"
          "recording holds (`given`), and mapped without (`found`). `truth`: the poses that the answers are compared with, the recording's or\n"
