@@ -235,6 +235,19 @@ TEST_F(AzureKinect, CutFileGivesWhatIsWhole) {
   EXPECT_THAT(refusal([&] { RecordingReader again(path); }), HasSubstr("no calibration.json is attached"));
 }
 
+TEST_F(AzureKinect, BlocksWithoutATimeAreCountedAsLost) {
+  addTracks("BGRA");
+  addFrames({bgraImage(20), bgraImage(60)});
+  file_.beginCluster(10);
+  file_.addBlock(kColor, -11, bgraImage(99));
+  file_.beginCluster(UINT64_MAX / 2);
+  file_.addBlock(kColor, 0, bgraImage(99));
+  addEnd();
+  RecordingReader reader(write());
+  expectKinectFrames(reader);
+  EXPECT_EQ(reader.recording().lost_count, 2u);
+}
+
 TEST_F(AzureKinect, BlocksOfSeveralFramesAreCountedAsLost) {
   addTracks("BGRA");
   addFrames({bgraImage(20), bgraImage(60)});

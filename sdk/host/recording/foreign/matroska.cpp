@@ -164,16 +164,23 @@ class Reader {
     const std::optional<uint64_t> number = ebml_.numberAt(&at, block.end);
     const std::optional<ByteView> head = number ? ebml_.bytesAt(at, 3, block.end) : std::nullopt;
     const auto track = head ? result_.tracks.find(*number) : result_.tracks.end();
-    const bool is_timed = scale_ns_ >= 1 && scale_ns_ <= kMostScaleNs &&
-                          cluster_timestamp < static_cast<uint64_t>(INT64_MAX) / 4 / scale_ns_;
-    if (track == result_.tracks.end() || !is_timed || (head->data[2] & kLacing) != 0) {
+    if (track == result_.tracks.end() || (head->data[2] & kLacing) != 0) {
       ++result_.lost_count;
       return;
     }
     const auto relative = static_cast<int16_t>(head->data[0] << 8 | head->data[1]);
-    const int64_t scale_ns = static_cast<int64_t>(scale_ns_);
-    const int64_t time_ns = (static_cast<int64_t>(cluster_timestamp) + relative) * scale_ns;
-    track->second.blocks.push_back({time_ns, at + 3, block.end - at - 3});
+    const int64_t time_ns = timeOf(cluster_timestamp, relative);
+    if (time_ns < 0)
+      ++result_.lost_count;
+    else
+      track->second.blocks.push_back({time_ns, at + 3, block.end - at - 3});
+  }
+
+  // Negative where it is none.
+  int64_t timeOf(uint64_t cluster_timestamp, int16_t relative) const {
+    if (scale_ns_ == 0 || scale_ns_ > kMostScaleNs) return -1;
+    if (cluster_timestamp > static_cast<uint64_t>(INT64_MAX) / 4 / scale_ns_) return -1;
+    return (static_cast<int64_t>(cluster_timestamp) + relative) * static_cast<int64_t>(scale_ns_);
   }
 
   EbmlFile ebml_;
