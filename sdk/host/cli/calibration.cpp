@@ -77,7 +77,7 @@ double fieldOfViewDeg(const sphc_camera &camera, bool horizontal) {
 }
 
 std::string modelOf(const sphc_camera &camera) {
-  return host::findModel(camera.model)->name;
+  return findModel(camera.model)->name;
 }  // checked when it was read
 
 double baselineM(const sphc_rigid &rigid) { return std::hypot(rigid.t_m[0], rigid.t_m[1], rigid.t_m[2]); }

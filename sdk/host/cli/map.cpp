@@ -171,6 +171,7 @@ void standUpright(const MapOptions &options, MapOutcome *outcome) {
   for (const MappedRecording &recording : outcome->recordings) {
     FeltPath path;
     path.felt = recording.reader->recording().accelerations;
+    if (path.felt.empty()) continue;
     for (uint32_t i = 0; i < recording.poses.size(); ++i)
       if (recording.poses[i])
         path.world_from_camera.add(recording.reader->colorOf(i).time_ns, rigidToC(*recording.poses[i]));

@@ -78,6 +78,12 @@ class AzureKinect : public ::testing::Test {
     return folder_ / "walk.mkv";
   }
   std::string write() { return write(file_.bytes()); }
+  // A whole recording.
+  void addRecording(const std::string &fourcc, const std::vector<std::string> &color, bool in_group = false) {
+    addTracks(fourcc);
+    addFrames(color, in_group);
+    addEnd();
+  }
   std::string refusalOfOpen() {
     const std::string path = write();
     return refusal([&] { RecordingReader reader(path); });
@@ -109,9 +115,7 @@ void expectPixel(RecordingReader &reader, uint32_t index, int red, int green, in
 }
 
 TEST_F(AzureKinect, ColourAsMjpg) {
-  addTracks("MJPG");
-  addFrames({jpegImage(20), jpegImage(60)});
-  addEnd();
+  addRecording("MJPG", {jpegImage(20), jpegImage(60)});
   RecordingReader reader(write());
   expectKinectFrames(reader);
   expectPixel(reader, 0, 110, 25, 20);
@@ -121,27 +125,21 @@ TEST_F(AzureKinect, ColourAsMjpg) {
 }
 
 TEST_F(AzureKinect, ColourAsBgra) {
-  addTracks("BGRA");
-  addFrames({bgraImage(20), bgraImage(60)});
-  addEnd();
+  addRecording("BGRA", {bgraImage(20), bgraImage(60)});
   RecordingReader reader(write());
   expectKinectFrames(reader);
   expectPixel(reader, 1, 150, 65, 60);
 }
 
 TEST_F(AzureKinect, ColourAsNv12) {
-  addTracks("NV12");
-  addFrames({nv12Image(), nv12Image()});
-  addEnd();
+  addRecording("NV12", {nv12Image(), nv12Image()});
   RecordingReader reader(write());
   expectKinectFrames(reader);
   expectPixel(reader, 0, 193, 70, 93);
 }
 
 TEST_F(AzureKinect, ColourAsYuy2) {
-  addTracks("YUY2");
-  addFrames({yuy2Image(), yuy2Image()});
-  addEnd();
+  addRecording("YUY2", {yuy2Image(), yuy2Image()});
   RecordingReader reader(write());
   expectKinectFrames(reader);
   expectPixel(reader, 0, 193, 70, 93);
@@ -149,9 +147,7 @@ TEST_F(AzureKinect, ColourAsYuy2) {
 
 // The attached calibration is of the whole sensors; the tracks say which mode was recorded.
 TEST_F(AzureKinect, CalibrationOfTheModeThatWasRecorded) {
-  addTracks("BGRA");
-  addFrames({bgraImage(20), bgraImage(60)});
-  addEnd();
+  addRecording("BGRA", {bgraImage(20), bgraImage(60)});
   RecordingReader reader(write());
   const sphc_rig &rig = reader.calibration();
   EXPECT_EQ(rig.color_camera.width, kColorWidth);
@@ -185,17 +181,13 @@ TEST_F(AzureKinect, InfraredImagesAreAmplitudes) {
 }
 
 TEST_F(AzureKinect, BlocksInGroups) {
-  addTracks("BGRA");
-  addFrames({bgraImage(20), bgraImage(60)}, true);
-  addEnd();
+  addRecording("BGRA", {bgraImage(20), bgraImage(60)}, true);
   RecordingReader reader(write());
   expectKinectFrames(reader);
 }
 
 TEST_F(AzureKinect, SizesThatAreNotSaid) {
-  addTracks("BGRA");
-  addFrames({bgraImage(20), bgraImage(60)});
-  addEnd();
+  addRecording("BGRA", {bgraImage(20), bgraImage(60)});
   RecordingReader reader(write(file_.bytes(true)));
   expectKinectFrames(reader);
   EXPECT_FALSE(reader.recording().is_cut);

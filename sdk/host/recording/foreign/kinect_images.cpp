@@ -35,8 +35,7 @@ void decodeYuv(const Bytes &stored, bool is_nv12, const sphc_camera &camera, sph
 
 void decodeBgra(const Bytes &stored, const sphc_camera &camera, sphc_format format, uint8_t *pixels) {
   requireBytes(stored, uint64_t{camera.width} * camera.height * 4);
-  const Bytes colors = opaquePixels(stored.data(), camera.width, camera.height, camera.width * 4);
-  packPixels({colors.data(), camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
+  packOpaque(stored.data(), camera.width, camera.height, camera.width * 4, SPHC_FORMAT_BGR8, format, pixels);
 }
 
 // b16g, which is big-endian: depth and infrared.

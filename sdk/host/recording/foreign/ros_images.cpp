@@ -38,9 +38,8 @@ void decodeRawColor(const RosImage &image, sphc_format format, uint8_t *pixels) 
   const bool has_alpha = image.encoding == "rgba8" || image.encoding == "bgra8";
   if (has_alpha) {
     requireRows(image, 4);
-    const Bytes colors = opaquePixels(image.data.data, image.width, image.height, image.step);
     const sphc_format recorded = image.encoding == "rgba8" ? SPHC_FORMAT_RGB8 : SPHC_FORMAT_BGR8;
-    return packPixels({colors.data(), image.width, image.height, image.width * 3, recorded}, format, pixels);
+    return packOpaque(image.data.data, image.width, image.height, image.step, recorded, format, pixels);
   }
   const sphc_format recorded = image.encoding == "8UC1"   ? SPHC_FORMAT_GRAY8
                                : image.encoding == "8UC3" ? SPHC_FORMAT_BGR8

@@ -67,8 +67,7 @@ class HoloLensImages : public LayoutImages {
     if (encoded_.size() != size_t{camera.width} * camera.height * 4)
       throw Failure(SPHC_E_IMAGE,
                     "is not four bytes for each pixel of the calibration's color_camera; copy it again");
-    const Bytes colors = opaquePixels(encoded_.data(), camera.width, camera.height, camera.width * 4);
-    packPixels({colors.data(), camera.width, camera.height, camera.width * 3, SPHC_FORMAT_BGR8}, format, pixels);
+    packOpaque(encoded_.data(), camera.width, camera.height, camera.width * 4, SPHC_FORMAT_BGR8, format, pixels);
   }
 
   fs::path folder_;
