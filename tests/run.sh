@@ -4,7 +4,7 @@
 #   tests/run.sh [STAGE...]     without a stage: all
 #
 # Stages:
-#   all          everything below but quick, coverage, emulated, first_pose and bare_packages, in this order
+#   all          the six behind quick, in this order
 #   quick        formatting, unit tests, layers, the golden session: what to run while working
 #   release      formatting; the release with gcc and all its tests, guests included
 #   device       the runtime alone, as firmware links it
@@ -12,6 +12,7 @@
 #   arm64        the drivers of cameras on a stock arm64 kernel in an emulator
 #   sanitized    clang with AddressSanitizer and UndefinedBehaviorSanitizer
 #   tsan         ThreadSanitizer on what has threads
+#   tsan_commands  the same on the commands that have threads
 #   coverage     lines and branches of the device's libraries and of the parsers that tests reach, against floors
 #   emulated     the runtime's unit tests on other machines, in emulators
 #   first_pose   the first pose in each language, in a Debian that has nothing else; needs root and Debian's mirror
@@ -26,7 +27,7 @@ exec </dev/null
 jobs=$(nproc)
 passed=0 failed=0 skipped=0 begin=$SECONDS
 stages=(release device portability arm64 sanitized tsan)
-apart=(quick coverage emulated first_pose bare_packages) # not of all
+apart=(quick tsan_commands coverage emulated first_pose bare_packages) # not of all
 # A compiler cache serves every checkout, precompiled headers too.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 
@@ -160,6 +161,13 @@ stage_tsan() {
   # The two halves of a frame, frames on several cores, one map under several localizers, the driver contract, the recorder, OpenNI2 on a virtual camera, rendering by threads.
   GTEST_FILTER='Halves.*:ParallelFrames.*:SharedMap.*:*DriverContract*:*Recorder*:Opening.*:Frames.*:Unplugging.*:OniRecording.*:OneReader.*:*SameConfigSameBytesWhateverTheThreads*' \
     tests "tsan: tests" build/tsan -R "^(${programs// /|})\$"
+}
+
+stage_tsan_commands() {
+  prepare runtime build openni2 test
+  check "tsan_commands: build" build build/tsan_commands 'host_live_test host_guide_test spherecloud_cli' "${sanitized[@]}" $unity $linker \
+    -DSPHC_COMMAND=ON -DSPHC_SANITIZE=thread
+  tests "tsan_commands: tests" build/tsan_commands -R '^(host_live_test|host_guide_test|threads.of_commands)$'
 }
 
 stage_coverage() {

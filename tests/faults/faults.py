@@ -5,8 +5,9 @@
     faults.py --spherecloud BIN --library fail_call.so --quick      a few commands and calls, for the tests
     faults.py ... --only build --show                               one command; each defect with its run
 
-The first 50 calls of each kind fail one at a time, then 50 spread evenly, then the last 50.  After each run a file is the old one or
-the new one, to the bit; nothing else lies there; the ledger knows the map; stderr says why.  docs/testing.md says more.
+Every call of each kind fails, in a run of its own; of allocations the first of each chain of callers that no earlier command had.
+After each run a file is the old one or the new one, to the bit; nothing else lies there; the ledger knows the map; stderr says why.
+docs/testing.md says more.
 """
 import argparse
 import csv
@@ -53,11 +54,12 @@ def fault_name(fault):
     return errno.errorcode[int(text.rstrip("+"))] + (" for good" if text.endswith("+") else "") if text.rstrip("+").isdigit() else text
 
 
-def chosen_calls(count, most):
-    """At most `most` from the beginning, evenly between, and from the end."""
-    middle = range(most + 1, count - most + 1)
-    evenly = middle[::max(1, -(-len(middle) // most))] if most else []
-    return sorted({*range(1, min(count, most) + 1), *evenly, *range(max(1, count - most + 1), count + 1)})
+def some_of(calls, most):
+    """At most `most` from the beginning, evenly between, and from the end; None: all."""
+    if most is None or len(calls) <= 2 * most:
+        return list(calls)
+    middle = calls[most:-most]
+    return [*calls[:most], *middle[::-(-len(middle) // most)], *calls[-most:]]
 
 
 def ledger_text(path):
@@ -104,7 +106,7 @@ def is_whole(path, bytes_of_whole):
     return len(text) > 0 and text.rstrip().endswith(ends.get(path.suffix, b""))
 
 
-LEFT_OUT = re.compile(r"unreadable|left out|cannot be read|not be read")  # frames that a command goes on without, and says so
+LEFT_OUT = re.compile(r"unreadable|left out|cannot be read|not be read|: out of memory")  # frames that a command goes on without, and says so
 
 
 def released_crcs(ledger):
@@ -115,7 +117,7 @@ def released_crcs(ledger):
 class Server:
     """A command with its libraries loaded, which runs once for each line."""
 
-    def __init__(self, tool, library, scenario, scratch):
+    def __init__(self, tool, library, scenario, scratch, known_chains=()):
         self.scenario, self.folder, self.old = scenario, scratch / "run", scratch / "old"
         self.old.mkdir(parents=True)
         scenario.prepare(self.old)
@@ -126,7 +128,9 @@ class Server:
         self.after, again = self.golden(), self.golden()
         self.bytes = {name: (self.folder / name).stat().st_size for name in again}
         self.varies = {name for name in self.after if self.after[name] != again.get(name)}
-        self.calls = {name: int(count) for name, count in (line.split() for line in self.said(".calls").splitlines())}
+        self.counts = {name: int(count) for name, count in (line.split() for line in self.said(".calls").splitlines())}
+        self.chains = {chain: int(first) for first, chain in (line.split() for line in self.said(".chains").splitlines())}
+        self.allocations = sorted(first for chain, first in self.chains.items() if chain not in known_chains)
 
     def golden(self):
         status = self.run("malloc", 0, 0)
@@ -143,6 +147,10 @@ class Server:
         self.process.stdin.flush()
         return os.waitstatus_to_exitcode(int(self.process.stdout.readline()))
 
+    def calls(self, kind):
+        """Those that fail: of allocations, which are too many, the first of each chain of callers."""
+        return self.allocations if kind == "malloc" else range(1, self.counts[kind] + 1)
+
     def said(self, ending):
         return pathlib.Path(str(self.folder) + ending).read_text(errors="replace")
 
@@ -156,6 +164,10 @@ class Server:
     def is_less(self):
         """Frames could not be read, the command said so and went on without them."""
         return bool(LEFT_OUT.search(self.said(".err") + self.said(".out")))
+
+    def is_ended(self):
+        """Memory ran out where no exception may be thrown, as in a destructor, and the process ended there, as by a kill."""
+        return "not enough memory" in self.said(".err") and not re.search("^spherecloud: ", self.said(".err"), re.MULTILINE)
 
     def defects_of_files(self, allows_unfinished):
         now = state_of(self.folder)
@@ -197,6 +209,9 @@ class Server:
         status = self.run(call, at, fault)
         if status == -signal.SIGKILL and fault in KILLS:
             return "killed", [*self.defects_of_files(True), *self.defects_of_repeat()]
+        # Who has no memory any more cannot remove a folder either.
+        if status > 0 and call == "malloc" and (self.is_ended() or fault_name(fault).endswith("for good")):
+            return "refused", [*self.defects_of_message(call, fault), *self.defects_of_files(True), *self.defects_of_repeat()]
         if status < 0:
             return "crashed", ["ended by " + signal.Signals(-status).name + ": " + self.said(".err").strip()[-200:]]
         defects = list(self.defects_of_files(self.scenario.keeps_cut))
@@ -210,10 +225,10 @@ class Server:
 
 def measure(server, most, kinds, show):
     for call in FAULTS if kinds is None else kinds:
-        for fault in FAULTS[call] if server.calls[call] else []:
+        for fault in FAULTS[call] if server.counts[call] else []:
             row = dict.fromkeys(COLUMNS, 0)
-            row.update(command=server.scenario.name, call=call, fault=fault_name(fault), calls=server.calls[call])
-            for at in chosen_calls(server.calls[call], most):
+            row.update(command=server.scenario.name, call=call, fault=fault_name(fault), calls=server.counts[call])
+            for at in some_of(server.calls(call), most):
                 became, defects = server.judge(call, at, fault)
                 row["tried"] += 1
                 row[became] = row.get(became, 0) + 1
@@ -243,17 +258,18 @@ def main():
     parser.add_argument("--quick", action="store_true", help="a few commands and calls; writes nothing; fails when there is a defect")
     parser.add_argument("--only", action="append", help="this command alone; repeat")
     parser.add_argument("--call", action="append", choices=FAULTS, help="this call alone; repeat")
-    parser.add_argument("--most", type=int, default=50, metavar="N", help="so many calls at the beginning, between and at the end [50]")
+    parser.add_argument("--most", type=int, metavar="N", help="so many calls at the beginning, between and at the end [all]")
     parser.add_argument("--show", action="store_true", help="print each defect")
     arguments = parser.parse_args()
-    tool, measured = pathlib.Path(arguments.spherecloud).resolve(), {}
+    tool, measured, known_chains = pathlib.Path(arguments.spherecloud).resolve(), {}, set()
     with tempfile.TemporaryDirectory() as scratch:
         scenarios = Scenarios(tool, pathlib.Path(scratch))
         names = arguments.only or (scenarios.QUICK if arguments.quick else scenarios.NAMES)
         for name in names:
             scenario = scenarios.make(name)
-            server = Server(tool, arguments.library.resolve(), scenario, pathlib.Path(scratch) / name.replace(" ", "_"))
-            most = min(arguments.most, 2 if arguments.quick else scenario.most)
+            server = Server(tool, arguments.library.resolve(), scenario, pathlib.Path(scratch) / name.replace(" ", "_"), known_chains)
+            known_chains |= server.chains.keys()
+            most = 2 if arguments.quick else arguments.most or scenario.most
             measured[name] = list(measure(server, most, arguments.call, arguments.show or arguments.quick))
             server.close()
             if not arguments.quick and not arguments.call:

@@ -6,7 +6,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from faults import Server, chosen_calls
+from faults import Server, some_of
 from scenarios import Scenario
 
 EXPECTED = [("write", 1, 28, "neither the old nor the new"), ("write", 2, 28, "exit status 0 without out"),
@@ -20,7 +20,8 @@ def main():
     parser.add_argument("--careless", required=True, type=pathlib.Path)
     parser.add_argument("--library", required=True, type=pathlib.Path)
     arguments = parser.parse_args()
-    assert chosen_calls(7, 2) == [1, 2, 3, 5, 6, 7] and chosen_calls(1000, 50)[-1] == 1000 and chosen_calls(0, 50) == []
+    assert some_of(range(1, 8), 2) == [1, 2, 3, 5, 6, 7] and some_of(range(1, 1001), 50)[-1] == 1000
+    assert some_of(range(1, 3), 2) == [1, 2] and some_of([], 50) == [] and some_of(range(3), None) == [0, 1, 2]
     with tempfile.TemporaryDirectory() as scratch:
         scenario = Scenario("careless", [], lambda folder: (folder / "out").write_text("old"))
         server = Server(arguments.careless, arguments.library, scenario, pathlib.Path(scratch) / "careless")

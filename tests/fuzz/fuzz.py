@@ -2,6 +2,7 @@
 """Fuzzes all targets of a build with SPHC_FUZZ, one after another on one core, and writes what they did to tests/pipeline/fuzz.csv.
 
     fuzz.py BUILD [--seconds N] [--only TARGET]...        with --only the rows of these, and keeps the others
+    fuzz.py BUILD --more ...                              adds executions, seconds and findings to what the rows say
     fuzz.py BUILD --keep [--only TARGET]...               fuzzes nothing; the smallest inputs that add coverage go to corpora/ of the tree
 
 BUILD/corpora/TARGET keeps inputs from one run to the next, and BUILD/findings what ended a target. map and session, the doors of a
@@ -68,6 +69,11 @@ def fuzz(build, target, seconds):
     return row
 
 
+def added(before, row):
+    """The row of both campaigns; edges and inputs are of the later one."""
+    return row | {name: int(before[name]) + row[name] for name in ("executions", "seconds", "findings")}
+
+
 def keep(build, target):
     """One file of the tree: the smallest inputs of those that together reach all that the corpus reaches, each behind its length."""
     with tempfile.TemporaryDirectory() as merged:
@@ -90,6 +96,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path, help="folder of the build")
     parser.add_argument("--seconds", type=int, default=3600, help="of all targets together")
     parser.add_argument("--only", action="append", metavar="TARGET")
+    parser.add_argument("--more", action="store_true", help="add to the rows that are there")
     parser.add_argument("--keep", action="store_true", help="write corpora/ of the tree instead")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
@@ -105,7 +112,8 @@ def main():
     measured = []
     for target, seconds in shares(targets, arguments.seconds).items():
         measured.append(fuzz(build, target, seconds))
-        rows[(measured[-1]["sanitizers"], target)] = measured[-1]
+        key = (measured[-1]["sanitizers"], target)
+        rows[key] = added(rows[key], measured[-1]) if arguments.more and key in rows else measured[-1]
         print(" ".join(f"{name} {measured[-1][name]}" for name in COLUMNS), flush=True)
         with RESULTS.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")

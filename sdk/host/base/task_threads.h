@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -13,9 +14,13 @@ namespace sphc::host {
 
 class TaskThreads {
  public:
-  // So many, with the one that calls run.
+  // So many, with the one that calls run, or fewer where the system has no more.
   explicit TaskThreads(uint32_t threads) {
-    for (uint32_t i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
+    helpers_.reserve(threads);
+    try {
+      for (uint32_t i = 1; i < threads; ++i) helpers_.emplace_back([this] { help(); });
+    } catch (const std::system_error &) {  // those that run suffice
+    }
   }
   ~TaskThreads() {
     begin(nullptr, nullptr, 0, true);

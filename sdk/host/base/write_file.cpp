@@ -69,6 +69,21 @@ std::string besideOf(const std::string &target) {
   return target + ending;
 }
 
+// What has the name at the end is gone, whatever was thrown.  The name must outlive it.
+class RemovedAtEnd {
+ public:
+  explicit RemovedAtEnd(const std::string &path) : path_(&path) {}
+  ~RemovedAtEnd() {
+    if (path_) unlink(path_->c_str());
+  }
+  RemovedAtEnd(const RemovedAtEnd &) = delete;
+  RemovedAtEnd &operator=(const RemovedAtEnd &) = delete;
+  void keep() { path_ = nullptr; }
+
+ private:
+  const std::string *path_;
+};
+
 void writeInto(const std::string &device, const void *bytes, size_t count) {
   OpenFile file(device, O_WRONLY, 0);
   if (!file.isOpen() || !file.put(bytes, count) || !file.close()) fail(device);
@@ -82,20 +97,21 @@ void writeFile(const std::string &path, const void *bytes, size_t count, Readers
   if (is_there && (S_ISCHR(old.st_mode) || S_ISFIFO(old.st_mode))) return writeInto(path, bytes, count);
   std::error_code error;
   const std::string target = is_there ? fs::canonical(path, error).string() : path;
+  if (error) {
+    errno = error.value();
+    fail(path);
+  }
   const std::string beside = besideOf(target);
   OpenFile file(beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, readers == Readers::kOwner ? 0600 : 0666);
   if (!file.isOpen()) fail(path);
+  RemovedAtEnd unfinished(beside);
   bool done = true;
   if (readers == Readers::kOwner) done = file.setMode(0600);
   if (readers == Readers::kAll && is_there) done = file.setMode(old.st_mode & 0777);
   done = done && file.put(bytes, count) && file.sync() && file.close() &&
          std::rename(beside.c_str(), target.c_str()) == 0;
-  if (!done) {
-    const int why = errno;
-    unlink(beside.c_str());
-    errno = why;
-    fail(path);
-  }
+  if (!done) fail(path);
+  unfinished.keep();
   syncFolderOf(target);
 }
 
@@ -122,17 +138,15 @@ void renameToNew(const std::string &from, const std::string &to) {
 
 void writeNewFile(const std::string &path, const std::string &text, Readers readers) {
   const std::string beside = besideOf(path);
-  bool is_written = false;
+  RemovedAtEnd unfinished(beside);
+  writeFile(beside, text, readers);
   try {
-    writeFile(beside, text, readers);
-    is_written = true;
     renameToNew(beside, path);
   } catch (const std::runtime_error &) {
-    unlink(beside.c_str());
-    if (!is_written) throw;
     throw std::runtime_error("cannot write " + path +
                              ": something has taken its name, or the disk refuses it; choose another name");
   }
+  unfinished.keep();
 }
 
 }  // namespace sphc::host

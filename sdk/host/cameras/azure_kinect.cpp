@@ -111,30 +111,27 @@ Json cameraJson(const sphc_camera &camera, const char *purpose, const char *loca
   std::vector<double> d = opencvDistortion(camera);
   d.resize(8);
   const RigidMatrix m = matrixFromRigid(camera_from_rig);
-  Json json;
-  json["Intrinsics"]["ModelParameterCount"] = int{kParameterCount};
-  json["Intrinsics"]["ModelParameters"] = std::vector<double>{(c[2] - kCornerCentered) / camera.width,
-                                                              (c[3] - kCornerCentered) / camera.height,
-                                                              c[0] / camera.width,
-                                                              c[1] / camera.height,
-                                                              d[0],
-                                                              d[1],
-                                                              d[4],
-                                                              d[5],
-                                                              d[6],
-                                                              d[7],
-                                                              0,
-                                                              0,
-                                                              d[3],
-                                                              d[2]};
-  json["Intrinsics"]["ModelType"] = kBrown;
-  json["Location"] = location;
-  json["Purpose"] = purpose;
-  json["Rt"]["Rotation"] = m.rotation;
-  json["Rt"]["Translation"] = m.t_m;
-  json["SensorHeight"] = camera.height;
-  json["SensorWidth"] = camera.width;
-  return json;
+  const std::vector<double> parameters = {(c[2] - kCornerCentered) / camera.width,
+                                          (c[3] - kCornerCentered) / camera.height,
+                                          c[0] / camera.width,
+                                          c[1] / camera.height,
+                                          d[0],
+                                          d[1],
+                                          d[4],
+                                          d[5],
+                                          d[6],
+                                          d[7],
+                                          0,
+                                          0,
+                                          d[3],
+                                          d[2]};
+  return {{"Intrinsics",
+           {{"ModelParameterCount", int{kParameterCount}}, {"ModelParameters", parameters}, {"ModelType", kBrown}}},
+          {"Location", location},
+          {"Purpose", purpose},
+          {"Rt", {{"Rotation", m.rotation}, {"Translation", m.t_m}}},
+          {"SensorHeight", camera.height},
+          {"SensorWidth", camera.width}};
 }
 
 // The kit hands the text out with the zero at its end.
@@ -166,11 +163,11 @@ CalibrationPart readAzureKinect(const TextFile &file) {
 
 std::string azureKinectText(const sphc_rig &calibration) {
   const sphc_rigid identity = {{1, 0, 0, 0}, {0, 0, 0}};
-  Json json;
-  json["CalibrationInformation"]["Cameras"] = {
-      cameraJson(calibration.depth_camera, kDepthPurpose, "CALIBRATION_CameraLocationD0", identity),
-      cameraJson(calibration.color_camera, kColorPurpose, "CALIBRATION_CameraLocationPV0",
-                 calibration.color_from_depth)};
+  const Json cameras =
+      Json::array({cameraJson(calibration.depth_camera, kDepthPurpose, "CALIBRATION_CameraLocationD0", identity),
+                   cameraJson(calibration.color_camera, kColorPurpose, "CALIBRATION_CameraLocationPV0",
+                              calibration.color_from_depth)});
+  const Json json = {{"CalibrationInformation", {{"Cameras", cameras}}}};
   return json.dump(2) + "\n";
 }
 

@@ -116,16 +116,17 @@ nlohmann::ordered_json cameraJson(const sphc_camera &camera) {
 nlohmann::ordered_json readJson(const ReadCalibration &read) {
   const sphc_rig &c = read.calibration;
   const sphc_rigid &rigid = c.color_from_depth;
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const ReadFile &file : read.files)
-    json["files"].push_back({{"path", file.path}, {"format", nameOf(file.format).name}});
-  json["color_camera"] = cameraJson(c.color_camera);
-  json["depth_camera"] = cameraJson(c.depth_camera);
-  json["color_from_depth"]["q_wxyz"] = std::vector<double>(rigid.q_wxyz, rigid.q_wxyz + 4);
-  json["color_from_depth"]["t_m"] = std::vector<double>(rigid.t_m, rigid.t_m + 3);
-  json["baseline_m"] = baselineM(rigid);
-  json["depth_unit_m"] = c.depth_unit_m;
-  return json;
+    files.push_back({{"path", file.path}, {"format", nameOf(file.format).name}});
+  return {{"files", files},
+          {"color_camera", cameraJson(c.color_camera)},
+          {"depth_camera", cameraJson(c.depth_camera)},
+          {"color_from_depth",
+           {{"q_wxyz", std::vector<double>(rigid.q_wxyz, rigid.q_wxyz + 4)},
+            {"t_m", std::vector<double>(rigid.t_m, rigid.t_m + 3)}}},
+          {"baseline_m", baselineM(rigid)},
+          {"depth_unit_m", c.depth_unit_m}};
 }
 
 std::vector<std::string> writeFiles(const CalibrationOptions &options, Format format, const sphc_rig &calibration) {
@@ -178,7 +179,10 @@ nlohmann::ordered_json convert(const CalibrationOptions &options, Format format,
   const CalibrationDifference difference = roundTrip(paths, format, calibration);
   const bool exact = formatHolds(format, calibration.color_camera) && formatHolds(format, calibration.depth_camera);
   std::vector<Row> rows;
-  nlohmann::ordered_json json = {{"path", options.out}, {"format", nameOf(format).name}, {"exact", exact}};
+  nlohmann::ordered_json json = {{"path", options.out},
+                                 {"format", nameOf(format).name},
+                                 {"exact", exact},
+                                 {"round_trip", nlohmann::ordered_json::array()}};
   for (const auto &[name, part] : parts(difference)) {
     rows.push_back(differenceRow(name, part));
     json["round_trip"].push_back({{"what", name},

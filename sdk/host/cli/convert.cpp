@@ -205,9 +205,7 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
 // What the new layout does not keep.
 void tellLosses(const ConvertOptions &options, const Facts &facts, const Result &result, const Console &console) {
   const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
-  if (facts.is_cut) console.warn("note: " + options.in.folder + " was cut off; all of its whole chunks are kept");
-  if (facts.bad_chunk_count)
-    console.warn("note: " + std::to_string(facts.bad_chunk_count) + " parts with changed bytes are left out");
+  noteDamage(damageOf(options.in.folder, facts.is_cut, facts.bad_chunk_count), console);
   if (options.target == Target::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
   if (result.amplitudes && (is_by_frame || !isMcap(options.out)))

@@ -52,7 +52,8 @@ nlohmann::ordered_json json(const MapFacts &facts, const MapAnatomy &anatomy) {
                                   {"map_id", facts.id},
                                   {"format_version", facts.format_version},
                                   {"extractor", facts.extractor},
-                                  {"band", bandName(facts.band)}};
+                                  {"band", bandName(facts.band)},
+                                  {"parts", nlohmann::ordered_json::object()}};
   for (const BytePart &part : anatomy.parts) value["parts"][part.name] = part.bytes;
   value["directions"] = {{"nearest_median_deg", anatomy.nearest_median_deg},
                          {"nearest_p10_deg", anatomy.nearest_p10_deg},

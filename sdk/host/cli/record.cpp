@@ -2,6 +2,7 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <new>
 
 #include "host/base/checked_call.h"
 #include "host/base/usage_error.h"
@@ -151,6 +152,8 @@ int run(const RecordOptions &options, const Console &console) {
     sphc_recorder *ended = recorder.release();
     orThrow(options.out, [&](sphc_message *message) { return sphc_recorder_close(&ended, message); });
     recording.finish();
+  } catch (const std::bad_alloc &) {
+    throw std::runtime_error("there was not enough memory; what was recorded until then is in " + recording.part());
   } catch (const std::exception &error) {
     throw std::runtime_error(std::string(error.what()) + "; what was recorded until then is in " +
                              recording.part());

@@ -174,18 +174,18 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("S");
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
-      ->check(withoutSign())
+      ->check(wholeFrom(0))
       ->type_name("N");
   app->add_option("--walk-seed", config.walk_seed, "Another walk and noise for every number")
       ->capture_default_str()
-      ->check(withoutSign())
+      ->check(wholeFrom(0))
       ->type_name("N");
   app->add_option("--with", options->with, kWithHelp)->type_name("NAMES");
   app->add_option("--arrangement", config.arrangement_seed,
                   "Another arrangement of what people move (chairs, boxes, plants, books, small things, pictures)\n"
                   "for every number: half stands elsewhere, a quarter is gone; 0: as the room has it")
       ->capture_default_str()
-      ->check(withoutSign())
+      ->check(wholeFrom(0))
       ->type_name("N");
   app->add_option("--from", config.walk_start_s, "Seconds on the walk at which frame 0 is; 16 is lap two")
       ->capture_default_str()

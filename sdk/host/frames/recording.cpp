@@ -1,5 +1,6 @@
 #include "host/frames/recording.h"
 
+#include <new>
 #include <stdexcept>
 
 #include "host/base/usage_error.h"
@@ -28,6 +29,8 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
   std::unique_ptr<RecordingReader> reader;
   try {
     reader = std::make_unique<RecordingReader>(options.folder, readerOptions(options));
+  } catch (const std::bad_alloc &) {
+    throw;
   } catch (const std::exception &error) {
     throw std::runtime_error(std::string("cannot open the recording: ") + error.what());
   }
@@ -37,13 +40,16 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
                            ": check --first, --last, --step, and that depth images are there");
 }
 
+std::string damageOf(const std::string &name, bool is_cut, uint32_t bad_chunk_count) {
+  if (bad_chunk_count > 0)
+    return name + ": " + std::to_string(bad_chunk_count) +
+           " parts with changed bytes are left out; copy it again from where it was recorded";
+  return is_cut ? name + " was cut off; all that is whole in it is kept" : "";
+}
+
 std::string damageOf(const RecordingReader &reader) {
   const recording::Recording &recording = reader.recording();
-  const std::string name = recording.path.string();
-  if (recording.bad_chunk_count > 0)
-    return name + ": " + std::to_string(recording.bad_chunk_count) +
-           " parts with changed bytes are left out; copy it again from where it was recorded";
-  return recording.is_cut ? name + " was cut off; all of its whole chunks are kept" : "";
+  return damageOf(recording.path.string(), recording.is_cut, recording.bad_chunk_count);
 }
 
 std::string describeSelection(const RecordingOptions &options) {

@@ -4,6 +4,8 @@
 
 #include <cstring>
 #include <exception>
+#include <stdexcept>
+#include <system_error>
 
 namespace sphc::host {
 namespace {
@@ -25,8 +27,13 @@ sphc_image copyOf(const sphc_image &image, std::vector<uint8_t> *pixels) {
 
 }  // namespace
 
-GuideThread::GuideThread(std::function<void(const sphc_localizer_frame &)> look)
-    : look_(std::move(look)), thread_([this] { run(); }) {}
+GuideThread::GuideThread(std::function<void(const sphc_localizer_frame &)> look) : look_(std::move(look)) {
+  try {
+    thread_ = std::thread([this] { run(); });
+  } catch (const std::system_error &) {
+    throw std::runtime_error("no thread for the guide: there are too many, or too little memory for one more");
+  }
+}
 
 GuideThread::~GuideThread() {
   {

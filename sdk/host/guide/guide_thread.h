@@ -15,7 +15,7 @@ namespace sphc::host {
 class GuideThread {
  public:
   // `look` runs on the thread, with images that stay until it returns.  Where it throws, the thread takes no frame
-  // any more.
+  // any more.  Throws std::runtime_error where the system has no thread.
   explicit GuideThread(std::function<void(const sphc_localizer_frame &)> look);
   ~GuideThread();  // when the frame that it has is done
   GuideThread(const GuideThread &) = delete;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <future>
 #include <thread>
+
+#include "host/base/on_threads.h"
 
 namespace sphc::host {
 
@@ -17,18 +18,14 @@ std::vector<std::optional<FrameLink>> PairLinker::link(const std::vector<WalkFra
                                                        const LinkDemands &demands, const FramePoses *expected) {
   std::vector<std::optional<FrameLink>> links(pairs.size());
   std::atomic<size_t> next{0};
-  const auto work = [&](FrameLinker *linker) {
+  onThreads(linkers_.size(), [&](size_t thread) {
     for (size_t i = next++; i < pairs.size(); i = next++) {
       const FramePair &pair = pairs[i];
       Rigid b_from_a;
       if (expected) b_from_a = (*expected)[pair.b]->inverse() * *(*expected)[pair.a];
-      links[i] = linker->link(frames, pair, demands, expected ? &b_from_a : nullptr);
+      links[i] = linkers_[thread].link(frames, pair, demands, expected ? &b_from_a : nullptr);
     }
-  };
-  std::vector<std::future<void>> others;
-  for (size_t i = 1; i < linkers_.size(); ++i) others.push_back(std::async(std::launch::async, work, &linkers_[i]));
-  work(&linkers_[0]);
-  for (std::future<void> &other : others) other.get();
+  });
   return links;
 }
 

@@ -182,12 +182,10 @@ void readDepthSide(ObjectReader &reader, double pixel_shift, sphc_rig &rig) {
 }
 
 Json cameraToJson(const sphc_camera &camera) {
-  Json json;
-  json["model"] = host::findModel(camera.model)->name;
-  json["width"] = camera.width;
-  json["height"] = camera.height;
-  json["params"] = std::vector<double>(camera.params, camera.params + camera.param_count);
-  return json;
+  return {{"model", host::findModel(camera.model)->name},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"params", std::vector<double>(camera.params, camera.params + camera.param_count)}};
 }
 
 }  // namespace
@@ -209,15 +207,15 @@ sphc_rig calibrationFromJson(std::string_view text) {
 
 std::string calibrationToJson(const sphc_rig &rig) {
   const sphc_rigid &rigid = rig.color_from_depth;
-  Json json;
-  json["format"] = "spherecloud-calibration";
-  json["version"] = 1;
-  json["pixel_center"] = 0.5;
-  json["color_camera"] = cameraToJson(rig.color_camera);
-  json["depth_camera"] = cameraToJson(rig.depth_camera);
-  json["color_from_depth"]["q_wxyz"] = std::vector<double>(rigid.q_wxyz, rigid.q_wxyz + 4);
-  json["color_from_depth"]["t_m"] = std::vector<double>(rigid.t_m, rigid.t_m + 3);
-  json["depth_unit_m"] = rig.depth_unit_m;
+  Json json = {{"format", "spherecloud-calibration"},
+               {"version", 1},
+               {"pixel_center", 0.5},
+               {"color_camera", cameraToJson(rig.color_camera)},
+               {"depth_camera", cameraToJson(rig.depth_camera)},
+               {"color_from_depth",
+                {{"q_wxyz", std::vector<double>(rigid.q_wxyz, rigid.q_wxyz + 4)},
+                 {"t_m", std::vector<double>(rigid.t_m, rigid.t_m + 3)}}},
+               {"depth_unit_m", rig.depth_unit_m}};
   if (isRegistered(rig)) json["depth_registered"] = true;
   return json.dump(2) + "\n";
 }

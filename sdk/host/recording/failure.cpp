@@ -3,6 +3,7 @@
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <system_error>
 
 namespace sphc::recording {
 
@@ -23,6 +24,10 @@ sphc_status explainException(sphc_message *message) noexcept {
     return SPHC_E_DEVICE;
   } catch (const std::bad_alloc &) {
     setMessage(message, "out of memory");
+    return SPHC_E_DEVICE;
+  } catch (const std::system_error &error) {  // of std::thread
+    const bool is_full = error.code() == std::errc::resource_unavailable_try_again;
+    setMessage(message, is_full ? "too many threads, or too little memory for one more" : error.what());
     return SPHC_E_DEVICE;
   } catch (const std::exception &error) {
     setMessage(message, error.what());

@@ -1,6 +1,8 @@
 #include "file_writer.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <system_error>
 
 #include "failure.h"
@@ -10,7 +12,9 @@ namespace sphc::recording {
 namespace fs = std::filesystem;
 
 void failWrite(const fs::path &path) {
-  throw Failure(SPHC_E_DEVICE, shortPath(path.string()) + ": cannot be written; is there room and permission?");
+  const std::string why = std::strerror(errno);
+  throw Failure(SPHC_E_DEVICE,
+                shortPath(path.string()) + ": cannot be written: " + why + "; is there room and permission?");
 }
 
 namespace {
@@ -31,14 +35,12 @@ void writeFile(const fs::path &path, ByteView bytes) {
     if (!putAll(path, bytes)) failWrite(path);
     return;
   }
-  const fs::path target = is_there ? fs::canonical(path, error) : path;  // a link keeps pointing where it points
+  const fs::path target = is_there ? fs::canonical(path) : path;  // a link keeps pointing where it points
   const fs::path beside = target.string() + ".part";
-  if (putAll(beside, bytes)) {
-    fs::rename(beside, target, error);
-    if (!error) return;
-  }
-  std::error_code ignored;
-  fs::remove(beside, ignored);
+  if (putAll(beside, bytes) && std::rename(beside.c_str(), target.c_str()) == 0) return;
+  const int why = errno;
+  std::remove(beside.c_str());
+  errno = why;
   failWrite(path);
 }
 

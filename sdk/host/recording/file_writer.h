@@ -9,6 +9,7 @@ namespace sphc::recording {
 
 // Replaces one that is there.  Throws Failure.
 void writeFile(const std::filesystem::path &path, ByteView bytes);
+// With the cause that errno tells.
 [[noreturn]] void failWrite(const std::filesystem::path &path);
 
 }  // namespace sphc::recording

@@ -231,6 +231,8 @@ void requireBadChunk(const File &file, Recording &recording) {
 Recording openMcap(const fs::path &path) {
   const File file(path);
   FileWindow window(file);
+  if (window.fileSize() == 0)
+    throw Failure(SPHC_E_DEVICE, file.name() + ": is empty; copy it again from where it was recorded");
   if (!hasMagic(window, 0))
     throw Failure(SPHC_E_DEVICE, file.name() + ": is no MCAP file; give one that the recorder wrote, or a folder");
   const bool is_whole = hasMagic(window, window.fileSize() - sizeof kMcapMagic);

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <new>
 
 #include "host/base/write_file.h"
 
@@ -30,11 +31,13 @@ std::string terminals(const std::string &name, const std::string &script, PlotSi
 // True when gnuplot could be started; *exit_status as of waitpid.
 bool runGnuplot(const std::string &folder, const std::string &script_name, int *exit_status) {
   posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, "gnuplot.log", O_WRONLY | O_CREAT | O_APPEND, 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  const bool is_told =
+      posix_spawn_file_actions_init(&actions) == 0 &&
+      posix_spawn_file_actions_addchdir_np(&actions, folder.c_str()) == 0 &&
+      posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0) == 0 &&
+      posix_spawn_file_actions_addopen(&actions, 1, "gnuplot.log", O_WRONLY | O_CREAT | O_APPEND, 0644) == 0 &&
+      posix_spawn_file_actions_adddup2(&actions, 1, 2) == 0;
+  if (!is_told) throw std::bad_alloc();
   std::string program = "gnuplot", argument = script_name;
   char *arguments[] = {program.data(), argument.data(), nullptr};
   pid_t child = 0;

@@ -82,6 +82,7 @@ Json summaryJson(const Run &run, const Summary &s) {
     json["maps"].push_back({{"path", map.path}, {"map_id", map.id}, {"points", map.points}});
   json["tracking"] = s.tracking;
   json["guided"] = s.guided;
+  for (const char *name : {"outcomes", "faults", "hints"}) json[name] = Json::object();
   for (size_t i = 0; i < s.outcomes.size(); ++i) {
     json["outcomes"][outcomeName(static_cast<sphc_localizer_outcome>(i))] = s.outcomes[i];
   }
@@ -98,6 +99,7 @@ Json summaryJson(const Run &run, const Summary &s) {
   if (const auto graded = gradedFrames(run); !graded.empty())
     json["calibration_error"] = {{"equal_width", number(calibrationError(equalWidthBins(graded)))},
                                  {"equal_count", number(calibrationError(equalCountBins(graded)))}};
+  json["time_ms"] = Json::object();
   for (size_t i = 0; i < kStageCount; ++i) {
     json["time_ms"][kStageNames[i]] = {{"median", number(s.stage_median_ms[i])},
                                        {"p90", number(s.stage_p90_ms[i])}};
@@ -106,6 +108,7 @@ Json summaryJson(const Run &run, const Summary &s) {
   json["median"] = {{"keypoints", number(s.median_keypoints)},
                     {"matches", number(s.median_matches)},
                     {"inliers", number(s.median_inliers)}};
+  json["settings"] = Json::object();
   for (const Setting &setting : run.settings) json["settings"][setting.name] = setting.value;
   return json;
 }

@@ -1,10 +1,12 @@
 #include "host/audit/attack/neighbours.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <thread>
 
 #include "host/audit/attack/nearest_points.h"
+#include "host/base/on_threads.h"
 #include "runtime/stages/match/distance.h"
 
 namespace sphc::host {
@@ -52,14 +54,11 @@ template <typename Take>
 void searchAll(const std::vector<Descriptor> &queries, const std::vector<Descriptor> &rows, size_t count,
                const Take &take) {
   const Table table(rows);
-  const size_t threads = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> running;
-  for (size_t t = 0; t < threads; ++t)
-    running.emplace_back([&, t] {
-      for (size_t i = t; i < queries.size(); i += threads)
-        take(static_cast<Eigen::Index>(i), table.nearest(queries[i], count));
-    });
-  for (std::thread &thread : running) thread.join();
+  std::atomic<size_t> next{0};
+  onThreads(std::max(1u, std::thread::hardware_concurrency()), [&](size_t) {
+    for (size_t i = next++; i < queries.size(); i = next++)
+      take(static_cast<Eigen::Index>(i), table.nearest(queries[i], count));
+  });
 }
 
 }  // namespace

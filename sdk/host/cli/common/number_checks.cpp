@@ -34,15 +34,15 @@ CLI::Validator between(double least, double most) {
 
 CLI::Validator notNegative() { return checkOf(0, std::numeric_limits<double>::max(), "a number from 0 on"); }
 
-CLI::Validator withoutSign() {
+CLI::Validator wholeFrom(uint64_t least) {
   return CLI::Validator(
-      [](const std::string &text) {
+      [least](const std::string &text) {
         const bool has_digits_alone = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
         errno = 0;
-        std::strtoull(text.c_str(), nullptr, 10);
-        const bool fits = errno == 0;
-        return has_digits_alone && fits ? std::string()
-                                        : text + " is not a whole number from 0 to 18446744073709551615";
+        const bool is_large_enough = std::strtoull(text.c_str(), nullptr, 10) >= least && errno == 0;
+        return has_digits_alone && is_large_enough
+                   ? std::string()
+                   : text + " is not a whole number from " + std::to_string(least) + " on, or it is too large";
       },
       "");
 }

@@ -2,6 +2,7 @@
 // largest number without a sign.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <cstdint>
 
 namespace sphc::host {
 
@@ -9,7 +10,7 @@ namespace sphc::host {
 CLI::Validator between(double least, double most);
 // From 0 on: seconds, metres.
 CLI::Validator notNegative();
-// Of a whole number, as a seed.
-CLI::Validator withoutSign();
+// Of a whole number, as a seed (from 0) or a step (from 1).
+CLI::Validator wholeFrom(uint64_t least);
 
 }  // namespace sphc::host

@@ -1,8 +1,10 @@
 #include "host/cli/common/program.h"
 
+#include <signal.h>
 #include <spherecloud/spherecloud.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -77,6 +79,9 @@ const char kNoMemory[] = "there is not enough memory; end other programs, or tak
 
 std::atomic<bool> ran_out_of_memory{false};
 
+// By operator new, or by the last call of the C library that failed.
+bool lackedMemory() { return errno == ENOMEM || ran_out_of_memory; }
+
 void noteThatMemoryRanOut() {
   ran_out_of_memory = true;
   throw std::bad_alloc();
@@ -91,28 +96,51 @@ bool isOfNoMemory() {
   } catch (...) {  // a defect, for a debugger
     return false;
   }
-  return ran_out_of_memory;
+  return lackedMemory();
 }
 
-// Where an exception cannot go on: destructors of JSON values and of Ceres allocate, and so do threads.  What was
-// being written has another name than the file, as after a kill.
+// What was being written has another name than the file, as after a kill.
 [[noreturn]] void endWithoutMemory() {
-  if (!isOfNoMemory()) std::abort();
   std::fprintf(stderr, "%s\n", kNoMemory);
   std::_Exit(kExitFailure);
+}
+
+// Where an exception cannot go on: destructors of JSON values and of Ceres allocate, and so do threads.
+[[noreturn]] void onTerminate() {
+  if (!isOfNoMemory()) std::abort();
+  endWithoutMemory();
+}
+
+struct sigaction before_abort, before_fault;
+
+// A library that got no memory may abort, as Ceres does, or not look at what it got, as CHOLMOD does.  Every other
+// crash stays one.
+void onCrash(int signal) {
+  if (lackedMemory()) endWithoutMemory();
+  sigaction(signal, signal == SIGABRT ? &before_abort : &before_fault, nullptr);
+}
+
+void catchCrashes() {
+  struct sigaction action = {};
+  action.sa_handler = onCrash;
+  sigaction(SIGABRT, &action, &before_abort);
+  sigaction(SIGSEGV, &action, &before_fault);
 }
 
 }  // namespace
 
 int runProgram(const Program &program, int argc, char **argv) {
   std::set_new_handler(noteThatMemoryRanOut);
-  std::set_terminate(endWithoutMemory);
+  std::set_terminate(onTerminate);
+  catchCrashes();
   try {
     return parseAndRun(program, argc, argv);
   } catch (const std::bad_alloc &) {
     std::fprintf(stderr, "%s: %s\n", program.name, kNoMemory);
   } catch (const std::exception &error) {
+    const bool lacked_memory = lackedMemory();  // which may be the cause
     std::fprintf(stderr, "%s: %s\n", program.name, error.what());
+    if (lacked_memory) std::fprintf(stderr, "%s\n", kNoMemory);
   } catch (...) {
     std::fprintf(stderr, "%s: an unknown error; please report it with the command line\n", program.name);
   }

@@ -1,5 +1,7 @@
 #include "host/cli/common/recording_options.h"
 
+#include "host/cli/common/number_checks.h"
+
 namespace sphc::host {
 namespace {
 
@@ -11,11 +13,17 @@ void addFrameOptions(CLI::App *app, RecordingOptions *options) {
   app->add_option("-c,--calibration", options->calibration, "Calibration file [the recording's own]")
       ->type_name("FILE")
       ->group(kGroup);
-  app->add_option("--first", options->first, "Number of the first frame [0]")->type_name("N")->group(kGroup);
-  app->add_option("--last", options->last, "Number of the last frame [all]")->type_name("N")->group(kGroup);
+  app->add_option("--first", options->first, "Number of the first frame [0]")
+      ->type_name("N")
+      ->check(wholeFrom(0))
+      ->group(kGroup);
+  app->add_option("--last", options->last, "Number of the last frame [all]")
+      ->type_name("N")
+      ->check(wholeFrom(0))
+      ->group(kGroup);
   app->add_option("--step", options->step, "Take every N-th: first, first + N, ... [1]")
       ->type_name("N")
-      ->check(CLI::PositiveNumber)
+      ->check(wholeFrom(1))
       ->group(kGroup);
 }
 

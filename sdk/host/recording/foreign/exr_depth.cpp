@@ -7,6 +7,7 @@
 #include <ImfInputFile.h>
 
 #include <algorithm>
+#include <new>
 #include <vector>
 
 #include "host/recording/encoded_image.h"
@@ -49,6 +50,8 @@ auto withExr(ByteView bytes, Action &&action) {
     Imf::InputFile file(stream, 0);
     return action(file);
   } catch (const Failure &) {
+    throw;
+  } catch (const std::bad_alloc &) {
     throw;
   } catch (const std::exception &error) {
     failExr(error.what());

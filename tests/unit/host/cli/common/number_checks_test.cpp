@@ -16,9 +16,11 @@ TEST(NumberChecks, ADecimalNumberInItsBounds) {
 }
 
 TEST(NumberChecks, AWholeNumberHasNoSign) {
-  for (const char *text : {"0", "18446744073709551615"}) EXPECT_TRUE(takes(withoutSign(), text)) << text;
+  for (const char *text : {"0", "18446744073709551615"}) EXPECT_TRUE(takes(wholeFrom(0), text)) << text;
   for (const char *text : {"-1", "+1", " 1", "1.5", "", "nan", "18446744073709551616"})
-    EXPECT_FALSE(takes(withoutSign(), text)) << text;
+    EXPECT_FALSE(takes(wholeFrom(0), text)) << text;
+  EXPECT_TRUE(takes(wholeFrom(1), "1"));
+  for (const char *text : {"0", "-1"}) EXPECT_FALSE(takes(wholeFrom(1), text)) << text;
 }
 
 }  // namespace
