@@ -16,6 +16,7 @@
 #include "host/import/model_file.h"
 #include "host/import/upright.h"
 #include "host/mapping/calibration_fit.h"
+#include "host/mapping/solver_memory.h"
 #include "host/recording/calibration_json.h"
 #include "host/report/trajectory.h"
 
@@ -274,6 +275,7 @@ void check(const MapOptions &options) {
 
 int run(MapOptions options, const Console &console) {
   check(options);
+  callNewHandlerForCholmod();
   options.trust.sigma_rad = options.sigma_deg * kPi / 180;
   options.trust.drift_m = options.drift_percent / 100;
   options.trust.drift_rad = options.drift_deg * kPi / 180;

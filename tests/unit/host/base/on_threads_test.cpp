@@ -6,16 +6,10 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "tests/support/is_sanitized.h"
+
 namespace sphc::host {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kIsSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 TEST(OnThreads, EachNumberIsGivenOnce) {
   std::atomic<int> sum{0};
