@@ -5,11 +5,12 @@
 
 int main(void) {
   const int file = open("out", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  void *memory = malloc(100);
-  ((volatile char *)memory)[99] = 1;
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < 2; ++i) {
+    void *memory = malloc(100);
+    ((volatile char *)memory)[99] = 1;
     if (write(file, "half", 4) < 0) continue;
+    free(memory);
+  }
   close(file);
-  free(memory);
   return 0;
 }

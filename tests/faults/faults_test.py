@@ -25,6 +25,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         scenario = Scenario("careless", [], lambda folder: (folder / "out").write_text("old"))
         server = Server(arguments.careless, arguments.library, scenario, pathlib.Path(scratch) / "careless")
+        assert server.counts["malloc"] == 2 and server.allocations == [1], "both have one chain of callers"
         for call, at, fault, expected in EXPECTED:
             became, defects = server.judge(call, at, fault)
             assert any(expected in defect for defect in defects), (call, at, fault, became, defects)
