@@ -93,7 +93,7 @@ class Scenarios:
 
     def make_map_refine(self):
         # A calibration is never replaced either.
-        return dataclasses.replace(self.make_map("--refine-calibration", "refined.json"), is_recording=True, most=20)
+        return dataclasses.replace(self.make_map("--refine-calibration", "refined.json"), is_recording=True, most=5)
 
     def make_localize(self):
         outputs = ["--trajectory", "walk.tum", "--frames-json", "frames.jsonl", "--report", "report"]
@@ -102,7 +102,7 @@ class Scenarios:
 
         def prepare(folder):
             self.run("localize", *source, "--last", 1, *[folder / part if part[0] != "-" else part for part in outputs])
-        return Scenario("", ["localize", *source, "--last", 3, *outputs], prepare)
+        return Scenario("", ["localize", *source, "--last", 3, *outputs], prepare, most=200)
 
     def make_convert(self):
         return Scenario("", ["convert", self.walk, "out.mcap"], is_recording=True)
@@ -144,7 +144,7 @@ class Scenarios:
         return Scenario("", ["inspect", self.released() / "room.sphc", "--picture", "sky.png"], prepare)
 
     def make_advise(self):
-        return Scenario("", ["advise", "--recording", self.walk, "--last", 3, "--folds", 2, "--picture", "sky.png"])
+        return Scenario("", ["advise", "--recording", self.walk, "--last", 3, "--folds", 2, "--picture", "sky.png"], most=20)
 
     def make_audit(self):
         ledger, room = self.released() / "spherecloud.ledger", self.released() / "room.sphc"
@@ -192,4 +192,4 @@ class Scenarios:
         return Scenario("", ["decrypt", encrypted, "--key", key, "--out", "room.again"], lambda folder: None, self.secret_of(key), is_recording=True)
 
     def make_simulate(self):
-        return Scenario("", ["simulate", "--out", "walk", "--frames", 1, "--threads", 1], is_recording=True, most=5)
+        return Scenario("", ["simulate", "--out", "walk", "--frames", 1, "--threads", 1], is_recording=True, most=2)
