@@ -30,13 +30,14 @@ function(sphc_label label)
   add_dependencies(tests_${label} ${ARGN})
 endfunction()
 
+# ThreadSanitizer says nothing of a race whose first access is no longer in its history: a frame is long.
+set(SPHC_TSAN_OPTIONS TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt:history_size=7)
+
 # The entries of ctest that run a program's cases.
 function(sphc_test_entries name labels cost)
   math(EXPR last "${SPHC_TEST_SHARES} - 1")
   foreach(share RANGE ${last})
-    # ThreadSanitizer says nothing of a race whose first access is no longer in its history: a frame is long.
-    set(environment
-      TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/thread_sanitizer.txt:history_size=7)
+    set(environment ${SPHC_TSAN_OPTIONS})
     get_property(recording GLOBAL PROPERTY SPHC_RECORDING_TESTS)
     if(name IN_LIST recording)
       list(APPEND environment SPHC_REFUSALS=${SPHC_REFUSALS})
