@@ -5,7 +5,7 @@
 //
 //   FOLDER   the working folder of the run; FOLDER.out and FOLDER.err get what it says, FOLDER.calls a line
 //            `call count` for each kind of call, when main is over
-//            FOLDER.chains, where AT is 0, a line `first-call hash` for each chain of callers that made CALL
+//            FOLDER.chains, where AT is 0, a line `number hash` for each CALL and the chain of its callers
 //   CALL     malloc, open, read, write, sync, rename, close, mmap, truncate, mkdir, unlink or ioctl
 //   AT       which one fails, from 1; 0 only counts
 //   FAULT    a number of errno; the same with a + behind it: all later calls fail too, as on a full disk; `short`:
@@ -51,14 +51,11 @@ static int error_number;
 // The program's main, between what the libraries do before and after.
 static int (*program_main)(int, char **, char **);
 
-// The first call of each chain of callers.  Those in the program count, those in its libraries do not.
-enum { kChains = 1 << 17, kDepth = 128 };
-static struct chain {
-  uint64_t hash;
-  long first;
-} chains[kChains];
+// Where each call and the chain of its callers go.  Those in the program count, those in its libraries do not.
+enum { kDepth = 128 };
+static FILE *chains;
 static atomic_flag chains_taken = ATOMIC_FLAG_INIT;
-static _Thread_local bool notes;  // looking for the callers may itself allocate
+static _Thread_local bool notes;  // looking for the callers may itself allocate, and writing may write
 
 // The same in each process, wherever the program lies.
 static uint64_t hash_of_callers(void) {
@@ -72,18 +69,14 @@ static uint64_t hash_of_callers(void) {
         _dl_find_object(callers[i], &object) == 0 && object.dlfo_map_start == program.dlfo_map_start;
     if (is_ours) hash = (hash ^ (uint64_t)((char *)callers[i] - (char *)object.dlfo_map_start)) * 1099511628211u;
   }
-  return hash | 1;  // 0 is an empty place
+  return hash;
 }
 
 static void note_chain(long call) {
   notes = true;
   const uint64_t hash = hash_of_callers();
   while (atomic_flag_test_and_set(&chains_taken)) continue;
-  size_t place = hash >> 40;  // the high bits are mixed best
-  const size_t end = place + kChains;
-  while (place < end && chains[place % kChains].hash != 0 && chains[place % kChains].hash != hash) ++place;
-  if (place == end) abort();
-  if (chains[place % kChains].hash == 0) chains[place % kChains] = (struct chain){hash, call};
+  fprintf(chains, "%ld %016llx\n", call, (unsigned long long)hash);
   atomic_flag_clear(&chains_taken);
   notes = false;
 }
@@ -141,22 +134,15 @@ static void write_calls(const char *folder) {
   fclose(file);
 }
 
-static void write_chains(const char *folder) {
-  FILE *file = beside(folder, ".chains");
-  if (!file) abort();
-  for (int i = 0; i < kChains; ++i)
-    if (chains[i].hash) fprintf(file, "%ld %016llx\n", chains[i].first, (unsigned long long)chains[i].hash);
-  fclose(file);
-}
-
 static int run_main(const char *folder, int argc, char **argv, char **environment) {
   begin_run(folder);
   hash_of_callers();  // loads what it needs
+  if (first_failing == 0 && !(chains = beside(folder, ".chains"))) abort();
   atomic_store(&armed, true);
   const int status = program_main(argc, argv, environment);
   atomic_store(&armed, false);
   write_calls(folder);
-  if (first_failing == 0) write_chains(folder);
+  if (chains) fclose(chains);
   return status;
 }
 

@@ -5,7 +5,7 @@
     faults.py --spherecloud BIN --library fail_call.so --quick      a few commands and calls, for the tests
     faults.py ... --only build --show                               one command; each defect with its run
 
-Every call of each kind fails, in a run of its own; of allocations the first of each chain of callers that no earlier command had.
+Every call of each kind fails, in a run of its own; of commands with long runs the first allocation of each chain of callers.
 After each run a file is the old one or the new one, to the bit; nothing else lies there; the ledger knows the map; stderr says why.
 docs/testing.md says more.
 """
@@ -45,6 +45,7 @@ FAULTS = {  # what each call is made to do; a + is a fault that stays
     "ioctl": [errno.EIO, errno.EINTR],
 }
 KILLS = ("kill", "torn")
+EVERY_COMMAND = "version"  # does what every command does before it begins
 UNFINISHED = re.compile(r"\.part(/|$)|\.unfinished$")  # what a killed process may leave
 COLUMNS = ["command", "call", "fault", "calls", "tried", "refused", "done", "killed", "defects"]
 
@@ -52,6 +53,11 @@ COLUMNS = ["command", "call", "fault", "calls", "tried", "refused", "done", "kil
 def fault_name(fault):
     text = str(fault)
     return errno.errorcode[int(text.rstrip("+"))] + (" for good" if text.endswith("+") else "") if text.rstrip("+").isdigit() else text
+
+
+def firsts(calls):
+    """The first of each chain."""
+    return {chain: call for call, chain in reversed(sorted(calls))}.values()
 
 
 def some_of(calls, most):
@@ -117,7 +123,7 @@ def released_crcs(ledger):
 class Server:
     """A command with its libraries loaded, which runs once for each line."""
 
-    def __init__(self, tool, library, scenario, scratch, known_chains=()):
+    def __init__(self, tool, library, scenario, scratch, of_every_command=frozenset(), of_long_runs=frozenset()):
         self.scenario, self.folder, self.old = scenario, scratch / "run", scratch / "old"
         self.old.mkdir(parents=True)
         scenario.prepare(self.old)
@@ -129,8 +135,11 @@ class Server:
         self.bytes = {name: (self.folder / name).stat().st_size for name in again}
         self.varies = {name for name in self.after if self.after[name] != again.get(name)}
         self.counts = {name: int(count) for name, count in (line.split() for line in self.said(".calls").splitlines())}
-        self.chains = {chain: int(first) for first, chain in (line.split() for line in self.said(".chains").splitlines())}
-        self.allocations = sorted(first for chain, first in self.chains.items() if chain not in known_chains)
+        allocations = [(int(call), chain) for call, chain in (line.split() for line in self.said(".chains").splitlines())]
+        self.chains = {chain for _, chain in allocations}
+        known = of_every_command | of_long_runs if scenario.by_chains else of_every_command
+        unknown = [(call, chain) for call, chain in allocations if chain not in known]
+        self.allocations = sorted(firsts(unknown) if scenario.by_chains else (call for call, _ in unknown))
 
     def golden(self):
         status = self.run("malloc", 0, 0)
@@ -148,7 +157,7 @@ class Server:
         return os.waitstatus_to_exitcode(int(self.process.stdout.readline()))
 
     def calls(self, kind):
-        """Those that fail: of allocations, which are too many, the first of each chain of callers."""
+        """Those that fail."""
         return self.allocations if kind == "malloc" else range(1, self.counts[kind] + 1)
 
     def said(self, ending):
@@ -238,6 +247,13 @@ def measure(server, most, kinds, show):
             yield [row[column] for column in COLUMNS]
 
 
+def chains_of_every_command(serve):
+    server = serve(EVERY_COMMAND)
+    server.close()
+    shutil.rmtree(server.old.parent)
+    return server.chains
+
+
 def keep(path, measured):
     """Rows of commands that were not measured stay."""
     rows = {}
@@ -261,16 +277,20 @@ def main():
     parser.add_argument("--most", type=int, metavar="N", help="so many calls at the beginning, between and at the end [all]")
     parser.add_argument("--show", action="store_true", help="print each defect")
     arguments = parser.parse_args()
-    tool, measured, known_chains = pathlib.Path(arguments.spherecloud).resolve(), {}, set()
+    measured = {}
     with tempfile.TemporaryDirectory() as scratch:
-        scenarios = Scenarios(tool, pathlib.Path(scratch))
-        names = arguments.only or (scenarios.QUICK if arguments.quick else scenarios.NAMES)
-        for name in names:
-            scenario = scenarios.make(name)
-            server = Server(tool, arguments.library.resolve(), scenario, pathlib.Path(scratch) / name.replace(" ", "_"), known_chains)
-            known_chains |= server.chains.keys()
-            most = 2 if arguments.quick else arguments.most or scenario.most
-            measured[name] = list(measure(server, most, arguments.call, arguments.show or arguments.quick))
+        folder, tool = pathlib.Path(scratch), pathlib.Path(arguments.spherecloud).resolve()
+        scenarios = Scenarios(tool, folder)
+
+        def serve(name, *known_chains):
+            return Server(tool, arguments.library.resolve(), scenarios.make(name), folder / name.replace(" ", "_"), *known_chains)
+
+        of_every_command, of_long_runs = chains_of_every_command(serve), set()
+        for name in arguments.only or (scenarios.QUICK if arguments.quick else scenarios.NAMES):
+            server = serve(name) if name == EVERY_COMMAND else serve(name, of_every_command, of_long_runs)
+            if server.scenario.by_chains:
+                of_long_runs |= server.chains
+            measured[name] = list(measure(server, 2 if arguments.quick else arguments.most, arguments.call, arguments.show or arguments.quick))
             server.close()
             if not arguments.quick and not arguments.call:
                 keep(arguments.results, measured)

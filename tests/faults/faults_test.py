@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A command that is careless with its file has every defect that faults.py looks for."""
 import argparse
+import dataclasses
 import pathlib
 import sys
 import tempfile
@@ -23,9 +24,16 @@ def main():
     assert some_of(range(1, 8), 2) == [1, 2, 3, 5, 6, 7] and some_of(range(1, 1001), 50)[-1] == 1000
     assert some_of(range(1, 3), 2) == [1, 2] and some_of([], 50) == [] and some_of(range(3), None) == [0, 1, 2]
     with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
         scenario = Scenario("careless", [], lambda folder: (folder / "out").write_text("old"))
-        server = Server(arguments.careless, arguments.library, scenario, pathlib.Path(scratch) / "careless")
-        assert server.counts["malloc"] == 2 and server.allocations == [1], "both have one chain of callers"
+        server = Server(arguments.careless, arguments.library, scenario, folder / "careless")
+        assert server.counts["malloc"] == 2 and server.allocations == [1, 2]
+        again = Server(arguments.careless, arguments.library, scenario, folder / "known", server.chains)
+        assert again.allocations == []
+        again.close()
+        by_chains = Server(arguments.careless, arguments.library, dataclasses.replace(scenario, by_chains=True), folder / "chains")
+        assert by_chains.allocations == [1], "both have one chain of callers"
+        by_chains.close()
         for call, at, fault, expected in EXPECTED:
             became, defects = server.judge(call, at, fault)
             assert any(expected in defect for defect in defects), (call, at, fault, became, defects)

@@ -18,7 +18,7 @@ class Scenario:
     secret: str = ""
     is_recording: bool = False  # or a key or a calibration: never replaced, nor what a killed command left of one
     keeps_cut: bool = False  # what was recorded stays as NAME.part
-    most: typing.Optional[int] = None  # so many calls at the beginning, between and at the end, where a run takes long
+    by_chains: bool = False  # a run takes long: of allocations the first of each chain of callers fails
 
 
 class Scenarios:
@@ -67,7 +67,7 @@ class Scenarios:
         scenario = getattr(self, "make_" + name.replace(" ", "_"))()
         return dataclasses.replace(scenario, name=name)
 
-    def make_version(self):  # what every command does before it begins
+    def make_version(self):
         return Scenario("", ["--version"])
 
     def make_build(self):  # an update of a place
@@ -89,11 +89,11 @@ class Scenarios:
 
         def prepare(folder):
             self.run("map", *self.frames(2), *[folder / part if "." in part else part for part in outputs[:4]])  # no calibration is replaced
-        return Scenario("", ["map", *self.frames(3), *outputs, "--threads", 1], prepare)
+        return Scenario("", ["map", *self.frames(3), *outputs, "--threads", 1], prepare, by_chains=True)
 
     def make_map_refine(self):
         # A calibration is never replaced either.
-        return dataclasses.replace(self.make_map("--refine-calibration", "refined.json"), is_recording=True, most=5)
+        return dataclasses.replace(self.make_map("--refine-calibration", "refined.json"), is_recording=True)
 
     def make_localize(self):
         outputs = ["--trajectory", "walk.tum", "--frames-json", "frames.jsonl", "--report", "report"]
@@ -102,7 +102,7 @@ class Scenarios:
 
         def prepare(folder):
             self.run("localize", *source, "--last", 1, *[folder / part if part[0] != "-" else part for part in outputs])
-        return Scenario("", ["localize", *source, "--last", 3, *outputs], prepare, most=200)
+        return Scenario("", ["localize", *source, "--last", 3, *outputs], prepare, by_chains=True)
 
     def make_convert(self):
         return Scenario("", ["convert", self.walk, "out.mcap"], is_recording=True)
@@ -144,7 +144,7 @@ class Scenarios:
         return Scenario("", ["inspect", self.released() / "room.sphc", "--picture", "sky.png"], prepare)
 
     def make_advise(self):
-        return Scenario("", ["advise", "--recording", self.walk, "--last", 3, "--folds", 2, "--picture", "sky.png"], most=20)
+        return Scenario("", ["advise", "--recording", self.walk, "--last", 3, "--folds", 2, "--picture", "sky.png"], by_chains=True)
 
     def make_audit(self):
         ledger, room = self.released() / "spherecloud.ledger", self.released() / "room.sphc"
@@ -192,4 +192,4 @@ class Scenarios:
         return Scenario("", ["decrypt", encrypted, "--key", key, "--out", "room.again"], lambda folder: None, self.secret_of(key), is_recording=True)
 
     def make_simulate(self):
-        return Scenario("", ["simulate", "--out", "walk", "--frames", 1, "--threads", 1], is_recording=True, most=2)
+        return Scenario("", ["simulate", "--out", "walk", "--frames", 1, "--threads", 1], is_recording=True, by_chains=True)
