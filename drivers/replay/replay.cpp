@@ -1,5 +1,6 @@
 #include "replay.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "host/recording/failure.h"
@@ -110,6 +111,8 @@ sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *in
   info->lost_count = recording.lost_count;
   info->bad_chunk_count = recording.bad_chunk_count;
   info->is_cut = recording.is_cut;
+  info->acceleration_count = static_cast<uint32_t>(recording.accelerations.size());
+  info->reserved = 0;
   return SPHC_OK;
 }
 
@@ -168,6 +171,16 @@ sphc_status sphc_replay_recorded_pose(const sphc_replay *replay, uint32_t index,
   if (index >= poses.size()) return SPHC_E_ARGUMENT;
   *time_ns = poses[index].time_ns;
   *world_from_camera = poses[index].pose;
+  return SPHC_OK;
+}
+
+sphc_status sphc_replay_acceleration(const sphc_replay *replay, uint32_t index, int64_t *time_ns,
+                                     double felt_mps2[3]) {
+  if (!replay || !time_ns || !felt_mps2) return SPHC_E_ARGUMENT;
+  const std::vector<TimedAcceleration> &all = replay->reader.recording().accelerations;
+  if (index >= all.size()) return SPHC_E_ARGUMENT;
+  *time_ns = all[index].time_ns;
+  std::copy_n(all[index].felt_mps2, 3, felt_mps2);
   return SPHC_OK;
 }
 

@@ -98,6 +98,8 @@ typedef struct sphc_replay_info {
   uint64_t lost_count;               /* MCAP: captures that the recording says it lost */
   uint32_t bad_chunk_count;          /* MCAP: parts left out because their bytes have changed */
   uint32_t is_cut;                   /* MCAP, 1: the end is missing, as after a power cut */
+  uint32_t acceleration_count;       /* of the whole recording */
+  uint32_t reserved;
 } sphc_replay_info;
 /* Set info->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *info);
@@ -148,6 +150,10 @@ sphc_status sphc_replay_pose_at(const sphc_replay *replay, int64_t time_ns, sphc
 /* Pose `index` of info.pose_count as it was recorded, in order of time.  Errors: ARGUMENT. [shared] */
 sphc_status sphc_replay_recorded_pose(const sphc_replay *replay, uint32_t index, int64_t *time_ns,
                                       sphc_rigid *world_from_camera);
+/* What an accelerometer felt, number `index` of info.acceleration_count, in order of time and in the axes of the
+ * colour camera: at rest 9.81 upwards.  Errors: ARGUMENT. [shared] */
+sphc_status sphc_replay_acceleration(const sphc_replay *replay, uint32_t index, int64_t *time_ns,
+                                     double felt_mps2[3]);
 
 #ifdef __cplusplus
 }

@@ -40,6 +40,8 @@ class Headset {
     return static_cast<double>(time_ns - config_.start_time_ns) * 1e-9 + config_.walk_start_s;
   }
   Pose colorPose(int64_t time_ns) const { return colorPoseAfter(time_ns, 0); }
+  // In the axes of the colour camera, m/s^2.
+  Vec3d felt(int64_t time_ns) const;
 
   void renderColor(uint32_t index, uint8_t *rgb) const;
   void renderDepth(uint32_t index, uint16_t *depth) const;

@@ -93,6 +93,15 @@ sphc_status sphc_simulated_pose_at(const sphc_simulated *simulated, int64_t time
   return SPHC_OK;
 }
 
+sphc_status sphc_simulated_felt_at(const sphc_simulated *simulated, int64_t time_ns, double felt_mps2[3]) {
+  if (simulated == nullptr || felt_mps2 == nullptr) return SPHC_E_ARGUMENT;
+  const sphc::simulated::Vec3d felt = simulated->headset.felt(time_ns);
+  felt_mps2[0] = felt.x;
+  felt_mps2[1] = felt.y;
+  felt_mps2[2] = felt.z;
+  return SPHC_OK;
+}
+
 sphc_status sphc_simulated_oracle_depth(const sphc_simulated *simulated, int64_t time_ns, float *depth_m) {
   if (simulated == nullptr || depth_m == nullptr) return SPHC_E_ARGUMENT;
   return guarded(nullptr, [&] { simulated->headset.oracleColor(time_ns, depth_m); });

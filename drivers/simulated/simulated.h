@@ -143,6 +143,11 @@ sphc_status sphc_simulated_frame_times(const sphc_simulated *simulated, uint32_t
  * frames. ARGUMENT: a null pointer. [shared] */
 sphc_status sphc_simulated_pose_at(const sphc_simulated *simulated, int64_t time_ns, sphc_rigid *world_from_camera);
 
+/* What an accelerometer in the colour camera measures at any time, in the camera's axes: at rest 9.81 upwards.
+ * Noise of 0.03 m/s^2 and a bias of about 0.04 on each axis, by the walk's seed.  ARGUMENT: a null pointer.
+ * [shared] */
+sphc_status sphc_simulated_felt_at(const sphc_simulated *simulated, int64_t time_ns, double felt_mps2[3]);
+
 /* Exact z depth in metres, along the colour camera's axis, at the centre of every colour pixel at this time;
  * row-major, COLOR_WIDTH x COLOR_HEIGHT floats in caller memory.  No noise, no blur.  0 never happens: the room is
  * closed.  In a mirror it is the depth of what is seen there, behind the glass of a window that of the street.

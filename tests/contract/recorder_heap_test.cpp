@@ -46,9 +46,13 @@ TEST(RecorderHeap, TakesNothingAfterTheFirstCaptures) {
     OpenRecorder recorder(folder / "walk.mcap", config);
     const TinyImages images(1);
     const std::vector<uint16_t> amplitude = tinyAmplitude(1);
+    int64_t felt_ns = 0;
     const auto add = [&](uint32_t first, uint32_t end) {
       for (uint32_t i = first; i < end; ++i)
         for (const sphc_stream stream : {SPHC_STREAM_COLOR, SPHC_STREAM_DEPTH}) {
+          const double felt_mps2[3] = {0, 0, 9.8};
+          for (int k = 0; k < 300; ++k)  // more than wait for a capture
+            ASSERT_EQ(sphc_recorder_add_acceleration(recorder.get(), ++felt_ns, felt_mps2, nullptr), SPHC_OK);
           sphc_capture capture = tinyCapture(i, stream, images);
           if (stream == SPHC_STREAM_DEPTH) capture.amplitude = amplitudeImage(amplitude);
           ASSERT_EQ(sphc_recorder_add(recorder.get(), &capture, nullptr), SPHC_OK);

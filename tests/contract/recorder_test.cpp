@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <limits>
 
 #include "file_size_limit.h"
 #include "temp_folder.h"
@@ -265,6 +266,106 @@ TEST_F(Recorder, RefusesWhatDoesNotFitAndGoesOn) {
   EXPECT_EQ(infoOf(OpenReplay(file())).color_count, 1u);
 }
 
+// Number i, at 2 ms times i.
+void addAccelerations(sphc_recorder *recorder, uint32_t first, uint32_t end) {
+  for (uint32_t i = first; i < end; ++i) {
+    const double felt[3] = {0.5 * i, -1.25, 9.75};
+    ASSERT_EQ(sphc_recorder_add_acceleration(recorder, 2000000 * int64_t{i}, felt, nullptr), SPHC_OK) << i;
+  }
+}
+
+void expectAccelerations(const OpenReplay &replay, uint32_t count) {
+  ASSERT_EQ(infoOf(replay).acceleration_count, count);
+  for (uint32_t i = 0; i < count; ++i) {
+    int64_t time_ns = 0;
+    double felt[3];
+    ASSERT_EQ(sphc_replay_acceleration(replay.get(), i, &time_ns, felt), SPHC_OK);
+    ASSERT_EQ(time_ns, 2000000 * int64_t{i});
+    ASSERT_THAT(felt, ::testing::ElementsAre(0.5 * i, -1.25, 9.75));
+  }
+  int64_t time_ns = 0;
+  double felt[3];
+  EXPECT_EQ(sphc_replay_acceleration(replay.get(), count, &time_ns, felt), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_replay_acceleration(nullptr, 0, &time_ns, felt), SPHC_E_ARGUMENT);
+}
+
+TEST_F(Recorder, KeepsAccelerationsBetweenImagesAndWithoutAny) {
+  config_.wait_us = 10000000;
+  OpenRecorder recorder(file(), config_);
+  addAccelerations(recorder.get(), 0, 40);
+  addTinyFrames(recorder.get(), 2);
+  addAccelerations(recorder.get(), 40, 1000);  // more than wait for a capture
+  addAccelerations(recorder.get(), 1000, 1003);
+  ASSERT_EQ(recorder.close(), SPHC_OK) << recorder.message();
+  const OpenReplay replay(file());
+  expectAccelerations(replay, 1003);
+  EXPECT_EQ(infoOf(replay).color_count, 2u);
+  EXPECT_EQ(infoOf(replay).lost_count, 0u);
+  EXPECT_EQ(infoOf(replay).pose_count, 2u);
+}
+
+TEST_F(Recorder, CountsAccelerationsThatFoundNoSlot) {
+  config_.queue_slots = 2;
+  config_.wait_us = 0;
+  OpenRecorder recorder(file(), config_);
+  uint32_t kept = 0, dropped = 0;
+  const double felt[3] = {0, 0, 9.8};
+  for (uint32_t i = 0; i < 2000000 && dropped == 0; ++i) {
+    const sphc_status status = sphc_recorder_add_acceleration(recorder.get(), i, felt, nullptr);
+    ASSERT_TRUE(status == SPHC_OK || status == SPHC_AGAIN) << status;
+    ++(status == SPHC_OK ? kept : dropped);
+  }
+  ASSERT_EQ(dropped, 1u) << "a copy is faster than the writer";
+  EXPECT_EQ(statisticsOf(recorder.get()).dropped_count, 1u);
+  const TinyImages images(0);
+  sphc_capture capture = tinyCapture(0, SPHC_STREAM_COLOR, images);
+  while (sphc_recorder_add(recorder.get(), &capture, nullptr) == SPHC_AGAIN) capture.time_ns += 1000;
+  ASSERT_EQ(recorder.close(), SPHC_OK);
+  const OpenReplay replay(file());
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  EXPECT_EQ(infoOf(replay).acceleration_count, kept);
+  EXPECT_GE(infoOf(replay).lost_count, 1u);
+}
+
+TEST_F(Recorder, RefusesAccelerationsThatAreNone) {
+  OpenRecorder recorder(file(), config_);
+  sphc_message message{};
+  const auto add = [&](int64_t time_ns, double x) {
+    const double felt[3] = {x, 0, 9.8};
+    return sphc_recorder_add_acceleration(recorder.get(), time_ns, felt, &message);
+  };
+  EXPECT_EQ(add(0, std::numeric_limits<double>::quiet_NaN()), SPHC_E_ARGUMENT);
+  EXPECT_THAT(message.text, HasSubstr("m/s^2"));
+  EXPECT_EQ(add(0, std::numeric_limits<double>::infinity()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(add(-1, 0), SPHC_E_ARGUMENT);
+  EXPECT_EQ(add(7, 0), SPHC_OK);
+  EXPECT_EQ(add(7, 0), SPHC_E_ARGUMENT);
+  EXPECT_THAT(message.text, HasSubstr("increasing"));
+  EXPECT_EQ(sphc_recorder_add_acceleration(recorder.get(), 8, nullptr, &message), SPHC_E_ARGUMENT);
+  EXPECT_EQ(sphc_recorder_add_acceleration(nullptr, 8, nullptr, &message), SPHC_E_ARGUMENT);
+  addTinyFrames(recorder.get(), 1);
+  ASSERT_EQ(recorder.close(), SPHC_OK);
+  EXPECT_EQ(infoOf(OpenReplay(file())).acceleration_count, 1u);
+}
+
+// As those of poses: nobody reads them again.
+TEST_F(Recorder, LeavesOutAccelerationsOfAChangedChunk) {
+  {
+    OpenRecorder recorder(file(), config_);
+    addAccelerations(recorder.get(), 0, 20);
+    addTinyFrames(recorder.get(), 1);
+    ASSERT_EQ(recorder.close(), SPHC_OK);
+  }
+  std::string bytes = temp_.read("walk.mcap");
+  const ChunkSpan chunk = chunksOf(bytes).front();
+  bytes[(chunk.start + chunk.end) / 2] ^= 1;
+  temp_.write("walk.mcap", bytes);
+  const OpenReplay replay(file());
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  EXPECT_EQ(infoOf(replay).bad_chunk_count, 1u);
+  EXPECT_EQ(infoOf(replay).acceleration_count, 0u);
+}
+
 TEST_F(Recorder, RefusesABadConfig) {
   const auto refusal = [&](auto change) {
     sphc_recorder_config config = recorderConfig();
@@ -286,6 +387,17 @@ TEST_F(Recorder, RefusesABadConfig) {
 }
 
 // ---- crashes ----
+
+TEST_F(Recorder, AFileThatWasCutInItsHeadIsCalledCut) {
+  writeTinyMcap(file(), 2, config_);
+  const std::string whole = temp_.read("walk.mcap");
+  for (const size_t bytes : {8, 20, 300}) {
+    temp_.write("cut.mcap", whole.substr(0, bytes));
+    const OpenReplay replay(temp_ / "cut.mcap");
+    EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
+    EXPECT_THAT(replay.message(), AllOf(HasSubstr("was cut before"), HasSubstr("copy it again"))) << bytes;
+  }
+}
 
 TEST_F(Recorder, ACutFileIsReplayedUpToItsLastWholeChunk) {
   config_.chunk_bytes = 65536;

@@ -81,6 +81,8 @@ std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality)
     sphc_recorder_add(recorder, &capture, nullptr);
     const sphc_rigid pose = {{1, 0, 0, 0}, {0.1 * i, 0, 0}};
     sphc_recorder_add_pose(recorder, 1000 + 10 * i, &pose, nullptr);
+    const double felt_mps2[3] = {0, -9.8, 0.1 * i};
+    sphc_recorder_add_acceleration(recorder, 1000 + 10 * i, felt_mps2, nullptr);
   }
   sphc_recorder_close(&recorder, nullptr);
   return file.bytes();

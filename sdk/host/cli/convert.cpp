@@ -23,7 +23,7 @@ namespace {
 
 enum class Target { kByName, kMcap, kTum, k7Scenes, kRaw };
 
-constexpr int64_t kPosesAroundNs = 1000000000;  // of a part of a recording
+constexpr int64_t kAroundNs = 1000000000;  // of a part of a recording, poses and accelerations
 
 struct ConvertOptions {
   RecordingOptions in;
@@ -35,13 +35,13 @@ struct ConvertOptions {
 };
 
 struct Result {
-  uint32_t color = 0, depth = 0, poses = 0, unreadable = 0, unpaired = 0, amplitudes = 0;
+  uint32_t color = 0, depth = 0, poses = 0, accelerations = 0, unreadable = 0, unpaired = 0, amplitudes = 0;
 };
 
 // What is told of a recording once it is converted.
 struct Facts {
   bool is_cut, is_mcap;
-  uint32_t depth_count, pose_count, bad_chunk_count;
+  uint32_t depth_count, pose_count, acceleration_count, bad_chunk_count;
 };
 
 struct ReplayCloser {
@@ -77,19 +77,23 @@ sphc_rig calibrationOf(const sphc_replay *replay) {
   return rig;
 }
 
-// Poses up to a time; each goes once, and those before `from_ns` are left out.
-class Poses {
+// What a recording holds beside images, in order of time: each goes once, and what is before `from_ns` is left out.
+template <typename Value>
+class Beside {
  public:
-  Poses(const sphc_replay *replay, uint32_t count) : replay_(replay), count_(count) {}
+  using Read = sphc_status (*)(const sphc_replay *, uint32_t index, int64_t *time_ns, Value *);
+  using Write = void (RecordingOut::*)(int64_t, const Value &);
+  Beside(const sphc_replay *replay, uint32_t count, Read read, Write write)
+      : replay_(replay), count_(count), read_(read), write_(write) {}
 
   void writeUpTo(int64_t time_ns, int64_t from_ns, RecordingOut *out) {
     for (; next_ < count_; ++next_) {
-      int64_t pose_ns = 0;
-      sphc_rigid pose;
-      orThrow("pose", [&](sphc_message *) { return sphc_replay_recorded_pose(replay_, next_, &pose_ns, &pose); });
-      if (pose_ns > time_ns) return;
-      if (pose_ns < from_ns) continue;
-      out->addPose(pose_ns, pose);
+      int64_t its_ns = 0;
+      Value value;
+      orThrow("pose or acceleration", [&](sphc_message *) { return read_(replay_, next_, &its_ns, &value); });
+      if (its_ns > time_ns) return;
+      if (its_ns < from_ns) continue;
+      (out->*write_)(its_ns, value);
       ++written_;
     }
   }
@@ -98,12 +102,20 @@ class Poses {
  private:
   const sphc_replay *replay_;
   uint32_t count_, next_ = 0, written_ = 0;
+  Read read_;
+  Write write_;
 };
 
-// Both streams in order of time, poses among them; of a part of a recording those around it.
+sphc_status readAcceleration(const sphc_replay *replay, uint32_t index, int64_t *time_ns, Acceleration *felt) {
+  return sphc_replay_acceleration(replay, index, time_ns, felt->mps2);
+}
+
+// Both streams in order of time, poses and accelerations among them; of a part of a recording those around it.
 Result copyStreams(sphc_replay *replay, bool is_part, RecordingOut *out, const Console &console) {
   const sphc_replay_info info = infoOf(replay);
-  Poses poses(replay, info.pose_count);
+  Beside<sphc_rigid> poses(replay, info.pose_count, sphc_replay_recorded_pose, &RecordingOut::addPose);
+  const uint32_t acceleration_count = out->keepsAccelerations() ? info.acceleration_count : 0;
+  Beside<Acceleration> felt(replay, acceleration_count, readAcceleration, &RecordingOut::addAcceleration);
   sphc_source source = {};
   orThrow("source", [&](sphc_message *) { return sphc_replay_source(replay, &source); });
   if (source.start(source.self) < 0) throw std::runtime_error(source.message(source.self));
@@ -121,16 +133,19 @@ Result copyStreams(sphc_replay *replay, bool is_part, RecordingOut *out, const C
       ++result.unreadable;
       continue;
     }
-    if (is_part && from_ns == INT64_MIN) from_ns = capture.time_ns - kPosesAroundNs;
-    if (is_part) to_ns = capture.time_ns + kPosesAroundNs;
+    if (is_part && from_ns == INT64_MIN) from_ns = capture.time_ns - kAroundNs;
+    if (is_part) to_ns = capture.time_ns + kAroundNs;
     poses.writeUpTo(capture.time_ns, from_ns, out);
+    felt.writeUpTo(capture.time_ns, from_ns, out);
     out->add(capture);
     ++(capture.stream == SPHC_STREAM_COLOR ? result.color : result.depth);
     result.amplitudes += capture.amplitude.data != nullptr;
     source.release(source.self, &capture);
   }
   poses.writeUpTo(to_ns, from_ns, out);
+  felt.writeUpTo(to_ns, from_ns, out);
   result.poses = poses.written();
+  result.accelerations = felt.written();
   return result;
 }
 
@@ -184,8 +199,11 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
 Result convertFrames(const ConvertOptions &options, const Console &console, Facts *facts) {
   const auto reader = openRecording(options.in);
   const recording::Recording &recording = reader->recording();
-  *facts = {recording.is_cut, recording.layout == recording::Layout::kMcap,
-            static_cast<uint32_t>(recording.depth.size()), static_cast<uint32_t>(recording.poses.poses().size()),
+  *facts = {recording.is_cut,
+            recording.layout == recording::Layout::kMcap,
+            static_cast<uint32_t>(recording.depth.size()),
+            static_cast<uint32_t>(recording.poses.poses().size()),
+            static_cast<uint32_t>(recording.accelerations.size()),
             recording.bad_chunk_count};
   return options.target == Target::kRaw ? writeRaw(reader.get(), options.out, console)
                                         : write7Scenes(reader.get(), options.out, console);
@@ -194,8 +212,8 @@ Result convertFrames(const ConvertOptions &options, const Console &console, Fact
 Result convertStreams(const ConvertOptions &options, const Console &console, Facts *facts) {
   const Replay replay = openStreams(options);
   const sphc_replay_info info = infoOf(replay.get());
-  *facts = {info.is_cut != 0, info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count,
-            info.bad_chunk_count};
+  *facts = {info.is_cut != 0, info.layout == SPHC_REPLAY_MCAP, info.depth_count,
+            info.pose_count,  info.acceleration_count,         info.bad_chunk_count};
   const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
   const Result result = copyStreams(replay.get(), options.isPart(), out.get(), console);
   out->close();
@@ -211,6 +229,9 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
   if (result.amplitudes && (is_by_frame || !isMcap(options.out)))
     console.warn("note: amplitudes of " + std::to_string(result.amplitudes) +
                  " depth images are left out; an MCAP file keeps them");
+  if (facts.acceleration_count && options.target != Target::kMcap)
+    console.warn("note: " + std::to_string(facts.acceleration_count) +
+                 " accelerations are left out; an MCAP file keeps them");
   if (is_by_frame && facts.depth_count > result.depth)
     console.warn("note: " + std::to_string(facts.depth_count - result.depth) +
                  " depth images that belong to no frame are left out");
@@ -247,11 +268,13 @@ int convert(ConvertOptions options, const Console &console) {
       is_by_frame ? convertFrames(options, console, &facts) : convertStreams(options, console, &facts);
   tellLosses(options, facts, result, console);
   console.say("Wrote " + options.out + ": " + std::to_string(result.color) + " colour images, " +
-              std::to_string(result.depth) + " depth images, " + std::to_string(result.poses) + " poses.");
+              std::to_string(result.depth) + " depth images, " + std::to_string(result.poses) + " poses" +
+              (result.accelerations ? ", " + std::to_string(result.accelerations) + " accelerations." : "."));
   console.give({{"recording", options.out},
                 {"color", result.color},
                 {"depth", result.depth},
                 {"poses", result.poses},
+                {"accelerations", result.accelerations},
                 {"unreadable", result.unreadable},
                 {"unpaired", result.unpaired}});
   return result.unreadable ? kExitFailure : kExitDone;

@@ -214,7 +214,7 @@ Command localizeCommand(CLI::App *root) {
   app->add_option("--deadline-us", options->deadline_us,
                   "Time for a frame, after which the best pose so far is given out; 0: no deadline")
       ->capture_default_str()
-      ->check(wholeFrom(0))
+      ->check(wholeFrom(0, UINT32_MAX))
       ->group("Localizer");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }

@@ -23,6 +23,7 @@ struct SimulateOptions {
   sphc_simulated_config config = {};
   std::optional<double> lap_s;
   std::string with;
+  double accelerometer_hz = 0;
   bool ideal_depth = false, raw_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
 };
 
@@ -68,7 +69,32 @@ void keep(const sphc_capture &capture, const sphc_simulated *simulated, Recordin
   out->addPose(capture.time_ns, pose);
 }
 
-void record(sphc_simulated *simulated, RecordingOut *out) {
+// Measures at a rate from a time on; 0: never.
+class Accelerometer {
+ public:
+  Accelerometer(const sphc_simulated *simulated, double rate_hz, int64_t from_ns)
+      : simulated_(simulated), period_ns_(rate_hz > 0 ? 1e9 / rate_hz : 0), from_ns_(from_ns) {}
+
+  void writeUpTo(int64_t time_ns, RecordingOut *out) {
+    while (period_ns_ > 0) {
+      const int64_t next_ns = from_ns_ + std::llround(period_ns_ * static_cast<double>(written_));
+      if (next_ns > time_ns) return;
+      Acceleration felt;
+      orThrow("accelerometer",
+              [&](sphc_message *) { return sphc_simulated_felt_at(simulated_, next_ns, felt.mps2); });
+      out->addAcceleration(next_ns, felt);
+      ++written_;
+    }
+  }
+
+ private:
+  const sphc_simulated *simulated_;
+  double period_ns_;
+  int64_t from_ns_;
+  uint64_t written_ = 0;
+};
+
+void record(sphc_simulated *simulated, Accelerometer accelerometer, RecordingOut *out) {
   sphc_source source = {};
   source.struct_size = sizeof source;
   orThrow("source", [&](sphc_message *) { return sphc_simulated_source(simulated, &source); });
@@ -83,6 +109,7 @@ void record(sphc_simulated *simulated, RecordingOut *out) {
   sphc_capture capture = {};
   capture.struct_size = sizeof capture;
   while (check(source.acquire(source.self, 0, &capture)) != SPHC_END) {
+    accelerometer.writeUpTo(capture.time_ns, out);
     keep(capture, simulated, out);
     if (capture.stream == SPHC_STREAM_DEPTH) bar.show(capture.sequence + 1, total);
     source.release(source.self, &capture);
@@ -109,13 +136,15 @@ int simulate(const SimulateOptions &options, const Console &console) {
   const sphc_simulated_config config = configOf(options);
   const Simulated simulated = openHeadset(config);
   const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
-  record(simulated.get(), out.get());
+  record(simulated.get(), {simulated.get(), options.accelerometer_hz, config.start_time_ns}, out.get());
   out->close();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   console.say("Recorded " + std::to_string(config.frame_count) + " frames to " + options.out + " in " +
               fixed(seconds, 1) + " s: colour, depth, calibration and exact poses.");
   if (options.raw_depth && !isMcap(options.out))
     console.warn("note: a folder keeps no amplitudes of the depth; --out X.mcap does");
+  if (options.accelerometer_hz > 0 && !out->keepsAccelerations())
+    console.warn("note: a folder keeps no accelerations; --out X.mcap does");
   tellNext(options.out, config, console);
   console.give({{"recording", options.out},
                 {"frames", config.frame_count},
@@ -157,7 +186,10 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
   app->add_option("-o,--out", options->out, "Folder to make, or file X.mcap; must not be a recording yet")
       ->required()
       ->type_name("PATH");
-  app->add_option("--frames", config.frame_count, "How many frames")->capture_default_str()->type_name("N");
+  app->add_option("--frames", config.frame_count, "How many frames")
+      ->capture_default_str()
+      ->check(wholeFrom(1, UINT32_MAX))
+      ->type_name("N");
   app->add_option("--rate", config.frame_rate_hz, "Frames a second")
       ->capture_default_str()
       ->check(notNegative())
@@ -193,7 +225,12 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("S");
   app->add_option("--threads", config.threads, "At most so many; 0: all cores")
       ->capture_default_str()
+      ->check(wholeFrom(0, UINT32_MAX))
       ->type_name("N");
+  app->add_option("--accelerometer", options->accelerometer_hz,
+                  "Also what an accelerometer measures, so many times a second, up to 2000 [none]; a file keeps it")
+      ->check(between(0, 2000))
+      ->type_name("HZ");
   auto *ideal =
       app->add_flag("--ideal-depth", options->ideal_depth, "Depth without noise, bias, holes or mixed pixels");
   app->add_flag("--raw-depth", options->raw_depth,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -35,15 +36,36 @@ class DropList {
   const Drop *end() const { return drops_.data() + used_; }
 
  private:
-  std::array<Drop, 5> drops_ = {};  // two streams and two causes; and poses, which no sequence counts
+  std::array<Drop, 5> drops_ =
+      {};  // two streams and two causes; and what belongs to none, which no sequence counts
   size_t used_ = 0;
 };
 
+// What was felt since the last slot; its memory is made at once.
+constexpr size_t kMostWaiting = 256;
+class Accelerations {
+ public:
+  Accelerations() { felt_.reserve(kMostWaiting); }
+  bool isFull() const { return felt_.size() == kMostWaiting; }
+  void add(const TimedAcceleration &acceleration) { felt_.push_back(acceleration); }
+  void moveTo(Accelerations &other) {
+    other.felt_.assign(felt_.begin(), felt_.end());
+    felt_.clear();
+  }
+  auto begin() const { return felt_.begin(); }
+  auto end() const { return felt_.end(); }
+
+ private:
+  std::vector<TimedAcceleration> felt_;
+};
+
 struct Slot {
-  bool is_pose = false;
-  CaptureNote note = {};  // of a pose, time and sequence
+  enum class What { kImage, kPose, kAccelerations };  // these come with the others as well
+  What what = What::kImage;
+  CaptureNote note = {};  // of others than images, time and sequence
   sphc_image image = {}, amplitude = {};
   sphc_rigid pose = {};
+  Accelerations accelerations;
   DropList drops;
   Bytes pixels;
 };
@@ -87,6 +109,7 @@ struct sphc_recorder {
 
   sphc_status add(const sphc_capture &capture);
   sphc_status addPose(int64_t time_ns, const sphc_rigid &world_from_camera);
+  sphc_status addAcceleration(const TimedAcceleration &acceleration);
   void drain();
   void close();
 
@@ -106,7 +129,8 @@ struct sphc_recorder {
   const sphc_recorder_config config;
   RecordingEncoder encoder;  // the thread's, until it is joined
 
-  StreamState color, depth, poses;
+  StreamState color, depth, poses, felt;
+  Accelerations accelerations;
   DropList drops;
   std::vector<Slot> slots;  // a ring; `first` and the `used` behind it are the thread's
 
@@ -165,6 +189,7 @@ sphc_status sphc_recorder::push(const Drop &drop, Fill &&fill) {
   Slot &slot = slots[(first + used) % slots.size()];
   lock.unlock();  // the slot is the caller's until it is counted
   fill(slot);
+  accelerations.moveTo(slot.accelerations);
   slot.drops = drops;
   drops.clear();
   lock.lock();
@@ -190,7 +215,7 @@ sphc_status sphc_recorder::add(const sphc_capture &capture) {
   noteGap(capture, state);
   state = {capture.time_ns, capture.sequence};
   return push({capture.stream, capture.sequence, 1, capture.time_ns, DropCause::kQueueFull}, [&](Slot &slot) {
-    slot.is_pose = false;
+    slot.what = Slot::What::kImage;
     slot.note = {capture.time_ns,       capture.arrival_ns, capture.sequence,  capture.exposure_us,
                  capture.time_sigma_us, capture.clock,      capture.time_point};
     slot.image = capture.image;
@@ -210,12 +235,32 @@ sphc_status sphc_recorder::addPose(int64_t time_ns, const sphc_rigid &world_from
   if (time_ns <= poses.last_ns) throw Failure(SPHC_E_ARGUMENT, "pose: " + timeFault(time_ns));
   poses = {time_ns, poses.last_sequence + 1};
   return push({SPHC_STREAM_NONE, poses.last_sequence, 1, time_ns, DropCause::kQueueFull}, [&](Slot &slot) {
-    slot.is_pose = true;
+    slot.what = Slot::What::kPose;
     slot.note = {};
     slot.note.time_ns = time_ns;
     slot.note.sequence = poses.last_sequence;
     slot.pose = pose;
   });
+}
+
+sphc_status sphc_recorder::addAcceleration(const TimedAcceleration &acceleration) {
+  const double *a = acceleration.felt_mps2;
+  if (!std::isfinite(a[0] + a[1] + a[2]))
+    throw Failure(SPHC_E_ARGUMENT, "felt_mps2 is not finite; give what the sensor measured, in m/s^2");
+  if (acceleration.time_ns <= felt.last_ns)
+    throw Failure(SPHC_E_ARGUMENT, "acceleration: " + timeFault(acceleration.time_ns));
+  felt = {acceleration.time_ns, felt.last_sequence + 1};
+  if (accelerations.isFull()) {
+    const Drop drop = {SPHC_STREAM_NONE, felt.last_sequence, 1, acceleration.time_ns, DropCause::kQueueFull};
+    const sphc_status status = push(drop, [&](Slot &slot) {
+      slot.what = Slot::What::kAccelerations;
+      slot.note = {};
+      slot.note.time_ns = acceleration.time_ns;
+    });
+    if (status != SPHC_OK) return status;
+  }
+  accelerations.add(acceleration);
+  return SPHC_OK;
 }
 
 // Null when there is none until then, or none will come any more.
@@ -227,16 +272,17 @@ Slot *sphc_recorder::waitForSlot(std::chrono::steady_clock::time_point until) {
 
 void sphc_recorder::write(const Slot &slot) {
   for (const Drop &drop : slot.drops) encoder.addDrop(drop, slot.note.time_ns);
-  if (slot.is_pose)
+  for (const TimedAcceleration &acceleration : slot.accelerations) encoder.addAcceleration(acceleration);
+  if (slot.what == Slot::What::kPose)
     encoder.addPose(slot.note.sequence, slot.note.time_ns, slot.pose);
-  else
+  else if (slot.what == Slot::What::kImage)
     encoder.add(slot.note, slot.image, slot.amplitude);
 }
 
 void sphc_recorder::giveBack(const Slot &slot) {
   {
     const std::lock_guard lock(mutex);
-    if (!slot.is_pose) {
+    if (slot.what == Slot::What::kImage) {
       ++(slot.image.format == SPHC_FORMAT_DEPTH16 ? gathered.depth_count : gathered.color_count);
       gathered.raw_bytes += packedBytes(slot.image) + packedBytes(slot.amplitude);
     }
@@ -299,6 +345,7 @@ void sphc_recorder::drain() {
   came.notify_one();
   thread.join();
   if (failure < 0) throw Failure(failure, failure_message.text);
+  for (const TimedAcceleration &acceleration : accelerations) encoder.addAcceleration(acceleration);
   for (const Drop &drop : drops) encoder.addDrop(drop, drop.time_ns);
   encoder.sync();
   noteWritten();
@@ -355,6 +402,14 @@ sphc_status sphc_recorder_add_pose(sphc_recorder *recorder, int64_t time_ns, con
     if (!recorder || !world_from_camera)
       throw Failure(SPHC_E_ARGUMENT, "recorder or world_from_camera is null; give both");
     return recorder->addPose(time_ns, *world_from_camera);
+  });
+}
+
+sphc_status sphc_recorder_add_acceleration(sphc_recorder *recorder, int64_t time_ns, const double felt_mps2[3],
+                                           sphc_message *message) {
+  return guarded(message, [&]() -> sphc_status {
+    if (!recorder || !felt_mps2) throw Failure(SPHC_E_ARGUMENT, "recorder or felt_mps2 is null; give both");
+    return recorder->addAcceleration({time_ns, {felt_mps2[0], felt_mps2[1], felt_mps2[2]}});
   });
 }
 

@@ -76,12 +76,19 @@ sphc_status sphc_recorder_add(sphc_recorder *recorder, const sphc_capture *captu
 sphc_status sphc_recorder_add_pose(sphc_recorder *recorder, int64_t time_ns, const sphc_rigid *world_from_camera,
                                    sphc_message *message);
 
+/* Adds what an accelerometer felt, in the axes of the colour camera: at rest 9.81 upwards (a sensor's own axes are
+ * turned by its calibration).  `spherecloud map` finds the vertical by it.  Times must increase and not be
+ * negative. It waits for the next capture or pose, and takes no slot of its own until 256 wait.  SPHC_AGAIN: these
+ * found no slot; this one is dropped and counted.  Errors as above; ARGUMENT: not finite too. [exclusive] */
+sphc_status sphc_recorder_add_acceleration(sphc_recorder *recorder, int64_t time_ns, const double felt_mps2[3],
+                                           sphc_message *message);
+
 typedef struct sphc_recorder_statistics {
   uint32_t struct_size;
   uint32_t queue_most;  /* slots that were in use at once */
   uint64_t color_count; /* captures written */
   uint64_t depth_count;
-  uint64_t dropped_count; /* captures and poses that found the queue full */
+  uint64_t dropped_count; /* captures, poses and accelerations that found the queue full */
   uint64_t missing_count; /* gaps in the sequences of the streams */
   uint64_t raw_bytes;     /* of the images written, before encoding */
   uint64_t file_bytes;    /* so far */

@@ -53,12 +53,6 @@ struct RecordedImage {
   MessagePlace amplitude = {};
 };
 
-// What an accelerometer felt, in the axes of the colour camera: at rest 9.81 m/s^2 upwards.
-struct TimedAcceleration {
-  int64_t time_ns;
-  double felt_mps2[3];
-};
-
 struct Recording {
   Layout layout = Layout::kTum;
   std::filesystem::path path;        // of the folder or the file

@@ -32,8 +32,9 @@ RecordingEncoder::RecordingEncoder(const std::filesystem::path &path, const sphc
       zstd_(pixelsOf(calibration.depth_camera)),
       depth_(mostDepthBytes(calibration)) {
   Bytes head;
-  putSchemasAndChannels(head, {kindOf(SPHC_STREAM_COLOR), kindOf(SPHC_STREAM_DEPTH), Kind::kColorCapture,
-                               Kind::kDepthCapture, Kind::kPose, Kind::kDrops, amplitudeKind()});
+  putSchemasAndChannels(
+      head, {kindOf(SPHC_STREAM_COLOR), kindOf(SPHC_STREAM_DEPTH), Kind::kColorCapture, Kind::kDepthCapture,
+             Kind::kPose, Kind::kDrops, amplitudeKind(), Kind::kAcceleration});
   putMetadata(head, "spherecloud", {{"version", "1"}});
   const std::string json = calibrationToJson(calibration);
   putAttachment(head, "calibration.json", "application/json",
@@ -93,6 +94,13 @@ void RecordingEncoder::add(const CaptureNote &note, const sphc_image &image, con
 
 void RecordingEncoder::addPose(uint32_t sequence, int64_t time_ns, const sphc_rigid &world_from_camera) {
   putPoseMessage(writer_.beginMessage(Kind::kPose, sequence, time_ns), time_ns, world_from_camera);
+  writer_.endMessage();
+  is_synced_ = false;
+}
+
+void RecordingEncoder::addAcceleration(const TimedAcceleration &acceleration) {
+  constexpr uint32_t kNoSequence = 0;
+  putAcceleration(writer_.beginMessage(Kind::kAcceleration, kNoSequence, acceleration.time_ns), acceleration);
   writer_.endMessage();
   is_synced_ = false;
 }

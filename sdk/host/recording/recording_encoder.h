@@ -18,6 +18,7 @@ class RecordingEncoder {
   // The image is packed and was checked; `amplitude` likewise, GRAY16, or zero.
   void add(const CaptureNote &note, const sphc_image &image, const sphc_image &amplitude);
   void addPose(uint32_t sequence, int64_t time_ns, const sphc_rigid &world_from_camera);
+  void addAcceleration(const TimedAcceleration &acceleration);
   void addDrop(const Drop &drop, int64_t log_time_ns);
 
   // Everything added is in the file.

@@ -7,6 +7,7 @@
 #include "calibration_json.h"
 #include "failure.h"
 #include "host/cameras/rigid_matrix.h"
+#include "host/recording/foreign/ros_messages.h"
 #include "recording.h"
 
 namespace sphc::recording {
@@ -31,6 +32,7 @@ class McapScan {
   // The file says what the checksum of its data is, and it is another one.
   bool isChanged() const { return is_changed_; }
   bool isOurs() const;
+  bool hasChannels() const { return !kinds_.empty(); }
 
  private:
   void readRecord(const RecordPlace &record);
@@ -42,6 +44,7 @@ class McapScan {
   void addImage(Kind kind, const MessageHead &head, const RecordPlace &record);
   MessagePlace placeOf(Kind kind, const RecordPlace &record) const;
   void addPose(int64_t time_ns, sphc_rigid pose);
+  void addAcceleration(int64_t time_ns, const RosAcceleration &acceleration);
   void readCalibration(const RecordPlace &record);
   std::optional<ByteView> small(const RecordPlace &record);
 
@@ -138,6 +141,7 @@ void McapScan::readSmallMessage(Kind kind, const MessageHead &head, ByteView dat
   CaptureNote note;
   Drop drop;
   sphc_rigid pose;
+  RosAcceleration acceleration;
   if (kind == Kind::kColorCapture && readCaptureNote(data, note))
     color_note_ = note;
   else if (kind == Kind::kDepthCapture && readCaptureNote(data, note))
@@ -146,6 +150,9 @@ void McapScan::readSmallMessage(Kind kind, const MessageHead &head, ByteView dat
     recording_.lost_count += drop.count;
   else if (kind == Kind::kPose && holdsTrueBytes() && readPoseMessage(data, pose))
     addPose(static_cast<int64_t>(head.time_ns), pose);
+  else if (kind == Kind::kAcceleration && holdsTrueBytes() &&
+           readRosAcceleration({data, RosEncoding::kCdr}, acceleration))
+    addAcceleration(static_cast<int64_t>(head.time_ns), acceleration);
 }
 
 MessagePlace McapScan::placeOf(Kind kind, const RecordPlace &record) const {
@@ -184,6 +191,14 @@ void McapScan::addPose(int64_t time_ns, sphc_rigid pose) {
     recording_.poses.add(time_ns, pose);
   else
     ++recording_.bad_pose_count;
+}
+
+// One that goes back in time is left out.
+void McapScan::addAcceleration(int64_t time_ns, const RosAcceleration &acceleration) {
+  std::vector<TimedAcceleration> &all = recording_.accelerations;
+  if (!all.empty() && all.back().time_ns > time_ns) return;
+  const double *felt = acceleration.felt_mps2;
+  all.push_back({time_ns, {felt[0], felt[1], felt[2]}});
 }
 
 void McapScan::readCalibration(const RecordPlace &record) {
@@ -238,6 +253,9 @@ Recording openMcap(const fs::path &path) {
   const bool is_whole = hasMagic(window, window.fileSize() - sizeof kMcapMagic);
   McapScan quick(file, !is_whole);
   Recording recording = quick.run();
+  if (recording.is_cut && !quick.hasChannels() && recording.chunks.empty() && recording.bad_chunk_count == 0)
+    throw Failure(SPHC_E_DEVICE,
+                  file.name() + ": was cut before it says what it holds; copy it again from where it was recorded");
   if (!quick.isOurs()) return openRosBag(path);
   if (quick.isChanged()) requireBadChunk(file, recording);
   if (is_whole && !quick.inOrder()) recording = McapScan(file, true).run();

@@ -34,15 +34,16 @@ CLI::Validator between(double least, double most) {
 
 CLI::Validator notNegative() { return checkOf(0, std::numeric_limits<double>::max(), "a number from 0 on"); }
 
-CLI::Validator wholeFrom(uint64_t least) {
+CLI::Validator wholeFrom(uint64_t least, uint64_t most) {
   return CLI::Validator(
-      [least](const std::string &text) {
+      [least, most](const std::string &text) {
         const bool has_digits_alone = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
         errno = 0;
-        const bool is_large_enough = std::strtoull(text.c_str(), nullptr, 10) >= least && errno == 0;
-        return has_digits_alone && is_large_enough
+        const uint64_t value = std::strtoull(text.c_str(), nullptr, 10);
+        const bool is_in_bounds = value >= least && value <= most && errno == 0;
+        return has_digits_alone && is_in_bounds
                    ? std::string()
-                   : text + " is not a whole number from " + std::to_string(least) + " on, or it is too large";
+                   : text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
       },
       "");
 }

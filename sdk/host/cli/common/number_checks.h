@@ -11,6 +11,6 @@ CLI::Validator between(double least, double most);
 // From 0 on: seconds, metres.
 CLI::Validator notNegative();
 // Of a whole number, as a seed (from 0) or a step (from 1).
-CLI::Validator wholeFrom(uint64_t least);
+CLI::Validator wholeFrom(uint64_t least, uint64_t most = UINT64_MAX);
 
 }  // namespace sphc::host

@@ -26,6 +26,12 @@ class FileOut : public RecordingOut {
       return sphc_recorder_add_pose(recorder_, time_ns, &world_from_camera, message);
     }));
   }
+  void addAcceleration(int64_t time_ns, const Acceleration &felt) override {
+    notDropped(orThrow("cannot record an acceleration", [&](sphc_message *message) {
+      return sphc_recorder_add_acceleration(recorder_, time_ns, felt.mps2, message);
+    }));
+  }
+  bool keepsAccelerations() const override { return true; }
   void close() override {
     orThrow("cannot end the recording",
             [&](sphc_message *message) { return sphc_recorder_close(&recorder_, message); });
@@ -50,6 +56,8 @@ class FolderOut : public RecordingOut {
   void addPose(int64_t time_ns, const sphc_rigid &world_from_camera) override {
     writer_.addPose(time_ns, world_from_camera);
   }
+  void addAcceleration(int64_t, const Acceleration &) override {}
+  bool keepsAccelerations() const override { return false; }
   void close() override {
     writer_.finish();
     recording_.finish();

@@ -1,6 +1,7 @@
 #include "messages.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 #include <string>
 
@@ -13,41 +14,13 @@ namespace {
 
 constexpr int64_t kNsPerSecond = 1000000000;
 
-enum SchemaId : uint16_t { kImage = 1, kCompressedImage, kCapture, kPoseStamped, kDrop };
+enum SchemaId : uint16_t { kImage = 1, kCompressedImage, kCapture, kPoseStamped, kDrop, kImu };
 
 struct SchemaText {
   SchemaId id;
   const char *name;
-  const char *text;  // without the types it uses
-  bool has_header;
-};
-
-constexpr SchemaText kSchemas[] = {
-    {kImage, "sensor_msgs/msg/Image",
-     "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\n"
-     "uint8[] data\n",
-     true},
-    {kCompressedImage, "sensor_msgs/msg/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n",
-     true},
-    {kCapture, "spherecloud_msgs/msg/Capture",
-     "# What is known of the image that follows on the stream's image topic.\n"
-     "int64 time_ns\n"
-     "int64 arrival_ns      # when the host had it, by its CLOCK_MONOTONIC; 0: not told\n"
-     "uint32 sequence\n"
-     "uint32 exposure_us    # 0: not told\n"
-     "uint32 time_sigma_us  # of time_ns as the middle of the exposure\n"
-     "int32 clock           # of time_ns: 0 the source's own, 1 the host's CLOCK_MONOTONIC, 2 CLOCK_BOOTTIME\n"
-     "int32 time_point      # what time_ns is of the exposure: 0 middle, 1 start, 2 end, 3 arrival\n",
-     false},
-    {kPoseStamped, "geometry_msgs/msg/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n", true},
-    {kDrop, "spherecloud_msgs/msg/Drop",
-     "# Captures that are not in the file.\n"
-     "int64 time_ns         # of the first, or of the next that came where that is not known\n"
-     "uint32 first_sequence\n"
-     "uint32 count\n"
-     "int32 stream          # 1 colour, 2 depth\n"
-     "int32 cause           # 1 the recorder's queue was full, 2 lost before the recorder\n",
-     false},
+  const char *text;   // without the types it uses
+  const char *types;  // beside those of a header; null: it has no header
 };
 
 constexpr const char *kHeaderTypes =
@@ -57,6 +30,43 @@ constexpr const char *kPoseTypes =
     "=\nMSG: geometry_msgs/Pose\ngeometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"
     "=\nMSG: geometry_msgs/Point\nfloat64 x\nfloat64 y\nfloat64 z\n"
     "=\nMSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n";
+constexpr const char *kImuTypes =
+    "=\nMSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
+    "=\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
+
+constexpr SchemaText kSchemas[] = {
+    {kImage, "sensor_msgs/msg/Image",
+     "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\n"
+     "uint8[] data\n",
+     ""},
+    {kCompressedImage, "sensor_msgs/msg/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n",
+     ""},
+    {kCapture, "spherecloud_msgs/msg/Capture",
+     "# What is known of the image that follows on the stream's image topic.\n"
+     "int64 time_ns\n"
+     "int64 arrival_ns      # when the host had it, by its CLOCK_MONOTONIC; 0: not told\n"
+     "uint32 sequence\n"
+     "uint32 exposure_us    # 0: not told\n"
+     "uint32 time_sigma_us  # of time_ns as the middle of the exposure\n"
+     "int32 clock           # of time_ns: 0 the source's own, 1 the host's CLOCK_MONOTONIC, 2 CLOCK_BOOTTIME\n"
+     "int32 time_point      # what time_ns is of the exposure: 0 middle, 1 start, 2 end, 3 arrival\n",
+     nullptr},
+    {kPoseStamped, "geometry_msgs/msg/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n",
+     kPoseTypes},
+    {kDrop, "spherecloud_msgs/msg/Drop",
+     "# Captures that are not in the file.\n"
+     "int64 time_ns         # of the first, or of the next that came where that is not known\n"
+     "uint32 first_sequence\n"
+     "uint32 count\n"
+     "int32 stream          # 1 colour, 2 depth\n"
+     "int32 cause           # 1 the recorder's queue was full, 2 lost before the recorder\n",
+     nullptr},
+    {kImu, "sensor_msgs/msg/Imu",
+     "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n"
+     "geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n"
+     "geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n",
+     kImuTypes},
+};
 
 struct ChannelText {
   Kind kind;
@@ -80,6 +90,7 @@ constexpr ChannelText kChannels[] = {
     {Kind::kAmplitudeImage, "/depth/amplitude", kImage, SPHC_STREAM_DEPTH, ""},
     {Kind::kAmplitudeZstd, "/depth/amplitude/spherecloud", kCompressedImage, SPHC_STREAM_DEPTH,
      "mono16; spherecloud zstd"},
+    {Kind::kAcceleration, "/color/acceleration", kImu, SPHC_STREAM_NONE, ""},
 };
 
 const ChannelText &channelOf(Kind kind) {
@@ -89,8 +100,7 @@ const ChannelText &channelOf(Kind kind) {
 
 // ROS 2 puts 80 '=' between the definitions.
 std::string schemaText(const SchemaText &schema) {
-  const std::string types = std::string(schema.has_header ? "=\n" : "") + (schema.has_header ? kHeaderTypes : "") +
-                            (schema.id == kPoseStamped ? kPoseTypes : "");
+  const std::string types = schema.types ? std::string("=\n") + kHeaderTypes + schema.types : "";
   std::string text = schema.text;
   for (const char c : types) text += c == '=' ? std::string(80, '=') : std::string(1, c);
   return text;
@@ -188,6 +198,19 @@ void putDrop(Bytes &out, const Drop &drop) {
   message.put(drop.count);
   message.put(drop.stream);
   message.put(static_cast<int32_t>(drop.cause));
+}
+
+// Of ROS's message the acceleration alone is known: a first covariance of -1 says so of the others.
+void putAcceleration(Bytes &out, const TimedAcceleration &acceleration) {
+  CdrWriter message(out);
+  putStamp(message, acceleration.time_ns, "color_camera");
+  const auto put = [&message](std::initializer_list<double> numbers) {
+    for (const double number : numbers) message.put(number);
+  };
+  const double *felt = acceleration.felt_mps2;
+  put({0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 0, 0});
+  put({0, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0});
+  put({felt[0], felt[1], felt[2], 0, 0, 0, 0, 0, 0, 0, 0, 0});
 }
 
 bool readImageMessage(ByteView message, ImageMessage &image) {

@@ -21,7 +21,8 @@ enum class Kind : uint16_t {
   kDrops,
   kAmplitudeImage,
   kAmplitudeZstd,
-  kLast = kAmplitudeZstd
+  kAcceleration,
+  kLast = kAcceleration
 };
 
 // kNone for a topic or schema that is none of ours.
@@ -52,6 +53,12 @@ struct Drop {
   DropCause cause;
 };
 
+// What an accelerometer felt, in the axes of the colour camera: at rest 9.81 m/s^2 upwards.
+struct TimedAcceleration {
+  int64_t time_ns;
+  double felt_mps2[3];
+};
+
 // Views of what a message holds.
 struct ImageMessage {
   uint32_t width, height, step;
@@ -69,8 +76,9 @@ void putCompressedMessage(Bytes &out, int64_t time_ns, Kind kind, ByteView data)
 void putCaptureNote(Bytes &out, const CaptureNote &note);
 void putPoseMessage(Bytes &out, int64_t time_ns, const sphc_rigid &world_from_camera);
 void putDrop(Bytes &out, const Drop &drop);
+void putAcceleration(Bytes &out, const TimedAcceleration &acceleration);
 // The most that such a message needs beside its pixels or compressed bytes.
-constexpr size_t kMostMessageHeadBytes = 192;
+constexpr size_t kMostMessageHeadBytes = 384;
 
 // False when malformed.
 bool readImageMessage(ByteView message, ImageMessage &image);

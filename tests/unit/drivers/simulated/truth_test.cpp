@@ -72,6 +72,35 @@ TEST_F(SimulatedTruth, PosesDepthAndImagesAgree) {
   }
 
   {
+    SCOPED_TRACE("what is felt along a closed lap is gravity, and from moment to moment the change of velocity");
+    constexpr int kCount = 3200;
+    constexpr int64_t kPeriodNs = 5000000;  // 16 s in all
+    Vec3d sum{};
+    double squared_error = 0;
+    for (int i = 0; i < kCount; ++i) {
+      const int64_t time_ns = timeOf(0) + i * kPeriodNs;
+      double felt[3], again[3];
+      ASSERT_EQ(sphc_simulated_felt_at(handle_->get(), time_ns, felt), SPHC_OK);
+      ASSERT_EQ(sphc_simulated_felt_at(handle_->get(), time_ns, again), SPHC_OK);
+      EXPECT_EQ(felt[0], again[0]);
+      const Pose now = poseAt(time_ns);
+      const Vec3d world = now.rotation * Vec3d{felt[0], felt[1], felt[2]};
+      sum = sum + world;
+      const Vec3d before = poseAt(time_ns - 4 * kPeriodNs).center, after = poseAt(time_ns + 4 * kPeriodNs).center;
+      const Vec3d change = (before + after - now.center * 2.0) * (1 / (0.02 * 0.02));
+      const Vec3d error = world - change - Vec3d{0, 0, 9.81};
+      squared_error += dot(error, error) / kCount;
+    }
+    const Vec3d mean = sum * (1.0 / kCount);
+    EXPECT_NEAR(mean.x, 0, 0.15);
+    EXPECT_NEAR(mean.y, 0, 0.15);
+    EXPECT_NEAR(mean.z, 9.81, 0.15);
+    EXPECT_GT(std::sqrt(squared_error), 0.03) << "it has noise";
+    EXPECT_LT(std::sqrt(squared_error), 0.25);
+    EXPECT_EQ(sphc_simulated_felt_at(handle_->get(), 0, nullptr), SPHC_E_ARGUMENT);
+  }
+
+  {
     SCOPED_TRACE("a point seen in lap one is where lap two sees it");
     const int64_t a_ns = timeOf(20), b_ns = timeOf(120);
     const Pose a = poseAt(a_ns), b = poseAt(b_ns);

@@ -188,6 +188,29 @@ TEST(Convert, TakesAPartOfARecording) {
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST(Convert, KeepsAccelerationsInAFile) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk.mcap", part = folder / "part.mcap";
+  ASSERT_EQ(runCommand("simulate --frames 9 --rate 2 --accelerometer 50 --out " + walk).exit_code, kExitDone);
+  ASSERT_EQ(recording::openRecording(walk).accelerations.size(), 201u);
+  const Answer cut = runCommand("convert --json " + walk + " " + part + " --first 4 --last 5");
+  ASSERT_EQ(cut.exit_code, kExitDone) << cut.err;
+  EXPECT_EQ(nlohmann::json::parse(cut.out)["accelerations"], 126) << "of 1 to 3.5 s";
+  const std::vector<recording::TimedAcceleration> whole = recording::openRecording(walk).accelerations,
+                                                  kept = recording::openRecording(part).accelerations;
+  ASSERT_EQ(kept.size(), 126u);
+  EXPECT_EQ(kept[0].time_ns, whole[50].time_ns);
+  EXPECT_EQ(kept[0].felt_mps2[1], whole[50].felt_mps2[1]);
+  for (const char *to : {"folder", "seq-01 --to 7scenes", "walk.raw"}) {
+    const Answer without = runCommand("convert --json " + walk + " " + (folder / to));
+    ASSERT_EQ(without.exit_code, kExitDone) << without.err;
+    EXPECT_EQ(nlohmann::json::parse(without.out)["accelerations"], 0);
+    EXPECT_THAT(without.err, HasSubstr("note: 201 accelerations are left out; an MCAP file keeps them")) << to;
+  }
+  EXPECT_THAT(runCommand("simulate --frames 1 --accelerometer 50 --out " + (folder / "none")).err,
+              HasSubstr("a folder keeps no accelerations"));
+}
+
 TEST(Convert, GoesThroughEveryLayoutAndBack) {
   const TempFolder folder;
   const std::string file = folder / "walk.mcap", walk = folder / "walk", scenes = folder / "seq-01";

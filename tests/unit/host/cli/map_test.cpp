@@ -254,8 +254,9 @@ TEST_F(MapTest, AccelerationsTurnTheMapUpright) {
   }
 }
 
-TEST_F(MapTest, AccelerationsOfOtherUnitsAreNamed) {
-  std::ofstream(at("units.mcap"), std::ios::binary) << bagOfWalk(at("walk"), 1);
+TEST_F(MapTest, AccelerationsOfOtherUnitsAreNamedAlsoInACopy) {
+  std::ofstream(at("bag.mcap"), std::ios::binary) << bagOfWalk(at("walk"), 1);
+  ASSERT_EQ(runCommand("convert " + at("bag.mcap") + " " + at("units.mcap")).exit_code, kExitDone);
   const Answer mapped = runCommand("map -r " + at("units.mcap") + " --model " + at("units.model"));
   ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
   EXPECT_THAT(mapped.err, HasSubstr("note: the accelerations do not tell the vertical: their mean is 1.0 m/s^2"));

@@ -20,6 +20,9 @@ TEST(NumberChecks, AWholeNumberHasNoSign) {
   for (const char *text : {"-1", "+1", " 1", "1.5", "", "nan", "18446744073709551616"})
     EXPECT_FALSE(takes(wholeFrom(0), text)) << text;
   EXPECT_TRUE(takes(wholeFrom(1), "1"));
+  EXPECT_TRUE(takes(wholeFrom(0, UINT32_MAX), "4294967295"));
+  std::string beyond = "4294967296";
+  EXPECT_EQ(wholeFrom(0, UINT32_MAX)(beyond), "4294967296 is not a whole number from 0 to 4294967295");
   for (const char *text : {"0", "-1"}) EXPECT_FALSE(takes(wholeFrom(1), text)) << text;
 }
 
