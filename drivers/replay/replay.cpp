@@ -112,7 +112,7 @@ sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *in
   info->bad_chunk_count = recording.bad_chunk_count;
   info->is_cut = recording.is_cut;
   info->acceleration_count = static_cast<uint32_t>(recording.accelerations.size());
-  info->reserved = 0;
+  info->bad_acceleration_count = recording.bad_acceleration_count;
   return SPHC_OK;
 }
 

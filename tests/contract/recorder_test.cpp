@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "file_size_limit.h"
+#include "host/recording/recording_encoder.h"
 #include "temp_folder.h"
 #include "tiny_mcap.h"
 
@@ -337,6 +338,9 @@ TEST_F(Recorder, RefusesAccelerationsThatAreNone) {
   EXPECT_EQ(add(0, std::numeric_limits<double>::quiet_NaN()), SPHC_E_ARGUMENT);
   EXPECT_THAT(message.text, HasSubstr("m/s^2"));
   EXPECT_EQ(add(0, std::numeric_limits<double>::infinity()), SPHC_E_ARGUMENT);
+  EXPECT_EQ(add(0, 1e300), SPHC_E_ARGUMENT);
+  const double zero[3] = {};
+  EXPECT_EQ(sphc_recorder_add_acceleration(recorder.get(), 0, zero, &message), SPHC_E_ARGUMENT);
   EXPECT_EQ(add(-1, 0), SPHC_E_ARGUMENT);
   EXPECT_EQ(add(7, 0), SPHC_OK);
   EXPECT_EQ(add(7, 0), SPHC_E_ARGUMENT);
@@ -346,6 +350,30 @@ TEST_F(Recorder, RefusesAccelerationsThatAreNone) {
   addTinyFrames(recorder.get(), 1);
   ASSERT_EQ(recorder.close(), SPHC_OK);
   EXPECT_EQ(infoOf(OpenReplay(file())).acceleration_count, 1u);
+}
+
+// In a file that our recorder would not write.
+TEST_F(Recorder, AccelerationsThatAreNoneAreLeftOutAndCounted) {
+  const TinyImages images(0);
+  const sphc_capture color = tinyCapture(0, SPHC_STREAM_COLOR, images);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  recording::CaptureNote note{};
+  note.time_ns = color.time_ns;
+  recording::RecordingEncoder encoder(file(), tinyCalibration(), config_);
+  const recording::TimedAcceleration felt[] = {{7, {0, 0, 9}},   {7, {0, 0, 8}}, {5, {0, 0, 9}},
+                                               {8, {nan, 0, 9}}, {9, {0, 0, 0}}, {10, {0, 0, 7}}};
+  for (const recording::TimedAcceleration &each : felt) encoder.addAcceleration(each);
+  encoder.add(note, color.image, {});
+  encoder.finish({});
+  const OpenReplay replay(file());
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  ASSERT_EQ(infoOf(replay).acceleration_count, 2u);
+  EXPECT_EQ(infoOf(replay).bad_acceleration_count, 4u);
+  int64_t time_ns = 0;
+  double last[3];
+  ASSERT_EQ(sphc_replay_acceleration(replay.get(), 1, &time_ns, last), SPHC_OK);
+  EXPECT_EQ(time_ns, 10);
+  EXPECT_EQ(last[2], 7);
 }
 
 // As those of poses: nobody reads them again.

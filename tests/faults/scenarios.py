@@ -18,7 +18,7 @@ class Scenario:
     secret: str = ""
     is_recording: bool = False  # or a key or a calibration: never replaced, nor what a killed command left of one
     keeps_cut: bool = False  # what was recorded stays as NAME.part
-    by_chains: bool = False  # a run takes long: of allocations the first of each chain of callers fails
+    by_chains: bool = False  # of allocations, which are too many, the first of each chain of callers fails
 
 
 class Scenarios:
@@ -141,7 +141,7 @@ class Scenarios:
     def make_inspect(self):
         def prepare(folder):
             (folder / "sky.png").write_bytes(b"")
-        return Scenario("", ["inspect", self.released() / "room.sphc", "--picture", "sky.png"], prepare)
+        return Scenario("", ["inspect", self.released() / "room.sphc", "--picture", "sky.png"], prepare, by_chains=True)
 
     def make_advise(self):
         return Scenario("", ["advise", "--recording", self.walk, "--last", 3, "--folds", 2, "--picture", "sky.png"], by_chains=True)

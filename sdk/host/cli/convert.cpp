@@ -134,7 +134,7 @@ Result copyStreams(sphc_replay *replay, bool is_part, RecordingOut *out, const C
       continue;
     }
     if (is_part && from_ns == INT64_MIN) from_ns = capture.time_ns - kAroundNs;
-    if (is_part) to_ns = capture.time_ns + kAroundNs;
+    if (is_part) to_ns = std::min(capture.time_ns, INT64_MAX - kAroundNs) + kAroundNs;
     poses.writeUpTo(capture.time_ns, from_ns, out);
     felt.writeUpTo(capture.time_ns, from_ns, out);
     out->add(capture);

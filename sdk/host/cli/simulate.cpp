@@ -228,8 +228,8 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->check(wholeFrom(0, UINT32_MAX))
       ->type_name("N");
   app->add_option("--accelerometer", options->accelerometer_hz,
-                  "Also what an accelerometer measures, so many times a second, up to 2000 [none]; a file keeps it")
-      ->check(between(0, 2000))
+                  "Also what an accelerometer measures, so many times a second [none]; X.mcap keeps it")
+      ->check(between(0.1, 2000))
       ->type_name("HZ");
   auto *ideal =
       app->add_flag("--ideal-depth", options->ideal_depth, "Depth without noise, bias, holes or mixed pixels");

@@ -10,7 +10,7 @@ namespace sphc::host {
 
 struct FeltPath {
   recording::PoseTrack world_from_camera;
-  std::vector<recording::TimedAcceleration> felt;  // times do not decrease
+  std::vector<recording::TimedAcceleration> felt;  // times increase
 };
 
 struct MeasuredVertical {

@@ -245,8 +245,9 @@ sphc_status sphc_recorder::addPose(int64_t time_ns, const sphc_rigid &world_from
 
 sphc_status sphc_recorder::addAcceleration(const TimedAcceleration &acceleration) {
   const double *a = acceleration.felt_mps2;
-  if (!std::isfinite(a[0] + a[1] + a[2]))
-    throw Failure(SPHC_E_ARGUMENT, "felt_mps2 is not finite; give what the sensor measured, in m/s^2");
+  const double norm2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  if (!(norm2 > 0) || !std::isfinite(norm2))  // readers take no others
+    throw Failure(SPHC_E_ARGUMENT, "felt_mps2 is zero or not finite; give what the sensor measured, in m/s^2");
   if (acceleration.time_ns <= felt.last_ns)
     throw Failure(SPHC_E_ARGUMENT, "acceleration: " + timeFault(acceleration.time_ns));
   felt = {acceleration.time_ns, felt.last_sequence + 1};

@@ -78,8 +78,9 @@ sphc_status sphc_recorder_add_pose(sphc_recorder *recorder, int64_t time_ns, con
 
 /* Adds what an accelerometer felt, in the axes of the colour camera: at rest 9.81 upwards (a sensor's own axes are
  * turned by its calibration).  `spherecloud map` finds the vertical by it.  Times must increase and not be
- * negative. It waits for the next capture or pose, and takes no slot of its own until 256 wait.  SPHC_AGAIN: these
- * found no slot; this one is dropped and counted.  Errors as above; ARGUMENT: not finite too. [exclusive] */
+ * negative. It waits for the next capture or pose, and takes no slot of its own until 256 wait; after a crash those
+ * that wait are lost.  SPHC_AGAIN: these found no slot; this one is dropped and counted.  Errors as above;
+ * ARGUMENT: zero or not finite too. [exclusive] */
 sphc_status sphc_recorder_add_acceleration(sphc_recorder *recorder, int64_t time_ns, const double felt_mps2[3],
                                            sphc_message *message);
 

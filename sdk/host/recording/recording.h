@@ -59,9 +59,10 @@ struct Recording {
   std::vector<RecordedImage> color;  // times increase
   std::vector<RecordedImage> depth;  // times increase
   PoseTrack poses;
-  std::vector<TimedAcceleration> accelerations;  // times do not decrease; empty where there is none
+  std::vector<TimedAcceleration> accelerations;  // times increase; empty where there is none
   uint32_t bad_pose_count = 0;
-  uint32_t backward_count = 0;  // images left out, whose time is not after that of the image before
+  uint32_t bad_acceleration_count = 0;  // of an MCAP file: no acceleration, or not later than the one before
+  uint32_t backward_count = 0;          // images left out, whose time is not after that of the image before
 
   std::optional<sphc_rig> calibration;  // of a recording that holds one, but for calibration.json in a folder
   std::string calibration_fault;        // why it holds none, with name and cure; empty where nothing is to be said

@@ -20,8 +20,9 @@ constexpr uint64_t kMostSmallBytes = FileWindow::kMostBytes;  // of records that
 constexpr uint64_t kMostCalibrationBytes = 1 << 20;
 
 // One walk through the file's records.  Of a file whose data have the checksum that was written at their end, all
-// is true.  Of another whole file, a chunk is checked when an image of it is read, and at once when it holds poses,
-// which nobody reads again; of a cut one every chunk is checked, because a power cut may leave garbage at its end.
+// is true.  Of another whole file, a chunk is checked when an image of it is read, and at once when it holds poses
+// or accelerations, which nobody reads again; of a cut one every chunk is checked, because a power cut may leave
+// garbage at its end.
 class McapScan {
  public:
   McapScan(const File &file, bool checks_all)
@@ -44,7 +45,7 @@ class McapScan {
   void addImage(Kind kind, const MessageHead &head, const RecordPlace &record);
   MessagePlace placeOf(Kind kind, const RecordPlace &record) const;
   void addPose(int64_t time_ns, sphc_rigid pose);
-  void addAcceleration(int64_t time_ns, const RosAcceleration &acceleration);
+  void addAcceleration(int64_t time_ns, ByteView data);
   void readCalibration(const RecordPlace &record);
   std::optional<ByteView> small(const RecordPlace &record);
 
@@ -141,7 +142,6 @@ void McapScan::readSmallMessage(Kind kind, const MessageHead &head, ByteView dat
   CaptureNote note;
   Drop drop;
   sphc_rigid pose;
-  RosAcceleration acceleration;
   if (kind == Kind::kColorCapture && readCaptureNote(data, note))
     color_note_ = note;
   else if (kind == Kind::kDepthCapture && readCaptureNote(data, note))
@@ -150,9 +150,8 @@ void McapScan::readSmallMessage(Kind kind, const MessageHead &head, ByteView dat
     recording_.lost_count += drop.count;
   else if (kind == Kind::kPose && holdsTrueBytes() && readPoseMessage(data, pose))
     addPose(static_cast<int64_t>(head.time_ns), pose);
-  else if (kind == Kind::kAcceleration && holdsTrueBytes() &&
-           readRosAcceleration({data, RosEncoding::kCdr}, acceleration))
-    addAcceleration(static_cast<int64_t>(head.time_ns), acceleration);
+  else if (kind == Kind::kAcceleration && holdsTrueBytes())
+    addAcceleration(static_cast<int64_t>(head.time_ns), data);
 }
 
 MessagePlace McapScan::placeOf(Kind kind, const RecordPlace &record) const {
@@ -193,12 +192,15 @@ void McapScan::addPose(int64_t time_ns, sphc_rigid pose) {
     ++recording_.bad_pose_count;
 }
 
-// One that goes back in time is left out.
-void McapScan::addAcceleration(int64_t time_ns, const RosAcceleration &acceleration) {
+void McapScan::addAcceleration(int64_t time_ns, ByteView data) {
   std::vector<TimedAcceleration> &all = recording_.accelerations;
-  if (!all.empty() && all.back().time_ns > time_ns) return;
-  const double *felt = acceleration.felt_mps2;
-  all.push_back({time_ns, {felt[0], felt[1], felt[2]}});
+  RosAcceleration read;
+  const double *felt = read.felt_mps2;
+  const bool is_later = all.empty() || all.back().time_ns < time_ns;
+  if (is_later && readRosAcceleration({data, RosEncoding::kCdr}, read))
+    all.push_back({time_ns, {felt[0], felt[1], felt[2]}});
+  else
+    ++recording_.bad_acceleration_count;
 }
 
 void McapScan::readCalibration(const RecordPlace &record) {
@@ -214,10 +216,9 @@ void McapScan::readCalibration(const RecordPlace &record) {
   }
 }
 
-// Some of its channels are those of recorder.h, which stand at the head of the file.
+// Some of its channels are those of images as recorder.h writes them, which stand at the head of the file.
 bool McapScan::isOurs() const {
-  return std::any_of(kinds_.begin(), kinds_.end(),
-                     [](const auto &channel) { return channel.second != Kind::kNone; });
+  return std::any_of(kinds_.begin(), kinds_.end(), [](const auto &channel) { return isImage(channel.second); });
 }
 
 Recording McapScan::run() {

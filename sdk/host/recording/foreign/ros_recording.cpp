@@ -88,6 +88,10 @@ std::vector<TimedAcceleration> accelerationsOf(const RosBag &bag, const std::str
   }
   std::stable_sort(chosen.begin(), chosen.end(),
                    [](const TimedAcceleration &a, const TimedAcceleration &b) { return a.time_ns < b.time_ns; });
+  const auto is_again = [](const TimedAcceleration &a, const TimedAcceleration &b) {
+    return a.time_ns == b.time_ns;
+  };
+  chosen.erase(std::unique(chosen.begin(), chosen.end(), is_again), chosen.end());
   return chosen;
 }
 

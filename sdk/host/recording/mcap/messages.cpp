@@ -58,7 +58,7 @@ constexpr SchemaText kSchemas[] = {
      "int64 time_ns         # of the first, or of the next that came where that is not known\n"
      "uint32 first_sequence\n"
      "uint32 count\n"
-     "int32 stream          # 1 colour, 2 depth\n"
+     "int32 stream          # 1 colour, 2 depth, 0 poses and accelerations\n"
      "int32 cause           # 1 the recorder's queue was full, 2 lost before the recorder\n",
      nullptr},
     {kImu, "sensor_msgs/msg/Imu",
