@@ -50,7 +50,7 @@ class Trial {
     setCameras(reader_->calibration(), &input_.config);
   }
 
-  std::vector<FrameRecord> frames(double eta) {
+  std::vector<FrameRecord> frames(double eta, std::set<std::string> *left_out) {
     ReleaseRequest request;
     request.key = kKey;
     request.eta = eta;
@@ -61,7 +61,7 @@ class Trial {
     input_.centres_in_world_m = {{centre_m.x(), centre_m.y(), centre_m.z()}};
     Run run;
     localizeFrames(
-        input_, [](uint32_t, uint32_t) {}, [](const std::string &) {}, &run);
+        input_, [](uint32_t, uint32_t) {}, [left_out](const std::string &why) { left_out->insert(why); }, &run);
     return run.frames;
   }
 
@@ -112,6 +112,10 @@ Advice advise(const AdviceOptions &options, const std::function<void(uint32_t do
   advice.damage = damageOf(*reader);
   RgbdImportSummary summary;
   const PointModel whole = importRgbd({{reader.get()}}, options.import, nullptr, &summary);
+  const auto note_left_out = [&advice, &summary] {
+    for (const std::string &sentence : framesLeftOut(summary)) advice.left_out.insert(sentence);
+  };
+  note_left_out();
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);
   advice.coverage = coverageOf(advice.directions, kMostHoles);
@@ -123,12 +127,13 @@ Advice advise(const AdviceOptions &options, const std::function<void(uint32_t do
     const RgbdSource others = {reader.get(),
                                [&block](uint32_t index) { return index < block.first || index > block.last; }};
     const PointModel model = importRgbd({others}, options.import, nullptr, &summary);
+    note_left_out();
     RecordingOptions held_out = options.recording;
     held_out.first = block.first_sequence;
     held_out.last = block.last_sequence;
     Trial trial(options, model, held_out);
     for (size_t i = 0; i < options.etas.size(); ++i) {
-      const std::vector<FrameRecord> frames = trial.frames(options.etas[i]);
+      const std::vector<FrameRecord> frames = trial.frames(options.etas[i], &advice.left_out);
       count(frames, &advice.recalls[i], &errors_m[i]);
       if (options.etas[i] == options.judged_eta) addFailures(frames, &advice.failures);
     }

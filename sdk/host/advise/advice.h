@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,8 @@ struct Failure {
 };
 
 struct Advice {
-  std::string damage;  // of the recording, as damageOf says it
+  std::string damage;              // of the recording, as damageOf says it
+  std::set<std::string> left_out;  // frames that took no part, a sentence each
   size_t points = 0;
   Coverage coverage;
   std::vector<std::array<double, 3>> directions;  // of all points, from their centre

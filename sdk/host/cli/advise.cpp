@@ -59,7 +59,8 @@ void tell(const AdviseOptions &options, const Advice &advice, const Console &con
 }
 
 nlohmann::ordered_json json(const Advice &advice) {
-  nlohmann::ordered_json value = {{"points", advice.points},
+  nlohmann::ordered_json value = {{"left_out", advice.left_out},
+                                  {"points", advice.points},
                                   {"covered_percent", 100 * advice.coverage.covered_share},
                                   {"evenness_percent", 100 * advice.coverage.evenness},
                                   {"holes", nlohmann::ordered_json::array()},
@@ -89,6 +90,7 @@ int run(const AdviseOptions &options, const Console &console) {
   ProgressBar bar("holding out");
   const Advice advice = advise(options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   noteDamage(advice.damage, console);
+  for (const std::string &left_out : advice.left_out) console.warn("note: " + left_out);
   tell(options, advice, console);
   if (!options.picture.empty()) {
     drawAdvice(options.picture, advice);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/base/sqlite_error.h"
 #include "host/cameras/fault.h"
 #include "host/import/colmap_descriptors.h"
 
@@ -22,7 +23,7 @@ using Database = std::unique_ptr<sqlite3, Closer>;
 using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
 
 [[noreturn]] void refuseDatabase(const std::string &path, sqlite3 *database) {
-  refuse(path, "the database", std::string(sqlite3_errmsg(database)) + "; is it the database.db of this model?");
+  refuse(path, "the database", sqliteError(database) + "; is it the database.db of this model?");
 }
 
 Database openDatabase(const std::string &path) {

@@ -174,4 +174,14 @@ PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImpor
   return Importer(options, progress, summary).import(recordings);
 }
 
+std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
+  std::vector<std::string> sentences;
+  const auto add = [&sentences](uint32_t count, const char *what) {
+    if (count) sentences.push_back(std::to_string(count) + " frames " + what);
+  };
+  add(summary.frames_without_pose, "have no pose and took no part");
+  add(summary.frames_unreadable, "could not be read and took no part");
+  return sentences;
+}
+
 }  // namespace sphc::host

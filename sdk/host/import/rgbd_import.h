@@ -45,6 +45,9 @@ struct RgbdImportSummary {
   MovingSummary moving;  // of the points that were dropped, those that moved
 };
 
+// What of the frames took no part, a sentence each.
+std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary);
+
 // Told after each frame; may be empty.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 

@@ -182,14 +182,12 @@ Ledger::Ledger(const std::string &path, int flags) : path_(path) {
   const int result = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (result != SQLITE_OK)
-    refuse(path,
-           std::string("cannot be opened: ") + sqlite3_errmsg(database) + "; choose the right file with --ledger");
+    refuse(path, "cannot be opened: " + sqliteError(database) + "; choose the right file with --ledger");
 }
 
 void Ledger::run(const char *statement) {
   if (sqlite3_exec(database_.get(), statement, nullptr, nullptr, nullptr) != SQLITE_OK)
-    refuse(path_,
-           std::string(sqlite3_errmsg(database_.get())) + "; is another program using it, or the disk full?");
+    refuse(path_, sqliteError(database_.get()) + "; is another program using it, or the disk full?");
 }
 
 void Ledger::make(const SecretKey &key) {

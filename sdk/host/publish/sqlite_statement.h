@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/base/sqlite_error.h"
+
 namespace sphc::host {
 
 class SqliteStatement {
@@ -69,7 +71,7 @@ class SqliteStatement {
   sqlite3_stmt *get() const { return statement_.get(); }
   size_t size(int column) { return static_cast<size_t>(sqlite3_column_bytes(get(), column)); }
   void check(int result) const {
-    if (result != SQLITE_OK) throw std::runtime_error(sqlite3_errmsg(database_));
+    if (result != SQLITE_OK) throw std::runtime_error(sqliteError(database_));
   }
 
   sqlite3 *database_;

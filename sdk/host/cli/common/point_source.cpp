@@ -128,11 +128,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                   "): " + std::to_string(summary.points_kept) + " points kept, " +
                   std::to_string(summary.points_dropped) + " dropped" + movingText(summary.moving) + ".";
   imported.warnings = summary.moving.doubts;
-  const auto warn = [&imported](uint32_t count, const char *what) {
-    if (count) imported.warnings.push_back(std::to_string(count) + " frames " + what);
-  };
-  warn(summary.frames_without_pose, "have no pose and took no part");
-  warn(summary.frames_unreadable, "could not be read and took no part");
+  for (const std::string &left_out : framesLeftOut(summary)) imported.warnings.push_back(left_out);
   imported.facts = {{"frames_used", summary.frames_used},
                     {"frames_without_pose", summary.frames_without_pose},
                     {"frames_unreadable", summary.frames_unreadable},

@@ -188,6 +188,21 @@ TEST(Convert, TakesAPartOfARecording) {
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST(Advise, TellsOfFramesThatTookNoPart) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk", advise = "advise --json --folds 2 -r " + walk;
+  ASSERT_EQ(runCommand("simulate --frames 4 --rate 6 --out " + walk).exit_code, kExitDone);
+  const Answer sound = runCommand(advise);
+  ASSERT_EQ(sound.exit_code, kExitDone) << sound.err;
+  EXPECT_TRUE(nlohmann::json::parse(sound.out)["left_out"].empty());
+  std::ofstream(walk + "/rgb/000001.png") << "no image";
+  const Answer damaged = runCommand(advise);
+  ASSERT_EQ(damaged.exit_code, kExitDone) << damaged.err;
+  EXPECT_THAT(damaged.err, HasSubstr("note: 1 frames could not be read and took no part"));
+  EXPECT_THAT(damaged.err, HasSubstr("rgb/000001.png"));
+  EXPECT_FALSE(nlohmann::json::parse(damaged.out)["left_out"].empty());
+}
+
 TEST(Convert, KeepsAccelerationsInAFile) {
   const TempFolder folder;
   const std::string walk = folder / "walk.mcap", part = folder / "part.mcap";
