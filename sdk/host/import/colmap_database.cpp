@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "host/base/sqlite_error.h"
 #include "host/cameras/fault.h"
 #include "host/import/colmap_descriptors.h"
+#include "host/import/sqlite_error.h"
 
 namespace sphc::host {
 namespace {

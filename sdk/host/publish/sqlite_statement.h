@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/base/sqlite_error.h"
+#include "host/import/sqlite_error.h"
 
 namespace sphc::host {
 
