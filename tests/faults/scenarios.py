@@ -108,10 +108,10 @@ class Scenarios:
         return Scenario("", ["convert", self.walk, "out.mcap"], is_recording=True)
 
     def make_convert_folder(self):
-        return Scenario("", ["convert", self.walk, "out"], is_recording=True)
+        return Scenario("", ["convert", self.walk, "out"], is_recording=True, by_chains=True)
 
     def make_convert_7scenes(self):
-        return Scenario("", ["convert", self.walk, "out", "--to", "7scenes"], is_recording=True)
+        return Scenario("", ["convert", self.walk, "out", "--to", "7scenes"], is_recording=True, by_chains=True)
 
     def make_convert_raw(self):
         return Scenario("", ["convert", self.walk, "out.raw"], is_recording=True)
