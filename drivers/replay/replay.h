@@ -99,7 +99,7 @@ typedef struct sphc_replay_info {
   uint32_t bad_chunk_count;          /* MCAP: parts left out because their bytes have changed */
   uint32_t is_cut;                   /* MCAP, 1: the end is missing, as after a power cut */
   uint32_t acceleration_count;       /* of the whole recording */
-  uint32_t bad_acceleration_count;   /* MCAP: left out: not finite, or not later than the one before */
+  uint32_t bad_acceleration_count;   /* MCAP: left out: zero, not finite, or not later than the last */
 } sphc_replay_info;
 /* Set info->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *info);

@@ -226,7 +226,7 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
   noteDamage(damageOf(options.in.folder, facts.is_cut, facts.bad_chunk_count), console);
   if (options.target == Target::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
-  if (result.amplitudes && (is_by_frame || !isMcap(options.out)))
+  if (result.amplitudes && options.target != Target::kMcap)
     console.warn("note: amplitudes of " + std::to_string(result.amplitudes) +
                  " depth images are left out; an MCAP file keeps them");
   if (facts.acceleration_count && options.target != Target::kMcap)
