@@ -129,6 +129,7 @@ function(sphc_install_package)
     EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   # One of them all: packages of the others depend on this one.
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC COMPONENT runtime)
+  install(FILES ${PROJECT_SOURCE_DIR}/third_party/lzfse/LICENSE TYPE DOC RENAME LICENSE.lzfse COMPONENT runtime)
   if(PROJECT_IS_TOP_LEVEL)
     add_custom_target(uninstall VERBATIM
       COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${SPHC_INSTALL_FILES}/uninstall.cmake)

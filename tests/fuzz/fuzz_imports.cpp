@@ -2,16 +2,22 @@
 #include <cmath>
 #include <string_view>
 
+#include "host/recording/encoded_image.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/depth_lut.h"
+#include "host/recording/foreign/lzfse_bytes.h"
 #include "host/recording/foreign/pgm.h"
 #include "host/recording/foreign/record3d_metadata.h"
 #include "host/recording/foreign/stray_text.h"
 #include "host/recording/foreign/stream_recorder_text.h"
 #include "tests/fuzz/recording_seeds.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/lzfse_samples.h"
 #include "tests/support/matroska.h"
 #include "tests/support/ros1_bag.h"
+#ifdef SPHC_TEST_LIBZIP
+#include "tests/support/zip_bytes.h"
+#endif
 
 namespace sphc::fuzz {
 namespace {
@@ -50,17 +56,21 @@ std::vector<std::vector<uint8_t>> kinectSeeds() {
       R"([1, 0, 0, 0, 1, 0, 0, 0, 1], "Translation": [0, 0, 0]}, "SensorHeight": 16, "SensorWidth": 16, "Purpose": )";
   const std::string calibration = R"({"CalibrationInformation": {"Cameras": [)" + camera +
                                   R"("CALIBRATION_CameraPurposeDepth"}, )" + camera +
-                                  R"("CALIBRATION_CameraPurposePhotoVideo"}]}})";
+                                  R"("CALIBRATION_CameraPurposePhotoVideo"}], "InertialSensors": [{"SensorType": )"
+                                  R"("CALIBRATION_InertialSensorType_Accelerometer", "Rt": {"Rotation": )"
+                                  R"([0, 0, -1, -1, 0, 0, 0, 1, 0], "Translation": [0, 0, 0]}}]}})";
   std::vector<std::vector<uint8_t>> seeds;
   for (const auto &[fourcc, color_bytes] : {std::pair("BGRA", 1024), {"NV12", 384}, {"YUY2", 512}}) {
     test::KinectFile file;
     file.addTrack({"COLOR", fourcc, kSide, kSide});
     file.addTrack({"DEPTH", "b16g", kSide, kSide});
     file.addTrack({"IR", "b16g", kSide, kSide});
+    file.addTrack({"IMU", "", 0, 0, "S_K4A/IMU"});
     for (const int i : {0, 1}) {
       file.beginCluster(33333u * i);
       file.addBlock(1, 0, std::string(color_bytes, 'c'), seeds.empty());
       for (const int track : {2, 3}) file.addBlock(track, 100, std::string(2 * kSide * kSide, '\4'));
+      file.addBlock(4, 100, std::string(1, '\1') + std::string(80, '\5'), false, 4);  // two samples
     }
     file.attach("calibration.json", calibration);
     file.tag("K4A_START_OFFSET_NS", "1000000");
@@ -149,6 +159,46 @@ std::vector<std::vector<uint8_t>> record3dSeeds() {
       R"(, "frameTimestamps": [1.5, 2], "perFrameIntrinsicCoeffs": [[1, 2, 3, 4], [5, 6, 7, 8]]})";
   const std::string old = text + "}", all = text + more;
   return {{old.begin(), old.end()}, {all.begin(), all.end()}};
+}
+
+void r3d(const uint8_t *data, size_t bytes) { recording(data, bytes); }
+
+std::vector<std::vector<uint8_t>> r3dSeeds() {
+#ifdef SPHC_TEST_LIBZIP
+  const std::string text = R"({"w": 36, "h": 48, "fps": 60, "K": [40, 0, 0, 0, 40, 0, 18, 24, 1], )"
+                           R"("poses": [[0, 0, 0, 1, 0, 0, 0]]})";
+  const recording::Bytes pixels(3 * test::kLzfseCols * test::kLzfseRows, 77);
+  sphc_image image = {};
+  image.format = SPHC_FORMAT_RGB8;
+  image.width = test::kLzfseCols;
+  image.height = test::kLzfseRows;
+  image.stride_bytes = 3 * test::kLzfseCols;
+  image.data = pixels.data();
+  recording::ImageEncoder encoder;
+  const recording::ByteView jpeg = encoder.jpeg(image, 90);
+  return {test::zipOf({{"metadata", {text.begin(), text.end()}},
+                       {"rgbd/0.jpg", {jpeg.data, jpeg.data + jpeg.size}},
+                       {"rgbd/0.depth", test::lzfseDepth()},
+                       {"rgbd/0.conf", test::lzfseConfidence()}})};
+#else
+  return {{'P', 'K', 3, 4}};
+#endif
+}
+
+void lzfse(const uint8_t *data, size_t bytes) {
+  constexpr size_t kMostBytes = 8192;
+  const std::vector<uint8_t> exact(data, data + bytes);
+  recording::Bytes out;
+  try {
+    recording::decodeLzfse(recording::viewOf(exact), kMostBytes, out);
+    if (out.empty() || out.size() > kMostBytes) broken("something comes out, and no more than was allowed");
+  } catch (const recording::Failure &failure) {
+    if (failure.status() != SPHC_E_DEVICE) broken("the failure is the bytes'");
+  }
+}
+
+std::vector<std::vector<uint8_t>> lzfseSeeds() {
+  return {test::lzfseDepth(), test::lzfseConfidence(), test::lzfseStored({1, 2, 3})};
 }
 
 void hololens(const uint8_t *data, size_t bytes) {

@@ -95,6 +95,8 @@ TEST(Mutations, Kinect) { walk("kinect", 3000); }
 TEST(Mutations, Ros1) { walk("ros1", 3000); }
 TEST(Mutations, Ros2) { walk("ros2", 3000); }
 TEST(Mutations, Record3d) { walk("record3d", 10000); }
+TEST(Mutations, R3d) { walk("r3d", 3000); }
+TEST(Mutations, Lzfse) { walk("lzfse", 20000); }
 TEST(Mutations, Stray) { walk("stray", 10000); }
 TEST(Mutations, Tum) { walk("tum", 1000); }
 TEST(Mutations, SevenScenes) { walk("sevenScenes", 1000); }

@@ -10,6 +10,8 @@ std::vector<std::vector<uint8_t>> messageSeeds();
 std::vector<std::vector<uint8_t>> rvlSeeds();
 std::vector<std::vector<uint8_t>> straySeeds();
 std::vector<std::vector<uint8_t>> record3dSeeds();
+std::vector<std::vector<uint8_t>> r3dSeeds();
+std::vector<std::vector<uint8_t>> lzfseSeeds();
 std::vector<std::vector<uint8_t>> hololensSeeds();
 std::vector<std::vector<uint8_t>> kinectSeeds();
 std::vector<std::vector<uint8_t>> ros1Seeds();

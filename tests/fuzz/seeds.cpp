@@ -189,6 +189,8 @@ std::vector<Target> allTargets() {
   targets.push_back({"ros1", ros1, ros1Seeds()});
   targets.push_back({"ros2", ros2, ros2Seeds()});
   targets.push_back({"record3d", record3d, record3dSeeds()});
+  targets.push_back({"r3d", r3d, r3dSeeds()});
+  targets.push_back({"lzfse", lzfse, lzfseSeeds()});
   targets.push_back({"stray", stray, straySeeds()});
   targets.push_back({"tum", tum, tumSeeds()});
   targets.push_back({"sevenScenes", sevenScenes, sevenScenesSeeds()});

@@ -43,6 +43,10 @@ void ros1(const uint8_t *data, size_t bytes);
 void ros2(const uint8_t *data, size_t bytes);
 // The metadata of Record3D.
 void record3d(const uint8_t *data, size_t bytes);
+// A recording of Record3D in a zip; otherwise as `recording`.
+void r3d(const uint8_t *data, size_t bytes);
+// Bytes that are compressed by LZFSE.
+void lzfse(const uint8_t *data, size_t bytes);
 // A text file of StrayScanner: an odd first byte says the camera, else the odometry.
 void stray(const uint8_t *data, size_t bytes);
 // The lists of a recording in the TUM layout, with a zero between them.

@@ -17,7 +17,7 @@ RUNTIME = ("include/spherecloud/spherecloud.h", "include/spherecloud/spherecloud
            "share/doc/spherecloud/NOTICE", "include/spherecloud/spherecloud_signature.h", "{lib}/libspherecloud_signature.a",
            "{lib}/pkgconfig/spherecloud-signature.pc", "include/spherecloud/spherecloud_encryption.h",
            "{lib}/libspherecloud_encryption.a", "{lib}/pkgconfig/spherecloud-encryption.pc", "share/doc/spherecloud/spherecloud.spdx.json")
-ALL = RUNTIME + ("bin/spherecloud", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
+ALL = RUNTIME + ("bin/spherecloud", "share/doc/spherecloud/LICENSE.lzfse", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
                  "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c", "include/spherecloud/drivers/contract/contract.cpp")
 
 PYTHON_PACKAGE = "python3-spherecloud"  # no other way of installing has its files

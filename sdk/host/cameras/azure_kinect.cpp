@@ -20,6 +20,7 @@ enum { kCx, kCy, kFx, kFy, kK1, kK2, kK3, kK4, kK5, kK6, kCenterX, kCenterY, kP2
 const char kBrown[] = "CALIBRATION_LensDistortionModelBrownConrady";
 const char kRational[] = "CALIBRATION_LensDistortionModelRational6KT";
 const char kColorPurpose[] = "CALIBRATION_CameraPurposePhotoVideo";
+const char kAccelerometer[] = "CALIBRATION_InertialSensorType_Accelerometer";
 const char kDepthPurpose[] = "CALIBRATION_CameraPurposeDepth";
 
 // The modes of the sensor development kit.
@@ -43,6 +44,7 @@ class Value {
       refuse(file_, path, "missing; is it an Azure Kinect's raw calibration?");
     return {json_[key], file_, path};
   }
+  bool has(const char *key) const { return json_.is_object() && json_.contains(key); }
   std::vector<Value> items() const {
     if (!json_.is_array() || json_.size() > 64) fail("must be a list of at most 64");
     std::vector<Value> result;
@@ -75,6 +77,14 @@ class Value {
   std::string file_, path_;
 };
 
+sphc_rigid sensorFromRig(const Value &sensor) {
+  const Value rt = sensor.at("Rt");
+  sphc_rigid rigid;
+  const std::string fault = rigidFromMatrix(rt.at("Rotation").numbers(), rt.at("Translation").numbers(), &rigid);
+  if (!fault.empty()) rt.fail(fault);
+  return rigid;
+}
+
 NamedCamera readCamera(const Value &value, const char *name, const std::vector<ImageMode> &modes) {
   NamedCamera result;
   result.name = name;
@@ -97,11 +107,7 @@ NamedCamera readCamera(const Value &value, const char *name, const std::vector<I
   if (rational && (p[kP1] != 0 || p[kP2] != 0)) result.inexact = "its model Rational6KT is not OpenCV's";
   if ((width == 1024 && height == 1024) || (width == 4096 && height == 3072)) result.modes = modes;
 
-  const Value rt = value.at("Rt");
-  sphc_rigid rigid;
-  const std::string fault = rigidFromMatrix(rt.at("Rotation").numbers(), rt.at("Translation").numbers(), &rigid);
-  if (!fault.empty()) rt.fail(fault);
-  result.camera_from_rig = rigid;
+  result.camera_from_rig = sensorFromRig(value);
   return result;
 }
 
@@ -159,6 +165,15 @@ CalibrationPart readAzureKinect(const TextFile &file) {
     cameras.fail(std::string("has no camera of purpose ") + kColorPurpose + " or " + kDepthPurpose +
                  "; give the raw calibration of the whole device");
   return part;
+}
+
+std::optional<sphc_rigid> readAzureKinectAccelerometer(const TextFile &file) {
+  const Json json = parse(file);
+  const Value all = Value(json, file.name, "").at("CalibrationInformation");
+  if (!all.has("InertialSensors")) return {};
+  for (const Value &sensor : all.at("InertialSensors").items())
+    if (sensor.at("SensorType").text() == kAccelerometer) return sensorFromRig(sensor);
+  return {};
 }
 
 std::string azureKinectText(const sphc_rig &calibration) {

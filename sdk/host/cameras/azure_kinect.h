@@ -10,6 +10,8 @@ namespace sphc::host {
 // A camera of the model Rational6KT with a tangential part is inexact: its numbers are taken as OpenCV's.  Throws
 // std::runtime_error, "file: key: cause; cure".
 CalibrationPart readAzureKinect(const TextFile &file);
+// accelerometer_from_rig; nothing where the file has none.  Throws likewise.
+std::optional<sphc_rigid> readAzureKinectAccelerometer(const TextFile &file);
 std::string azureKinectText(const sphc_rig &calibration);
 
 }  // namespace sphc::host

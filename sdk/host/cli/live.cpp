@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "host/base/checked_call.h"
+#include "host/base/counted.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/light_options.h"
@@ -126,11 +127,11 @@ void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
               (tally.skipped ? ", skipped: " + std::to_string(tally.skipped) : ""));
   for (size_t i = 0; i < kFaultWords.size(); ++i)
     if (tally.faults[i])
-      console.say("FAULT in " + std::to_string(tally.faults[i]) + " frames, " + kFaultWords[i].name + ": " +
+      console.say("FAULT in " + counted(tally.faults[i], "frame") + ", " + kFaultWords[i].name + ": " +
                   kFaultWords[i].cure);
   for (size_t i = 0; i < kHintWords.size(); ++i)
     if (tally.hints[i])
-      console.say("No pose in " + std::to_string(tally.hints[i]) + " frames, " + kHintWords[i].name + ": " +
+      console.say("No pose in " + counted(tally.hints[i], "frame") + ", " + kHintWords[i].name + ": " +
                   kHintWords[i].cure);
   if (tally.frames > 0) console.say("Time a frame: " + fixed(tally.total_ms / tally.frames, 2) + " ms, mean");
   console.say(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/counted.h"
 #include "host/guide/stretch_causes.h"
 #include "host/guide/time_words.h"
 #include "host/report/hint_words.h"
@@ -91,19 +92,19 @@ void warnOfParts(const MapOutcome &outcome, const Clock &clock, const Console &c
   console.warn("The walk falls apart. The map is of its largest part alone, " + count(framesOf(s.mapped)) + " of " +
                count(outcome.walk.frameCount()) + " frames: " + clock.timesOf(s.mapped) + ".");
   for (const std::vector<Stretch> &part : s.apart)
-    console.warn("It never met " + clock.timesOf(part) + " (" + count(framesOf(part)) +
-                 " frames). Walk from what is seen there to what is seen at " + clock.timesOf(s.mapped) +
+    console.warn("It never met " + clock.timesOf(part) + " (" + counted(framesOf(part), "frame") +
+                 "). Walk from what is seen there to what is seen at " + clock.timesOf(s.mapped) +
                  " once more, slowly, in one recording with the rest." + causesOfPart(part));
 }
 
 void warnOfStretches(const MapOutcome &outcome, const Clock &clock, const Console &console) {
   for (const Stretch &s : outcome.stretches.left_out) {
-    console.warn("note: left out: " + clock.timesOf({s}) + " (" + count(s.frames) +
-                 " frames): " + causesText(causesOf(s)));
+    console.warn("note: left out: " + clock.timesOf({s}) + " (" + counted(s.frames, "frame") +
+                 "): " + causesText(causesOf(s)));
   }
   if (outcome.walk.unreadable)
-    console.warn("note: " + count(outcome.walk.unreadable) +
-                 " frames could not be read; the first: " + outcome.walk.first_fault);
+    console.warn("note: " + counted(outcome.walk.unreadable, "frame") +
+                 " could not be read; the first: " + outcome.walk.first_fault);
 }
 
 void warnOfTimes(const MapOutcome &outcome, const Console &console) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/base/counted.h"
 #include "host/frames/frame_features.h"
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
@@ -177,9 +178,9 @@ PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImpor
 std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
   std::vector<std::string> sentences;
   const auto add = [&sentences](uint32_t count, const char *what) {
-    if (count) sentences.push_back(std::to_string(count) + " frames " + what);
+    if (count) sentences.push_back(counted(count, "frame") + " " + what);
   };
-  add(summary.frames_without_pose, "have no pose and took no part");
+  add(summary.frames_without_pose, "without a pose took no part");
   add(summary.frames_unreadable, "could not be read and took no part");
   return sentences;
 }

@@ -39,6 +39,7 @@ Recording openRecording(const fs::path &folder) {
   if (fs::is_regular_file(folder)) {
     refuseForeignFile(folder);
     if (isRaw(folder)) return openRaw(folder);
+    if (isRecord3d(folder)) return openRecord3d(folder);
     if (isMatroska(folder)) return openAzureKinect(folder);
     return isRos1Bag(folder) ? openRos1Bag(folder) : openMcap(folder);
   }

@@ -111,8 +111,8 @@ bool isRosBag(const std::filesystem::path &folder);
 Recording openRosBag(const std::filesystem::path &path);  // a folder or an MCAP file
 bool isRos1Bag(const std::filesystem::path &file);        // RealSense's too
 Recording openRos1Bag(const std::filesystem::path &file);
-bool isRecord3d(const std::filesystem::path &folder);
-Recording openRecord3d(const std::filesystem::path &folder);
+bool isRecord3d(const std::filesystem::path &path);  // any zip is
+Recording openRecord3d(const std::filesystem::path &path);
 bool isStreamRecorder(const std::filesystem::path &folder);
 Recording openStreamRecorder(const std::filesystem::path &folder);
 bool isMatroska(const std::filesystem::path &file);

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/recording/recording_reader.h"
@@ -22,7 +24,7 @@ using ::testing::HasSubstr;
 constexpr uint32_t kColorWidth = 1280, kColorHeight = 720, kDepthWidth = 320, kDepthHeight = 288;
 constexpr size_t kColorPixels = size_t{kColorWidth} * kColorHeight,
                  kDepthPixels = size_t{kDepthWidth} * kDepthHeight;
-constexpr int kColor = 1, kDepth = 2;
+constexpr int kColor = 1, kDepth = 2, kInertial = 4;
 constexpr int64_t kKinectStartNs = 7000000000;
 
 std::string repeated(const std::string &bytes, size_t count) {
@@ -49,6 +51,26 @@ std::string nv12Image() {
 }
 std::string yuy2Image() { return repeated(std::string("\x6E\x78\x6E\xB4", 4), kColorPixels / 2); }
 
+// Of the track IMU; little-endian, and what the gyroscope says is not read.
+std::string inertialSample(uint64_t time, const std::array<float, 3> &felt_mps2) {
+  recording::Bytes bytes;
+  recording::putLittle(bytes, time);
+  recording::append(bytes, felt_mps2.data(), sizeof felt_mps2);
+  return std::string(textOf(recording::viewOf(bytes))) + std::string(20, 'g');
+}
+// As the kit writes a block of several samples: all of one length, or with the sizes of all but the last.
+std::string lacedSamples(const std::vector<std::string> &samples, bool of_one_length = true) {
+  std::string bytes(1, static_cast<char>(samples.size() - 1));
+  if (!of_one_length) bytes += std::string(samples.size() - 1, '\x28');
+  for (const std::string &sample : samples) bytes += sample;
+  return bytes;
+}
+// A camera that is level, as a device's own file tells it: z of the accelerometer is down in the depth image.
+constexpr const char *kAccelerometer =
+    R"("InertialSensors": [{"SensorType": "CALIBRATION_InertialSensorType_Gyro"},
+{"SensorType": "CALIBRATION_InertialSensorType_Accelerometer",
+ "Rt": {"Rotation": [0, 0, -1, -1, 0, 0, 0, 1, 0], "Translation": [-0.05, 0.003, 0.001]}}])";
+
 class AzureKinect : public ::testing::Test {
  protected:
   void addTracks(const std::string &fourcc) {
@@ -70,7 +92,7 @@ class AzureKinect : public ::testing::Test {
       file_.addBlock(kDepth, 900, depthImage(static_cast<uint16_t>(1000 + i)), in_group);
       file_.addBlock(kColor, -100, color[i], in_group);
       file_.addBlock(3, 900, depthImage(static_cast<uint16_t>(70 + i)));
-      file_.addBlock(4, 1, std::string(40, 'i'));
+      file_.addBlock(kInertial, 1, inertialSample(7000101 + 33333u * i, {1, 2, 3}));
     }
   }
   std::string write(const std::string &bytes) {
@@ -178,6 +200,85 @@ TEST_F(AzureKinect, InfraredImagesAreAmplitudes) {
     EXPECT_EQ(static_cast<const uint16_t *>(amplitude.data)[kDepthPixels - 1], 70 + i);
   }
   EXPECT_EQ(reader.read(2).amplitude.data, nullptr) << "of another time";
+}
+
+class KinectAccelerations : public AzureKinect {
+ protected:
+  KinectAccelerations() { addTracks("BGRA"); }
+  // Two blocks of three samples of a camera that is level; the clock of the sensor counts `unit_ns`.
+  std::string writeSamples(uint64_t unit_ns, bool of_one_length = true) {
+    for (const uint64_t i : {0, 1}) {
+      std::vector<std::string> samples;
+      for (const uint64_t k : {0, 1, 2})
+        samples.push_back(inertialSample((7000000000 + 30000000 * i + 600000 * k) / unit_ns,
+                                         {0.25f, static_cast<float>(k), -9.75f}));
+      file_.beginCluster(30000 * i);
+      file_.addBlock(kColor, 0, bgraImage(20));
+      file_.addBlock(kDepth, 0, depthImage(1000));
+      file_.addBlock(kInertial, 0, lacedSamples(samples, of_one_length), false, of_one_length ? 0x04 : 0x02);
+    }
+    return writeEnd();
+  }
+  std::string writeEnd(const char *accelerometer = kAccelerometer) {
+    std::string calibration = host::kAzureKinectFile;
+    const std::string none = R"("InertialSensors": [])";
+    calibration.replace(calibration.find(none), none.size(), accelerometer);
+    file_.attach("calibration.json", calibration);
+    file_.tag("K4A_START_OFFSET_NS", std::to_string(kKinectStartNs));
+    return write();
+  }
+  static void expectSamples(const recording::Recording &recording) {
+    ASSERT_EQ(recording.accelerations.size(), 6u);
+    EXPECT_EQ(recording.lost_count, 0u);
+    EXPECT_EQ(recording.bad_acceleration_count, 0u);
+    for (size_t i = 0; i < 6; ++i)
+      EXPECT_EQ(recording.accelerations[i].time_ns,
+                kKinectStartNs + 30000000 * static_cast<int64_t>(i / 3) + 600000 * static_cast<int64_t>(i % 3))
+          << i;
+    // In the depth image (-1, -9.75, -0.25); the colour camera leans by 37 degrees.
+    const double *felt = recording.accelerations[1].felt_mps2;
+    EXPECT_NEAR(felt[0], -1, 1e-9);
+    EXPECT_NEAR(felt[1], 0.8 * -9.75 + 0.6 * -0.25, 1e-9);
+    EXPECT_NEAR(felt[2], -0.6 * -9.75 + 0.8 * -0.25, 1e-9);
+  }
+};
+
+TEST_F(KinectAccelerations, InNanoseconds) { expectSamples(RecordingReader(writeSamples(1)).recording()); }
+TEST_F(KinectAccelerations, InMicroseconds) { expectSamples(RecordingReader(writeSamples(1000)).recording()); }
+TEST_F(KinectAccelerations, WithSizes) { expectSamples(RecordingReader(writeSamples(1, false)).recording()); }
+
+TEST_F(KinectAccelerations, OneABlock) {
+  addFrames({bgraImage(20), bgraImage(60)});
+  const RecordingReader reader(writeEnd());
+  ASSERT_EQ(reader.recording().accelerations.size(), 2u);
+  EXPECT_EQ(reader.recording().accelerations[1].time_ns, kKinectStartNs + 33434000);
+  EXPECT_NEAR(reader.recording().accelerations[0].felt_mps2[0], -2, 1e-9);
+}
+
+TEST_F(KinectAccelerations, WhatIsNoneIsCounted) {
+  addFrames({bgraImage(20), bgraImage(60)});
+  file_.addBlock(kInertial, 10, "short");
+  file_.addBlock(kInertial, 11, inertialSample(1, {1, std::nanf(""), 3}));
+  file_.addBlock(kInertial, 1, inertialSample(1, {1, 2, 3}));  // of a time that was
+  file_.addBlock(kInertial, 12, lacedSamples({inertialSample(9, {1, 2, 3}), inertialSample(8, {1, 2, 3})}), false,
+                 4);
+  file_.addBlock(kInertial, 13, "\xFFshort", false, 4);
+  const RecordingReader reader(writeEnd());
+  EXPECT_EQ(reader.recording().accelerations.size(), 3u);
+  EXPECT_EQ(reader.recording().bad_acceleration_count, 1u + 1 + 1 + 1 + 256);
+}
+
+TEST_F(KinectAccelerations, NoneWhereTheCalibrationDoesNotTellTheirAxes) {
+  addFrames({bgraImage(20), bgraImage(60)});
+  EXPECT_TRUE(RecordingReader(writeEnd(R"("InertialSensors": [])")).recording().accelerations.empty());
+}
+
+TEST_F(KinectAccelerations, NoneWithAPlaceThatIsNoRotation) {
+  addFrames({bgraImage(20), bgraImage(60)});
+  const std::string path =
+      writeEnd(R"("InertialSensors": [{"SensorType": "CALIBRATION_InertialSensorType_Accelerometer",
+    "Rt": {"Rotation": [1, 0, 0, 0, 1, 0, 0, 0, 2], "Translation": [0, 0, 0]}}])");
+  EXPECT_TRUE(RecordingReader(path).recording().accelerations.empty());
 }
 
 TEST_F(AzureKinect, BlocksInGroups) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #ifdef SPHC_TEST_OPENEXR
 #include <ImfChannelList.h>
@@ -9,10 +10,15 @@
 #include <ImfOutputFile.h>
 #endif
 
+#include "host/recording/foreign/lzfse_bytes.h"
 #include "host/recording/foreign/record3d_metadata.h"
 #include "host/recording/recording_reader.h"
 #include "tests/contract/temp_folder.h"
+#include "tests/support/lzfse_samples.h"
 #include "tests/support/refusal.h"
+#ifdef SPHC_TEST_LIBZIP
+#include "tests/support/zip_bytes.h"
+#endif
 
 namespace sphc::contract {
 namespace {
@@ -80,18 +86,162 @@ TEST(Record3dMetadata, WhatIsWrongIsNamed) {
 
 TEST(FilesThatAreNotRead, SayTheWayOut) {
   const TempFolder folder;
-  const std::pair<std::string, const char *> files[] = {
-      {std::string("PK\x03\x04") + std::string(30, '\0'), "EXR + RGB"},
-      {"#ROSBAG V1.2\n", "rosbag fix"},
-      {std::string("SQLite format 3\0", 16), "ros2 bag convert"}};
+  const std::pair<std::string, const char *> files[] = {{"#ROSBAG V1.2\n", "rosbag fix"},
+                                                        {std::string("SQLite format 3\0", 16), "ros2 bag convert"}};
   for (const auto &[bytes, cure] : files) {
     folder.write("file", bytes);
     EXPECT_THAT(refusal([&] { RecordingReader reader(folder / "file"); }), HasSubstr(cure));
   }
-  folder.write("r3d/metadata", "{}");
-  std::filesystem::create_directories(folder / "r3d/rgbd");
-  EXPECT_THAT(refusal([&] { RecordingReader reader(folder / "r3d"); }), HasSubstr("unpacked .r3d"));
 }
+
+TEST(Lzfse, DamagedBytesAreRefused) {
+  recording::Bytes out;
+  const auto refused = [&](const recording::Bytes &bytes, size_t most) {
+    return refusal([&] { recording::decodeLzfse(recording::viewOf(bytes), most, out); });
+  };
+  const recording::Bytes good = test::lzfseDepth();
+  EXPECT_EQ(refused(good, 6912), "");
+  EXPECT_EQ(out.size(), 6912u);
+  EXPECT_THAT(refused(good, 6911), HasSubstr("cannot be decoded as LZFSE"));
+  for (size_t kept : {size_t{0}, size_t{3}, size_t{20}, good.size() / 2, good.size() - 1})
+    EXPECT_THAT(refused({good.begin(), good.begin() + static_cast<ptrdiff_t>(kept)}, 6912), HasSubstr("LZFSE"))
+        << kept;
+}
+
+// A recording in the app's own form: its files in a folder, or in a zip.
+class R3d : public ::testing::TestWithParam<bool> {
+ protected:
+  R3d() {
+    set("metadata", metadataText(""));
+    for (size_t i = 0; i < kFrameCount; ++i) {
+      const std::string number = "rgbd/" + std::to_string(i);
+      recording::Bytes image;
+      cv::imencode(".jpg", cv::Mat(kRgbRows, kRgbCols, CV_8UC3, cv::Scalar::all(30.0 * static_cast<double>(i))),
+                   image);
+      files_[number + ".jpg"] = image;
+      files_[number + ".depth"] =
+          i == 0 ? test::lzfseDepth() : test::lzfseStored(flatDepth(1 + 0.25f * static_cast<float>(i)));
+    }
+    files_["rgbd/0.conf"] = test::lzfseConfidence();
+  }
+
+  static recording::Bytes flatDepth(float depth_m) {
+    recording::Bytes bytes;
+    for (size_t i = 0; i < test::kLzfseCols * test::kLzfseRows; ++i)
+      recording::append(bytes, &depth_m, sizeof depth_m);
+    return bytes;
+  }
+  // 36 x 48, as the samples are.
+  static std::string metadataText(const std::string &more) {
+    return R"({"w": 72, "h": 96, )" + more + R"("fps": 60, "K": [80, 0, 0, 0, 81, 0, 35, 47, 1],
+               "poses": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0, -1], [0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0, 0]]})";
+  }
+  void set(const std::string &name, const std::string &text) { files_[name] = {text.begin(), text.end()}; }
+
+  std::string write() const {
+#ifdef SPHC_TEST_LIBZIP
+    if (GetParam()) {
+      const recording::Bytes zip = test::zipOf({files_.begin(), files_.end()});
+      folder_.write("walk.r3d", {zip.begin(), zip.end()});
+      return folder_ / "walk.r3d";
+    }
+#endif
+    std::filesystem::remove_all(folder_ / "walk");
+    for (const auto &[name, bytes] : files_) folder_.write("walk/" + name, {bytes.begin(), bytes.end()});
+    return folder_ / "walk";
+  }
+  std::string refusalOfOpen() const {
+    return refusal([&] { RecordingReader reader(write()); });
+  }
+  std::string refusalOfFrame(uint32_t i) const {
+    return refusal([&] { RecordingReader(write()).read(i); });
+  }
+
+  TempFolder folder_;
+  std::map<std::string, recording::Bytes> files_;
+};
+
+TEST_P(R3d, ImagesPosesAndCameras) {
+  RecordingReader reader(write());
+  ASSERT_EQ(reader.frameCount(), kFrameCount);
+  const auto *depth = static_cast<const uint16_t *>(reader.read(0).depth.data);
+  for (uint32_t y = 0; y < test::kLzfseRows; ++y)
+    for (uint32_t x = 0; x < test::kLzfseCols; ++x)
+      ASSERT_EQ(depth[test::kLzfseCols * y + x], test::lzfseSampleConfidence(y) ? test::lzfseSampleMm(x, y) : 0)
+          << x << ", " << y;
+  const sphc_localizer_frame frame = reader.read(2);
+  EXPECT_EQ(static_cast<const uint16_t *>(frame.depth.data)[0], 1500) << "no confidence, as of the camera in front";
+  EXPECT_NEAR(static_cast<const uint8_t *>(frame.color.data)[0], 60, 2);
+  EXPECT_EQ(reader.calibration().color_camera.params[1], 81);
+  EXPECT_DOUBLE_EQ(reader.calibration().depth_camera.params[1], 40.5);
+  EXPECT_EQ(reader.worldFromCamera(1)->t_m[2], -1);
+}
+
+TEST_P(R3d, DepthHasTheShapeThatIsTold) {
+  set("metadata", metadataText(R"("dw": 36, "dh": 48, )"));
+  EXPECT_EQ(RecordingReader(write()).calibration().depth_camera.height, 48u);
+  set("metadata", metadataText(R"("dw": 30, "dh": 48, )"));
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("rgbd/0.depth: its 6912 bytes are no image of the shape"));
+  set("metadata", metadataText(R"("dw": 0, "dh": 48, )"));
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("dw: expected a number over 0"));
+}
+
+TEST_P(R3d, FramesWithoutAPartnerAreNone) {
+  files_.erase("rgbd/1.depth");
+  files_.erase("rgbd/2.jpg");
+  const RecordingReader reader(write());
+  ASSERT_EQ(reader.frameCount(), 2u);
+  EXPECT_EQ(reader.colorOf(1).sequence, 3u);
+}
+
+TEST_P(R3d, WhatIsDamagedIsNamed) {
+  files_["rgbd/1.conf"] = test::lzfseStored({1, 2, 3});
+  EXPECT_THAT(refusalOfFrame(1), HasSubstr("its confidence, rgbd/1.conf: has 3 pixels"));
+  files_["rgbd/1.depth"].resize(500);
+  EXPECT_THAT(refusalOfFrame(1), HasSubstr("cannot be decoded as LZFSE"));
+  recording::Bytes small = flatDepth(1);
+  small.resize(small.size() / 2);
+  files_["rgbd/1.depth"] = test::lzfseStored(small);
+  EXPECT_THAT(refusalOfFrame(1), HasSubstr("has 864 pixels"));
+  files_["rgbd/0.depth"].resize(500);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("rgbd/0.depth: cannot be decoded as LZFSE"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Folder, R3d, ::testing::Values(false));
+#ifdef SPHC_TEST_LIBZIP
+INSTANTIATE_TEST_SUITE_P(Zip, R3d, ::testing::Values(true));
+
+class ZippedR3d : public R3d {};
+
+TEST_P(ZippedR3d, ADamagedZipIsNamed) {
+  const std::string path = write(), good = folder_.read("walk.r3d");
+  folder_.write("walk.r3d", good.substr(0, good.size() / 2));
+  EXPECT_THAT(refusal([&] { RecordingReader reader(path); }), HasSubstr("walk.r3d: cannot be read as a zip ("));
+  const size_t image = good.find("rgbd/1.jpg");
+  for (size_t i = image + 30; i < image + 60; ++i) {  // in what is compressed
+    std::string changed = good;
+    changed[i] ^= 1;
+    folder_.write("walk.r3d", changed);
+    RecordingReader reader(path);
+    EXPECT_EQ(refusal([&] { reader.read(0); }), "");
+    EXPECT_THAT(refusal([&] { reader.read(1); }),
+                AllOf(HasSubstr("rgbd/1.jpg"), HasSubstr("copy"), HasSubstr("zip")));
+  }
+}
+
+TEST_P(ZippedR3d, AnyOtherZipIsRefused) {
+  files_.erase("metadata");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("none of Record3D's"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Zip, ZippedR3d, ::testing::Values(true));
+#else
+TEST(R3dWithoutLibzip, IsRefused) {
+  const TempFolder folder;
+  folder.write("walk.r3d", std::string("PK\x03\x04") + std::string(30, '\0'));
+  EXPECT_THAT(refusal([&] { RecordingReader reader(folder / "walk.r3d"); }), HasSubstr("install libzip-dev"));
+}
+#endif
 
 #ifdef SPHC_TEST_OPENEXR
 void writeExr(const std::string &path, const char *channel, Imf::PixelType type,

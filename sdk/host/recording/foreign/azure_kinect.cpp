@@ -7,9 +7,10 @@
 #include "host/recording/calibration_json.h"
 #include "host/recording/failure.h"
 #include "host/recording/file_reader.h"
+#include "host/recording/foreign/kinect_accelerations.h"
 #include "host/recording/foreign/kinect_images.h"
 #include "host/recording/foreign/matroska.h"
-#include "host/recording/foreign/ordered_images.h"
+#include "host/recording/foreign/time_order.h"
 #include "host/recording/recording.h"
 
 namespace sphc::recording {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *kCodec = "V_MS/VFW/FOURCC";
+constexpr const char *kCodec = "V_MS/VFW/FOURCC", *kInertialCodec = "S_K4A/IMU";
 constexpr size_t kMostCalibrationBytes = 1 << 20;
 
 const MatroskaTrack *findTrack(const MatroskaFile &file, const char *name) {
@@ -64,6 +65,8 @@ std::vector<RecordedImage> imagesOf(const MatroskaTrack &track, int64_t start_ns
   std::vector<RecordedImage> images;
   images.reserve(track.blocks.size());
   for (const MatroskaBlock &block : track.blocks) {
+    *lost_count += block.frame_count > 1;
+    if (block.frame_count > 1) continue;
     RecordedImage image = {};
     image.time_ns = start_ns + block.time_ns;
     image.place = {Kind::kNone, 0, block.start, block.bytes};
@@ -88,6 +91,19 @@ void addAmplitudes(const MatroskaFile &file, const MatroskaTrack &depth_track, R
   }
 }
 
+std::optional<sphc_rigid> colorFromAccelerometer(const host::TextFile &calibration) {
+  const std::optional<sphc_rigid> sensor_from_rig = host::readAzureKinectAccelerometer(calibration);
+  if (!sensor_from_rig) return {};
+  for (const host::NamedCamera &camera : host::readAzureKinect(calibration).cameras)
+    if (camera.name == "color") {
+      sphc_rigid rig_from_sensor, color_from_sensor;
+      sphc_rigid_inverse(&*sensor_from_rig, &rig_from_sensor);
+      sphc_rigid_compose(&*camera.camera_from_rig, &rig_from_sensor, &color_from_sensor);
+      return color_from_sensor;
+    }
+  return {};
+}
+
 std::string calibrationText(const fs::path &path, const MatroskaFile &file) {
   const auto named = file.tags.find("K4A_CALIBRATION_FILE");
   const auto attached =
@@ -100,6 +116,21 @@ std::string calibrationText(const fs::path &path, const MatroskaFile &file) {
   std::string text(bytes, '\0');
   File(path).read(attached->second.start, reinterpret_cast<uint8_t *>(text.data()), text.size());
   return text;
+}
+
+// Of a recording that tells how its accelerometer stands against the colour camera.
+void addAccelerations(const MatroskaFile &file, Recording *recording) {
+  const MatroskaTrack *track = findTrack(file, "IMU");
+  if (!track || track->is_encoded || track->codec != kInertialCodec) return;
+  std::optional<sphc_rigid> color_from_sensor;
+  try {
+    color_from_sensor = colorFromAccelerometer({"calibration.json", calibrationText(recording->path, file)});
+  } catch (const std::runtime_error &) {  // the cameras' part says what is wrong with it
+  }
+  if (!color_from_sensor) return;
+  recording->accelerations =
+      kinectAccelerations(recording->path, *track, startOf(file), &recording->bad_acceleration_count);
+  turnAccelerations(*color_from_sensor, &recording->accelerations);
 }
 
 sphc_rig rigOfKinect(const fs::path &path, const MatroskaFile &file, host::ImageSize color, host::ImageSize depth) {
@@ -139,6 +170,7 @@ Recording openAzureKinect(const fs::path &path) {
     if (images->empty())
       throw Failure(SPHC_E_DEVICE, name + ": its track " + track + " has no images; copy the file again");
   addAmplitudes(file, depth, &recording);
+  addAccelerations(file, &recording);
   recording.images = [path, coding, color_size, depth_size] {
     return std::make_unique<KinectImages>(path, coding, color_size, depth_size);
   };

@@ -158,22 +158,28 @@ class Reader {
     return cluster.end;
   }
 
-  // A block is the number of its track, a time relative to the cluster's of two bytes, flags, and the frame.
+  // A block is the number of its track, a time relative to the cluster's of two bytes, flags, and the frame; or the
+  // number of frames less one, their sizes in one of three ways, and the frames.
   void readBlock(const EbmlElement &block, uint64_t cluster_timestamp) {
     uint64_t at = block.start;
     const std::optional<uint64_t> number = ebml_.numberAt(&at, block.end);
     const std::optional<ByteView> head = number ? ebml_.bytesAt(at, 3, block.end) : std::nullopt;
     const auto track = head ? result_.tracks.find(*number) : result_.tracks.end();
-    if (track == result_.tracks.end() || (head->data[2] & kLacing) != 0) {
+    if (track == result_.tracks.end()) {
       ++result_.lost_count;
       return;
     }
     const auto relative = static_cast<int16_t>(head->data[0] << 8 | head->data[1]);
+    const bool is_laced = (head->data[2] & kLacing) != 0;
+    at += 3;
+    const std::optional<ByteView> count = is_laced ? ebml_.bytesAt(at, 1, block.end) : std::nullopt;
     const int64_t time_ns = timeOf(cluster_timestamp, relative);
-    if (time_ns < 0)
+    if (time_ns < 0 || (is_laced && !count)) {
       ++result_.lost_count;
-    else
-      track->second.blocks.push_back({time_ns, at + 3, block.end - at - 3});
+      return;
+    }
+    const uint32_t frames = is_laced ? count->data[0] + 1u : 1u;
+    track->second.blocks.push_back({time_ns, at, block.end - at, frames});
   }
 
   // Negative where it is none.

@@ -1,5 +1,4 @@
-// What a Matroska file (RFC 9559) holds, as far as recordings of depth cameras need it.  Blocks of several frames,
-// and tracks that are compressed again, are none here.
+// What a Matroska file (RFC 9559) holds, as far as recordings of depth cameras need it.
 #pragma once
 
 #include <map>
@@ -13,8 +12,9 @@ namespace sphc::recording {
 constexpr std::string_view kMatroskaMagic = "\x1A\x45\xDF\xA3";
 
 struct MatroskaBlock {
-  int64_t time_ns;
-  uint64_t start, bytes;  // of its frame, in the file
+  int64_t time_ns;        // of its first frame
+  uint64_t start, bytes;  // of its frame, in the file; of several with their sizes in front
+  uint32_t frame_count;
 };
 
 struct MatroskaTrack {

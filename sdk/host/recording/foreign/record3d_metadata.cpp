@@ -98,6 +98,10 @@ Record3dMetadata record3dMetadataFrom(std::string_view text) {
   metadata.params = paramsOf(root);
   metadata.width = positiveOf(root, "w");
   metadata.height = positiveOf(root, "h");
+  if (root.contains("dw") && root.contains("dh")) {
+    metadata.depth_width = positiveOf(root, "dw");
+    metadata.depth_height = positiveOf(root, "dh");
+  }
   const json &poses = listOf(root, "poses");
   for (const json &entry : poses) metadata.world_from_camera.push_back(record3dPose(entry));
   metadata.time_ns = timesOf(root, poses.size());

@@ -16,10 +16,6 @@ struct RefusedKind {
   const char *cure;
 };
 constexpr RefusedKind kRefusedKinds[] = {
-    {"PK\x03\x04"sv,
-     "is a zip, as Record3D's .r3d files are; their depth is compressed by LZFSE, which is not read: export \"EXR "
-     "+ "
-     "RGB\" in the app"},
     {"#ROSBAG V1"sv, "is a bag of ROS 1 of version 1, which is not read: \"rosbag fix\" writes version 2.0"},
     {"SQLite format 3"sv,
      "is a database, as ROS 2's .db3 files are, which is not read: \"ros2 bag convert\" writes MCAP"},

@@ -2,11 +2,11 @@
 #include "host/recording/calibration_json.h"
 #include "host/recording/failure.h"
 #include "host/recording/file_reader.h"
-#include "host/recording/foreign/ordered_images.h"
 #include "host/recording/foreign/realsense_topics.h"
 #include "host/recording/foreign/ros_camera.h"
 #include "host/recording/foreign/ros_content.h"
 #include "host/recording/foreign/ros_images.h"
+#include "host/recording/foreign/time_order.h"
 #include "host/recording/recording.h"
 
 namespace sphc::recording {
@@ -77,22 +77,12 @@ sphc_rig rigOf(const RosBag &bag, const RosImageTopic &color, const RosImageTopi
 std::vector<TimedAcceleration> accelerationsOf(const RosBag &bag, const std::string &color_frame) {
   std::vector<TimedAcceleration> chosen;
   for (const auto &[name, topic] : bag.content.inertial) {
-    std::optional<sphc_rigid> color_from_sensor = bag.frames.fixed(color_frame, topic.frame);
+    const std::optional<sphc_rigid> color_from_sensor = bag.frames.fixed(color_frame, topic.frame);
     if (!color_from_sensor || topic.accelerations.size() <= chosen.size()) continue;
-    std::fill_n(color_from_sensor->t_m, 3, 0.0);  // a direction
     chosen = topic.accelerations;
-    for (TimedAcceleration &each : chosen) {
-      const TimedAcceleration felt = each;
-      sphc_rigid_apply(&*color_from_sensor, felt.felt_mps2, each.felt_mps2);
-    }
+    turnAccelerations(*color_from_sensor, &chosen);
   }
-  std::stable_sort(chosen.begin(), chosen.end(),
-                   [](const TimedAcceleration &a, const TimedAcceleration &b) { return a.time_ns < b.time_ns; });
-  const auto is_again = [](const TimedAcceleration &a, const TimedAcceleration &b) {
-    return a.time_ns == b.time_ns;
-  };
-  chosen.erase(std::unique(chosen.begin(), chosen.end(), is_again), chosen.end());
-  return chosen;
+  return inOrderOfTime(std::move(chosen));
 }
 
 Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {

@@ -198,7 +198,7 @@ TEST(Advise, TellsOfFramesThatTookNoPart) {
   std::ofstream(walk + "/rgb/000001.png") << "no image";
   const Answer damaged = runCommand(advise);
   ASSERT_EQ(damaged.exit_code, kExitDone) << damaged.err;
-  EXPECT_THAT(damaged.err, HasSubstr("note: 1 frames could not be read and took no part"));
+  EXPECT_THAT(damaged.err, HasSubstr("note: 1 frame could not be read and took no part"));
   EXPECT_THAT(damaged.err, HasSubstr("rgb/000001.png"));
   EXPECT_FALSE(nlohmann::json::parse(damaged.out)["left_out"].empty());
 }

@@ -169,7 +169,7 @@ TEST_F(MapTest, ImagesThatChangeTheirSizeAreLeftOutAndNamed) {
   const Answer mapped = runCommand(map);
   ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
   EXPECT_EQ(nlohmann::json::parse(mapped.out)["frames_mapped"], 9);
-  EXPECT_THAT(mapped.err, HasSubstr("1 frames could not be read; the first: "));
+  EXPECT_THAT(mapped.err, HasSubstr("1 frame could not be read; the first: "));
   EXPECT_THAT(mapped.err, HasSubstr("48 x 32"));
   for (const fs::path &image : images) fs::copy_file(tiny, image, fs::copy_options::overwrite_existing);
   EXPECT_THAT(runCommand(map).err, HasSubstr("not one frame can be read"));

@@ -1,0 +1,11 @@
+// Bytes that are compressed by LZFSE, as Apple's systems do it.
+#pragma once
+
+#include "host/recording/mcap/bytes.h"
+
+namespace sphc::recording {
+
+// Fills `out`.  Throws Failure (DEVICE) without a name where they are damaged or more than `most_bytes`.
+void decodeLzfse(ByteView compressed, size_t most_bytes, Bytes &out);
+
+}  // namespace sphc::recording
