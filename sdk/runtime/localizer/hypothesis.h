@@ -60,6 +60,8 @@ struct Hypothesis {
   void challenge(const Hypothesis &other);
 };
 
+void swap(Hypothesis &a, Hypothesis &b);
+
 // Are two poses that a frame may have one, to within these bounds?
 bool areNear(const Rigid &a, const Rigid &b, const tuning::PoseBounds &bounds);
 // A match, and how clearly it beat the runner-up.

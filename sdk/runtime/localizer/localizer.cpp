@@ -421,7 +421,7 @@ Verification Localizer::verification(uint32_t min_inliers, Work *work, Ranking *
 }
 
 void Localizer::propose() {
-  if (replaces(candidate_, best_)) std::swap(candidate_, best_);
+  if (replaces(candidate_, best_)) swap(candidate_, best_);
 }
 
 // `prior` is borrowed.

@@ -84,6 +84,9 @@ struct PoseBounds {
 // gain; of 1311 right poses on real recordings one had (decision 42).
 constexpr uint32_t kInliersBeyondOthers = 100;
 constexpr double kAmbiguousGain = 0.5;
+// A pose of more inliers than that, and less than this, is replaced where its first matches lead to another one
+// that gains more: docs/localizer.md, "One of two equal places".
+constexpr uint32_t kInliersSeldomWrong = 150, kSamplesOfFirst = 1000;
 constexpr PoseBounds kSamePose = {0.15, degrees(8)};
 constexpr uint32_t kSamplesOfOthers = 2000;
 constexpr double kMostLogChanceOfRival = -6;  // of its first matches; of the eight it was -12 and less

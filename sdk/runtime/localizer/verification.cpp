@@ -32,12 +32,21 @@ void copyWithoutLeverage(const Hypothesis &from, MatchSet *matched) {
     if (std::find(begin, end, i) == end) matched->add(all[i]);
 }
 
+// Matches that do not speak for the pose.
+void copyOthers(const PoseEstimator &estimator, const Hypothesis &from, MatchSet *matched) {
+  for (const Correspondence &c : from.matched.all())
+    if (!estimator.isInlier(c, from.estimate)) matched->add(c);
+}
+
 }  // namespace
 
 void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   const uint64_t left_ns = task.query.deadline.leftNs();
   if (!searchPose(task, found)) return;
+  rival->begin(found->map, found->frames);
+  copyOthers(estimator_, *found, &rival->matched);
   rematch(task, found);
+  challengeByFirst(task, found, rival);
   searchAgain(task, left_ns - std::min(left_ns, task.query.deadline.leftNs()), found, rival);
   verify(task, found, rival);
 }
@@ -157,7 +166,7 @@ void Verification::challengeWithoutLeverage(const PoseTask &task, Hypothesis *fo
   work_.samples += rival->estimate.iterations;
   if (rival->estimate.inliers > kFewestMatches / 2) {
     rematch(task, rival);
-    if (rival->estimate.gain > found->estimate.gain) std::swap(*found, *rival);
+    if (rival->estimate.gain > found->estimate.gain) swap(*found, *rival);
   }
 }
 
@@ -173,7 +182,7 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
   if (isLeftOut(task, found)) return;
   rematch(task, rival);
   const double rival_gain = rival->estimate.gain;
-  if (rival_gain > gain) std::swap(*found, *rival);
+  if (rival_gain > gain) swap(*found, *rival);
   if (std::min(gain, rival_gain) > kNearlyAsGood * std::max(gain, rival_gain)) found->doubtForRival();
 }
 
@@ -195,13 +204,29 @@ void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hy
   const uint32_t keypoints = answerable(other);
   search_.matchOthers(task.question, keypoints, rival->matched.room().first(taken), other.query.deadline,
                       &rival->matched, &work_);
-  if (!searchPose(other, rival) || rival->evidence.log_chance_first > kMostLogChanceOfRival) return;
-  rematch(other, rival);
-  const double gain = found->estimate.gain, rival_gain = rival->estimate.gain;
+  if (challengeBySearch(other, found, rival) && rival->estimate.gain > kAmbiguousGain * found->estimate.gain)
+    found->doubtForRival();
+}
+
+// A pose of so many inliers is seldom wrong, and a search of all keypoints for its rivals would take long.  The
+// first matches that do not speak for it are at hand.
+void Verification::challengeByFirst(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  const uint32_t inliers = found->estimate.inliers;
+  if (found->guided || inliers < kInliersBeyondOthers || inliers >= kInliersSeldomWrong || isCut(task)) return;
+  PoseTask other = task;
+  other.query.most_samples = kSamplesOfFirst;
+  challengeBySearch(other, found, rival);
+}
+
+// The pose that the rival's matches lead to, if it is another one, against the one that was found: the better
+// stays.
+bool Verification::challengeBySearch(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!searchPose(task, rival) || rival->evidence.log_chance_first > kMostLogChanceOfRival) return false;
+  rematch(task, rival);
   if (!rival->isLocalized() || areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePose))
-    return;
-  if (rival_gain > gain) std::swap(*found, *rival);
-  if (std::min(gain, rival_gain) > kAmbiguousGain * std::max(gain, rival_gain)) found->doubtForRival();
+    return false;
+  if (rival->estimate.gain > found->estimate.gain) swap(*found, *rival);
+  return true;
 }
 
 // Are nearly all inliers of what repeats?
@@ -218,7 +243,7 @@ bool Verification::restsOnRepetition(const Hypothesis &found) const {
 }
 
 // A pose that rests on a pattern must gain clearly more than those that are off by its period, once or twice.  The
-// last step, and the only one that a pose may lack for its deadline.
+// last step; a pose may lack it, and challengeByFirst, for its deadline.
 void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
   if (isCut(task) || (!repetition_.look(*task.question.front, task.query.deadline) && isCut(task))) return;
@@ -283,7 +308,7 @@ void Verification::searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothes
   rival->begin(found->map, found->frames);
   if (!searchOtherMatches(own, search_.maxRatio(), rival, &other)) return;
   rematch(other, rival);
-  if (rival->estimate.gain > found->estimate.gain) std::swap(*found, *rival);
+  if (rival->estimate.gain > found->estimate.gain) swap(*found, *rival);
 }
 
 // A looser ratio test brings other true matches and other wrong ones.  The right pose is found among them again;

@@ -53,6 +53,8 @@ class Verification {
   bool isDoubtful(const Hypothesis &found) const;
   bool searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis, PoseTask *other) const;
   void searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found, Hypothesis *rival) const;
+  bool challengeBySearch(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  void challengeByFirst(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   bool restsOnRepetition(const Hypothesis &found) const;
   void challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;

@@ -262,6 +262,53 @@ TEST_F(ThinRoomTest, BothPosesOfAnAmbiguousFrameAreRanked) {
   }
 }
 
+// The halves of a frame show two places, and the map knows both of them well: the lower one better.
+class TwoPlacesTest : public VerificationTest {
+ protected:
+  TwoPlacesTest() : VerificationTest(test::mapOf(thinned(), Vector3(0, 0, 1))) {}
+  static std::vector<test::WorldPoint> thinned() {
+    const std::vector<test::WorldPoint> all = test::pointsOfTheRoom();
+    std::vector<test::WorldPoint> kept;
+    for (size_t i = 0; i < all.size(); ++i)
+      if (i % 20 < 15) kept.push_back(all[i]);
+    return kept;
+  }
+  // The first search is given all matches of one half, and one in so many of the other.
+  void verifyFrom(bool upper, uint32_t one_in) {
+    parts_.seeHalves(kUpper, kLower);
+    const PoseTask task = this->task();
+    found().begin(0);
+    MatchSet &matched = found().matched;
+    parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), {}, &matched, &parts_.work);
+    uint32_t kept = 0, others = 0;
+    for (const Match &match : matched.matches())
+      if ((parts_.front.lifted()[match.query].point_m.y() < 0) == upper || others++ % one_in == 0)
+        matched.room()[kept++] = match;
+    matched.assign(kept, parts_.front, *task.question.map);
+    verify(task);
+  }
+  static constexpr uint32_t kUpper = 3, kLower = 0;
+};
+
+TEST_F(TwoPlacesTest, OfTwoPosesThatAreSeldomWrongTheBetterOneStays) {
+  for (const bool upper : {true, false})
+    for (const uint32_t one_in : {4u, 6u}) {
+      verifyFrom(upper, one_in);
+      EXPECT_EQ(found().outcome, Outcome::kLocalized) << upper << one_in;
+      EXPECT_GE(found().estimate.inliers, kInliersBeyondOthers) << upper << one_in;
+      EXPECT_LT(found().estimate.inliers, kInliersSeldomWrong) << upper << one_in;
+      EXPECT_LT(errorM(kLower), 0.02) << upper << one_in;
+    }
+}
+
+// What the first matches do not show is not looked for.
+TEST_F(TwoPlacesTest, WithoutFirstMatchesOfTheBetterPoseTheOtherStays) {
+  verifyFrom(true, UINT32_MAX);
+  EXPECT_TRUE(found().isLocalized());
+  EXPECT_GE(found().estimate.inliers, kInliersBeyondOthers);
+  EXPECT_LT(errorM(kUpper), 0.02);
+}
+
 constexpr uint32_t kPeriodPx = 64;
 
 // A wall with a pattern, of which the map has one piece.
