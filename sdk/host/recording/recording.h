@@ -61,7 +61,7 @@ struct Recording {
   PoseTrack poses;
   std::vector<TimedAcceleration> accelerations;  // times increase; empty where there is none
   uint32_t bad_pose_count = 0;
-  uint32_t bad_acceleration_count = 0;  // of an MCAP file: no acceleration, or not later than the one before
+  uint32_t bad_acceleration_count = 0;  // no acceleration, or not later than the one before
   uint32_t backward_count = 0;          // images left out, whose time is not after that of the image before
 
   std::optional<sphc_rig> calibration;  // of a recording that holds one, but for calibration.json in a folder

@@ -247,6 +247,25 @@ TEST_F(KinectAccelerations, InNanoseconds) { expectSamples(RecordingReader(write
 TEST_F(KinectAccelerations, InMicroseconds) { expectSamples(RecordingReader(writeSamples(1000)).recording()); }
 TEST_F(KinectAccelerations, WithSizes) { expectSamples(RecordingReader(writeSamples(1, false)).recording()); }
 
+// Blocks whose clock begins anew do not change the unit of the others.
+TEST_F(KinectAccelerations, BlocksWithAClockOfTheirOwn) {
+  file_.beginCluster(0);
+  file_.addBlock(kInertial, 0, lacedSamples({inertialSample(1, {1, 2, 3}), inertialSample(600001, {1, 2, 3})}),
+                 false, 4);
+  for (const int i : {1, 2, 3}) {
+    file_.beginCluster(30000u * i);
+    file_.addBlock(kColor, 0, bgraImage(20));
+    file_.addBlock(kDepth, 0, depthImage(1000));
+    const uint64_t time = 7000000000 + 30000000u * static_cast<uint64_t>(i == 3 ? 0 : i);
+    file_.addBlock(kInertial, 0,
+                   lacedSamples({inertialSample(time, {1, 2, 3}), inertialSample(time + 600000, {1, 2, 3})}), false,
+                   4);
+  }
+  const RecordingReader reader(writeEnd());
+  ASSERT_EQ(reader.recording().accelerations.size(), 8u);
+  EXPECT_EQ(reader.recording().accelerations[5].time_ns, kKinectStartNs + 60600000);
+}
+
 TEST_F(KinectAccelerations, OneABlock) {
   addFrames({bgraImage(20), bgraImage(60)});
   const RecordingReader reader(writeEnd());
@@ -259,13 +278,14 @@ TEST_F(KinectAccelerations, WhatIsNoneIsCounted) {
   addFrames({bgraImage(20), bgraImage(60)});
   file_.addBlock(kInertial, 10, "short");
   file_.addBlock(kInertial, 11, inertialSample(1, {1, std::nanf(""), 3}));
+  file_.addBlock(kInertial, 9, inertialSample(1, {0, 0, 0}));
   file_.addBlock(kInertial, 1, inertialSample(1, {1, 2, 3}));  // of a time that was
   file_.addBlock(kInertial, 12, lacedSamples({inertialSample(9, {1, 2, 3}), inertialSample(8, {1, 2, 3})}), false,
                  4);
   file_.addBlock(kInertial, 13, "\xFFshort", false, 4);
   const RecordingReader reader(writeEnd());
   EXPECT_EQ(reader.recording().accelerations.size(), 3u);
-  EXPECT_EQ(reader.recording().bad_acceleration_count, 1u + 1 + 1 + 1 + 256);
+  EXPECT_EQ(reader.recording().bad_acceleration_count, 1u + 1 + 1 + 1 + 1 + 256);
 }
 
 TEST_F(KinectAccelerations, NoneWhereTheCalibrationDoesNotTellTheirAxes) {

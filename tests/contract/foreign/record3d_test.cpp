@@ -102,7 +102,7 @@ TEST(Lzfse, DamagedBytesAreRefused) {
   const recording::Bytes good = test::lzfseDepth();
   EXPECT_EQ(refused(good, 6912), "");
   EXPECT_EQ(out.size(), 6912u);
-  EXPECT_THAT(refused(good, 6911), HasSubstr("cannot be decoded as LZFSE"));
+  EXPECT_THAT(refused(good, 6911), HasSubstr("is of more than 6911 bytes"));
   for (size_t kept : {size_t{0}, size_t{3}, size_t{20}, good.size() / 2, good.size() - 1})
     EXPECT_THAT(refused({good.begin(), good.begin() + static_cast<ptrdiff_t>(kept)}, 6912), HasSubstr("LZFSE"))
         << kept;
@@ -175,6 +175,33 @@ TEST_P(R3d, ImagesPosesAndCameras) {
   EXPECT_EQ(reader.calibration().color_camera.params[1], 81);
   EXPECT_DOUBLE_EQ(reader.calibration().depth_camera.params[1], 40.5);
   EXPECT_EQ(reader.worldFromCamera(1)->t_m[2], -1);
+}
+
+TEST_P(R3d, ImagesBeyondThePosesAreCountedAsLost) {
+  files_["rgbd/4.jpg"] = files_["rgbd/5.jpg"] = files_["rgbd/3.jpg"];
+  EXPECT_EQ(RecordingReader(write()).recording().lost_count, 2u);
+}
+
+TEST_P(R3d, ACalibrationStandsInForACameraThatIsNone) {
+  std::string text = metadataText("");
+  text.replace(text.find("80, 0"), 2, "-8");
+  set("metadata", text);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("a focal length must be positive"));
+  folder_.write("rig.json", R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+    "depth_unit_m": 0.001,
+    "color_camera": {"model": "pinhole", "width": 72, "height": 96, "params": [80, 80, 36, 48]},
+    "depth_camera": {"model": "pinhole", "width": 36, "height": 48, "params": [40, 40, 18, 24]},
+    "color_from_depth": {"q_wxyz": [1, 0, 0, 0], "t_m": [0, 0, 0]}})");
+  recording::ReaderOptions options;
+  options.calibration = folder_ / "rig.json";
+  RecordingReader reader(write(), options);
+  EXPECT_EQ(static_cast<const uint16_t *>(reader.read(2).depth.data)[0], 1500);
+}
+
+TEST_P(R3d, AnEmptyConfidenceIsNone) {
+  files_["rgbd/0.conf"].clear();
+  RecordingReader reader(write());
+  EXPECT_EQ(static_cast<const uint16_t *>(reader.read(0).depth.data)[0], test::lzfseSampleMm(0, 0));
 }
 
 TEST_P(R3d, DepthHasTheShapeThatIsTold) {

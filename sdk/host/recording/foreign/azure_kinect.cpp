@@ -125,7 +125,7 @@ void addAccelerations(const MatroskaFile &file, Recording *recording) {
   std::optional<sphc_rigid> color_from_sensor;
   try {
     color_from_sensor = colorFromAccelerometer({"calibration.json", calibrationText(recording->path, file)});
-  } catch (const std::runtime_error &) {  // the cameras' part says what is wrong with it
+  } catch (const std::runtime_error &) {  // then there are none
   }
   if (!color_from_sensor) return;
   recording->accelerations =

@@ -11,7 +11,10 @@ namespace {
 class FolderFiles : public FileSet {
  public:
   explicit FolderFiles(fs::path folder) : folder_(std::move(folder)) {}
-  bool has(const std::string &name) const override { return fs::exists(folder_ / name); }
+  bool has(const std::string &name) const override {
+    std::error_code ignored;  // what is there and cannot be looked at is told when it is read
+    return fs::exists(folder_ / name, ignored);
+  }
   void read(const std::string &name, Bytes &content) override {
     readFile(folder_ / name, kMostFileSetBytes, content);
   }

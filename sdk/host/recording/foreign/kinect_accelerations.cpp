@@ -49,12 +49,16 @@ std::vector<Sample> samplesOf(const std::filesystem::path &path, const MatroskaT
   return samples;
 }
 
-// Microseconds by the format's description, nanoseconds by what wrote the files: whichever agrees with the blocks.
+// Microseconds by the format's description, nanoseconds by what wrote the files: whichever agrees with most pairs
+// of blocks that follow each other.
 int64_t unitOf(const std::vector<Sample> &samples) {
-  const double told =
-      static_cast<double>(samples.back().first_time) - static_cast<double>(samples.front().first_time);
-  const double passed_ns = static_cast<double>(samples.back().block_time_ns - samples.front().block_time_ns);
-  return told * 30 < passed_ns ? 1000 : 1;
+  int64_t votes_for_microseconds = 0;
+  for (size_t i = 1; i < samples.size(); ++i) {
+    const double passed_ns = static_cast<double>(samples[i].block_time_ns - samples[i - 1].block_time_ns);
+    const double told = static_cast<double>(samples[i].first_time) - static_cast<double>(samples[i - 1].first_time);
+    if (passed_ns > 0 && told > 0) votes_for_microseconds += told * 30 < passed_ns ? 1 : -1;
+  }
+  return votes_for_microseconds > 0 ? 1000 : 1;
 }
 
 }  // namespace
@@ -69,8 +73,9 @@ std::vector<TimedAcceleration> kinectAccelerations(const std::filesystem::path &
   for (const Sample &sample : samples) {
     const uint64_t since_first = sample.time - sample.first_time;  // huge where time goes back
     const float *felt = sample.felt_mps2;
-    const bool is_finite = std::isfinite(felt[0]) && std::isfinite(felt[1]) && std::isfinite(felt[2]);
-    if (!is_finite || since_first > kMostBlockNs / static_cast<uint64_t>(unit_ns))
+    // Zero is what a sensor says that has not begun yet; nothing falls so.
+    const float squared = felt[0] * felt[0] + felt[1] * felt[1] + felt[2] * felt[2];
+    if (!(squared > 0) || !std::isfinite(squared) || since_first > kMostBlockNs / static_cast<uint64_t>(unit_ns))
       ++*bad_count;
     else
       all.push_back({start_ns + sample.block_time_ns + static_cast<int64_t>(since_first) * unit_ns,

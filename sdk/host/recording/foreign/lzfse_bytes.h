@@ -5,7 +5,8 @@
 
 namespace sphc::recording {
 
-// Fills `out`.  Throws Failure (DEVICE) without a name where they are damaged or more than `most_bytes`.
+// Fills `out`.  Throws Failure without a name: DEVICE where they are damaged, IMAGE where they are more than
+// `most_bytes`.
 void decodeLzfse(ByteView compressed, size_t most_bytes, Bytes &out);
 
 }  // namespace sphc::recording

@@ -60,6 +60,7 @@ class Record3dImages : public LayoutImages {
     if (!files_->has(confidence)) return;  // of the camera in front
     try {
       files_->read(confidence, encoded_);
+      if (encoded_.empty()) return;  // likewise
       decodeR3dConfidence(viewOf(encoded_), camera, confidence_);
     } catch (const Failure &failure) {
       throw Failure(failure.status(), "its confidence, " + confidence + ": " + failure.what());
@@ -94,6 +95,7 @@ void addFrames(const Record3dMetadata &metadata, const FileSet &files, const Rec
     else
       ++recording.bad_pose_count;
   }
+  for (size_t i = metadata.time_ns.size(); !colorFileOf(files, names, i).empty(); ++i) ++recording.lost_count;
   if (recording.color.empty())
     throw Failure(SPHC_E_DEVICE, name + ": no " + names.color + "0.jpg and so on; copy them too");
   if (recording.depth.empty())
@@ -151,7 +153,8 @@ bool isRecord3d(const fs::path &path) {
 Recording openRecord3d(const fs::path &path) {
   Recording recording;
   recording.layout = Layout::kRecord3d;
-  recording.path = imagesFolder(path);
+  const bool is_unzipped = isNamed(path, kR3dNames) && fs::exists(path / kR3dNames.metadata);
+  recording.path = is_unzipped ? path : imagesFolder(path);
   recording.is_by_frame = true;
   const std::unique_ptr<FileSet> files = filesOf(recording.path);
   if (!fs::is_directory(path) && !files->has(kR3dNames.metadata))
@@ -162,7 +165,11 @@ Recording openRecord3d(const fs::path &path) {
   const Record3dMetadata metadata = metadataOf(*files, recording.path, names);
   recording.images = [path = recording.path] { return std::make_unique<Record3dImages>(filesOf(path)); };
   addFrames(metadata, *files, names, recording);
-  recording.calibration = rigOfRecord3d(metadata, *files, recording);
+  try {
+    recording.calibration = rigOfRecord3d(metadata, *files, recording);
+  } catch (const Failure &failure) {  // told only where nobody gives a calibration file
+    recording.calibration_fault = failure.what();
+  }
   return recording;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kMostFrames = 10000000;
+constexpr size_t kMostFrames = 1000000;  // four hours
 
 [[noreturn]] void failKey(const std::string &key, const std::string &cause) {
   throw Failure(SPHC_E_ARGUMENT, key + ": " + cause + "; export the recording again");

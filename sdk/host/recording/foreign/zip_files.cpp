@@ -66,7 +66,8 @@ class ZipFiles : public FileSet {
 
  private:
   [[noreturn]] static void fail(const zip_error_t *error) {
-    throw Failure(SPHC_E_DEVICE, "cannot be read from the zip (" + reasonOf(error) + "); copy it again");
+    throw Failure(SPHC_E_DEVICE, "cannot be read from the zip (" + reasonOf(error) +
+                                     "); copy it again, or unzip it and give the folder");
   }
 
   Zip zip_;
