@@ -79,7 +79,7 @@ std::vector<TimedAcceleration> kinectAccelerations(const std::filesystem::path &
       ++*bad_count;
     else
       all.push_back({start_ns + sample.block_time_ns + static_cast<int64_t>(since_first) * unit_ns,
-                     {felt[0], felt[1], felt[2]}});
+                     {static_cast<double>(felt[0]), static_cast<double>(felt[1]), static_cast<double>(felt[2])}});
   }
   const size_t count = all.size();
   all = inOrderOfTime(std::move(all));
