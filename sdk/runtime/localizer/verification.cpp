@@ -43,8 +43,10 @@ void copyOthers(const PoseEstimator &estimator, const Hypothesis &from, MatchSet
 void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   const uint64_t left_ns = task.query.deadline.leftNs();
   if (!searchPose(task, found)) return;
-  rival->begin(found->map, found->frames);
-  copyOthers(estimator_, *found, &rival->matched);
+  if (!found->guided) {
+    rival->begin(found->map, found->frames);
+    copyOthers(estimator_, *found, &rival->matched);
+  }
   rematch(task, found);
   challengeByFirst(task, found, rival);
   searchAgain(task, left_ns - std::min(left_ns, task.query.deadline.leftNs()), found, rival);

@@ -138,30 +138,34 @@ Record3dMetadata metadataOf(FileSet &files, const fs::path &path, const Record3d
   return readNamed(*filesOfFolder(path.parent_path()), path.parent_path(), names.metadata, parse);
 }
 
-bool holdsMetadata(const fs::path &folder, const Record3dNames &names) {
-  return fs::exists(folder / names.metadata) || fs::exists(imagesFolder(folder) / names.metadata);
+bool isUnzippedR3d(const fs::path &folder) {
+  return isNamed(folder, kR3dNames) && fs::exists(folder / kR3dNames.metadata);
+}
+
+bool isExport(const fs::path &folder) {
+  const fs::path images = imagesFolder(folder);
+  return isNamed(images, kExrNames) &&
+         (fs::exists(folder / kExrNames.metadata) || fs::exists(images / kExrNames.metadata));
 }
 
 }  // namespace
 
 bool isRecord3d(const fs::path &path) {
-  if (!fs::is_directory(path)) return isZip(path);
-  return (isNamed(path, kR3dNames) && holdsMetadata(path, kR3dNames)) ||
-         (isNamed(imagesFolder(path), kExrNames) && holdsMetadata(path, kExrNames));
+  return fs::is_directory(path) ? isUnzippedR3d(path) || isExport(path) : isZip(path);
 }
 
 Recording openRecord3d(const fs::path &path) {
   Recording recording;
   recording.layout = Layout::kRecord3d;
-  const bool is_unzipped = isNamed(path, kR3dNames) && fs::exists(path / kR3dNames.metadata);
-  recording.path = is_unzipped ? path : imagesFolder(path);
+  const bool is_r3d = !fs::is_directory(path) || isUnzippedR3d(path);
+  const Record3dNames &names = is_r3d ? kR3dNames : kExrNames;
+  recording.path = is_r3d ? path : imagesFolder(path);
   recording.is_by_frame = true;
   const std::unique_ptr<FileSet> files = filesOf(recording.path);
-  if (!fs::is_directory(path) && !files->has(kR3dNames.metadata))
+  if (is_r3d && !files->has(names.metadata))
     throw Failure(SPHC_E_UNSUPPORTED, shortPath(path.string()) +
                                           ": is a zip, and none of Record3D's, which have metadata and rgbd/ in "
                                           "them; unzip it and give the folder");
-  const Record3dNames &names = files->has(kR3dNames.metadata) ? kR3dNames : kExrNames;
   const Record3dMetadata metadata = metadataOf(*files, recording.path, names);
   recording.images = [path = recording.path] { return std::make_unique<Record3dImages>(filesOf(path)); };
   addFrames(metadata, *files, names, recording);
