@@ -309,6 +309,9 @@ class Fault(enum.IntFlag):
     """UP is not the pose's vertical; the pose was found without it."""
     MIRRORED = 512
     """Left and right are changed against the map: a mirror, or an image that is turned over; no pose is given."""
+    DISTANCES_DISAGREE = 1024
+    """Points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or a place
+    that looks like another; no pose."""
 
 
 class Cut(enum.IntFlag):

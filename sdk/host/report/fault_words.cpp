@@ -4,7 +4,7 @@
 
 namespace sphc::host {
 
-const std::array<BitWords, 10> kFaultWords = {{
+const std::array<BitWords, 11> kFaultWords = {{
     {SPHC_FAULT_DEPTH_RANGE, "depth out of range",
      "nearly every measurement lies outside depth_min_m to depth_max_m: is depth_unit_m right, is the sensor "
      "covered?"},
@@ -28,6 +28,10 @@ const std::array<BitWords, 10> kFaultWords = {{
      "left and right are changed against the map: does the camera look into a mirror, does its driver turn the "
      "image "
      "over?"},
+    {SPHC_FAULT_DISTANCES_DISAGREE, "distances disagree",
+     "points of the map lie elsewhere than earlier frames said: is depth what the driver says that it is (neither "
+     "inverted, nor disparity, nor late), is the calibration that of these cameras, does the place look like "
+     "another?"},
 }};
 
 std::string faultNames(uint32_t faults) { return namesOf(kFaultWords, faults); }

@@ -654,8 +654,8 @@ enum {
 SPHC_API const char *sphc_localizer_outcome_name(sphc_localizer_outcome outcome); /* [pure] */
 
 /* What is wrong with a frame or with what it was told, as far as that shows; bits of result.faults.  Those before
- * DEPTH_SCALE, and MIRRORED, take the pose away (SPHC_OUTCOME_CONTRADICTION).  Streams and edges over frames are
- * compared in SPHC_MODE_TRACKING.  docs/consistency.md has causes and cures. */
+ * DEPTH_SCALE, and those from MIRRORED on, take the pose away (SPHC_OUTCOME_CONTRADICTION).  Frames are compared
+ * with earlier ones in SPHC_MODE_TRACKING.  docs/consistency.md has causes and cures. */
 enum {
   SPHC_FAULT_DEPTH_RANGE = 1u,    /* depth is measured, but nearly none between depth_min_m and depth_max_m */
   SPHC_FAULT_DEPTH_CONSTANT = 2u, /* one depth everywhere */
@@ -667,8 +667,10 @@ enum {
   SPHC_FAULT_DEPTH_SCALE = 64u,          /* poses go farther, or less far, than odometry; confidence is below 0.5 */
   SPHC_FAULT_DEPTH_BIAS = 128u, /* result.depth is beyond 2.5 of the config's sigmas; confidence is below 0.5 */
   SPHC_FAULT_VERTICAL_DISAGREES = 256u, /* UP is not the pose's vertical; the pose was found without it */
-  SPHC_FAULT_MIRRORED = 512u /* left and right are changed against the map: a mirror, or an image that is turned
-                               over; no pose is given */
+  SPHC_FAULT_MIRRORED = 512u, /* left and right are changed against the map: a mirror, or an image that is turned
+                                over; no pose is given */
+  SPHC_FAULT_DISTANCES_DISAGREE = 1024u /* points of the map lie elsewhere than earlier frames said: what is given
+                                           as depth, a calibration, or a place that looks like another; no pose */
 };
 SPHC_API const char *sphc_localizer_fault_name(uint32_t fault); /* [pure] */
 

@@ -240,6 +240,8 @@ const char *sphc_localizer_fault_name(uint32_t fault) {
       return "SPHC_FAULT_VERTICAL_DISAGREES";
     case SPHC_FAULT_MIRRORED:
       return "SPHC_FAULT_MIRRORED";
+    case SPHC_FAULT_DISTANCES_DISAGREE:
+      return "SPHC_FAULT_DISTANCES_DISAGREE";
     default:
       return "SPHC_FAULT_?";
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/localizer/tuning.h"
+#include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 
@@ -16,6 +17,40 @@ double angleBetween(const Vector3 &a, const Vector3 &b) { return atan2Of(a.cross
 double meanSigma(const Estimate &estimate, int first) {
   return sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
 }
+
+// How far the map points of a pose's inliers lie from the map's centroid, by depth.
+class PointsOfPose {
+ public:
+  PointsOfPose(const Hypothesis &found, const PoseEstimator &estimator)
+      : found_(found),
+        estimator_(estimator),
+        map_from_camera_(found.estimate.camera_from_map.inverse()),
+        pose_variance_m2_(2.0 / 3 * statedCovariance(found.estimate).bottomRightCorner<3, 3>().trace()) {}
+
+  const Vector3 &centre_m() const { return map_from_camera_.translation_m; }
+  template <typename Use>
+  void each(const Use &use) const {
+    const Span<const Correspondence> all = found_.matched.ofThisFrame();
+    for (uint32_t i = 0; i < all.size(); ++i)
+      if (all[i].lifted.hasDepth() && estimator_.isInlier(all[i], found_.estimate))
+        use(distanceOf(all[i], found_.matched.matches()[i].point_index));
+  }
+
+ private:
+  PointDistance distanceOf(const Correspondence &c, uint32_t point_index) const {
+    const double distance_m = c.direction.dot(map_from_camera_ * c.lifted.point_m);
+    const double cosine = c.lifted.view().dot(found_.estimate.camera_from_map.rotation * c.direction);
+    const double across2 = c.lifted.sideways_m * c.lifted.sideways_m, along2 = c.lifted.along_m * c.lifted.along_m;
+    const double own2 =
+        kDistanceFloorM * kDistanceFloorM + kDistanceShare * kDistanceShare * distance_m * distance_m;
+    return {point_index, distance_m, across2 + (along2 - across2) * cosine * cosine + pose_variance_m2_ + own2};
+  }
+
+  const Hypothesis &found_;
+  const PoseEstimator &estimator_;
+  Rigid map_from_camera_;
+  double pose_variance_m2_;  // twice that of an axis: neighbours share it
+};
 
 }  // namespace
 
@@ -53,6 +88,21 @@ bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hyp
   travel_.add(found.estimate.camera_from_map.inverse().translation_m,
               known.odometry.odometry_from_camera.translation_m, meanSigma(found.estimate, 3));
   return travel_.isScaled(step_sigma_m);
+}
+
+bool DistanceCheck::disagrees(int64_t time_ns, const Hypothesis &found, const PoseEstimator &estimator) {
+  if (found.map != map_) reset();
+  map_ = found.map;
+  const PointsOfPose points(found, estimator);
+  distances_.begin(points.centre_m(), time_ns);
+  points.each([this](const PointDistance &seen) { distances_.compare(seen); });
+  const bool before = disagrees_;
+  disagrees_ = distances_.disagree();
+  if (disagrees_ && !before) since_ns_ = time_ns;
+  if (disagrees_ && time_ns - since_ns_ < static_cast<int64_t>(Tracker::kForgetNs)) return true;
+  if (disagrees_) reset();
+  points.each([this](const PointDistance &seen) { distances_.keep(seen); });
+  return false;
 }
 
 }  // namespace sphc

@@ -1,7 +1,9 @@
-// What speaks against a pose beside its matches: the vertical, odometry, and what the depth sensor was said to be.
+// What speaks against a pose beside its matches: the vertical, odometry, earlier frames, and what the depth sensor
+// was said to be.
 #pragma once
 #include "runtime/localizer/hypothesis.h"
 #include "runtime/localizer/tracker.h"
+#include "runtime/stages/consistency/point_distances.h"
 #include "runtime/stages/consistency/travel.h"
 #include "runtime/stages/pose/estimator.h"
 
@@ -32,6 +34,32 @@ class TravelCheck {
  private:
   Travel travel_;
   uint32_t map_ = 0;
+};
+
+// A map point that stands still keeps its distance, be it seen from here or there.
+class DistanceCheck {
+ public:
+  static void layout(Arena &state, DistanceCheck *check) {
+    PointDistances::layout(state, check ? &check->distances_ : nullptr);
+  }
+  // Once, after layout with memory; and to forget all frames.
+  void reset() {
+    distances_.reset();
+    disagrees_ = false;
+  }
+  // The map in this slot is gone.
+  void forget(uint32_t map) {
+    if (map == map_) reset();
+  }
+  // Every frame that has a pose.  Earlier frames may be those that were wrong: when their word has stood against
+  // all that followed for kForgetNs, it is forgotten.
+  bool disagrees(int64_t time_ns, const Hypothesis &found, const PoseEstimator &estimator);
+
+ private:
+  PointDistances distances_;
+  uint32_t map_ = 0;
+  bool disagrees_ = false;
+  int64_t since_ns_ = 0;  // while it disagrees
 };
 
 }  // namespace sphc

@@ -63,6 +63,7 @@ void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scrat
   Repetition::layout(n, config.parallel, scratch, localizer ? &localizer->repetition_ : nullptr);
   PoseEstimator::layout(estimator, scratch, localizer ? &localizer->estimator_ : nullptr);
   Consistency::layout(state, scratch, localizer ? &localizer->consistency_ : nullptr);
+  if (config.tracks) DistanceCheck::layout(state, localizer ? &localizer->distances_ : nullptr);
 }
 
 void Localizer::init(const LocalizerConfig &config) {
@@ -73,12 +74,14 @@ void Localizer::init(const LocalizerConfig &config) {
   repetition_.setParallel(config.parallel);
   calibrator_.init(config.depth_prior);
   consistency_.init({config.color_camera, config.depth[0].camera, config.depth[0].sensor, config.tracks});
+  distances_.reset();
 }
 
 bool Localizer::setMap(uint32_t id, const MapView &map) {
   const uint32_t slot = search_.maps().set(id, map);
   if (slot == kNoMap) return false;
   fusion_.forget(slot);  // its matches name points of what was there
+  distances_.forget(slot);
   return true;
 }
 
@@ -89,6 +92,7 @@ bool Localizer::removeMap(uint32_t id) {
   fusion_.forget(slot);
   tracker_.forget(slot);
   travel_.forget(slot);
+  distances_.forget(slot);
   return true;
 }
 
@@ -109,6 +113,7 @@ void Localizer::reset() {
   fusion_.clear();
   consistency_.reset();
   travel_.reset();
+  distances_.reset();
 }
 
 double Localizer::confidenceWithin(const Matrix6 &covariance, double translation_m, double rotation_rad) {
@@ -166,7 +171,7 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
                         });
   const int64_t aligned = config_.clock.now();
   Work work;
-  answer(frame.known, deadline, &result.faults, &work);
+  answer(frame, deadline, &result.faults, &work);
   fillAnswer(best_, &result);
   if (best_.tried) result.map_id = maps().idOf(best_.map);
   if (best_.isLocalized()) ranking_.markAnswer(best_.estimate.camera_from_map, result.map_id);
@@ -232,7 +237,8 @@ Deadline Localizer::deadlineFrom(int64_t begin_ns, int64_t limit_ns) const {
 }
 
 // Makes best_ what the frame is answered with: by what can be believed of it.
-void Localizer::answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work) {
+void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults *faults, Work *work) {
+  const Known &known = frame.known;
   was_asked_ = false;
   clear_ = 0;
   ranking_.clear();
@@ -251,8 +257,17 @@ void Localizer::answer(const Known &known, const Deadline &deadline, Faults *fau
   }
   checkHandedness(deadline, faults, work);
   if (config_.tracks && best_.isLocalized() && tracker_.vetoes(best_.map, best_.estimate)) best_.doubtForRival();
+  if (config_.tracks && best_.isLocalized() && distances_.disagrees(frame.color_time_ns, best_, estimator_))
+    contradict(kDistancesDisagree, faults);
   if (config_.tracks && travel_.isScaled(known, tracker_, best_)) *faults |= kDepthScale;
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
+}
+
+// Takes the pose away.
+void Localizer::contradict(Faults by, Faults *faults) {
+  *faults |= by;
+  ranking_.clear();
+  best_.outcome = Outcome::kContradiction;
 }
 
 // Takes the pose of a mirror image away, and names it.  The last step, which a frame may lack for its deadline.  A
@@ -280,9 +295,7 @@ void Localizer::checkHandedness(const Deadline &deadline, Faults *faults, Work *
       if (best_.isLocalized()) best_.doubtForRival();
       break;
     case Handedness::kChanged:
-      *faults |= kMirrored;
-      ranking_.clear();
-      best_.outcome = Outcome::kContradiction;
+      contradict(kMirrored, faults);
   }
 }
 

@@ -69,7 +69,7 @@ class Localizer {
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
   void follow(const FrameInput &frame);
   LocalizerResult locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns);
-  void answer(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
+  void answer(const FrameInput &frame, const Deadline &deadline, Faults *faults, Work *work);
   void locate(const Known &known, const Deadline &deadline, Work *work);
   bool expects(const Known &known, double most_cone_rad, Prediction *expected) const;
   void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
@@ -81,6 +81,7 @@ class Localizer {
   Verification verification(uint32_t min_inliers, Work *work, Ranking *ranking);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
+  void contradict(Faults by, Faults *faults);
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
   void findPoseOfMirrored(const Deadline &deadline, Work *work);
   bool isDone(const Deadline &deadline, Work *work) const;
@@ -100,6 +101,7 @@ class Localizer {
   Fusion fusion_;
   Consistency consistency_;
   TravelCheck travel_;
+  DistanceCheck distances_;
   Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch
   Ranking ranking_;
   // Of this frame: were all keypoints compared with whole maps, and in how many clear matches of one, at most?

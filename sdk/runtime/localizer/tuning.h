@@ -160,6 +160,8 @@ constexpr double kInliersOfDoubt = 60;
 constexpr double kBiasSigmas = 2.5;  // of the prior
 constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
 constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubtfulEdges = 0.5;
+// Of a map point's distance by one frame, beside depth's and the pose's errors: what maps and biases are off by.
+constexpr double kDistanceFloorM = 0.007, kDistanceShare = 0.007;
 // A pose of so many inliers is not doubted for its edges alone: of poses that late, mirrored or displaced depth
 // made wrong and sure the median has 49, and one in six has so many.
 constexpr uint32_t kInliersBeyondDoubtfulEdges = 100;

@@ -291,8 +291,8 @@ public enum LocalizerOutcome : int {
 }
 
 /// <summary>What is wrong with a frame or with what it was told, as far as that shows; bits of result.Faults. Those
-/// before DepthScale, and Mirrored, take the pose away (LocalizerOutcome.Contradiction). Streams and edges over
-/// frames are compared in LocalizerMode.Tracking. docs/consistency.md has causes and cures.</summary>
+/// before DepthScale, and those from Mirrored on, take the pose away (LocalizerOutcome.Contradiction). Frames are
+/// compared with earlier ones in LocalizerMode.Tracking. docs/consistency.md has causes and cures.</summary>
 [Flags]
 public enum Faults : uint {
   /// <summary>None of them.</summary>
@@ -319,6 +319,9 @@ public enum Faults : uint {
   /// <summary>Left and right are changed against the map: a mirror, or an image that is turned over; no pose is
   /// given.</summary>
   Mirrored = 512,
+  /// <summary>Points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or
+  /// a place that looks like another; no pose.</summary>
+  DistancesDisagree = 1024,
 }
 
 /// <summary>What was left out of a frame for its deadline, bits of result.Cuts: more time might have found a pose,

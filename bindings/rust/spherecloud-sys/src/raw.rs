@@ -286,6 +286,9 @@ pub const SPHC_FAULT_VERTICAL_DISAGREES: u32 = 256;
 /// left and right are changed against the map: a mirror, or an image that is turned over; no pose is
 /// given
 pub const SPHC_FAULT_MIRRORED: u32 = 512;
+/// points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or
+/// a place that looks like another; no pose
+pub const SPHC_FAULT_DISTANCES_DISAGREE: u32 = 1024;
 /// fine scales of the image, or the weakest keypoints
 pub const SPHC_CUT_FEATURES: u32 = 1;
 /// keypoints, of which some were not compared with the map

@@ -307,6 +307,9 @@ flags! {
         /// left and right are changed against the map: a mirror, or an image that is turned over; no pose is
         /// given
         MIRRORED = sys::SPHC_FAULT_MIRRORED,
+        /// points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or
+        /// a place that looks like another; no pose
+        DISTANCES_DISAGREE = sys::SPHC_FAULT_DISTANCES_DISAGREE,
     }
 }
 

@@ -28,7 +28,12 @@ public enum Fault {
   /** UP is not the pose's vertical; the pose was found without it. */
   VERTICAL_DISAGREES(256),
   /** Left and right are changed against the map: a mirror, or an image that is turned over; no pose is given. */
-  MIRRORED(512);
+  MIRRORED(512),
+  /**
+   * Points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or a place
+   * that looks like another; no pose.
+   */
+  DISTANCES_DISAGREE(1024);
 
   private static final Fault[] ALL = values();
   final int bit;
