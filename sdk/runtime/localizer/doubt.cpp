@@ -28,12 +28,12 @@ class PointsOfPose {
         pose_variance_m2_(2.0 / 3 * statedCovariance(found.estimate).bottomRightCorner<3, 3>().trace()) {}
 
   const Vector3 &centre_m() const { return map_from_camera_.translation_m; }
-  template <typename Use>
-  void each(const Use &use) const {
+  using Use = void (PointDistances::*)(const PointDistance &);
+  void each(Use use, PointDistances *distances) const {
     const Span<const Correspondence> all = found_.matched.ofThisFrame();
     for (uint32_t i = 0; i < all.size(); ++i)
       if (all[i].lifted.hasDepth() && estimator_.isInlier(all[i], found_.estimate))
-        use(distanceOf(all[i], found_.matched.matches()[i].point_index));
+        (distances->*use)(distanceOf(all[i], found_.matched.matches()[i].point_index));
   }
 
  private:
@@ -95,13 +95,13 @@ bool DistanceCheck::disagrees(int64_t time_ns, const Hypothesis &found, const Po
   map_ = found.map;
   const PointsOfPose points(found, estimator);
   distances_.begin(points.centre_m(), time_ns);
-  points.each([this](const PointDistance &seen) { distances_.compare(seen); });
+  points.each(&PointDistances::compare, &distances_);
   const bool before = disagrees_;
   disagrees_ = distances_.disagree();
   if (disagrees_ && !before) since_ns_ = time_ns;
   if (disagrees_ && time_ns - since_ns_ < static_cast<int64_t>(Tracker::kForgetNs)) return true;
   if (disagrees_) reset();
-  points.each([this](const PointDistance &seen) { distances_.keep(seen); });
+  points.each(&PointDistances::keep, &distances_);
   return false;
 }
 
