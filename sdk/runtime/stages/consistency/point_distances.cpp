@@ -6,7 +6,7 @@ namespace {
 constexpr uint32_t kNoPoint = UINT32_MAX;
 constexpr int64_t kOldNs = 10000000000;
 constexpr float kElsewhereM = 0.05f;  // from nearer all errors are the same
-// The farthest apart that two distances may be, in sigmas: half of a sound frame's are within 0.9.
+// The farthest apart that two distances may be, in sigmas: in 99 of 100 sound frames half of them are within 1.1.
 constexpr float kMostSigmas = 1.5f;
 
 }  // namespace
