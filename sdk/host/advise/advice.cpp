@@ -109,7 +109,7 @@ Advice advise(const AdviceOptions &options, const std::function<void(uint32_t do
   const auto reader = openRecording(options.recording);
   const std::vector<Block> blocks = blocksOf(*reader, options.folds);
   Advice advice;
-  advice.damage = damageOf(*reader);
+  advice.damage = damageOf(reader->recording());
   RgbdImportSummary summary;
   const PointModel whole = importRgbd({{reader.get()}}, options.import, nullptr, &summary);
   const auto note_left_out = [&advice, &summary] {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/frames/damage.h"
 #include "host/frames/recording.h"
 #include "host/import/rgbd_import.h"
 #include "host/report/coverage.h"
@@ -34,7 +35,7 @@ struct Failure {
 };
 
 struct Advice {
-  std::string damage;              // of the recording, as damageOf says it
+  Damage damage;                   // of the recording
   std::set<std::string> left_out;  // frames that took no part, a sentence each
   size_t points = 0;
   Coverage coverage;

@@ -89,7 +89,7 @@ int run(const AdviseOptions &options, const Console &console) {
   files.check();
   ProgressBar bar("holding out");
   const Advice advice = advise(options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
-  noteDamage(advice.damage, console);
+  noteDamage(options.advice.recording.folder, advice.damage, console);
   for (const std::string &left_out : advice.left_out) console.warn("note: " + left_out);
   tell(options, advice, console);
   if (!options.picture.empty()) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/base/counted.h"
 #include "host/base/hex_text.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
@@ -165,18 +166,18 @@ std::string releaseText(const Outcome &outcome) {
   std::string text = "Place " + std::to_string(outcome.place.number) + " of the ledger, release " +
                      std::to_string(outcome.place.releases.size());
   if (release.is_same) text += ", as it was";
-  text += ": " + count(release.added, " new points");
+  text += ": " + counted(release.added, "new point");
   if (release.is_update) text += ", " + count(release.known, " known, ") + count(release.ambiguous, " doubtful");
   if (release.elsewhere) text += ", " + count(release.elsewhere, " published in other maps and left out");
   if (release.held_back) text += ", " + count(release.held_back, " held back, too few to hide among each other");
-  return text + "; " + count(release.near_duplicates, " near-duplicates merged.");
+  return text + "; " + counted(release.near_duplicates, "near-duplicate") + " merged.";
 }
 
 void tell(const BuildOptions &options, const Outcome &outcome, const Console &console) {
   for (const std::string &warning : outcome.import.warnings) console.warn("note: " + warning);
   console.say(outcome.import.told + " " + fixed(outcome.seconds, 1) + " s.");
   console.say(releaseText(outcome));
-  console.say("Wrote " + options.map + ": " + std::to_string(outcome.place.points.size()) + " directions, " +
+  console.say("Wrote " + options.map + ": " + counted(outcome.place.points.size(), "direction") + ", " +
               fixed(100 * outcome.place.eta, 0) + " % of them real, " +
               humanBytes(static_cast<double>(outcome.bytes)) + ".");
   if (!options.save_model.empty())

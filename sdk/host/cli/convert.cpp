@@ -6,6 +6,7 @@
 
 #include "drivers/replay/replay.h"
 #include "host/base/checked_call.h"
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
@@ -15,6 +16,7 @@
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/recording_out.h"
 #include "host/frames/recording.h"
+#include "host/live/replay_damage.h"
 #include "host/recording/writer_7scenes.h"
 #include "host/recording/writer_raw.h"
 
@@ -40,8 +42,9 @@ struct Result {
 
 // What is told of a recording once it is converted.
 struct Facts {
-  bool is_cut, is_mcap;
-  uint32_t depth_count, pose_count, acceleration_count, bad_chunk_count;
+  bool is_mcap;
+  uint32_t depth_count, pose_count, acceleration_count;
+  Damage damage;
 };
 
 struct ReplayCloser {
@@ -62,13 +65,6 @@ Replay openStreams(const ConvertOptions &options) {
     return sphc_replay_open(in.folder.c_str(), calibration, &config, &replay, message);
   });
   return Replay(replay);
-}
-
-sphc_replay_info infoOf(const sphc_replay *replay) {
-  sphc_replay_info info = {};
-  info.struct_size = sizeof info;
-  orThrow("recording", [&](sphc_message *) { return sphc_replay_get_info(replay, &info); });
-  return info;
 }
 
 sphc_rig calibrationOf(const sphc_replay *replay) {
@@ -199,12 +195,9 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
 Result convertFrames(const ConvertOptions &options, const Console &console, Facts *facts) {
   const auto reader = openRecording(options.in);
   const recording::Recording &recording = reader->recording();
-  *facts = {recording.is_cut,
-            recording.layout == recording::Layout::kMcap,
-            static_cast<uint32_t>(recording.depth.size()),
+  *facts = {recording.layout == recording::Layout::kMcap, static_cast<uint32_t>(recording.depth.size()),
             static_cast<uint32_t>(recording.poses.poses().size()),
-            static_cast<uint32_t>(recording.accelerations.size()),
-            recording.bad_chunk_count};
+            static_cast<uint32_t>(recording.accelerations.size()), damageOf(recording)};
   return options.target == Target::kRaw ? writeRaw(reader.get(), options.out, console)
                                         : write7Scenes(reader.get(), options.out, console);
 }
@@ -212,8 +205,8 @@ Result convertFrames(const ConvertOptions &options, const Console &console, Fact
 Result convertStreams(const ConvertOptions &options, const Console &console, Facts *facts) {
   const Replay replay = openStreams(options);
   const sphc_replay_info info = infoOf(replay.get());
-  *facts = {info.is_cut != 0, info.layout == SPHC_REPLAY_MCAP, info.depth_count,
-            info.pose_count,  info.acceleration_count,         info.bad_chunk_count};
+  *facts = {info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count, info.acceleration_count,
+            damageOf(info)};
   const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
   const Result result = copyStreams(replay.get(), options.isPart(), out.get(), console);
   out->close();
@@ -223,24 +216,24 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
 // What the new layout does not keep.
 void tellLosses(const ConvertOptions &options, const Facts &facts, const Result &result, const Console &console) {
   const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
-  noteDamage(damageOf(options.in.folder, facts.is_cut, facts.bad_chunk_count), console);
+  noteDamage(options.in.folder, facts.damage, console);
   if (options.target == Target::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
   if (result.amplitudes && options.target != Target::kMcap)
-    console.warn("note: amplitudes of " + std::to_string(result.amplitudes) +
-                 " depth images are left out; an MCAP file keeps them");
+    console.warn("note: left out: amplitudes of " + counted(result.amplitudes, "depth image") +
+                 "; an MCAP file keeps them");
   if (facts.acceleration_count && options.target != Target::kMcap)
-    console.warn("note: " + std::to_string(facts.acceleration_count) +
-                 " accelerations are left out; an MCAP file keeps them");
+    console.warn("note: left out: " + counted(facts.acceleration_count, "acceleration") +
+                 "; an MCAP file keeps them");
   if (is_by_frame && facts.depth_count > result.depth)
-    console.warn("note: " + std::to_string(facts.depth_count - result.depth) +
-                 " depth images that belong to no frame are left out");
+    console.warn("note: left out: " + counted(facts.depth_count - result.depth, "depth image") +
+                 " without a colour image near in time");
   if (is_by_frame && !options.isPart() && facts.pose_count > result.poses)
-    console.warn("note: " + std::to_string(facts.pose_count - result.poses) + " poses between frames are left out");
+    console.warn("note: left out: " + counted(facts.pose_count - result.poses, "pose") + " between frames");
   if (options.target == Target::kTum && facts.is_mcap)
     console.warn("note: the TUM layout has no sequence numbers, clocks and exposures");
   if (result.unpaired)
-    console.warn("note: " + std::to_string(result.unpaired) + " colour images without depth are left out");
+    console.warn("note: left out: " + counted(result.unpaired, "colour image") + " without depth");
 }
 
 bool isRaw(const std::string &path) { return std::filesystem::path(path).extension() == ".raw"; }
@@ -267,9 +260,9 @@ int convert(ConvertOptions options, const Console &console) {
   const Result result =
       is_by_frame ? convertFrames(options, console, &facts) : convertStreams(options, console, &facts);
   tellLosses(options, facts, result, console);
-  console.say("Wrote " + options.out + ": " + std::to_string(result.color) + " colour images, " +
-              std::to_string(result.depth) + " depth images, " + std::to_string(result.poses) + " poses" +
-              (result.accelerations ? ", " + std::to_string(result.accelerations) + " accelerations." : "."));
+  console.say("Wrote " + options.out + ": " + counted(result.color, "colour image") + ", " +
+              counted(result.depth, "depth image") + ", " + counted(result.poses, "pose") +
+              (result.accelerations ? ", " + counted(result.accelerations, "acceleration") + "." : "."));
   console.give({{"recording", options.out},
                 {"color", result.color},
                 {"depth", result.depth},

@@ -77,6 +77,8 @@ Findings lookAt(const DoctorOptions &options, const Console &console) {
   }
   for (const StreamCheck *stream : {&color, &depth})
     for (Finding &finding : stream->findings()) findings.push_back(std::move(finding));
+  const std::string troubles = rig.troubles();
+  if (!troubles.empty()) findings.push_back({Grade::kDoubtful, "cameras", troubles});
   const sphc_pairer_counts counts = rig.counts();
   findings.push_back(pairsFinding(apart_ms, counts.too_far + counts.overtaken + counts.full));
   if (apart_ms.empty() || !geometry_fits) return findings;

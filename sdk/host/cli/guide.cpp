@@ -40,7 +40,7 @@ void lookAt(const sphc_localizer_frame &images, const GuideOptions &options, con
 
 int run(const GuideOptions &options, const Console &console) {
   const auto reader = openRecording(options.recording);
-  noteDamage(damageOf(*reader), console);
+  noteDamage(*reader, console);
   WalkGuide guide(reader->calibration());
   LookPace pace;
   {

@@ -111,7 +111,7 @@ void writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReade
 int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
-  noteDamage(damageOf(*reader), console);
+  noteDamage(*reader, console);
   Run done = localize(options, reader.get(), console);
   if (options.align) alignTruth(&done);
   const Summary summary = summarize(done);

@@ -284,7 +284,7 @@ int run(MapOptions options, const Console &console) {
   const MapOutcome outcome = mapRecordings(options);
   console.say(tableText(mapTable(outcome)));
   warnOfMap(outcome, console);
-  for (const MappedRecording &recording : outcome.recordings) noteDamage(damageOf(*recording.reader), console);
+  for (const MappedRecording &recording : outcome.recordings) noteDamage(*recording.reader, console);
   writeModelFile(options.model, outcome.import.model);
   console.say(outcome.import.told);
   console.say("Wrote " + options.model +

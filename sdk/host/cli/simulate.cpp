@@ -7,6 +7,7 @@
 
 #include "drivers/simulated/simulated.h"
 #include "host/base/checked_call.h"
+#include "host/base/counted.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
@@ -139,7 +140,7 @@ int simulate(const SimulateOptions &options, const Console &console) {
   record(simulated.get(), {simulated.get(), options.accelerometer_hz, config.start_time_ns}, out.get());
   out->close();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  console.say("Recorded " + std::to_string(config.frame_count) + " frames to " + options.out + " in " +
+  console.say("Recorded " + counted(config.frame_count, "frame") + " to " + options.out + " in " +
               fixed(seconds, 1) + " s: colour, depth, calibration and exact poses.");
   if (options.raw_depth && !isMcap(options.out))
     console.warn("note: a folder keeps no amplitudes of the depth; --out X.mcap does");

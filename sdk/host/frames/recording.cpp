@@ -40,18 +40,6 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
                            ": check --first, --last, --step, and that depth images are there");
 }
 
-std::string damageOf(const std::string &name, bool is_cut, uint32_t bad_chunk_count) {
-  if (bad_chunk_count > 0)
-    return name + ": " + std::to_string(bad_chunk_count) +
-           " parts with changed bytes are left out; copy it again from where it was recorded";
-  return is_cut ? name + " was cut off; all that is whole in it is kept" : "";
-}
-
-std::string damageOf(const RecordingReader &reader) {
-  const recording::Recording &recording = reader.recording();
-  return damageOf(recording.path.string(), recording.is_cut, recording.bad_chunk_count);
-}
-
 std::string describeSelection(const RecordingOptions &options) {
   const bool all = options.first == 0 && options.last == UINT32_MAX;
   std::string text = all ? "all frames" : "frames " + std::to_string(options.first) + " to ";

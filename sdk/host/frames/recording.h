@@ -17,9 +17,6 @@ struct RecordingOptions {
 
 // Throws UsageError, or std::runtime_error with cause and cure, also when the selection holds no frame.
 std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options);
-// What of it is left out because bytes have changed or its end is missing, with the cure; empty where nothing is.
-std::string damageOf(const RecordingReader &reader);
-std::string damageOf(const std::string &name, bool is_cut, uint32_t bad_chunk_count);
 // "frames 100 to 199, every 3rd".
 std::string describeSelection(const RecordingOptions &options);
 

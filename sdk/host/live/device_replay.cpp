@@ -1,6 +1,7 @@
 #include "drivers/replay/replay.h"
 #include "host/base/checked_call.h"
 #include "host/live/device_kind.h"
+#include "host/live/replay_damage.h"
 
 namespace sphc::host {
 namespace {
@@ -25,6 +26,12 @@ class ReplayDevice : public Device {
   ~ReplayDevice() override { sphc_replay_close(&replay_); }
 
   std::string describe() const override { return "recording " + address_; }
+  std::string troubles() const override {
+    std::string all;
+    for (const std::string &sentence : sentencesOf(damageOf(infoOf(replay_))))
+      all += (all.empty() ? "" : "; ") + sentence;
+    return all;
+  }
   bool calibration(sphc_rig *calibration) const override {
     return sphc_replay_rig(replay_, calibration) == SPHC_OK;
   }

@@ -18,7 +18,7 @@ PointModel importRecording(const RecordingOptions &recording, const char *what) 
 std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what,
                                      const Console &console) {
   const auto reader = openRecording(recording);
-  noteDamage(damageOf(*reader), console);
+  noteDamage(*reader, console);
   const uint32_t available = reader->frameCount();
   std::vector<PointModel> models;
   ProgressBar bar(what);

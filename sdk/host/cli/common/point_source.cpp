@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
@@ -104,7 +105,7 @@ std::string movingText(const MovingSummary &moving) {
 ImportedPoints fromModel(const PointSource &source) {
   ImportedPoints imported;
   imported.model = readModelFile(source.model);
-  imported.told = "Read " + std::to_string(imported.model.points.size()) + " points of " + source.model + ".";
+  imported.told = "Read " + counted(imported.model.points.size(), "point") + " of " + source.model + ".";
   imported.facts = {{"model", source.model}, {"points_kept", imported.model.points.size()}};
   return imported;
 }
@@ -116,16 +117,17 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
   uint32_t frames = 0;
   for (const RgbdSource &source : recordings) frames += source.reader->frameCount();
   if (options.min_observations > frames)
-    throw UsageError("--min-observations " + std::to_string(options.min_observations) + ": there are " +
-                     std::to_string(frames) + " frames, so no point can be seen in as many; give a smaller number");
+    throw UsageError("--min-observations " + std::to_string(options.min_observations) +
+                     ": no point can be seen in so many of " + counted(frames, "frame") +
+                     "; give a smaller number");
   ProgressBar bar("mapping   ");
   ImportedPoints imported;
   RgbdImportSummary summary;
   imported.model = importRgbd(
       recordings, options, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
   checkPoints(summary, options);
-  imported.told = "Mapped " + std::to_string(summary.frames_used) + " frames (" + selection +
-                  "): " + std::to_string(summary.points_kept) + " points kept, " +
+  imported.told = "Mapped " + counted(summary.frames_used, "frame") + " (" + selection +
+                  "): " + counted(summary.points_kept, "point") + " kept, " +
                   std::to_string(summary.points_dropped) + " dropped" + movingText(summary.moving) + ".";
   imported.warnings = summary.moving.doubts;
   for (const std::string &left_out : framesLeftOut(summary)) imported.warnings.push_back(left_out);
@@ -199,8 +201,8 @@ ImportedPoints importPoints(const PointSource &source) {
   if (!source.colmap.model.empty()) return fromColmap(source);
   const auto reader = openRecording(source.recording);
   ImportedPoints imported = importRecordings({{reader.get()}}, source.import, describeSelection(source.recording));
-  const std::string damage = damageOf(*reader);
-  if (!damage.empty()) imported.warnings.push_back(damage);
+  for (const std::string &sentence : sentencesOf(damageOf(reader->recording())))
+    imported.warnings.push_back(source.recording.folder + ": " + sentence);
   return imported;
 }
 

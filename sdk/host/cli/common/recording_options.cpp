@@ -40,7 +40,7 @@ CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options) {
 void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each) {
   app->add_option(
          "-r,--recording", *recordings,
-         "Recording: a folder (7-Scenes or TUM layout) or a .mcap file; once for each of several, the oldest "
+         "Recording: a folder, a .mcap or .raw file, or another program's; once for each of several, the oldest "
          "first")
       ->required()
       ->allow_extra_args(false)
@@ -49,8 +49,12 @@ void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, R
   addFrameOptions(app, of_each);
 }
 
-void noteDamage(const std::string &damage, const Console &console) {
-  if (!damage.empty()) console.warn("note: " + damage);
+void noteDamage(const std::string &recording, const Damage &damage, const Console &console) {
+  for (const std::string &sentence : sentencesOf(damage)) console.warn("note: " + recording + ": " + sentence);
+}
+
+void noteDamage(const RecordingReader &reader, const Console &console) {
+  noteDamage(reader.recording().path.string(), damageOf(reader.recording()), console);
 }
 
 }  // namespace sphc::host

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/cli/common/console.h"
+#include "host/frames/damage.h"
 #include "host/frames/recording.h"
 
 namespace sphc::host {
@@ -16,7 +17,8 @@ CLI::Option *addRecordingOptions(CLI::App *app, RecordingOptions *options);
 // --recording as often as there are recordings; the other options are of each of them.
 void addRecordingsOptions(CLI::App *app, std::vector<std::string> *recordings, RecordingOptions *of_each);
 
-// What of a recording is left out, with the cure; nothing where nothing is.
-void noteDamage(const std::string &damage, const Console &console);
+// Says what of a recording is left out, with the cure.
+void noteDamage(const std::string &recording, const Damage &damage, const Console &console);
+void noteDamage(const RecordingReader &reader, const Console &console);
 
 }  // namespace sphc::host

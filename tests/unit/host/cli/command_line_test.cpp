@@ -203,6 +203,33 @@ TEST(Advise, TellsOfFramesThatTookNoPart) {
   EXPECT_FALSE(nlohmann::json::parse(damaged.out)["left_out"].empty());
 }
 
+// A line of groundtruth.txt without a finite pose, and a recorder that was cut off: every command says so.
+TEST(Damage, IsSaidByWhateverReadsARecording) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk", cut = folder / "cut.mcap", map = folder / "tiny.sphc";
+  writeTinyMap(map, 40);
+  ASSERT_EQ(runCommand("simulate --frames 3 --rate 6 --out " + walk).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("simulate --frames 12 --rate 6 --out " + cut).exit_code, kExitDone);
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) * 2 / 3);
+  std::ofstream(walk + "/groundtruth.txt", std::ios::app) << "99.0 nan 0 0 0 0 0 1\n";
+  const std::string left_out = "left out: 1 pose,", cut_off = "it was cut off;";
+  const auto says = [](const std::string &command, const std::string &recording, const std::string &sentence) {
+    EXPECT_THAT(runCommand(command).err, HasSubstr("note: " + recording + ": " + sentence)) << command;
+  };
+  for (const std::string &command : {std::string("guide -r "), "localize -m " + map + " -r "}) {
+    says(command + walk, walk, left_out);
+    says(command + cut, cut, cut_off);
+  }
+  says("convert " + walk + " " + (folder / "a"), walk, left_out);
+  says("convert " + cut + " " + (folder / "b"), cut, cut_off);
+  for (const std::string &command :
+       {std::string("doctor --device replay:"), "live --map " + map + " --device replay:"}) {
+    EXPECT_THAT(runCommand(command + walk).out, HasSubstr(left_out)) << command;
+    EXPECT_THAT(runCommand(command + cut).out, HasSubstr(cut_off)) << command;
+    EXPECT_THAT(runCommand(command + walk).out, Not(HasSubstr(cut_off))) << command;
+  }
+}
+
 TEST(Convert, KeepsAccelerationsInAFile) {
   const TempFolder folder;
   const std::string walk = folder / "walk.mcap", part = folder / "part.mcap";
@@ -220,7 +247,7 @@ TEST(Convert, KeepsAccelerationsInAFile) {
     const Answer without = runCommand("convert --json " + walk + " " + (folder / to));
     ASSERT_EQ(without.exit_code, kExitDone) << without.err;
     EXPECT_EQ(nlohmann::json::parse(without.out)["accelerations"], 0);
-    EXPECT_THAT(without.err, HasSubstr("note: 201 accelerations are left out; an MCAP file keeps them")) << to;
+    EXPECT_THAT(without.err, HasSubstr("note: left out: 201 accelerations; an MCAP file keeps them")) << to;
   }
   EXPECT_THAT(runCommand("simulate --frames 1 --accelerometer 50 --out " + (folder / "none")).err,
               HasSubstr("a folder keeps no accelerations"));
@@ -401,7 +428,7 @@ void expectAmplitudes(const TempFolder &folder, const std::string &map) {
   EXPECT_EQ(runCommand("localize -r " + again + " -m " + map).exit_code, kExitDone);  // they are not asked for
 
   const Answer folder_of_it = runCommand("convert " + raw + " " + (folder / "raw_walk"));
-  EXPECT_THAT(folder_of_it.err, HasSubstr("amplitudes of 2 depth images are left out"));
+  EXPECT_THAT(folder_of_it.err, HasSubstr("left out: amplitudes of 2 depth images"));
   const Answer without = runCommand("localize --amplitude-min 75 -r " + (folder / "raw_walk") + " -m " + map);
   EXPECT_EQ(without.exit_code, kExitFailure);
   EXPECT_THAT(without.err, HasSubstr("amplitude image is missing"));

@@ -229,7 +229,7 @@ TEST_F(FilesTest, TheCauseIsTheRightOne) {
   for (const char *options : {"--depth-min 5 --depth-max 1", "--max-keypoints 0", "--min-observations 4",
                               "--eta nan", "--depth-max nan", "--min-observations 0"})
     EXPECT_EQ(runCommand(build + options).exit_code, kExitUsage) << options;
-  EXPECT_THAT(runCommand(build + "--min-observations 4").err, HasSubstr("there are 3 frames"));
+  EXPECT_THAT(runCommand(build + "--min-observations 4").err, HasSubstr("so many of 3 frames"));
   EXPECT_THAT(runCommand(build + "--depth-min 50 --depth-max 60").err, HasSubstr("depth of 50.00 to 60.00 m"));
   EXPECT_THAT(runCommand(build + "--eta 1e-6 --ledger " + at("cause.ledger")).err, HasSubstr("larger --eta"));
   fs::copy(at("walk"), at("cut"), fs::copy_options::recursive);

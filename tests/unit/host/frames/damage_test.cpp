@@ -1,0 +1,36 @@
+#include "host/frames/damage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace sphc::host {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+TEST(DamageText, OfAWholeRecordingIsNone) { EXPECT_THAT(sentencesOf(damageOf({})), IsEmpty()); }
+
+TEST(DamageText, HasASentenceForEachKind) {
+  recording::Recording recording;
+  recording.lost_count = 1;
+  recording.bad_pose_count = 2;
+  recording.bad_acceleration_count = 3;
+  recording.is_cut = true;
+  EXPECT_THAT(sentencesOf(damageOf(recording)),
+              ElementsAre(StartsWith("it was cut off;"), StartsWith("missing: 1 image,"),
+                          StartsWith("left out: 2 poses,"), StartsWith("left out: 3 accelerations,")));
+}
+
+// The end of a file with changed bytes is not looked for.
+TEST(DamageText, OfChangedBytesHasTheCure) {
+  recording::Recording recording;
+  recording.bad_chunk_count = 1;
+  recording.is_cut = true;
+  EXPECT_THAT(sentencesOf(damageOf(recording)),
+              ElementsAre("left out: 1 part with changed bytes; copy it again from where it was recorded"));
+}
+
+}  // namespace
+}  // namespace sphc::host
