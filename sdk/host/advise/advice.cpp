@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/base/counted.h"
 #include "host/evaluate/localize_run.h"
 #include "host/publish/release.h"
 #include "host/report/statistics.h"
@@ -20,7 +21,7 @@ struct Block {
 std::vector<Block> blocksOf(const RecordingReader &reader, uint32_t folds) {
   const uint32_t count = reader.frameCount();
   if (count < 2 * folds)
-    throw std::runtime_error("the recording has " + std::to_string(count) + " frames, too few for " +
+    throw std::runtime_error("the recording has " + counted(count, "frame") + ", too few for " +
                              std::to_string(folds) + " folds of two; record more, or give --folds");
   std::vector<Block> blocks;
   for (uint32_t k = 0; k < folds; ++k) {

@@ -1,6 +1,7 @@
 // spherecloud inspect: a map file in detail.
 #include <memory>
 
+#include "host/base/counted.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
@@ -22,7 +23,7 @@ struct InspectOptions {
 std::string percentText(double value) { return fixed(value, 1) + " %"; }
 
 void tell(const MapFacts &facts, const MapAnatomy &anatomy, const Console &console) {
-  console.say(facts.path + ": a valid sphere cloud of " + std::to_string(facts.points) + " points, id " + facts.id);
+  console.say(facts.path + ": a valid sphere cloud of " + counted(facts.points, "point") + ", id " + facts.id);
   std::vector<Row> parts;
   for (const BytePart &part : anatomy.parts) {
     parts.push_back({part.name, std::to_string(part.bytes),

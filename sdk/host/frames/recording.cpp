@@ -42,6 +42,7 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
 
 std::string describeSelection(const RecordingOptions &options) {
   const bool all = options.first == 0 && options.last == UINT32_MAX;
+  if (options.first == options.last) return "frame " + std::to_string(options.first);
   std::string text = all ? "all frames" : "frames " + std::to_string(options.first) + " to ";
   if (!all) text += options.last == UINT32_MAX ? "the end" : std::to_string(options.last);
   if (options.step > 1) text += ", every " + ordinal(options.step);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/counted.h"
 #include "host/report/run.h"
 #include "host/report/statistics.h"
 
@@ -155,7 +156,7 @@ Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t w
   const double spread_ms = percentile(color_minus_depth_ms, 0.95) - percentile(color_minus_depth_ms, 0.05);
   const std::string seen = "colour is taken " + fixed(std::fabs(median_ms), 1) + " ms " +
                            (median_ms < 0 ? "before" : "after") + " depth, within " + fixed(spread_ms, 1) +
-                           " ms; " + std::to_string(without_partner) + " images had no partner";
+                           " ms; " + counted(without_partner, "image") + " had no partner";
   if (spread_ms > 10)
     return {Grade::kDoubtful, "pairs",
             seen + "; the cameras drift apart: synchronise them, or expect blur from motion"};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/counted.h"
 #include "host/report/encode.h"
 #include "host/report/page_style.h"
 #include "host/report/table.h"
@@ -25,9 +26,9 @@ std::string grade(double value, double good, double fair) {
 
 std::string cards(const Run &run, const Summary &s) {
   const double localized = percent(s.localized, s.frames);
-  std::string html = "<div class='cards'>\n" + card(fixed(localized, 1) + " %",
-                                                    "of " + std::to_string(s.frames) + " frames localized",
-                                                    grade(localized, 90, 60));
+  std::string html =
+      "<div class='cards'>\n" +
+      card(fixed(localized, 1) + " %", "of " + counted(s.frames, "frame") + " localized", grade(localized, 90, 60));
   if (s.with_truth) {
     const double good = percent(s.good, s.with_truth);
     html += card(fixed(good, 1) + " %", "within 5 cm and 5°", grade(good, 90, 60));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/counted.h"
+
 namespace sphc::host {
 namespace {
 
@@ -74,7 +76,7 @@ Drawing reliability(const Run &run) {
           "Is it as sure as it may be?",
           "Poses with confidence 0.8, say, should be within 5 cm and 5 deg in 80 % of cases: on the dashed line. "
           "Expected calibration error " +
-              fixed(error, 3) + " over " + std::to_string(graded.size()) + " poses, 10 bins of equal width.",
+              fixed(error, 3) + " over " + counted(graded.size(), "pose") + ", 10 bins of equal width.",
           reliabilityScript({{"this run", graded}}),
           {560, 620}};
 }

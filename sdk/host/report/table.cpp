@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/counted.h"
 #include "host/report/reliability.h"
 
 namespace sphc::host {
@@ -51,7 +52,7 @@ void addCalibration(const Run &run, std::vector<Row> *rows) {
   const std::vector<Graded> graded = gradedFrames(run);
   if (graded.empty()) return;
   rows->push_back({"calibration error of confidence", fixed(calibrationError(equalWidthBins(graded)), 3),
-                   "expected over 10 bins of equal width, " + std::to_string(graded.size()) + " poses"});
+                   "expected over 10 bins of equal width, " + counted(graded.size(), "pose")});
 }
 
 std::string stageNote(const Summary &s) {
@@ -78,7 +79,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   addFaults(s, &rows);
   addHints(s, &rows);
   if (run.aligned_frames)
-    rows.push_back({"TRUTH ALIGNED", std::to_string(run.aligned_frames) + " poses",
+    rows.push_back({"TRUTH ALIGNED", counted(run.aligned_frames, "pose"),
                     "the errors are what a rigid alignment of the recording's poses to the map leaves (--align)"});
   addErrors(s, &rows);
   addCalibration(run, &rows);

@@ -90,9 +90,9 @@ void checkPoints(const RgbdImportSummary &summary, const RgbdImportOptions &opti
         fixed(options.depth_min_m, 2) + " to " + fixed(options.depth_max_m, 2) +
         " m; is that the range of the room (--depth-min, --depth-max), and depth_unit_m of the "
         "calibration right?");
-  throw std::runtime_error("all " + std::to_string(summary.points_dropped) + " points were seen in fewer than " +
-                           std::to_string(options.min_observations) +
-                           " frames; record more frames of each place, or give a smaller --min-observations");
+  throw std::runtime_error("none of " + counted(summary.points_dropped, "point") + " was seen in " +
+                           counted(options.min_observations, "frame") +
+                           "; record more frames of each place, or give a smaller --min-observations");
 }
 
 std::string movingText(const MovingSummary &moving) {

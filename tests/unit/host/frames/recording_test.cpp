@@ -22,5 +22,16 @@ TEST(Recording, AStepOfZeroChoosesNothing) {
   EXPECT_THAT(test::refusal([&] { openRecording(options); }), testing::HasSubstr("--step"));
 }
 
+TEST(Recording, ASelectionIsSaidInWords) {
+  RecordingOptions options;
+  EXPECT_EQ(describeSelection(options), "all frames");
+  options.step = 3;
+  EXPECT_EQ(describeSelection(options), "all frames, every 3rd");
+  options.first = 100;
+  EXPECT_EQ(describeSelection(options), "frames 100 to the end, every 3rd");
+  options.last = 100;
+  EXPECT_EQ(describeSelection(options), "frame 100");
+}
+
 }  // namespace
 }  // namespace sphc::host
