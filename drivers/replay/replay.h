@@ -95,11 +95,11 @@ typedef struct sphc_replay_info {
   uint32_t color_count, depth_count; /* images chosen by the config */
   uint32_t pose_count;               /* usable poses of the whole recording */
   uint32_t bad_pose_count;           /* poses left out: not finite, or no rotation */
-  uint64_t lost_count;               /* MCAP: captures that the recording says it lost */
-  uint32_t bad_chunk_count;          /* MCAP: parts left out because their bytes have changed */
+  uint64_t lost_count;               /* captures that the recording says it lost, or without a time of their own */
+  uint32_t bad_chunk_count;          /* of a file: parts left out because their bytes have changed */
   uint32_t is_cut;                   /* MCAP, 1: the end is missing, as after a power cut */
   uint32_t acceleration_count;       /* of the whole recording */
-  uint32_t bad_acceleration_count;   /* MCAP: left out: zero, not finite, or not later than the last */
+  uint32_t bad_acceleration_count;   /* left out: zero, not finite, or not later than the last */
 } sphc_replay_info;
 /* Set info->struct_size first.  Errors: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_replay_get_info(const sphc_replay *replay, sphc_replay_info *info);
