@@ -107,7 +107,7 @@ sphc_status readAcceleration(const sphc_replay *replay, uint32_t index, int64_t 
 }
 
 // Both streams in order of time, poses and accelerations among them; of a part of a recording those around it.
-Result copyStreams(sphc_replay *replay, bool is_part, RecordingOut *out, const Console &console) {
+Result copyStreams(sphc_replay *replay, const ConvertOptions &options, RecordingOut *out, const Console &console) {
   const sphc_replay_info info = infoOf(replay);
   Beside<sphc_rigid> poses(replay, info.pose_count, sphc_replay_recorded_pose, &RecordingOut::addPose);
   const uint32_t acceleration_count = out->keepsAccelerations() ? info.acceleration_count : 0;
@@ -129,8 +129,9 @@ Result copyStreams(sphc_replay *replay, bool is_part, RecordingOut *out, const C
       ++result.unreadable;
       continue;
     }
-    if (is_part && from_ns == INT64_MIN) from_ns = capture.time_ns - kAroundNs;
-    if (is_part) to_ns = std::min(capture.time_ns, INT64_MAX - kAroundNs) + kAroundNs;
+    capture.sequence /= options.in.step;  // images between those that are chosen are not lost
+    if (options.isPart() && from_ns == INT64_MIN) from_ns = capture.time_ns - kAroundNs;
+    if (options.isPart()) to_ns = std::min(capture.time_ns, INT64_MAX - kAroundNs) + kAroundNs;
     poses.writeUpTo(capture.time_ns, from_ns, out);
     felt.writeUpTo(capture.time_ns, from_ns, out);
     out->add(capture);
@@ -208,7 +209,7 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
   *facts = {info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count, info.acceleration_count,
             damageOf(info)};
   const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
-  const Result result = copyStreams(replay.get(), options.isPart(), out.get(), console);
+  const Result result = copyStreams(replay.get(), options, out.get(), console);
   out->close();
   return result;
 }
@@ -244,6 +245,8 @@ Target targetByName(const std::string &out) {
 }
 
 int convert(ConvertOptions options, const Console &console) {
+  checkSelection(options.in);
+  if (options.out.empty()) throw UsageError("the new recording has no name; give one");
   const Target by_name = targetByName(options.out);
   if (options.target == Target::kByName) options.target = by_name;
   const bool is_folder = options.target == Target::kTum || options.target == Target::k7Scenes;

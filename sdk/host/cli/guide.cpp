@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "host/base/counted.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/progress.h"
@@ -43,17 +44,22 @@ int run(const GuideOptions &options, const Console &console) {
   noteDamage(*reader, console);
   WalkGuide guide(reader->calibration());
   LookPace pace;
+  uint32_t unreadable = 0;
+  std::string why, first_why;
   {
     ProgressBar bar("looking");
     for (uint32_t i = 0; i < reader->frameCount(); ++i) {
       bar.show(i, reader->frameCount());
       if (!pace.isDue(reader->colorOf(i).time_ns)) continue;
-      const std::optional<sphc_localizer_frame> images = reader->tryRead(i);
+      const std::optional<sphc_localizer_frame> images = reader->tryRead(i, &why);
+      if (!images && ++unreadable == 1) first_why = why;
       if (!images) continue;
       pace.looked(images->color_time_ns);
       lookAt(*images, options, *reader, &guide, console);
     }
   }
+  if (unreadable)
+    console.warn("note: " + counted(unreadable, "frame") + " could not be read; the first: " + first_why);
   const WalkSummary summary = guide.summary();
   console.say(tableText(summaryRows(summary)) + nextSteps(summary));
   console.giveLine({{"summary", summaryJson(summary)}});

@@ -3,6 +3,7 @@
 #include <ctime>
 #include <memory>
 
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/calibration/compare.h"
@@ -195,7 +196,7 @@ void score(MappedRecording *recording) {
     pairs.push_back({*recording->poses[i], rigidFromC(*truth)});
     squared_m2 += (pairs.back().estimated.translation_m - pairs.back().truth.translation_m).squaredNorm();
   }
-  if (pairs.empty() && recording->framesMapped() == 0) return;
+  if (pairs.size() < kFewestScored) return;
   recording->score = scoreTrajectory(pairs);
   recording->unaligned_rmse_m = std::sqrt(squared_m2 / static_cast<double>(pairs.size()));
 }
@@ -252,8 +253,8 @@ MapOutcome mapRecordings(const MapOptions &options) {
 
 void checkCount(const char *option, const std::vector<std::string> &files, size_t recordings) {
   if (!files.empty() && files.size() != recordings)
-    throw UsageError(std::string(option) + " is given " + std::to_string(files.size()) + " times for " +
-                     std::to_string(recordings) + " recordings; give it once for each, in the same order");
+    throw UsageError(std::string(option) + " is given " + counted(files.size(), "time") + " for " +
+                     counted(recordings, "recording") + "; give it once for each, in the same order");
 }
 
 void check(const MapOptions &options) {
@@ -284,7 +285,12 @@ int run(MapOptions options, const Console &console) {
   const MapOutcome outcome = mapRecordings(options);
   console.say(tableText(mapTable(outcome)));
   warnOfMap(outcome, console);
-  for (const MappedRecording &recording : outcome.recordings) noteDamage(*recording.reader, console);
+  for (const MappedRecording &recording : outcome.recordings) {
+    noteDamage(*recording.reader, console);
+    if (options.score && recording.framesMapped() > 0 && !recording.score)
+      console.warn("note: no score of " + recording.name +
+                   ": fewer than 3 frames have a pose that was found and one that the recording holds");
+  }
   writeModelFile(options.model, outcome.import.model);
   console.say(outcome.import.told);
   console.say("Wrote " + options.model +

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "host/base/checked_call.h"
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
@@ -78,9 +79,9 @@ std::string statusText(const sphc_recorder_statistics &s, const RecordTally &tal
 void sayResult(const RecordOptions &options, const RecordTally &tally, const sphc_recorder_statistics &s,
                const Rig &rig, RecordGuide *guide, const Console &console) {
   const uint64_t file_bytes = std::filesystem::file_size(options.out);
-  console.say("Wrote " + options.out + ": " + std::to_string(tally.color) + " colour and " +
-              std::to_string(tally.depth) + " depth images, " + humanBytes(static_cast<double>(file_bytes)) +
-              " of " + humanBytes(static_cast<double>(tally.raw_bytes)));
+  console.say("Wrote " + options.out + ": " + counted(tally.color, "colour image") + " and " +
+              counted(tally.depth, "depth image") + ", " + humanBytes(static_cast<double>(file_bytes)) + " of " +
+              humanBytes(static_cast<double>(tally.raw_bytes)));
   console.say("Dropped: " + std::to_string(s.dropped_count) + ", never came: " + std::to_string(s.missing_count) +
               ", most waiting at once: " + std::to_string(s.queue_most));
   const std::string troubles = rig.troubles();

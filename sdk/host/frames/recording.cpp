@@ -23,9 +23,13 @@ recording::ReaderOptions readerOptions(const RecordingOptions &options) {
 
 }  // namespace
 
-std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) {
+void checkSelection(const RecordingOptions &options) {
   if (options.last < options.first) throw UsageError("--last lies before --first; swap them");
   if (options.step == 0) throw UsageError("--step is 0; give 1 or more");
+}
+
+std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) {
+  checkSelection(options);
   std::unique_ptr<RecordingReader> reader;
   try {
     reader = std::make_unique<RecordingReader>(options.folder, readerOptions(options));

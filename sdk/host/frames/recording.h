@@ -15,6 +15,8 @@ struct RecordingOptions {
   uint32_t first = 0, last = UINT32_MAX, step = 1;
 };
 
+// Throws UsageError.
+void checkSelection(const RecordingOptions &options);
 // Throws UsageError, or std::runtime_error with cause and cure, also when the selection holds no frame.
 std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options);
 // "frames 100 to 199, every 3rd".

@@ -171,7 +171,7 @@ bool isModelFile(const std::string &path) {
 void writeModelFile(const std::string &path, const PointModel &model) {
   struct stat facts = {};
   if (stat(path.c_str(), &facts) == 0 && !isModelFile(path))
-    refuse(path + " is there and is no point model; give --save-model another name");
+    refuse(path + " is there and is no point model; give another name");
   writeFile(path, encodeModel(model), Readers::kOwner);
 }
 

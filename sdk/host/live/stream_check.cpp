@@ -101,7 +101,7 @@ Finding StreamCheck::rate() const {
                            " ms, " + std::to_string(lost_) + " of " + std::to_string(count_ + lost_) +
                            " never came";
   if (10 * lost_ > count_)
-    return {Grade::kWrong, what, seen + "; use another USB port or bus, a smaller image, or MJPG"};
+    return {Grade::kWrong, what, seen + "; at the camera, use another USB port or bus, a smaller image, or MJPG"};
   return {lost_ > 0 ? Grade::kDoubtful : Grade::kFine, what, seen};
 }
 

@@ -5,6 +5,11 @@
 #include "host/report/reliability.h"
 
 namespace sphc::host {
+
+std::string jsonText(const nlohmann::ordered_json &value, int indent) {
+  return value.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -66,7 +71,7 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
 
 std::string framesJsonLines(const Run &run) {
   std::string text;
-  for (const FrameRecord &frame : run.frames) text += frameJson(frame, run.base).dump() + "\n";
+  for (const FrameRecord &frame : run.frames) text += jsonText(frameJson(frame, run.base)) + "\n";
   return text;
 }
 

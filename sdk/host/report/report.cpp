@@ -126,7 +126,7 @@ ReportSummary writeReport(const std::string &folder, const Run &run, const Image
   addPlots(folder, run, summary, &content);
   addDirections(folder, run, &content);
   writeFile(folder + "/frames.jsonl", framesJsonLines(run));
-  writeFile(folder + "/summary.json", summaryJson(run, summary).dump(2) + "\n");
+  writeFile(folder + "/summary.json", jsonText(summaryJson(run, summary), 2) + "\n");
   writeFile(folder + "/trajectory.tum", tumTrajectory(run));
   writeFile(folder + "/report.html", reportPage(run, summary, content));
   return {folder + "/report.html", content.plot_problem};

@@ -71,8 +71,9 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
                   run.unreadable ? std::to_string(run.unreadable) + " more could not be read" : ""});
   rows.push_back({"localized", share(s.localized, s.frames), ofTotal(s.localized, s.frames)});
   if (s.tracking > 0)
-    rows.push_back({"tracking", share(s.tracking, s.frames),
-                    ofTotal(s.guided, s.frames) + " were found where they were expected"});
+    rows.push_back(
+        {"tracking", share(s.tracking, s.frames),
+         ofTotal(s.tracking, s.frames) + "; " + std::to_string(s.guided) + " by a search where it was expected"});
   if (s.cut > 0)
     rows.push_back(
         {"cut by the deadline", share(s.cut, s.frames), "--frames-json says of each frame what was left out"});

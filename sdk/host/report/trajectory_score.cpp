@@ -35,7 +35,7 @@ double rmse(const Places &errors) { return std::sqrt(errors.colwise().squaredNor
 }  // namespace
 
 TrajectoryScore scoreTrajectory(const std::vector<PosePair> &poses) {
-  if (poses.size() < 3)
+  if (poses.size() < kFewestScored)
     throw std::runtime_error(
         "only " + std::to_string(poses.size()) +
         " frames have both a pose that was found and one that is known; 3 are needed to compare");

@@ -26,7 +26,9 @@ struct TrajectoryScore {
   double rotation_median_deg = 0, rotation_worst_deg = 0;  // after the rigid alignment
 };
 
-// In the order of the path.  Throws std::runtime_error for fewer than three poses.
+constexpr size_t kFewestScored = 3;
+
+// In the order of the path.  Throws std::runtime_error for fewer than kFewestScored poses.
 TrajectoryScore scoreTrajectory(const std::vector<PosePair> &poses);
 
 }  // namespace sphc::host

@@ -107,7 +107,7 @@ void measureSharpness(GrayView gray, int32_t step, ImageQuality *quality) {
 // The first that holds: noise hides blur, and where little is seen neither shows.
 Hints hintsOfImage(const FrameEvidence &frame) {
   if (frame.image.isDark()) return kTooDark;
-  if (frame.image.isPlain() || frame.salient < kFewestSalient) return kTooPlain;
+  if (frame.image.isPlain() || (!frame.was_cut && frame.salient < kFewestSalient)) return kTooPlain;
   return frame.image.isBlurredAlongALine() ? kTooFast : Hints{0};
 }
 
@@ -158,7 +158,8 @@ uint32_t countClear(Span<const Match> matches) {
 
 Hints hintsOf(const FrameEvidence &frame, const Hypothesis &best) {
   Hints hints = hintsOfImage(frame);
-  if (frame.lifted < kFewestLifted || frame.lifted * kOneWithDepthIn < frame.keypoints) hints |= kNoDepthInRange;
+  const bool is_lifted = frame.lifted >= kFewestLifted && frame.lifted * kOneWithDepthIn >= frame.keypoints;
+  if (!is_lifted && !frame.was_cut) hints |= kNoDepthInRange;
   if (hints == 0 && isNotInMap(frame, best)) hints |= kNotInMap;
   if (best.is_ambiguous && best.outcome == Outcome::kUncertain) hints |= kAmbiguous;
   return hints;

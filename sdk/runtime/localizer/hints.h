@@ -36,6 +36,7 @@ uint32_t countClear(Span<const Match> matches);
 struct FrameEvidence {
   ImageQuality image;
   uint32_t keypoints = 0, salient = 0, lifted = 0;
+  bool was_cut = false;    // did a deadline leave keypoints out?
   bool was_asked = false;  // were all keypoints compared with the likeliest maps?
   uint32_t clear = 0;      // matches, in the map that has most
 };

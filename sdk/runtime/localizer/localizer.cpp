@@ -461,6 +461,7 @@ Hints Localizer::hints() const {
   frame.keypoints = front_.keypointCount();
   frame.salient = countSalient(front_.keypoints(), frame.image.noise);
   frame.lifted = front_.liftedCount();
+  frame.was_cut = front_.wasCut();
   frame.was_asked = was_asked_;
   frame.clear = clear_;
   return hintsOf(frame, best_);

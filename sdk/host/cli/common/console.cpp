@@ -6,6 +6,8 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "host/report/json.h"
+
 namespace sphc::host {
 
 void Console::say(const std::string &text) const {
@@ -15,11 +17,11 @@ void Console::say(const std::string &text) const {
 void Console::warn(const std::string &text) const { std::fputs((text + "\n").c_str(), stderr); }
 
 void Console::give(const nlohmann::ordered_json &value) const {
-  if (json) put(value.dump(2));
+  if (json) put(jsonText(value, 2));
 }
 
 void Console::giveLine(const nlohmann::ordered_json &value) const {
-  if (json) put(value.dump());
+  if (json) put(jsonText(value));
 }
 
 void Console::put(const std::string &line) const {

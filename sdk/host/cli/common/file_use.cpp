@@ -1,5 +1,7 @@
 #include "host/cli/common/file_use.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -51,6 +53,8 @@ void checkParent(const std::string &option, const std::string &path) {
   const fs::path folder = plain(path).parent_path();
   if (!fs::is_directory(folder, error))
     refuse(option, path, "cannot be written: there is no folder " + folder.string() + "; make it first");
+  if (!fs::exists(path, error) && access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse(option, path, "cannot be written: nothing may be made in " + folder.string() + "; choose another place");
 }
 
 // What a killed command leaves, by the name that writeFile gives.
@@ -180,6 +184,10 @@ void FileUse::checkRecording(const Output &output) const {
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !(fs::is_directory(status) && fs::is_empty(path, error)))
     refuse(output.option, path, "is there already, and recordings are never replaced; choose another name");
+  if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, error)))
+    refuse(output.option, path, "is a link to nothing; choose another name");
+  if (fs::is_directory(fs::symlink_status(part, error)))
+    refuse(output.option, part, "is there, a folder that was not finished; remove it");
   if (fs::exists(fs::symlink_status(part, error)))
     refuse(output.option, part,
            "is there, a recording that was cut off. Save what it holds with `spherecloud convert`, or remove it");

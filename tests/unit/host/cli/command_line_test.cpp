@@ -149,6 +149,15 @@ TEST(Inspect, AccountsForEveryByteAndDrawsAPicture) {
   EXPECT_TRUE(std::filesystem::exists(folder / "tiny.sphc.directions.png"));
 }
 
+// JSON is UTF-8, and names of files are bytes.
+TEST(Inspect, GivesJsonOfANameThatIsNoText) {
+  const TempFolder folder;
+  writeTinyMap(folder / "t\xffny.sphc", 40);
+  const Answer answer = runCommand("inspect --json " + (folder / "t\xffny.sphc"));
+  ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
+  EXPECT_TRUE(nlohmann::json::accept(answer.out));
+}
+
 TEST(Inspect, NamesAPictureItCannotWrite) {
   const TempFolder folder;
   writeTinyMap(folder / "tiny.sphc", 40);
@@ -182,6 +191,15 @@ TEST(Convert, TakesAPartOfARecording) {
   ASSERT_EQ(last.exit_code, kExitDone) << last.err;
   EXPECT_EQ(nlohmann::json::parse(last.out)["color"], 1);
   EXPECT_THAT(last.err, Not(HasSubstr("poses between frames")));
+  const std::string half = folder / "half.mcap";
+  ASSERT_EQ(runCommand("convert " + walk + " " + half + " --first 1 --step 2").exit_code, kExitDone);
+  const recording::Recording chosen = recording::openRecording(half);
+  ASSERT_EQ(chosen.color.size(), 4u);
+  EXPECT_EQ(chosen.color[3].sequence, chosen.color[0].sequence + 3);
+  EXPECT_EQ(chosen.lost_count, 0u) << "those between were not chosen";
+  for (const char *none : {"--first 5 --last 4", "--step 0"})
+    EXPECT_EQ(runCommand("convert " + walk + " " + (folder / "none") + " " + none).exit_code, kExitUsage) << none;
+  EXPECT_EQ(runCommand("convert " + walk + " ''").exit_code, kExitUsage);
   const Answer beyond = runCommand("convert " + walk + " " + (folder / "none") + " --first 9");
   EXPECT_EQ(beyond.exit_code, kExitFailure);
   EXPECT_THAT(beyond.err, HasSubstr("first 9 chooses no frame; the recording has numbers 0 to 8"));
@@ -200,6 +218,7 @@ TEST(Advise, TellsOfFramesThatTookNoPart) {
   ASSERT_EQ(damaged.exit_code, kExitDone) << damaged.err;
   EXPECT_THAT(damaged.err, HasSubstr("note: 1 frame could not be read and took no part"));
   EXPECT_THAT(damaged.err, HasSubstr("rgb/000001.png"));
+  EXPECT_THAT(runCommand("guide -r " + walk).err, HasSubstr("note: 1 frame could not be read; the first: "));
   EXPECT_FALSE(nlohmann::json::parse(damaged.out)["left_out"].empty());
 }
 

@@ -183,7 +183,7 @@ TEST_F(FilesTest, RecordingsAreWholeOrNotThere) {
   fs::copy(at("walk"), at("half.part"), fs::copy_options::recursive);
   const Answer there = runCommand("simulate --frames 1 --out " + at("half"));
   EXPECT_EQ(there.exit_code, kExitFailure);
-  EXPECT_THAT(there.err, HasSubstr("spherecloud convert"));
+  EXPECT_THAT(there.err, HasSubstr("a folder that was not finished; remove it"));
   // A failure on the way.
   fs::copy(at("walk"), at("bad"), fs::copy_options::recursive);
   std::ofstream(at("bad/groundtruth.txt"), std::ios::app) << "0.5 0 0 0 0 0 0 1\n";

@@ -46,6 +46,10 @@ TEST_F(MapTest, AWalkWithoutPosesBecomesAMapThatLocalizes) {
       runCommand("map -r " + at("blind") + " --model " + at("blind.model") + " --trajectory " + at("blind.tum"));
   ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
   EXPECT_THAT(mapped.err, Not(HasSubstr("note:")));  // nothing is wrong with it
+  const Answer unscored = runCommand("map -r " + at("blind") + " --model " + at("unscored.model") + " --score");
+  EXPECT_EQ(unscored.exit_code, kExitDone) << "a map is a map without a score";
+  EXPECT_THAT(unscored.err, HasSubstr("note: no score of "));
+  EXPECT_TRUE(fs::exists(at("unscored.model")));
   const Answer built = runCommand("build --model " + at("blind.model") + " -m " + at("blind.sphc"));
   ASSERT_EQ(built.exit_code, kExitDone) << built.err;
   const std::string localize = "localize -r " + at("walk") + " -m " + at("blind.sphc") + " --owner-note " +

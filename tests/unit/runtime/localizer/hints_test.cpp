@@ -154,6 +154,11 @@ TEST(Hints, TheImageAndTheDepthTellWhy) {
   frame = goodFrame();
   frame.lifted = 20;
   EXPECT_EQ(hintsOf(frame, none), kNoDepthInRange);
+  frame.keypoints = frame.salient = frame.lifted = 5;
+  frame.was_cut = true;
+  EXPECT_EQ(hintsOf(frame, none), 0u) << "what a deadline left out may be there";
+  frame.image.contrast = 2;
+  EXPECT_EQ(hintsOf(frame, none), kTooPlain) << "of the image alone";
 }
 
 TEST(Hints, WhatIsSeenWellAndMatchesNothingIsNotInTheMap) {

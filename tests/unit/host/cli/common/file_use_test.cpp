@@ -162,6 +162,10 @@ TEST_F(FileUseTest, ARecordingIsNeverReplaced) {
   EXPECT_EQ(refused("empty/"), "fine");
   put("cut.mcap.part", "half");
   EXPECT_THAT(refused("cut.mcap"), HasSubstr("cut off"));
+  fs::create_directory(folder_ / "copied.part");
+  EXPECT_THAT(refused("copied"), HasSubstr("a folder that was not finished; remove it"));
+  fs::create_symlink("nowhere", folder_ / "link.mcap");
+  EXPECT_THAT(refused("link.mcap"), HasSubstr("a link to nothing"));
 }
 
 }  // namespace
