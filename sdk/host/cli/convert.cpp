@@ -129,7 +129,8 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
       ++result.unreadable;
       continue;
     }
-    capture.sequence /= options.in.step;  // images between those that are chosen are not lost
+    if (options.in.step > 1)  // images between those that are chosen are not lost
+      capture.sequence = capture.stream == SPHC_STREAM_COLOR ? capture.sequence / options.in.step : result.depth;
     if (options.isPart() && from_ns == INT64_MIN) from_ns = capture.time_ns - kAroundNs;
     if (options.isPart()) to_ns = std::min(capture.time_ns, INT64_MAX - kAroundNs) + kAroundNs;
     poses.writeUpTo(capture.time_ns, from_ns, out);

@@ -19,11 +19,10 @@ std::vector<std::string> sentencesOf(const Damage &damage) {
   if (damage.changed_parts)
     all.push_back("left out: " + counted(damage.changed_parts, "part") +
                   " with changed bytes; copy it again from where it was recorded");
-  else if (damage.is_cut)
-    all.push_back("it was cut off; all that is whole in it is kept");
+  if (damage.is_cut) all.push_back("it was cut off; all that is whole in it is kept");
   if (damage.lost_images)
     all.push_back("missing: " + counted(damage.lost_images, "image") +
-                  ", lost while it was recorded, or without a time or a place in it");
+                  ", lost while it was recorded, without a time, or out of order");
   if (damage.bad_poses)
     all.push_back("left out: " + counted(damage.bad_poses, "pose") + ", unknown, no rotation, or out of order");
   if (damage.bad_accelerations)

@@ -91,15 +91,16 @@ bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hyp
 }
 
 bool DistanceCheck::disagrees(int64_t time_ns, const Hypothesis &found, const PoseEstimator &estimator) {
-  if (found.map != map_) reset();
+  if (found.map != map_ || time_ns <= last_ns_) reset();
   map_ = found.map;
+  last_ns_ = time_ns;
   const PointsOfPose points(found, estimator);
   distances_.begin(points.centre_m(), time_ns);
   points.each(&PointDistances::compare, &distances_);
   const bool before = disagrees_;
   disagrees_ = distances_.disagree();
   if (disagrees_ && !before) since_ns_ = time_ns;
-  if (disagrees_ && time_ns - since_ns_ < static_cast<int64_t>(Tracker::kForgetNs)) return true;
+  if (disagrees_ && elapsedNs(since_ns_, time_ns) < Tracker::kForgetNs) return true;
   if (disagrees_) reset();
   points.each(&PointDistances::keep, &distances_);
   return false;

@@ -51,14 +51,15 @@ class DistanceCheck {
   void forget(uint32_t map) {
     if (map == map_) reset();
   }
-  // Every frame that has a pose.  Earlier frames may be those that were wrong: when their word has stood against
-  // all that followed for kForgetNs, it is forgotten.
+  // Every frame that has a pose; a time that does not grow starts anew.  Earlier frames may be those that were
+  // wrong: when their word has stood against all that followed for kForgetNs, it is forgotten.
   bool disagrees(int64_t time_ns, const Hypothesis &found, const PoseEstimator &estimator);
 
  private:
   PointDistances distances_;
   uint32_t map_ = 0;
   bool disagrees_ = false;
+  int64_t last_ns_ = INT64_MIN;
   int64_t since_ns_ = 0;  // while it disagrees
 };
 

@@ -114,7 +114,8 @@ Hints hintsOfImage(const FrameEvidence &frame) {
 // Only what a good image shows can be missed in a map.
 bool isNotInMap(const FrameEvidence &frame, const Hypothesis &best) {
   const bool found_nothing = best.outcome == Outcome::kFewMatches || best.outcome == Outcome::kNoConsensus;
-  return frame.was_asked && found_nothing && frame.clear < kFewestClear + kStrangersClear * frame.keypoints &&
+  return frame.was_asked && !frame.was_cut && found_nothing &&
+         frame.clear < kFewestClear + kStrangersClear * frame.keypoints &&
          best.evidence.log_chance_first > kMostLogChanceOfRival;
 }
 
@@ -159,7 +160,8 @@ uint32_t countClear(Span<const Match> matches) {
 Hints hintsOf(const FrameEvidence &frame, const Hypothesis &best) {
   Hints hints = hintsOfImage(frame);
   const bool is_lifted = frame.lifted >= kFewestLifted && frame.lifted * kOneWithDepthIn >= frame.keypoints;
-  if (!is_lifted && !frame.was_cut) hints |= kNoDepthInRange;
+  const bool may_be_lifted = frame.was_cut && frame.keypoints < kOneWithDepthIn * kFewestLifted;
+  if (!is_lifted && !may_be_lifted) hints |= kNoDepthInRange;
   if (hints == 0 && isNotInMap(frame, best)) hints |= kNotInMap;
   if (best.is_ambiguous && best.outcome == Outcome::kUncertain) hints |= kAmbiguous;
   return hints;

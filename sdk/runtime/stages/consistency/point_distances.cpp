@@ -1,10 +1,12 @@
 #include "runtime/stages/consistency/point_distances.h"
 
+#include "runtime/base/clock.h"
+
 namespace sphc {
 namespace {
 
 constexpr uint32_t kNoPoint = UINT32_MAX;
-constexpr int64_t kOldNs = 10000000000;
+constexpr uint64_t kOldNs = 10000000000;
 constexpr float kElsewhereM = 0.05f;  // from nearer all errors are the same
 // The farthest apart that two distances may be, in sigmas: in 99 of 100 sound frames half of them are within 1.1.
 constexpr float kMostSigmas = 1.5f;
@@ -27,7 +29,8 @@ void PointDistances::begin(const Vector3 &centre_in_map_m, int64_t time_ns) {
 }
 
 bool PointDistances::isOf(const Known &known, uint32_t point_index) const {
-  return known.point_index == point_index && known.time_ns <= time_ns_ && time_ns_ - known.time_ns <= kOldNs;
+  return known.point_index == point_index && known.time_ns <= time_ns_ &&
+         elapsedNs(known.time_ns, time_ns_) <= kOldNs;
 }
 
 void PointDistances::compare(const PointDistance &seen) {

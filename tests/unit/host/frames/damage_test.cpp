@@ -23,13 +23,14 @@ TEST(DamageText, HasASentenceForEachKind) {
                           StartsWith("left out: 2 poses,"), StartsWith("left out: 3 accelerations,")));
 }
 
-// The end of a file with changed bytes is not looked for.
 TEST(DamageText, OfChangedBytesHasTheCure) {
   recording::Recording recording;
   recording.bad_chunk_count = 1;
-  recording.is_cut = true;
   EXPECT_THAT(sentencesOf(damageOf(recording)),
               ElementsAre("left out: 1 part with changed bytes; copy it again from where it was recorded"));
+  recording.is_cut = true;
+  EXPECT_THAT(sentencesOf(damageOf(recording)),
+              ElementsAre(StartsWith("left out: 1 part"), StartsWith("it was cut off;")));
 }
 
 }  // namespace

@@ -157,6 +157,13 @@ TEST(Hints, TheImageAndTheDepthTellWhy) {
   frame.keypoints = frame.salient = frame.lifted = 5;
   frame.was_cut = true;
   EXPECT_EQ(hintsOf(frame, none), 0u) << "what a deadline left out may be there";
+  frame.keypoints = 400;
+  EXPECT_EQ(hintsOf(frame, none), kNoDepthInRange) << "of so many some have depth";
+  frame = goodFrame();
+  frame.clear = 2;
+  EXPECT_EQ(hintsOf(frame, none), kNotInMap);
+  frame.was_cut = true;
+  EXPECT_EQ(hintsOf(frame, none), 0u) << "not all of it was compared";
   frame.image.contrast = 2;
   EXPECT_EQ(hintsOf(frame, none), kTooPlain) << "of the image alone";
 }

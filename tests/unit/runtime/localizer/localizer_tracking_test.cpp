@@ -70,6 +70,7 @@ class Walk {
   // From now on all depths are so many times as large.
   void scaleDepth(double scale) { depth_scale_ = scale; }
   void forget() { sphc_localizer_reset(session_.localizer()); }
+  void setClockBack() { time_ns_ -= 2 * kStepNs; }
 
  private:
   static Rigid sceneViewpoint(uint32_t i) { return test::sceneViewpoint(i); }
@@ -266,6 +267,17 @@ TEST(LocalizerTracking, PointsThatLieElsewhereThanTheyDidTakeThePoseAway) {
   EXPECT_EQ(walk.see(3).outcome, SPHC_OUTCOME_LOCALIZED)
       << "after a second the earlier frames may be the wrong ones";
   EXPECT_EQ(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED);
+}
+
+TEST(LocalizerTracking, WhatPointsSaidIsForgottenWithAResetAndWithTheClock) {
+  for (void (Walk::*anew)() : {&Walk::forget, &Walk::setClockBack}) {
+    Walk walk(trackingConfig());
+    for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
+    walk.scaleDepth(1.2);
+    EXPECT_EQ(walk.see(3).outcome, SPHC_OUTCOME_CONTRADICTION);
+    (walk.*anew)();
+    EXPECT_EQ(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED);
+  }
 }
 
 }  // namespace
