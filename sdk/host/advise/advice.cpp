@@ -106,17 +106,13 @@ void addFailures(const std::vector<FrameRecord> &frames, std::vector<Failure> *f
 
 }  // namespace
 
-Advice advise(const AdviceOptions &options, const std::function<void(uint32_t done, uint32_t total)> &progress) {
-  const auto reader = openRecording(options.recording);
+Advice advise(RecordingReader *reader, const AdviceOptions &options,
+              const std::function<void(uint32_t done, uint32_t total)> &progress) {
   const std::vector<Block> blocks = blocksOf(*reader, options.folds);
   Advice advice;
-  advice.damage = damageOf(reader->recording());
   RgbdImportSummary summary;
-  const PointModel whole = importRgbd({{reader.get()}}, options.import, nullptr, &summary);
-  const auto note_left_out = [&advice, &summary] {
-    for (const std::string &sentence : framesLeftOut(summary)) advice.left_out.insert(sentence);
-  };
-  note_left_out();
+  const PointModel whole = importRgbd({{reader}}, options.import, nullptr, &summary);
+  for (const std::string &sentence : framesLeftOut(summary)) advice.left_out.insert(sentence);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);
   advice.coverage = coverageOf(advice.directions, kMostHoles);
@@ -125,10 +121,10 @@ Advice advise(const AdviceOptions &options, const std::function<void(uint32_t do
   for (uint32_t k = 0; k < blocks.size(); ++k) {
     const Block &block = blocks[k];
     progress(k + 1, options.folds + 1);
-    const RgbdSource others = {reader.get(),
+    const RgbdSource others = {reader,
                                [&block](uint32_t index) { return index < block.first || index > block.last; }};
-    const PointModel model = importRgbd({others}, options.import, nullptr, &summary);
-    note_left_out();
+    RgbdImportSummary unused;
+    const PointModel model = importRgbd({others}, options.import, nullptr, &unused);
     RecordingOptions held_out = options.recording;
     held_out.first = block.first_sequence;
     held_out.last = block.last_sequence;

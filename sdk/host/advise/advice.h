@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "host/frames/damage.h"
 #include "host/frames/recording.h"
 #include "host/import/rgbd_import.h"
 #include "host/report/coverage.h"
@@ -35,7 +34,6 @@ struct Failure {
 };
 
 struct Advice {
-  Damage damage;                   // of the recording
   std::set<std::string> left_out;  // frames that took no part, a sentence each
   size_t points = 0;
   Coverage coverage;
@@ -44,7 +42,8 @@ struct Advice {
   std::vector<Failure> failures;
 };
 
-// Throws UsageError, or std::runtime_error with cause and cure.
-Advice advise(const AdviceOptions &options, const std::function<void(uint32_t done, uint32_t total)> &progress);
+// `reader`: of options.recording.  Throws UsageError, or std::runtime_error with cause and cure.
+Advice advise(RecordingReader *reader, const AdviceOptions &options,
+              const std::function<void(uint32_t done, uint32_t total)> &progress);
 
 }  // namespace sphc::host

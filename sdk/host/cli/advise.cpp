@@ -87,9 +87,11 @@ int run(const AdviseOptions &options, const Console &console) {
   files.reads(options.advice.recording);
   files.writes("--picture", options.picture, holds(kPictureMark));
   files.check();
+  const auto reader = openRecording(options.advice.recording);
+  noteDamage(*reader, console);
   ProgressBar bar("holding out");
-  const Advice advice = advise(options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
-  noteDamage(options.advice.recording.folder, advice.damage, console);
+  const Advice advice =
+      advise(reader.get(), options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   for (const std::string &left_out : advice.left_out) console.warn("note: " + left_out);
   tell(options, advice, console);
   if (!options.picture.empty()) {

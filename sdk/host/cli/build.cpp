@@ -132,7 +132,7 @@ struct Outcome {
   double seconds = 0;
 };
 
-Outcome build(const BuildOptions &options) {
+Outcome build(const BuildOptions &options, const Console &console) {
   const auto start = std::chrono::steady_clock::now();
   Outcome outcome;
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
@@ -141,7 +141,7 @@ Outcome build(const BuildOptions &options) {
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
-  outcome.import = importPoints(options.source);
+  outcome.import = importPoints(options.source, console);
   if (options.source.model.empty()) outcome.import.model.band = options.band;
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
@@ -210,7 +210,7 @@ nlohmann::ordered_json releaseJson(const Outcome &outcome) {
 }
 
 int run(const BuildOptions &options, const Console &console) {
-  const Outcome outcome = build(options);
+  const Outcome outcome = build(options, console);
   const MapId &map_id = outcome.place.releases.back().map_id;
   if (options.understood) console.warn("note: --i-understand: points that other maps hold too are now exposed");
   tell(options, outcome, console);

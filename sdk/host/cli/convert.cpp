@@ -32,19 +32,17 @@ struct ConvertOptions {
   std::string out;
   Target target = Target::kByName;
   sphc_recorder_config recorder = {};
-
-  bool isPart() const { return in.first > 0 || in.last < UINT32_MAX || in.step > 1; }
 };
 
 struct Result {
-  uint32_t color = 0, depth = 0, poses = 0, accelerations = 0, unreadable = 0, unpaired = 0, amplitudes = 0;
+  uint32_t color = 0, depth = 0, poses = 0, accelerations = 0, unpaired = 0, amplitudes = 0;
+  uint32_t unreadable = 0, unreadable_poses = 0;  // images or frames, and the poses of these
 };
 
 // What is told of a recording once it is converted.
 struct Facts {
   bool is_mcap;
   uint32_t depth_count, pose_count, acceleration_count;
-  Damage damage;
 };
 
 struct ReplayCloser {
@@ -131,8 +129,8 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
     }
     if (options.in.step > 1)  // images between those that are chosen are not lost
       capture.sequence = capture.stream == SPHC_STREAM_COLOR ? capture.sequence / options.in.step : result.depth;
-    if (options.isPart() && from_ns == INT64_MIN) from_ns = capture.time_ns - kAroundNs;
-    if (options.isPart()) to_ns = std::min(capture.time_ns, INT64_MAX - kAroundNs) + kAroundNs;
+    if (options.in.isPart() && from_ns == INT64_MIN) from_ns = capture.time_ns - kAroundNs;
+    if (options.in.isPart()) to_ns = std::min(capture.time_ns, INT64_MAX - kAroundNs) + kAroundNs;
     poses.writeUpTo(capture.time_ns, from_ns, out);
     felt.writeUpTo(capture.time_ns, from_ns, out);
     out->add(capture);
@@ -156,13 +154,14 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
     bar.show(i, reader->frameCount());
     std::string why;
+    const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     const std::optional<sphc_localizer_frame> frame = reader->tryRead(i, &why);
     if (!frame) {
       console.warn("left out: " + why);
       ++result.unreadable;
+      result.unreadable_poses += pose ? 1 : 0;
       continue;
     }
-    const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     add(*frame, pose ? &*pose : nullptr);
     ++result.color;
     ++result.depth;
@@ -196,10 +195,11 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
 
 Result convertFrames(const ConvertOptions &options, const Console &console, Facts *facts) {
   const auto reader = openRecording(options.in);
+  noteDamage(*reader, console);
   const recording::Recording &recording = reader->recording();
   *facts = {recording.layout == recording::Layout::kMcap, static_cast<uint32_t>(recording.depth.size()),
             static_cast<uint32_t>(recording.poses.poses().size()),
-            static_cast<uint32_t>(recording.accelerations.size()), damageOf(recording)};
+            static_cast<uint32_t>(recording.accelerations.size())};
   return options.target == Target::kRaw ? writeRaw(reader.get(), options.out, console)
                                         : write7Scenes(reader.get(), options.out, console);
 }
@@ -207,8 +207,8 @@ Result convertFrames(const ConvertOptions &options, const Console &console, Fact
 Result convertStreams(const ConvertOptions &options, const Console &console, Facts *facts) {
   const Replay replay = openStreams(options);
   const sphc_replay_info info = infoOf(replay.get());
-  *facts = {info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count, info.acceleration_count,
-            damageOf(info)};
+  noteDamage(options.in.folder, damageOf(info), console);
+  *facts = {info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count, info.acceleration_count};
   const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
   const Result result = copyStreams(replay.get(), options, out.get(), console);
   out->close();
@@ -218,7 +218,6 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
 // What the new layout does not keep.
 void tellLosses(const ConvertOptions &options, const Facts &facts, const Result &result, const Console &console) {
   const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
-  noteDamage(options.in.folder, facts.damage, console);
   if (options.target == Target::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
   if (result.amplitudes && options.target != Target::kMcap)
@@ -227,11 +226,12 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
   if (facts.acceleration_count && options.target != Target::kMcap)
     console.warn("note: left out: " + counted(facts.acceleration_count, "acceleration") +
                  "; an MCAP file keeps them");
-  if (is_by_frame && facts.depth_count > result.depth)
-    console.warn("note: left out: " + counted(facts.depth_count - result.depth, "depth image") +
+  const uint32_t paired = result.depth + result.unreadable, posed = result.poses + result.unreadable_poses;
+  if (is_by_frame && facts.depth_count > paired)
+    console.warn("note: left out: " + counted(facts.depth_count - paired, "depth image") +
                  " without a colour image near in time");
-  if (is_by_frame && !options.isPart() && facts.pose_count > result.poses)
-    console.warn("note: left out: " + counted(facts.pose_count - result.poses, "pose") + " between frames");
+  if (is_by_frame && !options.in.isPart() && facts.pose_count > posed)
+    console.warn("note: left out: " + counted(facts.pose_count - posed, "pose") + " between frames");
   if (options.target == Target::kTum && facts.is_mcap)
     console.warn("note: the TUM layout has no sequence numbers, clocks and exposures");
   if (result.unpaired)
@@ -254,6 +254,8 @@ int convert(ConvertOptions options, const Console &console) {
   if (is_folder ? by_name != Target::kTum : by_name != options.target)
     throw UsageError("a file's name must end with .mcap or .raw, as --to says, and a folder's name with neither: " +
                      options.out);
+  if (options.recorder.jpeg_quality && options.target != Target::kMcap)
+    throw UsageError("--jpeg is of an MCAP file; give the new recording a name that ends in .mcap");
   FileUse files(false);
   files.reads("the recording", options.in.folder);
   files.reads("--calibration", options.in.calibration);

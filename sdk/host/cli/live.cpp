@@ -32,6 +32,12 @@ struct LiveOptions {
   sphc_localizer_config config = spherecloud::defaultConfig();
 };
 
+const char kNotLocalized[] =
+    "Not one frame was localized. Is this the place that the map shows? `spherecloud doctor` says whether cameras "
+    "and "
+    "calibration are right.";
+const char kNoPair[] = "Not one pair of images came. `spherecloud doctor` says what the cameras do.";
+
 struct LiveTally {
   uint32_t frames = 0, localized = 0, skipped = 0;
   double total_ms = 0;
@@ -68,7 +74,7 @@ nlohmann::ordered_json frameJson(const CapturePair &pair, const sphc_localizer_r
       {"depth_sequence", pair.depth.sequence},
       {"state", stateName(result.state)},
       {"localized", result.outcome == SPHC_OUTCOME_LOCALIZED},
-      {"outcome", result.outcome},
+      {"outcome", outcomeName(result.outcome)},
       {"map", result.map_id == SPHC_MAP_NONE ? nlohmann::ordered_json() : nlohmann::ordered_json(result.map_id)},
       {"faults", faultNames(result.faults)},
       {"cuts", cutNames(result.cuts)},
@@ -180,7 +186,9 @@ int run(const LiveOptions &options, const Console &console) {
   }
   line.wipe();
   sayTally(tally, rig, console);
-  return tally.localized > 0 ? kExitDone : kExitNotLocalized;
+  if (tally.localized > 0) return kExitDone;
+  console.warn(tally.frames > 0 ? kNotLocalized : kNoPair);
+  return kExitNotLocalized;
 }
 
 const char kLiveExample[] =

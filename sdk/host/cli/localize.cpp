@@ -72,6 +72,8 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   }
   input.reader = reader;
   input.deadline_us = options.deadline_us;
+  if (options.odometry && reader->recording().poses.poses().empty())
+    console.warn("note: --odometry: the recording holds no poses to play");
   input.play_odometry = options.odometry;
   input.config = options.config;
   input.parameters = options.parameters;
@@ -113,7 +115,9 @@ int run(const LocalizeOptions &options, const Console &console) {
   const auto reader = openRecording(options.recording);
   noteDamage(*reader, console);
   Run done = localize(options, reader.get(), console);
-  if (options.align) alignTruth(&done);
+  if (options.align && !alignTruth(&done))
+    console.warn(
+        "note: --align: fewer than 3 localized frames have a pose in the recording, so no errors are known");
   const Summary summary = summarize(done);
   console.say(tableText(tableRows(done, summary)));
   writeOutputs(options, done, reader.get(), console);

@@ -227,13 +227,14 @@ std::string trajectoryText(const MappedRecording &recording) {
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-MapOutcome mapRecordings(const MapOptions &options) {
+MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   const auto start = std::chrono::steady_clock::now();
   const double processor_start = processorSeconds();
   MapOutcome outcome;
   Steps steps;
   outcome.use = options.trust.use;
   outcome.recordings = openAll(options);
+  for (const MappedRecording &recording : outcome.recordings) noteDamage(*recording.reader, console);
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome.walk);
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
@@ -282,11 +283,10 @@ int run(MapOptions options, const Console &console) {
   options.trust.drift_rad = options.drift_deg * kPi / 180;
   std::optional<CalibrationDifference> refined;
   if (!options.refined_calibration.empty()) refined = refineCalibration(&options, console);
-  const MapOutcome outcome = mapRecordings(options);
+  const MapOutcome outcome = mapRecordings(options, console);
   console.say(tableText(mapTable(outcome)));
   warnOfMap(outcome, console);
   for (const MappedRecording &recording : outcome.recordings) {
-    noteDamage(*recording.reader, console);
     if (options.score && recording.framesMapped() > 0 && !recording.score)
       console.warn("note: no score of " + recording.name +
                    ": fewer than 3 frames have a pose that was found and one that the recording holds");
@@ -316,14 +316,15 @@ void addPoseOptions(CLI::App *app, MapOptions *options) {
   const char *group = "Poses that are known";
   const std::map<std::string, PoseUse> uses = {
       {"none", PoseUse::kNone}, {"odometry", PoseUse::kOdometry}, {"approximate", PoseUse::kApproximate}};
-  app->add_option("--poses", options->trust.use,
-                  "What to believe of the recording's poses [none]:\n"
-                  "  none          nothing\n"
-                  "  odometry      how neighbouring frames moved; it drifts\n"
-                  "  approximate   where each frame was, but for noise; the map is in their world")
-      ->transform(CLI::CheckedTransformer(uses).description(""))
-      ->type_name("HOW")
-      ->group(group);
+  CLI::Option *poses =
+      app->add_option("--poses", options->trust.use,
+                      "What to believe of the recording's poses [none]:\n"
+                      "  none          nothing\n"
+                      "  odometry      how neighbouring frames moved; it drifts\n"
+                      "  approximate   where each frame was, but for noise; the map is in their world")
+          ->transform(CLI::CheckedTransformer(uses).description(""))
+          ->type_name("HOW")
+          ->group(group);
   app->add_option("--poses-from", options->told,
                   "File of poses in TUM format, in place of the recording's; once for each recording")
       ->allow_extra_args(false)
@@ -332,22 +333,26 @@ void addPoseOptions(CLI::App *app, MapOptions *options) {
   app->add_option("--pose-sigma", options->trust.sigma_m, "Approximate: how far places are off, metres, 1 sigma")
       ->capture_default_str()
       ->check(between(1e-4, 10))
+      ->needs(poses)
       ->type_name("M")
       ->group(group);
   app->add_option("--pose-sigma-deg", options->sigma_deg, "Approximate: how far they are turned, degrees")
       ->capture_default_str()
       ->check(between(1e-3, 90))
+      ->needs(poses)
       ->type_name("DEG")
       ->group(group);
   app->add_option("--drift", options->drift_percent,
                   "Odometry: how far a metre of the way is off, per cent, 1 sigma")
       ->capture_default_str()
       ->check(between(0, 100))
+      ->needs(poses)
       ->type_name("PERCENT")
       ->group(group);
   app->add_option("--drift-deg", options->drift_deg, "Odometry: how far a metre turns it, degrees")
       ->capture_default_str()
       ->check(between(0, 90))
+      ->needs(poses)
       ->type_name("DEG")
       ->group(group);
   app->add_flag("--upright", options->trust.keeps_axes,

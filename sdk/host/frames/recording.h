@@ -13,6 +13,8 @@ using recording::RecordingReader;
 struct RecordingOptions {
   std::string folder, calibration;  // no calibration: the recording's own
   uint32_t first = 0, last = UINT32_MAX, step = 1;
+
+  bool isPart() const { return first > 0 || last < UINT32_MAX || step > 1; }
 };
 
 // Throws UsageError.

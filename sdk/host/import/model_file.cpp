@@ -110,12 +110,14 @@ std::vector<uint8_t> readPrivate(const std::string &path) {
   if (file.get() < 0 || fstat(file.get(), &facts) != 0)
     refuse(std::string(std::strerror(errno)) + "; is the file there?");
   if (!S_ISREG(facts.st_mode)) refuse("it is no file; give one that build --save-model wrote");
-  if (facts.st_mode & (S_IRWXG | S_IRWXO))
-    refuse("others may read it, and it tells where every point is; run: chmod 600 " + path);
   const auto size = static_cast<uint64_t>(facts.st_size);
   if (size < sizeof(Header) || size > sizeof(Header) + kMostPoints * uint64_t{kPointBytes})
     refuse("this is no point model; give a file that build --save-model wrote");
-  return readAll(file.get(), size);
+  std::vector<uint8_t> bytes = readAll(file.get(), size);
+  const bool is_model = std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
+  if (is_model && facts.st_mode & (S_IRWXG | S_IRWXO))
+    refuse("others may read it, and it tells where every point is; run: chmod 600 " + path);
+  return bytes;
 }
 
 template <typename Action>

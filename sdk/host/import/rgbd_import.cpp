@@ -78,15 +78,11 @@ class Census {
     for (int i = 0; i < 4; ++i) moved_ = moved_ || std::abs(pose.q_wxyz[i] - first_.q_wxyz[i]) > kSamePose;
     for (int i = 0; i < 3; ++i) moved_ = moved_ || std::abs(pose.t_m[i] - first_.t_m[i]) > kSamePose;
   }
-  void unreadable(const std::string &why) {
-    if (why_.empty()) why_ = why;
-  }
-
   void check(const RgbdImportSummary &s) const {
     const auto count = [](uint64_t n) { return std::to_string(n); };
     if (s.frames_used == 0 && s.frames_unreadable > 0)
       throw std::runtime_error("not one frame can be read: of " + count(s.frames_unreadable) +
-                               " with a pose the first says: " + why_);
+                               " with a pose the first says: " + s.first_unreadable);
     if (s.frames_used == 0)
       throw std::runtime_error(
           "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
@@ -100,7 +96,6 @@ class Census {
   sphc_rigid first_ = {};
   uint32_t poses_ = 0;
   bool moved_ = false;
-  std::string why_;
 };
 
 class Importer {
@@ -140,8 +135,7 @@ class Importer {
     if (!pose) {
       ++summary_->frames_without_pose;
     } else if (!frame) {
-      ++summary_->frames_unreadable;
-      census_.unreadable(why);
+      if (++summary_->frames_unreadable == 1) summary_->first_unreadable = why;
     } else {
       census_.pose(*pose);
       place(*frame, rigidFromC(*pose), describer);
@@ -177,11 +171,11 @@ PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImpor
 
 std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
   std::vector<std::string> sentences;
-  const auto add = [&sentences](uint32_t count, const char *what) {
-    if (count) sentences.push_back(counted(count, "frame") + " " + what);
-  };
-  add(summary.frames_without_pose, "without a pose took no part");
-  add(summary.frames_unreadable, "could not be read and took no part");
+  if (summary.frames_without_pose)
+    sentences.push_back(counted(summary.frames_without_pose, "frame") + " without a pose took no part");
+  if (summary.frames_unreadable)
+    sentences.push_back(counted(summary.frames_unreadable, "frame") +
+                        " could not be read and took no part; the first: " + summary.first_unreadable);
   return sentences;
 }
 

@@ -40,6 +40,7 @@ struct MovingSummary {
 
 struct RgbdImportSummary {
   uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
+  std::string first_unreadable;                    // which, and why
   uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
   uint32_t points_kept = 0, points_dropped = 0;
   MovingSummary moving;  // of the points that were dropped, those that moved

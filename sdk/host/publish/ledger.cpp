@@ -64,7 +64,7 @@ void checkMode(const std::string &path) {
   if (!S_ISREG(facts.st_mode))
     refuse(path, std::string(S_ISDIR(facts.st_mode) ? "this is a folder" : "this is a device or a pipe") +
                      "; give the ledger itself, a file");
-  if (facts.st_mode & (S_IRWXG | S_IRWXO))
+  if (isLedger(path) && facts.st_mode & (S_IRWXG | S_IRWXO))
     refuse(path, "others may read it, and it tells real points from fake ones; run: chmod 600 " + path);
 }
 

@@ -250,7 +250,9 @@ Recording openMcap(const fs::path &path) {
   if (window.fileSize() == 0)
     throw Failure(SPHC_E_DEVICE, file.name() + ": is empty; copy it again from where it was recorded");
   if (!hasMagic(window, 0))
-    throw Failure(SPHC_E_DEVICE, file.name() + ": is no MCAP file; give one that the recorder wrote, or a folder");
+    throw Failure(SPHC_E_DEVICE, file.name() +
+                                     ": is no recording by its first bytes, of MCAP, raw, .bag, .mkv or .r3d; copy "
+                                     "it again, or give another file or a folder");
   const bool is_whole = hasMagic(window, window.fileSize() - sizeof kMcapMagic);
   McapScan quick(file, !is_whole);
   Recording recording = quick.run();

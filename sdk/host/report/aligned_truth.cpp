@@ -1,7 +1,6 @@
 #include "host/report/aligned_truth.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "host/report/statistics.h"
 #include "runtime/geometry/rigid.h"
@@ -10,6 +9,7 @@ namespace sphc::host {
 namespace {
 
 constexpr int kRounds = 10;
+constexpr size_t kFewest = 3;  // poses by which two worlds are aligned
 constexpr double kFarOverMedian = 4, kNeverFarM = 0.01;
 
 struct PosePair {
@@ -26,10 +26,6 @@ Corners cornersOf(const Rigid &pose) {
 }
 
 Rigid truthFromEstimate(const std::vector<PosePair> &poses) {
-  if (poses.size() < 3)
-    throw std::runtime_error(
-        "only " + std::to_string(poses.size()) +
-        " localized frames have a pose in the recording; 3 are needed to align the two worlds");
   const auto count = static_cast<Eigen::Index>(poses.size());
   Eigen::Matrix3Xd estimated(3, 4 * count), truth(3, 4 * count);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -57,11 +53,15 @@ std::vector<PosePair> near(const std::vector<PosePair> &poses, const Rigid &true
 
 }  // namespace
 
-void alignTruth(Run *run) {
+bool alignTruth(Run *run) {
   std::vector<PosePair> all;
   for (const FrameRecord &frame : run->frames)
     if (frame.localized && frame.has_truth)
       all.push_back({rigidFromC(frame.base_from_camera), rigidFromC(frame.truth_base_from_camera)});
+  if (all.size() < kFewest) {
+    for (FrameRecord &frame : run->frames) frame.has_truth = false;
+    return false;
+  }
   std::vector<PosePair> used = all;
   Rigid true_from_estimated = truthFromEstimate(used);
   for (int round = 0; round < kRounds; ++round) {
@@ -75,6 +75,7 @@ void alignTruth(Run *run) {
     frame.truth_base_from_camera = rigidToC(estimated_from_true * rigidFromC(frame.truth_base_from_camera));
     judge(&frame);
   }
+  return true;
 }
 
 }  // namespace sphc::host

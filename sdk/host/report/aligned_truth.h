@@ -6,8 +6,8 @@ namespace sphc::host {
 
 // Moves the truth of all frames by the one rigid transform that brings it nearest to the localized poses (least
 // squares over the cameras' places and what lies 1 m along their axes, without poses that stay far off), and judges
-// the frames anew.  Run::aligned_frames says how many poses it rests on.  Throws std::runtime_error where fewer
-// than three poses have a truth.
-void alignTruth(Run *run);
+// the frames anew.  Run::aligned_frames says how many poses it rests on.  False where fewer than three poses have a
+// truth: then it lies in an unknown world, and is dropped.
+bool alignTruth(Run *run);
 
 }  // namespace sphc::host

@@ -29,9 +29,11 @@ void addHints(const Summary &s, std::vector<Row> *rows) {
           {std::string("no pose, ") + kHintWords[i].name, share(s.hints[i], s.frames), kHintWords[i].cure});
 }
 
-void addErrors(const Summary &s, std::vector<Row> *rows) {
+void addErrors(const Run &run, const Summary &s, std::vector<Row> *rows) {
   if (s.with_truth == 0) {
-    rows->push_back({"error against the truth", "not known", "give --owner-note, and a recording with poses"});
+    rows->push_back({"error against the truth", "not known",
+                     run.base == "map" ? "give --owner-note, and a recording with poses"
+                                       : "no pose of the recording can be compared"});
     return;
   }
   rows->push_back({"within 5 cm and 5 deg", share(s.good, s.with_truth), ofTotal(s.good, s.with_truth)});
@@ -82,7 +84,7 @@ std::vector<Row> tableRows(const Run &run, const Summary &s) {
   if (run.aligned_frames)
     rows.push_back({"TRUTH ALIGNED", counted(run.aligned_frames, "pose"),
                     "the errors are what a rigid alignment of the recording's poses to the map leaves (--align)"});
-  addErrors(s, &rows);
+  addErrors(run, s, &rows);
   addCalibration(run, &rows);
   rows.push_back({"time per frame, median", fixed(s.stage_median_ms[kTotal], 1) + " ms", stageNote(s)});
   const double device = static_cast<double>(run.state_bytes + run.scratch_bytes + mapBytes(run));

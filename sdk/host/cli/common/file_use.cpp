@@ -1,5 +1,6 @@
 #include "host/cli/common/file_use.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,6 +56,13 @@ void checkParent(const std::string &option, const std::string &path) {
     refuse(option, path, "cannot be written: there is no folder " + folder.string() + "; make it first");
   if (!fs::exists(path, error) && access(folder.c_str(), W_OK | X_OK) != 0)
     refuse(option, path, "cannot be written: nothing may be made in " + folder.string() + "; choose another place");
+}
+
+// Both at once would be mixed, or one would overwrite the other.
+bool isStandardOutput(const std::string &path) {
+  struct stat file, standard;
+  return stat(path.c_str(), &file) == 0 && fstat(STDOUT_FILENO, &standard) == 0 && file.st_dev == standard.st_dev &&
+         file.st_ino == standard.st_ino;
 }
 
 // What a killed command leaves, by the name that writeFile gives.
@@ -146,8 +154,10 @@ void FileUse::check() const {
 void FileUse::checkFile(const Output &output) const {
   std::error_code error;
   const std::string &path = output.path;
-  checkParent(output.option, path);
   const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_character_file(status) && isStandardOutput(path))
+    refuse(output.option, path, "is where this command's own words go; give a file of its own");
+  checkParent(output.option, path);
   if (!fs::exists(status)) return;
   if (fs::is_directory(status)) refuse(output.option, path, "is a folder; give the name of a file");
   if (output.kind == Kind::kKept || fs::is_character_file(status) || fs::is_fifo(status)) return;

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <regex>
 
+#include "host/report/run.h"
+
 namespace sphc::host {
 namespace {
 
@@ -33,6 +35,9 @@ std::string withOptionNames(const std::string &text, const CLI::App &command) {
     // Named again further on, it often has no "config." in front.
     result = std::regex_replace(result, std::regex("\\b(config\\.|SPHC_PARAMETER_)?" + field + "\\b"), option);
   }
+  if (command.get_option_no_throw("--band"))
+    for (sphc_band band : {SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED})
+      result = std::regex_replace(result, std::regex(sphc_band_name(band)), bandName(band));
   return result;
 }
 

@@ -186,6 +186,10 @@ void checkPointSource(const PointSource &source) {
   const ColmapImportOptions &colmap = source.colmap;
   const int sources = !source.recording.folder.empty() + !colmap.model.empty() + !source.model.empty();
   if (sources != 1) throw UsageError("--recording, --colmap or --model is required, one of the three");
+  if (source.recording.folder.empty() && source.recording.isPart())
+    throw UsageError("--first, --last and --step choose frames of a --recording; leave them out");
+  if (!source.model.empty() && !source.recording.calibration.empty())
+    throw UsageError("--calibration is of a --recording or of --colmap; leave it out");
   gravityFrom(source.gravity);
   checkMappingOptions(source.import);
   if (colmap.model.empty()) return;
@@ -196,14 +200,12 @@ void checkPointSource(const PointSource &source) {
         "a COLMAP model has no scale: give --scale, metres a unit, or --depth, a folder of depth images");
 }
 
-ImportedPoints importPoints(const PointSource &source) {
+ImportedPoints importPoints(const PointSource &source, const Console &console) {
   if (!source.model.empty()) return fromModel(source);
   if (!source.colmap.model.empty()) return fromColmap(source);
   const auto reader = openRecording(source.recording);
-  ImportedPoints imported = importRecordings({{reader.get()}}, source.import, describeSelection(source.recording));
-  for (const std::string &sentence : sentencesOf(damageOf(reader->recording())))
-    imported.warnings.push_back(source.recording.folder + ": " + sentence);
-  return imported;
+  noteDamage(*reader, console);
+  return importRecordings({{reader.get()}}, source.import, describeSelection(source.recording));
 }
 
 }  // namespace sphc::host

@@ -30,7 +30,7 @@ struct ImportedPoints {
 void checkMappingOptions(const RgbdImportOptions &import);
 void checkPointSource(const PointSource &source);
 // Of a source that passed the check.  Throws std::runtime_error with cause and cure.
-ImportedPoints importPoints(const PointSource &source);
+ImportedPoints importPoints(const PointSource &source, const Console &console);
 // Of recordings that are open, the oldest first; `selection` says which of their frames (describeSelection()).
 ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
                                 const std::string &selection);

@@ -64,7 +64,8 @@ int parseAndRun(const Program &program, int argc, char **argv) {
       Console::checkOutput();
       return status;
     }
-    return usage(root, error.what());
+    const bool is_unknown = root.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
+    return usage(root, is_unknown ? std::string("there is no subcommand ") + argv[1] : error.what());
   }
   try {
     return runChosen(commands, console);

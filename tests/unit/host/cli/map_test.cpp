@@ -60,6 +60,10 @@ TEST_F(MapTest, AWalkWithoutPosesBecomesAMapThatLocalizes) {
   EXPECT_GE(summary["aligned_frames"], 8);
   EXPECT_GE(summary["within_5cm_5deg"], 9);
   EXPECT_EQ(summary["wrong_accepted"], 0);
+  const Answer two = runCommand(localize + " --align --last 1");
+  EXPECT_EQ(two.exit_code, kExitDone) << "what was found is worth a table without errors";
+  EXPECT_THAT(two.err, HasSubstr("--align: fewer than 3 localized frames have a pose"));
+  EXPECT_TRUE(nlohmann::json::parse(two.out)["within_5cm_5deg_percent"].is_null());
   // The map's world is its first camera, not the recording's.
   EXPECT_EQ(nlohmann::json::parse(runCommand(localize).out)["within_5cm_5deg"], 0);
 }

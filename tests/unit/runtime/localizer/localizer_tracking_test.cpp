@@ -71,6 +71,11 @@ class Walk {
   void scaleDepth(double scale) { depth_scale_ = scale; }
   void forget() { sphc_localizer_reset(session_.localizer()); }
   void setClockBack() { time_ns_ -= 2 * kStepNs; }
+  void replaceMap() { ASSERT_EQ(sphc_localizer_set_map(session_.localizer(), 0, session_.map()), SPHC_OK); }
+  void takeMapAwayAndGiveItBack() {
+    ASSERT_EQ(sphc_localizer_remove_map(session_.localizer(), 0), SPHC_OK);
+    replaceMap();
+  }
 
  private:
   static Rigid sceneViewpoint(uint32_t i) { return test::sceneViewpoint(i); }
@@ -269,8 +274,9 @@ TEST(LocalizerTracking, PointsThatLieElsewhereThanTheyDidTakeThePoseAway) {
   EXPECT_EQ(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED);
 }
 
-TEST(LocalizerTracking, WhatPointsSaidIsForgottenWithAResetAndWithTheClock) {
-  for (void (Walk::*anew)() : {&Walk::forget, &Walk::setClockBack}) {
+TEST(LocalizerTracking, WhatPointsSaidIsForgottenWithAResetTheClockAndTheMap) {
+  for (void (Walk::*anew)() :
+       {&Walk::forget, &Walk::setClockBack, &Walk::replaceMap, &Walk::takeMapAwayAndGiveItBack}) {
     Walk walk(trackingConfig());
     for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
     walk.scaleDepth(1.2);
@@ -278,6 +284,14 @@ TEST(LocalizerTracking, WhatPointsSaidIsForgottenWithAResetAndWithTheClock) {
     (walk.*anew)();
     EXPECT_EQ(walk.see(4).outcome, SPHC_OUTCOME_LOCALIZED);
   }
+}
+
+TEST(LocalizerTracking, WhatPointsSaidIsForgottenInAnotherMap) {
+  Walk walk(trackingConfig(), 0.5, 2);
+  for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
+  EXPECT_EQ(walk.see(0, 1).outcome, SPHC_OUTCOME_LOCALIZED);
+  walk.scaleDepth(1.2);
+  EXPECT_EQ(walk.see(3).outcome, SPHC_OUTCOME_LOCALIZED);
 }
 
 }  // namespace

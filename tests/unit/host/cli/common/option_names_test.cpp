@@ -22,7 +22,7 @@ TEST_F(OptionNames, FieldsThatAnOptionSets) {
 }
 
 TEST_F(OptionNames, AFieldThatIsNamedAgain) {
-  EXPECT_EQ(said("config.color_band is visible; give that map, or set color_band to what it is"),
+  EXPECT_EQ(said("config.color_band is SPHC_BAND_VISIBLE; give that map, or set color_band to what it is"),
             "--band is visible; give that map, or set --band to what it is");
 }
 
