@@ -1,12 +1,11 @@
 #include "lab/deadline/run.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "host/evaluate/localize_run.h"
 #include "host/report/statistics.h"
+#include "lab/deadline/processor_clock.h"
 #include "lab/negative/run.h"
 
 namespace sphc::host {
@@ -14,12 +13,7 @@ namespace {
 
 constexpr double kRightM = 0.05, kRightDeg = 5;
 
-// Of this thread: what other programs of a machine take does not count.
-int64_t processorNanoseconds(void *) {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return now.tv_sec * 1000000000ll + now.tv_nsec;
-}
+int64_t nowOf(void *clock) { return static_cast<ProcessorClock *>(clock)->now_ns(); }
 
 void count(const DeadlineInput &input, const Shot &shot, const sphc_localizer_result &result, DeadlineRow *row) {
   row->features_cut += (result.cuts & SPHC_CUT_FEATURES) != 0;
@@ -51,10 +45,12 @@ std::vector<Lane> lanesOf(const DeadlineInput &input) {
   return lanes;
 }
 
-std::vector<spherecloud::Localizer> localizersOf(const DeadlineInput &input, size_t count, uint32_t repeat) {
+std::vector<spherecloud::Localizer> localizersOf(const DeadlineInput &input, size_t count, uint32_t repeat,
+                                                 ProcessorClock *clock) {
   sphc_localizer_config config = input.config;
   setCameras(input.sequences.front().rig, &config);
-  config.clock = processorNanoseconds;
+  config.clock = nowOf;
+  config.clock_user = clock;
   config.seed += repeat;
   std::vector<spherecloud::Localizer> localizers;
   for (size_t i = 0; i < count; ++i) localizers.push_back(makeLocalizer(config, *input.maps, input.parameters));
@@ -68,15 +64,15 @@ uint32_t halfOf(const std::vector<double> &times_us) {
 }
 
 void process(const DeadlineInput &input, const Sequence &sequence, const Shot &shot,
-             spherecloud::Localizer *localizer, Lane *lane) {
+             spherecloud::Localizer *localizer, ProcessorClock *clock, Lane *lane) {
   DeadlineRow &row = lane->row;
   sphc_localizer_frame frame = frameOf(sequence, shot, row.frames++);
   frame.prior = nullptr;
   frame.deadline_us = row.deadline_us;
   sphc_localizer_result result = spherecloud::emptyResult();
-  const int64_t begin = processorNanoseconds(nullptr);
+  const int64_t begin_ns = clock->now_ns();
   const spherecloud::Status status = localizer->process(frame, &result);
-  lane->times_us.push_back(static_cast<double>(processorNanoseconds(nullptr) - begin) / 1000);
+  lane->times_us.push_back(static_cast<double>(clock->now_ns() - begin_ns) / 1000);
   if (status.failed()) throw std::runtime_error(status.text());
   row.in_time += row.deadline_us == 0 || lane->times_us.back() <= row.deadline_us + kLateUs;
   count(input, shot, result, &row);
@@ -97,16 +93,17 @@ DeadlineRow rowOf(Lane lane) {
 std::vector<DeadlineRow> runDeadlines(const DeadlineInput &input,
                                       const std::function<void(uint32_t, uint32_t)> &progress) {
   std::vector<Lane> lanes = lanesOf(input);
+  ProcessorClock clock;
   uint32_t total = 0;
   for (const Sequence &sequence : input.sequences)
     total += input.repeats * static_cast<uint32_t>(sequence.shots.size());
   for (uint32_t repeat = 0; repeat < input.repeats; ++repeat) {
-    std::vector<spherecloud::Localizer> localizers = localizersOf(input, lanes.size(), repeat);
+    std::vector<spherecloud::Localizer> localizers = localizersOf(input, lanes.size(), repeat, &clock);
     for (const Sequence &sequence : input.sequences)
       for (const Shot &shot : sequence.shots) {
         for (size_t i = 0; i < lanes.size(); ++i) {
           if (lanes[i].half) lanes[i].deadlines_us.push_back(lanes[i].row.deadline_us = halfOf(lanes[0].times_us));
-          process(input, sequence, shot, &localizers[i], &lanes[i]);
+          process(input, sequence, shot, &localizers[i], &clock, &lanes[i]);
         }
         if (progress) progress(lanes[0].row.frames, total);
       }

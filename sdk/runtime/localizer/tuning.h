@@ -33,9 +33,9 @@ constexpr double kFeaturesShare = 0.38, kFeaturesNearShare = 0.43, kLiftShare = 
 // short deadline leaves too little for the other.  Of what is left the matching.
 constexpr double kNearShare = 0.95, kMatchShare = 0.5;
 // Within verification: of a robust search; of guided re-matching, also of an expected pose, which needs no
-// confirmation, and of that of its first cone; of a second search and its re-matching.  What is left is for
-// confirmation.
-constexpr double kSearchShare = 0.6, kRematchShare = 0.8, kRematchNearShare = 0.92, kFirstConeShare = 0.65,
+// confirmation but must know its leverage, and of that of its first cone; of a second search and its re-matching.
+// What is left is for confirmation.
+constexpr double kSearchShare = 0.6, kRematchShare = 0.8, kRematchNearShare = 0.76, kFirstConeShare = 0.65,
                  kAgainShare = 0.5;
 
 // ---- search: where in the maps to look ----
