@@ -50,6 +50,11 @@ bool runGnuplot(const std::string &folder, const std::string &script_name, int *
   return true;
 }
 
+void removeEmpty(const std::string &path) {
+  std::error_code error;
+  if (std::filesystem::file_size(path, error) == 0 && !error) std::filesystem::remove(path, error);
+}
+
 }  // namespace
 
 const char kPlotLook[] =
@@ -65,8 +70,9 @@ PlotResult plot(const std::string &folder, const std::string &name, const std::s
   for (const char *ending : {".svg", ".png"})
     std::filesystem::remove(folder + "/" + name + ending);  // of another run
   int status = 0;
-  if (!runGnuplot(folder, name + ".gp", &status) || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
-    return PlotResult::kNoGnuplot;
+  const bool was_run = runGnuplot(folder, name + ".gp", &status);
+  removeEmpty(folder + "/gnuplot.log");
+  if (!was_run || (WIFEXITED(status) && WEXITSTATUS(status) == 127)) return PlotResult::kNoGnuplot;
   const bool done =
       WIFEXITED(status) && WEXITSTATUS(status) == 0 && std::filesystem::exists(folder + "/" + name + ".svg");
   return done ? PlotResult::kDone : PlotResult::kFailed;

@@ -14,8 +14,8 @@ struct PlotSize {
 };
 
 // Writes FOLDER/NAME.gp (which anybody can run again) and from it NAME.svg and NAME.png.  `script` is everything
-// but terminal and output, and its last line the plot command.  What gnuplot says goes to FOLDER/gnuplot.log.
-// Throws std::runtime_error when the folder cannot be written.
+// but terminal and output, and its last line the plot command.  What gnuplot says, if it does, goes to
+// FOLDER/gnuplot.log.  Throws std::runtime_error when the folder cannot be written.
 PlotResult plot(const std::string &folder, const std::string &name, const std::string &script, PlotSize size);
 
 }  // namespace sphc::host

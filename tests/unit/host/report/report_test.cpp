@@ -79,6 +79,7 @@ TEST_F(ReportTest, DrawsReliabilityWhereThereIsAConfidence) {
   EXPECT_THAT(write(), HasSubstr("Is it as sure as it may be?"));
   EXPECT_EQ(problem_, "");
   EXPECT_TRUE(std::filesystem::exists(folder_ + "/plots/reliability.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/plots/gnuplot.log")) << "there was nothing to say";
 }
 
 TEST_F(ReportTest, WorksWithoutTruth) {
