@@ -12,6 +12,7 @@ using namespace tuning;
 namespace {
 
 static_assert(1 + kInliersBeyondChallenge / kInliersALeverage <= kMostHighLeverage, "so many may be left out");
+static_assert(kFewInliers / 3 <= kMostHighLeverage, "and of few a third");
 
 // Until a pose that was found is judged.
 Outcome outcomeOf(PoseEnding ending) {
@@ -25,8 +26,8 @@ PoseQuery queryAbout(const PoseTask &task, const MatchSet &matched) {
   return query;
 }
 
-void copyWithoutLeverage(const Hypothesis &from, MatchSet *matched) {
-  const auto begin = from.leverage.indices.begin(), end = from.leverage.indices.end();
+void copyWithout(const Leverage &leverage, const Hypothesis &from, MatchSet *matched) {
+  const auto begin = leverage.indices.begin(), end = leverage.indices.end();
   const Span<const Correspondence> all = from.matched.all();
   for (uint32_t i = 0; i < all.size(); ++i)
     if (std::find(begin, end, i) == end) matched->add(all[i]);
@@ -74,6 +75,7 @@ void Verification::verify(const PoseTask &task, Hypothesis *found, Hypothesis *r
   challengeMirrored(task, found, rival);
   challengeByOthers(task, found, rival);
   confirm(task, found, rival);
+  challengeFew(task, found, rival);
   challengeRepeated(task, found, rival);
   if (found->isLocalized() && !found->is_verified) found->outcome = Outcome::kUncertain;
 }
@@ -157,18 +159,41 @@ void Verification::findLeverage(const PoseTask &task, Hypothesis *hypothesis) co
   hypothesis->is_verified = false;
 }
 
+// Makes the rival what is found without some of a pose's matches; false where nothing is.
+bool Verification::searchWithout(const Leverage &leverage, const PoseTask &task, const Hypothesis &found,
+                                 Hypothesis *rival) const {
+  rival->challenge(found);
+  copyWithout(leverage, found, &rival->matched);
+  rival->estimate = estimator_.search(queryAbout(task, rival->matched));
+  work_.samples += rival->estimate.iterations;
+  if (rival->estimate.inliers <= kFewestMatches / 2) return false;
+  rematch(task, rival);
+  return true;
+}
+
 // A pose may rest on one or two wrong matches, far from the others, that turn it by degrees: the better of it and
 // what is found without them stays.
 void Verification::challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (found->leverage.centre_sigma_ratio < kRestsOnFew) return;
   if (isLeftOut(task, found)) return;
-  rival->challenge(*found);
-  copyWithoutLeverage(*found, &rival->matched);
-  rival->estimate = estimator_.search(queryAbout(task, rival->matched));
-  work_.samples += rival->estimate.iterations;
-  if (rival->estimate.inliers > kFewestMatches / 2) {
-    rematch(task, rival);
-    if (rival->estimate.gain > found->estimate.gain) swap(*found, *rival);
+  if (searchWithout(found->leverage, task, *found, rival) && rival->estimate.gain > found->estimate.gain)
+    swap(*found, *rival);
+}
+
+// Of few inliers more than two may be wrong: a right pose is found again without them, and where another one is
+// that gains nearly as much, or more, nobody can tell.
+void Verification::challengeFew(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  const uint32_t inliers = found->estimate.inliers;
+  if (found->guided || inliers >= kFewInliers) return;
+  for (const uint32_t one_in : kLeftOutOfFew) {
+    if (!found->isLocalized() || isLeftOut(task, found)) return;
+    const Leverage leverage =
+        highestLeverage(found->matched.all(), found->estimate, inliers / one_in, task.query.deadline);
+    if (!leverage.is_known && isLeftOut(task, found)) return;
+    if (searchWithout(leverage, task, *found, rival) &&
+        !areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePoseOfFew) &&
+        rival->estimate.gain > kAmbiguousGain * found->estimate.gain)
+      found->doubtForRival();
   }
 }
 

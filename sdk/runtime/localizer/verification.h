@@ -1,9 +1,10 @@
 // From matches to a pose that is to be believed, or not: robust search, guided re-matching with what the pose
 // predicts, then verification against its rivals: what another search finds, what is found without its
 // high-leverage observations, the second pose of a planar scene, and what the other keypoints speak for.  An
-// independent search must confirm it.  A pose that lacks one of these for its deadline is uncertain.  In the end,
-// where what is seen repeats, and there is time, it is compared with poses that are off by the period.  What all
-// that finds no pose of is searched once more, among the matches of a looser ratio test.
+// independent search must confirm it, and one of few inliers must hold without a part of them.  A pose that
+// lacks one of these for its deadline is uncertain.  In the end, where what is seen repeats, and there is time, it
+// is compared with poses that are off by the period.  What all that finds no pose of is searched once more, among
+// the matches of a looser ratio test.
 #pragma once
 #include "runtime/localizer/fusion.h"
 #include "runtime/localizer/ranking.h"
@@ -59,7 +60,10 @@ class Verification {
   bool restsOnRepetition(const Hypothesis &found) const;
   void challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  bool searchWithout(const Leverage &leverage, const PoseTask &task, const Hypothesis &found,
+                     Hypothesis *rival) const;
   void challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  void challengeFew(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
 
   Search &search_;

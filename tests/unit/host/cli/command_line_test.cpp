@@ -461,7 +461,7 @@ void expectBands(const TempFolder &folder, const std::string &build, const std::
 
   const Answer refused = runCommand(localize + " -m " + infrared);
   EXPECT_EQ(refused.exit_code, kExitFailure);
-  EXPECT_THAT(refused.err, HasSubstr("SPHC_BAND_INFRARED"));
+  EXPECT_THAT(refused.err, HasSubstr("the map is of infrared, and --band is visible"));
   EXPECT_EQ(runCommand(localize + " --band infrared -m " + infrared).exit_code, kExitDone);
   EXPECT_EQ(runCommand(localize + " --band ultraviolet -m " + infrared).exit_code, kExitUsage);
 }
