@@ -192,7 +192,7 @@ void Verification::challengeFew(const PoseTask &task, Hypothesis *found, Hypothe
     if (!leverage.is_known && isLeftOut(task, found)) return;
     if (searchWithout(leverage, task, *found, rival) &&
         !areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePoseOfFew) &&
-        rival->estimate.gain > kAmbiguousGain * found->estimate.gain)
+        rival->estimate.gain > kNearlyAsGoodOfFew * found->estimate.gain)
       found->doubtForRival();
   }
 }
