@@ -34,8 +34,7 @@ struct LiveOptions {
 
 const char kNotLocalized[] =
     "Not one frame was localized. Is this the place that the map shows? `spherecloud doctor` says whether cameras "
-    "and "
-    "calibration are right.";
+    "and calibration are right.";
 const char kNoPair[] = "Not one pair of images came. `spherecloud doctor` says what the cameras do.";
 
 struct LiveTally {
