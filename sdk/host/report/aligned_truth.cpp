@@ -3,18 +3,13 @@
 #include <algorithm>
 
 #include "host/report/statistics.h"
-#include "runtime/geometry/rigid.h"
+#include "host/report/trajectory_score.h"
 
 namespace sphc::host {
 namespace {
 
 constexpr int kRounds = 10;
-constexpr size_t kFewest = 3;  // poses by which two worlds are aligned
 constexpr double kFarOverMedian = 4, kNeverFarM = 0.01;
-
-struct PosePair {
-  Rigid estimated, truth;  // base_from_camera
-};
 
 // The camera's place and what lies 1 m along its axes: places alone tell little of the rotation where they are near
 // each other.
@@ -58,7 +53,7 @@ bool alignTruth(Run *run) {
   for (const FrameRecord &frame : run->frames)
     if (frame.localized && frame.has_truth)
       all.push_back({rigidFromC(frame.base_from_camera), rigidFromC(frame.truth_base_from_camera)});
-  if (all.size() < kFewest) {
+  if (all.size() < kFewestScored) {
     for (FrameRecord &frame : run->frames) frame.has_truth = false;
     return false;
   }

@@ -8,9 +8,9 @@
 
 namespace sphc::host {
 
-// The same camera, in the world of the estimate and in the true one.
+// The same camera, in the world (or other base) of the estimate and in the true one.
 struct PosePair {
-  Rigid estimated, truth;  // world_from_camera
+  Rigid estimated, truth;  // base_from_camera
 };
 
 struct TrajectoryScore {

@@ -4,7 +4,7 @@
 
 namespace sphc::host {
 
-// The system's own clock of a thread takes half a microsecond, and a frame with a deadline reads it some hundred
+// The system's own clock of a thread may take half a microsecond, and a frame with a deadline reads it some hundred
 // times: a tenth of the time that it measures.  The monotonic clock takes a twentieth of that, and differs from it
 // only where another program ran, which shows as a gap between two readings.
 class ProcessorClock {
