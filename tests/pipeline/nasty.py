@@ -59,6 +59,8 @@ WORLDS = {
     # What a real room has at once: seen by a telephone, a hall of equal things, the next evening.
     "telephone": same("hands,feet,carpet,bare"), "hall": same("tiles,bare,doubles,mirror,window"),
     "evening": later("--arrangement", 2, "--with", "people,hands,night"),
+    # A floor that repeats exactly, and a holder who looks down on it.
+    "bathroom": same("tiles,feet"),
 }
 ROW = ["world", "map_frames", "fakes", "mode"]
 COLUMNS = ROW + ["rooms", "frames", "accepted", "within_5cm_5deg_percent_median", "within_5cm_5deg_percent_worst",

@@ -379,6 +379,8 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
   const uint32_t probes =
       search_.probesWithin(std::min(lifted, kStrongest), query.deadline.afterShare(kMatchShare), work);
   PoseTask task = {search_.ask(front_, map, all, probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
+  Prediction expected;
+  if (tracker_.predict(&expected) && expected.map == map) task.expected = &expected.camera_from_map;
   if (config_.search.probes > 0 && lifted > kStrongest && searchMapByStrongest(map, task, work)) return propose();
   candidate_.begin(map);
   search_.matchEverywhere(task.question, all, query.deadline.afterShare(kMatchShare), &candidate_.matched, work);
@@ -430,7 +432,7 @@ void Localizer::solve(const PoseTask &task, Work *work) {
 }
 
 Verification Localizer::verification(uint32_t min_inliers, Work *work, Ranking *ranking) {
-  return Verification(&search_, &estimator_, &repetition_, &fusion_, min_inliers, work, ranking);
+  return Verification(&search_, &estimator_, &repetition_, &fusion_, min_inliers, config_.tracks, work, ranking);
 }
 
 void Localizer::propose() {

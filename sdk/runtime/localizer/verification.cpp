@@ -164,6 +164,11 @@ bool Verification::searchWithout(const Leverage &leverage, const PoseTask &task,
                                  Hypothesis *rival) const {
   rival->challenge(found);
   copyWithout(leverage, found, &rival->matched);
+  return searchAmong(task, rival);
+}
+
+// Makes the rival what its matches lead to; false where that is nothing.
+bool Verification::searchAmong(const PoseTask &task, Hypothesis *rival) const {
   rival->estimate = estimator_.search(queryAbout(task, rival->matched));
   work_.samples += rival->estimate.iterations;
   if (rival->estimate.inliers <= kFewestMatches / 2) return false;
@@ -256,25 +261,74 @@ bool Verification::challengeBySearch(const PoseTask &task, Hypothesis *found, Hy
   return true;
 }
 
-// Are nearly all inliers of what repeats?
-bool Verification::restsOnRepetition(const Hypothesis &found) const {
-  const Span<const Match> matches = found.matched.matches();
-  uint32_t inliers = 0, unrepeated = 0;
-  for (uint32_t i = 0; i < matches.size() && unrepeated < kFewestUnrepeated; ++i) {
-    const Correspondence &c = found.matched.ofThisFrame()[i];
-    if (!c.lifted.hasDepth() || !estimator_.isInlier(c, found.estimate)) continue;
-    ++inliers;
-    unrepeated += !repetition_.repeats(matches[i].query);
-  }
-  return unrepeated < kFewestUnrepeated && unrepeated < kLeastUnrepeated * inliers;
+// Is there the like of this match's keypoint elsewhere in the frame?
+bool Verification::repeats(const Hypothesis &found, uint32_t match) const {
+  return found.matched.ofThisFrame()[match].lifted.hasDepth() &&
+         repetition_.repeats(found.matched.matches()[match].query);
 }
 
-// A pose that rests on a pattern must gain clearly more than those that are off by its period, once or twice.  The
-// last step; a pose may lack it, and challengeByFirst, for its deadline.
+// Of this frame's matches.
+Verification::Support Verification::supportOf(const Hypothesis &found) const {
+  Support support;
+  for (uint32_t i = 0; i < found.matched.matches().size(); ++i) {
+    if (!estimator_.isInlier(found.matched.ofThisFrame()[i], found.estimate)) continue;
+    ++support.inliers;
+    support.unrepeated += !repeats(found, i);
+  }
+  return support;
+}
+
+// What repeats agrees with many poses, with a wrong one by chance more than with the right one.  The last step; a
+// pose may lack it, and challengeByFirst, for its deadline.
 void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
+  const uint32_t inliers = found->estimate.inliers;
+  if (!found->isLocalized() || inliers >= kInliersSeldomWrong) return;
+  const bool is_known =
+      found->guided && inliers >= kAgreeingOfKnown * static_cast<double>(found->matched.all().size());
+  if (is_known && inliers >= kInliersBeyondConfirmation) return;
   if (isCut(task) || (!repetition_.look(*task.question.front, task.query.deadline) && isCut(task))) return;
-  if (repetition_.moves_m().empty() || !restsOnRepetition(*found)) return;
+  if (repetition_.moves_m().empty()) return;
+  if (replaceByUnrepeated(task, found, rival)) {
+    confirm(task, found, rival);
+    challengeFew(task, found, rival);
+  }
+  if (!is_known) challengeByPeriod(task, found, rival);
+}
+
+// Matches of a pattern that agree by chance may draw a pose away from the few others.  Where another one is found
+// without all that repeats, the better of the two stays.  True where that is the other one.
+bool Verification::replaceByUnrepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (isCut(task)) return false;
+  rival->challenge(*found);
+  const Span<const Correspondence> all = found->matched.all();
+  const size_t of_this_frame = found->matched.matches().size();
+  for (uint32_t i = 0; i < all.size(); ++i)
+    if (i >= of_this_frame || !repeats(*found, i)) rival->matched.add(all[i]);
+  if (!searchAmong(task, rival) || !rival->isLocalized() || !rival->is_verified) return false;
+  if (rival->estimate.gain <= found->estimate.gain ||
+      areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, kSamePoseUnrepeated))
+    return false;
+  swap(*found, *rival);
+  return true;
+}
+
+// Of a session that tracks: is the pose another one than that of the track?
+bool Verification::mayBeginTrack(const PoseTask &task, const Hypothesis &found) const {
+  if (!tracks_ || found.guided) return false;
+  return !task.expected || !areNear(found.estimate.camera_from_map, *task.expected, kSamePose);
+}
+
+// A pose is ambiguous where one that is off by the period of what is seen, once or twice, gains nearly as much, and
+// what does not repeat speaks no less for that one; half as much where a track may begin with the pose.  This is
+// not asked where the inliers scatter about the pose as they do by chance, nor where nearly all of them repeat:
+// there half of the gain is enough.
+void Verification::challengeByPeriod(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
+  if (!found->isLocalized()) return;
+  const Support own = supportOf(*found);
+  const bool is_repeated = own.unrepeated < kFewestUnrepeated && own.unrepeated < kLeastUnrepeated * own.inliers;
+  const bool is_scattered = found->estimate.gain < kLeastMeanGain * found->estimate.inliers;
+  const double share = is_repeated ? kRepeatedGain : kPeriodGain;
+  const double most_unrepeated = (mayBeginTrack(task, *found) ? kUnrepeatedToTrack : 1) * own.unrepeated;
   PoseTask near = task;
   near.cones_rad = {kConesOfExpectedPose, 1};
   for (const Vector3 &move_m : repetition_.moves_m()) {
@@ -284,8 +338,11 @@ void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hy
       rival->estimate.camera_from_map.translation_m += times * move_m;
       rematch(near, rival);
       const PoseBounds same = {move_m.norm() / 2, kSamePose.most_turn_rad};
-      if (areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, same)) continue;
-      if (rival->estimate.gain > kRepeatedGain * found->estimate.gain) return found->doubtForRival();
+      if (rival->estimate.gain <= share * found->estimate.gain ||
+          areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, same))
+        continue;
+      if (is_repeated || is_scattered || supportOf(*rival).unrepeated >= most_unrepeated)
+        return found->doubtForRival();
     }
   }
 }

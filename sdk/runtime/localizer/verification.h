@@ -3,8 +3,8 @@
 // high-leverage observations, the second pose of a planar scene, and what the other keypoints speak for.  An
 // independent search must confirm it, and one of few inliers must hold without a part of them.  A pose that
 // lacks one of these for its deadline is uncertain.  In the end, where what is seen repeats, and there is time, it
-// is compared with poses that are off by the period.  What all that finds no pose of is searched once more, among
-// the matches of a looser ratio test.
+// is compared with what is found without all that repeats, and with poses that are off by the period.  What all
+// that finds no pose of is searched once more, among the matches of a looser ratio test.
 #pragma once
 #include "runtime/localizer/fusion.h"
 #include "runtime/localizer/ranking.h"
@@ -15,23 +15,25 @@ namespace sphc {
 
 // What the hypotheses of one search have in common.
 struct PoseTask {
-  Search::Question question;     // the frame and the map
-  Span<const Match> rays;        // matches of keypoints without depth
-  PoseQuery query;               // without the correspondences, which are the hypothesis's
-  double solid_angle_sr = 0;     // in which the first matches were looked for
-  Span<const double> cones_rad;  // of guided re-matching, one after another
-  float max_ratio = 0;           // of the first matches, where it is not the configured one
+  Search::Question question;        // the frame and the map
+  Span<const Match> rays;           // matches of keypoints without depth
+  PoseQuery query;                  // without the correspondences, which are the hypothesis's
+  double solid_angle_sr = 0;        // in which the first matches were looked for
+  Span<const double> cones_rad;     // of guided re-matching, one after another
+  float max_ratio = 0;              // of the first matches, where it is not the configured one
+  const Rigid *expected = nullptr;  // camera from map, by a track; null where none says
 };
 
 class Verification {
  public:
   Verification(Search *search, PoseEstimator *estimator, Repetition *repetition, const Fusion *fusion,
-               uint32_t min_inliers, Work *work, Ranking *ranking)
+               uint32_t min_inliers, bool tracks, Work *work, Ranking *ranking)
       : search_(*search),
         estimator_(*estimator),
         repetition_(*repetition),
         fusion_(*fusion),
         min_inliers_(min_inliers),
+        tracks_(tracks),
         work_(*work),
         ranking_(*ranking) {}
 
@@ -44,6 +46,11 @@ class Verification {
   void findUnverifiedPose(const PoseTask &task, Hypothesis *found) const;
 
  private:
+  // Inliers with depth, and how many of them are of what does not repeat.
+  struct Support {
+    uint32_t inliers = 0, unrepeated = 0;
+  };
+
   void verify(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   bool searchPose(const PoseTask &task, Hypothesis *hypothesis) const;
   void rematch(const PoseTask &task, Hypothesis *hypothesis) const;
@@ -57,11 +64,16 @@ class Verification {
   bool challengeBySearch(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeByFirst(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
-  bool restsOnRepetition(const Hypothesis &found) const;
+  bool repeats(const Hypothesis &found, uint32_t match) const;
+  Support supportOf(const Hypothesis &found) const;
   void challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  bool replaceByUnrepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
+  bool mayBeginTrack(const PoseTask &task, const Hypothesis &found) const;
+  void challengeByPeriod(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   bool searchWithout(const Leverage &leverage, const PoseTask &task, const Hypothesis &found,
                      Hypothesis *rival) const;
+  bool searchAmong(const PoseTask &task, Hypothesis *rival) const;
   void challengeWithoutLeverage(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeFew(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeMirrored(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
@@ -71,6 +83,7 @@ class Verification {
   Repetition &repetition_;
   const Fusion &fusion_;
   uint32_t min_inliers_;
+  bool tracks_;
   Work &work_;
   Ranking &ranking_;
 };

@@ -49,18 +49,18 @@ class RoomParts {
     copyLowerHalf(other->images.depth_mm, &made->images.depth_mm);
     see(*made);
   }
-  // A wall 2 m ahead, with a piece of what the viewpoint sees over and over, `period_px` wide; all copies but the
-  // middle one a little worse.
-  void seeRepeated(uint32_t viewpoint, uint32_t period_px) {
+  // A wall 2 m ahead, whose upper `rows` have a piece of what the viewpoint sees over and over, `period_px` wide;
+  // all copies but the middle one a little worse: brighter by less than `levels`.
+  void seeRepeated(uint32_t viewpoint, uint32_t period_px, uint32_t rows = UINT32_MAX, uint32_t levels = 12) {
     const auto made = sceneFrame(sceneConfig(), viewpoint);
     const std::vector<uint8_t> seen = made->images.gray;
     const uint32_t width = made->frame.color.width, middle = width / period_px / 2;
     Random random(1);
-    for (size_t i = 0; i < seen.size(); ++i) {
+    for (size_t i = 0; i < std::min(seen.size(), size_t{rows} * width); ++i) {
       const size_t x = i % width, row = i - x;
       const uint8_t level = seen[row + middle * period_px + x % period_px];
       const bool exact = x / period_px == middle;
-      made->images.gray[i] = exact ? level : static_cast<uint8_t>(std::min(255u, level + random.below(12)));
+      made->images.gray[i] = exact ? level : static_cast<uint8_t>(std::min(255u, level + random.below(levels)));
     }
     std::fill(made->images.depth_mm.begin(), made->images.depth_mm.end(), uint16_t{2000});
     see(*made);

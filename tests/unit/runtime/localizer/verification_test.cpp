@@ -41,8 +41,8 @@ class VerificationTest : public testing::Test {
     return task;
   }
   void verify(const PoseTask &task) {
-    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work,
-                 &ranking_)
+    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, tracks_,
+                 &parts_.work, &ranking_)
         .findPose(task, &found(), &parts_.rival);
   }
   double errorM(uint32_t viewpoint) {
@@ -51,6 +51,7 @@ class VerificationTest : public testing::Test {
   Hypothesis &found() { return parts_.found; }
 
   uint32_t min_inliers_ = 10;
+  bool tracks_ = false;
   Ranking ranking_;
   test::RoomParts parts_;
 };
@@ -309,12 +310,11 @@ TEST_F(TwoPlacesTest, WithoutFirstMatchesOfTheBetterPoseTheOtherStays) {
   EXPECT_LT(errorM(kUpper), 0.02);
 }
 
-constexpr uint32_t kPeriodPx = 64;
-
 // A wall with a pattern, of which the map has one piece.
 class PatternTest : public VerificationTest {
  protected:
   PatternTest() : VerificationTest(test::mapOf(onePiece(), Vector3(0, 0, 1))) {}
+  static constexpr uint32_t kPeriodPx = 64;
   static std::vector<test::WorldPoint> onePiece() {
     test::RoomParts parts;
     parts.seeRepeated(0, kPeriodPx);
@@ -335,6 +335,146 @@ TEST_F(PatternTest, APoseThatMayBeOffByThePeriodIsAmbiguous) {
   parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), {}, &found().matched, &parts_.work);
   verify(task);
   ASSERT_LT(found().estimate.inliers, kInliersBeyondOthers);
+  EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
+  EXPECT_EQ(found().outcome, Outcome::kUncertain);
+  EXPECT_TRUE(found().is_ambiguous);
+}
+
+// A wall whose upper half has a pattern, of which the map has a few pieces, and whose lower half has none.
+class PatternAndMoreTest : public VerificationTest {
+ protected:
+  explicit PatternAndMoreTest(const std::vector<test::WorldPoint> &points)
+      : VerificationTest(test::mapOf(points, Vector3(0, 0, 1))) {}
+  static void see(test::RoomParts *parts) {
+    parts->seeRepeated(0, kPeriodPx, parts->config.color_camera.height() / 2, 1);
+  }
+  static constexpr uint32_t kPeriodPx = 64;
+  // On the wall, which is 2 m away.
+  static double periodM() { return 2 * kPeriodPx / test::RoomParts().config.color_camera.focal(); }
+  // So many pieces, and of the others one in so many.
+  template <typename AddRepeated, typename AddOther>
+  static std::vector<test::WorldPoint> points(uint32_t pieces, uint32_t one_other_in,
+                                              const AddRepeated &add_repeated, const AddOther &add_other) {
+    test::RoomParts parts;
+    see(&parts);
+    EXPECT_TRUE(parts.repetition.look(parts.front, {}));
+    std::vector<test::WorldPoint> points;
+    uint32_t others = 0;
+    for (uint32_t i = 0; i < parts.front.liftedCount(); ++i) {
+      const test::WorldPoint point = {parts.front.lifted()[i].point_m, parts.front.descriptors()[i]};
+      if (point.position_m.y() < 0) {
+        if (std::abs(point.position_m.x()) < pieces * periodM() / 2 && parts.repetition.repeats(i))
+          add_repeated(point, &points);
+      } else if (others++ % one_other_in == 0) {
+        add_other(point, &points);
+      }
+    }
+    return points;
+  }
+  void verifySeen(bool guided = false, const Rigid *expected = nullptr) {
+    see(&parts_);
+    PoseTask task = this->task();
+    task.expected = expected;
+    found().begin(0);
+    found().guided = guided;
+    parts_.search.matchEverywhere(task.question, parts_.front.keypointCount(), {}, &found().matched, &parts_.work);
+    verify(task);
+  }
+  // Share of the matches.
+  double agreeing() { return found().estimate.inliers / static_cast<double>(found().matched.matches().size()); }
+  double errorM() { return (found().estimate.camera_from_map.translation_m - Vector3(0, 0, 1)).norm(); }
+};
+
+// The piece is turned about its middle, and the ratio test passes nothing else.
+class TurnedPatternTest : public PatternAndMoreTest {
+ protected:
+  TurnedPatternTest() : PatternAndMoreTest(turned()) {}
+  static std::vector<test::WorldPoint> turned() {
+    const Vector3 middle_m(0, -0.3, 2);
+    const Matrix3 turn = rotationFromVector(Vector3(0, 0, degrees(5)));
+    Random random(5);
+    return points(
+        1, 4,
+        [&](test::WorldPoint point, auto *points) {
+          point.position_m = middle_m + turn * (point.position_m - middle_m);
+          points->push_back(point);
+        },
+        [&](const auto &point, auto *points) { test::addWithNearDuplicate(point, 8, &random, points); });
+  }
+};
+
+TEST_F(TurnedPatternTest, ThePoseOfWhatDoesNotRepeatStaysWhereItIsBetter) {
+  verifySeen();
+  EXPECT_EQ(found().outcome, Outcome::kLocalized);
+  EXPECT_LT(errorM(), 0.02);
+}
+
+// The others stand there twice, a period apart; one in three may stand there once.  All may be off a little.
+class SeenTwiceTest : public PatternAndMoreTest {
+ protected:
+  explicit SeenTwiceTest(bool some_once = false, double off_m = 0) : PatternAndMoreTest(twice(some_once, off_m)) {}
+  static std::vector<test::WorldPoint> twice(bool some_once, double off_m) {
+    Random random(5);
+    const auto add = [&](test::WorldPoint point, auto *points) {
+      point.position_m += off_m * test::randomDirection(&random);
+      points->push_back(point);
+    };
+    uint32_t number = 0;
+    const auto add_twice = [&](test::WorldPoint point, auto *points) {
+      add(point, points);
+      point.position_m.x() += periodM();
+      if (++number % 3 != 0 || !some_once) add(point, points);
+    };
+    return points(2, 4, add, add_twice);
+  }
+};
+
+class OftenSeenTwiceTest : public SeenTwiceTest {
+ protected:
+  OftenSeenTwiceTest() : SeenTwiceTest(true) {}
+};
+
+class ScatteredTest : public SeenTwiceTest {
+ protected:
+  ScatteredTest() : SeenTwiceTest(true, 0.018) {}
+};
+
+TEST_F(OftenSeenTwiceTest, WhatDoesNotRepeatTellsThePoseFromOneOffByThePeriod) {
+  verifySeen();
+  EXPECT_EQ(found().outcome, Outcome::kLocalized);
+  EXPECT_LT(errorM(), 0.02);
+}
+
+TEST_F(SeenTwiceTest, APoseIsAmbiguousWhereWhatDoesNotRepeatSpeaksForOneOffByThePeriod) {
+  verifySeen();
+  EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
+  EXPECT_EQ(found().outcome, Outcome::kUncertain);
+  EXPECT_TRUE(found().is_ambiguous);
+}
+
+// What a track begins with, it follows.
+TEST_F(OftenSeenTwiceTest, MoreMustTellThePoseThatATrackBeginsWith) {
+  tracks_ = true;
+  verifySeen();
+  EXPECT_EQ(found().outcome, Outcome::kUncertain);
+  EXPECT_TRUE(found().is_ambiguous);
+  const Rigid here = {Matrix3::Identity(), Vector3(0, 0, 1.1)}, elsewhere = {Matrix3::Identity(), Vector3(0, 0, 2)};
+  for (const bool is_here : {true, false}) {
+    verifySeen(false, is_here ? &here : &elsewhere);
+    EXPECT_EQ(found().isLocalized(), is_here);
+  }
+}
+
+TEST_F(SeenTwiceTest, AnExpectedPoseWithWhichMostMatchesAgreeIsBelieved) {
+  verifySeen(true);
+  EXPECT_GT(agreeing(), kAgreeingOfKnown);
+  EXPECT_EQ(found().outcome, Outcome::kLocalized);
+  EXPECT_LT(errorM(), 0.02);
+}
+
+TEST_F(ScatteredTest, NothingTellsThemApartWhereTheInliersScatter) {
+  verifySeen();
+  EXPECT_LT(found().estimate.gain, kLeastMeanGain * found().estimate.inliers);
   EXPECT_EQ(judgePose(found().evidence, found().estimate, min_inliers_), Outcome::kLocalized);
   EXPECT_EQ(found().outcome, Outcome::kUncertain);
   EXPECT_TRUE(found().is_ambiguous);
@@ -491,8 +631,8 @@ class NearDuplicatesTest : public VerificationTest {
       : VerificationTest(test::mapOf(points, Vector3(0, 0, 1))) {}
   void verifyLoosely(const PoseTask &task) {
     found().begin(0);
-    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, &parts_.work,
-                 &ranking_)
+    Verification(&parts_.search, &parts_.estimator, &parts_.repetition, &parts_.fusion, min_inliers_, tracks_,
+                 &parts_.work, &ranking_)
         .findPoseLoosely(task, &found(), &parts_.rival);
   }
 };
