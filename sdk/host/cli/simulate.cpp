@@ -9,6 +9,7 @@
 #include "drivers/simulated/simulated.h"
 #include "host/base/checked_call.h"
 #include "host/base/counted.h"
+#include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
