@@ -74,6 +74,21 @@ TEST_F(CInterfacePoseOptions, AWrongPosePriorCostsTimeNotTheAnswer) {
   EXPECT_LT(distanceM(warm.camera_from_map, cold.camera_from_map), 0.005);
 }
 
+TEST_F(CInterfacePoseOptions, APoseElsewhereThanItsPriorSaysIsFoundInTheWholeMap) {
+  Session session(config_);
+  const sphc_localizer_result cold = localize(&session, 1);
+  sphc_localizer_prior prior = posePrior(cold.camera_from_map);
+  prior.rotation_sigma_rad = 0.05;  // so it is looked for 8.6 degrees around
+  prior.translation_sigma_m = 0.001;
+  prior.camera_from_map.t_m[2] += 0.14;  // along the view, so directions hardly differ
+  EXPECT_TRUE(localize(&session, 1, &prior).guided);
+  prior.camera_from_map.t_m[2] += 0.04;
+  const sphc_localizer_result elsewhere = localize(&session, 1, &prior);
+  ASSERT_EQ(elsewhere.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_FALSE(elsewhere.guided);
+  EXPECT_LT(distanceM(elsewhere.camera_from_map, cold.camera_from_map), 0.005);
+}
+
 TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
   Session session(config_);
   const sphc_localizer_result cold = localize(&session, 1);

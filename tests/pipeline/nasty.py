@@ -4,7 +4,8 @@
     nasty.py --spherecloud BIN [--results FILE] [--rooms N] [--worlds NAME...] [--frames FILE] [--keep FOLDER]
 
 For each world and each of its rooms, lap one is mapped and a part of lap two is localized in it, with both kinds of fakes, by
-keys that differ from room to room.  A world is an option of `simulate`, or several at once; no two worlds share a room.
+keys that differ from room to room: frame by frame at 5 Hz, and at the 30 Hz of a headset in tracking, without and with odometry.
+A world is an option of `simulate`, or several at once; no two worlds share a room.
 So are frames of another room of this world, of which no pose is right: "elsewhere".  nasty.csv has a row for each world, number of
 frames in the map, kind of fakes and mode, and one for all of them.  Rows of worlds that are not measured stay.  Every accepted
 pose that is wrong is printed with the commands that give it again.  --frames writes a line for every frame.  --keep keeps
@@ -32,9 +33,12 @@ RESULTS = HERE / "nasty.csv"
 FIRST_SEED, ROOMS, ELSEWHERE = 3001, 12, 50  # seeds of rooms and walks, which nothing else uses; of each world; to another room
 KEYS_A_ROOM = 2
 ETA = 0.33
-FAKES, MODES = ("patchwork", "gaussian"), ("single", "tracking")
+FAKES = "patchwork", "gaussian"
 LAP_S = 16
-QUERY_FRAMES, QUERY_HZ = 40, 5
+# At how many frames a second, for how long, in the maps of how many keys, and what else is said to `localize`.
+Mode = collections.namedtuple("Mode", "hz seconds keys arguments")
+MODES = {"single": Mode(5, 8, KEYS_A_ROOM, ["--mode", "single"]), "tracking": Mode(30, 4, 1, ["--mode", "tracking"]),
+         "odometry": Mode(30, 4, 1, ["--mode", "tracking", "--odometry"])}
 ELSEWHERE_FRAMES, ELSEWHERE_HZ = 15, 1
 
 # How lap one and lap two are simulated, frames of lap one, and of how many of them maps are made.
@@ -106,11 +110,10 @@ class Room:
         start = LAP_S + LAP_S * self.number / ROOMS  # each room is entered elsewhere
         self.walk, self.made_map = self.simulate("map", self.seed, ["--frames", world.recorded, *world.lap_one], "--rate",
                                                  world.recorded / LAP_S)
-        self.queries = {
-            True: self.simulate("here", self.seed, world.lap_two, "--from", "%.2f" % start, "--frames", QUERY_FRAMES, "--rate",
-                                QUERY_HZ),
-            False: self.simulate("elsewhere", self.seed + ELSEWHERE, world.lap_two, "--frames", ELSEWHERE_FRAMES, "--rate",
-                                 ELSEWHERE_HZ)}
+        self.here = {hz: self.simulate("here_%d" % hz, self.seed, world.lap_two, "--from", "%.2f" % start, "--frames", hz * seconds,
+                                       "--rate", hz) for hz, seconds in sorted({(mode.hz, mode.seconds) for mode in MODES.values()})}
+        self.elsewhere = self.simulate("elsewhere", self.seed + ELSEWHERE, world.lap_two, "--frames", ELSEWHERE_FRAMES, "--rate",
+                                       ELSEWHERE_HZ)
         return self
 
     def build(self, map_frames, fakes, number):
@@ -129,9 +132,9 @@ class Room:
 
     def ask(self, file, mode, here):
         """What `localize` says of each frame, and the commands that lead to it."""
-        recording, made_query = self.queries[here]
+        recording, made_query = self.here[MODES[mode].hz] if here else self.elsewhere
         answers = file.with_suffix(".%s_%s_%s.frames" % (mode, "here" if here else "elsewhere", self.version))
-        command = [self.tool, "localize", "--recording", recording, "--map", file, "--mode", mode, "--owner-note",
+        command = [self.tool, "localize", "--recording", recording, "--map", file, *MODES[mode].arguments, "--owner-note",
                    str(file) + ".owner.json", "--frames-json", answers, "--json"]
         if not answers.exists():
             run(command)
@@ -141,7 +144,8 @@ class Room:
         """Every frame of every map.  Elsewhere is asked of the first key's maps."""
         for map_frames, fakes, number in itertools.product(WORLDS[self.world].mapped, FAKES, range(KEYS_A_ROOM)):
             file, build = self.build(map_frames, fakes, number)
-            for mode, here in itertools.product(MODES, (True,) if number else (True, False)):
+            asked = [mode for mode in MODES if number < MODES[mode].keys]
+            for mode, here in itertools.product(asked, (True,) if number else (True, False)):
                 answers, commands = self.ask(file, mode, here)
                 for answer in answers:
                     yield Frame(self.world, self.seed, (str(map_frames), fakes, mode), number, here, answer,

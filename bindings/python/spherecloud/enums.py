@@ -340,7 +340,7 @@ class Hint(enum.IntFlag):
     NOT_IN_MAP = 16
     """The image shows enough, but not what the map shows: "you are elsewhere"."""
     AMBIGUOUS = 32
-    """Another pose fits nearly as well, or odometry contradicts the one that was found, which is UNCERTAIN: "look
+    """Another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the track: "look
     around"."""
 
 
@@ -348,7 +348,7 @@ class Event(enum.IntFlag):
     """What a pose does to a world that was drawn by earlier ones."""
 
     RELOCALIZED = 1
-    """Nothing was expected: the first pose, or the first after 1 s without."""
+    """Nothing was expected: the first pose, or the first after 1 s without (10 s with odometry)."""
     JUMPED = 2
     """Elsewhere than expected, by more than 5 sigma; result.jump_m and jump_rad."""
     MAP_CHANGED = 4

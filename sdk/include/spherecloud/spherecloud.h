@@ -694,15 +694,16 @@ enum {
   SPHC_HINT_TOO_PLAIN = 4u,         /* little stands out in a bright and sharp image: "look elsewhere" */
   SPHC_HINT_NO_DEPTH_IN_RANGE = 8u, /* few keypoints have depth: "step back, or closer; glass has no depth" */
   SPHC_HINT_NOT_IN_MAP = 16u,       /* the image shows enough, but not what the map shows: "you are elsewhere" */
-  SPHC_HINT_AMBIGUOUS = 32u         /* another pose fits nearly as well, or odometry contradicts the one that was
-                                     * found, which is UNCERTAIN: "look around" */
+  SPHC_HINT_AMBIGUOUS = 32u         /* another pose fits nearly as well, or the one that was found, which is
+                                     * UNCERTAIN, jumps from the track: "look around" */
 };
 SPHC_API const char *sphc_localizer_hint_name(uint32_t hint); /* [pure] */
 
 /* What a pose does to a world that was drawn by earlier ones; bits of result.events.  None where there is no pose,
  * where it is where earlier frames and odometry let it be expected, and in SPHC_MODE_SINGLE. */
 enum {
-  SPHC_EVENT_RELOCALIZED = 1u, /* nothing was expected: the first pose, or the first after 1 s without */
+  SPHC_EVENT_RELOCALIZED = 1u, /* nothing was expected: the first pose, or the first after 1 s without (10 s with
+                                * odometry) */
   SPHC_EVENT_JUMPED = 2u,      /* elsewhere than expected, by more than 5 sigma; result.jump_m and jump_rad */
   SPHC_EVENT_MAP_CHANGED = 4u  /* in another map than the one expected; how far that is can be said where both have
                                   transforms */

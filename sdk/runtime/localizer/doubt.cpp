@@ -102,8 +102,12 @@ bool DistanceCheck::disagrees(int64_t time_ns, const Hypothesis &found, const Po
   if (disagrees_ && !before) since_ns_ = time_ns;
   if (disagrees_ && elapsedNs(since_ns_, time_ns) < Tracker::kForgetNs) return true;
   if (disagrees_) reset();
-  points.each(&PointDistances::keep, &distances_);
   return false;
+}
+
+void DistanceCheck::keep(const Hypothesis &found, const PoseEstimator &estimator) {
+  const PointsOfPose points(found, estimator);
+  points.each(&PointDistances::keep, &distances_);
 }
 
 }  // namespace sphc

@@ -54,6 +54,8 @@ class DistanceCheck {
   // Every frame that has a pose; a time that does not grow starts anew.  Earlier frames may be those that were
   // wrong: when their word has stood against all that followed for kForgetNs, it is forgotten.
   bool disagrees(int64_t time_ns, const Hypothesis &found, const PoseEstimator &estimator);
+  // After it, where the pose is believed.
+  void keep(const Hypothesis &found, const PoseEstimator &estimator);
 
  private:
   PointDistances distances_;

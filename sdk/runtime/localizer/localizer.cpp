@@ -13,6 +13,11 @@ using namespace tuning;
 
 namespace {
 
+bool isWhereExpected(const Rigid &found, const Prediction &expected) {
+  return areNear(found, expected.camera_from_map,
+                 boundsOfNoJump(expected.rotation_sigma_rad, expected.translation_sigma_m));
+}
+
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }
 
 DepthReaderConfig readerConfig(const RigDepthCamera &depth) {
@@ -256,11 +261,15 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
     locate(rest, deadline, work);
   }
   checkHandedness(deadline, faults, work);
-  if (config_.tracks && best_.isLocalized() && tracker_.vetoes(best_.map, best_.estimate)) best_.doubtForRival();
-  if (config_.tracks && best_.isLocalized() && distances_.disagrees(frame.color_time_ns, best_, estimator_))
-    contradict(kDistancesDisagree, faults);
+  if (config_.tracks && best_.isLocalized()) doubtByTrack(frame.color_time_ns, faults);
   if (config_.tracks && travel_.isScaled(known, tracker_, best_)) *faults |= kDepthScale;
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
+}
+
+// By what earlier frames said of the points, and of the camera.
+void Localizer::doubtByTrack(int64_t time_ns, Faults *faults) {
+  if (distances_.disagrees(time_ns, best_, estimator_)) return contradict(kDistancesDisagree, faults);
+  if (tracker_.vetoes(best_.map, best_.estimate)) best_.doubtForRival();
 }
 
 // Takes the pose away.
@@ -350,6 +359,9 @@ void Localizer::searchNear(const Known &known, const Prediction &expected, const
   search_.matchNear(question, expected.camera_from_map, cone_rad, {}, own.afterShare(kMatchShare),
                     &candidate_.matched, work);
   solve({question, {}, queryFor(prior, own), solidAngleOf(cone_rad), {kConesOfExpectedPose, 1}}, work);
+  // A pose elsewhere lacks what a search of the whole map would hold against it.
+  if (candidate_.isLocalized() && !isWhereExpected(candidate_.estimate.camera_from_map, expected))
+    candidate_.outcome = Outcome::kUncertain;
   propose();
 }
 
@@ -485,6 +497,7 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
     calibrator_.learn(best_.estimate);
     fusion_.clear();
     if (!config_.tracks) return;
+    distances_.keep(best_, estimator_);
     tracker_.goOver(best_.map, maps());
     result->jump = tracker_.accept(best_.map, best_.estimate);
     trail_.add(time_ns, result->camera_from_map, result->covariance);

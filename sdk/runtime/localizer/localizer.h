@@ -81,6 +81,7 @@ class Localizer {
   Verification verification(uint32_t min_inliers, Work *work, Ranking *ranking);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
+  void doubtByTrack(int64_t time_ns, Faults *faults);
   void contradict(Faults by, Faults *faults);
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
   void findPoseOfMirrored(const Deadline &deadline, Work *work);

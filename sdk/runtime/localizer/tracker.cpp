@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/base/clock.h"
+#include "runtime/localizer/hypothesis.h"
 #include "runtime/localizer/judgement.h"
 #include "runtime/localizer/tuning.h"
 
@@ -18,6 +19,11 @@ double sigmaAnAxis(const Estimate &estimate, int first) {
 }
 
 }  // namespace
+
+PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m) {
+  return {kNoJump.most_shift_m + kGateSigmas * translation_sigma_m,
+          kNoJump.most_turn_rad + kGateSigmas * rotation_sigma_rad};
+}
 
 bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, Prediction *there) {
   if (map == expected.map) return false;
@@ -37,16 +43,17 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
   has_step_ = follows && has_odometry_ && odometry;
   if (has_step_) {
     step_ = odometry->odometry_from_camera.inverse() * odometry_.odometry_from_camera;
-    moved_ = step_ * moved_;
-    moved_rotation2_ += odometry->rotation_sigma_rad * odometry->rotation_sigma_rad;
-    moved_translation2_ += odometry->translation_sigma_m * odometry->translation_sigma_m;
   }
-  moved_known_ = moved_known_ && has_step_;
+  for (CarriedPose *pose : {&last_, &best_}) {
+    pose->is_carried = pose->is_carried && has_step_;
+    if (pose->is_carried) pose->carry(step_, *odometry);
+  }
   has_odometry_ = odometry != nullptr;
   if (odometry) odometry_ = *odometry;
   time_ns_ = time_ns;
   begun_ = true;
-  if (elapsedNs(pose_time_ns_, time_ns) > kForgetNs) has_pose_ = has_velocity_ = false;
+  if (elapsedNs(last_.time_ns, time_ns) > (last_.is_carried ? kForgetCarriedNs : kForgetNs))
+    has_pose_ = has_velocity_ = false;
   if (elapsedNs(trusted_time_ns_, time_ns) > kForgetNs) state_ = TrackingState::kRelocalizing;
 }
 
@@ -82,21 +89,21 @@ CameraRate Tracker::rate() const {
 
 bool Tracker::predict(Prediction *prediction) const {
   if (!has_pose_) return false;
-  prediction->map = map_;
+  prediction->map = last_.map;
   double turn = 0, shift = 0, poses = 1;  // standard deviations; those of poses count so many times
   Rigid moved;
-  if (moved_known_) {
-    moved = moved_;
-    turn = sqrtOf(moved_rotation2_);
-    shift = sqrtOf(moved_translation2_);
+  if (last_.is_carried) {
+    moved = last_.moved;
+    turn = last_.turnSigma();
+    shift = last_.shiftSigma();
   } else {
-    const double dt = secondsOf(elapsedNs(pose_time_ns_, time_ns_));
+    const double dt = secondsOf(elapsedNs(last_.time_ns, time_ns_));
     if (has_velocity_) moved = {rotationFromVector(dt * turn_rad_s_), dt * velocity_m_s_};
     if (has_velocity_) poses = kTwoPoses;
     turn = has_velocity_ ? 0.5 * kTurnAcceleration * dt * dt : kTurnRate * dt;
     shift = has_velocity_ ? 0.5 * kAcceleration * dt * dt : kSpeed * dt;
   }
-  prediction->camera_from_map = moved * camera_from_map_;
+  prediction->camera_from_map = moved * last_.camera_from_map;
   prediction->rotation_sigma_rad = hypotOf(turn, poses * rotation_sigma_rad_);
   prediction->translation_sigma_m = hypotOf(shift, poses * translation_sigma_m_);
   return true;
@@ -115,11 +122,11 @@ Jump Tracker::jumpTo(uint32_t map, const Rigid &found, Prediction *expected) con
 
 void Tracker::goOver(uint32_t map, const MapSet &maps) {
   Prediction there;
-  if (!has_pose_ ||
-      !carriedOver({map_, camera_from_map_, rotation_sigma_rad_, translation_sigma_m_}, map, maps, &there))
+  if (!has_pose_ || !carriedOver({last_.map, last_.camera_from_map, rotation_sigma_rad_, translation_sigma_m_}, map,
+                                 maps, &there))
     return;
-  map_ = there.map;
-  camera_from_map_ = there.camera_from_map;
+  last_.map = there.map;
+  last_.camera_from_map = there.camera_from_map;
   rotation_sigma_rad_ = there.rotation_sigma_rad;
   translation_sigma_m_ = there.translation_sigma_m;
   went_over_ = true;
@@ -132,41 +139,49 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
     state_ = TrackingState::kTracking;
   else if (state_ == TrackingState::kTracking)
     state_ = TrackingState::kLost;
-  const double dt = secondsOf(elapsedNs(pose_time_ns_, time_ns_));
+  const double dt = secondsOf(elapsedNs(last_.time_ns, time_ns_));
   // Across maps the error of their transforms is no velocity: the one from before holds.
   const bool is_measured = !went_over_;
   has_velocity_ = state_ == TrackingState::kTracking && dt <= kSteadySeconds && (is_measured || has_velocity_);
   if (has_velocity_ && is_measured) {
-    const Rigid moved = estimate.camera_from_map * camera_from_map_.inverse();
+    const Rigid moved = estimate.camera_from_map * last_.camera_from_map.inverse();
     turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
     velocity_m_s_ = moved.translation_m / dt;
   }
   steady_ = has_velocity_ && is_measured ? steady_ + 1 : 0;
   if (state_ == TrackingState::kTracking) trusted_time_ns_ = time_ns_;
-  has_pose_ = moved_known_ = true;
-  map_ = map;
-  pose_time_ns_ = time_ns_;
-  camera_from_map_ = estimate.camera_from_map;
+  has_pose_ = true;
+  last_ = {map, time_ns_, estimate.camera_from_map, estimate.inliers, true, {}};
   rotation_sigma_rad_ = hypotOf(sigmaAnAxis(estimate, 0), kLeastTurnSigma);
   translation_sigma_m_ = hypotOf(sigmaAnAxis(estimate, 3), kLeastShiftSigma);
-  inliers_ = estimate.inliers;
-  moved_ = {};
-  moved_rotation2_ = moved_translation2_ = 0;
+  if (state_ != TrackingState::kTracking)
+    best_ = {};
+  else if (best_.map != map || estimate.inliers >= support())
+    best_ = last_;
   if (went_over_) jump.events |= kMapChanged;
   went_over_ = false;
   return jump;
 }
 
+// In inliers.  What was tracked may have been wrong, so its word fades.
+double Tracker::support() const {
+  const double age = secondsOf(elapsedNs(best_.time_ns, time_ns_)) / secondsOf(kForgetCarriedNs);
+  return age < 1 ? (1 - age) * best_.inliers : 0;
+}
+
+// Without odometry by what a head can do, not by the velocity of poses: that of a wrong one is wrong.
+bool Tracker::jumpsFrom(const CarriedPose &pose, uint32_t map, const Rigid &found) const {
+  if (map != pose.map) return false;
+  const double dt = secondsOf(elapsedNs(pose.time_ns, time_ns_));
+  const double turn_rad = pose.is_carried ? pose.turnSigma() : kTurnRate * dt,
+               shift_m = pose.is_carried ? pose.shiftSigma() : kSpeed * dt;
+  return !areNear(found, pose.now(), boundsOfNoJump(turn_rad, shift_m));
+}
+
 bool Tracker::vetoes(uint32_t map, const Estimate &estimate) const {
-  if (state_ == TrackingState::kRelocalizing || !moved_known_ || estimate.inliers >= inliers_) return false;
-  Prediction expected;
-  const Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
-  if (jump.events != kJumped) return false;
-  const auto jumps = [](double off, double expected_sigma, double own_sigma, double most) {
-    return off > std::max(most, kGateSigmas * hypotOf(expected_sigma, own_sigma));
-  };
-  return jumps(jump.turn_rad, expected.rotation_sigma_rad, sigmaAnAxis(estimate, 0), kNoJump.most_turn_rad) ||
-         jumps(jump.shift_m, expected.translation_sigma_m, sigmaAnAxis(estimate, 3), kNoJump.most_shift_m);
+  if (estimate.inliers >= kTimesSupport * support()) return false;
+  return jumpsFrom(best_, map, estimate.camera_from_map) ||
+         (has_pose_ && jumpsFrom(last_, map, estimate.camera_from_map));
 }
 
 void Tracker::miss() {
@@ -175,15 +190,15 @@ void Tracker::miss() {
 
 bool Tracker::motion(const Trail &trail, Motion *motion) const {
   if (!has_pose_) return false;
-  *motion = {map_, pose_time_ns_, pose_time_ns_, camera_from_map_, trail.covariance(), {}};
-  const bool is_found = time_ns_ == pose_time_ns_;
-  if (!moved_known_ || is_found) motion->step = trail.step(steady_);
-  if (!moved_known_) return true;
+  *motion = {last_.map, last_.time_ns, last_.time_ns, last_.camera_from_map, trail.covariance(), {}};
+  const bool is_found = time_ns_ == last_.time_ns;
+  if (!last_.is_carried || is_found) motion->step = trail.step(steady_);
+  if (!last_.is_carried) return true;
   if (!is_found) {
     motion->time_ns = time_ns_;
-    motion->camera_from_map = moved_ * camera_from_map_;
+    motion->camera_from_map = last_.now();
     motion->covariance =
-        carried(motion->covariance, moved_) + diagonalOf(sqrtOf(moved_rotation2_), sqrtOf(moved_translation2_));
+        carried(motion->covariance, last_.moved) + diagonalOf(last_.turnSigma(), last_.shiftSigma());
   }
   if (has_step_ && secondsOf(step_ns_) <= kSteadySeconds) {
     const Matrix3 map_from_camera = motion->camera_from_map.rotation.transpose();

@@ -12,13 +12,16 @@
 //                  another pose, or none                     LOST
 //   LOST           a pose where it was expected              TRACKING
 //                  nothing trusted for kForgetNs            RELOCALIZING
+//                  (what odometry carries is expected for longer: kForgetCarriedNs)
 //   any            a time that does not grow, or a gap of    RELOCALIZING
 //                  more than kForgetNs
 #pragma once
+#include "runtime/localizer/carried_pose.h"
 #include "runtime/localizer/frame.h"
 #include "runtime/localizer/map_set.h"
 #include "runtime/localizer/motion.h"
 #include "runtime/localizer/result.h"
+#include "runtime/localizer/tuning.h"
 
 namespace sphc {
 
@@ -28,6 +31,9 @@ struct Prediction {
   Rigid camera_from_map;
   double rotation_sigma_rad = 0, translation_sigma_m = 0;
 };
+
+// What a pose that is no jump differs by at most from where the camera is expected; 1 sigma an axis.
+tuning::PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m);
 
 // How a point that stands still moves in the camera's own frame: by turn x point + shift, a second.
 struct CameraRate {
@@ -39,7 +45,8 @@ bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, P
 
 class Tracker {
  public:
-  static constexpr uint64_t kForgetNs = 1000000000;
+  // So long a pose says something of where the camera is: by itself, and carried by odometry.
+  static constexpr uint64_t kForgetNs = 1000000000, kForgetCarriedNs = 10000000000;
 
   // Before each frame is processed.  `odometry` may be null.
   void advance(int64_t time_ns, const Odometry *odometry);
@@ -50,8 +57,8 @@ class Tracker {
   // After it: what it brought, and how far that is from what was expected.
   Jump accept(uint32_t map, const Estimate &estimate);
   void miss();
-  // Before accept: is this a jump that odometry contradicts, and that fewer inliers speak for than for the last
-  // pose? For kForgetNs at most.
+  // Before accept: is this a jump that odometry contradicts, or that no head can make, and that much more would
+  // have to speak for than for the track?
   bool vetoes(uint32_t map, const Estimate &estimate) const;
 
   TrackingState state() const { return state_; }
@@ -69,11 +76,14 @@ class Tracker {
   void reset() { *this = {}; }
   // The map in this slot is gone.
   void forget(uint32_t map) {
-    if (has_pose_ && map == map_) reset();
+    if (has_pose_ && map == last_.map) reset();
+    if (map == best_.map) best_ = {};
   }
 
  private:
   Jump jumpTo(uint32_t map, const Rigid &found, Prediction *expected) const;
+  bool jumpsFrom(const CarriedPose &pose, uint32_t map, const Rigid &found) const;
+  double support() const;
 
   TrackingState state_ = TrackingState::kRelocalizing;
   int64_t time_ns_ = 0;
@@ -84,16 +94,11 @@ class Tracker {
   Rigid step_;  // camera now from camera at the frame before
   uint64_t step_ns_ = 0;
 
-  // The last pose that was found, and the motion since.
   bool has_pose_ = false;
-  uint32_t map_ = 0;
-  int64_t pose_time_ns_ = 0, trusted_time_ns_ = 0;
-  Rigid camera_from_map_;
+  CarriedPose last_;  // that was found
   double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
-  uint32_t inliers_ = 0;
-  bool moved_known_ = false;                             // by odometry, at every frame since
-  Rigid moved_;                                          // camera now from camera at the last pose
-  double moved_rotation2_ = 0, moved_translation2_ = 0;  // variances of it
+  CarriedPose best_;  // the one of this track that most speaks for
+  int64_t trusted_time_ns_ = 0;
 
   bool has_velocity_ = false;
   Vector3 turn_rad_s_ = Vector3::Zero(), velocity_m_s_ = Vector3::Zero();  // of the camera's step, in its own frame

@@ -120,6 +120,9 @@ constexpr double kPeriodGain = 0.8, kLeastMeanGain = 0.8;
 // A track follows what it began with, so there the other needs this share of such inliers: wrong 67 -> 1, right
 // 3506 -> 3163; on recordings 1390 -> 1382.
 constexpr double kUnrepeatedToTrack = 0.5;
+// Of more inliers no pose was off by a period; of 150 to 165 some were (rooms with tiles and feet, maps of ten
+// frames, 2880 single frames): wrong 32 -> 13, right 2415 -> 2415.
+constexpr uint32_t kInliersBeyondPattern = 300;
 // A pose is known where it was expected and this share of its matches agree: it is searched for without what
 // repeats where it has as few inliers as poses that must be confirmed, and not compared with others.  Rooms with
 // tiles and feet, or carpet, at 30 Hz, maps of three frames (2400 frames): wrong 60 -> 19, right 1220 -> 1245.
@@ -223,7 +226,8 @@ constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: 
 constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
 constexpr uint64_t kNearNs = 100000000;                              // beside a frame, motion is steady for so long
 constexpr double kGateSigmas = 5;                                    // within which two poses agree
-// A jump that odometry vetoes is beyond the gate and beyond this.  Chosen.
+// A jump is beyond this by the gate.  It needs so many times the inliers of the track.  Chosen.
 constexpr PoseBounds kNoJump = {0.15, degrees(8)};
+constexpr double kTimesSupport = 2;
 
 }  // namespace sphc::tuning

@@ -282,7 +282,7 @@ Verification::Support Verification::supportOf(const Hypothesis &found) const {
 // pose may lack it, and challengeByFirst, for its deadline.
 void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   const uint32_t inliers = found->estimate.inliers;
-  if (!found->isLocalized() || inliers >= kInliersSeldomWrong) return;
+  if (!found->isLocalized() || inliers >= kInliersBeyondPattern) return;
   const bool is_known =
       found->guided && inliers >= kAgreeingOfKnown * static_cast<double>(found->matched.all().size());
   if (is_known && inliers >= kInliersBeyondConfirmation) return;

@@ -357,8 +357,8 @@ public enum Hints : uint {
   NoDepthInRange = 8,
   /// <summary>The image shows enough, but not what the map shows: "you are elsewhere".</summary>
   NotInMap = 16,
-  /// <summary>Another pose fits nearly as well, or odometry contradicts the one that was found, which is
-  /// Uncertain: "look around".</summary>
+  /// <summary>Another pose fits nearly as well, or the one that was found, which is Uncertain, jumps from the
+  /// track: "look around".</summary>
   Ambiguous = 32,
 }
 
@@ -368,7 +368,7 @@ public enum Hints : uint {
 public enum PoseEvents : uint {
   /// <summary>None of them.</summary>
   None = 0,
-  /// <summary>Nothing was expected: the first pose, or the first after 1 s without.</summary>
+  /// <summary>Nothing was expected: the first pose, or the first after 1 s without (10 s with odometry).</summary>
   Relocalized = 1,
   /// <summary>Elsewhere than expected, by more than 5 sigma; result.JumpM and JumpRad.</summary>
   Jumped = 2,

@@ -306,10 +306,10 @@ pub const SPHC_HINT_TOO_PLAIN: u32 = 4;
 pub const SPHC_HINT_NO_DEPTH_IN_RANGE: u32 = 8;
 /// the image shows enough, but not what the map shows: "you are elsewhere"
 pub const SPHC_HINT_NOT_IN_MAP: u32 = 16;
-/// another pose fits nearly as well, or odometry contradicts the one that was found, which is
-/// UNCERTAIN: "look around"
+/// another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the
+/// track: "look around"
 pub const SPHC_HINT_AMBIGUOUS: u32 = 32;
-/// nothing was expected: the first pose, or the first after 1 s without
+/// nothing was expected: the first pose, or the first after 1 s without (10 s with odometry)
 pub const SPHC_EVENT_RELOCALIZED: u32 = 1;
 /// elsewhere than expected, by more than 5 sigma; result.jump_m and jump_rad
 pub const SPHC_EVENT_JUMPED: u32 = 2;

@@ -340,8 +340,8 @@ flags! {
         NO_DEPTH_IN_RANGE = sys::SPHC_HINT_NO_DEPTH_IN_RANGE,
         /// the image shows enough, but not what the map shows: "you are elsewhere"
         NOT_IN_MAP = sys::SPHC_HINT_NOT_IN_MAP,
-        /// another pose fits nearly as well, or odometry contradicts the one that was found, which is
-        /// UNCERTAIN: "look around"
+        /// another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the
+        /// track: "look around"
         AMBIGUOUS = sys::SPHC_HINT_AMBIGUOUS,
     }
 }
@@ -349,7 +349,7 @@ flags! {
 flags! {
     /// What a pose does to a world that was drawn by earlier ones.
     Events {
-        /// nothing was expected: the first pose, or the first after 1 s without
+        /// nothing was expected: the first pose, or the first after 1 s without (10 s with odometry)
         RELOCALIZED = sys::SPHC_EVENT_RELOCALIZED,
         /// elsewhere than expected, by more than 5 sigma; result.jump_m and jump_rad
         JUMPED = sys::SPHC_EVENT_JUMPED,

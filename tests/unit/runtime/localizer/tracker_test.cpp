@@ -87,55 +87,126 @@ TEST_F(TrackerTest, TimesMayLieAnywhere) {
   }
 }
 
-// Ten centimetres a frame by odometry and by poses; then a pose a metre beside it.
+// A centimetre a frame, by poses and by odometry where there is any; then a pose beside it.
 class VetoTest : public TrackerTest {
  protected:
-  void walk(int frames) {
+  void walk(int frames, uint32_t inliers = 100) {
     for (int i = 0; i < frames; ++i) {
       go();
-      tracker_.accept(0, poseHere(0, 100));
+      tracker_.accept(0, poseHere(0, inliers));
     }
     go();
   }
+  void wander(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      tracker_.miss();
+      go();
+    }
+  }
   void go() {
     ++frame_;
-    const Odometry odometry = {poseAt(-0.1 * frame_), 1e-3, 1e-3};
-    tracker_.advance(frame_ * 3 * kFrame, &odometry);
+    const Odometry odometry = {poseAt(-0.01 * frame_), 1e-4, 1e-3};
+    tracker_.advance(frame_ * kFrame, has_odometry_ ? &odometry : nullptr);
   }
-  Estimate poseHere(double off_m, uint32_t inliers) const {
-    Estimate estimate = found(poseAt(0.1 * frame_ + off_m));
+  Estimate poseHere(double off_m, uint32_t inliers, double turn_rad = 0) const {
+    Estimate estimate = found(poseAt(0.01 * frame_ + off_m, turn_rad));
     estimate.inliers = inliers;
     return estimate;
   }
-  bool vetoes(double off_m, uint32_t inliers) const { return tracker_.vetoes(0, poseHere(off_m, inliers)); }
+  bool vetoes(double off_m, uint32_t inliers, double turn_rad = 0) const {
+    return tracker_.vetoes(0, poseHere(off_m, inliers, turn_rad));
+  }
+  static constexpr int kSecondOfFrames = 30;
+  bool has_odometry_ = true;
   int frame_ = 0;
 };
 
-TEST_F(VetoTest, OdometryVetoesAJumpThatFewerInliersSpeakFor) {
+TEST_F(VetoTest, AJumpNeedsTwiceTheInliersOfTheTrack) {
   walk(4);
-  EXPECT_TRUE(vetoes(1, 60));
-  EXPECT_FALSE(vetoes(1, 100)) << "as many inliers as before";
+  EXPECT_TRUE(vetoes(1, 190));
+  EXPECT_TRUE(vetoes(0, 190, 0.3)) << "turned";
+  EXPECT_FALSE(vetoes(1, 200));
   EXPECT_FALSE(vetoes(0.1, 60)) << "no jump";
   EXPECT_FALSE(tracker_.vetoes(1, poseHere(1, 60))) << "another map";
 }
 
-TEST_F(VetoTest, ForASecondAtMost) {
+TEST_F(VetoTest, ThePoseThatMostSpeaksForCountsNotTheLast) {
   walk(4);
-  for (int misses = 0; misses < 10; ++misses) {
-    EXPECT_TRUE(vetoes(1, 60)) << misses;
-    tracker_.miss();
-    go();
-  }
-  EXPECT_FALSE(vetoes(1, 60)) << "what was tracked may have been wrong";
+  walk(4, 20);
+  EXPECT_TRUE(vetoes(1, 150));
 }
 
-TEST_F(VetoTest, NothingIsVetoedWithoutTrustOrOdometry) {
+TEST_F(VetoTest, PosesThatAreDrawnAwayStepByStepAreNoTrack) {
+  walk(4);
+  for (int step = 1; step <= 7; ++step) {
+    tracker_.accept(0, poseHere(0.02 * step, 20));
+    ASSERT_EQ(tracker_.state(), TrackingState::kTracking) << step;
+    go();
+  }
+  EXPECT_FALSE(vetoes(0.14, 20));
+  EXPECT_TRUE(vetoes(0.20, 20)) << "6 cm from the last, and 20 cm from the best";
+}
+
+TEST_F(VetoTest, WithOdometryItFadesInTenSeconds) {
+  walk(4);
+  wander(5 * kSecondOfFrames);
+  EXPECT_TRUE(vetoes(1, 90)) << "half of twice as many";
+  EXPECT_FALSE(vetoes(1, 110)) << "what was tracked may have been wrong";
+  wander(5 * kSecondOfFrames);
+  EXPECT_FALSE(vetoes(3, 10));
+}
+
+TEST_F(VetoTest, WithoutOdometryAHeadMovesSoFarAtMost) {
+  has_odometry_ = false;
+  walk(4);
+  EXPECT_TRUE(vetoes(0.4, 60));
+  EXPECT_TRUE(vetoes(0, 60, 0.5));
+  wander(kSecondOfFrames / 5);
+  EXPECT_FALSE(vetoes(0.4, 60));
+  EXPECT_FALSE(vetoes(0, 60, 0.5));
+  EXPECT_TRUE(vetoes(2, 60));
+  EXPECT_TRUE(vetoes(0, 60, 3));
+  wander(kSecondOfFrames);
+  EXPECT_FALSE(vetoes(2, 60));
+}
+
+TEST_F(VetoTest, APoseThatWasNotTrackedVetoesNothing) {
   walk(1);
-  EXPECT_FALSE(vetoes(1, 60)) << "one pose alone is not trusted";
+  EXPECT_FALSE(vetoes(1, 60)) << "one pose alone";
   walk(3);
-  ++frame_;
-  tracker_.advance(frame_ * 3 * kFrame, nullptr);
+  tracker_.accept(0, poseHere(1, 200));
+  go();
+  EXPECT_FALSE(vetoes(0, 60)) << "it jumped, so nothing is known";
+}
+
+TEST_F(VetoTest, AMapThatIsGoneVetoesNothing) {
+  walk(4);
+  tracker_.forget(0);
+  go();
   EXPECT_FALSE(vetoes(1, 60));
+}
+
+TEST_F(VetoTest, WithOdometryAPoseIsExpectedForTenSeconds) {
+  walk(4);
+  wander(9 * kSecondOfFrames);
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing) << "trust is of a second";
+  Prediction expected;
+  ASSERT_TRUE(tracker_.predict(&expected));
+  EXPECT_NEAR(expected.camera_from_map.translation_m[0], 0.01 * frame_, 1e-9);
+  EXPECT_GT(expected.translation_sigma_m, 0.016) << "270 steps of 1 mm";
+  EXPECT_EQ(tracker_.accept(0, poseHere(0, 100)).events, Events{0});
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking) << "it is where it was expected";
+  wander(11 * kSecondOfFrames);
+  EXPECT_FALSE(tracker_.predict(&expected));
+}
+
+TEST_F(VetoTest, OdometryThatBrokeCarriesNothing) {
+  walk(4);
+  wander(kSecondOfFrames / 2);
+  has_odometry_ = false;
+  wander(kSecondOfFrames);
+  Prediction expected;
+  EXPECT_FALSE(tracker_.predict(&expected));
 }
 
 TEST_F(TrackerTest, AMissLosesAndAnExpectedPoseFinds) {

@@ -6,7 +6,7 @@ import java.util.Set;
 
 /** What a pose does to a world that was drawn by earlier ones. */
 public enum Event {
-  /** Nothing was expected: the first pose, or the first after 1 s without. */
+  /** Nothing was expected: the first pose, or the first after 1 s without (10 s with odometry). */
   RELOCALIZED(1),
   /** Elsewhere than expected, by more than 5 sigma; result.jump_m and jump_rad. */
   JUMPED(2),

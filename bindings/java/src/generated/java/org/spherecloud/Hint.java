@@ -17,7 +17,7 @@ public enum Hint {
   /** The image shows enough, but not what the map shows: "you are elsewhere". */
   NOT_IN_MAP(16),
   /**
-   * Another pose fits nearly as well, or odometry contradicts the one that was found, which is UNCERTAIN: "look
+   * Another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the track: "look
    * around".
    */
   AMBIGUOUS(32);
