@@ -132,6 +132,15 @@ TEST(LocalizerTracking, OdometryVetoesAJumpToFewerInliers) {
   EXPECT_LT(tenths, 100u) << "but not for ever";
 }
 
+TEST(LocalizerTracking, AJumpThatNoHeadCanMakeIsVetoed) {
+  Walk walk(trackingConfig());
+  for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) walk.see(viewpoint);
+  const sphc_localizer_result jump = walk.see(14);
+  EXPECT_EQ(jump.outcome, SPHC_OUTCOME_UNCERTAIN);
+  EXPECT_EQ(jump.hints, uint32_t{SPHC_HINT_AMBIGUOUS});
+  EXPECT_EQ(walk.see(14).outcome, SPHC_OUTCOME_LOCALIZED) << "in a fifth of a second it can";
+}
+
 TEST(LocalizerTracking, ResetForgets) {
   Walk walk(trackingConfig());
   for (uint32_t viewpoint : {0u, 1u, 2u}) walk.see(viewpoint);
