@@ -190,7 +190,8 @@ Command recordCommand(CLI::App *root) {
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_option("--jpeg", options->recorder.jpeg_quality,
                   "Colour as JPEG of this quality, 1 to 100; 0: as it came")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(wholeFrom(0, 100));
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

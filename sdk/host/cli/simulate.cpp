@@ -186,6 +186,7 @@ const char kWithHelp[] =
     "  day, night, dark   the sun alone, a floor lamp alone, hardly any light\n"
     "  flat            eight rooms in a ring, with doorways; a lap goes through all";
 
+// Bounds are the driver's; of the rate they are those at which colour and depth, 4 ms apart, take turns.
 void addOptions(CLI::App *app, SimulateOptions *options) {
   sphc_simulated_config &config = options->config;
   app->add_option("-o,--out", options->out, "Folder to make, or file X.mcap; must not be a recording yet")
@@ -193,21 +194,21 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("PATH");
   app->add_option("--frames", config.frame_count, "How many frames")
       ->capture_default_str()
-      ->check(wholeFrom(1, UINT32_MAX))
+      ->check(wholeFrom(1, 1000000))
       ->type_name("N");
-  app->add_option("--rate", config.frame_rate_hz, "Frames a second")
+  app->add_option("--rate", config.frame_rate_hz, "Frames a second, 0.1 to 120")
       ->capture_default_str()
-      ->check(notNegative())
+      ->check(between(0.1, 120))
       ->type_name("HZ");
-  app->add_option("--lap", options->lap_s, "Seconds for a lap around the room, or through all of them")
+  app->add_option("--lap", options->lap_s, "Seconds for a lap around the room, or through all of them; 4 to 3600")
       ->default_str("16; of a flat 150")
-      ->check(notNegative())
+      ->check(between(4, 3600))
       ->type_name("S");
   app->add_option(
          "--exposure", config.exposure_s,
          "Seconds that the colour camera exposes in the light by default: how long motion blurs; 0 to 0.05")
       ->capture_default_str()
-      ->check(notNegative())
+      ->check(between(0, 0.05))
       ->type_name("S");
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
@@ -226,11 +227,11 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("N");
   app->add_option("--from", config.walk_start_s, "Seconds on the walk at which frame 0 is; 16 is lap two")
       ->capture_default_str()
-      ->check(notNegative())
+      ->check(between(0, 1e6))
       ->type_name("S");
-  app->add_option("--threads", config.threads, "At most so many; 0: all cores")
+  app->add_option("--threads", config.threads, "At most so many, up to 64; 0: all cores")
       ->capture_default_str()
-      ->check(wholeFrom(0, UINT32_MAX))
+      ->check(wholeFrom(0, 64))
       ->type_name("N");
   app->add_option("--accelerometer", options->accelerometer_hz,
                   "Also what an accelerometer measures, so many times a second [none]; X.mcap keeps it")

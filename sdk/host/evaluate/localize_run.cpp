@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/base/checked_call.h"
+#include "host/base/usage_error.h"
 #include "host/evaluate/played_odometry.h"
 #include "host/report/statistics.h"
 
@@ -18,6 +19,13 @@ int64_t steadyNanoseconds(void *) {
 
 void checkDone(const std::string &what, const spherecloud::Status &status) {
   if (status.failed()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
+}
+
+// Of a config and parameters.
+void checkMade(const spherecloud::Status &status) {
+  const std::string what = "cannot make the localizer";
+  if (status.code() == SPHC_E_ARGUMENT) throw ArgumentError(what + ": " + status.text());
+  checkDone(what, status);
 }
 
 const char *modelName(sphc_camera_model model) {
@@ -138,8 +146,8 @@ void setCameras(const sphc_rig &rig, sphc_localizer_config *config) {
 spherecloud::Localizer makeLocalizer(const sphc_localizer_config &config, const std::vector<MapFile> &maps,
                                      const Parameters &parameters) {
   spherecloud::Localizer localizer;
-  checkDone("cannot make the localizer", spherecloud::Localizer::make(withRoomFor(maps, config), &localizer));
-  checkDone("cannot make the localizer", parameters.setOn(&localizer));
+  checkMade(spherecloud::Localizer::make(withRoomFor(maps, config), &localizer));
+  checkMade(parameters.setOn(&localizer));
   for (size_t i = 0; i < maps.size(); ++i)
     checkDone("cannot take the map", localizer.setMap(static_cast<uint32_t>(i), maps[i].map));
   return localizer;

@@ -158,7 +158,7 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->group(group);
   app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
       ->capture_default_str()
-      ->check(notNegative())
+      ->check(between(0.01, 100))
       ->group(group);
   app->add_option("--depth-max", import->depth_max_m, "Farthest depth used, metres")
       ->capture_default_str()

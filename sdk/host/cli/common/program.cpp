@@ -71,6 +71,10 @@ int parseAndRun(const Program &program, int argc, char **argv) {
     return runChosen(commands, console);
   } catch (const UsageError &error) {
     return usage(root, error.what());
+  } catch (const ArgumentError &error) {
+    const std::string text = withOptionNames(error.what(), *root.get_subcommands().front());
+    if (text != error.what()) return usage(root, text);  // it names an option
+    throw;
   } catch (const std::runtime_error &error) {
     throw std::runtime_error(withOptionNames(error.what(), *root.get_subcommands().front()));
   }
