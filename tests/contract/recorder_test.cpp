@@ -577,6 +577,30 @@ TEST_F(Recorder, AChangedHeadIsRefusedWithACure) {
   EXPECT_THAT(replay.message(), AllOf(HasSubstr("changed.mcap"), HasSubstr("copy it again")));
 }
 
+TEST_F(Recorder, WhatFollowsItsEndIsRefusedWithACure) {
+  writeTinyMcap(file(), 3, config_);
+  const std::string whole = temp_.read("walk.mcap"), end = "its end is at byte " + std::to_string(whole.size());
+  for (const std::string &more : {std::string(1, '\0'), std::string("more"), whole}) {
+    temp_.write("joined.mcap", whole + more);
+    const OpenReplay replay(temp_ / "joined.mcap");
+    EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
+    EXPECT_THAT(replay.message(),
+                AllOf(HasSubstr("joined.mcap: " + end + ", and " + std::to_string(more.size()) + " bytes follow"),
+                      HasSubstr("copy it again")));
+  }
+}
+
+TEST_F(Recorder, AnotherBeginningIsNamed) {
+  writeTinyMcap(file(), 3, config_);
+  std::string bytes = temp_.read("walk.mcap");
+  bytes[1] = 'm';
+  temp_.write("changed.mcap", bytes);
+  const OpenReplay replay(temp_ / "changed.mcap");
+  EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
+  EXPECT_THAT(replay.message(),
+              AllOf(HasSubstr("changed.mcap: is no recording by its first bytes"), HasSubstr("copy it again")));
+}
+
 // As files of before, and of writers that make none.
 TEST_F(Recorder, AFileWithoutAChecksumOfItsDataIsRead) {
   writeTinyMcap(file(), 3, config_);

@@ -32,6 +32,8 @@ class McapScan {
   bool inOrder() const { return in_order_; }
   // The file says what the checksum of its data is, and it is another one.
   bool isChanged() const { return is_changed_; }
+  // Where its data end; 0: nowhere.
+  uint64_t dataEnd() const { return data_end_; }
   bool isOurs() const;
   bool hasChannels() const { return !kinds_.empty(); }
 
@@ -55,6 +57,7 @@ class McapScan {
   bool checks_all_;
   bool in_order_ = true;
   bool is_changed_ = false;
+  uint64_t data_end_ = 0;
   std::optional<bool> chunk_is_true_;  // of the chunk being read, once its checksum was compared
   std::map<uint16_t, std::string> schemas_;
   std::map<uint16_t, Kind> kinds_;
@@ -82,6 +85,7 @@ void McapScan::readRecord(const RecordPlace &record) {
     readCalibration(record);
   } else if (record.op == Op::kDataEnd && content) {
     checkData(record.start, readDataEnd(*content));
+    data_end_ = record.end();
   } else if (record.op == Op::kSchema && content && readSchema(*content, schema)) {
     schemas_[schema.id] = schema.name;
   } else if (record.op == Op::kChannel && content && readChannel(*content, channel)) {
@@ -242,6 +246,20 @@ void requireBadChunk(const File &file, Recording &recording) {
                                      "cannot be believed; copy it again from where it was recorded");
 }
 
+// Behind the data come an index and a footer, and then the file ends.  What follows may be a whole recording, which
+// must not be lost without a word.
+void requireEnd(const File &file, FileWindow &window, uint64_t data_end) {
+  uint64_t end = 0;
+  walkRecords(window, data_end, window.fileSize(), [&end](const RecordPlace &record) {
+    if (record.op == Op::kFooter) end = record.end() + sizeof kMcapMagic;
+  });
+  if (end == 0 || end >= window.fileSize() || !hasMagic(window, end - sizeof kMcapMagic)) return;
+  throw Failure(SPHC_E_DEVICE, file.name() + ": its end is at byte " + std::to_string(end) + ", and " +
+                                   std::to_string(window.fileSize() - end) +
+                                   " bytes follow, as where files were joined; copy it again, or give each "
+                                   "recording a file of its own");
+}
+
 }  // namespace
 
 Recording openMcap(const fs::path &path) {
@@ -259,6 +277,7 @@ Recording openMcap(const fs::path &path) {
   if (recording.is_cut && !quick.hasChannels() && recording.chunks.empty() && recording.bad_chunk_count == 0)
     throw Failure(SPHC_E_DEVICE,
                   file.name() + ": was cut before it says what it holds; copy it again from where it was recorded");
+  if (!recording.is_cut) requireEnd(file, window, quick.dataEnd());
   if (!quick.isOurs()) return openRosBag(path);
   if (quick.isChanged()) requireBadChunk(file, recording);
   if (is_whole && !quick.inOrder()) recording = McapScan(file, true).run();
