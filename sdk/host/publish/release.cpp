@@ -73,6 +73,16 @@ void refuseChange(const Place &place, sphc_band band, const ReleaseRequest &requ
                              cure);
 }
 
+// A new map of a place that other maps have already.
+void refuseLittleNew(size_t fresh, const PointModel &model, const ReleaseSummary &summary) {
+  if (fresh >= kLeastBatch || summary.elsewhere == 0) return;
+  throw std::runtime_error(
+      "--new-place: of " + std::to_string(model.points.size()) + " points " + std::to_string(summary.elsewhere) +
+      " are published already, and " + std::to_string(fresh) +
+      " are left, too few for a map of their own; leave --new-place out, and the build updates the map that has "
+      "them, or record what no map shows");
+}
+
 // Points that nobody has published, sorting out the others.
 std::vector<ModelPoint> freshPoints(const PointModel &model, const Recognition *own,
                                     const std::vector<const Recognition *> &others, ReleaseSummary *summary) {
@@ -194,6 +204,7 @@ NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
   if (!request.new_place) refuseForeign(samePlace(foreign, model), model);
   const Recognition *here = request.new_place ? nullptr : samePlace(own, model);
   std::vector<ModelPoint> fresh = freshPoints(model, here, allBut(here, own, foreign), &summary);
+  if (request.new_place) refuseLittleNew(fresh.size(), model, summary);
   Place place;
   if (here) {
     place = request.own[static_cast<size_t>(here - own.data())];

@@ -279,7 +279,10 @@ TEST(Release, ANewPlaceHasOnlyWhatWasNeverPublished) {
   EXPECT_EQ(second.place.number, 2u);
   EXPECT_EQ(second.summary.added, 500u);
   for (const std::string &name : descriptorsOf(second.file)) EXPECT_EQ(descriptorsOf(first.file).count(name), 0u);
-  EXPECT_THAT(refusal(test::part(room, 0, 1000), anew), HasSubstr("too few"));
+  EXPECT_THAT(refusal(test::part(room, 0, 1000), anew),
+              AllOf(HasSubstr("of 1000 points 1000 are published already"), HasSubstr("leave --new-place out")));
+  anew.own = {};
+  EXPECT_THAT(refusal(test::part(room, 0, 20), anew), HasSubstr("record more frames")) << "nothing was published";
 }
 
 TEST(Release, WhoUnderstandsMayPublishTwice) {
