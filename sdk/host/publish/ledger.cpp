@@ -46,6 +46,25 @@ COMMIT;
   throw std::runtime_error("ledger " + path + ": " + why);
 }
 
+// `what` failed with this code of SQLite's, which tells the cure.
+[[noreturn]] void refuseByCode(const std::string &path, const std::string &what, int code) {
+  switch (code) {
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+    case SQLITE_READONLY:
+      refuse(
+          path,
+          what + "; allow yourself to write the ledger and in its folder, or choose another place with --ledger");
+    case SQLITE_BUSY:
+      refuse(path, what + "; another program is using it: wait until that ends");
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      refuse(path, what + "; choose the right file with --ledger, or take the backup");
+    default:
+      refuse(path, what + "; is the disk full, or failing?");
+  }
+}
+
 // SQLite gives its journal the mode of the file, so the file is made first.
 // True where it was not there.
 bool makeFile(const std::string &path) {
@@ -187,7 +206,7 @@ Ledger::Ledger(const std::string &path, int flags) : path_(path) {
 
 void Ledger::run(const char *statement) {
   if (sqlite3_exec(database_.get(), statement, nullptr, nullptr, nullptr) != SQLITE_OK)
-    refuse(path_, sqliteError(database_.get()) + "; is another program using it, or the disk full?");
+    refuseByCode(path_, sqliteError(database_.get()), sqlite3_errcode(database_.get()));
 }
 
 void Ledger::make(const SecretKey &key) {
@@ -282,8 +301,9 @@ void Ledger::record(const Place &place) {
   try {
     writePlace(database_.get(), place);
   } catch (const std::runtime_error &error) {
+    const int code = sqlite3_errcode(database_.get());
     sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
-    refuse(path_, error.what());
+    refuseByCode(path_, error.what(), code);
   }
   run("COMMIT");
   database_.get_deleter().unrecorded.clear();

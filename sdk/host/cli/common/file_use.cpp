@@ -49,12 +49,13 @@ std::string headOf(const std::string &path) {
   throw std::runtime_error(option + ": " + path + " " + why);
 }
 
+// What replaces a file is made beside it, and so is a ledger's journal.
 void checkParent(const std::string &option, const std::string &path) {
   std::error_code error;
   const fs::path folder = plain(path).parent_path();
   if (!fs::is_directory(folder, error))
     refuse(option, path, "cannot be written: there is no folder " + folder.string() + "; make it first");
-  if (!fs::exists(path, error) && access(folder.c_str(), W_OK | X_OK) != 0)
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
     refuse(option, path, "cannot be written: nothing may be made in " + folder.string() + "; choose another place");
 }
 
@@ -157,10 +158,10 @@ void FileUse::checkFile(const Output &output) const {
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_character_file(status) && isStandardOutput(path))
     refuse(output.option, path, "is where this command's own words go; give a file of its own");
-  checkParent(output.option, path);
-  if (!fs::exists(status)) return;
   if (fs::is_directory(status)) refuse(output.option, path, "is a folder; give the name of a file");
-  if (output.kind == Kind::kKept || fs::is_character_file(status) || fs::is_fifo(status)) return;
+  if (fs::is_character_file(status) || fs::is_fifo(status)) return;
+  checkParent(output.option, path);
+  if (!fs::exists(status) || output.kind == Kind::kKept) return;
   if (!fs::is_regular_file(status))
     refuse(output.option, path, "is no file that can be written; choose another name");
   if (output.kind == Kind::kNew)

@@ -221,13 +221,22 @@ TEST_F(LedgerTest, OneProgramAtATime) {
   EXPECT_THAT(refusal(), HasSubstr("another program"));
 }
 
+// SQLite makes a journal beside the file.  A folder in its place stands for a folder where nothing may be made.
+TEST_F(LedgerTest, OneThatCannotBeWrittenIsRefusedWithItsCure) {
+  const std::string journal = path_ + "-journal";
+  ASSERT_EQ(mkdir(journal.c_str(), 0700), 0);
+  EXPECT_THAT(refusal(), HasSubstr("unable to open database file; allow yourself to write the ledger"));
+  EXPECT_EQ(rmdir(journal.c_str()), 0);
+  EXPECT_EQ(refusal(), "accepted");
+}
+
 TEST_F(LedgerTest, WhatIsNoLedgerIsRefused) {
   EXPECT_THROW(Ledger::openToRead(path_), std::runtime_error);
   EXPECT_NE(access(path_.c_str(), F_OK), 0) << "reading made a file";
   std::ofstream(path_) << "no database, and long enough that nobody takes it for the beginning of one "
                        << std::string(200, 'x');
   chmod(path_.c_str(), 0600);
-  EXPECT_THAT(refusal(), HasSubstr("not a database"));
+  EXPECT_THAT(refusal(), HasSubstr("not a database; choose the right file"));
   EXPECT_THROW(Ledger::openOrMake("/nonexistent-folder/ledger", nullptr), std::runtime_error);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -105,6 +106,36 @@ TEST_F(FileUseTest, WhatIsKeptIsThereAlready) {
   FileUse files(false);
   files.keeps("--ledger", folder_ / "a.ledger");
   EXPECT_NO_THROW(files.check());
+}
+
+// Whom the modes of files do not bind is somebody else for a while.
+class Nobody {
+ public:
+  Nobody() { EXPECT_EQ(setresuid(is_root_ ? kNobody : id_, is_root_ ? kNobody : id_, id_), 0); }
+  ~Nobody() { EXPECT_EQ(setresuid(id_, id_, id_), 0); }
+
+ private:
+  static constexpr uid_t kNobody = 65534;
+  const uid_t id_ = getuid();
+  const bool is_root_ = id_ == 0;
+};
+
+// A file is made beside the one that it replaces, and a journal beside a ledger.
+TEST_F(FileUseTest, AFolderWhereNothingMayBeMadeIsNamed) {
+  put("a.ledger", "whatever");
+  put("mine", "this is ours");
+  const std::string where = folder_ / "";
+  fs::permissions(where, fs::perms(0555));
+  {
+    const Nobody nobody;
+    for (const std::string name : {"new", "mine"})
+      EXPECT_THAT(refusal(folder_ / name), HasSubstr("nothing may be made in")) << name;
+    FileUse files(false);
+    files.keeps("--ledger", folder_ / "a.ledger");
+    EXPECT_THROW(files.check(), std::runtime_error);
+    EXPECT_EQ(refusal("/dev/null"), "fine");
+  }
+  fs::permissions(where, fs::perms(0755));
 }
 
 TEST_F(FileUseTest, AFolderIsOursByOneOfItsFiles) {
