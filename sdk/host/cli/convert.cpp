@@ -32,6 +32,9 @@ struct ConvertOptions {
   std::string out;
   Target target = Target::kByName;
   sphc_recorder_config recorder = {};
+
+  // Colour and depth under one number, as the layout has them.
+  bool isByFrame() const { return target == Target::k7Scenes || target == Target::kRaw; }
 };
 
 struct Result {
@@ -217,7 +220,6 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
 
 // What the new layout does not keep.
 void tellLosses(const ConvertOptions &options, const Facts &facts, const Result &result, const Console &console) {
-  const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
   if (options.target == Target::k7Scenes)
     console.warn("note: the 7-Scenes layout has no times: frame N is at N / 30 s from now on");
   if (result.amplitudes && options.target != Target::kMcap)
@@ -227,10 +229,10 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
     console.warn("note: left out: " + counted(facts.acceleration_count, "acceleration") +
                  "; an MCAP file keeps them");
   const uint32_t paired = result.depth + result.unreadable, posed = result.poses + result.unreadable_poses;
-  if (is_by_frame && facts.depth_count > paired)
+  if (options.isByFrame() && facts.depth_count > paired)
     console.warn("note: left out: " + counted(facts.depth_count - paired, "depth image") +
                  " without a colour image near in time");
-  if (is_by_frame && !options.in.isPart() && facts.pose_count > posed)
+  if (options.isByFrame() && !options.in.isPart() && facts.pose_count > posed)
     console.warn("note: left out: " + counted(facts.pose_count - posed, "pose") + " between frames");
   if (options.target == Target::kTum && facts.is_mcap)
     console.warn("note: the TUM layout has no sequence numbers, clocks and exposures");
@@ -262,9 +264,8 @@ int convert(ConvertOptions options, const Console &console) {
   files.writesRecording("the new recording", options.out);
   files.check();
   Facts facts = {};
-  const bool is_by_frame = options.target == Target::k7Scenes || options.target == Target::kRaw;
   const Result result =
-      is_by_frame ? convertFrames(options, console, &facts) : convertStreams(options, console, &facts);
+      options.isByFrame() ? convertFrames(options, console, &facts) : convertStreams(options, console, &facts);
   tellLosses(options, facts, result, console);
   console.say("Wrote " + options.out + ": " + counted(result.color, "colour image") + ", " +
               counted(result.depth, "depth image") + ", " + counted(result.poses, "pose") +
