@@ -100,6 +100,12 @@ uint32_t skipToNewest(Rig *rig, CapturePair *pair) {
   return skipped;
 }
 
+void checkAmplitude(const LiveOptions &options, const CapturePair &pair) {
+  if (options.config.amplitude_min == 0 || pair.depth.amplitude.data) return;
+  throw std::runtime_error("frame " + std::to_string(pair.color.sequence) +
+                           ": the depth camera gave no amplitudes; leave --amplitude-min out");
+}
+
 void lookAt(const CapturePair &pair, const Rig &rig, const Console &console, spherecloud::Localizer *localizer,
             StatusLine *line, LiveTally *tally) {
   sphc_localizer_result result = spherecloud::emptyResult();
@@ -180,6 +186,7 @@ int run(const LiveOptions &options, const Console &console) {
       rig.release(pair);
       continue;
     }
+    checkAmplitude(options, pair);
     lookAt(pair, rig, console, &localizer, &line, &tally);
     rig.release(pair);
   }

@@ -486,6 +486,10 @@ void expectAmplitudes(const TempFolder &folder, const std::string &map) {
   const Answer without = runCommand("localize --amplitude-min 75 -r " + (folder / "raw_walk") + " -m " + map);
   EXPECT_EQ(without.exit_code, kExitFailure);
   EXPECT_THAT(without.err, HasSubstr("amplitude image is missing"));
+  const Answer live = runCommand("live --amplitude-min 75 --device replay:" + (folder / "raw_walk") + " -m " + map);
+  EXPECT_EQ(live.exit_code, kExitFailure);
+  EXPECT_THAT(live.err, HasSubstr("the depth camera gave no amplitudes; leave --amplitude-min out"));
+  EXPECT_THAT(live.err, Not(HasSubstr("calibration")));
   EXPECT_THAT(runCommand("simulate --raw-depth --frames 1 --out " + (folder / "raw_folder")).err,
               HasSubstr("keeps no amplitudes"));
 }
@@ -536,6 +540,9 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   const Answer lost = runCommand("localize -r " + walk + " -m " + (folder / "other.sphc"));
   EXPECT_EQ(lost.exit_code, kExitNotLocalized);
   EXPECT_THAT(lost.err, HasSubstr("Not one frame"));
+  const Answer live = runCommand("live -m " + (folder / "other.sphc") + " --device replay:" + walk);
+  EXPECT_EQ(live.exit_code, kExitNotLocalized);
+  EXPECT_THAT(live.err, HasSubstr("Not one frame"));
   const Answer mixed =
       runCommand("localize -r " + walk + " -m " + (folder / "other.sphc") + " --owner-note " + map + ".owner.json");
   EXPECT_EQ(mixed.exit_code, kExitFailure);
