@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/base/regular_file.h"
 #include "host/calibration/nearest_camera.h"
 #include "host/cameras/camera_models.h"
 #include "host/cameras/fault.h"
@@ -14,8 +15,9 @@ constexpr size_t kMostFileBytes = 256 << 10;
 
 TextFile readText(const std::string &path) {
   TextFile file = {path, std::string(kMostFileBytes + 1, '\0')};
+  checkIsFile(path, "the calibration file itself");
   std::ifstream stream(path, std::ios::binary);
-  if (!stream || !std::filesystem::is_regular_file(path))
+  if (!stream)
     throw std::runtime_error(path + ": no such file, or it may not be read; check its name and permissions");
   stream.read(file.text.data(), static_cast<std::streamsize>(file.text.size()));
   if (stream.bad()) throw std::runtime_error(path + ": cannot be read to its end; check the disk");

@@ -61,7 +61,6 @@ std::vector<InversionView> viewsOf(const AuditOptions &options, const Place &pla
 }
 
 std::vector<uint8_t> readMap(const std::string &path) {
-  checkIsFile(path);
   std::vector<uint8_t> bytes = readMapFile(path);
   checkIsNotEncrypted(path, bytes.data(), bytes.size());
   return bytes;

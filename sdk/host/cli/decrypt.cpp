@@ -6,7 +6,6 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/encryption/encrypted_map.h"
-#include "host/evaluate/map_file.h"
 #include "host/report/file.h"
 
 namespace sphc::host {
@@ -24,7 +23,6 @@ int decrypt(const DecryptOptions &options, const Console &console) {
   files.writes("--out", options.out, never());
   files.check();
   const EncryptionKey key = EncryptionKey::read(options.key);
-  checkIsFile(options.encrypted);
   writeFile(options.out, decryptMap(options.encrypted, readBytes(options.encrypted), key));
   console.say("Wrote " + options.out + ": the map of " + options.encrypted + ".");
   console.give({{"encrypted", options.encrypted}, {"map", options.out}, {"key_id", key.idText()}});

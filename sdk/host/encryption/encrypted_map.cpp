@@ -29,13 +29,13 @@ EncryptionKey::EncryptionKey(EncryptionKey &&other) noexcept : key_(other.key_) 
 
 EncryptionKey EncryptionKey::read(const std::string &path) {
   startSodium();
-  checkPrivate(path, "whoever has it decrypts your maps");
   KeyBytes bytes;
   if (!readKeyText(path, kKeyHead, &bytes))
     throw std::runtime_error("key file " + path +
                              " holds no key of encrypted maps; spherecloud key --for encryption makes one");
   EncryptionKey key(bytes);
   wipe(&bytes);
+  checkPrivate(path, "whoever has it decrypts your maps");
   return key;
 }
 

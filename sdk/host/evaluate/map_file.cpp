@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 
 #include "host/base/hex_text.h"
+#include "host/base/regular_file.h"
 #include "host/encryption/encrypted_map.h"
 
 namespace sphc::host {
@@ -19,15 +19,6 @@ void checkUsable(const std::string &what, const spherecloud::Status &status) {
 
 }  // namespace
 
-void checkIsFile(const std::string &path) {
-  std::error_code absent;
-  const std::filesystem::file_status status = std::filesystem::status(path, absent);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
-  throw std::runtime_error(path +
-                           (std::filesystem::is_directory(status) ? " is a folder" : " is a device or a pipe") +
-                           "; give the map file itself, which spherecloud build wrote");
-}
-
 void checkIsNotEncrypted(const std::string &path, const void *bytes, size_t count) {
   const std::string head = kEncryptionHead;
   if (count < head.size() || std::memcmp(bytes, head.data(), head.size()) != 0) return;
@@ -36,7 +27,7 @@ void checkIsNotEncrypted(const std::string &path, const void *bytes, size_t coun
 }
 
 MapFile openMapFile(const std::string &path, const Trust &trust) {
-  checkIsFile(path);
+  checkIsFile(path, "the map file itself, which spherecloud build wrote");
   MapFile file;
   checkUsable("cannot read the map " + path, spherecloud::readFile(path.c_str(), &file.bytes));
   checkIsNotEncrypted(path, file.bytes.data(), file.bytes.size());

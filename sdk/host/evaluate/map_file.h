@@ -15,8 +15,6 @@ struct MapFile {
   sphc_signature_statement statement = {};  // where keys were trusted
 };
 
-// Throws std::runtime_error, which says what is wanted, when something is there that is no file.
-void checkIsFile(const std::string &path);
 // Throws std::runtime_error where the bytes are an encrypted map's: of them the map's reader cannot know the cause.
 void checkIsNotEncrypted(const std::string &path, const void *bytes, size_t count);
 // Validates every byte; where keys are trusted, first that one of them signed the map, in the file beside it.

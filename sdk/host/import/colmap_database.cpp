@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/base/regular_file.h"
 #include "host/cameras/fault.h"
 #include "host/import/colmap_descriptors.h"
 #include "host/import/sqlite_error.h"
@@ -27,6 +28,7 @@ using Statement = std::unique_ptr<sqlite3_stmt, Closer>;
 }
 
 Database openDatabase(const std::string &path) {
+  checkIsFile(path, "COLMAP's database.db itself");
   sqlite3 *opened = nullptr;
   const int status = sqlite3_open_v2(path.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
   Database database(opened);

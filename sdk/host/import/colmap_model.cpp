@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/base/regular_file.h"
 #include "host/cameras/fault.h"
 
 namespace sphc::host {
@@ -12,6 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string readWhole(const fs::path &path) {
+  checkIsFile(path.string(), "the file itself");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("cannot read " + path.string() + "; is it there, and are you allowed to?");
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -2,8 +2,10 @@
 
 #include <sodium.h>
 
-#include <fstream>
+#include <optional>
 #include <stdexcept>
+
+#include "host/base/private_file.h"
 
 namespace sphc::host {
 namespace {
@@ -37,15 +39,11 @@ KeyBytes drawKey() {
 void wipe(KeyBytes *key) { sodium_memzero(key->data(), key->size()); }
 
 bool readKeyText(const std::string &path, const std::string &head, KeyBytes *key) {
-  std::ifstream in;
-  in.rdbuf()->pubsetbuf(nullptr, 0);  // which would keep the digits
-  in.open(path);
-  if (!in) throw std::runtime_error("key file " + path + " cannot be read; spherecloud key makes one");
   WipedText read{std::string(head.size() + 1 + 2 * key->size() + 2, '\0')};
-  in.read(read.text.data(), static_cast<std::streamsize>(read.text.size()));
-  const size_t got = static_cast<size_t>(in.gcount());
+  const std::optional<size_t> got = readPrivate(path, read.text.data(), read.text.size());
+  if (!got) throw std::runtime_error("key file " + path + " cannot be read; spherecloud key makes one");
   const size_t wanted = head.size() + 1 + 2 * key->size();
-  if (got < wanted || got > wanted + 1 || (got == wanted + 1 && read.text[wanted] != '\n')) return false;
+  if (*got < wanted || *got > wanted + 1 || (*got == wanted + 1 && read.text[wanted] != '\n')) return false;
   if (read.text.compare(0, head.size() + 1, head + "\n") != 0) return false;
   size_t bytes = 0;
   const bool is_read = sodium_hex2bin(key->data(), key->size(), read.text.data() + head.size() + 1, 2 * key->size(),

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "host/base/hex_text.h"
+#include "host/base/regular_file.h"
 #include "host/base/write_file.h"
 #include "runtime/map/crc32.h"
 #include "runtime/map/layout.h"
@@ -136,6 +137,7 @@ void writeOwnerNote(const std::string &path, const OwnerNote &note) {
 }
 
 OwnerNote readOwnerNote(const std::string &path) {
+  checkIsFile(path, "the owner's note that spherecloud build wrote beside the map");
   std::ifstream in(path);
   if (!in)
     throw std::runtime_error("owner's note " + path +

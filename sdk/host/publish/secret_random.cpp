@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "host/base/private_file.h"
 
 namespace sphc::host {
 namespace {
+
+constexpr size_t kMostKeyBytes = 256;  // the digits, and white space
 
 void startSodium() {
   if (sodium_init() < 0)
@@ -30,10 +32,11 @@ SecretKey newSecretKey() {
 
 SecretKey readSecretKey(const std::string &path) {
   startSodium();
-  checkPrivate(path, "it tells real points from fake ones");
-  std::ifstream in(path);
+  std::string content(kMostKeyBytes, '\0');
+  content.resize(readPrivate(path, content.data(), content.size()).value_or(0));
+  std::istringstream in(content);
   std::string text;
-  if (!in || !(in >> text))
+  if (!(in >> text))
     throw std::runtime_error("key file " + path + " cannot be read; leave --key out, and the ledger draws one");
   SecretKey key;
   size_t bytes = 0;
@@ -44,6 +47,7 @@ SecretKey readSecretKey(const std::string &path) {
     throw std::runtime_error(
         "key file " + path +
         " does not hold exactly 64 hexadecimal digits; leave --key out, and the ledger draws one");
+  checkPrivate(path, "it tells real points from fake ones");
   return key;
 }
 

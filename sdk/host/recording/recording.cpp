@@ -44,7 +44,9 @@ Recording openRecording(const fs::path &folder) {
     return isRos1Bag(folder) ? openRos1Bag(folder) : openMcap(folder);
   }
   const std::string name = shortPath(folder.string());
-  if (!fs::is_directory(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder or file; give a recording");
+  if (!fs::exists(folder)) throw Failure(SPHC_E_DEVICE, name + ": no such folder or file; give a recording");
+  if (!fs::is_directory(folder))
+    throw Failure(SPHC_E_DEVICE, name + ": is a device or a pipe; give a recording, a folder or a file");
   if (isUnfinished(folder))
     throw Failure(SPHC_E_DEVICE, name + ": was not finished (unfinished.txt is in it); write it again, or remove " +
                                      "that file to read what is there");

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "host/base/regular_file.h"
+
 namespace sphc::host {
 
 void makeFolder(const std::string &path) {
@@ -19,6 +21,7 @@ void makeFolder(const std::string &path) {
 }
 
 std::vector<uint8_t> readBytes(const std::string &path) {
+  checkIsFile(path, "the file itself");
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     throw std::runtime_error("cannot read " + path + ": " + std::strerror(errno) +

@@ -24,7 +24,7 @@ std::vector<std::string> readLines(const std::string &path) {
 void replaceRows(const std::string &path, const std::string &head, const std::string &key,
                  const std::vector<std::string> &rows) {
   std::vector<std::string> lines = {head};
-  if (std::filesystem::exists(path)) lines = readLines(path);
+  if (std::filesystem::is_regular_file(path)) lines = readLines(path);
   if (lines.empty() || lines.front() != head)
     throw std::runtime_error(path + " holds no results of this kind: its first line is not \"" + head +
                              "\"; choose another file");

@@ -3,6 +3,7 @@
 #include <sodium.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include "host/base/hex_text.h"
@@ -16,6 +17,13 @@ namespace {
 
 constexpr char kSecretHead[] = "spherecloud secret signing key 1";
 constexpr char kPublicHead[] = "spherecloud public signing key 1";
+
+[[noreturn]] void refuseSecret(const std::string &path) {
+  KeyBytes bytes;
+  const bool is_public = std::filesystem::is_regular_file(path) && readKeyText(path, kPublicHead, &bytes);
+  throw std::runtime_error("key file " + path + (is_public ? " holds a public key" : " holds no secret key") +
+                           ", and only a secret one signs; give the file without .pub that spherecloud key wrote");
+}
 
 }  // namespace
 
@@ -39,13 +47,11 @@ SigningKey SigningKey::draw() {
 
 SigningKey SigningKey::read(const std::string &path) {
   startSodium();
-  checkPrivate(path, "whoever has it signs maps in your name");
   Seed seed;
-  if (!readKeyText(path, kSecretHead, &seed))
-    throw std::runtime_error("key file " + path +
-                             " holds no secret key; give the file without .pub that spherecloud key wrote");
+  if (!readKeyText(path, kSecretHead, &seed)) refuseSecret(path);
   SigningKey key(seed);
   wipe(&seed);
+  checkPrivate(path, "whoever has it signs maps in your name");
   return key;
 }
 

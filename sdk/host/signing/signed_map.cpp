@@ -1,9 +1,11 @@
 #include "host/signing/signed_map.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
+#include "host/base/regular_file.h"
 #include "host/base/usage_error.h"
 #include "signature/statement.h"
 
@@ -52,6 +54,7 @@ sphc_signature_statement checkSignature(const Trust &trust, const std::string &m
                                         size_t count) {
   const std::string signature_path = trust.signature.empty() ? signaturePath(map) : trust.signature;
   const sphc_signature_policy policy = policyOf(trust);
+  checkIsFile(signature_path, "the signature that spherecloud sign wrote beside the map");
   const std::vector<uint8_t> signature = readSignature(signature_path);
   sphc_signature_statement statement = {};
   statement.struct_size = sizeof statement;
@@ -64,6 +67,8 @@ sphc_signature_statement checkSignature(const Trust &trust, const std::string &m
 }
 
 uint64_t statedRelease(const std::string &signature_path, const sphc_signature_key &key, const std::string &name) {
+  std::error_code absent;
+  if (!std::filesystem::is_regular_file(signature_path, absent)) return 0;
   const std::vector<uint8_t> bytes = readSignature(signature_path);
   sphc_statement statement;
   if (bytes.size() != SPHC_SIGNATURE_BYTES || !sphc_statement_read(bytes.data(), &statement)) return 0;

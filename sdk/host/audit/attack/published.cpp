@@ -5,6 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "host/base/regular_file.h"
 #include "runtime/map/map_view.h"
 
 namespace sphc::host {
@@ -31,6 +32,7 @@ Published publishedIn(const std::vector<uint8_t> &file) {
 }
 
 std::vector<uint8_t> readMapFile(const std::string &path) {
+  checkIsFile(path, "the map file itself");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::runtime_error("map " + path + " cannot be read; is the file there?");
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -1,10 +1,13 @@
 #include "host/base/private_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 namespace sphc::host {
 namespace {
@@ -28,7 +31,48 @@ TEST(PrivateFile, IsOneThatOnlyItsOwnerReads) {
   }
   fs::remove(path);
   EXPECT_NO_THROW(checkPrivate(path, "it opens doors"));
-  EXPECT_THROW(checkPrivate(testing::TempDir(), "it opens doors"), std::runtime_error);
+}
+
+std::string whyNoKey(const std::string &path) {
+  char bytes[8];
+  try {
+    return readPrivate(path, bytes, sizeof bytes) ? "read" : "not there";
+  } catch (const std::runtime_error &error) {
+    return error.what();
+  }
+}
+
+TEST(PrivateFile, IsReadWithoutWaiting) {
+  const std::string path = (fs::path(testing::TempDir()) / "private_file_test.pipe").string();
+  fs::remove(path);
+  EXPECT_EQ(whyNoKey(path), "not there");
+  char bytes[4];
+  std::ofstream(path) << "sec";
+  EXPECT_EQ(readPrivate(path, bytes, sizeof bytes), 3u);
+  std::ofstream(path) << "secret";
+  EXPECT_EQ(readPrivate(path, bytes, sizeof bytes), 4u);
+  EXPECT_EQ(std::string(bytes, 4), "secr");
+  fs::remove(path);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_EQ(whyNoKey(path), "key file " + path + " is a pipe into which nobody writes; give the file itself");
+  fs::remove(path);
+  EXPECT_EQ(whyNoKey("/dev/zero"), "key file /dev/zero is a device; give the file itself");
+  EXPECT_EQ(whyNoKey(testing::TempDir()), "key file " + testing::TempDir() + " is a folder; give the file itself");
+}
+
+// What is written later is waited for.
+TEST(PrivateFile, MayBeAPipe) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  std::thread writer([&ends] {
+    for (const char byte : {'a', 'b', 'c'}) EXPECT_EQ(write(ends[1], &byte, 1), 1);
+    close(ends[1]);
+  });
+  char bytes[8];
+  EXPECT_EQ(readPrivate("/dev/fd/" + std::to_string(ends[0]), bytes, sizeof bytes), 3u);
+  EXPECT_EQ(std::string(bytes, 3), "abc");
+  writer.join();
+  close(ends[0]);
 }
 
 }  // namespace

@@ -224,6 +224,56 @@ TEST_F(FilesTest, AFullDiskIsNoSuccess) {
   }
 }
 
+// Where the library knows the bounds, the command line is wrong all the same.
+TEST_F(FilesTest, AValueThatTheLocalizerRefusesIsWrongUse) {
+  for (const std::string option : {"--ratio 7", "--max-keypoints 1", "--probes -1", "--min-inliers nan",
+                                   "--max-iterations 1e9", "--depth-max 0", "--pixel-sigma 0", "--depth-min 7"}) {
+    const Answer answer = runCommand("localize -r " + at("walk") + " -m " + at("room.sphc") + " " + option);
+    EXPECT_EQ(answer.exit_code, kExitUsage) << option;
+    EXPECT_THAT(answer.err, HasSubstr("--help")) << option;
+    EXPECT_THAT(answer.err, HasSubstr(option == "--depth-min 7" ? "--depth-max is 6"
+                                                                : option.substr(0, option.find(' ')) + " is "));
+  }
+}
+
+// A pipe that nobody writes to, and a device that never ends.
+TEST_F(FilesTest, WhatIsNoFileIsNotWaitedFor) {
+  const std::string map = at("room.sphc"), key = at("pipe.key"), localize = "localize -r " + at("walk") + " -m ";
+  ASSERT_EQ(runCommand("key --out " + key).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("key --for encryption --out " + at("pipe.secret")).exit_code, kExitDone);
+  ASSERT_EQ(mkfifo(at("pipe").c_str(), 0600), 0);
+  for (const std::string &input : {at("pipe"), std::string("/dev/zero")})
+    for (const std::string &command :
+         {"info " + input, localize + input, "localize -m " + map + " -r " + input,
+          "convert " + input + " " + at("none"), localize + map + " --owner-note " + input,
+          localize + map + " --trusted-key " + input, localize + map + " -c " + input,
+          "verify " + map + " --trusted-key " + key + ".pub --signature " + input,
+          "sign " + map + " --release 1 --key " + input, "encrypt " + map + " --key " + input,
+          "decrypt " + input + " --out " + at("none") + " --key " + at("pipe.secret"), "calibration " + input,
+          "audit " + input,
+          "build -r " + at("walk") + " -m " + at("none") + " --ledger " + at("none.ledger") + " --key " + input,
+          "build -r " + at("walk") + " -m " + at("none") + " --ledger " + input}) {
+      const Answer answer = runProgram("timeout 60 " SPHC_COMMAND, command);
+      EXPECT_EQ(answer.exit_code, kExitFailure) << command;
+      EXPECT_THAT(answer.err, HasSubstr(input)) << command;
+      EXPECT_THAT(answer.err, testing::ContainsRegex("is a (device|pipe|FIFO)")) << command;
+    }
+  const Answer figures =
+      runProgram("timeout 60 " SPHC_COMMAND, "audit " + map + " --quick --only density --figures /dev/zero");
+  EXPECT_EQ(figures.exit_code, kExitAuditIncomplete) << figures.err;
+}
+
+TEST_F(FilesTest, OdometryThatIsNotThereIsSaid) {
+  fs::copy(at("walk"), at("unposed"), fs::copy_options::recursive);
+  fs::remove(at("unposed/groundtruth.txt"));
+  const std::string localize = " --odometry -m " + at("room.sphc"),
+                    note = "--odometry: the recording holds no poses";
+  const Answer unposed = runCommand("localize -r " + at("unposed") + localize);
+  EXPECT_EQ(unposed.exit_code, kExitDone) << unposed.err;
+  EXPECT_THAT(unposed.err, HasSubstr(note));
+  EXPECT_THAT(runCommand("localize -r " + at("walk") + localize).err, testing::Not(HasSubstr(note)));
+}
+
 TEST_F(FilesTest, TheCauseIsTheRightOne) {
   const std::string build = "build -r " + at("walk") + " -m " + at("cause.sphc") + " ";
   for (const char *options : {"--depth-min 5 --depth-max 1", "--max-keypoints 0", "--min-observations 4",

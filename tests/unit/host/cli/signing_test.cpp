@@ -95,6 +95,21 @@ TEST_F(SigningTest, OnlyAMapIsSigned) {
   EXPECT_FALSE(fs::exists(folder_ / "letter.sig"));
 }
 
+TEST_F(SigningTest, APublicKeyDoesNotSign) {
+  const Answer answer = runCommand("sign " + map_ + " --key " + key_ + ".pub --release 9");
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr(key_ + ".pub holds a public key"));
+  EXPECT_THAT(answer.err, Not(HasSubstr("chmod")));
+}
+
+// As a program gives it that keeps secrets.
+TEST_F(SigningTest, AKeyMayComeThroughAPipe) {
+  const Answer answer =
+      runProgram("bash -c", "'" SPHC_COMMAND " sign " + map_ + " --release 8 --key <(cat " + key_ + ")'");
+  EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
+  EXPECT_EQ(verify("--least-release 8").exit_code, kExitDone);
+}
+
 // The old key and the new one are trusted while devices are updated.
 TEST_F(SigningTest, KeysAreChanged) {
   const std::string both = "--trusted-key " + (folder_ / "other.key.pub");

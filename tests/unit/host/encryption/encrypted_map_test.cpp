@@ -98,6 +98,10 @@ TEST_F(EncryptionKeyTest, WhatIsNoneIsRefused) {
   fs::permissions(path_, fs::perms::owner_read | fs::perms::owner_write);
   EXPECT_THAT(refusal(), HasSubstr("holds no key of encrypted maps"));
   EXPECT_THAT(refusal(), Not(HasSubstr("aaaa")));
+}
+
+TEST_F(EncryptionKeyTest, OneThatOthersReadIsRefused) {
+  EncryptionKey::draw().write(path_);
   fs::permissions(path_, fs::perms::others_read, fs::perm_options::add);
   EXPECT_THAT(refusal(), HasSubstr("chmod 600"));
 }

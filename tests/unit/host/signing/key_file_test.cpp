@@ -15,6 +15,7 @@ namespace sphc::host {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -95,13 +96,20 @@ TEST_F(KeyFileTest, FilesThatHoldNoSecretKeyAreRefused) {
                              head + seed.substr(1) + "\n",
                              head + seed + "0\n",
                              head + seed + "\nmore",
-                             head + "z" + seed.substr(1) + "\n",
-                             "spherecloud public signing key 1\n" + seed + "\n"};
+                             head + "z" + seed.substr(1) + "\n"};
   for (const std::string &content : bad) {
     put("bad.key", content);
     EXPECT_THAT(refusal(SigningKey::read, "bad.key", seed.substr(1)), HasSubstr("holds no secret key")) << content;
   }
   EXPECT_THAT(refusal(SigningKey::read, "absent.key"), HasSubstr("spherecloud key makes one"));
+}
+
+// Everybody may read it, and that is not what is wrong with it.
+TEST_F(KeyFileTest, APublicKeyInPlaceOfTheSecretOneIsNamed) {
+  goldenKey().write(at("maps.key"), at("maps.key.pub"));
+  fs::permissions(at("maps.key.pub"), fs::perms(0644));
+  EXPECT_THAT(refusal(SigningKey::read, "maps.key.pub"),
+              AllOf(HasSubstr("holds a public key"), HasSubstr("file without .pub"), Not(HasSubstr("chmod"))));
 }
 
 TEST_F(KeyFileTest, ASecretIsNeverTakenForAPublicKey) {
