@@ -47,8 +47,9 @@ std::optional<Format> formatOf(const std::string &word) {
 ImageSize sizeOf(const std::string &option, const std::string &text) {
   ImageSize size;
   char end = 0;
-  if (std::sscanf(text.c_str(), "%5ux%5u%c", &size.width, &size.height, &end) != 2 || size.width == 0 ||
-      size.height == 0)
+  const bool is_read = std::sscanf(text.c_str(), "%5ux%5u%c", &size.width, &size.height, &end) == 2;
+  const bool has_sign = text.find_first_of("+-") != std::string::npos;  // which sscanf takes
+  if (!is_read || has_sign || size.width == 0 || size.height == 0)
     throw UsageError(option + " " + text + ": must be WIDTHxHEIGHT, as in 640x480");
   return size;
 }
