@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Are broken sensors believed?  Maps of recordings under several keys, and spherecloud-lab negative on their queries.
 
-    negative.py --spherecloud BIN --lab BIN [--keys N] [--sequences N] [--only FAULT] [NAME...]
+    negative.py --spherecloud BIN --lab BIN [--keys N] [--sequences N] [--only FAULT...] [NAME...]
 
-Rewrites negative.csv, for review; with NAME or --only the rows of these recordings or of this fault, and keeps the others.
+Rewrites negative.csv, for review; with NAME or --only the rows of these recordings or of these faults, and keeps the others.
 """
 import argparse
 import concurrent.futures
@@ -44,7 +44,7 @@ def elsewhere_of(place):
 
 def rows_of(arguments, place, file):
     lab, sequences = arguments.lab, arguments.sequences
-    only = ["--only", arguments.only] if arguments.only else []
+    only = [word for fault in arguments.only for word in ("--only", fault)]
     for row in run([lab, "negative", *place.recording.source("query"), "--map", file, "--sequences", sequences, *only, "--json"]):
         yield row
     for source in elsewhere_of(place) if not only else ():
@@ -92,7 +92,7 @@ def main():
     parser.add_argument("--lab", required=True)
     parser.add_argument("--keys", type=int, default=12)
     parser.add_argument("--sequences", type=int, default=2)
-    parser.add_argument("--only", metavar="FAULT")
+    parser.add_argument("--only", nargs="+", metavar="FAULT", default=[])
     parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")
     arguments = parser.parse_args()
     rows = {tuple(row[:4]): row for row in known()} if arguments.names or arguments.only else {}

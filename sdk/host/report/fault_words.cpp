@@ -4,7 +4,7 @@
 
 namespace sphc::host {
 
-const std::array<BitWords, 11> kFaultWords = {{
+const std::array<BitWords, 12> kFaultWords = {{
     {SPHC_FAULT_DEPTH_RANGE, "depth out of range",
      "nearly every measurement lies outside depth_min_m to depth_max_m: is depth_unit_m right, is the sensor "
      "covered?"},
@@ -32,6 +32,10 @@ const std::array<BitWords, 11> kFaultWords = {{
      "points of the map lie elsewhere than earlier frames said: is depth what the driver says that it is (neither "
      "inverted, nor disparity, nor late), is the calibration that of these cameras, does the place look like "
      "another?"},
+    {SPHC_FAULT_ODOMETRY_DISAGREES, "odometry disagrees",
+     "odometry moves otherwise than poses do, so it is left out: is it the pose of the colour camera, with x "
+     "right, "
+     "y down and z ahead, and not its inverse; does it stand still, or know turns alone?"},
 }};
 
 std::string faultNames(uint32_t faults) { return namesOf(kFaultWords, faults); }

@@ -577,7 +577,8 @@ typedef struct sphc_localizer_prior {
   double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
   /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
    * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
-   * little be put together, and takes depth to the time of the colour image. */
+   * little be put together, and takes depth to the time of the colour image.  Its frame may change: a step beyond
+   * what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out. */
   sphc_rigid odometry_from_camera;
   double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
   double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */
@@ -654,8 +655,8 @@ enum {
 SPHC_API const char *sphc_localizer_outcome_name(sphc_localizer_outcome outcome); /* [pure] */
 
 /* What is wrong with a frame or with what it was told, as far as that shows; bits of result.faults.  Those before
- * DEPTH_SCALE, and those from MIRRORED on, take the pose away (SPHC_OUTCOME_CONTRADICTION).  Frames are compared
- * with earlier ones in SPHC_MODE_TRACKING.  docs/consistency.md has causes and cures. */
+ * DEPTH_SCALE, MIRRORED and DISTANCES_DISAGREE take the pose away (SPHC_OUTCOME_CONTRADICTION).  Frames are
+ * compared with earlier ones in SPHC_MODE_TRACKING.  docs/consistency.md has causes and cures. */
 enum {
   SPHC_FAULT_DEPTH_RANGE = 1u,    /* depth is measured, but nearly none between depth_min_m and depth_max_m */
   SPHC_FAULT_DEPTH_CONSTANT = 2u, /* one depth everywhere */
@@ -669,8 +670,10 @@ enum {
   SPHC_FAULT_VERTICAL_DISAGREES = 256u, /* UP is not the pose's vertical; the pose was found without it */
   SPHC_FAULT_MIRRORED = 512u, /* left and right are changed against the map: a mirror, or an image that is turned
                                 over; no pose is given */
-  SPHC_FAULT_DISTANCES_DISAGREE = 1024u /* points of the map lie elsewhere than earlier frames said: what is given
-                                           as depth, a calibration, or a place that looks like another; no pose */
+  SPHC_FAULT_DISTANCES_DISAGREE = 1024u, /* points of the map lie elsewhere than earlier frames said: what is given
+                                            as depth, a calibration, or a place that looks like another; no pose */
+  SPHC_FAULT_ODOMETRY_DISAGREES = 2048u  /* ODOMETRY moves otherwise than poses do: other axes, an inverse, or it
+                                            stands still; it is left out, and poses are found without it */
 };
 SPHC_API const char *sphc_localizer_fault_name(uint32_t fault); /* [pure] */
 

@@ -20,6 +20,7 @@ struct SensorFault {
 std::vector<SensorFault> depthFaults();
 std::vector<SensorFault> colorFaults();
 std::vector<SensorFault> calibrationFaults();
+std::vector<SensorFault> odometryFaults();
 std::vector<SensorFault> priorFaults();
 
 // All, healthy frames first.

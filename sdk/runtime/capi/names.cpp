@@ -242,6 +242,8 @@ const char *sphc_localizer_fault_name(uint32_t fault) {
       return "SPHC_FAULT_MIRRORED";
     case SPHC_FAULT_DISTANCES_DISAGREE:
       return "SPHC_FAULT_DISTANCES_DISAGREE";
+    case SPHC_FAULT_ODOMETRY_DISAGREES:
+      return "SPHC_FAULT_ODOMETRY_DISAGREES";
     default:
       return "SPHC_FAULT_?";
   }

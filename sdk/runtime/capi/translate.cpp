@@ -185,7 +185,8 @@ static_assert(kDepthRange == SPHC_FAULT_DEPTH_RANGE && kDepthConstant == SPHC_FA
               kColorFrozen == SPHC_FAULT_COLOR_FROZEN && kDepthColorDisagree == SPHC_FAULT_DEPTH_COLOR_DISAGREE &&
               kDepthScale == SPHC_FAULT_DEPTH_SCALE && kDepthBias == SPHC_FAULT_DEPTH_BIAS &&
               kVerticalDisagrees == SPHC_FAULT_VERTICAL_DISAGREES && kMirrored == SPHC_FAULT_MIRRORED &&
-              kDistancesDisagree == SPHC_FAULT_DISTANCES_DISAGREE);
+              kDistancesDisagree == SPHC_FAULT_DISTANCES_DISAGREE &&
+              kOdometryDisagrees == SPHC_FAULT_ODOMETRY_DISAGREES);
 static_assert(kCutFeatures == SPHC_CUT_FEATURES && kCutMatches == SPHC_CUT_MATCHES &&
               kCutSearch == SPHC_CUT_SEARCH && kCutVerification == SPHC_CUT_VERIFICATION);
 static_assert(kTooDark == SPHC_HINT_TOO_DARK && kTooFast == SPHC_HINT_TOO_FAST &&

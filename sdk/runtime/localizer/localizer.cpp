@@ -96,6 +96,7 @@ bool Localizer::removeMap(uint32_t id) {
   search_.maps().remove(slot);
   fusion_.forget(slot);
   tracker_.forget(slot);
+  odometry_.forget(slot);
   travel_.forget(slot);
   distances_.forget(slot);
   return true;
@@ -117,6 +118,7 @@ void Localizer::reset() {
   tracker_.reset();
   fusion_.clear();
   consistency_.reset();
+  odometry_.reset();
   travel_.reset();
   distances_.reset();
 }
@@ -157,7 +159,8 @@ LocalizerResult Localizer::locate(const FrameInput &frame, const FrameFeatures &
 // Brings what earlier frames told to the time of this one.
 void Localizer::follow(const FrameInput &frame) {
   if (!config_.tracks) return;
-  tracker_.advance(frame.color_time_ns, frame.known.has_odometry ? &frame.known.odometry : nullptr);
+  const bool is_believed = frame.known.has_odometry && !odometry_.disagrees();
+  tracker_.advance(frame.color_time_ns, is_believed ? &frame.known.odometry : nullptr);
   fusion_.advance(tracker_);
 }
 
@@ -261,9 +264,16 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
     locate(rest, deadline, work);
   }
   checkHandedness(deadline, faults, work);
-  if (config_.tracks && best_.isLocalized()) doubtByTrack(frame.color_time_ns, faults);
-  if (config_.tracks && travel_.isScaled(known, tracker_, best_)) *faults |= kDepthScale;
+  if (config_.tracks) compareWithTrack(frame, faults);
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
+}
+
+// With what earlier frames said of odometry, of the points and of the camera.
+void Localizer::compareWithTrack(const FrameInput &frame, Faults *faults) {
+  odometry_.look(frame.color_time_ns, frame.known, best_);
+  if (odometry_.disagrees()) *faults |= kOdometryDisagrees;
+  if (best_.isLocalized()) doubtByTrack(frame.color_time_ns, faults);
+  if (travel_.isScaled(frame.known, tracker_, best_) && !odometry_.disagrees()) *faults |= kDepthScale;
 }
 
 // By what earlier frames said of the points, and of the camera.

@@ -8,6 +8,7 @@
 #include "runtime/localizer/fusion.h"
 #include "runtime/localizer/handedness.h"
 #include "runtime/localizer/hints.h"
+#include "runtime/localizer/odometry_check.h"
 #include "runtime/localizer/result.h"
 #include "runtime/localizer/search.h"
 #include "runtime/localizer/tracker.h"
@@ -81,6 +82,7 @@ class Localizer {
   Verification verification(uint32_t min_inliers, Work *work, Ranking *ranking);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
+  void compareWithTrack(const FrameInput &frame, Faults *faults);
   void doubtByTrack(int64_t time_ns, Faults *faults);
   void contradict(Faults by, Faults *faults);
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
@@ -101,6 +103,7 @@ class Localizer {
   Trail trail_;
   Fusion fusion_;
   Consistency consistency_;
+  OdometryCheck odometry_;
   TravelCheck travel_;
   DistanceCheck distances_;
   Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch

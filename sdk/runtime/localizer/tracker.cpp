@@ -18,6 +18,13 @@ double sigmaAnAxis(const Estimate &estimate, int first) {
   return doubtOf(estimate.inliers) * sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
 }
 
+// Beyond what a head does, odometry itself has jumped: its frame is another one now, as after a loop is closed.
+bool isOfHead(const Rigid &step, uint64_t took_ns, const Odometry &odometry) {
+  const double dt = secondsOf(took_ns);
+  return areNear(step, {}, {kGateSigmas * (kSpeed * dt + odometry.translation_sigma_m),
+                            kGateSigmas * (kTurnRate * dt + odometry.rotation_sigma_rad)});
+}
+
 }  // namespace
 
 PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m) {
@@ -43,6 +50,7 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
   has_step_ = follows && has_odometry_ && odometry;
   if (has_step_) {
     step_ = odometry->odometry_from_camera.inverse() * odometry_.odometry_from_camera;
+    has_step_ = isOfHead(step_, step_ns_, *odometry);
   }
   for (CarriedPose *pose : {&last_, &best_}) {
     pose->is_carried = pose->is_carried && has_step_;

@@ -17,6 +17,7 @@ constexpr Faults kDepthBias = 128;           // what was learnt of the depth sen
 constexpr Faults kVerticalDisagrees = 256;   // the vertical that was given is not the pose's
 constexpr Faults kMirrored = 512;            // left and right are changed against the map
 constexpr Faults kDistancesDisagree = 1024;  // points of the map lie elsewhere than they did
+constexpr Faults kOdometryDisagrees = 2048;  // odometry moves otherwise than poses do
 
 // With any of these there is nothing to make a pose from.
 constexpr Faults kContradictions =

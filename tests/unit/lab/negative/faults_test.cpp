@@ -23,6 +23,8 @@ Sequence madeSequence() {
     }
     shot.color_time_ns = shot.depth_time_ns = int64_t{100000000} * i;
     shot.world_from_camera = sphc_rigid{{1, 0, 0, 0}, {0.01 * i, 0, 0}};
+    shot.prior.flags = SPHC_PRIOR_ODOMETRY;
+    shot.prior.odometry_from_camera = *shot.world_from_camera;
     sequence.shots.push_back(shot);
   }
   return sequence;
@@ -32,7 +34,9 @@ bool isSame(const Sequence &a, const Sequence &b) {
   if (a.shots.size() != b.shots.size() || std::memcmp(&a.rig, &b.rig, sizeof a.rig) != 0) return false;
   for (size_t i = 0; i < a.shots.size(); ++i)
     if (a.shots[i].color != b.shots[i].color || a.shots[i].depth != b.shots[i].depth ||
-        a.shots[i].prior.flags != b.shots[i].prior.flags)
+        a.shots[i].prior.flags != b.shots[i].prior.flags ||
+        std::memcmp(&a.shots[i].prior.odometry_from_camera, &b.shots[i].prior.odometry_from_camera,
+                    sizeof(sphc_rigid)) != 0)
       return false;
   return true;
 }

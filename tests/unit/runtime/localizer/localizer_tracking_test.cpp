@@ -36,7 +36,8 @@ class Walk {
     if (odometry_) {
       prior.struct_size = sizeof prior;
       prior.flags = SPHC_PRIOR_ODOMETRY;
-      prior.odometry_from_camera = rigidToC(sceneViewpoint(viewpoint - odometry_behind_).inverse());
+      const Rigid here = sceneViewpoint(viewpoint - odometry_behind_);
+      prior.odometry_from_camera = rigidToC(odometry_is_inverted_ ? here : here.inverse());
       prior.odometry_rotation_sigma_rad = 1e-3;
       prior.odometry_translation_sigma_m = 1e-3;
       frame.prior = &prior;
@@ -67,6 +68,7 @@ class Walk {
   void useOdometry() { odometry_ = true; }
   // Odometry that tells so many viewpoints less than there were.
   void keepOdometryBehind(uint32_t viewpoints) { odometry_behind_ = viewpoints; }
+  void invertOdometry() { odometry_is_inverted_ = true; }
   // From now on all depths are so many times as large.
   void scaleDepth(double scale) { depth_scale_ = scale; }
   void forget() { sphc_localizer_reset(session_.localizer()); }
@@ -85,6 +87,7 @@ class Walk {
   int64_t time_ns_ = 0;
   bool odometry_ = false;
   uint32_t odometry_behind_ = 0;
+  bool odometry_is_inverted_ = false;
   double depth_scale_ = 1;
 };
 
@@ -130,6 +133,23 @@ TEST(LocalizerTracking, OdometryVetoesAJumpToFewerInliers) {
   while (tenths < 110 && walk.see(7).outcome != SPHC_OUTCOME_LOCALIZED) ++tenths;
   EXPECT_GT(tenths, 50u) << "fewer inliers must wait until less than half of the track's word is left";
   EXPECT_LT(tenths, 100u) << "but not for ever";
+}
+
+TEST(LocalizerTracking, OdometryOfAnInverseIsNamedAndLeftOut) {
+  Walk walk(trackingConfig());
+  walk.useOdometry();
+  walk.invertOdometry();
+  uint32_t before = 0;
+  while (before < 12 && !(walk.see(before).faults & SPHC_FAULT_ODOMETRY_DISAGREES)) ++before;
+  EXPECT_GT(before, 2u) << "twice it must move otherwise";
+  ASSERT_LT(before, 10u);
+  for (uint32_t viewpoint = before + 1; viewpoint < before + 4; ++viewpoint) {
+    const sphc_localizer_result result = walk.see(viewpoint);
+    EXPECT_EQ(result.outcome, SPHC_OUTCOME_LOCALIZED) << viewpoint;
+    EXPECT_EQ(result.faults, uint32_t{SPHC_FAULT_ODOMETRY_DISAGREES}) << viewpoint;
+  }
+  walk.forget();
+  EXPECT_EQ(walk.see(before + 4).faults, 0u);
 }
 
 TEST(LocalizerTracking, AJumpThatNoHeadCanMakeIsVetoed) {

@@ -105,7 +105,7 @@ class VetoTest : public TrackerTest {
   }
   void go() {
     ++frame_;
-    const Odometry odometry = {poseAt(-0.01 * frame_), 1e-4, 1e-3};
+    const Odometry odometry = {odometry_from_map_ * poseAt(-0.01 * frame_), 1e-4, 1e-3};
     tracker_.advance(frame_ * kFrame, has_odometry_ ? &odometry : nullptr);
   }
   Estimate poseHere(double off_m, uint32_t inliers, double turn_rad = 0) const {
@@ -118,6 +118,7 @@ class VetoTest : public TrackerTest {
   }
   static constexpr int kSecondOfFrames = 30;
   bool has_odometry_ = true;
+  Rigid odometry_from_map_;
   int frame_ = 0;
 };
 
@@ -200,6 +201,24 @@ TEST_F(VetoTest, WithOdometryAPoseIsExpectedForTenSeconds) {
   EXPECT_FALSE(tracker_.predict(&expected));
 }
 
+// As after a loop is closed there.
+TEST_F(VetoTest, OdometryThatJumpsInItsOwnFrameSaysNothingOfThatStep) {
+  for (const Rigid &jump : {poseAt(0.3), poseAt(0, 0.3)}) {
+    walk(4);
+    ASSERT_TRUE(vetoes(0.2, 100));
+    odometry_from_map_ = jump * odometry_from_map_;
+    go();
+    EXPECT_FALSE(vetoes(0, 20)) << "the right pose";
+    Prediction expected;
+    ASSERT_TRUE(tracker_.predict(&expected));
+    EXPECT_NEAR(expected.camera_from_map.translation_m[0], 0.01 * frame_, 1e-9) << "at the velocity of poses";
+    EXPECT_EQ(tracker_.accept(0, poseHere(0, 100)).events, Events{0});
+    EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
+    go();
+    EXPECT_TRUE(vetoes(0.2, 100)) << "and the next step counts again";
+  }
+}
+
 TEST_F(VetoTest, OdometryThatBrokeCarriesNothing) {
   walk(4);
   wander(kSecondOfFrames / 2);
@@ -278,10 +297,10 @@ TEST_F(TrackerTest, WithoutVelocityLessIsKnown) {
 TEST_F(TrackerTest, OdometryPredictsAnyMotionAndItsErrorsAddUp) {
   const auto odometryAt = [](int i) {  // in a frame of its own
     const Rigid odometry_from_map = {rotationFromVector(Vector3(0.3, 0.2, -1)), Vector3(5, 6, 7)};
-    return Odometry{odometry_from_map * poseAt(0.1 * i * i, 0.2 * i).inverse(), 0.003, 0.004};
+    return Odometry{odometry_from_map * poseAt(0.01 * i * i, 0.1 * i).inverse(), 0.003, 0.004};
   };
   Odometry odometry = odometryAt(1);
-  bring(kFrame, poseAt(0.1, 0.2), 0, &odometry);
+  bring(kFrame, poseAt(0.01, 0.1), 0, &odometry);
   for (int i = 2; i <= 4; ++i) {
     odometry = odometryAt(i);
     tracker_.advance(i * kFrame, &odometry);
@@ -289,7 +308,7 @@ TEST_F(TrackerTest, OdometryPredictsAnyMotionAndItsErrorsAddUp) {
   }
   Prediction expected;
   ASSERT_TRUE(tracker_.predict(&expected));
-  const Rigid off = expected.camera_from_map * poseAt(1.6, 0.8).inverse();
+  const Rigid off = expected.camera_from_map * poseAt(0.16, 0.4).inverse();
   EXPECT_LT(rotationAngle(off.rotation), 1e-9);
   EXPECT_LT(off.translation_m.norm(), 1e-9);
   EXPECT_GT(expected.rotation_sigma_rad, 0.003 * sqrtOf(3.0));
@@ -456,7 +475,7 @@ TEST_F(TrackerTest, MotionIsThatOfOdometryWhereThereIsOne) {
 
 TEST_F(TrackerTest, MotionBesideAFrameIsThatOfTheStep) {
   const auto steady = [](double steps) {  // of the camera, in the frame of the odometry
-    return Rigid{rotationFromVector(Vector3(0, 0.2 * steps, 0)), Vector3(0.3 * steps, 0, 0.1)};
+    return Rigid{rotationFromVector(Vector3(0, 0.1 * steps, 0)), Vector3(0.03 * steps, 0, 0.1)};
   };
   Odometry odometry = {steady(0), 0.003, 0.004};
   Rigid now_from_then;
