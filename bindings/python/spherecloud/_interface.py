@@ -397,7 +397,8 @@ class sphc_localizer_prior(ctypes.Structure):
     up_sigma_rad: float
     # ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift. Used in
     # SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
-    # little be put together, and takes depth to the time of the colour image.
+    # little be put together, and takes depth to the time of the colour image. Its frame may change: a step beyond
+    # what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
     odometry_from_camera: sphc_rigid
     # 1 sigma an axis, of the step from the frame before; 1e-6 to 1
     odometry_rotation_sigma_rad: float

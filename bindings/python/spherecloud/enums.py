@@ -312,6 +312,9 @@ class Fault(enum.IntFlag):
     DISTANCES_DISAGREE = 1024
     """Points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or a place
     that looks like another; no pose."""
+    ODOMETRY_DISAGREES = 2048
+    """ODOMETRY moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out, and poses
+    are found without it."""
 
 
 class Cut(enum.IntFlag):

@@ -291,7 +291,7 @@ public enum LocalizerOutcome : int {
 }
 
 /// <summary>What is wrong with a frame or with what it was told, as far as that shows; bits of result.Faults. Those
-/// before DepthScale, and those from Mirrored on, take the pose away (LocalizerOutcome.Contradiction). Frames are
+/// before DepthScale, Mirrored and DistancesDisagree take the pose away (LocalizerOutcome.Contradiction). Frames are
 /// compared with earlier ones in LocalizerMode.Tracking. docs/consistency.md has causes and cures.</summary>
 [Flags]
 public enum Faults : uint {
@@ -322,6 +322,9 @@ public enum Faults : uint {
   /// <summary>Points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or
   /// a place that looks like another; no pose.</summary>
   DistancesDisagree = 1024,
+  /// <summary>Odometry moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out,
+  /// and poses are found without it.</summary>
+  OdometryDisagrees = 2048,
 }
 
 /// <summary>What was left out of a frame for its deadline, bits of result.Cuts: more time might have found a pose,

@@ -173,7 +173,8 @@ public sealed unsafe partial class LocalizerPrior {
 
   /// <summary>Odometry: the device's own dead reckoning at ColorTimeNs, in a frame of its own that may drift. Used
   /// in LocalizerMode.Tracking, from frame to frame: it predicts better than constant velocity, lets frames that
-  /// show too little be put together, and takes depth to the time of the colour image.</summary>
+  /// show too little be put together, and takes depth to the time of the colour image. Its frame may change: a
+  /// step beyond what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.</summary>
   public Rigid OdometryFromCamera { get { return raw.odometry_from_camera; } set { raw.odometry_from_camera = value; } }
 
   /// <summary>1 sigma an axis, of the step from the frame before; 1e-6 to 1.</summary>

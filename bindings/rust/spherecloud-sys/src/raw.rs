@@ -289,6 +289,9 @@ pub const SPHC_FAULT_MIRRORED: u32 = 512;
 /// points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or
 /// a place that looks like another; no pose
 pub const SPHC_FAULT_DISTANCES_DISAGREE: u32 = 1024;
+/// ODOMETRY moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out,
+/// and poses are found without it
+pub const SPHC_FAULT_ODOMETRY_DISAGREES: u32 = 2048;
 /// fine scales of the image, or the weakest keypoints
 pub const SPHC_CUT_FEATURES: u32 = 1;
 /// keypoints, of which some were not compared with the map
@@ -635,7 +638,8 @@ pub struct sphc_localizer_prior {
     pub up_sigma_rad: f64,
     /// ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.
     /// Used in SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets
-    /// frames that show too little be put together, and takes depth to the time of the colour image.
+    /// frames that show too little be put together, and takes depth to the time of the colour image. Its
+    /// frame may change: a step beyond what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
     pub odometry_from_camera: sphc_rigid,
     /// 1 sigma an axis, of the step from the frame before; 1e-6 to 1
     pub odometry_rotation_sigma_rad: f64,

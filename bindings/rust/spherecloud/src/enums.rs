@@ -310,6 +310,9 @@ flags! {
         /// points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or
         /// a place that looks like another; no pose
         DISTANCES_DISAGREE = sys::SPHC_FAULT_DISTANCES_DISAGREE,
+        /// ODOMETRY moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out,
+        /// and poses are found without it
+        ODOMETRY_DISAGREES = sys::SPHC_FAULT_ODOMETRY_DISAGREES,
     }
 }
 

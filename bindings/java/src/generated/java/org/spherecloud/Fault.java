@@ -33,7 +33,12 @@ public enum Fault {
    * Points of the map lie elsewhere than earlier frames said: what is given as depth, a calibration, or a place
    * that looks like another; no pose.
    */
-  DISTANCES_DISAGREE(1024);
+  DISTANCES_DISAGREE(1024),
+  /**
+   * ODOMETRY moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out, and poses
+   * are found without it.
+   */
+  ODOMETRY_DISAGREES(2048);
 
   private static final Fault[] ALL = values();
   final int bit;
