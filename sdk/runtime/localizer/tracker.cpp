@@ -21,8 +21,9 @@ double sigmaAnAxis(const Estimate &estimate, int first) {
 // Beyond what a head does, odometry itself has jumped: its frame is another one now, as after a loop is closed.
 bool isOfHead(const Rigid &step, uint64_t took_ns, const Odometry &odometry) {
   const double dt = secondsOf(took_ns);
-  return areNear(step, {}, {kGateSigmas * (kSpeed * dt + odometry.translation_sigma_m),
-                            kGateSigmas * (kTurnRate * dt + odometry.rotation_sigma_rad)});
+  return areNear(step, {},
+                 {kGateSigmas * (kSpeed * dt + odometry.translation_sigma_m),
+                  kGateSigmas * (kTurnRate * dt + odometry.rotation_sigma_rad)});
 }
 
 }  // namespace
