@@ -13,11 +13,6 @@ namespace {
 
 double angleBetween(const Vector3 &a, const Vector3 &b) { return atan2Of(a.cross(b).norm(), a.dot(b)); }
 
-// Of one axis, from a pose's covariance.
-double meanSigma(const Estimate &estimate, int first) {
-  return sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
-}
-
 // How far the map points of a pose's inliers lie from the map's centroid, by depth.
 class PointsOfPose {
  public:
@@ -60,7 +55,7 @@ bool verticalDisagrees(const Known &known, const Hypothesis &found, PoseQuery qu
   query.correspondences = found.matched.all();
   const Estimate alone = estimator->refine(query, found.estimate.camera_from_map);
   if (alone.inliers < min_inliers) return false;
-  const double turn_sigma = meanSigma(alone, 0) * doubtOf(alone.inliers);
+  const double turn_sigma = axisSigma(alone.covariance, 0) * doubtOf(alone.inliers);
   return angleBetween(alone.camera_from_map.rotation * known.prior.up_map, known.prior.up_camera) >
          std::max(kLeastVerticalRad, kVerticalSigmas * hypotOf(turn_sigma, known.prior.up_sigma_rad));
 }
@@ -86,7 +81,7 @@ bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hyp
   if (found.map != map_) travel_.reset();
   map_ = found.map;
   travel_.add(found.estimate.camera_from_map.inverse().translation_m,
-              known.odometry.odometry_from_camera.translation_m, meanSigma(found.estimate, 3));
+              known.odometry.odometry_from_camera.translation_m, axisSigma(found.estimate.covariance, 3));
   return travel_.isScaled(step_sigma_m);
 }
 

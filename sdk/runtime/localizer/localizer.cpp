@@ -49,6 +49,8 @@ void fillAnswer(const Hypothesis &best, LocalizerResult *result) {
 
 }  // namespace
 
+Localizer::Localizer() = default;  // here it is compiled for size
+
 void Localizer::layout(const LocalizerConfig &config, Arena &state, Arena &scratch, Localizer *localizer) {
   const uint32_t n = config.max_keypoints;
   EstimatorConfig estimator;

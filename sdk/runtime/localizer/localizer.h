@@ -27,6 +27,7 @@ class Localizer {
   // One walk for both memories; `localizer` is null while measuring.
   static void layout(const LocalizerConfig &config, Arena &state, Arena &scratch, Localizer *localizer);
 
+  Localizer();
   // Once, after layout with memory.
   void init(const LocalizerConfig &config);
 

@@ -6,6 +6,7 @@
 #include "runtime/base/clock.h"
 #include "runtime/localizer/tracker.h"
 #include "runtime/localizer/tuning.h"
+#include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 namespace {
@@ -13,11 +14,6 @@ namespace {
 using namespace tuning;
 
 double square(double value) { return value * value; }
-
-// Of one axis.
-double sigmaOf(const Matrix6 &covariance, int first) {
-  return sqrtOf(covariance.block<3, 3>(first, first).trace() / 3);
-}
 
 // 1 sigma an axis of what a head may do in the time, and in its rate.  A rate is that of the middle of its step.
 struct Unknown {
@@ -77,7 +73,7 @@ Step Trail::step(uint32_t steps) const {
     const Vector3 way_in_map_m = now.inverse().translation_m - before.inverse().translation_m;
     const Matrix6 covariance(to.covariance);
     const auto varianceOf = [&](int first) {  // of the difference of two poses that are equally good
-      return 2 * square(sigmaOf(covariance, first) / dt);
+      return 2 * square(axisSigma(covariance, first) / dt);
     };
     turn.add(turn_in_map_rad / dt, varianceOf(0), square(kTurnAcceleration * dt));
     shift.add(way_in_map_m / dt, varianceOf(3), square(kAcceleration * dt));
@@ -111,8 +107,8 @@ bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
   const double of_step = steps * (steps + 2 * step.share_in_pose);
   moved->covariance = carried(motion.covariance + of_step * step.covariance, {turned, Vector3::Zero()}) +
                       diagonalOf(turn.way, shift.way);
-  moved->angular_velocity_sigma_rad_s = hypotOf(turn.rate, steps_per_s * sigmaOf(step.covariance, 0));
-  moved->velocity_sigma_m_s = hypotOf(shift.rate, steps_per_s * sigmaOf(step.covariance, 3));
+  moved->angular_velocity_sigma_rad_s = hypotOf(turn.rate, steps_per_s * axisSigma(step.covariance, 0));
+  moved->velocity_sigma_m_s = hypotOf(shift.rate, steps_per_s * axisSigma(step.covariance, 3));
   return true;
 }
 

@@ -35,41 +35,62 @@ void OdometryCheck::look(int64_t time_ns, const Known &known, const Hypothesis &
   shift_variance_ += odometry.translation_sigma_m * odometry.translation_sigma_m;
   if (!found.isLocalized()) return;
   const Matrix6 covariance = statedCovariance(found.estimate);
-  compare({found.map, time_ns, found.estimate.camera_from_map, odometry.odometry_from_camera,
-           covariance.topLeftCorner<3, 3>().trace() / 3, covariance.bottomRightCorner<3, 3>().trace() / 3,
-           turn_variance_, shift_variance_});
+  const uint32_t number = unused();
+  Look &now = looks_[number];
+  now.map = found.map;
+  now.time_ns = time_ns;
+  now.odometry_from_map = odometry.odometry_from_camera * found.estimate.camera_from_map;
+  now.centre_in_map_m = found.estimate.camera_from_map.inverse().translation_m;
+  now.centre_in_odometry_m = odometry.odometry_from_camera.translation_m;
+  now.pose_turn = axisSigma(covariance, 0);
+  now.pose_shift = axisSigma(covariance, 3);
+  now.odometry_turn = turn_variance_;
+  now.odometry_shift = shift_variance_;
+  compare(number);
+}
+
+uint32_t OdometryCheck::unused() const {
+  uint32_t number = 0;
+  while (number == last_ || number == anchor_) ++number;
+  return number;
 }
 
 // A jump between two frames that only one of them knows is a wrong pose, or odometry in another frame: one pose
 // that is wrong makes two of them.
-void OdometryCheck::compare(const Look &now) {
-  const bool follows = this->follows(now), is_apart = follows && contradict(last_, now);
+void OdometryCheck::compare(uint32_t number) {
+  const Look &now = looks_[number];
+  const bool follows = this->follows(now), is_apart = follows && contradict(looks_[last_], now);
   steps_apart_ = is_apart ? steps_apart_ + 1 : 0;
-  const bool is_contradicted = is_apart ? steps_apart_ >= kStepsApart : follows && contradict(anchor_, now);
+  const bool is_contradicted = is_apart ? steps_apart_ >= kStepsApart : follows && contradict(looks_[anchor_], now);
   if (is_contradicted) {
     contradictions_ = std::min(contradictions_ + 1, kContradictionsOfOdometry);
     contradicted_ns_ = now.time_ns;
   }
-  const bool is_old = elapsedNs(anchor_.time_ns, now.time_ns) > Tracker::kForgetCarriedNs;
-  if (!follows || is_apart || is_contradicted || is_old) anchor_ = now;
-  last_ = now;
+  const bool is_old = elapsedNs(looks_[anchor_].time_ns, now.time_ns) > Tracker::kForgetCarriedNs;
+  if (!follows || is_apart || is_contradicted || is_old) anchor_ = number;
+  last_ = number;
   has_last_ = true;
 }
 
 bool OdometryCheck::disagrees() const { return contradictions_ >= kContradictionsOfOdometry; }
 
 bool OdometryCheck::follows(const Look &now) const {
-  return has_last_ && now.map == last_.map && secondsOf(elapsedNs(last_.time_ns, now.time_ns)) <= kSteadySeconds;
+  const Look &last = looks_[last_];
+  return has_last_ && now.map == last.map && secondsOf(elapsedNs(last.time_ns, now.time_ns)) <= kSteadySeconds;
 }
 
 bool OdometryCheck::contradict(const Look &before, const Look &now) {
-  const Rigid by_poses = before.camera_from_map * now.camera_from_map.inverse();
-  const Rigid by_odometry = before.odometry_from_camera.inverse() * now.odometry_from_camera;
+  const auto sigma = [](double one, double other, double variance_between) {
+    return hypotOf(hypotOf(one, other), sqrtOf(variance_between));
+  };
   const PoseBounds most =
-      boundsOfNoJump(sqrtOf(before.pose_turn + now.pose_turn + now.odometry_turn - before.odometry_turn),
-                     sqrtOf(before.pose_shift + now.pose_shift + now.odometry_shift - before.odometry_shift));
-  return rotationAngle(by_poses.rotation * by_odometry.rotation.transpose()) > most.most_turn_rad ||
-         shiftApart(by_poses.translation_m, by_odometry.translation_m) > most.most_shift_m;
+      boundsOfNoJump(sigma(before.pose_turn, now.pose_turn, now.odometry_turn - before.odometry_turn),
+                     sigma(before.pose_shift, now.pose_shift, now.odometry_shift - before.odometry_shift));
+  const Rigid apart = now.odometry_from_map * before.odometry_from_map.inverse();
+  const Vector3 by_poses_m = before.odometry_from_map * now.centre_in_map_m - before.centre_in_odometry_m;
+  const Vector3 by_odometry_m = now.centre_in_odometry_m - before.centre_in_odometry_m;
+  return rotationAngle(apart.rotation) > most.most_turn_rad ||
+         shiftApart(by_poses_m, by_odometry_m) > most.most_shift_m;
 }
 
 }  // namespace sphc

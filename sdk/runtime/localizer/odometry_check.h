@@ -8,10 +8,13 @@ namespace sphc {
 
 class OdometryCheck {
  public:
-  void reset() { *this = {}; }
+  void reset() {
+    has_last_ = false;
+    contradictions_ = steps_apart_ = 0;
+  }
   // The map in this slot is gone.
   void forget(uint32_t map) {
-    if (map == last_.map) reset();
+    if (map == looks_[last_].map) reset();
   }
   // Every frame; `found` is what the frame shows, before earlier ones speak against it.  A time that does not grow
   // starts anew.
@@ -20,19 +23,23 @@ class OdometryCheck {
   bool disagrees() const;
 
  private:
-  // Variances of an axis, rad^2 and m^2; those of odometry add up from look to look.
+  // Where the camera was, by both, and how their frames lie to each other if both are right.
   struct Look {
     uint32_t map = 0;
     int64_t time_ns = 0;
-    Rigid camera_from_map, odometry_from_camera;
-    double pose_turn = 0, pose_shift = 0, odometry_turn = 0, odometry_shift = 0;
+    Rigid odometry_from_map;
+    Vector3 centre_in_map_m, centre_in_odometry_m;
+    double pose_turn = 0, pose_shift = 0;          // 1 sigma an axis, rad and m
+    double odometry_turn = 0, odometry_shift = 0;  // variances of an axis; they add up from look to look
   };
   static bool contradict(const Look &before, const Look &now);
   bool follows(const Look &now) const;
-  void compare(const Look &now);
+  uint32_t unused() const;
+  void compare(uint32_t number);
 
   bool has_last_ = false;
-  Look last_, anchor_;  // the last frame with a pose, and the one that it is compared with
+  Look looks_[3];                   // none is copied
+  uint32_t last_ = 0, anchor_ = 0;  // the last frame with a pose, and the one that it is compared with
   double turn_variance_ = 0, shift_variance_ = 0;  // of all steps of odometry
   uint32_t contradictions_ = 0, steps_apart_ = 0;  // the latter in a row
   int64_t contradicted_ns_ = 0, now_ns_ = INT64_MIN;

@@ -6,6 +6,7 @@
 #include "runtime/localizer/hypothesis.h"
 #include "runtime/localizer/judgement.h"
 #include "runtime/localizer/tuning.h"
+#include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 namespace {
@@ -14,16 +15,11 @@ using namespace tuning;
 
 constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
 
-double sigmaAnAxis(const Estimate &estimate, int first) {
-  return doubtOf(estimate.inliers) * sqrtOf(estimate.covariance.block<3, 3>(first, first).trace() / 3);
-}
-
 // Beyond what a head does, odometry itself has jumped: its frame is another one now, as after a loop is closed.
 bool isOfHead(const Rigid &step, uint64_t took_ns, const Odometry &odometry) {
   const double dt = secondsOf(took_ns);
-  return areNear(step, {},
-                 {kGateSigmas * (kSpeed * dt + odometry.translation_sigma_m),
-                  kGateSigmas * (kTurnRate * dt + odometry.rotation_sigma_rad)});
+  return step.translation_m.norm() < kGateSigmas * (kSpeed * dt + odometry.translation_sigma_m) &&
+         rotationAngle(step.rotation) < kGateSigmas * (kTurnRate * dt + odometry.rotation_sigma_rad);
 }
 
 }  // namespace
@@ -161,15 +157,22 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
   if (state_ == TrackingState::kTracking) trusted_time_ns_ = time_ns_;
   has_pose_ = true;
   last_ = {map, time_ns_, estimate.camera_from_map, estimate.inliers, true, {}};
-  rotation_sigma_rad_ = hypotOf(sigmaAnAxis(estimate, 0), kLeastTurnSigma);
-  translation_sigma_m_ = hypotOf(sigmaAnAxis(estimate, 3), kLeastShiftSigma);
+  rotation_sigma_rad_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 0), kLeastTurnSigma);
+  translation_sigma_m_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 3), kLeastShiftSigma);
   if (state_ != TrackingState::kTracking)
-    best_ = {};
+    best_.inliers = 0;
   else if (best_.map != map || estimate.inliers >= support())
     best_ = last_;
   if (went_over_) jump.events |= kMapChanged;
   went_over_ = false;
   return jump;
+}
+
+// What is left says nothing without these.
+void Tracker::reset() {
+  state_ = TrackingState::kRelocalizing;
+  begun_ = has_odometry_ = has_step_ = has_pose_ = has_velocity_ = went_over_ = false;
+  best_.inliers = steady_ = 0;
 }
 
 // In inliers.  What was tracked may have been wrong, so its word fades.

@@ -73,11 +73,11 @@ class Tracker {
   // After the frame: how the camera moves, for times of the caller's; false where no pose is known.  The trail has
   // every pose that was accepted.
   bool motion(const Trail &trail, Motion *motion) const;
-  void reset() { *this = {}; }
+  void reset();
   // The map in this slot is gone.
   void forget(uint32_t map) {
     if (has_pose_ && map == last_.map) reset();
-    if (map == best_.map) best_ = {};
+    if (map == best_.map) best_.inliers = 0;
   }
 
  private:
@@ -97,7 +97,7 @@ class Tracker {
   bool has_pose_ = false;
   CarriedPose last_;  // that was found
   double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
-  CarriedPose best_;  // the one of this track that most speaks for
+  CarriedPose best_;  // the one of this track that most speaks for; none where it has no inliers
   int64_t trusted_time_ns_ = 0;
 
   bool has_velocity_ = false;

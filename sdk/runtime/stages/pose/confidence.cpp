@@ -26,6 +26,10 @@ Matrix6 statedCovariance(const Estimate &estimate) {
   return scale * scale * estimate.unit_variance * estimate.covariance;
 }
 
+double axisSigma(const Matrix6 &covariance, int first) {
+  return sqrtOf(covariance.block<3, 3>(first, first).trace() / 3);
+}
+
 double confidenceOf(const Matrix6 &covariance, const ErrorBounds &bounds) {
   if (!(bounds.translation_m > 0) || !(bounds.rotation_rad > 0)) return 0;
   const double turn = rootTrace(covariance, 0) / bounds.rotation_rad;

@@ -10,6 +10,9 @@ namespace sphc {
 // weight), and that few inliers hide outliers and errors of the map.
 Matrix6 statedCovariance(const Estimate &estimate);
 
+// 1 sigma an axis: of turns where `first` is 0, in rad, and of shifts where it is 3, in m.
+double axisSigma(const Matrix6 &covariance, int first);
+
 // Within which a pose counts as right.
 struct ErrorBounds {
   double translation_m = 0.05, rotation_rad = 5 * kPi / 180;
