@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 
 #include "host/base/private_file.h"
@@ -14,6 +13,7 @@ namespace sphc::host {
 namespace {
 
 constexpr size_t kMostKeyBytes = 256;  // the digits, and white space
+constexpr char kWhiteSpace[] = " \t\n\v\f\r";
 
 void startSodium() {
   if (sodium_init() < 0)
@@ -32,18 +32,19 @@ SecretKey newSecretKey() {
 
 SecretKey readSecretKey(const std::string &path) {
   startSodium();
-  std::string content(kMostKeyBytes, '\0');
-  content.resize(readPrivate(path, content.data(), content.size()).value_or(0));
-  std::istringstream in(content);
-  std::string text;
-  if (!(in >> text))
+  std::string text(kMostKeyBytes + 1, '\0');
+  text.resize(readPrivate(path, text.data(), text.size()).value_or(0));
+  const size_t begin = text.find_first_not_of(kWhiteSpace);
+  if (begin == std::string::npos)
     throw std::runtime_error("key file " + path + " cannot be read; leave --key out, and the ledger draws one");
   SecretKey key;
   size_t bytes = 0;
+  const size_t digits = text.find_last_not_of(kWhiteSpace) + 1 - begin;
   const bool parsed =
-      sodium_hex2bin(key.data(), key.size(), text.data(), text.size(), nullptr, &bytes, nullptr) == 0;
-  std::string rest;
-  if (!parsed || bytes != key.size() || text.size() != 2 * key.size() || (in >> rest))
+      sodium_hex2bin(key.data(), key.size(), text.data() + begin, digits, nullptr, &bytes, nullptr) == 0;
+  const bool is_whole = text.size() <= kMostKeyBytes;  // nothing follows that was not looked at
+  sodium_memzero(text.data(), text.size());
+  if (!parsed || bytes != key.size() || digits != 2 * key.size() || !is_whole)
     throw std::runtime_error(
         "key file " + path +
         " does not hold exactly 64 hexadecimal digits; leave --key out, and the ledger draws one");

@@ -81,8 +81,9 @@ TEST(KeyedHash, EachKeyPurposeAndContentHasItsOwn) {
 TEST(SecretKeyFile, EachFaultIsExplained) {
   const std::string path = keyPath("bad");
   const std::string digits(64, 'a');
-  for (const std::string &text : {std::string(), std::string(63, 'a'), std::string(65, 'a'), std::string(66, 'a'),
-                                  std::string(64, 'g'), digits + " " + digits, digits + "\nmore", "0x" + digits}) {
+  for (const std::string &text :
+       {std::string(), std::string(63, 'a'), std::string(65, 'a'), std::string(66, 'a'), std::string(64, 'g'),
+        digits + " " + digits, digits + "\nmore", "0x" + digits, digits + std::string(300, ' ') + "more"}) {
     write(path, text);
     try {
       readSecretKey(path);
@@ -93,6 +94,8 @@ TEST(SecretKeyFile, EachFaultIsExplained) {
   }
   write(path, digits + "\n");
   EXPECT_EQ(readSecretKey(path)[0], 0xAA);
+  write(path, " \t\r\n" + digits + std::string(100, '\n'));
+  EXPECT_EQ(readSecretKey(path)[31], 0xAA);
   for (const mode_t mode : {mode_t{0640}, mode_t{0604}}) {
     chmod(path.c_str(), mode);
     try {
