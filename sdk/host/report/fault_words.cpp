@@ -34,8 +34,7 @@ const std::array<BitWords, 12> kFaultWords = {{
      "another?"},
     {SPHC_FAULT_ODOMETRY_DISAGREES, "odometry disagrees",
      "odometry moves otherwise than poses do, so it is left out: is it the pose of the colour camera, with x "
-     "right, "
-     "y down and z ahead, and not its inverse; does it stand still, or know turns alone?"},
+     "right, y down and z ahead, and not its inverse; does it stand still, or know turns alone?"},
 }};
 
 std::string faultNames(uint32_t faults) { return namesOf(kFaultWords, faults); }
