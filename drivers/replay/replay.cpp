@@ -16,6 +16,7 @@ static_assert(static_cast<int>(Layout::kRaw) == SPHC_REPLAY_RAW);
 static_assert(static_cast<int>(Layout::kStrayScanner) == SPHC_REPLAY_STRAY_SCANNER);
 static_assert(static_cast<int>(Layout::kRos2) == SPHC_REPLAY_ROS2);
 static_assert(static_cast<int>(Layout::kAzureKinect) == SPHC_REPLAY_AZURE_KINECT);
+static_assert(static_cast<int>(Layout::kHl2ss) == SPHC_REPLAY_HL2SS);
 
 struct sphc_replay {
   sphc_replay(const char *path, const ReaderOptions &options, const sphc_replay_config &config)

@@ -86,7 +86,8 @@ enum {
   SPHC_REPLAY_RECORD3D = 7,
   SPHC_REPLAY_ROS1 = 8,
   SPHC_REPLAY_STREAM_RECORDER = 9,
-  SPHC_REPLAY_AZURE_KINECT = 10 /* 5 to 10: of other programs, docs/imports.md */
+  SPHC_REPLAY_AZURE_KINECT = 10,
+  SPHC_REPLAY_HL2SS = 11 /* 5 to 11: of other programs, docs/imports.md */
 };
 
 typedef struct sphc_replay_info {

@@ -5,13 +5,16 @@
 #include "host/recording/encoded_image.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/depth_lut.h"
+#include "host/recording/foreign/hl2ss_file.h"
 #include "host/recording/foreign/lzfse_bytes.h"
 #include "host/recording/foreign/pgm.h"
 #include "host/recording/foreign/record3d_metadata.h"
 #include "host/recording/foreign/stray_text.h"
 #include "host/recording/foreign/stream_recorder_text.h"
+#include "tests/fuzz/files.h"
 #include "tests/fuzz/recording_seeds.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/hl2ss.h"
 #include "tests/support/lzfse_samples.h"
 #include "tests/support/matroska.h"
 #include "tests/support/ros1_bag.h"
@@ -224,7 +227,9 @@ void hololens(const uint8_t *data, size_t bytes) {
         return;
       }
       default:
-        const recording::DepthLut lut(view, {kLutSide, kLutSide});
+        const recording::ImageSize size = {kLutSide, kLutSide};
+        const recording::DepthLut lut = data[0] / 5 % 2 ? recording::DepthLut::ofRays(view, size)
+                                                        : recording::DepthLut::ofPlanePoints(view, size);
         std::vector<uint16_t> depth(kLutSide * kLutSide);
         lut.toPinhole(std::vector<uint16_t>(depth.size(), UINT16_MAX), depth.data());
     }
@@ -237,18 +242,43 @@ void hololens(const uint8_t *data, size_t bytes) {
 // The first characters are digits whose codes choose the files.
 std::vector<std::vector<uint8_t>> hololensSeeds() {
   const std::string matrix = ",1,0,0,0.5,0,1,0,0,0,0,1,0,0,0,0,1\n", ticks = "132697151403874938";
-  std::string table = "1";
+  std::string rays = "1", points = "6";
   for (uint32_t i = 0; i < kLutSide * kLutSide; ++i) {
     const float x = (static_cast<float>(i % kLutSide) - 3.5f) / 20,
                 y = (static_cast<float>(i / kLutSide) - 3.5f) / 20;
     const float norm = std::sqrt(x * x + y * y + 1), ray[3] = {x / norm, y / norm, 1 / norm};
-    table.append(reinterpret_cast<const char *>(ray), sizeof ray);
+    rays.append(reinterpret_cast<const char *>(ray), sizeof ray);
+    for (const float each : {x, y}) points.append(reinterpret_cast<const char *>(&each), sizeof each);
   }
   std::vector<std::vector<uint8_t>> seeds;
   for (const std::string &text : {"21.5,2.5,16,16\n" + ticks + ",20,21" + matrix, "3" + ticks + matrix,
-                                  "4" + matrix.substr(1), "0P5\n4 2\n65535\n" + std::string(16, 'x'), table})
+                                  "4" + matrix.substr(1), "0P5\n4 2\n65535\n" + std::string(16, 'x'), rays, points})
     seeds.emplace_back(text.begin(), text.end());
   return seeds;
+}
+
+void hl2ss(const uint8_t *data, size_t bytes) {
+  const MemoryFile memory(data, bytes);
+  try {
+    const recording::Hl2ssFile file = recording::readHl2ss(memory.path());
+    for (const recording::Hl2ssPacket &packet : file.packets) {
+      if (packet.time_ns < 0) broken("times are not negative");
+      if (packet.start > bytes || packet.bytes > bytes - packet.start) broken("packets lie in the file");
+      if (packet.pose && !std::isfinite(packet.pose->t_m[0])) broken("poses are finite");
+    }
+  } catch (const recording::Failure &failure) {
+    if (failure.status() != SPHC_E_DEVICE && failure.status() != SPHC_E_UNSUPPORTED)
+      broken("the failure is the file's");
+  }
+}
+
+std::vector<std::vector<uint8_t>> hl2ssSeeds() {
+  test::Hl2ssBytes color = test::Hl2ssBytes::ofVideo(16, 8, 255), depth = test::Hl2ssBytes::ofDepth(0, 0);
+  for (const uint64_t ticks : {5u, 338u}) {
+    color.addColor(ticks, std::string(64, 'c'), {20, 20, 8, 4}, 16, 8, test::hl2ssShift(0, 1, 2));
+    depth.add(ticks, std::string(40, 'd'), nullptr);
+  }
+  return {{color.bytes().begin(), color.bytes().end()}, {depth.bytes().begin(), depth.bytes().end()}};
 }
 
 std::vector<std::vector<uint8_t>> straySeeds() {

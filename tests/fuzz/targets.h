@@ -54,8 +54,10 @@ void tum(const uint8_t *data, size_t bytes);
 // Two poses of a recording in the layout of 7-Scenes, with a zero between them.
 void sevenScenes(const uint8_t *data, size_t bytes);
 // A file of a HoloLens' recording; the first byte says which: the colour camera's, poses, a transform, an image,
-// rays.
+// rays as directions, rays as points.
 void hololens(const uint8_t *data, size_t bytes);
+// One stream of a recording of hl2ss.
+void hl2ss(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
 // A frame of Motion JPEG.

@@ -54,6 +54,7 @@ Recording openRecording(const fs::path &folder) {
   if (isRecord3d(folder)) return openRecord3d(folder);
   if (isRosBag(folder)) return openRosBag(folder);
   if (isStreamRecorder(folder)) return openStreamRecorder(folder);
+  if (isHl2ss(folder)) return openHl2ss(folder);
   if (isStrayScanner(folder)) return openStrayScanner(folder);
   if (is7Scenes(folder)) return open7Scenes(folder);
   if (holdsSequences(folder))

@@ -25,7 +25,8 @@ enum class Layout {
   kRecord3d = 7,
   kRos1 = 8,
   kStreamRecorder = 9,
-  kAzureKinect = 10
+  kAzureKinect = 10,
+  kHl2ss = 11
 };
 
 // Frames are chosen by the number of their colour image: of first to last every step-th.
@@ -115,6 +116,8 @@ bool isRecord3d(const std::filesystem::path &path);  // any zip is
 Recording openRecord3d(const std::filesystem::path &path);
 bool isStreamRecorder(const std::filesystem::path &folder);
 Recording openStreamRecorder(const std::filesystem::path &folder);
+bool isHl2ss(const std::filesystem::path &folder);
+Recording openHl2ss(const std::filesystem::path &folder);
 bool isMatroska(const std::filesystem::path &file);
 Recording openAzureKinect(const std::filesystem::path &file);
 // Throws Failure with the way out for a file that another program recorded and that is not read.

@@ -13,6 +13,21 @@ namespace {
   throw Failure(SPHC_E_ARGUMENT, std::string(why) + "; copy the file again");
 }
 
+// `kNumbers` floats for each pixel, and what `of` makes of them.
+template <size_t kNumbers, typename Each, typename Of>
+std::vector<Each> eachOf(ByteView file, const ImageSize &size, const char *misfit, Of &&of) {
+  const size_t count = size_t{size.width} * size.height;
+  if (file.size != count * kNumbers * sizeof(float)) failLut(misfit);
+  std::vector<Each> all;
+  all.reserve(count);
+  for (const uint8_t *at = file.data; all.size() < count; at += kNumbers * sizeof(float)) {
+    float told[kNumbers];
+    std::memcpy(told, at, sizeof told);
+    all.push_back(of(told));
+  }
+  return all;
+}
+
 // The line through points, by least squares.
 class LineFit {
  public:
@@ -32,20 +47,30 @@ class LineFit {
 
 }  // namespace
 
-DepthLut::DepthLut(ByteView file, const ImageSize &size) : size_(size) {
-  const size_t count = size_t{size.width} * size.height;
-  if (file.size != count * 3 * sizeof(float)) failLut("is not three floats for each pixel of the depth images");
-  rays_.reserve(count);
-  for (const uint8_t *at = file.data; rays_.size() < count; at += 3 * sizeof(float)) {
-    float told[3];
-    std::memcpy(told, at, sizeof told);
-    const auto number = [&told](int i) { return static_cast<double>(told[i]); };
-    const double x = number(0) / number(2), y = number(1) / number(2), z = number(2);
-    const bool is_ray = z > 0 && z < 1.001 && std::abs(x) < 10 && std::abs(y) < 10;
-    rays_.push_back(is_ray ? Ray{x, y, std::min(1.0, z)} : Ray{0, 0, 0});
-  }
+DepthLut DepthLut::ofRays(ByteView file, const ImageSize &size) {
+  const auto ray = [](const float *told) {
+    const double x = told[0], y = told[1], z = told[2];
+    return rayOf(x / z, y / z, z);
+  };
+  return DepthLut(eachOf<3, Ray>(file, size, "is not three floats for each pixel of the depth images", ray), size);
+}
+
+DepthLut DepthLut::ofPlanePoints(ByteView file, const ImageSize &size) {
+  const auto ray = [](const float *told) {
+    const double x = told[0], y = told[1];
+    return rayOf(x, y, 1 / std::sqrt(x * x + y * y + 1));
+  };
+  return DepthLut(eachOf<2, Ray>(file, size, "is not two floats for each pixel of the depth images", ray), size);
+}
+
+DepthLut::Ray DepthLut::rayOf(double x, double y, double z) {
+  const bool is_ray = z > 0 && z < 1.001 && std::abs(x) < 10 && std::abs(y) < 10;
+  return is_ray ? Ray{x, y, std::min(1.0, z)} : Ray{0, 0, 0};
+}
+
+DepthLut::DepthLut(std::vector<Ray> rays, const ImageSize &size) : size_(size), rays_(std::move(rays)) {
   fitCamera();
-  sources_.reserve(count);
+  sources_.reserve(rays_.size());
   for (uint32_t v = 0; v < size.height; ++v)
     for (uint32_t u = 0; u < size.width; ++u) sources_.push_back(sourceOf(u, v));
 }

@@ -16,6 +16,7 @@ struct RefusedKind {
   const char *cure;
 };
 constexpr RefusedKind kRefusedKinds[] = {
+    {"HL2SSV"sv, "is one stream of a recording of hl2ss; give the folder that it is in"},
     {"#ROSBAG V1"sv, "is a bag of ROS 1 of version 1, which is not read: \"rosbag fix\" writes version 2.0"},
     {"SQLite format 3"sv,
      "is a database, as ROS 2's .db3 files are, which is not read: \"ros2 bag convert\" writes MCAP"},

@@ -1,13 +1,12 @@
 // Recordings of a HoloLens 2 in research mode, by the sample StreamRecorder: colour and "Depth Long Throw".
 #include <algorithm>
 
-#include "host/cameras/rigid_matrix.h"
-#include "host/recording/calibration_json.h"
 #include "host/recording/encoded_image.h"
 #include "host/recording/failure.h"
 #include "host/recording/file_reader.h"
 #include "host/recording/foreign/comma_text.h"
 #include "host/recording/foreign/depth_lut.h"
+#include "host/recording/foreign/hololens_rig.h"
 #include "host/recording/foreign/opaque_pixels.h"
 #include "host/recording/foreign/pgm.h"
 #include "host/recording/foreign/stream_recorder_text.h"
@@ -21,7 +20,6 @@ namespace {
 
 constexpr size_t kMostHoloLensBytes = size_t{1} << 28;
 constexpr const char *kSensor = "Depth Long Throw";
-constexpr int64_t kMostPvGapNs = 250000000;  // between colour poses around a depth image
 
 template <typename Read>
 auto inFile(const fs::path &file, Read &&read) {
@@ -128,52 +126,17 @@ std::shared_ptr<const DepthLut> lutOf(const Recording &recording) {
   });
   return inFile(table, [&] {
     readFile(table, kMostHoloLensBytes, bytes);
-    return std::make_shared<const DepthLut>(viewOf(bytes), size);
+    return std::make_shared<const DepthLut>(DepthLut::ofRays(viewOf(bytes), size));
   });
 }
 
-// The files tell where both cameras were in the world, and not where one is on the other: the median over all times
-// at which both are known.
-std::optional<sphc_rigid> colorFromDepth(const PoseTrack &world_from_color, const PoseTrack &world_from_rig,
-                                         const sphc_rigid &depth_from_rig) {
-  sphc_rigid rig_from_depth;
-  sphc_rigid_inverse(&depth_from_rig, &rig_from_depth);
-  std::vector<double> q[4], t[3];
-  for (const TimedPose &rig : world_from_rig.poses()) {
-    sphc_rigid color, color_from_world, color_from_rig, sample;
-    if (!world_from_color.at(rig.time_ns, kMostPvGapNs, color)) continue;
-    sphc_rigid_inverse(&color, &color_from_world);
-    sphc_rigid_compose(&color_from_world, &rig.pose, &color_from_rig);
-    sphc_rigid_compose(&color_from_rig, &rig_from_depth, &sample);
-    double alike = 0;  // to the first: a quaternion and its negative are one rotation
-    for (int i = 0; i < 4; ++i) alike += q[i].empty() ? 1 : q[i].front() * sample.q_wxyz[i];
-    for (int i = 0; i < 4; ++i) q[i].push_back(alike < 0 ? -sample.q_wxyz[i] : sample.q_wxyz[i]);
-    for (int i = 0; i < 3; ++i) t[i].push_back(sample.t_m[i]);
-  }
-  if (t[0].empty()) return {};
-  sphc_rigid middle = {{medianOf(q[0]), medianOf(q[1]), medianOf(q[2]), medianOf(q[3])},
-                       {medianOf(t[0]), medianOf(t[1]), medianOf(t[2])}};
-  if (!host::normalizeQuaternion(middle.q_wxyz, 1e-2)) return {};
-  return middle;
-}
-
-sphc_rig rigOfHoloLens(const PvFile &pv, const DepthLut &lut, const Recording &recording) {
+sphc_rig rigOf(const PvFile &pv, const DepthLut &lut, const Recording &recording) {
   const std::string sensor = kSensor;
   const PoseTrack rig_track = parsedText(recording.path / (sensor + "_rig2world.txt"), rigTrackFrom);
   const sphc_rigid depth_from_rig = parsedText(recording.path / (sensor + "_extrinsics.txt"), sensorFromRigFrom);
-  const std::optional<sphc_rigid> color_from_depth = colorFromDepth(recording.poses, rig_track, depth_from_rig);
-  if (!color_from_depth)
-    throw Failure(SPHC_E_ARGUMENT,
-                  "colour and depth have no time at which both know where they are; record while the headset "
-                  "knows its place, or give a calibration file");
-  sphc_rig rig;
-  sphc_rig_init(&rig);
-  rig.color_camera = {
+  const sphc_camera color = {
       SPHC_CAMERA_PINHOLE, pv.width, pv.height, 4, {pv.params[0], pv.params[1], pv.params[2], pv.params[3]}};
-  rig.depth_camera = lut.camera();
-  rig.color_from_depth = *color_from_depth;
-  rig.depth_unit_m = 0.001;
-  return requireGood(rig);
+  return rigOfHoloLens(color, lut.camera(), recording.poses, rig_track, depth_from_rig);
 }
 
 }  // namespace
@@ -195,7 +158,7 @@ Recording openStreamRecorder(const fs::path &folder) {
   const std::shared_ptr<const DepthLut> lut = lutOf(recording);
   recording.images = [folder, lut] { return std::make_unique<HoloLensImages>(folder, lut); };
   try {
-    recording.calibration = rigOfHoloLens(pv, *lut, recording);
+    recording.calibration = rigOf(pv, *lut, recording);
   } catch (const Failure &failure) {  // told only where nobody gives a calibration file
     recording.calibration_fault = name + ": " + failure.what();
   }
