@@ -275,7 +275,8 @@ void hl2ss(const uint8_t *data, size_t bytes) {
 std::vector<std::vector<uint8_t>> hl2ssSeeds() {
   test::Hl2ssBytes color = test::Hl2ssBytes::ofVideo(16, 8, 255), depth = test::Hl2ssBytes::ofDepth(0, 0);
   for (const uint64_t ticks : {5u, 338u}) {
-    color.addColor(ticks, std::string(64, 'c'), {20, 20, 8, 4}, 16, 8, test::hl2ssShift(0, 1, 2));
+    color.addColor(ticks, std::string(64, 'c'), {20, 20, 8, 4}, 16, 8,
+                   test::hl2ssMatrixOf({{1, 0, 0, 0}, {0, 1, 2}}));
     depth.add(ticks, std::string(40, 'd'), nullptr);
   }
   return {{color.bytes().begin(), color.bytes().end()}, {depth.bytes().begin(), depth.bytes().end()}};

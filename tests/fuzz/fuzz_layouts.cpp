@@ -1,11 +1,13 @@
-// Text files of recordings in folders: the lists of TUM, and the poses of 7-Scenes.
+// Files of recordings in folders: the lists of TUM, the poses of 7-Scenes, the streams of hl2ss.
 #include <algorithm>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "drivers/replay/replay.h"
 #include "tests/contract/temp_folder.h"
 #include "tests/fuzz/recording_seeds.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/hl2ss.h"
 
 namespace sphc::fuzz {
 namespace {
@@ -23,7 +25,7 @@ std::string takeFile(std::string *rest) {
   return file;
 }
 
-void openFolder(const contract::TempFolder &folder) {
+void openFolder(const contract::TempFolder &folder, bool has_images = false) {
   sphc_replay *replay = nullptr;
   sphc_message message = {};
   const sphc_status status = sphc_replay_open(folder.path().c_str(), nullptr, nullptr, &replay, &message);
@@ -33,10 +35,43 @@ void openFolder(const contract::TempFolder &folder) {
   }
   for (uint32_t i = 0; i < std::min(sphc_replay_frame_count(replay), 20u); ++i) {
     sphc_localizer_frame frame;
-    if (sphc_replay_read_frame(replay, i, &frame, &message) > 0 || !message.text[0])
+    const sphc_status read = sphc_replay_read_frame(replay, i, &frame, &message);
+    if (read > 0 || (read < 0 && !message.text[0]) || (read == SPHC_OK && !has_images))
       broken("an image that is missing is a failure that explains itself");
   }
   sphc_replay_close(&replay);
+}
+
+// The calibration of a recording of hl2ss: a pinhole camera's rays.
+void writeHl2ssCalibration(const contract::TempFolder &folder) {
+  const auto write = [&](const char *name, const std::vector<float> &values) {
+    folder.write(std::string("rm_depth_longthrow/") + name,
+                 {reinterpret_cast<const char *>(values.data()), values.size() * sizeof(float)});
+  };
+  std::vector<float> points;
+  for (int v = 0; v < 288; ++v)
+    for (int u = 0; u < 320; ++u)
+      for (const int offset : {u - 160, v - 144}) points.push_back(static_cast<float>(offset) / 200);
+  write("uv2xy.bin", points);
+  write("scale.bin", {1000});
+  const test::Hl2ssMatrix still = test::hl2ssMatrixOf({{1, 0, 0, 0}, {0, 0, 0}});
+  write("extrinsics.bin", {still.begin(), still.end()});
+}
+
+std::string hl2ssColor(uint8_t profile) {
+  test::Hl2ssBytes file = test::Hl2ssBytes::ofVideo(16, 8, profile);
+  for (const uint64_t ticks : {1000u, 301000u})
+    file.addColor(ticks, std::string(64 * 12, 'c'), {20, 20, 8, 4}, 16, 8, test::hl2ssMatrixOf({{1, 0, 0, 0}, {}}));
+  return file.bytes();
+}
+
+std::string hl2ssDepth() {
+  std::vector<uint8_t> png;
+  cv::imencode(".png", cv::Mat(288, 320, CV_8UC4, cv::Scalar(200, 7, 200, 7)), png);
+  test::Hl2ssBytes file = test::Hl2ssBytes::ofDepth(0);
+  for (const uint64_t ticks : {1000u, 301000u})
+    file.addDepth(ticks, {png.begin(), png.end()}, test::hl2ssMatrixOf({{1, 0, 0, 0}, {}}));
+  return file.bytes();
 }
 
 }  // namespace
@@ -72,6 +107,24 @@ std::vector<std::vector<uint8_t>> sevenScenesSeeds() {
   const std::string pose = "1 0 0 0.5\n0 1 0 -2\n0 0 1 1e-3\n0 0 0 1\n", lost = "nan nan\n",
                     all = pose + '\0' + lost;
   return {{all.begin(), all.end()}};
+}
+
+void hl2ssFolder(const uint8_t *data, size_t bytes) {
+  if (bytes == 0) return;
+  static const contract::TempFolder folder;
+  static const std::string color = hl2ssColor(255), depth = hl2ssDepth();
+  if (!std::filesystem::exists(folder.path() / "rm_depth_longthrow")) writeHl2ssCalibration(folder);
+  const std::string file(data + 1, data + bytes);
+  folder.write("personal_video.bin", data[0] % 2 == 0 ? file : color);
+  folder.write("rm_depth_longthrow.bin", data[0] % 2 == 0 ? depth : file);
+  openFolder(folder, true);
+}
+
+std::vector<std::vector<uint8_t>> hl2ssFolderSeeds() {
+  std::vector<std::vector<uint8_t>> seeds;
+  for (const std::string &file : {"0" + hl2ssColor(255), "0" + hl2ssColor(2), "1" + hl2ssDepth()})
+    seeds.emplace_back(file.begin(), file.end());
+  return seeds;
 }
 
 }  // namespace sphc::fuzz

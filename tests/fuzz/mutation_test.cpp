@@ -102,6 +102,7 @@ TEST(Mutations, Tum) { walk("tum", 1000); }
 TEST(Mutations, SevenScenes) { walk("sevenScenes", 1000); }
 TEST(Mutations, Hololens) { walk("hololens", 20000); }
 TEST(Mutations, Hl2ss) { walk("hl2ss", 10000); }
+TEST(Mutations, Hl2ssFolder) { walk("hl2ssFolder", 300); }
 TEST(Mutations, Calibration) { walk("calibration", 20000); }
 TEST(Mutations, Mjpeg) { walk("mjpeg", 20000); }
 TEST(Mutations, V4l2) { walk("v4l2", 5000); }

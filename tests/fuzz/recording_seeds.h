@@ -14,6 +14,7 @@ std::vector<std::vector<uint8_t>> r3dSeeds();
 std::vector<std::vector<uint8_t>> lzfseSeeds();
 std::vector<std::vector<uint8_t>> hololensSeeds();
 std::vector<std::vector<uint8_t>> hl2ssSeeds();
+std::vector<std::vector<uint8_t>> hl2ssFolderSeeds();
 std::vector<std::vector<uint8_t>> kinectSeeds();
 std::vector<std::vector<uint8_t>> ros1Seeds();
 std::vector<std::vector<uint8_t>> ros2Seeds();

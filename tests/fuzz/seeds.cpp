@@ -196,6 +196,7 @@ std::vector<Target> allTargets() {
   targets.push_back({"sevenScenes", sevenScenes, sevenScenesSeeds()});
   targets.push_back({"hololens", hololens, hololensSeeds()});
   targets.push_back({"hl2ss", hl2ss, hl2ssSeeds()});
+  targets.push_back({"hl2ssFolder", hl2ssFolder, hl2ssFolderSeeds()});
   targets.push_back({"calibration", calibration, {bytesOf(kCalibration), bytesOf("{}"), bytesOf("[1e999]")}});
 #endif
 #ifdef SPHC_FUZZ_COLMAP

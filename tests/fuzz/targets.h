@@ -58,6 +58,8 @@ void sevenScenes(const uint8_t *data, size_t bytes);
 void hololens(const uint8_t *data, size_t bytes);
 // One stream of a recording of hl2ss.
 void hl2ss(const uint8_t *data, size_t bytes);
+// The same in its folder, read through: an even first byte says colour, else depth.
+void hl2ssFolder(const uint8_t *data, size_t bytes);
 // A calibration file.
 void calibration(const uint8_t *data, size_t bytes);
 // A frame of Motion JPEG.

@@ -1,6 +1,10 @@
 // Files as hl2ss writes them, in memory.
 #pragma once
 
+#include <spherecloud/spherecloud.h>
+
+#include <spherecloud/spherecloud.h>
+
 #include <array>
 #include <string>
 
@@ -12,8 +16,17 @@ namespace sphc::test {
 using Hl2ssMatrix = std::array<float, 16>;
 constexpr Hl2ssMatrix kHl2ssUnknownPose = {};
 
-inline Hl2ssMatrix hl2ssShift(float x, float y, float z) {
-  return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
+inline Hl2ssMatrix hl2ssMatrixOf(const sphc_rigid &rigid) {
+  Hl2ssMatrix matrix = {};
+  for (size_t axis = 0; axis < 4; ++axis) {  // where the unit points are, and the origin
+    const double point[3] = {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+    double moved[3];
+    sphc_rigid_apply(&rigid, point, moved);
+    for (size_t i = 0; i < 3; ++i)
+      matrix[4 * axis + i] = static_cast<float>(moved[i] - (axis < 3 ? rigid.t_m[i] : 0));
+  }
+  matrix[15] = 1;
+  return matrix;
 }
 
 class Hl2ssBytes {

@@ -6,50 +6,64 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace sphc::test {
 
-// `codec` is libx264 or libx265; images are of one grey each, given by `grey`.  The first stands by itself, the
-// others do not.
-inline std::vector<std::string> encodedGreys(const char *codec, int width, int height,
-                                             const std::vector<uint8_t> &greys) {
-  const AVCodec *found = avcodec_find_encoder_by_name(codec);
-  if (!found) throw std::runtime_error(std::string("no encoder ") + codec);
-  av_log_set_level(AV_LOG_FATAL);
-  AVCodecContext *context = avcodec_alloc_context3(found);
-  context->width = width;
-  context->height = height;
+struct EncoderSettings {
+  const char *codec;  // libx264 or libx265
+  int width, height;
+  int image_count;
+  int key_every = 250;
+  int b_frames = 0;
+  bool is_full_range = false;
+};
+// Of plane 0 (Y), 1 (U) or 2 (V) of an image; U and V have half of the columns and rows.
+using PixelOf = std::function<uint8_t(int image, int plane, int column, int row)>;
+
+inline bool hasEncoder(const char *codec) { return avcodec_find_encoder_by_name(codec) != nullptr; }
+
+inline void fill(AVFrame *frame, int image, const PixelOf &pixel_of) {
+  av_frame_make_writable(frame);
+  for (const int plane : {0, 1, 2})
+    for (int row = 0; row < frame->height / (plane == 0 ? 1 : 2); ++row)
+      for (int column = 0; column < frame->width / (plane == 0 ? 1 : 2); ++column)
+        frame->data[plane][row * frame->linesize[plane] + column] = pixel_of(image, plane, column, row);
+  frame->pts = image;
+}
+
+// In the order in which they are decoded.
+inline std::vector<std::string> encodedPackets(const EncoderSettings &settings, const PixelOf &pixel_of) {
+  AVCodecContext *context = avcodec_alloc_context3(avcodec_find_encoder_by_name(settings.codec));
+  context->width = settings.width;
+  context->height = settings.height;
   context->pix_fmt = AV_PIX_FMT_YUV420P;
+  context->color_range = settings.is_full_range ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
   context->time_base = {1, 30};
-  context->gop_size = 250;
-  context->max_b_frames = 0;
+  context->gop_size = settings.key_every;
+  context->max_b_frames = settings.b_frames;
   context->thread_count = 1;
-  av_opt_set(context->priv_data, "tune", "zerolatency", 0);
+  context->log_level_offset = 100;  // silent
+  if (settings.b_frames == 0) av_opt_set(context->priv_data, "tune", "zerolatency", 0);
   av_opt_set(context->priv_data, "preset", "ultrafast", 0);
-  av_opt_set(context->priv_data, "x264-params", "aud=1:repeat-headers=1", 0);
-  av_opt_set(context->priv_data, "x265-params", "log-level=none:repeat-headers=1:pools=none:frame-threads=1", 0);
-  if (avcodec_open2(context, found, nullptr) < 0) throw std::runtime_error("the encoder does not open");
+  av_opt_set(context->priv_data, "crf", "4", 0);
+  av_opt_set(context->priv_data, "x264-params", "aud=1:repeat-headers=1:scenecut=0", 0);
+  av_opt_set(context->priv_data, "x265-params",
+             "log-level=none:repeat-headers=1:pools=none:frame-threads=1:scenecut=0", 0);
+  if (avcodec_open2(context, nullptr, nullptr) < 0) throw std::runtime_error("the encoder does not open");
   AVFrame *frame = av_frame_alloc();
   frame->format = AV_PIX_FMT_YUV420P;
-  frame->width = width;
-  frame->height = height;
+  frame->width = settings.width;
+  frame->height = settings.height;
   av_frame_get_buffer(frame, 0);
   AVPacket *packet = av_packet_alloc();
   std::vector<std::string> packets;
-  for (size_t i = 0; i <= greys.size(); ++i) {
-    if (i < greys.size()) {
-      av_frame_make_writable(frame);
-      for (int row = 0; row < height; ++row)
-        std::fill_n(frame->data[0] + row * frame->linesize[0], width, greys[i]);
-      for (const int plane : {1, 2})
-        for (int row = 0; row < height / 2; ++row)
-          std::fill_n(frame->data[plane] + row * frame->linesize[plane], width / 2, uint8_t{128});
-      frame->pts = static_cast<int64_t>(i);
-    }
-    avcodec_send_frame(context, i < greys.size() ? frame : nullptr);
+  for (int i = 0; i <= settings.image_count; ++i) {
+    if (i < settings.image_count) fill(frame, i, pixel_of);
+    avcodec_send_frame(context, i < settings.image_count ? frame : nullptr);
     while (avcodec_receive_packet(context, packet) == 0) {
       packets.emplace_back(reinterpret_cast<const char *>(packet->data), static_cast<size_t>(packet->size));
       av_packet_unref(packet);

@@ -30,6 +30,18 @@ int typeOf(sphc_format format) {
   return format == SPHC_FORMAT_GRAY8 ? CV_8UC1 : CV_8UC3;
 }
 
+// Into what `decoded` is of, or elsewhere where size or type are others.
+void decodeWhole(ByteView encoded, ImageType type, int flags, cv::Mat *decoded) {
+  if (isCut(encoded, type)) throw Failure(SPHC_E_DEVICE, "is cut short; remove the frame or copy the file again");
+  try {
+    cv::imdecode(cv::Mat(1, static_cast<int>(encoded.size), CV_8UC1, const_cast<uint8_t *>(encoded.data)), flags,
+                 decoded);
+  } catch (const cv::Exception &) {
+    decoded->release();
+  }
+  if (decoded->empty()) throw Failure(SPHC_E_DEVICE, "cannot be decoded; remove the frame or copy the file again");
+}
+
 void swapRedAndBlue(uint8_t *pixels, size_t count) {
   for (size_t i = 0; i < count; ++i) std::swap(pixels[3 * i], pixels[3 * i + 2]);
 }
@@ -47,21 +59,26 @@ void decodeImage(ByteView encoded, ImageType type, const sphc_camera &camera, sp
   const bool is_color = format != SPHC_FORMAT_DEPTH16;
   const ImageSize size = imageSizeOf(encoded, type);
   requireSize(size.width, size.height, camera, is_color);
-  if (isCut(encoded, type)) throw Failure(SPHC_E_DEVICE, "is cut short; remove the frame or copy the file again");
   // A header over our memory: the decoder writes there when size and type are the expected ones.
   cv::Mat decoded(static_cast<int>(camera.height), static_cast<int>(camera.width), typeOf(format), pixels);
-  try {
-    cv::imdecode(cv::Mat(1, static_cast<int>(encoded.size), CV_8UC1, const_cast<uint8_t *>(encoded.data)),
-                 decodeFlags(format), &decoded);
-  } catch (const cv::Exception &) {
-    decoded.release();
-  }
-  if (decoded.empty()) throw Failure(SPHC_E_DEVICE, "cannot be decoded; remove the frame or copy the file again");
+  decodeWhole(encoded, type, decodeFlags(format), &decoded);
   requireSize(static_cast<uint32_t>(decoded.cols), static_cast<uint32_t>(decoded.rows), camera, is_color);
   if (decoded.type() != typeOf(format))
     throw Failure(SPHC_E_IMAGE, "is not a single-channel 16-bit PNG, as depth must be; convert it");
   if (decoded.data != pixels) throw Failure(SPHC_E_INTERNAL, "was decoded elsewhere; please report it");
   if (format == SPHC_FORMAT_RGB8) swapRedAndBlue(pixels, size_t{camera.width} * camera.height);
+}
+
+void decodeFourChannels(ByteView png, const ImageSize &size, uint8_t *pixels) {
+  const ImageSize told = imageSizeOf(png, ImageType::kPng);
+  cv::Mat decoded(static_cast<int>(size.height), static_cast<int>(size.width), CV_8UC4, pixels);
+  if (told.width == size.width && told.height == size.height)
+    decodeWhole(png, ImageType::kPng, cv::IMREAD_UNCHANGED, &decoded);
+  else
+    decoded.release();
+  if (decoded.data != pixels)
+    throw Failure(SPHC_E_DEVICE, "is no PNG image of " + sizeText(size.width, size.height) +
+                                     " and four channels of 8 bits; remove the frame or copy the file again");
 }
 
 ByteView ImageEncoder::encode(const sphc_image &image, const char *extension, const std::vector<int> &options) {

@@ -12,6 +12,9 @@ namespace sphc::recording {
 // decoded.
 void decodeImage(ByteView encoded, ImageType type, const sphc_camera &camera, sphc_format format, uint8_t *pixels);
 
+// The same of a PNG image of this size that has four channels of 8 bits: blue, green, red, and a fourth.
+void decodeFourChannels(ByteView png, const ImageSize &size, uint8_t *pixels);
+
 class ImageEncoder {
  public:
   // The image was checked.  Valid until the next call; throws Failure.

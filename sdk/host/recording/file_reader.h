@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "host/recording/failure.h"
 #include "host/recording/mcap/bytes.h"
 
 namespace sphc::recording {
@@ -19,5 +20,15 @@ void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &conte
 bool beginsWith(const std::filesystem::path &path, std::string_view head);
 // A list or another small text.  Throws Failure with the name.
 std::string readText(const std::filesystem::path &path);
+
+// What `read` returns; a Failure of it gets the file's name in front.
+template <typename Read>
+auto inFile(const std::filesystem::path &file, Read &&read) {
+  try {
+    return read();
+  } catch (const Failure &failure) {
+    throw Failure(failure.status(), shortPath(file.string()) + ": " + failure.what());
+  }
+}
 
 }  // namespace sphc::recording

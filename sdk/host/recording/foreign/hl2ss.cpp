@@ -42,15 +42,30 @@ RecordedImage imageOf(const Hl2ssPacket &packet, size_t number) {
   return image;
 }
 
-// Adds images and poses; returns the camera, of which the lens makes another with each image: the median.
-sphc_camera addColor(const Hl2ssStream &color, Recording &recording) {
+std::vector<Hl2ssColorTail> tailsOf(const Hl2ssStream &color) {
   const File file(color.path);
+  std::vector<Hl2ssColorTail> tails;
+  for (const Hl2ssPacket &packet : color.file.packets)
+    tails.push_back(packet.bytes > kHl2ssColorTail ? hl2ssColorTail(file, packet) : Hl2ssColorTail{});
+  return tails;
+}
+
+// Of the first image: the head of the file has what was asked for, which a camera that others use may not give.
+ImageSize sizeOf(const std::vector<Hl2ssColorTail> &tails, const fs::path &path) {
+  for (const Hl2ssColorTail &tail : tails)
+    if (tail.width > 0 && tail.height > 0) return {tail.width, tail.height};
+  throw tails.empty() ? Failure(SPHC_E_DEVICE, shortPath(path.string()) + ": has no whole image; copy it again")
+                      : Failure(SPHC_E_UNSUPPORTED, shortPath(path.string()) + kHl2ssTooOld);
+}
+
+// Adds images and poses; returns the camera: the median, since focusing changes it from image to image.
+sphc_camera addColor(const Hl2ssStream &color, Recording &recording) {
+  const std::vector<Hl2ssColorTail> tails = tailsOf(color);
+  const ImageSize size = sizeOf(tails, color.path);
   std::vector<double> params[4];
-  for (size_t i = 0; i < color.file.packets.size(); ++i) {
+  for (size_t i = 0; i < tails.size(); ++i) {
     const Hl2ssPacket &packet = color.file.packets[i];
-    const bool is_whole = packet.bytes >= kHl2ssColorTail;
-    const Hl2ssColorTail tail = is_whole ? hl2ssColorTail(file, packet) : Hl2ssColorTail{};
-    if (tail.width != color.file.width || tail.height != color.file.height) {
+    if (tails[i].width != size.width || tails[i].height != size.height) {
       ++recording.lost_count;
       continue;
     }
@@ -60,13 +75,13 @@ sphc_camera addColor(const Hl2ssStream &color, Recording &recording) {
     }
     recording.color.push_back(imageOf(packet, i));
     for (size_t each = 0; each < 4; ++each)
-      if (std::isfinite(tail.params[each])) params[each].push_back(static_cast<double>(tail.params[each]));
+      if (std::isfinite(tails[i].params[each])) params[each].push_back(static_cast<double>(tails[i].params[each]));
     if (packet.pose)
       recording.poses.add(packet.time_ns, fromUpBackAxes(*packet.pose));
     else
       ++recording.bad_pose_count;
   }
-  sphc_camera camera = {SPHC_CAMERA_PINHOLE, color.file.width, color.file.height, 4, {}};
+  sphc_camera camera = {SPHC_CAMERA_PINHOLE, size.width, size.height, 4, {}};
   for (size_t each = 0; each < 4; ++each)
     if (!params[each].empty()) camera.params[each] = medianOf(params[each]);
   return camera;
@@ -92,45 +107,39 @@ fs::path calibrationFolder(const fs::path &folder) {
   for (const fs::path &each : {folder / kDepthFolder, folder / "calibration" / kDepthFolder})
     if (fs::exists(each / "uv2xy.bin")) return each;
   throw Failure(SPHC_E_ARGUMENT, shortPath(folder.string()) + ": no " + kDepthFolder +
-                                     "/uv2xy.bin, which has the rays of the depth camera; copy the folder " +
-                                     kDepthFolder +
-                                     " into it that hl2ss_3dcv.get_calibration_rm leaves of this headset");
+                                     "/uv2xy.bin (rays of the depth camera); copy the folder into it that "
+                                     "hl2ss_3dcv.get_calibration_rm writes");
 }
 
 Bytes tableIn(const fs::path &file, size_t least_bytes) {
   Bytes bytes;
-  try {
-    readFile(file, kMostTableBytes, bytes);
-    if (bytes.size() < least_bytes) throw Failure(SPHC_E_ARGUMENT, "is too short; copy it again");
-  } catch (const Failure &failure) {
-    throw Failure(failure.status(), shortPath(file.string()) + ": " + failure.what());
-  }
+  readFile(file, kMostTableBytes, bytes);
+  if (bytes.size() < least_bytes) throw Failure(SPHC_E_ARGUMENT, "is too short; copy it again");
   return bytes;
 }
 
 std::shared_ptr<const DepthLut> lutIn(const fs::path &folder) {
   const fs::path file = folder / "uv2xy.bin";
-  const Bytes bytes = tableIn(file, 0);
-  try {
-    return std::make_shared<const DepthLut>(
-        DepthLut::ofPlanePoints(viewOf(bytes), {kLongThrowWidth, kLongThrowHeight}));
-  } catch (const Failure &failure) {
-    throw Failure(failure.status(), shortPath(file.string()) + ": " + failure.what());
-  }
+  return inFile(file, [&] {
+    return std::make_shared<const DepthLut>(DepthLut::ofPlanePoints(viewOf(tableIn(file, 0)), kLongThrowSize));
+  });
 }
 
-sphc_rig rigOf(const fs::path &calibration, const sphc_camera &color, const sphc_camera &depth,
-               const PoseTrack &world_from_color, const PoseTrack &world_from_rig) {
-  const fs::path extrinsics = calibration / "extrinsics.bin", scale = calibration / "scale.bin";
-  const std::optional<sphc_rigid> depth_from_rig = hl2ssRigidFrom(tableIn(extrinsics, kHl2ssMatrixBytes).data());
-  if (!depth_from_rig)
-    throw Failure(SPHC_E_ARGUMENT, shortPath(extrinsics.string()) + ": is no rigid transform; copy it again");
-  float units_per_m = 0;
-  std::memcpy(&units_per_m, tableIn(scale, sizeof units_per_m).data(), sizeof units_per_m);
-  if (units_per_m != 1000)
-    throw Failure(SPHC_E_UNSUPPORTED,
-                  shortPath(scale.string()) + ": depth is not in millimetres; give a calibration file");
-  return rigOfHoloLens(color, depth, world_from_color, world_from_rig, *depth_from_rig);
+sphc_rigid depthFromRig(const fs::path &file) {
+  return inFile(file, [&] {
+    const std::optional<sphc_rigid> rigid = hl2ssRigidFrom(tableIn(file, kHl2ssMatrixBytes).data());
+    if (!rigid) throw Failure(SPHC_E_ARGUMENT, "is no rigid transform; copy it again");
+    return *rigid;
+  });
+}
+
+void requireMillimetres(const fs::path &file) {
+  inFile(file, [&] {
+    float units_per_m = 0;
+    std::memcpy(&units_per_m, tableIn(file, sizeof units_per_m).data(), sizeof units_per_m);
+    if (units_per_m != 1000)
+      throw Failure(SPHC_E_UNSUPPORTED, "says that depth is not in millimetres; give a calibration file");
+  });
 }
 
 }  // namespace
@@ -146,18 +155,20 @@ Recording openHl2ss(const fs::path &folder) {
   recording.is_cut = color->file.is_cut || depth->file.is_cut;
   const sphc_camera color_camera = addColor(*color, recording);
   const PoseTrack world_from_rig = addDepth(*depth, recording);
-  for (const auto &[images, stream] : {std::pair(&recording.color, color), std::pair(&recording.depth, depth)})
-    if (images->empty())
-      throw Failure(SPHC_E_DEVICE, shortPath(stream->path.string()) +
-                                       ": has no whole image of the size it says, or another version of hl2ss "
-                                       "wrote it; copy it again");
+  if (recording.depth.empty())
+    throw Failure(SPHC_E_DEVICE, shortPath(depth->path.string()) + ": has no whole image; copy it again");
   const fs::path calibration = calibrationFolder(folder);
   const std::shared_ptr<const DepthLut> lut = lutIn(calibration);
-  recording.images = [color, depth, lut] { return std::make_unique<Hl2ssImages>(color, depth, lut); };
+  const ImageSize color_size = {color_camera.width, color_camera.height};
+  recording.images = [=] { return std::make_unique<Hl2ssImages>(color, color_size, depth, lut); };
   try {
-    recording.calibration = rigOf(calibration, color_camera, lut->camera(), recording.poses, world_from_rig);
+    const sphc_rigid depth_from_rig = depthFromRig(calibration / "extrinsics.bin");
+    requireMillimetres(calibration / "scale.bin");
+    recording.calibration = inFile(folder, [&] {
+      return rigOfHoloLens(color_camera, lut->camera(), recording.poses, world_from_rig, depth_from_rig);
+    });
   } catch (const Failure &failure) {  // told only where nobody gives a calibration file
-    recording.calibration_fault = shortPath(folder.string()) + ": " + failure.what();
+    recording.calibration_fault = failure.what();
   }
   return recording;
 }

@@ -14,6 +14,8 @@ constexpr size_t kVideoBytes = 14, kOptionBytes = 16;
 constexpr size_t kDepthBytes = 6;
 constexpr size_t kPacketHeadBytes = 12;  // time, length
 constexpr uint64_t kTickNs = 100;
+constexpr uint32_t kMostPngFilter = 6;
+constexpr size_t kMostPackets = 4000000;  // a day of the fastest stream
 
 class Hl2ssReader {
  public:
@@ -64,10 +66,11 @@ class Hl2ssReader {
   void readVideoHead() {
     ByteReader head = take(kVideoBytes);
     readMode(&head);
-    out_.width = head.little<uint16_t>();
-    out_.height = head.little<uint16_t>();
-    head.take(2);  // frames a second, and of how many one was sent
+    head.take(6);  // the size that was asked for, frames a second, and of how many one was sent
     out_.profile = head.little<uint8_t>();
+    if (out_.profile > kHl2ssH265 && out_.profile != kHl2ssUncoded)
+      throw Failure(SPHC_E_UNSUPPORTED,
+                    file_.name() + ": is video that is neither H.264, H.265 nor uncoded; record one of these");
     head.take(5);  // level, bits a second
     const size_t options = head.little<uint8_t>();
     if (options > 0) take(options * kOptionBytes);
@@ -76,8 +79,10 @@ class Hl2ssReader {
   void readDepthHead() {
     ByteReader head = take(kDepthBytes);
     readMode(&head);
-    head.take(1);  // of how many images one was sent
-    out_.profile = head.little<uint32_t>();
+    head.take(1);                            // of how many images one was sent
+    out_.profile = head.little<uint32_t>();  // of one byte in older files, in front of a packet's time
+    if (out_.profile > kMostPngFilter && out_.profile != kHl2ssUncoded)
+      throw Failure(SPHC_E_UNSUPPORTED, file_.name() + kHl2ssTooOld);
   }
 
   // 0: images alone, 1: each with a pose.
@@ -87,7 +92,7 @@ class Hl2ssReader {
     pose_bytes_ = mode == 1 ? kHl2ssMatrixBytes : 0;
   }
 
-  // False where the file ends before it does.
+  // False where the end of the file cuts it.
   bool readPacket() {
     const uint64_t left = window_.fileSize() - at_;
     if (left < kPacketHeadBytes) return false;
@@ -96,8 +101,11 @@ class Hl2ssReader {
     const uint64_t bytes = head.little<uint32_t>();
     if (bytes + pose_bytes_ > left - kPacketHeadBytes) return false;
     if (ticks > INT64_MAX / kTickNs)
-      throw Failure(SPHC_E_DEVICE, file_.name() + ": the time of packet " + std::to_string(out_.packets.size()) +
-                                       " is none; copy it again");
+      throw Failure(SPHC_E_DEVICE, file_.name() + ": packet " + std::to_string(out_.packets.size()) +
+                                       " has no valid time; copy it again");
+    if (out_.packets.size() == kMostPackets)
+      throw Failure(SPHC_E_UNSUPPORTED, file_.name() + ": has more than " + std::to_string(kMostPackets) +
+                                            " packets; record several shorter walks");
     Hl2ssPacket packet = {static_cast<int64_t>(ticks * kTickNs), at_ + kPacketHeadBytes, bytes, {}};
     at_ = packet.start + bytes;
     if (pose_bytes_ > 0) packet.pose = hl2ssRigidFrom(window_.at(at_, pose_bytes_).data);

@@ -10,8 +10,13 @@
 namespace sphc::recording {
 
 constexpr uint16_t kHl2ssLongThrowPort = 3805, kHl2ssVideoPort = 3810;
-// How images are encoded: of the colour camera by H.264, H.265 or not at all, of the depth camera as PNG or not.
+// How images are encoded: of the colour camera by H.264 (0 to 2), H.265 or not at all, of the depth camera as PNG
+// (0 to 6) or not at all.
 constexpr uint32_t kHl2ssH265 = 3, kHl2ssUncoded = 255;
+
+// Said behind the name of a file.
+constexpr const char *kHl2ssTooOld =
+    ": was written by an older hl2ss, whose files are laid out otherwise; update hl2ss and record again";
 
 struct Hl2ssPacket {
   int64_t time_ns;                 // since the headset was started
@@ -20,15 +25,14 @@ struct Hl2ssPacket {
 };
 
 struct Hl2ssFile {
-  uint16_t port = 0;               // which stream it is
-  uint32_t width = 0, height = 0;  // of the colour camera's images; of depth 0
+  uint16_t port = 0;  // which stream it is
   uint32_t profile = 0;
   std::vector<Hl2ssPacket> packets;  // in the file's order
   bool is_cut = false;               // what is whole is there
 };
 
-// Of colour and depth ("Long Throw") alone.  Throws Failure with the name: DEVICE when it is no such file,
-// UNSUPPORTED when it is another stream or of another version.
+// Reads the streams of colour and of depth ("Long Throw") only.  Throws Failure with the name: DEVICE when it is no
+// such file, UNSUPPORTED when it is another stream or of another version.
 Hl2ssFile readHl2ss(const std::filesystem::path &path);
 
 // A 4 x 4 matrix of floats as hl2ss has it, for points that are rows: the transpose of ours.  None where it is no

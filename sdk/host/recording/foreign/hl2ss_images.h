@@ -12,7 +12,7 @@
 
 namespace sphc::recording {
 
-constexpr uint32_t kLongThrowWidth = 320, kLongThrowHeight = 288;
+constexpr ImageSize kLongThrowSize = {320, 288};
 constexpr uint64_t kHl2ssColorTail = 80, kHl2ssDepthTail = 8;  // bytes behind an image
 
 // A colour image's tail: its camera, and the size that it was sent in.
@@ -30,8 +30,8 @@ struct Hl2ssStream {
 // The number of an image is that of its packet.
 class Hl2ssImages : public LayoutImages {
  public:
-  Hl2ssImages(std::shared_ptr<const Hl2ssStream> color, std::shared_ptr<const Hl2ssStream> depth,
-              std::shared_ptr<const DepthLut> lut);
+  Hl2ssImages(std::shared_ptr<const Hl2ssStream> color, ImageSize color_size,
+              std::shared_ptr<const Hl2ssStream> depth, std::shared_ptr<const DepthLut> lut);
 
   void read(sphc_stream stream, const RecordedImage &image, const sphc_camera &camera, sphc_format format,
             uint8_t *pixels) override;
@@ -44,11 +44,12 @@ class Hl2ssImages : public LayoutImages {
   ByteView load(const File &file, const Hl2ssPacket &packet, uint64_t tail_bytes);
 
   std::shared_ptr<const Hl2ssStream> color_, depth_;
+  ImageSize color_size_;
   std::shared_ptr<const DepthLut> lut_;
   File color_file_, depth_file_;
   std::optional<PacketVideo> video_;  // from the first image on
   Bytes stored_;                      // of the last packet
-  std::vector<uint16_t> range_mm_;
+  std::vector<uint16_t> range_mm_;    // and infrared behind it
 };
 
 }  // namespace sphc::recording

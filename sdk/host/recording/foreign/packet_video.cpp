@@ -4,14 +4,15 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 }
 
+#include <set>
+
 #include "host/recording/failure.h"
 
 namespace sphc::recording {
 
 namespace {
 
-constexpr const char *kCannot =
-    "cannot be decoded: the video is damaged before it, or begins after it; copy it again";
+constexpr int kSilent = 100;  // beyond every level of libavcodec's log: failures are told here, with a cause
 
 template <typename Made>
 Made *made(Made *pointer) {
@@ -19,8 +20,23 @@ Made *made(Made *pointer) {
   return pointer;
 }
 
+bool isKey(const AVFrame &frame) {
+#ifdef AV_FRAME_FLAG_KEY
+  return frame.flags & AV_FRAME_FLAG_KEY;
+#else
+  return frame.key_frame;
+#endif
+}
+
 bool isFlawed(const AVFrame &frame) {
   return (frame.flags & AV_FRAME_FLAG_CORRUPT) || frame.decode_error_flags != 0;
+}
+
+// From 0 to 255 to video range: Y from 16 to 235, U and V from 16 to 240.
+void toVideoRange(int height, cv::Mat *planes) {
+  cv::Mat luma = planes->rowRange(0, height), chroma = planes->rowRange(height, planes->rows);
+  luma.convertTo(luma, -1, 219 / 255.0, 16);
+  chroma.convertTo(chroma, -1, 224 / 255.0, 128 - 128 * 224 / 255.0);
 }
 
 cv::Mat planesOf(const AVFrame &frame) {
@@ -35,6 +51,8 @@ cv::Mat planesOf(const AVFrame &frame) {
       std::memcpy(out, frame.data[plane] + ptrdiff_t{row} * frame.linesize[plane],
                   static_cast<size_t>(frame.width / divisor));
   }
+  if (frame.color_range == AVCOL_RANGE_JPEG || frame.format == AV_PIX_FMT_YUVJ420P)
+    toVideoRange(frame.height, &planes);
   return planes;
 }
 
@@ -47,16 +65,21 @@ struct PacketVideo::Decoder {
     void operator()(AVFrame *frame) const { av_frame_free(&frame); }
   };
 
-  void open() {
+  // From this packet on.
+  void open(uint32_t first) {
     const AVCodec *codec = avcodec_find_decoder(code == VideoCode::kH264 ? AV_CODEC_ID_H264 : AV_CODEC_ID_HEVC);
     if (!codec) throw Failure(SPHC_E_UNSUPPORTED, "this build's libavcodec decodes no such video; install another");
     context.reset(made(avcodec_alloc_context3(codec)));
-    context->thread_count = 1;
+    context->thread_count = 1;  // threads would delay images
     context->max_pixels = static_cast<int64_t>(most_px);
-    if (avcodec_open2(context.get(), codec, nullptr) < 0) throw Failure(SPHC_E_DEVICE, kCannot);
-    next = 0;
-    last = -1;
-    is_drained = is_damaged = false;
+    context->err_recognition |= AV_EF_EXPLODE;
+    context->log_level_offset = kSilent;
+    if (avcodec_open2(context.get(), codec, nullptr) < 0)
+      throw Failure(SPHC_E_UNSUPPORTED, "libavcodec does not open its decoder; install another");
+    next = first;
+    last = int64_t{first} - 1;
+    is_drained = false;
+    damaged.clear();
   }
 
   // The next packet goes in with its number, which comes out with its image; after the last one nothing.
@@ -71,32 +94,58 @@ struct PacketVideo::Decoder {
     padded.resize(view.size + AV_INPUT_BUFFER_PADDING_SIZE);
     packet->data = padded.data();
     packet->size = static_cast<int>(view.size);
-    packet->pts = next++;
+    packet->pts = next;
     const bool is_taken = view.size > 0 && avcodec_send_packet(context.get(), packet.get()) >= 0;
-    is_damaged = is_damaged || !is_taken;
+    if (!is_taken) damaged.insert(next);
+    ++next;
   }
 
-  // The image whose number is `index`, if it comes and is whole.
-  bool receive(uint32_t index) {
+  // An image came: those between it and the last one are not to be had, nor is it where it goes on from damage.
+  // One that is not behind the last has no number of its own, and what goes on from it neither.
+  void take() {
+    const int64_t number = frame->pts;
+    if (number <= last || number >= count) {
+      damaged.insert(last);
+      return;
+    }
+    for (int64_t i = last + 1; i < number; ++i) is_refused[static_cast<size_t>(i)] = true;
+    if (isKey(*frame)) {
+      keys.insert(number);
+      damaged.erase(damaged.begin(), damaged.lower_bound(number));
+    }
+    if (isFlawed(*frame)) damaged.insert(number);
+    if (!damaged.empty() && *damaged.begin() <= number) is_refused[static_cast<size_t>(number)] = true;
+    last = number;
+  }
+
+  // Decodes up to the image of this number, or to one behind it.
+  void advance(int64_t index) {
     while (last < index) {
       const int status = avcodec_receive_frame(context.get(), frame.get());
       if (status >= 0) {
-        last = frame->pts;
-        if (frame->key_frame) is_damaged = false;
-        if (isFlawed(*frame)) is_damaged = true;
+        take();
       } else {
-        if (status != AVERROR(EAGAIN)) is_damaged = true;
-        if (is_drained) return false;
+        if (status != AVERROR(EAGAIN) && next > 0) damaged.insert(int64_t{next} - 1);
+        if (is_drained) {
+          for (int64_t i = last + 1; i < count; ++i) is_refused[static_cast<size_t>(i)] = true;
+          return;
+        }
         send();
       }
     }
-    return last == index && !is_damaged;
+  }
+
+  // Where to begin anew for an image that went by.
+  uint32_t keyBefore(int64_t index) const {
+    const auto behind = keys.upper_bound(index);
+    return behind == keys.begin() ? 0 : static_cast<uint32_t>(*std::prev(behind));
   }
 
   VideoCode code;
   uint32_t count;
   uint64_t most_px;
   std::function<ByteView(uint32_t)> packet_bytes;
+  std::vector<bool> is_refused;  // of each image, once that is known
 
   std::unique_ptr<AVCodecContext, Deleter> context{};
   std::unique_ptr<AVPacket, Deleter> packet{made(av_packet_alloc())};
@@ -105,22 +154,31 @@ struct PacketVideo::Decoder {
   uint32_t next = 0;  // packet to go in
   int64_t last = -1;  // image that came out
   bool is_drained = false;
-  bool is_damaged = false;  // until an image stands by itself again
+  std::set<int64_t> damaged{};  // packets, from the last key image on
+  std::set<int64_t> keys{};     // that were seen
 };
 
 PacketVideo::PacketVideo(VideoCode code, uint32_t packet_count, uint64_t most_px,
                          std::function<ByteView(uint32_t)> packet)
-    : decoder_(new Decoder{code, packet_count, most_px, std::move(packet)}) {
-  av_log_set_level(AV_LOG_FATAL);  // failures are told here, with a cause
-  decoder_->open();
+    : decoder_(
+          new Decoder{code, packet_count, most_px, std::move(packet), std::vector<bool>(packet_count, false)}) {
+  decoder_->open(0);
 }
 
 PacketVideo::~PacketVideo() = default;
 
 cv::Mat PacketVideo::read(uint32_t index) {
-  if (index <= decoder_->last) decoder_->open();
-  if (!decoder_->receive(index)) throw Failure(SPHC_E_DEVICE, kCannot);
-  return planesOf(*decoder_->frame);
+  Decoder &decoder = *decoder_;
+  if (!decoder.is_refused[index]) {
+    const bool went_by = index <= decoder.last && decoder.frame->pts != index;
+    if (went_by) decoder.open(decoder.keyBefore(index));
+    decoder.advance(index);
+  }
+  if (decoder.is_refused[index] || decoder.frame->pts != index)
+    throw Failure(SPHC_E_DEVICE,
+                  "cannot be decoded: the video begins after it, is damaged before it, or has images that go on "
+                  "from later ones (B frames); begin at a later frame, or record without them");
+  return planesOf(*decoder.frame);
 }
 
 }  // namespace sphc::recording

@@ -13,15 +13,16 @@ enum class VideoCode { kH264, kH265 };
 
 class PacketVideo {
  public:
-  // `packet` gives the bytes of one, counted from 0, valid until it is called again; nothing where it is
-  // damaged.  Images are of up to `most_px` pixels.  Throws Failure (UNSUPPORTED) without a name in a build without
+  // `packet` gives the bytes of one, counted from 0, valid until it is called again; nothing where it is damaged.
+  // Images are of up to `most_px` pixels.  Throws Failure (UNSUPPORTED) without a name in a build without
   // libavcodec.
   PacketVideo(VideoCode code, uint32_t packet_count, uint64_t most_px, std::function<ByteView(uint32_t)> packet);
   ~PacketVideo();
 
-  // The image of a packet: three planes of 8 bits, Y above U above V (I420), of even sides.  Images are decoded one
-  // after the other, so going back begins at the first.  Throws Failure (DEVICE) without a name where it cannot be
-  // decoded whole: before the first image that stands by itself, and behind damage up to the next.
+  // The image of a packet: three planes of 8 bits, Y above U above V (I420), of video range and of even sides.
+  // Images are decoded one after the other; going back begins at the last one that stands by itself (a key image).
+  // Throws Failure without a name: DEVICE before the first key image, and from damage that libavcodec notices up to
+  // the next; UNSUPPORTED where pixels are of another kind.
   cv::Mat read(uint32_t index);
 
  private:

@@ -21,15 +21,6 @@ namespace {
 constexpr size_t kMostHoloLensBytes = size_t{1} << 28;
 constexpr const char *kSensor = "Depth Long Throw";
 
-template <typename Read>
-auto inFile(const fs::path &file, Read &&read) {
-  try {
-    return read();
-  } catch (const Failure &failure) {
-    throw Failure(failure.status(), shortPath(file.string()) + ": " + failure.what());
-  }
-}
-
 template <typename Parse>
 auto parsedText(const fs::path &file, Parse &&parse) {
   const std::string text = readText(file);
