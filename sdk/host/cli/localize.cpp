@@ -2,10 +2,12 @@
 #include <map>
 #include <memory>
 
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/few_warnings.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/light_options.h"
 #include "host/cli/common/number_checks.h"
@@ -83,9 +85,11 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   run.settings = describeConfig(input.config, input.parameters);
   run.settings.push_back({"deadline_us", std::to_string(options.deadline_us)});
   ProgressBar bar("localizing");
+  FewWarnings warnings(console);
   localizeFrames(
       input, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); },
-      [&console](const std::string &why) { console.warn("note: " + why); }, &run);
+      [&warnings](const std::string &why) { warnings.add("note: " + why); }, &run);
+  if (warnings.more()) console.warn("note: " + counted(warnings.more(), "more frame") + " could not be read");
   return run;
 }
 

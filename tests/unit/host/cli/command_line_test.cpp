@@ -225,6 +225,24 @@ TEST(Convert, TakesAPartOfARecording) {
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk", map = folder / "room.sphc";
+  ASSERT_EQ(runCommand("simulate --frames 14 --rate 6 --out " + walk).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("build --map " + map + " -r " + walk).exit_code, kExitDone);
+  const std::vector<std::string> ways = {"convert " + walk + " " + (folder / "walk.mcap"),
+                                         "convert --to 7scenes " + walk + " " + (folder / "seq-01"),
+                                         "localize --map " + map + " -r " + walk};
+  for (int i = 0; i < 13; ++i)
+    std::ofstream(walk + (i < 10 ? "/rgb/00000" : "/rgb/0000") + std::to_string(i) + ".png") << "no image";
+  for (const std::string &way : ways) {
+    const std::string said = runCommand(way).err;
+    EXPECT_THAT(said, HasSubstr("rgb/000009.png")) << way;
+    EXPECT_THAT(said, Not(HasSubstr("rgb/000010.png"))) << way;
+    EXPECT_THAT(said, HasSubstr("3 more ")) << way;
+  }
+}
+
 TEST(Advise, TellsOfFramesThatTookNoPart) {
   const TempFolder folder;
   const std::string walk = folder / "walk", advise = "advise --json --folds 2 -r " + walk;
