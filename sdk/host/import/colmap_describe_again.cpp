@@ -2,6 +2,7 @@
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 
+#include "host/base/regular_file.h"
 #include "host/frames/frame_features.h"
 #include "host/import/colmap_descriptors.h"
 
@@ -46,6 +47,7 @@ class KeypointGrid {
 
 cv::Mat readGray(const std::string &folder, const ColmapImage &image, const sphc_camera &camera) {
   const std::string path = (std::filesystem::path(folder) / image.name).string();
+  checkIsFile(path, "COLMAP's folder of images");
   cv::Mat gray = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (gray.empty()) throw std::runtime_error("cannot read the image " + path + "; name COLMAP's folder of images");
   if (gray.cols != static_cast<int>(camera.width) || gray.rows != static_cast<int>(camera.height))

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "host/base/regular_file.h"
 #include "host/import/point_tracks.h"
 #include "host/import/upright.h"
 #include "host/recording/calibration.h"
@@ -81,6 +82,7 @@ class DepthImages {
   cv::Mat read(const std::string &name, const sphc_camera &camera) const {
     const fs::path path = depthPath(folder_, name);
     if (!fs::exists(path)) return {};
+    checkIsFile(path.string(), "a folder of depth images");
     cv::Mat depth = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
     if (depth.type() != CV_16UC1 || depth.cols != static_cast<int>(camera.width) ||
         depth.rows != static_cast<int>(camera.height))

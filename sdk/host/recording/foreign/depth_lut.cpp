@@ -21,8 +21,10 @@ std::vector<Each> eachOf(ByteView file, const ImageSize &size, const char *misfi
   std::vector<Each> all;
   all.reserve(count);
   for (const uint8_t *at = file.data; all.size() < count; at += kNumbers * sizeof(float)) {
-    float told[kNumbers];
-    std::memcpy(told, at, sizeof told);
+    float stored[kNumbers];
+    std::memcpy(stored, at, sizeof stored);
+    double told[kNumbers];
+    std::copy(std::begin(stored), std::end(stored), told);
     all.push_back(of(told));
   }
   return all;
@@ -48,7 +50,7 @@ class LineFit {
 }  // namespace
 
 DepthLut DepthLut::ofRays(ByteView file, const ImageSize &size) {
-  const auto ray = [](const float *told) {
+  const auto ray = [](const double *told) {
     const double x = told[0], y = told[1], z = told[2];
     return rayOf(x / z, y / z, z);
   };
@@ -56,7 +58,7 @@ DepthLut DepthLut::ofRays(ByteView file, const ImageSize &size) {
 }
 
 DepthLut DepthLut::ofPlanePoints(ByteView file, const ImageSize &size) {
-  const auto ray = [](const float *told) {
+  const auto ray = [](const double *told) {
     const double x = told[0], y = told[1];
     return rayOf(x, y, 1 / std::sqrt(x * x + y * y + 1));
   };

@@ -130,7 +130,7 @@ std::optional<sphc_rigid> hl2ssRigidFrom(const uint8_t *floats) {
   std::memcpy(told, floats, sizeof told);
   double rows[12];
   for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column) rows[4 * row + column] = told[4 * column + row];
+    for (int column = 0; column < 4; ++column) rows[4 * row + column] = static_cast<double>(told[4 * column + row]);
   sphc_rigid rigid;
   const bool is_told = told[15] > 0.5f;  // else 0, of a headset that does not know its place
   if (!is_told || !host::rigidFromRows(rows, &rigid)) return {};

@@ -60,9 +60,9 @@ cv::Mat planesOf(const AVFrame &frame) {
 
 struct PacketVideo::Decoder {
   struct Deleter {
-    void operator()(AVCodecContext *context) const { avcodec_free_context(&context); }
-    void operator()(AVPacket *packet) const { av_packet_free(&packet); }
-    void operator()(AVFrame *frame) const { av_frame_free(&frame); }
+    void operator()(AVCodecContext *owned) const { avcodec_free_context(&owned); }
+    void operator()(AVPacket *owned) const { av_packet_free(&owned); }
+    void operator()(AVFrame *owned) const { av_frame_free(&owned); }
   };
 
   // From this packet on.

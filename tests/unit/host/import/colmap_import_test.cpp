@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -96,6 +97,18 @@ TEST_F(ColmapImport, AMissingImageIsNamed) {
   writeWall(folder_.path().string(), 1);
   cv::imwrite(folder_ / "a.png", cv::Mat(10, 10, CV_8UC1));
   EXPECT_THAT(refusal([this] { import(); }), HasSubstr("is 10 x 10, its camera 96 x 72"));
+}
+
+TEST_F(ColmapImport, APipeInThePlaceOfAnImageIsNotWaitedFor) {
+  const std::string pipe = folder_ / "a.png";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  options_.depth = folder_.path().string();
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("a.png is a device or a pipe"));
+  options_.depth.clear();
+  options_.metres_per_unit = 1;
+  options_.descriptors = ColmapDescriptors::kAgain;
+  options_.images = folder_.path().string();
+  EXPECT_THAT(refusal([this] { import(); }), HasSubstr("a.png is a device or a pipe"));
 }
 
 class ColmapDatabase : public testing::TestWithParam<Schema> {};
