@@ -118,7 +118,7 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
   orThrow("source", [&](sphc_message *) { return sphc_replay_source(replay, &source); });
   if (source.start(source.self) < 0) throw std::runtime_error(source.message(source.self));
   ProgressBar bar("converting ");
-  FewWarnings warnings(console);
+  FewWarnings warnings(console, "left out: ", "image", "");
   Result result;
   int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   for (uint32_t done = 1;; ++done) {
@@ -128,7 +128,7 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
     if (status == SPHC_END) break;
     bar.show(done, info.color_count + info.depth_count);
     if (status != SPHC_OK) {
-      warnings.add(std::string("left out: ") + source.message(source.self));
+      warnings.add(source.message(source.self));
       ++result.unreadable;
       continue;
     }
@@ -143,7 +143,6 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
     result.amplitudes += capture.amplitude.data != nullptr;
     source.release(source.self, &capture);
   }
-  if (warnings.more()) console.warn("left out: " + counted(warnings.more(), "more image"));
   poses.writeUpTo(to_ns, from_ns, out);
   felt.writeUpTo(to_ns, from_ns, out);
   result.poses = poses.written();
@@ -155,7 +154,7 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
 template <typename Add>
 Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
   ProgressBar bar("converting ");
-  FewWarnings warnings(console);
+  FewWarnings warnings(console, "left out: ", "frame", "");
   Result result;
   result.unpaired = static_cast<uint32_t>(reader->recording().color.size()) - reader->frameCount();
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
@@ -164,7 +163,7 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     const std::optional<sphc_localizer_frame> frame = reader->tryRead(i, &why);
     if (!frame) {
-      warnings.add("left out: " + why);
+      warnings.add(why);
       ++result.unreadable;
       result.unreadable_poses += pose ? 1 : 0;
       continue;
@@ -175,7 +174,6 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
     result.amplitudes += frame->amplitude.data != nullptr;
     result.poses += pose ? 1 : 0;
   }
-  if (warnings.more()) console.warn("left out: " + counted(warnings.more(), "more frame"));
   return result;
 }
 

@@ -150,7 +150,7 @@ void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
       "; never came: " + std::to_string(counts.color_lost) + " colour, " + std::to_string(counts.depth_lost) +
       " depth");
   const std::string troubles = rig.troubles();
-  if (!troubles.empty()) console.say(troubles);
+  if (!troubles.empty()) console.warn(troubles);
 }
 
 int run(const LiveOptions &options, const Console &console) {

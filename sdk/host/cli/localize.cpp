@@ -2,7 +2,6 @@
 #include <map>
 #include <memory>
 
-#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
@@ -85,11 +84,10 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   run.settings = describeConfig(input.config, input.parameters);
   run.settings.push_back({"deadline_us", std::to_string(options.deadline_us)});
   ProgressBar bar("localizing");
-  FewWarnings warnings(console);
+  FewWarnings warnings(console, "note: ", "frame", " could not be read");
   localizeFrames(
       input, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); },
-      [&warnings](const std::string &why) { warnings.add("note: " + why); }, &run);
-  if (warnings.more()) console.warn("note: " + counted(warnings.more(), "more frame") + " could not be read");
+      [&warnings](const std::string &why) { warnings.add(why); }, &run);
   return run;
 }
 
@@ -128,8 +126,10 @@ int run(const LocalizeOptions &options, const Console &console) {
   console.give(summaryJson(done, summary));
   if (summary.localized > 0) return kExitDone;
   console.warn(
-      "Not one frame was localized. Is this the place that the map shows? Is the calibration right? The report "
-      "(--report DIR) shows what the localizer saw.");
+      summary.outcomes[SPHC_OUTCOME_DEADLINE] == summary.frames
+          ? "Not one frame was localized before its deadline. Raise --deadline-us."
+          : "Not one frame was localized. Is this the place that the map shows? Is the calibration right? The "
+            "report (--report DIR) shows what the localizer saw.");
   return kExitNotLocalized;
 }
 

@@ -233,6 +233,8 @@ TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
   const std::vector<std::string> ways = {"convert " + walk + " " + (folder / "walk.mcap"),
                                          "convert --to 7scenes " + walk + " " + (folder / "seq-01"),
                                          "localize --map " + map + " -r " + walk};
+  EXPECT_THAT(runCommand("localize --deadline-us 1 --map " + map + " -r " + walk).err,
+              HasSubstr("before its deadline. Raise --deadline-us."));
   for (int i = 0; i < 13; ++i)
     std::ofstream(walk + (i < 10 ? "/rgb/00000" : "/rgb/0000") + std::to_string(i) + ".png") << "no image";
   for (const std::string &way : ways) {
@@ -294,12 +296,13 @@ TEST(Damage, IsSaidByWhateverReadsARecording) {
   }
   says("convert " + walk + " " + (folder / "a"), walk, left_out);
   says("convert " + cut + " " + (folder / "b"), cut, cut_off);
-  for (const std::string &command :
-       {std::string("doctor --device replay:"), "live --map " + map + " --device replay:"}) {
-    EXPECT_THAT(runCommand(command + walk).out, HasSubstr(left_out)) << command;
-    EXPECT_THAT(runCommand(command + cut).out, HasSubstr(cut_off)) << command;
-    EXPECT_THAT(runCommand(command + walk).out, Not(HasSubstr(cut_off))) << command;
+  for (const auto &[recording, sentence] : {std::pair(walk, left_out), {cut, cut_off}}) {
+    EXPECT_THAT(runCommand("doctor --device replay:" + recording).out, HasSubstr(sentence));
+    for (const std::string json : {"", " --json"})
+      EXPECT_THAT(runCommand("live --map " + map + " --device replay:" + recording + json).err, HasSubstr(sentence))
+          << json;
   }
+  EXPECT_THAT(runCommand("live --map " + map + " --device replay:" + walk).err, Not(HasSubstr(cut_off)));
 }
 
 TEST(Convert, KeepsAccelerationsInAFile) {
