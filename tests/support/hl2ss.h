@@ -3,8 +3,6 @@
 
 #include <spherecloud/spherecloud.h>
 
-#include <spherecloud/spherecloud.h>
-
 #include <array>
 #include <string>
 

@@ -302,6 +302,7 @@ TEST(Damage, IsSaidByWhateverReadsARecording) {
       EXPECT_THAT(runCommand("live --map " + map + " --device replay:" + recording + json).err, HasSubstr(sentence))
           << json;
   }
+  EXPECT_THAT(runCommand("doctor --device replay:" + walk).out, Not(HasSubstr(cut_off)));
   EXPECT_THAT(runCommand("live --map " + map + " --device replay:" + walk).err, Not(HasSubstr(cut_off)));
 }
 
