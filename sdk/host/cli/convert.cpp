@@ -17,6 +17,7 @@
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/recording_out.h"
 #include "host/frames/recording.h"
+#include "host/live/interrupt.h"
 #include "host/live/replay_damage.h"
 #include "host/recording/writer_7scenes.h"
 #include "host/recording/writer_raw.h"
@@ -33,6 +34,7 @@ struct ConvertOptions {
   std::string out;
   Target target = Target::kByName;
   sphc_recorder_config recorder = {};
+  std::optional<sphc_depth_codec> depth_codec;
 
   // Colour and depth under one number, as the layout has them.
   bool isByFrame() const { return target == Target::k7Scenes || target == Target::kRaw; }
@@ -118,6 +120,7 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
   orThrow("source", [&](sphc_message *) { return sphc_replay_source(replay, &source); });
   if (source.start(source.self) < 0) throw std::runtime_error(source.message(source.self));
   ProgressBar bar("converting ");
+  const Interrupt interrupt;
   FewWarnings warnings(console, "left out: ", "image", "");
   Result result;
   int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
@@ -126,6 +129,7 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
     capture.struct_size = sizeof capture;
     const sphc_status status = source.acquire(source.self, 0, &capture);
     if (status == SPHC_END) break;
+    interrupt.throwIfCame();
     bar.show(done, info.color_count + info.depth_count);
     if (status != SPHC_OK) {
       warnings.add(source.message(source.self));
@@ -154,11 +158,13 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
 template <typename Add>
 Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
   ProgressBar bar("converting ");
+  const Interrupt interrupt;
   FewWarnings warnings(console, "left out: ", "frame", "");
   Result result;
   result.unpaired = static_cast<uint32_t>(reader->recording().color.size()) - reader->frameCount();
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
     bar.show(i, reader->frameCount());
+    interrupt.throwIfCame();
     std::string why;
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     const std::optional<sphc_localizer_frame> frame = reader->tryRead(i, &why);
@@ -261,6 +267,9 @@ int convert(ConvertOptions options, const Console &console) {
                      options.out);
   if (options.recorder.jpeg_quality && options.target != Target::kMcap)
     throw UsageError("--jpeg is of an MCAP file; give the new recording a name that ends in .mcap");
+  if (options.depth_codec && options.target != Target::kMcap)
+    throw UsageError("--depth-codec is of an MCAP file; give the new recording a name that ends in .mcap");
+  options.recorder.depth_codec = options.depth_codec.value_or(options.recorder.depth_codec);
   FileUse files(false);
   files.reads("the recording", options.in.folder);
   files.reads("--calibration", options.in.calibration);
@@ -318,8 +327,7 @@ Command convertCommand(CLI::App *root) {
       ->type_name("tum|7scenes|mcap|raw");
   const std::map<std::string, sphc_depth_codec> codecs = {
       {"raw", SPHC_DEPTH_RAW}, {"rvl", SPHC_DEPTH_RVL}, {"zstd", SPHC_DEPTH_ZSTD}};
-  app->add_option("--depth-codec", options->recorder.depth_codec,
-                  "Codec of depth in a file; all are lossless [zstd]")
+  app->add_option("--depth-codec", options->depth_codec, "Codec of depth in a file; all are lossless [zstd]")
       ->transform(CLI::CheckedTransformer(codecs).description(""))
       ->type_name("zstd|rvl|raw");
   app->add_option("--jpeg", options->recorder.jpeg_quality, "Colour in a file as JPEG of this quality [raw]")

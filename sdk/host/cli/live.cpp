@@ -155,9 +155,7 @@ void sayTally(const LiveTally &tally, const Rig &rig, const Console &console) {
 
 int run(const LiveOptions &options, const Console &console) {
   checkRigOptions(options.rig);
-  std::vector<MapFile> maps;
-  const Trust trust = trustOf(options.trust);
-  for (const std::string &path : options.maps) maps.push_back(openMapFile(path, trust));
+  const std::vector<MapFile> maps = openMapFiles(options.maps, trustOf(options.trust));
   StatusLine line;
   Rig rig(options.rig, [&](const std::string &trouble) {
     line.wipe();

@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
@@ -26,6 +27,8 @@
 
 namespace sphc::host {
 namespace {
+
+constexpr double kManyContradictions = 10;  // per cent of the frames
 
 struct LocalizeOptions {
   RecordingOptions recording;
@@ -53,28 +56,31 @@ FileUse fileUse(const LocalizeOptions &options) {
 void readNotes(const LocalizeOptions &options, LocalizeInput *input, Run *run) {
   if (options.owner_notes.empty()) return;
   if (options.owner_notes.size() != options.maps.size())
-    throw UsageError("--owner-note: give one for each --map, in the same order, or none");
+    throw UsageError("--owner-note: give one for each --map, or none");
   for (size_t i = 0; i < options.maps.size(); ++i) {
-    const Vector3 centre = centreByNote(options.owner_notes[i], input->maps[i], options.maps[i]);
+    const Vector3 centre = centreByNote(options.owner_notes, input->maps[i], options.maps[i]);
     input->centres_in_world_m.push_back({centre.x(), centre.y(), centre.z()});
   }
   run->centre_m = input->centres_in_world_m.front();
   run->base = "world";
 }
 
+void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &reader, const Console &console) {
+  if (reader.recording().poses.poses().empty())
+    console.warn("note: --odometry: the recording holds no poses to play");
+  if (options.config.mode == SPHC_MODE_SINGLE)
+    console.warn("note: --odometry: --mode single treats each frame alone, so odometry changes nothing");
+}
+
 Run localize(const LocalizeOptions &options, RecordingReader *reader, const Console &console) {
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
   LocalizeInput input;
-  const Trust trust = trustOf(options.trust);
-  for (const std::string &path : options.maps) {
-    input.maps.push_back(openMapFile(path, trust));
-    run.maps.push_back(mapFacts(input.maps.back(), path));
-  }
+  input.maps = openMapFiles(options.maps, trustOf(options.trust));
+  for (size_t i = 0; i < options.maps.size(); ++i) run.maps.push_back(mapFacts(input.maps[i], options.maps[i]));
   input.reader = reader;
   input.deadline_us = options.deadline_us;
-  if (options.odometry && reader->recording().poses.poses().empty())
-    console.warn("note: --odometry: the recording holds no poses to play");
+  if (options.odometry) noteUselessOdometry(options, *reader, console);
   input.play_odometry = options.odometry;
   input.config = options.config;
   input.parameters = options.parameters;
@@ -83,11 +89,14 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   readNotes(options, &input, &run);
   run.settings = describeConfig(input.config, input.parameters);
   run.settings.push_back({"deadline_us", std::to_string(options.deadline_us)});
+  run.settings.push_back({"odometry", options.odometry ? "played" : "none"});
   ProgressBar bar("localizing");
   FewWarnings warnings(console, "note: ", "frame", " could not be read");
   localizeFrames(
       input, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); },
       [&warnings](const std::string &why) { warnings.add(why); }, &run);
+  if (run.frames.empty())
+    throw std::runtime_error("not one frame could be read; check the recording and its calibration");
   return run;
 }
 
@@ -112,6 +121,19 @@ void writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReade
   console.say("Report with pictures: " + report.page);
 }
 
+// Frames that contradict themselves have no pose; what is wrong with their cameras is wrong with the others' too.
+void noteContradictions(const Summary &summary, const Console &console) {
+  const uint32_t contradicting = summary.outcomes[SPHC_OUTCOME_CONTRADICTION];
+  if (contradicting == 0 || percent(contradicting, summary.frames) < kManyContradictions) return;
+  uint32_t faults = 0;
+  for (size_t i = 0; i < summary.faults.size(); ++i)
+    if (summary.faults[i]) faults |= kFaultWords[i].bit;
+  console.warn("note: " + std::to_string(contradicting) + " of " + counted(summary.frames, "frame") +
+               " contradict themselves (" + faultNames(faults) +
+               "): the poses of the others may be wrong too; check the cameras and the calibration by spherecloud "
+               "doctor");
+}
+
 int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
@@ -124,6 +146,7 @@ int run(const LocalizeOptions &options, const Console &console) {
   console.say(tableText(tableRows(done, summary)));
   writeOutputs(options, done, reader.get(), console);
   console.give(summaryJson(done, summary));
+  noteContradictions(summary, console);
   if (summary.localized > 0) return kExitDone;
   console.warn(
       summary.outcomes[SPHC_OUTCOME_DEADLINE] == summary.frames

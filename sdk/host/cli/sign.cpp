@@ -22,12 +22,19 @@ std::string outPath(const SignOptions &options) {
   return options.out.empty() ? signaturePath(options.map) : options.out;
 }
 
-// A device that has seen a release refuses the ones before it.
-void checkGrows(const SignOptions &options, const SigningKey &key) {
-  const uint64_t before = statedRelease(outPath(options), key.publicKey(), options.name);
-  if (options.release < before && !options.force)
-    throw std::runtime_error("--release " + std::to_string(options.release) + ": " + outPath(options) +
-                             " states release " + std::to_string(before) +
+std::string called(const std::string &name) { return name.empty() ? "a map without a name" : "the map " + name; }
+
+// A device that has seen a release refuses the ones before it, and one that asks for a name every other name.
+void checkGoesOn(const SignOptions &options, const SigningKey &key) {
+  const std::string out = outPath(options);
+  const std::optional<Stated> before = statedBy(key.publicKey(), out);
+  if (!before || options.force) return;
+  if (options.name != before->name)
+    throw std::runtime_error("--name: " + out + " is of " + called(before->name) + ", and this would be of " +
+                             called(options.name) + "; give the same name, another --out, or --force");
+  if (options.release < before->release)
+    throw std::runtime_error("--release " + std::to_string(options.release) + ": " + out + " states release " +
+                             std::to_string(before->release) +
                              " already, and devices refuse what is older; give a greater number, or --force");
 }
 
@@ -40,7 +47,7 @@ int sign(const SignOptions &options, const Console &console) {
   files.check();
   const SigningKey key = SigningKey::read(options.key);
   const MapFile map = openMapFile(options.map);  // nothing but a map is ever signed
-  checkGrows(options, key);
+  checkGoesOn(options, key);
   const Signature signature = signMap(map.bytes.data(), map.bytes.size(), key, options.release, options.name);
   writeFile(out, signature.data(), signature.size());
   const std::string id = keyIdText(key.publicKey());

@@ -16,6 +16,7 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_out.h"
+#include "host/live/interrupt.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -108,6 +109,7 @@ void record(sphc_simulated *simulated, Accelerometer accelerometer, RecordingOut
   };
   check(source.start(source.self));
   ProgressBar bar("recording ");
+  const Interrupt interrupt;
   const uint32_t total = sphc_simulated_frame_count(simulated);
   sphc_capture capture = {};
   capture.struct_size = sizeof capture;
@@ -116,6 +118,7 @@ void record(sphc_simulated *simulated, Accelerometer accelerometer, RecordingOut
     keep(capture, simulated, out);
     if (capture.stream == SPHC_STREAM_DEPTH) bar.show(capture.sequence + 1, total);
     source.release(source.self, &capture);
+    interrupt.throwIfCame();
   }
   source.stop(source.self);
 }

@@ -188,7 +188,8 @@ void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
     std::optional<sphc_localizer_frame> image = input.reader->tryRead(i, &why);
     if (!image) {
       unreadable(why);
-      ++run->unreadable;
+      const recording::RecordedImage &color = input.reader->colorOf(i);
+      run->unreadable.push_back({i, color.sequence, color.time_ns, why});
     } else {
       image->deadline_us = input.deadline_us;
       if (input.play_odometry) image->prior = odometry.at(i);
@@ -196,8 +197,6 @@ void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
     }
     frame_done(i + 1, count);
   }
-  if (run->frames.empty())
-    throw std::runtime_error("not one frame could be read; check the recording and its calibration");
 }
 
 }  // namespace sphc::host

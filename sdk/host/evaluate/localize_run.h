@@ -31,8 +31,8 @@ spherecloud::Localizer makeLocalizer(const sphc_localizer_config &config, const 
                                      const Parameters &parameters = {});
 std::vector<Setting> describeConfig(const sphc_localizer_config &config, const Parameters &parameters);
 
-// Fills everything of *run that comes from processing.  A frame that cannot be read is told to `unreadable`,
-// counted and left out.  Throws std::runtime_error when the localizer cannot be made or refuses a frame.
+// Fills everything of *run that comes from processing.  A frame that cannot be read is told to `unreadable` and
+// is one of run->unreadable.  Throws std::runtime_error when the localizer cannot be made or refuses a frame.
 void localizeFrames(const LocalizeInput &input, const FrameDone &frame_done,
                     const std::function<void(const std::string &)> &unreadable, Run *run);
 

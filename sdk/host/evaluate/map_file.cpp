@@ -6,6 +6,7 @@
 
 #include "host/base/hex_text.h"
 #include "host/base/regular_file.h"
+#include "host/base/usage_error.h"
 #include "host/encryption/encrypted_map.h"
 
 namespace sphc::host {
@@ -15,6 +16,11 @@ constexpr size_t kMapAlignment = 64;
 
 void checkUsable(const std::string &what, const spherecloud::Status &status) {
   if (!status.ok()) throw std::runtime_error(what + ": " + status.text() + " [" + status.name() + "]");
+}
+
+std::string idOf(const MapFile &file) {
+  const sphc_map_info info = file.map.info();
+  return hexText(info.map_id, sizeof info.map_id);
 }
 
 }  // namespace
@@ -37,6 +43,17 @@ MapFile openMapFile(const std::string &path, const Trust &trust) {
   return file;
 }
 
+std::vector<MapFile> openMapFiles(const std::vector<std::string> &paths, const Trust &trust) {
+  std::vector<MapFile> files;
+  for (const std::string &path : paths) {
+    files.push_back(openMapFile(path, trust));
+    for (size_t i = 0; i + 1 < files.size(); ++i)
+      if (idOf(files[i]) == idOf(files.back()))
+        throw UsageError("--map: " + paths[i] + " and " + path + " are one map; give it once");
+  }
+  return files;
+}
+
 MapFile openMapBytes(const std::vector<uint8_t> &bytes) {
   MapFile file;
   file.bytes = spherecloud::AlignedBuffer(bytes.size(), kMapAlignment);
@@ -49,7 +66,7 @@ MapFacts mapFacts(const MapFile &file, const std::string &path) {
   const sphc_map_info info = file.map.info();
   MapFacts facts;
   facts.path = path;
-  facts.id = hexText(info.map_id, sizeof info.map_id);
+  facts.id = idOf(file);
   facts.points = info.point_count;
   facts.format_version = info.format_version;
   facts.extractor = info.extractor;
@@ -60,13 +77,16 @@ MapFacts mapFacts(const MapFile &file, const std::string &path) {
   return facts;
 }
 
-Vector3 centreByNote(const std::string &note_path, const MapFile &file, const std::string &map_path) {
-  const OwnerNote note = readOwnerNote(note_path);
+Vector3 centreByNote(const std::vector<std::string> &note_paths, const MapFile &file, const std::string &map_path) {
   const sphc_map_info info = file.map.info();
-  if (!std::equal(note.map_id.begin(), note.map_id.end(), info.map_id))
-    throw std::runtime_error(note_path + " belongs to another map than " + map_path +
-                             " (their map ids differ); give the note that was written beside this map");
-  return note.centre_in_world_m;
+  std::string others;
+  for (const std::string &path : note_paths) {
+    const OwnerNote note = readOwnerNote(path);
+    if (std::equal(note.map_id.begin(), note.map_id.end(), info.map_id)) return note.centre_in_world_m;
+    others += (others.empty() ? "" : ", ") + path;
+  }
+  throw std::runtime_error("--owner-note: no note of " + map_path + " is given, but one of another map (" + others +
+                           "): their map ids differ; give the note that was written beside this map");
 }
 
 }  // namespace sphc::host

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <csignal>
+#include <stdexcept>
 
 namespace sphc::host {
 
@@ -23,6 +24,10 @@ class Interrupt {
   Interrupt &operator=(const Interrupt &) = delete;
 
   bool came() const { return flag() != 0; }
+  // For what cannot be brought to an end early: throws std::runtime_error where it came.
+  void throwIfCame() const {
+    if (came()) throw std::runtime_error("interrupted; what was begun is removed");
+  }
 
  private:
   static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};

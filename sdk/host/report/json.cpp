@@ -69,9 +69,26 @@ Json frameJson(const FrameRecord &frame, const std::string &base) {
   return json;
 }
 
+Json unreadableJson(const UnreadableFrame &frame) {
+  return {{"sequence", frame.sequence},
+          {"time_ns", frame.time_ns},
+          {"outcome", "unreadable"},
+          {"localized", false},
+          {"why", frame.why}};
+}
+
 std::string framesJsonLines(const Run &run) {
   std::string text;
-  for (const FrameRecord &frame : run.frames) text += jsonText(frameJson(frame, run.base)) + "\n";
+  auto unreadable = run.unreadable.begin();
+  const auto addUnreadable = [&](uint32_t before) {
+    for (; unreadable != run.unreadable.end() && unreadable->index < before; ++unreadable)
+      text += jsonText(unreadableJson(*unreadable)) + "\n";
+  };
+  for (const FrameRecord &frame : run.frames) {
+    addUnreadable(frame.index);
+    text += jsonText(frameJson(frame, run.base)) + "\n";
+  }
+  addUnreadable(UINT32_MAX);
   return text;
 }
 
@@ -80,7 +97,7 @@ Json summaryJson(const Run &run, const Summary &s) {
                {"maps", Json::array()},
                {"base", run.base},
                {"frames", s.frames},
-               {"unreadable", run.unreadable},
+               {"unreadable", run.unreadable.size()},
                {"localized", s.localized},
                {"localized_percent", percent(s.localized, s.frames)}};
   for (const MapFacts &map : run.maps)

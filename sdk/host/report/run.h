@@ -44,6 +44,13 @@ struct FrameRecord {
   std::vector<sphc_localizer_observation> observations;  // kept only when pictures are wanted
 };
 
+// A frame that could not be decoded.
+struct UnreadableFrame {
+  uint32_t index = 0, sequence = 0;
+  int64_t time_ns = 0;
+  std::string why;
+};
+
 struct MemoryPiece {
   std::string name;
   size_t bytes = 0;
@@ -71,7 +78,7 @@ struct Run {
   std::vector<MemoryPiece> memory;
   std::vector<Setting> settings;
   std::vector<FrameRecord> frames;
-  uint32_t unreadable = 0;  // frames that could not be decoded; not part of `frames`
+  std::vector<UnreadableFrame> unreadable;  // not part of `frames`
   // Poses by which the truth was brought to the base (aligned_truth.h); 0: it is as it was recorded.
   uint32_t aligned_frames = 0;
 };

@@ -70,7 +70,7 @@ std::string stageNote(const Summary &s) {
 std::vector<Row> tableRows(const Run &run, const Summary &s) {
   std::vector<Row> rows;
   rows.push_back({"frames", std::to_string(s.frames),
-                  run.unreadable ? std::to_string(run.unreadable) + " more could not be read" : ""});
+                  run.unreadable.empty() ? "" : std::to_string(run.unreadable.size()) + " more could not be read"});
   rows.push_back({"localized", share(s.localized, s.frames), ofTotal(s.localized, s.frames)});
   if (s.tracking > 0)
     rows.push_back(

@@ -66,15 +66,16 @@ sphc_signature_statement checkSignature(const Trust &trust, const std::string &m
                            message.text + " [" + sphc_signature_status_name(status) + "]");
 }
 
-uint64_t statedRelease(const std::string &signature_path, const sphc_signature_key &key, const std::string &name) {
+std::optional<Stated> statedBy(const sphc_signature_key &key, const std::string &signature_path) {
   std::error_code absent;
-  if (!std::filesystem::is_regular_file(signature_path, absent)) return 0;
+  if (!std::filesystem::is_regular_file(signature_path, absent)) return std::nullopt;
   const std::vector<uint8_t> bytes = readSignature(signature_path);
   sphc_statement statement;
-  if (bytes.size() != SPHC_SIGNATURE_BYTES || !sphc_statement_read(bytes.data(), &statement)) return 0;
+  if (bytes.size() != SPHC_SIGNATURE_BYTES || !sphc_statement_read(bytes.data(), &statement)) return std::nullopt;
   uint8_t id[SPHC_KEY_ID_BYTES];
   sphc_statement_key_id(key.bytes, id);
-  return std::equal(id, id + sizeof id, statement.key_id) && name == statement.name ? statement.release : 0;
+  if (!std::equal(id, id + sizeof id, statement.key_id)) return std::nullopt;
+  return Stated{statement.release, statement.name};
 }
 
 }  // namespace sphc::host

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,11 @@ struct Trust {
 sphc_signature_statement checkSignature(const Trust &trust, const std::string &map, const void *bytes,
                                         size_t count);
 
-// Of a signature file that is there, unless it is another key's or of another name: which release it states.  0:
-// none.
-uint64_t statedRelease(const std::string &signature_path, const sphc_signature_key &key, const std::string &name);
+struct Stated {
+  uint64_t release = 0;
+  std::string name;
+};
+// What a signature file that is there says; nothing where there is none, or one by another key.
+std::optional<Stated> statedBy(const sphc_signature_key &key, const std::string &signature_path);
 
 }  // namespace sphc::host

@@ -43,7 +43,7 @@ DeadlineInput inputOf(const Options &options, const std::vector<MapFile> &maps, 
 int run(const Options &options, const Console &console) {
   std::vector<MapFile> maps;
   maps.push_back(openMapFile(options.map));
-  const Vector3 centre = centreByNote(options.map + ".owner.json", maps[0], options.map);
+  const Vector3 centre = centreByNote({options.map + ".owner.json"}, maps[0], options.map);
   if (options.one_cell) maps[0] = inOneCell(maps[0]);
   ProgressBar bar("deadlines ");
   const std::vector<DeadlineRow> rows =

@@ -38,7 +38,7 @@ struct OwnedMap {
 
 OwnedMap openOwnedMap(const std::string &path) {
   OwnedMap map = {openMapFile(path), Vector3::Zero()};
-  map.centre_in_world_m = centreByNote(path + ".owner.json", map.file, path);
+  map.centre_in_world_m = centreByNote({path + ".owner.json"}, map.file, path);
   return map;
 }
 

@@ -31,7 +31,7 @@ int run(const NegativeOptions &options, const Console &console) {
   const std::vector<SensorFault> faults = chosenFaults(options);
   std::vector<MapFile> maps;
   maps.push_back(openMapFile(options.map));
-  const Vector3 centre = centreByNote(options.map + ".owner.json", maps[0], options.map);
+  const Vector3 centre = centreByNote({options.map + ".owner.json"}, maps[0], options.map);
   NegativeInput input = {readSequences(reader.get(), options.sequences),
                          &maps,
                          {centre.x(), centre.y(), centre.z()},

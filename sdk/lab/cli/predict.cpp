@@ -18,7 +18,7 @@ struct PredictOptions {
 int run(const PredictOptions &options, const Console &console) {
   std::vector<MapFile> maps;
   maps.push_back(openMapFile(options.map));
-  const Vector3 centre = centreByNote(options.map + ".owner.json", maps[0], options.map);
+  const Vector3 centre = centreByNote({options.map + ".owner.json"}, maps[0], options.map);
   const auto reader = openRecording(options.recording);
   PredictInput input;
   input.reader = reader.get();

@@ -42,7 +42,7 @@ int run(const RigOptions &options, const Console &console) {
   RigInput input;
   input.room = room.get();
   input.maps = &maps;
-  input.centre_in_world_m = centreByNote(options.map + ".owner.json", maps[0], options.map);
+  input.centre_in_world_m = centreByNote({options.map + ".owner.json"}, maps[0], options.map);
   input.views = options.views;
   input.keypoints = options.keypoints;
   ProgressBar bar("views ");

@@ -33,7 +33,7 @@ Sequence spreadFrames(const Options &options) {
 
 int run(const Options &options, const Console &console) {
   const MapFile map = openMapFile(options.map);
-  const Vector3 centre = centreByNote(options.map + ".owner.json", map, options.map);
+  const Vector3 centre = centreByNote({options.map + ".owner.json"}, map, options.map);
   WorstInput input;
   input.sequence = spreadFrames(options);
   input.map = &map;

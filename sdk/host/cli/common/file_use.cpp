@@ -49,14 +49,28 @@ std::string headOf(const std::string &path) {
   throw std::runtime_error(option + ": " + path + " " + why);
 }
 
+void checkMayMake(const std::string &option, const std::string &path, const fs::path &folder) {
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse(option, path, "cannot be written: nothing may be made in " + folder.string() + "; choose another place");
+}
+
 // What replaces a file is made beside it, and so is a ledger's journal.
 void checkParent(const std::string &option, const std::string &path) {
   std::error_code error;
   const fs::path folder = plain(path).parent_path();
   if (!fs::is_directory(folder, error))
     refuse(option, path, "cannot be written: there is no folder " + folder.string() + "; make it first");
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
-    refuse(option, path, "cannot be written: nothing may be made in " + folder.string() + "; choose another place");
+  checkMayMake(option, path, folder);
+}
+
+// Folders are made with those that they lie in.
+void checkFolderToMake(const std::string &option, const std::string &path) {
+  std::error_code error;
+  fs::path folder = plain(path).parent_path();
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder, error))
+    refuse(option, path, "cannot be made: " + folder.string() + " is no folder; choose another place");
+  checkMayMake(option, path, folder);
 }
 
 // Both at once would be mixed, or one would overwrite the other.
@@ -156,6 +170,8 @@ void FileUse::checkFile(const Output &output) const {
   std::error_code error;
   const std::string &path = output.path;
   const fs::file_status status = fs::status(path, error);
+  if (path == "-")
+    throw UsageError(output.option + ": - is no name of a file; give one, or /dev/stdout where that is a pipe");
   if (fs::exists(status) && !fs::is_character_file(status) && isStandardOutput(path))
     refuse(output.option, path, "is where this command's own words go; give a file of its own");
   if (fs::is_directory(status)) refuse(output.option, path, "is a folder; give the name of a file");
@@ -175,8 +191,9 @@ void FileUse::checkFile(const Output &output) const {
 void FileUse::checkFolder(const Output &output) const {
   std::error_code error;
   const fs::file_status status = fs::status(output.path, error);
-  if (!fs::exists(status)) return;
+  if (!fs::exists(status)) return checkFolderToMake(output.option, output.path);
   if (!fs::is_directory(status)) refuse(output.option, output.path, "is a file; give a folder");
+  checkMayMake(output.option, output.path, output.path);
   if (force_) return;
   bool holds_others = false;
   for (const fs::directory_entry &entry : fs::directory_iterator(output.path)) {

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "command_runner.h"
@@ -110,6 +112,7 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"map --recording r --model p --drift 2", "--drift requires --poses"},
       {"map --recording r --model p --pose-sigma 0.1", "--pose-sigma requires --poses"},
       {"convert a b --jpeg 90", "--jpeg is of an MCAP file"},
+      {"convert a b.raw --depth-codec rvl", "--depth-codec is of an MCAP file"},
       {"simulate --out walk.raw", "`spherecloud convert` makes a .raw file"}};
   for (const auto &[command, reason] : mistakes) {
     const Answer answer = runCommand(command);
@@ -230,9 +233,9 @@ TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
   const std::string walk = folder / "walk", map = folder / "room.sphc";
   ASSERT_EQ(runCommand("simulate --frames 14 --rate 6 --out " + walk).exit_code, kExitDone);
   ASSERT_EQ(runCommand("build --map " + map + " -r " + walk).exit_code, kExitDone);
-  const std::vector<std::string> ways = {"convert " + walk + " " + (folder / "walk.mcap"),
-                                         "convert --to 7scenes " + walk + " " + (folder / "seq-01"),
-                                         "localize --map " + map + " -r " + walk};
+  const std::vector<std::string> ways = {
+      "convert " + walk + " " + (folder / "walk.mcap"), "convert --to 7scenes " + walk + " " + (folder / "seq-01"),
+      "localize --map " + map + " -r " + walk + " --frames-json " + (folder / "frames.jsonl")};
   EXPECT_THAT(runCommand("localize --deadline-us 1 --map " + map + " -r " + walk).err,
               HasSubstr("before its deadline. Raise --deadline-us."));
   for (int i = 0; i < 13; ++i)
@@ -243,6 +246,14 @@ TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
     EXPECT_THAT(said, Not(HasSubstr("rgb/000010.png"))) << way;
     EXPECT_THAT(said, HasSubstr("3 more ")) << way;
   }
+  std::ifstream lines(folder / "frames.jsonl");
+  std::vector<nlohmann::json> frames;
+  for (std::string line; std::getline(lines, line);) frames.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(frames.size(), 14u);
+  EXPECT_EQ(frames[12]["sequence"], 12);
+  EXPECT_EQ(frames[12]["outcome"], "unreadable");
+  EXPECT_THAT(frames[12]["why"].get<std::string>(), HasSubstr("rgb/000012.png"));
+  EXPECT_NE(frames[13]["outcome"], "unreadable");
 }
 
 TEST(Advise, TellsOfFramesThatTookNoPart) {
@@ -268,6 +279,17 @@ TEST(Advise, TellsOfFramesThatTookNoPart) {
   EXPECT_THAT(converted.err, Not(HasSubstr("between frames")));
   EXPECT_THAT(runCommand("guide -r " + walk).err, HasSubstr("note: 1 frame could not be read; the first: "));
   EXPECT_FALSE(nlohmann::json::parse(damaged.out)["left_out"].empty());
+}
+
+// Whoever looks at such a recording needs advice most.
+TEST(Advise, DoesNotEndAtABlockThatCannotBeRead) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 6 --rate 6 --out " + walk).exit_code, kExitDone);
+  for (const char *frame : {"0", "1"}) std::ofstream(walk + "/rgb/00000" + frame + ".png") << "no image";
+  const Answer advice = runCommand("advise --json --folds 3 -r " + walk);
+  ASSERT_EQ(advice.exit_code, kExitDone) << advice.err;
+  EXPECT_EQ(nlohmann::json::parse(advice.out)["recall"][0]["frames"], 4);
 }
 
 // A line of groundtruth.txt without a finite pose, and a recorder that was cut off: every command says so.
@@ -516,6 +538,21 @@ void expectAmplitudes(const TempFolder &folder, const std::string &map) {
               HasSubstr("keeps no amplitudes"));
 }
 
+std::string pageText(const std::string &path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// The command's page explains every key.
+void expectExplained(const nlohmann::json &json) {
+  static const std::string page = pageText(SPHC_COMMAND_PAGE);
+  static const std::set<std::string> of_names = {"outcomes", "faults", "hints", "settings"};
+  for (const auto &[key, value] : json.items()) {
+    EXPECT_THAT(page, HasSubstr("`" + key + "`"));
+    if (value.is_object() && !of_names.count(key)) expectExplained(value);
+  }
+}
+
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
   const TempFolder folder;
@@ -543,6 +580,10 @@ TEST(RoundTrip, SimulateBuildLocalize) {
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
   }
 
+  expectExplained(json);
+  std::ifstream frame_lines(folder / "f.jsonl");
+  for (std::string line; std::getline(frame_lines, line);) expectExplained(nlohmann::json::parse(line));
+
   const Answer mixed_up = runCommand(localize + " --frames-json /dev/stdout");
   EXPECT_EQ(mixed_up.exit_code, kExitFailure);
   EXPECT_THAT(mixed_up.err, HasSubstr("/dev/stdout is where this command's own words go"));
@@ -568,7 +609,7 @@ TEST(RoundTrip, SimulateBuildLocalize) {
   const Answer mixed =
       runCommand("localize -r " + walk + " -m " + (folder / "other.sphc") + " --owner-note " + map + ".owner.json");
   EXPECT_EQ(mixed.exit_code, kExitFailure);
-  EXPECT_THAT(mixed.err, HasSubstr("belongs to another map"));
+  EXPECT_THAT(mixed.err, HasSubstr("no note of " + (folder / "other.sphc") + " is given"));
 }
 
 }  // namespace

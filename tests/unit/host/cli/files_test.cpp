@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
@@ -151,6 +152,7 @@ TEST_F(FilesTest, LocalizeReplacesItsOwnOutputsAlone) {
   }
   EXPECT_THAT(runCommand(localize + " --report " + at("walk")).err, HasSubstr("--recording reads"));
   EXPECT_THAT(runCommand(localize + " --report " + at(".")).err, HasSubstr("--force"));
+  EXPECT_EQ(runCommand(localize + " --frames-json -").exit_code, kExitUsage);
 }
 
 TEST_F(FilesTest, PicturesReplacePicturesAlone) {
@@ -210,6 +212,16 @@ TEST_F(FilesTest, APoliteKillEndsARecordingAsCtrlCDoes) {
     EXPECT_THAT(fileText(out + ".json"), HasSubstr("\"color\""));
     EXPECT_EQ(runCommand("convert " + out + " " + at(signal)).exit_code, kExitDone) << "the file is not whole";
   }
+}
+
+TEST_F(FilesTest, AnInterruptedSimulationLeavesNothing) {
+  const std::string out = at("interrupted");
+  const Answer answer = runProgram("sh -c", "'" SPHC_COMMAND " simulate --frames 900 --rate 30 --out " + out +
+                                                " & child=$!; while kill -0 $child && ! [ -e " + out +
+                                                ".part ]; do sleep 0.1; done; kill -TERM $child; wait $child'");
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("interrupted"));
+  EXPECT_FALSE(fs::exists(out) || fs::exists(out + ".part"));
 }
 
 TEST_F(FilesTest, AFullDiskIsNoSuccess) {
@@ -272,6 +284,39 @@ TEST_F(FilesTest, OdometryThatIsNotThereIsSaid) {
   EXPECT_EQ(unposed.exit_code, kExitDone) << unposed.err;
   EXPECT_THAT(unposed.err, HasSubstr(note));
   EXPECT_THAT(runCommand("localize -r " + at("walk") + localize).err, testing::Not(HasSubstr(note)));
+  const Answer single = runCommand("localize --json --mode single -r " + at("walk") + localize);
+  EXPECT_THAT(single.err, HasSubstr("so odometry changes nothing"));
+  EXPECT_EQ(nlohmann::json::parse(single.out)["settings"]["odometry"], "played");
+}
+
+TEST_F(FilesTest, NotesComeInAnyOrderAndMapsOnce) {
+  const std::string localize = "localize -r " + at("walk") + " -m " + at("room.sphc");
+  fs::copy_file(at("room.sphc"), at("copy.sphc"));
+  const Answer twice = runCommand(localize + " -m " + at("copy.sphc"));
+  EXPECT_EQ(twice.exit_code, kExitUsage);
+  EXPECT_THAT(twice.err, HasSubstr(at("copy.sphc") + " are one map"));
+  ASSERT_EQ(runCommand("simulate --frames 3 --rate 3 --seed 9 --out " + at("elsewhere")).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("build -r " + at("elsewhere") + " -m " + at("elsewhere.sphc") + " --ledger " + at("else"))
+                .exit_code,
+            kExitDone);
+  const Answer turned = runCommand(localize + " -m " + at("elsewhere.sphc") + " --json --owner-note " +
+                                   at("elsewhere.sphc.owner.json") + " --owner-note " + at("room.sphc.owner.json"));
+  ASSERT_EQ(turned.exit_code, kExitDone) << turned.err;
+  EXPECT_EQ(nlohmann::json::parse(turned.out)["within_5cm_5deg"], 3);
+}
+
+// The focal length of another camera.
+TEST_F(FilesTest, ManyContradictionsAreSaidOfTheOtherPosesToo) {
+  auto calibration = nlohmann::json::parse(fileText(at("walk/calibration.json")));
+  for (size_t i = 0; i < 2; ++i) {
+    auto &focal = calibration["color_camera"]["params"][i];
+    focal = 0.8 * focal.get<double>();
+  }
+  put("wrong.json", calibration.dump());
+  const std::string localize = "localize --mode single -r " + at("walk") + " -m " + at("room.sphc");
+  const std::string note = "contradict themselves (depth and colour disagree): the poses of the others";
+  EXPECT_THAT(runCommand(localize + " -c " + at("wrong.json")).err, HasSubstr(note));
+  EXPECT_THAT(runCommand(localize).err, testing::Not(HasSubstr(note)));
 }
 
 TEST_F(FilesTest, TheCauseIsTheRightOne) {

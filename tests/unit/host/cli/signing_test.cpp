@@ -88,6 +88,17 @@ TEST_F(SigningTest, ReleasesOnlyGrow) {
   EXPECT_EQ(verify("--least-release 6").exit_code, kExitDone);
 }
 
+TEST_F(SigningTest, ASignatureOfAnotherNameStays) {
+  for (const char *options : {"--release 9 --name hall", "--release 9"}) {
+    const Answer other = sign(options);
+    EXPECT_EQ(other.exit_code, kExitFailure);
+    EXPECT_THAT(other.err, HasSubstr("is of the map kitchen"));
+  }
+  EXPECT_EQ(verify("--least-release 7 --name kitchen").exit_code, kExitDone);
+  EXPECT_EQ(sign("--release 1 --name hall --force").exit_code, kExitDone);
+  EXPECT_EQ(verify("--name hall").exit_code, kExitDone);
+}
+
 TEST_F(SigningTest, OnlyAMapIsSigned) {
   std::ofstream(folder_ / "letter") << "I owe you";
   const Answer answer = runCommand("sign " + (folder_ / "letter") + " --key " + key_ + " --release 1");
@@ -104,8 +115,8 @@ TEST_F(SigningTest, APublicKeyDoesNotSign) {
 
 // As a program gives it that keeps secrets.
 TEST_F(SigningTest, AKeyMayComeThroughAPipe) {
-  const Answer answer =
-      runProgram("bash -c", "'" SPHC_COMMAND " sign " + map_ + " --release 8 --key <(cat " + key_ + ")'");
+  const Answer answer = runProgram(
+      "bash -c", "'" SPHC_COMMAND " sign " + map_ + " --release 8 --name kitchen --key <(cat " + key_ + ")'");
   EXPECT_EQ(answer.exit_code, kExitDone) << answer.err;
   EXPECT_EQ(verify("--least-release 8").exit_code, kExitDone);
 }

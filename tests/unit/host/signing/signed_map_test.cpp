@@ -86,12 +86,14 @@ TEST_F(SignedMapTest, NamesThatDoNotFitAreWrongUse) {
   EXPECT_EQ(check().release, 1u);
 }
 
-TEST_F(SignedMapTest, AFileStatesItsRelease) {
-  EXPECT_EQ(statedRelease(path_, key_->publicKey(), "hall"), 0u);
+TEST_F(SignedMapTest, AFileStatesItsReleaseAndName) {
+  EXPECT_FALSE(statedBy(key_->publicKey(), path_));
   sign(9, "hall");
-  EXPECT_EQ(statedRelease(path_, key_->publicKey(), "hall"), 9u);
-  EXPECT_EQ(statedRelease(path_, key_->publicKey(), "kitchen"), 0u);
-  EXPECT_EQ(statedRelease(path_, test::keyOfHex(test::kOtherKey), "hall"), 0u);
+  const std::optional<Stated> stated = statedBy(key_->publicKey(), path_);
+  ASSERT_TRUE(stated);
+  EXPECT_EQ(stated->release, 9u);
+  EXPECT_EQ(stated->name, "hall");
+  EXPECT_FALSE(statedBy(test::keyOfHex(test::kOtherKey), path_));
 }
 
 }  // namespace

@@ -92,6 +92,11 @@ TEST_F(FileUseTest, ForceIsForFilesOfOthersAlone) {
   EXPECT_THAT(refusal(folder_ / "none/new", true), HasSubstr("there is no folder"));
 }
 
+TEST_F(FileUseTest, AMinusIsNoName) {
+  EXPECT_EQ(wrongUse("-").substr(0, 8), "--out: -");
+  EXPECT_EQ(refusal("./-"), "fine");
+}
+
 TEST_F(FileUseTest, TwoOutputsAreTwoFiles) {
   for (const std::string &second : {folder_ / "a", folder_ / "walk/../a"}) {
     FileUse files(true);
@@ -133,6 +138,11 @@ TEST_F(FileUseTest, AFolderWhereNothingMayBeMadeIsNamed) {
     FileUse files(false);
     files.keeps("--ledger", folder_ / "a.ledger");
     EXPECT_THROW(files.check(), std::runtime_error);
+    for (const std::string name : {"new", "deep/new", "walk"}) {
+      FileUse folder(true);
+      folder.writesFolder("--report", folder_ / name, never());
+      EXPECT_THROW(folder.check(), std::runtime_error) << name;
+    }
     EXPECT_EQ(refusal("/dev/null"), "fine");
   }
   fs::permissions(where, fs::perms(0755));
@@ -160,6 +170,8 @@ TEST_F(FileUseTest, AFolderIsOursByOneOfItsFiles) {
   EXPECT_THAT(refused("map", false), HasSubstr("--map reads"));
   put("file", "x");
   EXPECT_THAT(refused("file", true), HasSubstr("is a file"));
+  EXPECT_EQ(refused("deep/new", false), "fine");
+  EXPECT_THAT(refused("file/new", true), HasSubstr("file is no folder"));
 }
 
 TEST_F(FileUseTest, AFolderOfUnfinishedFilesIsWhatAKilledCommandLeft) {
