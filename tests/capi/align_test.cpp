@@ -198,7 +198,7 @@ TEST_F(CInterfaceAligner, FromCpp) {
   EXPECT_EQ(depth[kWidth * kHeight / 2 + kWidth / 2], 1500);
   const spherecloud::Status refused = used.process({}, aligned);
   EXPECT_TRUE(refused.failed());
-  expectMentions(refused.text(), "format");
+  expectMentions(refused.text(), "give the pixels");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -245,6 +247,15 @@ TEST_F(CInterfaceFailure, DepthBiasThatCannotBe) {
   EXPECT_EQ(sphc_localizer_set_depth_bias(session.localizer(), nullptr), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_localizer_set_depth_bias(nullptr, &result.depth), SPHC_E_ARGUMENT);
   EXPECT_EQ(sphc_localizer_set_depth_bias(session.localizer(), &result.depth), SPHC_OK)
+      << sphc_localizer_message(session.localizer());
+  sphc_depth_bias printed = result.depth;  // as a file with six digits has it
+  for (double *value : {&printed.mid_m, &printed.offset_m, &printed.slope, &printed.offset_sigma_m,
+                        &printed.slope_sigma, &printed.correlation, &printed.noise_scale}) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", *value);
+    *value = std::atof(text);
+  }
+  EXPECT_EQ(sphc_localizer_set_depth_bias(session.localizer(), &printed), SPHC_OK)
       << sphc_localizer_message(session.localizer());
   // A sensor without bias, by its config.
   EXPECT_EQ(sphc_localizer_set_depth_bias(session_.localizer(), &result.depth), SPHC_E_ARGUMENT);

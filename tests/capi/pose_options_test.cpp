@@ -122,7 +122,7 @@ TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   expectRefused(prior, SPHC_E_STRUCT_SIZE, "prior.struct_size");
   prior = good;
   prior.flags = 8;
-  expectRefused(prior, SPHC_E_ARGUMENT, "prior.flags");
+  expectRefused(prior, SPHC_E_UNSUPPORTED, "prior.flags");
   prior = good;
   prior.camera_from_map.t_m[2] = nan;
   expectRefused(prior, SPHC_E_ARGUMENT, "prior.camera_from_map");

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import operator
 import threading
 import typing
 
@@ -14,6 +15,7 @@ from .enums import Status
 from .errors import Error
 
 Bytes = npt.NDArray[np.uint8]
+Kind = typing.TypeVar("Kind")
 
 
 def check(status: int, message: _interface.sphc_message | str) -> None:
@@ -22,6 +24,39 @@ def check(status: int, message: _interface.sphc_message | str) -> None:
         text = message if isinstance(message, str) else message.text.decode(errors="replace")
         known = Status(status)
         raise Error(known, text or known.name)
+
+
+def whole(value: typing.SupportsIndex, name: str, bits: int = 32, signed: bool = False) -> int:
+    """The integer, if a field of so many bits holds it; ctypes would cut it.  ValueError, TypeError otherwise."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is a whole number, not {type(value).__name__}") from None
+    lowest, beyond = (-(1 << bits - 1), 1 << bits - 1) if signed else (0, 1 << bits)
+    if not lowest <= number < beyond:
+        raise ValueError(f"{name} is {number}; it must be {lowest} to {beyond - 1}")
+    return number
+
+
+def nanoseconds(value: typing.SupportsIndex, name: str) -> int:
+    return whole(value, name, 64, signed=True)
+
+
+def configure(config: typing.Any, given: typing.Mapping[str, typing.Any]) -> None:
+    """Sets what is not None.  ValueError where a field cannot hold its integer."""
+    for name, value in given.items():
+        if value is None:
+            continue
+        setattr(config, name, value)
+        if hasattr(value, "__index__") and getattr(config, name) != value:
+            raise ValueError(f"{name} is {value}, which is beyond its field of the library")
+
+
+def of_type(value: typing.Any, kind: type[Kind], name: str, cure: str = "") -> Kind:
+    """The value, if it is of the type; TypeError otherwise."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} is a {kind.__name__}, not {type(value).__name__}{cure}")
+    return value
 
 
 def aligned(size: int, alignment: int) -> Bytes:
@@ -76,6 +111,6 @@ class SharedTurn:
                 self._changed.notify_all()
 
 
-def closed(what: str) -> Error:
+def closed(what: str, verb: str = "is") -> Error:
     """What a call on an object gets that was closed."""
-    return Error(Status.E_STATE, f"the {what} is closed; make a new one")
+    return Error(Status.E_STATE, f"the {what} {verb} closed; make a new one")

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _interface
-from ._calls import Owned, aligned, check, closed
+from ._calls import aligned, check, closed, configure, of_type, Owned
 from ._library import interface
 from .cameras import Rig
 from .enums import Format, Status
@@ -45,9 +45,7 @@ class Aligner:
         check(interface().sphc_aligner_config_init(config, ctypes.sizeof(config)), "sphc_aligner_config_init")
         given = {"depth_min_m": depth_min_m, "depth_max_m": depth_max_m, "depth_sigma_m": depth_sigma_m,
                  "depth_sigma_per_m2": depth_sigma_per_m2}
-        for name, value in given.items():
-            if value is not None:
-                setattr(config, name, value)
+        configure(config, given)
         config.rig, config.depth_format, config.aligned_unit_m = rig.raw(), depth_format, aligned_unit_m
         need = _interface.sphc_memory()
         check(interface().sphc_aligner_memory(config, need, message), message)
@@ -83,6 +81,7 @@ class Aligner:
     def _lend(self, raw: _interface.sphc_aligned, name: str, kind: np.dtype[np.generic], plane: Array | None) -> None:
         if plane is None:
             return
+        of_type(plane, np.ndarray, f"out.{name}")
         rows = plane.strides[0] if plane.ndim == 2 else 0
         if (plane.shape != self._shape or plane.dtype != kind or plane.strides[1] != kind.itemsize
                 or not self._shape[1] * kind.itemsize <= rows < 2**32 or not plane.flags.aligned or not plane.flags.writeable):

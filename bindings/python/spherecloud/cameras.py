@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _interface
-from ._calls import check
+from ._calls import check, whole
 from ._library import interface
 from .enums import CameraModel, Status
 from .errors import Error
@@ -40,7 +40,8 @@ class Camera:
         return Camera(CameraModel.PINHOLE, width, height, (fx, fy, cx, cy))
 
     def raw(self) -> _interface.sphc_camera:
-        return _interface.sphc_camera(self.model, self.width, self.height, len(self.params), self.params)
+        return _interface.sphc_camera(self.model, whole(self.width, "width"), whole(self.height, "height"), len(self.params),
+                                      self.params)
 
     def check(self) -> None:
         """Error(E_ARGUMENT) if the camera cannot be used; the message names field, cause and cure."""

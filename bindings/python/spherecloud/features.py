@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _interface
 from ._answers import KEYPOINT
-from ._calls import Owned, SharedTurn, aligned, check, closed
+from ._calls import Owned, SharedTurn, aligned, check, closed, whole
 from ._library import interface
 from .enums import Format, Status
 from .errors import Error
@@ -49,7 +49,7 @@ class Features:
 
     def owned(self) -> Owned:
         if self._owned is None:
-            raise closed("features")
+            raise closed("features", "are")
         return self._owned
 
     def check(self, status: int) -> None:
@@ -71,7 +71,7 @@ class Features:
             raise Error(Status.E_ARGUMENT, f"{len(keypoints)} keypoints have {len(descriptors)} descriptors; every keypoint "
                                            "needs a descriptor, and a camera where cameras are given")
         raw = _interface.sphc_features_arrays(
-            ctypes.sizeof(_interface.sphc_features_arrays), arrays.extractor, len(keypoints), KEYPOINT.itemsize,
+            ctypes.sizeof(_interface.sphc_features_arrays), whole(arrays.extractor, "extractor"), len(keypoints), KEYPOINT.itemsize,
             _interface.SPHC_DESCRIPTOR_BYTES, 0, keypoints.ctypes.data, descriptors.ctypes.data,
             cameras.ctypes.data if cameras is not None else None)
         slot = FrameStruct(Format.DEPTH16)

@@ -6,7 +6,7 @@ import dataclasses
 import typing
 
 from . import _interface
-from ._calls import check
+from ._calls import check, configure, nanoseconds, of_type, whole
 from ._library import interface
 from .cameras import Camera
 from .enums import Format, PriorPart
@@ -47,7 +47,7 @@ class Prior:
     def raw(self) -> _interface.sphc_localizer_prior:
         up = [numbers(v, 3, "up") if v is not None else (0.0,) * 3 for v in (self.up_camera, self.up_map)]
         return _interface.sphc_localizer_prior(
-            ctypes.sizeof(_interface.sphc_localizer_prior), self.parts(), self.map_id, 0,
+            ctypes.sizeof(_interface.sphc_localizer_prior), self.parts(), whole(self.map_id, "map_id"), 0,
             (self.camera_from_map or Rigid()).raw(), self.rotation_sigma_rad, self.translation_sigma_m,
             up[0], up[1], self.up_sigma_rad, (self.odometry_from_camera or Rigid()).raw(),
             self.odometry_rotation_sigma_rad, self.odometry_translation_sigma_m)
@@ -63,7 +63,7 @@ class RigCamera:
 
     def raw(self) -> _interface.sphc_localizer_camera:
         return _interface.sphc_localizer_camera(ctypes.sizeof(_interface.sphc_localizer_camera), 0, self.camera.raw(),
-                                                self.color_from_camera.raw(), self.row_time_ns)
+                                                self.color_from_camera.raw(), whole(self.row_time_ns, "row_time_ns"))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -96,10 +96,7 @@ class RigDepthCamera:
         status = interface().sphc_localizer_depth_camera_init(raw, ctypes.sizeof(raw))
         check(status, "sphc_localizer_depth_camera_init")
         raw.camera, raw.color_from_depth = self.camera.raw(), self.color_from_depth.raw()
-        for field in dataclasses.fields(self)[2:]:
-            value = getattr(self, field.name)
-            if value is not None:
-                setattr(raw, field.name, value)
+        configure(raw, {field.name: getattr(self, field.name) for field in dataclasses.fields(self)[2:]})
         return raw
 
 
@@ -154,6 +151,17 @@ class Frame:
     depth_views: typing.Sequence[DepthView] = ()
 
 
+_WORDS, _HALF = 1 << 32, 1 << 63
+
+
+def _refuse_numbers(frame: Frame) -> None:
+    """ValueError for the number that its field cannot hold."""
+    whole(frame.sequence, "sequence")
+    whole(frame.deadline_us, "deadline_us")
+    nanoseconds(frame.color_time_ns, "color_time_ns")
+    nanoseconds(frame.depth_time_ns, "depth_time_ns")
+
+
 class FrameStruct:
     """A struct that frames are put into, one after the other.  `depth_formats`: of the further depth cameras."""
 
@@ -167,9 +175,11 @@ class FrameStruct:
 
     def fill(self, frame: Frame) -> list[object]:
         """Returns what must stay alive until the call is over."""
-        raw, color, depth = self.raw, frame.color, frame.depth
-        raw.sequence, raw.deadline_us = frame.sequence, frame.deadline_us
-        raw.color_time_ns, raw.depth_time_ns = frame.color_time_ns, frame.depth_time_ns
+        raw, color, depth = self.raw, of_type(frame, Frame, "frame").color, frame.depth
+        sequence, deadline_us, color_ns, depth_ns = frame.sequence, frame.deadline_us, frame.color_time_ns, frame.depth_time_ns
+        if not (0 <= sequence < _WORDS and 0 <= deadline_us < _WORDS and -_HALF <= color_ns < _HALF and -_HALF <= depth_ns < _HALF):
+            _refuse_numbers(frame)
+        raw.sequence, raw.deadline_us, raw.color_time_ns, raw.depth_time_ns = sequence, deadline_us, color_ns, depth_ns
         self._color.put(color)
         self._depth.put(depth)
         told: list[object] = [color, depth]
@@ -185,37 +195,45 @@ class FrameStruct:
         self._plain = False
         self._amplitude.put(amplitude)
         told.append(amplitude)
-        raw.prior = _address(frame.prior, told)
-        raw.color_camera, raw.color_from_depth = _address(frame.color_camera, told), _address(frame.color_from_depth, told)
-        raw.depth_camera = _address(frame.depth_camera, told)
+        raw.prior = _address(frame.prior, Prior, told)
+        raw.color_camera = _address(frame.color_camera, Camera, told)
+        raw.color_from_depth = _address(frame.color_from_depth, Rigid, told)
+        raw.depth_camera = _address(frame.depth_camera, Camera, told)
         raw.views, raw.view_count = self._views(views, told) if views else None, len(views)
         raw.depth_views = self._depth_views(depth_views, told) if depth_views else None
         raw.depth_view_count = len(depth_views)
 
     def _views(self, given: typing.Sequence[View], told: list[object]) -> int:
+        for view in given:
+            of_type(view, View, "a view")
         views = (_interface.sphc_localizer_view * len(given))()
         told.extend([views, *(view.image for view in given)])
         for raw, view in zip(views, given):
-            raw.struct_size, raw.time_ns = ctypes.sizeof(raw), view.time_ns
+            raw.struct_size, raw.time_ns = ctypes.sizeof(raw), nanoseconds(view.time_ns, "view.time_ns")
             Slot(raw.image, COLOR, "view").put(view.image)
-            raw.camera, raw.color_from_camera = _address(view.camera, told), _address(view.color_from_camera, told)
+            raw.camera = _address(view.camera, Camera, told)
+            raw.color_from_camera = _address(view.color_from_camera, Rigid, told)
         return ctypes.addressof(views)
 
     def _depth_views(self, given: typing.Sequence[DepthView], told: list[object]) -> int:
+        for view in given:
+            of_type(view, DepthView, "a depth view")
         views = (_interface.sphc_localizer_depth_view * len(given))()
         told.extend([views, *(view.depth for view in given), *(view.amplitude for view in given)])
         # Of more views than cameras the library says that they are too many, before it looks at one.
         for raw, view, kinds in zip(views, given, self._depth_kinds):
-            raw.struct_size, raw.time_ns = ctypes.sizeof(raw), view.time_ns
+            raw.struct_size, raw.time_ns = ctypes.sizeof(raw), nanoseconds(view.time_ns, "depth view.time_ns")
             Slot(raw.depth, kinds, "depth view").put(view.depth)
             Slot(raw.amplitude, AMPLITUDE, "amplitude of a depth view").put(view.amplitude)
-            raw.camera, raw.color_from_depth = _address(view.camera, told), _address(view.color_from_depth, told)
+            raw.camera = _address(view.camera, Camera, told)
+            raw.color_from_depth = _address(view.color_from_depth, Rigid, told)
         return ctypes.addressof(views)
 
 
-def _address(value: Prior | Camera | Rigid | None, told: list[object]) -> int | None:
+def _address(value: Prior | Camera | Rigid | None, kind: type[Prior] | type[Camera] | type[Rigid],
+             told: list[object]) -> int | None:
     if value is None:
         return None
-    made = value.raw()
+    made = of_type(value, kind, f"what the frame says of a {kind.__name__}").raw()
     told.append(made)
     return ctypes.addressof(made)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _interface
+from ._calls import of_type, whole
 from ._library import interface
 from .enums import Format, Status
 from .errors import Error
@@ -78,9 +79,9 @@ class Slot:
         elif isinstance(image, Image) and isinstance(image.data, np.ndarray):
             array, format, width = image.data, image.format, image.width
         else:
-            raise TypeError(f"{self._what}: an image is a numpy array or an Image, not {type(image).__name__}; "
-                            "numpy.asarray may make one")
-        lies = (array.shape, array.strides, array.dtype, format, width)
+            given = f"an Image of {type(image.data).__name__}" if isinstance(image, Image) else type(image).__name__
+            raise TypeError(f"{self._what}: an image is a numpy array or an Image of one, not {given}; numpy.asarray may make one")
+        lies = (array.__class__, array.shape, array.strides, array.dtype, format, width)
         if lies != self._lies:
             self._lies = None  # until it is described
             self._describe(array, self._format(array) if format is None else format, width)
@@ -93,11 +94,16 @@ class Slot:
 
     def _describe(self, array: Array, format: Format, width: int | None) -> None:
         """Size, stride and format of the struct, if the library can read such an array."""
-        element, channels, pixel = layout(format)
+        if isinstance(array, np.ma.MaskedArray):
+            raise self._refuse("its mask would not be looked at; array.filled(0) is an image without what is masked")
+        if not array.size:
+            raise self._refuse(f"an array {array.shape} has no pixels; give the image of the camera")
+        element, channels, pixel = layout(of_type(format, Format, "the format of an Image"))
         shape, strides, size = array.shape, array.strides, element.itemsize
         if array.dtype != element or len(shape) != (3 if channels else 2) or (channels and shape[2] != channels):
             wanted = f"(height, width{f', {channels}' if channels else ''}) of {element}"
-            raise self._refuse(f"{format.name} is {wanted}; the array is {shape} of {array.dtype}")
+            cure = "; depth_format=Format.DEPTH_F32 takes metres" if array.dtype == _FLOAT and not channels else ""
+            raise self._refuse(f"{format.name} is {wanted}; the array is {shape} of {array.dtype}{cure}")
         row = shape[1] * (pixel or 1)
         if strides[-1] != size or (channels and strides[1] != pixel):
             raise self._refuse(f"the pixels of a row must lie side by side, and the strides are {strides}; "
@@ -109,14 +115,14 @@ class Slot:
             raise self._refuse(f"pixels of {format.name} share bytes, and {row} bytes a row do not say how many: give Image "
                                f"a width that fits them, not {width}")
         raw = self._raw
-        raw.width, raw.height, raw.stride_bytes, raw.format = width or shape[1], shape[0], strides[0], format
+        raw.width, raw.height, raw.stride_bytes, raw.format = whole(width or shape[1], "width"), shape[0], strides[0], format
 
     def _format(self, array: Array) -> Format:
         found = self._kinds.get((array.dtype, array.shape[2] if array.ndim == 3 else 0))
         if found is None or array.ndim not in (2, 3):
             known = ", ".join(f"(height, width{f', {c}' if c else ''}) of {element}" for element, c in self._kinds)
-            raise self._refuse(f"an array {array.shape} of {array.dtype} is none of {known}; say its format: "
-                               "Image(array, format)")
+            raise self._refuse(f"an array {array.shape} of {array.dtype} is none of {known}; convert it "
+                               "(array.astype), or say its format: Image(array, format)")
         return found
 
     def _refuse(self, why: str) -> Error:

@@ -1,8 +1,10 @@
 """The localizer: a frame in, a pose out."""
 from __future__ import annotations
 
+import collections.abc
 import ctypes
 import logging
+import operator
 import threading
 import time
 import types
@@ -13,7 +15,7 @@ import numpy.typing as npt
 
 from . import _interface
 from ._answers import OBSERVATION
-from ._calls import Owned, aligned, check, closed
+from ._calls import Owned, aligned, check, closed, configure, nanoseconds, of_type, whole
 from ._library import interface
 from .cameras import Rig
 from .enums import Band, Format, LogLevel, Mode, Parameter, Status
@@ -51,8 +53,8 @@ class _Callbacks:
 
         def read(_: object) -> int:
             try:
-                return now()
-            except BaseException as fault:  # an interrupt
+                return operator.index(now())
+            except BaseException as fault:  # an interrupt, or a clock that gives no whole number
                 self.fault = fault
                 return usual()
 
@@ -102,6 +104,8 @@ class Localizer:
         any thread; None: stage times are 0 and no frame has a deadline.  Neither may call the localizer.
         Error(E_ARGUMENT): the rig or a parameter cannot be used; the message names field, cause and cure.
         """
+        by_id: typing.Mapping[int, Map] = {0: maps} if isinstance(maps, Map) else of_type(
+            maps or {}, collections.abc.Mapping, "maps", "; give a Map, or Maps by id")
         given = {"max_keypoints": max_keypoints, "max_maps": max_maps, "mode": mode, "seed": seed,
                  "depth_min_m": depth_min_m, "depth_max_m": depth_max_m, "depth_sigma_m": depth_sigma_m,
                  "depth_sigma_per_m2": depth_sigma_per_m2, "pixel_sigma_px": pixel_sigma_px, "map_sigma_m": map_sigma_m,
@@ -121,16 +125,14 @@ class Localizer:
         self._c.sphc_localizer_result_init(self._no_result, ctypes.sizeof(self._no_result))
         self._c.sphc_localizer_prediction_init(self._no_prediction, ctypes.sizeof(self._no_prediction))
         self._owned: Owned | None = self._made()
-        for map_id, map in ({0: maps} if isinstance(maps, Map) else maps or {}).items():
+        for map_id, map in by_id.items():
             self.set_map(map_id, map)
 
     def _made_config(self, rig: Rig, given: dict[str, typing.Any]) -> _interface.sphc_localizer_config:
         config = _interface.sphc_localizer_config()
         check(self._c.sphc_localizer_config_init(config, ctypes.sizeof(config)), "sphc_localizer_config_init")
-        for name, value in given.items():
-            if value is not None:
-                setattr(config, name, value)
-        config.rig, config.log, config.clock = rig.raw(), self._callbacks.log, self._callbacks.clock
+        configure(config, given)
+        config.rig, config.log, config.clock = of_type(rig, Rig, "rig").raw(), self._callbacks.log, self._callbacks.clock
         config.cameras = ctypes.addressof(self._cameras) if len(self._cameras) else None
         config.camera_count = len(self._cameras)
         config.depth_cameras = ctypes.addressof(self._depth_cameras) if len(self._depth_cameras) else None
@@ -161,6 +163,11 @@ class Localizer:
         if status < 0:
             check(status, self._c.sphc_localizer_message(self._alive().pointer).decode(errors="replace"))
 
+    def _answer(self, status: int, why: str) -> None:
+        """The same of a call that leaves the localizer's message as it was."""
+        self._callbacks.raise_fault()
+        check(status, why)
+
     # ---- maps ----
 
     def set_map(self, map_id: int, map: Map) -> None:
@@ -169,25 +176,28 @@ class Localizer:
         The localizer keeps the map in memory.  Errors: E_ARGUMENT, its band is not color_band, among others;
         E_CAPACITY, max_maps are there.
         """
-        kept = map.owned()
+        kept = of_type(map, Map, "map", "; Map.open(path) makes one").owned()
+        number = whole(map_id, "map_id")
         with self._locating:
             owned = self._alive()
-            self._check(self._c.sphc_localizer_set_map(owned.pointer, map_id, kept.pointer))
-            owned.keeps[map_id] = kept
+            self._check(self._c.sphc_localizer_set_map(owned.pointer, number, kept.pointer))
+            owned.keeps[number] = kept
 
     def remove_map(self, map_id: int) -> None:
         """Takes a map away, and forgets what was tracked in it.  Error(E_ARGUMENT): there is none of this id."""
+        number = whole(map_id, "map_id")
         with self._locating:
             owned = self._alive()
-            self._check(self._c.sphc_localizer_remove_map(owned.pointer, map_id))
-            del owned.keeps[map_id]
+            self._check(self._c.sphc_localizer_remove_map(owned.pointer, number))
+            del owned.keeps[number]
 
     def set_map_transform(self, map_id: int, common_from_map: Rigid | None, rotation_sigma_rad: float = 0.0,
                           translation_sigma_m: float = 0.0) -> None:
         """Where a map lies in a frame that several maps share, with its errors, 1 sigma an axis.  None: not known."""
-        raw = common_from_map.raw() if common_from_map is not None else None
+        raw = of_type(common_from_map, Rigid, "common_from_map").raw() if common_from_map is not None else None
+        number = whole(map_id, "map_id")
         with self._locating:
-            self._check(self._c.sphc_localizer_set_map_transform(self._alive().pointer, map_id, raw, rotation_sigma_rad,
+            self._check(self._c.sphc_localizer_set_map_transform(self._alive().pointer, number, raw, rotation_sigma_rad,
                                                                  translation_sigma_m))
 
     @property
@@ -217,6 +227,7 @@ class Localizer:
 
     def make_features(self) -> Features:
         """Features of no frame yet, for this localizer and those of the same config."""
+        self._alive()
         return Features(self._config)
 
     def extract(self, frame: Frame, features: Features) -> None:
@@ -243,9 +254,9 @@ class Localizer:
     def predict(self, time_ns: int) -> Prediction:
         """The pose at a time, in the time of frames: after the last frame, or up to 100 ms before it.
         prediction.known says whether there is one."""
-        raw = _interface.sphc_localizer_prediction.from_buffer_copy(self._no_prediction)
+        raw, at = _interface.sphc_localizer_prediction.from_buffer_copy(self._no_prediction), nanoseconds(time_ns, "time_ns")
         with self._locating:
-            self._check(self._c.sphc_localizer_predict(self._alive().pointer, time_ns, raw))
+            self._answer(self._c.sphc_localizer_predict(self._alive().pointer, at, raw), "sphc_localizer_predict")
         return Prediction(raw)
 
     def observations(self) -> npt.NDArray[np.void]:
@@ -253,7 +264,8 @@ class Localizer:
         made, count = np.empty(self._config.max_keypoints, OBSERVATION), ctypes.c_uint32()
         raw = (_interface.sphc_localizer_observation * len(made)).from_address(made.ctypes.data)
         with self._locating:
-            self._check(self._c.sphc_localizer_observations(self._alive().pointer, raw, made.itemsize, len(made), count))
+            status = self._c.sphc_localizer_observations(self._alive().pointer, raw, made.itemsize, len(made), count)
+            self._answer(status, "sphc_localizer_observations")
         return made[:count.value]
 
     def hypotheses(self) -> list[Hypothesis]:
@@ -261,7 +273,8 @@ class Localizer:
         raw, count = (_interface.sphc_localizer_hypothesis * _interface.SPHC_HYPOTHESES_MAX)(), ctypes.c_uint32()
         size = ctypes.sizeof(_interface.sphc_localizer_hypothesis)
         with self._locating:
-            self._check(self._c.sphc_localizer_hypotheses(self._alive().pointer, raw, size, len(raw), count))
+            status = self._c.sphc_localizer_hypotheses(self._alive().pointer, raw, size, len(raw), count)
+            self._answer(status, "sphc_localizer_hypotheses")
         return [Hypothesis(hypothesis) for hypothesis in raw[:count.value]]
 
     def reset(self) -> None:
@@ -273,24 +286,28 @@ class Localizer:
 
     def set_parameter(self, parameter: Parameter, value: float) -> None:
         """From the next frame on.  Errors: E_ARGUMENT, out of parameter_range; E_UNSUPPORTED."""
+        number = whole(parameter, "parameter", signed=True)
         with self._locating:
-            self._check(self._c.sphc_localizer_set_parameter(self._alive().pointer, parameter, value))
+            self._check(self._c.sphc_localizer_set_parameter(self._alive().pointer, number, value))
 
     def get_parameter(self, parameter: Parameter) -> float:
         """Error(E_UNSUPPORTED): the library does not know the parameter."""
-        value = ctypes.c_double()
+        value, number = ctypes.c_double(), whole(parameter, "parameter", signed=True)
         with self._locating:
-            self._check(self._c.sphc_localizer_get_parameter(self._alive().pointer, parameter, value))
+            status = self._c.sphc_localizer_get_parameter(self._alive().pointer, number, value)
+            self._answer(status, f"the library knows no parameter {number}")
         return value.value
 
     def set_depth_bias(self, depth: DepthBias) -> None:
         """What is known of the depth sensor from before, such as result.depth of the last frame.  Learning goes on from
         there.  Error(E_ARGUMENT): it cannot be one of this config."""
+        raw = of_type(depth, DepthBias, "depth").raw()
         with self._locating:
-            self._check(self._c.sphc_localizer_set_depth_bias(self._alive().pointer, depth.raw()))
+            self._check(self._c.sphc_localizer_set_depth_bias(self._alive().pointer, raw))
 
     def memory_pieces(self) -> list[MemoryPiece]:
         """An account of its memory."""
+        self._alive()
         made, raw = list[MemoryPiece](), _interface.sphc_memory_piece()
         while self._c.sphc_localizer_memory_piece(self._config, len(made), raw) == Status.OK:
             made.append(MemoryPiece(raw.name.decode(), raw.bytes, bool(raw.scratch)))
@@ -306,6 +323,7 @@ class Localizer:
             self._owned = None
 
     def __enter__(self) -> Localizer:
+        self._alive()
         return self
 
     def __exit__(self, kind: type[BaseException] | None, fault: BaseException | None,

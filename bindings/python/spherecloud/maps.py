@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _interface
 from ._answers import MapInfoFields
-from ._calls import Owned, aligned, check, closed
+from ._calls import Owned, aligned, check, closed, whole
 from ._library import interface
 from .poses import Floats
 
@@ -54,16 +54,16 @@ class Map:
     def info(self) -> MapInfo:
         """Version, points, extractor, size, name and band."""
         raw = _interface.sphc_map_info(struct_size=ctypes.sizeof(_interface.sphc_map_info))
-        check(interface().sphc_map_get_info(self.owned().pointer, raw), "sphc_map_get_info")
+        owned = self.owned()  # for the whole call: another thread may close the map
+        check(interface().sphc_map_get_info(owned.pointer, raw), "sphc_map_get_info")
         return MapInfo(raw)
 
     def direction(self, point_index: int) -> Floats:
         """Unit direction of a point from the sphere centre, in the map's frame.  IndexError where there is none."""
-        count = self.info().point_count
-        if not 0 <= point_index < count:
-            raise IndexError(f"the map has points 0 to {count - 1}, not {point_index}")
-        made = (ctypes.c_double * 3)()
-        check(interface().sphc_map_direction(self.owned().pointer, point_index, made), "sphc_map_direction")
+        owned, made = self.owned(), (ctypes.c_double * 3)()
+        index = whole(point_index, "point_index", 64, signed=True)
+        if not 0 <= index < 2**32 or interface().sphc_map_direction(owned.pointer, index, made) < 0:
+            raise IndexError(f"the map has points 0 to {self.info().point_count - 1}, not {point_index}")
         return np.array(made)
 
     def close(self) -> None:

@@ -1,4 +1,7 @@
 """What is wrong is an error that says what to do, and never a crash."""
+import dataclasses
+import threading
+import time
 import unittest
 
 import numpy as np
@@ -31,13 +34,14 @@ class Misuse(unittest.TestCase):
             closing.close()
             closing.close()
         state = sphc.Status.E_STATE
-        self.refused(state, "the features is closed|the features are closed", features.arrays)
+        self.refused(state, "the features are closed", features.arrays)
         for call in (self.map.info, lambda: self.map.direction(0), self.map.__enter__, self.localizer.reset,
                      lambda: self.localizer.process(self.frame), lambda: self.localizer.extract(self.frame, features),
                      lambda: self.localizer.locate(self.frame, features), lambda: self.localizer.predict(0),
                      self.localizer.observations, self.localizer.hypotheses, lambda: self.localizer.set_map(1, self.map),
                      lambda: self.localizer.remove_map(7), lambda: self.localizer.map_count,
-                     lambda: self.localizer.set_parameter(sphc.Parameter.PROBES, 1)):
+                     lambda: self.localizer.set_parameter(sphc.Parameter.PROBES, 1), self.localizer.make_features,
+                     self.localizer.memory_pieces, self.localizer.__enter__):
             self.refused(state, "closed", call)
 
     def test_images_that_do_not_fit(self):
@@ -45,7 +49,7 @@ class Misuse(unittest.TestCase):
         for wrong, words in ((color[:-1], "239"), (color.astype(np.float64), "float64"), (color[:, ::-1], "side by side"),
                              (color[::-1], "downwards"), (np.broadcast_to(color[:1], color.shape), "downwards"),
                              (color[:, :, None].repeat(2, 2), "none of"), (color.ravel(), "none of"),
-                             (np.zeros((240, 640), np.uint8)[:, ::2], "side by side"), (np.empty((0, 0), np.uint8), "stride|size|0 x 0"),
+                             (np.zeros((240, 640), np.uint8)[:, ::2], "side by side"), (np.empty((0, 0), np.uint8), "no pixels"),
                              (sphc.Image(color, sphc.Format.RGB8), "RGB8"), (sphc.Image(color, sphc.Format.GRAY10P), "a width"),
                              (sphc.Image(color, sphc.Format.GRAY10P, 640), "a width that fits"), (None, "color")):
             self.frame.color = wrong
@@ -94,6 +98,79 @@ class Misuse(unittest.TestCase):
         with self.assertRaises(ValueError):
             self.localizer.process(self.frame)
         self.goes_on()
+
+    def test_numbers_that_their_fields_cannot_hold(self):
+        past, frame = 2**32, session.frame(session.ROWS[0])
+        calls = [lambda: self.localizer.set_map(past, self.map), lambda: self.localizer.remove_map(past + session.MAP_ID),
+                 lambda: self.localizer.remove_map(-1), lambda: self.localizer.set_map_transform(past, None),
+                 lambda: self.localizer.predict(2**63), lambda: self.localizer.get_parameter(past),
+                 lambda: sphc.Localizer(session.RIG, max_keypoints=past + 800),
+                 lambda: sphc.Camera.pinhole(past + 640, 480, 500, 500, 320, 240).check()]
+        for name, value in (("sequence", -1), ("deadline_us", past + 1), ("deadline_us", -5), ("color_time_ns", 2**64 + 7),
+                            ("depth_time_ns", -2**63 - 1)):
+            wrong = dataclasses.replace(frame, **{name: value})
+            calls.append(lambda wrong=wrong: self.localizer.process(wrong))
+        for call in calls:
+            with self.assertRaisesRegex(ValueError, "must be|beyond"):
+                call()
+        for call in (lambda: self.localizer.predict(1e9), lambda: self.localizer.set_map("hall", self.map),
+                     lambda: self.map.direction(1.0), lambda: self.localizer.set_parameter("PROBES", 3)):
+            with self.assertRaisesRegex(TypeError, "whole number"):
+                call()
+        self.goes_on()
+
+    def test_what_is_of_another_type(self):
+        for call in (lambda: sphc.Localizer(session.RIG, "room.sphc"), lambda: sphc.Localizer(None, self.map),
+                     lambda: self.localizer.process(None), lambda: self.localizer.set_map(0, None),
+                     lambda: self.localizer.set_depth_bias(None),
+                     lambda: self.localizer.process(dataclasses.replace(self.frame, views=[self.frame.color])),
+                     lambda: self.localizer.process(dataclasses.replace(self.frame, color_camera="x")),
+                     lambda: self.localizer.process(dataclasses.replace(self.frame, color=sphc.Image(self.frame.color, 99))),
+                     lambda: self.localizer.process(dataclasses.replace(self.frame, color=sphc.Image([1], sphc.Format.GRAY8))),
+                     lambda: sphc.Aligner(session.RIG).process(self.frame.depth, sphc.Aligned(depth=[1]))):
+            with self.assertRaisesRegex(TypeError, "not "):
+                call()
+        masked = dataclasses.replace(self.frame, depth=np.ma.masked_equal(self.frame.depth, 0))
+        self.refused(sphc.Status.E_IMAGE, "filled", self.localizer.process, masked)
+        metres = dataclasses.replace(self.frame, depth=self.frame.depth.astype(np.float32))
+        self.refused(sphc.Status.E_IMAGE, "depth_format", self.localizer.process, metres)
+        self.goes_on()
+
+    def test_a_clock_that_gives_no_whole_number(self):
+        localizer = sphc.Localizer(session.RIG, self.map, clock=time.monotonic)
+        with self.assertRaises(TypeError):
+            localizer.process(self.frame)
+
+    def test_a_failure_has_its_own_words(self):
+        self.refused(sphc.Status.E_ARGUMENT, "PROBES", self.localizer.set_parameter, sphc.Parameter.PROBES, 3.5)
+        self.refused(sphc.Status.E_UNSUPPORTED, "no parameter 99", self.localizer.get_parameter, 99)
+
+    def test_a_map_that_another_thread_closes(self):
+        shared, closing = [self.map], threading.Event()
+        faults = []
+
+        def read():
+            while not closing.is_set():
+                try:
+                    shared[0].direction(5)
+                except sphc.Error as error:
+                    if error.status != sphc.Status.E_STATE:
+                        faults.append(error)
+                except Exception as error:
+                    faults.append(error)
+
+        threads = [threading.Thread(target=read) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        content = session.MAP.read_bytes()
+        for _ in range(100):
+            before, shared[0] = shared[0], sphc.Map(content)
+            before.close()
+            del before
+        closing.set()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(faults, [])
 
     def test_features_that_do_not_fit(self):
         features, other = self.localizer.make_features(), sphc.Localizer(session.RIG, max_keypoints=300).make_features()

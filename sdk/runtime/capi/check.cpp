@@ -331,7 +331,7 @@ sphc_status checkPrior(const sphc_localizer_prior &prior, const MapSet &maps, sp
   if (prior.flags & ~(SPHC_PRIOR_POSE | SPHC_PRIOR_UP | SPHC_PRIOR_ODOMETRY)) {
     MessageWriter(message) << "prior.flags has bits that this library does not know: " << prior.flags
                            << "; use SPHC_PRIOR_POSE, _UP and _ODOMETRY";
-    return SPHC_E_ARGUMENT;
+    return SPHC_E_UNSUPPORTED;
   }
   if (prior.flags & (SPHC_PRIOR_POSE | SPHC_PRIOR_UP) && maps.slotOf(prior.map_id) == kNoMap) {
     MessageWriter(message) << "prior.map_id is " << prior.map_id << ", and none of the localizer's " << maps.count()
@@ -368,6 +368,10 @@ sphc_status checkFeatureFrame(const FrameLimits &limits, FrameCopy *copy, sphc_m
 
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
                        const DepthWanted &wanted, sphc_message *message) {
+  if (!image.data) {
+    MessageWriter(message) << name << " image's data pointer is null; give the pixels";
+    return SPHC_E_IMAGE;
+  }
   const PixelFormat format = pixelFormatOf(image.format);
   const bool fits = wanted.format ? image.format == wanted.format : format.group_bytes && !format.is_depth;
   if (!fits) {
@@ -398,13 +402,9 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
     if (format.alignment > 1) text << ", a multiple of " << format.alignment;
     return SPHC_E_IMAGE;
   }
-  if (!image.data || reinterpret_cast<uintptr_t>(image.data) % format.alignment) {
-    MessageWriter text(message);
-    text << name << " image's data pointer is ";
-    if (image.data)
-      text << "not aligned to " << format.alignment << " bytes; begin the pixels there";
-    else
-      text << "null; give the pixels";
+  if (reinterpret_cast<uintptr_t>(image.data) % format.alignment) {
+    MessageWriter(message) << name << " image's data pointer is not aligned to " << format.alignment
+                           << " bytes; begin the pixels there";
     return SPHC_E_IMAGE;
   }
   return SPHC_OK;
@@ -542,7 +542,7 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
     return SPHC_E_ARGUMENT;
   }
   const sphc_depth_bias &d = *depth;
-  constexpr double kRounding = 1 + 1e-6, kMostOffsetM = 1, kMostSlope = 0.5;
+  constexpr double kRounding = 1 + 1e-4, kMostOffsetM = 1, kMostSlope = 0.5;
   const double offset_sigma_m = sqrtOf(prior.covariance(0, 0)) * kRounding,
                slope_sigma = sqrtOf(prior.covariance(1, 1)) * kRounding;
   const auto lies = [&](const char *name, double value, double low, double high) {

@@ -62,6 +62,7 @@ void measureLight(GrayView gray, ImageQuality *quality) {
       differences.add(absOf(differenceOfLaplacians(gray, x, y)));
   });
   quality->level = levels.quantile(0.5);
+  quality->brightest = levels.quantile(1 - kMostClipped);
   quality->noise = kLeastNoise;
   if (differences.total() * kFewestUnclipped < levels.total()) return;
   // The quiet part of the image has least texture.
@@ -123,6 +124,8 @@ bool isNotInMap(const FrameEvidence &frame, const Hypothesis &best) {
 
 bool ImageQuality::isDark() const { return level < kLeastLightOverNoise * noise; }
 
+bool ImageQuality::isOverexposed() const { return brightest > kWhite; }
+
 bool ImageQuality::isPlain() const { return contrast < std::max(kLeastContrast, noise); }
 
 bool ImageQuality::isBlurredAlongALine() const {
@@ -136,10 +139,10 @@ ImageQuality qualityOf(GrayView gray, double focal_px) {
   return quality;
 }
 
-bool isDark(GrayView gray) {
+bool hidesEdges(GrayView gray) {
   ImageQuality quality;
   measureLight(gray, &quality);
-  return quality.isDark();
+  return quality.isDark() || quality.isOverexposed();
 }
 
 uint32_t countSalient(Span<const Keypoint> keypoints, double noise) {

@@ -15,16 +15,18 @@ struct ImageQuality {
   // Of four directions in the image: which share of that (squared) is there over few pixels.  Blurred along a line,
   // an image has little along that and more across.
   double least_sharp = 1, most_sharp = 1;
+  double brightest = 0;  // grey level that an eighth of the image lies above
 
   bool isDark() const;
+  bool isOverexposed() const;
   bool isPlain() const;
   bool isBlurredAlongALine() const;
 };
 
 // Reads a grid of samples.  `focal_px`: a finer image is sampled in larger steps.
 ImageQuality qualityOf(GrayView gray, double focal_px);
-// The same of the light alone.
-bool isDark(GrayView gray);
+// Is the image too dark, or too bright, to show edges where they are?
+bool hidesEdges(GrayView gray);
 
 // How many of the keypoints are stronger than noise makes them?
 uint32_t countSalient(Span<const Keypoint> keypoints, double noise);

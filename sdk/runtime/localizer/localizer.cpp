@@ -176,8 +176,9 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   const Deadline lifted_by = deadline.afterShare(kLiftShare);
   config_.parallel.both([&] { front_.lift(depth, rig, lifted_by); },
                         [&] {
-                          result.faults = consistency_.look({front_.gray(), depth[0], rig.depth[0].color_from_depth,
-                                                             frame.color_time_ns, frame.depth[0].time_ns, isDark});
+                          result.faults =
+                              consistency_.look({front_.gray(), depth[0], rig.depth[0].color_from_depth,
+                                                 frame.color_time_ns, frame.depth[0].time_ns, hidesEdges});
                         });
   const int64_t aligned = config_.clock.now();
   Work work;

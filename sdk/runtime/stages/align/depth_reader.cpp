@@ -23,10 +23,13 @@ bool isBetween(int32_t z, int32_t a, int32_t b) {
   return (from_a > jump && to_b > jump) || (from_a < -jump && to_b < -jump);
 }
 
-// 0 for what is no measurement, or beyond 16 bits.
+constexpr double kNothing = 1e9;  // units: as far as this is what simulators give where nothing was hit
+
+// 0 for what is no measurement.  What is beyond 16 bits is the farthest: a wrong unit must not look like a sensor
+// that sees nothing.
 uint16_t unitsFrom(double units) {
   const double rounded = units + 0.5;
-  return rounded >= 1 && rounded < 65536 ? static_cast<uint16_t>(rounded) : uint16_t{0};
+  return rounded >= 1 && rounded < kNothing ? static_cast<uint16_t>(std::min(rounded, 65535.0)) : uint16_t{0};
 }
 
 }  // namespace

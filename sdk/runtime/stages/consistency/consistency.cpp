@@ -82,7 +82,7 @@ bool Consistency::edgesDisagree(const ConsistencyView &view) {
   double score = 0;
   bool tells = agreement_.edges >= kFewestEdges;
   if (tells) score = (agreement_.middle() - kHalfway) * sqrtOf(static_cast<double>(agreement_.edges));
-  if (tells && score < kUsual && view.is_dark && view.is_dark(view.gray)) tells = false;
+  if (tells && score < kUsual && view.hides_edges && view.hides_edges(view.gray)) tells = false;
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   if (tells) {

@@ -20,9 +20,9 @@ struct ConsistencyView {
   ImageView<uint16_t> depth;
   Rigid color_from_depth;  // at the times of the images
   int64_t color_time_ns = 0, depth_time_ns = 0;
-  // Does an image show noise, so that its edges say nothing?  Asked where they speak against the frame; null:
-  // never.
-  bool (*is_dark)(GrayView) = nullptr;
+  // Is an image too dark or too bright to show edges where they are?  Asked where they speak against the frame;
+  // null: never.
+  bool (*hides_edges)(GrayView) = nullptr;
 };
 
 class Consistency {

@@ -13,7 +13,8 @@ struct DepthEdge {
   bool along_y;      // the depth changes down the image, else across it
 };
 
-// Edges spread over the image: the first that is met in each cell of a grid, across the image and down it.
+// Edges spread over the image: the first that is met in each cell of a grid, across the image and down it.  What a
+// noisy sensor shows between two measurements is none.
 class DepthEdges {
  public:
   static constexpr int32_t kColumns = 32, kRows = 24;  // of the grid of cells
@@ -25,13 +26,16 @@ class DepthEdges {
   Span<const DepthEdge> edges() const { return edges_.first(count_); }
 
  private:
+  struct Measurement;
   struct Walk;
+  void findBy(Walk &walk);
   void walk(const Walk &walk);
-  void keep(const DepthEdge &edge);
+  void meet(const Walk &walk, const Measurement &before, const Measurement &last, const Measurement &here);
+  void keep(const DepthEdge &edge, bool of_two);
 
   Span<DepthEdge> edges_;
-  Span<uint8_t> taken_;  // of each cell: has an edge across, down
-  size_t count_ = 0;
+  Span<uint8_t> taken_;            // of each cell: has an edge across, down
+  size_t count_ = 0, of_two_ = 0;  // edges; of these with two measurements on each side
 };
 
 }  // namespace sphc

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/clock.h"
 #include "runtime/base/elementary.h"
 
 namespace sphc {
@@ -11,7 +12,7 @@ constexpr int32_t kColumns = 32, kRows = 24;  // samples of grey
 constexpr int32_t kGrayNoise = 12;            // levels
 constexpr int32_t kDepthNoiseShare = 50;      // 1 / 50 of the measurement
 constexpr uint32_t kFewestMeasured = 100;
-constexpr int64_t kFrozenNs = 60000000;  // cameras that run freely give one image twice now and then
+constexpr uint64_t kFrozenNs = 60000000;  // cameras that run freely give one image twice now and then
 
 }  // namespace
 
@@ -68,8 +69,8 @@ Faults Stillness::look(Span<const uint16_t> depth, int64_t depth_time_ns, GrayVi
   if (!has_before_ || !of_depth.isStill()) depth_time_ns_ = depth_time_ns;
   if (!has_before_ || !of_gray.isStill()) color_time_ns_ = color_time_ns;
   has_before_ = true;
-  if (depth_time_ns - depth_time_ns_ > kFrozenNs && of_gray.isMotion()) return kDepthFrozen;
-  if (color_time_ns - color_time_ns_ > kFrozenNs && of_depth.isMotion()) return kColorFrozen;
+  if (elapsedNs(depth_time_ns_, depth_time_ns) > kFrozenNs && of_gray.isMotion()) return kDepthFrozen;
+  if (elapsedNs(color_time_ns_, color_time_ns) > kFrozenNs && of_depth.isMotion()) return kColorFrozen;
   return 0;
 }
 

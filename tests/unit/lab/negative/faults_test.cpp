@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -52,6 +53,25 @@ TEST(SensorFaults, EachHasANameAndBreaksSomething) {
     for (const Shot &shot : broken.shots) {
       EXPECT_EQ(shot.color.size(), size_t{32} * 16 * 3) << fault.name;
       EXPECT_EQ(shot.depth.size(), size_t{32} * 16) << fault.name;
+    }
+  }
+}
+
+TEST(SensorFaults, SoundFramesMayBeNoisyOrBright) {
+  for (const SensorFault &fault : allFaults()) {
+    Sequence changed = madeSequence();
+    fault.apply(&changed);
+    const Shot before = madeSequence().shots[0], &after = changed.shots[0];
+    if (fault.name == "healthy, depth noise 2.5 %") {
+      double sum2 = 0;
+      for (size_t i = 0; i < after.depth.size(); ++i)
+        sum2 += std::pow(1.0 * after.depth[i] / before.depth[i] - 1, 2);
+      EXPECT_NEAR(std::sqrt(sum2 / static_cast<double>(after.depth.size())), 0.025, 0.005);
+      EXPECT_EQ(fault.named_by, 0u);
+    }
+    if (fault.name == "healthy, twice the light") {
+      for (size_t i = 0; i < after.color.size(); ++i) EXPECT_GE(after.color[i], before.color[i]);
+      EXPECT_EQ(fault.named_by, 0u);
     }
   }
 }

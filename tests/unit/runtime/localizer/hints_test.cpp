@@ -84,6 +84,12 @@ TEST(ImageQuality, LittleLightIsDarkWithOrWithoutAmplification) {
   EXPECT_TRUE(Picture().darken(0).quality().isDark()) << "black";
 }
 
+TEST(ImageQuality, ALampIsNotOverexposureAndTwiceTheLightIs) {
+  EXPECT_FALSE(Picture().addNoise(2).quality().isOverexposed());
+  EXPECT_FALSE(Picture().darken(1.3).quality().isOverexposed()) << "a few squares are white";
+  EXPECT_TRUE(Picture().darken(2).quality().isOverexposed());
+}
+
 TEST(ImageQuality, BlurAlongALineIsToldFromBlurAllAround) {
   for (const double noise : {0.0, 3.0}) {
     EXPECT_TRUE(Picture().blur(12, 1, 0).addNoise(noise).quality().isBlurredAlongALine()) << noise;

@@ -79,11 +79,15 @@ TEST_F(DepthReaderTest, MetresAreRoundedToUnits) {
   for (const uint16_t units : units_) metres.push_back(0.001f * static_cast<float>(units) + 0.0004f);
   EXPECT_EQ(read(metres.data(), 4 * kReaderWidth), units_);
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  const float none[] = {nan, inf, -inf, -1, 0, 0.0004f, 65.6f, 1e30f};
-  std::copy(none, none + 8, metres.begin());
+  const float none[] = {nan, inf, -inf, -1, 0, 0.0004f, 1e30f};
+  std::copy(none, none + 7, metres.begin());
+  metres[7] = 65.6f;
+  metres[8] = 1500;  // millimetres
   const std::vector<uint16_t> z = read(metres.data(), 4 * kReaderWidth);
-  for (size_t i = 0; i < 8; ++i) EXPECT_EQ(z[i], 0) << none[i];
-  EXPECT_EQ(z[8], units_[8]);
+  for (size_t i = 0; i < 7; ++i) EXPECT_EQ(z[i], 0) << none[i];
+  EXPECT_EQ(z[7], 65535);
+  EXPECT_EQ(z[8], 65535);
+  EXPECT_EQ(z[9], units_[9]);
 }
 
 // Of a wall across the axis every z is the same, and every range is z over the cosine to the axis.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/random.h"
 #include "tests/unit/runtime/stages/consistency/made_view.h"
 
 namespace sphc {
@@ -72,11 +73,43 @@ TEST(Consistency, InTheDarkEdgesSayNothing) {
     for (int32_t i = 0; i < 8; ++i) {
       const MadeView made(3 * i, 3 * i + 14);
       ConsistencyView view = made.view(i * kStepNs);
-      view.is_dark = [](GrayView) { return true; };
+      view.hides_edges = [](GrayView) { return true; };
       EXPECT_EQ(held.consistency.look(view) & kDepthColorDisagree, Faults{0}) << i;
       EXPECT_FALSE(held.consistency.isDoubtful()) << i;
     }
   }
+}
+
+// Depth of 3 % noise has steps of a tenth between neighbours all over the image, and no edges there.
+TEST(Consistency, NoiseOfDepthIsNoEdge) {
+  HeldConsistency held(true);
+  Random random(7);
+  for (int32_t i = 0; i < 20; ++i) {
+    MadeView made(3 * i, 3 * i);
+    for (uint16_t &depth : made.depth()) {
+      double sum = -6;  // of twelve even numbers: nearly normal
+      for (int j = 0; j < 12; ++j) sum += random.uniform();
+      depth = static_cast<uint16_t>(depth * (1 + 0.03 * sum));
+    }
+    EXPECT_EQ(held.consistency.look(made.view(i * kStepNs)) & kDepthColorDisagree, Faults{0}) << i;
+    EXPECT_GT(held.consistency.agreement().edges, 20u);
+    EXPECT_GT(held.consistency.agreement().middle(), 0.7);
+  }
+}
+
+// Of a sound sensor one measurement is enough: a cable before a wall.
+TEST(Consistency, AThinThingHasEdges) {
+  HeldConsistency held(false);
+  MadeView made;
+  for (size_t i = 0; i < made.depth().size(); ++i)
+    if (i % 40 == 20) made.depth()[i] = 900;
+  const uint32_t boxes = [] {
+    HeldConsistency without(false);
+    without.consistency.look(MadeView().view());
+    return without.consistency.agreement().edges;
+  }();
+  held.consistency.look(made.view());
+  EXPECT_GT(held.consistency.agreement().edges, boxes + 20);
 }
 
 // Else the same few edges that lie badly would be counted thirty times a second.
@@ -102,6 +135,13 @@ TEST(Consistency, NamesAStreamThatStandsStill) {
   }
   EXPECT_EQ(of_depth & kDepthFrozen, kDepthFrozen);
   EXPECT_EQ(of_color & kColorFrozen, kColorFrozen);
+}
+
+// The least time is one that nobody knew.
+TEST(Consistency, TimesMayBeAsFarApartAsTheyCan) {
+  HeldConsistency held(true);
+  for (const int64_t time_ns : {INT64_MIN, INT64_MAX, INT64_MIN})
+    EXPECT_EQ(held.consistency.look(MadeView().view(time_ns)), Faults{0}) << time_ns;
 }
 
 TEST(Consistency, ACameraThatRestsIsNoFault) {
