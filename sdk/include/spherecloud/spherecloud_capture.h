@@ -1,7 +1,7 @@
 /* spherecloud_capture.h - cameras, pairs of captures and clocks: the part of the C interface that may still change.
  *
  * Define SPHC_UNSTABLE as 1 before it is included: programs that use it are built again for every release.
- * Conventions are those of spherecloud.h, but for structs, whose size must be that of this header.
+ * Conventions are those of spherecloud.h; a sphc_capture that a driver fills has the size of this header.
  */
 #ifndef SPHERECLOUD_SPHERECLOUD_CAPTURE_H
 #define SPHERECLOUD_SPHERECLOUD_CAPTURE_H

@@ -40,11 +40,11 @@ struct DepthEdges::Walk {
             static_cast<float>(y) + 0.5f + (along_y ? beyond : 0), static_cast<uint16_t>(near.depth),
             static_cast<uint16_t>(cell), along_y};
   }
-  // Behind i in a row; none: depth 0.
-  Measurement after(int32_t i) const {
+  // The neighbour of i further on; 0: it has none.
+  uint32_t after(int32_t i) const {
     for (int32_t j = i + step; j < length && j - i <= gap; j += step)
-      if (inRange(at(j))) return {at(j), j};
-    return {};
+      if (inRange(at(j))) return at(j);
+    return 0;
   }
 };
 
@@ -99,7 +99,7 @@ void DepthEdges::walk(const Walk &walk) {
 // Between `last` and `here`, with the measurements on either side of the two.
 void DepthEdges::meet(const Walk &walk, const Measurement &before, const Measurement &last,
                       const Measurement &here) {
-  const uint32_t after = walk.after(here.at).depth;
+  const uint32_t after = walk.after(here.at);
   const bool farther = here.depth > last.depth;
   const bool of_two = before.depth && after &&
                       (farther ? isBeyond(std::min(here.depth, after), std::max(before.depth, last.depth))
