@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _interface
-from ._calls import aligned, check, closed, configure, of_type, Owned
+from ._calls import Owned, aligned, check, closed, configure, of_type
 from ._library import interface
 from .cameras import Rig
 from .enums import Format, Status

@@ -111,7 +111,8 @@ sphc_status readAcceleration(const sphc_replay *replay, uint32_t index, int64_t 
 }
 
 // Both streams in order of time, poses and accelerations among them; of a part of a recording those around it.
-Result copyStreams(sphc_replay *replay, const ConvertOptions &options, RecordingOut *out, const Console &console) {
+Result copyStreams(sphc_replay *replay, const ConvertOptions &options, const Interrupt &interrupt,
+                   RecordingOut *out, const Console &console) {
   const sphc_replay_info info = infoOf(replay);
   Beside<sphc_rigid> poses(replay, info.pose_count, sphc_replay_recorded_pose, &RecordingOut::addPose);
   const uint32_t acceleration_count = out->keepsAccelerations() ? info.acceleration_count : 0;
@@ -120,7 +121,6 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
   orThrow("source", [&](sphc_message *) { return sphc_replay_source(replay, &source); });
   if (source.start(source.self) < 0) throw std::runtime_error(source.message(source.self));
   ProgressBar bar("converting ");
-  const Interrupt interrupt;
   FewWarnings warnings(console, "left out: ", "image", "");
   Result result;
   int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
@@ -156,9 +156,8 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, Recording
 
 // Frames of colour and depth under one number: `add` takes a frame and its pose, which may be null.
 template <typename Add>
-Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
+Result copyFrames(RecordingReader *reader, const Interrupt &interrupt, const Console &console, Add &&add) {
   ProgressBar bar("converting ");
-  const Interrupt interrupt;
   FewWarnings warnings(console, "left out: ", "frame", "");
   Result result;
   result.unpaired = static_cast<uint32_t>(reader->recording().color.size()) - reader->frameCount();
@@ -184,22 +183,26 @@ Result copyFrames(RecordingReader *reader, const Console &console, Add &&add) {
 }
 
 Result writeRaw(RecordingReader *reader, const std::string &file, const Console &console) {
+  const Interrupt interrupt;  // from before there is a file
   recording::RawWriter writer(file, reader->calibration(), SPHC_FORMAT_BGR8);
-  const Result result = copyFrames(
-      reader, console, [&](const sphc_localizer_frame &frame, const sphc_rigid *pose) { writer.add(frame, pose); });
+  const Result result =
+      copyFrames(reader, interrupt, console,
+                 [&](const sphc_localizer_frame &frame, const sphc_rigid *pose) { writer.add(frame, pose); });
   writer.finish();
   return result;
 }
 
 Result write7Scenes(RecordingReader *reader, const std::string &folder, const Console &console) {
+  const Interrupt interrupt;  // from before there is a folder
   NewRecording recording(folder, NewRecording::IfCut::kRemove);
   recording::SevenScenesWriter writer(recording.part(), reader->calibration());
   uint32_t next = 0;
-  const Result result = copyFrames(reader, console, [&](sphc_localizer_frame frame, const sphc_rigid *pose) {
-    frame.sequence = std::max(frame.sequence, next);  // a camera that came back counts anew
-    next = frame.sequence + 1;
-    writer.add(frame, pose);
-  });
+  const Result result =
+      copyFrames(reader, interrupt, console, [&](sphc_localizer_frame frame, const sphc_rigid *pose) {
+        frame.sequence = std::max(frame.sequence, next);  // a camera that came back counts anew
+        next = frame.sequence + 1;
+        writer.add(frame, pose);
+      });
   writer.finish();
   recording.finish();
   return result;
@@ -221,8 +224,9 @@ Result convertStreams(const ConvertOptions &options, const Console &console, Fac
   const sphc_replay_info info = infoOf(replay.get());
   noteDamage(options.in.folder, damageOf(info), console);
   *facts = {info.layout == SPHC_REPLAY_MCAP, info.depth_count, info.pose_count, info.acceleration_count};
+  const Interrupt interrupt;  // from before there is a recording
   const auto out = createRecording(options.out, calibrationOf(replay.get()), options.recorder);
-  const Result result = copyStreams(replay.get(), options, out.get(), console);
+  const Result result = copyStreams(replay.get(), options, interrupt, out.get(), console);
   out->close();
   return result;
 }

@@ -124,7 +124,7 @@ void writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReade
 // Frames that contradict themselves have no pose; what is wrong with their cameras is wrong with the others' too.
 void noteContradictions(const Summary &summary, const Console &console) {
   const uint32_t contradicting = summary.outcomes[SPHC_OUTCOME_CONTRADICTION];
-  if (contradicting == 0 || percent(contradicting, summary.frames) < kManyContradictions) return;
+  if (percent(contradicting, summary.frames) < kManyContradictions) return;
   uint32_t faults = 0;
   for (size_t i = 0; i < summary.faults.size(); ++i)
     if (summary.faults[i]) faults |= kFaultWords[i].bit;

@@ -98,7 +98,7 @@ class Accelerometer {
   uint64_t written_ = 0;
 };
 
-void record(sphc_simulated *simulated, Accelerometer accelerometer, RecordingOut *out) {
+void record(sphc_simulated *simulated, const Interrupt &interrupt, Accelerometer accelerometer, RecordingOut *out) {
   sphc_source source = {};
   source.struct_size = sizeof source;
   orThrow("source", [&](sphc_message *) { return sphc_simulated_source(simulated, &source); });
@@ -109,7 +109,6 @@ void record(sphc_simulated *simulated, Accelerometer accelerometer, RecordingOut
   };
   check(source.start(source.self));
   ProgressBar bar("recording ");
-  const Interrupt interrupt;
   const uint32_t total = sphc_simulated_frame_count(simulated);
   sphc_capture capture = {};
   capture.struct_size = sizeof capture;
@@ -143,8 +142,9 @@ int simulate(const SimulateOptions &options, const Console &console) {
   const auto start = std::chrono::steady_clock::now();
   const sphc_simulated_config config = configOf(options);
   const Simulated simulated = openHeadset(config);
+  const Interrupt interrupt;  // from before there is a file
   const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
-  record(simulated.get(), {simulated.get(), options.accelerometer_hz, config.start_time_ns}, out.get());
+  record(simulated.get(), interrupt, {simulated.get(), options.accelerometer_hz, config.start_time_ns}, out.get());
   out->close();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   console.say("Recorded " + counted(config.frame_count, "frame") + " to " + options.out + " in " +

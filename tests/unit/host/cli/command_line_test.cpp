@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -538,14 +537,9 @@ void expectAmplitudes(const TempFolder &folder, const std::string &map) {
               HasSubstr("keeps no amplitudes"));
 }
 
-std::string pageText(const std::string &path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 // The command's page explains every key.
 void expectExplained(const nlohmann::json &json) {
-  static const std::string page = pageText(SPHC_COMMAND_PAGE);
+  static const std::string page = fileText(SPHC_COMMAND_PAGE);
   static const std::set<std::string> of_names = {"outcomes", "faults", "hints", "settings"};
   for (const auto &[key, value] : json.items()) {
     EXPECT_THAT(page, HasSubstr("`" + key + "`"));

@@ -12,11 +12,6 @@
 namespace sphc::host {
 namespace {
 
-std::string textOf(const std::string &path) {
-  const auto bytes = readBytes(path);
-  return {bytes.begin(), bytes.end()};
-}
-
 // What the command says it cannot do: "spherecloud build: why".
 void record(const Answer &answer) {
   std::istringstream lines(answer.err);
@@ -30,6 +25,11 @@ void record(const Answer &answer) {
 
 }  // namespace
 
+std::string fileText(const std::string &path) {
+  const auto bytes = readBytes(path);
+  return {bytes.begin(), bytes.end()};
+}
+
 Answer runCommand(const std::string &arguments) { return runProgram(SPHC_COMMAND, arguments); }
 
 Answer runProgram(const std::string &program, const std::string &arguments) {
@@ -37,7 +37,8 @@ Answer runProgram(const std::string &program, const std::string &arguments) {
   const std::string command =
       program + " " + arguments + " >" + (folder / "out") + " 2>" + (folder / "err") + " </dev/null";
   const int status = std::system(command.c_str());
-  Answer answer = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(folder / "out"), textOf(folder / "err")};
+  Answer answer = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, fileText(folder / "out"),
+                   fileText(folder / "err")};
   if (answer.exit_code > 0) record(answer);
   return answer;
 }

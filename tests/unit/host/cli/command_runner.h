@@ -13,4 +13,7 @@ Answer runCommand(const std::string &arguments);
 // The same of any program.
 Answer runProgram(const std::string &program, const std::string &arguments);
 
+// All of a file that is there.
+std::string fileText(const std::string &path);
+
 }  // namespace sphc::host
