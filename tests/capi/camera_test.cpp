@@ -66,6 +66,40 @@ TEST(CInterfaceCamera, FailureLeavesOutputsUntouched) {
   EXPECT_TRUE(bearing.untouched());
 }
 
+TEST(CInterfaceRigid, NullChangesNothing) {
+  const sphc_rigid a = {{0.8, 0.6, 0, 0}, {1, 2, 3}};
+  const double x[3] = {1, 2, 3};
+  Output<sphc_rigid> rigid;
+  Output<double[3]> moved;
+  sphc_rigid_compose(nullptr, &a, rigid.get());
+  sphc_rigid_compose(&a, nullptr, rigid.get());
+  sphc_rigid_inverse(nullptr, rigid.get());
+  sphc_rigid_apply(nullptr, x, *moved.get());
+  sphc_rigid_apply(&a, nullptr, *moved.get());
+  EXPECT_TRUE(rigid.untouched());
+  EXPECT_TRUE(moved.untouched());
+  sphc_rigid_compose(&a, &a, nullptr);
+  sphc_rigid_inverse(&a, nullptr);
+  sphc_rigid_apply(&a, x, nullptr);
+}
+
+// Whoever forgot to set a transform sees it in what follows from it.
+TEST(CInterfaceRigid, WhatIsNotFiniteStaysSo) {
+  const sphc_rigid good = {{0.8, 0.6, 0, 0}, {1, 2, 3}};
+  const double x[3] = {1, 2, 3};
+  for (const double number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const sphc_rigid bad = {{0.8, number, 0, 0}, {1, 2, 3}};
+    sphc_rigid composed, inverse;
+    double moved[3];
+    sphc_rigid_compose(&good, &bad, &composed);
+    sphc_rigid_inverse(&bad, &inverse);
+    sphc_rigid_apply(&bad, x, moved);
+    EXPECT_TRUE(std::isnan(composed.q_wxyz[0]));
+    EXPECT_TRUE(std::isnan(inverse.q_wxyz[0]));
+    EXPECT_TRUE(std::isnan(moved[1]));
+  }
+}
+
 TEST(CInterfaceRigid, OutputMayBeAnInput) {
   const sphc_rigid a = {{0.8, 0.6, 0, 0}, {1, 2, 3}}, b = {{0.6, 0, -0.8, 0}, {-1, 0.5, 2}};
   sphc_rigid ab, inverse, identity;

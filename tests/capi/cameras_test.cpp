@@ -312,7 +312,7 @@ TEST(Cameras, ABadConfigIsRefusedWithItsCause) {
       {"quaternion",
        [](Rig *r) { r->cameras[0].color_from_camera.q_wxyz[0] = 2; },
        SPHC_E_ARGUMENT,
-       {"i = 0", "color_from_camera", "length 1"}},
+       {"i = 0", "config.cameras[i].color_from_camera.q_wxyz has length 2.0", "it must be 1"}},
       {"row time",
        [](Rig *r) { r->cameras[1].row_time_ns = 2 * SPHC_ROW_TIME_MAX_NS; },
        SPHC_E_ARGUMENT,
@@ -324,7 +324,7 @@ TEST(Cameras, ABadConfigIsRefusedWithItsCause) {
       {"translation",
        [](Rig *r) { r->cameras[0].color_from_camera.t_m[2] = std::numeric_limits<double>::quiet_NaN(); },
        SPHC_E_ARGUMENT,
-       {"i = 0", "color_from_camera"}},
+       {"i = 0", "config.cameras[i].color_from_camera.t_m[2] is nan"}},
   };
   for (const BadConfig &bad : cases) {
     SCOPED_TRACE(bad.what);

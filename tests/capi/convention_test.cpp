@@ -233,9 +233,9 @@ const SpoiledRigid kSpoiled[] = {
     {{{0.998, 0, 0, 0}, {0, 0, 0}}, "has length 0.998; it must be 1"},
     {{{1, 0, kNan, 0}, {0, 0, 0}}, "has length nan; it must be 1"},
     {{{1, 0, 0, -kInf}, {0, 0, 0}}, "has length inf; it must be 1"},
-    {{{1, 0, 0, 0}, {0, kNan, 0}}, "has nan at 1; it must be finite"},
-    {{{1, 0, 0, 0}, {0, 0, kInf}}, "has inf at 2; it must be finite"},
-    {{{1, 0, 0, 0}, {-1.1e9, 0, 0}}, "has -1100000000 at 0; it must be finite and not beyond 1000000000"},
+    {{{1, 0, 0, 0}, {0, kNan, 0}}, "] is nan; it must lie in"},
+    {{{1, 0, 0, 0}, {0, 0, kInf}}, "] is inf; it must lie in"},
+    {{{1, 0, 0, 0}, {-1.1e9, 0, 0}}, "] is -1100000000; it must lie in -1000000000 to 1000000000"},
 };
 
 TEST(CInterfaceConvention, BadTransformsAreRefused) {
@@ -249,29 +249,42 @@ TEST(CInterfaceConvention, BadTransformsAreRefused) {
       };
       EXPECT_EQ(sphc_convention_write_camera(convention, &kIdentity, &spoiled.rigid, *pose.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("of camera_from_map");
+      expectSaid("camera_from_map");
       EXPECT_EQ(sphc_convention_write_camera(convention, &spoiled.rigid, &kIdentity, *pose.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("of world_from_map");
+      expectSaid("world_from_map");
       EXPECT_EQ(sphc_convention_write_map(convention, &spoiled.rigid, *pose.get(), &message), SPHC_E_ARGUMENT);
-      expectSaid("of world_from_map");
+      expectSaid("world_from_map");
       EXPECT_TRUE(pose.untouched());
 
       const double good[7] = {0.5, 0.5, -0.5, 0.5, 0.5, 0.5, 0.5};  // in every order
       Output<sphc_rigid> rigid;
       EXPECT_EQ(sphc_convention_read_camera(convention, &spoiled.rigid, good, rigid.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("of world_from_map");
+      expectSaid("world_from_map");
       double numbers[7];
       const std::vector<int> order = orderOf(convention);
       for (int i = 0; i < 7; ++i) numbers[order[i]] = i < 4 ? spoiled.rigid.q_wxyz[i] : spoiled.rigid.t_m[i - 4];
       EXPECT_EQ(sphc_convention_read_camera(convention, &kIdentity, numbers, rigid.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("of pose");
+      expectSaid("pose");
       EXPECT_EQ(sphc_convention_read_map(convention, numbers, rigid.get(), &message), SPHC_E_ARGUMENT);
-      expectSaid("of pose");
+      expectSaid("pose");
       EXPECT_TRUE(rigid.untouched());
     }
+}
+
+// By its place in the caller's own numbers.
+TEST(CInterfaceConvention, ABadNumberOfAPoseIsNamed) {
+  for (const sphc_convention convention : kAll) {
+    const int first = convention == SPHC_CONVENTION_OPENXR || convention == SPHC_CONVENTION_COLMAP ? 4 : 0;
+    double numbers[7] = {0.5, 0.5, -0.5, 0.5, 0.5, 0.5, 0.5};  // good in every order
+    numbers[first + 2] = kNan;
+    sphc_rigid rigid;
+    sphc_message message = {};
+    EXPECT_EQ(sphc_convention_read_map(convention, numbers, &rigid, &message), SPHC_E_ARGUMENT);
+    expectMentions(message.text, ("pose[" + std::to_string(first + 2) + "] is nan").c_str());
+  }
 }
 
 TEST(CInterfaceConvention, LimitsAreTaken) {
@@ -290,12 +303,12 @@ TEST(CInterfaceConvention, NumbersInAnotherOrderAreToldTheirOwn) {
   sphc_rigid rigid;
   sphc_message message = {};
   EXPECT_EQ(sphc_convention_read_map(SPHC_CONVENTION_OPENXR, ros, &rigid, &message), SPHC_E_ARGUMENT);
-  expectMentions(message.text, "mind the order, which is qx qy qz qw x y z");
+  expectMentions(message.text, "(order qx qy qz qw x y z");
   EXPECT_EQ(sphc_convention_read_map(SPHC_CONVENTION_COLMAP, ros, &rigid, &message), SPHC_E_ARGUMENT);
-  expectMentions(message.text, "mind the order, which is qw qx qy qz x y z");
+  expectMentions(message.text, "(order qw qx qy qz x y z");
   const double openxr[7] = {0, 0, 0, 1, 1, 2, 3};
   EXPECT_EQ(sphc_convention_read_map(SPHC_CONVENTION_UNITY, openxr, &rigid, &message), SPHC_E_ARGUMENT);
-  expectMentions(message.text, "mind the order, which is x y z qx qy qz qw");
+  expectMentions(message.text, "(order x y z qx qy qz qw");
 }
 
 TEST(CInterfaceConvention, AVerticalIsNotForgotten) {

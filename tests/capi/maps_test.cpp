@@ -230,15 +230,15 @@ TEST_F(CInterfaceMapTransforms, Refused) {
   expectRefused(9, fine, 0.01, 0.01, "no map with id 9");
   EXPECT_EQ(sphc_localizer_set_map_transform(localizer(), 9, nullptr, 0, 0), SPHC_E_ARGUMENT);
   for (const double sigma : {-1e-9, 101.0, nan, HUGE_VAL}) {
-    expectRefused(1, fine, sigma, 0.01, "sigmas");
-    expectRefused(1, fine, 0.01, sigma, "sigmas");
+    expectRefused(1, fine, sigma, 0.01, "rotation_sigma_rad is");
+    expectRefused(1, fine, 0.01, sigma, "translation_sigma_m is");
   }
   bad.q_wxyz[0] = 2;
-  expectRefused(1, bad, 0.01, 0.01, "common_from_map");
+  expectRefused(1, bad, 0.01, 0.01, "common_from_map.q_wxyz has length 2.0");
   bad = fine, bad.t_m[2] = nan;
-  expectRefused(1, bad, 0.01, 0.01, "common_from_map");
+  expectRefused(1, bad, 0.01, 0.01, "common_from_map.t_m[2] is nan");
   bad = fine, bad.t_m[1] = 2e4;
-  expectRefused(1, bad, 0.01, 0.01, "common_from_map");
+  expectRefused(1, bad, 0.01, 0.01, "common_from_map.t_m[1] is 20000; it must lie in -10000 to 10000");
   place(2);  // what was refused left nothing behind
   EXPECT_EQ(goThrough().state, SPHC_STATE_LOST);
 }

@@ -108,6 +108,21 @@ TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
   EXPECT_LT(distanceM(upright.camera_from_map, cold.camera_from_map), 0.005);
 }
 
+// Of other axes, it leads to no pose; the frame is looked at without it.
+TEST_F(CInterfacePoseOptions, AVerticalOfOtherAxesIsNamed) {
+  Session session(config_);
+  const sphc_localizer_result cold = localize(&session, 1);
+  sphc_localizer_prior prior = {};
+  prior.struct_size = sizeof prior;
+  prior.flags = SPHC_PRIOR_UP;
+  prior.up_camera[2] = prior.up_map[1] = 1;  // along the view, and the vertical of the map is along y
+  prior.up_sigma_rad = 0.01;
+  const sphc_localizer_result found = localize(&session, 1, &prior);
+  ASSERT_EQ(found.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(found.faults & SPHC_FAULT_VERTICAL_DISAGREES, uint32_t{SPHC_FAULT_VERTICAL_DISAGREES});
+  EXPECT_LT(distanceM(found.camera_from_map, cold.camera_from_map), 0.005);
+}
+
 TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   Session session(config_);
   const sphc_localizer_prior good = posePrior(localize(&session, 1).camera_from_map);
@@ -125,7 +140,7 @@ TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   expectRefused(prior, SPHC_E_UNSUPPORTED, "prior.flags");
   prior = good;
   prior.camera_from_map.t_m[2] = nan;
-  expectRefused(prior, SPHC_E_ARGUMENT, "prior.camera_from_map");
+  expectRefused(prior, SPHC_E_ARGUMENT, "prior.camera_from_map.t_m[2] is nan");
   prior = good;
   prior.translation_sigma_m = 0;
   expectRefused(prior, SPHC_E_ARGUMENT, "prior.translation_sigma_m");
@@ -134,7 +149,10 @@ TEST_F(CInterfacePoseOptions, BadPriorsAreRefused) {
   expectRefused(prior, SPHC_E_ARGUMENT, "prior.rotation_sigma_rad");
   prior = good;
   prior.flags = SPHC_PRIOR_UP;
-  expectRefused(prior, SPHC_E_ARGUMENT, "prior.up_camera");
+  expectRefused(prior, SPHC_E_ARGUMENT, "prior.up_camera is (0, 0, 0)");
+  prior.up_camera[1] = prior.up_map[1] = 1;
+  prior.up_map[2] = 1e300;
+  expectRefused(prior, SPHC_E_ARGUMENT, "prior.up_map is (0, 1, 1e18+)");
   localize(&session, 1, &good);
   EXPECT_EQ(status_, SPHC_OK);  // and it goes on
 }

@@ -80,7 +80,7 @@ TEST(RefusedRigs, FileThatIsRead) {
        "c.json: color_from_depth.t_m[1] is -100.5; it must lie in -100 to 100: give metres"},
       {"[1, 0, 0, 0]", "[1.01, 0, 0, 0]",
        "c.json: color_from_depth.q_wxyz has length 1.01; it must be 1 (order w x y z): divide by its length"},
-      {"0.001}", "0.11}", "c.json: depth_unit_m is 0.11; it must lie in 0.000001 to 0.1 (0.001 for millimetres)"},
+      {"0.001}", "0.11}", "c.json: depth_unit_m is 0.11; it must lie in 1e-6 to 0.1 (0.001 for millimetres)"},
   };
   for (const auto &c : cases) {
     std::string text = good;

@@ -46,11 +46,11 @@ inline const std::vector<SpoiledRig> &spoiledRigs() {
        }},
       {"color_from_depth.q_wxyz has length nan; it must be 1 (order w x y z): divide by its length",
        [](sphc_rig *r) { r->color_from_depth.q_wxyz[3] = kNan; }},
-      {"depth_unit_m is 0; it must lie in 0.000001 to 0.1 (0.001 for millimetres)",
+      {"depth_unit_m is 0; it must lie in 1e-6 to 0.1 (0.001 for millimetres)",
        [](sphc_rig *r) { r->depth_unit_m = 0; }},
-      {"depth_unit_m is 0.11; it must lie in 0.000001 to 0.1 (0.001 for millimetres)",
+      {"depth_unit_m is 0.11; it must lie in 1e-6 to 0.1 (0.001 for millimetres)",
        [](sphc_rig *r) { r->depth_unit_m = 0.11; }},
-      {"depth_unit_m is nan; it must lie in 0.000001 to 0.1 (0.001 for millimetres)",
+      {"depth_unit_m is nan; it must lie in 1e-6 to 0.1 (0.001 for millimetres)",
        [](sphc_rig *r) { r->depth_unit_m = kNan; }},
   };
   return kAll;

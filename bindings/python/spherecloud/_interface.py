@@ -7,6 +7,7 @@ import typing
 VERSION = "1.0.0-rc1"
 SPHC_ABI = 1
 SPHC_MESSAGE_BYTES = 256
+SPHC_STRIDE_MAX_BYTES = 1048576
 SPHC_CAMERA_MIN_PX = 16
 SPHC_CAMERA_MAX_PX = 8192
 SPHC_CAMERA_MAX_PARAM = 1000000.0
@@ -21,6 +22,9 @@ SPHC_PARALLEL_MAX = 8
 SPHC_CAMERAS_MAX = 8
 SPHC_ROW_TIME_MAX_NS = 1000000
 SPHC_DEPTH_CAMERAS_MAX = 2
+SPHC_POSE_MAX_OFFSET_M = 10000.0
+SPHC_UP_MIN_LENGTH = 1e-06
+SPHC_UP_MAX_LENGTH = 1000000.0
 SPHC_MAPS_MAX = 64
 SPHC_MAP_NONE = 4294967295
 SPHC_HYPOTHESES_MAX = 8
@@ -102,7 +106,7 @@ class sphc_image(ctypes.Structure):
     data: int | None
     width: int
     height: int
-    # from a row to the next; at least sphc_format_row_bytes, aligned as data
+    # From a row to the next: sphc_format_row_bytes to SPHC_STRIDE_MAX_BYTES, aligned as data.
     stride_bytes: int
     format: int
     _fields_ = [
@@ -183,7 +187,8 @@ class sphc_aligner_config(ctypes.Structure):
 
 
 class sphc_aligned(ctypes.Structure):
-    """Where an aligned image goes: caller memory, of the colour camera's size. Each pointer may be null."""
+    """Where an aligned image goes: caller memory, of the colour camera's size. Each pointer may be null. No pixel
+    may be one of another of them or of the depth image; that is not checked, as rows may be interleaved."""
 
     struct_size: int
     # from a row to the next
@@ -390,7 +395,7 @@ class sphc_localizer_prior(ctypes.Structure):
     rotation_sigma_rad: float
     # 1 sigma an axis, of the camera's centre; 1e-6 to 1000
     translation_sigma_m: float
-    # the same direction in both frames; any length but 0
+    # the same direction in both frames; neither need be a unit vector
     up_camera: ctypes.Array[ctypes.c_double]
     up_map: ctypes.Array[ctypes.c_double]
     # 1 sigma an axis; 1e-4 to 0.5
@@ -868,13 +873,15 @@ class Interface:
         # rig that one takes, all take. [pure]
         self.sphc_rig_check = bound("sphc_rig_check", ctypes.c_int32, [
             ctypes.POINTER(sphc_rig), ctypes.POINTER(sphc_message)])
-        # c_from_a = c_from_b * b_from_a; the quaternion is normalised. c_from_a may be one of the inputs. [pure]
+        # c_from_a = c_from_b * b_from_a; c_from_a may be one of the inputs. Quaternions are normalised, and one of
+        # zeros counts as the identity; what is not finite makes the result NaN. Does nothing for null. [pure]
         self.sphc_rigid_compose = bound("sphc_rigid_compose", None, [
             ctypes.POINTER(sphc_rigid), ctypes.POINTER(sphc_rigid), ctypes.POINTER(sphc_rigid)])
-        # a_from_b = inverse of b_from_a. Both may be the same object. [pure]
+        # a_from_b = inverse of b_from_a; both may be the same object. Numbers and null as sphc_rigid_compose.
+        # [pure]
         self.sphc_rigid_inverse = bound("sphc_rigid_inverse", None, [
             ctypes.POINTER(sphc_rigid), ctypes.POINTER(sphc_rigid)])
-        # x_b = b_from_a x_a. x_b may be x_a. [pure]
+        # x_b = b_from_a x_a; x_b may be x_a. Numbers and null as sphc_rigid_compose. [pure]
         self.sphc_rigid_apply = bound("sphc_rigid_apply", None, [
             ctypes.POINTER(sphc_rigid), ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double)])
         # [pure]

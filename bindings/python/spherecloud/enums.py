@@ -252,7 +252,7 @@ class State(Known):
     RELOCALIZING = 0
     """No pose is trusted; always so in SPHC_MODE_SINGLE."""
     TRACKING = 1
-    """A second frame agreed with the pose."""
+    """Poses agree from frame to frame, and one of them had a confidence of 0.95."""
     LOST = 2
     """Was tracking until a frame brought no pose, or another; for 1 s at most."""
 

@@ -21,7 +21,7 @@ class Prior:
     """What is known of a pose before its frame is looked at.  Three parts, each of which may be missing:
 
     `camera_from_map`, where the camera should be, with `rotation_sigma_rad` and `translation_sigma_m` (1 sigma an axis).
-    `up_camera` and `up_map`, the vertical in both frames, of any length but 0, with `up_sigma_rad`.
+    `up_camera` and `up_map`, the vertical in both frames, of any usual length, with `up_sigma_rad`.
     `odometry_from_camera`, dead reckoning at color_time_ns in a frame of its own, with the sigmas of a step.
 
     `map_id` is the map whose frame the first two are in.  docs/localizer.md.

@@ -89,7 +89,7 @@ class Misuse(unittest.TestCase):
 
     def test_arguments_of_calls(self):
         self.refused(sphc.Status.E_ARGUMENT, "map", self.localizer.remove_map, 3)
-        self.refused(sphc.Status.E_ARGUMENT, "sigmas", self.localizer.set_map_transform, 7, sphc.Rigid(), -1, 0)
+        self.refused(sphc.Status.E_ARGUMENT, "rotation_sigma_rad", self.localizer.set_map_transform, 7, sphc.Rigid(), -1, 0)
         self.refused(sphc.Status.E_UNSUPPORTED, "99", self.localizer.set_parameter, 99, 1)
         self.refused(sphc.Status.E_UNSUPPORTED, "99", sphc.parameter_range, 99)
         self.frame.prior = sphc.Prior(session.MAP_ID, up_camera=(0, 0, 0), up_map=(0, 1, 0), up_sigma_rad=0.1)

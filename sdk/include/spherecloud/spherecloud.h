@@ -242,9 +242,11 @@ typedef struct sphc_image {
    * in 16-bit formats, 4 in float.  Nothing is read behind the last row's sphc_format_row_bytes. */
   const void *data;
   uint32_t width, height;
-  uint32_t stride_bytes; /* from a row to the next; at least sphc_format_row_bytes, aligned as data */
+  /* From a row to the next: sphc_format_row_bytes to SPHC_STRIDE_MAX_BYTES, aligned as data. */
+  uint32_t stride_bytes;
   sphc_format format;
 } sphc_image;
+#define SPHC_STRIDE_MAX_BYTES 1048576u
 
 /* What an instance needs of the caller: for the functions that end in _memory. */
 typedef struct sphc_memory {
@@ -284,11 +286,12 @@ SPHC_API void sphc_rig_init(sphc_rig *rig);
  * takes, all take. [pure] */
 SPHC_API sphc_status sphc_rig_check(const sphc_rig *rig, sphc_message *message);
 
-/* c_from_a = c_from_b * b_from_a; the quaternion is normalised.  c_from_a may be one of the inputs. [pure] */
+/* c_from_a = c_from_b * b_from_a; c_from_a may be one of the inputs.  Quaternions are normalised, and one of zeros
+ * counts as the identity; what is not finite makes the result NaN.  Does nothing for null. [pure] */
 SPHC_API void sphc_rigid_compose(const sphc_rigid *c_from_b, const sphc_rigid *b_from_a, sphc_rigid *c_from_a);
-/* a_from_b = inverse of b_from_a.  Both may be the same object. [pure] */
+/* a_from_b = inverse of b_from_a; both may be the same object.  Numbers and null as sphc_rigid_compose. [pure] */
 SPHC_API void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_b);
-/* x_b = b_from_a x_a.  x_b may be x_a. [pure] */
+/* x_b = b_from_a x_a; x_b may be x_a.  Numbers and null as sphc_rigid_compose. [pure] */
 SPHC_API void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]);
 
 /* How another system states poses: seven numbers in its own order.  A camera's pose is world_from_camera, but for
@@ -396,7 +399,8 @@ typedef struct sphc_aligner_config {
   double aligned_unit_m; /* metres per unit of the aligned image; 0: rig.depth_unit_m */
 } sphc_aligner_config;
 
-/* Where an aligned image goes: caller memory, of the colour camera's size.  Each pointer may be null. */
+/* Where an aligned image goes: caller memory, of the colour camera's size.  Each pointer may be null.  No pixel
+ * may be one of another of them or of the depth image; that is not checked, as rows may be interleaved. */
 typedef struct sphc_aligned {
   uint32_t struct_size;
   uint32_t depth_stride_bytes, mask_stride_bytes, confidence_stride_bytes; /* from a row to the next */
@@ -462,7 +466,7 @@ SPHC_API const char *sphc_localizer_mode_name(sphc_localizer_mode mode); /* [pur
 typedef int32_t sphc_localizer_state;
 enum {
   SPHC_STATE_RELOCALIZING = 0, /* no pose is trusted; always so in SPHC_MODE_SINGLE */
-  SPHC_STATE_TRACKING = 1,     /* a second frame agreed with the pose */
+  SPHC_STATE_TRACKING = 1,     /* poses agree from frame to frame, and one of them had a confidence of 0.95 */
   SPHC_STATE_LOST = 2          /* was tracking until a frame brought no pose, or another; for 1 s at most */
 };
 SPHC_API const char *sphc_localizer_state_name(sphc_localizer_state state); /* [pure] */
@@ -560,6 +564,10 @@ typedef struct sphc_localizer_config {
   uint32_t reserved5;
 } sphc_localizer_config;
 
+#define SPHC_POSE_MAX_OFFSET_M 1e4 /* of a part of the t_m of a pose, or of a map's transform, either sign */
+#define SPHC_UP_MIN_LENGTH 1e-6    /* of up_camera and up_map */
+#define SPHC_UP_MAX_LENGTH 1e6     /* the same */
+
 /* What is known of a pose before its frame is looked at. */
 enum { SPHC_PRIOR_POSE = 1u, SPHC_PRIOR_UP = 2u, SPHC_PRIOR_ODOMETRY = 4u };
 typedef struct sphc_localizer_prior {
@@ -573,7 +581,7 @@ typedef struct sphc_localizer_prior {
   double rotation_sigma_rad;  /* 1 sigma an axis; 1e-6 to 3.2 */
   double translation_sigma_m; /* 1 sigma an axis, of the camera's centre; 1e-6 to 1000 */
   /* UP: the vertical, from an inertial sensor.  Halves the size of a minimal sample and steadies the pose. */
-  double up_camera[3], up_map[3]; /* the same direction in both frames; any length but 0 */
+  double up_camera[3], up_map[3]; /* the same direction in both frames; neither need be a unit vector */
   double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
   /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
    * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too

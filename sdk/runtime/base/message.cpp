@@ -2,6 +2,8 @@
 
 namespace sphc {
 
+constexpr double kLeastPlain = 1e-4;  // smaller ones have an exponent
+
 void MessageWriter::put(char c) {
   if (!target_ || length_ + 1 >= SPHC_MESSAGE_BYTES) return;
   target_->text[length_++] = c;
@@ -39,6 +41,9 @@ MessageWriter &MessageWriter::operator<<(double value) {
     value = -value;
   }
   if (value > 1e18) return *this << (value > 1.7e308 ? "inf" : "1e18+");
+  int exponent = 0;
+  if (value > 0 && value < kLeastPlain)
+    for (; value < 1; value *= 10) --exponent;
   int decimals = 6;
   for (double v = value; v >= 1 && decimals > 0; v /= 10) --decimals;
   double scale = 1;
@@ -47,12 +52,12 @@ MessageWriter &MessageWriter::operator<<(double value) {
   uint64_t whole = static_cast<uint64_t>(rounded / scale);
   uint64_t fraction = static_cast<uint64_t>(rounded - static_cast<double>(whole) * scale);
   *this << whole;
-  if (!fraction) return *this;
   char digits[8];
   for (int i = decimals; i-- > 0; fraction /= 10) digits[i] = static_cast<char>('0' + fraction % 10);
   while (decimals && digits[decimals - 1] == '0') --decimals;
-  put('.');
+  if (decimals) put('.');
   for (int i = 0; i < decimals; ++i) put(digits[i]);
+  if (exponent) *this << "e" << exponent;
   return *this;
 }
 

@@ -23,7 +23,7 @@ class MessageWriter {
     else
       return writeUnsigned(value);
   }
-  // Six significant digits, plain notation; "nan", "inf".
+  // Six significant digits, plain from 1e-4 to 1e18, "1e-6" below; "nan", "inf".
   MessageWriter &operator<<(double value);
 
  private:

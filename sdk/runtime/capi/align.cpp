@@ -53,7 +53,7 @@ size_t bytesOf(const DenseConfig &dense, const DepthReaderConfig &reader) {
 sphc_status checkPlane(const char *name, const void *data, uint32_t stride, uint32_t row, uint32_t pixel,
                        sphc_message *message) {
   if (!data) return SPHC_OK;
-  if (stride < row || stride > (1u << 20) || stride % pixel) {
+  if (stride < row || stride > SPHC_STRIDE_MAX_BYTES || stride % pixel) {
     MessageWriter(message) << "aligned." << name << "_stride_bytes is " << stride << "; a row has " << row
                            << " bytes" << (pixel > 1 ? " and the stride must be even" : "");
     return SPHC_E_IMAGE;

@@ -39,14 +39,17 @@ sphc_status sphc_camera_unproject(const sphc_camera *camera, const double pixel_
 }
 
 void sphc_rigid_compose(const sphc_rigid *c_from_b, const sphc_rigid *b_from_a, sphc_rigid *c_from_a) {
+  if (!c_from_b || !b_from_a || !c_from_a) return;
   *c_from_a = sphc::rigidToC(sphc::rigidFromC(*c_from_b) * sphc::rigidFromC(*b_from_a));
 }
 
 void sphc_rigid_inverse(const sphc_rigid *b_from_a, sphc_rigid *a_from_b) {
+  if (!b_from_a || !a_from_b) return;
   *a_from_b = sphc::rigidToC(sphc::rigidFromC(*b_from_a).inverse());
 }
 
 void sphc_rigid_apply(const sphc_rigid *b_from_a, const double x_a[3], double x_b[3]) {
+  if (!b_from_a || !x_a || !x_b) return;
   const Vector3 x = sphc::rigidFromC(*b_from_a) * Vector3(x_a[0], x_a[1], x_a[2]);
   for (int i = 0; i < 3; ++i) x_b[i] = x[i];
 }

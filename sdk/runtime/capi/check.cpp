@@ -7,15 +7,14 @@
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
+#include "runtime/capi/transform.h"
 #include "runtime/capi/translate.h"
-#include "runtime/geometry/rigid.h"
 
 namespace sphc {
 namespace {
 
 constexpr double kLeastSigma = 1e-6;  // smaller ones would square to nothing
 constexpr double kMostAmplitude = 65535;
-constexpr uint32_t kMostStrideBytes = 1u << 20;
 
 // A field that has to lie in [low, high]; `owner` is what its name begins with.
 bool inRange(const char *owner, const char *name, double value, double low, double high, sphc_message *message) {
@@ -102,30 +101,15 @@ bool priorInRange(const char *name, double value, double low, double high, sphc_
 
 bool checkDirection(const char *name, const double *v, sphc_message *message) {
   const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  if (square > 1e-12 && square < 1e12) return true;
-  MessageWriter(message) << "prior." << name << " must be finite and not zero";
-  return false;
-}
-
-constexpr double kMostPoseM = 1e4;  // of a pose or a map, from an origin
-
-// Is it a transform, with no part of its translation beyond this?
-bool isRigidWithin(double most_m, const sphc_rigid &transform) {
-  bool near = isValidRigid(transform);
-  for (double t : transform.t_m) near = near && absOf(t) <= most_m;
-  return near;
-}
-
-bool checkPose(const char *name, const sphc_rigid &pose, sphc_message *message) {
-  if (isRigidWithin(kMostPoseM, pose)) return true;
-  MessageWriter(message) << "prior." << name
-                         << " is not a pose: its quaternion must have unit length, and its translation must lie "
-                            "within 10 km";
+  if (square >= SPHC_UP_MIN_LENGTH * SPHC_UP_MIN_LENGTH && square <= SPHC_UP_MAX_LENGTH * SPHC_UP_MAX_LENGTH)
+    return true;
+  MessageWriter(message) << "prior." << name << " is (" << v[0] << ", " << v[1] << ", " << v[2]
+                         << "); its length must lie in " << SPHC_UP_MIN_LENGTH << " to " << SPHC_UP_MAX_LENGTH;
   return false;
 }
 
 bool checkPriorPose(const sphc_localizer_prior &prior, sphc_message *message) {
-  return checkPose("camera_from_map", prior.camera_from_map, message) &&
+  return checkTransform("prior.camera_from_map", prior.camera_from_map, SPHC_POSE_MAX_OFFSET_M, message) &&
          priorInRange("rotation_sigma_rad", prior.rotation_sigma_rad, 1e-6, 3.2, message) &&
          priorInRange("translation_sigma_m", prior.translation_sigma_m, 1e-6, 1000, message);
 }
@@ -136,19 +120,15 @@ bool checkPriorUp(const sphc_localizer_prior &prior, sphc_message *message) {
 }
 
 bool checkPriorOdometry(const sphc_localizer_prior &prior, sphc_message *message) {
-  return checkPose("odometry_from_camera", prior.odometry_from_camera, message) &&
+  return checkTransform("prior.odometry_from_camera", prior.odometry_from_camera, SPHC_POSE_MAX_OFFSET_M,
+                        message) &&
          priorInRange("odometry_rotation_sigma_rad", prior.odometry_rotation_sigma_rad, 1e-6, 1, message) &&
          priorInRange("odometry_translation_sigma_m", prior.odometry_translation_sigma_m, 1e-6, 10, message);
 }
 
 // A transform between sensors of one rig.
 bool checkMount(const char *name, const sphc_rigid &mount, sphc_message *message) {
-  if (isRigidWithin(SPHC_RIG_MAX_OFFSET_M, mount)) return true;
-  MessageWriter(message) << name
-                         << " is no transform: its quaternion must have length 1 (order w x y z), and its "
-                            "translation lie within "
-                         << SPHC_RIG_MAX_OFFSET_M << " m";
-  return false;
+  return checkTransform(name, mount, SPHC_RIG_MAX_OFFSET_M, message);
 }
 
 // Of an array's element: says which, in front of what was found.
@@ -395,10 +375,11 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
                            << " pixels of its format share bytes; give a multiple";
     return SPHC_E_IMAGE;
   }
-  if (image.stride_bytes < row || image.stride_bytes > kMostStrideBytes || image.stride_bytes % format.alignment) {
+  if (image.stride_bytes < row || image.stride_bytes > SPHC_STRIDE_MAX_BYTES ||
+      image.stride_bytes % format.alignment) {
     MessageWriter text(message);
     text << name << " image has a stride of " << image.stride_bytes << " bytes; a row has " << row
-         << ": give that to " << kMostStrideBytes;
+         << ": give that to " << SPHC_STRIDE_MAX_BYTES;
     if (format.alignment > 1) text << ", a multiple of " << format.alignment;
     return SPHC_E_IMAGE;
   }
@@ -525,15 +506,10 @@ sphc_status readColorFrame(const sphc_localizer_frame *frame, const sphc_camera 
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
                            sphc_message *message) {
-  const bool near = isRigidWithin(kMostPoseM, common_from_map);
-  if (near && rotation_sigma_rad >= 0 && rotation_sigma_rad <= 0.5 && translation_sigma_m >= 0 &&
-      translation_sigma_m <= 100)
-    return SPHC_OK;
-  MessageWriter(message) << (near
-                                 ? "the sigmas of a map's transform must be 0 to 0.5 rad and 0 to 100 m"
-                                 : "common_from_map is no transform: its quaternion must have unit length, and its "
-                                   "translation must lie within 10 km");
-  return SPHC_E_ARGUMENT;
+  const bool fine = checkTransform("common_from_map", common_from_map, SPHC_POSE_MAX_OFFSET_M, message) &&
+                    inRange("", "rotation_sigma_rad", rotation_sigma_rad, 0, 0.5, message) &&
+                    inRange("", "translation_sigma_m", translation_sigma_m, 0, 100, message);
+  return fine ? SPHC_OK : SPHC_E_ARGUMENT;
 }
 
 sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message) {

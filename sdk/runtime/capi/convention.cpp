@@ -1,6 +1,7 @@
 #include "runtime/geometry/convention.h"
 
 #include "runtime/base/message.h"
+#include "runtime/capi/transform.h"
 
 using sphc::Convention;
 using sphc::MessageWriter;
@@ -20,29 +21,8 @@ bool isThere(const char *name, const void *argument, sphc_message *message) {
   return false;
 }
 
-bool isOffset(const char *name, const double t_m[3], sphc_message *message) {
-  for (int i = 0; i < 3; ++i) {
-    if (sphc::absOf(t_m[i]) <= SPHC_CONVENTION_MAX_OFFSET_M) continue;
-    MessageWriter(message) << "the translation of " << name << " has " << t_m[i] << " at " << i
-                           << "; it must be finite and not beyond " << SPHC_CONVENTION_MAX_OFFSET_M
-                           << ": give metres";
-    return false;
-  }
-  return true;
-}
-
-bool isRotation(const char *name, const double q_wxyz[4], const char *order, sphc_message *message) {
-  double squared = 0;
-  for (int i = 0; i < 4; ++i) squared += q_wxyz[i] * q_wxyz[i];
-  if (sphc::absOf(squared - 1) <= 2 * SPHC_CONVENTION_MAX_LENGTH_ERROR) return true;
-  MessageWriter(message) << "the quaternion of " << name << " has length " << sphc::sqrtOf(squared)
-                         << "; it must be 1: divide by its length, or mind the order, which is " << order;
-  return false;
-}
-
 bool isRigid(const char *name, const sphc_rigid *rigid, sphc_message *message) {
-  return isThere(name, rigid, message) && isOffset(name, rigid->t_m, message) &&
-         isRotation(name, rigid->q_wxyz, "w x y z", message);
+  return isThere(name, rigid, message) && sphc::checkTransform(name, *rigid, SPHC_CONVENTION_MAX_OFFSET_M, message);
 }
 
 bool isPose(const Convention &known, const double pose[7], sphc_message *message) {
@@ -51,7 +31,9 @@ bool isPose(const Convention &known, const double pose[7], sphc_message *message
   const char *order = known.real_first       ? "qw qx qy qz x y z"
                       : known.rotation_first ? "qx qy qz qw x y z"
                                              : "x y z qx qy qz qw";
-  return isOffset("pose", numbers.t_m, message) && isRotation("pose", numbers.q_wxyz, order, message);
+  return sphc::checkOffset("pose", "", known.firstOfTranslation(), numbers.t_m, SPHC_CONVENTION_MAX_OFFSET_M,
+                           message) &&
+         sphc::checkQuaternion("the quaternion of ", "pose", numbers.q_wxyz, order, message);
 }
 
 // Null is the map's own frame, where the convention has no vertical that the map might lack.

@@ -41,7 +41,7 @@ struct Places {
   int q_wxyz[4], t_m;
 };
 Places placesOf(const Convention &convention) {
-  const int q = convention.rotation_first ? 0 : 3, t = convention.rotation_first ? 4 : 0;
+  const int q = convention.rotation_first ? 0 : 3, t = convention.firstOfTranslation();
   if (convention.real_first) return {{q, q + 1, q + 2, q + 3}, t};
   return {{q + 3, q, q + 1, q + 2}, t};
 }

@@ -13,6 +13,8 @@ struct Convention {
   bool camera_from_world;  // states this of a camera, else world_from_camera
   bool rotation_first;     // of the seven numbers
   bool real_first;         // of the quaternion
+
+  int firstOfTranslation() const { return rotation_first ? 4 : 0; }
 };
 
 // Null for what is none.

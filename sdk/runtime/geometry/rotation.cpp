@@ -4,7 +4,7 @@ namespace sphc {
 
 Matrix3 rotationFromQuaternion(const double q_wxyz[4]) {
   const double n = q_wxyz[0] * q_wxyz[0] + q_wxyz[1] * q_wxyz[1] + q_wxyz[2] * q_wxyz[2] + q_wxyz[3] * q_wxyz[3];
-  if (!(n > 0)) return Matrix3::Identity();
+  if (n == 0) return Matrix3::Identity();
   const double s = 2 / n, w = q_wxyz[0], x = q_wxyz[1], y = q_wxyz[2], z = q_wxyz[3];
   Matrix3 r;
   r << 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),  //

@@ -251,7 +251,7 @@ public enum LocalizerMode : int {
 public enum LocalizerState : int {
   /// <summary>No pose is trusted; always so in LocalizerMode.Single.</summary>
   Relocalizing = 0,
-  /// <summary>A second frame agreed with the pose.</summary>
+  /// <summary>Poses agree from frame to frame, and one of them had a confidence of 0.95.</summary>
   Tracking = 1,
   /// <summary>Was tracking until a frame brought no pose, or another; for 1 s at most.</summary>
   Lost = 2,
@@ -435,6 +435,12 @@ public static class Limits {
   public const int RowTimeMaxNs = 1000000;
   /// <summary>SPHC_DEPTH_CAMERAS_MAX of the C interface.</summary>
   public const int DepthCamerasMax = 2;
+  /// <summary>SPHC_POSE_MAX_OFFSET_M of the C interface.</summary>
+  public const double PoseMaxOffsetM = 10000.0;
+  /// <summary>SPHC_UP_MIN_LENGTH of the C interface.</summary>
+  public const double UpMinLength = 1e-06;
+  /// <summary>SPHC_UP_MAX_LENGTH of the C interface.</summary>
+  public const double UpMaxLength = 1000000.0;
   /// <summary>SPHC_MAPS_MAX of the C interface.</summary>
   public const int MapsMax = 64;
   /// <summary>SPHC_MAP_NONE of the C interface.</summary>

@@ -162,10 +162,10 @@ public sealed unsafe partial class LocalizerPrior {
   /// <summary>1 sigma an axis, of the camera's centre; 1e-6 to 1000.</summary>
   public double TranslationSigmaM { get { return raw.translation_sigma_m; } set { raw.translation_sigma_m = value; } }
 
-  /// <summary>The same direction in both frames; any length but 0.</summary>
+  /// <summary>The same direction in both frames; neither need be a unit vector.</summary>
   public Vector3d UpCamera { get { return raw.up_camera; } set { raw.up_camera = value; } }
 
-  /// <summary>The same direction in both frames; any length but 0.</summary>
+  /// <summary>The same direction in both frames; neither need be a unit vector.</summary>
   public Vector3d UpMap { get { return raw.up_map; } set { raw.up_map = value; } }
 
   /// <summary>1 sigma an axis; 1e-4 to 0.5.</summary>

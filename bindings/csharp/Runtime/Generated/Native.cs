@@ -8,13 +8,14 @@ namespace SphereCloud {
 /// <summary>The C interface as it is.</summary>
 internal static unsafe class Native {
 #if (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS || UNITY_WEBGL) && !UNITY_EDITOR
-  private const string File = "__Internal";  // linked into the program
+  internal const string File = "__Internal";  // linked into the program
 #else
   internal const string File = "spherecloud";
 #endif
   internal const uint Abi = 1;
   internal const string Version = "1.0.0-rc1";
   internal const int DescriptorBytes = 128;
+  internal const int StrideMaxBytes = 1048576;
 
   internal struct sphc_aligner {}
   internal struct sphc_features {}
@@ -56,8 +57,9 @@ internal static unsafe class Native {
     internal double aligned_unit_m;
   }
 
-  /// <summary>Where an aligned image goes: caller memory, of the colour camera's size. Each pointer may be
-  /// null.</summary>
+  /// <summary>Where an aligned image goes: caller memory, of the colour camera's size. Each pointer may be null.
+  /// No pixel may be one of another of them or of the depth image; that is not checked, as rows may be
+  /// interleaved.</summary>
   [StructLayout(LayoutKind.Sequential)]
   internal struct sphc_aligned {
     internal uint struct_size;
@@ -291,16 +293,18 @@ internal static unsafe class Native {
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_rig_check(Rig* rig, sphc_message* message);
 
-  /// <summary>[pure] c_from_a = c_from_b * b_from_a; the quaternion is normalised. c_from_a may be one of the
-  /// inputs.</summary>
+  /// <summary>[pure] c_from_a = c_from_b * b_from_a; c_from_a may be one of the inputs. Quaternions are
+  /// normalised, and one of zeros counts as the identity; what is not finite makes the result NaN. Does nothing
+  /// for null.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern void sphc_rigid_compose(Rigid* c_from_b, Rigid* b_from_a, Rigid* c_from_a);
 
-  /// <summary>[pure] a_from_b = inverse of b_from_a. Both may be the same object.</summary>
+  /// <summary>[pure] a_from_b = inverse of b_from_a; both may be the same object. Numbers and null as
+  /// sphc_rigid_compose.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern void sphc_rigid_inverse(Rigid* b_from_a, Rigid* a_from_b);
 
-  /// <summary>[pure] x_b = b_from_a x_a. x_b may be x_a.</summary>
+  /// <summary>[pure] x_b = b_from_a x_a; x_b may be x_a. Numbers and null as sphc_rigid_compose.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern void sphc_rigid_apply(Rigid* b_from_a, double* x_a, double* x_b);
 

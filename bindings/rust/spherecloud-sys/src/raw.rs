@@ -12,6 +12,7 @@ pub const SPHC_VERSION_PATCH: u32 = 0;
 pub const SPHC_VERSION_CANDIDATE: u32 = 1;
 pub const SPHC_ABI: u32 = 1;
 pub const SPHC_MESSAGE_BYTES: u32 = 256;
+pub const SPHC_STRIDE_MAX_BYTES: u32 = 1048576;
 pub const SPHC_CAMERA_MIN_PX: u32 = 16;
 pub const SPHC_CAMERA_MAX_PX: u32 = 8192;
 pub const SPHC_CAMERA_MAX_PARAM: f64 = 1000000.0;
@@ -26,6 +27,9 @@ pub const SPHC_PARALLEL_MAX: u32 = 8;
 pub const SPHC_CAMERAS_MAX: u32 = 8;
 pub const SPHC_ROW_TIME_MAX_NS: u32 = 1000000;
 pub const SPHC_DEPTH_CAMERAS_MAX: u32 = 2;
+pub const SPHC_POSE_MAX_OFFSET_M: f64 = 10000.0;
+pub const SPHC_UP_MIN_LENGTH: f64 = 1e-06;
+pub const SPHC_UP_MAX_LENGTH: f64 = 1000000.0;
 pub const SPHC_MAPS_MAX: u32 = 64;
 pub const SPHC_MAP_NONE: u32 = 4294967295;
 pub const SPHC_HYPOTHESES_MAX: u32 = 8;
@@ -240,7 +244,7 @@ pub const SPHC_MODE_SINGLE: sphc_localizer_mode = 1;
 pub type sphc_localizer_state = i32;
 /// no pose is trusted; always so in SPHC_MODE_SINGLE
 pub const SPHC_STATE_RELOCALIZING: sphc_localizer_state = 0;
-/// a second frame agreed with the pose
+/// poses agree from frame to frame, and one of them had a confidence of 0.95
 pub const SPHC_STATE_TRACKING: sphc_localizer_state = 1;
 /// was tracking until a frame brought no pose, or another; for 1 s at most
 pub const SPHC_STATE_LOST: sphc_localizer_state = 2;
@@ -417,7 +421,7 @@ pub struct sphc_image {
     pub data: *const c_void,
     pub width: u32,
     pub height: u32,
-    /// from a row to the next; at least sphc_format_row_bytes, aligned as data
+    /// From a row to the next: sphc_format_row_bytes to SPHC_STRIDE_MAX_BYTES, aligned as data.
     pub stride_bytes: u32,
     pub format: sphc_format,
 }
@@ -474,6 +478,8 @@ pub struct sphc_aligner_config {
 }
 
 /// Where an aligned image goes: caller memory, of the colour camera's size. Each pointer may be null.
+/// No pixel may be one of another of them or of the depth image; that is not checked, as rows may be
+/// interleaved.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct sphc_aligned {
@@ -630,9 +636,9 @@ pub struct sphc_localizer_prior {
     pub rotation_sigma_rad: f64,
     /// 1 sigma an axis, of the camera's centre; 1e-6 to 1000
     pub translation_sigma_m: f64,
-    /// the same direction in both frames; any length but 0
+    /// the same direction in both frames; neither need be a unit vector
     pub up_camera: [f64; 3],
-    /// the same direction in both frames; any length but 0
+    /// the same direction in both frames; neither need be a unit vector
     pub up_map: [f64; 3],
     /// 1 sigma an axis; 1e-4 to 0.5
     pub up_sigma_rad: f64,
@@ -987,14 +993,16 @@ extern "C" {
     /// calls this: a rig that one takes, all take. Thread class: pure.
     pub fn sphc_rig_check(rig: *const sphc_rig, message: *mut sphc_message) -> sphc_status;
 
-    /// c_from_a = c_from_b \* b_from_a; the quaternion is normalised. c_from_a may be one of the inputs.
+    /// c_from_a = c_from_b \* b_from_a; c_from_a may be one of the inputs. Quaternions are normalised, and
+    /// one of zeros counts as the identity; what is not finite makes the result NaN. Does nothing for null.
     /// Thread class: pure.
     pub fn sphc_rigid_compose(c_from_b: *const sphc_rigid, b_from_a: *const sphc_rigid, c_from_a: *mut sphc_rigid);
 
-    /// a_from_b = inverse of b_from_a. Both may be the same object. Thread class: pure.
+    /// a_from_b = inverse of b_from_a; both may be the same object. Numbers and null as sphc_rigid_compose.
+    /// Thread class: pure.
     pub fn sphc_rigid_inverse(b_from_a: *const sphc_rigid, a_from_b: *mut sphc_rigid);
 
-    /// x_b = b_from_a x_a. x_b may be x_a. Thread class: pure.
+    /// x_b = b_from_a x_a; x_b may be x_a. Numbers and null as sphc_rigid_compose. Thread class: pure.
     pub fn sphc_rigid_apply(b_from_a: *const sphc_rigid, x_a: *const [f64; 3], x_b: *mut [f64; 3]);
 
     /// Thread class: pure.

@@ -253,7 +253,7 @@ open_enum! {
     State, sys::sphc_localizer_state_name {
         /// no pose is trusted; always so in SPHC_MODE_SINGLE
         Relocalizing = sys::SPHC_STATE_RELOCALIZING,
-        /// a second frame agreed with the pose
+        /// poses agree from frame to frame, and one of them had a confidence of 0.95
         Tracking = sys::SPHC_STATE_TRACKING,
         /// was tracking until a frame brought no pose, or another; for 1 s at most
         Lost = sys::SPHC_STATE_LOST,

@@ -33,6 +33,10 @@ TEST(Message, Doubles) {
   EXPECT_EQ(written(0.1), "0.1");
   EXPECT_EQ(written(123456.789), "123457");
   EXPECT_EQ(written(1e6), "1000000");
+  EXPECT_EQ(written(1e-4), "0.0001");
+  EXPECT_EQ(written(1e-6), "1e-6");
+  EXPECT_EQ(written(-2.5e-9), "-2.5e-9");
+  EXPECT_EQ(written(std::numeric_limits<double>::denorm_min()), "4.94066e-324");
   EXPECT_EQ(written(std::numeric_limits<double>::quiet_NaN()), "nan");
   EXPECT_EQ(written(std::numeric_limits<double>::infinity()), "inf");
   EXPECT_EQ(written(-std::numeric_limits<double>::infinity()), "-inf");
@@ -40,7 +44,7 @@ TEST(Message, Doubles) {
 }
 
 TEST(Message, DoublesComeBackWithinSixDigits) {
-  for (double value : {3.14159265, 99.9999, 0.000123, 99999.95, 0.9999999, 12.000001, 7e17}) {
+  for (double value : {3.14159265, 99.9999, 0.000123, 0.0000123, 99999.95, 0.9999999, 12.000001, 7e17}) {
     const double back = std::atof(written(value).c_str());
     EXPECT_NEAR(back, value, 1e-5 * value + 1e-6) << written(value);
   }

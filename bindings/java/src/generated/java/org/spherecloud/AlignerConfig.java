@@ -8,7 +8,7 @@ public final class AlignerConfig extends Struct {
   /** With defaults, or zeros where it has none. */
   public AlignerConfig() {
     super(Layout.ALIGNER_CONFIG_BYTES);
-    Failure.check(Native.alignerConfigInit(address, Layout.ALIGNER_CONFIG_BYTES), "sphc_aligner_config");
+    Failure.checkStruct(Native.alignerConfigInit(address, Layout.ALIGNER_CONFIG_BYTES), "AlignerConfig");
   }
 
   AlignerConfig(Struct whole, int at) {
@@ -22,7 +22,7 @@ public final class AlignerConfig extends Struct {
 
   /** Sets {@link #getDepthFormat}. */
   public void setDepthFormat(Format depthFormat) {
-    putInt(Layout.ALIGNER_CONFIG_DEPTH_FORMAT, depthFormat.value);
+    putInt(Layout.ALIGNER_CONFIG_DEPTH_FORMAT, java.util.Objects.requireNonNull(depthFormat, "depthFormat").value);
   }
 
   /** {@code rig} of {@code sphc_aligner_config}. */

@@ -18,7 +18,7 @@ abstract class CameraFields extends Struct {
 
   /** Sets {@link #getModel}. */
   public void setModel(CameraModel model) {
-    putInt(Layout.CAMERA_MODEL, model.value);
+    putInt(Layout.CAMERA_MODEL, java.util.Objects.requireNonNull(model, "model").value);
   }
 
   /** {@code width} of {@code sphc_camera}. */

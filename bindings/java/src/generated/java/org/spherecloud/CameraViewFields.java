@@ -7,7 +7,7 @@ abstract class CameraViewFields extends Struct {
 
   CameraViewFields() {
     super(Layout.LOCALIZER_VIEW_BYTES);
-    Failure.check(Native.localizerViewInit(address, Layout.LOCALIZER_VIEW_BYTES), "sphc_localizer_view");
+    Failure.checkStruct(Native.localizerViewInit(address, Layout.LOCALIZER_VIEW_BYTES), "CameraView");
   }
 
   CameraViewFields(Struct whole, int at) {

@@ -9,7 +9,7 @@ public final class DepthCamera extends Struct {
   /** With defaults, or zeros where it has none. */
   public DepthCamera() {
     super(Layout.LOCALIZER_DEPTH_CAMERA_BYTES);
-    Failure.check(Native.localizerDepthCameraInit(address, Layout.LOCALIZER_DEPTH_CAMERA_BYTES), "sphc_localizer_depth_camera");
+    Failure.checkStruct(Native.localizerDepthCameraInit(address, Layout.LOCALIZER_DEPTH_CAMERA_BYTES), "DepthCamera");
   }
 
   DepthCamera(Struct whole, int at) {
@@ -23,7 +23,7 @@ public final class DepthCamera extends Struct {
 
   /** Sets {@link #getFormat}. */
   public void setFormat(Format format) {
-    putInt(Layout.LOCALIZER_DEPTH_CAMERA_FORMAT, format.value);
+    putInt(Layout.LOCALIZER_DEPTH_CAMERA_FORMAT, java.util.Objects.requireNonNull(format, "format").value);
   }
 
   /** {@code camera} of {@code sphc_localizer_depth_camera}. */

@@ -8,7 +8,7 @@ abstract class DepthViewFields extends Struct {
 
   DepthViewFields() {
     super(Layout.LOCALIZER_DEPTH_VIEW_BYTES);
-    Failure.check(Native.localizerDepthViewInit(address, Layout.LOCALIZER_DEPTH_VIEW_BYTES), "sphc_localizer_depth_view");
+    Failure.checkStruct(Native.localizerDepthViewInit(address, Layout.LOCALIZER_DEPTH_VIEW_BYTES), "DepthView");
   }
 
   DepthViewFields(Struct whole, int at) {

@@ -9,7 +9,7 @@ abstract class FrameFields extends Struct {
 
   FrameFields() {
     super(Layout.LOCALIZER_FRAME_BYTES);
-    Failure.check(Native.localizerFrameInit(address, Layout.LOCALIZER_FRAME_BYTES), "sphc_localizer_frame");
+    Failure.checkStruct(Native.localizerFrameInit(address, Layout.LOCALIZER_FRAME_BYTES), "Frame");
   }
 
   FrameFields(Struct whole, int at) {

@@ -21,7 +21,7 @@ abstract class ImageFields extends Struct {
     return getInt(Layout.IMAGE_HEIGHT);
   }
 
-  /** From a row to the next; at least sphc_format_row_bytes, aligned as data. */
+  /** From a row to the next: sphc_format_row_bytes to {@link Limits#STRIDE_MAX_BYTES}, aligned as data. */
   public int getStrideBytes() {
     return getInt(Layout.IMAGE_STRIDE_BYTES);
   }

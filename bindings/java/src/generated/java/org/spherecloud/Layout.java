@@ -5,7 +5,7 @@ package org.spherecloud;
 final class Layout {
   private Layout() {}
 
-  private static final int[] AT = Native.layout();
+  private static final int[] AT = Library.load() ? Native.layout() : new int[247];
   static final int MESSAGE_BYTES = AT[0];
   static final int MESSAGE_TEXT = AT[1];
   static final int RIGID_BYTES = AT[2];

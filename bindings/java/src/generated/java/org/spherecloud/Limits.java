@@ -5,6 +5,8 @@ package org.spherecloud;
 public final class Limits {
   private Limits() {}
 
+  /** {@code SPHC_STRIDE_MAX_BYTES}. */
+  public static final int STRIDE_MAX_BYTES = 1048576;
   /** {@code SPHC_CAMERA_MIN_PX}. */
   public static final int CAMERA_MIN_PX = 16;
   /** {@code SPHC_CAMERA_MAX_PX}. */
@@ -29,6 +31,12 @@ public final class Limits {
   public static final int ROW_TIME_MAX_NS = 1000000;
   /** {@code SPHC_DEPTH_CAMERAS_MAX}. */
   public static final int DEPTH_CAMERAS_MAX = 2;
+  /** {@code SPHC_POSE_MAX_OFFSET_M}. */
+  public static final double POSE_MAX_OFFSET_M = 10000.0;
+  /** {@code SPHC_UP_MIN_LENGTH}. */
+  public static final double UP_MIN_LENGTH = 1e-06;
+  /** {@code SPHC_UP_MAX_LENGTH}. */
+  public static final double UP_MAX_LENGTH = 1000000.0;
   /** {@code SPHC_MAPS_MAX}. */
   public static final int MAPS_MAX = 64;
   /** {@code SPHC_MAP_NONE}. */

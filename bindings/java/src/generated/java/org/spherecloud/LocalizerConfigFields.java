@@ -7,7 +7,7 @@ abstract class LocalizerConfigFields extends Struct {
 
   LocalizerConfigFields() {
     super(Layout.LOCALIZER_CONFIG_BYTES);
-    Failure.check(Native.localizerConfigInit(address, Layout.LOCALIZER_CONFIG_BYTES), "sphc_localizer_config");
+    Failure.checkStruct(Native.localizerConfigInit(address, Layout.LOCALIZER_CONFIG_BYTES), "LocalizerConfig");
   }
 
   LocalizerConfigFields(Struct whole, int at) {
@@ -41,7 +41,7 @@ abstract class LocalizerConfigFields extends Struct {
 
   /** Sets {@link #getMode}. */
   public void setMode(Mode mode) {
-    putInt(Layout.LOCALIZER_CONFIG_MODE, mode.value);
+    putInt(Layout.LOCALIZER_CONFIG_MODE, java.util.Objects.requireNonNull(mode, "mode").value);
   }
 
   /** Same seed, maps, config and frames: same bytes in the results. */
@@ -156,7 +156,7 @@ abstract class LocalizerConfigFields extends Struct {
 
   /** Sets {@link #getDepthFormat}. */
   public void setDepthFormat(Format depthFormat) {
-    putInt(Layout.LOCALIZER_CONFIG_DEPTH_FORMAT, depthFormat.value);
+    putInt(Layout.LOCALIZER_CONFIG_DEPTH_FORMAT, java.util.Objects.requireNonNull(depthFormat, "depthFormat").value);
   }
 
   /**
@@ -179,7 +179,7 @@ abstract class LocalizerConfigFields extends Struct {
 
   /** Sets {@link #getColorBand}. */
   public void setColorBand(Band colorBand) {
-    putInt(Layout.LOCALIZER_CONFIG_COLOR_BAND, colorBand.value);
+    putInt(Layout.LOCALIZER_CONFIG_COLOR_BAND, java.util.Objects.requireNonNull(colorBand, "colorBand").value);
   }
 
   /**

@@ -71,13 +71,16 @@ final class Native {
    */
   static native int rigCheck(long rig, long message);
 
-  /** c_from_a = c_from_b * b_from_a; the quaternion is normalised. c_from_a may be one of the inputs. */
+  /**
+   * c_from_a = c_from_b * b_from_a; c_from_a may be one of the inputs. Quaternions are normalised, and one of zeros
+   * counts as the identity; what is not finite makes the result NaN. Does nothing for null.
+   */
   static native void rigidCompose(long cFromB, long bFromA, long cFromA);
 
-  /** a_from_b = inverse of b_from_a. Both may be the same object. */
+  /** a_from_b = inverse of b_from_a; both may be the same object. Numbers and null as sphc_rigid_compose. */
   static native void rigidInverse(long bFromA, long aFromB);
 
-  /** x_b = b_from_a x_a. x_b may be x_a. */
+  /** x_b = b_from_a x_a; x_b may be x_a. Numbers and null as sphc_rigid_compose. */
   static native void rigidApply(long bFromA, long xA, long xB);
 
   static native String conventionName(int convention);

@@ -43,7 +43,7 @@ public final class Observation extends Struct {
 
   /** Whether it is among them; makes no set. */
   public boolean has(ObservationFlag observationFlag) {
-    return (getObservationFlagBits() & observationFlag.bit) != 0;
+    return (getObservationFlagBits() & java.util.Objects.requireNonNull(observationFlag, "observationFlag").bit) != 0;
   }
 
   /** The same as bits; those that this version does not know are among them. */

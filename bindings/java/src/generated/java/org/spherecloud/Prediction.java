@@ -8,7 +8,7 @@ public final class Prediction extends Struct {
   /** With defaults, or zeros where it has none. */
   public Prediction() {
     super(Layout.LOCALIZER_PREDICTION_BYTES);
-    Failure.check(Native.localizerPredictionInit(address, Layout.LOCALIZER_PREDICTION_BYTES), "sphc_localizer_prediction");
+    Failure.checkStruct(Native.localizerPredictionInit(address, Layout.LOCALIZER_PREDICTION_BYTES), "Prediction");
   }
 
   Prediction(Struct whole, int at) {

@@ -8,7 +8,7 @@ abstract class PriorFields extends Struct {
 
   PriorFields() {
     super(Layout.LOCALIZER_PRIOR_BYTES);
-    Failure.check(Native.localizerPriorInit(address, Layout.LOCALIZER_PRIOR_BYTES), "sphc_localizer_prior");
+    Failure.checkStruct(Native.localizerPriorInit(address, Layout.LOCALIZER_PRIOR_BYTES), "Prior");
   }
 
   PriorFields(Struct whole, int at) {
@@ -22,7 +22,7 @@ abstract class PriorFields extends Struct {
 
   /** Whether it is among them; makes no set. */
   public boolean has(PriorPart priorPart) {
-    return (getPriorPartBits() & priorPart.bit) != 0;
+    return (getPriorPartBits() & java.util.Objects.requireNonNull(priorPart, "priorPart").bit) != 0;
   }
 
   /** The same as bits; those that this version does not know are among them. */
@@ -68,7 +68,7 @@ abstract class PriorFields extends Struct {
     putDouble(Layout.LOCALIZER_PRIOR_TRANSLATION_SIGMA_M, translationSigmaM);
   }
 
-  /** The same direction in both frames; any length but 0. */
+  /** The same direction in both frames; neither need be a unit vector. */
   public double getUpCamera(int index) {
     return getDouble(Layout.LOCALIZER_PRIOR_UP_CAMERA, index, 3);
   }
@@ -83,7 +83,7 @@ abstract class PriorFields extends Struct {
     putDoubles(Layout.LOCALIZER_PRIOR_UP_CAMERA, 3, values);
   }
 
-  /** The same direction in both frames; any length but 0. */
+  /** The same direction in both frames; neither need be a unit vector. */
   public double getUpMap(int index) {
     return getDouble(Layout.LOCALIZER_PRIOR_UP_MAP, index, 3);
   }

@@ -8,7 +8,7 @@ abstract class ResultFields extends Struct {
 
   ResultFields() {
     super(Layout.LOCALIZER_RESULT_BYTES);
-    Failure.check(Native.localizerResultInit(address, Layout.LOCALIZER_RESULT_BYTES), "sphc_localizer_result");
+    Failure.checkStruct(Native.localizerResultInit(address, Layout.LOCALIZER_RESULT_BYTES), "Result");
   }
 
   ResultFields(Struct whole, int at) {
@@ -108,7 +108,7 @@ abstract class ResultFields extends Struct {
 
   /** Whether it is among them; makes no set. */
   public boolean has(Cut cut) {
-    return (getCutBits() & cut.bit) != 0;
+    return (getCutBits() & java.util.Objects.requireNonNull(cut, "cut").bit) != 0;
   }
 
   /** The same as bits; those that this version does not know are among them. */
@@ -143,7 +143,7 @@ abstract class ResultFields extends Struct {
 
   /** Whether it is among them; makes no set. */
   public boolean has(Fault fault) {
-    return (getFaultBits() & fault.bit) != 0;
+    return (getFaultBits() & java.util.Objects.requireNonNull(fault, "fault").bit) != 0;
   }
 
   /** The same as bits; those that this version does not know are among them. */
@@ -163,7 +163,7 @@ abstract class ResultFields extends Struct {
 
   /** Whether it is among them; makes no set. */
   public boolean has(Hint hint) {
-    return (getHintBits() & hint.bit) != 0;
+    return (getHintBits() & java.util.Objects.requireNonNull(hint, "hint").bit) != 0;
   }
 
   /** The same as bits; those that this version does not know are among them. */
@@ -178,7 +178,7 @@ abstract class ResultFields extends Struct {
 
   /** Whether it is among them; makes no set. */
   public boolean has(Event event) {
-    return (getEventBits() & event.bit) != 0;
+    return (getEventBits() & java.util.Objects.requireNonNull(event, "event").bit) != 0;
   }
 
   /** The same as bits; those that this version does not know are among them. */

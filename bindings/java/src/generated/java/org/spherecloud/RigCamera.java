@@ -9,7 +9,7 @@ public final class RigCamera extends Struct {
   /** With defaults, or zeros where it has none. */
   public RigCamera() {
     super(Layout.LOCALIZER_CAMERA_BYTES);
-    Failure.check(Native.localizerCameraInit(address, Layout.LOCALIZER_CAMERA_BYTES), "sphc_localizer_camera");
+    Failure.checkStruct(Native.localizerCameraInit(address, Layout.LOCALIZER_CAMERA_BYTES), "RigCamera");
   }
 
   RigCamera(Struct whole, int at) {

@@ -5,7 +5,7 @@ package org.spherecloud;
 public enum State {
   /** No pose is trusted; always so in {@link Mode#SINGLE}. */
   RELOCALIZING(0),
-  /** A second frame agreed with the pose. */
+  /** Poses agree from frame to frame, and one of them had a confidence of 0.95. */
   TRACKING(1),
   /** Was tracking until a frame brought no pose, or another; for 1 s at most. */
   LOST(2),
