@@ -49,15 +49,17 @@ class PointsOfPose {
 
 }  // namespace
 
-bool verticalDisagrees(const Known &known, const Hypothesis &found, PoseQuery query, uint32_t min_inliers,
-                       PoseEstimator *estimator) {
-  if (!found.isLocalized() || !known.prior.has_up || known.map != found.map) return false;
+Vertical compareVertical(const Known &known, const Hypothesis &found, PoseQuery query, uint32_t min_inliers,
+                         PoseEstimator *estimator) {
+  if (!found.isLocalized()) return Vertical::kUnknown;
+  if (!known.prior.has_up || known.map != found.map) return Vertical::kAgrees;
   query.correspondences = found.matched.all();
   const Estimate alone = estimator->refine(query, found.estimate.camera_from_map);
-  if (alone.inliers < min_inliers) return false;
+  if (alone.inliers < min_inliers) return Vertical::kUnknown;
   const double turn_sigma = axisSigma(alone.covariance, 0) * doubtOf(alone.inliers);
-  return angleBetween(alone.camera_from_map.rotation * known.prior.up_map, known.prior.up_camera) >
-         std::max(kLeastVerticalRad, kVerticalSigmas * hypotOf(turn_sigma, known.prior.up_sigma_rad));
+  const bool is_off = angleBetween(alone.camera_from_map.rotation * known.prior.up_map, known.prior.up_camera) >
+                      std::max(kLeastVerticalRad, kVerticalSigmas * hypotOf(turn_sigma, known.prior.up_sigma_rad));
+  return is_off ? Vertical::kDisagrees : Vertical::kAgrees;
 }
 
 bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior) {

@@ -9,10 +9,11 @@
 
 namespace sphc {
 
-// Is the vertical that was given another than the one of the pose that the matches alone speak for?  `query` has no
-// prior; its correspondences are set here.
-bool verticalDisagrees(const Known &known, const Hypothesis &found, PoseQuery query, uint32_t min_inliers,
-                       PoseEstimator *estimator);
+// Has the pose that the matches alone speak for the vertical that was given?  Unknown where there is no such pose.
+// `query` has no prior; its correspondences are set here.
+enum class Vertical : uint8_t { kUnknown, kAgrees, kDisagrees };
+Vertical compareVertical(const Known &known, const Hypothesis &found, PoseQuery query, uint32_t min_inliers,
+                         PoseEstimator *estimator);
 
 // Has more been learnt of the depth sensor than a sound one could have?
 bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior);

@@ -259,16 +259,25 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
     return;
   }
   locate(known, deadline, work);
-  const PosePrior nothing;
-  if (verticalDisagrees(known, best_, queryFor(nothing, Deadline()), config_.search.min_inliers, &estimator_)) {
-    *faults |= kVerticalDisagrees;
-    Known rest = known;
-    rest.prior.has_up = false;
-    locate(rest, deadline, work);
-  }
+  if (known.prior.has_up) checkVertical(known, deadline, faults, work);
   checkHandedness(deadline, faults, work);
   if (config_.tracks) compareWithTrack(frame, faults);
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
+}
+
+// A wrong vertical may show in the pose, and may be why there is none.
+void Localizer::checkVertical(const Known &known, const Deadline &deadline, Faults *faults, Work *work) {
+  const PosePrior nothing;
+  Known rest = known;
+  rest.prior.has_up = false;
+  for (const bool is_again : {false, true}) {
+    const Vertical vertical =
+        compareVertical(known, best_, queryFor(nothing, Deadline()), config_.search.min_inliers, &estimator_);
+    if (vertical == Vertical::kDisagrees) *faults |= kVerticalDisagrees;
+    const bool ends = vertical == Vertical::kAgrees || (vertical == Vertical::kUnknown && deadline.passed());
+    if (is_again || ends) return;
+    locate(rest, deadline, work);
+  }
 }
 
 // With what earlier frames said of odometry, of the points and of the camera.
@@ -512,7 +521,7 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
     if (!config_.tracks) return;
     distances_.keep(best_, estimator_);
     tracker_.goOver(best_.map, maps());
-    result->jump = tracker_.accept(best_.map, best_.estimate);
+    result->jump = tracker_.accept(best_.map, best_.estimate, result->confidence);
     trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {
     tracker_.miss();

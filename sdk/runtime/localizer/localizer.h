@@ -83,6 +83,7 @@ class Localizer {
   Verification verification(uint32_t min_inliers, Work *work, Ranking *ranking);
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
+  void checkVertical(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void compareWithTrack(const FrameInput &frame, Faults *faults);
   void doubtByTrack(int64_t time_ns, Faults *faults);
   void contradict(Faults by, Faults *faults);

@@ -137,29 +137,32 @@ void Tracker::goOver(uint32_t map, const MapSet &maps) {
   went_over_ = true;
 }
 
-Jump Tracker::accept(uint32_t map, const Estimate &estimate) {
+Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence) {
   Prediction expected;
   Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
-  if (!jump.events)
+  const bool agrees = !jump.events;
+  is_sure_ = (agrees && is_sure_) || confidence >= kSureOfTrack;
+  if (agrees && is_sure_) {
     state_ = TrackingState::kTracking;
-  else if (state_ == TrackingState::kTracking)
+    trusted_time_ns_ = time_ns_;
+  } else if (state_ == TrackingState::kTracking) {
     state_ = TrackingState::kLost;
+  }
   const double dt = secondsOf(elapsedNs(last_.time_ns, time_ns_));
   // Across maps the error of their transforms is no velocity: the one from before holds.
   const bool is_measured = !went_over_;
-  has_velocity_ = state_ == TrackingState::kTracking && dt <= kSteadySeconds && (is_measured || has_velocity_);
+  has_velocity_ = agrees && dt <= kSteadySeconds && (is_measured || has_velocity_);
   if (has_velocity_ && is_measured) {
     const Rigid moved = estimate.camera_from_map * last_.camera_from_map.inverse();
     turn_rad_s_ = vectorFromRotation(moved.rotation) / dt;
     velocity_m_s_ = moved.translation_m / dt;
   }
   steady_ = has_velocity_ && is_measured ? steady_ + 1 : 0;
-  if (state_ == TrackingState::kTracking) trusted_time_ns_ = time_ns_;
   has_pose_ = true;
   last_ = {map, time_ns_, estimate.camera_from_map, estimate.inliers, true, {}};
   rotation_sigma_rad_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 0), kLeastTurnSigma);
   translation_sigma_m_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 3), kLeastShiftSigma);
-  if (state_ != TrackingState::kTracking)
+  if (!agrees)
     best_.inliers = 0;
   else if (best_.map != map || estimate.inliers >= support())
     best_ = last_;

@@ -2,15 +2,16 @@
 // velocity.
 //
 //   RELOCALIZING  no pose is trusted
-//   TRACKING      the last pose is: a second frame agreed with it
+//   TRACKING      the last pose is: it agrees with the one before, and so on back to a sure one
 //   LOST          it was, until the last frame brought none or another
 //
 //   from           a frame brings                            to
-//   RELOCALIZING   a pose that agrees with the one before    TRACKING
+//   RELOCALIZING   a pose that agrees with the one before,
+//                  where one of those that agree is sure     TRACKING
 //                  another pose, or none                     RELOCALIZING
 //   TRACKING       a pose where it was expected              TRACKING
 //                  another pose, or none                     LOST
-//   LOST           a pose where it was expected              TRACKING
+//   LOST           such a pose                               TRACKING
 //                  nothing trusted for kForgetNs            RELOCALIZING
 //                  (what odometry carries is expected for longer: kForgetCarriedNs)
 //   any            a time that does not grow, or a gap of    RELOCALIZING
@@ -54,8 +55,8 @@ class Tracker {
   bool predict(Prediction *prediction) const;
   // Before accept: what is known of the camera, in the map that it is found in.
   void goOver(uint32_t map, const MapSet &maps);
-  // After it: what it brought, and how far that is from what was expected.
-  Jump accept(uint32_t map, const Estimate &estimate);
+  // After it: what it brought, and how far that is from what was expected.  `confidence` is that of the result.
+  Jump accept(uint32_t map, const Estimate &estimate, double confidence);
   void miss();
   // Before accept: is this a jump that odometry contradicts, or that no head can make, and that much more would
   // have to speak for than for the track?
@@ -97,7 +98,8 @@ class Tracker {
   bool has_pose_ = false;
   CarriedPose last_;  // that was found
   double rotation_sigma_rad_ = 0, translation_sigma_m_ = 0;
-  CarriedPose best_;  // the one of this track that most speaks for; none where it has no inliers
+  CarriedPose best_;      // the one of this track that most speaks for; none where it has no inliers
+  bool is_sure_ = false;  // it, or one before it that it goes on from
   int64_t trusted_time_ns_ = 0;
 
   bool has_velocity_ = false;

@@ -232,6 +232,8 @@ constexpr double kGateSigmas = 5;                                    // within w
 // A jump is beyond this by the gate.  It needs so many times the inliers of the track.  Chosen.
 constexpr PoseBounds kNoJump = {0.15, degrees(8)};
 constexpr double kTimesSupport = 2;
+// A track is trusted from a pose of this confidence on (decision 88).
+constexpr double kSureOfTrack = 0.95;
 // Odometry is left out that so often moved by as much as a jump otherwise than poses did, on the way or in so many
 // steps in a row.  Of its shifts it is not asked what a scale of depth explains, up to this factor.  Chosen.
 constexpr uint32_t kContradictionsOfOdometry = 2, kStepsApart = 3;

@@ -59,7 +59,7 @@ void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis 
 void Verification::findPoseLoosely(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (search_.maxRatio() >= kLooserRatio || isCut(task)) return;
   PoseTask other;
-  if (!searchOtherMatches(task, kLooserRatio, found, &other)) return;
+  if (!searchOtherMatches(task, task.query.prior, kLooserRatio, found, &other)) return;
   found->evidence.log_chance_first += logOf(2);  // the better of two searches
   rematch(other, found);
   verify(other, found, rival);
@@ -361,13 +361,15 @@ uint32_t Verification::answerable(const PoseTask &task) const {
   return keypoints;
 }
 
-// Searches among the matches that all keypoints have at this ratio, in another order than the first search did.
+// Searches among the matches that all keypoints have at this ratio, in another order than the first search did, by
+// what is known of the pose (null: nothing).
 // `other` becomes the task of these matches; false where they lead to no pose.
-bool Verification::searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis,
-                                      PoseTask *other) const {
+bool Verification::searchOtherMatches(const PoseTask &task, const PosePrior *prior, float max_ratio,
+                                      Hypothesis *hypothesis, PoseTask *other) const {
   const FrontEnd &front = *task.question.front;
   *other = task;
   other->max_ratio = max_ratio;
+  other->query.prior = prior;
   other->query.seed += kOtherSeed;
   search_.matchEverywhere(task.question, answerable(task), max_ratio, task.query.deadline, &hypothesis->matched,
                           &work_);
@@ -390,13 +392,14 @@ void Verification::searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothes
   PoseTask own = task, other;
   own.query.deadline = deadline.afterShare(kAgainShare);
   rival->begin(found->map, found->frames);
-  if (!searchOtherMatches(own, search_.maxRatio(), rival, &other)) return;
+  if (!searchOtherMatches(own, own.query.prior, search_.maxRatio(), rival, &other)) return;
   rematch(other, rival);
   if (rival->estimate.gain > found->estimate.gain) swap(*found, *rival);
 }
 
 // A looser ratio test brings other true matches and other wrong ones.  The right pose is found among them again;
-// one that agrees by chance drowns.  The matches that a pose was found by are no second witness.
+// one that agrees by chance drowns.  The matches that a pose was found by are no second witness, and what the
+// caller knows is none: a wrong vertical would lead both searches to one pose.
 void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   if (!isDoubtful(*found)) return;
   bool has_rival = false;
@@ -405,7 +408,8 @@ void Verification::confirm(const PoseTask &task, Hypothesis *found, Hypothesis *
     if (isCut(task)) break;
     PoseTask other;
     rival->begin(found->map, found->frames);
-    if (!searchOtherMatches(task, std::max(way.max_ratio, search_.maxRatio()), rival, &other)) continue;
+    const float max_ratio = std::max(way.max_ratio, search_.maxRatio());
+    if (!searchOtherMatches(task, nullptr, max_ratio, rival, &other)) continue;
     const Rigid &pose = rival->estimate.camera_from_map;
     if (areNear(pose, found->estimate.camera_from_map, way.agreement)) return;
     has_rival = has_rival || (rival->evidence.log_chance_first <= kMostLogChanceOfRival &&

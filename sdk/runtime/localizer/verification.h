@@ -59,7 +59,8 @@ class Verification {
   bool isLeftOut(const PoseTask &task, Hypothesis *found) const;
   uint32_t answerable(const PoseTask &task) const;
   bool isDoubtful(const Hypothesis &found) const;
-  bool searchOtherMatches(const PoseTask &task, float max_ratio, Hypothesis *hypothesis, PoseTask *other) const;
+  bool searchOtherMatches(const PoseTask &task, const PosePrior *prior, float max_ratio, Hypothesis *hypothesis,
+                          PoseTask *other) const;
   void searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found, Hypothesis *rival) const;
   bool challengeBySearch(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeByFirst(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;

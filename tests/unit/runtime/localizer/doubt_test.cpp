@@ -39,7 +39,9 @@ class DoubtTest : public testing::Test {
     known.prior.up_sigma_rad = 1e-3;
     return known;
   }
-  bool disagrees(const Known &known) { return verticalDisagrees(known, found(), query(), 10, &parts_.estimator); }
+  Vertical compare(const Known &known, uint32_t min_inliers = 10) {
+    return compareVertical(known, found(), query(), min_inliers, &parts_.estimator);
+  }
   Hypothesis &found() { return parts_.found; }
 
   const PosePrior nothing_;
@@ -47,20 +49,24 @@ class DoubtTest : public testing::Test {
 };
 
 TEST_F(DoubtTest, AVerticalThatIsOffByDegreesDisagrees) {
-  EXPECT_FALSE(disagrees(knownVertical(0)));
-  EXPECT_FALSE(disagrees(knownVertical(degrees(0.5))));
-  EXPECT_TRUE(disagrees(knownVertical(degrees(5))));
+  EXPECT_EQ(compare(knownVertical(0)), Vertical::kAgrees);
+  EXPECT_EQ(compare(knownVertical(degrees(0.5))), Vertical::kAgrees);
+  EXPECT_EQ(compare(knownVertical(degrees(5))), Vertical::kDisagrees);
+}
+
+TEST_F(DoubtTest, APoseThatHoldsByTheVerticalAloneSaysNothingOfIt) {
+  EXPECT_EQ(compare(knownVertical(degrees(5)), found().estimate.inliers + 1000), Vertical::kUnknown);
 }
 
 TEST_F(DoubtTest, WithoutAPoseOrAVerticalNothingDisagrees) {
   Known known = knownVertical(degrees(5));
   known.map = 1;
-  EXPECT_FALSE(disagrees(known)) << "the vertical of another map";
+  EXPECT_EQ(compare(known), Vertical::kAgrees) << "the vertical of another map";
   known = knownVertical(degrees(5));
   known.prior.has_up = false;
-  EXPECT_FALSE(disagrees(known));
+  EXPECT_EQ(compare(known), Vertical::kAgrees);
   found().outcome = Outcome::kUncertain;
-  EXPECT_FALSE(disagrees(knownVertical(degrees(5))));
+  EXPECT_EQ(compare(knownVertical(degrees(5))), Vertical::kUnknown);
 }
 
 // Walks along x, a second and a decimetre a step by odometry.

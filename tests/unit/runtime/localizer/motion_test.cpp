@@ -236,7 +236,7 @@ Honesty honestyOf(int64_t ahead_ns, bool odometry) {
       estimate.inliers = 200;
       estimate.covariance = diagonalOf(kTurnSigma, kShiftSigma);
       estimate.camera_from_map = disturbed(truth, kTurnSigma, kShiftSigma, &random);
-      tracker.accept(0, estimate);
+      tracker.accept(0, estimate, 1);
       trail.add(kStart + frame * kMotionFrame, estimate.camera_from_map, estimate.covariance);
       Motion motion;
       MovedPose moved;

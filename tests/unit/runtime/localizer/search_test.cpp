@@ -44,7 +44,7 @@ Tracker trackerOf(uint32_t map, double sigma_rad) {
   estimate.camera_from_map.translation_m = Vector3(4, 5, 6);
   estimate.covariance = sigma_rad * sigma_rad * Matrix6::Identity();
   tracker.advance(1000, nullptr);
-  tracker.accept(map, estimate);
+  tracker.accept(map, estimate, 1);
   tracker.advance(1001, nullptr);
   return tracker;
 }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr int64_t kFrame = 33000000, kSecond = 1000000000;
 
+constexpr double kSure = 0.99;  // a confidence
+
 Rigid poseAt(double x_m, double turn_rad = 0) {
   return {rotationFromVector(Vector3(0, turn_rad, 0)), Vector3(x_m, 0, 0)};
 }
@@ -26,10 +28,15 @@ Estimate found(const Rigid &camera_from_map) {
 
 class TrackerTest : public testing::Test {
  protected:
-  Jump bring(int64_t time_ns, const Rigid &camera_from_map, uint32_t map = 0, const Odometry *odometry = nullptr) {
+  Jump bring(int64_t time_ns, const Rigid &camera_from_map, uint32_t map = 0, const Odometry *odometry = nullptr,
+             double confidence = kSure) {
     tracker_.advance(time_ns, odometry);
     trail_.add(time_ns, camera_from_map, found(camera_from_map).covariance);
-    return tracker_.accept(map, found(camera_from_map));
+    return tracker_.accept(map, found(camera_from_map), confidence);
+  }
+  TrackingState bringVague(int64_t time_ns, const Rigid &camera_from_map) {
+    bring(time_ns, camera_from_map, 0, nullptr, 0.949);
+    return tracker_.state();
   }
   void bringNone(int64_t time_ns) {
     tracker_.advance(time_ns, nullptr);
@@ -53,6 +60,49 @@ TEST_F(TrackerTest, APoseIsTrustedOnceAnotherAgrees) {
   EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
 }
 
+TEST_F(TrackerTest, ATrackIsTrustedFromASurePoseOn) {
+  for (int i = 1; i <= 20; ++i) EXPECT_EQ(bringVague(i * kFrame, poseAt(0)), TrackingState::kRelocalizing);
+  bring(21 * kFrame, poseAt(0));
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
+  EXPECT_EQ(bringVague(22 * kFrame, poseAt(0)), TrackingState::kTracking);
+  bringNone(23 * kFrame);
+  EXPECT_EQ(tracker_.state(), TrackingState::kLost);
+  EXPECT_EQ(bringVague(24 * kFrame, poseAt(0)), TrackingState::kTracking);
+}
+
+TEST_F(TrackerTest, TheSurePoseMayBeTheFirst) {
+  bring(kFrame, poseAt(0));
+  EXPECT_EQ(bringVague(2 * kFrame, poseAt(0)), TrackingState::kTracking);
+}
+
+TEST_F(TrackerTest, AVagueJumpIsANewTrack) {
+  track();
+  EXPECT_EQ(bringVague(4 * kFrame, poseAt(5)), TrackingState::kLost);
+  EXPECT_EQ(bringVague(5 * kFrame, poseAt(5)), TrackingState::kLost);  // they agree, and none is sure
+  int64_t time_ns = 5 * kFrame;
+  while (time_ns - 3 * kFrame <= kSecond) bringVague(time_ns += kFrame, poseAt(5));
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing);
+  bring(time_ns + kFrame, poseAt(5));
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
+}
+
+// Only the state says how sure a track is: where the camera is expected does not depend on it.
+TEST_F(TrackerTest, AVagueTrackIsExpectedLikeAnyOther) {
+  Tracker sure = tracker_, vague = tracker_;
+  for (int i = 1; i <= 3; ++i) {
+    for (Tracker *tracker : {&sure, &vague}) {
+      tracker->advance(i * kFrame, nullptr);
+      tracker->accept(0, found(poseAt(0.01 * i)), tracker == &sure ? kSure : 0.3);
+    }
+  }
+  Prediction of_sure, of_vague;
+  for (Tracker *tracker : {&sure, &vague}) tracker->advance(4 * kFrame, nullptr);
+  ASSERT_TRUE(sure.predict(&of_sure) && vague.predict(&of_vague));
+  EXPECT_EQ(of_vague.camera_from_map.translation_m, of_sure.camera_from_map.translation_m);
+  EXPECT_EQ(of_vague.translation_sigma_m, of_sure.translation_sigma_m);
+  EXPECT_TRUE(vague.vetoes(0, found(poseAt(3))) == sure.vetoes(0, found(poseAt(3))));
+}
+
 TEST_F(TrackerTest, APoseInAnotherMapDoesNotAgree) {
   bring(kFrame, poseAt(0), 0);
   bring(2 * kFrame, poseAt(0), 1);
@@ -68,7 +118,7 @@ TEST_F(TrackerTest, FewInliersExpectLess) {
     estimate.inliers = inliers;
     tracker_.reset();
     tracker_.advance(kFrame, nullptr);
-    tracker_.accept(0, estimate);
+    tracker_.accept(0, estimate, kSure);
     tracker_.advance(kFrame + kFrame / 100, nullptr);
     Prediction expected;
     EXPECT_TRUE(tracker_.predict(&expected));
@@ -93,7 +143,7 @@ class VetoTest : public TrackerTest {
   void walk(int frames, uint32_t inliers = 100) {
     for (int i = 0; i < frames; ++i) {
       go();
-      tracker_.accept(0, poseHere(0, inliers));
+      tracker_.accept(0, poseHere(0, inliers), kSure);
     }
     go();
   }
@@ -140,7 +190,7 @@ TEST_F(VetoTest, ThePoseThatMostSpeaksForCountsNotTheLast) {
 TEST_F(VetoTest, PosesThatAreDrawnAwayStepByStepAreNoTrack) {
   walk(4);
   for (int step = 1; step <= 7; ++step) {
-    tracker_.accept(0, poseHere(0.02 * step, 20));
+    tracker_.accept(0, poseHere(0.02 * step, 20), kSure);
     ASSERT_EQ(tracker_.state(), TrackingState::kTracking) << step;
     go();
   }
@@ -175,7 +225,7 @@ TEST_F(VetoTest, APoseThatWasNotTrackedVetoesNothing) {
   walk(1);
   EXPECT_FALSE(vetoes(1, 60)) << "one pose alone";
   walk(3);
-  tracker_.accept(0, poseHere(1, 200));
+  tracker_.accept(0, poseHere(1, 200), kSure);
   go();
   EXPECT_FALSE(vetoes(0, 60)) << "it jumped, so nothing is known";
 }
@@ -195,7 +245,7 @@ TEST_F(VetoTest, WithOdometryAPoseIsExpectedForTenSeconds) {
   ASSERT_TRUE(tracker_.predict(&expected));
   EXPECT_NEAR(expected.camera_from_map.translation_m[0], 0.01 * frame_, 1e-9);
   EXPECT_GT(expected.translation_sigma_m, 0.016) << "270 steps of 1 mm";
-  EXPECT_EQ(tracker_.accept(0, poseHere(0, 100)).events, Events{0});
+  EXPECT_EQ(tracker_.accept(0, poseHere(0, 100), kSure).events, Events{0});
   EXPECT_EQ(tracker_.state(), TrackingState::kTracking) << "it is where it was expected";
   wander(11 * kSecondOfFrames);
   EXPECT_FALSE(tracker_.predict(&expected));
@@ -212,7 +262,7 @@ TEST_F(VetoTest, OdometryThatJumpsInItsOwnFrameSaysNothingOfThatStep) {
     Prediction expected;
     ASSERT_TRUE(tracker_.predict(&expected));
     EXPECT_NEAR(expected.camera_from_map.translation_m[0], 0.01 * frame_, 1e-9) << "at the velocity of poses";
-    EXPECT_EQ(tracker_.accept(0, poseHere(0, 100)).events, Events{0});
+    EXPECT_EQ(tracker_.accept(0, poseHere(0, 100), kSure).events, Events{0});
     EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
     go();
     EXPECT_TRUE(vetoes(0.2, 100)) << "and the next step counts again";
@@ -359,7 +409,7 @@ class HandoverTest : public TrackerTest {
   Jump bringThere(int64_t time_ns, const Rigid &camera_from_first) {
     tracker_.advance(time_ns, nullptr);
     tracker_.goOver(1, maps_);
-    return tracker_.accept(1, found(there(camera_from_first)));
+    return tracker_.accept(1, found(there(camera_from_first)), kSure);
   }
   Rigid second_ = {rotationFromVector(Vector3(0, 0.7, 0)), Vector3(4, 0, -1)};
   MapSet maps_;
