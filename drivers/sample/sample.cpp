@@ -6,7 +6,7 @@
 
 namespace {
 
-constexpr uint32_t kLoanLimit = 4;
+constexpr uint32_t kLoanLimit = 5;  // the slots of a pairer and one
 constexpr uint32_t kPixels = SPHC_SAMPLE_WIDTH * SPHC_SAMPLE_HEIGHT;
 constexpr int64_t kPeriodNs = 33333333;
 constexpr int64_t kDepthLagNs = 5000000;  // the depth sensor exposes a little later, as most do

@@ -80,8 +80,9 @@ static void feed(const struct camera *camera, sphc_pairer *pairer) {
   const sphc_status status = camera->source.acquire(camera->source.self, 2000, &capture);
   if (status == SPHC_E_DEVICE_LOST) check(status, camera->source.message(camera->source.self));
   if (status < 0) fprintf(stderr, "%s\n", camera->source.message(camera->source.self)); /* and go on */
-  if (status == SPHC_OK && sphc_pairer_push(pairer, &capture) != SPHC_OK)
-    camera->source.release(camera->source.self, &capture);
+  if (status != SPHC_OK || sphc_pairer_push(pairer, &capture) == SPHC_OK) return;
+  fprintf(stderr, "a capture is left out: its time is before the last one's, or on another clock\n");
+  camera->source.release(camera->source.self, &capture);
 }
 
 static void localize(sphc_localizer *localizer, const sphc_capture *color, const sphc_capture *depth) {

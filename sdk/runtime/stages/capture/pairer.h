@@ -20,10 +20,15 @@ class Pairer {
     uint32_t count = 0;
     bool begun = false;
     uint32_t last_sequence = 0;
-    int64_t last_ns = 0;
+    int64_t last_ns = 0, last_middle_ns = 0;
+    uint64_t gap_ns = 0;  // between the last two, a sequence number; 0: unknown
 
+    void add(const sphc_capture &capture);
     sphc_capture takeFront();
+    bool nextMayBeNearer(const sphc_capture &other) const;
   };
+  bool isWithinTolerance(const sphc_capture &color, const sphc_capture &depth) const;
+  bool isColorOvertaken() const;
   bool canStillImprove() const;
   sphc_status drop(Queue *queue, sphc_pairer_drop why, sphc_capture *dropped);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tests/support/random_numbers.h"
 
@@ -76,6 +77,75 @@ TEST(Pairer, DepthBeforeColorWaitsForABetterOne) {
   EXPECT_EQ(drain(&pairer), "");  // a depth at 101 might still come
   pairer.push(depth(101));
   EXPECT_EQ(drain(&pairer), "-d95 c100+d101 ");
+}
+
+// Pushes both streams in order of their times, as they come from devices; what comes out, and what is left at last.
+std::string pairAll(Pairer *pairer, std::vector<int64_t> colors, std::vector<int64_t> depths) {
+  std::string out;
+  size_t c = 0, d = 0;
+  while (c < colors.size() || d < depths.size()) {
+    const bool is_color = d == depths.size() || (c < colors.size() && colors[c] <= depths[d]);
+    sphc_capture next = is_color ? color(colors[c]) : depth(depths[d]);
+    next.sequence = static_cast<uint32_t>(is_color ? ++c : ++d);
+    EXPECT_EQ(pairer->push(next), SPHC_OK);
+    out += drain(pairer);
+  }
+  pairer->flush();
+  return out + "| " + drain(pairer);
+}
+
+TEST(Pairer, OfFasterColorTheNearestIsTaken) {
+  Pairer pairer = makePairer();
+  EXPECT_EQ(pairAll(&pairer, {0, 17, 33, 50, 67, 83, 100}, {0, 33, 67, 100}),
+            "c0+d0 -c17 c33+d33 -c50 c67+d67 -c83 c100+d100 | ");
+  EXPECT_EQ(pairer.counts().overtaken, 3u);
+  EXPECT_EQ(pairer.counts().too_far, 0u);
+}
+
+TEST(Pairer, OfFasterColorBesideTheDepthTheNearestIsTaken) {
+  Pairer pairer = makePairer();  // depth 4 ms after every third colour image
+  EXPECT_EQ(pairAll(&pairer, {0, 11, 22, 33, 44, 55, 66}, {4, 37, 70}),
+            "c0+d4 -c11 -c22 c33+d37 -c44 -c55 c66+d70 | ");
+}
+
+TEST(Pairer, OfFasterDepthTheNearestIsTaken) {
+  Pairer pairer = makePairer();
+  EXPECT_EQ(pairAll(&pairer, {10, 43, 77}, {0, 17, 33, 50, 67, 83}), "-d0 c10+d17 -d33 c43+d50 -d67 c77+d83 | ");
+}
+
+// Nothing better can come before the next image of the stream that was first, so nobody waits for that.
+TEST(Pairer, AtOneRateAPairComesWithItsSecondImage) {
+  for (const int64_t apart_ms : {5, -5}) {
+    Pairer pairer = makePairer();
+    for (int64_t i = 1; i <= 5; ++i) {
+      const sphc_capture first = apart_ms > 0 ? color(100 * i) : depth(100 * i);
+      const sphc_capture second = apart_ms > 0 ? depth(100 * i + apart_ms) : color(100 * i - apart_ms);
+      pairer.push(first);
+      const std::string before = drain(&pairer);
+      pairer.push(second);
+      const std::string after = drain(&pairer);
+      if (i < 3) continue;  // the rates are not known yet
+      EXPECT_EQ(before, "");
+      EXPECT_NE(after.find("+"), std::string::npos) << apart_ms << " ms, " << i;
+    }
+    EXPECT_EQ(pairer.counts().pairs, 5u);
+  }
+}
+
+// What was lost between two images is no slower rate.
+TEST(Pairer, ALostImageIsNoGap) {
+  Pairer pairer = makePairer();
+  std::string out;
+  const auto push = [&](sphc_capture next, uint32_t sequence) {
+    next.sequence = sequence;
+    EXPECT_EQ(pairer.push(next), SPHC_OK);
+    out += drain(&pairer);
+  };
+  push(color(0), 1), push(depth(0), 1), push(color(17), 2), push(depth(33), 2);
+  push(color(50), 4);  // 33 never came
+  push(depth(67), 3);
+  push(color(67), 5);
+  EXPECT_EQ(out, "c0+d0 c17+d33 -c50 c67+d67 ");
 }
 
 TEST(Pairer, FlushEndsTheWaiting) {
@@ -250,9 +320,9 @@ TEST(Pairer, CountsWhatItDropsAndWhatNeverCame) {
   EXPECT_EQ(push(depth(101), 3), SPHC_DROP_NONE);
   push(color(200), 9);                                // one lost
   EXPECT_EQ(push(depth(290), 7), SPHC_DROP_TOO_FAR);  // three lost; colour 200 finds nobody
-  push(depth(299), 8);
+  push(depth(296), 8);
   EXPECT_EQ(push(color(301), 10), SPHC_DROP_OVERTAKEN);  // 290
-  push(depth(302), 9);                                   // better than 299
+  push(depth(302), 9);                                   // better than 296
   push(depth(400), 0);                                   // a source that started anew
   push(depth(410), 1);
   EXPECT_EQ(push(depth(420), 2), SPHC_DROP_FULL);  // no colour comes
