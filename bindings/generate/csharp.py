@@ -243,13 +243,14 @@ def native():
     text = f"""/// <summary>The C interface as it is.</summary>
 internal static unsafe class Native {{
 #if (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS || UNITY_WEBGL) && !UNITY_EDITOR
-  private const string File = "__Internal";  // linked into the program
+  internal const string File = "__Internal";  // linked into the program
 #else
   internal const string File = "spherecloud";
 #endif
   internal const uint Abi = {TOLD.abi};
   internal const string Version = "{TOLD.version}";
   internal const int DescriptorBytes = {TOLD.constants['SPHC_DESCRIPTOR_BYTES']};
+  internal const int StrideMaxBytes = {TOLD.constants['SPHC_STRIDE_MAX_BYTES']};
 
 """
     text += "".join(f"  internal struct {name} {{}}\n" for name in TOLD.opaque) + "\n"

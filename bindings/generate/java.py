@@ -227,7 +227,7 @@ def accessors(struct, field):
     if bits:
         return "", (said + f"  public java.util.Set<{bits}> get{name}() {{\n    return {bits}.of(get{bits}Bits());\n  }}\n\n"
                     f"  /** Whether it is among them; makes no set. */\n  public boolean has({bits} {lower(bits)}) {{\n"
-                    f"    return (get{bits}Bits() & {lower(bits)}.bit) != 0;\n  }}\n\n"
+                    f"    return (get{bits}Bits() & java.util.Objects.requireNonNull({lower(bits)}, \"{lower(bits)}\").bit) != 0;\n  }}\n\n"
                     f"  /** The same as bits; those that this version does not know are among them. */\n"
                     f"  public int get{bits}Bits() {{\n    return getInt({at});\n  }}\n")
     if field.boolean:
@@ -235,7 +235,7 @@ def accessors(struct, field):
     if kind.base in ENUMS:
         of = class_of(kind.base)
         get = f"  public {of} get{name}() {{\n    return {of}.of(getInt({at}));\n  }}\n"
-        put = f"putInt({at}, {variable}.value);"
+        put = f"putInt({at}, java.util.Objects.requireNonNull({variable}, \"{variable}\").value);"
     else:
         of, access = PRIMITIVES[kind.base]
         get = f"  public {of} get{name}() {{\n    return get{access}({at});\n  }}\n"
@@ -254,7 +254,7 @@ def constructors(struct, name):
     short = struct.name.removeprefix("sphc_")
     made = f"    super({slot(struct)});\n"
     if struct.name in INIT:
-        made += f"    Failure.check(Native.{lower(camel(short))}Init(address, {slot(struct)}), \"{struct.name}\");\n"
+        made += f"    Failure.checkStruct(Native.{lower(camel(short))}Init(address, {slot(struct)}), \"{class_of(struct.name)}\");\n"
     elif struct.grows:
         made += f"    putInt({slot(struct, 'struct_size')}, {slot(struct)});\n"
     public = "" if struct.name in BASES or struct.name in READ_ONLY and struct.name not in INIT else "public "
@@ -280,8 +280,10 @@ def write_struct(struct):
 
 def write_layout():
     lines = "".join(f"  static final int {name} = AT[{i}];\n" for i, (name, _) in enumerate(slots()))
+    count = len(list(slots()))
     java_file("Layout", "/** Sizes and offsets of the C structs on this machine, as the JNI library tells them. */\n"
-              "final class Layout {\n  private Layout() {}\n\n  private static final int[] AT = Native.layout();\n" + lines + "}\n")
+              "final class Layout {\n  private Layout() {}\n\n"
+              f"  private static final int[] AT = Library.load() ? Native.layout() : new int[{count}];\n" + lines + "}\n")
 
 
 # ---- functions

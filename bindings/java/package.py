@@ -20,6 +20,8 @@ ROOT = HERE.parent.parent
 HEADERS = ROOT / "sdk" / "include" / "spherecloud"
 VERSION = re.search(r'VERSION = "(.*)"', (HERE / "src/generated/java/org/spherecloud/Release.java").read_text()).group(1)
 API = 28  # the first Android that has java.lang.ref.Reference.reachabilityFence
+# What the header of an ELF file says of the processor, for each ABI.
+MACHINES = {"arm64-v8a": 183, "armeabi-v7a": 40, "riscv64": 243, "x86": 3, "x86_64": 62}
 MANIFEST = f"""Manifest-Version: 1.0
 Automatic-Module-Name: org.spherecloud
 Bundle-License: Apache-2.0
@@ -55,6 +57,36 @@ def jar(classes):
     return zip_of(entries + [(path.relative_to(classes).as_posix(), path.read_bytes()) for path in files])
 
 
+def members(archive):
+    """The files in an archive of objects."""
+    at = 8
+    while archive[at + 58:at + 60] == b"`\n":
+        size = int(archive[at + 48:at + 58])
+        yield archive[at + 60:at + 60 + size]
+        at += 60 + size + size % 2
+
+
+def machine(data):
+    """The processor that an ELF file is for, or the first one in an archive; None where there is none."""
+    files = members(data) if data[:8] == b"!<arch>\n" else [data]
+    return next((int.from_bytes(file[18:20], "little") for file in files if file[:4] == b"\x7fELF"), None)
+
+
+def library(abi, folder, name):
+    """Its bytes, if it is of this ABI."""
+    path = Path(folder) / name
+    if abi not in MACHINES:
+        sys.exit(f"package.py: Android has no ABI {abi}; it has {', '.join(MACHINES)}")
+    if not path.is_file():
+        sys.exit(f"package.py: there is no {path}; build it for {abi} and put it there")
+    data = path.read_bytes()
+    found = machine(data)
+    if found != MACHINES[abi]:
+        of = {number: "of " + name for name, number in MACHINES.items()}.get(found, "no library of Android")
+        sys.exit(f"package.py: {path} is {of}, not of {abi}; build it with -DANDROID_ABI={abi}, or name its own ABI")
+    return data
+
+
 def prefab(folders):
     """The C library as Gradle hands it to CMake: static, and without a need of the C++ library."""
     module = "prefab/modules/spherecloud"
@@ -65,15 +97,14 @@ def prefab(folders):
     for abi, folder in folders:
         of = {"abi": abi, "api": API, "ndk": 26, "stl": "none", "static": True}
         yield f"{module}/libs/android.{abi}/abi.json", text(json.dumps(of))
-        yield f"{module}/libs/android.{abi}/libspherecloud.a", (Path(folder) / "libspherecloud.a").read_bytes()
+        yield f"{module}/libs/android.{abi}/libspherecloud.a", library(abi, folder, "libspherecloud.a")
 
 
 def aar(classes, folders):
     android = HERE / "android"
     entries = [("AndroidManifest.xml", (android / "AndroidManifest.xml").read_bytes()), ("classes.jar", jar(classes)),
                ("R.txt", b""), ("proguard.txt", (android / "proguard.txt").read_bytes())]
-    entries += [(f"jni/{abi}/libspherecloud_jni.so", (Path(folder) / "libspherecloud_jni.so").read_bytes())
-                for abi, folder in folders]
+    entries += [(f"jni/{abi}/libspherecloud_jni.so", library(abi, folder, "libspherecloud_jni.so")) for abi, folder in folders]
     return zip_of(entries + list(prefab(folders)))
 
 

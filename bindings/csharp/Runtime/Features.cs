@@ -41,7 +41,10 @@ public sealed unsafe class Features : IDisposable {
   public FeatureArrays Read() {
     var raw = new Native.sphc_features_arrays { struct_size = (uint)sizeof(Native.sphc_features_arrays) };
     using (var use = Handle.Read()) {
-      SpherecloudException.Check(Native.sphc_features_get((Native.sphc_features*)use.Instance, &raw));
+      Status status = Native.sphc_features_get((Native.sphc_features*)use.Instance, &raw);
+      if (status == Status.State) throw new SpherecloudException(
+          status, "the features are of no frame yet; call Localizer.Extract or Features.Set first");
+      SpherecloudException.Check(status);
       return new FeatureArrays(&raw);
     }
   }

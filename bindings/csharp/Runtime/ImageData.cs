@@ -11,27 +11,29 @@ public readonly unsafe struct ImageData {
   private readonly PixelFormat format;
 
   /// <summary>Pixels in bytes. A stride of 0 means that rows follow each other closely. Throws ArgumentException where
-  /// the array is too small.</summary>
+  /// the array is too small, and where no image has that format, size and stride.</summary>
   public ImageData(byte[] pixels, int width, int height, PixelFormat format, int strideBytes = 0, int offsetBytes = 0)
       : this(pixels, 1, IntPtr.Zero + offsetBytes, width, height, format, strideBytes) {}
 
-  /// <summary>Pixels of 16 bits, such as depth in millimetres. As the constructor for bytes.</summary>
+  /// <summary>Pixels of 16 bits, such as depth in millimetres. As the constructor for bytes; the format is one of 2 bytes a
+  /// pixel.</summary>
   public ImageData(ushort[] pixels, int width, int height, PixelFormat format = PixelFormat.Depth16, int strideBytes = 0)
       : this(pixels, 2, IntPtr.Zero, width, height, format, strideBytes) {}
 
-  /// <summary>Pixels of 32 bits, such as depth in metres. As the constructor for bytes.</summary>
+  /// <summary>Pixels that are floats, such as depth in metres. As the constructor for bytes; the format is DepthF32 or
+  /// RangeF32.</summary>
   public ImageData(float[] pixels, int width, int height, PixelFormat format = PixelFormat.DepthF32, int strideBytes = 0)
       : this(pixels, 4, IntPtr.Zero, width, height, format, strideBytes) {}
 
   /// <summary>Pixels in native memory, which the caller keeps until the call returns: in Unity, the pointer of
-  /// NativeArrayUnsafeUtility.GetUnsafeReadOnlyPtr. Its extent cannot be checked.</summary>
+  /// NativeArrayUnsafeUtility.GetUnsafeReadOnlyPtr. Its extent cannot be checked; format, size and stride are.</summary>
   public ImageData(IntPtr pixels, int width, int height, PixelFormat format, int strideBytes = 0)
       : this(null, 0, pixels, width, height, format, strideBytes) {}
 
   private ImageData(Array array, int elementBytes, IntPtr data, int width, int height, PixelFormat format, int strideBytes) {
     if (array == null && elementBytes != 0) throw new ArgumentNullException("pixels");
-    if (width < 0 || height < 0 || strideBytes < 0) throw new ArgumentException("width, height and stride are not below 0");
-    int rowBytes = Library.RowBytes(format, width);
+    int rowBytes = ImageShape.RequireRow(format, width, height, strideBytes);
+    if (elementBytes > 1) ImageShape.RequireElements(format, elementBytes);
     this.array = array;
     this.data = data;
     this.width = width;
@@ -45,7 +47,7 @@ public readonly unsafe struct ImageData {
   public bool IsSet { get { return array != null || data != IntPtr.Zero; } }
 
   private void RequireRoom(long bytes, long offset, int rowBytes) {
-    long needed = offset + (height > 0 ? (long)stride * (height - 1) + rowBytes : 0);
+    long needed = offset + (long)stride * (height - 1) + rowBytes;
     if (offset < 0 || needed > bytes)
       throw new ArgumentException("an image of " + width + " x " + height + " pixels " + format + ", " + stride +
                                   " bytes a row from byte " + offset + " on, needs " + needed + " bytes; the array has " + bytes);

@@ -24,11 +24,12 @@ public static unsafe class Library {
     }
   }
 
-  /// <summary>Bytes of a row of so many pixels, the least stride; 0 for a width that the format cannot have. Any
-  /// thread.</summary>
+  /// <summary>Bytes of a row of so many pixels, the least stride; 0 for a format that the library does not know,
+  /// and for a width that it cannot have. Any thread.</summary>
   public static int RowBytes(PixelFormat format, int width) {
     Require();
-    return width < 0 ? 0 : (int)Native.sphc_format_row_bytes(format, (uint)width);
+    uint bytes = width < 0 ? 0 : Native.sphc_format_row_bytes(format, (uint)width);
+    return bytes > int.MaxValue ? 0 : (int)bytes;
   }
 
   /// <summary>Everything public passes here before its first native call.</summary>
@@ -68,7 +69,7 @@ public static unsafe class Library {
       "The native library '" + Native.File + "' was not found: libspherecloud.so, spherecloud.dll or " +
       "libspherecloud.dylib. Looked beside the program and where the system looks for libraries. In Unity put it into " +
       "Runtime/Plugins of the package with Tools~/place_library.py. With .NET set SPHERECLOUD_LIBRARY to its path or " +
-      "put it beside the program. With Mono name its folder in LD_LIBRARY_PATH or in a <dllmap>.";
+      "put it beside the program. With Mono name its folder in LD_LIBRARY_PATH, or its path in a <dllmap>.";
 }
 
 /// <summary>Strings of the library.</summary>

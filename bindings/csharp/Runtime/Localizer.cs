@@ -165,7 +165,7 @@ public sealed unsafe class Localizer : IDisposable {
   public static LocalizerParameterRange ParameterRange(LocalizerParameter parameter) {
     Library.Require();
     var range = new LocalizerParameterRange { struct_size = (uint)sizeof(LocalizerParameterRange) };
-    SpherecloudException.Check(Native.sphc_localizer_get_parameter_range(parameter, &range));
+    CheckKnown(parameter, Native.sphc_localizer_get_parameter_range(parameter, &range));
     return range;
   }
 
@@ -178,7 +178,8 @@ public sealed unsafe class Localizer : IDisposable {
   /// <summary>How the search goes. Throws SpherecloudException for a parameter that the library does not know.</summary>
   public double GetParameter(LocalizerParameter parameter) {
     double value;
-    using (var use = Handle.Enter(Lane.Main)) Check(Native.sphc_localizer_get_parameter(At(use), parameter, &value));
+    using (var use = Handle.Enter(Lane.Main))
+      CheckKnown(parameter, Native.sphc_localizer_get_parameter(At(use), parameter, &value));
     return value;
   }
 
@@ -202,6 +203,14 @@ public sealed unsafe class Localizer : IDisposable {
     return (Native.sphc_localizer*)use.Instance;
   }
 
+  /// <summary>Of calls that leave no message and fail for a parameter that is not known.</summary>
+  private static void CheckKnown(LocalizerParameter parameter, Status status) {
+    if (status == Status.Unsupported) throw new SpherecloudException(
+        status, "the library " + Library.Version + " knows no parameter " + parameter +
+                "; give one of LocalizerParameter, or use a library that has it");
+    SpherecloudException.Check(status);
+  }
+
   /// <summary>Of calls that change nothing, and so leave no message. True where the answer is a yes.</summary>
   private static bool Check(Status status) {
     SpherecloudException.Check(status);
@@ -216,11 +225,17 @@ public sealed unsafe class Localizer : IDisposable {
   }
 }
 
+/// <remarks>default(LocalizerResult) is of no frame: IsSet is false, all confidence is 0, and Outcome reads as Localized, as
+/// that is 0.</remarks>
 public unsafe partial struct LocalizerResult {
-  /// <summary>The probability that the camera is within so many metres and radians of the pose; 0 where there is no pose.
-  /// docs/confidence.md says how far it can be trusted. Any thread.</summary>
+  /// <summary>True where a frame has filled it, with a pose or without.</summary>
+  public bool IsSet { get { return struct_size != 0; } }
+
+  /// <summary>The probability that the camera is within so many metres and radians of the pose; 0 where there is no pose,
+  /// or no frame. docs/confidence.md says how far it can be trusted. Any thread.</summary>
   public double ConfidenceWithin(double translationM, double rotationRad) {
     Library.Require();
+    if (!IsSet) return 0;
     LocalizerResult result = this;
     result.struct_size = (uint)sizeof(LocalizerResult);
     return Native.sphc_localizer_result_confidence(&result, translationM, rotationRad);
@@ -240,10 +255,10 @@ internal sealed unsafe class LocalizerHandle : NativeHandle {
     Native.sphc_localizer* localizer = null;
     var message = new Native.sphc_message();
     SpherecloudException.Check(Native.sphc_localizer_memory(&raw, &need, &message), ref message);
-    AlignedMemory state = Allocate(need.state_bytes, need.alignment), scratch = Allocate(need.scratch_bytes, need.alignment);
-    called = new Callbacks(config);
+    called = new Callbacks(config);  // before there is memory, which would be lost where threads cannot be started
     callbacks = GCHandle.Alloc(called);
     called.Fill(&raw, callbacks);
+    AlignedMemory state = Allocate(need.state_bytes, need.alignment), scratch = Allocate(need.scratch_bytes, need.alignment);
     Status status = Native.sphc_localizer_init(state.Start, Size.Of(state.Bytes), scratch.Start, Size.Of(scratch.Bytes),
                                                &raw, &localizer, &message);
     Adopt(localizer, status, ref message);

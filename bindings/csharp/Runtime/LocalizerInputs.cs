@@ -30,6 +30,10 @@ public sealed unsafe partial class LocalizerConfig {
     var pieces = new List<MemoryPiece>();
     long* room = stackalloc long[CameraLongs];
     Native.sphc_localizer_config borrowed = Borrow(room);
+    Native.sphc_memory whole;
+    var message = new Native.sphc_message();
+    // Pieces come without a message; the whole has one.
+    SpherecloudException.Check(Native.sphc_localizer_memory(&borrowed, &whole, &message), ref message);
     for (;;) {
       Native.sphc_memory_piece piece;
       Status status = Native.sphc_localizer_memory_piece(&borrowed, (uint)pieces.Count, &piece);
@@ -60,12 +64,23 @@ public sealed unsafe partial class LocalizerConfig {
     var cameras = (Native.sphc_localizer_camera*)room;
     borrowed.camera_count = (uint)Cameras.Count;
     borrowed.cameras = Cameras.Count > 0 ? cameras : null;
-    for (int i = 0; i < Cameras.Count; ++i) cameras[i] = Cameras[i].raw;
+    for (int i = 0; i < Cameras.Count; ++i)
+      cameras[i] = Entries.Require(Cameras[i], "config.Cameras", i, "put a LocalizerCamera there").raw;
     var depthCameras = (Native.sphc_localizer_depth_camera*)(cameras + MaxCameras);
     borrowed.depth_camera_count = (uint)DepthCameras.Count;
     borrowed.depth_cameras = DepthCameras.Count > 0 ? depthCameras : null;
-    for (int i = 0; i < DepthCameras.Count; ++i) depthCameras[i] = DepthCameras[i].raw;
+    for (int i = 0; i < DepthCameras.Count; ++i)
+      depthCameras[i] = Entries.Require(DepthCameras[i], "config.DepthCameras", i, "put a LocalizerDepthCamera there").raw;
     return borrowed;
+  }
+}
+
+/// <summary>Entries of the lists of configs and frames.</summary>
+internal static class Entries {
+  /// <summary>A null reference that reaches unsafe code can end the program, so it is refused before.</summary>
+  internal static T Require<T>(T entry, string list, int index, string cure) where T : class {
+    if (entry == null) throw new ArgumentException(list + "[" + index + "] is null; " + cure + ", or remove the entry");
+    return entry;
   }
 }
 
@@ -146,6 +161,8 @@ public sealed unsafe partial class LocalizerFrame {
 /// caller's block, so nothing is allocated.</summary>
 internal unsafe struct LentFrame : IDisposable {
   private const int MaxViews = Limits.CamerasMax - 1, MaxDepthViews = Limits.DepthCamerasMax - 1;
+  private const string EmptyView = "put a LocalizerView there, without an image where its camera has none";
+  private const string EmptyDepthView = "put a LocalizerDepthView there, without an image where its camera has none";
   private const int MaxPins = 3 + MaxViews + 2 * MaxDepthViews;
 
   private struct Block {
@@ -204,10 +221,11 @@ internal unsafe struct LentFrame : IDisposable {
     var rest = (ViewBlock*)(block + 1);
     var raw = (Native.sphc_localizer_view*)(rest + MaxViews + MaxDepthViews);
     for (int i = 0; i < views.Count; ++i) {
-      raw[i] = views[i].raw;
-      raw[i].camera = Put(views[i].Camera, &rest[i].camera);
-      raw[i].color_from_camera = Put(views[i].ColorFromCamera, &rest[i].rigid);
-      Pin(views[i].Image, &raw[i].image);
+      LocalizerView view = Entries.Require(views[i], "frame.Views", i, EmptyView);
+      raw[i] = view.raw;
+      raw[i].camera = Put(view.Camera, &rest[i].camera);
+      raw[i].color_from_camera = Put(view.ColorFromCamera, &rest[i].rigid);
+      Pin(view.Image, &raw[i].image);
     }
     block->frame.views = views.Count > 0 ? raw : null;
     block->frame.view_count = (uint)views.Count;
@@ -217,11 +235,12 @@ internal unsafe struct LentFrame : IDisposable {
     ViewBlock* rest = (ViewBlock*)(block + 1) + MaxViews;
     var raw = (Native.sphc_localizer_depth_view*)((Native.sphc_localizer_view*)(rest + MaxDepthViews) + MaxViews);
     for (int i = 0; i < views.Count; ++i) {
-      raw[i] = views[i].raw;
-      raw[i].camera = Put(views[i].Camera, &rest[i].camera);
-      raw[i].color_from_depth = Put(views[i].ColorFromDepth, &rest[i].rigid);
-      Pin(views[i].Depth, &raw[i].depth);
-      Pin(views[i].Amplitude, &raw[i].amplitude);
+      LocalizerDepthView view = Entries.Require(views[i], "frame.DepthViews", i, EmptyDepthView);
+      raw[i] = view.raw;
+      raw[i].camera = Put(view.Camera, &rest[i].camera);
+      raw[i].color_from_depth = Put(view.ColorFromDepth, &rest[i].rigid);
+      Pin(view.Depth, &raw[i].depth);
+      Pin(view.Amplitude, &raw[i].amplitude);
     }
     block->frame.depth_views = views.Count > 0 ? raw : null;
     block->frame.depth_view_count = (uint)views.Count;

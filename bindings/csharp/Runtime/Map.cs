@@ -30,9 +30,8 @@ public sealed unsafe class Map : IDisposable {
   /// <summary>What the map says of itself. Any thread.</summary>
   public MapInfo Info {
     get {
-      MapInfo info = default(MapInfo);
-      info.struct_size = (uint)sizeof(MapInfo);
-      using (Handle.Enter(Lane.None)) SpherecloudException.Check(Native.sphc_map_get_info(Handle.Pointer, &info));
+      MapInfo info;
+      using (Handle.Enter(Lane.None)) Read(&info);
       return info;
     }
   }
@@ -41,9 +40,25 @@ public sealed unsafe class Map : IDisposable {
   /// SpherecloudException where there is no such point. Any thread.</summary>
   public Vector3d Direction(int pointIndex) {
     Vector3d direction;
-    using (Handle.Enter(Lane.None))
-      SpherecloudException.Check(Native.sphc_map_direction(Handle.Pointer, (uint)pointIndex, (double*)&direction));
+    using (Handle.Enter(Lane.None)) {
+      Status status = Native.sphc_map_direction(Handle.Pointer, (uint)pointIndex, (double*)&direction);
+      if (status < 0) throw NoPoint(status, pointIndex);
+    }
     return direction;
+  }
+
+  private SpherecloudException NoPoint(Status status, int pointIndex) {
+    MapInfo info;
+    Read(&info);
+    return new SpherecloudException(
+        status, "pointIndex is " + pointIndex + "; give 0 to " + (info.PointCount - 1L) + ", as the map has " +
+                info.PointCount + " points");
+  }
+
+  /// <summary>Inside a call.</summary>
+  private void Read(MapInfo* info) {
+    *info = new MapInfo { struct_size = (uint)sizeof(MapInfo) };
+    SpherecloudException.Check(Native.sphc_map_get_info(Handle.Pointer, info));
   }
 
   /// <summary>Lets the map go. Localizers that have it keep it.</summary>
@@ -71,7 +86,12 @@ internal sealed unsafe class MapHandle : NativeHandle {
     Native.sphc_memory need;
     SpherecloudException.Check(Native.sphc_map_memory(&need));
     AlignedMemory bytes = Allocate((ulong)file.Length, Alignment), view = Allocate(need.state_bytes, need.alignment);
-    Fill(bytes.Start, file);
+    try {
+      Fill(bytes.Start, file);
+    } catch {
+      Abandon();
+      throw;
+    }
     Native.sphc_map* map = null;
     var message = new Native.sphc_message();
     Status status = Native.sphc_map_init(view.Start, Size.Of(view.Bytes), bytes.Start, Size.Of(file.Length), &map, &message);

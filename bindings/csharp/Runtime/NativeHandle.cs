@@ -34,6 +34,7 @@ internal abstract unsafe class NativeHandle : SafeHandle {
   private readonly string name;
   private readonly List<AlignedMemory> memory = new List<AlignedMemory>(2);
   private int busy;
+  private volatile bool disposed;
 
   protected NativeHandle(string name) : base(IntPtr.Zero, true) {
     this.name = name;
@@ -58,9 +59,16 @@ internal abstract unsafe class NativeHandle : SafeHandle {
     SpherecloudException.Check(status, ref message);
   }
 
-  private void Abandon() {
+  /// <summary>For a constructor that fails between Allocate and Adopt: nothing else frees what it has allocated.</summary>
+  protected void Abandon() {
     SetHandleAsInvalid();
     ReleaseHandle();
+  }
+
+  /// <summary>IsClosed stays false as long as anyone uses the instance, and new calls are to be refused before that.</summary>
+  protected override void Dispose(bool disposing) {
+    disposed = true;
+    base.Dispose(disposing);
   }
 
   internal bool HasMemory { get { return memory.Count > 0; } }
@@ -88,7 +96,7 @@ internal abstract unsafe class NativeHandle : SafeHandle {
   /// <summary>For another object that uses this one for longer than a call.</summary>
   internal void Keep() {
     bool kept = false;
-    if (IsClosed || IsInvalid) throw Closed();
+    if (disposed || IsClosed || IsInvalid) throw Closed();
     DangerousAddRef(ref kept);
   }
 

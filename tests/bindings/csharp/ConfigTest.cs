@@ -109,7 +109,8 @@ internal static class ConfigTest {
       Expect.Equal(32, info.BuildName.Length, "name");
       Vector3d d = map.Direction((int)info.PointCount - 1);
       Expect.Near(new[] {1.0}, new[] {d.X * d.X + d.Y * d.Y + d.Z * d.Z}, 1e-6, "length of a direction");
-      Expect.Throws<SpherecloudException>(() => map.Direction((int)info.PointCount), "");
+      foreach (int index in new[] {-1, (int)info.PointCount})
+        Expect.Throws<SpherecloudException>(() => map.Direction(index), "pointIndex is " + index + "; give 0 to " + (info.PointCount - 1));
     }
   }
 
@@ -120,10 +121,13 @@ internal static class ConfigTest {
       Expect.Equal(range.Initial, localizer.GetParameter(LocalizerParameter.MinInliers), "parameter");
       localizer.SetParameter(LocalizerParameter.MinInliers, range.Highest);
       Expect.Equal(range.Highest, localizer.GetParameter(LocalizerParameter.MinInliers), "parameter");
-      Expect.Throws<SpherecloudException>(() => localizer.SetParameter(LocalizerParameter.MinInliers, range.Highest + 1), "");
-      var unknown = Expect.Throws<SpherecloudException>(() => localizer.GetParameter((LocalizerParameter)99), "");
-      Expect.Equal("", unknown.Explanation, "words about another call");
-      Expect.Throws<SpherecloudException>(() => Localizer.ParameterRange((LocalizerParameter)99), "");
+      Expect.Throws<SpherecloudException>(() => localizer.SetParameter(LocalizerParameter.MinInliers, range.Highest + 1), "MIN_INLIERS");
+      foreach (Action read in new Action[] {() => localizer.GetParameter((LocalizerParameter)99),
+                                            () => Localizer.ParameterRange((LocalizerParameter)99)}) {
+        var unknown = Expect.Throws<SpherecloudException>(read, "no parameter 99; give one of LocalizerParameter");
+        Expect.Equal(Status.Unsupported, unknown.Status, "status");
+        Expect.True(!unknown.Message.Contains("MIN_INLIERS"), "words about another call");
+      }
     }
   }
 

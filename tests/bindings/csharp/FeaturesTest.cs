@@ -25,7 +25,8 @@ internal static class FeaturesTest {
     LocalizerResult result;
     using (Localizer localizer = Session.Localizer())
     using (var features = new Features(Session.Config())) {
-      Expect.Equal(Status.State, Expect.Throws<SpherecloudException>(() => features.Read(), "").Status, "status of none yet");
+      Expect.Equal(Status.State, Expect.Throws<SpherecloudException>(
+          () => features.Read(), "of no frame yet; call Localizer.Extract").Status, "status of none yet");
       Expect.Throws<SpherecloudException>(() => localizer.Locate(frame, features, out result), "");
       Expect.Throws<ArgumentException>(() => features.Set(frame, new FeatureArrays { Keypoints = new Keypoint[2] }), "descriptors");
       Expect.Throws<ArgumentException>(() => features.Set(frame, new FeatureArrays { Keypoints = null }), "null");

@@ -68,6 +68,13 @@ internal static class GoldenTest {
     return localized;
   }
 
+  /// <summary>A struct of C# is zeros before it is filled, and 0 is Localized.</summary>
+  public static void AResultOfNoFrameSaysSo() {
+    LocalizerResult result = default(LocalizerResult);
+    Expect.True(!result.IsSet, "is set");
+    Expect.Equal(0.0, result.ConfidenceWithin(1, 1), "confidence of no frame");
+  }
+
   private static void ComparePrediction(Localizer localizer, Row row) {
     LocalizerPrediction prediction;
     bool known = localizer.Predict(row.Whole("color_time_ns") + 20000000, out prediction);
@@ -78,6 +85,7 @@ internal static class GoldenTest {
   private static void CompareConfidence(LocalizerResult result) {
     double degrees5 = 5 * Math.PI / 180;
     Expect.Near(new[] {result.Confidence}, new[] {result.ConfidenceWithin(0.05, degrees5)}, 1e-9, "confidence of the usual bounds");
+    Expect.True(result.IsSet, "is set");
     bool found = result.Outcome == LocalizerOutcome.Localized;
     Expect.Equal(found, result.ConfidenceWithin(1, 1) > result.ConfidenceWithin(0.001, 0.001), "confidence grows with the bounds");
     Expect.Equal(0.0, result.ConfidenceWithin(0, 1), "confidence of no bound");

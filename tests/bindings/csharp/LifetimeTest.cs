@@ -18,6 +18,43 @@ internal static class LifetimeTest {
     localizer.Dispose();
   }
 
+  public static void ADisposedMapIsClosedWhileALocalizerHasIt() {
+    using (var localizer = new Localizer(Session.Config()))
+    using (Map map = Map.Open(Session.MapPath)) {
+      localizer.SetMap(1, map);
+      map.Dispose();
+      map.Dispose();
+      Expect.Throws<ObjectDisposedException>(() => { MapInfo info = map.Info; }, "Map");
+      Expect.Throws<ObjectDisposedException>(() => map.Direction(0), "Map");
+      Expect.Throws<ObjectDisposedException>(() => localizer.SetMap(2, map), "Map");
+      Expect.Equal(1, localizer.MapCount, "maps");
+      LocalizerResult result;
+      Expect.True(localizer.Process(Session.Frame(0), out result), "localizes");
+    }
+  }
+
+  /// <summary>Of memory that nothing refers to, the system alone knows.</summary>
+  public static void AMapThatCannotBeReadLeavesNoMemory() {
+    long before = AddressBytes();
+    if (before == 0) return;  // another system than Linux
+    for (int i = 0; i < 40; ++i)
+      Expect.Throws<System.IO.EndOfStreamException>(() => new MapHandle(new ShorterThanItSays()), "became shorter");
+    long more = AddressBytes() - before;
+    Expect.True(more < 10 * ShorterThanItSays.Bytes, more + " bytes more");
+  }
+
+  private sealed class ShorterThanItSays : System.IO.MemoryStream {
+    internal const long Bytes = 64 << 20;
+    public override long Length { get { return Bytes; } }
+    public override int Read(byte[] buffer, int offset, int count) { return 0; }
+  }
+
+  private static long AddressBytes() {
+    const string pages = "/proc/self/statm";  // the whole is first
+    if (!System.IO.File.Exists(pages)) return 0;
+    return Environment.SystemPageSize * long.Parse(System.IO.File.ReadAllText(pages).Split(' ')[0]);
+  }
+
   public static void AReplacedMapGoes() {
     using (var localizer = new Localizer(Session.Config())) {
       Map first = Map.Open(Session.MapPath), second = Map.Open(Session.MapPath);

@@ -41,7 +41,6 @@ internal static class MisuseTest {
   public static void ImagesThatDoNotFitAreRefused() {
     using (Localizer localizer = Session.Localizer()) {
       Refused(localizer, frame => frame.Color = new ImageData(new byte[100 * 100], 100, 100, PixelFormat.Gray8));
-      Refused(localizer, frame => frame.Color = new ImageData(new byte[3 * 320 * 240], 320, 240, PixelFormat.Gray8, 1));
       Refused(localizer, frame => frame.Color = default(ImageData));
       Refused(localizer, frame => frame.Color = new ImageData(IntPtr.Zero, 320, 240, PixelFormat.Gray8));
       Refused(localizer, frame => frame.Depth = new ImageData(new float[200 * 160], 200, 160));
@@ -62,7 +61,7 @@ internal static class MisuseTest {
     Expect.Throws<ArgumentException>(() => new ImageData(new byte[320 * 240], 320, 240, PixelFormat.Gray8, 0, 1), "76801");
     Expect.Throws<ArgumentException>(() => new ImageData(new byte[320 * 240], 320, 240, PixelFormat.Gray8, 0, -1), "");
     Expect.Throws<ArgumentException>(() => new ImageData(new byte[320 * 240], 320, 240, PixelFormat.Rgb8), "230400");
-    Expect.Throws<ArgumentException>(() => new ImageData(new byte[10], -1, 240, PixelFormat.Gray8), "below 0");
+    Expect.Throws<ArgumentException>(() => new ImageData(new byte[10], -1, 240, PixelFormat.Gray8), "1 or more");
     Expect.Throws<ArgumentException>(() => new ImageData(new ushort[99], 10, 10), "200");
     var padded = new ImageData(new byte[9 * 16 + 10], 10, 10, PixelFormat.Gray8, 16);
     Expect.True(padded.IsSet, "the last row needs no padding");
@@ -94,12 +93,33 @@ internal static class MisuseTest {
     config.MaxKeypoints = 0;
     Expect.Throws<SpherecloudException>(() => new Localizer(config), "max_keypoints");
     Expect.Throws<SpherecloudException>(() => new Features(config), "max_keypoints");
-    Expect.Throws<SpherecloudException>(() => config.MemoryPieces(), "");
+    Expect.Throws<SpherecloudException>(() => config.MemoryPieces(), "max_keypoints");
     config = Session.Config();
     config.ParallelTasks = 0;
     Expect.Throws<SpherecloudException>(() => new Localizer(config), "parallel_tasks");
     config.ParallelTasks = 9;
     Expect.Throws<SpherecloudException>(() => new Localizer(config), "parallel_tasks");
+  }
+
+  public static void NullInAListIsNamed() {
+    LocalizerConfig cameras = Session.Config(), depthCameras = Session.Config();
+    cameras.Cameras.Add(new LocalizerCamera { Camera = cameras.Rig.ColorCamera });
+    cameras.Cameras.Add(null);
+    depthCameras.DepthCameras.Add(null);
+    foreach (Action<LocalizerConfig> use in new Action<LocalizerConfig>[] {
+                 config => new Localizer(config), config => new Features(config), config => config.MemoryPieces()}) {
+      Expect.Throws<ArgumentException>(() => use(cameras), "config.Cameras[1] is null; put a LocalizerCamera there");
+      Expect.Throws<ArgumentException>(() => use(depthCameras), "config.DepthCameras[0] is null; put a LocalizerDepthCamera there");
+    }
+    LocalizerFrame views = Session.Frame(0), depthViews = Session.Frame(0);
+    views.Views.Add(null);
+    depthViews.DepthViews.Add(null);
+    using (Localizer localizer = Session.Localizer()) {
+      Expect.Throws<ArgumentException>(() => localizer.Process(views, out result), "frame.Views[0] is null; put a LocalizerView there");
+      Expect.Throws<ArgumentException>(
+          () => localizer.Process(depthViews, out result), "frame.DepthViews[0] is null; put a LocalizerDepthView there");
+      Expect.True(localizer.Process(Session.Frame(0), out result), "goes on");
+    }
   }
 
   public static void ALogThatCallsItsLocalizerIsStopped() {

@@ -7,7 +7,7 @@ internal static class Program {
   private static readonly Type[] suites = {
       typeof(LayoutTest), typeof(GoldenTest), typeof(ConventionTest), typeof(CameraTest), typeof(AlignerTest),
       typeof(FeaturesTest), typeof(ConfigTest), typeof(DepthCameraTest), typeof(MisuseTest), typeof(LifetimeTest),
-      typeof(ThreadTest), typeof(UnityTest)};
+      typeof(ThreadTest), typeof(ImageTest), typeof(PriorTest), typeof(UnityTest), typeof(SampleTest)};
 
   private static int Main(string[] names) {
     int passed = 0, failed = 0;

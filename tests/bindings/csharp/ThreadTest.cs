@@ -52,6 +52,21 @@ internal static class ThreadTest {
     }
   }
 
+  /// <summary>The call that is under way ends as it would, and no other begins.</summary>
+  public static void WhatIsDisposedOfDuringACallIsClosedAtOnce() {
+    LocalizerFrame frame = Session.Frame(0);
+    using (var clock = new HeldClock())
+    using (Localizer localizer = Session.Localizer(clock.Config()))
+    using (Features features = new Features(Session.Config()))
+      clock.Meanwhile(() => localizer.Extract(frame, features), () => {
+        localizer.Dispose();
+        features.Dispose();
+        Expect.Throws<ObjectDisposedException>(() => localizer.Reset(), "Localizer");
+        Expect.Throws<ObjectDisposedException>(() => localizer.Extract(frame, features), "Localizer");
+        Expect.Throws<ObjectDisposedException>(() => features.Read(), "Features");
+      });
+  }
+
   public static void OnlyProcessAndExtractWaitForExtract() {
     LocalizerFrame frame = Session.Frame(0);
     using (var clock = new HeldClock())

@@ -51,6 +51,7 @@ impl AlignerConfig {
 
     /// What an aligner of this config needs, for [`Aligner::new_in`].
     pub fn memory(&self) -> Result<MemoryNeed> {
+        check_library()?;
         let mut need = MemoryNeed::NONE;
         // SAFETY: [pure].
         check(|message| unsafe { sys::sphc_aligner_memory(&self.to_raw(), &mut need, message) })?;

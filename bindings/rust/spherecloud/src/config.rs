@@ -4,7 +4,7 @@ use core::ptr::{null, null_mut};
 
 use spherecloud_sys as sys;
 
-use crate::error::{check, check_with, error, text_of};
+use crate::error::{check, check_library, check_with, error, text_of};
 use crate::hooks::{self, Clock, ClockFn, Hook, Log, LogFn, Parallel, ParallelFn, Shared};
 use crate::{Band, Camera, Format, LogLevel, MemoryNeed, Mode, Result, Rig, Rigid, Status};
 
@@ -285,8 +285,9 @@ impl<'a> Config<'a> {
         Ok((told == Status::Ok).then_some(MemoryPiece { name, bytes: piece.bytes, is_scratch: piece.scratch != 0 }))
     }
 
-    /// Lends the config to C.
+    /// Lends the config to C, where that is the library that this crate was made for.
     pub(crate) fn with_raw<R>(&self, call: impl FnOnce(&sys::sphc_localizer_config) -> R) -> Result<R> {
+        check_library()?;
         if self.camera_count > FURTHER_CAMERAS {
             return Err(error!(
                 Argument,

@@ -100,6 +100,13 @@ pub struct Prior {
     pub odometry: Option<Odometry>,
 }
 
+impl Prior {
+    /// Of a map's frame; its parts are then set one by one: `let mut prior = Prior::in_map(7); prior.up = Some(up);`.
+    pub fn in_map(map_id: u32) -> Self {
+        Self { map_id, ..Self::default() }
+    }
+}
+
 /// Where the camera should be: the map points that should be in view are looked at first.
 #[derive(Clone, Copy, Debug)]
 pub struct PosePrior {
@@ -111,7 +118,7 @@ pub struct PosePrior {
     pub translation_sigma_m: f64,
 }
 
-/// One direction in two frames, at any length but 0.
+/// One direction in two frames; neither need be a unit vector.
 #[derive(Clone, Copy, Debug)]
 pub struct UpPrior {
     /// Upwards in the camera's frame.

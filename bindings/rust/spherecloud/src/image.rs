@@ -58,10 +58,25 @@ impl<'a> Image<'a> {
     }
 
     fn of(format: Format, width: u32, height: u32, stride: u32, data: *const c_void, bytes: usize) -> Result<Self> {
-        let row = format.row_bytes(width);
-        if row == 0 || height == 0 || stride < row {
-            let name = format.name();
-            return Err(error!(Image, "{} of {} x {} at {} bytes a row, needs {}", name, width, height, stride, row));
+        let (row, name) = (format.row_bytes(width), format.name());
+        if width == 0 || height == 0 {
+            return Err(error!(Image, "an image of {} x {} pixels has none; give 1 or more of each", width, height));
+        }
+        if row == 0 {
+            return Err(error!(
+                Image,
+                "format {} ({}) has no rows of {} pixels; give a format that the library knows, and a width that its \
+                 pixels share bytes by",
+                format.raw(),
+                name,
+                width
+            ));
+        }
+        if stride < row {
+            return Err(error!(
+                Image,
+                "the stride is {} bytes, but {} pixels {} take {}; give that or more", stride, width, name, row
+            ));
         }
         let needed = u64::from(height - 1) * u64::from(stride) + u64::from(row);
         if (bytes as u64) < needed {

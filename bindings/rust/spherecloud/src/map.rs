@@ -196,6 +196,7 @@ unsafe impl Sync for View {}
 impl View {
     fn new(owned: Option<Buffer>, file: &[u8]) -> Result<Self> {
         let mut need = MemoryNeed::NONE;
+        check_library()?;
         // SAFETY: [pure].
         check(|_| unsafe { sys::sphc_map_memory(&mut need) })?;
         let need = MemoryNeed::from_raw(&need);

@@ -16,8 +16,21 @@ public struct Pose {
   public Pose(Vector3 position, Quaternion rotation) { this.position = position; this.rotation = rotation; }
 }
 
+public class UnityException : System.Exception {
+  public UnityException(string message) : base(message) {}
+}
+
+/// <summary>Of the thread that made it, as those of Unity are of the main thread.</summary>
 public class Transform {
-  public void SetPositionAndRotation(Vector3 position, Quaternion rotation) {}
+  private readonly System.Threading.Thread main = System.Threading.Thread.CurrentThread;
+  public Vector3 position;
+  public Quaternion rotation;
+
+  public void SetPositionAndRotation(Vector3 position, Quaternion rotation) {
+    if (System.Threading.Thread.CurrentThread != main) throw new UnityException("can only be called from the main thread");
+    this.position = position;
+    this.rotation = rotation;
+  }
 }
 
 public class MonoBehaviour {

@@ -51,8 +51,8 @@ NATIVE(jlong, Memory_allocate)(JNIEnv *env, jclass type, jlong bytes, jlong alig
   (void)env, (void)type;
   void *made = NULL;
   const size_t least = sizeof(void *), wanted = (size_t)alignment;
-  if ((jlong)(size_t)bytes != bytes || posix_memalign(&made, wanted < least ? least : wanted, (size_t)bytes + 1))
-    return 0;
+  if (bytes < 0 || (uint64_t)bytes >= SIZE_MAX) return 0; /* one byte is added, so that none is no size of 0 */
+  if (posix_memalign(&made, wanted < least ? least : wanted, (size_t)bytes + 1)) return 0;
   return ADDRESS(memset(made, 0, (size_t)bytes));
 }
 

@@ -57,7 +57,7 @@ fn images_that_do_not_fit() {
     refused(Image::with_stride(Format::Gray8, 320, 240, 319, &bytes), Status::Image, "319");
     refused(Image::with_stride(Format::Gray8, 320, 240, u32::MAX, &bytes), Status::Image, "76800");
     refused(Image::new(Format::Unknown(99), 320, 240, &bytes), Status::Image, "SPHC_FORMAT_?");
-    refused(Image::new(Format::Gray10p, 3, 3, &bytes), Status::Image, "3 x 3");
+    refused(Image::new(Format::Gray10p, 3, 3, &bytes), Status::Image, "rows of 3 pixels");
     refused(Image::from_u16(Format::Gray8, 2, 2, &[0; 4]), Status::Image, "2 bytes");
     // The last row may end with its last pixel.
     refused(Image::with_stride(Format::Gray8, 300, 240, 320, &bytes[..320 * 239 + 299]), Status::Image, "76779");

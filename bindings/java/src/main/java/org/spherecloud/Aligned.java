@@ -2,6 +2,7 @@ package org.spherecloud;
 
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
+import java.util.Objects;
 
 /** Where an {@link Aligner} puts its images, of the colour camera's size, made once; the buffers are always the same. */
 public final class Aligned extends Struct {
@@ -13,12 +14,20 @@ public final class Aligned extends Struct {
 
   /** For aligners of this config. */
   public Aligned(AlignerConfig config) {
-    this(config.getRig().getColorCamera().getWidth(), config.getRig().getColorCamera().getHeight());
+    this(Objects.requireNonNull(config, "config").getRig().getColorCamera());
+  }
+
+  private Aligned(Camera color) {
+    this(color.getWidth(), color.getHeight());
   }
 
   /** For a colour camera of this size. */
   public Aligned(int width, int height) {
     super(Layout.ALIGNED_BYTES);
+    if (!isSide(width) || !isSide(height)) {
+      throw new IllegalArgumentException("No colour camera has images of " + width + " x " + height + "; give a width and"
+          + " a height from " + Limits.CAMERA_MIN_PX + " to " + Limits.CAMERA_MAX_PX);
+    }
     this.width = width;
     this.height = height;
     depth = image(2, Layout.ALIGNED_DEPTH, Layout.ALIGNED_DEPTH_STRIDE_BYTES);
@@ -27,8 +36,12 @@ public final class Aligned extends Struct {
     putInt(Layout.ALIGNED_STRUCT_SIZE, Layout.ALIGNED_BYTES);
   }
 
+  private static boolean isSide(int pixels) {
+    return pixels >= Limits.CAMERA_MIN_PX && pixels <= Limits.CAMERA_MAX_PX;
+  }
+
   private ByteBuffer image(int pixelBytes, int dataAt, int strideAt) {
-    ByteBuffer image = ByteBuffer.allocateDirect(Math.multiplyExact(Math.multiplyExact(width, height), pixelBytes));
+    ByteBuffer image = ByteBuffer.allocateDirect(width * height * pixelBytes);
     putPointer(dataAt, Memory.address(image));
     putInt(strideAt, width * pixelBytes);
     return image.order(ByteOrder.nativeOrder());

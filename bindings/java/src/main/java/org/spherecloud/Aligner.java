@@ -1,10 +1,11 @@
 package org.spherecloud;
 
 import java.lang.ref.Reference;
+import java.util.Objects;
 
 /** Depth images as seen from the colour camera.  One call at a time; a second one throws IllegalStateException. */
 public final class Aligner implements AutoCloseable {
-  private final Guard guard = new Guard("aligner");
+  private final Guard guard = new Guard("Aligner");
   private final Net net = new Net(this);
   private final int width;
   private final int height;
@@ -16,6 +17,7 @@ public final class Aligner implements AutoCloseable {
    * @throws SpherecloudException {@link Status#E_ARGUMENT}: the message names the field, cause and cure
    */
   public Aligner(AlignerConfig config) {
+    Objects.requireNonNull(config, "config");
     width = config.getRig().getColorCamera().getWidth();
     height = config.getRig().getColorCamera().getHeight();
     try {
@@ -46,6 +48,8 @@ public final class Aligner implements AutoCloseable {
    * @throws IllegalArgumentException the aligned images are not of the colour camera's size
    */
   public void process(Image depth, Aligned aligned) {
+    Objects.requireNonNull(depth, "depth");
+    Objects.requireNonNull(aligned, "aligned");
     if (aligned.getWidth() != width || aligned.getHeight() != height) {
       throw new IllegalArgumentException("The aligned images are " + aligned.getWidth() + " x " + aligned.getHeight()
           + ", and the colour camera " + width + " x " + height);

@@ -7,12 +7,14 @@ import java.util.function.LongConsumer;
 final class Block implements Holding {
   private static final AtomicInteger COUNT = new AtomicInteger();
   final long address;
+  private final long bytes;
   private final AtomicInteger holders = new AtomicInteger(1);
   private long object;
   private LongConsumer fini;
 
   Block(long bytes, long alignment) {
-    address = Memory.allocate(bytes, alignment);
+    this.bytes = bytes;
+    address = NativeBytes.allocate(bytes, alignment);
     if (address == 0) throw new OutOfMemoryError("no " + bytes + " bytes of native memory; lower the config's capacities");
     COUNT.incrementAndGet();
   }
@@ -41,7 +43,7 @@ final class Block implements Holding {
       scratch.putPointer(object);
       fini.accept(scratch.address(0));
     }
-    Memory.free(address);
+    NativeBytes.free(address, bytes);
     COUNT.decrementAndGet();
   }
 }

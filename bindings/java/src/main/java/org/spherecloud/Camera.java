@@ -1,6 +1,7 @@
 package org.spherecloud;
 
 import java.lang.ref.Reference;
+import java.util.Objects;
 
 /** Camera intrinsics, in pixels of an image of width x height; the centre of the top-left pixel is (0.5, 0.5). */
 public final class Camera extends CameraFields {
@@ -18,6 +19,7 @@ public final class Camera extends CameraFields {
 
   /** Sets all of it; the parameters in the order of the model, which says how many: fx fy cx cy, then distortion. */
   public void set(CameraModel model, int width, int height, double... params) {
+    Objects.requireNonNull(params, "params");
     if (params.length > 12) throw new IllegalArgumentException(params.length + " parameters; no model has more than 12");
     setModel(model);
     setWidth(width);
@@ -58,8 +60,8 @@ public final class Camera extends CameraFields {
    */
   public boolean project(double[] pointM, double[] pixelPx) {
     Scratch scratch = Scratch.mine();
-    scratch.put(0, Scratch.sized(pointM, 3, "the point"));
-    Scratch.sized(pixelPx, 2, "the pixel");
+    scratch.put(0, Scratch.sized(pointM, 3, "pointM"));
+    Scratch.sized(pixelPx, 2, "pixelPx");
     return answered(Native.cameraProject(address, scratch.address(0), scratch.address(4)), scratch, pixelPx);
   }
 
@@ -70,8 +72,8 @@ public final class Camera extends CameraFields {
    */
   public boolean unproject(double[] pixelPx, double[] bearing) {
     Scratch scratch = Scratch.mine();
-    scratch.put(0, Scratch.sized(pixelPx, 2, "the pixel"));
-    Scratch.sized(bearing, 3, "the bearing");
+    scratch.put(0, Scratch.sized(pixelPx, 2, "pixelPx"));
+    Scratch.sized(bearing, 3, "bearing");
     return answered(Native.cameraUnproject(address, scratch.address(0), scratch.address(4)), scratch, bearing);
   }
 

@@ -7,7 +7,7 @@ public final class CameraView extends CameraViewFields {
 
   CameraView(Struct whole, int at) {
     super(whole, at);
-    Failure.check(Native.localizerViewInit(address, Layout.LOCALIZER_VIEW_BYTES), "sphc_localizer_view");
+    Failure.checkStruct(Native.localizerViewInit(address, Layout.LOCALIZER_VIEW_BYTES), "CameraView");
   }
 
   /** The camera as it is in this frame, with heat or focus; null: as in the config.  It is read when the frame is. */

@@ -1,6 +1,7 @@
 package org.spherecloud;
 
 import java.lang.ref.Reference;
+import java.util.Objects;
 
 /**
  * Poses as other systems state them: seven numbers in the order of the {@link Convention}.  {@code worldFromMap} says
@@ -19,7 +20,7 @@ public final class Conventions {
     Scratch scratch = Scratch.mine();
     Rigid worldFromMap = new Rigid();
     scratch.put(0, Scratch.sized(upMap, 3, "upMap"));
-    Failure.check(Native.conventionMakeWorld(convention.value, scratch.address(0), worldFromMap.address,
+    Failure.check(Native.conventionMakeWorld(valueOf(convention), scratch.address(0), worldFromMap.address,
         scratch.messageAddress()), scratch);
     return worldFromMap;
   }
@@ -27,9 +28,9 @@ public final class Conventions {
   /** A camera's pose to the other system, into seven numbers of the caller's. */
   public static void writeCamera(Convention convention, Rigid worldFromMap, Rigid cameraFromMap, double[] pose) {
     Scratch scratch = Scratch.mine();
-    Scratch.sized(pose, POSE, "the pose");
-    Failure.check(Native.conventionWriteCamera(convention.value, addressOf(worldFromMap), cameraFromMap.address,
-        scratch.address(0), scratch.messageAddress()), scratch);
+    Scratch.sized(pose, POSE, "pose");
+    Failure.check(Native.conventionWriteCamera(valueOf(convention), addressOrNull(worldFromMap),
+        address(cameraFromMap, "cameraFromMap"), scratch.address(0), scratch.messageAddress()), scratch);
     scratch.get(0, pose);
     Reference.reachabilityFence(worldFromMap);
     Reference.reachabilityFence(cameraFromMap);
@@ -38,9 +39,9 @@ public final class Conventions {
   /** camera_from_map of a camera's pose in the other system. */
   public static void readCamera(Convention convention, Rigid worldFromMap, double[] pose, Rigid cameraFromMap) {
     Scratch scratch = Scratch.mine();
-    scratch.put(0, Scratch.sized(pose, POSE, "the pose"));
-    Failure.check(Native.conventionReadCamera(convention.value, addressOf(worldFromMap), scratch.address(0),
-        cameraFromMap.address, scratch.messageAddress()), scratch);
+    scratch.put(0, Scratch.sized(pose, POSE, "pose"));
+    Failure.check(Native.conventionReadCamera(valueOf(convention), addressOrNull(worldFromMap), scratch.address(0),
+        address(cameraFromMap, "cameraFromMap"), scratch.messageAddress()), scratch);
     Reference.reachabilityFence(worldFromMap);
     Reference.reachabilityFence(cameraFromMap);
   }
@@ -48,8 +49,8 @@ public final class Conventions {
   /** The map's pose in the other system's world, world_from_map in all conventions, into seven numbers of the caller's. */
   public static void writeMap(Convention convention, Rigid worldFromMap, double[] pose) {
     Scratch scratch = Scratch.mine();
-    Scratch.sized(pose, POSE, "the pose");
-    Failure.check(Native.conventionWriteMap(convention.value, addressOf(worldFromMap), scratch.address(0),
+    Scratch.sized(pose, POSE, "pose");
+    Failure.check(Native.conventionWriteMap(valueOf(convention), addressOrNull(worldFromMap), scratch.address(0),
         scratch.messageAddress()), scratch);
     scratch.get(0, pose);
     Reference.reachabilityFence(worldFromMap);
@@ -58,13 +59,21 @@ public final class Conventions {
   /** world_from_map of a map's pose in the other system's world. */
   public static void readMap(Convention convention, double[] pose, Rigid worldFromMap) {
     Scratch scratch = Scratch.mine();
-    scratch.put(0, Scratch.sized(pose, POSE, "the pose"));
-    Failure.check(Native.conventionReadMap(convention.value, scratch.address(0), worldFromMap.address,
+    scratch.put(0, Scratch.sized(pose, POSE, "pose"));
+    Failure.check(Native.conventionReadMap(valueOf(convention), scratch.address(0), address(worldFromMap, "worldFromMap"),
         scratch.messageAddress()), scratch);
     Reference.reachabilityFence(worldFromMap);
   }
 
-  private static long addressOf(Rigid rigid) {
+  private static int valueOf(Convention convention) {
+    return Objects.requireNonNull(convention, "convention").value;
+  }
+
+  private static long address(Rigid rigid, String name) {
+    return Objects.requireNonNull(rigid, name).address;
+  }
+
+  private static long addressOrNull(Rigid rigid) {
     return rigid == null ? 0 : rigid.address;
   }
 }

@@ -7,7 +7,7 @@ public final class DepthView extends DepthViewFields {
 
   DepthView(Struct whole, int at) {
     super(whole, at);
-    Failure.check(Native.localizerDepthViewInit(address, Layout.LOCALIZER_DEPTH_VIEW_BYTES), "sphc_localizer_depth_view");
+    Failure.checkStruct(Native.localizerDepthViewInit(address, Layout.LOCALIZER_DEPTH_VIEW_BYTES), "DepthView");
   }
 
   /** The camera as it is in this frame, with heat or focus; null: as in the config.  It is read when the frame is. */

@@ -9,6 +9,14 @@ final class Failure {
     if (status < 0) throw new SpherecloudException(status, text);
   }
 
+  /** Of calls that fail only for the size of a struct, and have no message of their own. */
+  static void checkStruct(int status, String struct) {
+    if (status < 0) {
+      throw of(status, "The library does not know a " + struct + " of this size; take the jar and the JNI library from one"
+          + " release");
+    }
+  }
+
   /** Of calls that left their message in this scratch. */
   static void check(int status, Scratch scratch) {
     if (status < 0) throw of(status, scratch.message());

@@ -8,13 +8,15 @@ public final class FeatureArrays {
   private final StructList<Keypoint> keypoints;
   private final ByteBuffer descriptors;
   private final ByteBuffer cameras;
-  private int extractor = Native.extractorId();
+  private int extractor;
 
   /** Room for so many: config.maxKeypoints takes all. */
   public FeatureArrays(int capacity) {
+    int descriptorBytes = StructList.bytes(capacity, Limits.DESCRIPTOR_BYTES);
     keypoints = new StructList<>(capacity, Layout.KEYPOINT_BYTES, Keypoint::new);
-    descriptors = ByteBuffer.allocateDirect(capacity * Limits.DESCRIPTOR_BYTES);
+    descriptors = ByteBuffer.allocateDirect(descriptorBytes);
     cameras = ByteBuffer.allocateDirect(Math.max(1, capacity));
+    extractor = Native.extractorId();
   }
 
   /** The keypoints that count; their values can be set. */

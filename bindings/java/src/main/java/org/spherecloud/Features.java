@@ -1,13 +1,14 @@
 package org.spherecloud;
 
 import java.lang.ref.Reference;
+import java.util.Objects;
 
 /**
  * What a colour image shows, between the two halves of a frame.  They are filled by {@link Localizer#extract} or
  * {@link #set}, and located by {@link Localizer#locate}, by several localizers at the same time if need be.
  */
 public final class Features implements AutoCloseable {
-  private final Guard guard = new Guard("features");
+  private final Guard guard = new Guard("Features");
   private final Net net = new Net(this);
   private final long pointer;
 
@@ -17,6 +18,7 @@ public final class Features implements AutoCloseable {
    * @throws SpherecloudException {@link Status#E_ARGUMENT}: the message names the field, cause and cure
    */
   public Features(LocalizerConfig config) {
+    Objects.requireNonNull(config, "config");
     try {
       pointer = make(config);
     } catch (Throwable failed) {
@@ -45,7 +47,8 @@ public final class Features implements AutoCloseable {
    *     the features stay what they were
    */
   public void set(Frame frame, FeatureArrays arrays) {
-    frame.requireImages();
+    Objects.requireNonNull(frame, "frame").requireImages();
+    Objects.requireNonNull(arrays, "arrays");
     Struct told = arrays.told();
     enter();
     try {
@@ -65,6 +68,7 @@ public final class Features implements AutoCloseable {
    *     are too small
    */
   public void get(FeatureArrays arrays) {
+    Objects.requireNonNull(arrays, "arrays");
     Struct lent = new Struct(Layout.FEATURES_ARRAYS_BYTES);
     lent.putInt(Layout.FEATURES_ARRAYS_STRUCT_SIZE, Layout.FEATURES_ARRAYS_BYTES);
     enterShared();

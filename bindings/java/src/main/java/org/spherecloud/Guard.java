@@ -9,6 +9,7 @@ final class Guard {
   private final AtomicInteger users = new AtomicInteger();
   private final String name;
 
+  /** The name is that of the class. */
   Guard(String name) {
     this.name = name;
   }
@@ -51,7 +52,7 @@ final class Guard {
 
   private IllegalStateException refusal() {
     return new IllegalStateException(isClosed()
-        ? "The " + name + " is closed; make a new one"
-        : "The " + name + " is in use by another call; let it end first, or use one " + name + " for each thread");
+        ? "The " + name + " object is closed; make a new one"
+        : "The " + name + " object is in use by another call; let that end first, or use one for each thread");
   }
 }

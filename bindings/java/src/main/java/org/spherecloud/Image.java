@@ -1,6 +1,7 @@
 package org.spherecloud;
 
 import java.nio.ByteBuffer;
+import java.util.Objects;
 
 /**
  * An image in a direct buffer of the caller's, which is read in place during calls.  It keeps the buffer object alive;
@@ -34,6 +35,7 @@ public final class Image extends ImageFields {
    * @throws IllegalArgumentException the buffer is not direct, or too short
    */
   public void set(ByteBuffer data, int width, int height, int strideBytes, Format format) {
+    Objects.requireNonNull(data, "data");
     long needed = requiredBytes(width, height, strideBytes, format);
     if (!data.isDirect()) {
       throw new IllegalArgumentException("The image is in a heap buffer, which may move during a call; use"
@@ -60,14 +62,15 @@ public final class Image extends ImageFields {
 
   /** A direct buffer with these bytes, for images that come as arrays.  Keep it, and put the next image into it. */
   public static ByteBuffer directCopy(byte[] bytes) {
-    ByteBuffer copy = ByteBuffer.allocateDirect(bytes.length);
+    ByteBuffer copy = ByteBuffer.allocateDirect(Objects.requireNonNull(bytes, "bytes").length);
     copy.put(bytes).rewind();
     return copy;
   }
 
   /** Bytes of a row of so many pixels, the least stride; 0 where the format is not known or cannot have this width. */
   public static int rowBytes(Format format, int width) {
-    return Native.formatRowBytes(format.value, width);
+    Library.require();
+    return Native.formatRowBytes(Objects.requireNonNull(format, "format").value, width);
   }
 
   private static long requiredBytes(int width, int height, int strideBytes, Format format) {

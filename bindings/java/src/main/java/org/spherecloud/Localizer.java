@@ -3,6 +3,7 @@ package org.spherecloud;
 import java.lang.ref.Reference;
 import java.util.HashMap;
 import java.util.Map;
+import java.util.Objects;
 
 /**
  * Answers where the colour camera is in a map.  It takes its memory when it is made, and {@link #process} makes no
@@ -10,8 +11,8 @@ import java.util.Map;
  * {@link #close} does.  Only {@link #extract} may run beside other calls than process, extract and close.
  */
 public final class Localizer implements AutoCloseable {
-  private final Guard guard = new Guard("localizer");
-  private final Guard extraction = new Guard("localizer");
+  private final Guard guard = new Guard("Localizer");
+  private final Guard extraction = new Guard("Localizer");
   private final Net net = new Net(this);
   private final Map<Integer, Block> maps = new HashMap<>();
   private final long pointer;
@@ -22,6 +23,7 @@ public final class Localizer implements AutoCloseable {
    * @throws SpherecloudException {@link Status#E_ARGUMENT}: the message names the field, cause and cure
    */
   public Localizer(LocalizerConfig config) {
+    Objects.requireNonNull(config, "config");
     try {
       pointer = make(config);
     } catch (Throwable failed) {
@@ -67,6 +69,7 @@ public final class Localizer implements AutoCloseable {
    *     is of another band
    */
   public void setMap(int mapId, SphereMap map) {
+    Objects.requireNonNull(map, "map");
     enter();
     try {
       map.lend((mapPointer, block) -> {
@@ -128,6 +131,8 @@ public final class Localizer implements AutoCloseable {
    * @throws SpherecloudException the frame does not fit; the localizer goes on with the next one
    */
   public boolean process(Frame frame, Result result) {
+    Objects.requireNonNull(frame, "frame");
+    Objects.requireNonNull(result, "result");
     enter();
     try {
       extraction.enter();
@@ -151,6 +156,8 @@ public final class Localizer implements AutoCloseable {
    * @throws SpherecloudException the frame does not fit; the features stay what they were
    */
   public void extract(Frame frame, Features features) {
+    Objects.requireNonNull(frame, "frame");
+    Objects.requireNonNull(features, "features");
     extraction.enter();
     try {
       frame.requireImages();
@@ -173,6 +180,9 @@ public final class Localizer implements AutoCloseable {
    * @throws SpherecloudException the frame does not fit, has another time than the features, or they are of no frame yet
    */
   public boolean locate(Frame frame, Features features, Result result) {
+    Objects.requireNonNull(frame, "frame");
+    Objects.requireNonNull(features, "features");
+    Objects.requireNonNull(result, "result");
     enter();
     try {
       frame.getDepth().requireData();
@@ -195,10 +205,11 @@ public final class Localizer implements AutoCloseable {
    * it.  False: it is not known.  Makes no garbage.
    */
   public boolean predict(long timeNs, Prediction prediction) {
+    Objects.requireNonNull(prediction, "prediction");
     enter();
     try {
       int status = Native.localizerPredict(pointer, timeNs, prediction.address);
-      Failure.check(status, "No prediction was made");
+      Failure.checkStruct(status, "Prediction");
       return status == Status.OK.value;
     } finally {
       leave();
@@ -208,11 +219,12 @@ public final class Localizer implements AutoCloseable {
 
   /** What became of the keypoints of the last processed frame; returns how many there are, also where fewer fit in. */
   public int observations(Observations into) {
+    Objects.requireNonNull(into, "into");
     Scratch scratch = Scratch.mine();
     enter();
     try {
-      Failure.check(Native.localizerObservations(pointer, into.address, Layout.LOCALIZER_OBSERVATION_BYTES,
-          into.capacity(), scratch.address(0)), "No observations were copied");
+      Failure.checkStruct(Native.localizerObservations(pointer, into.address, Layout.LOCALIZER_OBSERVATION_BYTES,
+          into.capacity(), scratch.address(0)), "Observation");
       into.fill(scratch.count());
       return scratch.count();
     } finally {
@@ -223,11 +235,12 @@ public final class Localizer implements AutoCloseable {
 
   /** The poses that the last processed frame may have, those of most gain first; returns how many there are. */
   public int hypotheses(Hypotheses into) {
+    Objects.requireNonNull(into, "into");
     Scratch scratch = Scratch.mine();
     enter();
     try {
-      Failure.check(Native.localizerHypotheses(pointer, into.address, Layout.LOCALIZER_HYPOTHESIS_BYTES, into.capacity(),
-          scratch.address(0)), "No hypotheses were copied");
+      Failure.checkStruct(Native.localizerHypotheses(pointer, into.address, Layout.LOCALIZER_HYPOTHESIS_BYTES,
+          into.capacity(), scratch.address(0)), "Hypothesis");
       into.fill(scratch.count());
       return scratch.count();
     } finally {
@@ -242,6 +255,7 @@ public final class Localizer implements AutoCloseable {
    * @throws SpherecloudException {@link Status#E_ARGUMENT}: out of range
    */
   public void setParameter(Parameter parameter, double value) {
+    Objects.requireNonNull(parameter, "parameter");
     enter();
     try {
       check(Native.localizerSetParameter(pointer, parameter.value, value));
@@ -252,11 +266,12 @@ public final class Localizer implements AutoCloseable {
 
   /** What {@link #setParameter} set, or its default. */
   public double getParameter(Parameter parameter) {
+    Objects.requireNonNull(parameter, "parameter");
     Scratch scratch = Scratch.mine();
     double[] value = new double[1];
     enter();
     try {
-      check(Native.localizerGetParameter(pointer, parameter.value, scratch.address(0)));
+      checkParameter(Native.localizerGetParameter(pointer, parameter.value, scratch.address(0)), parameter);
       scratch.get(0, value);
       return value[0];
     } finally {
@@ -266,10 +281,14 @@ public final class Localizer implements AutoCloseable {
 
   /** What a parameter is where it was not set, and may be set to.  Any thread may ask. */
   public static ParameterRange parameterRange(Parameter parameter) {
+    Objects.requireNonNull(parameter, "parameter");
     ParameterRange range = new ParameterRange();
-    Failure.check(Native.localizerGetParameterRange(parameter.value, range.address),
-        "This library has no parameter " + parameter);
+    checkParameter(Native.localizerGetParameterRange(parameter.value, range.address), parameter);
     return range;
+  }
+
+  private static void checkParameter(int status, Parameter parameter) {
+    if (status < 0) throw Failure.of(status, "This library has no parameter " + parameter + "; ask for another one");
   }
 
   /**
@@ -278,6 +297,7 @@ public final class Localizer implements AutoCloseable {
    * @throws SpherecloudException {@link Status#E_ARGUMENT}: it cannot be one of this config
    */
   public void setDepthBias(DepthBias depth) {
+    Objects.requireNonNull(depth, "depth");
     enter();
     try {
       check(Native.localizerSetDepthBias(pointer, depth.address));
@@ -321,6 +341,7 @@ public final class Localizer implements AutoCloseable {
     Reference.reachabilityFence(this);
   }
 
+  /** Of calls that set the localizer's message: those that take it as const leave the one of an earlier call. */
   private void check(int status) {
     if (status < 0) throw Failure.of(status, Native.localizerMessage(pointer));
   }

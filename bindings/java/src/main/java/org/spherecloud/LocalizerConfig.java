@@ -1,5 +1,7 @@
 package org.spherecloud;
 
+import java.util.Objects;
+
 /** What a {@link Localizer} is made for.  New ones have the defaults; their cameras are zero and must be set. */
 public final class LocalizerConfig extends LocalizerConfigFields {
   private StructList<RigCamera> cameras;
@@ -14,8 +16,7 @@ public final class LocalizerConfig extends LocalizerConfigFields {
 
   /** The further cameras of the rig, beside the colour camera.  They are copied. */
   public void setCameras(RigCamera... further) {
-    cameras = further.length == 0 ? null : new StructList<>(further.length, Layout.LOCALIZER_CAMERA_BYTES, RigCamera::new);
-    for (int i = 0; i < further.length; i++) cameras.at(i).set(further[i]);
+    cameras = copies("cameras", further, Layout.LOCALIZER_CAMERA_BYTES, RigCamera::new);
     putPointer(Layout.LOCALIZER_CONFIG_CAMERAS, cameras);
     putInt(Layout.LOCALIZER_CONFIG_CAMERA_COUNT, further.length);
   }
@@ -27,9 +28,7 @@ public final class LocalizerConfig extends LocalizerConfigFields {
 
   /** The further depth cameras of the rig, beside that of {@link #getRig}.  They are copied. */
   public void setDepthCameras(DepthCamera... further) {
-    depthCameras = further.length == 0 ? null
-        : new StructList<>(further.length, Layout.LOCALIZER_DEPTH_CAMERA_BYTES, DepthCamera::new);
-    for (int i = 0; i < further.length; i++) depthCameras.at(i).set(further[i]);
+    depthCameras = copies("depthCameras", further, Layout.LOCALIZER_DEPTH_CAMERA_BYTES, DepthCamera::new);
     putPointer(Layout.LOCALIZER_CONFIG_DEPTH_CAMERAS, depthCameras);
     putInt(Layout.LOCALIZER_CONFIG_DEPTH_CAMERA_COUNT, further.length);
   }
@@ -39,9 +38,19 @@ public final class LocalizerConfig extends LocalizerConfigFields {
     return getInt(Layout.LOCALIZER_CONFIG_DEPTH_CAMERA_COUNT);
   }
 
+  /** A list of its own, null where it is empty.  What it replaces stays until it is whole: the struct points there. */
+  private static <E extends Struct> StructList<E> copies(String name, E[] of, int bytes, StructList.Maker<E> maker) {
+    Objects.requireNonNull(of, name);
+    for (int i = 0; i < of.length; i++) Objects.requireNonNull(of[i], name + "[" + i + "] is null; give one that is made");
+    if (of.length == 0) return null;
+    StructList<E> made = new StructList<>(of.length, bytes, maker);
+    for (int i = 0; i < of.length; i++) made.at(i).copy(of[i], bytes);
+    return made;
+  }
+
   /** Lines of this level, and of those that say less, go to the log; {@link LogLevel#DEBUG} has one for every frame. */
   public void setLog(LogLevel level, Log log) {
-    putInt(Layout.LOCALIZER_CONFIG_LOG_LEVEL, level.value);
+    putInt(Layout.LOCALIZER_CONFIG_LOG_LEVEL, Objects.requireNonNull(level, "level").value);
     this.log = log;
   }
 

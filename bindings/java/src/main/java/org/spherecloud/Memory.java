@@ -6,11 +6,7 @@ import java.nio.ByteBuffer;
 final class Memory {
   private Memory() {}
 
-  static {
-    Library.load();
-  }
-
-  static final int POINTER_BYTES = pointerBytes();
+  static final int POINTER_BYTES = Library.load() ? pointerBytes() : 0;
 
   private static native int pointerBytes();
 

@@ -1,5 +1,7 @@
 package org.spherecloud;
 
+import java.util.Objects;
+
 /** What is known of a pose before its frame is looked at.  Each of the three parts counts once it is set. */
 public final class Prior extends PriorFields {
   /** Nothing is known. */
@@ -12,6 +14,7 @@ public final class Prior extends PriorFields {
 
   /** Where the camera should be, in this map's frame; one sigma an axis, of the camera's centre. */
   public void setPose(int mapId, Rigid cameraFromMap, double rotationSigmaRad, double translationSigmaM) {
+    Objects.requireNonNull(cameraFromMap, "cameraFromMap");
     setMapId(mapId);
     getCameraFromMap().set(cameraFromMap);
     setRotationSigmaRad(rotationSigmaRad);
@@ -19,8 +22,10 @@ public final class Prior extends PriorFields {
     add(PriorPart.POSE);
   }
 
-  /** The vertical from an inertial sensor: the same direction in both frames, of any length but 0; one sigma an axis. */
+  /** The vertical from an inertial sensor: the same direction in both frames, of any usual length; one sigma an axis. */
   public void setUp(int mapId, double[] upCamera, double[] upMap, double sigmaRad) {
+    Objects.requireNonNull(upCamera, "upCamera");
+    Objects.requireNonNull(upMap, "upMap");
     setMapId(mapId);
     setUpCamera(upCamera);
     setUpMap(upMap);
@@ -30,6 +35,7 @@ public final class Prior extends PriorFields {
 
   /** The device's own dead reckoning at the time of the colour image; one sigma an axis, of the step since the last. */
   public void setOdometry(Rigid odometryFromCamera, double rotationSigmaRad, double translationSigmaM) {
+    Objects.requireNonNull(odometryFromCamera, "odometryFromCamera");
     getOdometryFromCamera().set(odometryFromCamera);
     setOdometryRotationSigmaRad(rotationSigmaRad);
     setOdometryTranslationSigmaM(translationSigmaM);

@@ -4,8 +4,11 @@ import java.lang.ref.Reference;
 
 /** What was found in a frame.  Make one and hand it to every {@link Localizer#process}; it belongs to one thread at a time. */
 public final class Result extends ResultFields {
-  /** Says nothing yet. */
-  public Result() {}
+  /** Says nothing yet: its outcome is {@link Outcome#UNKNOWN}, and its map {@link Limits#MAP_NONE}. */
+  public Result() {
+    putInt(Layout.LOCALIZER_RESULT_OUTCOME, Outcome.UNKNOWN.value); // zero would be LOCALIZED
+    putInt(Layout.LOCALIZER_RESULT_MAP_ID, Limits.MAP_NONE);
+  }
 
   /** Takes over all that the other one says, to keep it. */
   public void set(Result other) {

@@ -1,6 +1,7 @@
 package org.spherecloud;
 
 import java.lang.ref.Reference;
+import java.util.Objects;
 
 /**
  * A rigid transform, named target_from_source everywhere: x_target = R(q) x_source + t.  Where it is a part of a result
@@ -46,6 +47,7 @@ public final class Rigid extends RigidFields {
 
   /** c_from_a = c_from_b * b_from_a, where this is c_from_b; a new one, with its quaternion normalised. */
   public Rigid compose(Rigid bFromA) {
+    Objects.requireNonNull(bFromA, "bFromA");
     Rigid cFromA = new Rigid();
     Native.rigidCompose(address, bFromA.address, cFromA.address);
     Reference.reachabilityFence(bFromA);
@@ -64,7 +66,7 @@ public final class Rigid extends RigidFields {
   /** x_target of a point x_source: three numbers in metres, in a new array. */
   public double[] apply(double... source) {
     Scratch scratch = Scratch.mine();
-    scratch.put(0, Scratch.sized(source, 3, "the point"));
+    scratch.put(0, Scratch.sized(source, 3, "source"));
     Native.rigidApply(address, scratch.address(0), scratch.address(0));
     Reference.reachabilityFence(this);
     double[] target = new double[3];

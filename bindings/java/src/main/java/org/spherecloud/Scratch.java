@@ -57,7 +57,7 @@ final class Scratch extends Struct {
 
   /** An array of this length, or an exception that says which is needed. */
   static double[] sized(double[] numbers, int length, String name) {
-    if (numbers.length == length) return numbers;
+    if (java.util.Objects.requireNonNull(numbers, name).length == length) return numbers;
     throw new IllegalArgumentException(name + " has " + numbers.length + " numbers; " + length + " are needed");
   }
 }

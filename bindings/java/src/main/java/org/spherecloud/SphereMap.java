@@ -6,13 +6,14 @@ import java.nio.ByteBuffer;
 import java.nio.channels.FileChannel;
 import java.nio.file.Path;
 import java.nio.file.StandardOpenOption;
+import java.util.Objects;
 
 /**
  * A map of a room: what a map file holds, checked and ready.  Several localizers of several threads may have it at the
  * same time.  Its memory goes when it is closed and no localizer has it any more.
  */
 public final class SphereMap implements AutoCloseable {
-  private final Guard guard = new Guard("map");
+  private final Guard guard = new Guard("SphereMap");
   private final Net net = new Net(this);
   private final Block block;
   private final long pointer;
@@ -24,7 +25,7 @@ public final class SphereMap implements AutoCloseable {
 
   private SphereMap(long fileBytes, Source source) throws IOException {
     Struct need = new Struct(Layout.MEMORY_BYTES);
-    Failure.check(Native.mapMemory(need.address), "The memory of a map is not known");
+    Failure.check(Native.mapMemory(need.address), "The library does not tell what a map needs; please report");
     long view = need.getLong(Layout.MEMORY_STATE_BYTES);
     long fileAt = (view + 63) / 64 * 64;
     block = net.hold(new Block(fileAt + fileBytes, Math.max(64, need.getInt(Layout.MEMORY_ALIGNMENT))));
@@ -48,7 +49,7 @@ public final class SphereMap implements AutoCloseable {
    * @throws SpherecloudException it is no map, was changed, or is of another version; the message says what to do
    */
   public static SphereMap open(Path path) throws IOException {
-    try (FileChannel file = FileChannel.open(path, StandardOpenOption.READ)) {
+    try (FileChannel file = FileChannel.open(Objects.requireNonNull(path, "path"), StandardOpenOption.READ)) {
       long bytes = file.size();
       if (bytes > Integer.MAX_VALUE) throw new IOException(path + " is larger than 2 GiB; no map is");
       return new SphereMap(bytes, into -> {
@@ -63,7 +64,7 @@ public final class SphereMap implements AutoCloseable {
    * @throws SpherecloudException it is no map, was changed, or is of another version; the message says what to do
    */
   public static SphereMap of(byte[] file) {
-    return of(ByteBuffer.wrap(file));
+    return of(ByteBuffer.wrap(Objects.requireNonNull(file, "file")));
   }
 
   /**
@@ -72,6 +73,7 @@ public final class SphereMap implements AutoCloseable {
    * @throws SpherecloudException it is no map, was changed, or is of another version; the message says what to do
    */
   public static SphereMap of(ByteBuffer file) {
+    Objects.requireNonNull(file, "file");
     try {
       return new SphereMap(file.remaining(), into -> into.put(file.duplicate()));
     } catch (IOException impossible) {
@@ -84,7 +86,7 @@ public final class SphereMap implements AutoCloseable {
     MapInfo info = new MapInfo();
     guard.enterShared();
     try {
-      Failure.check(Native.mapGetInfo(pointer, info.address), "The map tells nothing of itself");
+      Failure.checkStruct(Native.mapGetInfo(pointer, info.address), "MapInfo");
     } finally {
       guard.leaveShared();
       Reference.reachabilityFence(this);

@@ -6,11 +6,13 @@ public final class Spherecloud {
 
   /** "major.minor.patch". */
   public static String version() {
+    Library.require();
     return Native.versionString();
   }
 
   /** The id of the library's keypoint extractor; a map whose points another one described is refused. */
   public static int extractorId() {
+    Library.require();
     return Native.extractorId();
   }
 }

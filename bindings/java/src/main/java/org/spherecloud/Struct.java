@@ -2,6 +2,7 @@ package org.spherecloud;
 
 import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
+import java.util.Objects;
 
 /** A struct of the C interface in a direct buffer, or a part of one.  It belongs to one thread at a time. */
 class Struct {
@@ -11,6 +12,7 @@ class Struct {
   final long address;
 
   Struct(int size) {
+    Library.require();
     bytes = ByteBuffer.allocateDirect(size).order(ByteOrder.nativeOrder());
     first = 0;
     address = Memory.address(bytes);
@@ -66,6 +68,7 @@ class Struct {
   }
 
   final void putDoubles(int at, int length, double[] values) {
+    Objects.requireNonNull(values, "values");
     if (values.length != length) throw new IllegalArgumentException(values.length + " numbers; " + length + " are needed");
     for (int i = 0; i < length; i++) bytes.putDouble(first + at + 8 * i, values[i]);
   }
@@ -91,7 +94,7 @@ class Struct {
   }
 
   final void copy(Struct other, int size) {
-    Memory.copy(address, other.address, size);
+    Memory.copy(address, Objects.requireNonNull(other, "other").address, size);
     java.lang.ref.Reference.reachabilityFence(other);
   }
 }

@@ -18,9 +18,17 @@ class StructList<E extends Struct> extends Struct {
   private final AbstractList<E> list = new Filled();
 
   StructList(int capacity, int elementBytes, Maker<E> maker) {
-    super(Math.multiplyExact(Math.max(capacity, 1), elementBytes));
+    super(Math.max(bytes(capacity, elementBytes), elementBytes));
     elements = new Struct[capacity];
     for (int i = 0; i < capacity; i++) elements[i] = maker.make(this, i * elementBytes);
+  }
+
+  /** Of so many elements, one behind the other in a buffer. */
+  static int bytes(int capacity, int elementBytes) {
+    long bytes = (long) capacity * elementBytes;
+    if (capacity >= 0 && bytes <= Integer.MAX_VALUE) return (int) bytes;
+    throw new IllegalArgumentException("There is no room for " + capacity + " elements of " + elementBytes
+        + " bytes; give a number that is not negative, and for less than 2 GiB");
   }
 
   /** Filled or not. */

@@ -30,7 +30,8 @@ public class LifetimeTest {
     assertThrows(IllegalStateException.class, localizer::getMapCount);
     assertThrows(IllegalStateException.class, () -> localizer.process(frame, new Result()));
     assertThrows(IllegalStateException.class, () -> localizer.extract(frame, new Features(Session.config())));
-    assertThrows(IllegalStateException.class, () -> features.get(new FeatureArrays(1)));
+    IllegalStateException closed = assertThrows(IllegalStateException.class, () -> features.get(new FeatureArrays(1)));
+    assertEquals("The Features object is closed; make a new one", closed.getMessage());
     try (Localizer open = new Localizer(Session.config())) {
       assertThrows(IllegalStateException.class, () -> open.setMap(0, map));
       assertThrows(IllegalStateException.class, () -> open.extract(frame, features));
@@ -79,7 +80,35 @@ public class LifetimeTest {
     assertTrue(Block.count() + " are left of " + before, Block.count() <= before);
   }
 
-  private static void collect() {
+  /** The collector does not see native memory, so it is asked. */
+  @Test
+  public void whatIsLostDoesNotPileUp() {
+    collect();
+    LocalizerConfig config = Session.config();
+    long before = NativeBytes.taken();
+    long most = before;
+    try (SphereMap map = Session.map()) {
+      for (int i = 0; i < 150; i++) {
+        new Localizer(config).setMap(0, map);
+        most = Math.max(most, NativeBytes.taken());
+      }
+    }
+    assertTrue(most - before + " bytes", most - before < NativeBytes.BOUND + (NativeBytes.BOUND >> 2));
+  }
+
+  @Test
+  public void whatIsLostIsGivenBackWhereThereIsNoMemory() {
+    collect();
+    int before = Block.count();
+    for (int i = 0; i < 3; i++) new Localizer(Session.config());
+    long taken = NativeBytes.taken();
+    assertThrows(OutOfMemoryError.class, () -> new Block(64, 48)); // no machine aligns so
+    assertTrue(Block.count() + " are left of " + before, Block.count() <= before);
+    assertTrue(NativeBytes.taken() < taken);
+    assertThrows(OutOfMemoryError.class, () -> new Block(1L << 60, 64));
+  }
+
+  static void collect() {
     for (int i = 0; i < 5; i++) {
       System.gc();
       try {

@@ -180,6 +180,99 @@ public class MisuseTest {
   }
 
   @Test
+  public void sizesThatCannotBe() {
+    illegal("33554432 elements", () -> new FeatureArrays(33554432)); // of 128 bytes: 0 in 32 bits
+    illegal("-1 elements", () -> new FeatureArrays(-1));
+    illegal("-1 elements", () -> new Frame(-1));
+    illegal("-1 elements", () -> new Frame(0, -1));
+    illegal("elements", () -> new Frame(Integer.MAX_VALUE));
+    illegal("elements", () -> new Observations(Integer.MAX_VALUE));
+    illegal("-1 x -1", () -> new Aligned(-1, -1));
+    illegal("65536 x 65536", () -> new Aligned(65536, 65536));
+    illegal("0 x 0", () -> new Aligned(new AlignerConfig()));
+    assertEquals(0, Memory.allocate(-1, 64));
+    assertEquals(0, Memory.allocate(Long.MIN_VALUE, 64));
+  }
+
+  @Test
+  public void aNewResultSaysNothing() {
+    Result result = new Result();
+    assertEquals(Outcome.UNKNOWN, result.getOutcome());
+    assertEquals(Limits.MAP_NONE, result.getMapId());
+    assertEquals(0, result.getConfidence(), 0);
+    assertEquals(0, result.getConfidence(1, 1), 0);
+    assertTrue(result.toString(), result.toString().startsWith("UNKNOWN"));
+  }
+
+  /** Calls that leave no message do not say what an earlier call left. */
+  @Test
+  public void aMessageIsOfItsOwnCall() {
+    try (Localizer localizer = Session.localizer()) {
+      fails(Status.E_IMAGE, "color", () -> localizer.process(new Frame(), new Result()));
+      fails(Status.E_UNSUPPORTED, "no parameter UNKNOWN;", () -> localizer.getParameter(Parameter.UNKNOWN));
+      fails(Status.E_UNSUPPORTED, "no parameter UNKNOWN;", () -> Localizer.parameterRange(Parameter.UNKNOWN));
+      fails(Status.E_UNSUPPORTED, "parameter", () -> localizer.setParameter(Parameter.UNKNOWN, 1));
+    }
+  }
+
+  private static void missing(String name, ThrowingRunnable call) {
+    assertEquals(name, assertThrows(NullPointerException.class, call).getMessage());
+  }
+
+  @Test
+  public void nullsAreNamed() {
+    Image image = new Image();
+    ByteBuffer bytes = ByteBuffer.allocateDirect(16);
+    missing("data", () -> image.set(null, 4, 4, Format.GRAY8));
+    missing("format", () -> image.set(bytes, 4, 4, null));
+    missing("format", () -> image.set(bytes, 4, 4, 4, null));
+    missing("bytes", () -> Image.directCopy(null));
+    missing("path", () -> SphereMap.open(null));
+    missing("file", () -> SphereMap.of((byte[]) null));
+    missing("file", () -> SphereMap.of((ByteBuffer) null));
+    missing("config", () -> new Localizer(null));
+    missing("config", () -> new Features(null));
+    missing("config", () -> new Aligner(null));
+    missing("config", () -> new Aligned(null));
+    missing("model", () -> new Camera(null, 4, 4));
+    missing("params", () -> new Camera(CameraModel.PINHOLE, 4, 4, (double[]) null));
+    missing("pointM", () -> new Camera().project(null, new double[2]));
+    missing("other", () -> new Rigid().set(null));
+    missing("bFromA", () -> new Rigid().compose(null));
+    missing("values", () -> new Rigid().setTranslationM((double[]) null));
+    missing("upMap", () -> new Prior().setUp(0, new double[3], null, 1));
+    missing("cameraFromMap", () -> new Prior().setPose(0, null, 1, 1));
+    missing("convention", () -> Conventions.makeWorld(null, 0, 0, 1));
+    missing("cameraFromMap", () -> Conventions.writeCamera(Convention.TUM, null, null, new double[7]));
+    missing("pose", () -> Conventions.readMap(Convention.TUM, null, new Rigid()));
+    missing("mode", () -> Session.config().setMode(null));
+    missing("level", () -> Session.config().setLog(null, null));
+    missing("fault", () -> new Result().has((Fault) null));
+    missing("parameter", () -> Localizer.parameterRange(null));
+  }
+
+  @Test
+  public void nullsOfALocalizerAreNamed() {
+    Frame frame = new Frame();
+    try (Localizer localizer = Session.localizer(); Features features = new Features(Session.config())) {
+      missing("map", () -> localizer.setMap(1, null));
+      missing("map", () -> new Localizer(Session.config(), null));
+      missing("frame", () -> localizer.process(null, new Result()));
+      missing("result", () -> localizer.process(frame, null));
+      missing("features", () -> localizer.extract(frame, null));
+      missing("features", () -> localizer.locate(frame, null, new Result()));
+      missing("prediction", () -> localizer.predict(0, null));
+      missing("into", () -> localizer.observations(null));
+      missing("into", () -> localizer.hypotheses(null));
+      missing("parameter", () -> localizer.getParameter(null));
+      missing("depth", () -> localizer.setDepthBias(null));
+      missing("arrays", () -> features.get(null));
+      missing("frame", () -> features.set(null, new FeatureArrays(1)));
+      assertEquals(1, localizer.getMapCount()); // none of them left it in use
+    }
+  }
+
+  @Test
   public void numbersOfAnArray() {
     Rigid rigid = new Rigid();
     assertThrows(IndexOutOfBoundsException.class, () -> rigid.getTranslationM(3));

@@ -5,7 +5,10 @@ import static org.junit.Assert.assertNull;
 import static org.junit.Assert.assertThrows;
 import static org.junit.Assert.assertTrue;
 
+import java.nio.ByteBuffer;
+import java.util.Arrays;
 import org.junit.Test;
+import org.junit.function.ThrowingRunnable;
 
 /** A further camera of a rig. */
 public class RigTest {
@@ -47,5 +50,36 @@ public class RigTest {
     }
     config.setCameras();
     assertEquals(0, config.getCameraCount());
+  }
+
+  /** The list from before is still there, and so is its memory. */
+  @Test
+  public void aListWithANullChangesNothing() {
+    LocalizerConfig config = Session.config();
+    RigCamera second = new RigCamera();
+    second.getCamera().set(config.getRig().getColorCamera());
+    DepthCamera depth = new DepthCamera();
+    depth.getCamera().set(config.getRig().getDepthCamera());
+    config.setCameras(second);
+    config.setDepthCameras(depth);
+    refused("cameras[1]", () -> config.setCameras(second, null));
+    refused("depthCameras[0]", () -> config.setDepthCameras((DepthCamera) null));
+    refused("cameras", () -> config.setCameras((RigCamera[]) null));
+    assertEquals(1, config.getCameraCount());
+    assertEquals(1, config.getDepthCameraCount());
+    LifetimeTest.collect();
+    ByteBuffer[] overwriting = new ByteBuffer[100];
+    for (int i = 0; i < overwriting.length; i++) {
+      byte[] ones = new byte[i % 2 == 0 ? Layout.LOCALIZER_CAMERA_BYTES : Layout.LOCALIZER_DEPTH_CAMERA_BYTES];
+      Arrays.fill(ones, (byte) -1);
+      overwriting[i] = Image.directCopy(ones);
+    }
+    new Localizer(config).close();
+    assertEquals(100, overwriting.length);
+  }
+
+  private static void refused(String words, ThrowingRunnable call) {
+    NullPointerException refusal = assertThrows(NullPointerException.class, call);
+    assertTrue(refusal.getMessage(), refusal.getMessage().startsWith(words));
   }
 }
