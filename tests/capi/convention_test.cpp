@@ -225,17 +225,18 @@ TEST(CInterfaceConvention, AnUnknownOneIsNoArgumentOfToday) {
 // What may be wrong with a pose of ours, and what is said of it.
 struct SpoiledRigid {
   sphc_rigid rigid;
-  const char *words;
+  int place;  // the number that is wrong, of w x y z and the translation; 0: the quaternion's length
+  std::string words;
 };
 const SpoiledRigid kSpoiled[] = {
-    {{{0, 0, 0, 0}, {0, 0, 0}}, "has length 0; it must be 1"},
-    {{{1.002, 0, 0, 0}, {0, 0, 0}}, "has length 1.002; it must be 1"},
-    {{{0.998, 0, 0, 0}, {0, 0, 0}}, "has length 0.998; it must be 1"},
-    {{{1, 0, kNan, 0}, {0, 0, 0}}, "has length nan; it must be 1"},
-    {{{1, 0, 0, -kInf}, {0, 0, 0}}, "has length inf; it must be 1"},
-    {{{1, 0, 0, 0}, {0, kNan, 0}}, "] is nan; it must lie in"},
-    {{{1, 0, 0, 0}, {0, 0, kInf}}, "] is inf; it must lie in"},
-    {{{1, 0, 0, 0}, {-1.1e9, 0, 0}}, "] is -1100000000; it must lie in -1000000000 to 1000000000"},
+    {{{0, 0, 0, 0}, {0, 0, 0}}, 0, "has length 0; it must be 1"},
+    {{{1.002, 0, 0, 0}, {0, 0, 0}}, 0, "has length 1.002; it must be 1"},
+    {{{0.998, 0, 0, 0}, {0, 0, 0}}, 0, "has length 0.998; it must be 1"},
+    {{{1, 0, kNan, 0}, {0, 0, 0}}, 0, "has length nan; it must be 1"},
+    {{{1, 0, 0, -kInf}, {0, 0, 0}}, 0, "has length inf; it must be 1"},
+    {{{1, 0, 0, 0}, {0, kNan, 0}}, 5, "is nan; it must lie in"},
+    {{{1, 0, 0, 0}, {0, 0, kInf}}, 6, "is inf; it must lie in"},
+    {{{1, 0, 0, 0}, {-1.1e9, 0, 0}}, 4, "is -1100000000; it must lie in -1000000000 to 1000000000"},
 };
 
 TEST(CInterfaceConvention, BadTransformsAreRefused) {
@@ -243,33 +244,36 @@ TEST(CInterfaceConvention, BadTransformsAreRefused) {
     for (const SpoiledRigid &spoiled : kSpoiled) {
       sphc_message message = {};
       Output<double[7]> pose;
-      const auto expectSaid = [&](const char *name) {
-        expectMentions(message.text, spoiled.words);
-        expectMentions(message.text, name);
+      const bool of_length = spoiled.place == 0;
+      const auto expectSaid = [&](const std::string &what) {
+        expectMentions(message.text, (what + " " + spoiled.words).c_str());
       };
+      const std::string field = of_length ? ".q_wxyz" : ".t_m[" + std::to_string(spoiled.place - 4) + "]";
       EXPECT_EQ(sphc_convention_write_camera(convention, &kIdentity, &spoiled.rigid, *pose.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("camera_from_map");
+      expectSaid("camera_from_map" + field);
       EXPECT_EQ(sphc_convention_write_camera(convention, &spoiled.rigid, &kIdentity, *pose.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("world_from_map");
+      expectSaid("world_from_map" + field);
       EXPECT_EQ(sphc_convention_write_map(convention, &spoiled.rigid, *pose.get(), &message), SPHC_E_ARGUMENT);
-      expectSaid("world_from_map");
+      expectSaid("world_from_map" + field);
       EXPECT_TRUE(pose.untouched());
 
       const double good[7] = {0.5, 0.5, -0.5, 0.5, 0.5, 0.5, 0.5};  // in every order
       Output<sphc_rigid> rigid;
       EXPECT_EQ(sphc_convention_read_camera(convention, &spoiled.rigid, good, rigid.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("world_from_map");
+      expectSaid("world_from_map" + field);
       double numbers[7];
       const std::vector<int> order = orderOf(convention);
       for (int i = 0; i < 7; ++i) numbers[order[i]] = i < 4 ? spoiled.rigid.q_wxyz[i] : spoiled.rigid.t_m[i - 4];
+      const std::string in_pose =
+          of_length ? "the quaternion of pose" : "pose[" + std::to_string(order[spoiled.place]) + "]";
       EXPECT_EQ(sphc_convention_read_camera(convention, &kIdentity, numbers, rigid.get(), &message),
                 SPHC_E_ARGUMENT);
-      expectSaid("pose");
+      expectSaid(in_pose);
       EXPECT_EQ(sphc_convention_read_map(convention, numbers, rigid.get(), &message), SPHC_E_ARGUMENT);
-      expectSaid("pose");
+      expectSaid(in_pose);
       EXPECT_TRUE(rigid.untouched());
     }
 }

@@ -48,6 +48,15 @@ sphc_localizer_prior posePrior(const sphc_rigid &camera_from_map) {
   return prior;
 }
 
+// Its directions are zero.
+sphc_localizer_prior upPrior() {
+  sphc_localizer_prior prior = {};
+  prior.struct_size = sizeof prior;
+  prior.flags = SPHC_PRIOR_UP;
+  prior.up_sigma_rad = 0.01;
+  return prior;
+}
+
 double distanceM(const sphc_rigid &a, const sphc_rigid &b) {
   return std::hypot(a.t_m[0] - b.t_m[0], a.t_m[1] - b.t_m[1], a.t_m[2] - b.t_m[2]);
 }
@@ -92,16 +101,13 @@ TEST_F(CInterfacePoseOptions, APoseElsewhereThanItsPriorSaysIsFoundInTheWholeMap
 TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
   Session session(config_);
   const sphc_localizer_result cold = localize(&session, 1);
-  sphc_localizer_prior prior = {};
-  prior.struct_size = sizeof prior;
-  prior.flags = SPHC_PRIOR_UP;
+  sphc_localizer_prior prior = upPrior();
   prior.up_map[1] = 3;  // any length
   const double w = cold.camera_from_map.q_wxyz[0], x = cold.camera_from_map.q_wxyz[1];
   const double y = cold.camera_from_map.q_wxyz[2], z = cold.camera_from_map.q_wxyz[3];
   prior.up_camera[0] = 2 * (x * y - w * z);  // R (0, 1, 0)
   prior.up_camera[1] = 1 - 2 * (x * x + z * z);
   prior.up_camera[2] = 2 * (y * z + w * x);
-  prior.up_sigma_rad = 0.01;
   const sphc_localizer_result upright = localize(&session, 1, &prior);
   ASSERT_EQ(status_, SPHC_OK);
   EXPECT_LE(upright.iterations, cold.iterations);
@@ -112,11 +118,8 @@ TEST_F(CInterfacePoseOptions, TheVerticalHelps) {
 TEST_F(CInterfacePoseOptions, AVerticalOfOtherAxesIsNamed) {
   Session session(config_);
   const sphc_localizer_result cold = localize(&session, 1);
-  sphc_localizer_prior prior = {};
-  prior.struct_size = sizeof prior;
-  prior.flags = SPHC_PRIOR_UP;
+  sphc_localizer_prior prior = upPrior();
   prior.up_camera[2] = prior.up_map[1] = 1;  // along the view, and the vertical of the map is along y
-  prior.up_sigma_rad = 0.01;
   const sphc_localizer_result found = localize(&session, 1, &prior);
   ASSERT_EQ(found.outcome, SPHC_OUTCOME_LOCALIZED);
   EXPECT_EQ(found.faults & SPHC_FAULT_VERTICAL_DISAGREES, uint32_t{SPHC_FAULT_VERTICAL_DISAGREES});

@@ -9,7 +9,7 @@ use crate::error::{check, check_with, error, text_of};
 use crate::geometry::same_layout;
 use crate::hooks::panics;
 use crate::memory::Room;
-use crate::{check_library, Config, Frame, Result};
+use crate::{Config, Frame, Result};
 
 #[cfg(feature = "alloc")]
 use crate::memory::Buffer;
@@ -79,7 +79,6 @@ impl<'a> Features<'a> {
     }
 
     fn made(config: &Config<'_>, memory: Room) -> Result<Self> {
-        check_library()?;
         let mut raw = null_mut();
         // SAFETY: the memory is of that many bytes and lives as long as the features.
         config.with_raw(|config| {

@@ -9,8 +9,7 @@ use crate::error::{check, check_with, error, text_of};
 use crate::hooks::panics;
 use crate::memory::Room;
 use crate::{
-    check_library, Config, DepthBias, Frame, Hypothesis, Localization, Map, Observation, Parameter, Prediction, Result,
-    Rigid, Status,
+    Config, DepthBias, Frame, Hypothesis, Localization, Map, Observation, Parameter, Prediction, Result, Rigid, Status,
 };
 
 #[cfg(feature = "alloc")]
@@ -73,7 +72,6 @@ impl<'a> Localizer<'a> {
     }
 
     fn made(config: &Config<'a>, state: Room, scratch: Room) -> Result<Self> {
-        check_library()?;
         let mut raw = null_mut();
         // SAFETY: both are of that many bytes, do not overlap, and live as long as the localizer.
         config.with_raw(|config| {

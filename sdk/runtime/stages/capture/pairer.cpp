@@ -17,10 +17,14 @@ uint64_t soonest(uint64_t gap_ns) { return gap_ns - gap_ns / 4; }
 
 }  // namespace
 
+// In captures of the device, lost ones too.  A source that started anew counts from 0.
+uint32_t Pairer::Queue::stepsTo(const sphc_capture &capture) const {
+  return begun && capture.sequence > last_sequence ? capture.sequence - last_sequence : 1;
+}
+
 void Pairer::Queue::add(const sphc_capture &capture) {
   const int64_t middle_ns = middleNs(capture);
-  const uint32_t steps = capture.sequence > last_sequence ? capture.sequence - last_sequence : 1;
-  if (begun) gap_ns = distanceNs(middle_ns, last_middle_ns) / steps;
+  if (begun) gap_ns = distanceNs(middle_ns, last_middle_ns) / stepsTo(capture);
   begun = true;
   last_sequence = capture.sequence;
   last_ns = capture.time_ns;
@@ -43,9 +47,7 @@ sphc_status Pairer::push(const sphc_capture &capture) {
   if (queue.count == config_.slots) return SPHC_E_CAPACITY;
   begun_ = true;
   clock_ = capture.clock;
-  // a source that started anew counts from 0
-  if (queue.begun && capture.sequence > queue.last_sequence)
-    (&queue == &color_ ? counts_.color_lost : counts_.depth_lost) += capture.sequence - queue.last_sequence - 1;
+  (&queue == &color_ ? counts_.color_lost : counts_.depth_lost) += queue.stepsTo(capture) - 1;
   queue.add(capture);
   return SPHC_OK;
 }

@@ -23,6 +23,7 @@ class Pairer {
     int64_t last_ns = 0, last_middle_ns = 0;
     uint64_t gap_ns = 0;  // between the last two, a sequence number; 0: unknown
 
+    uint32_t stepsTo(const sphc_capture &capture) const;
     void add(const sphc_capture &capture);
     sphc_capture takeFront();
     bool nextMayBeNearer(const sphc_capture &other) const;
