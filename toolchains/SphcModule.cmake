@@ -45,6 +45,9 @@ target_link_libraries(sphc_flags INTERFACE Eigen3::Eigen)
 target_compile_options(sphc_flags INTERFACE -ffp-contract=off)
 target_compile_definitions(sphc_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16
   SPHC_UNSTABLE)
+# Under a name of its own (docs/decisions/0090): a program that uses Eigen too has the same templates by other flags, and a
+# linker takes either for both.
+target_compile_definitions(sphc_flags INTERFACE Eigen=sphc_eigen)
 include(SphcSimd)
 if(SPHC_SANITIZE)
   target_compile_options(sphc_flags INTERFACE -fsanitize=${SPHC_SANITIZE} -fno-omit-frame-pointer

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What the device library asks of its surroundings: shown, and held against a list of what it may.
+"""What the device library asks of its surroundings: shown, and held against a list of what it may; and nothing that it
+defines has a name of other people's library, whose functions of this name a linker would take for ours, or ours for theirs.
 
     check_symbols.py NM LIBRARY
 """
@@ -27,15 +28,30 @@ FORBIDDEN = [
 ]
 
 
-def undefined(nm, library):
-    """Names the whole archive leaves undefined; those one member defines for another are not asked for."""
+# Of Eigen, under its own name.
+TAKEN = re.compile(r"(?<!\w)Eigen::")
+
+
+def symbols(nm, library):
+    """(names that the archive asks for, names that it defines)."""
     text = subprocess.run([nm, "-C", library], check=True, capture_output=True, text=True).stdout
     wanted, defined = set(), set()
     for line in text.splitlines():
         match = re.match(r"^(?:[0-9a-f]+)?\s+([A-Za-z])\s(.+)$", line)
         if match:
             (wanted if match.group(1) in "Uw" else defined).add(match.group(2))
+    return wanted, defined
+
+
+def undefined(nm, library):
+    """Names the whole archive leaves undefined; those one member defines for another are not asked for."""
+    wanted, defined = symbols(nm, library)
     return sorted(wanted - defined)
+
+
+def taken(nm, library):
+    """Names that it defines, and that are another library's."""
+    return sorted(name for name in symbols(nm, library)[1] if TAKEN.search(name))
 
 
 def among(name, patterns):
@@ -49,13 +65,15 @@ def faults(names):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    names = undefined(*sys.argv[1:])
+    names, theirs = undefined(*sys.argv[1:]), taken(*sys.argv[1:])
     bad = faults(names)
+    for name in theirs:
+        print("NOT OURS     " + name)
     for name in names:
         print(("NOT ALLOWED  " if name in bad else "             ") + name)
     if not names:
         sys.exit("no symbols: is this the library?")
-    sys.exit(1 if bad else 0)
+    sys.exit(1 if bad or theirs else 0)
 
 
 if __name__ == "__main__":

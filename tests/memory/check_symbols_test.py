@@ -23,17 +23,23 @@ BAD = {
 GOOD = "#include <cstring>\nvoid f(char *a, const char *b, unsigned long n) { std::memcpy(a, b, n); }"
 
 
-def check(source):
+EIGENS = "namespace Eigen { struct M { void f(); }; void M::f() {} }"
+OURS = "namespace sphc_eigen { struct M { void f(); }; void M::f() {} }"
+
+
+def check(source, of=lambda binary: check_symbols.faults(check_symbols.undefined(NM, binary))):
     with tempfile.TemporaryDirectory() as folder:
         code, binary = os.path.join(folder, "x.cpp"), os.path.join(folder, "x.o")
         with open(code, "w", encoding="utf-8") as stream:
             stream.write(source)
         subprocess.run([CXX, "-O1", "-fPIC", "-fno-stack-protector", "-c", code, "-o", binary], check=True)
-        return check_symbols.faults(check_symbols.undefined(NM, binary))
+        return of(binary)
 
 
 for word, source in BAD.items():
     found = check(source)
     assert any(word in name for name in found), (word, found)
 assert check(GOOD) == []
+assert check(EIGENS, lambda binary: check_symbols.taken(NM, binary)) == ["Eigen::M::f()"]
+assert check(OURS, lambda binary: check_symbols.taken(NM, binary)) == []
 print("every forbidden symbol is found")

@@ -9,7 +9,8 @@ cd "$root" || exit 1
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 clang=(-DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++)
 release=(-DCMAKE_BUILD_TYPE=Release)
-small=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=-O2 -DNDEBUG" "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG")
+small_flags="-O2 -DNDEBUG -fno-asynchronous-unwind-tables" # as firmware: nothing unwinds
+small=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS_RELEASE=$small_flags" "-DCMAKE_CXX_FLAGS_RELEASE=$small_flags")
 debug=(-DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 -DCMAKE_CXX_FLAGS_DEBUG=-O0) # asserts, no symbols
 flags() { printf -- '-DCMAKE_C_FLAGS=%s\n-DCMAKE_CXX_FLAGS=%s\n' "$1" "$1"; }
 machine() { printf -- '-DCMAKE_TOOLCHAIN_FILE=%s/toolchains/%s.cmake\n' "$root" "$1"; }
