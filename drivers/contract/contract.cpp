@@ -2,12 +2,14 @@
 #include "drivers/contract/contract.h"
 
 #include <gtest/gtest.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace sphc::contract {
@@ -273,8 +275,8 @@ TEST_P(DriverContract, GivesImagesThatFitTheirStream) {
         image.format == SPHC_FORMAT_GRAY8 || image.format == SPHC_FORMAT_RGB8 || image.format == SPHC_FORMAT_BGR8;
     EXPECT_TRUE(is_depth ? image.format == SPHC_FORMAT_DEPTH16 : is_color_format)
         << "format " << image.format << "; colour is GRAY8, RGB8 or BGR8, depth DEPTH16 (docs/drivers.md)";
-    EXPECT_GE(std::min(image.width, image.height), 16u);
-    EXPECT_LE(std::max(image.width, image.height), 8192u);
+    EXPECT_GE(std::min(image.width, image.height), SPHC_CAMERA_MIN_PX);
+    EXPECT_LE(std::max(image.width, image.height), SPHC_CAMERA_MAX_PX);
     const uint32_t pixel_bytes = is_depth ? 2 : image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
     EXPECT_GE(image.stride_bytes, image.width * pixel_bytes);
     if (is_depth) {
@@ -329,6 +331,32 @@ TEST_P(DriverContract, GivesCapturesInOrderOfTime) {
       EXPECT_GT(capture.time_ns, it->second) << "two of one stream at one time";
     }
     it->second = capture.time_ns;
+  });
+}
+
+// By the clock that a capture names; nothing where it is the source's own.
+std::optional<int64_t> nowBy(sphc_clock_id clock) {
+  if (clock == SPHC_CLOCK_SOURCE) return std::nullopt;
+  timespec now{};
+  clock_gettime(clock == SPHC_CLOCK_MONOTONIC ? CLOCK_MONOTONIC : CLOCK_BOOTTIME, &now);
+  return int64_t{now.tv_sec} * 1000000000 + now.tv_nsec;
+}
+
+TEST_P(DriverContract, GivesTimesInNanosecondsOfOneClock) {
+  constexpr int64_t kMostAgoNs = 60000000000;
+  ASSERT_EQ(start(), SPHC_OK);
+  std::optional<sphc_clock_id> clock;
+  forEachCapture(20, [&](const sphc_capture &capture) {
+    EXPECT_TRUE(capture.clock >= SPHC_CLOCK_SOURCE && capture.clock <= SPHC_CLOCK_BOOTTIME) << capture.clock;
+    EXPECT_TRUE(capture.time_point >= SPHC_TIME_MIDDLE && capture.time_point <= SPHC_TIME_ARRIVAL)
+        << capture.time_point;
+    EXPECT_EQ(capture.clock, clock.value_or(capture.clock))
+        << "both streams need one clock: the pairer takes no other";
+    clock = capture.clock;
+    const std::optional<int64_t> now_ns = nowBy(capture.clock);
+    if (!now_ns || !GetParam().is_live) return;
+    EXPECT_LE(capture.time_ns, *now_ns) << "in the future: another clock, or no nanoseconds";
+    EXPECT_GE(capture.time_ns, *now_ns - kMostAgoNs) << "long ago: another clock, or no nanoseconds";
   });
 }
 

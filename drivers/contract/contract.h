@@ -30,6 +30,7 @@ struct Driver {
   bool opens_twice = true;          // two at the same time; a real device cannot
   uint32_t streams = 2;             // that come; a camera of colour or depth alone has one
   uint32_t spare_buffers = 0;       // beyond those that may be on loan
+  bool is_live = true;              // times are of now; those of a recording and of a fake are not
 };
 inline void PrintTo(const Driver &driver, std::ostream *out) { *out << driver.name; }  // NOLINT: GoogleTest's name
 

@@ -21,9 +21,10 @@ constexpr uint32_t kMostLoans = 64;
 sphc_status checkConfig(const sphc_libcamera_config &config, sphc_message *message) {
   if (config.format != SPHC_FORMAT_BGR8 && config.format != SPHC_FORMAT_RGB8 && config.format != SPHC_FORMAT_GRAY8)
     return explain(message, SPHC_E_ARGUMENT, "config.format %d; give BGR8, RGB8 or GRAY8", config.format);
-  if ((config.width == 0) != (config.height == 0) || config.width > 8192 || config.height > 8192)
-    return explain(message, SPHC_E_ARGUMENT, "config size %u x %u; both must be 16 to 8192, or both 0",
-                   config.width, config.height);
+  const auto is_side = [](uint32_t side) { return side >= SPHC_CAMERA_MIN_PX && side <= SPHC_CAMERA_MAX_PX; };
+  if ((config.width || config.height) && !(is_side(config.width) && is_side(config.height)))
+    return explain(message, SPHC_E_ARGUMENT, "config size %u x %u; both must be %u to %u, or both 0", config.width,
+                   config.height, SPHC_CAMERA_MIN_PX, SPHC_CAMERA_MAX_PX);
   if (config.rate_hz > 1000)
     return explain(message, SPHC_E_ARGUMENT, "config.rate_hz %u; it must be 0 to 1000", config.rate_hz);
   if (config.exposure_us > 10000000)

@@ -46,8 +46,10 @@ sphc_status chooseMode(const sphc_libcamera_plugin &plugin, sphc_libcamera_devic
     return explain(message, SPHC_E_UNSUPPORTED,
                    "size %u x %u: the camera would send %u x %u in %s; ask for that, or 0 x 0", config.width,
                    config.height, mode.width, mode.height, setup->format->name);
-  if (std::min(mode.width, mode.height) < 16 || std::max(mode.width, mode.height) > 8192)
-    return explain(message, SPHC_E_UNSUPPORTED, "size %u x %u: must be 16 to 8192", mode.width, mode.height);
+  if (std::min(mode.width, mode.height) < SPHC_CAMERA_MIN_PX ||
+      std::max(mode.width, mode.height) > SPHC_CAMERA_MAX_PX)
+    return explain(message, SPHC_E_UNSUPPORTED, "size %u x %u: must be %u to %u", mode.width, mode.height,
+                   SPHC_CAMERA_MIN_PX, SPHC_CAMERA_MAX_PX);
   if (mode.buffers < 2 || mode.buffers > SPHC_LIBCAMERA_BUFFERS_MAX)
     return explain(message, SPHC_E_DEVICE, "libcamera gives %u buffers; 2 to %u are needed", mode.buffers,
                    SPHC_LIBCAMERA_BUFFERS_MAX);

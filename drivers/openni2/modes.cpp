@@ -10,7 +10,7 @@ namespace sphc::openni2 {
 
 namespace {
 
-constexpr int kMinSize = 16, kMaxSize = 8192, kMaxRate = 1000;
+constexpr int kMinSize = SPHC_CAMERA_MIN_PX, kMaxSize = SPHC_CAMERA_MAX_PX, kMaxRate = 1000;
 
 const char *formatName(OniPixelFormat format) {
   switch (format) {

@@ -6,23 +6,20 @@ namespace sphc::pixels {
 
 namespace {
 
-constexpr uint32_t kMaxSide = 8192;  // the C interface's limit too
-constexpr uint32_t kMaxStrideBytes = 1u << 20;
-
 bool isYuv(Layout layout) { return layout == Layout::Yuyv || layout == Layout::Uyvy || layout == Layout::Nv12; }
 
 sphc_status checkSize(const char *what, uint32_t width, uint32_t height, sphc_message *message) {
-  if (width >= 1 && height >= 1 && width <= kMaxSide && height <= kMaxSide) return SPHC_OK;
+  if (width >= 1 && height >= 1 && width <= SPHC_CAMERA_MAX_PX && height <= SPHC_CAMERA_MAX_PX) return SPHC_OK;
   return explain(message, SPHC_E_IMAGE, "%s is %u x %u pixels; must be 1 to %u a side", what, width, height,
-                 kMaxSide);
+                 SPHC_CAMERA_MAX_PX);
 }
 
 sphc_status checkPlane(const char *what, const void *data, size_t bytes, uint32_t stride_bytes, uint32_t row_bytes,
                        uint32_t rows, sphc_message *message) {
   if (!data) return explain(message, SPHC_E_IMAGE, "%s: data is null; give the pixels", what);
-  if (stride_bytes < row_bytes || stride_bytes > kMaxStrideBytes)
+  if (stride_bytes < row_bytes || stride_bytes > SPHC_STRIDE_MAX_BYTES)
     return explain(message, SPHC_E_IMAGE, "%s: stride of %u bytes; must be %u, a row's, to %u", what, stride_bytes,
-                   row_bytes, kMaxStrideBytes);
+                   row_bytes, SPHC_STRIDE_MAX_BYTES);
   const uint64_t needed = imageBytes(row_bytes, stride_bytes, rows);
   if (bytes >= needed) return SPHC_OK;
   return explain(message, SPHC_E_IMAGE,

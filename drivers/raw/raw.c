@@ -1,44 +1,6 @@
 #include "raw.h"
 
-#include <string.h>
-
-enum { kHeaderBytes = 320, kHeadBytes = 88, kCameraBytes = 112 }; /* docs/recording.md */
-
-static sphc_status refuse(sphc_message *message, sphc_status status, const char *text) {
-  if (message) {
-    strncpy(message->text, text, SPHC_MESSAGE_BYTES - 1);
-    message->text[SPHC_MESSAGE_BYTES - 1] = '\0';
-  }
-  return status;
-}
-
-/* ---- bytes: little-endian, whatever the processor ---- */
-
-static uint32_t get32(const uint8_t *bytes) {
-  return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
-static uint64_t get64(const uint8_t *bytes) { return (uint64_t)get32(bytes + 4) << 32 | get32(bytes); }
-
-static double get_double(const uint8_t *bytes) {
-  const uint64_t bits = get64(bytes);
-  double value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-/* CRC-32 of zlib, by nibbles; begin with 0. */
-static uint32_t crc32_of(uint32_t crc, const uint8_t *bytes, size_t count) {
-  static const uint32_t kTable[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D930ACu, 0x76DC4190u, 0x6B6B51F4u,
-                                      0x4DB26158u, 0x5005713Cu, 0xEDB88320u, 0xF00F9344u, 0xD6D6A3E8u, 0xCB61B38Cu,
-                                      0x9B64C2B0u, 0x86D3D2D4u, 0xA00AE278u, 0xBDBDF21Cu};
-  crc = ~crc;
-  for (size_t i = 0; i < count; ++i) {
-    crc = kTable[(crc ^ bytes[i]) & 15] ^ crc >> 4;
-    crc = kTable[(crc ^ bytes[i] >> 4) & 15] ^ crc >> 4;
-  }
-  return ~crc;
-}
+#include "raw_bytes.h"
 
 /* ---- header ---- */
 
@@ -50,28 +12,10 @@ static void get_camera(const uint8_t *bytes, sphc_camera *camera) {
   for (size_t i = 0; i < 12; ++i) camera->params[i] = get_double(bytes + 16 + 8 * i);
 }
 
-/* 1: a rotation of unit length and an offset that is a number. */
 static int get_rigid(const uint8_t *bytes, sphc_rigid *rigid) {
-  double squared = 0;
-  int good = 1;
-  for (size_t i = 0; i < 4; ++i) {
-    rigid->q_wxyz[i] = get_double(bytes + 8 * i);
-    squared += rigid->q_wxyz[i] * rigid->q_wxyz[i];
-  }
-  for (size_t i = 0; i < 3; ++i) {
-    rigid->t_m[i] = get_double(bytes + 32 + 8 * i);
-    good = good && rigid->t_m[i] >= -1e9 && rigid->t_m[i] <= 1e9;
-  }
-  return good && squared >= 0.998 && squared <= 1.002;
-}
-
-static size_t color_bytes(const sphc_raw *raw) {
-  const size_t pixels = (size_t)raw->rig.color_camera.width * raw->rig.color_camera.height;
-  return raw->color_format == SPHC_FORMAT_GRAY8 ? pixels : 3 * pixels;
-}
-
-static size_t depth_bytes(const sphc_raw *raw) {
-  return (size_t)2 * raw->rig.depth_camera.width * raw->rig.depth_camera.height;
+  for (size_t i = 0; i < 4; ++i) rigid->q_wxyz[i] = get_double(bytes + 8 * i);
+  for (size_t i = 0; i < 3; ++i) rigid->t_m[i] = get_double(bytes + 32 + 8 * i);
+  return is_rigid(rigid);
 }
 
 static sphc_status get_rig(const uint8_t *header, sphc_raw *raw, sphc_message *message) {
@@ -81,8 +25,7 @@ static sphc_status get_rig(const uint8_t *header, sphc_raw *raw, sphc_message *m
   get_camera(header + 24 + kCameraBytes, &raw->rig.depth_camera);
   get_rigid(header + 248, &raw->rig.color_from_depth);
   raw->rig.depth_unit_m = get_double(header + 304);
-  if (raw->color_format != SPHC_FORMAT_GRAY8 && raw->color_format != SPHC_FORMAT_RGB8 &&
-      raw->color_format != SPHC_FORMAT_BGR8)
+  if (!is_color_format(raw->color_format))
     return refuse(message, SPHC_E_ARGUMENT, "raw recording: colour format is not known; convert it again");
   return sphc_rig_check(&raw->rig, message);
 }
@@ -99,7 +42,7 @@ sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_
   if (memcmp(header, "SPHC-RAW", 8) != 0)
     return refuse(message, SPHC_E_ARGUMENT,
                   "no raw recording; make one with: spherecloud convert IN OUT.raw --to raw");
-  if (get32(header + 8) != 1)
+  if (get32(header + 8) != kVersion)
     return refuse(message, SPHC_E_ARGUMENT,
                   "raw recording: not of version 1, which this reader knows; convert it again");
   if (get32(header + 20) != 0 || get32(header + 312) != 0 ||
@@ -108,19 +51,18 @@ sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_
                   "raw recording: the header has changed (checksum); copy the file again");
   const sphc_status status = get_rig(header, raw, message);
   if (status != SPHC_OK) return status;
-  raw->frame_bytes = kHeadBytes + depth_bytes(raw) + color_bytes(raw);
-  if (file_bytes != kHeaderBytes + (uint64_t)raw->frame_count * raw->frame_bytes)
-    return refuse(message, SPHC_E_ARGUMENT, "raw recording: not as long as its frames; copy the file again");
+  raw->frame_bytes = frame_bytes_of(&raw->rig, raw->color_format);
+  if (file_bytes != place_of(raw->frame_count, raw->frame_bytes))
+    return refuse(
+        message, SPHC_E_ARGUMENT,
+        "raw recording: not as long as its frames: it was cut, or never finished; copy the file again, or "
+        "leave out what comes after the last frame that it counts");
   raw->read = read;
   raw->user = user;
   return SPHC_OK;
 }
 
 /* ---- frames ---- */
-
-static uint64_t place_of(const sphc_raw *raw, uint32_t index) {
-  return kHeaderBytes + (uint64_t)index * raw->frame_bytes;
-}
 
 static sphc_status get_head(const uint8_t *head, sphc_raw_frame *recorded, sphc_message *message) {
   if (crc32_of(0, head, kHeadBytes - 4) != get32(head + kHeadBytes - 4))
@@ -143,7 +85,7 @@ sphc_status sphc_raw_read_head(const sphc_raw *raw, uint32_t index, sphc_raw_fra
   if (!raw || !recorded || index >= raw->frame_count)
     return refuse(message, SPHC_E_ARGUMENT,
                   "raw or recorded is null, or there is no such frame; give an index below frame_count");
-  if (raw->read(raw->user, place_of(raw, index), head, kHeadBytes) != 0)
+  if (raw->read(raw->user, place_of(index, raw->frame_bytes), head, kHeadBytes) != 0)
     return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read; check the storage");
   return get_head(head, recorded, message);
 }
@@ -157,21 +99,21 @@ sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memor
   if (!memory || (uintptr_t)memory % 2 != 0 || memory_bytes < raw->frame_bytes)
     return refuse(message, SPHC_E_ARGUMENT,
                   "memory is null, odd or too small; give raw->frame_bytes, aligned to 2");
-  if (raw->read(raw->user, place_of(raw, index), bytes, raw->frame_bytes) != 0)
+  if (raw->read(raw->user, place_of(index, raw->frame_bytes), bytes, raw->frame_bytes) != 0)
     return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read; check the storage");
   const sphc_status status = get_head(bytes, recorded, message);
   if (status != SPHC_OK) return status;
   if (crc32_of(0, bytes + kHeadBytes, raw->frame_bytes - kHeadBytes) != get32(bytes + kHeadBytes - 8))
     return refuse(message, SPHC_E_DEVICE, "raw recording: an image has changed (checksum); copy the file again");
-  uint8_t *const depth = bytes + kHeadBytes, *const color = depth + depth_bytes(raw);
+  const sphc_camera *d = &raw->rig.depth_camera, *c = &raw->rig.color_camera;
+  uint8_t *const depth = bytes + kHeadBytes, *const color = depth + image_bytes(d, SPHC_FORMAT_DEPTH16);
   for (uint8_t *at = depth; at < color; at += 2) { /* where the processor is big-endian this swaps */
     const uint16_t value = (uint16_t)(at[0] | at[1] << 8);
     memcpy(at, &value, 2);
   }
-  const sphc_camera *d = &raw->rig.depth_camera, *c = &raw->rig.color_camera;
   const sphc_image depth_image = {depth, d->width, d->height, 2 * d->width, SPHC_FORMAT_DEPTH16};
-  const uint32_t channels = raw->color_format == SPHC_FORMAT_GRAY8 ? 1 : 3;
-  const sphc_image color_image = {color, c->width, c->height, c->width * channels, raw->color_format};
+  const sphc_image color_image = {color, c->width, c->height, c->width * sphc_format_bytes(raw->color_format),
+                                  raw->color_format};
   recorded->frame.depth = depth_image;
   recorded->frame.color = color_image;
   return SPHC_OK;

@@ -14,7 +14,6 @@ namespace {
 
 using pixels::explain;
 
-constexpr uint32_t kMinSide = 16, kMaxSide = 8192;  // the C interface's
 constexpr uint32_t kMaxBufferBytes = 1u << 28;
 
 struct Candidates {
@@ -68,9 +67,10 @@ sphc_status setPeriod(const Node &node, const sphc_v4l2_config &config, Mode *mo
 
 // The device is not believed: sizes that cannot be must not reach the buffers.
 sphc_status checkFormat(const Node &node, const v4l2_pix_format &pix, const Mode *mode, sphc_message *message) {
-  if (mode->width < kMinSide || mode->height < kMinSide || mode->width > kMaxSide || mode->height > kMaxSide)
+  if (mode->width < SPHC_CAMERA_MIN_PX || mode->height < SPHC_CAMERA_MIN_PX || mode->width > SPHC_CAMERA_MAX_PX ||
+      mode->height > SPHC_CAMERA_MAX_PX)
     return explain(message, SPHC_E_UNSUPPORTED, "%s gives %u x %u pixels; must be %u to %u a side", node.path(),
-                   mode->width, mode->height, kMinSide, kMaxSide);
+                   mode->width, mode->height, SPHC_CAMERA_MIN_PX, SPHC_CAMERA_MAX_PX);
   if (pix.field != V4L2_FIELD_NONE && pix.field != V4L2_FIELD_ANY)
     return explain(message, SPHC_E_UNSUPPORTED,
                    "%s gives interlaced pictures (field %u); only whole ones are taken", node.path(), pix.field);

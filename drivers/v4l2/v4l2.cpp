@@ -1,5 +1,6 @@
 #include "v4l2.h"
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
@@ -28,8 +29,10 @@ sphc_status checkConfig(const sphc_v4l2_config &config, sphc_message *message) {
   if (!is_depth && config.stream != SPHC_STREAM_COLOR) return refuse("stream: must be COLOR or DEPTH");
   if (!sphc::pixels::isDelivered(config.format) || (config.format == SPHC_FORMAT_DEPTH16) != is_depth)
     return refuse("format: must be GRAY8, RGB8 or BGR8 of a colour stream, DEPTH16 of a depth stream");
-  if (config.width < 16 || config.width > 8192 || config.height < 16 || config.height > 8192)
-    return refuse("width, height: must be 16 to 8192");
+  if (std::min(config.width, config.height) < SPHC_CAMERA_MIN_PX ||
+      std::max(config.width, config.height) > SPHC_CAMERA_MAX_PX)
+    return explain(message, SPHC_E_ARGUMENT, "config.width, height: must be %u to %u", SPHC_CAMERA_MIN_PX,
+                   SPHC_CAMERA_MAX_PX);
   if (config.fps > 1000) return refuse("fps: must be 0 to 1000");
   for (const uint32_t fourcc : config.fourccs) {
     const PixelFormat *format = fourcc ? findPixelFormat(fourcc) : nullptr;

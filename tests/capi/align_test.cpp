@@ -137,9 +137,9 @@ TEST_F(CInterfaceAligner, ForbiddenMemory) {
             SPHC_E_MEMORY_ALIGNMENT);
   auto *inside = reinterpret_cast<sphc_aligner_config *>(static_cast<uint8_t *>(memory_.data()) + 64);
   *inside = config_;
-  EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, inside, &aligner_, &message_), SPHC_E_ARGUMENT);
-  expectMentions(message_.text, "aligner memory overlaps the config");
   EXPECT_EQ(aligner_, nullptr);
+  EXPECT_EQ(sphc_aligner_init(memory_.data(), bytes_, inside, &aligner_, &message_), SPHC_OK)
+      << "the config is copied before the memory is used: " << message_.text;
   sphc_aligner_fini(nullptr);
 }
 

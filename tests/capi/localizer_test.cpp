@@ -271,6 +271,53 @@ TEST_F(CInterfaceLocalizer, LogsOnlyWhatTheLevelAsksFor) {
   expectMentions(lines.front().c_str(), "frame 1: SPHC_OUTCOME_LOCALIZED");
 }
 
+TEST_F(CInterfaceLocalizer, WarnsOnceOfWhatTheCallerForgot) {
+  std::vector<std::string> lines;
+  config_.log = [](void *user, sphc_log_level, const char *text, size_t) {
+    static_cast<std::vector<std::string> *>(user)->push_back(text);
+  };
+  config_.log_user = &lines;
+  const auto made = sphc::test::sceneFrame(config_, 1);
+  made->frame.depth_time_ns = made->frame.color_time_ns - 2000000000;  // of another clock
+  Session logged(config_);
+  ASSERT_EQ(sphc_localizer_remove_map(logged.localizer(), 0), SPHC_OK);
+  sphc_localizer_result result = clean();
+  for (int again = 0; again < 2; ++again) EXPECT_EQ(logged.process(made->frame, &result), SPHC_NOT_LOCALIZED);
+  ASSERT_EQ(lines.size(), 2u);
+  expectMentions(lines[0].c_str(), "depth_time_ns is more than 1 s from color_time_ns");
+  expectMentions(lines[1].c_str(), "sphc_localizer_set_map");
+}
+
+TEST_F(CInterfaceLocalizer, WarnsOnceOfEachFault) {
+  std::vector<std::string> lines;
+  config_.log = [](void *user, sphc_log_level level, const char *text, size_t length) {
+    EXPECT_EQ(level, SPHC_LOG_WARNING);
+    EXPECT_EQ(text[length], '\0');
+    static_cast<std::vector<std::string> *>(user)->push_back(text);
+  };
+  config_.log_user = &lines;
+  const auto made = sphc::test::sceneFrame(config_, 1);
+  const std::vector<uint16_t> constant(size_t{made->frame.depth.width} * made->frame.depth.height, 1500);
+  made->frame.depth.data = constant.data();
+  made->frame.depth.stride_bytes = 2 * made->frame.depth.width;
+  Session logged(config_);
+  for (int again = 0; again < 2; ++again) {
+    sphc_localizer_result result = clean();
+    ASSERT_EQ(logged.process(made->frame, &result), SPHC_NOT_LOCALIZED);
+    ASSERT_EQ(result.faults & SPHC_FAULT_DEPTH_CONSTANT, uint32_t{SPHC_FAULT_DEPTH_CONSTANT});
+  }
+  ASSERT_EQ(lines.size(), 1u);
+  expectMentions(lines.front().c_str(), "frame 1: SPHC_FAULT_DEPTH_CONSTANT");
+  sphc_localizer_reset(logged.localizer());
+  sphc_localizer_result result = clean();
+  logged.process(made->frame, &result);
+  EXPECT_EQ(lines.size(), 2u) << "after a reset it is told again";
+  config_.log_level = SPHC_LOG_ERROR;
+  Session quiet(config_);
+  quiet.process(made->frame, &result);
+  EXPECT_EQ(lines.size(), 2u);
+}
+
 // Parameters count from the next frame on.
 TEST_F(CInterfaceLocalizer, ParametersCountFromTheNextFrameOn) {
   const auto frame = sphc::test::sceneFrame(config_, 1);

@@ -33,6 +33,6 @@ OpenedDriver openLibcamera() {
 
 }  // namespace
 
-std::vector<Driver> libcameraDrivers() { return {{"LibcameraOnAFake", openLibcamera, 0, true, 1}}; }
+std::vector<Driver> libcameraDrivers() { return {{"LibcameraOnAFake", openLibcamera, 0, true, 1, 0, false}}; }
 
 }  // namespace sphc::contract

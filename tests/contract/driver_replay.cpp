@@ -33,10 +33,16 @@ OpenedDriver openReplay(sphc_replay_mode mode, bool is_mcap) {
 }  // namespace
 
 std::vector<Driver> replayDrivers() {
-  return {{"Replay", [] { return openReplay(SPHC_REPLAY_FAST, false); }, 2 * kFrames},
-          {"ReplayInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, false); }, 2 * kFrames},
-          {"ReplayOfMcap", [] { return openReplay(SPHC_REPLAY_FAST, true); }, 2 * kFrames},
-          {"ReplayOfMcapInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, true); }, 2 * kFrames}};
+  std::vector<Driver> drivers = {
+      {"Replay", [] { return openReplay(SPHC_REPLAY_FAST, false); }},
+      {"ReplayInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, false); }},
+      {"ReplayOfMcap", [] { return openReplay(SPHC_REPLAY_FAST, true); }},
+      {"ReplayOfMcapInRealTime", [] { return openReplay(SPHC_REPLAY_REAL_TIME, true); }}};
+  for (Driver &driver : drivers) {
+    driver.captures_until_end = 2 * kFrames;
+    driver.is_live = false;
+  }
+  return drivers;
 }
 
 }  // namespace sphc::contract

@@ -68,6 +68,7 @@ std::vector<Driver> v4l2Drivers() {
   for (Driver &driver : drivers) {
     driver.streams = 1;
     driver.spare_buffers = 3;  // the kernel's
+    driver.is_live = false;
   }
   return drivers;
 }

@@ -26,7 +26,7 @@ inline sphc_capture tinyCapture(uint32_t i, sphc_stream stream, const TinyImages
   capture.arrival_ns = 123456789000 + i;
   capture.exposure_us = 8000 + i;
   capture.time_sigma_us = is_color ? 40 : 50;
-  capture.clock = is_color ? SPHC_CLOCK_MONOTONIC : SPHC_CLOCK_SOURCE;
+  capture.clock = SPHC_CLOCK_MONOTONIC;
   capture.time_point = is_color ? SPHC_TIME_START : SPHC_TIME_ARRIVAL;
   return capture;
 }

@@ -166,7 +166,7 @@ class sphc_aligner_config(ctypes.Structure):
     # of the images to align, a DEPTH or RANGE format; 0: SPHC_FORMAT_DEPTH16
     depth_format: int
     rig: sphc_rig
-    # measurements outside are ignored
+    # Measurements outside are ignored; at most 65535 units of the rig, and 62000 of aligned_unit_m.
     depth_min_m: float
     depth_max_m: float
     # Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; for the confidence.
@@ -286,7 +286,7 @@ class sphc_localizer_config(ctypes.Structure):
     # same seed, maps, config and frames: same bytes in the results
     seed: int
     rig: sphc_rig
-    # measurements outside are ignored
+    # Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too.
     depth_min_m: float
     depth_max_m: float
     # Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2.
@@ -303,7 +303,9 @@ class sphc_localizer_config(ctypes.Structure):
     # may be null
     log: object
     log_user: int | None
-    # what says more is not made; SPHC_LOG_DEBUG has a line for every frame; not looked at where log is null
+    # What says more is not made. SPHC_LOG_WARNING has a line for each fault when a frame has it for the first time,
+    # for a localizer without a map, and for times of depth and colour that are more than 1 s apart; SPHC_LOG_DEBUG
+    # one for every frame; the others none yet. Not looked at where log is null.
     log_level: int
     reserved: int
     # may be null: stage times are then 0, and no frame has a deadline
@@ -402,8 +404,9 @@ class sphc_localizer_prior(ctypes.Structure):
     up_sigma_rad: float
     # ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift. Used in
     # SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
-    # little be put together, and takes depth to the time of the colour image. Its frame may change: a step beyond
-    # what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
+    # little be put together, and takes depth to the time of the colour image (where they are at most 100 ms apart,
+    # and frames come at 4 Hz or more). Its frame may change: a step beyond what a head does (3.5 m/s, 5 rad/s, and
+    # 5 sigma) is left out.
     odometry_from_camera: sphc_rigid
     # 1 sigma an axis, of the step from the frame before; 1e-6 to 1
     odometry_rotation_sigma_rad: float
@@ -802,7 +805,7 @@ class sphc_features_arrays(ctypes.Structure):
     # that described them: sphc_extractor_id(), as that of all maps
     extractor: int
     count: int
-    # From one to the next, also where count is 0; a multiple of 4, at least sizeof(sphc_keypoint).
+    # a multiple of 4, at least sizeof(sphc_keypoint)
     keypoint_stride_bytes: int
     # at least SPHC_DESCRIPTOR_BYTES
     descriptor_stride_bytes: int
@@ -1074,8 +1077,8 @@ class Interface:
         self.sphc_localizer_process = bound("sphc_localizer_process", ctypes.c_int32, [
             ctypes.c_void_p, ctypes.POINTER(sphc_localizer_frame), ctypes.POINTER(sphc_localizer_result)])
         # Text about the failure of the last call on this instance that can fail, "" if it did not; owned by the
-        # instance, valid until its next call. ASCII. Calls that take a const localizer leave it as it was, and
-        # sphc_localizer_extract has sphc_features_message. [exclusive]
+        # instance, always at the same place, until its next call. ASCII. Calls that take a const localizer leave it
+        # as it was, and sphc_localizer_extract has sphc_features_message. [exclusive]
         self.sphc_localizer_message = bound("sphc_localizer_message", ctypes.c_char_p, [ctypes.c_void_p])
         # The probability that the camera is within so many metres and radians of the pose. 0 where there is no
         # pose, for a bound that is not above 0, and for a null result. Of the result, outcome and covariance are

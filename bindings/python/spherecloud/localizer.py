@@ -42,7 +42,7 @@ class _Callbacks:
     """Functions of Python's for the library.  What they raise, such as an interrupt, comes up after the call."""
 
     def __init__(self, log: Log | None, clock: Clock | None) -> None:
-        self.fault: BaseException | None = None
+        self._local = threading.local()  # a fault is of the thread whose call it happened in
         self.inside: list[int] = []  # threads that are in a callback, from which the library must not be entered again
 
         def say(_: object, level: int, text: bytes, length: int) -> None:
@@ -60,6 +60,15 @@ class _Callbacks:
 
         self.log = _interface.sphc_log_fn(say) if log else _interface.sphc_log_fn()
         self.clock = _interface.sphc_clock_fn(read) if clock else _interface.sphc_clock_fn()
+
+    @property
+    def fault(self) -> BaseException | None:
+        """What a callback of this thread raised."""
+        return getattr(self._local, "fault", None)
+
+    @fault.setter
+    def fault(self, fault: BaseException | None) -> None:
+        self._local.fault = fault
 
     def _run(self, call: typing.Any, otherwise: typing.Callable[[], typing.Any]) -> typing.Any:
         self.inside.append(threading.get_ident())
@@ -180,16 +189,20 @@ class Localizer:
         number = whole(map_id, "map_id")
         with self._locating:
             owned = self._alive()
-            self._check(self._c.sphc_localizer_set_map(owned.pointer, number, kept.pointer))
-            owned.keeps[number] = kept
+            status = self._c.sphc_localizer_set_map(owned.pointer, number, kept.pointer)
+            if status >= 0:  # it has the map, whatever a callback raised
+                owned.keeps[number] = kept
+            self._check(status)
 
     def remove_map(self, map_id: int) -> None:
         """Takes a map away, and forgets what was tracked in it.  Error(E_ARGUMENT): there is none of this id."""
         number = whole(map_id, "map_id")
         with self._locating:
             owned = self._alive()
-            self._check(self._c.sphc_localizer_remove_map(owned.pointer, number))
-            del owned.keeps[number]
+            status = self._c.sphc_localizer_remove_map(owned.pointer, number)
+            if status >= 0:
+                del owned.keeps[number]
+            self._check(status)
 
     def set_map_transform(self, map_id: int, common_from_map: Rigid | None, rotation_sigma_rad: float = 0.0,
                           translation_sigma_m: float = 0.0) -> None:

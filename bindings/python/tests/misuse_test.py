@@ -207,6 +207,31 @@ class Misuse(unittest.TestCase):
         made.process(self.frame)
         self.assertEqual(caught[0].status, sphc.Status.E_STATE)
 
+    def test_a_fault_comes_up_in_the_thread_of_its_call(self):
+        calls, others = [], []
+
+        def set_map():
+            try:
+                made.set_map(session.MAP_ID, self.map)
+            except BaseException as fault:
+                others.append(fault)
+
+        def clock():
+            calls.append(None)
+            if len(calls) == 1:
+                raise ArithmeticError("the clock fails")
+            if len(calls) == 2:
+                thread = threading.Thread(target=set_map)
+                thread.start()
+                thread.join()
+            return len(calls)
+        made = session.localizer({}, clock=clock)
+        features = made.make_features()
+        self.assertRaises(ArithmeticError, made.extract, self.frame, features)
+        self.assertGreaterEqual(len(calls), 2)
+        self.assertEqual(others, [])
+        self.assertEqual(made.map_count, 1)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -37,9 +37,13 @@ int openRegularFile(const std::filesystem::path &path) {
     throw Failure(SPHC_E_DEVICE, "is a socket or a device; give a regular file");
   if (descriptor < 0)
     throw Failure(SPHC_E_DEVICE, "cannot be read: " + std::generic_category().message(errno) + "; is it there?");
-  struct stat status;
-  if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)) return descriptor;
+  struct stat status = {};
+  const bool is_known = ::fstat(descriptor, &status) == 0;
+  if (is_known && S_ISREG(status.st_mode)) return descriptor;
+  const int error = errno;
   ::close(descriptor);
+  if (!is_known)
+    throw Failure(SPHC_E_DEVICE, "cannot be read: " + std::generic_category().message(error) + "; check the disk");
   throw Failure(SPHC_E_DEVICE, std::string("is ") + kindOf(status.st_mode) + "; give a regular file");
 }
 

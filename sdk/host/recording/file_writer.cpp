@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <random>
 #include <system_error>
 
 #include "failure.h"
@@ -19,11 +20,19 @@ void failWrite(const fs::path &path) {
 
 namespace {
 
-bool putAll(const fs::path &path, ByteView bytes) {
-  std::FILE *file = std::fopen(path.string().c_str(), "wb");
+bool putAll(const fs::path &path, const char *mode, ByteView bytes) {
+  std::FILE *file = std::fopen(path.string().c_str(), mode);
   if (!file) return false;
   const bool written = std::fwrite(bytes.data, 1, bytes.size, file) == bytes.size;
   return std::fclose(file) == 0 && written;
+}
+
+// A name beside the target that nobody else has.
+fs::path besideOf(const fs::path &target) {
+  std::random_device random;
+  char ending[24];
+  std::snprintf(ending, sizeof ending, ".%08x.part", static_cast<unsigned>(random()));
+  return target.string() + ending;
 }
 
 }  // namespace
@@ -32,12 +41,12 @@ void writeFile(const fs::path &path, ByteView bytes) {
   std::error_code error;
   const bool is_there = fs::exists(path, error);
   if (is_there && !fs::is_regular_file(path, error)) {  // a device or a pipe
-    if (!putAll(path, bytes)) failWrite(path);
+    if (!putAll(path, "wb", bytes)) failWrite(path);
     return;
   }
   const fs::path target = is_there ? fs::canonical(path) : path;  // a link keeps pointing where it points
-  const fs::path beside = target.string() + ".part";
-  if (putAll(beside, bytes) && std::rename(beside.c_str(), target.c_str()) == 0) return;
+  const fs::path beside = besideOf(target);
+  if (putAll(beside, "wbx", bytes) && std::rename(beside.c_str(), target.c_str()) == 0) return;
   const int why = errno;
   std::remove(beside.c_str());
   errno = why;

@@ -101,6 +101,12 @@ size_t slotBytes(const sphc_rig &calibration) {
   return std::max(size_t{color.width} * color.height * 3, size_t{depth.width} * depth.height * 4);
 }
 
+std::vector<Slot> slotsFor(const sphc_rig &calibration, const sphc_recorder_config &config) {
+  std::vector<Slot> slots(config.queue_slots);
+  for (Slot &slot : slots) slot.pixels.resize(slotBytes(calibration));
+  return slots;
+}
+
 }  // namespace
 
 struct sphc_recorder {
@@ -127,12 +133,12 @@ struct sphc_recorder {
 
   const sphc_rig calibration;
   const sphc_recorder_config config;
-  RecordingEncoder encoder;  // the thread's, until it is joined
+  std::vector<Slot> slots;   // a ring; `first` and the `used` behind it are the thread's
+  RecordingEncoder encoder;  // the thread's, until it is joined; its file is made when there is all other memory
 
   StreamState color, depth, poses, felt;
   Accelerations accelerations;
   DropList drops;
-  std::vector<Slot> slots;  // a ring; `first` and the `used` behind it are the thread's
 
   mutable std::mutex mutex;  // of what follows
   std::condition_variable came, went;
@@ -150,9 +156,8 @@ sphc_recorder::sphc_recorder(const char *path, const sphc_rig &its_calibration,
                              const sphc_recorder_config &its_config)
     : calibration(its_calibration),
       config(its_config),
-      encoder(path, its_calibration, its_config),
-      slots(its_config.queue_slots) {
-  for (Slot &slot : slots) slot.pixels.resize(slotBytes(calibration));
+      slots(slotsFor(its_calibration, its_config)),
+      encoder(path, its_calibration, its_config) {
   statistics.struct_size = sizeof statistics;
   thread = std::thread([this] { run(); });
 }

@@ -89,7 +89,7 @@ typedef struct sphc_recorder_statistics {
   uint32_t queue_most;  /* slots that were in use at once */
   uint64_t color_count; /* captures written */
   uint64_t depth_count;
-  uint64_t dropped_count; /* captures, poses and accelerations that found the queue full */
+  uint64_t dropped_count; /* captures, poses and accelerations that found the queue full, or the disk failing */
   uint64_t missing_count; /* gaps in the sequences of the streams */
   uint64_t raw_bytes;     /* of the images written, before encoding */
   uint64_t file_bytes;    /* so far */

@@ -20,10 +20,11 @@ RecordedImage imageOf(const sphc_localizer_frame &frame, int64_t time_ns, uint32
   return image;
 }
 
-// False when the times go back.  Two frames may share a depth image.
+// False when the times go back, or are below 0.  Two frames may share a depth image.
 bool addFrame(const sphc_raw_frame &recorded, uint32_t index, Recording &recording) {
   const sphc_localizer_frame &frame = recorded.frame;
   const bool has_depth = !recording.depth.empty();
+  if (frame.color_time_ns < 0 || frame.depth_time_ns < 0) return false;
   if (!recording.color.empty() && frame.color_time_ns <= recording.color.back().time_ns) return false;
   if (has_depth && frame.depth_time_ns < recording.depth.back().time_ns) return false;
   recording.color.push_back(imageOf(frame, frame.color_time_ns, index));
@@ -44,7 +45,8 @@ Recording openRaw(const fs::path &path) {
   recording.calibration = file.raw().rig;
   for (uint32_t i = 0; i < file.raw().frame_count; ++i)
     if (!addFrame(file.head(i), i, recording))
-      throw Failure(SPHC_E_ARGUMENT, name + ", frame " + std::to_string(i) + ": times go back; convert it again");
+      throw Failure(SPHC_E_ARGUMENT,
+                    name + ", frame " + std::to_string(i) + ": times go back, or are below 0; convert it again");
   if (recording.color.empty())
     throw Failure(SPHC_E_DEVICE, name + ": holds no frame; convert a recording with frames");
   return recording;

@@ -1,12 +1,8 @@
 #include "writer_raw.h"
 
-#include <zlib.h>
-
 #include <utility>
 
-#include "calibration_json.h"
 #include "failure.h"
-#include "pixels.h"
 #include "pose_track.h"
 
 namespace sphc::recording {
@@ -15,29 +11,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kMagic = "SPHC-RAW";
-constexpr uint32_t kVersion = 1;
-
-void putDouble(Bytes &out, double value) {
-  uint64_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  putLittle(out, bits);
+// What the writer of devices says goes into memory first: a frame is in the file whole or not at all.
+int gather(void *user, uint64_t /*offset*/, const void *bytes, size_t count) {
+  append(*static_cast<Bytes *>(user), bytes, count);
+  return 0;
 }
 
-void putCamera(Bytes &out, const sphc_camera &camera) {
-  putLittle(out, static_cast<uint32_t>(camera.model));
-  putLittle(out, camera.width);
-  putLittle(out, camera.height);
-  putLittle(out, camera.param_count);
-  for (const double param : camera.params) putDouble(out, param);
+void require(sphc_status status, const sphc_message &message) {
+  if (status != SPHC_OK) throw Failure(status, message.text);
 }
-
-void putRigid(Bytes &out, const sphc_rigid &rigid) {
-  for (const double q : rigid.q_wxyz) putDouble(out, q);
-  for (const double t : rigid.t_m) putDouble(out, t);
-}
-
-void putCrc(Bytes &out) { putLittle(out, static_cast<uint32_t>(crc32_z(0, out.data(), out.size()))); }
 
 fs::path unfinishedName(const fs::path &path) {
   if (fs::exists(path))
@@ -47,18 +29,15 @@ fs::path unfinishedName(const fs::path &path) {
 
 }  // namespace
 
-RawWriter::RawWriter(const fs::path &path, fs::path unfinished, const sphc_rig &calibration,
-                     sphc_format color_format)
-    : path_(path),
-      unfinished_(std::move(unfinished)),
-      calibration_(requireGood(calibration)),
-      color_format_(color_format),
-      file_(File::create(unfinished_)) {}
+RawWriter::RawWriter(const fs::path &path, fs::path unfinished)
+    : path_(path), unfinished_(std::move(unfinished)), file_(File::create(unfinished_)) {}
 
 // Delegates, so that the destructor removes the file when its first bytes cannot be written.
 RawWriter::RawWriter(const fs::path &path, const sphc_rig &calibration, sphc_format color_format)
-    : RawWriter(path, unfinishedName(path), calibration, color_format) {
-  file_.append({viewOf(header())});
+    : RawWriter(path, unfinishedName(path)) {
+  sphc_message message = {};
+  require(sphc_raw_writer_begin(&writer_, gather, &bytes_, &calibration, color_format, &message), message);
+  file_.append({viewOf(bytes_)});
 }
 
 RawWriter::~RawWriter() {
@@ -66,45 +45,23 @@ RawWriter::~RawWriter() {
   if (!is_finished_) fs::remove(unfinished_, ignored);
 }
 
-Bytes RawWriter::header() const {
-  Bytes out;
-  append(out, kMagic.data(), kMagic.size());
-  putLittle(out, kVersion);
-  putLittle(out, frame_count_);
-  putLittle(out, static_cast<uint32_t>(color_format_));
-  putLittle(out, uint32_t{0});
-  putCamera(out, calibration_.color_camera);
-  putCamera(out, calibration_.depth_camera);
-  putRigid(out, calibration_.color_from_depth);
-  putDouble(out, calibration_.depth_unit_m);
-  putLittle(out, uint32_t{0});
-  putCrc(out);
-  return out;
-}
-
 void RawWriter::add(const sphc_localizer_frame &frame, const sphc_rigid *world_from_camera) {
-  checkImage(frame.color, calibration_.color_camera, true);
-  checkImage(frame.depth, calibration_.depth_camera, false);
-  if (frame.color.format != color_format_) throw Failure(SPHC_E_IMAGE, "colour image: all must have one format");
-  depth_.resize(packedBytes(frame.depth));
-  color_.resize(packedBytes(frame.color));
-  packPixels(frame.depth, SPHC_FORMAT_DEPTH16, depth_.data());
-  packPixels(frame.color, color_format_, color_.data());
-  const uLong depth_crc = crc32_z(0, depth_.data(), depth_.size());
-  head_.clear();
-  putLittle(head_, frame.sequence);
-  putLittle(head_, uint32_t{world_from_camera != nullptr});
-  putLittle(head_, static_cast<uint64_t>(frame.color_time_ns));
-  putLittle(head_, static_cast<uint64_t>(frame.depth_time_ns));
-  putRigid(head_, world_from_camera ? checkedPose(*world_from_camera) : sphc_rigid{});
-  putLittle(head_, static_cast<uint32_t>(crc32_z(depth_crc, color_.data(), color_.size())));
-  putCrc(head_);
-  file_.append({viewOf(head_), viewOf(depth_), viewOf(color_)});
-  ++frame_count_;
+  sphc_rigid pose;
+  if (world_from_camera) pose = checkedPose(*world_from_camera);
+  bytes_.clear();
+  bytes_.reserve(writer_.frame_bytes);
+  sphc_raw_writer next = writer_;
+  sphc_message message = {};
+  require(sphc_raw_writer_add(&next, &frame, world_from_camera ? &pose : nullptr, &message), message);
+  file_.append({viewOf(bytes_)});
+  writer_ = next;
 }
 
 void RawWriter::finish() {
-  file_.writeAt(0, viewOf(header()));
+  bytes_.clear();
+  sphc_message message = {};
+  require(sphc_raw_writer_finish(&writer_, &message), message);
+  file_.writeAt(0, viewOf(bytes_));
   file_.sync();
   if (fs::exists(path_))
     throw Failure(SPHC_E_STATE, shortPath(path_.string()) + ": came to be meanwhile; remove it");

@@ -1,9 +1,9 @@
-// Writes a raw recording: frames as they are in memory, for devices (docs/recording.md; drivers/raw reads it).
+// Writes a raw recording into a file, through the writer of devices.
 #pragma once
 
 #include <filesystem>
 
-#include "calibration.h"
+#include "drivers/raw/raw_writer.h"
 #include "host/recording/mcap/file.h"
 
 namespace sphc::recording {
@@ -24,17 +24,13 @@ class RawWriter {
 
  private:
   // Makes the file, empty.
-  RawWriter(const std::filesystem::path &path, std::filesystem::path unfinished, const sphc_rig &calibration,
-            sphc_format color_format);
-  Bytes header() const;
+  RawWriter(const std::filesystem::path &path, std::filesystem::path unfinished);
 
   std::filesystem::path path_, unfinished_;
-  sphc_rig calibration_;
-  sphc_format color_format_;
   File file_;
-  uint32_t frame_count_ = 0;
+  sphc_raw_writer writer_ = {};
   bool is_finished_ = false;
-  Bytes head_, depth_, color_;  // of one frame
+  Bytes bytes_;  // of a header or a frame
 };
 
 }  // namespace sphc::recording

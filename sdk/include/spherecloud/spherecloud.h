@@ -393,7 +393,8 @@ typedef struct sphc_aligner_config {
   uint32_t struct_size;
   sphc_format depth_format; /* of the images to align, a DEPTH or RANGE format; 0: SPHC_FORMAT_DEPTH16 */
   sphc_rig rig;
-  double depth_min_m, depth_max_m; /* measurements outside are ignored */
+  /* Measurements outside are ignored; at most 65535 units of the rig, and 62000 of aligned_unit_m. */
+  double depth_min_m, depth_max_m;
   /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; for the confidence. */
   double depth_sigma_m, depth_sigma_per_m2;
   double aligned_unit_m; /* metres per unit of the aligned image; 0: rig.depth_unit_m */
@@ -509,7 +510,8 @@ typedef struct sphc_localizer_config {
 
   sphc_rig rig;
 
-  double depth_min_m, depth_max_m; /* measurements outside are ignored */
+  /* Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too. */
+  double depth_min_m, depth_max_m;
   /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
   double depth_sigma_m, depth_sigma_per_m2;
   double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
@@ -523,8 +525,10 @@ typedef struct sphc_localizer_config {
 
   sphc_log_fn log; /* may be null */
   void *log_user;
-  sphc_log_level log_level; /* what says more is not made; SPHC_LOG_DEBUG has a line for every frame; not looked at
-                             * where log is null */
+  /* What says more is not made.  SPHC_LOG_WARNING has a line for each fault when a frame has it for the first time,
+   * for a localizer without a map, and for times of depth and colour that are more than 1 s apart; SPHC_LOG_DEBUG
+   * one for every frame; the others none yet.  Not looked at where log is null. */
+  sphc_log_level log_level;
   uint32_t reserved;
   sphc_clock_fn clock; /* may be null: stage times are then 0, and no frame has a deadline */
   void *clock_user;
@@ -585,7 +589,8 @@ typedef struct sphc_localizer_prior {
   double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
   /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
    * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
-   * little be put together, and takes depth to the time of the colour image.  Its frame may change: a step beyond
+   * little be put together, and takes depth to the time of the colour image (where they are at most 100 ms
+   * apart, and frames come at 4 Hz or more).  Its frame may change: a step beyond
    * what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out. */
   sphc_rigid odometry_from_camera;
   double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
@@ -897,7 +902,7 @@ SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sph
                                             sphc_localizer_result *result);
 
 /* Text about the failure of the last call on this instance that can fail, "" if it did not; owned by the instance,
- * valid until its next call.  ASCII.  Calls that take a const localizer leave it as it was, and
+ * always at the same place, until its next call.  ASCII.  Calls that take a const localizer leave it as it was, and
  * sphc_localizer_extract has sphc_features_message. [exclusive] */
 SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
 
@@ -993,8 +998,8 @@ typedef struct sphc_features_arrays {
   uint32_t struct_size;
   uint32_t extractor; /* that described them: sphc_extractor_id(), as that of all maps */
   uint32_t count;
-  /* From one to the next, also where count is 0; a multiple of 4, at least sizeof(sphc_keypoint). */
-  uint32_t keypoint_stride_bytes;
+  /* From one to the next, also where count is 0; at most SPHC_STRIDE_MAX_BYTES. */
+  uint32_t keypoint_stride_bytes;   /* a multiple of 4, at least sizeof(sphc_keypoint) */
   uint32_t descriptor_stride_bytes; /* at least SPHC_DESCRIPTOR_BYTES */
   uint32_t reserved;
   const sphc_keypoint *keypoints; /* aligned to 4 bytes; may be null where count is 0, as may descriptors */

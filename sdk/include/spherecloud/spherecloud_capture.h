@@ -125,8 +125,9 @@ SPHC_API sphc_status sphc_pairer_init(void *memory, size_t memory_bytes, const s
 SPHC_API void sphc_pairer_fini(sphc_pairer **pairer); /* [exclusive] */
 /* Gives the pairer one capture (a copy; the loan goes with it).  Call sphc_pairer_pop until SPHC_AGAIN after each
  * push.  Captures are paired by sphc_capture_middle_ns.  SPHC_E_CAPACITY: its stream's slots are full; pop first
- * (drops come out there).  SPHC_E_ARGUMENT: earlier than the one before it, or on another clock than the first
- * capture (sphc_clock_mapper brings times to one clock). [exclusive] */
+ * (drops come out there).  SPHC_E_ARGUMENT: earlier than the one before it, on another clock than the first
+ * capture (sphc_clock_mapper brings times to one clock), or a stream, clock or time_point that has no name here.
+ * [exclusive] */
 SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture);
 /* SPHC_OK: *color and *depth are the oldest time-matched pair, on loan to the caller, who releases both to their
  * source after use; *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing more until the next
@@ -150,7 +151,8 @@ typedef struct sphc_clock_mapper_config {
   int64_t jump_ns;        /* a larger step is a clock that was set, and starts anew; at least 1 */
 } sphc_clock_mapper_config;
 
-/* host time = source time + offset, the offset growing by drift_ppm. */
+/* host time = source time + offset, the offset growing by drift_ppm.  A drift as large as the config's
+ * max_drift_ppm says that the clock drifts more, and that mapped times are off by the rest: raise it. */
 typedef struct sphc_clock_mapping {
   uint32_t struct_size;
   uint32_t samples;  /* since the last start; 2^32 - 1 at most */
@@ -173,7 +175,7 @@ SPHC_API sphc_status sphc_clock_mapper_init(void *memory, size_t memory_bytes,
 SPHC_API void sphc_clock_mapper_fini(sphc_clock_mapper **mapper); /* [exclusive] */
 /* One source time and when it arrived by the host's clock, in the order of arrival.  Arrivals are late by a varying
  * time, never early: the line below all of them is the mapping (Moon, Skelly, Towsley 1999).  SPHC_AGAIN: a clock
- * was set or ran backwards; all before is forgotten. [exclusive] */
+ * was set or ran backwards, or nothing came for an hour; all before is forgotten. [exclusive] */
 SPHC_API sphc_status sphc_clock_mapper_add(sphc_clock_mapper *mapper, int64_t source_time_ns, int64_t arrival_ns);
 /* *host_time_ns of a source time.  SPHC_AGAIN: no sample yet.  SPHC_E_ARGUMENT: more than an hour from the last
  * sample. [exclusive] */

@@ -2,6 +2,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/defaults.h"
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
@@ -84,12 +85,8 @@ sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc_memory *
   sphc_aligner_config checked;
   const sphc_status status = sphc::readAlignerConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
-  if (!memory) {
-    MessageWriter(message) << "memory is null; give one to write the answer to";
-    return SPHC_E_ARGUMENT;
-  }
-  *memory = {bytesOf(denseConfig(checked), readerConfig(checked)), 0, sphc::kArenaAlignment, 0};
-  return SPHC_OK;
+  return sphc::giveMemory({bytesOf(denseConfig(checked), readerConfig(checked)), 0, sphc::kArenaAlignment, 0},
+                          memory, message);
 }
 
 sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_aligner_config *config,
@@ -105,8 +102,6 @@ sphc_status sphc_aligner_init(void *memory, size_t memory_bytes, const sphc_alig
   const DepthReaderConfig reader = readerConfig(checked);
   const size_t needed = bytesOf(dense, reader);
   status = sphc::checkMemory(memory, memory_bytes, needed, sphc::kArenaAlignment, "aligner", message);
-  if (status == SPHC_OK)
-    status = sphc::checkApart({"aligner", memory, needed}, {"the config", config, config->struct_size}, message);
   if (status != SPHC_OK) return status;
   auto *made = new (memory) sphc_aligner();
   Arena arena(static_cast<unsigned char *>(memory) + kAlignerBytes);

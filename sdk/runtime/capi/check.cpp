@@ -4,11 +4,13 @@
 
 #include "runtime/base/message.h"
 #include "runtime/base/parallel.h"
+#include "runtime/capi/defaults.h"
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/transform.h"
 #include "runtime/capi/translate.h"
+#include "runtime/stages/align/dense.h"
 
 namespace sphc {
 namespace {
@@ -391,58 +393,6 @@ sphc_status checkImage(const char *name, const sphc_image &image, const sphc_cam
   return SPHC_OK;
 }
 
-sphc_localizer_camera emptyCamera() {
-  sphc_localizer_camera camera = {};
-  camera.struct_size = sizeof camera;
-  camera.color_from_camera.q_wxyz[0] = 1;
-  return camera;
-}
-
-sphc_localizer_depth_camera emptyDepthCamera() {
-  const sphc_localizer_config config = defaultConfig();
-  sphc_localizer_depth_camera camera = {};
-  camera.struct_size = sizeof camera;
-  camera.color_from_depth = config.rig.color_from_depth;
-  camera.unit_m = config.rig.depth_unit_m;
-  camera.min_m = config.depth_min_m;
-  camera.max_m = config.depth_max_m;
-  camera.sigma_m = config.depth_sigma_m;
-  camera.sigma_per_m2 = config.depth_sigma_per_m2;
-  camera.offset_sigma_m = config.depth_offset_sigma_m;
-  camera.slope_sigma = config.depth_slope_sigma;
-  return camera;
-}
-
-sphc_localizer_config defaultConfig() {
-  sphc_localizer_config config = {};
-  config.struct_size = sizeof config;
-  config.max_keypoints = 800;
-  config.max_maps = 16;
-  sphc_rig_init(&config.rig);
-  config.depth_min_m = 0.25;
-  config.depth_max_m = 6;
-  config.depth_sigma_m = 0.004;
-  config.depth_sigma_per_m2 = 0.002;
-  config.pixel_sigma_px = 0.8;
-  config.map_sigma_m = 0.004;
-  config.depth_offset_sigma_m = 0.003;
-  config.depth_slope_sigma = 0.02;
-  config.log_level = SPHC_LOG_INFO;
-  return config;
-}
-
-sphc_aligner_config defaultAlignerConfig() {
-  const sphc_localizer_config localizer = defaultConfig();
-  sphc_aligner_config config = {};
-  config.struct_size = sizeof config;
-  config.rig = localizer.rig;
-  config.depth_min_m = localizer.depth_min_m;
-  config.depth_max_m = localizer.depth_max_m;
-  config.depth_sigma_m = localizer.depth_sigma_m;
-  config.depth_sigma_per_m2 = localizer.depth_sigma_per_m2;
-  return config;
-}
-
 sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sphc_message *message) {
   sphc_localizer_config &own = copy->config;
   own = defaultConfig();
@@ -470,9 +420,10 @@ sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_co
                                                       SPHC_RIG_MAX_UNIT_M, message));
   if (!good) return SPHC_E_ARGUMENT;
   const double unit_m = c.aligned_unit_m > 0 ? c.aligned_unit_m : c.rig.depth_unit_m;
-  if (c.depth_max_m <= 62000 * unit_m) return SPHC_OK;
-  MessageWriter(message) << "config.depth_max_m is " << c.depth_max_m << ", but 16 bits of aligned_unit_m reach "
-                         << 62000 * unit_m << " m; raise the unit or lower the range";
+  const double most_m = kMostMeasuredUnits * unit_m;
+  if (c.depth_max_m <= most_m) return SPHC_OK;
+  MessageWriter(message) << "config.depth_max_m is " << c.depth_max_m << ", but " << kMostMeasuredUnits
+                         << " units of aligned_unit_m reach " << most_m << " m; raise the unit or lower the range";
   return SPHC_E_ARGUMENT;
 }
 
@@ -551,6 +502,15 @@ sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &l
   }
   const sphc_status status = checkApart(localizer.state, features.memory, message);
   return status == SPHC_OK ? checkApart(localizer.scratch, features.memory, message) : status;
+}
+
+sphc_status giveMemory(const sphc_memory &need, sphc_memory *memory, sphc_message *message) {
+  if (!memory) {
+    MessageWriter(message) << "memory is null; give one to write the answer to";
+    return SPHC_E_ARGUMENT;
+  }
+  *memory = need;
+  return SPHC_OK;
 }
 
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,

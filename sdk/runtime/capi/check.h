@@ -7,10 +7,6 @@
 
 namespace sphc {
 
-sphc_localizer_config defaultConfig();
-sphc_aligner_config defaultAlignerConfig();
-sphc_localizer_camera emptyCamera();
-sphc_localizer_depth_camera emptyDepthCamera();
 // Copies of what the caller gave, of any version (growth.h), and whether it can be used.
 // `config.cameras` and `config.depth_cameras` of the copy are its own.
 struct ConfigCopy {
@@ -55,6 +51,8 @@ struct DepthWanted {
 // Does an image fit its camera?  `name` is that of the image.
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
                        const DepthWanted &wanted, sphc_message *message);
+// The answer of a function that ends in _memory.
+sphc_status giveMemory(const sphc_memory &need, sphc_memory *memory, sphc_message *message);
 // Is memory there, aligned and large enough?  `what` names it in the message.
 sphc_status checkMemory(const void *memory, size_t bytes, size_t needed, size_t alignment, const char *what,
                         sphc_message *message);

@@ -73,12 +73,13 @@ sphc_status checkShape(const sphc_features_arrays &arrays, uint32_t max_keypoint
     return SPHC_E_CAPACITY;
   }
   const uint32_t step = arrays.keypoint_stride_bytes;
-  if (step < sizeof(sphc_keypoint) || step % alignof(sphc_keypoint) || step > (1u << 20) ||
-      arrays.descriptor_stride_bytes < SPHC_DESCRIPTOR_BYTES || arrays.descriptor_stride_bytes > (1u << 20)) {
+  if (step < sizeof(sphc_keypoint) || step % alignof(sphc_keypoint) || step > SPHC_STRIDE_MAX_BYTES ||
+      arrays.descriptor_stride_bytes < SPHC_DESCRIPTOR_BYTES ||
+      arrays.descriptor_stride_bytes > SPHC_STRIDE_MAX_BYTES) {
     MessageWriter(message) << "arrays has strides of " << step << " and " << arrays.descriptor_stride_bytes
                            << " bytes; a keypoint needs a multiple of 4, at least "
                            << static_cast<uint64_t>(sizeof(sphc_keypoint)) << ", a descriptor at least "
-                           << SPHC_DESCRIPTOR_BYTES;
+                           << SPHC_DESCRIPTOR_BYTES << ", both at most " << SPHC_STRIDE_MAX_BYTES;
     return SPHC_E_ARGUMENT;
   }
   if (arrays.count && (!arrays.keypoints || !arrays.descriptors)) {
@@ -144,12 +145,8 @@ sphc_status sphc_features_memory(const sphc_localizer_config *config, sphc_memor
   sphc::ConfigCopy checked;
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
-  if (!memory) {
-    MessageWriter(message) << "memory is null; give one to write the answer to";
-    return SPHC_E_ARGUMENT;
-  }
-  *memory = {bytesFor(sphc::localizerConfigFrom(checked.config)), 0, sphc::kArenaAlignment, 0};
-  return SPHC_OK;
+  return sphc::giveMemory({bytesFor(sphc::localizerConfigFrom(checked.config)), 0, sphc::kArenaAlignment, 0},
+                          memory, message);
 }
 
 sphc_status sphc_features_init(void *memory, size_t memory_bytes, const sphc_localizer_config *config,

@@ -5,6 +5,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/defaults.h"
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
@@ -43,6 +44,44 @@ struct PieceSearch {
   }
 };
 
+void logText(const sphc_localizer &localizer, sphc_log_level level, const sphc_message &text) {
+  size_t length = 0;
+  while (text.text[length]) ++length;
+  localizer.log(localizer.log_user, level, text.text, length);
+}
+
+enum : uint32_t { kLoggedNoMap = 1, kLoggedTimes = 2 };
+
+void warnOnce(uint32_t what, const char *words, sphc_localizer *localizer) {
+  if (localizer->logged & what) return;
+  localizer->logged |= what;
+  sphc_message text;
+  MessageWriter(&text) << words;
+  logText(*localizer, SPHC_LOG_WARNING, text);
+}
+
+// Each thing once, however many frames have it.
+void logWarnings(const sphc_localizer_frame &frame, const sphc_localizer_result &result,
+                 sphc_localizer *localizer) {
+  if (!localizer->log || localizer->log_level < SPHC_LOG_WARNING) return;
+  constexpr uint64_t kFarNs = 1000000000;
+  const int64_t color_ns = frame.color_time_ns, depth_ns = frame.depth_time_ns;
+  if (sphc::elapsedNs(std::min(color_ns, depth_ns), std::max(color_ns, depth_ns)) > kFarNs)
+    warnOnce(kLoggedTimes,
+             "depth_time_ns is more than 1 s from color_time_ns; give both on one clock "
+             "(sphc_clock_mapper)",
+             localizer);
+  if (localizer->localizer.maps().count() == 0)
+    warnOnce(kLoggedNoMap, "the localizer has no map; call sphc_localizer_set_map", localizer);
+  for (uint32_t left = result.faults & ~localizer->logged_faults; left != 0; left &= left - 1) {
+    sphc_message text;
+    MessageWriter(&text) << "frame " << result.sequence << ": " << sphc_localizer_fault_name(left & -left)
+                         << " for the first time; docs/consistency.md says what causes it";
+    logText(*localizer, SPHC_LOG_WARNING, text);
+  }
+  localizer->logged_faults |= result.faults;
+}
+
 void logResult(const sphc_localizer &localizer, const sphc_localizer_result &result) {
   if (!localizer.log || localizer.log_level < SPHC_LOG_DEBUG) return;
   sphc_message text;
@@ -50,9 +89,7 @@ void logResult(const sphc_localizer &localizer, const sphc_localizer_result &res
                        << ", keypoints " << result.keypoints << ", lifted " << result.lifted << ", matches "
                        << result.matches << ", inliers " << result.inliers << ", state " << result.state << ", map "
                        << result.map_id << ", hints " << result.hints;
-  size_t length = 0;
-  while (text.text[length]) ++length;
-  localizer.log(localizer.log_user, SPHC_LOG_DEBUG, text.text, length);
+  logText(localizer, SPHC_LOG_DEBUG, text);
 }
 
 sphc_status refuseMap(uint32_t map_id, sphc_message *message) {
@@ -73,11 +110,12 @@ sphc::FrameLimits limitsOf(const sphc_localizer &localizer, bool looks_at_images
           localizer.has_clock};
 }
 
-sphc_status giveOut(const sphc_localizer &localizer, const LocalizerResult &answer,
-                    const sphc_localizer_frame &frame, uint32_t struct_size, sphc_localizer_result *result) {
+sphc_status giveOut(const LocalizerResult &answer, const sphc_localizer_frame &frame, uint32_t struct_size,
+                    sphc_localizer *localizer, sphc_localizer_result *result) {
   const sphc_localizer_result own = sphc::resultFrom(answer, frame);
   sphc::writeStruct(own, struct_size, result);
-  logResult(localizer, own);
+  logWarnings(frame, own, localizer);
+  logResult(*localizer, own);
   return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
 }
 
@@ -174,12 +212,7 @@ sphc_status sphc_localizer_memory(const sphc_localizer_config *config, sphc_memo
   sphc::ConfigCopy checked;
   const sphc_status status = sphc::readConfig(config, &checked, message);
   if (status != SPHC_OK) return status;
-  if (!memory) {
-    MessageWriter(message) << "memory is null; give one to write the answer to";
-    return SPHC_E_ARGUMENT;
-  }
-  *memory = measure(sphc::localizerConfigFrom(checked.config));
-  return SPHC_OK;
+  return sphc::giveMemory(measure(sphc::localizerConfigFrom(checked.config)), memory, message);
 }
 
 sphc_status sphc_localizer_memory_piece(const sphc_localizer_config *config, uint32_t index,
@@ -333,7 +366,9 @@ sphc_status sphc_localizer_set_depth_bias(sphc_localizer *localizer, const sphc_
 }
 
 void sphc_localizer_reset(sphc_localizer *localizer) {
-  if (localizer) localizer->localizer.reset();
+  if (!localizer) return;
+  localizer->localizer.reset();
+  localizer->logged_faults = localizer->logged = 0;
 }
 
 sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localizer_frame *frame,
@@ -347,7 +382,7 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;
   const LocalizerResult answer = own_localizer.process(sphc::frameFrom(copy.frame, own_localizer.maps()));
-  return giveOut(*localizer, answer, copy.frame, struct_size, result);
+  return giveOut(answer, copy.frame, struct_size, localizer, result);
 }
 
 sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localizer_frame *frame,
@@ -381,7 +416,7 @@ sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localize
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;
   const sphc::FrameInput input = sphc::frameFrom(copy.frame, own_localizer.maps());
-  return giveOut(*localizer, own_localizer.locate(input, features->features), copy.frame, struct_size, result);
+  return giveOut(own_localizer.locate(input, features->features), copy.frame, struct_size, localizer, result);
 }
 
 const char *sphc_localizer_message(const sphc_localizer *localizer) {

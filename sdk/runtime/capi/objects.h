@@ -38,6 +38,7 @@ struct alignas(sphc::kArenaAlignment) sphc_localizer {
   sphc_log_fn log;
   void *log_user;
   sphc_log_level log_level;
+  uint32_t logged_faults, logged;
   sphc_message message;
 
   // Where the call that begins explains a failure.

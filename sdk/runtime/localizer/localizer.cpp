@@ -276,6 +276,7 @@ void Localizer::checkVertical(const Known &known, const Deadline &deadline, Faul
     if (vertical == Vertical::kDisagrees) *faults |= kVerticalDisagrees;
     const bool ends = vertical == Vertical::kAgrees || (vertical == Vertical::kUnknown && deadline.passed());
     if (is_again || ends) return;
+    ranking_.clear();  // those poses stood on it
     locate(rest, deadline, work);
   }
 }

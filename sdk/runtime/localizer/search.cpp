@@ -46,6 +46,7 @@ void Search::layout(const LocalizerConfig &config, Arena &state, Arena &scratch,
   s.predicted_ = scratch.take<Direction>("localizer.predicted", max_keypoints);
   s.is_taken_ = scratch.take<uint8_t>("localizer.taken", max_keypoints);
   s.rays_ = scratch.take<Match>("localizer.rays", max_keypoints);
+  s.other_rays_ = scratch.take<Match>("localizer.other_rays", max_keypoints);
   Matcher::layout(max_keypoints, scratch, search ? &s.matcher_ : nullptr, config.parallel);
 }
 
@@ -154,11 +155,12 @@ void Search::matchNear(const Question &question, const Rigid &camera_from_map, d
   matched->assign(count, front, *question.map);
 }
 
-Span<const Match> Search::raysOf(const FrontEnd &front, const MatchSet &matched) {
+Span<const Match> Search::raysOf(const FrontEnd &front, const MatchSet &matched, Span<const Match> kept) {
+  const Span<Match> room = kept.data() == rays_.data() ? other_rays_ : rays_;
   uint32_t count = 0;
   for (const Match &match : matched.matches())
-    if (match.query >= front.liftedCount()) rays_[count++] = match;
-  return rays_.first(count);
+    if (match.query >= front.liftedCount()) room[count++] = match;
+  return room.first(count);
 }
 
 }  // namespace sphc

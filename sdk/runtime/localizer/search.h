@@ -74,8 +74,9 @@ class Search {
   // Everywhere by the configured ratio, but for the keypoints of these matches; of the first `keypoints`.
   void matchOthers(const Question &question, uint32_t keypoints, Span<const Match> taken, const Deadline &deadline,
                    MatchSet *matched, Work *work);
-  // Of these matches those of keypoints without depth; in memory of the search, until the next call.
-  Span<const Match> raysOf(const FrontEnd &front, const MatchSet &matched);
+  // Of these matches those of keypoints without depth; in memory of the search, until a call that does not keep
+  // them.
+  Span<const Match> raysOf(const FrontEnd &front, const MatchSet &matched, Span<const Match> kept = {});
 
  private:
   uint32_t countVotes(const FrontEnd &front, uint32_t map, uint32_t voters, const Deadline &deadline, Work *work);
@@ -92,6 +93,7 @@ class Search {
   Span<Direction> predicted_;
   Span<uint8_t> is_taken_;  // of each keypoint
   Span<Match> rays_;        // and those of votes, which are only counted
+  Span<Match> other_rays_;  // while those are kept
 };
 
 }  // namespace sphc

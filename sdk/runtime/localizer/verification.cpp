@@ -373,7 +373,7 @@ bool Verification::searchOtherMatches(const PoseTask &task, const PosePrior *pri
   other->query.seed += kOtherSeed;
   search_.matchEverywhere(task.question, answerable(task), max_ratio, task.query.deadline, &hypothesis->matched,
                           &work_);
-  other->rays = search_.raysOf(front, hypothesis->matched);
+  other->rays = search_.raysOf(front, hypothesis->matched, task.rays);
   if (hypothesis->frames > 1) fusion_.addTo(*task.question.map, &hypothesis->matched);
   return searchPose(*other, hypothesis);
 }

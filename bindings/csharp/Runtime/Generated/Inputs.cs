@@ -22,10 +22,12 @@ public sealed unsafe partial class AlignerConfig {
   /// <summary>The colour and the depth camera.</summary>
   public Rig Rig { get { return raw.rig; } set { raw.rig = value; } }
 
-  /// <summary>Measurements outside are ignored.</summary>
+  /// <summary>Measurements outside are ignored; at most 65535 units of the rig, and 62000 of
+  /// AlignedUnitM.</summary>
   public double DepthMinM { get { return raw.depth_min_m; } set { raw.depth_min_m = value; } }
 
-  /// <summary>Measurements outside are ignored.</summary>
+  /// <summary>Measurements outside are ignored; at most 65535 units of the rig, and 62000 of
+  /// AlignedUnitM.</summary>
   public double DepthMaxM { get { return raw.depth_max_m; } set { raw.depth_max_m = value; } }
 
   /// <summary>Noise of the depth sensor, 1 sigma: sigma(z) = DepthSigmaM + DepthSigmaPerM2 z^2; for the
@@ -66,10 +68,12 @@ public sealed unsafe partial class LocalizerConfig {
   /// <summary>The colour and the depth camera.</summary>
   public Rig Rig { get { return raw.rig; } set { raw.rig = value; } }
 
-  /// <summary>Measurements outside are ignored.</summary>
+  /// <summary>Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded
+  /// too.</summary>
   public double DepthMinM { get { return raw.depth_min_m; } set { raw.depth_min_m = value; } }
 
-  /// <summary>Measurements outside are ignored.</summary>
+  /// <summary>Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded
+  /// too.</summary>
   public double DepthMaxM { get { return raw.depth_max_m; } set { raw.depth_max_m = value; } }
 
   /// <summary>Noise of the depth sensor, 1 sigma: sigma(z) = DepthSigmaM + DepthSigmaPerM2 z^2.</summary>
@@ -93,8 +97,9 @@ public sealed unsafe partial class LocalizerConfig {
   /// <summary>1 sigma of what is unknown of the slope before the first frame.</summary>
   public double DepthSlopeSigma { get { return raw.depth_slope_sigma; } set { raw.depth_slope_sigma = value; } }
 
-  /// <summary>What says more is not made; LogLevel.Debug has a line for every frame; not looked at where log is
-  /// null.</summary>
+  /// <summary>What says more is not made. LogLevel.Warning has a line for each fault when a frame has it for the
+  /// first time, for a localizer without a map, and for times of depth and colour that are more than 1 s apart;
+  /// LogLevel.Debug one for every frame; the others none yet. Not looked at where log is null.</summary>
   public LogLevel LogLevel { get { return raw.log_level; } set { raw.log_level = value; } }
 
   /// <summary>Of frame.Depth, a DEPTH or RANGE format; 0: PixelFormat.Depth16.</summary>
@@ -173,8 +178,9 @@ public sealed unsafe partial class LocalizerPrior {
 
   /// <summary>Odometry: the device's own dead reckoning at ColorTimeNs, in a frame of its own that may drift. Used
   /// in LocalizerMode.Tracking, from frame to frame: it predicts better than constant velocity, lets frames that
-  /// show too little be put together, and takes depth to the time of the colour image. Its frame may change: a
-  /// step beyond what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.</summary>
+  /// show too little be put together, and takes depth to the time of the colour image (where they are at most 100
+  /// ms apart, and frames come at 4 Hz or more). Its frame may change: a step beyond what a head does (3.5 m/s, 5
+  /// rad/s, and 5 sigma) is left out.</summary>
   public Rigid OdometryFromCamera { get { return raw.odometry_from_camera; } set { raw.odometry_from_camera = value; } }
 
   /// <summary>1 sigma an axis, of the step from the frame before; 1e-6 to 1.</summary>

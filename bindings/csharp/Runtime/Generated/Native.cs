@@ -565,8 +565,8 @@ internal static unsafe class Native {
   internal static extern Status sphc_localizer_process(sphc_localizer* localizer, sphc_localizer_frame* frame, LocalizerResult* result);
 
   /// <summary>[exclusive] Text about the failure of the last call on this instance that can fail, "" if it did
-  /// not; owned by the instance, valid until its next call. ASCII. Calls that take a const localizer leave it as
-  /// it was, and sphc_localizer_extract has sphc_features_message.</summary>
+  /// not; owned by the instance, always at the same place, until its next call. ASCII. Calls that take a const
+  /// localizer leave it as it was, and sphc_localizer_extract has sphc_features_message.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern byte* sphc_localizer_message(sphc_localizer* localizer);
 

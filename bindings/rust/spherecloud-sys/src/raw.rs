@@ -463,9 +463,9 @@ pub struct sphc_aligner_config {
     /// of the images to align, a DEPTH or RANGE format; 0: SPHC_FORMAT_DEPTH16
     pub depth_format: sphc_format,
     pub rig: sphc_rig,
-    /// measurements outside are ignored
+    /// Measurements outside are ignored; at most 65535 units of the rig, and 62000 of aligned_unit_m.
     pub depth_min_m: f64,
-    /// measurements outside are ignored
+    /// Measurements outside are ignored; at most 65535 units of the rig, and 62000 of aligned_unit_m.
     pub depth_max_m: f64,
     /// Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; for the
     /// confidence.
@@ -559,9 +559,9 @@ pub struct sphc_localizer_config {
     /// same seed, maps, config and frames: same bytes in the results
     pub seed: u64,
     pub rig: sphc_rig,
-    /// measurements outside are ignored
+    /// Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too.
     pub depth_min_m: f64,
-    /// measurements outside are ignored
+    /// Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too.
     pub depth_max_m: f64,
     /// Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2.
     pub depth_sigma_m: f64,
@@ -578,8 +578,9 @@ pub struct sphc_localizer_config {
     /// may be null
     pub log: sphc_log_fn,
     pub log_user: *mut c_void,
-    /// what says more is not made; SPHC_LOG_DEBUG has a line for every frame; not looked at where log is
-    /// null
+    /// What says more is not made. SPHC_LOG_WARNING has a line for each fault when a frame has it for the
+    /// first time, for a localizer without a map, and for times of depth and colour that are more than 1 s
+    /// apart; SPHC_LOG_DEBUG one for every frame; the others none yet. Not looked at where log is null.
     pub log_level: sphc_log_level,
     pub reserved: u32,
     /// may be null: stage times are then 0, and no frame has a deadline
@@ -644,8 +645,9 @@ pub struct sphc_localizer_prior {
     pub up_sigma_rad: f64,
     /// ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.
     /// Used in SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets
-    /// frames that show too little be put together, and takes depth to the time of the colour image. Its
-    /// frame may change: a step beyond what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
+    /// frames that show too little be put together, and takes depth to the time of the colour image (where
+    /// they are at most 100 ms apart, and frames come at 4 Hz or more). Its frame may change: a step beyond
+    /// what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
     pub odometry_from_camera: sphc_rigid,
     /// 1 sigma an axis, of the step from the frame before; 1e-6 to 1
     pub odometry_rotation_sigma_rad: f64,
@@ -927,7 +929,7 @@ pub struct sphc_features_arrays {
     /// that described them: sphc_extractor_id(), as that of all maps
     pub extractor: u32,
     pub count: u32,
-    /// From one to the next, also where count is 0; a multiple of 4, at least sizeof(sphc_keypoint).
+    /// a multiple of 4, at least sizeof(sphc_keypoint)
     pub keypoint_stride_bytes: u32,
     /// at least SPHC_DESCRIPTOR_BYTES
     pub descriptor_stride_bytes: u32,
@@ -1215,8 +1217,9 @@ extern "C" {
     pub fn sphc_localizer_process(localizer: *mut sphc_localizer, frame: *const sphc_localizer_frame, result: *mut sphc_localizer_result) -> sphc_status;
 
     /// Text about the failure of the last call on this instance that can fail, "" if it did not; owned by
-    /// the instance, valid until its next call. ASCII. Calls that take a const localizer leave it as it
-    /// was, and sphc_localizer_extract has sphc_features_message. Thread class: exclusive.
+    /// the instance, always at the same place, until its next call. ASCII. Calls that take a const
+    /// localizer leave it as it was, and sphc_localizer_extract has sphc_features_message. Thread class:
+    /// exclusive.
     pub fn sphc_localizer_message(localizer: *const sphc_localizer) -> *const c_char;
 
     /// The probability that the camera is within so many metres and radians of the pose. 0 where there is

@@ -23,10 +23,4 @@ std::string_view takeLine(std::string_view &text) {
   return line;
 }
 
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace sphc::recording

@@ -12,7 +12,4 @@ Fields fieldsOf(std::string_view line);
 // Takes the first line off `text`, without the space around it.
 std::string_view takeLine(std::string_view &text);
 
-// The middle one; of an even number the upper of the two.  `values` is not empty.
-double medianOf(std::vector<double> values);
-
 }  // namespace sphc::recording

@@ -1,6 +1,7 @@
 // Recordings of a HoloLens 2 in research mode, by hl2ss: colour and depth ("Long Throw").
 #include <cmath>
 
+#include "host/base/median.h"
 #include "host/recording/failure.h"
 #include "host/recording/file_reader.h"
 #include "host/recording/foreign/camera_axes.h"
@@ -83,7 +84,7 @@ sphc_camera addColor(const Hl2ssStream &color, Recording &recording) {
   }
   sphc_camera camera = {SPHC_CAMERA_PINHOLE, size.width, size.height, 4, {}};
   for (size_t each = 0; each < 4; ++each)
-    if (!params[each].empty()) camera.params[each] = medianOf(params[each]);
+    if (!params[each].empty()) camera.params[each] = host::median(params[each]);
   return camera;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/base/median.h"
 #include "host/cameras/rigid_matrix.h"
 #include "host/recording/calibration_json.h"
 #include "host/recording/failure.h"
@@ -31,8 +32,8 @@ std::optional<sphc_rigid> colorFromDepth(const PoseTrack &world_from_color, cons
     for (int i = 0; i < 3; ++i) t[i].push_back(sample.t_m[i]);
   }
   if (t[0].empty()) return {};
-  sphc_rigid middle = {{medianOf(q[0]), medianOf(q[1]), medianOf(q[2]), medianOf(q[3])},
-                       {medianOf(t[0]), medianOf(t[1]), medianOf(t[2])}};
+  sphc_rigid middle = {{host::median(q[0]), host::median(q[1]), host::median(q[2]), host::median(q[3])},
+                       {host::median(t[0]), host::median(t[1]), host::median(t[2])}};
   if (!host::normalizeQuaternion(middle.q_wxyz, 1e-2)) return {};
   return middle;
 }

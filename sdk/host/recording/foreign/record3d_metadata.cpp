@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "host/base/median.h"
 #include "host/cameras/rigid_matrix.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/camera_axes.h"
@@ -65,7 +66,7 @@ std::array<double, 4> paramsOf(const json &root) {
     const std::vector<double> value = numbersOf(entry, 4, "perFrameIntrinsicCoeffs");
     for (size_t i = 0; i < 4; ++i) columns[i].push_back(value[i]);
   }
-  return {medianOf(columns[0]), medianOf(columns[1]), medianOf(columns[2]), medianOf(columns[3])};
+  return {host::median(columns[0]), host::median(columns[1]), host::median(columns[2]), host::median(columns[3])};
 }
 
 int64_t nanosecondsOf(double seconds, const char *key) {

@@ -144,7 +144,8 @@ void addImages(const StrayOdometry &odometry, const StrayColor &color, Recording
 }  // namespace
 
 bool isStrayScanner(const fs::path &folder) {
-  return fs::exists(folder / "odometry.csv") && fs::exists(folder / "camera_matrix.csv");
+  return fs::exists(folder / "odometry.csv") &&
+         (fs::exists(folder / "camera_matrix.csv") || fs::is_directory(folder / "depth"));
 }
 
 Recording openStrayScanner(const fs::path &folder) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "host/base/median.h"
 #include "host/cameras/rigid_matrix.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/comma_text.h"
@@ -75,7 +76,8 @@ StrayOdometry strayOdometryFrom(std::string_view text) {
   }
   if (odometry.frames.empty()) failStray(1, "no line of a frame follows");
   if (columns.hasCamera())
-    odometry.params = {medianOf(params[0]), medianOf(params[1]), medianOf(params[2]), medianOf(params[3])};
+    odometry.params = {host::median(params[0]), host::median(params[1]), host::median(params[2]),
+                       host::median(params[3])};
   return odometry;
 }
 

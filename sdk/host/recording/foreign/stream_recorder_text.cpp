@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdint>
 
+#include "host/base/median.h"
 #include "host/cameras/rigid_matrix.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/camera_axes.h"
@@ -72,7 +73,7 @@ PvFile pvFileFrom(std::string_view text) {
     file.frames.push_back(std::move(frame));
   }
   if (file.frames.empty()) failLine(1, "no line of a frame follows");
-  for (size_t i = 0; i < 2; ++i) file.params[i] = medianOf(focal[i]);
+  for (size_t i = 0; i < 2; ++i) file.params[i] = host::median(focal[i]);
   return file;
 }
 

@@ -16,8 +16,12 @@ const std::string kLibrary =
     "spherecloud " + std::to_string(SPHC_VERSION_MAJOR) + "." + std::to_string(SPHC_VERSION_MINOR);
 }  // namespace
 
+McapWriter::McapWriter(const std::filesystem::path &path) : path_(path), file_(File::create(path)) {}
+
+// Delegates, so that the destructor removes the file when there is no memory.
 McapWriter::McapWriter(const std::filesystem::path &path, size_t chunk_bytes, size_t most_message_bytes)
-    : file_(File::create(path)), chunk_bytes_(chunk_bytes) {
+    : McapWriter(path) {
+  chunk_bytes_ = chunk_bytes;
   File::syncFolder(path);
   chunk_.reserve(chunk_bytes + most_message_bytes + kRecordHeadBytes + kMessageHeadBytes);
   head_.reserve(256);
@@ -25,11 +29,17 @@ McapWriter::McapWriter(const std::filesystem::path &path, size_t chunk_bytes, si
   entries_.reserve(kMostMessages);
 }
 
+McapWriter::~McapWriter() {
+  std::error_code ignored;
+  if (!is_begun_) std::filesystem::remove(path_, ignored);
+}
+
 void McapWriter::begin(const Bytes &records) {
   Bytes start(std::begin(kMcapMagic), std::end(kMcapMagic));
   putHeader(start, "ros2", kLibrary);
   append({viewOf(start), viewOf(records)});
   file_.sync();
+  is_begun_ = true;
 }
 
 void McapWriter::append(std::initializer_list<ByteView> parts) {

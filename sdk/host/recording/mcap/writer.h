@@ -11,6 +11,10 @@ class McapWriter {
  public:
   // Makes the file and all memory: for chunks of about `chunk_bytes` and messages of at most `most_message_bytes`.
   McapWriter(const std::filesystem::path &path, size_t chunk_bytes, size_t most_message_bytes);
+  // Removes a file that was not begun.
+  ~McapWriter();
+  McapWriter(const McapWriter &) = delete;
+  McapWriter &operator=(const McapWriter &) = delete;
 
   // Magic and header, then `records`; on the disk when it returns.
   void begin(const Bytes &records);
@@ -32,12 +36,15 @@ class McapWriter {
     uint16_t channel;
     uint64_t time_ns, offset;
   };
+  explicit McapWriter(const std::filesystem::path &path);  // makes the file alone
   void putMessageIndexes();
   void append(std::initializer_list<ByteView> parts);
 
+  std::filesystem::path path_;
   File file_;
+  bool is_begun_ = false;
   uint32_t crc_ = 0;  // of all that is in the file
-  size_t chunk_bytes_;
+  size_t chunk_bytes_ = 0;
   Bytes chunk_, head_, index_;
   std::vector<Entry> entries_;  // of the messages in the chunk
 };

@@ -148,7 +148,7 @@ void DenseAligner::makeTask() {
       turned_[static_cast<size_t>(i * int64_t{ray_stride_} + u)] =
           static_cast<float>(turn(i, 0) * ((u - kRowPadding + 0.5 - d[2]) / d[0]));
   }
-  task_.most_subunits = 63000.0f * kSubUnits;  // an empty pixel reads as much more
+  task_.most_subunits = kMostAlignedUnits * kSubUnits;  // an empty pixel reads as much more
   task_.sigma = static_cast<float>(c.sensor.sigma_m / c.sensor.unit_m);
   task_.sigma_per_raw2 = static_cast<float>(c.sensor.sigma_per_m2 * c.sensor.unit_m);
   task_.plane_stride = static_cast<uint32_t>(plane_stride_);

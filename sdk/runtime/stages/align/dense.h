@@ -9,6 +9,11 @@
 
 namespace sphc {
 
+// In units of the aligned image: the farthest measurement, of the sixteen bits that also hold how far noise takes
+// it and what is empty; and what a pixel may hold at the most.
+constexpr double kMostMeasuredUnits = 62000;
+constexpr float kMostAlignedUnits = 63000;
+
 struct DenseConfig {
   Camera color, depth;
   Rigid color_from_depth;

@@ -15,6 +15,12 @@ uint64_t distanceNs(const sphc_capture &a, const sphc_capture &b) { return dista
 // The next capture of a stream is expected no sooner than this share of the gap after the last one.
 uint64_t soonest(uint64_t gap_ns) { return gap_ns - gap_ns / 4; }
 
+bool isKnown(const sphc_capture &capture) {
+  return (capture.stream == SPHC_STREAM_COLOR || capture.stream == SPHC_STREAM_DEPTH) &&
+         capture.clock >= SPHC_CLOCK_SOURCE && capture.clock <= SPHC_CLOCK_BOOTTIME &&
+         capture.time_point >= SPHC_TIME_MIDDLE && capture.time_point <= SPHC_TIME_ARRIVAL;
+}
+
 }  // namespace
 
 // In captures of the device, lost ones too.  A source that started anew counts from 0.
@@ -40,7 +46,7 @@ sphc_capture Pairer::Queue::takeFront() {
 }
 
 sphc_status Pairer::push(const sphc_capture &capture) {
-  if (capture.stream != SPHC_STREAM_COLOR && capture.stream != SPHC_STREAM_DEPTH) return SPHC_E_ARGUMENT;
+  if (!isKnown(capture)) return SPHC_E_ARGUMENT;
   Queue &queue = capture.stream == SPHC_STREAM_COLOR ? color_ : depth_;
   if (begun_ && capture.clock != clock_) return SPHC_E_ARGUMENT;
   if (queue.begun && capture.time_ns < queue.last_ns) return SPHC_E_ARGUMENT;

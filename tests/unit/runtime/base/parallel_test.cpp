@@ -46,5 +46,27 @@ TEST(Parallel, TheFunctionRunsSeveral) {
   EXPECT_EQ(calls, 4u);
 }
 
+// What a caller's pool must not do, and does: the pieces are done once all the same.
+TEST(Parallel, EachPieceIsDoneOnceByAnyFunction) {
+  using Pool = void (*)(void *, uint32_t, Parallel::Task, void *);
+  const Pool skips = [](void *, uint32_t count, Parallel::Task task, void *data) {
+    for (uint32_t i = 0; i < count; i += 2) task(data, i);
+  };
+  const Pool does_nothing = [](void *, uint32_t, Parallel::Task, void *) {};
+  const Pool repeats = [](void *, uint32_t count, Parallel::Task task, void *data) {
+    for (uint32_t i = 0; i < 2 * count; ++i) task(data, i / 2);
+  };
+  const Pool goes_beyond = [](void *, uint32_t count, Parallel::Task task, void *data) {
+    for (const uint32_t i : {UINT32_MAX, count + 32, count, 0u}) task(data, i);
+  };
+  for (const Pool run : {skips, does_nothing, repeats, goes_beyond}) {
+    const Parallel parallel = {run, nullptr, 3};
+    std::vector<uint32_t> done(3, 0);
+    parallel.forEach(3, [&](uint32_t i) { ++done.at(i); });
+    EXPECT_EQ(done, std::vector<uint32_t>(3, 1));
+    EXPECT_TRUE(parallel.allOf(3, [](uint32_t) { return true; }));
+  }
+}
+
 }  // namespace
 }  // namespace sphc

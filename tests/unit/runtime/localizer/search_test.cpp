@@ -189,6 +189,15 @@ TEST_F(SearchTest, RaysAreTheMatchesOfKeypointsWithoutDepth) {
   const Span<const Match> rays = parts_.search.raysOf(parts_.front, matched());
   ASSERT_EQ(rays.size(), 1u);
   EXPECT_EQ(rays[0].point_index, 2u);
+  // While a pose is verified, other matches have rays of their own, again and again.
+  for (const uint32_t point : {7u, 8u}) {
+    matched().room()[0] = {lifted, point, 10, 40};
+    matched().assign(1, parts_.front, parts_.search.map(0));
+    const Span<const Match> others = parts_.search.raysOf(parts_.front, matched(), rays);
+    ASSERT_EQ(others.size(), 1u);
+    EXPECT_EQ(others[0].point_index, point);
+    EXPECT_EQ(rays[0].point_index, 2u);
+  }
 }
 
 TEST_F(SearchTest, OthersAreTheMatchesOfKeypointsThatAreNotTaken) {

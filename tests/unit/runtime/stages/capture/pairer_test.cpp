@@ -215,6 +215,18 @@ TEST(Pairer, RefusesOlderCapturesAndUnknownStreams) {
   EXPECT_EQ(pairer.push(capture(7, 200)), SPHC_E_ARGUMENT);
 }
 
+TEST(Pairer, RefusesClocksAndTimePointsWithoutAName) {
+  Pairer pairer = makePairer();
+  for (const int32_t bad : {-1, 99}) {
+    sphc_capture of_clock = color(100), of_point = color(100);
+    of_clock.clock = bad;
+    of_point.time_point = bad;
+    EXPECT_EQ(pairer.push(of_clock), SPHC_E_ARGUMENT) << bad;
+    EXPECT_EQ(pairer.push(of_point), SPHC_E_ARGUMENT) << bad;
+  }
+  EXPECT_EQ(pairer.push(color(100)), SPHC_OK) << "nothing was kept of them";
+}
+
 TEST(Pairer, KeepsTheLoansFieldsUnchanged) {
   Pairer pairer = makePairer();
   sphc_capture c = capture(SPHC_STREAM_COLOR, 100, 0xFEDCBA9876543210ull);

@@ -30,7 +30,7 @@ public final class AlignerConfig extends Struct {
     return rig;
   }
 
-  /** Measurements outside are ignored. */
+  /** Measurements outside are ignored; at most 65535 units of the rig, and 62000 of aligned_unit_m. */
   public double getDepthMinM() {
     return getDouble(Layout.ALIGNER_CONFIG_DEPTH_MIN_M);
   }
@@ -40,7 +40,7 @@ public final class AlignerConfig extends Struct {
     putDouble(Layout.ALIGNER_CONFIG_DEPTH_MIN_M, depthMinM);
   }
 
-  /** Measurements outside are ignored. */
+  /** Measurements outside are ignored; at most 65535 units of the rig, and 62000 of aligned_unit_m. */
   public double getDepthMaxM() {
     return getDouble(Layout.ALIGNER_CONFIG_DEPTH_MAX_M);
   }

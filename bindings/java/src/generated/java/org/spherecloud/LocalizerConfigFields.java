@@ -59,7 +59,7 @@ abstract class LocalizerConfigFields extends Struct {
     return rig;
   }
 
-  /** Measurements outside are ignored. */
+  /** Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too. */
   public double getDepthMinM() {
     return getDouble(Layout.LOCALIZER_CONFIG_DEPTH_MIN_M);
   }
@@ -69,7 +69,7 @@ abstract class LocalizerConfigFields extends Struct {
     putDouble(Layout.LOCALIZER_CONFIG_DEPTH_MIN_M, depthMinM);
   }
 
-  /** Measurements outside are ignored. */
+  /** Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too. */
   public double getDepthMaxM() {
     return getDouble(Layout.LOCALIZER_CONFIG_DEPTH_MAX_M);
   }

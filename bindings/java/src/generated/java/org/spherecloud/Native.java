@@ -308,8 +308,8 @@ final class Native {
 
   /**
    * Text about the failure of the last call on this instance that can fail, "" if it did not; owned by the
-   * instance, valid until its next call. ASCII. Calls that take a const localizer leave it as it was, and
-   * sphc_localizer_extract has sphc_features_message.
+   * instance, always at the same place, until its next call. ASCII. Calls that take a const localizer leave it as
+   * it was, and sphc_localizer_extract has sphc_features_message.
    */
   static native String localizerMessage(long localizer);
 
