@@ -32,7 +32,7 @@ struct BuildOptions {
   std::optional<double> eta;
   std::string fakes;
   FakeOptions fake_options;
-  bool new_place = false, understood = false, force = false;
+  bool new_place = false, understood = false, anyway = false, force = false;
 };
 
 std::string ledgerPath(const BuildOptions &options) {
@@ -96,6 +96,18 @@ void checkSamePlace(const BuildOptions &options, const Place &place) {
   check(notePath(options), didReleaseNoted);
 }
 
+// What is published cannot be taken back.
+void checkContradictions(const BuildOptions &options, const ImportedPoints &imported) {
+  if (imported.contradictions.empty() || options.anyway) return;
+  std::string why;
+  for (const std::string &contradiction : imported.contradictions) why += "\n  " + contradiction;
+  throw std::runtime_error(
+      "this recording contradicts itself:" + why +
+      "\nNothing was published, since that could not be taken back. Correct it; "
+      "`spherecloud doctor --device replay:RECORDING` looks at the images alone. Or publish it "
+      "all the same with --anyway");
+}
+
 Ledger openLedger(const BuildOptions &options) {
   if (options.key.empty()) return Ledger::openOrMake(ledgerPath(options), nullptr);
   const SecretKey key = readSecretKey(options.key);
@@ -142,6 +154,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source, console);
+  checkContradictions(options, outcome.import);
   if (options.source.model.empty()) outcome.import.model.band = options.band;
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
   NewRelease made = makeRelease(std::move(outcome.import.model), request);
@@ -263,6 +276,7 @@ void addReleaseOptions(CLI::App *app, BuildOptions *options) {
       ->group(group);
   app->add_flag("--i-understand", options->understood, "Publish known points anew, which exposes them")
       ->group(group);
+  app->add_flag("--anyway", options->anyway, "Publish a recording that contradicts itself")->group(group);
   addForceOption(app, &options->force);
 }
 

@@ -29,6 +29,8 @@ namespace sphc::host {
 namespace {
 
 constexpr double kManyContradictions = 10;  // per cent of the frames
+constexpr double kSure = 0.95;
+constexpr uint32_t kFewestSure = 5;
 
 struct LocalizeOptions {
   RecordingOptions recording;
@@ -47,7 +49,7 @@ FileUse fileUse(const LocalizeOptions &options) {
   for (const std::string &map : options.maps) files.reads("--map", map);
   for (const std::string &note : options.owner_notes) files.reads("--owner-note", note);
   readsTrust(options.trust, &files);
-  files.writes("--trajectory", options.trajectory, holds(kTumHead));
+  files.writes("--trajectory", options.trajectory, holds(", metres, by spherecloud localize)"));
   files.writes("--frames-json", options.frames_json, holds("{\"sequence\":"));
   files.writesFolder("--report", options.report, holds(kReportHead));
   return files;
@@ -134,6 +136,20 @@ void noteContradictions(const Summary &summary, const Console &console) {
                "doctor");
 }
 
+// Poses that are sure and far from the truth, most of them: then it is the truth that lies elsewhere.
+void noteTruth(const Run &run, const Summary &summary, const Console &console) {
+  uint32_t sure = 0;
+  for (const FrameRecord &frame : run.frames) sure += isWrong(frame) && frame.confidence > kSure;
+  if (sure < kFewestSure || 2 * sure <= summary.localized) return;
+  console.warn("note: " + std::to_string(sure) + " of " + counted(summary.localized, "pose") +
+               " are sure and far from the recording's: " +
+               (run.aligned_frames
+                    ? "no rigid alignment brings the two together"
+                    : "was the map made by spherecloud map, or from another recording, it has a world of its own "
+                      "(--align compares after an alignment)") +
+               "; or the recording's poses are not in metres, not world_from_camera, or of other axes");
+}
+
 int run(const LocalizeOptions &options, const Console &console) {
   fileUse(options).check();
   const auto reader = openRecording(options.recording);
@@ -147,6 +163,7 @@ int run(const LocalizeOptions &options, const Console &console) {
   writeOutputs(options, done, reader.get(), console);
   console.give(summaryJson(done, summary));
   noteContradictions(summary, console);
+  noteTruth(done, summary, console);
   if (summary.localized > 0) return kExitDone;
   console.warn(
       summary.outcomes[SPHC_OUTCOME_DEADLINE] == summary.frames

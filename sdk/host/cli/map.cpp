@@ -219,7 +219,7 @@ ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) 
 }
 
 std::string trajectoryText(const MappedRecording &recording) {
-  std::string text = std::string(kTumHead) + "world_from_camera, metres)\n";
+  std::string text = tumHead("world", "map");
   for (uint32_t i = 0; i < recording.poses.size(); ++i)
     if (recording.poses[i]) text += tumLine(recording.reader->colorOf(i).time_ns, rigidToC(*recording.poses[i]));
   return text;
@@ -263,7 +263,8 @@ void check(const MapOptions &options) {
   for (const RecordingOptions &recording : options.all()) files.reads(recording);
   for (const std::string &file : options.told) files.reads("--poses-from", file);
   files.writes("--model", options.model, isModelFile);
-  for (const std::string &file : options.trajectories) files.writes("--trajectory", file, holds(kTumHead));
+  for (const std::string &file : options.trajectories)
+    files.writes("--trajectory", file, holds(tumHead("world", "map")));
   files.writes("--refine-calibration", options.refined_calibration, never());
   files.check();
   checkMappingOptions(options.import);

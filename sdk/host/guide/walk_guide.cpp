@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/base/median.h"
 #include "host/mapping/view_speed.h"
 
 namespace sphc::host {
@@ -154,10 +155,8 @@ bool WalkGuide::isTooFast(const Rigid &part_from_camera, const WalkFrame &frame)
   if (!located_ || located_->part != now_.part) return false;
   const double seconds = 1e-9 * static_cast<double>(now_.time_ns - located_->time_ns);
   const Rigid moved = located_->part_from_camera.inverse() * part_from_camera;
-  std::vector<double> depths = depthsOf(frame);
-  const auto middle = depths.begin() + static_cast<ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  const double depth_m = middle == depths.end() ? 1 : *middle;
+  const std::vector<double> depths = depthsOf(frame);
+  const double depth_m = depths.empty() ? 1 : median(depths);
   return viewShift(moved, depth_m) > kFastPerS * seconds;
 }
 

@@ -54,7 +54,7 @@ uint32_t crcOf(Header header, const uint8_t *points, size_t bytes) {
 
 void checkHeader(const Header &header, const std::vector<uint8_t> &bytes) {
   if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0)
-    refuse("this is no point model; give a file that build --save-model wrote");
+    refuse("this is no point model; give a file that build --save-model or map --model wrote");
   if (header.version != kVersion) refuse("it was written by another version of this program; save it anew");
   if (header.band > SPHC_BAND_INFRARED)
     refuse("it is of a band that this program does not know; use the version that saved it");
@@ -112,7 +112,7 @@ std::vector<uint8_t> readPrivate(const std::string &path) {
   if (!S_ISREG(facts.st_mode)) refuse("it is no file; give one that build --save-model wrote");
   const auto size = static_cast<uint64_t>(facts.st_size);
   if (size < sizeof(Header) || size > sizeof(Header) + kMostPoints * uint64_t{kPointBytes})
-    refuse("this is no point model; give a file that build --save-model wrote");
+    refuse("this is no point model; give a file that build --save-model or map --model wrote");
   std::vector<uint8_t> bytes = readAll(file.get(), size);
   const bool is_model = std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
   if (is_model && facts.st_mode & (S_IRWXG | S_IRWXO))
@@ -152,7 +152,8 @@ std::vector<uint8_t> encodeModel(const PointModel &model) {
 
 PointModel decodeModel(const std::vector<uint8_t> &bytes) {
   Header header;
-  if (bytes.size() < sizeof header) refuse("this is no point model; give a file that build --save-model wrote");
+  if (bytes.size() < sizeof header)
+    refuse("this is no point model; give a file that build --save-model or map --model wrote");
   std::memcpy(&header, bytes.data(), sizeof header);
   checkHeader(header, bytes);
   PointModel model;
@@ -171,9 +172,6 @@ bool isModelFile(const std::string &path) {
 }
 
 void writeModelFile(const std::string &path, const PointModel &model) {
-  struct stat facts = {};
-  if (stat(path.c_str(), &facts) == 0 && !isModelFile(path))
-    refuse(path + " is there and is no point model; give another name");
   writeFile(path, encodeModel(model), Readers::kOwner);
 }
 

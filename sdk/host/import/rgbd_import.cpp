@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/base/counted.h"
+#include "host/frames/frame_consistency.h"
 #include "host/frames/frame_features.h"
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
@@ -121,14 +122,15 @@ class Importer {
   void add(const RgbdSource &source) {
     const sphc_rig &rig = source.reader->calibration();
     FrameDescriber describer(rig, options_);
+    FrameConsistency consistency(rig);
     views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);
     for (uint32_t i = 0; i < source.reader->frameCount(); ++i) {
-      if (!source.takes_part || source.takes_part(i)) addFrame(source, i, &describer);
+      if (!source.takes_part || source.takes_part(i)) addFrame(source, i, &describer, &consistency);
       if (progress_) progress_(++done_, total_);
     }
   }
 
-  void addFrame(const RgbdSource &source, uint32_t i, FrameDescriber *describer) {
+  void addFrame(const RgbdSource &source, uint32_t i, FrameDescriber *describer, FrameConsistency *consistency) {
     const std::optional<sphc_rigid> pose = source.poses ? source.poses(i) : source.reader->worldFromCamera(i);
     std::string why;
     const std::optional<sphc_localizer_frame> frame = pose ? source.reader->tryRead(i, &why) : std::nullopt;
@@ -138,8 +140,14 @@ class Importer {
       if (++summary_->frames_unreadable == 1) summary_->first_unreadable = why;
     } else {
       census_.pose(*pose);
+      count(consistency->look(frame->color, frame->color_time_ns, frame->depth, frame->depth_time_ns));
       place(*frame, rigidFromC(*pose), describer);
     }
+  }
+
+  void count(Faults faults) {
+    for (size_t bit = 0; bit < summary_->frames_with_fault.size(); ++bit)
+      summary_->frames_with_fault[bit] += (faults >> bit) & 1u;
   }
 
   void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera, FrameDescriber *describer) {
@@ -151,6 +159,7 @@ class Importer {
     summary_->keypoints += keypoints;
     summary_->lifted += observations.size();
     ++summary_->frames_used;
+    summary_->frames_empty += observations.empty();
   }
 
   const RgbdImportOptions &options_;
@@ -176,6 +185,9 @@ std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
   if (summary.frames_unreadable)
     sentences.push_back(counted(summary.frames_unreadable, "frame") +
                         " could not be read and took no part; the first: " + summary.first_unreadable);
+  if (summary.frames_empty)
+    sentences.push_back(counted(summary.frames_empty, "frame") +
+                        " gave nothing: too dark, too blurred, or without depth where there is something to see");
   return sentences;
 }
 

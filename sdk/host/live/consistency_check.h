@@ -1,17 +1,15 @@
 // Do frames contradict themselves, as the localizer would say of them?
 #pragma once
 #include <array>
-#include <vector>
 
+#include "host/frames/frame_consistency.h"
 #include "host/live/finding.h"
-#include "host/recording/calibration.h"
-#include "runtime/stages/consistency/consistency.h"
 
 namespace sphc::host {
 
 class ConsistencyCheck {
  public:
-  explicit ConsistencyCheck(const sphc_rig &calibration);
+  explicit ConsistencyCheck(const sphc_rig &calibration) : consistency_(calibration) {}
 
   // A pair of images of the calibration's sizes; the times are those of the middles of their exposures.
   void look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth, int64_t depth_time_ns);
@@ -21,9 +19,7 @@ class ConsistencyCheck {
  private:
   static constexpr size_t kFaults = 32;
 
-  Rigid color_from_depth_;
-  std::vector<uint8_t> state_, scratch_, gray_;
-  Consistency consistency_;
+  FrameConsistency consistency_;
   std::array<uint32_t, kFaults> seen_ = {};  // by the bit of the fault
   uint32_t pairs_ = 0;
 };

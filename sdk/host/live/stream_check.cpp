@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/counted.h"
+#include "host/recording/pixels.h"
 #include "host/report/run.h"
 #include "host/report/statistics.h"
 
@@ -18,10 +19,6 @@ uint32_t pixelAt(const sphc_image &image, uint32_t x, uint32_t y) {
   const auto *row = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
   if (image.format == SPHC_FORMAT_DEPTH16) return reinterpret_cast<const uint16_t *>(row)[x];
   return image.format == SPHC_FORMAT_GRAY8 ? row[x] : row[3 * x + 1];
-}
-
-std::string sizeText(uint32_t width, uint32_t height) {
-  return std::to_string(width) + " x " + std::to_string(height);
 }
 
 const char *pointName(sphc_time_point point) {
@@ -88,8 +85,8 @@ std::optional<Finding> StreamCheck::size() const {
   const sphc_image &image = last_.image;
   if (image.width == camera_.width && image.height == camera_.height) return std::nullopt;
   return Finding{Grade::kWrong, is_color_ ? "colour size" : "depth size",
-                 "images are " + sizeText(image.width, image.height) + ", the calibration is for " +
-                     sizeText(camera_.width, camera_.height) +
+                 "images are " + recording::sizeText(image.width, image.height) + ", the calibration is for " +
+                     recording::sizeText(camera_.width, camera_.height) +
                      "; choose that mode (--width, --height), or calibrate this one"};
 }
 

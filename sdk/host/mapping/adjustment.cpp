@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/mapping/middle.h"
+#include "host/base/median.h"
 #include "host/mapping/pose_block.h"
 
 namespace sphc::host {
@@ -185,7 +185,7 @@ class Adjustment {
     solver.linear_solver_ordering = order;
     solver.linear_solver_type = ceres::SPARSE_SCHUR;
     solver.max_num_iterations = options.most_steps;
-    solver.num_threads = options.threads;
+    solver.num_threads = 1;  // the same bytes every time
     solver.function_tolerance = 1e-5;
     solver.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
@@ -223,9 +223,9 @@ class Adjustment {
     const auto far =
         std::count_if(depth_sigmas.begin(), depth_sigmas.end(), [](double d) { return d > kFarDepth; });
     if (far > 0) summary.far_depths = static_cast<double>(far) / static_cast<double>(depth_sigmas.size());
-    summary.ray_sigmas = middle(std::move(ray_sigmas));
-    summary.depth_sigmas = middle(std::move(depth_sigmas));
-    summary.depth_off_m = middle(std::move(depths_m));
+    summary.ray_sigmas = median(std::move(ray_sigmas));
+    summary.depth_sigmas = median(std::move(depth_sigmas));
+    summary.depth_off_m = median(std::move(depths_m));
     tracks_.erase(
         std::remove_if(tracks_.begin(), tracks_.end(), [](const Track &track) { return track.size() < 2; }),
         tracks_.end());
@@ -255,7 +255,7 @@ class Adjustment {
       const Vector3 point_m = *poses_[s.frame] * seen.point_m();
       for (int i = 0; i < 3; ++i) along[i].push_back(point_m[i]);
     }
-    return {middle(along[0]), middle(along[1]), middle(along[2])};
+    return {median(along[0]), median(along[1]), median(along[2])};
   }
 
   void state(ceres::Problem *problem, ceres::LossFunction *loss, ceres::Manifold *manifold,

@@ -12,7 +12,6 @@ namespace sphc::host {
 
 struct AdjustmentOptions {
   int most_steps = 20;
-  int threads = 1;                                   // one: the same bytes every time
   const PoseBeliefs *beliefs = nullptr;              // of the poses; null: none
   bool poses_are_held = false;                       // where they are; points and the bias alone are adjusted
   bool lens_is_free = false, mount_is_free = false;  // of the calibration

@@ -18,6 +18,7 @@ constexpr double kDriftOfTurn = 0.01;  // of odometry: radians a radian
 constexpr double kFastestM = 5, kFastestRad = 10;  // a second
 constexpr size_t kFewestAnchors = 5;
 constexpr double kLeastShare = 0.25;
+constexpr double kDisproved = 5;  // times what contradicts a pose: of another world, or of other axes
 
 bool isFinite(const Rigid &pose) { return pose.rotation.allFinite() && pose.translation_m.allFinite(); }
 
@@ -125,7 +126,8 @@ void PoseBeliefs::judgeAnchors(const std::vector<FrameLink> &links) {
   for (size_t i = 0; i < told_.size(); ++i) {
     anchors_[i].reset();
     const size_t size = size_of_group[group[i]];
-    if (told_[i] && group[i] == group_of_part[part[i]] && size >= kFewestAnchors &&
+    const size_t fewest = std::max<size_t>(2, std::min(kFewestAnchors, told_of_part[part[i]]));
+    if (told_[i] && group[i] == group_of_part[part[i]] && size >= fewest &&
         static_cast<double>(size) >= kLeastShare * static_cast<double>(told_of_part[part[i]]))
       anchors_[i] = told_[i];
   }
@@ -181,6 +183,18 @@ size_t PoseBeliefs::contradictedBy(const FramePoses &mapped) const {
         count += !hasAnchors() || !isWithin(mapped[i]->inverse() * *told_[i], kSigmas * trust_.sigma_m + kLinkOffM,
                                             kSigmas * trust_.sigma_rad + kLinkOffRad);
   return count;
+}
+
+void PoseBeliefs::dropDisproved(const FramePoses &mapped) {
+  size_t compared = 0, disproved = 0;
+  for (size_t i = 0; i < told_.size(); ++i) {
+    if (!told_[i] || !mapped[i]) continue;
+    ++compared;
+    disproved += !isWithin(mapped[i]->inverse() * *told_[i], kDisproved * kSigmas * trust_.sigma_m,
+                           kDisproved * kSigmas * trust_.sigma_rad);
+  }
+  if (2 * disproved <= compared) return;
+  for (auto &anchor : anchors_) anchor.reset();
 }
 
 Matrix3 toldAxesFromMapped(const FramePoses &told, const FramePoses &mapped) {

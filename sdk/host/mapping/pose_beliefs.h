@@ -37,11 +37,15 @@ class PoseBeliefs {
   bool hasAnchors() const;
 
   // Judges by the links of images.  Approximate: frames that agree with each other along links form groups, and of
-  // what images connect, the largest group is believed where it has 5 frames and a quarter of those that were told.
-  // Odometry: steps that links contradict are left out, and all are where half of those that can be compared are.
+  // what images connect, the largest group is believed where it has 5 frames, or all, and a quarter of those that
+  // were told. Odometry: steps that links contradict are left out, and all are where half of those that can be
+  // compared are.
   void judge(const std::vector<FrameLink> &links);
   // Leaves out steps that the poses contradict by more than a loop may be off.
   void dropContradicted(const FramePoses &world_from_camera);
+
+  // Approximate: believes no pose where the mapped poses disprove most of them.
+  void dropDisproved(const FramePoses &world_from_camera);
 
   // As connectedParts(), where steps and anchors connect too; an anchor needs a link to do so.
   std::vector<uint32_t> parts(const std::vector<FrameLink> &links) const;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/mapping/middle.h"
+#include "host/base/median.h"
 #include "host/mapping/view_speed.h"
 
 namespace sphc::host {
@@ -14,7 +14,7 @@ template <typename Value>
 double middleOf(const Walk &walk, uint32_t first, uint32_t last, const Value &value) {
   std::vector<double> values;
   for (uint32_t i = first; i <= last; ++i) values.push_back(value(walk.keyframes[i]));
-  return middle(std::move(values));
+  return median(std::move(values));
 }
 
 ImageEvidence imagesOf(const Walk &walk, uint32_t first, uint32_t last) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "host/mapping/middle.h"
+#include "host/base/median.h"
 
 namespace sphc::host {
 namespace {
@@ -17,7 +17,7 @@ double middleDepth(const std::vector<WalkFrame> &frames) {
   for (const WalkFrame &frame : frames)
     for (const SeenPoint &point : frame.points)
       if (point.hasDepth()) depths.push_back(point.depth_m);
-  return middle(std::move(depths));
+  return median(std::move(depths));
 }
 
 // Takes the last keyframe out again where it follows the one before.
@@ -61,7 +61,7 @@ double shiftOf(const FrameLink &link, const std::vector<WalkFrame> &frames) {
   for (const PointMatch &match : link.matches)
     shifts.push_back(
         (frames[link.frames.a].points[match.a].ray - frames[link.frames.b].points[match.b].ray).norm());
-  return middle(std::move(shifts));
+  return median(std::move(shifts));
 }
 
 Walk readWalk(recording::RecordingReader *reader, const FrameReaderOptions &options, const WalkProgress &progress) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "host/mapping/middle.h"
+#include "host/base/median.h"
 
 namespace sphc::host {
 namespace {
@@ -25,7 +25,7 @@ std::vector<double> gapsOf(const std::vector<RecordedImage> &images) {
 std::vector<Pause> pausesOf(const std::vector<RecordedImage> &images) {
   std::vector<Pause> pauses;
   const std::vector<double> gaps_s = gapsOf(images);
-  const double usual_s = middle(gaps_s);
+  const double usual_s = median(gaps_s);
   for (size_t i = 0; i < gaps_s.size(); ++i)
     if (isPause(gaps_s[i], usual_s))
       pauses.push_back(
@@ -98,10 +98,10 @@ WalkTimes timesOf(const recording::RecordingReader &reader) {
   std::vector<double> apart_s;
   for (uint32_t i = 0; i < reader.frameCount(); ++i)
     apart_s.push_back(inSeconds(std::abs(reader.depthOf(i).time_ns - reader.colorOf(i).time_ns)));
-  times.apart_s = middle(std::move(apart_s));
+  times.apart_s = median(std::move(apart_s));
   const recording::Recording streams = rarerFirst(recording);
   std::vector<Offset> offsets = offsetsOf(streams);
-  const double period_s = middle(gapsOf(streams.depth));
+  const double period_s = median(gapsOf(streams.depth));
   if (offsets.size() < kFewestOfDrift || !(period_s > 0)) return times;
   unwrap(period_s, &offsets);
   addDrift(offsets, &times);

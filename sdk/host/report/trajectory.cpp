@@ -7,6 +7,10 @@ namespace sphc::host {
 
 const char kTumHead[] = "# timestamp tx ty tz qx qy qz qw (";
 
+std::string tumHead(const std::string &base, const std::string &command) {
+  return kTumHead + base + "_from_camera, metres, by spherecloud " + command + ")\n";
+}
+
 std::string tumLine(int64_t time_ns, const sphc_rigid &base_from_camera) {
   const double *t = base_from_camera.t_m, *q = base_from_camera.q_wxyz;
   const bool negative = time_ns < 0;
@@ -19,7 +23,7 @@ std::string tumLine(int64_t time_ns, const sphc_rigid &base_from_camera) {
 }
 
 std::string tumTrajectory(const Run &run) {
-  std::string text = kTumHead + run.base + "_from_camera, metres)\n";
+  std::string text = tumHead(run.base, "localize");
   for (const FrameRecord &frame : run.frames) {
     if (frame.localized) text += tumLine(frame.time_ns, frame.base_from_camera);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/median.h"
 #include "runtime/stages/match/distance.h"
 
 namespace sphc::host {
@@ -43,15 +44,11 @@ ArrayXf meanOfNeighbours(const ArrayXf &column, const Neighbours &neighbours, In
   return mean / static_cast<float>(count);
 }
 
-float medianOf(ArrayXf values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 // Spacing at several scales: against the map's own, so that large and small maps are alike, and the neighbours'.
 ArrayXf addDensity(const Neighbours &beside, Columns *columns) {
   ArrayXXf spacing = (beside.distances + 1e-6f).log();
-  spacing -= medianOf(spacing.col(7));
+  const auto eighth = spacing.col(7);
+  spacing -= static_cast<float>(median({eighth.begin(), eighth.end()}));
   for (const Index k : {0, 1, 3, 7, 15, 31, 47}) columns->add(spacing.col(k));
   columns->add(spacing.col(7) - spacing.col(0));
   columns->add(spacing.col(47) - spacing.col(7));

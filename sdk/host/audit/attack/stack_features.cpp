@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "host/base/median.h"
 #include "runtime/base/elementary.h"
 
 namespace sphc::host {
@@ -71,11 +72,6 @@ void describePlaces(const std::vector<Vector3> &directions, const std::vector<ui
   }
 }
 
-float medianSpacing(ArrayXf values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 Eigen::MatrixXf stackFeatures(const std::vector<Vector3> &directions, const MapNeighbours &neighbours,
@@ -104,7 +100,7 @@ Eigen::MatrixXf stackFeatures(const std::vector<Vector3> &directions, const MapN
   take(kAngleBins) = bins - bins_mirrored;
   for (const Index k : {7, 31, 47}) {
     const ArrayXf spacing = (neighbours.beside.distances.col(k) + 1e-4f).log();
-    take(1) = (spacing - medianSpacing(spacing)).matrix();
+    take(1) = (spacing - static_cast<float>(median({spacing.begin(), spacing.end()}))).matrix();
   }
   describePlaces(directions, stacks, take(3));
   return values;

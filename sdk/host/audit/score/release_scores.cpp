@@ -5,17 +5,9 @@
 #include <set>
 #include <string>
 
+#include "host/base/median.h"
+
 namespace sphc::host {
-namespace {
-
-double medianOf(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
 
 Exposure scoreEntries(const std::vector<uint32_t> &believed, const std::vector<EntryTruth> &truth) {
   Exposure exposure;
@@ -46,7 +38,7 @@ TriangulationScore scoreTriangulation(const Triangulation &attack, const std::ve
     score.both_real.real += truth_a[point.a].real && truth_b[point.b].real;
     errors_m.push_back((centres_m * point.position - truth_a[point.a].position_m).norm());
   }
-  score.median_error_m = medianOf(std::move(errors_m));
+  score.median_error_m = median(std::move(errors_m));
   return score;
 }
 
@@ -63,7 +55,7 @@ LearnedScore scoreLearned(const std::vector<std::optional<Vector3>> &learned,
     errors_m.push_back(std::abs(learned[i]->norm() - truth[i].position_m.norm()));
   }
   score.share_of_real = all_real ? static_cast<double>(score.learned.real) / static_cast<double>(all_real) : 0;
-  score.median_error_m = medianOf(std::move(errors_m));
+  score.median_error_m = median(std::move(errors_m));
   return score;
 }
 

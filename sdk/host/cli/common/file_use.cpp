@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 #include <unistd.h>
+#include <climits>
 
 #include <algorithm>
 #include <filesystem>
@@ -56,6 +57,9 @@ void checkMayMake(const std::string &option, const std::string &path, const fs::
 
 // What replaces a file is made beside it, and so is a ledger's journal.
 void checkParent(const std::string &option, const std::string &path) {
+  constexpr size_t kMostBytes = NAME_MAX - (sizeof ".01234567.part" - 1);
+  if (plain(path).filename().native().size() > kMostBytes)
+    refuse(option, path, "has too long a name; give one of at most " + std::to_string(kMostBytes) + " bytes");
   std::error_code error;
   const fs::path folder = plain(path).parent_path();
   if (!fs::is_directory(folder, error))

@@ -5,6 +5,7 @@
 
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
+#include "host/cli/common/contradictions.h"
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/import/model_file.h"
@@ -131,9 +132,12 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                   std::to_string(summary.points_dropped) + " dropped" + movingText(summary.moving) + ".";
   imported.warnings = summary.moving.doubts;
   for (const std::string &left_out : framesLeftOut(summary)) imported.warnings.push_back(left_out);
+  for (const std::string &fault : faultsOfFrames(summary)) imported.warnings.push_back(fault);
+  imported.contradictions = contradictionsOf(summary);
   imported.facts = {{"frames_used", summary.frames_used},
                     {"frames_without_pose", summary.frames_without_pose},
                     {"frames_unreadable", summary.frames_unreadable},
+                    {"frames_empty", summary.frames_empty},
                     {"keypoints", summary.keypoints},
                     {"lifted", summary.lifted},
                     {"merged", summary.merged},

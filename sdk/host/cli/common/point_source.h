@@ -22,9 +22,10 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import);
 
 struct ImportedPoints {
   PointModel model;
-  std::string told;                   // how it went, one line
-  std::vector<std::string> warnings;  // frames that took no part
-  nlohmann::ordered_json facts;       // for --json
+  std::string told;                         // how it went, one line
+  std::vector<std::string> warnings;        // frames that took no part, faults
+  std::vector<std::string> contradictions;  // why no map of this can be right; contradictions.h
+  nlohmann::ordered_json facts;             // for --json
 };
 // Throw UsageError for options that make no sense together.
 void checkMappingOptions(const RgbdImportOptions &import);

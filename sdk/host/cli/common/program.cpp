@@ -30,9 +30,21 @@ class Formatter : public CLI::Formatter {
   }
 };
 
+// A name that a script left empty must not be taken for "none".
+void checkNames(const CLI::App &command) {
+  for (const CLI::Option *option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type != "FILE" && type != "DIR" && type != "PATH") continue;
+    for (const std::string &name : option->results())
+      if (name.empty()) throw UsageError(option->get_name() + " is empty; give a name, or leave the option out");
+  }
+}
+
 int runChosen(const std::vector<Command> &commands, const Console &console) {
   for (const Command &command : commands) {
-    if (command.app->parsed()) return command.run(console);
+    if (!command.app->parsed()) continue;
+    checkNames(*command.app);
+    return command.run(console);
   }
   return kExitUsage;  // unreachable: a subcommand is required
 }

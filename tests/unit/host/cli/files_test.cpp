@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
@@ -69,6 +70,33 @@ TEST_F(FilesTest, AMapOfASavedModelIsTheMapMadeAtOnce) {
       runCommand("build --model " + model + " -m " + at("other.sphc") + by_key + at("other_key.ledger"));
   ASSERT_EQ(other.exit_code, kExitDone) << other.err;
   EXPECT_NE(fileText(at("other.sphc")), fileText(at("at_once.sphc")));
+}
+
+// Poses in millimetres: what is published could not be taken back.
+TEST_F(FilesTest, ARecordingThatContradictsItselfIsNotPublished) {
+  const std::string walk = at("millimetres");
+  ASSERT_EQ(runCommand("simulate --frames 10 --rate 3 --out " + walk).exit_code, kExitDone);
+  std::istringstream truth(fileText(walk + "/groundtruth.txt"));
+  std::ostringstream scaled;
+  for (std::string line; std::getline(truth, line);) {
+    std::istringstream fields(line);
+    std::string time, rest;
+    double x, y, z;
+    if (fields >> time >> x >> y >> z && std::getline(fields, rest))
+      scaled << time << ' ' << 1000 * x << ' ' << 1000 * y << ' ' << 1000 * z << rest << '\n';
+  }
+  put("millimetres/groundtruth.txt", scaled.str());
+  const std::string build = "build -r " + walk + " -m " + at("wrong.sphc") + " --ledger " + at("wrong.ledger") +
+                            " --save-model " + at("wrong.model");
+  const Answer refused = runCommand(build);
+  EXPECT_EQ(refused.exit_code, kExitFailure);
+  EXPECT_THAT(refused.err, testing::AllOf(HasSubstr("contradicts itself"), HasSubstr("in metres"),
+                                          HasSubstr("Nothing was published"), HasSubstr("--anyway")));
+  for (const char *file : {"wrong.sphc", "wrong.sphc.owner.json", "wrong.model"})
+    EXPECT_FALSE(fs::exists(at(file))) << file;
+  const Answer anyway = runCommand(build + " --anyway --json");
+  ASSERT_EQ(anyway.exit_code, kExitDone) << anyway.err;
+  EXPECT_EQ(nlohmann::json::parse(anyway.out)["release"]["release"], 1) << "the first of this ledger";
 }
 
 TEST_F(FilesTest, AModelIsSavedOverNothingElse) {

@@ -65,7 +65,10 @@ TEST_F(MapTest, AWalkWithoutPosesBecomesAMapThatLocalizes) {
   EXPECT_THAT(two.err, HasSubstr("--align: fewer than 3 localized frames have a pose"));
   EXPECT_TRUE(nlohmann::json::parse(two.out)["within_5cm_5deg_percent"].is_null());
   // The map's world is its first camera, not the recording's.
-  EXPECT_EQ(nlohmann::json::parse(runCommand(localize).out)["within_5cm_5deg"], 0);
+  const Answer elsewhere = runCommand(localize);
+  EXPECT_EQ(nlohmann::json::parse(elsewhere.out)["within_5cm_5deg"], 0);
+  EXPECT_THAT(elsewhere.err, HasSubstr("poses are sure and far from the recording's"));
+  EXPECT_THAT(found.err, Not(HasSubstr("far from")));
 }
 
 TEST_F(MapTest, TheScoreComparesWithThePosesOfTheRecording) {

@@ -80,6 +80,29 @@ TEST_F(PoseBeliefsTest, OfTwoWorldsTheLargerIsBelieved) {
 }
 
 // No link tells how the two halves lie to each other; the poses do, and a frame without links connects nothing.
+TEST_F(PoseBeliefsTest, AllOfAShortWalkAreBelieved) {
+  trust_.use = PoseUse::kApproximate;
+  frames().resize(3);
+  links_.resize(2);
+  EXPECT_EQ(anchorsOf(judged()), 3u);
+  frames()[1].told_world_from_camera->translation_m.z() += 100;
+  EXPECT_EQ(anchorsOf(judged()), 0u);
+}
+
+TEST_F(PoseBeliefsTest, WhatTheMapDisprovesHoldsNoWorld) {
+  trust_.use = PoseUse::kApproximate;
+  PoseBeliefs beliefs = judged();
+  FramePoses mapped(made_.world_from_camera.begin(), made_.world_from_camera.end());
+  beliefs.dropDisproved(mapped);
+  EXPECT_TRUE(beliefs.hasAnchors());
+  for (size_t i = 0; i < 19; ++i) mapped[i]->translation_m.x() += 100;
+  beliefs.dropDisproved(mapped);
+  EXPECT_TRUE(beliefs.hasAnchors()) << "the most hold";
+  for (size_t i = 19; i < 21; ++i) mapped[i]->translation_m.x() += 100;
+  beliefs.dropDisproved(mapped);
+  EXPECT_FALSE(beliefs.hasAnchors());
+}
+
 TEST_F(PoseBeliefsTest, AnchorsConnectPartsThatImagesDoNot) {
   trust_.use = PoseUse::kApproximate;
   links_.erase(links_.begin() + 18, links_.begin() + 21);

@@ -26,7 +26,8 @@ TEST(TumTrajectory, HasLocalizedFramesOnly) {
   run.frames = {goodFrame(1, 0, 0), lostFrame(2), goodFrame(3, 0, 0)};
   const std::string text = tumTrajectory(run);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
-  EXPECT_NE(text.find("# timestamp tx ty tz qx qy qz qw (world_from_camera, metres)\n0.1"), std::string::npos);
+  EXPECT_NE(text.find("# timestamp tx ty tz qx qy qz qw (world_from_camera, metres, by spherecloud localize)\n0.1"),
+            std::string::npos);
   EXPECT_NE(text.find("\n0.300000000 "), std::string::npos);
 }
 

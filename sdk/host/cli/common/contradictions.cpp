@@ -1,0 +1,63 @@
+#include "host/cli/common/contradictions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/counted.h"
+#include "host/report/fault_words.h"
+
+namespace sphc::host {
+namespace {
+
+constexpr uint32_t kFewestFrames = 10;  // that contradict each other
+// Keypoints with depth that lie where another frame sees them: 2 % in the thinnest sound walk of 10 frames, a third
+// and more where they come from step to step.
+constexpr double kHardlyMerged = 0.001, kThinlyMerged = 0.1;
+// Of depth; 0.4 % in sound recordings, and half of this where the sensor and the poses of a telephone are off in
+// scale.
+constexpr double kMostDisagreement = 0.08, kMostOfThin = 0.06;
+constexpr double kSomeFrames = 0.1, kMostFrames = 0.75;
+
+std::string inFrames(uint32_t frames, const RgbdImportSummary &summary, const BitWords &words) {
+  return std::string(words.name) + " in " + std::to_string(frames) + " of " +
+         counted(summary.frames_used, "frame") + ": " + words.cure;
+}
+
+std::vector<std::string> faultsAbove(double share, const RgbdImportSummary &summary) {
+  std::vector<std::string> sentences;
+  for (const BitWords &words : kFaultWords)
+    for (size_t bit = 0; bit < summary.frames_with_fault.size(); ++bit) {
+      const uint32_t frames = summary.frames_with_fault[bit];
+      if (words.bit == 1u << bit && frames > share * summary.frames_used)
+        sentences.push_back(inFrames(frames, summary, words));
+    }
+  return sentences;
+}
+
+constexpr char kPoses[] =
+    "are poses in metres, world_from_camera and not its inverse, with x right, y down and z ahead, the quaternion "
+    "in "
+    "the order of the file, and of these images; is depth_unit_m right?";
+
+}  // namespace
+
+std::vector<std::string> faultsOfFrames(const RgbdImportSummary &summary) {
+  return faultsAbove(kSomeFrames, summary);
+}
+
+std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary) {
+  if (summary.frames_used < kFewestFrames) return {};
+  std::vector<std::string> sentences = faultsAbove(kMostFrames, summary);
+  const double merged =
+      static_cast<double>(summary.merged) / static_cast<double>(std::max<uint64_t>(1, summary.lifted));
+  const double disagreement = summary.moving.disagreement;
+  if (merged < kHardlyMerged)
+    sentences.push_back("hardly a point of " + counted(summary.frames_used, "frame") +
+                        " lies where another frame sees it: " + kPoses);
+  else if (disagreement > (merged < kThinlyMerged ? kMostOfThin : kMostDisagreement))
+    sentences.push_back("the frames disagree on where things are, by " +
+                        std::to_string(std::lround(100 * disagreement)) + " % of the depth: " + kPoses);
+  return sentences;
+}
+
+}  // namespace sphc::host

@@ -1,0 +1,16 @@
+// What says that a recording is not what it claims to be: poses that are not of its frames, depth that is not of
+// its images.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/import/rgbd_import.h"
+
+namespace sphc::host {
+
+// Faults of some of the frames, a sentence each, with cause and cure.
+std::vector<std::string> faultsOfFrames(const RgbdImportSummary &summary);
+// Of the whole recording, so much that no map of it can be right.  Empty: none.
+std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary);
+
+}  // namespace sphc::host

@@ -1,0 +1,63 @@
+#include "host/cli/common/contradictions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <spherecloud/spherecloud.hpp>
+
+namespace sphc::host {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+RgbdImportSummary soundWalk() {
+  RgbdImportSummary summary;
+  summary.frames_used = 40;
+  summary.lifted = 40000;
+  summary.merged = 16000;
+  summary.moving.disagreement = 0.004;
+  return summary;
+}
+
+TEST(Contradictions, ASoundWalkHasNone) {
+  EXPECT_THAT(contradictionsOf(soundWalk()), IsEmpty());
+  EXPECT_THAT(faultsOfFrames(soundWalk()), IsEmpty());
+  RgbdImportSummary thin = soundWalk();  // views that hardly overlap
+  thin.merged = 800;
+  EXPECT_THAT(contradictionsOf(thin), IsEmpty());
+}
+
+TEST(Contradictions, PosesThatAreNotOfTheFramesAre) {
+  RgbdImportSummary millimetres = soundWalk();
+  millimetres.merged = 0;
+  millimetres.moving.disagreement = 0;  // nothing lies where it could be compared
+  EXPECT_THAT(contradictionsOf(millimetres), ElementsAre(HasSubstr("in metres")));
+  RgbdImportSummary inverted = soundWalk();
+  inverted.merged = 1300;
+  inverted.moving.disagreement = 0.07;
+  EXPECT_THAT(contradictionsOf(inverted), ElementsAre(HasSubstr("7 % of the depth")));
+  inverted.merged = 16000;  // frames from step to step
+  EXPECT_THAT(contradictionsOf(inverted), IsEmpty()) << "a telephone may be so";
+  inverted.moving.disagreement = 0.09;
+  EXPECT_THAT(contradictionsOf(inverted), ElementsAre(HasSubstr("9 % of the depth")));
+  inverted.frames_used = 9;
+  EXPECT_THAT(contradictionsOf(inverted), IsEmpty()) << "too few to tell";
+}
+
+TEST(Contradictions, AFaultOfMostFramesIsAndOneOfSomeIsTold) {
+  RgbdImportSummary late = soundWalk();
+  uint32_t &frames = late.frames_with_fault[5];
+  static_assert(SPHC_FAULT_DEPTH_COLOR_DISAGREE == 1u << 5);
+  frames = 4;
+  EXPECT_THAT(faultsOfFrames(late), IsEmpty()) << "of the scene, it may be";
+  frames = 5;
+  EXPECT_THAT(faultsOfFrames(late), ElementsAre(HasSubstr("depth and colour disagree in 5 of 40 frames: edges")));
+  EXPECT_THAT(contradictionsOf(late), IsEmpty());
+  frames = 31;
+  EXPECT_THAT(contradictionsOf(late), ElementsAre(HasSubstr("in 31 of 40 frames")));
+}
+
+}  // namespace
+}  // namespace sphc::host
