@@ -61,7 +61,9 @@ Findings lookAt(const DoctorOptions &options, const Console &console) {
   const Interrupt interrupt;
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   bool geometry_fits = true;
-  while (apart_ms.size() < options.frames && !interrupt.came() && std::chrono::steady_clock::now() < until) {
+  const bool is_recording = options.rig.both.rfind("replay:", 0) == 0;  // which does not come late
+  const auto is_over = [&] { return !is_recording && std::chrono::steady_clock::now() >= until; };
+  while (apart_ms.size() < options.frames && !interrupt.came() && !is_over()) {
     CapturePair pair;
     const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
     if (got == Rig::Got::kEnd) break;

@@ -1,4 +1,5 @@
 // spherecloud map: from walks without poses, or with poses that are a little wrong, to a point model and a path.
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <memory>
@@ -124,6 +125,8 @@ sphc_rig commonCalibration(const std::vector<MappedRecording> &recordings) {
   return rig;
 }
 
+constexpr double kMostRefinedPx = 25;  // 1.5 % of focal length, 6 px, 0.7 degrees and 11 mm together are 20
+
 void tellOfFit(const MapOptions &options, const CalibrationFit &fit, const CalibrationDifference &moved,
                const Console &console) {
   if (fit.rounds == 0) {
@@ -137,6 +140,11 @@ void tellOfFit(const MapOptions &options, const CalibrationFit &fit, const Calib
               fixed(1000 * fit.before.depth_off_m, 1) + " (medians). Rays of the colour camera moved by up to " +
               fixed(moved.color.largest_px, 1) + " px, depth at 1 m by up to " +
               fixed(moved.depth_to_color[1].largest_px, 1) + " px in the colour image.");
+  if (std::max(moved.color.largest_px, moved.depth_to_color[1].largest_px) > kMostRefinedPx)
+    console.warn(
+        "note: that is more than a calibration is off that is a little off, so the refined one may be wrong "
+        "too: is the given one of these cameras, is color_from_depth inverted or in millimetres? "
+        "`spherecloud doctor` compares edges");
 }
 
 // Writes the calibration that the walk agrees with best; the map is then made with it.  How far it moved pixels.

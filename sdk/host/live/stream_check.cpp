@@ -13,6 +13,7 @@ namespace {
 
 using Grade = Finding::Grade;
 constexpr uint32_t kEvery = 7;                                                   // pixels looked at
+constexpr double kPauseMs = 500, kPausePeriods = 5;                              // longer than both is a pause
 constexpr uint64_t kFnvStart = 0xCBF29CE484222325u, kFnvPrime = 0x100000001B3u;  // Fowler, Noll and Vo's hash
 
 uint32_t pixelAt(const sphc_image &image, uint32_t x, uint32_t y) {
@@ -99,7 +100,8 @@ Finding StreamCheck::rate() const {
                            " never came";
   if (10 * lost_ > count_)
     return {Grade::kWrong, what, seen + "; at the camera, use another USB port or bus, a smaller image, or MJPG"};
-  return {lost_ > 0 ? Grade::kDoubtful : Grade::kFine, what, seen};
+  const bool paused = most_ms > std::max(kPauseMs, kPausePeriods * median_ms);
+  return {lost_ > 0 || paused ? Grade::kDoubtful : Grade::kFine, what, seen};
 }
 
 Finding StreamCheck::clock() const {
@@ -151,9 +153,10 @@ Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t w
         "--tolerance-ms widens what counts as the same"};
   const double median_ms = percentile(color_minus_depth_ms, 0.5);
   const double spread_ms = percentile(color_minus_depth_ms, 0.95) - percentile(color_minus_depth_ms, 0.05);
-  const std::string seen = "colour is taken " + fixed(std::fabs(median_ms), 1) + " ms " +
-                           (median_ms < 0 ? "before" : "after") + " depth, within " + fixed(spread_ms, 1) +
-                           " ms; " + counted(without_partner, "image") + " had no partner";
+  const std::string seen = "of " + counted(color_minus_depth_ms.size(), "pair") + " colour is taken " +
+                           fixed(std::fabs(median_ms), 1) + " ms " + (median_ms < 0 ? "before" : "after") +
+                           " depth, within " + fixed(spread_ms, 1) + " ms; " + counted(without_partner, "image") +
+                           " had no partner";
   if (spread_ms > 10)
     return {Grade::kDoubtful, "pairs",
             seen + "; the cameras drift apart: synchronise them, or expect blur from motion"};

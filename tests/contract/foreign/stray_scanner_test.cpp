@@ -5,6 +5,7 @@
 #ifdef SPHC_TEST_VIDEO
 #include <opencv2/videoio.hpp>
 #endif
+#include <sstream>
 
 #include "host/recording/failure.h"
 #include "host/recording/foreign/stray_text.h"
@@ -146,6 +147,19 @@ TEST_F(StrayScanner, PosesThatAreNoneAreCounted) {
   EXPECT_EQ(reader.frameCount(), 2u);
   EXPECT_EQ(reader.recording().bad_pose_count, 2u);
   EXPECT_FALSE(reader.worldFromCamera(0));
+}
+
+TEST_F(StrayScanner, ACameraInEveryLineNeedsNoMatrix) {
+  std::filesystem::remove(folder_ / "camera_matrix.csv");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("camera_matrix.csv"));
+  std::istringstream lines(folder_.read("odometry.csv"));
+  std::string with_cameras;
+  for (std::string line; std::getline(lines, line);)
+    with_cameras += line + (with_cameras.empty() ? ", fx, fy, cx, cy\n" : ", 100, 101, 66, 47\n");
+  folder_.write("odometry.csv", with_cameras);
+  RecordingReader reader(folder_.path());
+  EXPECT_EQ(reader.frameCount(), kFrames);
+  EXPECT_EQ(reader.calibration().color_camera.params[1], 101);
 }
 
 TEST_F(StrayScanner, WhatIsWrongIsNamed) {

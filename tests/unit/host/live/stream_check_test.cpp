@@ -26,7 +26,7 @@ class StreamCheckTest : public testing::Test {
       capture.struct_size = sizeof capture;
       capture.stream = stream;
       capture.sequence = i * (1 + skip);
-      capture.time_ns = int64_t{i} * 33333333 * (1 + skip);
+      capture.time_ns = int64_t{i} * 33333333 * (1 + skip) + (2 * i >= frames ? pause_ns_ : 0);
       if (color)
         capture.image = {gray.data(), kWidth, kHeight, kWidth, SPHC_FORMAT_GRAY8};
       else
@@ -45,6 +45,7 @@ class StreamCheckTest : public testing::Test {
 
   sphc_rig calibration_;
   sphc_capture capture_ = {};
+  int64_t pause_ns_ = 0;  // in the middle
 };
 
 TEST_F(StreamCheckTest, GoodStreamsAreFine) {
@@ -67,6 +68,14 @@ TEST_F(StreamCheckTest, FaultsAreNamed) {
   const StreamCheck silent(SPHC_STREAM_DEPTH, calibration_);
   ASSERT_EQ(silent.findings().size(), 1u);
   EXPECT_EQ(silent.findings()[0].grade, Grade::kWrong);
+}
+
+TEST_F(StreamCheckTest, APauseIsNoRate) {
+  pause_ns_ = 2000000000;
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate").grade, Grade::kDoubtful);
+  EXPECT_NE(found(SPHC_STREAM_COLOR, 120, "colour rate").text.find("longest pause 2033 ms"), std::string::npos);
+  pause_ns_ = 100000000;  // of a machine that was busy
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate").grade, Grade::kFine);
 }
 
 TEST_F(StreamCheckTest, TheSameImageOverAgainIsNamed) {
