@@ -252,14 +252,20 @@ TEST_F(CInterfaceLocalizer, InitialStructsSayNothing) {
   EXPECT_EQ(sphc_localizer_prior_init(&prior, sizeof prior + 1), SPHC_E_STRUCT_SIZE);
 }
 
-TEST_F(CInterfaceLocalizer, LogsOnlyWhatTheLevelAsksFor) {
-  std::vector<std::string> lines;
-  config_.log = [](void *user, sphc_log_level level, const char *text, size_t length) {
-    EXPECT_EQ(level, SPHC_LOG_DEBUG);
+// Of this level alone.
+template <sphc_log_level kLevel>
+void logTo(std::vector<std::string> *lines, sphc_localizer_config *config) {
+  config->log = [](void *user, sphc_log_level level, const char *text, size_t length) {
+    EXPECT_EQ(level, kLevel);
     EXPECT_EQ(text[length], '\0');
     static_cast<std::vector<std::string> *>(user)->push_back(text);
   };
-  config_.log_user = &lines;
+  config->log_user = lines;
+}
+
+TEST_F(CInterfaceLocalizer, LogsOnlyWhatTheLevelAsksFor) {
+  std::vector<std::string> lines;
+  logTo<SPHC_LOG_DEBUG>(&lines, &config_);
   const auto frame = sphc::test::sceneFrame(config_, 1);
   for (sphc_log_level level : {SPHC_LOG_ERROR, SPHC_LOG_WARNING, SPHC_LOG_INFO, SPHC_LOG_DEBUG}) {
     config_.log_level = level;
@@ -273,10 +279,7 @@ TEST_F(CInterfaceLocalizer, LogsOnlyWhatTheLevelAsksFor) {
 
 TEST_F(CInterfaceLocalizer, WarnsOnceOfWhatTheCallerForgot) {
   std::vector<std::string> lines;
-  config_.log = [](void *user, sphc_log_level, const char *text, size_t) {
-    static_cast<std::vector<std::string> *>(user)->push_back(text);
-  };
-  config_.log_user = &lines;
+  logTo<SPHC_LOG_WARNING>(&lines, &config_);
   const auto made = sphc::test::sceneFrame(config_, 1);
   made->frame.depth_time_ns = made->frame.color_time_ns - 2000000000;  // of another clock
   Session logged(config_);
@@ -290,12 +293,7 @@ TEST_F(CInterfaceLocalizer, WarnsOnceOfWhatTheCallerForgot) {
 
 TEST_F(CInterfaceLocalizer, WarnsOnceOfEachFault) {
   std::vector<std::string> lines;
-  config_.log = [](void *user, sphc_log_level level, const char *text, size_t length) {
-    EXPECT_EQ(level, SPHC_LOG_WARNING);
-    EXPECT_EQ(text[length], '\0');
-    static_cast<std::vector<std::string> *>(user)->push_back(text);
-  };
-  config_.log_user = &lines;
+  logTo<SPHC_LOG_WARNING>(&lines, &config_);
   const auto made = sphc::test::sceneFrame(config_, 1);
   const std::vector<uint16_t> constant(size_t{made->frame.depth.width} * made->frame.depth.height, 1500);
   made->frame.depth.data = constant.data();

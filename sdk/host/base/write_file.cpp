@@ -8,8 +8,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <random>
 #include <stdexcept>
+
+#include "host/base/part_name.h"
 
 namespace sphc::host {
 namespace {
@@ -61,14 +62,6 @@ void syncFolderOf(const std::string &path) {
   if (file.isOpen() && !file.sync() && errno != EINVAL && errno != EROFS) fail(path);
 }
 
-// A name beside the target that nobody else has.
-std::string besideOf(const std::string &target) {
-  std::random_device random;
-  char ending[24];
-  std::snprintf(ending, sizeof ending, ".%08x.part", static_cast<unsigned>(random()));
-  return target + ending;
-}
-
 // What has the name at the end is gone, whatever was thrown.  The name must outlive it.
 class RemovedAtEnd {
  public:
@@ -101,7 +94,7 @@ void writeFile(const std::string &path, const void *bytes, size_t count, Readers
     errno = error.value();
     fail(path);
   }
-  const std::string beside = besideOf(target);
+  const std::string beside = partName(target);
   OpenFile file(beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, readers == Readers::kOwner ? 0600 : 0666);
   if (!file.isOpen()) fail(path);
   RemovedAtEnd unfinished(beside);
@@ -137,7 +130,7 @@ void renameToNew(const std::string &from, const std::string &to) {
 }
 
 void writeNewFile(const std::string &path, const std::string &text, Readers readers) {
-  const std::string beside = besideOf(path);
+  const std::string beside = partName(path);
   RemovedAtEnd unfinished(beside);
   writeFile(beside, text, readers);
   try {

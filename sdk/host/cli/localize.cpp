@@ -49,7 +49,7 @@ FileUse fileUse(const LocalizeOptions &options) {
   for (const std::string &map : options.maps) files.reads("--map", map);
   for (const std::string &note : options.owner_notes) files.reads("--owner-note", note);
   readsTrust(options.trust, &files);
-  files.writes("--trajectory", options.trajectory, holds(", metres, by spherecloud localize)"));
+  files.writes("--trajectory", options.trajectory, holds(tumMark("localize")));
   files.writes("--frames-json", options.frames_json, holds("{\"sequence\":"));
   files.writesFolder("--report", options.report, holds(kReportHead));
   return files;

@@ -271,8 +271,7 @@ void check(const MapOptions &options) {
   for (const RecordingOptions &recording : options.all()) files.reads(recording);
   for (const std::string &file : options.told) files.reads("--poses-from", file);
   files.writes("--model", options.model, isModelFile);
-  for (const std::string &file : options.trajectories)
-    files.writes("--trajectory", file, holds(tumHead("world", "map")));
+  for (const std::string &file : options.trajectories) files.writes("--trajectory", file, holds(tumMark("map")));
   files.writes("--refine-calibration", options.refined_calibration, never());
   files.check();
   checkMappingOptions(options.import);

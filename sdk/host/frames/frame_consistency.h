@@ -1,11 +1,29 @@
 // Does a frame of a recording contradict itself, as the localizer would say of it?
 #pragma once
+#include <array>
 #include <vector>
 
 #include "host/recording/calibration.h"
 #include "runtime/stages/consistency/consistency.h"
 
 namespace sphc::host {
+
+// How many frames had each fault.
+class FaultCounts {
+ public:
+  void add(Faults faults) {
+    for (size_t bit = 0; bit < counts_.size(); ++bit) counts_[bit] += (faults >> bit) & 1u;
+  }
+  // `fault` is one bit.
+  uint32_t of(Faults fault) const {
+    size_t bit = 0;
+    while (fault >> bit > 1) ++bit;
+    return counts_[bit];
+  }
+
+ private:
+  std::array<uint32_t, 32> counts_ = {};
+};
 
 // Frames come in the order of their times.
 class FrameConsistency {

@@ -1,7 +1,5 @@
 #include "host/guide/walk_guide.h"
 
-#include <algorithm>
-
 #include "host/base/median.h"
 #include "host/mapping/view_speed.h"
 

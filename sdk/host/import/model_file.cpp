@@ -45,6 +45,8 @@ void take(const uint8_t **at, T *value) {
   *at += sizeof *value;
 }
 
+constexpr char kNoModel[] = "this is no point model; give a file that build --save-model or map --model wrote";
+
 uint32_t crcOf(Header header, const uint8_t *points, size_t bytes) {
   header.crc32 = 0;
   return crc32(crc32(0, &header, sizeof header), points, bytes);
@@ -53,8 +55,7 @@ uint32_t crcOf(Header header, const uint8_t *points, size_t bytes) {
 [[noreturn]] void refuse(const std::string &why) { throw std::runtime_error(why); }
 
 void checkHeader(const Header &header, const std::vector<uint8_t> &bytes) {
-  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0)
-    refuse("this is no point model; give a file that build --save-model or map --model wrote");
+  if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) refuse(kNoModel);
   if (header.version != kVersion) refuse("it was written by another version of this program; save it anew");
   if (header.band > SPHC_BAND_INFRARED)
     refuse("it is of a band that this program does not know; use the version that saved it");
@@ -111,8 +112,7 @@ std::vector<uint8_t> readPrivate(const std::string &path) {
     refuse(std::string(std::strerror(errno)) + "; is the file there?");
   if (!S_ISREG(facts.st_mode)) refuse("it is no file; give one that build --save-model wrote");
   const auto size = static_cast<uint64_t>(facts.st_size);
-  if (size < sizeof(Header) || size > sizeof(Header) + kMostPoints * uint64_t{kPointBytes})
-    refuse("this is no point model; give a file that build --save-model or map --model wrote");
+  if (size < sizeof(Header) || size > sizeof(Header) + kMostPoints * uint64_t{kPointBytes}) refuse(kNoModel);
   std::vector<uint8_t> bytes = readAll(file.get(), size);
   const bool is_model = std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
   if (is_model && facts.st_mode & (S_IRWXG | S_IRWXO))
@@ -152,8 +152,7 @@ std::vector<uint8_t> encodeModel(const PointModel &model) {
 
 PointModel decodeModel(const std::vector<uint8_t> &bytes) {
   Header header;
-  if (bytes.size() < sizeof header)
-    refuse("this is no point model; give a file that build --save-model or map --model wrote");
+  if (bytes.size() < sizeof header) refuse(kNoModel);
   std::memcpy(&header, bytes.data(), sizeof header);
   checkHeader(header, bytes);
   PointModel model;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "host/base/counted.h"
-#include "host/frames/frame_consistency.h"
 #include "host/frames/frame_features.h"
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
@@ -140,14 +139,10 @@ class Importer {
       if (++summary_->frames_unreadable == 1) summary_->first_unreadable = why;
     } else {
       census_.pose(*pose);
-      count(consistency->look(frame->color, frame->color_time_ns, frame->depth, frame->depth_time_ns));
+      summary_->frames_with_fault.add(
+          consistency->look(frame->color, frame->color_time_ns, frame->depth, frame->depth_time_ns));
       place(*frame, rigidFromC(*pose), describer);
     }
-  }
-
-  void count(Faults faults) {
-    for (size_t bit = 0; bit < summary_->frames_with_fault.size(); ++bit)
-      summary_->frames_with_fault[bit] += (faults >> bit) & 1u;
   }
 
   void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera, FrameDescriber *describer) {

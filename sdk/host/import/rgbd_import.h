@@ -1,6 +1,5 @@
 // Builds a point model from a recording of colour and depth, and poses: its own or others.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/frames/frame_consistency.h"
 #include "host/import/point_model.h"
 #include "host/recording/recording_reader.h"
 
@@ -41,10 +41,10 @@ struct MovingSummary {
 
 struct RgbdImportSummary {
   uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
-  uint32_t frames_empty = 0;                        // of those used, without a keypoint that has depth
-  std::array<uint32_t, 32> frames_with_fault = {};  // by the bit of the fault; of those used
-  std::string first_unreadable;                     // which, and why
-  uint64_t keypoints = 0, lifted = 0, merged = 0;   // merged: joined a point that was there already
+  uint32_t frames_empty = 0;                       // of those used, without a keypoint that has depth
+  FaultCounts frames_with_fault;                   // of those used
+  std::string first_unreadable;                    // which, and why
+  uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
   uint32_t points_kept = 0, points_dropped = 0;
   MovingSummary moving;  // of the points that were dropped, those that moved
 };

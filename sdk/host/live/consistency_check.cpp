@@ -11,21 +11,17 @@ constexpr uint32_t kOneIn = 10;  // of the pairs: a fault that is seen less ofte
 
 void ConsistencyCheck::look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth,
                             int64_t depth_time_ns) {
-  const Faults faults = consistency_.look(color, color_time_ns, depth, depth_time_ns);
-  for (size_t bit = 0; bit < kFaults; ++bit) seen_[bit] += (faults >> bit) & 1u;
+  seen_.add(consistency_.look(color, color_time_ns, depth, depth_time_ns));
   ++pairs_;
 }
 
 Findings ConsistencyCheck::findings() const {
   Findings findings;
-  for (size_t bit = 0; bit < kFaults; ++bit) {
-    if (!seen_[bit]) continue;
-    for (const BitWords &words : kFaultWords)
-      if (words.bit == 1u << bit)
-        findings.push_back(
-            {seen_[bit] * kOneIn >= pairs_ ? Finding::Grade::kWrong : Finding::Grade::kDoubtful, words.name,
-             "in " + std::to_string(seen_[bit]) + " of " + std::to_string(pairs_) + " pairs: " + words.cure});
-  }
+  for (const BitWords &words : kFaultWords)
+    if (const uint32_t seen = seen_.of(words.bit))
+      findings.push_back(
+          {seen * kOneIn >= pairs_ ? Finding::Grade::kWrong : Finding::Grade::kDoubtful, words.name,
+           "in " + std::to_string(seen) + " of " + std::to_string(pairs_) + " pairs: " + words.cure});
   if (pairs_ && findings.empty())
     findings.push_back(
         {Finding::Grade::kFine, "consistency", "no pair of " + std::to_string(pairs_) + " contradicts itself"});

@@ -1,7 +1,5 @@
 // Do frames contradict themselves, as the localizer would say of them?
 #pragma once
-#include <array>
-
 #include "host/frames/frame_consistency.h"
 #include "host/live/finding.h"
 
@@ -17,10 +15,8 @@ class ConsistencyCheck {
   Findings findings() const;
 
  private:
-  static constexpr size_t kFaults = 32;
-
   FrameConsistency consistency_;
-  std::array<uint32_t, kFaults> seen_ = {};  // by the bit of the fault
+  FaultCounts seen_;
   uint32_t pairs_ = 0;
 };
 

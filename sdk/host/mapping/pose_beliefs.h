@@ -44,7 +44,7 @@ class PoseBeliefs {
   // Leaves out steps that the poses contradict by more than a loop may be off.
   void dropContradicted(const FramePoses &world_from_camera);
 
-  // Approximate: believes no pose where the mapped poses disprove most of them.
+  // Approximate: believes no pose where the mapped poses disprove most of them.  Steps of odometry stay.
   void dropDisproved(const FramePoses &world_from_camera);
 
   // As connectedParts(), where steps and anchors connect too; an anchor needs a link to do so.

@@ -141,7 +141,7 @@ class WalkMapper {
           "not "
           "look all alike");
     mapped_.told = beliefs_.toldCount();
-    if (options_.trust.use == PoseUse::kApproximate) beliefs_.dropDisproved(poses);
+    beliefs_.dropDisproved(poses);
     mapped_.told_wrong = beliefs_.contradictedBy(poses);
     mapped_.is_in_told_world = beliefs_.hasAnchors();
     mapped_.is_unbelieved = mapped_.told > 0 && !beliefs_.hasAnchors() && beliefs_.steps().empty();

@@ -3,10 +3,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <random>
 #include <system_error>
 
 #include "failure.h"
+#include "host/base/part_name.h"
 
 namespace sphc::recording {
 
@@ -27,14 +27,6 @@ bool putAll(const fs::path &path, const char *mode, ByteView bytes) {
   return std::fclose(file) == 0 && written;
 }
 
-// A name beside the target that nobody else has.
-fs::path besideOf(const fs::path &target) {
-  std::random_device random;
-  char ending[24];
-  std::snprintf(ending, sizeof ending, ".%08x.part", static_cast<unsigned>(random()));
-  return target.string() + ending;
-}
-
 }  // namespace
 
 void writeFile(const fs::path &path, ByteView bytes) {
@@ -45,7 +37,7 @@ void writeFile(const fs::path &path, ByteView bytes) {
     return;
   }
   const fs::path target = is_there ? fs::canonical(path) : path;  // a link keeps pointing where it points
-  const fs::path beside = besideOf(target);
+  const fs::path beside = host::partName(target.string());
   if (putAll(beside, "wbx", bytes) && std::rename(beside.c_str(), target.c_str()) == 0) return;
   const int why = errno;
   std::remove(beside.c_str());

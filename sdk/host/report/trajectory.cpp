@@ -5,10 +5,10 @@
 
 namespace sphc::host {
 
-const char kTumHead[] = "# timestamp tx ty tz qx qy qz qw (";
+std::string tumMark(const std::string &command) { return "_from_camera, metres, by spherecloud " + command + ")"; }
 
 std::string tumHead(const std::string &base, const std::string &command) {
-  return kTumHead + base + "_from_camera, metres, by spherecloud " + command + ")\n";
+  return "# timestamp tx ty tz qx qy qz qw (" + base + tumMark(command) + "\n";
 }
 
 std::string tumLine(int64_t time_ns, const sphc_rigid &base_from_camera) {

@@ -1,6 +1,5 @@
 #include "host/audit/score/release_scores.h"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>

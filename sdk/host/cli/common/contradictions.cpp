@@ -25,12 +25,10 @@ std::string inFrames(uint32_t frames, const RgbdImportSummary &summary, const Bi
 
 std::vector<std::string> faultsAbove(double share, const RgbdImportSummary &summary) {
   std::vector<std::string> sentences;
-  for (const BitWords &words : kFaultWords)
-    for (size_t bit = 0; bit < summary.frames_with_fault.size(); ++bit) {
-      const uint32_t frames = summary.frames_with_fault[bit];
-      if (words.bit == 1u << bit && frames > share * summary.frames_used)
-        sentences.push_back(inFrames(frames, summary, words));
-    }
+  for (const BitWords &words : kFaultWords) {
+    const uint32_t frames = summary.frames_with_fault.of(words.bit);
+    if (frames > share * summary.frames_used) sentences.push_back(inFrames(frames, summary, words));
+  }
   return sentences;
 }
 

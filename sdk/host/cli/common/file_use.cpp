@@ -2,13 +2,14 @@
 
 #include <sys/stat.h>
 #include <unistd.h>
-#include <climits>
 
 #include <algorithm>
+#include <climits>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
+#include "host/base/part_name.h"
 #include "host/base/usage_error.h"
 #include "host/cli/common/new_recording.h"
 #include "host/publish/ledger.h"
@@ -57,7 +58,7 @@ void checkMayMake(const std::string &option, const std::string &path, const fs::
 
 // What replaces a file is made beside it, and so is a ledger's journal.
 void checkParent(const std::string &option, const std::string &path) {
-  constexpr size_t kMostBytes = NAME_MAX - (sizeof ".01234567.part" - 1);
+  constexpr size_t kMostBytes = NAME_MAX - kPartEndingBytes;
   if (plain(path).filename().native().size() > kMostBytes)
     refuse(option, path, "has too long a name; give one of at most " + std::to_string(kMostBytes) + " bytes");
   std::error_code error;
@@ -86,10 +87,10 @@ bool isStandardOutput(const std::string &path) {
 
 // What a killed command leaves, by the name that writeFile gives.
 bool isUnfinished(const std::string &name) {
-  constexpr size_t kEnding = sizeof ".01234567.part" - 1;
-  if (name.size() <= kEnding || name.substr(name.size() - 5) != ".part") return false;
-  const std::string digits = name.substr(name.size() - kEnding + 1, 8);
-  return name[name.size() - kEnding] == '.' && digits.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (name.size() <= kPartEndingBytes || name.substr(name.size() - 5) != ".part") return false;
+  const std::string digits = name.substr(name.size() - kPartEndingBytes + 1, 8);
+  return name[name.size() - kPartEndingBytes] == '.' &&
+         digits.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "host/recording/foreign/comma_text.h"
 
-#include <algorithm>
-
 #include "host/recording/text_field.h"
 
 namespace sphc::recording {
