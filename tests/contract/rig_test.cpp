@@ -76,8 +76,8 @@ TEST(RefusedRigs, FileThatIsRead) {
       {"[500, 500,", "[0, 500,",
        "c.json: color_camera.params[0] is 0; a focal length must be positive and at most 1000000: check the "
        "calibration"},
-      {"[0, 0, 0]", "[0, -100.5, 0]",
-       "c.json: color_from_depth.t_m[1] is -100.5; it must lie in -100 to 100: give metres"},
+      {"[0, 0, 0]", "[0, -10.5, 0]",
+       "c.json: color_from_depth.t_m[1] is -10.5; it must lie in -10 to 10: give metres"},
       {"[1, 0, 0, 0]", "[1.01, 0, 0, 0]",
        "c.json: color_from_depth.q_wxyz has length 1.01; it must be 1 (order w x y z): divide by its length"},
       {"0.001}", "0.11}", "c.json: depth_unit_m is 0.11; it must lie in 1e-6 to 0.1 (0.001 for millimetres)"},

@@ -11,7 +11,7 @@ SPHC_STRIDE_MAX_BYTES = 1048576
 SPHC_CAMERA_MIN_PX = 16
 SPHC_CAMERA_MAX_PX = 8192
 SPHC_CAMERA_MAX_PARAM = 1000000.0
-SPHC_RIG_MAX_OFFSET_M = 100.0
+SPHC_RIG_MAX_OFFSET_M = 10.0
 SPHC_RIG_MAX_LENGTH_ERROR = 0.001
 SPHC_RIG_MIN_UNIT_M = 1e-06
 SPHC_RIG_MAX_UNIT_M = 0.1
@@ -404,9 +404,9 @@ class sphc_localizer_prior(ctypes.Structure):
     up_sigma_rad: float
     # ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift. Used in
     # SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
-    # little be put together, and takes depth to the time of the colour image (where they are at most 100 ms apart,
-    # and frames come at 4 Hz or more). Its frame may change: a step beyond what a head does (3.5 m/s, 5 rad/s, and
-    # 5 sigma) is left out.
+    # little be put together, and takes depth and views to the time of the colour image (by the steps of the 32
+    # frames before, at most 0.5 s; each step 0.25 s or less). Its frame may change: a step beyond what a head does
+    # (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
     odometry_from_camera: sphc_rigid
     # 1 sigma an axis, of the step from the frame before; 1e-6 to 1
     odometry_rotation_sigma_rad: float

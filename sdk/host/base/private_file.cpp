@@ -51,10 +51,12 @@ std::optional<size_t> readPrivate(const std::string &path, char *out, size_t mos
   return filled;
 }
 
+bool isForOthers(mode_t mode) { return mode & (S_IRWXG | S_IRWXO); }
+
 void checkPrivate(const std::string &path, const std::string &why) {
   struct stat facts = {};
   if (stat(path.c_str(), &facts) != 0) return;
-  if (facts.st_mode & (S_IRWXG | S_IRWXO))
+  if (isForOthers(facts.st_mode))
     throw std::runtime_error("key file " + path + ": others may read it, and " + why + "; run: chmod 600 " + path);
 }
 

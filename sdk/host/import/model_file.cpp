@@ -9,6 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "host/base/private_file.h"
 #include "host/base/write_file.h"
 #include "runtime/map/crc32.h"
 #include "runtime/stages/features/extractor.h"
@@ -115,7 +116,7 @@ std::vector<uint8_t> readPrivate(const std::string &path) {
   if (size < sizeof(Header) || size > sizeof(Header) + kMostPoints * uint64_t{kPointBytes}) refuse(kNoModel);
   std::vector<uint8_t> bytes = readAll(file.get(), size);
   const bool is_model = std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
-  if (is_model && facts.st_mode & (S_IRWXG | S_IRWXO))
+  if (is_model && isForOthers(facts.st_mode))
     refuse("others may read it, and it tells where every point is; run: chmod 600 " + path);
   return bytes;
 }

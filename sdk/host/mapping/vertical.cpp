@@ -42,8 +42,6 @@ void addPath(const FeltPath &path, SecondsOfWalk *all) {
   close();
 }
 
-double angleBetween(const Vector3 &a, const Vector3 &b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 std::string rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value);

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "host/base/private_file.h"
 #include "host/publish/sqlite_statement.h"
 #include "runtime/map/crc32.h"
 
@@ -83,7 +84,7 @@ void checkMode(const std::string &path) {
   if (!S_ISREG(facts.st_mode))
     refuse(path, std::string(S_ISDIR(facts.st_mode) ? "this is a folder" : "this is a device or a pipe") +
                      "; give the ledger itself, a file");
-  if (isLedger(path) && facts.st_mode & (S_IRWXG | S_IRWXO))
+  if (isLedger(path) && isForOthers(facts.st_mode))
     refuse(path, "others may read it, and it tells real points from fake ones; run: chmod 600 " + path);
 }
 

@@ -263,7 +263,7 @@ typedef struct sphc_memory {
 #define SPHC_CAMERA_MIN_PX 16u         /* width and height */
 #define SPHC_CAMERA_MAX_PX 8192u       /* the same */
 #define SPHC_CAMERA_MAX_PARAM 1e6      /* of a parameter, either sign; of real cameras they are far below */
-#define SPHC_RIG_MAX_OFFSET_M 100.0    /* of a part of color_from_depth.t_m, either sign */
+#define SPHC_RIG_MAX_OFFSET_M 10.0     /* of a part of color_from_depth.t_m, either sign; more are millimetres */
 #define SPHC_RIG_MAX_LENGTH_ERROR 1e-3 /* of color_from_depth.q_wxyz, whose length is 1 */
 #define SPHC_RIG_MIN_UNIT_M 1e-6       /* depth_unit_m */
 #define SPHC_RIG_MAX_UNIT_M 0.1        /* the same */
@@ -589,9 +589,9 @@ typedef struct sphc_localizer_prior {
   double up_sigma_rad;            /* 1 sigma an axis; 1e-4 to 0.5 */
   /* ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.  Used in
    * SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets frames that show too
-   * little be put together, and takes depth to the time of the colour image (where they are at most 100 ms
-   * apart, and frames come at 4 Hz or more).  Its frame may change: a step beyond
-   * what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out. */
+   * little be put together, and takes depth and views to the time of the colour image (by the steps of the 32
+   * frames before, at most 0.5 s; each step 0.25 s or less).  Its frame may change: a step beyond what a head does
+   * (3.5 m/s, 5 rad/s, and 5 sigma) is left out. */
   sphc_rigid odometry_from_camera;
   double odometry_rotation_sigma_rad;  /* 1 sigma an axis, of the step from the frame before; 1e-6 to 1 */
   double odometry_translation_sigma_m; /* the same; 1e-6 to 10 */

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "host/base/median.h"
+
 namespace sphc::host {
 namespace {
 
@@ -29,11 +31,6 @@ uint32_t squaredDistance(const Descriptor &a, const Descriptor &b) {
     sum += difference * difference;
   }
   return static_cast<uint32_t>(sum);
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 struct Runner {

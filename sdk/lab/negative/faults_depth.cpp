@@ -37,9 +37,9 @@ std::function<void(Sequence *)> scale(double factor) {
   return [factor](Sequence *s) { changeValues(s, [factor](double value) { return saturated(factor * value); }); };
 }
 
-// The image is `seconds` old and says that it is new.
-std::function<void(Sequence *)> delay(double seconds) {
-  return [seconds](Sequence *sequence) {
+// The image is `seconds` old, and says that it is new unless its time is told.
+std::function<void(Sequence *)> delay(double seconds, bool time_is_told) {
+  return [seconds, time_is_told](Sequence *sequence) {
     const std::vector<Shot> before = sequence->shots;
     const auto wanted_ns = static_cast<int64_t>(1e9 * seconds);
     size_t first = before.size();
@@ -48,6 +48,7 @@ std::function<void(Sequence *)> delay(double seconds) {
       while (old > 0 && before[i].depth_time_ns - before[old].depth_time_ns < wanted_ns) --old;
       if (before[i].depth_time_ns - before[old].depth_time_ns < wanted_ns) break;
       sequence->shots[i].depth = before[old].depth;
+      if (time_is_told) sequence->shots[i].depth_time_ns = before[old].depth_time_ns;
       first = i;
     }
     sequence->shots.erase(sequence->shots.begin(), sequence->shots.begin() + static_cast<std::ptrdiff_t>(first));
@@ -76,9 +77,13 @@ std::vector<SensorFault> depthFaults() {
           {"depth inverted", invert, bent, false, false},
           {"depth is disparity", makeDisparity, bent, false, false},
           {"depth times 1000", scale(1000), SPHC_FAULT_DEPTH_RANGE, false, false},
-          {"depth 0.1 s late", delay(0.09), disagree, false, false},
-          {"depth 0.3 s late", delay(0.29), disagree, false, false},
-          {"depth 1 s late", delay(0.99), disagree, false, false},
+          {"depth 0.1 s late", delay(0.09, false), disagree, false, false},
+          {"depth 0.3 s late", delay(0.29, false), disagree, false, false},
+          {"depth 1 s late", delay(0.99, false), disagree, false, false},
+          {"depth 0.1 s late, times told", delay(0.09, true), disagree, false, false},
+          {"depth 0.3 s late, times told", delay(0.29, true), disagree, false, false},
+          {"healthy, depth 0.1 s late, times told, odometry", delay(0.09, true), 0, true, false},
+          {"healthy, depth 0.3 s late, times told, odometry", delay(0.29, true), 0, true, false},
           {"depth frozen", freezeDepth, frozen, false, false},
           {"depth mirrored", mirrorDepth, disagree, false, false},
           {"depth upside down", turnDepthUpsideDown, disagree, false, false},

@@ -52,4 +52,6 @@ double rotationAngle(const Matrix3 &r) {
   return atan2Of(sqrtOf(twice_sine.squaredNorm()), r.trace() - 1);
 }
 
+double angleBetween(const Vector3 &a, const Vector3 &b) { return atan2Of(a.cross(b).norm(), a.dot(b)); }
+
 }  // namespace sphc

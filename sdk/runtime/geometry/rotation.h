@@ -31,5 +31,7 @@ Matrix3 rotationFromVector(const Vector3 &rotation_rad);
 Vector3 vectorFromRotation(const Matrix3 &rotation);
 // Angle of a rotation, radians, in [0, pi].
 double rotationAngle(const Matrix3 &rotation);
+// Between two directions of any length, radians, in [0, pi]; 0 where one is zero.
+double angleBetween(const Vector3 &a, const Vector3 &b);
 
 }  // namespace sphc

@@ -11,8 +11,6 @@ using namespace tuning;
 
 namespace {
 
-double angleBetween(const Vector3 &a, const Vector3 &b) { return atan2Of(a.cross(b).norm(), a.dot(b)); }
-
 // How far the map points of a pose's inliers lie from the map's centroid, by depth.
 class PointsOfPose {
  public:

@@ -176,9 +176,9 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   const Deadline lifted_by = deadline.afterShare(kLiftShare);
   config_.parallel.both([&] { front_.lift(depth, rig, lifted_by); },
                         [&] {
-                          result.faults =
-                              consistency_.look({front_.gray(), depth[0], rig.depth[0].color_from_depth,
-                                                 frame.color_time_ns, frame.depth[0].time_ns, hidesEdges});
+                          result.faults = consistency_.look({front_.gray(), depth[0], rig.depth[0].color_from_depth,
+                                                             frame.color_time_ns, frame.depth[0].time_ns,
+                                                             isApart(frame), hidesEdges});
                         });
   const int64_t aligned = config_.clock.now();
   Work work;
@@ -190,7 +190,7 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
-  learn(frame.color_time_ns, &result);
+  learn(frame, &result);
   result.keypoints = front_.keypointCount();
   result.lifted = front_.liftedCount();
   result.samples = work.samples;
@@ -207,12 +207,29 @@ bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
 }
 
 // The cameras move between two exposures; odometry tells how.
+bool Localizer::motionSince(const FrameInput &frame, int64_t time_ns, Rigid *now_from_then) const {
+  return time_ns == frame.color_time_ns || (config_.tracks && tracker_.motionSince(time_ns, now_from_then));
+}
+
 Rigid Localizer::atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const {
   Rigid moved;
-  const bool apart = config_.tracks && time_ns != frame.color_time_ns;
-  if (!apart || !tracker_.motionSince(time_ns, &moved)) return color_from_sensor;
-  return moved * color_from_sensor;
+  return motionSince(frame, time_ns, &moved) ? moved * color_from_sensor : color_from_sensor;
 }
+
+// Between the colour image and that image whose time is farthest from it, of those to which nothing tells the way.
+double Localizer::secondsApart(const FrameInput &frame) const {
+  uint64_t most_ns = 0;
+  const auto look = [&](const uint8_t *data, int64_t time_ns) {
+    Rigid moved;
+    if (data && !motionSince(frame, time_ns, &moved))
+      most_ns = std::max(most_ns, apartNs(frame.color_time_ns, time_ns));
+  };
+  for (const FurtherView &view : frame.further) look(view.image.bytes.data, view.time_ns);
+  for (const DepthView &view : frame.depth) look(view.depth.data, view.time_ns);
+  return std::min(secondsOf(most_ns), kMostApartS);
+}
+
+bool Localizer::isApart(const FrameInput &frame) const { return secondsApart(frame) > kMostTogetherS; }
 
 FrameRig Localizer::rigOf(const FrameInput &frame) const {
   FrameRig rig;
@@ -261,6 +278,7 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   locate(known, deadline, work);
   if (known.prior.has_up) checkVertical(known, deadline, faults, work);
   checkHandedness(deadline, faults, work);
+  if (best_.isLocalized()) addShift(kSpeedApart * secondsApart(frame), &best_.estimate);
   if (config_.tracks) compareWithTrack(frame, faults);
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
 }
@@ -515,15 +533,17 @@ void Localizer::observe() {
   }
 }
 
-void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
+void Localizer::learn(const FrameInput &frame, LocalizerResult *result) {
   if (best_.isLocalized()) {
-    calibrator_.learn(best_.estimate);
+    const bool teaches = !isApart(frame);
+    if (teaches) calibrator_.learn(best_.estimate);
     fusion_.clear();
     if (!config_.tracks) return;
-    distances_.keep(best_, estimator_);
+    if (teaches) distances_.keep(best_, estimator_);
     tracker_.goOver(best_.map, maps());
-    result->jump = tracker_.accept(best_.map, best_.estimate, result->confidence);
-    trail_.add(time_ns, result->camera_from_map, result->covariance);
+    result->jump =
+        tracker_.accept(best_.map, best_.estimate, result->confidence, kSpeedApart * secondsApart(frame));
+    trail_.add(frame.color_time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {
     tracker_.miss();
   }

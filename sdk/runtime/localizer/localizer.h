@@ -65,7 +65,10 @@ class Localizer {
   Span<const RankedPose> hypotheses() const { return ranking_.poses(); }
 
  private:
+  bool motionSince(const FrameInput &frame, int64_t time_ns, Rigid *now_from_then) const;
   Rigid atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const;
+  double secondsApart(const FrameInput &frame) const;
+  bool isApart(const FrameInput &frame) const;
   FrameRig rigOf(const FrameInput &frame) const;
   DepthImages read(const DepthViews &views);
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
@@ -92,7 +95,7 @@ class Localizer {
   bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
   void observe();
-  void learn(int64_t time_ns, LocalizerResult *result);
+  void learn(const FrameInput &frame, LocalizerResult *result);
 
   LocalizerConfig config_;
   DepthReader depth_readers_[kMostDepthCameras];

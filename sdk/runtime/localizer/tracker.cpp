@@ -49,6 +49,10 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
     step_ = odometry->odometry_from_camera.inverse() * odometry_.odometry_from_camera;
     has_step_ = isOfHead(step_, step_ns_, *odometry);
   }
+  if (has_step_)
+    steps_.push(step_, step_ns_);
+  else
+    steps_.clear();
   for (CarriedPose *pose : {&last_, &best_}) {
     pose->is_carried = pose->is_carried && has_step_;
     if (pose->is_carried) pose->carry(step_, *odometry);
@@ -69,16 +73,9 @@ bool Tracker::step(Rigid *now_from_before, double *rotation_sigma_rad, double *t
   return has_step_;
 }
 
-// Turns and moves at the rate of the last step; the camera's centre in a straight line.
 bool Tracker::motionSince(int64_t then_ns, Rigid *now_from_then) const {
-  const bool before = then_ns <= time_ns_;
-  const uint64_t apart_ns = before ? elapsedNs(then_ns, time_ns_) : elapsedNs(time_ns_, then_ns);
-  if (!has_step_ || secondsOf(step_ns_) > kSteadySeconds || apart_ns > kNearNs) return false;
-  const double share = secondsOf(apart_ns) / secondsOf(step_ns_), then = before ? 1 - share : 1 + share;
-  const Matrix3 turned = rotationFromVector(then * vectorFromRotation(step_.rotation));
-  const Vector3 center = then * step_.inverse().translation_m;  // in the camera's frame at the frame before
-  *now_from_then = step_ * Rigid{turned, -(turned * center)}.inverse();
-  return true;
+  return then_ns <= time_ns_ ? steps_.nowFromAgo(elapsedNs(then_ns, time_ns_), now_from_then)
+                             : steps_.nowFromAhead(elapsedNs(time_ns_, then_ns), now_from_then);
 }
 
 CameraRate Tracker::rate() const {
@@ -137,7 +134,7 @@ void Tracker::goOver(uint32_t map, const MapSet &maps) {
   went_over_ = true;
 }
 
-Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence) {
+Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, double apart_sigma_m) {
   Prediction expected;
   Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
   const bool agrees = !jump.events;
@@ -160,6 +157,7 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence) 
   steady_ = has_velocity_ && is_measured ? steady_ + 1 : 0;
   has_pose_ = true;
   last_ = {map, time_ns_, estimate.camera_from_map, estimate.inliers, true, {}};
+  last_.shift_variance = apart_sigma_m * apart_sigma_m;
   rotation_sigma_rad_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 0), kLeastTurnSigma);
   translation_sigma_m_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 3), kLeastShiftSigma);
   if (!agrees)
@@ -176,6 +174,7 @@ void Tracker::reset() {
   state_ = TrackingState::kRelocalizing;
   begun_ = has_odometry_ = has_step_ = has_pose_ = has_velocity_ = went_over_ = false;
   best_.inliers = steady_ = 0;
+  steps_.clear();
 }
 
 // In inliers.  What was tracked may have been wrong, so its word fades.

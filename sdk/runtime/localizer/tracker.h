@@ -21,6 +21,7 @@
 #include "runtime/localizer/frame.h"
 #include "runtime/localizer/map_set.h"
 #include "runtime/localizer/motion.h"
+#include "runtime/localizer/recent_steps.h"
 #include "runtime/localizer/result.h"
 #include "runtime/localizer/tuning.h"
 
@@ -55,8 +56,9 @@ class Tracker {
   bool predict(Prediction *prediction) const;
   // Before accept: what is known of the camera, in the map that it is found in.
   void goOver(uint32_t map, const MapSet &maps);
-  // After it: what it brought, and how far that is from what was expected.  `confidence` is that of the result.
-  Jump accept(uint32_t map, const Estimate &estimate, double confidence);
+  // After it: what it brought, and how far that is from what was expected.  `confidence` is that of the result;
+  // `apart_sigma_m` has the covariance already: what is not known of the camera's way between the images.
+  Jump accept(uint32_t map, const Estimate &estimate, double confidence, double apart_sigma_m = 0);
   void miss();
   // Before accept: is this a jump that odometry contradicts, or that no head can make, and that much more would
   // have to speak for than for the track?
@@ -66,8 +68,8 @@ class Tracker {
   bool hasOdometry() const { return has_odometry_; }
   // Motion of the camera since the frame before, by odometry; false where it is not known.
   bool step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const;
-  // Motion of the camera since another time near this frame's, by the odometry around it; false where that says
-  // nothing.
+  // Motion of the camera since another time near this frame's, by the odometry of the steps before (RecentSteps);
+  // false where that says nothing.
   bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
   // At this frame, by odometry; zero where that says nothing.
   CameraRate rate() const;
@@ -94,6 +96,7 @@ class Tracker {
   Odometry odometry_;
   Rigid step_;  // camera now from camera at the frame before
   uint64_t step_ns_ = 0;
+  RecentSteps steps_;  // it and those before, while each follows the other
 
   bool has_pose_ = false;
   CarriedPose last_;  // that was found

@@ -228,7 +228,13 @@ constexpr double kTurnRate = 1, kSpeed = 0.7;                        // rad / s,
 constexpr double kLeastTurnSigma = 0.003, kLeastShiftSigma = 0.005;  // rad, m: a pose is never better known
 constexpr double kSteadySeconds = 0.25;                              // poses further apart tell no velocity
 constexpr uint64_t kNearNs = 100000000;                              // beside a frame, motion is steady for so long
-constexpr double kGateSigmas = 5;                                    // within which two poses agree
+constexpr uint64_t kReachNs = 500000000;  // so long before a frame an image of it may be taken; odometry drifts
+constexpr double kGateSigmas = 5;         // within which two poses agree
+// Images of different times that nothing brings together: the camera has moved so far meanwhile, 1 sigma an axis,
+// as people walk.  Beyond kMostTogetherS a frame teaches nothing; clocks that differ make no more of it than
+// kMostApartS.
+constexpr double kSpeedApart = 0.35;                        // m / s
+constexpr double kMostTogetherS = 0.05, kMostApartS = 1.0;  // s
 // A jump is beyond this by the gate.  It needs so many times the inliers of the track.  Chosen.
 constexpr PoseBounds kNoJump = {0.15, degrees(8)};
 constexpr double kTimesSupport = 2;

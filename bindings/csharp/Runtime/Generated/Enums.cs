@@ -416,7 +416,7 @@ public static class Limits {
   /// <summary>SPHC_CAMERA_MAX_PARAM of the C interface.</summary>
   public const double CameraMaxParam = 1000000.0;
   /// <summary>SPHC_RIG_MAX_OFFSET_M of the C interface.</summary>
-  public const double RigMaxOffsetM = 100.0;
+  public const double RigMaxOffsetM = 10.0;
   /// <summary>SPHC_RIG_MAX_LENGTH_ERROR of the C interface.</summary>
   public const double RigMaxLengthError = 0.001;
   /// <summary>SPHC_RIG_MIN_UNIT_M of the C interface.</summary>

@@ -178,9 +178,9 @@ public sealed unsafe partial class LocalizerPrior {
 
   /// <summary>Odometry: the device's own dead reckoning at ColorTimeNs, in a frame of its own that may drift. Used
   /// in LocalizerMode.Tracking, from frame to frame: it predicts better than constant velocity, lets frames that
-  /// show too little be put together, and takes depth to the time of the colour image (where they are at most 100
-  /// ms apart, and frames come at 4 Hz or more). Its frame may change: a step beyond what a head does (3.5 m/s, 5
-  /// rad/s, and 5 sigma) is left out.</summary>
+  /// show too little be put together, and takes depth and views to the time of the colour image (by the steps of
+  /// the 32 frames before, at most 0.5 s; each step 0.25 s or less). Its frame may change: a step beyond what a
+  /// head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.</summary>
   public Rigid OdometryFromCamera { get { return raw.odometry_from_camera; } set { raw.odometry_from_camera = value; } }
 
   /// <summary>1 sigma an axis, of the step from the frame before; 1e-6 to 1.</summary>

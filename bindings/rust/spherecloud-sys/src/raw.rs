@@ -16,7 +16,7 @@ pub const SPHC_STRIDE_MAX_BYTES: u32 = 1048576;
 pub const SPHC_CAMERA_MIN_PX: u32 = 16;
 pub const SPHC_CAMERA_MAX_PX: u32 = 8192;
 pub const SPHC_CAMERA_MAX_PARAM: f64 = 1000000.0;
-pub const SPHC_RIG_MAX_OFFSET_M: f64 = 100.0;
+pub const SPHC_RIG_MAX_OFFSET_M: f64 = 10.0;
 pub const SPHC_RIG_MAX_LENGTH_ERROR: f64 = 0.001;
 pub const SPHC_RIG_MIN_UNIT_M: f64 = 1e-06;
 pub const SPHC_RIG_MAX_UNIT_M: f64 = 0.1;
@@ -645,9 +645,9 @@ pub struct sphc_localizer_prior {
     pub up_sigma_rad: f64,
     /// ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift.
     /// Used in SPHC_MODE_TRACKING, from frame to frame: it predicts better than constant velocity, lets
-    /// frames that show too little be put together, and takes depth to the time of the colour image (where
-    /// they are at most 100 ms apart, and frames come at 4 Hz or more). Its frame may change: a step beyond
-    /// what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
+    /// frames that show too little be put together, and takes depth and views to the time of the colour
+    /// image (by the steps of the 32 frames before, at most 0.5 s; each step 0.25 s or less). Its frame may
+    /// change: a step beyond what a head does (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
     pub odometry_from_camera: sphc_rigid,
     /// 1 sigma an axis, of the step from the frame before; 1e-6 to 1
     pub odometry_rotation_sigma_rad: f64,

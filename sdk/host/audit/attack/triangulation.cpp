@@ -29,8 +29,6 @@ struct Pose {
   Vector3 centre_b;  // unit, in a
 };
 
-double angleBetween(const Vector3 &a, const Vector3 &b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 // The rotation that takes two directions to two others (TRIAD; Black 1964).
 Matrix3 rotationOf(const DirectionPair &p, const DirectionPair &q) {
   const auto frame = [](const Vector3 &u, const Vector3 &v) {

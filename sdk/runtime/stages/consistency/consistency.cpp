@@ -42,9 +42,8 @@ void Consistency::init(const ConsistencyConfig &config) {
 
 void Consistency::reset() {
   stillness_.reset();
-  doubt_ = 0;
-  told_time_ns_ = INT64_MIN / 2;
-  disagreed_ = doubtful_ = bent_ = false;
+  together_ = apart_ = EdgeDoubt();
+  doubtful_ = bent_ = false;
 }
 
 Faults Consistency::look(const ConsistencyView &view) {
@@ -85,16 +84,17 @@ bool Consistency::edgesDisagree(const ConsistencyView &view) {
   if (tells && score < kUsual && view.hides_edges && view.hides_edges(view.gray)) tells = false;
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
+  EdgeDoubt &doubt = view.are_apart ? apart_ : together_;
   if (tells) {
     const double views =
-        std::min(1.0, static_cast<double>(elapsedNs(told_time_ns_, view.color_time_ns)) / kAnotherViewNs);
+        std::min(1.0, static_cast<double>(elapsedNs(doubt.told_time_ns, view.color_time_ns)) / kAnotherViewNs);
     const double step = std::min(kMostAStep, std::max(-kMostAStep, kUsual - score)) * views;
-    doubt_ = std::min(kMostDoubt, std::max(0.0, doubt_ + (score < kSurelyOff ? kMostAStep : step)));
-    told_time_ns_ = view.color_time_ns;
+    doubt.sum = std::min(kMostDoubt, std::max(0.0, doubt.sum + (score < kSurelyOff ? kMostAStep : step)));
+    doubt.told_time_ns = view.color_time_ns;
   }
-  doubtful_ = doubtful_ || doubt_ >= kDoubtful;
-  disagreed_ = doubt_ >= (disagreed_ ? kAllClear : kAlarm);
-  return disagreed_;
+  doubtful_ = doubtful_ || doubt.sum >= kDoubtful;
+  doubt.disagreed = doubt.sum >= (doubt.disagreed ? kAllClear : kAlarm);
+  return doubt.disagreed;
 }
 
 }  // namespace sphc

@@ -20,6 +20,8 @@ struct ConsistencyView {
   ImageView<uint16_t> depth;
   Rigid color_from_depth;  // at the times of the images
   int64_t color_time_ns = 0, depth_time_ns = 0;
+  // Is it unknown how the camera moved between them?  What edges say of such frames they say of no others.
+  bool are_apart = false;
   // Is an image too dark or too bright to show edges where they are?  Asked where they speak against the frame;
   // null: never.
   bool (*hides_edges)(GrayView) = nullptr;
@@ -57,9 +59,13 @@ class Consistency {
   Stillness stillness_;
   DepthValues values_;
   EdgeAgreement agreement_;
-  double doubt_ = 0;          // of edges, summed over frames
-  int64_t told_time_ns_ = 0;  // of the last frame whose edges told something
-  bool disagreed_ = false;    // at the frame before
+  // What edges said, summed over frames.
+  struct EdgeDoubt {
+    double sum = 0;
+    int64_t told_time_ns = INT64_MIN / 2;  // of the last frame whose edges told something
+    bool disagreed = false;                // at the frame before
+  };
+  EdgeDoubt together_, apart_;
   bool doubtful_ = false, bent_ = false;
 };
 

@@ -19,11 +19,19 @@ double rootTrace(const Matrix6 &covariance, int first) {
   return trace >= 0 ? sqrtOf(trace) : __builtin_nan("");
 }
 
+double statedOverEstimated(const Estimate &estimate) {
+  const double scale = kMany + kFew / (estimate.inliers + kFewerThan);
+  return scale * scale * estimate.unit_variance;
+}
+
 }  // namespace
 
-Matrix6 statedCovariance(const Estimate &estimate) {
-  const double scale = kMany + kFew / (estimate.inliers + kFewerThan);
-  return scale * scale * estimate.unit_variance * estimate.covariance;
+Matrix6 statedCovariance(const Estimate &estimate) { return statedOverEstimated(estimate) * estimate.covariance; }
+
+void addShift(double sigma_m, Estimate *estimate) {
+  if (sigma_m > 0)
+    estimate->covariance.bottomRightCorner<3, 3>().diagonal().array() +=
+        sigma_m * sigma_m / statedOverEstimated(*estimate);
 }
 
 double axisSigma(const Matrix6 &covariance, int first) {

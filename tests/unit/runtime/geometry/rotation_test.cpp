@@ -55,6 +55,19 @@ TEST(Rotation, VectorIsAxisTimesAngle) {
   EXPECT_EQ(rotationFromVector(Vector3::Zero()), Matrix3::Identity());
 }
 
+TEST(Rotation, AngleBetweenDirections) {
+  Random random(3);
+  for (int i = 0; i < 5000; ++i) {
+    const Vector3 a = test::randomDirection(&random);
+    const Vector3 axis = a.cross(test::randomDirection(&random)).normalized();
+    const double angle = i % 4 ? test::uniformIn(&random, 0, kPi) : std::pow(10, test::uniformIn(&random, -12, 0));
+    const Vector3 b = 3 * (Eigen::AngleAxisd(angle, axis) * a);
+    EXPECT_NEAR(angleBetween(0.1 * a, b), angle, 1e-15 + 1e-9 * angle);
+  }
+  EXPECT_EQ(angleBetween(Vector3(1, 0, 0), Vector3(-2, 0, 0)), kPi);
+  EXPECT_EQ(angleBetween(Vector3(1, 0, 0), Vector3::Zero()), 0);
+}
+
 TEST(Rotation, CrossMatrix) {
   const Vector3 a(1, 2, 3), b(-4, 5, 0.5);
   EXPECT_LT((crossMatrix(a) * b - a.cross(b)).norm(), 1e-15);

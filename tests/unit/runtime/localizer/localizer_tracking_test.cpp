@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "runtime/base/random.h"
@@ -229,37 +230,54 @@ TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
   EXPECT_GT(most_frames, 1u);
 }
 
-// Depth is taken 30 ms before colour, while the camera moves.
-double errorWithDepthBefore(bool times_are_told) {
-  const sphc_localizer_config config = trackingConfig();
-  test::Session session(config);
-  constexpr int64_t kLagNs = 3 * kStepNs / 10;
-  double sum_m = 0;
-  for (uint32_t i = 0; i < 8; ++i) {
-    const auto made = test::sceneFrame(config, i);
-    made->images.depth_mm =
-        test::renderScene(config.rig.color_camera, config.rig.depth_camera, test::sceneViewpoint(i - 0.3),
-                          rigidFromC(config.rig.color_from_depth))
-            .depth_mm;
-    sphc_localizer_frame frame = made->frame;
-    frame.depth.data = made->images.depth_mm.data();
-    frame.color_time_ns = frame.depth_time_ns = (i + 1) * kStepNs;
-    if (times_are_told) frame.depth_time_ns -= kLagNs;
-    sphc_localizer_prior prior = {};
-    prior.struct_size = sizeof prior;
-    prior.flags = SPHC_PRIOR_ODOMETRY;
-    prior.odometry_from_camera = rigidToC(test::sceneViewpoint(i).inverse());
-    prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
-    frame.prior = &prior;
-    sphc_localizer_result result = {};
-    EXPECT_EQ(session.process(frame, &result), SPHC_OK) << i;
-    if (i > 0) sum_m += session.errorM(result, i);  // of the first, no step is known
+// Frames whose depth is taken so many steps before colour, while the camera moves.
+struct DepthBefore {
+  double first_error_m = 0, error_m = 0;  // the other is the mean from that frame on from which the way is known
+  sphc_localizer_result first = {}, last = {};
+
+  DepthBefore(double steps, bool times_are_told) {
+    const sphc_localizer_config config = trackingConfig();
+    test::Session session(config);
+    const auto known = static_cast<uint32_t>(std::ceil(steps));
+    constexpr uint32_t kFrames = 8;
+    for (uint32_t i = 0; i < kFrames + known; ++i) {
+      const auto made = test::sceneFrame(config, i);
+      made->images.depth_mm =
+          test::renderScene(config.rig.color_camera, config.rig.depth_camera, test::sceneViewpoint(i - steps),
+                            rigidFromC(config.rig.color_from_depth))
+              .depth_mm;
+      sphc_localizer_frame frame = made->frame;
+      frame.depth.data = made->images.depth_mm.data();
+      frame.color_time_ns = frame.depth_time_ns = (i + 1) * kStepNs;
+      if (times_are_told) frame.depth_time_ns -= static_cast<int64_t>(steps * kStepNs);
+      sphc_localizer_prior prior = {};
+      prior.struct_size = sizeof prior;
+      prior.flags = SPHC_PRIOR_ODOMETRY;
+      prior.odometry_from_camera = rigidToC(test::sceneViewpoint(i).inverse());
+      prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
+      frame.prior = &prior;
+      last = {};
+      EXPECT_EQ(session.process(frame, &last), SPHC_OK) << i;
+      if (i == 0) first = last, first_error_m = session.errorM(first, 0);
+      if (i >= known) error_m += session.errorM(last, i) / kFrames;
+    }
   }
-  return sum_m / 7;
-}
+};
 
 TEST(LocalizerTracking, OdometryTakesDepthToTheTimeOfTheColourImage) {
-  EXPECT_LT(errorWithDepthBefore(true), 0.5 * errorWithDepthBefore(false));
+  for (const double steps : {0.3, 2.4})
+    EXPECT_LT(DepthBefore(steps, true).error_m, 0.5 * DepthBefore(steps, false).error_m) << steps;
+}
+
+TEST(LocalizerTracking, APoseOfImagesThatNothingBringsTogetherIsNotSure) {
+  const DepthBefore told(2.4, true), hidden(2.4, false);
+  EXPECT_GT(hidden.first_error_m, 0.1);
+  EXPECT_GT(hidden.first.confidence, 0.95f) << "else this test says nothing";
+  EXPECT_LT(told.first.confidence, 0.5f);
+  EXPECT_LT(told.first_error_m, 5 * std::sqrt(told.first.covariance[21]));
+  EXPECT_GT(told.last.confidence, 0.95f) << "the way is known by now";
+  EXPECT_EQ(told.last.state, SPHC_STATE_TRACKING);
+  EXPECT_LT(std::abs(told.last.depth.offset_m), 0.02);
 }
 
 // Blocks in depth of which the image shows nothing; a dark image shows noise.

@@ -66,6 +66,23 @@ TEST(Consistency, EdgesThatLieElsewhereAreNamedInTheEnd) {
   EXPECT_EQ(held.consistency.look(MadeView().view(9 * kStepNs)) & kDepthColorDisagree, Faults{0});
 }
 
+TEST(Consistency, WhatImagesOfOtherTimesSaidIsNotCarriedOver) {
+  HeldConsistency held(true);
+  const auto look = [&](int32_t i, int32_t off, bool are_apart) {
+    const MadeView made(3 * i, 3 * i + off);
+    ConsistencyView view = made.view(i * kStepNs);
+    view.are_apart = are_apart;
+    return held.consistency.look(view) & kDepthColorDisagree;
+  };
+  Faults faults = 0;
+  for (int32_t i = 0; i < 8; ++i) faults = look(i, 14, true);
+  EXPECT_EQ(faults, kDepthColorDisagree);
+  EXPECT_EQ(look(8, 0, false), Faults{0});
+  EXPECT_FALSE(held.consistency.isDoubtful());
+  for (int32_t i = 9; i < 17; ++i) faults = look(i, 14, false);
+  EXPECT_EQ(faults, kDepthColorDisagree);
+}
+
 // Noise has its edges anywhere.
 TEST(Consistency, InTheDarkEdgesSayNothing) {
   for (const bool follows : {false, true}) {

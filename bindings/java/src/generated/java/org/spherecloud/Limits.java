@@ -14,7 +14,7 @@ public final class Limits {
   /** {@code SPHC_CAMERA_MAX_PARAM}. */
   public static final double CAMERA_MAX_PARAM = 1000000.0;
   /** {@code SPHC_RIG_MAX_OFFSET_M}. */
-  public static final double RIG_MAX_OFFSET_M = 100.0;
+  public static final double RIG_MAX_OFFSET_M = 10.0;
   /** {@code SPHC_RIG_MAX_LENGTH_ERROR}. */
   public static final double RIG_MAX_LENGTH_ERROR = 0.001;
   /** {@code SPHC_RIG_MIN_UNIT_M}. */

@@ -111,9 +111,9 @@ abstract class PriorFields extends Struct {
   /**
    * ODOMETRY: the device's own dead reckoning at color_time_ns, in a frame of its own that may drift. Used in
    * {@link Mode#TRACKING}, from frame to frame: it predicts better than constant velocity, lets frames that show
-   * too little be put together, and takes depth to the time of the colour image (where they are at most 100 ms
-   * apart, and frames come at 4 Hz or more). Its frame may change: a step beyond what a head does (3.5 m/s, 5
-   * rad/s, and 5 sigma) is left out.
+   * too little be put together, and takes depth and views to the time of the colour image (by the steps of the 32
+   * frames before, at most 0.5 s; each step 0.25 s or less). Its frame may change: a step beyond what a head does
+   * (3.5 m/s, 5 rad/s, and 5 sigma) is left out.
    */
   public Rigid getOdometryFromCamera() {
     return odometryFromCamera;
