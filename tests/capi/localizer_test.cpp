@@ -291,6 +291,28 @@ TEST_F(CInterfaceLocalizer, WarnsOnceOfWhatTheCallerForgot) {
   expectMentions(lines[1].c_str(), "sphc_localizer_set_map");
 }
 
+TEST_F(CInterfaceLocalizer, WarnsOnceOfImagesThatNothingBringsTogether) {
+  std::vector<std::string> lines;
+  logTo<SPHC_LOG_WARNING>(&lines, &config_);
+  const auto made = sphc::test::sceneFrame(config_, 1);
+  Session logged(config_);
+  sphc_localizer_prior prior;
+  ASSERT_EQ(sphc_localizer_prior_init(&prior, sizeof prior), SPHC_OK);
+  prior.flags = SPHC_PRIOR_ODOMETRY;
+  prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
+  sphc_localizer_result result = clean();
+  made->frame.depth_time_ns = made->frame.color_time_ns - 60000000;
+  made->frame.prior = &prior;
+  EXPECT_EQ(logged.process(made->frame, &result), SPHC_OK);
+  EXPECT_EQ(lines.size(), 0u) << "odometry will say it";
+  made->frame.prior = nullptr;
+  for (int again = 0; again < 2; ++again) EXPECT_EQ(logged.process(made->frame, &result), SPHC_OK);
+  EXPECT_LT(result.confidence, 0.9f);
+  ASSERT_EQ(lines.size(), 1u);
+  expectMentions(lines[0].c_str(), "more than 50 ms from color_time_ns");
+  expectMentions(lines[0].c_str(), "SPHC_PRIOR_ODOMETRY");
+}
+
 TEST_F(CInterfaceLocalizer, WarnsOnceOfEachFault) {
   std::vector<std::string> lines;
   logTo<SPHC_LOG_WARNING>(&lines, &config_);

@@ -484,6 +484,8 @@ class sphc_localizer_frame(ctypes.Structure):
     sequence: int
     # mid-exposure; the pose is that of the colour camera at this time
     color_time_ns: int
+    # The same, on the same clock. Where the two differ, odometry takes depth to the time of the colour image, and
+    # without it the covariance and the confidence know that the camera may have moved.
     depth_time_ns: int
     # any format that is not of depth; the size in config.rig.color_camera
     color: sphc_image

@@ -7,6 +7,7 @@
 
 #include "host/base/counted.h"
 #include "host/base/hex_text.h"
+#include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
@@ -222,7 +223,16 @@ nlohmann::ordered_json releaseJson(const Outcome &outcome) {
             {"t_m", {t.x(), t.y(), t.z()}}}}};
 }
 
-int run(const BuildOptions &options, const Console &console) {
+void checkFakes(const CLI::App &app, const std::string &fakes) {
+  const bool is_gaussian = fakes == "gaussian";
+  const char *stray = is_gaussian ? "--patch-deg" : "--sigma2";
+  if (app.count(stray) > 0)
+    throw UsageError(std::string(stray) + " says nothing of --fakes " + fakes + "; leave it out, or give " +
+                     (is_gaussian ? "--sigma2" : "--patch-deg"));
+}
+
+int run(const CLI::App &app, const BuildOptions &options, const Console &console) {
+  checkFakes(app, options.fakes);
   const Outcome outcome = build(options, console);
   const MapId &map_id = outcome.place.releases.back().map_id;
   if (options.understood) console.warn("note: --i-understand: points that other maps hold too are now exposed");
@@ -320,7 +330,7 @@ Command buildCommand(CLI::App *root) {
   app->description("Make a map from a recording with poses.\n\n" + std::string(kBuildHelp));
   app->footer(kBuildExample);
   addOptions(app, options.get());
-  return {app, [options](const Console &console) { return run(*options, console); }};
+  return {app, [app, options](const Console &console) { return run(*app, *options, console); }};
 }
 
 }  // namespace sphc::host

@@ -266,6 +266,20 @@ void checkCount(const char *option, const std::vector<std::string> &files, size_
                      counted(recordings, "recording") + "; give it once for each, in the same order");
 }
 
+// Each of these says how much to believe of poses in one use of them.
+void checkTrust(const CLI::App &app, PoseUse use) {
+  const struct {
+    const char *option, *poses;
+    PoseUse use;
+  } known[] = {{"--pose-sigma", "approximate", PoseUse::kApproximate},
+               {"--pose-sigma-deg", "approximate", PoseUse::kApproximate},
+               {"--drift", "odometry", PoseUse::kOdometry},
+               {"--drift-deg", "odometry", PoseUse::kOdometry}};
+  for (const auto &one : known)
+    if (app.count(one.option) > 0 && use != one.use)
+      throw UsageError(std::string(one.option) + " is of --poses " + one.poses + "; give that, or leave it out");
+}
+
 void check(const MapOptions &options) {
   FileUse files(options.force);
   for (const RecordingOptions &recording : options.all()) files.reads(recording);
@@ -283,8 +297,9 @@ void check(const MapOptions &options) {
     throw UsageError("--upright needs --poses odometry; approximate poses keep the recording's world anyway");
 }
 
-int run(MapOptions options, const Console &console) {
+int run(const CLI::App &app, MapOptions options, const Console &console) {
   check(options);
+  checkTrust(app, options.trust.use);
   callNewHandlerForCholmod();
   options.trust.sigma_rad = options.sigma_deg * kPi / 180;
   options.trust.drift_m = options.drift_percent / 100;
@@ -414,7 +429,7 @@ Command mapCommand(CLI::App *root) {
   addMappingOptions(app, &options->import);
   addBandOption(app, &options->band, "The light of the images; a camera must see the same to localize in the map");
   addForceOption(app, &options->force);
-  return {app, [options](const Console &console) { return run(*options, console); }};
+  return {app, [app, options](const Console &console) { return run(*app, *options, console); }};
 }
 
 }  // namespace sphc::host

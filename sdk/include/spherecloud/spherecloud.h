@@ -625,6 +625,8 @@ typedef struct sphc_localizer_frame {
   uint32_t struct_size;
   uint32_t sequence;     /* the caller's own number; comes back in the result */
   int64_t color_time_ns; /* mid-exposure; the pose is that of the colour camera at this time */
+  /* The same, on the same clock.  Where the two differ, odometry takes depth to the time of the colour image, and
+   * without it the covariance and the confidence know that the camera may have moved. */
   int64_t depth_time_ns;
   sphc_image color;                  /* any format that is not of depth; the size in config.rig.color_camera */
   sphc_image depth;                  /* config.depth_format; the size in config.rig.depth_camera */

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <new>
 
+#include "runtime/base/clock.h"
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
 #include "runtime/capi/defaults.h"
@@ -11,6 +12,7 @@
 #include "runtime/capi/objects.h"
 #include "runtime/capi/parameters.h"
 #include "runtime/capi/translate.h"
+#include "runtime/localizer/tuning.h"
 
 namespace {
 
@@ -50,7 +52,7 @@ void logText(const sphc_localizer &localizer, sphc_log_level level, const sphc_m
   localizer.log(localizer.log_user, level, text.text, length);
 }
 
-enum : uint32_t { kLoggedNoMap = 1, kLoggedTimes = 2 };
+enum : uint32_t { kLoggedNoMap = 1, kLoggedClocks = 2, kLoggedTimes = 4 };
 
 void warnOnce(uint32_t what, const char *words, sphc_localizer *localizer) {
   if (localizer->logged & what) return;
@@ -60,17 +62,28 @@ void warnOnce(uint32_t what, const char *words, sphc_localizer *localizer) {
   logText(*localizer, SPHC_LOG_WARNING, text);
 }
 
+// Of two clocks, or so far apart that poses are less sure for it.
+void warnOfTimes(const sphc_localizer_frame &frame, sphc_localizer *localizer) {
+  const double apart_s = sphc::secondsOf(sphc::apartNs(frame.color_time_ns, frame.depth_time_ns));
+  const bool has_odometry = frame.prior && frame.prior->flags & SPHC_PRIOR_ODOMETRY;
+  if (apart_s > sphc::tuning::kMostApartS)
+    warnOnce(kLoggedClocks,
+             "depth_time_ns is more than 1 s from color_time_ns, so no pose is sure; give both on one clock "
+             "(sphc_clock_mapper)",
+             localizer);
+  else if (apart_s > sphc::tuning::kMostTogetherS && !has_odometry)
+    warnOnce(
+        kLoggedTimes,
+        "depth_time_ns is more than 50 ms from color_time_ns, and nothing says how the camera moved meanwhile, so "
+        "no pose is sure; give odometry (SPHC_PRIOR_ODOMETRY), or images nearer in time",
+        localizer);
+}
+
 // Each thing once, however many frames have it.
 void logWarnings(const sphc_localizer_frame &frame, const sphc_localizer_result &result,
                  sphc_localizer *localizer) {
   if (!localizer->log || localizer->log_level < SPHC_LOG_WARNING) return;
-  constexpr uint64_t kFarNs = 1000000000;
-  const int64_t color_ns = frame.color_time_ns, depth_ns = frame.depth_time_ns;
-  if (sphc::elapsedNs(std::min(color_ns, depth_ns), std::max(color_ns, depth_ns)) > kFarNs)
-    warnOnce(kLoggedTimes,
-             "depth_time_ns is more than 1 s from color_time_ns; give both on one clock "
-             "(sphc_clock_mapper)",
-             localizer);
+  warnOfTimes(frame, localizer);
   if (localizer->localizer.maps().count() == 0)
     warnOnce(kLoggedNoMap, "the localizer has no map; call sphc_localizer_set_map", localizer);
   for (uint32_t left = result.faults & ~localizer->logged_faults; left != 0; left &= left - 1) {

@@ -286,7 +286,8 @@ public sealed unsafe partial class LocalizerFrame {
   /// <summary>Mid-exposure; the pose is that of the colour camera at this time.</summary>
   public long ColorTimeNs { get { return raw.color_time_ns; } set { raw.color_time_ns = value; } }
 
-  /// <summary>Mid-exposure of the depth image.</summary>
+  /// <summary>The same, on the same clock. Where the two differ, odometry takes depth to the time of the colour
+  /// image, and without it the covariance and the confidence know that the camera may have moved.</summary>
   public long DepthTimeNs { get { return raw.depth_time_ns; } set { raw.depth_time_ns = value; } }
 
   /// <summary>The frame is to be answered so long after the call began, with the best pose so far; 0: no deadline.

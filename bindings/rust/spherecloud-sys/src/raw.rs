@@ -696,6 +696,8 @@ pub struct sphc_localizer_frame {
     pub sequence: u32,
     /// mid-exposure; the pose is that of the colour camera at this time
     pub color_time_ns: i64,
+    /// The same, on the same clock. Where the two differ, odometry takes depth to the time of the colour
+    /// image, and without it the covariance and the confidence know that the camera may have moved.
     pub depth_time_ns: i64,
     /// any format that is not of depth; the size in config.rig.color_camera
     pub color: sphc_image,

@@ -17,27 +17,33 @@ namespace {
 void addColmapOptions(CLI::App *app, PointSource *source) {
   const char *group = "COLMAP";
   ColmapImportOptions &colmap = source->colmap;
-  app->add_option("--colmap", colmap.model, "Model to take in place of a recording: the folder of cameras.bin")
-      ->type_name("DIR")
-      ->group(group);
+  CLI::Option *model =
+      app->add_option("--colmap", colmap.model, "Model to take in place of a recording: the folder of cameras.bin")
+          ->type_name("DIR")
+          ->group(group);
   app->add_option("--images", colmap.images, "Its images, to be described anew for the device")
       ->type_name("DIR")
+      ->needs(model)
       ->group(group);
   app->add_option("--database", colmap.database,
                   "Its database.db, whose descriptors are taken when there is no --images")
       ->type_name("FILE")
+      ->needs(model)
       ->group(group);
   app->add_option("--scale", colmap.metres_per_unit, "Metres a unit of the model")
       ->check(between(1e-9, 1e9))
       ->type_name("X")
+      ->needs(model)
       ->group(group);
   app->add_option("--depth", colmap.depth,
                   "Depth images that tell the scale: X.png for X.jpg; --calibration says where their camera was")
       ->type_name("DIR")
+      ->needs(model)
       ->group(group);
   app->add_option("--gravity", source->gravity,
                   "Down in the model: X,Y,Z; level: cameras were held level; none: the axes stay")
       ->capture_default_str()
+      ->needs(model)
       ->group(group);
 }
 

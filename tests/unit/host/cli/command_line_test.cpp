@@ -110,6 +110,11 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"build --model p --calibration c --map m", "--calibration is of a --recording or of --colmap"},
       {"map --recording r --model p --drift 2", "--drift requires --poses"},
       {"map --recording r --model p --pose-sigma 0.1", "--pose-sigma requires --poses"},
+      {"map --recording r --model p --poses approximate --drift 2", "--drift is of --poses odometry"},
+      {"map --recording r --model p --poses odometry --pose-sigma 0.1", "--pose-sigma is of --poses approximate"},
+      {"build --recording r --map m --scale 2", "--scale requires --colmap"},
+      {"build --recording r --map m --fakes gaussian --patch-deg 20", "--patch-deg says nothing of --fakes gaussian"},
+      {"build --recording r --map m --fakes patchwork --sigma2 2", "--sigma2 says nothing of --fakes patchwork"},
       {"convert a b --jpeg 90", "--jpeg is of an MCAP file"},
       {"convert a b.raw --depth-codec rvl", "--depth-codec is of an MCAP file"},
       {"simulate --out walk.raw", "`spherecloud convert` makes a .raw file"}};

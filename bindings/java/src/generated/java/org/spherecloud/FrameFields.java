@@ -36,7 +36,10 @@ abstract class FrameFields extends Struct {
     putLong(Layout.LOCALIZER_FRAME_COLOR_TIME_NS, colorTimeNs);
   }
 
-  /** {@code depth_time_ns} of {@code sphc_localizer_frame}. */
+  /**
+   * The same, on the same clock. Where the two differ, odometry takes depth to the time of the colour image, and
+   * without it the covariance and the confidence know that the camera may have moved.
+   */
   public long getDepthTimeNs() {
     return getLong(Layout.LOCALIZER_FRAME_DEPTH_TIME_NS);
   }
