@@ -15,6 +15,8 @@ from spherecloud import Camera, Frame, Localizer, Map, Rig, Rigid
 color, depth = Camera.pinhole(320, 240, 250, 250, 160, 120), Camera.pinhole(200, 160, 140, 140, 100, 80)
 rig = Rig(color, depth, color_from_depth=Rigid(t_m=(0.04, 0, 0)))
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 with Map.open(sys.argv[1]) as map, Localizer(rig, map) as localizer:
     for index, path in enumerate(sorted(pathlib.Path(sys.argv[2]).glob("color_*.gray8"))):
         gray = np.fromfile(path, np.uint8).reshape(240, 320)

@@ -23,6 +23,9 @@ class Examples(unittest.TestCase):
         said = subprocess.run([sys.executable, "-B", example, session.MAP, session.FOLDER], capture_output=True, text=True, check=True)
         self.assertEqual(len(re.findall(r"^\d+ \(.*\)$", said.stdout, re.MULTILINE)), 9, said)
         self.assertIn("6 FEW_KEYPOINTS", said.stdout)
+        told = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True)
+        self.assertEqual(told.returncode, 1)
+        self.assertIn("first_pose.py MAP.sphc FOLDER", told.stderr)
 
     def test_pages(self):
         frame, here = session.frame(session.ROWS[0]), os.getcwd()

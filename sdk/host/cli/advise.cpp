@@ -1,4 +1,5 @@
 // spherecloud advise: is this recording good enough for a map?
+#include <cmath>
 #include <memory>
 
 #include "host/advise/advice.h"
@@ -49,8 +50,9 @@ void tell(const AdviseOptions &options, const Advice &advice, const Console &con
     rows.push_back({"expected recall, eta " + fixed(100 * recall.eta, 0) + " %",
                     fixed(percent(recall.good, recall.frames), 1) + " %",
                     std::to_string(recall.good) + " of " + std::to_string(recall.frames) +
-                        " held-out frames within 5 cm and 5 deg, median " + fixed(100 * recall.median_m, 2) +
-                        " cm"});
+                        " held-out frames within 5 cm and 5 deg" +
+                        (std::isfinite(recall.median_m) ? ", median " + fixed(100 * recall.median_m, 2) + " cm"
+                                                        : ", not one localized")});
   console.say(tableText(rows));
   console.say("Directions without points (yaw around z from x, pitch up, in the recording's world)\n" +
               holesText(advice.coverage.holes));

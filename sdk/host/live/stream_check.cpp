@@ -12,8 +12,9 @@ namespace sphc::host {
 namespace {
 
 using Grade = Finding::Grade;
-constexpr uint32_t kEvery = 7;                                                   // pixels looked at
-constexpr double kPauseMs = 500, kPausePeriods = 5;                              // longer than both is a pause
+constexpr uint32_t kEvery = 7;                       // pixels looked at
+constexpr double kMostApartMs = 20;                  // of which walking makes 7 mm: as much as a good pose is off
+constexpr double kPauseMs = 500, kPausePeriods = 5;  // longer than both is a pause
 constexpr uint64_t kFnvStart = 0xCBF29CE484222325u, kFnvPrime = 0x100000001B3u;  // Fowler, Noll and Vo's hash
 
 uint32_t pixelAt(const sphc_image &image, uint32_t x, uint32_t y) {
@@ -160,6 +161,11 @@ Finding pairsFinding(const std::vector<double> &color_minus_depth_ms, uint64_t w
   if (spread_ms > 10)
     return {Grade::kDoubtful, "pairs",
             seen + "; the cameras drift apart: synchronise them, or expect blur from motion"};
+  if (std::fabs(median_ms) > kMostApartMs)
+    return {Grade::kDoubtful, "pairs",
+            seen +
+                "; the camera moves between them, so poses are less sure: give the localizer odometry, or "
+                "let one trigger start both"};
   return {Grade::kFine, "pairs", seen};
 }
 

@@ -296,6 +296,16 @@ TEST(Advise, DoesNotEndAtABlockThatCannotBeRead) {
   EXPECT_EQ(nlohmann::json::parse(advice.out)["recall"][0]["frames"], 4);
 }
 
+TEST(Advise, SaysThatNoFrameWouldBeLocalized) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 6 --rate 0.6 --out " + walk).exit_code, kExitDone);
+  const Answer advice = runCommand("advise --folds 2 -r " + walk);
+  ASSERT_EQ(advice.exit_code, kExitDone) << advice.err;
+  EXPECT_THAT(advice.out, HasSubstr("0 of 6 held-out frames within 5 cm and 5 deg, not one localized"));
+  EXPECT_THAT(advice.out, Not(HasSubstr("nan")));
+}
+
 // A line of groundtruth.txt without a finite pose, and a recorder that was cut off: every command says so.
 TEST(Damage, IsSaidByWhateverReadsARecording) {
   const TempFolder folder;

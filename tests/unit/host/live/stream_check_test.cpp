@@ -98,6 +98,9 @@ TEST(PairsFinding, TellsTheOffsetAndItsSpread) {
   EXPECT_EQ(steady.grade, Grade::kFine);
   EXPECT_NE(steady.text.find("4.0 ms before"), std::string::npos) << steady.text;
   EXPECT_EQ(pairsFinding({-15, 0, 15, 8}, 0).grade, Grade::kDoubtful);
+  const Finding apart = pairsFinding({33, 33.1, 32.9, 33}, 0);
+  EXPECT_EQ(apart.grade, Grade::kDoubtful);
+  EXPECT_NE(apart.text.find("odometry"), std::string::npos) << apart.text;
 }
 
 }  // namespace
