@@ -434,7 +434,7 @@ class sphc_localizer_view(ctypes.Structure):
 
     struct_size: int
     reserved: int
-    # mid-exposure; where odometry is given, the camera may have moved since color_time_ns
+    # mid-exposure, as depth_time_ns of a frame
     time_ns: int
     # any format that is not of depth; data null: the camera has none in this frame
     image: sphc_image
@@ -456,7 +456,7 @@ class sphc_localizer_depth_view(ctypes.Structure):
 
     struct_size: int
     reserved: int
-    # mid-exposure; where odometry is given, the camera may have moved since color_time_ns
+    # mid-exposure, as depth_time_ns of a frame
     time_ns: int
     # of the camera's format and size; data null: the camera has none in this frame
     depth: sphc_image

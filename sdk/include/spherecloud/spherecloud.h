@@ -601,7 +601,7 @@ typedef struct sphc_localizer_prior {
 typedef struct sphc_localizer_view {
   uint32_t struct_size;
   uint32_t reserved;
-  int64_t time_ns;  /* mid-exposure; where odometry is given, the camera may have moved since color_time_ns */
+  int64_t time_ns;  /* mid-exposure, as depth_time_ns of a frame */
   sphc_image image; /* any format that is not of depth; data null: the camera has none in this frame */
   /* As they are in this frame, with heat or focus; null: as in the config.  The size stays. */
   const sphc_camera *camera;
@@ -612,7 +612,7 @@ typedef struct sphc_localizer_view {
 typedef struct sphc_localizer_depth_view {
   uint32_t struct_size;
   uint32_t reserved;
-  int64_t time_ns;      /* mid-exposure; where odometry is given, the camera may have moved since color_time_ns */
+  int64_t time_ns;      /* mid-exposure, as depth_time_ns of a frame */
   sphc_image depth;     /* of the camera's format and size; data null: the camera has none in this frame */
   sphc_image amplitude; /* as frame.amplitude; with every depth image where the camera's amplitude_min is set */
   /* As they are in this frame, with heat or focus; null: as in the config.  The size stays. */

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <new>
 
-#include "runtime/base/clock.h"
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
 #include "runtime/capi/defaults.h"
@@ -12,7 +11,6 @@
 #include "runtime/capi/objects.h"
 #include "runtime/capi/parameters.h"
 #include "runtime/capi/translate.h"
-#include "runtime/localizer/tuning.h"
 
 namespace {
 
@@ -64,18 +62,23 @@ void warnOnce(uint32_t what, const char *words, sphc_localizer *localizer) {
 
 // Of two clocks, or so far apart that poses are less sure for it.
 void warnOfTimes(const sphc_localizer_frame &frame, sphc_localizer *localizer) {
-  const double apart_s = sphc::secondsOf(sphc::apartNs(frame.color_time_ns, frame.depth_time_ns));
-  const bool has_odometry = frame.prior && frame.prior->flags & SPHC_PRIOR_ODOMETRY;
-  if (apart_s > sphc::tuning::kMostApartS)
-    warnOnce(kLoggedClocks,
-             "depth_time_ns is more than 1 s from color_time_ns, so no pose is sure; give both on one clock "
-             "(sphc_clock_mapper)",
-             localizer);
-  else if (apart_s > sphc::tuning::kMostTogetherS && !has_odometry)
+  const sphc::BetweenImages &between = localizer->localizer.betweenImages();
+  // Odometry says it from the second frame on.
+  const bool will_be_told = localizer->localizer.config().tracks && frame.prior &&
+                            frame.prior->flags & SPHC_PRIOR_ODOMETRY &&
+                            sphc::secondsOf(sphc::tuning::kReachNs) > between.apart_s;
+  if (between.apart_s >= sphc::tuning::kMostApartS)
+    warnOnce(
+        kLoggedClocks,
+        "the images of a frame are 1 s apart or more (color_time_ns, depth_time_ns, time_ns of views), so no pose "
+        "is sure; give all times on one clock (sphc_clock_mapper)",
+        localizer);
+  else if (between.apart_s > sphc::tuning::kMostTogetherS && !will_be_told)
     warnOnce(
         kLoggedTimes,
-        "depth_time_ns is more than 50 ms from color_time_ns, and nothing says how the camera moved meanwhile, so "
-        "no pose is sure; give odometry (SPHC_PRIOR_ODOMETRY), or images nearer in time",
+        "the images of a frame are more than 50 ms apart (color_time_ns, depth_time_ns, time_ns of views), and "
+        "nothing says how the camera moved meanwhile, so no pose is sure; give odometry (SPHC_PRIOR_ODOMETRY, "
+        "SPHC_MODE_TRACKING), or images nearer in time",
         localizer);
 }
 

@@ -14,6 +14,7 @@ struct CarriedPose {
   Rigid moved;                                   // camera now from camera then
   double turn_variance = 0, shift_variance = 0;  // of it, an axis
   double sideways_m = 0;                         // 1 sigma: what errors of direction made of the way
+  double between_m = 0;  // 1 sigma: what was not known of the camera's way between the images of its frame
 
   Rigid now() const { return moved * camera_from_map; }
   double turnSigma() const { return sqrtOf(turn_variance); }

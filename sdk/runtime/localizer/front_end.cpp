@@ -88,6 +88,7 @@ void FrontEnd::show(const FrameFeatures &features) {
 
 void FrontEnd::setRig(const FrameRig &rig) {
   motion_ = rig.motion;
+  teaches_ = rig.teaches;
   color_.focal_px = rig.color_camera.focal();
   color_.row_time_s = rig.color_row_time_s;
   color_.middle_row_px = 0.5 * rig.color_camera.height();
@@ -151,7 +152,7 @@ bool FrontEnd::measure(const Eye &eye, const DepthImages &depth, const Vector2 &
   Vector3 point;
   double sigma = 0;
   if (!eye.aligners[1].lift(depth[1], pixel_px, &point, &sigma)) return is_first;
-  if (is_first && &eye == &color_) relation_.learn({point_m->z(), *sigma_m}, {point.z(), sigma});
+  if (is_first && teaches_ && &eye == &color_) relation_.learn({point_m->z(), *sigma_m}, {point.z(), sigma});
   const DepthRelation::Measured related = relation_.asFirst({point.z(), sigma});
   if (is_first && *sigma_m <= related.sigma_m) return true;
   *point_m = point * (related.z_m / point.z());

@@ -23,7 +23,8 @@ struct FrameRig {
   FixedVector<DepthPlace, kMostDepthCameras> depth;
   FurtherCameras further;
   double color_row_time_s = 0;
-  CameraRate motion;  // of the colour camera
+  CameraRate motion;    // of the colour camera
+  bool teaches = true;  // may be learnt of the depth cameras from this frame
 };
 
 // Of each depth camera; without data it has none in this frame.
@@ -81,6 +82,7 @@ class FrontEnd {
 
   double pixel_sigma_px_ = 0, map_sigma_m_ = 0;
   CameraRate motion_;
+  bool teaches_ = true;
   DepthRelation relation_;  // of the second depth camera to the first
   RigExtractor extractor_;
   Eye color_;

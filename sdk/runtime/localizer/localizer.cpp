@@ -170,15 +170,18 @@ void Localizer::follow(const FrameInput &frame) {
 LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns) {
   LocalizerResult result;
   result.depth = calibrator_.current();
+  between_ = betweenImagesOf(frame);
   const FrameRig rig = rigOf(frame);
   const DepthImages depth = read(frame.depth);
+  BetweenImages first_depth;
+  addWay(frame, frame.depth[0].time_ns, &first_depth);
   consistency_.setCameras(rig.color_camera, rig.depth[0].camera);
   const Deadline lifted_by = deadline.afterShare(kLiftShare);
   config_.parallel.both([&] { front_.lift(depth, rig, lifted_by); },
                         [&] {
                           result.faults = consistency_.look({front_.gray(), depth[0], rig.depth[0].color_from_depth,
                                                              frame.color_time_ns, frame.depth[0].time_ns,
-                                                             isApart(frame), hidesEdges});
+                                                             first_depth.areApart(), hidesEdges});
                         });
   const int64_t aligned = config_.clock.now();
   Work work;
@@ -190,7 +193,7 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   if (!best_.isLocalized()) result.hints = hints();
   result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
   observe();
-  learn(frame, &result);
+  learn(frame.color_time_ns, &result);
   result.keypoints = front_.keypointCount();
   result.lifted = front_.liftedCount();
   result.samples = work.samples;
@@ -207,35 +210,39 @@ bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
 }
 
 // The cameras move between two exposures; odometry tells how.
-bool Localizer::motionSince(const FrameInput &frame, int64_t time_ns, Rigid *now_from_then) const {
-  return time_ns == frame.color_time_ns || (config_.tracks && tracker_.motionSince(time_ns, now_from_then));
+bool Localizer::waySince(const FrameInput &frame, int64_t time_ns, Way *way) const {
+  return time_ns == frame.color_time_ns || (config_.tracks && tracker_.waySince(time_ns, way));
 }
 
 Rigid Localizer::atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const {
-  Rigid moved;
-  return motionSince(frame, time_ns, &moved) ? moved * color_from_sensor : color_from_sensor;
+  Way way;
+  return waySince(frame, time_ns, &way) ? way.now_from_then * color_from_sensor : color_from_sensor;
 }
 
-// Between the colour image and that image whose time is farthest from it, of those to which nothing tells the way.
-double Localizer::secondsApart(const FrameInput &frame) const {
-  uint64_t most_ns = 0;
-  const auto look = [&](const uint8_t *data, int64_t time_ns) {
-    Rigid moved;
-    if (data && !motionSince(frame, time_ns, &moved))
-      most_ns = std::max(most_ns, apartNs(frame.color_time_ns, time_ns));
-  };
-  for (const FurtherView &view : frame.further) look(view.image.bytes.data, view.time_ns);
-  for (const DepthView &view : frame.depth) look(view.depth.data, view.time_ns);
-  return std::min(secondsOf(most_ns), kMostApartS);
+void Localizer::addWay(const FrameInput &frame, int64_t time_ns, BetweenImages *between) const {
+  Way way;
+  if (waySince(frame, time_ns, &way))
+    between->add(way);
+  else
+    between->addUnknown(secondsOf(apartNs(frame.color_time_ns, time_ns)));
 }
 
-bool Localizer::isApart(const FrameInput &frame) const { return secondsApart(frame) > kMostTogetherS; }
+// Of the images that are there.
+BetweenImages Localizer::betweenImagesOf(const FrameInput &frame) const {
+  BetweenImages between;
+  for (const FurtherView &view : frame.further)
+    if (view.image.bytes.data) addWay(frame, view.time_ns, &between);
+  for (const DepthView &view : frame.depth)
+    if (view.depth.data) addWay(frame, view.time_ns, &between);
+  return between;
+}
 
 FrameRig Localizer::rigOf(const FrameInput &frame) const {
   FrameRig rig;
   rig.color_camera = frame.color_camera.value_or(config_.color_camera);
   rig.color_row_time_s = config_.color_row_time_s;
   if (config_.tracks) rig.motion = tracker_.rate();
+  rig.teaches = !between_.areApart();
   for (size_t i = 0; i < frame.further.size(); ++i) {
     const FurtherView &view = frame.further[i];
     const RigCamera &known = config_.further[i];
@@ -278,7 +285,10 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   locate(known, deadline, work);
   if (known.prior.has_up) checkVertical(known, deadline, faults, work);
   checkHandedness(deadline, faults, work);
-  if (best_.isLocalized()) addShift(kSpeedApart * secondsApart(frame), &best_.estimate);
+  if (best_.isLocalized()) {
+    confidence_of_matches_ = confidenceOf(statedCovariance(best_.estimate));
+    widen(between_.turn_sigma_rad, between_.shift_sigma_m, &best_.estimate);
+  }
   if (config_.tracks) compareWithTrack(frame, faults);
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
 }
@@ -440,7 +450,7 @@ void Localizer::searchMap(uint32_t map, bool remembers, const PoseQuery &query, 
   was_asked_ = work->cuts == 0;
   clear_ = std::max(clear_, countClear(candidate_.matched.matches()));
   task.rays = search_.raysOf(front_, candidate_.matched);
-  const bool has_others = remembers && fusion_.remember(map, candidate_.matched);
+  const bool has_others = remembers && !between_.areApart() && fusion_.remember(map, candidate_.matched);
   solve(task, work);
   bool has_pose = candidate_.hasPose();
   propose();
@@ -533,17 +543,21 @@ void Localizer::observe() {
   }
 }
 
-void Localizer::learn(const FrameInput &frame, LocalizerResult *result) {
+// How sure a track may be of the pose: images that are hardly apart make it less exact, but no other one.
+double Localizer::surenessOf(const LocalizerResult &result) const {
+  if (between_.areApart()) return result.confidence;
+  return doubted(confidence_of_matches_, result.inliers, result.faults, consistency_.isDoubtful());
+}
+
+void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
   if (best_.isLocalized()) {
-    const bool teaches = !isApart(frame);
-    if (teaches) calibrator_.learn(best_.estimate);
+    if (!between_.areApart()) calibrator_.learn(best_.estimate);
     fusion_.clear();
     if (!config_.tracks) return;
-    if (teaches) distances_.keep(best_, estimator_);
+    if (!between_.areApart()) distances_.keep(best_, estimator_);
     tracker_.goOver(best_.map, maps());
-    result->jump =
-        tracker_.accept(best_.map, best_.estimate, result->confidence, kSpeedApart * secondsApart(frame));
-    trail_.add(frame.color_time_ns, result->camera_from_map, result->covariance);
+    result->jump = tracker_.accept(best_.map, best_.estimate, surenessOf(*result), between_.shift_sigma_m);
+    trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {
     tracker_.miss();
   }

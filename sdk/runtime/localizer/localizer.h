@@ -1,6 +1,7 @@
 // The only composer of the stages: a frame in, a pose out.  Frame after frame: a predicted pose says where in the
 // map to look, and the whole maps are searched where it fails.
 #pragma once
+#include "runtime/localizer/between_images.h"
 #include "runtime/localizer/config.h"
 #include "runtime/localizer/doubt.h"
 #include "runtime/localizer/frame.h"
@@ -63,12 +64,13 @@ class Localizer {
   // Of the last frame.
   Span<const Observation> observations() const { return front_.observations(); }
   Span<const RankedPose> hypotheses() const { return ranking_.poses(); }
+  const BetweenImages &betweenImages() const { return between_; }
 
  private:
-  bool motionSince(const FrameInput &frame, int64_t time_ns, Rigid *now_from_then) const;
+  bool waySince(const FrameInput &frame, int64_t time_ns, Way *way) const;
   Rigid atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const;
-  double secondsApart(const FrameInput &frame) const;
-  bool isApart(const FrameInput &frame) const;
+  void addWay(const FrameInput &frame, int64_t time_ns, BetweenImages *between) const;
+  BetweenImages betweenImagesOf(const FrameInput &frame) const;
   FrameRig rigOf(const FrameInput &frame) const;
   DepthImages read(const DepthViews &views);
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
@@ -95,7 +97,8 @@ class Localizer {
   bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
   void observe();
-  void learn(const FrameInput &frame, LocalizerResult *result);
+  double surenessOf(const LocalizerResult &result) const;
+  void learn(int64_t time_ns, LocalizerResult *result);
 
   LocalizerConfig config_;
   DepthReader depth_readers_[kMostDepthCameras];
@@ -116,6 +119,8 @@ class Localizer {
   // Of this frame: were all keypoints compared with whole maps, and in how many clear matches of one, at most?
   bool was_asked_ = false;
   uint32_t clear_ = 0;
+  BetweenImages between_;
+  double confidence_of_matches_ = 0;  // of best_, but for what is not known of the way between images
 };
 
 }  // namespace sphc

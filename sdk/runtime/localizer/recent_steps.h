@@ -7,22 +7,28 @@
 
 namespace sphc {
 
+// Of the camera from another time to the frame's; 1 sigma an axis.
+struct Way {
+  Rigid now_from_then;
+  double turn_sigma_rad = 0, shift_sigma_m = 0;
+};
+
 class RecentSteps {
  public:
   static constexpr size_t kMost = 32;  // 0.35 s at 90 Hz
 
   void clear() { count_ = 0; }
-  // From the frame before to this one, `took_ns` > 0 later.  The oldest one may go.
-  void push(const Rigid &now_from_before, uint64_t took_ns);
+  // `now_from_then` is from the frame before to this one, `took_ns` > 0 later.  The oldest one may go.
+  void push(const Way &step, uint64_t took_ns);
   // From `ago_ns` before the last frame to it; from `ahead_ns` after it to it.  Within a step the camera turns
-  // steadily and its centre moves in a straight line; so it does kNearNs before and after all that is known.  False
-  // where that says nothing, and beyond kReachNs.
-  bool nowFromAgo(uint64_t ago_ns, Rigid *now_from_ago) const;
-  bool nowFromAhead(uint64_t ahead_ns, Rigid *now_from_ahead) const;
+  // steadily and its centre moves in a straight line; it goes on so before and after all that is known, within
+  // kNearNs of the last frame.  False where that says nothing, and beyond kReachNs.
+  bool wayFromAgo(uint64_t ago_ns, Way *way) const;
+  bool wayFromAhead(uint64_t ahead_ns, Way *way) const;
 
  private:
   struct Step {
-    Rigid now_from_before;
+    Way way;
     uint64_t took_ns = 0;
   };
   // The newest is 0.

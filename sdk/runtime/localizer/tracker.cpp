@@ -50,7 +50,7 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
     has_step_ = isOfHead(step_, step_ns_, *odometry);
   }
   if (has_step_)
-    steps_.push(step_, step_ns_);
+    steps_.push({step_, odometry->rotation_sigma_rad, odometry->translation_sigma_m}, step_ns_);
   else
     steps_.clear();
   for (CarriedPose *pose : {&last_, &best_}) {
@@ -73,19 +73,19 @@ bool Tracker::step(Rigid *now_from_before, double *rotation_sigma_rad, double *t
   return has_step_;
 }
 
-bool Tracker::motionSince(int64_t then_ns, Rigid *now_from_then) const {
-  return then_ns <= time_ns_ ? steps_.nowFromAgo(elapsedNs(then_ns, time_ns_), now_from_then)
-                             : steps_.nowFromAhead(elapsedNs(time_ns_, then_ns), now_from_then);
+bool Tracker::waySince(int64_t then_ns, Way *way) const {
+  return then_ns <= time_ns_ ? steps_.wayFromAgo(elapsedNs(then_ns, time_ns_), way)
+                             : steps_.wayFromAhead(elapsedNs(time_ns_, then_ns), way);
 }
 
 CameraRate Tracker::rate() const {
   constexpr uint64_t kApartNs = 5000000;
   CameraRate rate;
-  Rigid now_from_then;
+  Way way;
   const auto then_ns = static_cast<int64_t>(static_cast<uint64_t>(time_ns_) - kApartNs);  // times may be any
-  if (!motionSince(then_ns, &now_from_then)) return rate;
-  rate.turn_rad_s = vectorFromRotation(now_from_then.rotation) / secondsOf(kApartNs);
-  rate.shift_m_s = now_from_then.translation_m / secondsOf(kApartNs);
+  if (!waySince(then_ns, &way)) return rate;
+  rate.turn_rad_s = vectorFromRotation(way.now_from_then.rotation) / secondsOf(kApartNs);
+  rate.shift_m_s = way.now_from_then.translation_m / secondsOf(kApartNs);
   return rate;
 }
 
@@ -134,7 +134,7 @@ void Tracker::goOver(uint32_t map, const MapSet &maps) {
   went_over_ = true;
 }
 
-Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, double apart_sigma_m) {
+Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, double between_m) {
   Prediction expected;
   Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
   const bool agrees = !jump.events;
@@ -157,7 +157,7 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, 
   steady_ = has_velocity_ && is_measured ? steady_ + 1 : 0;
   has_pose_ = true;
   last_ = {map, time_ns_, estimate.camera_from_map, estimate.inliers, true, {}};
-  last_.shift_variance = apart_sigma_m * apart_sigma_m;
+  last_.between_m = between_m;
   rotation_sigma_rad_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 0), kLeastTurnSigma);
   translation_sigma_m_ = hypotOf(doubtOf(estimate.inliers) * axisSigma(estimate.covariance, 3), kLeastShiftSigma);
   if (!agrees)
@@ -189,7 +189,7 @@ bool Tracker::jumpsFrom(const CarriedPose &pose, uint32_t map, const Rigid &foun
   const double dt = secondsOf(elapsedNs(pose.time_ns, time_ns_));
   const double turn_rad = pose.is_carried ? pose.turnSigma() : kTurnRate * dt,
                shift_m = pose.is_carried ? pose.shiftSigma() : kSpeed * dt;
-  return !areNear(found, pose.now(), boundsOfNoJump(turn_rad, shift_m));
+  return !areNear(found, pose.now(), boundsOfNoJump(turn_rad, hypotOf(shift_m, pose.between_m)));
 }
 
 bool Tracker::vetoes(uint32_t map, const Estimate &estimate) const {

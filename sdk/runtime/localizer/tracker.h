@@ -56,9 +56,10 @@ class Tracker {
   bool predict(Prediction *prediction) const;
   // Before accept: what is known of the camera, in the map that it is found in.
   void goOver(uint32_t map, const MapSet &maps);
-  // After it: what it brought, and how far that is from what was expected.  `confidence` is that of the result;
-  // `apart_sigma_m` has the covariance already: what is not known of the camera's way between the images.
-  Jump accept(uint32_t map, const Estimate &estimate, double confidence, double apart_sigma_m = 0);
+  // After it: what it brought, and how far that is from what was expected.  `confidence` says how
+  // sure the pose is.  `between_m`, which the covariance has already: what is not known of the camera's way between
+  // the images.
+  Jump accept(uint32_t map, const Estimate &estimate, double confidence, double between_m = 0);
   void miss();
   // Before accept: is this a jump that odometry contradicts, or that no head can make, and that much more would
   // have to speak for than for the track?
@@ -68,9 +69,9 @@ class Tracker {
   bool hasOdometry() const { return has_odometry_; }
   // Motion of the camera since the frame before, by odometry; false where it is not known.
   bool step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const;
-  // Motion of the camera since another time near this frame's, by the odometry of the steps before (RecentSteps);
+  // How the camera moved since another time near this frame's, by the odometry of the steps before (RecentSteps);
   // false where that says nothing.
-  bool motionSince(int64_t then_ns, Rigid *now_from_then) const;
+  bool waySince(int64_t then_ns, Way *way) const;
   // At this frame, by odometry; zero where that says nothing.
   CameraRate rate() const;
   // After the frame: how the camera moves, for times of the caller's; false where no pose is known.  The trail has

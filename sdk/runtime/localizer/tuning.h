@@ -233,7 +233,7 @@ constexpr double kGateSigmas = 5;         // within which two poses agree
 // Images of different times that nothing brings together: the camera has moved so far meanwhile, 1 sigma an axis,
 // as people walk.  Beyond kMostTogetherS a frame teaches nothing; clocks that differ make no more of it than
 // kMostApartS.
-constexpr double kSpeedApart = 0.35;                        // m / s
+constexpr double kSpeedApart = 0.35, kTurnApart = 0.08;     // m / s, rad / s
 constexpr double kMostTogetherS = 0.05, kMostApartS = 1.0;  // s
 // A jump is beyond this by the gate.  It needs so many times the inliers of the track.  Chosen.
 constexpr PoseBounds kNoJump = {0.15, degrees(8)};

@@ -201,7 +201,7 @@ public sealed unsafe partial class LocalizerView {
       SpherecloudException.Check(Native.sphc_localizer_view_init(p, Size.Of(sizeof(Native.sphc_localizer_view))));
   }
 
-  /// <summary>Mid-exposure; where odometry is given, the camera may have moved since ColorTimeNs.</summary>
+  /// <summary>Mid-exposure, as DepthTimeNs of a frame.</summary>
   public long TimeNs { get { return raw.time_ns; } set { raw.time_ns = value; } }
 }
 
@@ -265,7 +265,7 @@ public sealed unsafe partial class LocalizerDepthView {
       SpherecloudException.Check(Native.sphc_localizer_depth_view_init(p, Size.Of(sizeof(Native.sphc_localizer_depth_view))));
   }
 
-  /// <summary>Mid-exposure; where odometry is given, the camera may have moved since ColorTimeNs.</summary>
+  /// <summary>Mid-exposure, as DepthTimeNs of a frame.</summary>
   public long TimeNs { get { return raw.time_ns; } set { raw.time_ns = value; } }
 }
 

@@ -661,7 +661,7 @@ pub struct sphc_localizer_prior {
 pub struct sphc_localizer_view {
     pub struct_size: u32,
     pub reserved: u32,
-    /// mid-exposure; where odometry is given, the camera may have moved since color_time_ns
+    /// mid-exposure, as depth_time_ns of a frame
     pub time_ns: i64,
     /// any format that is not of depth; data null: the camera has none in this frame
     pub image: sphc_image,
@@ -676,7 +676,7 @@ pub struct sphc_localizer_view {
 pub struct sphc_localizer_depth_view {
     pub struct_size: u32,
     pub reserved: u32,
-    /// mid-exposure; where odometry is given, the camera may have moved since color_time_ns
+    /// mid-exposure, as depth_time_ns of a frame
     pub time_ns: i64,
     /// of the camera's format and size; data null: the camera has none in this frame
     pub depth: sphc_image,

@@ -25,6 +25,9 @@ constexpr double kSurelyOff = -0.85, kDoubtfullyOff = 0;  // in one frame
 // less than kAnotherView see much the same edges, and count for a part of one.
 constexpr double kUsual = 0.35, kMostAStep = 1, kDoubtful = 0.8, kAlarm = 2.2, kAllClear = 1, kMostDoubt = 4;
 constexpr double kAnotherViewNs = 3e8;
+// Frames of images that are apart are few where others come between them, which say nothing of them: what they said
+// fades, so much a second.
+constexpr double kFades = 1;
 
 }  // namespace
 
@@ -85,6 +88,8 @@ bool Consistency::edgesDisagree(const ConsistencyView &view) {
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   EdgeDoubt &doubt = view.are_apart ? apart_ : together_;
+  if (view.are_apart)
+    doubt.sum = std::max(0.0, doubt.sum - kFades * secondsOf(elapsedNs(doubt.told_time_ns, view.color_time_ns)));
   if (tells) {
     const double views =
         std::min(1.0, static_cast<double>(elapsedNs(doubt.told_time_ns, view.color_time_ns)) / kAnotherViewNs);

@@ -28,10 +28,11 @@ double statedOverEstimated(const Estimate &estimate) {
 
 Matrix6 statedCovariance(const Estimate &estimate) { return statedOverEstimated(estimate) * estimate.covariance; }
 
-void addShift(double sigma_m, Estimate *estimate) {
-  if (sigma_m > 0)
-    estimate->covariance.bottomRightCorner<3, 3>().diagonal().array() +=
-        sigma_m * sigma_m / statedOverEstimated(*estimate);
+void widen(double turn_sigma_rad, double shift_sigma_m, Estimate *estimate) {
+  if (turn_sigma_rad == 0 && shift_sigma_m == 0) return;
+  const double stated = statedOverEstimated(*estimate);
+  estimate->covariance.topLeftCorner<3, 3>().diagonal().array() += turn_sigma_rad * turn_sigma_rad / stated;
+  estimate->covariance.bottomRightCorner<3, 3>().diagonal().array() += shift_sigma_m * shift_sigma_m / stated;
 }
 
 double axisSigma(const Matrix6 &covariance, int first) {

@@ -10,9 +10,8 @@ namespace sphc {
 // weight), and that few inliers hide outliers and errors of the map.
 Matrix6 statedCovariance(const Estimate &estimate);
 
-// The camera's place is so much less certain, 1 sigma an axis of the stated covariance, for reasons that no match
-// shows.
-void addShift(double sigma_m, Estimate *estimate);
+// The stated covariance grows by this much, 1 sigma an axis, for reasons that no match shows.
+void widen(double turn_sigma_rad, double shift_sigma_m, Estimate *estimate);
 
 // 1 sigma an axis: of turns where `first` is 0, in rad, and of shifts where it is 3, in m.
 double axisSigma(const Matrix6 &covariance, int first);

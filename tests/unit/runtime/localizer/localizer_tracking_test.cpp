@@ -235,7 +235,8 @@ struct DepthBefore {
   double first_error_m = 0, error_m = 0;  // the other is the mean from that frame on from which the way is known
   sphc_localizer_result first = {}, last = {};
 
-  DepthBefore(double steps, bool times_are_told) {
+  // Odometry is exact, and says that it errs by `sigma` rad and m a step; 0: none is given.
+  DepthBefore(double steps, bool times_are_told, double sigma = 1e-3) {
     const sphc_localizer_config config = trackingConfig();
     test::Session session(config);
     const auto known = static_cast<uint32_t>(std::ceil(steps));
@@ -254,8 +255,8 @@ struct DepthBefore {
       prior.struct_size = sizeof prior;
       prior.flags = SPHC_PRIOR_ODOMETRY;
       prior.odometry_from_camera = rigidToC(test::sceneViewpoint(i).inverse());
-      prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
-      frame.prior = &prior;
+      prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = sigma;
+      frame.prior = sigma > 0 ? &prior : nullptr;
       last = {};
       EXPECT_EQ(session.process(frame, &last), SPHC_OK) << i;
       if (i == 0) first = last, first_error_m = session.errorM(first, 0);
@@ -278,6 +279,24 @@ TEST(LocalizerTracking, APoseOfImagesThatNothingBringsTogetherIsNotSure) {
   EXPECT_GT(told.last.confidence, 0.95f) << "the way is known by now";
   EXPECT_EQ(told.last.state, SPHC_STATE_TRACKING);
   EXPECT_LT(std::abs(told.last.depth.offset_m), 0.02);
+}
+
+TEST(LocalizerTracking, WhatOdometrySaysOfItsErrorsIsBelieved) {
+  const DepthBefore exact(2.4, true, 1e-4), coarse(2.4, true, 1e-2);
+  EXPECT_LT(exact.last.covariance[21], 1e-4);
+  EXPECT_NEAR(coarse.last.covariance[21] - exact.last.covariance[21], 2 * 2.4 * 1e-4, 2e-5);
+  EXPECT_NEAR(coarse.last.covariance[0] - exact.last.covariance[0], 2.4 * 1e-4, 1e-5);
+  EXPECT_LT(coarse.last.confidence, 0.95f);
+}
+
+// Two cameras without a common trigger: less exact, but the place is no other one.
+TEST(LocalizerTracking, ImagesThatAreHardlyApartAreTracked) {
+  const DepthBefore none(0, true, 0), hardly(0.4, true, 0), apart(0.6, true, 0);
+  EXPECT_EQ(none.last.state, SPHC_STATE_TRACKING);
+  EXPECT_EQ(hardly.last.state, SPHC_STATE_TRACKING);
+  EXPECT_LT(hardly.last.confidence, none.last.confidence);
+  EXPECT_NEAR(hardly.first.covariance[21] - none.first.covariance[21], 0.014 * 0.014, 2e-5);
+  EXPECT_EQ(apart.last.state, SPHC_STATE_RELOCALIZING);
 }
 
 // Blocks in depth of which the image shows nothing; a dark image shows noise.

@@ -528,21 +528,21 @@ TEST_F(TrackerTest, MotionBesideAFrameIsThatOfTheStep) {
     return Rigid{rotationFromVector(Vector3(0, 0.1 * steps, 0)), Vector3(0.03 * steps, 0, 0.1)};
   };
   Odometry odometry = {steady(0), 0.003, 0.004};
-  Rigid now_from_then;
+  Way way;
   tracker_.advance(kFrame, &odometry);
-  EXPECT_FALSE(tracker_.motionSince(kFrame, &now_from_then)) << "no step yet";
+  EXPECT_FALSE(tracker_.waySince(kFrame, &way)) << "no step yet";
   odometry.odometry_from_camera = steady(1);
   tracker_.advance(2 * kFrame, &odometry);
   for (const double then : {0.5, 0.9, 1.0, 1.2}) {
     const int64_t then_ns = kFrame + static_cast<int64_t>(then * kFrame);
-    ASSERT_TRUE(tracker_.motionSince(then_ns, &now_from_then)) << then;
-    const Rigid off = now_from_then * (steady(1).inverse() * steady(then)).inverse();
+    ASSERT_TRUE(tracker_.waySince(then_ns, &way)) << then;
+    const Rigid off = way.now_from_then * (steady(1).inverse() * steady(then)).inverse();
     EXPECT_LT(rotationAngle(off.rotation), 1e-7) << then;
     EXPECT_LT(off.translation_m.norm(), 1e-7) << then;
   }
-  EXPECT_FALSE(tracker_.motionSince(2 * kFrame - 200000000, &now_from_then)) << "too long ago";
+  EXPECT_FALSE(tracker_.waySince(2 * kFrame - 200000000, &way)) << "too long ago";
   tracker_.advance(3 * kFrame, nullptr);
-  EXPECT_FALSE(tracker_.motionSince(3 * kFrame, &now_from_then)) << "no odometry";
+  EXPECT_FALSE(tracker_.waySince(3 * kFrame, &way)) << "no odometry";
 }
 
 }  // namespace

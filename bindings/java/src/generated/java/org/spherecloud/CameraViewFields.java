@@ -14,7 +14,7 @@ abstract class CameraViewFields extends Struct {
     super(whole, at);
   }
 
-  /** Mid-exposure; where odometry is given, the camera may have moved since color_time_ns. */
+  /** Mid-exposure, as depth_time_ns of a frame. */
   public long getTimeNs() {
     return getLong(Layout.LOCALIZER_VIEW_TIME_NS);
   }
