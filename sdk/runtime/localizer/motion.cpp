@@ -71,9 +71,9 @@ Step Trail::step(uint32_t steps) const {
     const Vector3 turn_in_map_rad =
         now.rotation.transpose() * vectorFromRotation(before.rotation * now.rotation.transpose());
     const Vector3 way_in_map_m = now.inverse().translation_m - before.inverse().translation_m;
-    const Matrix6 covariance(to.covariance);
-    const auto varianceOf = [&](int first) {  // of the difference of two poses that are equally good
-      return 2 * square(axisSigma(covariance, first) / dt);
+    const Matrix6 of_from(from.covariance), of_to(to.covariance);
+    const auto varianceOf = [&](int first) {  // of the difference of two poses
+      return square(axisSigma(of_from, first) / dt) + square(axisSigma(of_to, first) / dt);
     };
     turn.add(turn_in_map_rad / dt, varianceOf(0), square(kTurnAcceleration * dt));
     shift.add(way_in_map_m / dt, varianceOf(3), square(kAcceleration * dt));

@@ -150,6 +150,20 @@ TEST(Rate, AStepCountsAsMuchAsItsErrorAllows) {
 }
 
 // T exp(xi) = exp(Ad xi) T.
+// A step from a vague pose to an exact one, or the other way round, says as little of the rate.
+TEST(Trail, AStepIsAsVagueAsItsVaguerPose) {
+  const auto wayOf = [](double from_m, double to_m) {
+    Trail trail;
+    trail.add(kStart, steady(0), diagonalOf(0.001, from_m));
+    trail.add(kStart + kMotionFrame, steady(1e-9 * kMotionFrame), diagonalOf(0.001, to_m));
+    return trail.step(1).way_in_map_m.norm();
+  };
+  const double whole_m = kVelocity.norm() * 1e-9 * kMotionFrame;
+  EXPECT_NEAR(wayOf(1e-4, 1e-4), whole_m, 0.01 * whole_m);
+  EXPECT_LT(wayOf(0.1, 1e-4), 0.1 * whole_m);
+  EXPECT_NEAR(wayOf(1e-4, 0.1), wayOf(0.1, 1e-4), 1e-9);
+}
+
 TEST(Motion, CovarianceIsCarriedAlong) {
   Random random(1);
   const auto small = [](const Vector6 &xi) { return Rigid{rotationFromVector(xi.head<3>()), xi.tail<3>()}; };
