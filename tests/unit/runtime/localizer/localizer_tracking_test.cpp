@@ -237,7 +237,9 @@ struct DepthBefore {
 
   // Odometry is exact, and says that it errs by `sigma` rad and m a step; 0: none is given.
   DepthBefore(double steps, bool times_are_told, double sigma = 1e-3) {
-    const sphc_localizer_config config = trackingConfig();
+    sphc_localizer_config config = trackingConfig();
+    config.depth_offset_sigma_m = 0.02;  // so that something can be learnt
+    config.depth_slope_sigma = 0.01;
     test::Session session(config);
     const auto known = static_cast<uint32_t>(std::ceil(steps));
     constexpr uint32_t kFrames = 8;
@@ -297,6 +299,8 @@ TEST(LocalizerTracking, ImagesThatAreHardlyApartAreTracked) {
   EXPECT_LT(hardly.last.confidence, none.last.confidence);
   EXPECT_NEAR(hardly.first.covariance[21] - none.first.covariance[21], 0.014 * 0.014, 2e-5);
   EXPECT_EQ(apart.last.state, SPHC_STATE_RELOCALIZING);
+  EXPECT_LT(none.last.depth.offset_sigma_m, none.first.depth.offset_sigma_m);
+  EXPECT_EQ(apart.last.depth.offset_sigma_m, apart.first.depth.offset_sigma_m) << "it teaches nothing";
 }
 
 // Blocks in depth of which the image shows nothing; a dark image shows noise.
