@@ -25,7 +25,7 @@ struct BetweenImages {
   }
 
  private:
-  static constexpr double kPointsM = 1;  // as walls stand, half of their error is across the ray
+  static constexpr double kPointsM = 1;  // so much of a turn's error, in m a rad, moves the camera's place
 
   void widen(double turn_rad, double shift_m) {
     turn_sigma_rad = std::max(turn_sigma_rad, turn_rad);
