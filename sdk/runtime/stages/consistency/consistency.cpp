@@ -88,17 +88,18 @@ bool Consistency::edgesDisagree(const ConsistencyView &view) {
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   EdgeDoubt &doubt = view.are_apart ? apart_ : together_;
-  if (view.are_apart)
-    doubt.sum = std::max(0.0, doubt.sum - kFades * secondsOf(elapsedNs(doubt.told_time_ns, view.color_time_ns)));
+  const int64_t since_ns = elapsedNs(doubt.told_time_ns, view.color_time_ns);
+  double sum = doubt.told_sum;
+  if (view.are_apart) sum = std::max(0.0, sum - kFades * secondsOf(since_ns));
   if (tells) {
-    const double views =
-        std::min(1.0, static_cast<double>(elapsedNs(doubt.told_time_ns, view.color_time_ns)) / kAnotherViewNs);
+    const double views = std::min(1.0, static_cast<double>(since_ns) / kAnotherViewNs);
     const double step = std::min(kMostAStep, std::max(-kMostAStep, kUsual - score)) * views;
-    doubt.sum = std::min(kMostDoubt, std::max(0.0, doubt.sum + (score < kSurelyOff ? kMostAStep : step)));
+    sum = std::min(kMostDoubt, std::max(0.0, sum + (score < kSurelyOff ? kMostAStep : step)));
+    doubt.told_sum = sum;
     doubt.told_time_ns = view.color_time_ns;
   }
-  doubtful_ = doubtful_ || doubt.sum >= kDoubtful;
-  doubt.disagreed = doubt.sum >= (doubt.disagreed ? kAllClear : kAlarm);
+  doubtful_ = doubtful_ || sum >= kDoubtful;
+  doubt.disagreed = sum >= (doubt.disagreed ? kAllClear : kAlarm);
   return doubt.disagreed;
 }
 

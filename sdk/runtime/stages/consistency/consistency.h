@@ -59,11 +59,11 @@ class Consistency {
   Stillness stillness_;
   DepthValues values_;
   EdgeAgreement agreement_;
-  // What edges said, summed over frames.
+  // What edges said, summed over frames, at the last frame whose edges told something.
   struct EdgeDoubt {
-    double sum = 0;
-    int64_t told_time_ns = INT64_MIN / 2;  // of the last frame whose edges told something
-    bool disagreed = false;                // at the frame before
+    double told_sum = 0;
+    int64_t told_time_ns = INT64_MIN / 2;
+    bool disagreed = false;  // at the frame before
   };
   EdgeDoubt together_, apart_;
   bool doubtful_ = false, bent_ = false;

@@ -83,6 +83,29 @@ TEST(Consistency, WhatImagesOfOtherTimesSaidIsNotCarriedOver) {
   EXPECT_EQ(faults, kDepthColorDisagree);
 }
 
+// What edges said of images that are apart fades with time alone, however many frames tell nothing meanwhile.
+TEST(Consistency, WhatEdgesSaidFadesByTheTimeSinceTheySaidIt) {
+  const auto doubtsAfter = [](int32_t silent_frames, int64_t silent_ns) {
+    HeldConsistency held(true);
+    const auto look = [&](const MadeView &made, int64_t time_ns, bool are_silent) {
+      ConsistencyView view = made.view(time_ns);
+      view.are_apart = true;
+      if (are_silent) view.hides_edges = [](GrayView) { return true; };
+      return held.consistency.look(view) & kDepthColorDisagree;
+    };
+    Faults faults = 0;
+    for (int32_t i = 0; i < 12; ++i) faults = look(MadeView(3 * i, 3 * i + 14), i * kStepNs, false);
+    EXPECT_EQ(faults, kDepthColorDisagree);
+    for (int32_t i = 1; i <= silent_frames; ++i)
+      faults = look(MadeView(33 + 3 * i, 47 + 3 * i), 11 * kStepNs + silent_ns * i / silent_frames, true);
+    return faults == kDepthColorDisagree;
+  };
+  EXPECT_TRUE(doubtsAfter(1, 1000000000));
+  EXPECT_TRUE(doubtsAfter(20, 1000000000));
+  EXPECT_FALSE(doubtsAfter(1, 4000000000));
+  EXPECT_FALSE(doubtsAfter(20, 4000000000));
+}
+
 // Noise has its edges anywhere.
 TEST(Consistency, InTheDarkEdgesSayNothing) {
   for (const bool follows : {false, true}) {
