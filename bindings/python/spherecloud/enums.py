@@ -315,6 +315,9 @@ class Fault(enum.IntFlag):
     ODOMETRY_DISAGREES = 2048
     """ODOMETRY moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out, and poses
     are found without it."""
+    FOCAL_DISAGREES = 4096
+    """The matches agree with another focal length: an image that was cropped or scaled, another calibration, no
+    depth; confidence is below 0.5."""
 
 
 class Cut(enum.IntFlag):

@@ -4,7 +4,7 @@
 
 namespace sphc::host {
 
-const std::array<BitWords, 12> kFaultWords = {{
+const std::array<BitWords, 13> kFaultWords = {{
     {SPHC_FAULT_DEPTH_RANGE, "depth out of range",
      "nearly every measurement lies outside depth_min_m to depth_max_m: is depth_unit_m right, is the sensor "
      "covered?"},
@@ -35,6 +35,10 @@ const std::array<BitWords, 12> kFaultWords = {{
     {SPHC_FAULT_ODOMETRY_DISAGREES, "odometry disagrees",
      "odometry moves otherwise than poses do, so it is left out: is it the pose of the colour camera, with x "
      "right, y down and z ahead, and not its inverse; does it stand still, or know turns alone?"},
+    {SPHC_FAULT_FOCAL_DISAGREES, "focal length disagrees",
+     "the matches agree with another focal length of the colour camera: is the calibration that of this camera and "
+     "this size of image, was the image cropped or scaled, is depth what the driver says that it is? `map "
+     "--refine-calibration` calibrates anew"},
 }};
 
 std::string faultNames(uint32_t faults) { return namesOf(kFaultWords, faults); }

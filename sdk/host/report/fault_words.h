@@ -5,7 +5,7 @@
 namespace sphc::host {
 
 // SPHC_FAULT_ bits.
-extern const std::array<BitWords, 12> kFaultWords;
+extern const std::array<BitWords, 13> kFaultWords;
 
 // "depth frozen, depth and colour disagree"; "" of none.
 std::string faultNames(uint32_t faults);

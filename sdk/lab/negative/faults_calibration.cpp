@@ -26,7 +26,8 @@ std::function<void(Sequence *)> focalOfBoth(double factor) {
 }  // namespace
 
 std::vector<SensorFault> calibrationFaults() {
-  const uint32_t disagree = SPHC_FAULT_DEPTH_COLOR_DISAGREE, bias = disagree | SPHC_FAULT_DEPTH_BIAS;
+  const uint32_t disagree = SPHC_FAULT_DEPTH_COLOR_DISAGREE | SPHC_FAULT_FOCAL_DISAGREES,
+                 bias = disagree | SPHC_FAULT_DEPTH_BIAS;
   return {{"extrinsics 10 cm right", shift(0, 0.1), disagree, false, false},
           {"extrinsics 10 cm down", shift(1, 0.1), disagree, false, false},
           {"extrinsics 10 cm forward", shift(2, 0.1), bias, false, false},

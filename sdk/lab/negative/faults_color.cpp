@@ -50,7 +50,8 @@ void mirrorBoth(Sequence *s) {
 }  // namespace
 
 std::vector<SensorFault> colorFaults() {
-  const uint32_t disagree = SPHC_FAULT_DEPTH_COLOR_DISAGREE, frozen = SPHC_FAULT_COLOR_FROZEN | disagree;
+  const uint32_t disagree = SPHC_FAULT_DEPTH_COLOR_DISAGREE | SPHC_FAULT_FOCAL_DISAGREES;
+  const uint32_t frozen = SPHC_FAULT_COLOR_FROZEN | disagree;
   return {{"colour cropped by 10 %", showing({0.1, 0.1, 0.8, 0.8}), disagree, false, false},
           {"colour rolled by a sixteenth", showing({0.0625, 0, 1, 1}), disagree, false, false},
           {"colour scaled to 80 % of its width", showing({0.1, 0, 0.8, 1}), disagree, false, false},

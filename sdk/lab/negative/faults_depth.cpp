@@ -72,7 +72,8 @@ void turnDepthUpsideDown(Sequence *s) {
 std::vector<SensorFault> depthFaults() {
   const uint32_t disagree = SPHC_FAULT_DEPTH_COLOR_DISAGREE, scaled = SPHC_FAULT_DEPTH_SCALE;
   const uint32_t frozen = SPHC_FAULT_DEPTH_FROZEN | disagree;
-  const uint32_t bent = SPHC_FAULT_DEPTH_BENT | disagree | SPHC_FAULT_DISTANCES_DISAGREE;
+  const uint32_t bent =
+      SPHC_FAULT_DEPTH_BENT | disagree | SPHC_FAULT_DISTANCES_DISAGREE | SPHC_FAULT_FOCAL_DISAGREES;
   return {{"depth constant", makeConstant, SPHC_FAULT_DEPTH_CONSTANT, false, false},
           {"depth inverted", invert, bent, false, false},
           {"depth is disparity", makeDisparity, bent, false, false},

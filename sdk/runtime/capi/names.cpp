@@ -244,6 +244,8 @@ const char *sphc_localizer_fault_name(uint32_t fault) {
       return "SPHC_FAULT_DISTANCES_DISAGREE";
     case SPHC_FAULT_ODOMETRY_DISAGREES:
       return "SPHC_FAULT_ODOMETRY_DISAGREES";
+    case SPHC_FAULT_FOCAL_DISAGREES:
+      return "SPHC_FAULT_FOCAL_DISAGREES";
     default:
       return "SPHC_FAULT_?";
   }

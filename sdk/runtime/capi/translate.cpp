@@ -186,7 +186,7 @@ static_assert(kDepthRange == SPHC_FAULT_DEPTH_RANGE && kDepthConstant == SPHC_FA
               kDepthScale == SPHC_FAULT_DEPTH_SCALE && kDepthBias == SPHC_FAULT_DEPTH_BIAS &&
               kVerticalDisagrees == SPHC_FAULT_VERTICAL_DISAGREES && kMirrored == SPHC_FAULT_MIRRORED &&
               kDistancesDisagree == SPHC_FAULT_DISTANCES_DISAGREE &&
-              kOdometryDisagrees == SPHC_FAULT_ODOMETRY_DISAGREES);
+              kOdometryDisagrees == SPHC_FAULT_ODOMETRY_DISAGREES && kFocalDisagrees == SPHC_FAULT_FOCAL_DISAGREES);
 static_assert(kCutFeatures == SPHC_CUT_FEATURES && kCutMatches == SPHC_CUT_MATCHES &&
               kCutSearch == SPHC_CUT_SEARCH && kCutVerification == SPHC_CUT_VERIFICATION);
 static_assert(kTooDark == SPHC_HINT_TOO_DARK && kTooFast == SPHC_HINT_TOO_FAST &&

@@ -4,6 +4,7 @@
 
 #include "runtime/localizer/tuning.h"
 #include "runtime/stages/pose/confidence.h"
+#include "runtime/stages/pose/focal_scale.h"
 
 namespace sphc {
 
@@ -67,8 +68,14 @@ bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior
          off[1] * off[1] > kBiasSigmas * kBiasSigmas * prior.covariance(1, 1);
 }
 
+bool isOfOtherFocalLength(const Hypothesis &found, const DepthCalibration &depth, const Deadline &deadline) {
+  const FocalScale scale =
+      focalScaleOf(found.matched.ofThisFrame(), found.estimate, depth, kDoubtfulFocalSigmas, deadline);
+  return scale.isBeyond(kFocalSigmas) && absOf(scale.off) > kLeastFocalOff;
+}
+
 double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful) {
-  if (faults & (kDepthScale | kDepthBias)) return std::min(confidence, kMostConfidenceOfFaults);
+  if (faults & (kDepthScale | kDepthBias | kFocalDisagrees)) return std::min(confidence, kMostConfidenceOfFaults);
   const bool doubtful = edges_are_doubtful && inliers < kInliersBeyondDoubtfulEdges;
   return doubtful ? std::min(confidence, kMostConfidenceOfDoubtfulEdges) : confidence;
 }

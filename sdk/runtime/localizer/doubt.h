@@ -18,6 +18,10 @@ Vertical compareVertical(const Known &known, const Hypothesis &found, PoseQuery 
 // Has more been learnt of the depth sensor than a sound one could have?
 bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior);
 
+// Do the matches of a pose agree with another focal length of the colour camera?  `depth` is what was known of the
+// sensor before the frame.
+bool isOfOtherFocalLength(const Hypothesis &found, const DepthCalibration &depth, const Deadline &deadline);
+
 // The confidence of a pose of so many inliers that these faults and, of edges, a doubt too small for a fault leave.
 double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful);
 

@@ -286,6 +286,7 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   if (known.prior.has_up) checkVertical(known, deadline, faults, work);
   checkHandedness(deadline, faults, work);
   if (best_.isLocalized()) {
+    if (isOfOtherFocalLength(best_, calibrator_.current(), deadline)) *faults |= kFocalDisagrees;
     confidence_of_matches_ = confidenceOf(statedCovariance(best_.estimate));
     widen(between_.turn_sigma_rad, between_.shift_sigma_m, &best_.estimate);
   }

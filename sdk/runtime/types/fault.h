@@ -18,6 +18,7 @@ constexpr Faults kVerticalDisagrees = 256;   // the vertical that was given is n
 constexpr Faults kMirrored = 512;            // left and right are changed against the map
 constexpr Faults kDistancesDisagree = 1024;  // points of the map lie elsewhere than they did
 constexpr Faults kOdometryDisagrees = 2048;  // odometry moves otherwise than poses do
+constexpr Faults kFocalDisagrees = 4096;     // the matches agree with another focal length
 
 // With any of these there is nothing to make a pose from.
 constexpr Faults kContradictions =

@@ -325,6 +325,9 @@ public enum Faults : uint {
   /// <summary>Odometry moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out,
   /// and poses are found without it.</summary>
   OdometryDisagrees = 2048,
+  /// <summary>The matches agree with another focal length: an image that was cropped or scaled, another
+  /// calibration, no depth; confidence is below 0.5.</summary>
+  FocalDisagrees = 4096,
 }
 
 /// <summary>What was left out of a frame for its deadline, bits of result.Cuts: more time might have found a pose,

@@ -17,10 +17,7 @@ using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
 // Of the whitened distance to the ray, by a motion exp(xi) of the pose.
 Matrix36 jacobianOf(const LiftedPoint &lifted, const Residual &r) {
-  const Vector3 view = lifted.view();
-  Matrix3 whitening;
-  for (int i = 0; i < 3; ++i) whitening.col(i) = whiten(lifted, view, Vector3::Unit(i));
-  const Matrix3 across = whitening - r.ray_whitened * (r.ray_whitened.transpose() * whitening);
+  const Matrix3 across = acrossRay(lifted, r);
   Matrix36 jacobian;
   jacobian << across * crossMatrix(r.foot_m), -across;
   return jacobian;

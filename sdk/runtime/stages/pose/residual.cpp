@@ -17,4 +17,11 @@ Residual residualOf(const Correspondence &c, const Rigid &camera_from_map) {
   return r;
 }
 
+Matrix3 acrossRay(const LiftedPoint &lifted, const Residual &r) {
+  const Vector3 view = lifted.view();
+  Matrix3 whitening;
+  for (int i = 0; i < 3; ++i) whitening.col(i) = whiten(lifted, view, Vector3::Unit(i));
+  return whitening - r.ray_whitened * (r.ray_whitened.transpose() * whitening);
+}
+
 }  // namespace sphc

@@ -26,5 +26,7 @@ inline Vector3 whiten(const LiftedPoint &lifted, const Vector3 &view, const Vect
 }
 
 Residual residualOf(const Correspondence &c, const Rigid &camera_from_map);
+// What a shift of the lifted keypoint, in metres, adds to the whitened distance.
+Matrix3 acrossRay(const LiftedPoint &lifted, const Residual &r);
 
 }  // namespace sphc

@@ -38,7 +38,12 @@ public enum Fault {
    * ODOMETRY moves otherwise than poses do: other axes, an inverse, or it stands still; it is left out, and poses
    * are found without it.
    */
-  ODOMETRY_DISAGREES(2048);
+  ODOMETRY_DISAGREES(2048),
+  /**
+   * The matches agree with another focal length: an image that was cropped or scaled, another calibration, no
+   * depth; confidence is below 0.5.
+   */
+  FOCAL_DISAGREES(4096);
 
   private static final Fault[] ALL = values();
   final int bit;
