@@ -23,6 +23,11 @@ struct BetweenImages {
     apart_s = std::max(apart_s, std::min(seconds, tuning::kMostApartS));
     widen(tuning::kTurnApart * apart_s, tuning::kSpeedApart * apart_s);
   }
+  // Other images of the same frame.
+  void add(const BetweenImages &other) {
+    apart_s = std::max(apart_s, other.apart_s);
+    widen(other.turn_sigma_rad, other.shift_sigma_m);
+  }
 
  private:
   static constexpr double kPointsM = 1;  // so much of a turn's error, in m a rad, moves the camera's place

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/localizer/doubt.h"
+#include "runtime/localizer/rig_of_frame.h"
 #include "runtime/localizer/tuning.h"
 #include "runtime/stages/pose/confidence.h"
 
@@ -170,18 +171,17 @@ void Localizer::follow(const FrameInput &frame) {
 LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns) {
   LocalizerResult result;
   result.depth = calibrator_.current();
-  between_ = betweenImagesOf(frame);
-  const FrameRig rig = rigOf(frame);
+  const RigOfFrame rig = rigOfFrame(config_, frame, config_.tracks ? &tracker_ : nullptr);
+  between_ = rig.between;
   const DepthImages depth = read(frame.depth);
-  BetweenImages first_depth;
-  addWay(frame, frame.depth[0].time_ns, &first_depth);
-  consistency_.setCameras(rig.color_camera, rig.depth[0].camera);
+  const DepthPlace &first_depth = rig.cameras.depth[0];
+  consistency_.setCameras(rig.cameras.color_camera, first_depth.camera);
   const Deadline lifted_by = deadline.afterShare(kLiftShare);
-  config_.parallel.both([&] { front_.lift(depth, rig, lifted_by); },
+  config_.parallel.both([&] { front_.lift(depth, rig.cameras, lifted_by); },
                         [&] {
-                          result.faults = consistency_.look({front_.gray(), depth[0], rig.depth[0].color_from_depth,
+                          result.faults = consistency_.look({front_.gray(), depth[0], first_depth.color_from_depth,
                                                              frame.color_time_ns, frame.depth[0].time_ns,
-                                                             first_depth.areApart(), hidesEdges});
+                                                             rig.between_first_depth.areApart(), hidesEdges});
                         });
   const int64_t aligned = config_.clock.now();
   Work work;
@@ -207,56 +207,6 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
 bool Localizer::predict(int64_t time_ns, MovedPose *moved) const {
   Motion motion;
   return tracker_.motion(trail_, &motion) && moveTo(time_ns, motion, moved);
-}
-
-// The cameras move between two exposures; odometry tells how.
-bool Localizer::waySince(const FrameInput &frame, int64_t time_ns, Way *way) const {
-  return time_ns == frame.color_time_ns || (config_.tracks && tracker_.waySince(time_ns, way));
-}
-
-Rigid Localizer::atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const {
-  Way way;
-  return waySince(frame, time_ns, &way) ? way.now_from_then * color_from_sensor : color_from_sensor;
-}
-
-void Localizer::addWay(const FrameInput &frame, int64_t time_ns, BetweenImages *between) const {
-  Way way;
-  if (waySince(frame, time_ns, &way))
-    between->add(way);
-  else
-    between->addUnknown(secondsOf(apartNs(frame.color_time_ns, time_ns)));
-}
-
-// Of the images that are there.
-BetweenImages Localizer::betweenImagesOf(const FrameInput &frame) const {
-  BetweenImages between;
-  for (const FurtherView &view : frame.further)
-    if (view.image.bytes.data) addWay(frame, view.time_ns, &between);
-  for (const DepthView &view : frame.depth)
-    if (view.depth.data) addWay(frame, view.time_ns, &between);
-  return between;
-}
-
-FrameRig Localizer::rigOf(const FrameInput &frame) const {
-  FrameRig rig;
-  rig.color_camera = frame.color_camera.value_or(config_.color_camera);
-  rig.color_row_time_s = config_.color_row_time_s;
-  if (config_.tracks) rig.motion = tracker_.rate();
-  rig.teaches = !between_.areApart();
-  for (size_t i = 0; i < frame.further.size(); ++i) {
-    const FurtherView &view = frame.further[i];
-    const RigCamera &known = config_.further[i];
-    rig.further.push({view.camera.value_or(known.camera),
-                      atColorTime(frame, view.time_ns, view.color_from_camera.value_or(known.color_from_camera)),
-                      known.row_time_s});
-  }
-  for (size_t i = 0; i < frame.depth.size(); ++i) {
-    const DepthView &view = frame.depth[i];
-    const RigDepthCamera &known = config_.depth[i];
-    rig.depth.push({view.camera.value_or(known.camera),
-                    atColorTime(frame, view.time_ns, view.color_from_depth.value_or(known.color_from_depth))});
-  }
-  return rig;
 }
 
 DepthImages Localizer::read(const DepthViews &views) {
@@ -286,7 +236,8 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   if (known.prior.has_up) checkVertical(known, deadline, faults, work);
   checkHandedness(deadline, faults, work);
   if (best_.isLocalized()) {
-    if (isOfOtherFocalLength(best_, calibrator_.current(), deadline)) *faults |= kFocalDisagrees;
+    if (!between_.areApart() && isOfOtherFocalLength(best_, calibrator_.current(), deadline))
+      *faults |= kFocalDisagrees;
     confidence_of_matches_ = confidenceOf(statedCovariance(best_.estimate));
     widen(between_.turn_sigma_rad, between_.shift_sigma_m, &best_.estimate);
   }

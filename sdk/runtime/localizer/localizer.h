@@ -67,11 +67,6 @@ class Localizer {
   const BetweenImages &betweenImages() const { return between_; }
 
  private:
-  bool waySince(const FrameInput &frame, int64_t time_ns, Way *way) const;
-  Rigid atColorTime(const FrameInput &frame, int64_t time_ns, const Rigid &color_from_sensor) const;
-  void addWay(const FrameInput &frame, int64_t time_ns, BetweenImages *between) const;
-  BetweenImages betweenImagesOf(const FrameInput &frame) const;
-  FrameRig rigOf(const FrameInput &frame) const;
   DepthImages read(const DepthViews &views);
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
   void follow(const FrameInput &frame);

@@ -28,6 +28,25 @@ TEST(Localizer, LocalizesInItsRoom) {
   }
 }
 
+// The room is small, and nearly plane as it is seen from here: of a plane seen straight on no focal length shows.
+TEST(Localizer, AFocalLengthThatTheMatchesDoNotAgreeWithIsNamed) {
+  const sphc_localizer_config config = test::sceneConfig();
+  for (const double stated_over_true : {0.85, 1.0}) {
+    sphc_localizer_config stated = config;
+    for (sphc_camera *camera : {&stated.rig.color_camera, &stated.rig.depth_camera})
+      for (int i = 0; i < 2; ++i) camera->params[i] *= stated_over_true;
+    test::Session session(stated);
+    const auto frame = test::sceneFrame(config, 5);
+    sphc_localizer_result result;
+    EXPECT_EQ(session.process(frame->frame, &result), SPHC_OK) << stated_over_true;
+    EXPECT_EQ(result.faults, stated_over_true < 1 ? uint32_t{SPHC_FAULT_FOCAL_DISAGREES} : 0u);
+    EXPECT_EQ(result.confidence <= 0.25, stated_over_true < 1) << result.confidence;
+    frame->frame.color_time_ns += 100000000;
+    session.process(frame->frame, &result);
+    EXPECT_EQ(result.faults, 0u) << "images of other times disagree for another reason";
+  }
+}
+
 TEST(Localizer, DarknessHasFewKeypoints) {
   const sphc_localizer_config config = test::sceneConfig();
   test::Session session(config);

@@ -75,7 +75,7 @@ TEST(FocalScale, IsOfTheColourCameraAlone) {
 TEST(FocalScale, IsUnknownWhereNothingTells) {
   Seen seen = see(1.1);
   const auto until = [](int64_t time_ns) {
-    return Deadline{{nullptr, [](void *) { return int64_t{5}; }}, time_ns};
+    return Deadline{{[](void *) { return int64_t{5}; }, nullptr}, time_ns};
   };
   EXPECT_FALSE(scaleOf(seen, until(4)).isBeyond(1));
   EXPECT_TRUE(scaleOf(seen, until(6)).isBeyond(4));

@@ -1,0 +1,57 @@
+#include "runtime/localizer/rig_of_frame.h"
+
+namespace sphc {
+namespace {
+
+// The way of the camera from the times of other images to that of the colour image.
+class WayToColor {
+ public:
+  WayToColor(int64_t color_time_ns, const Tracker *tracker) : color_time_ns_(color_time_ns), tracker_(tracker) {}
+
+  // Where a sensor stood at the time of the colour image; `between` learns of the way there.
+  Rigid place(int64_t time_ns, const Rigid &color_from_sensor, BetweenImages *between) const {
+    Way way;
+    if (time_ns != color_time_ns_ && !(tracker_ && tracker_->waySince(time_ns, &way))) {
+      between->addUnknown(secondsOf(apartNs(color_time_ns_, time_ns)));
+      return color_from_sensor;
+    }
+    between->add(way);
+    return way.now_from_then * color_from_sensor;
+  }
+
+ private:
+  int64_t color_time_ns_;
+  const Tracker *tracker_;
+};
+
+}  // namespace
+
+RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, const Tracker *tracker) {
+  RigOfFrame rig;
+  BetweenImages unused;  // of an image that is not there
+  const WayToColor way(frame.color_time_ns, tracker);
+  rig.cameras.color_camera = frame.color_camera.value_or(config.color_camera);
+  rig.cameras.color_row_time_s = config.color_row_time_s;
+  if (tracker) rig.cameras.motion = tracker->rate();
+  for (size_t i = 0; i < frame.further.size(); ++i) {
+    const FurtherView &view = frame.further[i];
+    const RigCamera &known = config.further[i];
+    rig.cameras.further.push({view.camera.value_or(known.camera),
+                              way.place(view.time_ns, view.color_from_camera.value_or(known.color_from_camera),
+                                        view.image.bytes.data ? &rig.between : &unused),
+                              known.row_time_s});
+  }
+  for (size_t i = 0; i < frame.depth.size(); ++i) {
+    const DepthView &view = frame.depth[i];
+    const RigDepthCamera &known = config.depth[i];
+    BetweenImages between;
+    const Rigid place = way.place(view.time_ns, view.color_from_depth.value_or(known.color_from_depth), &between);
+    rig.cameras.depth.push({view.camera.value_or(known.camera), place});
+    if (view.depth.data) rig.between.add(between);
+    if (i == 0) rig.between_first_depth = between;
+  }
+  rig.cameras.teaches = !rig.between.areApart();
+  return rig;
+}
+
+}  // namespace sphc

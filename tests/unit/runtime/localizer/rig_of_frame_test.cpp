@@ -1,0 +1,90 @@
+#include "runtime/localizer/rig_of_frame.h"
+
+#include <gtest/gtest.h>
+
+namespace sphc {
+namespace {
+
+constexpr int64_t kStep = 33000000;
+constexpr uint8_t kByte = 0;  // some image
+
+Rigid beside(double x_m) { return {Matrix3::Identity(), Vector3(x_m, 0, 0)}; }
+
+// A colour camera with a depth camera 4 cm, and a further one 6 cm, beside it.
+LocalizerConfig configOfThree() {
+  LocalizerConfig config;
+  config.depth.push({});
+  RigCamera further;
+  further.color_from_camera = beside(0.06);
+  config.further.push(further);
+  return config;
+}
+
+FrameInput frameAt(int64_t time_ns) {
+  FrameInput frame;
+  frame.color_time_ns = time_ns;
+  DepthView depth;
+  depth.depth.data = &kByte;
+  depth.time_ns = time_ns;
+  depth.color_from_depth = beside(0.04);
+  frame.depth.push(depth);
+  FurtherView further;
+  further.image.bytes.data = &kByte;
+  further.time_ns = time_ns;
+  frame.further.push(further);
+  return frame;
+}
+
+double xOf(const Rigid &transform) { return transform.translation_m.x(); }
+
+TEST(RigOfFrame, OfOneTimeIsAsItWasBuilt) {
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frameAt(kStep), nullptr);
+  EXPECT_EQ(xOf(rig.cameras.depth[0].color_from_depth), 0.04);
+  EXPECT_EQ(xOf(rig.cameras.further[0].color_from_camera), 0.06);
+  EXPECT_EQ(rig.between.shift_sigma_m, 0);
+  EXPECT_TRUE(rig.cameras.teaches);
+}
+
+TEST(RigOfFrame, WithoutATrackerTheWayIsUnknown) {
+  FrameInput frame = frameAt(10 * kStep);
+  frame.depth[0].time_ns -= 3 * kStep;
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, nullptr);
+  EXPECT_EQ(xOf(rig.cameras.depth[0].color_from_depth), 0.04);
+  EXPECT_NEAR(rig.between.apart_s, 0.099, 1e-9);
+  EXPECT_TRUE(rig.between.areApart());
+  EXPECT_TRUE(rig.between_first_depth.areApart());
+  EXPECT_FALSE(rig.cameras.teaches);
+}
+
+TEST(RigOfFrame, AnImageThatIsNotThereDoesNotCount) {
+  FrameInput frame = frameAt(10 * kStep);
+  frame.further[0].time_ns = 0;
+  EXPECT_TRUE(rigOfFrame(configOfThree(), frame, nullptr).between.areApart());
+  EXPECT_FALSE(rigOfFrame(configOfThree(), frame, nullptr).between_first_depth.areApart());
+  frame.further[0].image.bytes.data = nullptr;
+  EXPECT_EQ(rigOfFrame(configOfThree(), frame, nullptr).between.apart_s, 0);
+  frame.depth[0].time_ns = 0;
+  frame.depth[0].depth.data = nullptr;
+  EXPECT_EQ(rigOfFrame(configOfThree(), frame, nullptr).between.apart_s, 0);
+}
+
+// The camera goes 1 cm a frame along x, so what it saw two frames ago lies 2 cm behind.
+TEST(RigOfFrame, OdometryTakesImagesToTheTimeOfColour) {
+  Tracker tracker;
+  for (int i = 1; i <= 4; ++i) {
+    const Odometry odometry = {beside(0.01 * i), 0.0001, 0.001};
+    tracker.advance(i * kStep, &odometry);
+  }
+  FrameInput frame = frameAt(4 * kStep);
+  frame.depth[0].time_ns -= 2 * kStep;
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, &tracker);
+  EXPECT_NEAR(xOf(rig.cameras.depth[0].color_from_depth), 0.04 - 0.02, 1e-9);
+  EXPECT_EQ(xOf(rig.cameras.further[0].color_from_camera), 0.06);
+  EXPECT_EQ(rig.between.apart_s, 0);
+  EXPECT_GT(rig.between.shift_sigma_m, 0.001);
+  EXPECT_FALSE(rig.between.areApart());
+  EXPECT_NEAR(rig.cameras.motion.shift_m_s.norm(), 0.01 / (1e-9 * kStep), 1e-6);
+}
+
+}  // namespace
+}  // namespace sphc
