@@ -317,7 +317,7 @@ class Fault(enum.IntFlag):
     are found without it."""
     FOCAL_DISAGREES = 4096
     """The matches agree with another focal length: an image that was cropped or scaled, another calibration, no
-    depth; confidence is below 0.5."""
+    depth; confidence is at most 0.5."""
 
 
 class Cut(enum.IntFlag):

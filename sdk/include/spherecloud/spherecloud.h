@@ -690,7 +690,7 @@ enum {
   SPHC_FAULT_ODOMETRY_DISAGREES = 2048u, /* ODOMETRY moves otherwise than poses do: other axes, an inverse, or it
                                             stands still; it is left out, and poses are found without it */
   SPHC_FAULT_FOCAL_DISAGREES = 4096u     /* the matches agree with another focal length: an image that was cropped
-                                            or scaled, another calibration, no depth; confidence is below 0.5 */
+                                            or scaled, another calibration, no depth; confidence is at most 0.5 */
 };
 SPHC_API const char *sphc_localizer_fault_name(uint32_t fault); /* [pure] */
 

@@ -75,9 +75,9 @@ bool isOfOtherFocalLength(const Hypothesis &found, const DepthCalibration &depth
 }
 
 double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful) {
-  if (faults & (kDepthScale | kDepthBias | kFocalDisagrees)) return std::min(confidence, kMostConfidenceOfFaults);
+  if (faults & (kDepthScale | kDepthBias)) return std::min(confidence, kMostConfidenceOfFaults);
   const bool doubtful = edges_are_doubtful && inliers < kInliersBeyondDoubtfulEdges;
-  return doubtful ? std::min(confidence, kMostConfidenceOfDoubtfulEdges) : confidence;
+  return doubtful || (faults & kFocalDisagrees) ? std::min(confidence, kMostConfidenceOfDoubt) : confidence;
 }
 
 bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found) {

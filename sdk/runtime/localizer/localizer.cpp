@@ -236,8 +236,7 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
   if (known.prior.has_up) checkVertical(known, deadline, faults, work);
   checkHandedness(deadline, faults, work);
   if (best_.isLocalized()) {
-    if (!between_.areApart() && isOfOtherFocalLength(best_, calibrator_.current(), deadline))
-      *faults |= kFocalDisagrees;
+    if (!between_.areApart()) checkFocalLength(deadline, faults, work);
     confidence_of_matches_ = confidenceOf(statedCovariance(best_.estimate));
     widen(between_.turn_sigma_rad, between_.shift_sigma_m, &best_.estimate);
   }
@@ -259,6 +258,12 @@ void Localizer::checkVertical(const Known &known, const Deadline &deadline, Faul
     ranking_.clear();  // those poses stood on it
     locate(rest, deadline, work);
   }
+}
+
+// A frame may lack this step for its deadline.
+void Localizer::checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const {
+  if (deadline.passed()) work->cuts |= kCutVerification;
+  if (isOfOtherFocalLength(best_, calibrator_.current(), deadline)) *faults |= kFocalDisagrees;
 }
 
 // With what earlier frames said of odometry, of the points and of the camera.

@@ -84,6 +84,7 @@ class Localizer {
   PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
   void propose();
   void checkVertical(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
+  void checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const;
   void compareWithTrack(const FrameInput &frame, Faults *faults);
   void doubtByTrack(int64_t time_ns, Faults *faults);
   void contradict(Faults by, Faults *faults);

@@ -184,7 +184,7 @@ constexpr double kVerticalSigmas = 3, kLeastVerticalRad = degrees(1);
 // Where the score of a focal length is beyond the first, its optimum is looked for; beyond the others it is a
 // fault.
 constexpr double kDoubtfulFocalSigmas = 1.5, kFocalSigmas = 3.5, kLeastFocalOff = 0.045;
-constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubtfulEdges = 0.5;
+constexpr double kMostConfidenceOfFaults = 0.25, kMostConfidenceOfDoubt = 0.5;
 // Of a map point's distance by one frame, beside depth's and the pose's errors: what maps and biases are off by.
 constexpr double kDistanceFloorM = 0.007, kDistanceShare = 0.007;
 // A pose of so many inliers is not doubted for its edges alone: of poses that late, mirrored or displaced depth

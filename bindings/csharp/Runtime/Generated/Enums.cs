@@ -326,7 +326,7 @@ public enum Faults : uint {
   /// and poses are found without it.</summary>
   OdometryDisagrees = 2048,
   /// <summary>The matches agree with another focal length: an image that was cropped or scaled, another
-  /// calibration, no depth; confidence is below 0.5.</summary>
+  /// calibration, no depth; confidence is at most 0.5.</summary>
   FocalDisagrees = 4096,
 }
 

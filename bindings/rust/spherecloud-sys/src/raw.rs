@@ -297,7 +297,7 @@ pub const SPHC_FAULT_DISTANCES_DISAGREE: u32 = 1024;
 /// and poses are found without it
 pub const SPHC_FAULT_ODOMETRY_DISAGREES: u32 = 2048;
 /// the matches agree with another focal length: an image that was cropped or scaled, another
-/// calibration, no depth; confidence is below 0.5
+/// calibration, no depth; confidence is at most 0.5
 pub const SPHC_FAULT_FOCAL_DISAGREES: u32 = 4096;
 /// fine scales of the image, or the weakest keypoints
 pub const SPHC_CUT_FEATURES: u32 = 1;

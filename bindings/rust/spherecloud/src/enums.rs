@@ -314,7 +314,7 @@ flags! {
         /// and poses are found without it
         ODOMETRY_DISAGREES = sys::SPHC_FAULT_ODOMETRY_DISAGREES,
         /// the matches agree with another focal length: an image that was cropped or scaled, another
-        /// calibration, no depth; confidence is below 0.5
+        /// calibration, no depth; confidence is at most 0.5
         FOCAL_DISAGREES = sys::SPHC_FAULT_FOCAL_DISAGREES,
     }
 }

@@ -120,8 +120,10 @@ TEST(Doubt, LowersTheConfidenceAndNeverRaisesIt) {
   EXPECT_EQ(doubted(0.9, kFew, kDepthConstant, false), 0.9);  // which takes the pose away
   EXPECT_EQ(doubted(0.9, kMany, kDepthScale, false), kMostConfidenceOfFaults);
   EXPECT_EQ(doubted(0.9, kMany, kDepthBias, false), kMostConfidenceOfFaults);
-  EXPECT_EQ(doubted(0.9, kFew, 0, true), kMostConfidenceOfDoubtfulEdges);
+  EXPECT_EQ(doubted(0.9, kFew, 0, true), kMostConfidenceOfDoubt);
   EXPECT_EQ(doubted(0.9, kMany, 0, true), 0.9);
+  EXPECT_EQ(doubted(0.9, kMany, kFocalDisagrees, false), kMostConfidenceOfDoubt);
+  EXPECT_EQ(doubted(0.9, kMany, kFocalDisagrees | kDepthBias, false), kMostConfidenceOfFaults);
   EXPECT_EQ(doubted(0.1, kFew, kDepthScale, true), 0.1);
 }
 

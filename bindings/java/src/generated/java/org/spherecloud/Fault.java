@@ -41,7 +41,7 @@ public enum Fault {
   ODOMETRY_DISAGREES(2048),
   /**
    * The matches agree with another focal length: an image that was cropped or scaled, another calibration, no
-   * depth; confidence is below 0.5.
+   * depth; confidence is at most 0.5.
    */
   FOCAL_DISAGREES(4096);
 
