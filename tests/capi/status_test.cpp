@@ -79,7 +79,7 @@ TEST(CInterfaceStatus, EachFaultHasAName) {
   for (uint32_t bit = SPHC_FAULT_DEPTH_RANGE; bit <= SPHC_FAULT_FOCAL_DISAGREES; bit <<= 1)
     EXPECT_STRNE(sphc_localizer_fault_name(bit), "SPHC_FAULT_?") << bit;
   EXPECT_STREQ(sphc_localizer_fault_name(0), "SPHC_FAULT_?");
-  EXPECT_STREQ(sphc_localizer_fault_name(4096), "SPHC_FAULT_?");
+  EXPECT_STREQ(sphc_localizer_fault_name(SPHC_FAULT_FOCAL_DISAGREES << 1), "SPHC_FAULT_?");
 }
 
 TEST(CInterfaceStatus, EachCutHasAName) {
