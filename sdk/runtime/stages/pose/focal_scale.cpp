@@ -10,36 +10,37 @@
 namespace sphc {
 namespace {
 
-constexpr uint32_t kUnknowns = kPoseUnknowns + 1;  // those of a pose, and the scale
-constexpr uint32_t kGrain = 64;                    // correspondences between two looks at the clock
-constexpr double kGate = 64;                       // times scale2: residuals beyond it are not looked at
-constexpr double kVague = 1e-6;                    // information about what nothing pins down
-constexpr double kLeastOff = -0.4, kMostOff = 0.6;
+constexpr uint32_t kFocalUnknowns = kPoseUnknowns + 1;  // those of a pose, and the scale
+constexpr uint32_t kFocalGrain = 64;                    // correspondences between two looks at the clock
+constexpr double kFocalGate = 64;                       // times scale2: residuals beyond it are not looked at
+constexpr double kVagueFocal = 1e-6;                    // information about what nothing pins down
+constexpr double kLeastFocalScale = -0.4, kMostFocalScale = 0.6;
 // Squared residuals at which a match has lost three quarters of its weight, step by step: those that the stated
 // focal length made outliers come back.
-constexpr double kScales2[] = {32, 16, 16, kFinalScale2, kFinalScale2, kFinalScale2};
+constexpr double kFocalScales2[] = {32, 16, 16, kFinalScale2, kFinalScale2, kFinalScale2};
 
-struct State {
+struct FocalState {
   Rigid pose;
   Vector2 bias;  // beyond what was known: offset_m, slope
   double off = 0;
 };
 
 // Of the unknowns in the order of refinement: turn, shift, bias; and the scale apart.
-struct Equations {
+struct FocalEquations {
   Matrix8 matrix = Matrix8::Zero();
   Vector8 shared = Vector8::Zero(), gradient = Vector8::Zero();
   double own = 0, own_gradient = 0;
 };
 
 // How the error of a match, and by what weight it counts, changes with the unknowns.
-struct Row {
-  Eigen::Matrix<double, 3, kUnknowns> jacobian;
+struct FocalRow {
+  Eigen::Matrix<double, 3, kFocalUnknowns> jacobian;
   Vector3 whitened;
   double weight = 0;
 };
 
-bool rowOf(const Correspondence &given, const DepthCalibration &depth, const State &at, double scale2, Row *row) {
+bool rowOf(const Correspondence &given, const DepthCalibration &depth, const FocalState &at, double scale2,
+           FocalRow *row) {
   const LiftedPoint &stated = given.lifted;
   if (!stated.hasDepth()) return false;
   const double z = stated.point_m.z(), beyond_m = z - depth.mid_m;
@@ -55,7 +56,7 @@ bool rowOf(const Correspondence &given, const DepthCalibration &depth, const Sta
   c.lifted.sideways_m *= stretched;
   c.lifted.along_m *= stretched * depth.noise_scale;
   const Residual r = residualOf(c, at.pose);
-  if (!r.in_front || !(r.squared < kGate * scale2)) return false;
+  if (!r.in_front || !(r.squared < kFocalGate * scale2)) return false;
 
   const Matrix3 across = acrossRay(c.lifted, r);
   const Vector3 longer_by_bias = across * scaled / z;
@@ -66,8 +67,8 @@ bool rowOf(const Correspondence &given, const DepthCalibration &depth, const Sta
   return true;
 }
 
-void add(const Row &row, Equations *equations) {
-  for (uint32_t i = 0; i < kUnknowns; ++i) {
+void add(const FocalRow &row, FocalEquations *equations) {
+  for (uint32_t i = 0; i < kFocalUnknowns; ++i) {
     const Vector3 column = row.weight * row.jacobian.col(i);
     const double pull = column.dot(row.whitened);
     if (i == kPoseUnknowns) {
@@ -81,8 +82,8 @@ void add(const Row &row, Equations *equations) {
   }
 }
 
-void addPrior(const DepthCalibration &depth, const State &at, Equations *equations) {
-  equations->matrix.diagonal().array() += kVague;
+void addPrior(const DepthCalibration &depth, const FocalState &at, FocalEquations *equations) {
+  equations->matrix.diagonal().array() += kVagueFocal;
   if (depth.isKnown()) {
     equations->matrix.bottomRows<2>().setZero();
     equations->matrix(6, 6) = equations->matrix(7, 7) = 1;
@@ -96,9 +97,9 @@ void addPrior(const DepthCalibration &depth, const State &at, Equations *equatio
 }
 
 // False where the deadline passes before.
-bool linearise(Span<const Correspondence> correspondences, const DepthCalibration &depth, const State &at,
-               double scale2, Watch *watch, Equations *equations) {
-  Row row;
+bool linearise(Span<const Correspondence> correspondences, const DepthCalibration &depth, const FocalState &at,
+               double scale2, Watch *watch, FocalEquations *equations) {
+  FocalRow row;
   for (const Correspondence &c : correspondences) {
     if (watch->passed(1)) return false;
     if (rowOf(c, depth, at, scale2, &row)) add(row, equations);
@@ -108,13 +109,13 @@ bool linearise(Span<const Correspondence> correspondences, const DepthCalibratio
 }
 
 // One step for all unknowns, the scale's by the Schur complement of the others.  False where nothing pins it down.
-bool step(const Equations &equations, State *state, double *information) {
+bool step(const FocalEquations &equations, FocalState *state, double *information) {
   const Vector8 by_scale = solveSymmetric(equations.matrix, equations.shared);
   const Vector8 by_others = solveSymmetric(equations.matrix, equations.gradient);
   *information = equations.own - equations.shared.dot(by_scale);
   const double pull = equations.own_gradient - equations.shared.dot(by_others);
-  if (!(*information > kVague) || !isFinite(pull)) return false;
-  const double off = std::min(std::max(state->off - pull / *information, kLeastOff), kMostOff);
+  if (!(*information > kVagueFocal) || !isFinite(pull)) return false;
+  const double off = std::min(std::max(state->off - pull / *information, kLeastFocalScale), kMostFocalScale);
   const Vector8 others = -by_others - (off - state->off) * by_scale;
   if (!isFinite(others.sum())) return false;
   const Matrix3 turn = rotationFromVector(others.head<3>());
@@ -128,12 +129,12 @@ bool step(const Equations &equations, State *state, double *information) {
 
 FocalScale focalScaleOf(Span<const Correspondence> correspondences, const Estimate &estimate,
                         const DepthCalibration &depth, double doubtful_sigmas, const Deadline &deadline) {
-  Watch watch(deadline, kGrain);
-  State state = {estimate.camera_from_map, estimate.depth.mean - depth.mean, 0};
+  Watch watch(deadline, kFocalGrain);
+  FocalState state = {estimate.camera_from_map, estimate.depth.mean - depth.mean, 0};
   const double scatter = std::max(1.0, estimate.unit_variance);
   FocalScale found;
   const auto follow = [&](double scale2) {
-    Equations equations;
+    FocalEquations equations;
     double information;
     if (!linearise(correspondences, depth, state, scale2, &watch, &equations)) return false;
     if (!step(equations, &state, &information)) return false;
@@ -142,7 +143,7 @@ FocalScale focalScaleOf(Span<const Correspondence> correspondences, const Estima
   };
   if (!follow(kFinalScale2)) return {};
   if (!found.isBeyond(doubtful_sigmas)) return found;
-  for (const double scale2 : kScales2)
+  for (const double scale2 : kFocalScales2)
     if (!follow(scale2)) return {};
   return found;
 }
