@@ -20,8 +20,7 @@ constexpr double kLeastFocalScale = -0.4, kMostFocalScale = 0.6;
 constexpr double kFocalScales2[] = {32, 16, 16, kFinalScale2, kFinalScale2, kFinalScale2};
 
 struct FocalState {
-  Rigid pose;
-  Vector2 bias;  // beyond what was known: offset_m, slope
+  PoseState others;
   double off = 0;
 };
 
@@ -44,7 +43,7 @@ bool rowOf(const Correspondence &given, const DepthCalibration &depth, const Foc
   const LiftedPoint &stated = given.lifted;
   if (!stated.hasDepth()) return false;
   const double z = stated.point_m.z(), beyond_m = z - depth.mid_m;
-  const double longer = 1 + (depth.correctionAt(z) + at.bias[0] + at.bias[1] * beyond_m) / z;
+  const double longer = 1 + (depth.correctionAt(z) + at.others.bias[0] + at.others.bias[1] * beyond_m) / z;
   const bool is_scaled = stated.centre_m.isZero(0);
   const Vector3 sideways(stated.point_m.x(), stated.point_m.y(), 0);
   Vector3 scaled = stated.point_m;
@@ -55,7 +54,7 @@ bool rowOf(const Correspondence &given, const DepthCalibration &depth, const Foc
   const double stretched = c.lifted.point_m.norm() / stated.point_m.norm();
   c.lifted.sideways_m *= stretched;
   c.lifted.along_m *= stretched * depth.noise_scale;
-  const Residual r = residualOf(c, at.pose);
+  const Residual r = residualOf(c, at.others.pose);
   if (!r.in_front || !(r.squared < kFocalGate * scale2)) return false;
 
   const Matrix3 across = acrossRay(c.lifted, r);
@@ -93,7 +92,7 @@ void addPrior(const DepthCalibration &depth, const FocalState &at, FocalEquation
   }
   const Matrix2 information = depth.covariance.inverse();
   equations->matrix.bottomRightCorner<2, 2>() += information;
-  equations->gradient.tail<2>() += information * at.bias;
+  equations->gradient.tail<2>() += information * at.others.bias;
 }
 
 // False where the deadline passes before.
@@ -118,9 +117,7 @@ bool step(const FocalEquations &equations, FocalState *state, double *informatio
   const double off = std::min(std::max(state->off - pull / *information, kLeastFocalScale), kMostFocalScale);
   const Vector8 others = -by_others - (off - state->off) * by_scale;
   if (!isFinite(others.sum())) return false;
-  const Matrix3 turn = rotationFromVector(others.head<3>());
-  state->pose = {turn * state->pose.rotation, turn * state->pose.translation_m + others.segment<3>(3)};
-  state->bias += others.tail<2>();
+  state->others = moved(state->others, others);
   state->off = off;
   return true;
 }
@@ -130,7 +127,7 @@ bool step(const FocalEquations &equations, FocalState *state, double *informatio
 FocalScale focalScaleOf(Span<const Correspondence> correspondences, const Estimate &estimate,
                         const DepthCalibration &depth, double doubtful_sigmas, const Deadline &deadline) {
   Watch watch(deadline, kFocalGrain);
-  FocalState state = {estimate.camera_from_map, estimate.depth.mean - depth.mean, 0};
+  FocalState state = {{estimate.camera_from_map, estimate.depth.mean - depth.mean}, 0};
   const double scatter = std::max(1.0, estimate.unit_variance);
   FocalScale found;
   const auto follow = [&](double scale2) {

@@ -19,11 +19,6 @@ constexpr uint32_t kRefineGrain = 2048,
                    kSolving = 256;   // rows between two looks at the clock; rows that a solution costs
 constexpr double kConverged = 1e-3;  // of the squared step in units of its own standard deviation
 
-struct State {
-  Rigid pose;
-  Vector2 bias = Vector2::Zero();
-};
-
 struct NormalEquations {
   Matrix8 matrix = Matrix8::Zero();
   Vector8 gradient = Vector8::Zero();
@@ -44,7 +39,7 @@ struct NormalEquations {
 
 // What is known beside the rows.  The vertical: (R up_map - up_camera) / sigma, and a turn by omega adds
 // omega x R up_map.
-NormalEquations priorEquations(const RefineTask &task, const State &at) {
+NormalEquations priorEquations(const RefineTask &task, const PoseState &at) {
   NormalEquations equations;
   if (task.prior && task.prior->has_up) {
     const double weight = 1 / (task.prior->up_sigma_rad * task.prior->up_sigma_rad);
@@ -74,7 +69,7 @@ NormalEquations planeEquations(const RefineTask &task, const NormalTask &kernel)
   return equations;
 }
 
-NormalEquations linearise(const RefineTask &task, const State &at) {
+NormalEquations linearise(const RefineTask &task, const PoseState &at) {
   const NormalTask kernel = normalTask(task, at.pose, at.bias);
   NormalEquations equations = priorEquations(task, at);
   NormalSums sums;
@@ -88,18 +83,10 @@ NormalEquations linearise(const RefineTask &task, const State &at) {
 }
 
 // Of the state at which everything together has the normal matrix `all`.
-Matrix8 informationAt(const RefineTask &task, const State &at, const Matrix8 &all) {
+Matrix8 informationAt(const RefineTask &task, const PoseState &at, const Matrix8 &all) {
   const Matrix8 prior = priorEquations(task, at).matrix;
   const Matrix8 planes = planeEquations(task, normalTask(task, at.pose, at.bias)).matrix;
   return prior + (all - prior - planes) / kCovarianceOfLoss + planes / kCovarianceOfPlaneLoss;
-}
-
-State moved(const State &state, const Vector8 &step) {
-  const Matrix3 turn = rotationFromVector(step.head<3>());
-  State next;
-  next.pose = {turn * state.pose.rotation, turn * state.pose.translation_m + step.segment<3>(3)};
-  next.bias = state.bias + step.tail<2>();
-  return next;
 }
 
 Vector8 solved(const NormalEquations &equations, double damping) {
@@ -115,6 +102,14 @@ bool isSmall(const Vector8 &step, const NormalEquations &equations) {
 }
 
 }  // namespace
+
+PoseState moved(const PoseState &state, const Vector8 &step) {
+  const Matrix3 turn = rotationFromVector(step.head<3>());
+  PoseState next;
+  next.pose = {turn * state.pose.rotation, turn * state.pose.translation_m + step.segment<3>(3)};
+  next.bias = state.bias + step.tail<2>();
+  return next;
+}
 
 NormalTask normalTask(const RefineTask &task, const Rigid &pose, const Vector2 &bias) {
   NormalTask kernel = {};
@@ -135,7 +130,7 @@ double finalInformation(double squared) {
 Rigid improvePose(const RefineTask &task, const Rigid &start, int steps) {
   RefineTask plain = task;
   plain.depth.covariance.setZero();
-  State state;
+  PoseState state;
   state.pose = start;
   for (int i = 0; i < steps; ++i) {
     const NormalEquations now = linearise(plain, state);
@@ -148,7 +143,7 @@ Rigid improvePose(const RefineTask &task, const Rigid &start, int steps) {
 }
 
 Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations) {
-  State state;
+  PoseState state;
   state.pose = start;
   NormalEquations now = linearise(task, state);
   double damping = kLeastDamping;
@@ -157,7 +152,7 @@ Refinement refinePose(const RefineTask &task, const Rigid &start, int iterations
     if (watch.passed(task.lifted->count + kSolving)) break;
     const Vector8 step = solved(now, damping);
     if (!isFinite(step.sum())) break;
-    const State next = moved(state, step);
+    const PoseState next = moved(state, step);
     if (isSmall(step, now)) {  // too small to be worth another step
       state = next;
       break;

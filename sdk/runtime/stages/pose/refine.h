@@ -14,6 +14,14 @@ using Vector8 = Eigen::Matrix<double, kPoseUnknowns, 1>;
 
 constexpr double kFinalScale2 = 8;  // scale2 of the last refinement
 
+// What a refinement changes.
+struct PoseState {
+  Rigid pose;                      // camera from map
+  Vector2 bias = Vector2::Zero();  // of depth, beyond what is known: offset_m, slope
+};
+// By a turn and a shift in the camera frame, T = exp(xi) T_state, and a change of the bias.
+PoseState moved(const PoseState &state, const Vector8 &step);
+
 struct RefineTask {
   const PoseKernels *kernels;
   const PoseRows *lifted;
