@@ -107,6 +107,24 @@ TEST(Cameras, TheOthersLocalizeWhereTheColourCameraIsBlind) {
   for (const sphc_localizer_observation &o : observationsOf(&session)) EXPECT_NE(o.camera, 0u);
 }
 
+// Those of further cameras would be doubted for what is wrong with another's calibration.
+TEST(Cameras, TheColourCameraAloneIsAskedForItsFocalLength) {
+  const Rig seen;
+  for (const bool is_color_wrong : {true, false}) {
+    Rig stated;
+    std::vector<sphc_camera *> wrong = {&stated.config.rig.color_camera, &stated.config.rig.depth_camera};
+    if (!is_color_wrong) wrong = {&stated.cameras[0].camera, &stated.cameras[1].camera};
+    for (sphc_camera *camera : wrong)
+      for (int i = 0; i < 2; ++i) camera->params[i] *= 0.85;
+    Session session(stated.config);
+    const RigFrame made(seen, kViewpoint);
+    sphc_localizer_result result = spherecloud::emptyResult();
+    EXPECT_EQ(session.process(made.frame, &result), SPHC_OK);
+    EXPECT_EQ(result.faults, is_color_wrong ? uint32_t{SPHC_FAULT_FOCAL_DISAGREES} : 0u);
+    EXPECT_EQ(result.confidence <= 0.5, is_color_wrong) << result.confidence;
+  }
+}
+
 TEST(Cameras, OneWithoutAnImageIsLeftOut) {
   const Rig rig;
   Session session(rig.config);

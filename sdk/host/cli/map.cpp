@@ -66,19 +66,21 @@ class Steps {
   std::unique_ptr<ProgressBar> bar_;
 };
 
+std::optional<sphc_rigid> poseOf(const recording::PoseTrack &path, int64_t time_ns) {
+  sphc_rigid pose;
+  if (!path.at(time_ns, recording::ReaderOptions().pose_gap_ns, pose)) return {};
+  return pose;
+}
+
 // What the recording, or the file of poses, tells of its keyframes.
 void tell(const MapOptions &options, size_t recording, const RecordingReader &reader, Walk *walk) {
   recording::PoseTrack file;
   uint32_t bad = 0;
   if (!options.told.empty()) file = recording::readTumPoses(options.told[recording], &bad);
-  const int64_t gap_ns = recording::ReaderOptions().pose_gap_ns;
   for (WalkFrame &frame : walk->keyframes) {
-    sphc_rigid pose;
-    if (options.told.empty()) {
-      if (const auto own = reader.worldFromCamera(frame.index)) frame.told_world_from_camera = rigidFromC(*own);
-    } else if (file.at(frame.time_ns, gap_ns, pose)) {
-      frame.told_world_from_camera = rigidFromC(pose);
-    }
+    const std::optional<sphc_rigid> told =
+        options.told.empty() ? reader.worldFromCamera(frame.index) : poseOf(file, frame.time_ns);
+    if (told) frame.told_world_from_camera = rigidFromC(*told);
   }
 }
 
@@ -182,9 +184,7 @@ void standUpright(const MapOptions &options, MapOutcome *outcome) {
     FeltPath path;
     path.felt = recording.reader->recording().accelerations;
     if (path.felt.empty()) continue;
-    for (uint32_t i = 0; i < recording.poses.size(); ++i)
-      if (recording.poses[i])
-        path.world_from_camera.add(recording.reader->colorOf(i).time_ns, rigidToC(*recording.poses[i]));
+    path.world_from_camera = recording.path();
     paths.push_back(std::move(path));
   }
   outcome->vertical = measureVertical(paths);
@@ -212,14 +212,18 @@ void score(MappedRecording *recording) {
 // The recordings' points, seen by the keyframes from the poses that were found.
 ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) {
   std::vector<std::vector<bool>> is_keyframe;
-  for (const MappedRecording &recording : outcome.recordings) is_keyframe.emplace_back(recording.poses.size());
+  std::vector<recording::PoseTrack> paths;
+  for (const MappedRecording &recording : outcome.recordings) {
+    is_keyframe.emplace_back(recording.poses.size());
+    paths.push_back(recording.path());
+  }
   for (const WalkFrame &frame : outcome.walk.keyframes) is_keyframe[frame.recording][frame.index] = true;
   std::vector<RgbdSource> sources;
   for (size_t r = 0; r < outcome.recordings.size(); ++r) {
     const MappedRecording &recording = outcome.recordings[r];
     sources.push_back({recording.reader.get(),
                        [&, r](uint32_t i) { return is_keyframe[r][i] && recording.poses[i]; },
-                       [&](uint32_t i) { return std::make_optional(rigidToC(*recording.poses[i])); }});
+                       [&, r](int64_t time_ns) { return poseOf(paths[r], time_ns); }});
   }
   ImportedPoints points = importRecordings(sources, options.import, describeSelection(options.of_each));
   points.model.band = options.band;

@@ -205,6 +205,13 @@ uint32_t MappedRecording::framesMapped() const {
       std::count_if(poses.begin(), poses.end(), [](const auto &pose) { return pose.has_value(); }));
 }
 
+recording::PoseTrack MappedRecording::path() const {
+  recording::PoseTrack path;
+  for (uint32_t i = 0; i < poses.size(); ++i)
+    if (poses[i]) path.add(reader->colorOf(i).time_ns, rigidToC(*poses[i]));
+  return path;
+}
+
 bool MapOutcome::isApart() const {
   return !stretches.apart.empty() ||
          std::any_of(recordings.begin(), recordings.end(), [](const auto &r) { return r.framesMapped() == 0; });

@@ -23,6 +23,7 @@ struct MappedRecording {
   double unaligned_rmse_m = 0;  // of the score too, where the world is the recording's
 
   uint32_t framesMapped() const;
+  recording::PoseTrack path() const;  // through all of them
 };
 
 struct MapOutcome {

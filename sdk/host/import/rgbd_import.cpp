@@ -1,6 +1,7 @@
 #include "host/import/rgbd_import.h"
 
 #include <cmath>
+#include <cstdlib>
 
 #include "host/base/counted.h"
 #include "host/frames/frame_features.h"
@@ -14,23 +15,27 @@ namespace sphc::host {
 namespace {
 
 constexpr double kPixelSigma = 1.0, kPoseSigmaM = 0.002;
-constexpr double kSamePose = 1e-12;  // interpolating between equal poses rounds
+constexpr double kSamePose = 1e-12;        // interpolating between equal poses rounds
+constexpr int64_t kFarApartNs = 10000000;  // between colour and depth: 5 mm of a walk
 
 // The device's own stages, in memory from the workstation's heap.
 class FrameDescriber {
  public:
   FrameDescriber(const sphc_rig &calibration, const RgbdImportOptions &options)
-      : camera_(calibration.color_camera), features_(camera_.width(), camera_.height(), options.max_keypoints) {
-    const DepthSensor sensor = {calibration.depth_unit_m, options.depth_min_m, options.depth_max_m,
-                                kMappingNoise.sigma_m, kMappingNoise.sigma_per_m2};
-    aligner_ =
-        SparseAligner(camera_, Camera(calibration.depth_camera), rigidFromC(calibration.color_from_depth), sensor);
+      : camera_(calibration.color_camera),
+        depth_camera_(calibration.depth_camera),
+        color_from_depth_(rigidFromC(calibration.color_from_depth)),
+        features_(camera_.width(), camera_.height(), options.max_keypoints) {
+    aligner_.init({calibration.depth_unit_m, options.depth_min_m, options.depth_max_m, kMappingNoise.sigma_m,
+                   kMappingNoise.sigma_per_m2});
   }
 
   const Camera &camera() const { return camera_; }
 
+  // camera_from_earlier: from the colour camera where it was when depth was taken, to where it was for colour.
   std::vector<Observation> describe(const sphc_localizer_frame &frame, const Rigid &world_from_camera,
-                                    uint32_t *keypoints) {
+                                    const Rigid &camera_from_earlier, uint32_t *keypoints) {
+    aligner_.setCameras(camera_, depth_camera_, camera_from_earlier * color_from_depth_);
     features_.extract(grayOf(frame.color, &gray_));
     *keypoints = features_.count();
     const ImageView<uint16_t> depth = depthOf(frame.depth);
@@ -64,7 +69,8 @@ class FrameDescriber {
     return Matrix3::Identity() / across2 + (1 / along2 - 1 / across2) * view * view.transpose();
   }
 
-  Camera camera_;
+  Camera camera_, depth_camera_;
+  Rigid color_from_depth_;
   FrameFeatures features_;
   std::vector<uint8_t> gray_;
   SparseAligner aligner_;
@@ -130,7 +136,7 @@ class Importer {
   }
 
   void addFrame(const RgbdSource &source, uint32_t i, FrameDescriber *describer, FrameConsistency *consistency) {
-    const std::optional<sphc_rigid> pose = source.poses ? source.poses(i) : source.reader->worldFromCamera(i);
+    const std::optional<sphc_rigid> pose = poseAt(source, source.reader->colorOf(i).time_ns);
     std::string why;
     const std::optional<sphc_localizer_frame> frame = pose ? source.reader->tryRead(i, &why) : std::nullopt;
     if (!pose) {
@@ -139,17 +145,34 @@ class Importer {
       if (++summary_->frames_unreadable == 1) summary_->first_unreadable = why;
     } else {
       census_.pose(*pose);
-      summary_->frames_with_fault.add(
-          consistency->look(frame->color, frame->color_time_ns, frame->depth, frame->depth_time_ns));
-      place(*frame, rigidFromC(*pose), describer);
+      const Rigid world_from_camera = rigidFromC(*pose);
+      const Rigid camera_from_earlier = sinceDepth(source, *frame, world_from_camera);
+      summary_->frames_with_fault.add(consistency->look(frame->color, frame->color_time_ns, frame->depth,
+                                                        frame->depth_time_ns, camera_from_earlier));
+      place(*frame, world_from_camera, camera_from_earlier, describer);
     }
   }
 
-  void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera, FrameDescriber *describer) {
+  static std::optional<sphc_rigid> poseAt(const RgbdSource &source, int64_t time_ns) {
+    return source.poses ? source.poses(time_ns) : source.reader->worldFromCameraAt(time_ns);
+  }
+
+  // camera_from_earlier, as it is to describe(); that of a camera which rests where nothing tells.
+  Rigid sinceDepth(const RgbdSource &source, const sphc_localizer_frame &frame, const Rigid &world_from_camera) {
+    if (frame.depth_time_ns == frame.color_time_ns) return {};
+    const std::optional<sphc_rigid> then = poseAt(source, frame.depth_time_ns);
+    if (then) return world_from_camera.inverse() * rigidFromC(*then);
+    summary_->frames_apart += std::abs(frame.depth_time_ns - frame.color_time_ns) > kFarApartNs;
+    return {};
+  }
+
+  void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera, const Rigid &camera_from_earlier,
+             FrameDescriber *describer) {
     uint32_t keypoints = 0;
-    std::vector<Observation> observations = describer->describe(frame, world_from_camera, &keypoints);
+    std::vector<Observation> observations =
+        describer->describe(frame, world_from_camera, camera_from_earlier, &keypoints);
     for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
-    if (!options_.keep_moving) views_.back().add(depthOf(frame.depth), world_from_camera);
+    if (!options_.keep_moving) views_.back().add(depthOf(frame.depth), world_from_camera * camera_from_earlier);
     summary_->merged += tracks_.add(describer->camera(), world_from_camera.inverse(), observations);
     summary_->keypoints += keypoints;
     summary_->lifted += observations.size();
@@ -180,6 +203,11 @@ std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary) {
   if (summary.frames_unreadable)
     sentences.push_back(counted(summary.frames_unreadable, "frame") +
                         " could not be read and took no part; the first: " + summary.first_unreadable);
+  if (summary.frames_apart)
+    sentences.push_back("depth of " + counted(summary.frames_apart, "frame") +
+                        " was taken more than 10 ms before or after colour, and no poses near enough in time tell "
+                        "how the camera moved between, so points lie beside their places; record poses at 20 Hz or "
+                        "more, or take both images at one time");
   if (summary.frames_empty)
     sentences.push_back(counted(summary.frames_empty, "frame") +
                         " gave nothing: too dark, too blurred, or without depth where there is something to see");

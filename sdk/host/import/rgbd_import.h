@@ -26,8 +26,8 @@ struct RgbdImportOptions {
 struct RgbdSource {
   recording::RecordingReader *reader;
   std::function<bool(uint32_t index)> takes_part = {};  // of its frames; empty: all
-  // world_from_camera of a frame, none where it is not known; empty: the recording's own.
-  std::function<std::optional<sphc_rigid>(uint32_t index)> poses = {};
+  // world_from_camera of the colour camera at a time, none where it is not known; empty: the recording's own.
+  std::function<std::optional<sphc_rigid>(int64_t time_ns)> poses = {};
 };
 
 // Points on what moved while the frames were taken.
@@ -41,22 +41,25 @@ struct MovingSummary {
 
 struct RgbdImportSummary {
   uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
-  uint32_t frames_empty = 0;                       // of those used, without a keypoint that has depth
-  FaultCounts frames_with_fault;                   // of those used
-  std::string first_unreadable;                    // which, and why
+  uint32_t frames_empty = 0;      // of those used, without a keypoint that has depth
+  uint32_t frames_apart = 0;      // of those used, whose depth was taken elsewhere, nobody knows where
+  FaultCounts frames_with_fault;  // of those used
+  std::string first_unreadable;   // which, and why
   uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
   uint32_t points_kept = 0, points_dropped = 0;
   MovingSummary moving;  // of the points that were dropped, those that moved
 };
 
-// What of the frames took no part, a sentence each.
+// What of the frames took no part, or not as it should, a sentence each.
 std::vector<std::string> framesLeftOut(const RgbdImportSummary &summary);
 
 // Told after each frame; may be empty.
 using Progress = std::function<void(uint32_t done, uint32_t total)>;
 
-// All frames that have a pose take part.  Of several recordings in one world, the oldest comes first: what a later
-// one sees through is gone.  Throws std::runtime_error, with cause and cure, when no map can come of it.
+// All frames that have a pose take part.  Depth that was taken at another time than colour is used from where its
+// camera was then, if poses tell; else as if it had not moved.  Of several recordings in one world, the oldest
+// comes first: what a later one sees through is gone.  Throws std::runtime_error, with cause and cure, when no map
+// can come of it.
 PointModel importRgbd(const std::vector<RgbdSource> &recordings, const RgbdImportOptions &options,
                       const Progress &progress, RgbdImportSummary *summary);
 

@@ -144,6 +144,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                     {"frames_without_pose", summary.frames_without_pose},
                     {"frames_unreadable", summary.frames_unreadable},
                     {"frames_empty", summary.frames_empty},
+                    {"frames_apart", summary.frames_apart},
                     {"keypoints", summary.keypoints},
                     {"lifted", summary.lifted},
                     {"merged", summary.merged},

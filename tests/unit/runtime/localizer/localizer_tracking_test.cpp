@@ -28,7 +28,7 @@ class Walk {
   test::Session &session() { return session_; }
   // The next frame, a tenth of a second later.
   sphc_localizer_result see(uint32_t viewpoint, uint32_t room = 0, bool dark = false) {
-    const auto made = test::sceneFrame(config_, viewpoint, room);
+    const auto made = test::sceneFrame(zoomed(), viewpoint, room);
     if (dark) std::fill(made->images.gray.begin(), made->images.gray.end(), uint8_t{9});
     for (uint16_t &depth : made->images.depth_mm) depth = static_cast<uint16_t>(depth_scale_ * depth);
     sphc_localizer_frame frame = made->frame;
@@ -47,7 +47,7 @@ class Walk {
     session_.process(frame, &result);
     if (result.outcome == SPHC_OUTCOME_LOCALIZED) {
       EXPECT_EQ(result.map_id, room);
-      if (depth_scale_ == 1) {
+      if (depth_scale_ == 1 && zoom_ == 1) {
         EXPECT_LT(session_.errorM(result, viewpoint), 0.03) << viewpoint;
       }
     }
@@ -72,6 +72,8 @@ class Walk {
   void invertOdometry() { odometry_is_inverted_ = true; }
   // From now on all depths are so many times as large.
   void scaleDepth(double scale) { depth_scale_ = scale; }
+  // From now on the cameras' focal lengths are so many times those that were stated.
+  void zoom(double true_over_stated) { zoom_ = true_over_stated; }
   void forget() { sphc_localizer_reset(session_.localizer()); }
   void setClockBack() { time_ns_ -= 2 * kStepNs; }
   void replaceMap() { ASSERT_EQ(sphc_localizer_set_map(session_.localizer(), 0, session_.map()), SPHC_OK); }
@@ -82,6 +84,12 @@ class Walk {
 
  private:
   static Rigid sceneViewpoint(uint32_t i) { return test::sceneViewpoint(i); }
+  sphc_localizer_config zoomed() const {
+    sphc_localizer_config config = config_;
+    for (sphc_camera *camera : {&config.rig.color_camera, &config.rig.depth_camera})
+      for (int i = 0; i < 2; ++i) camera->params[i] *= zoom_;
+    return config;
+  }
 
   sphc_localizer_config config_;
   test::Session session_;
@@ -90,6 +98,7 @@ class Walk {
   uint32_t odometry_behind_ = 0;
   bool odometry_is_inverted_ = false;
   double depth_scale_ = 1;
+  double zoom_ = 1;
 };
 
 TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
@@ -228,6 +237,25 @@ TEST(LocalizerTracking, OdometryPutsPoorFramesTogether) {
   }
   EXPECT_GT(found_together, found_alone);
   EXPECT_GT(most_frames, 1u);
+}
+
+// A lens that zooms or refocuses: its calibration holds before and after.
+TEST(LocalizerTracking, AFocalLengthThatChangesIsNamedWhileItIsAnother) {
+  Walk walk(trackingConfig());
+  for (uint32_t viewpoint : {3u, 4u, 5u}) EXPECT_EQ(walk.see(viewpoint).faults, 0u) << viewpoint;
+  walk.zoom(1 / 0.85);
+  for (uint32_t viewpoint : {5u, 6u, 5u}) {
+    const sphc_localizer_result result = walk.see(viewpoint);
+    EXPECT_NE(result.faults & (SPHC_FAULT_FOCAL_DISAGREES | SPHC_FAULT_DISTANCES_DISAGREE), 0u) << viewpoint;
+    EXPECT_LE(result.confidence, 0.5) << viewpoint;
+    EXPECT_NE(result.state, SPHC_STATE_TRACKING) << viewpoint;
+  }
+  walk.zoom(1);
+  for (uint32_t viewpoint : {5u, 6u, 5u}) {
+    const sphc_localizer_result result = walk.see(viewpoint);
+    EXPECT_EQ(result.outcome, SPHC_OUTCOME_LOCALIZED) << viewpoint;
+    EXPECT_EQ(result.faults, 0u) << viewpoint;
+  }
 }
 
 // Frames whose depth is taken so many steps before colour, while the camera moves.
