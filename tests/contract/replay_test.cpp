@@ -64,6 +64,8 @@ TEST_F(Replay, RefusesAFolderWithoutARecording) {
   const OpenReplay none(empty / "none");
   EXPECT_EQ(none.status(), SPHC_E_DEVICE);
   EXPECT_THAT(none.message(), HasSubstr("no such folder"));
+  EXPECT_THAT(OpenReplay(std::string(300, 'x')).message(),
+              HasSubstr("cannot be read: File name too long; check its name"));
 }
 
 TEST_F(Replay, AsksForACalibration) {

@@ -9,6 +9,7 @@
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/choices.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/few_warnings.h"
 #include "host/cli/common/file_use.h"
@@ -324,15 +325,13 @@ Command convertCommand(CLI::App *root) {
       ->type_name("IN");
   app->add_option("out", options->out, "New folder, or new file X.mcap or X.raw")->required()->type_name("OUT");
   addFrameOptions(app, &options->in);
-  const std::map<std::string, Target> targets = {
-      {"mcap", Target::kMcap}, {"tum", Target::kTum}, {"7scenes", Target::k7Scenes}, {"raw", Target::kRaw}};
   app->add_option("--to", options->target, "Layout of OUT [by its name: mcap or raw for a file, tum for a folder]")
-      ->transform(CLI::CheckedTransformer(targets).description(""))
+      ->transform(oneOf<Target>(
+          {{"tum", Target::kTum}, {"7scenes", Target::k7Scenes}, {"mcap", Target::kMcap}, {"raw", Target::kRaw}}))
       ->type_name("tum|7scenes|mcap|raw");
-  const std::map<std::string, sphc_depth_codec> codecs = {
-      {"raw", SPHC_DEPTH_RAW}, {"rvl", SPHC_DEPTH_RVL}, {"zstd", SPHC_DEPTH_ZSTD}};
   app->add_option("--depth-codec", options->depth_codec, "Codec of depth in a file; all are lossless [zstd]")
-      ->transform(CLI::CheckedTransformer(codecs).description(""))
+      ->transform(
+          oneOf<sphc_depth_codec>({{"zstd", SPHC_DEPTH_ZSTD}, {"rvl", SPHC_DEPTH_RVL}, {"raw", SPHC_DEPTH_RAW}}))
       ->type_name("zstd|rvl|raw");
   app->add_option("--jpeg", options->recorder.jpeg_quality, "Colour in a file as JPEG of this quality [raw]")
       ->check(CLI::Range(1u, 100u))

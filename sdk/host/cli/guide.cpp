@@ -44,7 +44,7 @@ int run(const GuideOptions &options, const Console &console) {
   noteDamage(*reader, console);
   WalkGuide guide(reader->calibration());
   LookPace pace;
-  uint32_t unreadable = 0;
+  uint32_t unreadable = 0, looked_at = 0;
   std::string why, first_why;
   {
     ProgressBar bar("looking");
@@ -54,10 +54,12 @@ int run(const GuideOptions &options, const Console &console) {
       const std::optional<sphc_localizer_frame> images = reader->tryRead(i, &why);
       if (!images && ++unreadable == 1) first_why = why;
       if (!images) continue;
+      ++looked_at;
       pace.looked(images->color_time_ns);
       lookAt(*images, options, *reader, &guide, console);
     }
   }
+  if (unreadable && looked_at == 0) throw std::runtime_error("not one frame can be read; the first: " + first_why);
   if (unreadable)
     console.warn("note: " + counted(unreadable, "frame") + " could not be read; the first: " + first_why);
   const WalkSummary summary = guide.summary();

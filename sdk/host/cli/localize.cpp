@@ -1,11 +1,11 @@
 // spherecloud localize: where was the camera, frame by frame?
-#include <map>
 #include <memory>
 
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/choices.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/few_warnings.h"
 #include "host/cli/common/file_use.h"
@@ -224,10 +224,8 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
       ->group("Localizer");
   addAmplitudeOption(app, &config->amplitude_min)->group("Localizer");
   add("--probes", parameters->probes, "Cells of the map's index searched for each keypoint, 1 to 32; 0: all");
-  const std::map<std::string, sphc_localizer_mode> modes = {{"tracking", SPHC_MODE_TRACKING},
-                                                            {"single", SPHC_MODE_SINGLE}};
   app->add_option("--mode", config->mode, "tracking: frames follow each other; single: each frame alone")
-      ->transform(CLI::CheckedTransformer(modes).description(""))
+      ->transform(oneOf<sphc_localizer_mode>({{"tracking", SPHC_MODE_TRACKING}, {"single", SPHC_MODE_SINGLE}}))
       ->default_str("tracking")
       ->type_name("tracking|single")
       ->group("Localizer");

@@ -9,6 +9,7 @@
 #include "host/base/write_file.h"
 #include "host/calibration/compare.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/choices.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/light_options.h"
@@ -341,15 +342,14 @@ int run(const CLI::App &app, MapOptions options, const Console &console) {
 
 void addPoseOptions(CLI::App *app, MapOptions *options) {
   const char *group = "Poses that are known";
-  const std::map<std::string, PoseUse> uses = {
-      {"none", PoseUse::kNone}, {"odometry", PoseUse::kOdometry}, {"approximate", PoseUse::kApproximate}};
   CLI::Option *poses =
       app->add_option("--poses", options->trust.use,
                       "What to believe of the recording's poses [none]:\n"
                       "  none          nothing\n"
                       "  odometry      how neighbouring frames moved; it drifts\n"
                       "  approximate   where each frame was, but for noise; the map is in their world")
-          ->transform(CLI::CheckedTransformer(uses).description(""))
+          ->transform(oneOf<PoseUse>(
+              {{"none", PoseUse::kNone}, {"odometry", PoseUse::kOdometry}, {"approximate", PoseUse::kApproximate}}))
           ->type_name("HOW")
           ->group(group);
   app->add_option("--poses-from", options->told,

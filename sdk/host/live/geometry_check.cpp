@@ -20,6 +20,7 @@ constexpr double kFewestApart_px =
     2;  // a median pixel nearer to an edge than this is in an image of nothing but edges
 constexpr uint32_t kChanceStep_px = 5;
 constexpr uint32_t kGap_px = 10;
+constexpr double kMeasured = 0.2, kHardlyReached = 0.02;  // shares of pixels
 
 std::vector<uint8_t> grayOf(const sphc_image &image) {
   const size_t channels = image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
@@ -30,6 +31,10 @@ std::vector<uint8_t> grayOf(const sphc_image &image) {
       gray[size_t{y} * image.width + x] = row[channels * x + (channels == 3 ? 1 : 0)];
   }
   return gray;
+}
+
+size_t withDepth(const std::vector<uint16_t> &depth) {
+  return depth.size() - static_cast<size_t>(std::count(depth.begin(), depth.end(), 0));
 }
 
 std::vector<uint16_t> flipped(const sphc_image &depth, bool left_right, bool up_down) {
@@ -91,17 +96,29 @@ std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth, Mistake mi
   return out;
 }
 
+// Does hardly any of the depth that was measured lie in the image?
+bool GeometryCheck::missesTheImage() const {
+  return static_cast<double>(measured_) > kMeasured * static_cast<double>(in_depth_) &&
+         static_cast<double>(reached_) < kHardlyReached * static_cast<double>(in_image_);
+}
+
 void GeometryCheck::look(const sphc_image &color, const sphc_image &depth) {
   const std::vector<uint8_t> edges = imageEdges(grayOf(color), color.width, color.height);
   const auto edge_count = static_cast<size_t>(std::count(edges.begin(), edges.end(), 1));
   if (edge_count == 0) return;
   image_edges_ += edge_count;
+  measured_ += withDepth(flipped(depth, false, false));
+  in_depth_ += size_t{depth.width} * depth.height;
   std::vector<uint8_t> any(edges.size());
   for (size_t i = 0; i < any.size(); i += kChanceStep_px) any[i] = 1;
   edgeDistances(any, edges, color.width, color.height, &chance_px_);
   for (int mistake = 0; mistake < kMistakes; ++mistake) {
     if (!canBe(static_cast<Mistake>(mistake))) continue;
     const std::vector<uint16_t> lies = aligned(depth, static_cast<Mistake>(mistake));
+    if (mistake == kNone) {
+      reached_ += withDepth(lies);
+      in_image_ += lies.size();
+    }
     edgeDistances(depthEdges(lies, color.width, color.height, kGap_px), edges, color.width, color.height,
                   &distances_px_[static_cast<size_t>(mistake)]);
   }
@@ -139,6 +156,11 @@ Finding GeometryCheck::finding() const {
   const size_t best =
       static_cast<size_t>(std::min_element(medians_px.begin(), medians_px.end()) - medians_px.begin());
   const bool too_few = distances_px_[kNone].size() < kFewestEdges;
+  if (too_few && missesTheImage())
+    return {
+        Finding::Grade::kWrong, "geometry",
+        "as calibrated, depth falls beside the image; give focal lengths and centres in pixels of images of this "
+        "size, and t_m of color_from_depth in metres"};
   if (too_few && (best == kNone || distances_px_[best].size() < 3 * kFewestEdges))
     return {Finding::Grade::kDoubtful, "geometry",
             "too few edges in depth to tell; show the cameras a room with things in it, 1 to 3 m away"};

@@ -24,12 +24,15 @@ class GeometryCheck {
   bool canBe(Mistake mistake) const;
   sphc_rig calibrationOf(Mistake mistake) const;
   std::optional<Finding> nothingToTell() const;
+  bool missesTheImage() const;
   std::vector<uint16_t> aligned(const sphc_image &depth, Mistake mistake) const;
 
   sphc_rig calibration_;
   std::array<std::vector<double>, kMistakes> distances_px_;
   std::vector<double> chance_px_;  // of any pixel
   size_t image_edges_ = 0;
+  size_t measured_ = 0, in_depth_ = 0;  // pixels of depth images that have depth, and all
+  size_t reached_ = 0, in_image_ = 0;   // pixels of images that have depth as calibrated, and all
 };
 
 }  // namespace sphc::host

@@ -22,6 +22,12 @@ const char *kindOf(mode_t mode) {
   return S_ISSOCK(mode) ? "a socket" : "a device";
 }
 
+// Of a file that cannot be opened.
+const char *cureOf(int error) {
+  if (error == EACCES || error == EPERM) return "check its permissions and those of its folders";
+  return error == EMFILE || error == ENFILE ? "close other files" : "is it there?";
+}
+
 // Closes itself.
 struct Descriptor {
   ~Descriptor() { ::close(number); }
@@ -36,7 +42,8 @@ int openRegularFile(const std::filesystem::path &path) {
   if (descriptor < 0 && errno == ENXIO)
     throw Failure(SPHC_E_DEVICE, "is a socket or a device; give a regular file");
   if (descriptor < 0)
-    throw Failure(SPHC_E_DEVICE, "cannot be read: " + std::generic_category().message(errno) + "; is it there?");
+    throw Failure(SPHC_E_DEVICE,
+                  "cannot be read: " + std::generic_category().message(errno) + "; " + cureOf(errno));
   struct stat status = {};
   const bool is_known = ::fstat(descriptor, &status) == 0;
   if (is_known && S_ISREG(status.st_mode)) return descriptor;

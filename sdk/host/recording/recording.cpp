@@ -33,9 +33,7 @@ bool holdsSequences(const fs::path &folder) {
   return false;
 }
 
-}  // namespace
-
-Recording openRecording(const fs::path &folder) {
+Recording openAny(const fs::path &folder) {
   if (fs::is_regular_file(folder)) {
     refuseForeignFile(folder);
     if (isRaw(folder)) return openRaw(folder);
@@ -63,6 +61,18 @@ Recording openRecording(const fs::path &folder) {
                                    ": no recording here; expected rgb.txt and depth.txt (TUM), "
                                    "frame-000000.color.png and so on (7-Scenes), or what another program recorded "
                                    "(docs/imports.md)");
+}
+
+}  // namespace
+
+Recording openRecording(const fs::path &folder) {
+  try {
+    return openAny(folder);
+  } catch (const fs::filesystem_error &error) {  // of a folder that may not be looked into, say
+    const bool is_denied = error.code() == std::errc::permission_denied;
+    throw Failure(SPHC_E_DEVICE, shortPath(error.path1().string()) + ": cannot be read: " + error.code().message() +
+                                     (is_denied ? "; check the permissions of its folders" : "; check its name"));
+  }
 }
 
 void selectFrames(const Selection &selection, Recording &recording) {

@@ -118,6 +118,7 @@ Json summaryJson(const Run &run, const Summary &s) {
   json["wrong_accepted"] = s.with_truth ? Json(s.wrong) : Json(nullptr);
   json["rotation_error_deg"] = spreadJson(s.rotation_deg);
   json["translation_error_m"] = spreadJson(s.translation_m);
+  json["calibration_error"] = nullptr;
   if (const auto graded = gradedFrames(run); !graded.empty())
     json["calibration_error"] = {{"equal_width", number(calibrationError(equalWidthBins(graded)))},
                                  {"equal_count", number(calibrationError(equalCountBins(graded)))}};

@@ -1,16 +1,14 @@
 #include "lab/cli/options.h"
 
-#include <map>
-
 #include "host/base/usage_error.h"
+#include "host/cli/common/choices.h"
 
 namespace sphc::host {
 
 void addPoseRunOptions(CLI::App *app, PoseRunOptions *options, const std::string &what) {
-  const std::map<std::string, DepthSource> depths = {{"tof", DepthSource::kTof}, {"oracle", DepthSource::kOracle}};
   app->add_option("--depth", options->depths,
                   "tof: as the sensor measured; oracle: of the true points; repeat for both")
-      ->transform(CLI::CheckedTransformer(depths).description(""))
+      ->transform(oneOf<DepthSource>({{"tof", DepthSource::kTof}, {"oracle", DepthSource::kOracle}}))
       ->expected(1)
       ->take_all()
       ->type_name("tof|oracle");

@@ -1,16 +1,18 @@
 #include "host/cli/common/light_options.h"
 
-#include <map>
+#include <utility>
+#include <vector>
 
+#include "host/cli/common/choices.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
 
 CLI::Option *addBandOption(CLI::App *app, sphc_band *band, const char *text) {
-  std::map<std::string, sphc_band> bands;
-  for (sphc_band one : {SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED}) bands[bandName(one)] = one;
+  std::vector<std::pair<std::string, sphc_band>> bands;
+  for (sphc_band one : {SPHC_BAND_VISIBLE, SPHC_BAND_INFRARED}) bands.emplace_back(bandName(one), one);
   return app->add_option("--band", *band, text)
-      ->transform(CLI::CheckedTransformer(bands).description(""))
+      ->transform(oneOf(bands))
       ->default_str(bandName(*band))
       ->type_name("visible|infrared");
 }

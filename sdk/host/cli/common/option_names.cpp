@@ -4,11 +4,17 @@
 #include <cctype>
 #include <initializer_list>
 #include <regex>
+#include <set>
 
 #include "host/report/run.h"
 
 namespace sphc::host {
 namespace {
+
+bool isUnit(const std::string &word) {
+  static const std::set<std::string> units = {"m", "m2", "px", "rad", "deg", "ns", "us", "ms", "s", "hz"};
+  return units.count(word) > 0;
+}
 
 // An option has the name of its field, whole or without the unit behind it or the first word: depth_min_m is
 // --depth-min, color_band is --band.  "" where the command has none.
@@ -16,7 +22,8 @@ std::string optionOf(std::string field, const CLI::App &command) {
   std::transform(field.begin(), field.end(), field.begin(), [](unsigned char c) { return std::tolower(c); });
   std::replace(field.begin(), field.end(), '_', '-');
   const size_t first = field.find('-'), last = field.rfind('-');
-  const std::string without_unit = field.substr(0, last);
+  const bool has_unit = last != std::string::npos && isUnit(field.substr(last + 1));
+  const std::string without_unit = has_unit ? field.substr(0, last) : field;
   const std::string without_first = first == std::string::npos ? field : field.substr(first + 1);
   for (const std::string &name : {field, without_unit, without_first})
     if (command.get_option_no_throw("--" + name)) return "--" + name;

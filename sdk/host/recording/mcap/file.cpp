@@ -68,8 +68,7 @@ void File::write(ByteView part) {
   while (part.size > 0) {
     const ssize_t done = ::write(descriptor_, part.data, part.size);
     if (done < 0 && errno == EINTR) continue;
-    if (done < 0)
-      fail(name_, "cannot be written", "make room on the disk; what was recorded before can be replayed");
+    if (done < 0) fail(name_, "cannot be written", "make room on the disk");
     part.data += done;
     part.size -= static_cast<size_t>(done);
   }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -46,6 +47,14 @@ class GuideTest : public testing::Test {
   std::string at(const std::string &name) const { return folder_ / name; }
   TempFolder folder_;
 };
+
+TEST_F(GuideTest, ARecordingOfWhichNothingCanBeReadIsRefused) {
+  for (const auto &image : std::filesystem::directory_iterator(at("wall") + "/depth"))
+    std::filesystem::remove(image.path());
+  const Answer answer = runCommand("guide --recording " + at("wall"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("not one frame can be read; the first: depth/000000.png"));
+}
 
 TEST_F(GuideTest, ARecordingIsGuidedAndLosesNothing) {
   const Answer answer =

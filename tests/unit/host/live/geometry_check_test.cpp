@@ -71,6 +71,17 @@ TEST_F(GeometryCheckTest, ABlankWallTellsNothing) {
   EXPECT_NE(finding.text.find("too few edges"), std::string::npos) << finding.text;
 }
 
+TEST_F(GeometryCheckTest, ACalibrationInOtherUnitsIsNamed) {
+  sphc_rig in_widths = calibration_, in_mm = calibration_;
+  for (int i = 0; i < 4; ++i) in_widths.color_camera.params[i] /= in_widths.color_camera.width;
+  for (double &value : in_mm.color_from_depth.t_m) value *= 200;  // the localizer takes no more than 10 m
+  for (const sphc_rig &wrong : {in_widths, in_mm}) {
+    const Finding finding = look(wrong);
+    EXPECT_EQ(finding.grade, Finding::Grade::kWrong);
+    EXPECT_NE(finding.text.find("in pixels"), std::string::npos) << finding.text;
+  }
+}
+
 TEST_F(GeometryCheckTest, ABlackImageTellsNothing) {
   const Finding finding = look(
       calibration_, [](std::vector<uint16_t> *) {},

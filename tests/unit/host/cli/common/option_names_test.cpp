@@ -26,6 +26,14 @@ TEST_F(OptionNames, AFieldThatIsNamedAgain) {
             "--band is visible; give that map, or set --band to what it is");
 }
 
+// `live` has --color and --depth, which are cameras.
+TEST_F(OptionNames, AnOptionOfTheFirstWordAloneIsAnother) {
+  for (const char *name : {"--color", "--depth"}) app_.add_flag(name);
+  EXPECT_EQ(said("config.color_band is 3"), "--band is 3");
+  EXPECT_EQ(said("config.depth_format is 3"), "config.depth_format is 3");
+  EXPECT_EQ(said("config.depth_min_m is 0"), "--depth-min is 0");
+}
+
 TEST_F(OptionNames, WhatNoOptionSetsKeepsItsName) {
   for (const char *text : {"config.color_row_time_ns is 5", "map_id is 3", "depth_min_m of another", ""})
     EXPECT_EQ(said(text), text);
