@@ -336,9 +336,11 @@ TEST_F(FilesTest, ManyContradictionsAreSaidOfTheOtherPosesToo) {
   }
   put("wrong.json", calibration.dump());
   const std::string localize = "localize --mode single -r " + at("walk") + " -m " + at("room.sphc");
-  const std::string note = "contradict themselves (depth and colour disagree): the poses of the others";
-  EXPECT_THAT(runCommand(localize + " -c " + at("wrong.json")).err, HasSubstr(note));
-  EXPECT_THAT(runCommand(localize).err, testing::Not(HasSubstr(note)));
+  // Keys differ from run to run, and with some the matches say it too.
+  const auto named = testing::AllOf(HasSubstr("contradict themselves (depth and colour disagree"),
+                                    HasSubstr("): the poses of the others may be wrong too"));
+  EXPECT_THAT(runCommand(localize + " -c " + at("wrong.json")).err, named);
+  EXPECT_THAT(runCommand(localize).err, testing::Not(HasSubstr("contradict themselves")));
 }
 
 TEST_F(FilesTest, TheCauseIsTheRightOne) {
