@@ -32,8 +32,8 @@ FrameConsistency::FrameConsistency(const sphc_rig &calibration)
 }
 
 Faults FrameConsistency::look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth,
-                              int64_t depth_time_ns, const Rigid &camera_from_earlier) {
-  return consistency_.look({grayOf(color, &gray_), depthOf(depth), camera_from_earlier * color_from_depth_,
+                              int64_t depth_time_ns, const Rigid &camera_from_camera_at_depth) {
+  return consistency_.look({grayOf(color, &gray_), depthOf(depth), camera_from_camera_at_depth * color_from_depth_,
                             color_time_ns, depth_time_ns});
 }
 

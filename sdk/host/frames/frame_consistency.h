@@ -31,9 +31,10 @@ class FrameConsistency {
   explicit FrameConsistency(const sphc_rig &calibration);
 
   // A pair of images of the calibration's sizes; the times are those of the middles of their exposures.
-  // camera_from_earlier: from the colour camera where it was when depth was taken, to where it was for colour.
+  // camera_from_camera_at_depth: from the colour camera where it was when depth was taken, to where it was when
+  // colour was.
   Faults look(const sphc_image &color, int64_t color_time_ns, const sphc_image &depth, int64_t depth_time_ns,
-              const Rigid &camera_from_earlier = {});
+              const Rigid &camera_from_camera_at_depth = {});
 
  private:
   Rigid color_from_depth_;

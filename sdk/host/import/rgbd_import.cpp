@@ -32,10 +32,11 @@ class FrameDescriber {
 
   const Camera &camera() const { return camera_; }
 
-  // camera_from_earlier: from the colour camera where it was when depth was taken, to where it was for colour.
+  // camera_from_camera_at_depth: from the colour camera where it was when depth was taken, to where it was when
+  // colour was.
   std::vector<Observation> describe(const sphc_localizer_frame &frame, const Rigid &world_from_camera,
-                                    const Rigid &camera_from_earlier, uint32_t *keypoints) {
-    aligner_.setCameras(camera_, depth_camera_, camera_from_earlier * color_from_depth_);
+                                    const Rigid &camera_from_camera_at_depth, uint32_t *keypoints) {
+    aligner_.setCameras(camera_, depth_camera_, camera_from_camera_at_depth * color_from_depth_);
     features_.extract(grayOf(frame.color, &gray_));
     *keypoints = features_.count();
     const ImageView<uint16_t> depth = depthOf(frame.depth);
@@ -146,10 +147,10 @@ class Importer {
     } else {
       census_.pose(*pose);
       const Rigid world_from_camera = rigidFromC(*pose);
-      const Rigid camera_from_earlier = sinceDepth(source, *frame, world_from_camera);
+      const Rigid camera_from_camera_at_depth = cameraFromCameraAtDepth(source, *frame, world_from_camera);
       summary_->frames_with_fault.add(consistency->look(frame->color, frame->color_time_ns, frame->depth,
-                                                        frame->depth_time_ns, camera_from_earlier));
-      place(*frame, world_from_camera, camera_from_earlier, describer);
+                                                        frame->depth_time_ns, camera_from_camera_at_depth));
+      place(*frame, world_from_camera, camera_from_camera_at_depth, describer);
     }
   }
 
@@ -157,8 +158,9 @@ class Importer {
     return source.poses ? source.poses(time_ns) : source.reader->worldFromCameraAt(time_ns);
   }
 
-  // camera_from_earlier, as it is to describe(); that of a camera which rests where nothing tells.
-  Rigid sinceDepth(const RgbdSource &source, const sphc_localizer_frame &frame, const Rigid &world_from_camera) {
+  // As it is to describe(); that of a camera which rests where nothing tells.
+  Rigid cameraFromCameraAtDepth(const RgbdSource &source, const sphc_localizer_frame &frame,
+                                const Rigid &world_from_camera) {
     if (frame.depth_time_ns == frame.color_time_ns) return {};
     const std::optional<sphc_rigid> then = poseAt(source, frame.depth_time_ns);
     if (then) return world_from_camera.inverse() * rigidFromC(*then);
@@ -166,13 +168,14 @@ class Importer {
     return {};
   }
 
-  void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera, const Rigid &camera_from_earlier,
-             FrameDescriber *describer) {
+  void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera,
+             const Rigid &camera_from_camera_at_depth, FrameDescriber *describer) {
     uint32_t keypoints = 0;
     std::vector<Observation> observations =
-        describer->describe(frame, world_from_camera, camera_from_earlier, &keypoints);
+        describer->describe(frame, world_from_camera, camera_from_camera_at_depth, &keypoints);
     for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
-    if (!options_.keep_moving) views_.back().add(depthOf(frame.depth), world_from_camera * camera_from_earlier);
+    if (!options_.keep_moving)
+      views_.back().add(depthOf(frame.depth), world_from_camera * camera_from_camera_at_depth);
     summary_->merged += tracks_.add(describer->camera(), world_from_camera.inverse(), observations);
     summary_->keypoints += keypoints;
     summary_->lifted += observations.size();
