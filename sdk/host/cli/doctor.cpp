@@ -53,7 +53,9 @@ Findings lookAt(const DoctorOptions &options, const Console &console) {
   });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
-  StreamCheck color(SPHC_STREAM_COLOR, calibration), depth(SPHC_STREAM_DEPTH, calibration);
+  const bool is_recording = options.rig.both.rfind("replay:", 0) == 0;  // which does not come late
+  StreamCheck color(SPHC_STREAM_COLOR, calibration, is_recording);
+  StreamCheck depth(SPHC_STREAM_DEPTH, calibration, is_recording);
   GeometryCheck geometry(calibration);
   ConsistencyCheck consistency(calibration);
   rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? color : depth).look(c); });
@@ -61,7 +63,6 @@ Findings lookAt(const DoctorOptions &options, const Console &console) {
   const Interrupt interrupt;
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   bool geometry_fits = true;
-  const bool is_recording = options.rig.both.rfind("replay:", 0) == 0;  // which does not come late
   const auto is_over = [&] { return !is_recording && std::chrono::steady_clock::now() >= until; };
   while (apart_ms.size() < options.frames && !interrupt.came() && !is_over()) {
     CapturePair pair;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/base/counted.h"
+#include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/progress.h"
@@ -40,6 +41,7 @@ void lookAt(const sphc_localizer_frame &images, const GuideOptions &options, con
 }
 
 int run(const GuideOptions &options, const Console &console) {
+  if (options.score && !console.json) throw UsageError("--score is of the lines of --json; give that too");
   const auto reader = openRecording(options.recording);
   noteDamage(*reader, console);
   WalkGuide guide(reader->calibration());

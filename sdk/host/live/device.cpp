@@ -1,5 +1,6 @@
 #include "host/live/device.h"
 
+#include <filesystem>
 #include <stdexcept>
 
 #include "host/live/device_kind.h"
@@ -14,7 +15,9 @@ std::unique_ptr<Device> openDevice(const std::string &spec, const Wish &wish) {
       return kind.open(colon == std::string::npos ? "" : spec.substr(colon + 1), wish);
     known += std::string(known.empty() ? "" : ", ") + kind.name + ":";
   }
-  throw std::runtime_error("no such kind of camera: " + spec + "; say one of " + known +
+  const bool is_there = std::filesystem::exists(std::filesystem::u8path(spec));
+  throw std::runtime_error("no such kind of camera: " + spec + "; say " +
+                           (is_there ? "replay:" + spec + " for a recording, or " : "") + "one of " + known +
                            " and behind it which, as `spherecloud devices` prints it");
 }
 

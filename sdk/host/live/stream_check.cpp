@@ -30,8 +30,9 @@ const char *pointName(sphc_time_point point) {
 
 }  // namespace
 
-StreamCheck::StreamCheck(sphc_stream stream, const sphc_rig &calibration)
+StreamCheck::StreamCheck(sphc_stream stream, const sphc_rig &calibration, bool is_recording)
     : is_color_(stream == SPHC_STREAM_COLOR),
+      is_recording_(is_recording),
       camera_(is_color_ ? calibration.color_camera : calibration.depth_camera),
       depth_unit_m_(calibration.depth_unit_m) {}
 
@@ -66,7 +67,8 @@ void StreamCheck::look(const sphc_capture &capture) {
 Findings StreamCheck::findings() const {
   if (count_ == 0)
     return {{Grade::kWrong, is_color_ ? "colour" : "depth",
-             "not one image came; is another program using the camera, or its shutter closed?"}};
+             is_recording_ ? "not one image can be read; is the recording whole? Copy it again"
+                           : "not one image came; is another program using the camera, or its shutter closed?"}};
   if (const std::optional<Finding> wrong = size()) return {*wrong};
   Findings findings = {rate(), clock(), is_color_ ? brightness() : depths()};
   if (const std::optional<Finding> same = frozen()) findings.push_back(*same);
@@ -80,7 +82,8 @@ std::optional<Finding> StreamCheck::frozen() const {
       2 * repeated_ > count_ ? Grade::kWrong : Grade::kDoubtful, is_color_ ? "colour images" : "depth images",
       std::to_string(repeated_) + " of " + std::to_string(count_) +
           " are the ones before over again; the stream is stale: start the camera anew, or ask it for fewer "
-          "images a second"};
+          "images a second" +
+          (is_recording_ ? ", and record anew" : "")};
 }
 
 std::optional<Finding> StreamCheck::size() const {
@@ -100,7 +103,9 @@ Finding StreamCheck::rate() const {
                            " ms, " + std::to_string(lost_) + " of " + std::to_string(count_ + lost_) +
                            " never came";
   if (10 * lost_ > count_)
-    return {Grade::kWrong, what, seen + "; at the camera, use another USB port or bus, a smaller image, or MJPG"};
+    return {Grade::kWrong, what,
+            seen + (is_recording_ ? "; copy the recording again, or record anew"
+                                  : "; at the camera, use another USB port or bus, a smaller image, or MJPG")};
   const bool paused = most_ms > std::max(kPauseMs, kPausePeriods * median_ms);
   return {lost_ > 0 || paused ? Grade::kDoubtful : Grade::kFine, what, seen};
 }

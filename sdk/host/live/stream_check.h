@@ -11,7 +11,8 @@ namespace sphc::host {
 
 class StreamCheck {
  public:
-  StreamCheck(sphc_stream stream, const sphc_rig &calibration);
+  // is_recording: what comes was recorded, so no camera can be helped.
+  StreamCheck(sphc_stream stream, const sphc_rig &calibration, bool is_recording);
 
   void look(const sphc_capture &capture);
   // Of this stream alone; nothing else is said where not one capture came.
@@ -25,7 +26,7 @@ class StreamCheck {
   Finding brightness() const;
   Finding depths() const;
 
-  bool is_color_;
+  bool is_color_, is_recording_;
   sphc_camera camera_;
   double depth_unit_m_;
   sphc_capture first_ = {}, last_ = {};

@@ -48,9 +48,10 @@ class GuideTest : public testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(GuideTest, ARecordingOfWhichNothingCanBeReadIsRefused) {
+TEST_F(GuideTest, WhatCannotBeReadOrComparedIsRefused) {
   for (const auto &image : std::filesystem::directory_iterator(at("wall") + "/depth"))
     std::filesystem::remove(image.path());
+  EXPECT_EQ(runCommand("guide --score --recording " + at("wall")).exit_code, kExitUsage);
   const Answer answer = runCommand("guide --recording " + at("wall"));
   EXPECT_EQ(answer.exit_code, kExitFailure);
   EXPECT_THAT(answer.err, HasSubstr("not one frame can be read; the first: depth/000000.png"));

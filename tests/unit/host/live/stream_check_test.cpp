@@ -35,7 +35,7 @@ class StreamCheckTest : public testing::Test {
     }
   }
   Finding found(sphc_stream stream, uint16_t value, const std::string &what, uint32_t skip = 0) {
-    StreamCheck check(stream, calibration_);
+    StreamCheck check(stream, calibration_, is_recording_);
     feed(&check, stream, value, 20, skip);
     for (const Finding &finding : check.findings())
       if (finding.what == what) return finding;
@@ -46,6 +46,7 @@ class StreamCheckTest : public testing::Test {
   sphc_rig calibration_;
   sphc_capture capture_ = {};
   int64_t pause_ns_ = 0;  // in the middle
+  bool is_recording_ = false;
 };
 
 TEST_F(StreamCheckTest, GoodStreamsAreFine) {
@@ -65,9 +66,19 @@ TEST_F(StreamCheckTest, FaultsAreNamed) {
   EXPECT_NE(found(SPHC_STREAM_DEPTH, 1500, "depth").text.find("depth_unit_m"), std::string::npos);
   calibration_.color_camera.width = 640;
   EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour size").grade, Grade::kWrong);
-  const StreamCheck silent(SPHC_STREAM_DEPTH, calibration_);
+  const StreamCheck silent(SPHC_STREAM_DEPTH, calibration_, is_recording_);
   ASSERT_EQ(silent.findings().size(), 1u);
   EXPECT_EQ(silent.findings()[0].grade, Grade::kWrong);
+}
+
+// What was recorded no USB port helps.
+TEST_F(StreamCheckTest, OfARecordingTheCureIsAnother) {
+  is_recording_ = true;
+  const std::string lost = found(SPHC_STREAM_COLOR, 120, "colour rate", 1).text;
+  EXPECT_EQ(lost.find("USB"), std::string::npos) << lost;
+  EXPECT_NE(lost.find("copy the recording again"), std::string::npos) << lost;
+  const std::string none = StreamCheck(SPHC_STREAM_DEPTH, calibration_, is_recording_).findings().at(0).text;
+  EXPECT_NE(none.find("is the recording whole?"), std::string::npos) << none;
 }
 
 TEST_F(StreamCheckTest, APauseIsNoRate) {
@@ -80,7 +91,7 @@ TEST_F(StreamCheckTest, APauseIsNoRate) {
 
 TEST_F(StreamCheckTest, TheSameImageOverAgainIsNamed) {
   EXPECT_EQ(found(SPHC_STREAM_DEPTH, 1500, "depth images").grade, Grade::kWrong);
-  StreamCheck check(SPHC_STREAM_DEPTH, calibration_);
+  StreamCheck check(SPHC_STREAM_DEPTH, calibration_, is_recording_);
   for (uint16_t i = 0; i < 20; ++i) feed(&check, SPHC_STREAM_DEPTH, static_cast<uint16_t>(1500 + i), 1);
   for (const Finding &finding : check.findings()) EXPECT_NE(finding.what, "depth images");
 }
