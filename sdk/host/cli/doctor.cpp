@@ -45,12 +45,30 @@ bool fits(const sphc_image &image, const sphc_camera &camera) {
   return image.width == camera.width && image.height == camera.height;
 }
 
+// Of captures: the first ones by name, and how many more there were.
+class Troubles {
+ public:
+  void add(const std::string &trouble) {
+    if (++count_ <= kMost) first_.push_back({Grade::kDoubtful, "capture", trouble});
+  }
+  Findings findings() const {
+    Findings all = first_;
+    if (count_ > kMost)
+      all.push_back(
+          {Grade::kDoubtful, "capture", std::to_string(count_ - kMost) + " more captures had such troubles"});
+    return all;
+  }
+
+ private:
+  static constexpr size_t kMost = 10;
+  Findings first_;
+  size_t count_ = 0;
+};
+
 Findings lookAt(const DoctorOptions &options, const Console &console) {
   StatusLine line;
-  Findings findings;
-  Rig rig(options.rig, [&](const std::string &trouble) {
-    findings.push_back({Grade::kDoubtful, "capture", trouble});
-  });
+  Troubles of_captures;
+  Rig rig(options.rig, [&of_captures](const std::string &trouble) { of_captures.add(trouble); });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
   const bool is_recording = options.rig.both.rfind("replay:", 0) == 0;  // which does not come late
@@ -78,6 +96,7 @@ Findings lookAt(const DoctorOptions &options, const Console &console) {
     rig.release(pair);
     line.show("looking: " + std::to_string(apart_ms.size()) + " of " + std::to_string(options.frames));
   }
+  Findings findings = of_captures.findings();
   for (const StreamCheck *stream : {&color, &depth})
     for (Finding &finding : stream->findings()) findings.push_back(std::move(finding));
   const std::string troubles = rig.troubles();

@@ -55,6 +55,11 @@ TEST_F(GuideTest, WhatCannotBeReadOrComparedIsRefused) {
   const Answer answer = runCommand("guide --recording " + at("wall"));
   EXPECT_EQ(answer.exit_code, kExitFailure);
   EXPECT_THAT(answer.err, HasSubstr("not one frame can be read; the first: depth/000000.png"));
+  const Answer doctor = runCommand("doctor --device replay:" + at("wall"));
+  EXPECT_EQ(doctor.exit_code, kExitFailure);
+  EXPECT_THAT(doctor.out, HasSubstr("depth/000009.png"));
+  EXPECT_THAT(doctor.out, testing::Not(HasSubstr("depth/000010.png")));
+  EXPECT_THAT(doctor.out, HasSubstr("2 more captures had such troubles"));
 }
 
 TEST_F(GuideTest, ARecordingIsGuidedAndLosesNothing) {
