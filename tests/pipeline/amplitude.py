@@ -8,7 +8,6 @@ A ToF module that drops nothing measures the query; the map is made of what one 
 import argparse
 import concurrent.futures
 import csv
-import hashlib
 import os
 import pathlib
 import statistics
@@ -16,6 +15,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "amplitude.csv"
@@ -37,9 +37,7 @@ def simulate(tool, out, seed, *arguments):
 
 
 def build(tool, walk, step, seed, file):
-    key = file.with_suffix(".key")
-    key.write_text(hashlib.sha256(b"spherecloud amplitude key %d" % seed).hexdigest() + "\n")
-    key.chmod(0o600)
+    key = key_of("amplitude key %d" % seed, file.with_suffix(".key"))
     run([tool, "build", "--recording", walk, "--step", step, "--map", file, "--eta", ETA, "--key", key,
          "--ledger", file.with_suffix(".ledger"), "--force", "--json"])
     return file

@@ -9,7 +9,6 @@ Conditions are made of healthy frames by spherecloud-lab hints; those of the sim
 import argparse
 import concurrent.futures
 import csv
-import hashlib
 import os
 import pathlib
 import sys
@@ -18,6 +17,7 @@ import tempfile
 sys.dont_write_bytecode = True
 from accuracy import KEYS, Place
 from negative import elsewhere_of, publish
+from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "hints.csv"
@@ -56,9 +56,7 @@ class Room:
         walk = self.simulate("map_" + name, "--frames", MAP_FRAMES, "--rate", MAP_FRAMES / LAP_S, *arguments)
         file = self.folder / ("%d_%s.sphc" % (self.seed, name))
         if not file.exists():
-            key = self.folder / ("%d.key" % self.seed)
-            key.write_text(hashlib.sha256(b"spherecloud hints key %d" % self.seed).hexdigest() + "\n")
-            key.chmod(0o600)
+            key = key_of("hints key %d" % self.seed, self.folder / ("%d.key" % self.seed))
             run([self.tool, "build", "--recording", walk, "--step", step, "--map", file, "--eta", ETA, "--key", key, "--ledger",
                  str(file) + ".ledger", "--json"])
         return file

@@ -5,13 +5,13 @@ depth sensor that is late or slow gives it.  Maps of a short walk whose depth is
 
     late_depth.py --spherecloud BIN --library libspherecloud.so [--rooms N]      rewrites late_depth.csv, for review
 
-The headset itself takes depth 4 ms after colour; so much less older is what is said to be older.  Needs numpy.  Odometry is the truth, with a small sigma.
+Times are of the depth images that the headset took, 4 ms after colour: depth that is "older by 17 ms" was taken 13 ms before
+colour.  Odometry is the truth, with a small sigma.  Needs numpy.
 """
 import argparse
 import collections
 import concurrent.futures
 import csv
-import hashlib
 import json
 import multiprocessing
 import os
@@ -22,6 +22,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+from private_key import key_of
 from recordings import HERE, ROOT, run
 
 sys.path.insert(0, str(ROOT / "bindings" / "python"))
@@ -79,11 +80,10 @@ def with_late_depth(source, out, frames, is_told):
 def prepare(tool, folder, seed):
     """A room's maps, with the owner's notes beside them, and its walk as a raw recording."""
     files = {name: folder / ("%d_%d.sphc" % (seed, number)) for number, name in enumerate([LAP, *SHORT])}
-    query, key = folder / ("%d.raw" % seed), folder / ("%d.key" % seed)
+    query = folder / ("%d.raw" % seed)
     if query.exists():
         return files, query
-    key.write_text(hashlib.sha256(b"spherecloud late depth key %d" % seed).hexdigest() + "\n")
-    key.chmod(0o600)
+    key = key_of("late depth key %d" % seed, folder / ("%d.key" % seed))
     since_s = LAP_S * (seed - ROOMS[0]) / len(ROOMS)  # each room is entered elsewhere
     walks = {LAP: walk(tool, folder / ("%d_lap" % seed), seed, MAP_FRAMES, MAP_FRAMES / LAP_S)}
     short = walk(tool, folder / ("%d_short" % seed), seed, SHORT_FRAMES, SHORT_RATE, "--from", "%.2f" % since_s)
@@ -130,7 +130,8 @@ def measure(tool, library, folder, seed):
     spherecloud.load(library)
     files, query = prepare(tool, folder, seed)
     recording = Recording(query)
-    rows = [(LAP, older_by, way) for older_by in LATE for way in WAYS] + [(name, "0 ms", way) for name in SHORT for way in ("single", "tracking, odometry")]
+    rows = [(LAP, older_by, way) for older_by in LATE for way in WAYS]
+    rows += [(name, "0 ms", way) for name in SHORT for way in ("single", "tracking, odometry")]
     return {row: localize(recording, files[row[0]], centre_of(files[row[0]]), *row[1:]) for row in rows}
 
 
@@ -159,9 +160,9 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.keep or pathlib.Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        forked = multiprocessing.get_context("spawn")
-        with concurrent.futures.ProcessPoolExecutor(os.cpu_count(), forked) as pool:
-            jobs = [pool.submit(measure, arguments.spherecloud, arguments.library, folder, seed) for seed in ROOMS[:arguments.rooms]]
+        with concurrent.futures.ProcessPoolExecutor(os.cpu_count(), multiprocessing.get_context("spawn")) as pool:
+            jobs = [pool.submit(measure, arguments.spherecloud, arguments.library, folder, seed)
+                    for seed in ROOMS[:arguments.rooms]]
             rooms = [job.result() for job in jobs]
     with arguments.results.open("w", newline="") as out:
         csv.writer(out, lineterminator="\n").writerows(

@@ -10,7 +10,6 @@ room alone and in all maps together.  A frame of a room that has a double is rig
 import argparse
 import concurrent.futures
 import csv
-import hashlib
 import json
 import os
 import pathlib
@@ -20,6 +19,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from accuracy import WORST_CM, WORST_DEG
+from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "maps.csv"
@@ -46,12 +46,10 @@ class Room:
                  *arguments, *(["--arrangement", 2] if self.is_double else [])])
 
     def make(self):
-        walk, key = self.folder / ("walk_%d" % self.number), self.folder / ("key_%d" % self.number)
+        walk = self.folder / ("walk_%d" % self.number)
+        key = key_of("maps key %d" % self.number, self.folder / ("key_%d" % self.number))
         self.simulate(walk, "--frames", MAP_FRAMES, "--rate", MAP_FRAMES / LAP_S)
         self.simulate(self.query, "--from", LAP_S + self.number % LAP_S, "--frames", QUERY_FRAMES, "--rate", QUERY_HZ)
-        if not key.exists():
-            key.write_text(hashlib.sha256(b"spherecloud maps key %d" % self.number).hexdigest() + "\n")
-            key.chmod(0o600)
         if not self.map.exists():
             run([self.tool, "build", "--recording", walk, "--map", self.map, "--eta", ETA, "--fakes", FAKES, "--key", key,
                  "--ledger", self.folder / ("ledger_%d" % self.number), "--json"])

@@ -1,4 +1,5 @@
-"""The key of the tests, as the command takes it: in a file that its owner alone may read, which git does not keep."""
+"""Keys of the tests, as the command takes them: in files that their owner alone may read, which git does not keep."""
+import hashlib
 import os
 import pathlib
 
@@ -7,8 +8,16 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 def private_key(folder):
     """A copy of test_key.txt in `folder`; it is fixed so that results can be compared, and protects nothing."""
-    path = pathlib.Path(folder) / "test_key.txt"
+    return _kept(pathlib.Path(folder) / "test_key.txt", (HERE / "test_key.txt").read_text())
+
+
+def key_of(words, path):
+    """The key that these words stand for, in a file `path`; known to all too."""
+    return _kept(path, hashlib.sha256(b"spherecloud " + words.encode()).hexdigest() + "\n")
+
+
+def _kept(path, text):
     if not path.exists():
         with open(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
-            file.write((HERE / "test_key.txt").read_text())
+            file.write(text)
     return path

@@ -10,7 +10,6 @@ are localized each alone: as the walk looks, and with nothing but a wall ahead; 
 import argparse
 import concurrent.futures
 import csv
-import hashlib
 import os
 import pathlib
 import statistics
@@ -18,6 +17,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
+from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "rig.csv"
@@ -29,12 +29,11 @@ COLUMNS = ["view", "cameras", "tof", "frames", "localized_percent", "within_5cm_
 
 
 def rows_of(tool, lab, folder, seed):
-    walk, file, key = folder / ("walk_%d" % seed), folder / ("%d.sphc" % seed), folder / ("%d.key" % seed)
+    walk, file = folder / ("walk_%d" % seed), folder / ("%d.sphc" % seed)
     if not file.exists():
         run([tool, "simulate", "--out", walk, "--seed", seed, "--walk-seed", seed, "--with", "bare", "--frames", MAP_FRAMES, "--rate",
              MAP_FRAMES / LAP_S, "--threads", 1, "--json"])
-        key.write_text(hashlib.sha256(b"spherecloud rig key %d" % seed).hexdigest() + "\n")
-        key.chmod(0o600)
+        key = key_of("rig key %d" % seed, folder / ("%d.key" % seed))
         run([tool, "build", "--recording", walk, "--map", file, "--eta", ETA, "--fakes", FAKES, "--key", key, "--ledger",
              str(file) + ".ledger", "--json"])
     return run([lab, "rig", "--seed", seed, "--map", file, "--views", VIEWS, "--threads", 1, "--json"])

@@ -68,9 +68,7 @@ class Steps {
 };
 
 std::optional<sphc_rigid> poseOf(const recording::PoseTrack &path, int64_t time_ns) {
-  sphc_rigid pose;
-  if (!path.at(time_ns, recording::ReaderOptions().pose_gap_ns, pose)) return {};
-  return pose;
+  return path.at(time_ns, recording::ReaderOptions().pose_gap_ns);
 }
 
 // What the recording, or the file of poses, tells of its keyframes.

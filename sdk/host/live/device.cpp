@@ -15,7 +15,8 @@ std::unique_ptr<Device> openDevice(const std::string &spec, const Wish &wish) {
       return kind.open(colon == std::string::npos ? "" : spec.substr(colon + 1), wish);
     known += std::string(known.empty() ? "" : ", ") + kind.name + ":";
   }
-  const bool is_there = std::filesystem::exists(std::filesystem::u8path(spec));
+  std::error_code unknown;
+  const bool is_there = std::filesystem::exists(std::filesystem::u8path(spec), unknown);
   throw std::runtime_error("no such kind of camera: " + spec + "; say " +
                            (is_there ? "replay:" + spec + " for a recording, or " : "") + "one of " + known +
                            " and behind it which, as `spherecloud devices` prints it");

@@ -29,13 +29,13 @@ void addPath(const FeltPath &path, SecondsOfWalk *all) {
     count = 0;
   };
   for (const recording::TimedAcceleration &felt : path.felt) {
-    sphc_rigid pose;
-    if (!path.world_from_camera.at(felt.time_ns, kMostGapNs, pose)) continue;
+    const std::optional<sphc_rigid> pose = path.world_from_camera.at(felt.time_ns, kMostGapNs);
+    if (!pose) continue;
     if (count == 0 || felt.time_ns - begin_ns >= kStretchNs) {
       close();
       begin_ns = felt.time_ns;
     }
-    sum += rotationFromQuaternion(pose.q_wxyz) * Eigen::Map<const Vector3>(felt.felt_mps2);
+    sum += rotationFromQuaternion(pose->q_wxyz) * Eigen::Map<const Vector3>(felt.felt_mps2);
     ++count;
     ++all->accelerations;
   }

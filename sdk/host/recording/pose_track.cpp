@@ -19,21 +19,17 @@ void PoseTrack::add(int64_t time_ns, const sphc_rigid &world_from_camera) {
   poses_.push_back({time_ns, world_from_camera});
 }
 
-bool PoseTrack::at(int64_t time_ns, int64_t gap_ns, sphc_rigid &world_from_camera) const {
+std::optional<sphc_rigid> PoseTrack::at(int64_t time_ns, int64_t gap_ns) const {
   const auto after = std::lower_bound(poses_.begin(), poses_.end(), time_ns,
                                       [](const TimedPose &pose, int64_t time) { return pose.time_ns < time; });
-  if (after == poses_.end()) return false;
-  if (after->time_ns == time_ns) {
-    world_from_camera = after->pose;
-    return true;
-  }
-  if (after == poses_.begin()) return false;
+  if (after == poses_.end()) return {};
+  if (after->time_ns == time_ns) return after->pose;
+  if (after == poses_.begin()) return {};
   const auto before = after - 1;
-  if (after->time_ns - before->time_ns > gap_ns) return false;
+  if (after->time_ns - before->time_ns > gap_ns) return {};
   const double s =
       static_cast<double>(time_ns - before->time_ns) / static_cast<double>(after->time_ns - before->time_ns);
-  world_from_camera = interpolate(before->pose, after->pose, s);
-  return true;
+  return interpolate(before->pose, after->pose, s);
 }
 
 sphc_rigid interpolate(const sphc_rigid &from, const sphc_rigid &to, double s) {

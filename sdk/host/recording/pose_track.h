@@ -4,6 +4,7 @@
 #include <spherecloud/spherecloud.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sphc::recording {
@@ -18,7 +19,7 @@ class PoseTrack {
   // Times must not decrease; of equal times the first counts.
   void add(int64_t time_ns, const sphc_rigid &world_from_camera);
   // Exact at a recorded time, else between neighbours at most `gap_ns` apart.
-  bool at(int64_t time_ns, int64_t gap_ns, sphc_rigid &world_from_camera) const;
+  std::optional<sphc_rigid> at(int64_t time_ns, int64_t gap_ns) const;
   const std::vector<TimedPose> &poses() const { return poses_; }
 
  private:

@@ -60,9 +60,7 @@ std::optional<sphc_localizer_frame> RecordingReader::tryRead(uint32_t index, std
 }
 
 std::optional<sphc_rigid> RecordingReader::worldFromCameraAt(int64_t time_ns) const {
-  sphc_rigid pose;
-  if (!recording_.poses.at(time_ns, pose_gap_ns_, pose)) return {};
-  return pose;
+  return recording_.poses.at(time_ns, pose_gap_ns_);
 }
 
 }  // namespace sphc::recording

@@ -83,12 +83,13 @@ PoseTrack FrameTree::track(const std::string &frame) const {
   if (!busiest) return track;
   int64_t last_ns = INT64_MIN;
   for (const TimedPose &sample : busiest->moving) {
-    sphc_rigid root_from_frame = kSameFrame, step;
+    sphc_rigid root_from_frame = kSameFrame;
     bool is_known = sample.time_ns > last_ns;
     for (const Link *link : links) {
-      is_known = is_known && (link->fixed || link->track.at(sample.time_ns, kMostGapNs, step));
+      const std::optional<sphc_rigid> step = link->fixed ? link->fixed : link->track.at(sample.time_ns, kMostGapNs);
+      is_known = is_known && step;
       if (!is_known) break;
-      root_from_frame = composed(link->fixed ? *link->fixed : step, root_from_frame);
+      root_from_frame = composed(*step, root_from_frame);
     }
     if (!is_known) continue;
     track.add(sample.time_ns, root_from_frame);

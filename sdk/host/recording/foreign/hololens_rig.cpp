@@ -21,9 +21,10 @@ std::optional<sphc_rigid> colorFromDepth(const PoseTrack &world_from_color, cons
   sphc_rigid_inverse(&depth_from_rig, &rig_from_depth);
   std::vector<double> q[4], t[3];
   for (const TimedPose &rig : world_from_rig.poses()) {
-    sphc_rigid color, color_from_world, color_from_rig, sample;
-    if (!world_from_color.at(rig.time_ns, kMostPvGapNs, color)) continue;
-    sphc_rigid_inverse(&color, &color_from_world);
+    sphc_rigid color_from_world, color_from_rig, sample;
+    const std::optional<sphc_rigid> color = world_from_color.at(rig.time_ns, kMostPvGapNs);
+    if (!color) continue;
+    sphc_rigid_inverse(&*color, &color_from_world);
     sphc_rigid_compose(&color_from_world, &rig.pose, &color_from_rig);
     sphc_rigid_compose(&color_from_rig, &rig_from_depth, &sample);
     double alike = 0;  // to the first: a quaternion and its negative are one rotation

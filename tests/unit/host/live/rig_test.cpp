@@ -104,6 +104,8 @@ TEST_F(RigTest, SaysWhatCannotBeOpenedAndTheCure) {
     return messageOf([&] { openDevice(spec, wish); });
   };
   EXPECT_NE(says("webcam:0", both).find("v4l2:, libcamera:"), std::string::npos);
+  EXPECT_NE(says(std::string(300, 'x'), both).find("no such kind of camera"), std::string::npos);
+  EXPECT_NE(says(folder_ / "walk", both).find("say replay:"), std::string::npos);
   EXPECT_NE(says("v4l2:/dev/video0", both).find("--color and --depth"), std::string::npos);
   EXPECT_NE(says("v4l2:/dev/no-such-camera", color).find("/dev/no-such-camera"), std::string::npos);
   EXPECT_NE(says("libcamera:", both).find("--depth v4l2:"), std::string::npos);
