@@ -2,6 +2,7 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/config_copy.h"
 #include "runtime/capi/defaults.h"
 #include "runtime/capi/format.h"
 #include "runtime/capi/growth.h"

@@ -4,6 +4,8 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/config_copy.h"
+#include "runtime/capi/frame_copy.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/translate.h"

@@ -5,9 +5,12 @@
 
 #include "runtime/base/message.h"
 #include "runtime/capi/check.h"
+#include "runtime/capi/config_copy.h"
 #include "runtime/capi/defaults.h"
 #include "runtime/capi/format.h"
+#include "runtime/capi/frame_copy.h"
 #include "runtime/capi/growth.h"
+#include "runtime/capi/localizer_check.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/parameters.h"
 #include "runtime/capi/translate.h"

@@ -10,14 +10,12 @@
 #include "runtime/localizer/handedness.h"
 #include "runtime/localizer/hints.h"
 #include "runtime/localizer/odometry_check.h"
+#include "runtime/localizer/pose_finder.h"
 #include "runtime/localizer/result.h"
-#include "runtime/localizer/search.h"
 #include "runtime/localizer/tracker.h"
-#include "runtime/localizer/verification.h"
 #include "runtime/stages/align/depth_reader.h"
 #include "runtime/stages/consistency/consistency.h"
 #include "runtime/stages/pose/depth_calibrator.h"
-#include "runtime/stages/pose/estimator.h"
 
 namespace sphc {
 
@@ -38,9 +36,9 @@ class Localizer {
   // False where there is none of this id.
   bool removeMap(uint32_t id);
   bool placeMap(uint32_t id, const Placement &placement);
-  const MapSet &maps() const { return search_.maps(); }
-  const SearchParameters &parameters() const { return config_.search; }
-  void setParameters(const SearchParameters &parameters);
+  const MapSet &maps() const { return finder_.maps(); }
+  const SearchParameters &parameters() const { return finder_.parameters(); }
+  void setParameters(const SearchParameters &parameters) { finder_.setParameters(parameters); }
   const DepthCalibration &depthPrior() const { return config_.depth_prior; }
   void setDepth(const DepthCalibration &known) { calibrator_.resume(known); }
 
@@ -63,7 +61,7 @@ class Localizer {
 
   // Of the last frame.
   Span<const Observation> observations() const { return front_.observations(); }
-  Span<const RankedPose> hypotheses() const { return ranking_.poses(); }
+  Span<const RankedPose> hypotheses() const { return finder_.ranking().poses(); }
   const BetweenImages &betweenImages() const { return between_; }
 
  private:
@@ -71,26 +69,16 @@ class Localizer {
   Deadline deadlineFrom(int64_t begin_ns, int64_t limit_ns) const;
   void follow(const FrameInput &frame);
   LocalizerResult locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns);
+  const Tracker *tracker() const { return config_.tracks ? &tracker_ : nullptr; }
+  Hypothesis &best() { return finder_.best(); }
+  const Hypothesis &best() const { return finder_.best(); }
   void answer(const FrameInput &frame, const Deadline &deadline, Faults *faults, Work *work);
-  void locate(const Known &known, const Deadline &deadline, Work *work);
-  bool expects(const Known &known, double most_cone_rad, Prediction *expected) const;
-  void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
-  void searchEverywhere(const Known &known, const Deadline &deadline, Work *work);
-  void searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work);
-  bool searchMapByStrongest(uint32_t map, const PoseTask &task, Work *work);
-  void searchMapLoosely(uint32_t map, const PoseTask &task, Work *work);
-  void solve(const PoseTask &task, Work *work);
-  Verification verification(uint32_t min_inliers, Work *work, Ranking *ranking);
-  PoseQuery queryFor(const PosePrior &prior, const Deadline &deadline) const;
-  void propose();
   void checkVertical(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const;
   void compareWithTrack(const FrameInput &frame, Faults *faults);
   void doubtByTrack(int64_t time_ns, Faults *faults);
   void contradict(Faults by, Faults *faults);
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
-  void findPoseOfMirrored(const Deadline &deadline, Work *work);
-  bool isDone(const Deadline &deadline, Work *work) const;
   Hints hints() const;
   void observe();
   double surenessOf(const LocalizerResult &result) const;
@@ -99,9 +87,7 @@ class Localizer {
   LocalizerConfig config_;
   DepthReader depth_readers_[kMostDepthCameras];
   FrontEnd front_;
-  Search search_;
-  PoseEstimator estimator_;
-  Repetition repetition_;
+  PoseFinder finder_;
   DepthCalibrator calibrator_;
   Tracker tracker_;
   Trail trail_;
@@ -110,13 +96,9 @@ class Localizer {
   OdometryCheck odometry_;
   TravelCheck travel_;
   DistanceCheck distances_;
-  Hypothesis best_, candidate_, rival_;  // of this frame; their matches are in scratch
-  Ranking ranking_;
-  // Of this frame: were all keypoints compared with whole maps, and in how many clear matches of one, at most?
-  bool was_asked_ = false;
-  uint32_t clear_ = 0;
+  // Of this frame.
   BetweenImages between_;
-  double confidence_of_matches_ = 0;  // of best_, but for what is not known of the way between images
+  double confidence_of_matches_ = 0;  // of the pose, but for what is not known of the way between images
 };
 
 }  // namespace sphc

@@ -1,0 +1,65 @@
+#include "runtime/capi/localizer_check.h"
+
+#include "runtime/base/message.h"
+#include "runtime/capi/check.h"
+#include "runtime/capi/transform.h"
+
+namespace sphc {
+
+sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
+                           sphc_message *message) {
+  const bool fine = checkTransform("common_from_map", common_from_map, SPHC_POSE_MAX_OFFSET_M, message) &&
+                    inRange("", "rotation_sigma_rad", rotation_sigma_rad, 0, 0.5, message) &&
+                    inRange("", "translation_sigma_m", translation_sigma_m, 0, 100, message);
+  return fine ? SPHC_OK : SPHC_E_ARGUMENT;
+}
+
+sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message) {
+  if (!depth) {
+    MessageWriter(message) << "depth is null; give result.depth of an earlier frame";
+    return SPHC_E_ARGUMENT;
+  }
+  const sphc_depth_bias &d = *depth;
+  constexpr double kRounding = 1 + 1e-4, kMostOffsetM = 1, kMostSlope = 0.5;
+  const double offset_sigma_m = sqrtOf(prior.covariance(0, 0)) * kRounding,
+               slope_sigma = sqrtOf(prior.covariance(1, 1)) * kRounding;
+  const auto lies = [&](const char *name, double value, double low, double high) {
+    return inRange("depth.", name, value, low, high, message);
+  };
+  const double most_m = prior.isKnown() ? 0 : kMostOffsetM, most_slope = prior.isKnown() ? 0 : kMostSlope;
+  const double least = prior.isKnown() ? 0 : kLeastSigma;
+  const bool fine = lies("mid_m", d.mid_m, prior.mid_m / kRounding, prior.mid_m * kRounding) &&
+                    lies("offset_m", d.offset_m, -most_m, most_m) &&
+                    lies("slope", d.slope, -most_slope, most_slope) &&
+                    lies("offset_sigma_m", d.offset_sigma_m, least, offset_sigma_m) &&
+                    lies("slope_sigma", d.slope_sigma, least, slope_sigma) &&
+                    lies("correlation", d.correlation, -0.9999, 0.9999) &&
+                    lies("noise_scale", d.noise_scale, kLeastNoiseScale, kMostNoiseScale);
+  return fine ? SPHC_OK : SPHC_E_ARGUMENT;
+}
+
+sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &localizer, sphc_message *message) {
+  const ImageSize &of = features.sizes.of[0];
+  const sphc_camera &own = localizer.localizer.config().color_camera.parameters();
+  const bool same = features.max_keypoints == localizer.max_keypoints &&
+                    features.sizes == imageSizesOf(localizer.localizer.config());
+  if (!same) {
+    MessageWriter(message) << "the features are made for " << features.max_keypoints << " keypoints of "
+                           << features.sizes.count << " cameras, the first of " << of.width << " x " << of.height
+                           << " pixels, the localizer for " << localizer.max_keypoints << " of "
+                           << 1 + localizer.localizer.config().further.size() << ", the first of " << own.width
+                           << " x " << own.height << "; make both with one config";
+    return SPHC_E_ARGUMENT;
+  }
+  const sphc_status status = checkApart(localizer.state, features.memory, message);
+  return status == SPHC_OK ? checkApart(localizer.scratch, features.memory, message) : status;
+}
+
+sphc_status checkApartFromMap(const MemoryRange &written, const sphc_map &map, sphc_message *message) {
+  const MapHeader &file = map.view.header();
+  const sphc_status status = checkApart(written, {"the view of a map", &map, sizeof map}, message);
+  if (status != SPHC_OK) return status;
+  return checkApart(written, {"the file of a map", &file, static_cast<size_t>(file.file_bytes)}, message);
+}
+
+}  // namespace sphc
