@@ -1,7 +1,6 @@
 #include "recorder.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -14,68 +13,12 @@
 #include "failure.h"
 #include "pixels.h"
 #include "pose_track.h"
+#include "recorder_slot.h"
 #include "recording_encoder.h"
 
 using namespace sphc::recording;
 
 namespace {
-
-// What was lost since the last capture that found a slot.
-class DropList {
- public:
-  void add(sphc_stream stream, DropCause cause, uint32_t first_sequence, uint32_t count, int64_t time_ns) {
-    for (size_t i = 0; i < used_; ++i)
-      if (drops_[i].stream == stream && drops_[i].cause == cause) {
-        drops_[i].count += count;
-        return;
-      }
-    drops_[used_++] = {stream, first_sequence, count, time_ns, cause};
-  }
-  void clear() { used_ = 0; }
-  const Drop *begin() const { return drops_.data(); }
-  const Drop *end() const { return drops_.data() + used_; }
-
- private:
-  std::array<Drop, 5> drops_ =
-      {};  // two streams and two causes; and what belongs to none, which no sequence counts
-  size_t used_ = 0;
-};
-
-// What was felt since the last slot; its memory is made at once.
-constexpr size_t kMostWaiting = 256;
-class Accelerations {
- public:
-  Accelerations() { felt_.reserve(kMostWaiting); }
-  bool isFull() const { return felt_.size() == kMostWaiting; }
-  void add(const TimedAcceleration &acceleration) { felt_.push_back(acceleration); }
-  void moveTo(Accelerations &other) {
-    other.felt_.assign(felt_.begin(), felt_.end());
-    felt_.clear();
-  }
-  auto begin() const { return felt_.begin(); }
-  auto end() const { return felt_.end(); }
-
- private:
-  std::vector<TimedAcceleration> felt_;
-};
-
-struct Slot {
-  enum class What { kImage, kPose, kAccelerations };  // these come with the others as well
-  What what = What::kImage;
-  CaptureNote note = {};  // of others than images, time and sequence
-  sphc_image image = {}, amplitude = {};
-  sphc_rigid pose = {};
-  Accelerations accelerations;
-  DropList drops;
-  Bytes pixels;
-};
-
-// What a stream gave so far.
-struct StreamState {
-  int64_t last_ns = -1;
-  uint32_t last_sequence = 0;
-  bool has_any() const { return last_ns >= 0; }
-};
 
 std::string timeFault(int64_t time_ns) {
   return "time_ns " + std::to_string(time_ns) +

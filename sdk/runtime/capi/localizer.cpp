@@ -11,6 +11,7 @@
 #include "runtime/capi/frame_copy.h"
 #include "runtime/capi/growth.h"
 #include "runtime/capi/localizer_check.h"
+#include "runtime/capi/log.h"
 #include "runtime/capi/objects.h"
 #include "runtime/capi/parameters.h"
 #include "runtime/capi/translate.h"
@@ -47,70 +48,6 @@ struct PieceSearch {
   }
 };
 
-void logText(const sphc_localizer &localizer, sphc_log_level level, const sphc_message &text) {
-  size_t length = 0;
-  while (text.text[length]) ++length;
-  localizer.log(localizer.log_user, level, text.text, length);
-}
-
-enum : uint32_t { kLoggedNoMap = 1, kLoggedClocks = 2, kLoggedTimes = 4 };
-
-void warnOnce(uint32_t what, const char *words, sphc_localizer *localizer) {
-  if (localizer->logged & what) return;
-  localizer->logged |= what;
-  sphc_message text;
-  MessageWriter(&text) << words;
-  logText(*localizer, SPHC_LOG_WARNING, text);
-}
-
-// Of two clocks, or so far apart that poses are less sure for it.
-void warnOfTimes(const sphc_localizer_frame &frame, sphc_localizer *localizer) {
-  const sphc::BetweenImages &between = localizer->localizer.betweenImages();
-  // Odometry says it from the second frame on.
-  const bool will_be_told = localizer->localizer.config().tracks && frame.prior &&
-                            frame.prior->flags & SPHC_PRIOR_ODOMETRY &&
-                            sphc::secondsOf(sphc::tuning::kReachNs) > between.apart_s;
-  if (between.apart_s >= sphc::tuning::kMostApartS)
-    warnOnce(
-        kLoggedClocks,
-        "the images of a frame are 1 s apart or more (color_time_ns, depth_time_ns, time_ns of views), so no pose "
-        "is sure; give all times on one clock (sphc_clock_mapper)",
-        localizer);
-  else if (between.apart_s > sphc::tuning::kMostTogetherS && !will_be_told)
-    warnOnce(
-        kLoggedTimes,
-        "the images of a frame are more than 50 ms apart (color_time_ns, depth_time_ns, time_ns of views), and "
-        "nothing says how the camera moved meanwhile, so no pose is sure; give odometry (SPHC_PRIOR_ODOMETRY, "
-        "SPHC_MODE_TRACKING), or images nearer in time",
-        localizer);
-}
-
-// Each thing once, however many frames have it.
-void logWarnings(const sphc_localizer_frame &frame, const sphc_localizer_result &result,
-                 sphc_localizer *localizer) {
-  if (!localizer->log || localizer->log_level < SPHC_LOG_WARNING) return;
-  warnOfTimes(frame, localizer);
-  if (localizer->localizer.maps().count() == 0)
-    warnOnce(kLoggedNoMap, "the localizer has no map; call sphc_localizer_set_map", localizer);
-  for (uint32_t left = result.faults & ~localizer->logged_faults; left != 0; left &= left - 1) {
-    sphc_message text;
-    MessageWriter(&text) << "frame " << result.sequence << ": " << sphc_localizer_fault_name(left & -left)
-                         << " for the first time; docs/consistency.md says what causes it";
-    logText(*localizer, SPHC_LOG_WARNING, text);
-  }
-  localizer->logged_faults |= result.faults;
-}
-
-void logResult(const sphc_localizer &localizer, const sphc_localizer_result &result) {
-  if (!localizer.log || localizer.log_level < SPHC_LOG_DEBUG) return;
-  sphc_message text;
-  MessageWriter(&text) << "frame " << result.sequence << ": " << sphc_localizer_outcome_name(result.outcome)
-                       << ", keypoints " << result.keypoints << ", lifted " << result.lifted << ", matches "
-                       << result.matches << ", inliers " << result.inliers << ", state " << result.state << ", map "
-                       << result.map_id << ", hints " << result.hints;
-  logText(localizer, SPHC_LOG_DEBUG, text);
-}
-
 sphc_status refuseMap(uint32_t map_id, sphc_message *message) {
   MessageWriter(message) << "the localizer has no map with id " << map_id
                          << "; give one that sphc_localizer_set_map was called with";
@@ -133,29 +70,8 @@ sphc_status giveOut(const LocalizerResult &answer, const sphc_localizer_frame &f
                     sphc_localizer *localizer, sphc_localizer_result *result) {
   const sphc_localizer_result own = sphc::resultFrom(answer, frame);
   sphc::writeStruct(own, struct_size, result);
-  logWarnings(frame, own, localizer);
-  logResult(*localizer, own);
+  sphc::logFrame(frame, own, localizer);
   return own.outcome == SPHC_OUTCOME_LOCALIZED ? SPHC_OK : SPHC_NOT_LOCALIZED;
-}
-
-// Are they of this frame, and for this localizer?
-sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_features *features,
-                            const sphc_localizer &localizer, sphc_message *message) {
-  if (!features) {
-    MessageWriter(message) << "features is null; make some with sphc_features_init";
-    return SPHC_E_ARGUMENT;
-  }
-  if (!features->of_frame) {
-    MessageWriter(message) << "the features are of no frame yet; call sphc_localizer_extract or sphc_features_set";
-    return SPHC_E_STATE;
-  }
-  if (features->color_time_ns != frame.color_time_ns) {
-    MessageWriter(message) << "the features are of the image at " << features->color_time_ns
-                           << " ns, and frame.color_time_ns is " << frame.color_time_ns
-                           << "; give each frame the features of its own image";
-    return SPHC_E_ARGUMENT;
-  }
-  return sphc::checkFeatures(*features, localizer, message);
 }
 
 sphc_localizer_prediction emptyPrediction() {
@@ -430,7 +346,7 @@ sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localize
   sphc::FrameCopy copy;
   uint32_t struct_size = 0;
   sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, false), &copy, message);
-  if (status == SPHC_OK) status = checkFeaturesOf(copy.frame, features, *localizer, message);
+  if (status == SPHC_OK) status = sphc::checkFeaturesOf(copy.frame, features, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;

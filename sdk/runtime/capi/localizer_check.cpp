@@ -55,6 +55,25 @@ sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &l
   return status == SPHC_OK ? checkApart(localizer.scratch, features.memory, message) : status;
 }
 
+sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_features *features,
+                            const sphc_localizer &localizer, sphc_message *message) {
+  if (!features) {
+    MessageWriter(message) << "features is null; make some with sphc_features_init";
+    return SPHC_E_ARGUMENT;
+  }
+  if (!features->of_frame) {
+    MessageWriter(message) << "the features are of no frame yet; call sphc_localizer_extract or sphc_features_set";
+    return SPHC_E_STATE;
+  }
+  if (features->color_time_ns != frame.color_time_ns) {
+    MessageWriter(message) << "the features are of the image at " << features->color_time_ns
+                           << " ns, and frame.color_time_ns is " << frame.color_time_ns
+                           << "; give each frame the features of its own image";
+    return SPHC_E_ARGUMENT;
+  }
+  return checkFeatures(*features, localizer, message);
+}
+
 sphc_status checkApartFromMap(const MemoryRange &written, const sphc_map &map, sphc_message *message) {
   const MapHeader &file = map.view.header();
   const sphc_status status = checkApart(written, {"the view of a map", &map, sizeof map}, message);

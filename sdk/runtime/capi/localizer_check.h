@@ -11,6 +11,9 @@ sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_si
 sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration &prior, sphc_message *message);
 // Were features made for a localizer of this image size and room?
 sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &localizer, sphc_message *message);
+// And of this frame?
+sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_features *features,
+                            const sphc_localizer &localizer, sphc_message *message);
 // Is it apart from a map's view and file?
 sphc_status checkApartFromMap(const MemoryRange &written, const sphc_map &map, sphc_message *message);
 
