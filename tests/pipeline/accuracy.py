@@ -13,7 +13,6 @@ import argparse
 import collections
 import concurrent.futures
 import csv
-import hashlib
 import json
 import os
 import pathlib
@@ -24,11 +23,10 @@ import time
 
 sys.dont_write_bytecode = True
 import confidence
+from private_key import NUMBERS, numbered_key
 from recordings import HERE, Recording, absent, frames, run
 
 RESULTS, SPREAD, CONFIDENCE = HERE / "accuracy_keys.csv", HERE / "accuracy.csv", HERE / "confidence.csv"
-KEYS = [(HERE / "test_key.txt").read_text()] + [
-    hashlib.sha256(b"spherecloud test key %d" % number).hexdigest() + "\n" for number in range(2, 13)]
 MODES = {
     "single": ["--mode", "single"],
     "tracking": ["--mode", "tracking"],
@@ -90,7 +88,7 @@ def maps_of(name):
     for fakes, floors in FLOORS.items():
         if any(recording == name for recording, _ in floors):
             for eta in (1.0, 0.5, 0.33, 0.25):
-                for key in range(1, len(KEYS) + 1) if eta in FLOOR_ETAS else (1,):
+                for key in NUMBERS if eta in FLOOR_ETAS else (1,):
                     yield Map(name, fakes, eta, key)
 
 
@@ -128,11 +126,9 @@ class Place:
         """Of one map the rows, each with the poses behind it."""
         with tempfile.TemporaryDirectory(dir=self.workdir) as folder:
             folder = pathlib.Path(folder)
-            file, key = folder / "room.sphc", folder / "key"
-            key.write_text(KEYS[made.key - 1])
-            key.chmod(0o600)
+            file = folder / "room.sphc"
             built = run([self.tool, "build", "--model", self.model, "--map", file, "--eta", made.eta,
-                         "--fakes", made.fakes, "--key", key, "--ledger", folder / "ledger", "--json"])
+                         "--fakes", made.fakes, "--key", numbered_key(made.key, folder), "--ledger", folder / "ledger", "--json"])
             return [self.localize(made, name, mode, file, built["points"]) for name, mode in localizations(made)]
 
     def queries(self, name):

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """The checks of accuracy.py see what they are there for."""
 import copy
+import tempfile
 import unittest
 
 import accuracy
 import confidence
+import private_key
 
 
 def row(**changes):
@@ -57,7 +59,8 @@ class Accuracy(unittest.TestCase):
         keys = {recording: {row[-1] for row in accuracy.wanted_rows() if row[0] == recording}
                 for recording in [*accuracy.recordings(), *accuracy.REFUSED]}
         self.assertEqual({12}, {len(numbers) for numbers in keys.values()})
-        self.assertEqual(12, len(set(accuracy.KEYS)))
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(12, len({private_key.numbered_key(number, folder).read_text() for number in private_key.NUMBERS}))
 
 
 class Confidence(unittest.TestCase):

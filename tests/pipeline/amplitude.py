@@ -5,16 +5,14 @@
 
 A ToF module that drops nothing measures the query; the map is made of what one measures that drops what it does not believe.
 """
-import argparse
 import concurrent.futures
 import csv
 import os
-import pathlib
 import statistics
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
+import room_options
 from private_key import key_of
 from recordings import HERE, run
 
@@ -81,15 +79,9 @@ def measure(tool, folder, rooms):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--spherecloud", required=True)
-    parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [amplitude.csv]")
-    parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(1, len(ROOMS) + 1), metavar="N", help="how many [12]")
-    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="where walks and maps are kept")
+    parser = room_options.parser_of(__doc__, RESULTS, len(ROOMS))
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = arguments.keep or pathlib.Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
+    with room_options.folder_of(arguments.keep) as folder:
         rows = measure(arguments.spherecloud, folder, arguments.rooms)
     with arguments.results.open("w", newline="") as out:
         csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])

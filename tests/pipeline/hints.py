@@ -6,7 +6,6 @@ each hint is set where its condition holds and where it does not.
 
 Conditions are made of healthy frames by spherecloud-lab hints; those of the simulated rooms alone by options of simulate.
 """
-import argparse
 import concurrent.futures
 import csv
 import os
@@ -15,9 +14,10 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from accuracy import KEYS, Place
+import room_options
+from accuracy import Place
 from negative import elsewhere_of, publish
-from private_key import key_of
+from private_key import NUMBERS, key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "hints.csv"
@@ -89,10 +89,10 @@ def rows_of_room(tool, lab, folder, seed):
 def rows_of_recording(tool, lab, folder, name, keys):
     """Hints of the image do not depend on the key: under one key all conditions, under the others those that do."""
     place = Place(name, tool, folder)
-    for key in range(keys):
+    for key in NUMBERS[:keys]:
         with tempfile.TemporaryDirectory(dir=folder) as own:
             file = publish(tool, place, pathlib.Path(own), "patchwork", key)
-            yield from rows_of(lab, place.recording.source("query"), file, name, None if key == 0 else "healthy")
+            yield from rows_of(lab, place.recording.source("query"), file, name, None if key == 1 else "healthy")
             for source in elsewhere_of(place):
                 yield from rows_of(lab, source, file, name, "another place")
 
@@ -107,9 +107,7 @@ def add(sums, key, row):
 def measure(arguments):
     """All sums, anew after each room and recording."""
     sums = {}
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = arguments.keep or pathlib.Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
+    with room_options.folder_of(arguments.keep) as folder:
         tools = arguments.spherecloud, arguments.lab
         if "rooms" in arguments.names:
             with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -134,13 +132,9 @@ def write(path, sums):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--spherecloud", required=True)
+    parser = room_options.parser_of(__doc__, RESULTS, len(ROOMS))
     parser.add_argument("--lab", required=True)
-    parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [hints.csv]")
-    parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(1, len(ROOMS) + 1), metavar="N", help="how many [12]")
-    parser.add_argument("--keys", type=int, default=len(KEYS), choices=range(1, len(KEYS) + 1), metavar="N", help="how many [12]")
-    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="where rooms and their maps are kept")
+    parser.add_argument("--keys", type=int, default=len(NUMBERS), choices=range(1, len(NUMBERS) + 1), metavar="N", help="how many [12]")
     parser.add_argument("names", nargs="*", default=["rooms", *RECORDINGS], metavar="NAME", help="rooms, or recordings [all]")
     arguments = parser.parse_args()
     for sums in measure(arguments):

@@ -8,7 +8,6 @@ depth sensor that is late or slow gives it.  Maps of a short walk whose depth is
 Times are of the depth images that the headset took, 4 ms after colour: depth that is "older by 17 ms" was taken 13 ms before
 colour.  Odometry is the truth, with a small sigma.  Needs numpy.
 """
-import argparse
 import collections
 import concurrent.futures
 import csv
@@ -19,9 +18,9 @@ import pathlib
 import shutil
 import statistics
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
+import room_options
 from private_key import key_of
 from recordings import HERE, ROOT, run
 
@@ -150,16 +149,10 @@ def row_of(rooms):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--spherecloud", required=True)
+    parser = room_options.parser_of(__doc__, RESULTS, len(ROOMS))
     parser.add_argument("--library", required=True)
-    parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [late_depth.csv]")
-    parser.add_argument("--rooms", type=int, default=len(ROOMS), choices=range(1, len(ROOMS) + 1), metavar="N", help="how many [12]")
-    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="where walks and maps are kept")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = arguments.keep or pathlib.Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
+    with room_options.folder_of(arguments.keep) as folder:
         with concurrent.futures.ProcessPoolExecutor(os.cpu_count(), multiprocessing.get_context("spawn")) as pool:
             jobs = [pool.submit(measure, arguments.spherecloud, arguments.library, folder, seed)
                     for seed in ROOMS[:arguments.rooms]]

@@ -20,7 +20,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from accuracy import KEYS
+from private_key import NUMBERS, numbered_key
 from recordings import HERE, Recording, every_other_block, frames, run
 
 RESULTS = HERE / "mapping_localized.csv"
@@ -46,10 +46,8 @@ def make_model(poses, tool, source, folder):
 def localize(model, key, tool, queries):
     with tempfile.TemporaryDirectory(dir=model.parent) as scratch:
         folder = pathlib.Path(scratch)
-        secret, room = folder / "key", folder / "room.sphc"
-        secret.write_text(key)
-        secret.chmod(0o600)
-        run([tool, "build", "--model", model, "--map", room, "--eta", ETA, "--fakes", FAKES, "--key", secret, "--ledger", folder / "ledger", "--json"])
+        room = folder / "room.sphc"
+        run([tool, "build", "--model", model, "--map", room, "--eta", ETA, "--fakes", FAKES, "--key", numbered_key(key, folder), "--ledger", folder / "ledger", "--json"])
         return run([tool, "localize", *queries, "--map", room, "--owner-note", str(room) + ".owner.json", "--mode", "single", "--align", "--json"])
 
 
@@ -121,10 +119,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [mapping_localized.csv]")
-    parser.add_argument("--keys", type=int, default=len(KEYS), choices=range(1, len(KEYS) + 1), metavar="N", help="how many [12]")
+    parser.add_argument("--keys", type=int, default=len(NUMBERS), choices=range(1, len(NUMBERS) + 1), metavar="N", help="how many [12]")
     parser.add_argument("--only", nargs="+", default=list(WALKS), choices=WALKS, metavar="NAME", help="what to measure; other rows stay [all]")
     arguments = parser.parse_args()
-    keys = KEYS[:arguments.keys]
+    keys = NUMBERS[:arguments.keys]
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         def measure(name):
             folder = pathlib.Path(scratch) / name

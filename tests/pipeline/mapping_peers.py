@@ -10,7 +10,6 @@ between frames that its own poses bring near, and a pose graph over them.
 import argparse
 import csv
 import json
-import os
 import pathlib
 import resource
 import subprocess

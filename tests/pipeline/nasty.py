@@ -22,11 +22,12 @@ import os
 import pathlib
 import statistics
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 import confidence
+import room_options
 from accuracy import WORST_CM, WORST_DEG
+from private_key import key_of
 from recordings import HERE, run
 
 RESULTS = HERE / "nasty.csv"
@@ -78,10 +79,6 @@ LINE = ["world", "room", "map_frames", "fakes", "mode", "key", "here", "frame", 
 Frame = collections.namedtuple("Frame", "world seed variant key here answer commands")
 
 
-def key_of(room, number):
-    return hashlib.sha256(b"spherecloud nasty key %d %d" % (room, number)).hexdigest() + "\n"
-
-
 def words(command):
     return " ".join(map(str, command))
 
@@ -119,10 +116,8 @@ class Room:
     def build(self, map_frames, fakes, number):
         """A map, and the command that makes it."""
         name = "%d_%s_%d" % (map_frames, fakes, number)
-        file, key = self.folder / (name + ".sphc"), self.folder / (name + ".key")
-        if not key.exists():
-            key.write_text(key_of(self.seed, number))
-            key.chmod(0o600)
+        file = self.folder / (name + ".sphc")
+        key = key_of("nasty key %d %d" % (self.seed, number), self.folder / (name + ".key"))
         step = WORLDS[self.world].recorded // map_frames
         command = [self.tool, "build", "--recording", self.walk, "--last", step * map_frames - 1, "--step", step, "--map", file,
                    "--eta", ETA, "--fakes", fakes, "--key", key, "--ledger", self.folder / (name + ".ledger"), "--json"]
@@ -222,12 +217,8 @@ def line_of(frame):
 
 
 def localize_room(tool, keep, world, number):
-    if keep:
-        folder = keep / ("%s_%d" % (world, seed_of(world, number)))
-        folder.mkdir(parents=True, exist_ok=True)
+    with room_options.folder_of(keep and keep / ("%s_%d" % (world, seed_of(world, number)))) as folder:
         return list(Room(tool, folder, world, number).record().localize())
-    with tempfile.TemporaryDirectory() as scratch:
-        return list(Room(tool, pathlib.Path(scratch), world, number).record().localize())
 
 
 def measure(tool, keep, worlds, count, lines):
@@ -264,13 +255,9 @@ def write(path, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--spherecloud", required=True, help="the command")
-    parser.add_argument("--results", type=pathlib.Path, default=RESULTS, help="the file to write [nasty.csv]")
-    parser.add_argument("--rooms", type=int, default=ROOMS, choices=range(1, ROOMS + 1), metavar="N", help="of each world [12]")
+    parser = room_options.parser_of(__doc__, RESULTS, ROOMS)
     parser.add_argument("--worlds", nargs="+", default=list(WORLDS), choices=list(WORLDS), metavar="NAME", help="some alone [all]")
     parser.add_argument("--frames", type=argparse.FileType("w"), metavar="FILE", help="a line for every frame")
-    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="where recordings and maps are kept")
     arguments = parser.parse_args()
     lines = csv.writer(arguments.frames, lineterminator="\n") if arguments.frames else None
     if lines:

@@ -15,7 +15,8 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from accuracy import KEYS, REFUSED, Place
+from accuracy import REFUSED, Place
+from private_key import NUMBERS, numbered_key
 from recordings import HERE, frames, run
 
 RESULTS = HERE / "negative.csv"
@@ -27,10 +28,8 @@ COLUMNS = ["recording", "fakes", "mode", "fault", "keys"] + COUNTS + ["worst_m",
 
 def publish(tool, place, folder, fakes, key):
     """A map of the place, with the owner's note beside it."""
-    file, secret = folder / "room.sphc", folder / "key"
-    secret.write_text(KEYS[key])
-    secret.chmod(0o600)
-    run([tool, "build", "--model", place.model, "--map", file, "--eta", ETA, "--fakes", fakes, "--key", secret,
+    file = folder / "room.sphc"
+    run([tool, "build", "--model", place.model, "--map", file, "--eta", ETA, "--fakes", fakes, "--key", numbered_key(key, folder),
          "--ledger", folder / "ledger", "--json"])
     return file
 
@@ -73,11 +72,11 @@ def measure(arguments):
                     file = publish(arguments.spherecloud, place, pathlib.Path(own), *made)
                     return list(rows_of(arguments, place, file))
 
-            maps = list(itertools.product(("patchwork", "gaussian"), range(arguments.keys)))
+            maps = list(itertools.product(("patchwork", "gaussian"), NUMBERS[:arguments.keys]))
             for (fakes, key), rows in zip(maps, pool.map(rows_of_map, maps)):
                 for row in rows:
                     add(sums, (name, fakes, row["mode"], row["fault"]), row)
-                print(name, fakes, "key", key + 1, flush=True)
+                print(name, fakes, "key", key, flush=True)
     return sums
 
 
@@ -90,7 +89,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--spherecloud", required=True)
     parser.add_argument("--lab", required=True)
-    parser.add_argument("--keys", type=int, default=12)
+    parser.add_argument("--keys", type=int, default=len(NUMBERS))
     parser.add_argument("--sequences", type=int, default=2)
     parser.add_argument("--only", nargs="+", metavar="FAULT", default=[])
     parser.add_argument("names", nargs="*", choices=[[], *NAMES], metavar="NAME")

@@ -11,6 +11,14 @@ def private_key(folder):
     return _kept(pathlib.Path(folder) / "test_key.txt", (HERE / "test_key.txt").read_text())
 
 
+NUMBERS = range(1, 13)  # of the keys that recordings are measured with
+
+
+def numbered_key(number, folder):
+    """The first is private_key."""
+    return private_key(folder) if number == 1 else key_of("test key %d" % number, pathlib.Path(folder) / ("test_key_%d.txt" % number))
+
+
 def key_of(words, path):
     """The key that these words stand for, in a file `path`; known to all too."""
     return _kept(path, hashlib.sha256(b"spherecloud " + words.encode()).hexdigest() + "\n")
