@@ -3,8 +3,6 @@
     csharp.py [--check]
 """
 import hashlib
-import json
-import pathlib
 import re
 import textwrap
 

@@ -4,7 +4,6 @@
     python.py [--check]
 """
 import re
-import sys
 import textwrap
 
 import interface

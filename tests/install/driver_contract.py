@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 
-from follow_page import ENVIRONMENT, Page, follow_blocks, options_of, section
+from follow_page import Page, follow_blocks, options_of, section
 
 DRIVER = "MyCamera"
 # What of the sample is replaced by what, and the one case that is to see it.

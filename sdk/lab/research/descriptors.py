@@ -129,7 +129,6 @@ def permuted(descriptors):
 
 
 def moments(descriptors):
-    import numpy
     centred = descriptors - descriptors.mean(0)
     return centred.T @ centred / len(centred)
 
