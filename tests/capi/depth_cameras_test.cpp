@@ -39,11 +39,11 @@ struct DepthRig {
 };
 
 struct DepthFrame {
-  // The second camera says `offset_m` more than is true.
-  DepthFrame(const DepthRig &rig, uint32_t viewpoint, double offset_m = 0)
+  // The second camera says `offset_m` more than is true, and measured so many viewpoints before the first.
+  DepthFrame(const DepthRig &rig, uint32_t viewpoint, double offset_m = 0, double late_by = 0)
       : made(sphc::test::sceneFrame(rig.config, viewpoint)),
         second(sphc::test::renderScene(rig.config.rig.color_camera, rig.second.camera,
-                                       sphc::test::sceneViewpoint(viewpoint),
+                                       sphc::test::sceneViewpoint(viewpoint - late_by),
                                        sphc::rigidFromC(rig.second.color_from_depth))) {
     for (uint16_t &mm : second.depth_mm)
       if (mm) mm = static_cast<uint16_t>(mm + 1000 * offset_m);
@@ -135,6 +135,34 @@ TEST(DepthCameras, HowTheSecondIsOffIsLearntWhereBothMeasure) {
   EXPECT_LT(last_m, 0.3 * kOffM);
   EXPECT_GT(last_m, -0.3 * kOffM);
   EXPECT_NEAR(believed_m, kOffM, 0.2 * kOffM) << "what is said to measure alike is believed";
+}
+
+TEST(DepthCameras, OdometryTakesALateSecondToTheTimeOfColour) {
+  constexpr int64_t kStepNs = 33000000;
+  DepthRig rig;
+  rig.config.mode = SPHC_MODE_TRACKING;
+  rig.second.offset_sigma_m = rig.second.slope_sigma = 0;  // how it is off must not make up for when it measured
+  const auto errorWith = [&](bool is_told) {
+    Session session(rig.config);
+    double error_m = 0;
+    for (uint32_t i = 1; i < 4; ++i) {
+      DepthFrame made(rig, i, 0, 0.5);
+      sphc_localizer_prior prior;
+      sphc_localizer_prior_init(&prior, sizeof prior);
+      prior.flags = SPHC_PRIOR_ODOMETRY;
+      prior.odometry_from_camera = sphc::rigidToC(sphc::test::sceneViewpoint(i).inverse());
+      prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
+      made.frame().prior = &prior;
+      made.frame().color_time_ns = made.frame().depth_time_ns = i * kStepNs;
+      made.view.time_ns = i * kStepNs - (is_told ? kStepNs / 2 : 0);
+      const sphc_localizer_result result = resultOf(&session, made.frame());
+      if (result.outcome != SPHC_OUTCOME_LOCALIZED) return 1.0;
+      error_m = session.errorM(result, i);
+    }
+    return error_m;
+  };
+  EXPECT_LT(errorWith(true), 0.01);
+  EXPECT_GT(errorWith(false), 2 * errorWith(true));
 }
 
 TEST(DepthCameras, HalvesAnswerTheSame) {
