@@ -309,7 +309,8 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
     if (!config_.tracks) return;
     if (!between_.areApart()) distances_.keep(best(), finder_.estimator());
     tracker_.goOver(best().map, maps());
-    result->jump = tracker_.accept(best().map, best().estimate, surenessOf(*result), between_.shift_sigma_m);
+    result->jump = tracker_.accept(best().map, best().estimate, surenessOf(*result),
+                                   (result->faults & kDoubts) != 0, between_.shift_sigma_m);
     trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {
     tracker_.miss();

@@ -134,12 +134,12 @@ void Tracker::goOver(uint32_t map, const MapSet &maps) {
   went_over_ = true;
 }
 
-Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, double between_m) {
+Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, bool is_doubted, double between_m) {
   Prediction expected;
   Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
   const bool agrees = !jump.events;
   is_sure_ = (agrees && is_sure_) || confidence >= kSureOfTrack;
-  if (agrees && is_sure_) {
+  if (agrees && is_sure_ && !is_doubted) {
     state_ = TrackingState::kTracking;
     trusted_time_ns_ = time_ns_;
   } else if (state_ == TrackingState::kTracking) {

@@ -56,10 +56,11 @@ class Tracker {
   bool predict(Prediction *prediction) const;
   // Before accept: what is known of the camera, in the map that it is found in.
   void goOver(uint32_t map, const MapSet &maps);
-  // After it: what it brought, and how far that is from what was expected.  `confidence` says how
-  // sure the pose is; `between_m` what is not known of the camera's way between the images of the frame, 1 sigma an
-  // axis, which the covariance has too.
-  Jump accept(uint32_t map, const Estimate &estimate, double confidence, double between_m = 0);
+  // After it: what it brought, and how far that is from what was expected.  `confidence` says how sure the pose is;
+  // `is_doubted`: by a fault, so that it is not to be trusted as a track is; `between_m` what is not known of the
+  // camera's way between the images of the frame, 1 sigma an axis, which the covariance has too.
+  Jump accept(uint32_t map, const Estimate &estimate, double confidence, bool is_doubted = false,
+              double between_m = 0);
   void miss();
   // Before accept: is this a jump that odometry contradicts, or that no head can make, and that much more would
   // have to speak for than for the track?

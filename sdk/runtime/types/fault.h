@@ -23,5 +23,7 @@ constexpr Faults kFocalDisagrees = 4096;     // the matches agree with another f
 // With any of these there is nothing to make a pose from.
 constexpr Faults kContradictions =
     kDepthRange | kDepthConstant | kDepthBent | kDepthFrozen | kColorFrozen | kDepthColorDisagree;
+// With any of these there is a pose, and it is doubted.
+constexpr Faults kDoubts = kDepthScale | kDepthBias | kFocalDisagrees;
 
 }  // namespace sphc

@@ -251,9 +251,9 @@ public enum LocalizerMode : int {
 public enum LocalizerState : int {
   /// <summary>No pose is trusted; always so in LocalizerMode.Single.</summary>
   Relocalizing = 0,
-  /// <summary>Poses agree from frame to frame, and one of them had a confidence of 0.95.</summary>
+  /// <summary>Poses agree, one of them had a confidence of 0.95, and no fault doubts this one.</summary>
   Tracking = 1,
-  /// <summary>Was tracking until a frame brought no pose, or another; for 1 s at most.</summary>
+  /// <summary>Was tracking, and no pose came, another, or a doubted one; for 1 s at most.</summary>
   Lost = 2,
 }
 

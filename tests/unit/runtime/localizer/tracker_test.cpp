@@ -86,6 +86,21 @@ TEST_F(TrackerTest, AVagueJumpIsANewTrack) {
   EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
 }
 
+TEST_F(TrackerTest, APoseThatAFaultDoubtsIsNotTracked) {
+  track();
+  tracker_.advance(4 * kFrame, nullptr);
+  tracker_.accept(0, found(poseAt(0.04)), kSure, true);
+  EXPECT_EQ(tracker_.state(), TrackingState::kLost);
+  EXPECT_EQ(bringVague(5 * kFrame, poseAt(0.05)), TrackingState::kTracking);  // the track goes on
+  int64_t time_ns = 5 * kFrame;
+  while (time_ns - 5 * kFrame <= kSecond) {
+    tracker_.advance(time_ns += kFrame, nullptr);
+    tracker_.accept(0, found(poseAt(0.05)), kSure, true);
+    EXPECT_NE(tracker_.state(), TrackingState::kTracking);
+  }
+  EXPECT_EQ(tracker_.state(), TrackingState::kRelocalizing);
+}
+
 // Only the state says how sure a track is: where the camera is expected does not depend on it.
 TEST_F(TrackerTest, AVagueTrackIsExpectedLikeAnyOther) {
   Tracker sure = tracker_, vague = tracker_;

@@ -5,9 +5,9 @@ package org.spherecloud;
 public enum State {
   /** No pose is trusted; always so in {@link Mode#SINGLE}. */
   RELOCALIZING(0),
-  /** Poses agree from frame to frame, and one of them had a confidence of 0.95. */
+  /** Poses agree, one of them had a confidence of 0.95, and no fault doubts this one. */
   TRACKING(1),
-  /** Was tracking until a frame brought no pose, or another; for 1 s at most. */
+  /** Was tracking, and no pose came, another, or a doubted one; for 1 s at most. */
   LOST(2),
   /** A value that this version of the binding does not know. */
   UNKNOWN(Integer.MIN_VALUE);
