@@ -142,7 +142,10 @@ std::vector<TrackedPoint> PointTracks::points() const {
     point.descriptor = representative(track.observations);
     point.sigma_m = std::sqrt(information.inverse().trace() / 3);
     point.observations = static_cast<uint32_t>(agreeing);
-    for (const Observation &o : track.observations) tracked.cameras_m.push_back(o.camera_m);
+    for (const Observation &o : track.observations) {
+      tracked.cameras_m.push_back(o.camera_m);
+      tracked.spots.push_back(o.spot);
+    }
     tracked.recording = track.observations.back().recording;
     points.push_back(std::move(tracked));
   }

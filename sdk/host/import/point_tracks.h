@@ -24,12 +24,14 @@ struct Observation {
   double metric_scale_m;  // size of the keypoint's Gaussian in space
   Descriptor descriptor;
   uint32_t recording = 0;  // of those that are imported together, the oldest first
+  uint32_t spot = 0;       // of the image (fixed_in_image.h)
 };
 
 // A point as the frames agree on it.
 struct TrackedPoint {
   ModelPoint point;
   std::vector<Vector3> cameras_m;  // where those were that saw it, world; the last ones of many
+  std::vector<uint32_t> spots;     // where they saw it in their images
   uint32_t recording = 0;          // the last that saw it
 };
 // Near-duplicates are merged.

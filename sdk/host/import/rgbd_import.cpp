@@ -7,6 +7,7 @@
 #include "host/frames/frame_features.h"
 #include "host/frames/frame_images.h"
 #include "host/frames/recording.h"
+#include "host/import/fixed_in_image.h"
 #include "host/import/moving_things.h"
 #include "host/import/point_tracks.h"
 #include "runtime/stages/align/sparse.h"
@@ -117,6 +118,7 @@ class Importer {
     for (const RgbdSource &source : recordings) add(source);
     census_.check(*summary_);
     std::vector<TrackedPoint> points = tracks_.points();
+    if (!options_.keep_moving) summary_->fixed_in_image = fixed_.dropFrom(&points);
     summary_->moving = dropMoving(views_, &points);
     PointModel model = modelOf(points);
     summary_->points_kept = static_cast<uint32_t>(model.points.size());
@@ -130,6 +132,7 @@ class Importer {
     FrameDescriber describer(rig, options_);
     FrameConsistency consistency(rig);
     views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);
+    fixed_.begin(describer.camera());
     for (uint32_t i = 0; i < source.reader->frameCount(); ++i) {
       if (!source.takes_part || source.takes_part(i)) addFrame(source, i, &describer, &consistency);
       if (progress_) progress_(++done_, total_);
@@ -174,6 +177,7 @@ class Importer {
     std::vector<Observation> observations =
         describer->describe(frame, world_from_camera, camera_from_camera_at_depth, &keypoints);
     for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
+    fixed_.add(world_from_camera.inverse(), &observations);
     if (!options_.keep_moving)
       views_.back().add(depthOf(frame.depth), world_from_camera * camera_from_camera_at_depth);
     summary_->merged += tracks_.add(describer->camera(), world_from_camera.inverse(), observations);
@@ -186,6 +190,7 @@ class Importer {
   const RgbdImportOptions &options_;
   const Progress &progress_;
   PointTracks tracks_;
+  FixedInImage fixed_;
   std::vector<DepthViews> views_;  // of each recording
   Census census_;
   RgbdImportSummary *summary_;

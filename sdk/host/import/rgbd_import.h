@@ -47,7 +47,8 @@ struct RgbdImportSummary {
   std::string first_unreadable;   // which, and why
   uint64_t keypoints = 0, lifted = 0, merged = 0;  // merged: joined a point that was there already
   uint32_t points_kept = 0, points_dropped = 0;
-  MovingSummary moving;  // of the points that were dropped, those that moved
+  uint32_t fixed_in_image = 0;  // of the points that were dropped, those that went along with the camera
+  MovingSummary moving;         // those that moved
 };
 
 // What of the frames took no part, or not as it should, a sentence each.

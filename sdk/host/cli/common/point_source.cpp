@@ -102,9 +102,12 @@ void checkPoints(const RgbdImportSummary &summary, const RgbdImportOptions &opti
                            "; record more frames of each place, or give a smaller --min-observations");
 }
 
-std::string movingText(const MovingSummary &moving) {
+std::string movingText(const RgbdImportSummary &summary) {
+  const MovingSummary &moving = summary.moving;
   const uint32_t dropped = moving.seen_through + moving.within_reach;
   std::string text = dropped ? ", " + std::to_string(dropped) + " of them on what moved" : "";
+  if (summary.fixed_in_image)
+    text += ", " + std::to_string(summary.fixed_in_image) + " of them on what is fixed in the image";
   if (moving.gone) text += ", " + std::to_string(moving.gone) + " of them on what later recordings see through";
   return text;
 }
@@ -135,7 +138,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
   checkPoints(summary, options);
   imported.told = "Mapped " + counted(summary.frames_used, "frame") + " (" + selection +
                   "): " + counted(summary.points_kept, "point") + " kept, " +
-                  std::to_string(summary.points_dropped) + " dropped" + movingText(summary.moving) + ".";
+                  std::to_string(summary.points_dropped) + " dropped" + movingText(summary) + ".";
   imported.warnings = summary.moving.doubts;
   for (const std::string &left_out : framesLeftOut(summary)) imported.warnings.push_back(left_out);
   for (const std::string &fault : faultsOfFrames(summary)) imported.warnings.push_back(fault);
@@ -152,6 +155,7 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                     {"points_dropped", summary.points_dropped},
                     {"points_seen_through", summary.moving.seen_through},
                     {"points_within_reach", summary.moving.within_reach},
+                    {"points_fixed_in_image", summary.fixed_in_image},
                     {"points_gone", summary.moving.gone},
                     {"views_disagree", summary.moving.disagreement}};
   return imported;
