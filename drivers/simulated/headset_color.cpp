@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "drivers/simulated/headset.h"
+#include "drivers/simulated/menu.h"
 #include "drivers/simulated/parallel.h"
 #include "drivers/simulated/raster.h"
 
@@ -112,6 +113,7 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
     gatherLight(view, Raster(scene_, shapes, color_, color_rays_, poses), &lights);
   }
   developAll(view, lights, parts, rgb);
+  if ((config_.with & SPHC_SIMULATED_MENU) != 0) drawMenu(walkTime(time_ns), rgb);
 }
 
 void Headset::renderView(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint8_t *rgb) const {

@@ -54,7 +54,8 @@ enum {
   SPHC_SIMULATED_DAY = 1u << 10,   /* light: lamps off, a bright sky and the sun through the window */
   SPHC_SIMULATED_NIGHT = 1u << 11, /* light: one floor lamp, warm and dim, black windows; more noise */
   SPHC_SIMULATED_DARK = 1u << 12,  /* light: lamps off at dusk; much noise, longer exposure */
-  SPHC_SIMULATED_FLAT = 1u << 13   /* eight rooms in a ring, with doorways; a lap goes through all of them */
+  SPHC_SIMULATED_FLAT = 1u << 13,  /* eight rooms in a ring, with doorways; a lap goes through all of them */
+  SPHC_SIMULATED_MENU = 1u << 14   /* a line of text and a menu are drawn over the colour image */
 };
 #define SPHC_SIMULATED_LAP_OF_FLAT_S 150.0 /* lap_s for a flat: about a third of a metre a second */
 

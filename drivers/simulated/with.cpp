@@ -17,7 +17,7 @@ constexpr struct {
     {"carpet", SPHC_SIMULATED_CARPET},   {"tiles", SPHC_SIMULATED_TILES},     {"bare", SPHC_SIMULATED_BARE},
     {"parquet", SPHC_SIMULATED_PARQUET}, {"doubles", SPHC_SIMULATED_DOUBLES}, {"mirror", SPHC_SIMULATED_MIRROR},
     {"window", SPHC_SIMULATED_WINDOW},   {"day", SPHC_SIMULATED_DAY},         {"night", SPHC_SIMULATED_NIGHT},
-    {"dark", SPHC_SIMULATED_DARK},       {"flat", SPHC_SIMULATED_FLAT},
+    {"dark", SPHC_SIMULATED_DARK},       {"flat", SPHC_SIMULATED_FLAT},       {"menu", SPHC_SIMULATED_MENU},
 };
 
 // The names of the bits that are set, with commas.

@@ -58,7 +58,7 @@ def later(*arguments):
 
 WORLDS = {
     "plain": World([], [], 30, (30, 10, 3)),
-    **{name: same(name) for name in ("hands", "feet", "people", "carpet", "parquet", "tiles", "bare", "doubles", "mirror", "window")},
+    **{name: same(name) for name in ("hands", "feet", "people", "carpet", "parquet", "tiles", "bare", "doubles", "mirror", "window", "menu")},
     "moved": later("--arrangement", 2), "day": later("--with", "day"), "night": later("--with", "night"),
     "dark": later("--with", "dark"),
     # What a real room has at once: seen by a telephone, a hall of equal things, the next evening.

@@ -187,7 +187,8 @@ const char kWithHelp[] =
     "  doubles         each piece of furniture twice, one poster several times\n"
     "  mirror, window  depth goes on behind the glass: to the image, to nothing\n"
     "  day, night, dark   the sun alone, a floor lamp alone, hardly any light\n"
-    "  flat            eight rooms in a ring, with doorways; a lap goes through all";
+    "  flat            eight rooms in a ring, with doorways; a lap goes through all\n"
+    "  menu            a line of text and a menu, drawn over the colour image";
 
 // Bounds are the driver's; of the rate they are those at which colour and depth, 4 ms apart, take turns.
 void addOptions(CLI::App *app, SimulateOptions *options) {
