@@ -13,17 +13,17 @@ struct CarriedPose {
   bool is_carried = false;                       // by odometry, at every frame since
   Rigid moved;                                   // camera now from camera then
   double turn_variance = 0, shift_variance = 0;  // of it, an axis
-  double sideways_m = 0;                         // 1 sigma: what errors of direction made of the way
+  double lasting_m = 0;                          // 1 sigma: what errors of direction and of scale made of the way
   double between_m = 0;  // 1 sigma: what was not known of the camera's way between the images of its frame
 
   Rigid now() const { return moved * camera_from_map; }
   double turnSigma() const { return sqrtOf(turn_variance); }
-  double shiftSigma() const { return hypotOf(sqrtOf(shift_variance), sideways_m); }
+  double shiftSigma() const { return hypotOf(sqrtOf(shift_variance), lasting_m); }
 
   void carry(const Rigid &step, const Odometry &odometry) {
     moved = step * moved;
-    // An error of direction lasts, so what it makes of the steps adds up.
-    sideways_m += turnSigma() * step.translation_m.norm();
+    // They last, so what they make of the steps adds up.
+    lasting_m += (turnSigma() + odometry.scale_sigma) * step.translation_m.norm();
     turn_variance += odometry.rotation_sigma_rad * odometry.rotation_sigma_rad;
     shift_variance += odometry.translation_sigma_m * odometry.translation_sigma_m;
   }

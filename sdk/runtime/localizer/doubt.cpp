@@ -83,13 +83,14 @@ double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_ar
 bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found) {
   Rigid step;
   double unused_rad, step_sigma_m;
-  if (!tracker.step(&step, &unused_rad, &step_sigma_m)) travel_.reset();
+  if (!tracker.step(&step, &unused_rad, &step_sigma_m)) reset();
   if (!known.has_odometry || !found.isLocalized()) return false;
-  if (found.map != map_) travel_.reset();
+  if (found.map != map_) reset();
   map_ = found.map;
   travel_.add(found.estimate.camera_from_map.inverse().translation_m,
               known.odometry.odometry_from_camera.translation_m, axisSigma(found.estimate.covariance, 3));
-  return travel_.isScaled(step_sigma_m);
+  was_scaled_ = travel_.isScaled(step_sigma_m);
+  return was_scaled_;
 }
 
 bool DistanceCheck::disagrees(int64_t time_ns, const Hypothesis &found, const PoseEstimator &estimator) {

@@ -28,16 +28,22 @@ double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_ar
 // A common scale of all depths shows in how far the camera goes, and only there.
 class TravelCheck {
  public:
-  void reset() { travel_.reset(); }
+  void reset() {
+    travel_.reset();
+    was_scaled_ = false;
+  }
   // The map in this slot is gone.
   void forget(uint32_t map) {
     if (map == map_) reset();
   }
   // Every frame that follows another; `tracker` knows of the frame.
   bool isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found);
+  // When there last was a pose to tell?
+  bool wasScaled() const { return was_scaled_; }
 
  private:
   Travel travel_;
+  bool was_scaled_ = false;
   uint32_t map_ = 0;
 };
 

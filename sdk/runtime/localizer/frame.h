@@ -12,6 +12,7 @@ namespace sphc {
 struct Odometry {
   Rigid odometry_from_camera;
   double rotation_sigma_rad = 0, translation_sigma_m = 0;  // 1 sigma an axis, of the step from the frame before
+  double scale_sigma = 0;                                  // of all shifts, as a share of them
 };
 
 struct Known {

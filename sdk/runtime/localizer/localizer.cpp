@@ -124,7 +124,9 @@ LocalizerResult Localizer::locate(const FrameInput &frame, const FrameFeatures &
 void Localizer::follow(const FrameInput &frame) {
   if (!config_.tracks) return;
   const bool is_believed = frame.known.has_odometry && !odometry_.disagrees();
-  tracker_.advance(frame.color_time_ns, is_believed ? &frame.known.odometry : nullptr);
+  Odometry odometry = frame.known.odometry;
+  if (travel_.wasScaled()) odometry.scale_sigma = 1;
+  tracker_.advance(frame.color_time_ns, is_believed ? &odometry : nullptr);
   fusion_.advance(tracker_);
 }
 

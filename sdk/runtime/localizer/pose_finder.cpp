@@ -129,7 +129,7 @@ void PoseFinder::searchNear(const Known &known, const Prediction &expected, cons
 void PoseFinder::searchEverywhere(const Known &known, const Deadline &deadline, Work *work) {
   const MapOrder order = search_.rankMaps(*frame_.front, deadline.afterShare(kMatchShare), work);
   if (order.size() == 0) return;  // there is no map
-  const bool fuses = frame_.tracker && frame_.tracker->hasOdometry();
+  const bool fuses = frame_.tracker && frame_.tracker->knowsShifts();
   const uint32_t remembered = frame_.fusion->mapToRemember(order);
   Prediction expected, there;
   const bool is_expected = expects(known, kMostConeRad, &expected);

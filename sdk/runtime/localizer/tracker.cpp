@@ -50,7 +50,9 @@ void Tracker::advance(int64_t time_ns, const Odometry *odometry) {
     has_step_ = isOfHead(step_, step_ns_, *odometry);
   }
   if (has_step_)
-    steps_.push({step_, odometry->rotation_sigma_rad, odometry->translation_sigma_m}, step_ns_);
+    steps_.push({step_, odometry->rotation_sigma_rad,
+                 hypotOf(odometry->translation_sigma_m, odometry->scale_sigma * step_.translation_m.norm())},
+                step_ns_);
   else
     steps_.clear();
   for (CarriedPose *pose : {&last_, &best_}) {

@@ -67,7 +67,8 @@ class Tracker {
   bool vetoes(uint32_t map, const Estimate &estimate) const;
 
   TrackingState state() const { return state_; }
-  bool hasOdometry() const { return has_odometry_; }
+  // How far the camera went between frames?
+  bool knowsShifts() const { return has_odometry_ && odometry_.scale_sigma == 0; }
   // Motion of the camera since the frame before, by odometry; false where it is not known.
   bool step(Rigid *now_from_before, double *rotation_sigma_rad, double *translation_sigma_m) const;
   // How the camera moved since another time near this frame's, by the odometry of the steps before (RecentSteps);

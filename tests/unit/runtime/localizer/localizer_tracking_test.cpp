@@ -39,6 +39,7 @@ class Walk {
       prior.flags = SPHC_PRIOR_ODOMETRY;
       const Rigid here = sceneViewpoint(viewpoint - odometry_behind_);
       prior.odometry_from_camera = rigidToC(odometry_is_inverted_ ? here : here.inverse());
+      for (double &shift_m : prior.odometry_from_camera.t_m) shift_m *= odometry_scale_;
       prior.odometry_rotation_sigma_rad = 1e-3;
       prior.odometry_translation_sigma_m = 1e-3;
       frame.prior = &prior;
@@ -69,6 +70,7 @@ class Walk {
   void useOdometry() { odometry_ = true; }
   // Odometry that tells so many viewpoints less than there were.
   void keepOdometryBehind(uint32_t viewpoints) { odometry_behind_ = viewpoints; }
+  void scaleOdometry(double scale) { odometry_scale_ = scale; }
   void invertOdometry() { odometry_is_inverted_ = true; }
   // From now on all depths are so many times as large.
   void scaleDepth(double scale) { depth_scale_ = scale; }
@@ -99,6 +101,7 @@ class Walk {
   bool odometry_is_inverted_ = false;
   double depth_scale_ = 1;
   double zoom_ = 1;
+  double odometry_scale_ = 1;
 };
 
 TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
@@ -160,6 +163,20 @@ TEST(LocalizerTracking, OdometryOfAnInverseIsNamedAndLeftOut) {
   }
   walk.forget();
   EXPECT_EQ(walk.see(before + 4).faults, 0u);
+}
+
+TEST(LocalizerTracking, OdometryOfAnotherScaleIsNamedAndVetoesNothing) {
+  Walk walk(trackingConfig());
+  walk.useOdometry();
+  walk.scaleOdometry(3);
+  uint32_t before = 0;
+  while (before < 30 && !(walk.see(before % 8).faults & SPHC_FAULT_DEPTH_SCALE)) ++before;
+  ASSERT_LT(before, 30u);
+  for (uint32_t frame = before + 1; frame < before + 60; ++frame) {
+    const sphc_localizer_result result = walk.see(frame % 8 < 4 ? frame % 8 : 8 - frame % 8);
+    EXPECT_EQ(result.outcome, SPHC_OUTCOME_LOCALIZED) << frame;
+    EXPECT_NE(result.state, SPHC_STATE_TRACKING) << frame;
+  }
 }
 
 TEST(LocalizerTracking, AJumpThatNoHeadCanMakeIsVetoed) {

@@ -170,7 +170,7 @@ class VetoTest : public TrackerTest {
   }
   void go() {
     ++frame_;
-    const Odometry odometry = {odometry_from_map_ * poseAt(-0.01 * frame_), 1e-4, 1e-3};
+    const Odometry odometry = {odometry_from_map_ * poseAt(-0.01 * frame_), 1e-4, 1e-3, scale_sigma_};
     tracker_.advance(frame_ * kFrame, has_odometry_ ? &odometry : nullptr);
   }
   Estimate poseHere(double off_m, uint32_t inliers, double turn_rad = 0) const {
@@ -183,6 +183,7 @@ class VetoTest : public TrackerTest {
   }
   static constexpr int kSecondOfFrames = 30;
   bool has_odometry_ = true;
+  double scale_sigma_ = 0;
   Rigid odometry_from_map_;
   int frame_ = 0;
 };
@@ -194,6 +195,18 @@ TEST_F(VetoTest, AJumpNeedsTwiceTheInliersOfTheTrack) {
   EXPECT_FALSE(vetoes(1, 200));
   EXPECT_FALSE(vetoes(0.1, 60)) << "no jump";
   EXPECT_FALSE(tracker_.vetoes(1, poseHere(1, 60))) << "another map";
+}
+
+TEST_F(VetoTest, ShiftsOfAnUnknownScaleDoNotCount) {
+  walk(4);
+  wander(kSecondOfFrames / 2);
+  EXPECT_TRUE(vetoes(0.5, 120));
+  scale_sigma_ = 1;
+  walk(4);
+  EXPECT_FALSE(tracker_.knowsShifts());
+  wander(kSecondOfFrames / 2);
+  EXPECT_FALSE(vetoes(0.5, 120));
+  EXPECT_TRUE(vetoes(0, 120, 0.5)) << "turns do";
 }
 
 TEST_F(VetoTest, ThePoseThatMostSpeaksForCountsNotTheLast) {
