@@ -173,6 +173,34 @@ TEST_F(CInterfaceFailure, AMapInsideTheLocalizersMemory) {
   EXPECT_EQ(sphc_localizer_map_count(made), 0u);
 }
 
+TEST_F(CInterfaceFailure, AnImageInsideTheLocalizersMemory) {
+  sphc_localizer *made = nullptr;
+  const Init i = good();
+  ASSERT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, &made, nullptr),
+            SPHC_OK);
+  sphc_localizer_result result = {};
+  result.struct_size = sizeof result;
+  const auto refuses = [&](const sphc_localizer_frame &frame, const char *words) {
+    EXPECT_EQ(sphc_localizer_process(made, &frame, &result), SPHC_E_ARGUMENT) << words;
+    expectMentions(sphc_localizer_message(made), words);
+  };
+  sphc_localizer_frame frame = frame_->frame;
+  frame.depth.data = static_cast<uint8_t *>(i.scratch) + 64;
+  refuses(frame, "scratch memory overlaps the depth image");
+  frame = frame_->frame;
+  frame.color.data = static_cast<uint8_t *>(i.state) + 64;
+  refuses(frame, "state memory overlaps the color image");
+}
+
+TEST_F(CInterfaceFailure, ARigThatWasForgotten) {
+  sphc_localizer_config config;
+  ASSERT_EQ(sphc_localizer_config_init(&config, sizeof config), SPHC_OK);
+  sphc_memory need = {};
+  sphc_message message = {};
+  EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_E_ARGUMENT);
+  expectMentions(message.text, "config.rig is not set");
+}
+
 TEST_F(CInterfaceFailure, InitBadConfig) {
   sphc_localizer_config bad = config_;
   bad.struct_size = 4;

@@ -100,6 +100,8 @@ TEST_F(CInterfaceLocalizer, ConfidenceIsAskedWithinOtherBounds) {
   EXPECT_EQ(sphc_localizer_result_confidence(nullptr, 0.05, degrees), 0);
   result.outcome = SPHC_OUTCOME_UNCERTAIN;
   EXPECT_EQ(sphc_localizer_result_confidence(&result, 0.05, degrees), 0);
+  ASSERT_EQ(sphc_localizer_result_init(&result, sizeof result), SPHC_OK);
+  EXPECT_EQ(sphc_localizer_result_confidence(&result, 0.05, degrees), 0) << "nothing was written to it";
 }
 
 TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
@@ -312,6 +314,25 @@ TEST_F(CInterfaceLocalizer, WarnsOnceOfImagesThatNothingBringsTogether) {
   ASSERT_EQ(lines.size(), 1u);
   expectMentions(lines[0].c_str(), "more than 50 ms apart");
   expectMentions(lines[0].c_str(), "SPHC_PRIOR_ODOMETRY");
+}
+
+TEST_F(CInterfaceLocalizer, WarnsOnceOfTimesThatDoNotGrow) {
+  std::vector<std::string> lines;
+  logTo<SPHC_LOG_WARNING>(&lines, &config_);
+  config_.mode = SPHC_MODE_TRACKING;
+  Session logged(config_);
+  sphc_localizer_result result = clean();
+  const auto see = [&](int64_t time_ns) {
+    const auto made = sphc::test::sceneFrame(config_, 1);
+    made->frame.color_time_ns = made->frame.depth_time_ns = time_ns;
+    EXPECT_EQ(logged.process(made->frame, &result), SPHC_OK);
+    return lines.size();
+  };
+  for (int64_t time_ns : {1000000000, 1033000000, 0, 33000000, 66000000}) EXPECT_EQ(see(time_ns), 0u);
+  EXPECT_EQ(see(66000000), 0u);
+  EXPECT_EQ(see(66000000), 0u);
+  for (int again = 0; again < 2; ++again) EXPECT_EQ(see(66000000), 1u);
+  expectMentions(lines[0].c_str(), "color_time_ns does not grow");
 }
 
 TEST_F(CInterfaceLocalizer, WarnsOnceOfEachFault) {

@@ -28,6 +28,9 @@ TEST(CInterfaceConfig, DefaultsNeedOnlyCameras) {
   sphc_memory need;
   sphc_message message;
   EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_E_ARGUMENT);
+  expectMentions(message.text, "config.rig is not set");
+  config.rig.depth_camera = sphc::test::pinhole(640, 480, 500);
+  EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_E_ARGUMENT);
   expectMentions(message.text, "color_camera");
   config.rig.color_camera = config.rig.depth_camera = sphc::test::pinhole(640, 480, 500);
   EXPECT_EQ(sphc_localizer_memory(&config, &need, &message), SPHC_OK);

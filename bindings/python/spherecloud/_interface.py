@@ -278,34 +278,34 @@ class sphc_localizer_depth_camera(ctypes.Structure):
 
 class sphc_localizer_config(ctypes.Structure):
     struct_size: int
-    # of all cameras together; strongest are kept; 64 to 4096
+    # of all cameras together; strongest are kept; 64 to 4096; default 800
     max_keypoints: int
-    # that it has at once; 1 to SPHC_MAPS_MAX
+    # that it has at once; 1 to SPHC_MAPS_MAX; default 16
     max_maps: int
     mode: int
     # same seed, maps, config and frames: same bytes in the results
     seed: int
     rig: sphc_rig
-    # Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too.
+    # Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig, to which
+    # metres are rounded too; default 0.25 and 6.
     depth_min_m: float
     depth_max_m: float
-    # Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2.
+    # Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; 1e-5 to 1 and 0 to 1;
+    # default 0.004 and 0.002.
     depth_sigma_m: float
     depth_sigma_per_m2: float
-    # noise of a keypoint's position, 1 sigma
+    # noise of a keypoint's position, 1 sigma; 0.01 to 20; default 0.8
     pixel_sigma_px: float
-    # error of a map point across its direction, 1 sigma
+    # error of a map point across its direction, 1 sigma; 0 to 1; default 0.004
     map_sigma_m: float
-    # 0: the geometric mean of depth_min_m and depth_max_m
+    # 0 to 200; 0, the default: the geometric mean of depth_min_m and depth_max_m
     depth_mid_m: float
     depth_offset_sigma_m: float
     depth_slope_sigma: float
     # may be null
     log: object
     log_user: int | None
-    # What says more is not made. SPHC_LOG_WARNING has a line for each fault when a frame has it for the first time,
-    # for a localizer without a map, and for times of depth and colour that are more than 1 s apart; SPHC_LOG_DEBUG
-    # one for every frame; the others none yet. Not looked at where log is null.
+    # default SPHC_LOG_INFO
     log_level: int
     reserved: int
     # may be null: stage times are then 0, and no frame has a deadline
@@ -986,24 +986,29 @@ class Interface:
         # set the rig. SPHC_E_STRUCT_SIZE when the size is none that the struct ever had. [pure]
         self.sphc_localizer_config_init = bound("sphc_localizer_config_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_config), ctypes.c_size_t])
-        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-        # above. [pure]
+        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails
+        # leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here.
+        # STRUCT_SIZE as above. [pure]
         self.sphc_localizer_result_init = bound("sphc_localizer_result_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_result), ctypes.c_size_t])
-        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-        # above. [pure]
+        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails
+        # leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here.
+        # STRUCT_SIZE as above. [pure]
         self.sphc_localizer_frame_init = bound("sphc_localizer_frame_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_frame), ctypes.c_size_t])
-        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-        # above. [pure]
+        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails
+        # leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here.
+        # STRUCT_SIZE as above. [pure]
         self.sphc_localizer_prior_init = bound("sphc_localizer_prior_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_prior), ctypes.c_size_t])
-        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-        # above. [pure]
+        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails
+        # leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here.
+        # STRUCT_SIZE as above. [pure]
         self.sphc_localizer_camera_init = bound("sphc_localizer_camera_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_camera), ctypes.c_size_t])
-        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-        # above. [pure]
+        # Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails
+        # leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here.
+        # STRUCT_SIZE as above. [pure]
         self.sphc_localizer_view_init = bound("sphc_localizer_view_init", ctypes.c_int32, [
             ctypes.POINTER(sphc_localizer_view), ctypes.c_size_t])
         # Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. [pure]
@@ -1083,8 +1088,8 @@ class Interface:
         # as it was, and sphc_localizer_extract has sphc_features_message. [exclusive]
         self.sphc_localizer_message = bound("sphc_localizer_message", ctypes.c_char_p, [ctypes.c_void_p])
         # The probability that the camera is within so many metres and radians of the pose. 0 where there is no
-        # pose, for a bound that is not above 0, and for a null result. Of the result, outcome and covariance are
-        # read; docs/confidence.md. [pure]
+        # pose, for a bound that is not above 0, and for a null result or one that nothing was written to. Of the
+        # result, outcome and covariance are read; docs/confidence.md. [pure]
         self.sphc_localizer_result_confidence = bound("sphc_localizer_result_confidence", ctypes.c_double, [
             ctypes.POINTER(sphc_localizer_result), ctypes.c_double, ctypes.c_double])
         # Zero but for struct_size, map_id and the identity pose. STRUCT_SIZE as above. [pure]

@@ -111,6 +111,13 @@ sphc_status readAcceleration(const sphc_replay *replay, uint32_t index, int64_t 
   return sphc_replay_acceleration(replay, index, time_ns, felt->mps2);
 }
 
+// Told before the new recording is finished, so that nothing has its name.
+void checkAny(const Result &result) {
+  if (result.unreadable && !result.color && !result.depth)
+    throw std::runtime_error("not one of " + counted(result.unreadable, "image") +
+                             " can be read, so nothing was written; the lines above say why");
+}
+
 // Both streams in order of time, poses and accelerations among them; of a part of a recording those around it.
 Result copyStreams(sphc_replay *replay, const ConvertOptions &options, const Interrupt &interrupt,
                    RecordingOut *out, const Console &console) {
@@ -148,6 +155,7 @@ Result copyStreams(sphc_replay *replay, const ConvertOptions &options, const Int
     result.amplitudes += capture.amplitude.data != nullptr;
     source.release(source.self, &capture);
   }
+  checkAny(result);
   poses.writeUpTo(to_ns, from_ns, out);
   felt.writeUpTo(to_ns, from_ns, out);
   result.poses = poses.written();
@@ -180,6 +188,7 @@ Result copyFrames(RecordingReader *reader, const Interrupt &interrupt, const Con
     result.amplitudes += frame->amplitude.data != nullptr;
     result.poses += pose ? 1 : 0;
   }
+  checkAny(result);
   return result;
 }
 

@@ -188,7 +188,7 @@ std::string mapSection(const Run &run, const PageContent &content) {
   }
   PagePicture picture = content.directions;
   picture.caption =
-      "All directions in the map, seen from its centre, as a map of the sky: longitude to the right, up is up. "
+      "All directions in the map, seen from its centre, as a map of the sky: longitude to the left, up is up. "
       "The brightest spot is " +
       fixed(content.direction_peak, 1) + " times denser than an even spread.";
   return "<div class='columns' style='align-items:center'>" + figure(picture) + "<div>" + tableOf(rows) +

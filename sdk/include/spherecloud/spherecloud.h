@@ -503,32 +503,36 @@ typedef struct sphc_localizer_depth_camera {
 
 typedef struct sphc_localizer_config {
   uint32_t struct_size;
-  uint32_t max_keypoints; /* of all cameras together; strongest are kept; 64 to 4096 */
-  uint32_t max_maps;      /* that it has at once; 1 to SPHC_MAPS_MAX */
+  uint32_t max_keypoints; /* of all cameras together; strongest are kept; 64 to 4096; default 800 */
+  uint32_t max_maps;      /* that it has at once; 1 to SPHC_MAPS_MAX; default 16 */
   sphc_localizer_mode mode;
   uint64_t seed; /* same seed, maps, config and frames: same bytes in the results */
 
   sphc_rig rig;
 
-  /* Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too. */
+  /* Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig, to which
+   * metres are rounded too; default 0.25 and 6. */
   double depth_min_m, depth_max_m;
-  /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
+  /* Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; 1e-5 to 1 and 0 to 1;
+   * default 0.004 and 0.002. */
   double depth_sigma_m, depth_sigma_per_m2;
-  double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma */
-  double map_sigma_m;    /* error of a map point across its direction, 1 sigma */
+  double pixel_sigma_px; /* noise of a keypoint's position, 1 sigma; 0.01 to 20; default 0.8 */
+  double map_sigma_m;    /* error of a map point across its direction, 1 sigma; 0 to 1; default 0.004 */
 
   /* Bias of the depth sensor, which the localizer learns from frame to frame: true z = z + offset + slope (z -
    * mid). 1 sigma of what is unknown of it before the first frame; both 0: no bias, and nothing is learnt.
-   * A common scale of depths cannot be observed, so the offset's sigma at mid range should be small. */
-  double depth_mid_m; /* 0: the geometric mean of depth_min_m and depth_max_m */
+   * A common scale of depths cannot be observed, so the offset's sigma at mid range should be small.  1e-6 to 1 and
+   * to 0.5; default 0.003 and 0.02. */
+  double depth_mid_m; /* 0 to 200; 0, the default: the geometric mean of depth_min_m and depth_max_m */
   double depth_offset_sigma_m, depth_slope_sigma;
 
   sphc_log_fn log; /* may be null */
   void *log_user;
   /* What says more is not made.  SPHC_LOG_WARNING has a line for each fault when a frame has it for the first time,
-   * for a localizer without a map, and for times of depth and colour that are more than 1 s apart; SPHC_LOG_DEBUG
-   * one for every frame; the others none yet.  Not looked at where log is null. */
-  sphc_log_level log_level;
+   * for a localizer without a map, for times of depth and colour that are more than 1 s apart, and for times of
+   * frames that do not grow; SPHC_LOG_DEBUG one for every frame; the others none yet.  Not looked at where log is
+   * null. */
+  sphc_log_level log_level; /* default SPHC_LOG_INFO */
   uint32_t reserved;
   sphc_clock_fn clock; /* may be null: stage times are then 0, and no frame has a deadline */
   void *clock_user;
@@ -776,8 +780,9 @@ typedef struct sphc_localizer_result {
  * the rig.  SPHC_E_STRUCT_SIZE when the size is none that the struct ever had. [pure] */
 SPHC_API sphc_status sphc_localizer_config_init(sphc_localizer_config *config, size_t struct_size);
 
-/* Results and inputs that say nothing yet: zero but for struct_size and identity poses.  STRUCT_SIZE as above.
- * [pure] */
+/* Results and inputs that say nothing yet: zero but for struct_size and identity poses.  A call that fails leaves
+ * its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here.  STRUCT_SIZE as
+ * above. [pure] */
 SPHC_API sphc_status sphc_localizer_result_init(sphc_localizer_result *result, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_frame_init(sphc_localizer_frame *frame, size_t struct_size);
 SPHC_API sphc_status sphc_localizer_prior_init(sphc_localizer_prior *prior, size_t struct_size);
@@ -911,8 +916,8 @@ SPHC_API sphc_status sphc_localizer_process(sphc_localizer *localizer, const sph
 SPHC_API const char *sphc_localizer_message(const sphc_localizer *localizer);
 
 /* The probability that the camera is within so many metres and radians of the pose.  0 where there is no pose, for
- * a bound that is not above 0, and for a null result.  Of the result, outcome and covariance are read;
- * docs/confidence.md. [pure] */
+ * a bound that is not above 0, and for a null result or one that nothing was written to.  Of the result, outcome
+ * and covariance are read; docs/confidence.md. [pure] */
 SPHC_API double sphc_localizer_result_confidence(const sphc_localizer_result *result, double translation_m,
                                                  double rotation_rad);
 

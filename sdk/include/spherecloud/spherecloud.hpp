@@ -327,7 +327,7 @@ class Features {
   }
   // With its message where it failed: of set, and of Localizer::extract.
   Status said(sphc_status code) const {
-    return code < 0 && features_ ? Status(code, sphc_features_message(features_)) : Status(code);
+    return code < 0 ? Status(code, sphc_features_message(features_)) : Status(code);
   }
   sphc_features *get() const { return features_; }
   explicit operator bool() const { return features_ != nullptr; }
@@ -444,7 +444,7 @@ class Localizer {
   }
   // With its message where it failed.
   Status said(sphc_status code) const {
-    return code < 0 && localizer_ ? Status(code, sphc_localizer_message(localizer_)) : Status(code);
+    return code < 0 ? Status(code, sphc_localizer_message(localizer_)) : Status(code);
   }
   void swap(Localizer &other) noexcept {
     std::swap(state_, other.state_);

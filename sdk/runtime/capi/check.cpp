@@ -24,7 +24,8 @@ sphc_status refuseElement(uint32_t i, sphc_status status, const sphc_message &fo
 sphc_status checkImage(const char *name, const sphc_image &image, const sphc_camera &camera,
                        const DepthWanted &wanted, sphc_message *message) {
   if (!image.data) {
-    MessageWriter(message) << name << " image's data pointer is null; give the pixels";
+    MessageWriter(message) << name
+                           << " image's data pointer is null; give the pixels, or leave out a frame without";
     return SPHC_E_IMAGE;
   }
   const PixelFormat format = pixelFormatOf(image.format);

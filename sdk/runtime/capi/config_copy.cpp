@@ -20,6 +20,15 @@ bool configInRange(const char *name, double value, double low, double high, sphc
   return inRange("config.", name, value, low, high, message);
 }
 
+// A config's; forgotten, it is the first thing to say.
+sphc_status checkRig(const sphc_rig &rig, sphc_message *message) {
+  if (rig.color_camera.model || rig.depth_camera.model) return sphc_rig_check(&rig, message);
+  MessageWriter(message)
+      << "config.rig is not set, neither of its cameras has a model; give the calibration of the "
+         "headset";
+  return SPHC_E_ARGUMENT;
+}
+
 // What every depth camera has; so the names of its fields begin.
 constexpr const char *kDepthFields = "config.depth_", *kFurtherDepthFields = "config.depth_cameras[i].";
 
@@ -151,7 +160,7 @@ sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sp
   sphc_localizer_config &own = copy->config;
   own = defaultConfig();
   sphc_status status = readStruct("config", config, &own, message);
-  if (status == SPHC_OK) status = sphc_rig_check(&own.rig, message);
+  if (status == SPHC_OK) status = checkRig(own.rig, message);
   if (status != SPHC_OK) return status;
   const bool fine =
       checkNumbers(own, message) && checkParallel(own, message) &&
@@ -164,7 +173,7 @@ sphc_status readConfig(const sphc_localizer_config *config, ConfigCopy *copy, sp
 sphc_status readAlignerConfig(const sphc_aligner_config *config, sphc_aligner_config *copy, sphc_message *message) {
   *copy = defaultAlignerConfig();
   sphc_status status = readStruct("config", config, copy, message);
-  if (status == SPHC_OK) status = sphc_rig_check(&copy->rig, message);
+  if (status == SPHC_OK) status = checkRig(copy->rig, message);
   if (status != SPHC_OK) return status;
   const sphc_aligner_config &c = *copy;
   const DepthSensor sensor = {c.rig.depth_unit_m, c.depth_min_m, c.depth_max_m, c.depth_sigma_m,

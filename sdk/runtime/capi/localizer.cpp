@@ -303,7 +303,7 @@ sphc_status sphc_localizer_set_depth_bias(sphc_localizer *localizer, const sphc_
 void sphc_localizer_reset(sphc_localizer *localizer) {
   if (!localizer) return;
   localizer->localizer.reset();
-  localizer->logged_faults = localizer->logged = 0;
+  localizer->logged_faults = localizer->logged = localizer->stuck = 0;
 }
 
 sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localizer_frame *frame,
@@ -312,7 +312,9 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
   uint32_t struct_size = 0;
-  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, true), &copy, message);
+  const sphc::FrameLimits limits = limitsOf(*localizer, true);
+  sphc_status status = sphc::readFrame(frame, limits, &copy, message);
+  if (status == SPHC_OK) status = sphc::checkImagesApart(copy, limits, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;
@@ -345,7 +347,9 @@ sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localize
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
   uint32_t struct_size = 0;
-  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, false), &copy, message);
+  const sphc::FrameLimits limits = limitsOf(*localizer, false);
+  sphc_status status = sphc::readFrame(frame, limits, &copy, message);
+  if (status == SPHC_OK) status = sphc::checkImagesApart(copy, limits, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkFeaturesOf(copy.frame, features, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
   if (status != SPHC_OK) return status;
@@ -362,6 +366,7 @@ double sphc_localizer_result_confidence(const sphc_localizer_result *result, dou
                                         double rotation_rad) {
   if (!result || result->outcome != SPHC_OUTCOME_LOCALIZED) return 0;
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> covariance(result->covariance);
+  if (!(covariance.trace() > 0)) return 0;  // of no pose, which is never known to the last digit
   return sphc::Localizer::confidenceWithin(covariance, translation_m, rotation_rad);
 }
 

@@ -5,6 +5,17 @@
 #include "runtime/capi/transform.h"
 
 namespace sphc {
+namespace {
+
+sphc_status checkImageApart(const char *name, const sphc_image &image, const sphc_localizer &localizer,
+                            sphc_message *message) {
+  if (!image.data) return SPHC_OK;
+  const MemoryRange pixels = {name, image.data, static_cast<size_t>(image.stride_bytes) * image.height};
+  const sphc_status status = checkApart(localizer.state, pixels, message);
+  return status == SPHC_OK ? checkApart(localizer.scratch, pixels, message) : status;
+}
+
+}  // namespace
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
                            sphc_message *message) {
@@ -28,8 +39,12 @@ sphc_status checkDepthBias(const sphc_depth_bias *depth, const DepthCalibration 
   };
   const double most_m = prior.isKnown() ? 0 : kMostOffsetM, most_slope = prior.isKnown() ? 0 : kMostSlope;
   const double least = prior.isKnown() ? 0 : kLeastSigma;
-  const bool fine = lies("mid_m", d.mid_m, prior.mid_m / kRounding, prior.mid_m * kRounding) &&
-                    lies("offset_m", d.offset_m, -most_m, most_m) &&
+  if (!(d.mid_m >= prior.mid_m / kRounding && d.mid_m <= prior.mid_m * kRounding)) {
+    MessageWriter(message) << "depth.mid_m is " << d.mid_m << ", and the localizer's " << prior.mid_m
+                           << ": it was learnt with another config.depth_mid_m, or range; begin without it";
+    return SPHC_E_ARGUMENT;
+  }
+  const bool fine = lies("offset_m", d.offset_m, -most_m, most_m) &&
                     lies("slope", d.slope, -most_slope, most_slope) &&
                     lies("offset_sigma_m", d.offset_sigma_m, least, offset_sigma_m) &&
                     lies("slope_sigma", d.slope_sigma, least, slope_sigma) &&
@@ -72,6 +87,21 @@ sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_featur
     return SPHC_E_ARGUMENT;
   }
   return checkFeatures(*features, localizer, message);
+}
+
+sphc_status checkImagesApart(const FrameCopy &copy, const FrameLimits &limits, const sphc_localizer &localizer,
+                             sphc_message *message) {
+  const sphc_localizer_frame &frame = copy.frame;
+  sphc_status status = checkImageApart("the depth image", frame.depth, localizer, message);
+  const auto check = [&](const char *name, const sphc_image &image) {
+    if (status == SPHC_OK) status = checkImageApart(name, image, localizer, message);
+  };
+  for (uint32_t i = 0; i < frame.depth_view_count; ++i)
+    check("the depth image of a view", copy.depth_views[i].depth);
+  if (!limits.looks_at_images) return status;
+  check("the color image", frame.color);
+  for (uint32_t i = 0; i < frame.view_count; ++i) check("the image of a view", copy.views[i].image);
+  return status;
 }
 
 sphc_status checkApartFromMap(const MemoryRange &written, const sphc_map &map, sphc_message *message) {

@@ -1,5 +1,6 @@
 // Checks of what a localizer is given beside its frames.
 #pragma once
+#include "runtime/capi/frame_copy.h"
 #include "runtime/capi/objects.h"
 #include "runtime/types/depth_calibration.h"
 
@@ -14,6 +15,9 @@ sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &l
 // And of this frame?
 sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_features *features,
                             const sphc_localizer &localizer, sphc_message *message);
+// Are the images apart from what the localizer writes to while it reads them?
+sphc_status checkImagesApart(const FrameCopy &copy, const FrameLimits &limits, const sphc_localizer &localizer,
+                             sphc_message *message);
 // Is it apart from a map's view and file?
 sphc_status checkApartFromMap(const MemoryRange &written, const sphc_map &map, sphc_message *message);
 

@@ -12,7 +12,8 @@ void logText(const sphc_localizer &localizer, sphc_log_level level, const sphc_m
   localizer.log(localizer.log_user, level, text.text, length);
 }
 
-enum : uint32_t { kLoggedNoMap = 1, kLoggedClocks = 2, kLoggedTimes = 4 };
+enum : uint32_t { kLoggedNoMap = 1, kLoggedClocks = 2, kLoggedTimes = 4, kLoggedStuck = 8 };
+constexpr uint32_t kStuck = 3;  // a recording that begins anew goes back once
 
 void warnOnce(uint32_t what, const char *words, sphc_localizer *localizer) {
   if (localizer->logged & what) return;
@@ -44,11 +45,24 @@ void warnOfTimes(const sphc_localizer_frame &frame, sphc_localizer *localizer) {
         localizer);
 }
 
+// In tracking, which begins anew with each of them.
+void warnOfStuckTimes(int64_t time_ns, sphc_localizer *localizer) {
+  localizer->stuck = time_ns > localizer->last_time_ns ? 0 : localizer->stuck + 1;
+  localizer->last_time_ns = time_ns;
+  if (localizer->stuck >= kStuck && localizer->localizer.config().tracks)
+    warnOnce(
+        kLoggedStuck,
+        "color_time_ns does not grow from frame to frame, so nothing is tracked; give times of mid-exposure, in "
+        "nanoseconds of one clock",
+        localizer);
+}
+
 // Each thing once, however many frames have it.
 void logWarnings(const sphc_localizer_frame &frame, const sphc_localizer_result &result,
                  sphc_localizer *localizer) {
   if (!localizer->log || localizer->log_level < SPHC_LOG_WARNING) return;
   warnOfTimes(frame, localizer);
+  warnOfStuckTimes(frame.color_time_ns, localizer);
   if (localizer->localizer.maps().count() == 0)
     warnOnce(kLoggedNoMap, "the localizer has no map; call sphc_localizer_set_map", localizer);
   for (uint32_t left = result.faults & ~localizer->logged_faults; left != 0; left &= left - 1) {

@@ -39,6 +39,8 @@ struct alignas(sphc::kArenaAlignment) sphc_localizer {
   void *log_user;
   sphc_log_level log_level;
   uint32_t logged_faults, logged;
+  uint32_t stuck;        // frames in a row whose time did not grow
+  int64_t last_time_ns;  // of a frame
   sphc_message message;
 
   // Where the call that begins explains a failure.

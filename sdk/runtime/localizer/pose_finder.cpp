@@ -12,9 +12,12 @@ using namespace tuning;
 
 namespace {
 
-bool isWhereExpected(const Rigid &found, const Prediction &expected) {
+// A caller knows of a pose what it says, and a track as much as makes no jump.
+bool isWhereExpected(const Rigid &found, const Prediction &expected, bool by_caller) {
+  const PoseBounds &least = by_caller ? kNoJump : kNoJumpOfTrack;
   return areNear(found, expected.camera_from_map,
-                 boundsOfNoJump(expected.rotation_sigma_rad, expected.translation_sigma_m));
+                 {least.most_shift_m + kGateSigmas * expected.translation_sigma_m,
+                  least.most_turn_rad + kGateSigmas * expected.rotation_sigma_rad});
 }
 
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }
@@ -121,7 +124,7 @@ void PoseFinder::searchNear(const Known &known, const Prediction &expected, cons
                     &candidate_.matched, work);
   solve({question, {}, queryFor(prior, own), solidAngleOf(cone_rad), {kConesOfExpectedPose, 1}}, work);
   // A pose elsewhere lacks what a search of the whole map would hold against it.
-  if (candidate_.isLocalized() && !isWhereExpected(candidate_.estimate.camera_from_map, expected))
+  if (candidate_.isLocalized() && !isWhereExpected(candidate_.estimate.camera_from_map, expected, isNarrow(known)))
     candidate_.outcome = Outcome::kUncertain;
   propose();
 }

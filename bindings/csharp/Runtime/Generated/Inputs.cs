@@ -53,10 +53,10 @@ public sealed unsafe partial class LocalizerConfig {
       SpherecloudException.Check(Native.sphc_localizer_config_init(p, Size.Of(sizeof(Native.sphc_localizer_config))));
   }
 
-  /// <summary>Of all cameras together; strongest are kept; 64 to 4096.</summary>
+  /// <summary>Of all cameras together; strongest are kept; 64 to 4096; default 800.</summary>
   public uint MaxKeypoints { get { return raw.max_keypoints; } set { raw.max_keypoints = value; } }
 
-  /// <summary>That it has at once; 1 to Limits.MapsMax.</summary>
+  /// <summary>That it has at once; 1 to Limits.MapsMax; default 16.</summary>
   public uint MaxMaps { get { return raw.max_maps; } set { raw.max_maps = value; } }
 
   /// <summary>Whether frames belong together.</summary>
@@ -68,27 +68,29 @@ public sealed unsafe partial class LocalizerConfig {
   /// <summary>The colour and the depth camera.</summary>
   public Rig Rig { get { return raw.rig; } set { raw.rig = value; } }
 
-  /// <summary>Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded
-  /// too.</summary>
+  /// <summary>Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig,
+  /// to which metres are rounded too; default 0.25 and 6.</summary>
   public double DepthMinM { get { return raw.depth_min_m; } set { raw.depth_min_m = value; } }
 
-  /// <summary>Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded
-  /// too.</summary>
+  /// <summary>Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig,
+  /// to which metres are rounded too; default 0.25 and 6.</summary>
   public double DepthMaxM { get { return raw.depth_max_m; } set { raw.depth_max_m = value; } }
 
-  /// <summary>Noise of the depth sensor, 1 sigma: sigma(z) = DepthSigmaM + DepthSigmaPerM2 z^2.</summary>
+  /// <summary>Noise of the depth sensor, 1 sigma: sigma(z) = DepthSigmaM + DepthSigmaPerM2 z^2; 1e-5 to 1 and 0 to
+  /// 1; default 0.004 and 0.002.</summary>
   public double DepthSigmaM { get { return raw.depth_sigma_m; } set { raw.depth_sigma_m = value; } }
 
-  /// <summary>Noise of the depth sensor, 1 sigma: sigma(z) = DepthSigmaM + DepthSigmaPerM2 z^2.</summary>
+  /// <summary>Noise of the depth sensor, 1 sigma: sigma(z) = DepthSigmaM + DepthSigmaPerM2 z^2; 1e-5 to 1 and 0 to
+  /// 1; default 0.004 and 0.002.</summary>
   public double DepthSigmaPerM2 { get { return raw.depth_sigma_per_m2; } set { raw.depth_sigma_per_m2 = value; } }
 
-  /// <summary>Noise of a keypoint's position, 1 sigma.</summary>
+  /// <summary>Noise of a keypoint's position, 1 sigma; 0.01 to 20; default 0.8.</summary>
   public double PixelSigmaPx { get { return raw.pixel_sigma_px; } set { raw.pixel_sigma_px = value; } }
 
-  /// <summary>Error of a map point across its direction, 1 sigma.</summary>
+  /// <summary>Error of a map point across its direction, 1 sigma; 0 to 1; default 0.004.</summary>
   public double MapSigmaM { get { return raw.map_sigma_m; } set { raw.map_sigma_m = value; } }
 
-  /// <summary>0: the geometric mean of DepthMinM and DepthMaxM.</summary>
+  /// <summary>0 to 200; 0, the default: the geometric mean of DepthMinM and DepthMaxM.</summary>
   public double DepthMidM { get { return raw.depth_mid_m; } set { raw.depth_mid_m = value; } }
 
   /// <summary>1 sigma of what is unknown of the offset before the first frame; 0: nothing is learnt.</summary>
@@ -97,9 +99,7 @@ public sealed unsafe partial class LocalizerConfig {
   /// <summary>1 sigma of what is unknown of the slope before the first frame.</summary>
   public double DepthSlopeSigma { get { return raw.depth_slope_sigma; } set { raw.depth_slope_sigma = value; } }
 
-  /// <summary>What says more is not made. LogLevel.Warning has a line for each fault when a frame has it for the
-  /// first time, for a localizer without a map, and for times of depth and colour that are more than 1 s apart;
-  /// LogLevel.Debug one for every frame; the others none yet. Not looked at where log is null.</summary>
+  /// <summary>Default LogLevel.Info.</summary>
   public LogLevel LogLevel { get { return raw.log_level; } set { raw.log_level = value; } }
 
   /// <summary>Of frame.Depth, a DEPTH or RANGE format; 0: PixelFormat.Depth16.</summary>

@@ -444,28 +444,33 @@ internal static unsafe class Native {
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_config_init(sphc_localizer_config* config, UIntPtr struct_size);
 
-  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses.
-  /// STRUCT_SIZE as above.</summary>
+  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call
+  /// that fails leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED
+  /// here. STRUCT_SIZE as above.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_result_init(LocalizerResult* result, UIntPtr struct_size);
 
-  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses.
-  /// STRUCT_SIZE as above.</summary>
+  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call
+  /// that fails leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED
+  /// here. STRUCT_SIZE as above.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_frame_init(sphc_localizer_frame* frame, UIntPtr struct_size);
 
-  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses.
-  /// STRUCT_SIZE as above.</summary>
+  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call
+  /// that fails leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED
+  /// here. STRUCT_SIZE as above.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_prior_init(sphc_localizer_prior* prior, UIntPtr struct_size);
 
-  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses.
-  /// STRUCT_SIZE as above.</summary>
+  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call
+  /// that fails leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED
+  /// here. STRUCT_SIZE as above.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_camera_init(sphc_localizer_camera* camera, UIntPtr struct_size);
 
-  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses.
-  /// STRUCT_SIZE as above.</summary>
+  /// <summary>[pure] Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call
+  /// that fails leaves its result as it was, so ask what the call returned before the outcome, which is LOCALIZED
+  /// here. STRUCT_SIZE as above.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_localizer_view_init(sphc_localizer_view* view, UIntPtr struct_size);
 
@@ -571,8 +576,8 @@ internal static unsafe class Native {
   internal static extern byte* sphc_localizer_message(sphc_localizer* localizer);
 
   /// <summary>[pure] The probability that the camera is within so many metres and radians of the pose. 0 where
-  /// there is no pose, for a bound that is not above 0, and for a null result. Of the result, outcome and
-  /// covariance are read; docs/confidence.md.</summary>
+  /// there is no pose, for a bound that is not above 0, and for a null result or one that nothing was written to.
+  /// Of the result, outcome and covariance are read; docs/confidence.md.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern double sphc_localizer_result_confidence(LocalizerResult* result, double translation_m, double rotation_rad);
 

@@ -554,36 +554,38 @@ pub struct sphc_localizer_depth_camera {
 #[derive(Clone, Copy)]
 pub struct sphc_localizer_config {
     pub struct_size: u32,
-    /// of all cameras together; strongest are kept; 64 to 4096
+    /// of all cameras together; strongest are kept; 64 to 4096; default 800
     pub max_keypoints: u32,
-    /// that it has at once; 1 to SPHC_MAPS_MAX
+    /// that it has at once; 1 to SPHC_MAPS_MAX; default 16
     pub max_maps: u32,
     pub mode: sphc_localizer_mode,
     /// same seed, maps, config and frames: same bytes in the results
     pub seed: u64,
     pub rig: sphc_rig,
-    /// Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too.
+    /// Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig,
+    /// to which metres are rounded too; default 0.25 and 6.
     pub depth_min_m: f64,
-    /// Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too.
+    /// Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig,
+    /// to which metres are rounded too; default 0.25 and 6.
     pub depth_max_m: f64,
-    /// Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2.
+    /// Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; 1e-5 to 1 and
+    /// 0 to 1; default 0.004 and 0.002.
     pub depth_sigma_m: f64,
-    /// Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2.
+    /// Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; 1e-5 to 1 and
+    /// 0 to 1; default 0.004 and 0.002.
     pub depth_sigma_per_m2: f64,
-    /// noise of a keypoint's position, 1 sigma
+    /// noise of a keypoint's position, 1 sigma; 0.01 to 20; default 0.8
     pub pixel_sigma_px: f64,
-    /// error of a map point across its direction, 1 sigma
+    /// error of a map point across its direction, 1 sigma; 0 to 1; default 0.004
     pub map_sigma_m: f64,
-    /// 0: the geometric mean of depth_min_m and depth_max_m
+    /// 0 to 200; 0, the default: the geometric mean of depth_min_m and depth_max_m
     pub depth_mid_m: f64,
     pub depth_offset_sigma_m: f64,
     pub depth_slope_sigma: f64,
     /// may be null
     pub log: sphc_log_fn,
     pub log_user: *mut c_void,
-    /// What says more is not made. SPHC_LOG_WARNING has a line for each fault when a frame has it for the
-    /// first time, for a localizer without a map, and for times of depth and colour that are more than 1 s
-    /// apart; SPHC_LOG_DEBUG one for every frame; the others none yet. Not looked at where log is null.
+    /// default SPHC_LOG_INFO
     pub log_level: sphc_log_level,
     pub reserved: u32,
     /// may be null: stage times are then 0, and no frame has a deadline
@@ -1121,24 +1123,29 @@ extern "C" {
     /// pure.
     pub fn sphc_localizer_config_init(config: *mut sphc_localizer_config, struct_size: usize) -> sphc_status;
 
-    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-    /// above. Thread class: pure.
+    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that
+    /// fails leaves its result as it was, so ask what the call returned before the outcome, which is
+    /// LOCALIZED here. STRUCT_SIZE as above. Thread class: pure.
     pub fn sphc_localizer_result_init(result: *mut sphc_localizer_result, struct_size: usize) -> sphc_status;
 
-    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-    /// above. Thread class: pure.
+    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that
+    /// fails leaves its result as it was, so ask what the call returned before the outcome, which is
+    /// LOCALIZED here. STRUCT_SIZE as above. Thread class: pure.
     pub fn sphc_localizer_frame_init(frame: *mut sphc_localizer_frame, struct_size: usize) -> sphc_status;
 
-    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-    /// above. Thread class: pure.
+    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that
+    /// fails leaves its result as it was, so ask what the call returned before the outcome, which is
+    /// LOCALIZED here. STRUCT_SIZE as above. Thread class: pure.
     pub fn sphc_localizer_prior_init(prior: *mut sphc_localizer_prior, struct_size: usize) -> sphc_status;
 
-    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-    /// above. Thread class: pure.
+    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that
+    /// fails leaves its result as it was, so ask what the call returned before the outcome, which is
+    /// LOCALIZED here. STRUCT_SIZE as above. Thread class: pure.
     pub fn sphc_localizer_camera_init(camera: *mut sphc_localizer_camera, struct_size: usize) -> sphc_status;
 
-    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as
-    /// above. Thread class: pure.
+    /// Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that
+    /// fails leaves its result as it was, so ask what the call returned before the outcome, which is
+    /// LOCALIZED here. STRUCT_SIZE as above. Thread class: pure.
     pub fn sphc_localizer_view_init(view: *mut sphc_localizer_view, struct_size: usize) -> sphc_status;
 
     /// Of the depth camera, the defaults of config for range, noise and bias too, and millimetres. Thread
@@ -1228,8 +1235,8 @@ extern "C" {
     pub fn sphc_localizer_message(localizer: *const sphc_localizer) -> *const c_char;
 
     /// The probability that the camera is within so many metres and radians of the pose. 0 where there is
-    /// no pose, for a bound that is not above 0, and for a null result. Of the result, outcome and
-    /// covariance are read; docs/confidence.md. Thread class: pure.
+    /// no pose, for a bound that is not above 0, and for a null result or one that nothing was written to.
+    /// Of the result, outcome and covariance are read; docs/confidence.md. Thread class: pure.
     pub fn sphc_localizer_result_confidence(result: *const sphc_localizer_result, translation_m: f64, rotation_rad: f64) -> f64;
 
     /// Zero but for struct_size, map_id and the identity pose. STRUCT_SIZE as above. Thread class: pure.

@@ -189,8 +189,9 @@ void FileUse::checkFile(const Output &output) const {
     refuse(output.option, path, "is there already, and keys are never replaced; choose another name");
   if (isLedger(path)) refuse(output.option, path, "is a ledger, which is never replaced; choose another name");
   if (force_ || fs::file_size(path, error) == 0 || output.is_ours(path)) return;
-  refuse(output.option, path,
-         "is there already, and this command did not write it; choose another name, or replace it with --force");
+  refuse(
+      output.option, path,
+      "is there already, and nothing shows that this command wrote it; choose another name, or replace it with --force");
 }
 
 void FileUse::checkFolder(const Output &output) const {
@@ -223,7 +224,9 @@ void FileUse::checkRecording(const Output &output) const {
     refuse(output.option, part, "is there, a folder that was not finished; remove it");
   if (fs::exists(fs::symlink_status(part, error)))
     refuse(output.option, part,
-           "is there, a recording that was cut off. Save what it holds with `spherecloud convert`, or remove it");
+           "is there, a recording that was cut off. Save what it holds under another name with `spherecloud "
+           "convert`, or "
+           "remove it");
 }
 
 }  // namespace sphc::host

@@ -1,6 +1,8 @@
 #include "host/cli/common/import_recording.h"
 
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
 
 #include "host/cli/common/progress.h"
 #include "host/import/rgbd_import.h"
@@ -15,21 +17,38 @@ PointModel importRecording(const RecordingOptions &recording, const char *what) 
       {{reader.get()}}, {}, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); }, &summary);
 }
 
+namespace {
+
+// Of so many frames from one on, the first with images and a pose.
+std::optional<uint32_t> usableFrom(recording::RecordingReader *reader, uint32_t first, uint32_t count) {
+  for (uint32_t i = first; i < std::min(first + count, reader->frameCount()); ++i) {
+    std::string unused;
+    if (reader->worldFromCamera(i) && reader->tryRead(i, &unused)) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t count, const char *what,
                                      const Console &console) {
   const auto reader = openRecording(recording);
   noteDamage(*reader, console);
   const uint32_t available = reader->frameCount();
+  const uint32_t apart = std::max(1u, available / count);
   std::vector<PointModel> models;
   ProgressBar bar(what);
   for (uint32_t k = 0; k < count && k < available; ++k) {
-    RecordingOptions one = recording;
-    one.first += k * std::max(1u, available / count) * recording.step;
-    one.last = one.first + recording.step - 1;
+    bar.show(k, count);
+    const std::optional<uint32_t> chosen = usableFrom(reader.get(), k * apart, apart);
+    if (!chosen) continue;
     RgbdImportSummary summary;
-    models.push_back(importRgbd({{openRecording(one).get()}}, {}, {}, &summary));
-    bar.show(k + 1, count);
+    models.push_back(
+        importRgbd({{reader.get(), [&chosen](uint32_t i) { return i == *chosen; }}}, {}, {}, &summary));
   }
+  if (models.empty())
+    throw std::runtime_error("no frame of " + recording.folder +
+                             " has both images and a pose; audit is of a recording with poses");
   return models;
 }
 

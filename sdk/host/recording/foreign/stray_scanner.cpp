@@ -125,7 +125,10 @@ void addImages(const StrayOdometry &odometry, const StrayColor &color, Recording
     const std::string depth = numberedFile("depth", frame.number, ".png");
     const bool is_in_video = color.is_video && frame.number < color.frame_count;
     const std::string file = is_in_video ? "rgb.mp4" : color.is_video ? "" : imageFile(folder, frame.number);
-    if (!file.empty()) recording.color.push_back({frame.time_ns, frame.number, file});
+    if (!file.empty())
+      recording.color.push_back({frame.time_ns, frame.number, file});
+    else
+      ++recording.lost_count;
     if (fs::exists(folder / depth)) recording.depth.push_back({frame.time_ns, frame.number, depth});
     if (frame.world_from_camera)
       recording.poses.add(frame.time_ns, *frame.world_from_camera);

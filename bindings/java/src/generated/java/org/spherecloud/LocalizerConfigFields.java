@@ -14,7 +14,7 @@ abstract class LocalizerConfigFields extends Struct {
     super(whole, at);
   }
 
-  /** Of all cameras together; strongest are kept; 64 to 4096. */
+  /** Of all cameras together; strongest are kept; 64 to 4096; default 800. */
   public int getMaxKeypoints() {
     return getInt(Layout.LOCALIZER_CONFIG_MAX_KEYPOINTS);
   }
@@ -24,7 +24,7 @@ abstract class LocalizerConfigFields extends Struct {
     putInt(Layout.LOCALIZER_CONFIG_MAX_KEYPOINTS, maxKeypoints);
   }
 
-  /** That it has at once; 1 to {@link Limits#MAPS_MAX}. */
+  /** That it has at once; 1 to {@link Limits#MAPS_MAX}; default 16. */
   public int getMaxMaps() {
     return getInt(Layout.LOCALIZER_CONFIG_MAX_MAPS);
   }
@@ -59,7 +59,10 @@ abstract class LocalizerConfigFields extends Struct {
     return rig;
   }
 
-  /** Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too. */
+  /**
+   * Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig, to which
+   * metres are rounded too; default 0.25 and 6.
+   */
   public double getDepthMinM() {
     return getDouble(Layout.LOCALIZER_CONFIG_DEPTH_MIN_M);
   }
@@ -69,7 +72,10 @@ abstract class LocalizerConfigFields extends Struct {
     putDouble(Layout.LOCALIZER_CONFIG_DEPTH_MIN_M, depthMinM);
   }
 
-  /** Measurements outside are ignored; at most 65535 units of the rig, to which metres are rounded too. */
+  /**
+   * Measurements outside are ignored; 0.01 to 100, and 0.01 more to 200, at most 65535 units of the rig, to which
+   * metres are rounded too; default 0.25 and 6.
+   */
   public double getDepthMaxM() {
     return getDouble(Layout.LOCALIZER_CONFIG_DEPTH_MAX_M);
   }
@@ -79,7 +85,10 @@ abstract class LocalizerConfigFields extends Struct {
     putDouble(Layout.LOCALIZER_CONFIG_DEPTH_MAX_M, depthMaxM);
   }
 
-  /** Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
+  /**
+   * Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; 1e-5 to 1 and 0 to 1;
+   * default 0.004 and 0.002.
+   */
   public double getDepthSigmaM() {
     return getDouble(Layout.LOCALIZER_CONFIG_DEPTH_SIGMA_M);
   }
@@ -89,7 +98,10 @@ abstract class LocalizerConfigFields extends Struct {
     putDouble(Layout.LOCALIZER_CONFIG_DEPTH_SIGMA_M, depthSigmaM);
   }
 
-  /** Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2. */
+  /**
+   * Noise of the depth sensor, 1 sigma: sigma(z) = depth_sigma_m + depth_sigma_per_m2 z^2; 1e-5 to 1 and 0 to 1;
+   * default 0.004 and 0.002.
+   */
   public double getDepthSigmaPerM2() {
     return getDouble(Layout.LOCALIZER_CONFIG_DEPTH_SIGMA_PER_M2);
   }
@@ -99,7 +111,7 @@ abstract class LocalizerConfigFields extends Struct {
     putDouble(Layout.LOCALIZER_CONFIG_DEPTH_SIGMA_PER_M2, depthSigmaPerM2);
   }
 
-  /** Noise of a keypoint's position, 1 sigma. */
+  /** Noise of a keypoint's position, 1 sigma; 0.01 to 20; default 0.8. */
   public double getPixelSigmaPx() {
     return getDouble(Layout.LOCALIZER_CONFIG_PIXEL_SIGMA_PX);
   }
@@ -109,7 +121,7 @@ abstract class LocalizerConfigFields extends Struct {
     putDouble(Layout.LOCALIZER_CONFIG_PIXEL_SIGMA_PX, pixelSigmaPx);
   }
 
-  /** Error of a map point across its direction, 1 sigma. */
+  /** Error of a map point across its direction, 1 sigma; 0 to 1; default 0.004. */
   public double getMapSigmaM() {
     return getDouble(Layout.LOCALIZER_CONFIG_MAP_SIGMA_M);
   }
@@ -119,7 +131,7 @@ abstract class LocalizerConfigFields extends Struct {
     putDouble(Layout.LOCALIZER_CONFIG_MAP_SIGMA_M, mapSigmaM);
   }
 
-  /** 0: the geometric mean of depth_min_m and depth_max_m. */
+  /** 0 to 200; 0, the default: the geometric mean of depth_min_m and depth_max_m. */
   public double getDepthMidM() {
     return getDouble(Layout.LOCALIZER_CONFIG_DEPTH_MID_M);
   }

@@ -200,27 +200,37 @@ final class Native {
   static native int localizerConfigInit(long config, long structSize);
 
   /**
-   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as above.
+   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails leaves
+   * its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here. STRUCT_SIZE as
+   * above.
    */
   static native int localizerResultInit(long result, long structSize);
 
   /**
-   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as above.
+   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails leaves
+   * its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here. STRUCT_SIZE as
+   * above.
    */
   static native int localizerFrameInit(long frame, long structSize);
 
   /**
-   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as above.
+   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails leaves
+   * its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here. STRUCT_SIZE as
+   * above.
    */
   static native int localizerPriorInit(long prior, long structSize);
 
   /**
-   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as above.
+   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails leaves
+   * its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here. STRUCT_SIZE as
+   * above.
    */
   static native int localizerCameraInit(long camera, long structSize);
 
   /**
-   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. STRUCT_SIZE as above.
+   * Results and inputs that say nothing yet: zero but for struct_size and identity poses. A call that fails leaves
+   * its result as it was, so ask what the call returned before the outcome, which is LOCALIZED here. STRUCT_SIZE as
+   * above.
    */
   static native int localizerViewInit(long view, long structSize);
 
@@ -315,8 +325,8 @@ final class Native {
 
   /**
    * The probability that the camera is within so many metres and radians of the pose. 0 where there is no pose, for
-   * a bound that is not above 0, and for a null result. Of the result, outcome and covariance are read;
-   * docs/confidence.md.
+   * a bound that is not above 0, and for a null result or one that nothing was written to. Of the result, outcome
+   * and covariance are read; docs/confidence.md.
    */
   static native double localizerResultConfidence(long result, double translationM, double rotationRad);
 
