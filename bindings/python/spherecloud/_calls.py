@@ -43,11 +43,14 @@ def nanoseconds(value: typing.SupportsIndex, name: str) -> int:
 
 
 def configure(config: typing.Any, given: typing.Mapping[str, typing.Any]) -> None:
-    """Sets what is not None.  ValueError where a field cannot hold its integer."""
+    """Sets what is not None.  ValueError where a field cannot hold its integer, TypeError where it holds no such thing."""
     for name, value in given.items():
         if value is None:
             continue
-        setattr(config, name, value)
+        try:
+            setattr(config, name, value)
+        except TypeError as error:
+            raise TypeError(f"{name} is {value!r}: {error}") from None
         if hasattr(value, "__index__") and getattr(config, name) != value:
             raise ValueError(f"{name} is {value}, which is beyond its field of the library")
 

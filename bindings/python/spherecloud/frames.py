@@ -155,7 +155,7 @@ _WORDS, _HALF = 1 << 32, 1 << 63
 
 
 def _refuse_numbers(frame: Frame) -> None:
-    """ValueError for the number that its field cannot hold."""
+    """ValueError for the number that its field cannot hold, TypeError for what is none."""
     whole(frame.sequence, "sequence")
     whole(frame.deadline_us, "deadline_us")
     nanoseconds(frame.color_time_ns, "color_time_ns")
@@ -179,7 +179,11 @@ class FrameStruct:
         sequence, deadline_us, color_ns, depth_ns = frame.sequence, frame.deadline_us, frame.color_time_ns, frame.depth_time_ns
         if not (0 <= sequence < _WORDS and 0 <= deadline_us < _WORDS and -_HALF <= color_ns < _HALF and -_HALF <= depth_ns < _HALF):
             _refuse_numbers(frame)
-        raw.sequence, raw.deadline_us, raw.color_time_ns, raw.depth_time_ns = sequence, deadline_us, color_ns, depth_ns
+        try:
+            raw.sequence, raw.deadline_us, raw.color_time_ns, raw.depth_time_ns = sequence, deadline_us, color_ns, depth_ns
+        except TypeError:
+            _refuse_numbers(frame)
+            raise
         self._color.put(color)
         self._depth.put(depth)
         told: list[object] = [color, depth]

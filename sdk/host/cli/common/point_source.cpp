@@ -180,7 +180,7 @@ void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
       ->check(notNegative())
       ->group(group);
   app->add_flag("--keep-moving", import->keep_moving,
-                "Keep points on people, hands, feet and things that were moved")
+                "Keep points on people, hands, feet, things that were moved, and what is drawn over the image")
       ->group(group);
 }
 
