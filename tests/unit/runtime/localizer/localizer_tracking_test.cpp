@@ -179,6 +179,17 @@ TEST(LocalizerTracking, OdometryOfAnotherScaleIsNamedAndVetoesNothing) {
   }
 }
 
+// 20 cm farther than expected, where half a tile may be meant.
+TEST(LocalizerTracking, AJumpIsFoundInTheWholeMap) {
+  Walk walk(trackingConfig());
+  for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) walk.see(viewpoint);
+  const sphc_localizer_result jump = walk.see(7);
+  EXPECT_EQ(jump.outcome, SPHC_OUTCOME_LOCALIZED);
+  EXPECT_EQ(jump.events, uint32_t{SPHC_EVENT_JUMPED});
+  EXPECT_EQ(jump.guided, 0u);
+  EXPECT_EQ(walk.see(8).guided, 1u);
+}
+
 TEST(LocalizerTracking, AJumpThatNoHeadCanMakeIsVetoed) {
   Walk walk(trackingConfig());
   for (uint32_t viewpoint : {0u, 1u, 2u, 3u}) walk.see(viewpoint);
