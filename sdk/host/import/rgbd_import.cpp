@@ -10,6 +10,7 @@
 #include "host/import/fixed_in_image.h"
 #include "host/import/moving_things.h"
 #include "host/import/point_tracks.h"
+#include "host/import/pose_scale.h"
 #include "runtime/stages/align/sparse.h"
 
 namespace sphc::host {
@@ -121,6 +122,7 @@ class Importer {
     if (!options_.keep_moving) summary_->fixed_in_image = fixed_.dropFrom(&points);
     summary_->moving = dropMoving(views_, &points);
     PointModel model = modelOf(points);
+    summary_->scale = scale_.result();
     summary_->points_kept = static_cast<uint32_t>(model.points.size());
     summary_->points_dropped = static_cast<uint32_t>(tracks_.count() - model.points.size());
     return model;
@@ -133,6 +135,7 @@ class Importer {
     FrameConsistency consistency(rig);
     views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);
     fixed_.begin(describer.camera());
+    scale_.begin(describer.camera(), source.reader->frameCount());
     for (uint32_t i = 0; i < source.reader->frameCount(); ++i) {
       if (!source.takes_part || source.takes_part(i)) addFrame(source, i, &describer, &consistency);
       if (progress_) progress_(++done_, total_);
@@ -178,6 +181,7 @@ class Importer {
         describer->describe(frame, world_from_camera, camera_from_camera_at_depth, &keypoints);
     for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
     fixed_.add(world_from_camera.inverse(), &observations);
+    scale_.add(world_from_camera, observations);
     if (!options_.keep_moving)
       views_.back().add(depthOf(frame.depth), world_from_camera * camera_from_camera_at_depth);
     summary_->merged += tracks_.add(describer->camera(), world_from_camera.inverse(), observations);
@@ -191,6 +195,7 @@ class Importer {
   const Progress &progress_;
   PointTracks tracks_;
   FixedInImage fixed_;
+  PoseScaleCheck scale_;
   std::vector<DepthViews> views_;  // of each recording
   Census census_;
   RgbdImportSummary *summary_;

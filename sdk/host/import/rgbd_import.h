@@ -39,6 +39,13 @@ struct MovingSummary {
   std::vector<std::string> doubts;  // why points that look as if they moved were kept, with cause and cure
 };
 
+// How keypoints that were matched between frames agree with the poses, if the poses' shifts are multiplied.
+struct PoseScale {
+  uint32_t matches = 0, agree = 0;  // as the poses are
+  uint32_t agree_most = 0;          // with the best multiple
+  double multiple = 1;              // the best: shifts of poses times this are those that depth says
+};
+
 struct RgbdImportSummary {
   uint32_t frames_used = 0, frames_without_pose = 0, frames_unreadable = 0;
   uint32_t frames_empty = 0;      // of those used, without a keypoint that has depth
@@ -49,6 +56,7 @@ struct RgbdImportSummary {
   uint32_t points_kept = 0, points_dropped = 0;
   uint32_t fixed_in_image = 0;  // of the points that were dropped, those that went along with the camera
   MovingSummary moving;         // those that moved
+  PoseScale scale;
 };
 
 // What of the frames took no part, or not as it should, a sentence each.

@@ -157,7 +157,9 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
                     {"points_within_reach", summary.moving.within_reach},
                     {"points_fixed_in_image", summary.fixed_in_image},
                     {"points_gone", summary.moving.gone},
-                    {"views_disagree", summary.moving.disagreement}};
+                    {"views_disagree", summary.moving.disagreement},
+                    {"matches_between_frames", summary.scale.matches},
+                    {"matches_where_poses_say", summary.scale.agree}};
   return imported;
 }
 

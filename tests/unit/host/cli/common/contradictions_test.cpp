@@ -61,5 +61,21 @@ TEST(Contradictions, AFaultOfMostFramesIsAndOneOfSomeIsTold) {
   EXPECT_THAT(contradictionsOf(late), ElementsAre(HasSubstr("in 31 of 40 frames")));
 }
 
+TEST(Contradictions, AnotherScaleIsNamed) {
+  RgbdImportSummary walk = soundWalk();
+  walk.scale = {3900, 3200, 3200, 1};
+  EXPECT_THAT(contradictionsOf(walk), IsEmpty());
+  walk.scale = {303, 188, 192, 1.06};
+  EXPECT_THAT(contradictionsOf(walk), IsEmpty()) << "a few per cent are not told apart";
+  walk.scale = {4300, 222, 3580, 0.5};
+  EXPECT_THAT(contradictionsOf(walk), ElementsAre(HasSubstr("about 2.0 times as far by the poses as by depth")));
+  walk.scale = {60, 0, 30, 0.5};
+  EXPECT_THAT(contradictionsOf(walk), IsEmpty()) << "too few to tell";
+  walk.scale = {400, 20, 60, 3};
+  EXPECT_THAT(contradictionsOf(walk), ElementsAre(HasSubstr("about 0.3 times")));
+  walk.scale = {400, 20, 30, 3};
+  EXPECT_THAT(contradictionsOf(walk), ElementsAre(HasSubstr("only 30 lie where the poses say")));
+}
+
 }  // namespace
 }  // namespace sphc::host

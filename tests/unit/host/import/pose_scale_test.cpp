@@ -1,0 +1,65 @@
+#include "host/import/pose_scale.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_numbers.h"
+#include "tests/support/scene.h"
+
+namespace sphc::host {
+namespace {
+
+// What a walk past still points tells, where the poses' shifts are `poses` times the true ones, and with as many
+// frames.
+PoseScale scaleOf(double poses, double step_m = 0.05, uint32_t frames = 30) {
+  Random random(1);
+  const Camera camera(test::pinhole(320, 240, 250));
+  std::vector<Vector3> places_m;
+  std::vector<Descriptor> looks;
+  for (int i = 0; i < 400; ++i) {
+    places_m.push_back(
+        {test::uniformIn(&random, -3, 4), test::uniformIn(&random, -1.5, 1.5), test::uniformIn(&random, 1.5, 4)});
+    looks.push_back(test::randomDescriptor(&random));
+  }
+  PoseScaleCheck check;
+  check.begin(camera, frames);
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    const Matrix3 turned = rotationFromVector({0, 0.01 * frame, 0});
+    const Vector3 way_m(step_m * frame, 0, 0);
+    const Rigid truth = {turned, way_m}, told = {turned, poses * way_m};
+    std::vector<Observation> seen;
+    for (size_t i = 0; i < places_m.size(); ++i) {
+      const Vector3 point_m = truth.inverse() * places_m[i];
+      Observation o = {};
+      if (point_m.z() < 0.1 || !camera.project(point_m, &o.pixel_px)) continue;
+      if (o.pixel_px.x() < 0 || o.pixel_px.y() < 0 || o.pixel_px.x() >= 320 || o.pixel_px.y() >= 240) continue;
+      o.position_m = told * point_m;
+      o.depth_m = point_m.z();
+      o.descriptor = looks[i];
+      seen.push_back(o);
+    }
+    check.add(told, seen);
+  }
+  return check.result();
+}
+
+TEST(PoseScale, OfSoundPosesIsOne) {
+  const PoseScale scale = scaleOf(1);
+  EXPECT_GT(scale.matches, 500u);
+  EXPECT_GT(scale.agree, 0.9 * scale.matches);
+  EXPECT_EQ(scale.agree, scale.agree_most);
+  EXPECT_NEAR(scale.multiple, 1, 0.07);
+}
+
+TEST(PoseScale, OfAnotherUnitIsFound) {
+  for (const double poses : {0.3048, 0.5, 2.0, 5.0}) {
+    const PoseScale scale = scaleOf(poses);
+    EXPECT_NEAR(poses * scale.multiple, 1, 0.2) << poses;
+    EXPECT_GT(scale.agree_most, 0.9 * scale.matches) << poses;
+    EXPECT_LT(scale.agree, 0.3 * scale.agree_most) << poses;
+  }
+}
+
+TEST(PoseScale, ACameraThatRestsTellsNothing) { EXPECT_EQ(scaleOf(1, 0.0001).matches, 0u); }
+
+}  // namespace
+}  // namespace sphc::host
