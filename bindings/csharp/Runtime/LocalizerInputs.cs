@@ -57,7 +57,7 @@ public sealed unsafe partial class LocalizerConfig {
     if (DepthCameras.Count > MaxDepthCameras)
       throw new ArgumentException("config.DepthCameras has " + DepthCameras.Count + "; at most " + MaxDepthCameras);
     Native.sphc_localizer_config borrowed = raw;
-    if (ParallelTasks > 1) {
+    if (ParallelTasks != 1) {
       borrowed.parallel = Callbacks.Parallel;
       borrowed.parallel_tasks = ParallelTasks;
     }

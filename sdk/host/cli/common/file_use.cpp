@@ -189,9 +189,9 @@ void FileUse::checkFile(const Output &output) const {
     refuse(output.option, path, "is there already, and keys are never replaced; choose another name");
   if (isLedger(path)) refuse(output.option, path, "is a ledger, which is never replaced; choose another name");
   if (force_ || fs::file_size(path, error) == 0 || output.is_ours(path)) return;
-  refuse(
-      output.option, path,
-      "is there already, and nothing shows that this command wrote it; choose another name, or replace it with --force");
+  refuse(output.option, path,
+         "is there already, and nothing shows that this command wrote it; choose another name, or replace it with "
+         "--force");
 }
 
 void FileUse::checkFolder(const Output &output) const {
