@@ -233,6 +233,33 @@ TEST(Convert, TakesAPartOfARecording) {
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST(Convert, WritesNothingOfARecordingWithoutImages) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk", out = folder / "out";
+  ASSERT_EQ(runCommand("simulate --frames 2 --rate 2 --out " + walk).exit_code, kExitDone);
+  for (const char *image : {"rgb/000000", "rgb/000001", "depth/000000", "depth/000001"})
+    std::ofstream(walk + "/" + image + ".png") << "no image";
+  for (const char *name : {"", ".mcap", ".raw", " --to 7scenes"}) {
+    const Answer converted = runCommand("convert " + walk + " " + out + name);
+    EXPECT_EQ(converted.exit_code, kExitFailure) << name;
+    EXPECT_THAT(converted.err, HasSubstr("can be read, so nothing was written")) << name;
+  }
+  for (const auto &left : std::filesystem::directory_iterator(std::filesystem::path(walk).parent_path()))
+    EXPECT_EQ(left.path().filename(), "walk") << "nothing else is there";
+}
+
+TEST(Audit, TakesFramesWithImagesAndPoses) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk", map = folder / "m.sphc", ledger = folder / "l.ledger",
+                    audit = "audit --quick --json --queries 3 -r " + walk + " --truth " + ledger + " " + map;
+  ASSERT_EQ(runCommand("simulate --frames 6 --rate 2 --out " + walk).exit_code, kExitDone);
+  ASSERT_EQ(runCommand("build --map " + map + " --ledger " + ledger + " -r " + walk).exit_code, kExitDone);
+  std::ofstream(walk + "/rgb/000000.png") << "no image";  // the first that a client would see
+  const Answer damaged = runCommand(audit);
+  EXPECT_THAT(damaged.err, Not(HasSubstr("not one frame")));
+  EXPECT_FALSE(damaged.out.empty());
+}
+
 TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
   const TempFolder folder;
   const std::string walk = folder / "walk", map = folder / "room.sphc";
