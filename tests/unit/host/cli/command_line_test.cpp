@@ -248,18 +248,6 @@ TEST(Convert, WritesNothingOfARecordingWithoutImages) {
     EXPECT_EQ(left.path().filename(), "walk") << "nothing else is there";
 }
 
-TEST(Audit, TakesFramesWithImagesAndPoses) {
-  const TempFolder folder;
-  const std::string walk = folder / "walk", map = folder / "m.sphc", ledger = folder / "l.ledger",
-                    audit = "audit --quick --json --queries 3 -r " + walk + " --truth " + ledger + " " + map;
-  ASSERT_EQ(runCommand("simulate --frames 6 --rate 2 --out " + walk).exit_code, kExitDone);
-  ASSERT_EQ(runCommand("build --map " + map + " --ledger " + ledger + " -r " + walk).exit_code, kExitDone);
-  std::ofstream(walk + "/rgb/000000.png") << "no image";  // the first that a client would see
-  const Answer damaged = runCommand(audit);
-  EXPECT_THAT(damaged.err, Not(HasSubstr("not one frame")));
-  EXPECT_FALSE(damaged.out.empty());
-}
-
 TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
   const TempFolder folder;
   const std::string walk = folder / "walk", map = folder / "room.sphc";

@@ -1,0 +1,32 @@
+#include "host/cli/common/import_recording.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "host/cli/common/console.h"
+#include "tests/unit/host/cli/command_runner.h"
+#include "tests/unit/host/tiny_map.h"
+
+namespace sphc::host {
+namespace {
+
+TEST(ImportFrames, TakesThoseWithImagesAndAPose) {
+  const TempFolder folder;
+  RecordingOptions walk;
+  walk.folder = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 6 --rate 2 --out " + walk.folder).exit_code, 0);
+  EXPECT_EQ(importFrames(walk, 3, "querying", Console()).size(), 3u);
+  std::ofstream(walk.folder + "/rgb/000000.png") << "no image";
+  EXPECT_EQ(importFrames(walk, 3, "querying", Console()).size(), 3u) << "the one after it stands for it";
+  std::ofstream(walk.folder + "/rgb/000001.png") << "no image";
+  EXPECT_EQ(importFrames(walk, 3, "querying", Console()).size(), 2u);
+  for (const char *name : {"2", "3", "4", "5"})
+    std::ofstream(walk.folder + "/rgb/00000" + name + ".png") << "no image";
+  EXPECT_THAT([&] { importFrames(walk, 3, "querying", Console()); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("has both images and a pose")));
+}
+
+}  // namespace
+}  // namespace sphc::host
