@@ -187,7 +187,6 @@ TEST(LocalizerTracking, AJumpIsFoundInTheWholeMap) {
   EXPECT_EQ(jump.outcome, SPHC_OUTCOME_LOCALIZED);
   EXPECT_EQ(jump.events, uint32_t{SPHC_EVENT_JUMPED});
   EXPECT_EQ(jump.guided, 0u);
-  EXPECT_EQ(walk.see(8).guided, 1u);
 }
 
 TEST(LocalizerTracking, AJumpThatNoHeadCanMakeIsVetoed) {
