@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/import/near_duplicates.h"
+
 namespace sphc::host {
 namespace {
 
