@@ -66,7 +66,7 @@ WORLDS = {
     "evening": later("--arrangement", 2, "--with", "people,hands,night"),
     # A floor that repeats exactly, and a holder who looks down on it.
     "bathroom": same("tiles,feet"),
-    # Worlds come last as they are new: seeds follow the order.
+    # New worlds come last, since seeds follow the order.
     "menu": same("menu"),
 }
 ROW = ["world", "map_frames", "fakes", "mode"]

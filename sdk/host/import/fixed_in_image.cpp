@@ -53,7 +53,7 @@ FixedInImage::RecentSpot *FixedInImage::find(size_t cell, const Observation &see
   return found;
 }
 
-void FixedInImage::begin(size_t cell, Observation *seen) {
+void FixedInImage::addSpot(size_t cell, Observation *seen) {
   std::vector<RecentSpot> &here = recent_[cell - first_cell_];
   const auto is_old = [this](const RecentSpot &spot) { return frame_ - spot.last_frame > kForgetFrames; };
   here.erase(std::remove_if(here.begin(), here.end(), is_old), here.end());
@@ -76,7 +76,7 @@ void FixedInImage::add(const Rigid &camera_from_world, std::vector<Observation> 
     const size_t cell = cellOf(seen.pixel_px);
     RecentSpot *spot = find(cell, seen);
     if (!spot) {
-      begin(cell, &seen);
+      addSpot(cell, &seen);
       continue;
     }
     seen.spot = spot->number;

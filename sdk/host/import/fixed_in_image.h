@@ -36,7 +36,7 @@ class FixedInImage {
   size_t cellOf(const Vector2 &pixel_px) const;
   std::array<size_t, 9> around(size_t cell) const;
   RecentSpot *find(size_t cell, const Observation &seen);
-  void begin(size_t cell, Observation *seen);
+  void addSpot(size_t cell, Observation *seen);
   std::vector<bool> fixedCells() const;
   bool isSeenElsewhere(const Rigid &camera_from_world, const RecentSpot &spot) const;
 

@@ -180,10 +180,11 @@ class Importer {
     std::vector<Observation> observations =
         describer->describe(frame, world_from_camera, camera_from_camera_at_depth, &keypoints);
     for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
-    fixed_.add(world_from_camera.inverse(), &observations);
     scale_.add(world_from_camera, observations);
-    if (!options_.keep_moving)
+    if (!options_.keep_moving) {
       views_.back().add(depthOf(frame.depth), world_from_camera * camera_from_camera_at_depth);
+      fixed_.add(world_from_camera.inverse(), &observations);
+    }
     summary_->merged += tracks_.add(describer->camera(), world_from_camera.inverse(), observations);
     summary_->keypoints += keypoints;
     summary_->lifted += observations.size();

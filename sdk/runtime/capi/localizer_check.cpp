@@ -7,12 +7,10 @@
 namespace sphc {
 namespace {
 
-sphc_status checkImageApart(const char *name, const sphc_image &image, const sphc_localizer &localizer,
-                            sphc_message *message) {
-  if (!image.data) return SPHC_OK;
-  const MemoryRange pixels = {name, image.data, static_cast<size_t>(image.stride_bytes) * image.height};
-  const sphc_status status = checkApart(localizer.state, pixels, message);
-  return status == SPHC_OK ? checkApart(localizer.scratch, pixels, message) : status;
+// Is it apart from all that the localizer writes to?
+sphc_status checkApartFrom(const sphc_localizer &localizer, const MemoryRange &other, sphc_message *message) {
+  const sphc_status status = checkApart(localizer.state, other, message);
+  return status == SPHC_OK ? checkApart(localizer.scratch, other, message) : status;
 }
 
 }  // namespace
@@ -66,8 +64,7 @@ sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &l
                            << " x " << own.height << "; make both with one config";
     return SPHC_E_ARGUMENT;
   }
-  const sphc_status status = checkApart(localizer.state, features.memory, message);
-  return status == SPHC_OK ? checkApart(localizer.scratch, features.memory, message) : status;
+  return checkApartFrom(localizer, features.memory, message);
 }
 
 sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_features *features,
@@ -92,10 +89,12 @@ sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_featur
 sphc_status checkImagesApart(const FrameCopy &copy, const FrameLimits &limits, const sphc_localizer &localizer,
                              sphc_message *message) {
   const sphc_localizer_frame &frame = copy.frame;
-  sphc_status status = checkImageApart("the depth image", frame.depth, localizer, message);
+  sphc_status status = SPHC_OK;
   const auto check = [&](const char *name, const sphc_image &image) {
-    if (status == SPHC_OK) status = checkImageApart(name, image, localizer, message);
+    const size_t bytes = static_cast<size_t>(image.stride_bytes) * image.height;
+    if (status == SPHC_OK && image.data) status = checkApartFrom(localizer, {name, image.data, bytes}, message);
   };
+  check("the depth image", frame.depth);
   for (uint32_t i = 0; i < frame.depth_view_count; ++i)
     check("the depth image of a view", copy.depth_views[i].depth);
   if (!limits.looks_at_images) return status;

@@ -14,10 +14,9 @@ namespace {
 
 // A caller knows of a pose what it says, and a track as much as makes no jump.
 bool isWhereExpected(const Rigid &found, const Prediction &expected, bool by_caller) {
-  const PoseBounds &least = by_caller ? kNoJump : kNoJumpOfTrack;
   return areNear(found, expected.camera_from_map,
-                 {least.most_shift_m + kGateSigmas * expected.translation_sigma_m,
-                  least.most_turn_rad + kGateSigmas * expected.rotation_sigma_rad});
+                 boundsOfNoJump(expected.rotation_sigma_rad, expected.translation_sigma_m,
+                                by_caller ? kNoJump : kNoJumpOfTrack));
 }
 
 PosePrior priorFor(const Known &known, uint32_t map) { return known.map == map ? known.prior : PosePrior(); }

@@ -24,9 +24,9 @@ bool isOfHead(const Rigid &step, uint64_t took_ns, const Odometry &odometry) {
 
 }  // namespace
 
-PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m) {
-  return {kNoJump.most_shift_m + kGateSigmas * translation_sigma_m,
-          kNoJump.most_turn_rad + kGateSigmas * rotation_sigma_rad};
+PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m, const PoseBounds &least) {
+  return {least.most_shift_m + kGateSigmas * translation_sigma_m,
+          least.most_turn_rad + kGateSigmas * rotation_sigma_rad};
 }
 
 bool carriedOver(const Prediction &expected, uint32_t map, const MapSet &maps, Prediction *there) {

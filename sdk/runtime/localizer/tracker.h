@@ -35,7 +35,8 @@ struct Prediction {
 };
 
 // What a pose that is no jump differs by at most from where the camera is expected; 1 sigma an axis.
-tuning::PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m);
+tuning::PoseBounds boundsOfNoJump(double rotation_sigma_rad, double translation_sigma_m,
+                                  const tuning::PoseBounds &least = tuning::kNoJump);
 
 // How a point that stands still moves in the camera's own frame: by turn x point + shift, a second.
 struct CameraRate {

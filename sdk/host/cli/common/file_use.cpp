@@ -225,8 +225,7 @@ void FileUse::checkRecording(const Output &output) const {
   if (fs::exists(fs::symlink_status(part, error)))
     refuse(output.option, part,
            "is there, a recording that was cut off. Save what it holds under another name with `spherecloud "
-           "convert`, or "
-           "remove it");
+           "convert`, or remove it");
 }
 
 }  // namespace sphc::host

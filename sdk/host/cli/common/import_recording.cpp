@@ -39,12 +39,12 @@ std::vector<PointModel> importFrames(const RecordingOptions &recording, uint32_t
   std::vector<PointModel> models;
   ProgressBar bar(what);
   for (uint32_t k = 0; k < count && k < available; ++k) {
-    bar.show(k, count);
     const std::optional<uint32_t> chosen = usableFrom(reader.get(), k * apart, apart);
-    if (!chosen) continue;
     RgbdImportSummary summary;
-    models.push_back(
-        importRgbd({{reader.get(), [&chosen](uint32_t i) { return i == *chosen; }}}, {}, {}, &summary));
+    if (chosen)
+      models.push_back(
+          importRgbd({{reader.get(), [&chosen](uint32_t i) { return i == *chosen; }}}, {}, {}, &summary));
+    bar.show(k + 1, count);
   }
   if (models.empty())
     throw std::runtime_error("no frame of " + recording.folder +
