@@ -1,6 +1,6 @@
 // How fast a view moves.
 #pragma once
-#include "runtime/geometry/rotation.h"
+#include "runtime/geometry/rigid.h"
 
 namespace sphc::host {
 
