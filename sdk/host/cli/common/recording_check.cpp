@@ -38,7 +38,7 @@ class TrialReader {
   // Of images from all over the list: why the first cannot be used; none where one can.
   std::optional<recording::Failure> failure(sphc_stream as, const std::vector<RecordedImage> &list) {
     std::optional<recording::Failure> first;
-    for (size_t i = 0; i < kTried; ++i) {
+    for (size_t i = 0; i < std::min(kTried, list.size()); ++i) {
       try {
         images_.read(as, list[i * list.size() / kTried], pixels_.data());
         return std::nullopt;
@@ -97,8 +97,10 @@ Findings findingsOfImages(const RecordingReader &reader) {
     const bool is_color = stream == SPHC_STREAM_COLOR;
     const auto failure = images.failure(stream, is_color ? recording.color : recording.depth);
     if (failure && failure->status() == SPHC_E_IMAGE)
-      findings.push_back({Grade::kWrong, is_color ? "colour images" : "depth images",
-                          std::string("not one can be used as calibrated: ") + failure->what()});
+      findings.push_back(
+          {Grade::kWrong, is_color ? "colour images" : "depth images",
+           std::string("not one fits the calibration, which is for images of another size or kind: ") +
+               failure->what()});
   }
   return findings;
 }

@@ -60,6 +60,8 @@ TEST_F(RecordingCheckTest, ACalibrationOfAnotherSizeIsNamed) {
   const Findings color = ofImages();
   ASSERT_EQ(color.size(), 1u);
   EXPECT_EQ(color[0].what, "colour images");
+  EXPECT_THAT(color[0].text,
+              HasSubstr("not one fits the calibration, which is for images of another size or kind: "));
   EXPECT_THAT(color[0].text, HasSubstr("is 48 x 32, the calibration's color_camera 96 x 64; use"));
   scale(&rig.depth_camera);
   recording::writeCalibration(file, rig);
