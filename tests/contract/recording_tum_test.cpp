@@ -119,6 +119,24 @@ TEST_F(Tum, NamesTheLineThatIsWrong) {
   expectRefused(SPHC_E_DEVICE, "depth.txt: cannot be read");
 }
 
+TEST_F(Tum, NamesTheUnitOfTimesThatAreNotInSeconds) {
+  folder_.write("rgb.txt", "1305031102175304123 rgb/000000.png\n");
+  expectRefused(SPHC_E_ARGUMENT,
+                "rgb.txt, line 1: expected \"seconds file\", and 1305031102175304123 is too large for seconds: it "
+                "looks like nanoseconds; divide the times by 1000000000");
+  folder_.write("rgb.txt", "1305031102175304.5 rgb/000000.png\n");
+  expectRefused(SPHC_E_ARGUMENT, "microseconds; divide the times by 1000000");
+  folder_.write("rgb.txt", "1305031102175 rgb/000000.png\n");
+  expectRefused(SPHC_E_ARGUMENT, "milliseconds; divide the times by 1000");
+  folder_.write("rgb.txt", "9199999999 rgb/000000.png\n9300000000 rgb/000001.png\n");
+  expectRefused(SPHC_E_ARGUMENT, "rgb.txt, line 2: expected \"seconds file\", and 9300000000 is");
+  folder_.write("rgb.txt", "1305031102.175\n");
+  expectRefused(SPHC_E_ARGUMENT, "line 1: expected \"seconds file\"");
+  folder_.write("rgb.txt", "1305031102.175 rgb/000000.png\n");
+  folder_.write("groundtruth.txt", "1305031102175304123 0 0 0 0 0 0 1\n");
+  expectRefused(SPHC_E_ARGUMENT, "groundtruth.txt, line 1: expected \"seconds tx ty tz qx qy qz qw\", and 1305");
+}
+
 TEST_F(Tum, ReadsNothingOutsideItsFolder) {
   const TempFolder elsewhere;
   std::filesystem::copy(folder_ / "rgb/000000.png", elsewhere / "secret.png");

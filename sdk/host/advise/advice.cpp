@@ -107,11 +107,13 @@ void addFailures(const std::vector<FrameRecord> &frames, std::vector<Failure> *f
 }  // namespace
 
 Advice advise(RecordingReader *reader, const AdviceOptions &options,
+              const std::function<void(const RgbdImportSummary &all)> &mapped,
               const std::function<void(uint32_t done, uint32_t total)> &progress) {
   const std::vector<Block> blocks = blocksOf(*reader, options.folds);
   Advice advice;
   RgbdImportSummary summary;
   const PointModel whole = importRgbd({{reader}}, options.import, nullptr, &summary);
+  mapped(summary);
   for (const std::string &sentence : framesLeftOut(summary)) advice.left_out.insert(sentence);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);

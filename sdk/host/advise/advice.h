@@ -42,8 +42,10 @@ struct Advice {
   std::vector<Failure> failures;
 };
 
-// `reader`: of options.recording.  Throws UsageError, or std::runtime_error with cause and cure.
+// `reader`: of options.recording.  `mapped` is told at once how all of it was mapped, before frames are held out.
+// Throws UsageError, or std::runtime_error with cause and cure.
 Advice advise(RecordingReader *reader, const AdviceOptions &options,
+              const std::function<void(const RgbdImportSummary &all)> &mapped,
               const std::function<void(uint32_t done, uint32_t total)> &progress);
 
 }  // namespace sphc::host

@@ -1,9 +1,12 @@
 // spherecloud advise: is this recording good enough for a map?
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "host/advise/advice.h"
 #include "host/cli/commands.h"
+#include "host/cli/common/contradictions.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/progress.h"
@@ -60,8 +63,19 @@ void tell(const AdviseOptions &options, const Advice &advice, const Console &con
               failuresText(advice.failures));
 }
 
-nlohmann::ordered_json json(const Advice &advice) {
+// What `build` would say of the recording: as long as that holds, no advice is worth much.
+void warnOfRecording(const RgbdImportSummary &all, std::vector<std::string> *contradictions,
+                     const Console &console) {
+  *contradictions = contradictionsOf(all);
+  for (const std::string &contradiction : *contradictions)
+    console.warn("This recording contradicts itself, and build refuses it: " + contradiction);
+  const std::string unchecked = uncheckedOf(all);
+  if (!unchecked.empty()) console.warn("Warning: " + unchecked);
+}
+
+nlohmann::ordered_json json(const Advice &advice, const std::vector<std::string> &contradictions) {
   nlohmann::ordered_json value = {{"left_out", advice.left_out},
+                                  {"contradictions", contradictions},
                                   {"points", advice.points},
                                   {"covered_percent", 100 * advice.coverage.covered_share},
                                   {"evenness_percent", 100 * advice.coverage.evenness},
@@ -92,8 +106,11 @@ int run(const AdviseOptions &options, const Console &console) {
   const auto reader = openRecording(options.advice.recording);
   noteDamage(*reader, console);
   ProgressBar bar("holding out");
-  const Advice advice =
-      advise(reader.get(), options.advice, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
+  std::vector<std::string> contradictions;
+  const Advice advice = advise(
+      reader.get(), options.advice,
+      [&](const RgbdImportSummary &all) { warnOfRecording(all, &contradictions, console); },
+      [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   for (const std::string &left_out : advice.left_out) console.warn("note: " + left_out);
   tell(options, advice, console);
   if (!options.picture.empty()) {
@@ -101,7 +118,7 @@ int run(const AdviseOptions &options, const Console &console) {
     console.say("Picture, private: " + options.picture +
                 " (rings: no points; crosses: where failed frames looked)");
   }
-  console.give(json(advice));
+  console.give(json(advice, contradictions));
   return kExitDone;
 }
 

@@ -102,11 +102,10 @@ void checkContradictions(const BuildOptions &options, const ImportedPoints &impo
   if (imported.contradictions.empty() || options.anyway) return;
   std::string why;
   for (const std::string &contradiction : imported.contradictions) why += "\n  " + contradiction;
-  throw std::runtime_error(
-      "this recording contradicts itself:" + why +
-      "\nNothing was published, since that could not be taken back. Correct it; "
-      "`spherecloud doctor --device replay:RECORDING` looks at the images alone. Or publish it "
-      "all the same with --anyway");
+  throw std::runtime_error("this recording contradicts itself:" + why +
+                           "\nNothing was published, since that could not be taken back. Correct it; "
+                           "`spherecloud doctor --device replay:RECORDING` says more of the images. Or publish it "
+                           "all the same with --anyway");
 }
 
 Ledger openLedger(const BuildOptions &options) {
@@ -155,6 +154,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source, console);
+  if (!outcome.import.unchecked.empty()) console.warn("Warning: " + outcome.import.unchecked);
   checkContradictions(options, outcome.import);
   if (options.source.model.empty()) outcome.import.model.band = options.band;
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);

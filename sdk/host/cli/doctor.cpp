@@ -1,21 +1,32 @@
 // spherecloud doctor: what is wrong with these cameras?
+#include <chrono>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/recording_check.h"
 #include "host/cli/common/rig_options.h"
 #include "host/live/consistency_check.h"
 #include "host/live/found.h"
 #include "host/live/geometry_check.h"
 #include "host/live/interrupt.h"
+#include "host/live/rig.h"
 #include "host/live/status_line.h"
 #include "host/live/stream_check.h"
+#include "host/recording/recording_reader.h"
 
 namespace sphc::host {
 namespace {
 
 using Grade = Finding::Grade;
-constexpr uint32_t kEveryPair = 5;  // of the pairs, those whose geometry is looked at
+constexpr uint32_t kEveryPair = 5;      // of the pairs, those whose geometry is looked at
+constexpr uint32_t kMostCaptures = 20;  // of a recording, for each pair that is wanted
+constexpr std::chrono::seconds kPatience(30);
+constexpr std::string_view kReplay = "replay:";  // a camera that is a recording
 
 struct DoctorOptions {
   RigOptions rig;
@@ -65,47 +76,107 @@ class Troubles {
   size_t count_ = 0;
 };
 
-Findings lookAt(const DoctorOptions &options, const Console &console) {
+void append(Findings more, Findings *findings) {
+  for (Finding &finding : more) findings->push_back(std::move(finding));
+}
+
+// What comes of the cameras, and the pairs of it, each looked at as it comes.
+class CaptureChecks {
+ public:
+  CaptureChecks(const sphc_rig &calibration, bool is_recording)
+      : calibration_(calibration),
+        color_(SPHC_STREAM_COLOR, calibration, is_recording),
+        depth_(SPHC_STREAM_DEPTH, calibration, is_recording),
+        geometry_(calibration),
+        consistency_(calibration) {}
+
+  void look(const sphc_capture &capture) {
+    ++captures_;
+    (capture.stream == SPHC_STREAM_COLOR ? color_ : depth_).look(capture);
+  }
+  void look(const CapturePair &pair) {
+    fit_ = fits(pair.color.image, calibration_.color_camera) && fits(pair.depth.image, calibration_.depth_camera);
+    if (fit_ && apart_ms_.size() % kEveryPair == 0) geometry_.look(pair.color.image, pair.depth.image);
+    const int64_t color_ns = sphc_capture_middle_ns(&pair.color), depth_ns = sphc_capture_middle_ns(&pair.depth);
+    if (fit_) consistency_.look(pair.color.image, color_ns, pair.depth.image, depth_ns);
+    apart_ms_.push_back(1e-6 * static_cast<double>(color_ns - depth_ns));
+  }
+
+  size_t captures() const { return captures_; }
+  size_t pairs() const { return apart_ms_.size(); }
+  // Whether there are pairs, of the calibration's sizes.
+  bool fit() const { return fit_; }
+
+  Findings ofStreams() const {
+    Findings findings = color_.findings();
+    append(depth_.findings(), &findings);
+    return findings;
+  }
+  Findings ofPairs(uint64_t without_partner) const {
+    Findings findings = {pairsFinding(apart_ms_, without_partner)};
+    if (!fit_) return findings;
+    append(consistency_.findings(), &findings);
+    findings.push_back(geometry_.finding());
+    return findings;
+  }
+
+ private:
+  sphc_rig calibration_;
+  StreamCheck color_, depth_;
+  GeometryCheck geometry_;
+  ConsistencyCheck consistency_;
+  std::vector<double> apart_ms_;
+  size_t captures_ = 0;
+  bool fit_ = false;
+};
+
+// The recording that is played; null where it is cameras.
+std::unique_ptr<recording::RecordingReader> recordingOf(const RigOptions &rig) {
+  if (rig.both.rfind(kReplay, 0) != 0) return nullptr;
+  recording::ReaderOptions options;
+  options.calibration = rig.wish.calibration;
+  options.pair_tolerance_ns = static_cast<int64_t>(1e6 * rig.tolerance_ms);
+  return std::make_unique<recording::RecordingReader>(rig.both.substr(kReplay.size()), options);
+}
+
+void watch(const DoctorOptions &options, bool is_recording, Rig *rig, CaptureChecks *checks) {
   StatusLine line;
+  const Interrupt interrupt;
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  const auto is_over = [&] {
+    return is_recording ? checks->captures() > kMostCaptures * options.frames
+                        : std::chrono::steady_clock::now() >= until;
+  };
+  rig->watch([checks](const sphc_capture &c) { checks->look(c); });
+  while (checks->pairs() < options.frames && !interrupt.came() && !is_over()) {
+    CapturePair pair;
+    const Rig::Got got = rig->next(std::chrono::milliseconds(200), &pair);
+    if (got == Rig::Got::kEnd) break;
+    if (got == Rig::Got::kNothing) continue;
+    checks->look(pair);
+    rig->release(pair);
+    line.show("looking: " + std::to_string(checks->pairs()) + " of " + std::to_string(options.frames));
+  }
+}
+
+Findings lookAt(DoctorOptions options, const Console &console) {
   Troubles of_captures;
+  options.rig.wish.at_once = true;
   Rig rig(options.rig, [&of_captures](const std::string &trouble) { of_captures.add(trouble); });
   for (const std::string &camera : rig.descriptions()) console.say("Camera: " + camera);
   const sphc_rig calibration = calibrationOf(options.rig, rig);
-  const bool is_recording = options.rig.both.rfind("replay:", 0) == 0;  // which does not come late
-  StreamCheck color(SPHC_STREAM_COLOR, calibration, is_recording);
-  StreamCheck depth(SPHC_STREAM_DEPTH, calibration, is_recording);
-  GeometryCheck geometry(calibration);
-  ConsistencyCheck consistency(calibration);
-  rig.watch([&](const sphc_capture &c) { (c.stream == SPHC_STREAM_COLOR ? color : depth).look(c); });
-  std::vector<double> apart_ms;
-  const Interrupt interrupt;
-  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  bool geometry_fits = true;
-  const auto is_over = [&] { return !is_recording && std::chrono::steady_clock::now() >= until; };
-  while (apart_ms.size() < options.frames && !interrupt.came() && !is_over()) {
-    CapturePair pair;
-    const Rig::Got got = rig.next(std::chrono::milliseconds(200), &pair);
-    if (got == Rig::Got::kEnd) break;
-    if (got == Rig::Got::kNothing) continue;
-    geometry_fits =
-        fits(pair.color.image, calibration.color_camera) && fits(pair.depth.image, calibration.depth_camera);
-    if (geometry_fits && apart_ms.size() % kEveryPair == 0) geometry.look(pair.color.image, pair.depth.image);
-    const int64_t color_ns = sphc_capture_middle_ns(&pair.color), depth_ns = sphc_capture_middle_ns(&pair.depth);
-    if (geometry_fits) consistency.look(pair.color.image, color_ns, pair.depth.image, depth_ns);
-    apart_ms.push_back(1e-6 * static_cast<double>(color_ns - depth_ns));
-    rig.release(pair);
-    line.show("looking: " + std::to_string(apart_ms.size()) + " of " + std::to_string(options.frames));
-  }
+  const auto recording = recordingOf(options.rig);
+  if (recording)
+    if (Findings useless = findingsOfImages(*recording); !useless.empty()) return useless;
+  CaptureChecks checks(calibration, recording != nullptr);
+  watch(options, recording != nullptr, &rig, &checks);
   Findings findings = of_captures.findings();
-  for (const StreamCheck *stream : {&color, &depth})
-    for (Finding &finding : stream->findings()) findings.push_back(std::move(finding));
+  append(checks.ofStreams(), &findings);
   const std::string troubles = rig.troubles();
   if (!troubles.empty()) findings.push_back({Grade::kDoubtful, "cameras", troubles});
   const sphc_pairer_counts counts = rig.counts();
-  findings.push_back(pairsFinding(apart_ms, counts.too_far + counts.overtaken + counts.full));
-  if (apart_ms.empty() || !geometry_fits) return findings;
-  for (Finding &finding : consistency.findings()) findings.push_back(std::move(finding));
-  findings.push_back(geometry.finding());
+  append(checks.ofPairs(counts.too_far + counts.overtaken + counts.full), &findings);
+  if (recording && checks.fit()) append(findingsOfPoses(recording.get()), &findings);
   return findings;
 }
 
@@ -142,9 +213,8 @@ Command doctorCommand(CLI::App *root) {
   app->description(
       "Say what is wrong with cameras, and the cure.\n\nWithout cameras: what is plugged in, and may be opened.  "
       "With cameras: rates, losses, clocks,\nsizes, light, depth, whether frames contradict themselves, and "
-      "whether "
-      "depth lies on the image\nas the calibration says, or would do so if it were mirrored, turned or registered "
-      "already.");
+      "whether depth lies on the image\nas the calibration says, or would do so if it were mirrored, turned or "
+      "registered already.  With a\nrecording: whether its poses contradict its depths, too.");
   app->footer(kDoctorExample);
   addRigOptions(app, &options->rig);
   app->add_option("--frames", options->frames, "Pairs to check")

@@ -95,7 +95,7 @@ void checkTold(const MapOptions &options, const Walk &walk) {
 std::vector<MappedRecording> openAll(const MapOptions &options) {
   std::vector<MappedRecording> recordings;
   for (const RecordingOptions &recording : options.all())
-    recordings.push_back({recording.folder, openRecording(recording), {}, {}, {}});
+    recordings.push_back({recording.folder, openRecording(recording), {}});
   return recordings;
 }
 
@@ -126,7 +126,8 @@ sphc_rig commonCalibration(const std::vector<MappedRecording> &recordings) {
   return rig;
 }
 
-constexpr double kMostRefinedPx = 25;  // 1.5 % of focal length, 6 px, 0.7 degrees and 11 mm together are 20
+constexpr uint64_t kLeastMappedOf = 3;  // one of so many frames is to find a place
+constexpr double kMostRefinedPx = 25;   // 1.5 % of focal length, 6 px, 0.7 degrees and 11 mm together are 20
 
 void tellOfFit(const MapOptions &options, const CalibrationFit &fit, const CalibrationDifference &moved,
                const Console &console) {
@@ -205,6 +206,7 @@ void score(MappedRecording *recording) {
   }
   if (pairs.size() < kFewestScored) return;
   recording->score = scoreTrajectory(pairs);
+  recording->is_truth_inverse = isTruthInverse(pairs);
   recording->unaligned_rmse_m = std::sqrt(squared_m2 / static_cast<double>(pairs.size()));
 }
 
@@ -263,6 +265,21 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   return outcome;
 }
 
+// A model of next to nothing of the walk would pass for one of the place.
+void checkMapped(const MapOutcome &outcome) {
+  uint64_t frames = 0, mapped = 0;
+  for (const MappedRecording &recording : outcome.recordings) {
+    frames += recording.poses.size();
+    mapped += recording.framesMapped();
+  }
+  if (kLeastMappedOf * mapped >= frames) return;
+  throw std::runtime_error(
+      "only " + std::to_string(mapped) + " of " + counted(frames, "frame") +
+      " found a place, fewer than a third, so no model was written; walk once more, slowly, in good light and "
+      "where "
+      "there is much to see, or choose the frames of the part that is worth a map by --first and --last");
+}
+
 void checkCount(const char *option, const std::vector<std::string> &files, size_t recordings) {
   if (!files.empty() && files.size() != recordings)
     throw UsageError(std::string(option) + " is given " + counted(files.size(), "time") + " for " +
@@ -317,6 +334,7 @@ int run(const CLI::App &app, MapOptions options, const Console &console) {
       console.warn("note: no score of " + recording.name +
                    ": fewer than 3 frames have a pose that was found and one that the recording holds");
   }
+  checkMapped(outcome);
   writeModelFile(options.model, outcome.import.model);
   console.say(outcome.import.told);
   console.say("Wrote " + options.model +

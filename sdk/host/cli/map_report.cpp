@@ -141,10 +141,13 @@ void warnOfPoses(const MapOutcome &outcome, const Console &console) {
                  " are off by more than 4 sigma of what was stated; the images were believed more");
 }
 
-void warnOfScale(const MapOutcome &outcome, const Console &console) {
+void warnOfTruth(const MapOutcome &outcome, const Console &console) {
   for (const MappedRecording &recording : outcome.recordings) {
     const auto &s = recording.score;
-    if (s && std::abs(s->scale - 1) > kMostScale && s->similarity_rmse_m < kExplained * s->rigid_rmse_m)
+    if (recording.is_truth_inverse)
+      console.warn("note: the poses of " + recording.name +
+                   " are inverses, camera_from_world; the score expects world_from_camera, so invert each of them");
+    else if (s && std::abs(s->scale - 1) > kMostScale && s->similarity_rmse_m < kExplained * s->rigid_rmse_m)
       console.warn("note: a metre of the poses of " + recording.name + " is " + fixed(s->scale, 3) +
                    " m of its depths: check depth_unit_m, the focal lengths, and the unit of the poses");
   }
@@ -262,7 +265,7 @@ void warnOfMap(const MapOutcome &outcome, const Console &console) {
   warnOfPoses(outcome, console);
   if (!outcome.vertical.doubt.empty())
     console.warn("note: the accelerations do not tell the vertical: " + outcome.vertical.doubt);
-  warnOfScale(outcome, console);
+  warnOfTruth(outcome, console);
   warnOfParts(outcome, clock, console);
   warnOfRecordings(outcome, console);
 }

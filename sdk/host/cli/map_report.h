@@ -18,9 +18,10 @@ struct MappedRecording {
   std::string name;  // as it was given
   std::unique_ptr<RecordingReader> reader;
   std::vector<std::optional<Rigid>> poses;  // of its frames, world_from_camera; none of those that found no place
-  std::optional<TrajectoryScore> score;
-  WalkTimes times;
-  double unaligned_rmse_m = 0;  // of the score too, where the world is the recording's
+  std::optional<TrajectoryScore> score = {};
+  WalkTimes times = {};
+  double unaligned_rmse_m = 0;    // of the score too, where the world is the recording's
+  bool is_truth_inverse = false;  // likewise of the score
 
   uint32_t framesMapped() const;
   recording::PoseTrack path() const;  // through all of them

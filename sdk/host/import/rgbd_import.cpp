@@ -135,11 +135,20 @@ class Importer {
     FrameConsistency consistency(rig);
     views_.emplace_back(rig, options_.depth_min_m, options_.depth_max_m);
     fixed_.begin(describer.camera());
-    scale_.begin(describer.camera(), source.reader->frameCount());
+    scale_.begin(describer.camera(), posedFrames(source));
     for (uint32_t i = 0; i < source.reader->frameCount(); ++i) {
-      if (!source.takes_part || source.takes_part(i)) addFrame(source, i, &describer, &consistency);
+      if (takesPart(source, i)) addFrame(source, i, &describer, &consistency);
       if (progress_) progress_(++done_, total_);
     }
+  }
+
+  static bool takesPart(const RgbdSource &source, uint32_t i) { return !source.takes_part || source.takes_part(i); }
+  // Those that the scale is told by.
+  static uint32_t posedFrames(const RgbdSource &source) {
+    uint32_t frames = 0;
+    for (uint32_t i = 0; i < source.reader->frameCount(); ++i)
+      frames += takesPart(source, i) && poseAt(source, source.reader->colorOf(i).time_ns);
+    return frames;
   }
 
   void addFrame(const RgbdSource &source, uint32_t i, FrameDescriber *describer, FrameConsistency *consistency) {

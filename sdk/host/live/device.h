@@ -21,6 +21,7 @@ struct Wish {
   bool color_images = false;                    // colours, not grey: to record
   uint32_t width = 640, height = 480, fps = 0;  // fps 0: whatever the camera does
   std::string calibration;                      // of a recording that has none beside it
+  bool at_once = false;                         // a recording as fast as it can be read, not as it was recorded
 };
 
 // Captures that may be out on loan at once: those that wait in a pairer, and those in use.

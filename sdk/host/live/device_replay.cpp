@@ -11,7 +11,7 @@ class ReplayDevice : public Device {
   ReplayDevice(const std::string &address, const Wish &wish) : address_(address) {
     sphc_replay_config config;
     sphc_replay_config_init(&config, sizeof config);
-    config.mode = SPHC_REPLAY_REAL_TIME;
+    config.mode = wish.at_once ? SPHC_REPLAY_FAST : SPHC_REPLAY_REAL_TIME;
     config.streams = 0;
     if (wish.color) config.streams |= SPHC_REPLAY_STREAM_COLOR;
     if (wish.depth) config.streams |= SPHC_REPLAY_STREAM_DEPTH;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kTurn(2);  // with two cameras: how long one is waited for
 constexpr std::chrono::seconds kRetry(1);
-constexpr uint32_t kFailures = 10;  // in a row: the camera is closed and opened again
+constexpr uint32_t kFailures = 10;       // in a row: the camera is closed and opened again
+constexpr uint32_t kMostCaptures = 200;  // that come without a pair, before the caller hears of it
 
 int64_t nowNs(clockid_t clock) {
   timespec now = {};
@@ -103,6 +104,7 @@ bool Rig::pop(CapturePair *pair) {
 Rig::Got Rig::next(std::chrono::milliseconds timeout, CapturePair *pair) {
   const Clock::time_point until = Clock::now() + timeout;
   bool came = false;
+  uint32_t captures = 0;
   do {
     came = false;
     if (pop(pair)) return Got::kPair;
@@ -117,7 +119,8 @@ Rig::Got Rig::next(std::chrono::milliseconds timeout, CapturePair *pair) {
     const auto turn = cameras_.size() == 1 ? left : std::min<std::chrono::microseconds>(left, kTurn);
     for (Camera &camera : cameras_)
       came = acquireFrom(&camera, std::max(turn, std::chrono::microseconds(0))) || came;
-  } while (came || Clock::now() < until || flushed_);
+    captures += came;
+  } while ((came && captures < kMostCaptures) || Clock::now() < until || flushed_);
   return pop(pair) ? Got::kPair : Got::kNothing;
 }
 

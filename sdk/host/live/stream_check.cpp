@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/base/counted.h"
+#include "host/base/median.h"
 #include "host/recording/pixels.h"
 #include "host/report/run.h"
 #include "host/report/statistics.h"
@@ -28,6 +29,22 @@ const char *pointName(sphc_time_point point) {
   return point >= 0 && point < 4 ? names[point] : "an unknown point";
 }
 
+// What times may be in that should be in seconds.
+struct TimeUnit {
+  const char *name, *a_second;
+  double seconds;
+};
+constexpr TimeUnit kTimeUnits[] = {
+    {"milliseconds", "1000", 1e-3}, {"microseconds", "1000000", 1e-6}, {"nanoseconds", "1000000000", 1e-9}};
+constexpr double kFastest_s = 1.0 / 250, kSlowest_s = 1;  // periods of cameras
+
+// In which the period is one of a camera, where it is not in seconds; null: none.
+const TimeUnit *unitOfPeriod(double period_s) {
+  for (const TimeUnit &unit : kTimeUnits)
+    if (period_s * unit.seconds >= kFastest_s && period_s * unit.seconds <= kSlowest_s) return &unit;
+  return nullptr;
+}
+
 }  // namespace
 
 StreamCheck::StreamCheck(sphc_stream stream, const sphc_rig &calibration, bool is_recording)
@@ -41,7 +58,7 @@ void StreamCheck::look(const sphc_capture &capture) {
     first_ = capture;
   } else {
     periods_ms_.push_back(1e-6 * static_cast<double>(capture.time_ns - last_.time_ns));
-    if (capture.sequence > last_.sequence) lost_ += capture.sequence - last_.sequence - 1;
+    if (capture.sequence > last_.sequence) steps_.push_back(capture.sequence - last_.sequence);
   }
   last_ = capture;
   const sphc_image &image = capture.image;
@@ -95,19 +112,32 @@ std::optional<Finding> StreamCheck::size() const {
                      "; choose that mode (--width, --height), or calibrate this one"};
 }
 
+// By their numbers.  A recording may hold every third frame, say: that is its rate, and no loss.
+uint64_t StreamCheck::lost() const {
+  const double usual = is_recording_ ? std::max(1.0, median(steps_)) : 1;
+  uint64_t lost = 0;
+  for (const double step : steps_) lost += static_cast<uint64_t>(std::max(1.0, std::floor(step / usual))) - 1;
+  return lost;
+}
+
 Finding StreamCheck::rate() const {
   const std::string what = is_color_ ? "colour rate" : "depth rate";
   if (periods_ms_.empty()) return {Grade::kDoubtful, what, "one image only"};
   const double median_ms = percentile(periods_ms_, 0.5), most_ms = percentile(periods_ms_, 1);
+  const TimeUnit *unit = is_recording_ ? unitOfPeriod(1e-3 * median_ms) : nullptr;
+  if (unit)
+    return {Grade::kWrong, what,
+            "an image every " + fixed(1e-3 * median_ms, 0) + " s, and no camera is so slow: are the times in " +
+                unit->name + "? Seconds are expected; divide the times of images and poses by " + unit->a_second};
+  const uint64_t lost = this->lost();
   const std::string seen = fixed(1000 / median_ms, 1) + " images a second, longest pause " + fixed(most_ms, 0) +
-                           " ms, " + std::to_string(lost_) + " of " + std::to_string(count_ + lost_) +
-                           " never came";
-  if (10 * lost_ > count_)
+                           " ms, " + std::to_string(lost) + " of " + std::to_string(count_ + lost) + " never came";
+  if (10 * lost > count_)
     return {Grade::kWrong, what,
             seen + (is_recording_ ? "; copy the recording again, or record anew"
                                   : "; at the camera, use another USB port or bus, a smaller image, or MJPG")};
   const bool paused = most_ms > std::max(kPauseMs, kPausePeriods * median_ms);
-  return {lost_ > 0 || paused ? Grade::kDoubtful : Grade::kFine, what, seen};
+  return {lost > 0 || paused ? Grade::kDoubtful : Grade::kFine, what, seen};
 }
 
 Finding StreamCheck::clock() const {

@@ -19,6 +19,7 @@ class StreamCheck {
   Findings findings() const;
 
  private:
+  uint64_t lost() const;
   Finding rate() const;
   std::optional<Finding> frozen() const;  // where it is
   Finding clock() const;
@@ -30,8 +31,9 @@ class StreamCheck {
   sphc_camera camera_;
   double depth_unit_m_;
   sphc_capture first_ = {}, last_ = {};
-  uint32_t count_ = 0, lost_ = 0, repeated_ = 0;
-  uint64_t last_pixels_ = 0;  // a hash of those looked at
+  uint32_t count_ = 0, repeated_ = 0;
+  uint64_t last_pixels_ = 0;   // a hash of those looked at
+  std::vector<double> steps_;  // from a number to the next
   std::vector<double> periods_ms_, brightness_, depths_m_, measured_share_;
 };
 

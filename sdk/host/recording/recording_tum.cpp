@@ -1,7 +1,9 @@
 // The layout of the TUM RGB-D benchmark: lists of times and files.
 #include <algorithm>
 #include <functional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "failure.h"
 #include "file_reader.h"
@@ -30,6 +32,21 @@ std::string pathFault(const fs::path &folder, const fs::path &file) {
   return left == folder.end() ? "" : "the file is a link out of the recording" + cure;
 }
 
+// A time that is too large for seconds is of another unit.  In any, times since 1970 begin with 1 until 2033;
+// others of as many digits count from when a machine or a recording began.
+std::string otherUnitOf(std::string_view time) {
+  int64_t unused_ns = 0;
+  const size_t digits = std::min(time.find_first_not_of("0123456789"), time.size());
+  const bool is_number = digits == time.size() || time[digits] == '.';
+  if (digits < 10 || !is_number || parseSeconds(time, unused_ns)) return "";
+  const bool is_since_1970 = time[0] == '1';
+  const auto [unit, parts] = is_since_1970 && digits == 13   ? std::pair("milliseconds", "1000")
+                             : is_since_1970 && digits == 16 ? std::pair("microseconds", "1000000")
+                                                             : std::pair("nanoseconds", "1000000000");
+  return ", and " + std::string(time.substr(0, 24)) + " is too large for seconds: it looks like " + unit +
+         "; divide the times by " + parts;
+}
+
 // Gives `parse` each line that is neither empty nor a comment; parse says false when the line is malformed.
 // A malformed last line without its newline is what an interrupted recording leaves behind: it is not there.
 using LineParser = std::function<bool(std::string_view line, uint32_t number)>;
@@ -39,10 +56,10 @@ void forEachLine(const fs::path &path, const char *expected, const LineParser &p
   for (uint32_t number = 1; !rest.empty(); ++number) {
     const size_t end = rest.find('\n');
     const bool complete = end != std::string_view::npos;
-    const std::string_view line = trimmed(rest.substr(0, end));
+    std::string_view line = trimmed(rest.substr(0, end));
     rest.remove_prefix(complete ? end + 1 : rest.size());
     if (line.empty() || line[0] == '#' || parse(line, number) || !complete) continue;
-    failLine(path, number, std::string("expected \"") + expected + "\"");
+    failLine(path, number, std::string("expected \"") + expected + "\"" + otherUnitOf(takeWord(line)));
   }
 }
 

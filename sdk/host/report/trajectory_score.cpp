@@ -67,4 +67,13 @@ TrajectoryScore scoreTrajectory(const std::vector<PosePair> &poses) {
   return score;
 }
 
+bool isTruthInverse(const std::vector<PosePair> &poses) {
+  constexpr double kFarBetter = 0.3;
+  std::vector<PosePair> turned = poses;
+  for (PosePair &pose : turned) pose.truth = pose.truth.inverse();
+  const TrajectoryScore given = scoreTrajectory(poses), inverse = scoreTrajectory(turned);
+  return inverse.rigid_rmse_m < kFarBetter * given.rigid_rmse_m &&
+         inverse.rotation_median_deg < kFarBetter * given.rotation_median_deg;
+}
+
 }  // namespace sphc::host

@@ -31,4 +31,7 @@ constexpr size_t kFewestScored = 3;
 // In the order of the path.  Throws std::runtime_error for fewer than kFewestScored poses.
 TrajectoryScore scoreTrajectory(const std::vector<PosePair> &poses);
 
+// Whether the truth is given as its inverse, camera_from_base: turned round, it fits far better.  Of as many poses.
+bool isTruthInverse(const std::vector<PosePair> &poses);
+
 }  // namespace sphc::host

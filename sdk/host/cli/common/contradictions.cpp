@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/base/counted.h"
 #include "host/report/fault_words.h"
@@ -43,13 +44,13 @@ constexpr char kPoses[] =
 
 // Keypoints that two frames share know nothing of the poses, so they tell a wrong scale from what moves.
 std::string contradictionOfScale(const PoseScale &scale) {
+  if (scale.matches >= kManyMatches && scale.agree_most < kLeastOfAnyScale * scale.matches)
+    return "of " + counted(scale.matches, "keypoint") + " that two frames share, only " +
+           std::to_string(scale.agree_most) + " lie where the poses say: " + kPoses;
   if (scale.agree_most >= kFewestMatches && scale.agree < kMostOfOtherScale * scale.agree_most)
     return "the camera goes about " + fixed(1 / scale.multiple, 1) +
            " times as far by the poses as by depth: depth_unit_m of the calibration, or the unit of the poses, is "
            "another";
-  if (scale.matches >= kManyMatches && scale.agree_most < kLeastOfAnyScale * scale.matches)
-    return "of " + counted(scale.matches, "keypoint") + " that two frames share, only " +
-           std::to_string(scale.agree_most) + " lie where the poses say: " + kPoses;
   return "";
 }
 
@@ -62,6 +63,13 @@ std::vector<std::string> faultsOfFrames(const RgbdImportSummary &summary) {
 std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary) {
   if (summary.frames_used < kFewestFrames) return {};
   std::vector<std::string> sentences = faultsAbove(kMostFrames, summary);
+  for (std::string &sentence : contradictionsOfPoses(summary)) sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary) {
+  if (summary.frames_used < kFewestFrames) return {};
+  std::vector<std::string> sentences;
   const double merged =
       static_cast<double>(summary.merged) / static_cast<double>(std::max<uint64_t>(1, summary.lifted));
   const double disagreement = summary.moving.disagreement;
@@ -74,6 +82,15 @@ std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary) {
   const std::string of_scale = contradictionOfScale(summary.scale);
   if (!of_scale.empty()) sentences.push_back(of_scale);
   return sentences;
+}
+
+std::string uncheckedOf(const RgbdImportSummary &summary) {
+  if (summary.frames_used >= kFewestFrames) return "";
+  const uint32_t all = summary.frames_used + summary.frames_without_pose + summary.frames_unreadable;
+  return "scale and consistency could not be checked: " + std::to_string(summary.frames_used) + " of " +
+         counted(all, "frame") + (summary.frames_used == 1 ? " has" : " have") +
+         " a pose and can be read, and that takes " + std::to_string(kFewestFrames) +
+         "; give more frames a pose, or measure in the room whether the map is right";
 }
 
 }  // namespace sphc::host

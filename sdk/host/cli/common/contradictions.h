@@ -12,5 +12,9 @@ namespace sphc::host {
 std::vector<std::string> faultsOfFrames(const RgbdImportSummary &summary);
 // Of the whole recording, so much that no map of it can be right.  Empty: none.
 std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary);
+// Those of poses and depth alone, without faults of the images.
+std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary);
+// Why contradictions cannot be found.  Empty: they can.
+std::string uncheckedOf(const RgbdImportSummary &summary);
 
 }  // namespace sphc::host

@@ -7,13 +7,18 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
 #include "host/recording/calibration_json.h"
 #include "host/recording/recording_reader.h"
+#include "host/recording/recording_writer.h"
+#include "host/recording/text_field.h"
 #include "runtime/geometry/rigid.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/ros_bag.h"
@@ -101,6 +106,55 @@ TEST_F(MapTest, PosesOfAnotherScaleThanTheDepthsAreNamed) {
   const std::string map = " --model " + at("scale.model") + " --score --json";
   EXPECT_THAT(runCommand("map -r " + at("large") + map).err, HasSubstr("depth_unit_m"));
   EXPECT_THAT(runCommand("map -r " + at("walk") + map + " --force").err, Not(HasSubstr("depth_unit_m")));
+}
+
+TEST_F(MapTest, PosesThatAreInversesAreNamed) {
+  fs::copy(at("walk"), at("inverse"), fs::copy_options::recursive);
+  const recording::RecordingReader reader(at("walk"));
+  std::ofstream inverse(at("inverse/groundtruth.txt"));
+  for (const recording::TimedPose &timed : reader.recording().poses.poses()) {
+    const sphc_rigid pose = rigidToC(rigidFromC(timed.pose).inverse());
+    const double *q = pose.q_wxyz, *t = pose.t_m;
+    inverse << recording::formatSeconds(timed.time_ns) << " "
+            << recording::formatNumbers({t[0], t[1], t[2], q[1], q[2], q[3], q[0]}) << "\n";
+  }
+  inverse.close();
+  const std::string map = " --model " + at("inverse.model") + " --score --json --force";
+  const Answer named = runCommand("map -r " + at("inverse") + map);
+  EXPECT_EQ(named.exit_code, kExitDone);
+  EXPECT_THAT(named.err, HasSubstr("are inverses, camera_from_world; the score expects world_from_camera"));
+  EXPECT_THAT(named.err, Not(HasSubstr("depth_unit_m")));
+  EXPECT_THAT(runCommand("map -r " + at("walk") + map).err, Not(HasSubstr("inverses")));
+}
+
+// A walk of which all but the first frames show nothing.
+void writeBlindWalk(const std::string &walk, const std::string &blind, uint32_t seeing) {
+  recording::RecordingReader reader(walk);
+  sphc_recording_writer *writer = nullptr;
+  ASSERT_EQ(sphc_recording_create(blind.c_str(), &reader.calibration(), &writer, nullptr), SPHC_OK);
+  for (uint32_t i = 0; i < reader.frameCount(); ++i) {
+    sphc_localizer_frame frame = reader.read(i);
+    const std::vector<uint8_t> blank(size_t{frame.color.stride_bytes} * frame.color.height, 90);
+    if (i >= seeing) frame.color.data = blank.data();
+    ASSERT_EQ(sphc_recording_add_frame(writer, &frame, nullptr), SPHC_OK);
+  }
+  ASSERT_EQ(sphc_recording_close(&writer, nullptr), SPHC_OK);
+}
+
+TEST_F(MapTest, AModelOfLessThanAThirdOfTheFramesIsNotWritten) {
+  writeBlindWalk(at("walk"), at("blind3"), 3);
+  const Answer lost = runCommand("map -r " + at("blind3") + " --model " + at("blind3.model"));
+  EXPECT_EQ(lost.exit_code, kExitFailure);
+  EXPECT_THAT(lost.err,
+              HasSubstr("only 3 of 10 frames found a place, fewer than a third, so no model was written"));
+  EXPECT_THAT(lost.err, HasSubstr("walk once more"));
+  EXPECT_THAT(lost.err, HasSubstr("left out: ")) << "and why";
+  EXPECT_FALSE(fs::exists(at("blind3.model")));
+  writeBlindWalk(at("walk"), at("blind4"), 4);
+  const Answer found = runCommand("map -r " + at("blind4") + " --model " + at("blind4.model"));
+  EXPECT_EQ(found.exit_code, kExitDone) << found.err;
+  // A part that is chosen is all of the walk.
+  EXPECT_EQ(runCommand("map -r " + at("blind3") + " --last 2 --model " + at("blind3.model")).exit_code, kExitDone);
 }
 
 // Focal length and principal point are off in the file that the tool is given.

@@ -72,6 +72,23 @@ TEST_F(RigTest, WhatIsTooFarApartIsNoPair) {
   EXPECT_EQ(counts.too_far + counts.overtaken + counts.full + counts.ended, 2 * kRecordedFrames);
 }
 
+// Read at once, a recording without pairs comes to its end in steps that the caller sees.
+TEST_F(RigTest, ManyCapturesWithoutAPairAreNothing) {
+  const std::string walk = folder_ / "long";
+  contract::writeTinyRecording(walk, 150);
+  options_.both = "replay:" + walk;
+  options_.tolerance_ms = 0.5;
+  options_.wish.at_once = true;
+  const auto rig = open();
+  uint32_t captures = 0;
+  rig->watch([&](const sphc_capture &) { ++captures; });
+  CapturePair pair;
+  EXPECT_EQ(rig->next(std::chrono::milliseconds(0), &pair), Rig::Got::kNothing);
+  EXPECT_EQ(captures, 200u);
+  EXPECT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kEnd);
+  EXPECT_EQ(captures, 300u);
+}
+
 // Two cameras, each with a clock of its own: both come out on the host's.
 TEST_F(RigTest, TwoCamerasShareTheClockOfTheHost) {
   options_.color = options_.depth = options_.both;

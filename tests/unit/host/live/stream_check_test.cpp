@@ -21,12 +21,15 @@ class StreamCheckTest : public testing::Test {
     const bool color = stream == SPHC_STREAM_COLOR;
     std::vector<uint8_t> gray(kWidth * kHeight, static_cast<uint8_t>(value));
     std::vector<uint16_t> depth(kWidth * kHeight, value);
+    uint32_t number = 0;
     for (uint32_t i = 0; i < frames; ++i) {
       sphc_capture capture = capture_;
       capture.struct_size = sizeof capture;
       capture.stream = stream;
-      capture.sequence = i * (1 + skip);
-      capture.time_ns = int64_t{i} * 33333333 * (1 + skip) + (2 * i >= frames ? pause_ns_ : 0);
+      if (i == frames / 2) number += missing_;
+      capture.sequence = number;
+      capture.time_ns = period_ns_ * number + (2 * i >= frames ? pause_ns_ : 0);
+      number += 1 + skip;
       if (color)
         capture.image = {gray.data(), kWidth, kHeight, kWidth, SPHC_FORMAT_GRAY8};
       else
@@ -45,7 +48,9 @@ class StreamCheckTest : public testing::Test {
 
   sphc_rig calibration_;
   sphc_capture capture_ = {};
-  int64_t pause_ns_ = 0;  // in the middle
+  int64_t period_ns_ = 33333333;  // from a number to the next
+  int64_t pause_ns_ = 0;          // in the middle
+  uint32_t missing_ = 0;          // numbers, in the middle
   bool is_recording_ = false;
 };
 
@@ -74,11 +79,40 @@ TEST_F(StreamCheckTest, FaultsAreNamed) {
 // What was recorded no USB port helps.
 TEST_F(StreamCheckTest, OfARecordingTheCureIsAnother) {
   is_recording_ = true;
-  const std::string lost = found(SPHC_STREAM_COLOR, 120, "colour rate", 1).text;
+  missing_ = 3;
+  const std::string lost = found(SPHC_STREAM_COLOR, 120, "colour rate").text;
   EXPECT_EQ(lost.find("USB"), std::string::npos) << lost;
   EXPECT_NE(lost.find("copy the recording again"), std::string::npos) << lost;
   const std::string none = StreamCheck(SPHC_STREAM_DEPTH, calibration_, is_recording_).findings().at(0).text;
   EXPECT_NE(none.find("is the recording whole?"), std::string::npos) << none;
+}
+
+// Of a recording; a camera that skips every second number loses it.
+TEST_F(StreamCheckTest, EveryThirdFrameIsARateAndNoLoss) {
+  is_recording_ = true;
+  const Finding third = found(SPHC_STREAM_COLOR, 120, "colour rate", 2);
+  EXPECT_EQ(third.grade, Grade::kFine) << third.text;
+  EXPECT_NE(third.text.find("10.0 images a second"), std::string::npos) << third.text;
+  EXPECT_NE(third.text.find("0 of 20 never came"), std::string::npos) << third.text;
+  missing_ = 9;
+  const Finding gap = found(SPHC_STREAM_COLOR, 120, "colour rate", 2);
+  EXPECT_EQ(gap.grade, Grade::kWrong) << gap.text;
+  EXPECT_NE(gap.text.find("3 of 23 never came"), std::string::npos) << gap.text;
+}
+
+TEST_F(StreamCheckTest, TimesInAnotherUnitAreNamed) {
+  is_recording_ = true;
+  const auto expectNamed = [&](int64_t period_ns, const char *unit) {
+    period_ns_ = period_ns;
+    const Finding slow = found(SPHC_STREAM_COLOR, 120, "colour rate");
+    EXPECT_EQ(slow.grade, Grade::kWrong);
+    EXPECT_NE(slow.text.find(unit), std::string::npos) << slow.text;
+  };
+  expectNamed(33300000000, "in milliseconds? Seconds are expected; divide the times of images and poses by 1000");
+  expectNamed(33300000000000, "in microseconds?");
+  expectNamed(33300000000000000, "in nanoseconds?");
+  period_ns_ = 2000000000;
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate").grade, Grade::kFine) << "stills";
 }
 
 TEST_F(StreamCheckTest, APauseIsNoRate) {

@@ -76,6 +76,16 @@ TEST(TrajectoryScoreTest, ALoopThatDoesNotCloseIsMeasuredWhereThePathComesBack) 
   EXPECT_FALSE(scoreTrajectory(poses).revisit_worst_m) << "it does not come back";
 }
 
+TEST(TrajectoryScoreTest, ATruthThatIsInverseIsNoticed) {
+  std::vector<PosePair> poses = pairs(1);
+  EXPECT_FALSE(isTruthInverse(poses));
+  for (PosePair &pose : poses) pose.truth = pose.truth.inverse();
+  EXPECT_TRUE(isTruthInverse(poses));
+  Random random(2);
+  for (PosePair &pose : poses) pose.truth.translation_m = test::normalVector(&random);
+  EXPECT_FALSE(isTruthInverse(poses)) << "it is of another walk";
+}
+
 TEST(TrajectoryScoreTest, TwoPosesAreTooFew) {
   std::vector<PosePair> poses = pairs(1);
   poses.resize(2);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <spherecloud/spherecloud.hpp>
+#include <string>
 
 namespace sphc::host {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::SizeIs;
 
 RgbdImportSummary soundWalk() {
   RgbdImportSummary summary;
@@ -61,6 +63,24 @@ TEST(Contradictions, AFaultOfMostFramesIsAndOneOfSomeIsTold) {
   EXPECT_THAT(contradictionsOf(late), ElementsAre(HasSubstr("in 31 of 40 frames")));
 }
 
+TEST(Contradictions, ThoseOfPosesAreWithoutFaultsOfImages) {
+  RgbdImportSummary walk = soundWalk();
+  walk.scale = {4300, 222, 3580, 0.5};
+  for (int i = 0; i < 40; ++i) walk.frames_with_fault.add(SPHC_FAULT_DEPTH_COLOR_DISAGREE);
+  EXPECT_THAT(contradictionsOf(walk), SizeIs(2));
+  EXPECT_THAT(contradictionsOfPoses(walk), ElementsAre(HasSubstr("times as far by the poses as by depth")));
+}
+
+TEST(Contradictions, OfFewFramesAreNotFoundAndThatIsSaid) {
+  EXPECT_EQ(uncheckedOf(soundWalk()), "");
+  RgbdImportSummary few = soundWalk();
+  few.frames_used = 9;
+  few.frames_without_pose = 90;
+  few.frames_unreadable = 1;
+  EXPECT_THAT(uncheckedOf(few),
+              HasSubstr("scale and consistency could not be checked: 9 of 100 frames have a pose"));
+}
+
 TEST(Contradictions, AnotherScaleIsNamed) {
   RgbdImportSummary walk = soundWalk();
   walk.scale = {3900, 3200, 3200, 1};
@@ -71,10 +91,13 @@ TEST(Contradictions, AnotherScaleIsNamed) {
   EXPECT_THAT(contradictionsOf(walk), ElementsAre(HasSubstr("about 2.0 times as far by the poses as by depth")));
   walk.scale = {60, 0, 30, 0.5};
   EXPECT_THAT(contradictionsOf(walk), IsEmpty()) << "too few to tell";
-  walk.scale = {400, 20, 60, 3};
+  walk.scale = {400, 20, 90, 3};
   EXPECT_THAT(contradictionsOf(walk), ElementsAre(HasSubstr("about 0.3 times")));
-  walk.scale = {400, 20, 30, 3};
-  EXPECT_THAT(contradictionsOf(walk), ElementsAre(HasSubstr("only 30 lie where the poses say")));
+  for (const uint32_t chance : {30u, 60u}) {  // of inverse poses some agree with some multiple
+    walk.scale = {400, 20, chance, 3};
+    EXPECT_THAT(contradictionsOf(walk),
+                ElementsAre(HasSubstr("only " + std::to_string(chance) + " lie where the poses say")));
+  }
 }
 
 }  // namespace

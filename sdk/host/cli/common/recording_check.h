@@ -1,0 +1,16 @@
+// What is wrong with a recording, and with no camera: images of the other kind, a calibration of another size,
+// poses that contradict the depths.
+#pragma once
+#include "host/live/finding.h"
+#include "host/recording/recording_reader.h"
+
+namespace sphc::host {
+
+// Why not one image of a stream can be used as it is calibrated, although it can be read.  Empty where that is not
+// so.
+Findings findingsOfImages(const recording::RecordingReader &reader);
+
+// Whether poses and depths agree, as `build` would say of some of the frames.  Empty where there are no poses.
+Findings findingsOfPoses(recording::RecordingReader *reader);
+
+}  // namespace sphc::host
