@@ -74,10 +74,11 @@ bool isOfOtherFocalLength(const Hypothesis &found, const DepthCalibration &depth
   return scale.isBeyond(kFocalSigmas) && absOf(scale.off) > kLeastFocalOff;
 }
 
-double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful) {
+double doubted(double confidence, const Hypothesis &found, Faults faults, bool edges_are_doubtful) {
   if (faults & (kDepthScale | kDepthBias)) return std::min(confidence, kMostConfidenceOfFaults);
-  const bool doubtful = edges_are_doubtful && inliers < kInliersBeyondDoubtfulEdges;
-  return doubtful || (faults & kFocalDisagrees) ? std::min(confidence, kMostConfidenceOfDoubt) : confidence;
+  const bool edges_count = edges_are_doubtful && found.estimate.inliers < kInliersBeyondDoubtfulEdges;
+  if (edges_count || (faults & kFocalDisagrees)) return std::min(confidence, kMostConfidenceOfDoubt);
+  return found.has_near_rival ? std::min(confidence, kMostConfidenceOfNearRival) : confidence;
 }
 
 bool TravelCheck::isScaled(const Known &known, const Tracker &tracker, const Hypothesis &found) {

@@ -22,8 +22,8 @@ bool isBeyondPrior(const DepthCalibration &learnt, const DepthCalibration &prior
 // sensor before the frame.
 bool isOfOtherFocalLength(const Hypothesis &found, const DepthCalibration &depth, const Deadline &deadline);
 
-// The confidence of a pose of so many inliers that these faults and, of edges, a doubt too small for a fault leave.
-double doubted(double confidence, uint32_t inliers, Faults faults, bool edges_are_doubtful);
+// The confidence that the pose's rivals, these faults and, of edges, a doubt too small for a fault leave it.
+double doubted(double confidence, const Hypothesis &found, Faults faults, bool edges_are_doubtful);
 
 // A common scale of all depths shows in how far the camera goes, and only there.
 class TravelCheck {

@@ -154,7 +154,7 @@ LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &
   if (best().isLocalized()) finder_.ranking().markAnswer(best().estimate.camera_from_map, result.map_id);
   result.cuts = (front_.wasCut() ? kCutFeatures : Cuts{0}) | work.cuts;
   if (!best().isLocalized()) result.hints = hints();
-  result.confidence = doubted(result.confidence, result.inliers, result.faults, consistency_.isDoubtful());
+  result.confidence = doubted(result.confidence, best(), result.faults, consistency_.isDoubtful());
   observe();
   learn(frame.color_time_ns, &result);
   result.keypoints = front_.keypointCount();
@@ -301,7 +301,7 @@ void Localizer::observe() {
 // How sure a track may be of the pose: images that are hardly apart make it less exact, but no other one.
 double Localizer::surenessOf(const LocalizerResult &result) const {
   if (between_.areApart()) return result.confidence;
-  return doubted(confidence_of_matches_, result.inliers, result.faults, consistency_.isDoubtful());
+  return doubted(confidence_of_matches_, best(), result.faults, consistency_.isDoubtful());
 }
 
 void Localizer::learn(int64_t time_ns, LocalizerResult *result) {

@@ -33,23 +33,12 @@ void copyWithout(const Leverage &leverage, const Hypothesis &from, MatchSet *mat
     if (std::find(begin, end, i) == end) matched->add(all[i]);
 }
 
-// Matches that do not speak for the pose.
-void copyOthers(const PoseEstimator &estimator, const Hypothesis &from, MatchSet *matched) {
-  for (const Correspondence &c : from.matched.all())
-    if (!estimator.isInlier(c, from.estimate)) matched->add(c);
-}
-
 }  // namespace
 
 void Verification::findPose(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   const uint64_t left_ns = task.query.deadline.leftNs();
   if (!searchPose(task, found)) return;
-  if (!found->guided) {
-    rival->begin(found->map, found->frames);
-    copyOthers(estimator_, *found, &rival->matched);
-  }
   rematch(task, found);
-  challengeByFirst(task, found, rival);
   searchAgain(task, left_ns - std::min(left_ns, task.query.deadline.leftNs()), found, rival);
   verify(task, found, rival);
 }
@@ -219,35 +208,31 @@ void Verification::challengeMirrored(const PoseTask &task, Hypothesis *found, Hy
 }
 
 // Keypoints that do not speak for the pose may speak for another one as clearly: where things stand in the room
-// twice, or where some of what is seen goes with the camera, as its holder's feet do.
+// twice, or where some of what is seen goes with the camera, as its holder's feet do.  A pose of many inliers may
+// lack this for its deadline.
 void Verification::challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  if (!found->isLocalized() || found->guided || found->estimate.inliers >= kInliersBeyondOthers) return;
-  if (isLeftOut(task, found)) return;
+  const uint32_t inliers = found->estimate.inliers;
+  if (!found->isLocalized() || found->guided || inliers >= kInliersBeyondOthers) return;
+  const bool has_many = inliers >= kInliersSeldomWrong;
+  if (has_many ? isCut(task) : isLeftOut(task, found)) return;
+  const ChallengeByOthers &way = has_many ? kOfManyInliers : kOfFewInliers;
   PoseTask other = task;
   other.query.seed += kOtherSeed;
   other.query.deadline = task.query.deadline.afterShare(kAgainShare);
-  other.query.most_samples = kSamplesOfOthers;
+  other.query.most_samples = way.most_samples;
   other.rays = {};
   rival->begin(found->map);
   uint32_t taken = 0;
   for (uint32_t i = 0; i < found->matched.matches().size(); ++i)
     if (estimator_.isInlier(found->matched.ofThisFrame()[i], found->estimate))
       rival->matched.room()[taken++] = found->matched.matches()[i];
-  const uint32_t keypoints = answerable(other);
+  const uint32_t keypoints = std::min(answerable(other), way.most_keypoints);
   search_.matchOthers(task.question, keypoints, rival->matched.room().first(taken), other.query.deadline,
                       &rival->matched, &work_);
-  if (challengeBySearch(other, found, rival) && rival->estimate.gain > kAmbiguousGain * found->estimate.gain)
-    found->doubtForRival();
-}
-
-// A pose of so many inliers is seldom wrong, and a search of all keypoints for its rivals would take long.  The
-// first matches that do not speak for it are at hand.
-void Verification::challengeByFirst(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
-  const uint32_t inliers = found->estimate.inliers;
-  if (found->guided || inliers < kInliersBeyondOthers || inliers >= kInliersSeldomWrong || isCut(task)) return;
-  PoseTask other = task;
-  other.query.most_samples = kSamplesOfFirst;
-  challengeBySearch(other, found, rival);
+  if (!challengeBySearch(other, found, rival)) return;
+  const double share = rival->estimate.gain / found->estimate.gain;
+  if (share > way.ambiguous_gain) return found->doubtForRival();
+  found->has_near_rival = share > kGainOfNearRival;
 }
 
 // The pose that the rival's matches lead to, if it is another one, against the one that was found: the better
@@ -279,7 +264,7 @@ Verification::Support Verification::supportOf(const Hypothesis &found) const {
 }
 
 // What repeats agrees with many poses, with a wrong one by chance more than with the right one.  The last step; a
-// pose may lack it, and challengeByFirst, for its deadline.
+// pose may lack it, and challengeByOthers of many inliers, for its deadline.
 void Verification::challengeRepeated(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const {
   const uint32_t inliers = found->estimate.inliers;
   if (!found->isLocalized() || inliers >= kInliersBeyondPattern) return;
@@ -341,8 +326,9 @@ void Verification::challengeByPeriod(const PoseTask &task, Hypothesis *found, Hy
       if (rival->estimate.gain <= share * found->estimate.gain ||
           areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, same))
         continue;
-      if (is_repeated || is_scattered || supportOf(*rival).unrepeated >= most_unrepeated)
-        return found->doubtForRival();
+      const uint32_t unrepeated = supportOf(*rival).unrepeated;
+      if (is_repeated || is_scattered || unrepeated >= most_unrepeated) return found->doubtForRival();
+      if (!found->guided && unrepeated >= kUnrepeatedOfNearRival * own.unrepeated) found->has_near_rival = true;
     }
   }
 }

@@ -63,7 +63,6 @@ class Verification {
                           PoseTask *other) const;
   void searchAgain(const PoseTask &task, uint64_t spent_ns, Hypothesis *found, Hypothesis *rival) const;
   bool challengeBySearch(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
-  void challengeByFirst(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   void challengeByOthers(const PoseTask &task, Hypothesis *found, Hypothesis *rival) const;
   bool repeats(const Hypothesis &found, uint32_t match) const;
   Support supportOf(const Hypothesis &found) const;

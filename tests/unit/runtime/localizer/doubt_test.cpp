@@ -115,16 +115,22 @@ TEST(Doubt, ABiasFarOutsideItsPriorIsBeyondIt) {
 }
 
 TEST(Doubt, LowersTheConfidenceAndNeverRaisesIt) {
-  constexpr uint32_t kFew = 30, kMany = kInliersBeyondDoubtfulEdges;
-  EXPECT_EQ(doubted(0.9, kFew, 0, false), 0.9);
-  EXPECT_EQ(doubted(0.9, kFew, kDepthConstant, false), 0.9);  // which takes the pose away
-  EXPECT_EQ(doubted(0.9, kMany, kDepthScale, false), kMostConfidenceOfFaults);
-  EXPECT_EQ(doubted(0.9, kMany, kDepthBias, false), kMostConfidenceOfFaults);
-  EXPECT_EQ(doubted(0.9, kFew, 0, true), kMostConfidenceOfDoubt);
-  EXPECT_EQ(doubted(0.9, kMany, 0, true), 0.9);
-  EXPECT_EQ(doubted(0.9, kMany, kFocalDisagrees, false), kMostConfidenceOfDoubt);
-  EXPECT_EQ(doubted(0.9, kMany, kFocalDisagrees | kDepthBias, false), kMostConfidenceOfFaults);
-  EXPECT_EQ(doubted(0.1, kFew, kDepthScale, true), 0.1);
+  Hypothesis few, many, rivalled;
+  few.estimate.inliers = 30;
+  many.estimate.inliers = rivalled.estimate.inliers = kInliersBeyondDoubtfulEdges;
+  rivalled.has_near_rival = true;
+  EXPECT_EQ(doubted(0.99, few, 0, false), 0.99);
+  EXPECT_EQ(doubted(0.99, few, kDepthConstant, false), 0.99);  // which takes the pose away
+  EXPECT_EQ(doubted(0.99, many, kDepthScale, false), kMostConfidenceOfFaults);
+  EXPECT_EQ(doubted(0.99, many, kDepthBias, false), kMostConfidenceOfFaults);
+  EXPECT_EQ(doubted(0.99, few, 0, true), kMostConfidenceOfDoubt);
+  EXPECT_EQ(doubted(0.99, many, 0, true), 0.99);
+  EXPECT_EQ(doubted(0.99, many, kFocalDisagrees, false), kMostConfidenceOfDoubt);
+  EXPECT_EQ(doubted(0.99, many, kFocalDisagrees | kDepthBias, false), kMostConfidenceOfFaults);
+  EXPECT_EQ(doubted(0.99, rivalled, 0, false), kMostConfidenceOfNearRival);
+  EXPECT_EQ(doubted(0.99, rivalled, kFocalDisagrees, false), kMostConfidenceOfDoubt);
+  EXPECT_EQ(doubted(0.1, few, kDepthScale, true), 0.1);
+  EXPECT_EQ(doubted(0.1, rivalled, 0, false), 0.1);
 }
 
 }  // namespace

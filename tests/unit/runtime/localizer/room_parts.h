@@ -38,15 +38,15 @@ class RoomParts {
   // Makes a frame of this viewpoint the one that is asked about.  Its depth has a hole at the left, so that some
   // keypoints are rays.
   void see(uint32_t viewpoint, uint32_t room = 0) { see(*sceneFrame(sceneConfig(), viewpoint, room)); }
-  // The upper half as one viewpoint sees it, the lower half as another one does.
-  void seeHalves(uint32_t upper, uint32_t lower) {
+  // The upper half, or another share, as one viewpoint sees it, the lower one as another one does.
+  void seeHalves(uint32_t upper, uint32_t lower, double upper_share = 0.5) {
     const auto made = sceneFrame(sceneConfig(), upper), other = sceneFrame(sceneConfig(), lower);
-    const auto copyLowerHalf = [](const auto &from, auto *to) {
-      const auto half = static_cast<ptrdiff_t>(from.size() / 2);
-      std::copy(from.begin() + half, from.end(), to->begin() + half);
+    const auto copyLower = [&](const auto &from, auto *to) {
+      const auto begin = static_cast<ptrdiff_t>(upper_share * static_cast<double>(from.size()));
+      std::copy(from.begin() + begin, from.end(), to->begin() + begin);
     };
-    copyLowerHalf(other->images.gray, &made->images.gray);
-    copyLowerHalf(other->images.depth_mm, &made->images.depth_mm);
+    copyLower(other->images.gray, &made->images.gray);
+    copyLower(other->images.depth_mm, &made->images.depth_mm);
     see(*made);
   }
   // A wall 2 m ahead, whose upper `rows` have a piece of what the viewpoint sees over and over, `period_px` wide;
