@@ -35,15 +35,15 @@ FIRST_SEED, ROOMS, ELSEWHERE = 3001, 12, 50  # seeds of rooms and walks, which n
 KEYS_A_ROOM = 2
 ETA = 0.33
 FAKES = "patchwork", "gaussian"
-LAP_S = 16
+LAP_S, FLAT_LAP_S = 16, 150
 # At how many frames a second, for how long, in the maps of how many keys, and what else is said to `localize`.
 Mode = collections.namedtuple("Mode", "hz seconds keys arguments")
 MODES = {"single": Mode(5, 8, KEYS_A_ROOM, ["--mode", "single"]), "tracking": Mode(30, 4, 1, ["--mode", "tracking"]),
          "odometry": Mode(30, 4, 1, ["--mode", "tracking", "--odometry"])}
 ELSEWHERE_FRAMES, ELSEWHERE_HZ = 15, 1
 
-# How lap one and lap two are simulated, frames of lap one, and of how many of them maps are made.
-World = collections.namedtuple("World", "lap_one lap_two recorded mapped")
+# How lap one and lap two are simulated, frames of lap one, of how many of them maps are made, and how long a lap takes.
+World = collections.namedtuple("World", "lap_one lap_two recorded mapped lap_s", defaults=[LAP_S])
 
 
 def same(names):
@@ -68,6 +68,8 @@ WORLDS = {
     "bathroom": same("tiles,feet"),
     # New worlds come last, since seeds follow the order.
     "menu": same("menu"),
+    # Eight rooms with the same furniture in each.
+    "flat": World(["--with", "flat,doubles"], ["--with", "flat,doubles"], 64, (64,), FLAT_LAP_S),
 }
 ROW = ["world", "map_frames", "fakes", "mode"]
 COLUMNS = ROW + ["rooms", "frames", "accepted", "within_5cm_5deg_percent_median", "within_5cm_5deg_percent_worst",
@@ -106,9 +108,9 @@ class Room:
 
     def record(self):
         world = WORLDS[self.world]
-        start = LAP_S + LAP_S * self.number / ROOMS  # each room is entered elsewhere
+        start = world.lap_s + world.lap_s * self.number / ROOMS  # each room is entered elsewhere
         self.walk, self.made_map = self.simulate("map", self.seed, ["--frames", world.recorded, *world.lap_one], "--rate",
-                                                 world.recorded / LAP_S)
+                                                 world.recorded / world.lap_s)
         self.here = {hz: self.simulate("here_%d" % hz, self.seed, world.lap_two, "--from", "%.2f" % start, "--frames", hz * seconds,
                                        "--rate", hz) for hz, seconds in sorted({(mode.hz, mode.seconds) for mode in MODES.values()})}
         self.elsewhere = self.simulate("elsewhere", self.seed + ELSEWHERE, world.lap_two, "--frames", ELSEWHERE_FRAMES, "--rate",

@@ -323,11 +323,13 @@ void Verification::challengeByPeriod(const PoseTask &task, Hypothesis *found, Hy
       rival->estimate.camera_from_map.translation_m += times * move_m;
       rematch(near, rival);
       const PoseBounds same = {move_m.norm() / 2, kSamePose.most_turn_rad};
-      if (rival->estimate.gain <= share * found->estimate.gain ||
+      const double gain = rival->estimate.gain / found->estimate.gain;
+      if (gain <= std::min(share, kPeriodGainOfNearRival) ||
           areNear(rival->estimate.camera_from_map, found->estimate.camera_from_map, same))
         continue;
       const uint32_t unrepeated = supportOf(*rival).unrepeated;
-      if (is_repeated || is_scattered || unrepeated >= most_unrepeated) return found->doubtForRival();
+      if (gain > share && (is_repeated || is_scattered || unrepeated >= most_unrepeated))
+        return found->doubtForRival();
       if (!found->guided && unrepeated >= kUnrepeatedOfNearRival * own.unrepeated) found->has_near_rival = true;
     }
   }
