@@ -100,6 +100,14 @@ TEST_F(Tum, ReadsAnInterruptedRecording) {
   EXPECT_EQ(sphc_replay_frame_count(replay.get()), 6u);
 }
 
+TEST_F(Tum, ListsMayBeginWithAByteOrderMark) {
+  for (const char *list : {"rgb.txt", "depth.txt", "groundtruth.txt"})
+    folder_.write(list, "\xEF\xBB\xBF" + folder_.read(list));
+  const OpenReplay replay = open();
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  EXPECT_EQ(sphc_replay_frame_count(replay.get()), 6u);
+}
+
 TEST_F(Tum, NamesTheLineThatIsWrong) {
   const std::string good = folder_.read("rgb.txt");
   folder_.write("rgb.txt", "1.0 rgb/000000.png\nx rgb/000001.png\n");
