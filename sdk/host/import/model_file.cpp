@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "host/base/private_file.h"
+#include "host/base/regular_file.h"
 #include "host/base/write_file.h"
 #include "runtime/map/crc32.h"
 #include "runtime/stages/features/extractor.h"
@@ -107,6 +108,7 @@ std::vector<uint8_t> readAll(int file, size_t count) {
 
 // A pipe must not hang, and what others may read is no secret any more.
 std::vector<uint8_t> readPrivate(const std::string &path) {
+  checkMayRead(path);
   const File file(path, O_RDONLY | O_NONBLOCK, 0);
   struct stat facts = {};
   if (file.get() < 0 || fstat(file.get(), &facts) != 0)

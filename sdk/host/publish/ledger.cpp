@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "host/base/private_file.h"
+#include "host/base/regular_file.h"
 #include "host/publish/sqlite_statement.h"
 #include "runtime/map/crc32.h"
 
@@ -78,6 +79,7 @@ bool makeFile(const std::string &path) {
 }
 
 void checkMode(const std::string &path) {
+  checkMayRead(path);
   struct stat facts = {};
   if (stat(path.c_str(), &facts) != 0)
     refuse(path,
