@@ -139,6 +139,13 @@ TEST(CommandLine, MissingInputIsExitCodeOneAndNamesIt) {
   }
 }
 
+TEST(CommandLine, APathThatCannotBeLookedUpIsNamedWithTheCure) {
+  const std::string path(300, 'a');
+  const Answer answer = runCommand("calibration " + path);
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("spherecloud: " + path + ": File name too long; check its name"));
+}
+
 TEST(Info, PrintsOneScreenOrJson) {
   const TempFolder folder;
   writeTinyMap(folder / "tiny.sphc", 40);
