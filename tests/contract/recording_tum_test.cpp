@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "host/recording/calibration_json.h"
 #include "temp_folder.h"
+#include "tests/support/nobody.h"
+#include "tests/support/refusal.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -100,6 +103,14 @@ TEST_F(Tum, ReadsAnInterruptedRecording) {
   EXPECT_EQ(sphc_replay_frame_count(replay.get()), 6u);
 }
 
+TEST_F(Tum, ListsMayBeginWithAByteOrderMark) {
+  for (const char *list : {"rgb.txt", "depth.txt", "groundtruth.txt"})
+    folder_.write(list, "\xEF\xBB\xBF" + folder_.read(list));
+  const OpenReplay replay = open();
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  EXPECT_EQ(sphc_replay_frame_count(replay.get()), 6u);
+}
+
 TEST_F(Tum, NamesTheLineThatIsWrong) {
   const std::string good = folder_.read("rgb.txt");
   folder_.write("rgb.txt", "1.0 rgb/000000.png\nx rgb/000001.png\n");
@@ -158,6 +169,19 @@ TEST_F(Tum, ReadsNothingOutsideItsFolder) {
   std::filesystem::create_directory_symlink(folder_.path(), elsewhere / "alias");
   const OpenReplay replay(elsewhere / "alias");
   EXPECT_EQ(replay.status(), SPHC_OK) << replay.message();
+}
+
+// Nobody may look into a temporary folder of another user.
+TEST_F(Tum, AFolderThatMayNotBeReadIsNamed) {
+  const std::string name = std::filesystem::path(folder_.path()).filename().string();
+  std::filesystem::permissions(folder_.path(), std::filesystem::perms::owner_read);
+  {
+    const test::Nobody nobody;
+    expectRefused(SPHC_E_DEVICE, (name + ": cannot be read: Permission denied; check its permissions").c_str());
+    EXPECT_THAT(test::refusal([&] { recording::readCalibration(folder_ / "calibration.json"); }),
+                HasSubstr("calibration.json: no calibration file: cannot be read: Permission denied"));
+  }
+  std::filesystem::permissions(folder_.path(), std::filesystem::perms::owner_all);
 }
 
 TEST_F(Tum, RefusesWhatIsNoRegularFile) {

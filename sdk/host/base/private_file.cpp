@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "host/base/regular_file.h"
+
 namespace sphc::host {
 namespace {
 
@@ -37,6 +39,7 @@ ssize_t readPart(int file, char *out, size_t most) {
 }  // namespace
 
 std::optional<size_t> readPrivate(const std::string &path, char *out, size_t most) {
+  checkMayRead(path);
   const Descriptor file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));  // a pipe opens at once
   struct stat facts = {};
   if (file.number < 0 || fstat(file.number, &facts) != 0) return {};

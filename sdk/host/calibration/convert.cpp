@@ -34,6 +34,15 @@ std::optional<TextFile> readRigs(const std::string &cameras_path) {
   return readText(rigs.string());
 }
 
+// A folder stands for what is written into one: COLMAP's cameras.txt, or ROS's files.
+std::vector<std::string> filesOf(const std::string &path) {
+  if (!std::filesystem::is_directory(path)) return {path};
+  if (!std::filesystem::exists(path + "/" + kRosNames[0])) return {path + "/cameras.txt"};
+  std::vector<std::string> files;
+  for (const char *name : kRosNames) files.push_back(path + "/" + name);
+  return files;
+}
+
 // What of a format may stand in for a camera that it cannot hold.
 std::vector<WantedModel> modelsOf(Format format) {
   if (format == Format::kKalibr) return {{SPHC_CAMERA_BROWN5, 8}, {SPHC_CAMERA_KANNALA_BRANDT4, 8}};
@@ -63,9 +72,11 @@ ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std:
                                      const JoinOptions &options) {
   ReadCalibration result = {};
   std::vector<CalibrationPart> parts;
-  for (const std::string &path : paths) {
-    const bool is_folder = std::filesystem::is_directory(path);
-    const TextFile file = readText(is_folder ? path + "/cameras.txt" : path);
+  std::vector<std::string> files;
+  for (const std::string &path : paths)
+    for (const std::string &file : filesOf(path)) files.push_back(file);
+  for (const std::string &path : files) {
+    const TextFile file = readText(path);
     const Format own = format ? *format : detectFormat(file);
     const std::optional<TextFile> rigs = own == Format::kColmap ? readRigs(file.name) : std::nullopt;
     parts.push_back(readCalibration(own, file, rigs ? &*rigs : nullptr));

@@ -33,6 +33,9 @@ CalibrationPart readKalibr(const TextFile &file);
 CalibrationPart readRos(const TextFile &file);
 CalibrationPart readColmap(const TextFile &cameras, const TextFile *rigs);
 
+// Those of ROS in a folder, in the order in which they are read.
+constexpr const char *kRosNames[] = {"color.yaml", "depth.yaml", "extrinsics.yaml"};
+
 // One text; ROS and COLMAP files by their names in the folder.
 std::string opencvText(const sphc_rig &calibration);
 // Keys R and T alone.

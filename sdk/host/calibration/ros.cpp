@@ -64,10 +64,10 @@ CalibrationPart readRos(const TextFile &file) {
 }
 
 std::vector<TextFile> rosTexts(const sphc_rig &calibration) {
-  return {{"color.yaml", rosCamera("color", calibration.color_camera)},
-          {"depth.yaml", rosCamera("depth", calibration.depth_camera)},
+  return {{kRosNames[0], rosCamera("color", calibration.color_camera)},
+          {kRosNames[1], rosCamera("depth", calibration.depth_camera)},
           // camera_info has no place for it; in the keys of OpenCV's stereo sample
-          {"extrinsics.yaml", "%YAML:1.0\n---\n" + opencvExtrinsics(inverse(calibration.color_from_depth))}};
+          {kRosNames[2], "%YAML:1.0\n---\n" + opencvExtrinsics(inverse(calibration.color_from_depth))}};
 }
 
 }  // namespace sphc::host

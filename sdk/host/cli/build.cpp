@@ -235,6 +235,10 @@ int run(const CLI::App &app, const BuildOptions &options, const Console &console
   checkFakes(app, options.fakes);
   const Outcome outcome = build(options, console);
   const MapId &map_id = outcome.place.releases.back().map_id;
+  if (outcome.place.eta >= 1)
+    console.warn(
+        "Warning: at --eta 1 nothing is faked: every direction of the map shows a real point. Ship it only where "
+        "anybody may know the place; else build with a smaller --eta and --new-place, or without --eta");
   if (options.understood) console.warn("note: --i-understand: points that other maps hold too are now exposed");
   tell(options, outcome, console);
   nlohmann::ordered_json json = {{"map", options.map},

@@ -228,7 +228,7 @@ const char kCalibrationExample[] =
     "docs/calibration.md has what each format can hold, and what is assumed of it.";
 
 void addOptions(CLI::App *app, CalibrationOptions *options) {
-  app->add_option("files", options->files, "Calibration files; a folder stands for its cameras.txt")
+  app->add_option("files", options->files, "Calibration files; a folder is one that --to ros or --to colmap wrote")
       ->required()
       ->type_name("FILE");
   app->add_option("--format", options->format, "Format of all files [each tells by itself]")

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
@@ -280,6 +282,17 @@ void checkMapped(const MapOutcome &outcome) {
       "there is much to see, or choose the frames of the part that is worth a map by --first and --last");
 }
 
+// Two of one would agree with each other on everything, and count twice.
+void checkDifferent(const std::vector<std::string> &recordings) {
+  for (size_t i = 0; i < recordings.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      std::error_code error;
+      if (std::filesystem::equivalent(recordings[j], recordings[i], error))
+        throw UsageError("--recording: " + recordings[j] + " and " + recordings[i] +
+                         " are one recording; give each once");
+    }
+}
+
 void checkCount(const char *option, const std::vector<std::string> &files, size_t recordings) {
   if (!files.empty() && files.size() != recordings)
     throw UsageError(std::string(option) + " is given " + counted(files.size(), "time") + " for " +
@@ -308,6 +321,7 @@ void check(const MapOptions &options) {
   for (const std::string &file : options.trajectories) files.writes("--trajectory", file, holds(tumMark("map")));
   files.writes("--refine-calibration", options.refined_calibration, never());
   files.check();
+  checkDifferent(options.recordings);
   checkMappingOptions(options.import);
   checkCount("--trajectory", options.trajectories, options.recordings.size());
   checkCount("--poses-from", options.told, options.recordings.size());

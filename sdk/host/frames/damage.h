@@ -11,7 +11,8 @@ namespace sphc::host {
 // As whoever read it counted.
 struct Damage {
   bool is_cut = false;
-  uint64_t changed_parts = 0, lost_images = 0, bad_poses = 0, bad_accelerations = 0;
+  uint64_t changed_parts = 0, lost_images = 0, backward_images = 0, bad_poses = 0, bad_accelerations = 0;
+  std::string pose_fault;  // why there are no poses
 };
 
 Damage damageOf(const recording::Recording &recording);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "host/base/private_file.h"
+#include "host/base/regular_file.h"
 #include "host/base/write_file.h"
 #include "runtime/map/crc32.h"
 #include "runtime/stages/features/extractor.h"
@@ -176,6 +177,7 @@ void writeModelFile(const std::string &path, const PointModel &model) {
 }
 
 PointModel readModelFile(const std::string &path) {
+  checkMayRead(path);
   return named(path, [&] { return decodeModel(readPrivate(path)); });
 }
 

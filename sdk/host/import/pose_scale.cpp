@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "host/import/near_duplicates.h"
 
@@ -15,6 +16,40 @@ constexpr size_t kAsked = 250;             // keypoints of a frame
 constexpr uint32_t kMostComparisons = 40;  // of a recording
 constexpr uint32_t kMostFramesApart = 12;
 constexpr double kLeastParallaxRad = 0.03, kMostTurn = 0.35;
+
+// What others state poses in.  Of mirrored axes those of the camera count alone: the world may lie in any.
+struct Mistake {
+  enum class Kind { kInverse, kAxes, kPositions } kind;
+  double axes[3];  // as the poses have them, in ours
+  const char *text;
+};
+using Kind = Mistake::Kind;
+constexpr Mistake kKnownMistakes[] = {
+    {Kind::kInverse, {1, 1, 1}, "poses are camera_from_world: invert each of them"},
+    {Kind::kAxes,
+     {1, -1, -1},
+     "poses are of a camera with axes right, up, back, as in OpenGL and ARKit: negate y and z of the positions and "
+     "of the quaternions"},
+    {Kind::kAxes,
+     {1, -1, 1},
+     "poses are of a left-handed world, as Unity's: negate y of the positions, and x and z of the quaternions"},
+    {Kind::kAxes,
+     {1, 1, -1},
+     "poses are of a left-handed world: negate z of the positions, and x and y of the quaternions"},
+    {Kind::kAxes,
+     {-1, 1, 1},
+     "poses are of a left-handed world: negate x of the positions, and y and z of the quaternions"},
+    {Kind::kPositions, {-1, 1, 1}, "positions are of a left-handed world, and rotations are not: negate their x"},
+    {Kind::kPositions, {1, -1, 1}, "positions are of a left-handed world, and rotations are not: negate their y"},
+    {Kind::kPositions, {1, 1, -1}, "positions are of a left-handed world, and rotations are not: negate their z"},
+};
+
+Rigid corrected(const Mistake &mistake, const Rigid &told) {
+  if (mistake.kind == Kind::kInverse) return told.inverse();
+  const Matrix3 axes = Vector3(mistake.axes[0], mistake.axes[1], mistake.axes[2]).asDiagonal();
+  const bool turns = mistake.kind == Kind::kAxes;
+  return {turns ? Matrix3(axes * told.rotation * axes) : told.rotation, axes * told.translation_m};
+}
 
 double medianDepthM(const std::vector<Observation> &observations) {
   std::vector<double> depths_m;
@@ -68,26 +103,38 @@ void PoseScaleCheck::compare(const Rigid &world_from_camera, const std::vector<O
   const Rigid camera_from_world = world_from_camera.inverse();
   const Rigid now_from_first = camera_from_world * world_from_first_;
   const Rigid first_from_world = world_from_first_.inverse();
-  const double agree_px = kAgreePx * camera_.focal() / 500;
+  static_assert(std::size(kKnownMistakes) == kMistakes);
+  std::array<Rigid, kMistakes> now_from_first_corrected;
+  for (size_t k = 0; k < kMistakes; ++k)
+    now_from_first_corrected[k] =
+        corrected(kKnownMistakes[k], world_from_camera).inverse() * corrected(kKnownMistakes[k], world_from_first_);
   const size_t step = std::max<size_t>(1, first_.size() / kAsked);
   for (size_t i = 0; i < first_.size(); i += step) {
     const Observation *match = matchOf(first_[i], observations);
     if (!match) continue;
     ++matches_;
-    const Vector3 turned_m = now_from_first.rotation * (first_from_world * first_[i].position_m);
+    const Vector3 seen_m = first_from_world * first_[i].position_m;
+    const Vector3 turned_m = now_from_first.rotation * seen_m;
     for (int k = 0; k < kBins; ++k) {
-      const Vector3 point_m = turned_m + std::exp(kLogStep * (k - kSteps)) * now_from_first.translation_m;
-      Vector2 pixel_px;
-      if (point_m.z() < 0.05 || !camera_.project(point_m, &pixel_px)) continue;
-      votes_[static_cast<size_t>(k)] += (pixel_px - match->pixel_px).norm() < agree_px;
+      const double multiple = std::exp(kLogStep * (k - kSteps));
+      votes_[static_cast<size_t>(k)] += agrees(turned_m + multiple * now_from_first.translation_m, *match);
     }
+    for (size_t k = 0; k < kMistakes; ++k) corrections_[k] += agrees(now_from_first_corrected[k] * seen_m, *match);
   }
+}
+
+bool PoseScaleCheck::agrees(const Vector3 &point_m, const Observation &match) const {
+  Vector2 pixel_px;
+  if (point_m.z() < 0.05 || !camera_.project(point_m, &pixel_px)) return false;
+  return (pixel_px - match.pixel_px).norm() < kAgreePx * camera_.focal() / 500;
 }
 
 PoseScale PoseScaleCheck::result() const {
   const auto most = std::max_element(votes_.begin(), votes_.end());
   const auto k = static_cast<int>(most - votes_.begin());
-  return {matches_, votes_[kSteps], *most, std::exp(kLogStep * (k - kSteps))};
+  const auto best = std::max_element(corrections_.begin(), corrections_.end());
+  const char *mistake = kKnownMistakes[best - corrections_.begin()].text;
+  return {matches_, votes_[kSteps], *most, std::exp(kLogStep * (k - kSteps)), *best, mistake};
 }
 
 }  // namespace sphc::host

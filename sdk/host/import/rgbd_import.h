@@ -44,6 +44,8 @@ struct PoseScale {
   uint32_t matches = 0, agree = 0;  // as the poses are
   uint32_t agree_most = 0;          // with the best multiple
   double multiple = 1;              // the best: shifts of poses times this are those that depth says
+  uint32_t agree_corrected = 0;     // if poses had the mistake that most speaks for
+  const char *mistake = "";         // which, with the cure
 };
 
 struct RgbdImportSummary {

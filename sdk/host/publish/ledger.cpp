@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "host/base/private_file.h"
+#include "host/base/regular_file.h"
 #include "host/publish/sqlite_statement.h"
 #include "runtime/map/crc32.h"
 
@@ -58,6 +59,7 @@ COMMIT;
           what + "; allow yourself to write the ledger and in its folder, or choose another place with --ledger");
     case SQLITE_BUSY:
       refuse(path, what + "; another program is using it: wait until that ends");
+    case SQLITE_ERROR:  // a table is not there
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       refuse(path, what + "; choose the right file with --ledger, or take the backup");
@@ -77,6 +79,7 @@ bool makeFile(const std::string &path) {
 }
 
 void checkMode(const std::string &path) {
+  checkMayRead(path);
   struct stat facts = {};
   if (stat(path.c_str(), &facts) != 0)
     refuse(path,
@@ -218,7 +221,16 @@ void Ledger::make(const SecretKey &key) {
   run(("PRAGMA user_version = " + std::to_string(kVersion)).c_str());
 }
 
+bool Ledger::isEmpty() const {
+  try {
+    return valueOf(database_.get(), "SELECT count(*) FROM sqlite_master") == 0;
+  } catch (const SqliteFailure &failure) {
+    refuseByCode(path_, failure.what(), failure.code);
+  }
+}
+
 void Ledger::read(const SecretKey *expected) {
+  bool is_unused = false;
   try {
     if (valueOf(database_.get(), "PRAGMA application_id") != kApplication)
       throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
@@ -229,11 +241,13 @@ void Ledger::read(const SecretKey *expected) {
     SqliteStatement owner(database_.get(), "SELECT secret_key FROM owner");
     if (!owner.step() || !owner.blob(0, key_.data(), key_.size()))
       throw std::runtime_error("it holds no key; take the backup");
+    is_unused = valueOf(database_.get(), "SELECT count(*) FROM place") == 0;
+  } catch (const SqliteFailure &failure) {
+    refuseByCode(path_, failure.what(), failure.code);
   } catch (const std::runtime_error &error) {
     refuse(path_, error.what());
   }
-  if (expected && *expected != key_ && valueOf(database_.get(), "SELECT count(*) FROM place") == 0)
-    return takeKey(*expected);
+  if (expected && *expected != key_ && is_unused) return takeKey(*expected);
   if (expected && *expected != key_)
     refuse(path_, "it was made with another key. A place keeps its key: leave --key out; a ledger has its own");
 }
@@ -251,8 +265,7 @@ Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
   Ledger ledger(path, SQLITE_OPEN_READWRITE);
   ledger.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE");
   if (is_new) ledger.database_.get_deleter().unrecorded = path;
-  if (valueOf(ledger.database_.get(), "SELECT count(*) FROM sqlite_master") == 0)
-    ledger.make(key ? *key : newSecretKey());
+  if (ledger.isEmpty()) ledger.make(key ? *key : newSecretKey());
   ledger.run("COMMIT");
   ledger.read(key);
   if (versionOf(ledger.database_.get()) == kVersionWithoutBand) ledger.run(kAddBand);
@@ -288,6 +301,8 @@ std::vector<Place> Ledger::places() const {
       places.push_back(std::move(place));
     }
     return places;
+  } catch (const SqliteFailure &failure) {
+    refuseByCode(path_, failure.what(), failure.code);
   } catch (const std::runtime_error &error) {
     refuse(path_, error.what());
   }
@@ -301,10 +316,9 @@ void Ledger::record(const Place &place) {
   run("BEGIN IMMEDIATE");
   try {
     writePlace(database_.get(), place);
-  } catch (const std::runtime_error &error) {
-    const int code = sqlite3_errcode(database_.get());
+  } catch (const SqliteFailure &failure) {
     sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
-    refuseByCode(path_, error.what(), code);
+    refuseByCode(path_, failure.what(), failure.code);
   }
   run("COMMIT");
   database_.get_deleter().unrecorded.clear();

@@ -36,6 +36,7 @@ class Ledger {
   Ledger(const std::string &path, int flags);
   void run(const char *statement);
   void make(const SecretKey &key);
+  bool isEmpty() const;
   void read(const SecretKey *expected);
   void takeKey(const SecretKey &key);
 

@@ -11,6 +11,13 @@
 
 namespace sphc::host {
 
+// With the code of SQLite's.
+struct SqliteFailure : std::runtime_error {
+  explicit SqliteFailure(sqlite3 *database)
+      : std::runtime_error(sqliteError(database)), code(sqlite3_errcode(database)) {}
+  int code;
+};
+
 class SqliteStatement {
  public:
   SqliteStatement(sqlite3 *database, const char *text) : database_(database) {
@@ -71,7 +78,7 @@ class SqliteStatement {
   sqlite3_stmt *get() const { return statement_.get(); }
   size_t size(int column) { return static_cast<size_t>(sqlite3_column_bytes(get(), column)); }
   void check(int result) const {
-    if (result != SQLITE_OK) throw std::runtime_error(sqliteError(database_));
+    if (result != SQLITE_OK) throw SqliteFailure(database_);
   }
 
   sqlite3 *database_;

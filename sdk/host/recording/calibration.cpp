@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 #include "calibration_json.h"
 #include "failure.h"
@@ -34,8 +35,8 @@ const sphc_rig &requireGood(const sphc_rig &rig) {
 sphc_rig readCalibration(const std::filesystem::path &path) {
   const std::string name = shortPath(path.string());
   Bytes content;
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
+  std::error_code error;  // a folder that may not be looked into is told when the file is read
+  if (!std::filesystem::exists(path, error) && error != std::errc::permission_denied)
     throw Failure(SPHC_E_DEVICE, name + ": no such calibration file; write one (docs/drivers.md) or give its path");
   try {
     readFile(path, kMostFileBytes, content);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "failure.h"
@@ -93,7 +94,10 @@ std::string readText(const std::filesystem::path &path) {
   } catch (const Failure &failure) {
     throw Failure(failure.status(), shortPath(path.string()) + ": " + failure.what());
   }
-  return std::string(textOf(viewOf(content)));
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // that programs of Windows write before UTF-8
+  std::string_view text = textOf(viewOf(content));
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  return std::string(text);
 }
 
 }  // namespace sphc::recording

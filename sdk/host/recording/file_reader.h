@@ -18,7 +18,7 @@ int openRegularFile(const std::filesystem::path &path);
 void readFile(const std::filesystem::path &path, size_t most_bytes, Bytes &content);
 // Whether the file's first bytes are these.  Throws Failure with the name when it cannot be read.
 bool beginsWith(const std::filesystem::path &path, std::string_view head);
-// A list or another small text.  Throws Failure with the name.
+// A list or another small text, without the byte-order mark before it.  Throws Failure with the name.
 std::string readText(const std::filesystem::path &path);
 
 // What `read` returns; a Failure of it gets the file's name in front.

@@ -70,8 +70,11 @@ Recording openRecording(const fs::path &folder) {
     return openAny(folder);
   } catch (const fs::filesystem_error &error) {  // of a folder that may not be looked into, say
     const bool is_denied = error.code() == std::errc::permission_denied;
-    throw Failure(SPHC_E_DEVICE, shortPath(error.path1().string()) + ": cannot be read: " + error.code().message() +
-                                     (is_denied ? "; check the permissions of its folders" : "; check its name"));
+    const bool is_in_folder = error.path1().parent_path() == folder;  // a name that may not be looked up
+    throw Failure(SPHC_E_DEVICE,
+                  shortPath((is_in_folder ? folder : error.path1()).string()) +
+                      ": cannot be read: " + error.code().message() +
+                      (is_denied ? "; check its permissions and those of its folders" : "; check its name"));
   }
 }
 

@@ -193,6 +193,65 @@ TEST_F(Ros2, FramesThatHangInARingHaveNoPoses) {
   EXPECT_THAT(refusalOfOpen(), HasSubstr("no transform from depth_optical to color_optical in tf_static"));
 }
 
+// Without tf_static nothing says where on the body the camera is.
+TEST_F(Ros2, OdometryThatNothingJoinsToTheCameraIsNamed) {
+  addImagesAndCameras();
+  addOdometry();
+  bag_.add("/tf_static", kTf, kStartNs, test::rosTransforms(0, {{kColorFrame, kDepthFrame, kSame}}));
+  bag_.add("/tf", kTf, kStartNs, test::rosTransforms(kStartNs, {{"arm", "finger", kSame}}));
+  EXPECT_EQ(RecordingReader(write()).recording().pose_fault,
+            "it has no poses: odometry or tf moves base_link, and no transform joins that to color_optical, the "
+            "colour camera's frame; record /tf_static with it, or take spherecloud map");
+}
+
+TEST_F(Ros2, WhatMovesOnTheCameraSaysNothingOfPoses) {
+  addImagesAndCameras();
+  addBody();
+  bag_.add("/tf", kTf, kStartNs, test::rosTransforms(kStartNs, {{"camera_link", "shutter", kSame}}));
+  EXPECT_EQ(RecordingReader(write()).recording().pose_fault, "");
+}
+
+TEST_F(Ros2, ImagesOfATimeThatWasAreCounted) {
+  addImagesAndCameras();
+  addBody();
+  for (const uint32_t again : {1u, 2u}) addColor(again);
+  const RecordingReader reader(write());
+  EXPECT_EQ(reader.frameCount(), 3u);
+  EXPECT_EQ(reader.recording().backward_count, 2u);
+  EXPECT_EQ(reader.recording().lost_count, 2u);
+}
+
+TEST_F(Ros2, DepthOf8BitsIsNoColour) {
+  const auto add_picture = [this](const char *topic, const char *encoding, uint32_t channels) {
+    bag_.add(
+        topic, kImage, kStartNs,
+        test::rosImage(kStartNs, kColorFrame, kWidth, kHeight, encoding, Bytes(kWidth * kHeight * channels, 3)));
+  };
+  add_picture("/camera/depth/image_color", "rgb8", 3);
+  add_picture("/camera/aligned_depth/image", "8UC1", 1);
+  EXPECT_THAT(refusalOfOpen(),
+              HasSubstr("no colour image that is read (topics of images: /camera/aligned_depth/image of 8UC1, "));
+  add_picture("/depth_camera/image_raw", "rgb8", 3);
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("no depth image that is read"));
+  addDepth(0);
+  addDepthInfo();
+  bag_.add("/depth_camera/camera_info", kInfo, kStartNs,
+           test::rosCameraInfo(kColorFrame, kWidth, kHeight, "plumb_bob", {}, {30, 31, 15.5, 11.5}));
+  addBody();
+  EXPECT_EQ(static_cast<const uint8_t *>(RecordingReader(write()).read(0).color.data)[0], 3);
+}
+
+TEST_F(Ros2, ACameraOfAnotherSizeThanItsImagesIsNamed) {
+  addColor(0);
+  addDepth(0);
+  addDepthInfo();
+  addBody();
+  bag_.add("/camera/color/camera_info", kInfo, kStartNs,
+           test::rosCameraInfo(kColorFrame, 2 * kWidth, kHeight, "plumb_bob", {}, {30, 31, 15.5, 11.5}));
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("/camera/color/camera_info: is of images of 64 x 24, and those of "
+                                         "/camera/color/image_raw are 32 x 24; record the camera_info"));
+}
+
 TEST_F(Ros2, DepthThatLiesOnColourComesFirst) {
   addImagesAndCameras();
   addBody();

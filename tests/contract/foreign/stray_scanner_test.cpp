@@ -104,6 +104,14 @@ TEST_F(StrayScanner, CameraAxesAreOurs) {
   EXPECT_EQ(pose->t_m[2], 2);
 }
 
+TEST_F(StrayScanner, AFileThatIsMissingIsNamed) {
+  std::filesystem::remove(folder_ / "odometry.csv");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("a recording of StrayScanner without odometry.csv, which has its times"));
+  std::filesystem::remove(folder_ / "camera_matrix.csv");
+  folder_.write("rgb.mp4", "");
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("without odometry.csv"));
+}
+
 TEST_F(StrayScanner, DepthOfLowConfidenceIsNone) {
   RecordingReader reader(folder_.path());
   const auto *depth = static_cast<const uint16_t *>(reader.read(1).depth.data);

@@ -42,7 +42,15 @@ constexpr char kPoses[] =
     "in "
     "the order of the file, and of these images; is depth_unit_m right?";
 
-// Keypoints that two frames share know nothing of the poses, so they tell a wrong scale from what moves.
+// Keypoints that two frames share know nothing of the poses, so they tell wrong poses from what moves.
+std::string mistakeOf(const PoseScale &scale) {
+  if (scale.agree_corrected < kFewestMatches || scale.agree_most >= kMostOfOtherScale * scale.agree_corrected)
+    return "";
+  return scale.mistake + (". Then " + std::to_string(scale.agree_corrected)) + " of " +
+         counted(scale.matches, "keypoint") + " that two frames share lie where the poses say, and now " +
+         std::to_string(scale.agree);
+}
+
 std::string contradictionOfScale(const PoseScale &scale) {
   if (scale.matches >= kManyMatches && scale.agree_most < kLeastOfAnyScale * scale.matches)
     return "of " + counted(scale.matches, "keypoint") + " that two frames share, only " +
@@ -69,6 +77,8 @@ std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary) {
 
 std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary) {
   if (summary.frames_used < kFewestFrames) return {};
+  const std::string mistake = mistakeOf(summary.scale);
+  if (!mistake.empty()) return {mistake};
   std::vector<std::string> sentences;
   const double merged =
       static_cast<double>(summary.merged) / static_cast<double>(std::max<uint64_t>(1, summary.lifted));

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -87,6 +88,9 @@ int parseAndRun(const Program &program, int argc, char **argv) {
     const std::string text = withOptionNames(error.what(), *root.get_subcommands().front());
     if (text != error.what()) return usage(root, text);  // it names an option
     throw;
+  } catch (const std::filesystem::filesystem_error &error) {
+    throw std::runtime_error(error.path1().string() + ": " + error.code().message() +
+                             "; check its name, its permissions and those of its folders");
   } catch (const std::runtime_error &error) {
     throw std::runtime_error(withOptionNames(error.what(), *root.get_subcommands().front()));
   }

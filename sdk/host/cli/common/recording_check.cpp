@@ -107,6 +107,8 @@ Findings findingsOfImages(const RecordingReader &reader) {
 
 Findings findingsOfPoses(RecordingReader *reader) {
   const size_t poses = reader->recording().poses.poses().size();
+  const std::string &fault = reader->recording().pose_fault;
+  if (!fault.empty()) return {{Grade::kDoubtful, "poses", fault}};
   if (poses == 0) return {};
   const std::vector<bool> chosen = framesToCompare(*reader);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())

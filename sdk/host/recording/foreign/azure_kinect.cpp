@@ -61,18 +61,18 @@ int64_t startOf(const MatroskaFile &file) {
   return std::clamp<int64_t>(start_ns, 0, INT64_MAX / 4);
 }
 
-std::vector<RecordedImage> imagesOf(const MatroskaTrack &track, int64_t start_ns, uint64_t *lost_count) {
+std::vector<RecordedImage> imagesOf(const MatroskaTrack &track, int64_t start_ns, Recording *recording) {
   std::vector<RecordedImage> images;
   images.reserve(track.blocks.size());
   for (const MatroskaBlock &block : track.blocks) {
-    *lost_count += block.frame_count > 1;
+    recording->lost_count += block.frame_count > 1;
     if (block.frame_count > 1) continue;
     RecordedImage image = {};
     image.time_ns = start_ns + block.time_ns;
     image.place = {Kind::kNone, 0, block.start, block.bytes};
     images.push_back(std::move(image));
   }
-  return inOrderOfTime(std::move(images), lost_count);
+  return inOrderOfTime(std::move(images), recording);
 }
 
 // Infrared is what comes back of the sensor's own light, taken with the depth image of the same time.
@@ -80,7 +80,7 @@ void addAmplitudes(const MatroskaFile &file, const MatroskaTrack &depth_track, R
   const MatroskaTrack *track = findTrack(file, "IR");
   if (!track || track->is_encoded || track->width != depth_track.width || track->height != depth_track.height)
     return;
-  uint64_t ignored = 0;
+  Recording ignored;
   const std::vector<RecordedImage> infrared = imagesOf(*track, startOf(file), &ignored);
   size_t next = 0;
   for (RecordedImage &depth : recording->depth) {
@@ -164,8 +164,8 @@ Recording openAzureKinect(const fs::path &path) {
   recording.lost_count = file.lost_count;
   recording.is_cut = file.is_cut;
   const int64_t start_ns = startOf(file);
-  recording.color = imagesOf(color, start_ns, &recording.lost_count);
-  recording.depth = imagesOf(depth, start_ns, &recording.lost_count);
+  recording.color = imagesOf(color, start_ns, &recording);
+  recording.depth = imagesOf(depth, start_ns, &recording);
   for (const auto &[images, track] : {std::pair(&recording.color, "COLOR"), std::pair(&recording.depth, "DEPTH")})
     if (images->empty())
       throw Failure(SPHC_E_DEVICE, name + ": its track " + track + " has no images; copy the file again");

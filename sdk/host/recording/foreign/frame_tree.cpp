@@ -56,6 +56,11 @@ std::vector<const FrameTree::Link *> FrameTree::linksOf(std::string frame) const
   return links;
 }
 
+std::string FrameTree::rootOf(const std::string &frame) const {
+  const std::vector<const Link *> links = linksOf(frame);
+  return links.empty() ? frame : links.back()->parent;
+}
+
 // The outermost frame that does not move against this one.
 std::string FrameTree::bodyOf(const std::string &frame, sphc_rigid &body_from_frame) const {
   std::string body = frame;
@@ -96,6 +101,18 @@ PoseTrack FrameTree::track(const std::string &frame) const {
     last_ns = sample.time_ns;
   }
   return track;
+}
+
+std::string FrameTree::movedApartFrom(const std::string &frame) const {
+  const std::string root = rootOf(frame);
+  std::string moved;
+  size_t most = 0;
+  for (const auto &[child, link] : links_) {
+    if (link.moving.size() <= most || rootOf(child) == root) continue;
+    most = link.moving.size();
+    moved = child;
+  }
+  return moved;
 }
 
 }  // namespace sphc::recording

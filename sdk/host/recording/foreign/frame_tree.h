@@ -23,6 +23,9 @@ class FrameTree {
   // root_from_frame of the outermost frame, at every time of the transform on the way that is told most often;
   // empty where nothing on the way moves.
   PoseTrack track(const std::string &frame) const;
+  // Of what moves and is joined to this frame by nothing the one that is told of most often; empty where there is
+  // none.
+  std::string movedApartFrom(const std::string &frame) const;
 
  private:
   struct Link {
@@ -33,6 +36,7 @@ class FrameTree {
   };
   // A frame's links outwards, up to the root; a ring ends where it begins again.
   std::vector<const Link *> linksOf(std::string frame) const;
+  std::string rootOf(const std::string &frame) const;
   std::string bodyOf(const std::string &frame, sphc_rigid &body_from_frame) const;
 
   std::map<std::string, Link> links_;  // by the child

@@ -71,6 +71,7 @@ sphc_camera addColor(const Hl2ssStream &color, Recording &recording) {
       continue;
     }
     if (!isLater(recording.color, packet.time_ns)) {
+      ++recording.lost_count;
       ++recording.backward_count;
       continue;
     }
@@ -94,6 +95,7 @@ PoseTrack addDepth(const Hl2ssStream &depth, Recording &recording) {
   for (size_t i = 0; i < depth.file.packets.size(); ++i) {
     const Hl2ssPacket &packet = depth.file.packets[i];
     if (!isLater(recording.depth, packet.time_ns)) {
+      ++recording.lost_count;
       ++recording.backward_count;
       continue;
     }

@@ -35,7 +35,7 @@ class RosImages : public LayoutImages {
   RosImageCoding color_, depth_;
 };
 
-std::vector<RecordedImage> imagesOf(const RosImageTopic &topic, uint64_t *lost_count) {
+std::vector<RecordedImage> imagesOf(const RosImageTopic &topic, Recording *recording) {
   std::vector<RecordedImage> images;
   images.reserve(topic.images.size());
   for (const RosStamped &stamped : topic.images) {
@@ -44,7 +44,19 @@ std::vector<RecordedImage> imagesOf(const RosImageTopic &topic, uint64_t *lost_c
     image.place = {Kind::kNone, stamped.place.chunk, stamped.place.start, stamped.place.bytes};
     images.push_back(std::move(image));
   }
-  return inOrderOfTime(std::move(images), lost_count);
+  return inOrderOfTime(std::move(images), recording);
+}
+
+std::string sizeText(uint32_t width, uint32_t height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+// Compressed images tell their size when they are decoded.
+void requireSizeOf(const RosImageTopic &topic, const sphc_camera &camera) {
+  if (topic.coding.is_compressed || (camera.width == topic.width && camera.height == topic.height)) return;
+  throw Failure(SPHC_E_ARGUMENT, "is of images of " + sizeText(camera.width, camera.height) + ", and those of " +
+                                     topic.name + " are " + sizeText(topic.width, topic.height) +
+                                     "; record the camera_info of these images, or give a calibration file");
 }
 
 sphc_camera cameraOfTopic(const RosContent &content, const RosImageTopic &topic) {
@@ -52,7 +64,9 @@ sphc_camera cameraOfTopic(const RosContent &content, const RosImageTopic &topic)
   if (!info)
     throw Failure(SPHC_E_ARGUMENT, "no " + infoTopicOf(topic.name) + "; record it too, or give a calibration file");
   try {
-    return rosCamera(*info, topic.name.find("rect") != std::string::npos);
+    const sphc_camera camera = rosCamera(*info, topic.name.find("rect") != std::string::npos);
+    requireSizeOf(topic, camera);
+    return camera;
   } catch (const Failure &failure) {
     throw Failure(failure.status(), infoTopicOf(topic.name) + ": " + failure.what());
   }
@@ -85,6 +99,14 @@ std::vector<TimedAcceleration> accelerationsOf(const RosBag &bag, const std::str
   return inOrderOfTime(std::move(chosen));
 }
 
+// Why nothing tells where the camera was, though something moves; empty where nothing is to be said.
+std::string poseFaultOf(const FrameTree &frames, const std::string &color_frame) {
+  const std::string moved = frames.movedApartFrom(color_frame);
+  if (moved.empty()) return "";
+  return "it has no poses: odometry or tf moves " + moved + ", and no transform joins that to " + color_frame +
+         ", the colour camera's frame; record /tf_static with it, or take spherecloud map";
+}
+
 Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   const std::string name = shortPath(path.string());
   const RosImageTopic &color = chooseColor(bag.content, name);
@@ -92,9 +114,10 @@ Recording recordingOf(const fs::path &path, Layout layout, const RosBag &bag) {
   Recording recording;
   recording.layout = layout;
   recording.path = path;
-  recording.color = imagesOf(color, &recording.lost_count);
-  recording.depth = imagesOf(depth, &recording.lost_count);
+  recording.color = imagesOf(color, &recording);
+  recording.depth = imagesOf(depth, &recording);
   recording.poses = bag.frames.track(color.frame);
+  if (recording.poses.poses().empty()) recording.pose_fault = poseFaultOf(bag.frames, color.frame);
   recording.accelerations = accelerationsOf(bag, color.frame);
   recording.bad_chunk_count = bag.walk.bad_chunk_count;
   recording.is_cut = bag.walk.is_cut;

@@ -11,6 +11,8 @@ namespace sphc::recording {
 
 namespace {
 
+constexpr size_t kMostOfEncoding = 24;  // shown
+
 bool has(const std::string &text, const char *part) {
   std::string lower = text;
   std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -26,13 +28,20 @@ bool isDepthTopic(const RosImageTopic &topic) {
          (topic.encoding == "mono16" && has(topic.name, "depth"));
 }
 
+bool isGrey(const RosImageTopic &topic) { return topic.encoding == "mono8" || topic.encoding == "8UC1"; }
+
+// Depth of 8 bits is a picture of it, to look at; grey images of a camera with depth in its name are that too.
+bool isPictureOfDepth(const RosImageTopic &topic) {
+  return !isInfrared(topic) && (has(topic.name, "/depth/") || (isGrey(topic) && has(topic.name, "depth")));
+}
+
 // 0: none.  What is called colour comes first, then what has colours; raw images before the same ones compressed.
 int colorScore(const RosImageTopic &topic) {
-  if (isDepthTopic(topic) || topic.images.empty()) return 0;
+  if (isDepthTopic(topic) || isPictureOfDepth(topic) || topic.images.empty()) return 0;
   const bool is_read = topic.coding.is_compressed || has(topic.encoding, "8");
   if (!is_read) return 0;
-  return 1 + (topic.coding.is_compressed ? 0 : 1) + (topic.encoding == "mono8" ? 0 : 2) +
-         (isInfrared(topic) ? 0 : 4) + (has(topic.name, "color") || has(topic.name, "rgb") ? 8 : 0);
+  return 1 + (topic.coding.is_compressed ? 0 : 1) + (isGrey(topic) ? 0 : 2) + (isInfrared(topic) ? 0 : 4) +
+         (has(topic.name, "color") || has(topic.name, "rgb") ? 8 : 0);
 }
 
 // Depth that lies on colour comes first.
@@ -48,7 +57,7 @@ const RosImageTopic &chooseTopic(const RosContent &content, const char *what, co
   int highest = 0;
   std::string topics;
   for (const auto &[name, topic] : content.images) {
-    topics += (topics.empty() ? "" : ", ") + name;
+    topics += (topics.empty() ? "" : ", ") + name + " of " + topic.encoding.substr(0, kMostOfEncoding);
     if (score(topic) < std::max(highest, 1)) continue;
     other = score(topic) == highest ? best : nullptr;
     best = &topic;

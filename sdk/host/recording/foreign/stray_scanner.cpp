@@ -146,9 +146,12 @@ void addImages(const StrayOdometry &odometry, const StrayColor &color, Recording
 
 }  // namespace
 
+// Two of its files tell it, so that the one that is missing can be named.
 bool isStrayScanner(const fs::path &folder) {
-  return fs::exists(folder / "odometry.csv") &&
-         (fs::exists(folder / "camera_matrix.csv") || fs::is_directory(folder / "depth"));
+  int found = 0;
+  for (const char *name : {"odometry.csv", "camera_matrix.csv", "rgb.mp4", "depth"})
+    found += fs::exists(folder / name);
+  return found >= 2;
 }
 
 Recording openStrayScanner(const fs::path &folder) {
@@ -157,6 +160,10 @@ Recording openStrayScanner(const fs::path &folder) {
   recording.path = folder;
   recording.is_by_frame = true;
   recording.images = [folder] { return std::make_unique<StrayImages>(folder); };
+  if (!fs::exists(folder / "odometry.csv"))
+    throw Failure(SPHC_E_DEVICE, shortPath(folder.string()) +
+                                     ": a recording of StrayScanner without odometry.csv, which has its times and "
+                                     "poses; copy that too");
   const StrayOdometry odometry = parsedFile(folder / "odometry.csv", strayOdometryFrom);
   const PinholeParams params =
       odometry.params ? *odometry.params : parsedFile(folder / "camera_matrix.csv", strayCameraFrom);

@@ -7,14 +7,16 @@
 
 namespace sphc::recording {
 
-// In order of time, numbered; of equal times the first counts, and the others are counted as lost.
-inline std::vector<RecordedImage> inOrderOfTime(std::vector<RecordedImage> images, uint64_t *lost_count) {
+// In order of time, numbered; of equal times the first counts, and the recording counts the others as left out.
+inline std::vector<RecordedImage> inOrderOfTime(std::vector<RecordedImage> images, Recording *recording) {
   std::stable_sort(images.begin(), images.end(),
                    [](const RecordedImage &a, const RecordedImage &b) { return a.time_ns < b.time_ns; });
   const auto end = std::unique(images.begin(), images.end(), [](const RecordedImage &a, const RecordedImage &b) {
     return a.time_ns == b.time_ns;
   });
-  *lost_count += static_cast<uint64_t>(images.end() - end);
+  const auto again_count = static_cast<uint32_t>(images.end() - end);
+  recording->lost_count += again_count;
+  recording->backward_count += again_count;
   images.erase(end, images.end());
   for (size_t i = 0; i < images.size(); ++i) images[i].sequence = static_cast<uint32_t>(i);
   return images;

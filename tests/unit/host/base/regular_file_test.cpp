@@ -8,6 +8,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tests/support/nobody.h"
+
 namespace sphc::host {
 namespace {
 
@@ -34,6 +36,17 @@ TEST(RegularFile, IsWhatIsReadToItsEnd) {
   fs::remove(path);
   EXPECT_EQ(refusal("/dev/zero"), "/dev/zero is a device or a pipe; give the map itself");
   EXPECT_EQ(refusal(testing::TempDir()), testing::TempDir() + " is a folder; give the map itself");
+}
+
+TEST(RegularFile, ThatMayNotBeReadIsNamedWithTheCause) {
+  const std::string path = (fs::path(testing::TempDir()) / "unreadable_file_test").string();
+  std::ofstream(path) << "a map";
+  fs::permissions(path, fs::perms::none);
+  {
+    const test::Nobody nobody;
+    EXPECT_EQ(refusal(path), path + ": Permission denied; check its permissions and those of its folders");
+  }
+  fs::remove(path);
 }
 
 }  // namespace

@@ -99,6 +99,17 @@ TEST_F(FilesTest, ARecordingThatContradictsItselfIsNotPublished) {
   EXPECT_EQ(nlohmann::json::parse(anyway.out)["release"]["release"], 1) << "the first of this ledger";
 }
 
+TEST_F(FilesTest, AMapWithoutFakesIsWarnedOf) {
+  const std::string build = "build -r " + at("walk") + " -m " + at("bare.sphc") + " --ledger ";
+  const Answer bare = runCommand(build + at("bare.ledger") + " --eta 1");
+  ASSERT_EQ(bare.exit_code, kExitDone) << bare.err;
+  EXPECT_THAT(bare.err, HasSubstr("Warning: at --eta 1 nothing is faked"));
+  EXPECT_THAT(
+      runCommand("build -r " + at("walk") + " -m " + at("faked.sphc") + " --eta 0.5 --ledger " + at("faked.ledger"))
+          .err,
+      testing::Not(HasSubstr("nothing is faked")));
+}
+
 TEST_F(FilesTest, AModelIsSavedOverNothingElse) {
   const std::string build = "build -r " + at("walk") + " -m " + at("room.sphc") + " --save-model ";
   expectKept(at("room.sphc"), build + at("room.sphc"), kExitUsage, "are one file");

@@ -360,6 +360,13 @@ TEST_F(MapTest, WhatCannotBeMappedIsRefusedWithItsCure) {
   EXPECT_THAT(missing.err, HasSubstr("cannot open the recording"));
 }
 
+TEST_F(MapTest, ARecordingIsGivenOnce) {
+  const Answer twice =
+      runCommand("map -r " + at("walk") + " -r " + at("walk/../walk/") + " --model " + at("twice.model"));
+  EXPECT_EQ(twice.exit_code, kExitUsage);
+  EXPECT_THAT(twice.err, HasSubstr(at("walk/../walk/") + " are one recording; give each once"));
+}
+
 TEST_F(MapTest, NothingOfOthersIsReplaced) {
   std::ofstream(at("notes")) << "mine";
   const Answer answer = runCommand("map -r " + at("walk") + " --model " + at("notes"));

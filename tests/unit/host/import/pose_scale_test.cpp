@@ -1,6 +1,9 @@
 #include "host/import/pose_scale.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <functional>
 
 #include "tests/support/random_numbers.h"
 #include "tests/support/scene.h"
@@ -8,9 +11,10 @@
 namespace sphc::host {
 namespace {
 
-// What a walk past still points tells, where the poses' shifts are `poses` times the true ones, and with as many
-// frames.
-PoseScale scaleOf(double poses, double step_m = 0.05, uint32_t frames = 30) {
+using Telling = std::function<Rigid(const Rigid &truth)>;
+
+// What a walk past still points says of poses that are told so.
+PoseScale scaleTold(const Telling &tell, double step_m = 0.05, uint32_t frames = 30) {
   Random random(1);
   const Camera camera(test::pinhole(320, 240, 250));
   std::vector<Vector3> places_m;
@@ -23,9 +27,8 @@ PoseScale scaleOf(double poses, double step_m = 0.05, uint32_t frames = 30) {
   PoseScaleCheck check;
   check.begin(camera, frames);
   for (uint32_t frame = 0; frame < frames; ++frame) {
-    const Matrix3 turned = rotationFromVector({0, 0.01 * frame, 0});
-    const Vector3 way_m(step_m * frame, 0, 0);
-    const Rigid truth = {turned, way_m}, told = {turned, poses * way_m};
+    const Matrix3 turned = rotationFromVector({0.006 * frame, 0.01 * frame, 0.008 * frame});
+    const Rigid truth = {turned, step_m * frame * Vector3(1, 0.7, 1.5)}, told = tell(truth);
     std::vector<Observation> seen;
     for (size_t i = 0; i < places_m.size(); ++i) {
       const Vector3 point_m = truth.inverse() * places_m[i];
@@ -42,6 +45,15 @@ PoseScale scaleOf(double poses, double step_m = 0.05, uint32_t frames = 30) {
   return check.result();
 }
 
+// Poses whose shifts are `poses` times the true ones.
+PoseScale scaleOf(double poses, double step_m = 0.05) {
+  return scaleTold(
+      [poses](const Rigid &truth) {
+        return Rigid{truth.rotation, poses * truth.translation_m};
+      },
+      step_m);
+}
+
 TEST(PoseScale, OfSoundPosesIsOne) {
   const PoseScale scale = scaleOf(1);
   EXPECT_GT(scale.matches, 500u);
@@ -56,6 +68,34 @@ TEST(PoseScale, OfAnotherUnitIsFound) {
     EXPECT_NEAR(poses * scale.multiple, 1, 0.2) << poses;
     EXPECT_GT(scale.agree_most, 0.9 * scale.matches) << poses;
     EXPECT_LT(scale.agree, 0.3 * scale.agree_most) << poses;
+  }
+}
+
+TEST(PoseScale, OfInverseAndMirroredPosesTheMistakeIsFound) {
+  const auto mirrored = [](double x, double y, double z, bool turns) {
+    return [axes = Matrix3(Vector3(x, y, z).asDiagonal()), turns](const Rigid &truth) {
+      const Matrix3 rotation = turns ? Matrix3(axes * truth.rotation * axes) : truth.rotation;
+      return Rigid{rotation, axes * truth.translation_m};
+    };
+  };
+  const struct {
+    Telling tell;
+    const char *mistake;
+  } cases[] = {
+      {[](const Rigid &truth) { return truth.inverse(); }, "camera_from_world"},
+      {mirrored(1, -1, -1, true), "right, up, back"},
+      {mirrored(1, -1, 1, true), "Unity's: negate y of the positions, and x and z of the quaternions"},
+      {mirrored(1, 1, -1, true), "negate z of the positions, and x and y of the quaternions"},
+      {mirrored(-1, 1, 1, true), "negate x of the positions, and y and z of the quaternions"},
+      {mirrored(-1, 1, 1, false), "negate their x"},
+      {mirrored(1, -1, 1, false), "negate their y"},
+      {mirrored(1, 1, -1, false), "negate their z"},
+  };
+  for (const auto &each : cases) {
+    const PoseScale scale = scaleTold(each.tell);
+    EXPECT_THAT(scale.mistake, testing::HasSubstr(each.mistake));
+    EXPECT_GT(scale.agree_corrected, 0.9 * scale.matches) << each.mistake;
+    EXPECT_LT(scale.agree_most, 0.5 * scale.agree_corrected) << each.mistake;
   }
 }
 

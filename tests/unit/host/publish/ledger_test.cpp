@@ -262,7 +262,7 @@ TEST_F(LedgerTest, DamageIsSeen) {
   }
 }
 
-// Whatever the bytes are, there is an answer: places or a message.
+// Whatever the bytes are, there is an answer: places, or a message with the name and a cure.
 TEST_F(LedgerTest, DamagedBytesAreNoDanger) {
   Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
   std::stringstream text;
@@ -278,7 +278,8 @@ TEST_F(LedgerTest, DamagedBytesAreNoDanger) {
     std::ofstream(path_, std::ios::binary | std::ios::trunc) << bad;
     try {
       EXPECT_LE(Ledger::openToRead(path_).places().size(), 1u);
-    } catch (const std::runtime_error &) {
+    } catch (const std::runtime_error &error) {
+      EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("ledger " + path_ + ": "), HasSubstr("; ")));
       ++refused;
     }
   }

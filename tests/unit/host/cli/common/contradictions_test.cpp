@@ -81,6 +81,21 @@ TEST(Contradictions, OfFewFramesAreNotFoundAndThatIsSaid) {
               HasSubstr("scale and consistency could not be checked: 9 of 100 frames have a pose"));
 }
 
+TEST(Contradictions, AMistakeThatCorrectedPosesHaveNotIsNamed) {
+  RgbdImportSummary walk = soundWalk();
+  walk.scale = {3900, 3200, 3200, 1, 3100, "poses are inverse"};
+  EXPECT_THAT(contradictionsOf(walk), IsEmpty()) << "of a camera that hardly turns";
+  walk.scale = {3900, 200, 300, 2, 3100, "poses are inverse: invert each"};
+  walk.moving.disagreement = 0.09;
+  EXPECT_THAT(contradictionsOf(walk),
+              ElementsAre("poses are inverse: invert each. Then 3100 of 3900 keypoints that two frames share lie "
+                          "where the poses say, and now 200"))
+      << "alone, since it says why the frames disagree";
+  walk.moving.disagreement = 0.004;
+  walk.scale = {60, 0, 0, 1, 30, "poses are inverse"};
+  EXPECT_THAT(contradictionsOf(walk), IsEmpty()) << "too few to tell";
+}
+
 TEST(Contradictions, AnotherScaleIsNamed) {
   RgbdImportSummary walk = soundWalk();
   walk.scale = {3900, 3200, 3200, 1};

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "host/base/usage_error.h"
+#include "tests/support/nobody.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -113,18 +114,6 @@ TEST_F(FileUseTest, WhatIsKeptIsThereAlready) {
   EXPECT_NO_THROW(files.check());
 }
 
-// Whom the modes of files do not bind is somebody else for a while.
-class Nobody {
- public:
-  Nobody() { EXPECT_EQ(setresuid(is_root_ ? kNobody : id_, is_root_ ? kNobody : id_, id_), 0); }
-  ~Nobody() { EXPECT_EQ(setresuid(id_, id_, id_), 0); }
-
- private:
-  static constexpr uid_t kNobody = 65534;
-  const uid_t id_ = getuid();
-  const bool is_root_ = id_ == 0;
-};
-
 // A file is made beside the one that it replaces, and a journal beside a ledger.
 TEST_F(FileUseTest, AFolderWhereNothingMayBeMadeIsNamed) {
   put("a.ledger", "whatever");
@@ -132,7 +121,7 @@ TEST_F(FileUseTest, AFolderWhereNothingMayBeMadeIsNamed) {
   const std::string where = folder_ / "";
   fs::permissions(where, fs::perms(0555));
   {
-    const Nobody nobody;
+    const test::Nobody nobody;
     for (const std::string name : {"new", "mine"})
       EXPECT_THAT(refusal(folder_ / name), HasSubstr("nothing may be made in")) << name;
     FileUse files(false);

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <tuple>
 
 #include "host/recording/calibration_json.h"
 #include "tests/contract/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
+#include "tests/support/ros_bag.h"
 
 namespace sphc::host {
 namespace {
@@ -82,6 +85,27 @@ TEST_F(RecordingCheckTest, PosesAreJudgedWhereTheyAre) {
   EXPECT_THAT(ofPoses().at(0).text, HasSubstr("2 of 12 frames have a pose"));
   std::filesystem::remove(walk() + "/groundtruth.txt");
   EXPECT_THAT(ofPoses(), IsEmpty());
+}
+
+// Odometry that nothing joins to the camera.
+TEST_F(RecordingCheckTest, WhyABagHasNoPosesIsSaid) {
+  const sphc_rigid same = {{1, 0, 0, 0}, {0, 0, 0}};
+  const std::string type = "sensor_msgs/msg/";
+  test::RosBag bag;
+  for (const auto &[topic, encoding, bytes] :
+       {std::tuple("/cam/color/", "mono8", 1u), {"/cam/depth/", "16UC1", 2u}}) {
+    bag.add(topic + std::string("camera_info"), type + "CameraInfo", 1,
+            test::rosCameraInfo("camera", 16, 16, "plumb_bob", {}, {10, 10, 7.5, 7.5}));
+    bag.add(topic + std::string("image"), type + "Image", 1,
+            test::rosImage(1, "camera", 16, 16, encoding, test::Bytes(16 * 16 * bytes)));
+  }
+  bag.add("/odom", "nav_msgs/msg/Odometry", 1, test::rosOdometry(1, {"odom", "base_link", same}));
+  folder_.write("bag.mcap", bag.bytes(test::RosBag::Chunks::kStored));
+  recording::RecordingReader reader(folder_ / "bag.mcap");
+  const Findings findings = findingsOfPoses(&reader);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].grade, Finding::Grade::kDoubtful);
+  EXPECT_THAT(findings[0].text, HasSubstr("moves base_link, and no transform joins that to camera, the colour"));
 }
 
 }  // namespace
