@@ -89,8 +89,8 @@ constexpr double kNearlyAsGood = 0.8, kSamePoseRad = degrees(5);
 // the holder's feet in map and query, 8 wrong poses of up to 80 inliers all had a rival of 0.55 to 2.2 times their
 // gain; of 1311 right poses on real recordings one had (decision 42).
 // One of more inliers is seldom wrong: fewer keypoints are asked, and the rival must gain more of what it gains.
-// Nine flats of equally furnished rooms (2160 frames): wrong 11 -> 7, right 1974 -> 1962 (decision 100).
-constexpr uint32_t kInliersSeldomWrong = 100, kInliersBeyondOthers = 200;
+// Wrong poses in flats of equally furnished rooms had up to 223 inliers (decision 100).
+constexpr uint32_t kInliersSeldomWrong = 100, kInliersBeyondOthers = 300;
 struct ChallengeByOthers {
   uint32_t most_keypoints, most_samples;
   double ambiguous_gain;
