@@ -5,6 +5,7 @@
 
 #include "runtime/localizer/hints.h"
 #include "runtime/localizer/tuning.h"
+#include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 
@@ -83,6 +84,7 @@ void PoseFinder::find(const Known &known, const Deadline &deadline, Work *work) 
   if (expects(known, frame_.front->wasCut() ? kMostConeInHasteRad : kMostConeRad, &expected))
     searchNear(known, expected, deadline, work);
   if (!isDone(deadline, work)) searchEverywhere(known, deadline, work);
+  if (wouldMakeTrackSure(known)) confirmInWholeMap(known, deadline, work);
   if (!best_.isLocalized() && work->cuts) best_.outcome = Outcome::kDeadline;
 }
 
@@ -101,6 +103,27 @@ const Hypothesis &PoseFinder::findMirrored(const Deadline &deadline, Work *work)
   verification(parameters_.min_inliers, work, &of_mirrored).findUnverifiedPose(task, &candidate_);
   frame_.front->mirror();
   return candidate_;
+}
+
+bool PoseFinder::wouldMakeTrackSure(const Known &known) const {
+  return best_.isLocalized() && best_.guided && !isNarrow(known) && !frame_.tracker->isSure() &&
+         confidenceOf(statedCovariance(best_.estimate)) > kSureOfTrack;
+}
+
+// Where a pose is expected nothing of the rest of the map is held against it, so a track that began in the wrong
+// one of two rooms would become sure of itself.  A frame may lack this step for its deadline.
+void PoseFinder::confirmInWholeMap(const Known &known, const Deadline &deadline, Work *work) {
+  const PosePrior prior = priorFor(known, best_.map);
+  const Rigid guided = best_.estimate.camera_from_map;
+  PoseTask task = taskOfWholeMap(best_.map, queryFor(prior, deadline), work);
+  task.expected = &guided;
+  matchAll(best_.map, &task, work);
+  solve(task, work);
+  if (candidate_.isLocalized() && areNear(candidate_.estimate.camera_from_map, guided, kNoJump)) return propose();
+  if (deadline.passed())
+    work->cuts |= kCutVerification;
+  else
+    best_.doubtForRival();
 }
 
 bool PoseFinder::expects(const Known &known, double most_cone_rad, Prediction *expected) const {
@@ -150,20 +173,15 @@ void PoseFinder::searchEverywhere(const Known &known, const Deadline &deadline, 
 // By the strongest keypoints; where they leave a doubt by all; where these show too little, by those of earlier
 // frames too; and where all that leads to no pose, by a looser ratio test.
 void PoseFinder::searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work) {
-  const uint32_t lifted = frame_.front->liftedCount(), all = frame_.front->keypointCount();
-  const uint32_t probes =
-      search_.probesWithin(std::min(lifted, kStrongest), query.deadline.afterShare(kMatchShare), work);
-  PoseTask task = {
-      search_.ask(*frame_.front, map, all, probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
   Prediction expected;
+  PoseTask task = taskOfWholeMap(map, query, work);
   if (frame_.tracker && frame_.tracker->predict(&expected) && expected.map == map)
     task.expected = &expected.camera_from_map;
-  if (parameters_.probes > 0 && lifted > kStrongest && searchMapByStrongest(map, task, work)) return propose();
-  candidate_.begin(map);
-  search_.matchEverywhere(task.question, all, query.deadline.afterShare(kMatchShare), &candidate_.matched, work);
+  const bool has_many = frame_.front->liftedCount() > kStrongest;
+  if (parameters_.probes > 0 && has_many && searchMapByStrongest(map, task, work)) return propose();
+  matchAll(map, &task, work);
   was_asked_ = work->cuts == 0;
   clear_ = std::max(clear_, countClear(candidate_.matched.matches()));
-  task.rays = search_.raysOf(*frame_.front, candidate_.matched);
   const bool has_others = remembers && !frame_.images_are_apart && frame_.fusion->remember(map, candidate_.matched);
   solve(task, work);
   bool has_pose = candidate_.hasPose();
@@ -177,6 +195,22 @@ void PoseFinder::searchMap(uint32_t map, bool remembers, const PoseQuery &query,
     propose();
   }
   if (!has_pose && !isDone(query.deadline, work)) searchMapLoosely(map, task, work);
+}
+
+PoseTask PoseFinder::taskOfWholeMap(uint32_t map, const PoseQuery &query, Work *work) {
+  const FrontEnd &front = *frame_.front;
+  const uint32_t strongest = std::min(front.liftedCount(), kStrongest);
+  const uint32_t probes = search_.probesWithin(strongest, query.deadline.afterShare(kMatchShare), work);
+  return {
+      search_.ask(front, map, front.keypointCount(), probes, work), {}, query, 4 * kPi, {kConesOfSearchedPose, 2}};
+}
+
+// Makes the candidate's matches those of all keypoints.
+void PoseFinder::matchAll(uint32_t map, PoseTask *task, Work *work) {
+  candidate_.begin(map);
+  search_.matchEverywhere(task->question, frame_.front->keypointCount(),
+                          task->query.deadline.afterShare(kMatchShare), &candidate_.matched, work);
+  task->rays = search_.raysOf(*frame_.front, candidate_.matched);
 }
 
 // True where that ends the search.  In guided re-matching all keypoints take part.

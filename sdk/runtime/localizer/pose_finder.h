@@ -43,10 +43,14 @@ class PoseFinder {
   uint32_t clear() const { return clear_; }
 
  private:
+  bool wouldMakeTrackSure(const Known &known) const;
+  void confirmInWholeMap(const Known &known, const Deadline &deadline, Work *work);
   bool expects(const Known &known, double most_cone_rad, Prediction *expected) const;
   void searchNear(const Known &known, const Prediction &expected, const Deadline &deadline, Work *work);
   void searchEverywhere(const Known &known, const Deadline &deadline, Work *work);
   void searchMap(uint32_t map, bool remembers, const PoseQuery &query, Work *work);
+  PoseTask taskOfWholeMap(uint32_t map, const PoseQuery &query, Work *work);
+  void matchAll(uint32_t map, PoseTask *task, Work *work);
   bool searchMapByStrongest(uint32_t map, const PoseTask &task, Work *work);
   void searchMapLoosely(uint32_t map, const PoseTask &task, Work *work);
   void solve(const PoseTask &task, Work *work);

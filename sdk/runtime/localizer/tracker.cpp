@@ -140,7 +140,7 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, 
   Prediction expected;
   Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
   const bool agrees = !jump.events;
-  is_sure_ = (agrees && is_sure_) || confidence >= kSureOfTrack;
+  is_sure_ = (agrees && is_sure_) || confidence > kSureOfTrack;
   if (agrees && is_sure_ && !is_doubted) {
     state_ = TrackingState::kTracking;
     trusted_time_ns_ = time_ns_;

@@ -68,6 +68,8 @@ class Tracker {
   bool vetoes(uint32_t map, const Estimate &estimate) const;
 
   TrackingState state() const { return state_; }
+  // Does what is expected go on from a pose that was sure?
+  bool isSure() const { return has_pose_ && is_sure_; }
   // How far the camera went between frames?
   bool knowsShifts() const { return has_odometry_ && odometry_.scale_sigma == 0; }
   // Motion of the camera since the frame before, by odometry; false where it is not known.

@@ -248,7 +248,7 @@ constexpr PoseBounds kNoJump = {0.15, degrees(8)};
 // What a search near a track finds beyond this by the gate must be found in the whole map: floors repeat.  Chosen.
 constexpr PoseBounds kNoJumpOfTrack = {0.05, degrees(3)};
 constexpr double kTimesSupport = 2;
-// A track is trusted from a pose of this confidence on (decision 88).
+// A track is trusted from a pose of more confidence than this on (decision 88): not from one with a near rival.
 constexpr double kSureOfTrack = 0.95;
 // Odometry is left out that so often moved by as much as a jump otherwise than poses did, on the way or in so many
 // steps in a row.  Of its shifts it is not asked what a scale of depth explains, up to this factor.  Chosen.

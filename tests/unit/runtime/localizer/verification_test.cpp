@@ -266,14 +266,7 @@ TEST_F(ThinRoomTest, BothPosesOfAnAmbiguousFrameAreRanked) {
 // The parts of a frame show two places, and the map knows both of them well.
 class TwoPlacesTest : public VerificationTest {
  protected:
-  TwoPlacesTest() : VerificationTest(test::mapOf(thinned(), Vector3(0, 0, 1))) {}
-  static std::vector<test::WorldPoint> thinned() {
-    const std::vector<test::WorldPoint> all = test::pointsOfTheRoom();
-    std::vector<test::WorldPoint> kept;
-    for (size_t i = 0; i < all.size(); ++i)
-      if (i % 20 < 15) kept.push_back(all[i]);
-    return kept;
-  }
+  TwoPlacesTest() : VerificationTest(test::mapOf(test::mostPointsOfTheRoom(), Vector3(0, 0, 1))) {}
   // The first search is given the matches of one part alone.
   void verifyFrom(bool upper, double upper_share) {
     parts_.seeHalves(kUpper, kLower, upper_share);
