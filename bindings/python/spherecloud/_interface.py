@@ -859,7 +859,8 @@ class Interface:
         # [pure]
         self.sphc_band_name = bound("sphc_band_name", ctypes.c_char_p, [ctypes.c_int32])
         # SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the limits,
-        # fx and fy > 0. Else SPHC_E_ARGUMENT; the message names field, cause and cure. [pure]
+        # fx and fy > 0, and 0 in what the model does not use. Else SPHC_E_ARGUMENT; the message names field, cause
+        # and cure. [pure]
         self.sphc_camera_check = bound("sphc_camera_check", ctypes.c_int32, [
             ctypes.POINTER(sphc_camera), ctypes.POINTER(sphc_message)])
         # Pixel of a point given in camera coordinates. SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of

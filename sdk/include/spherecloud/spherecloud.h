@@ -269,7 +269,8 @@ typedef struct sphc_memory {
 #define SPHC_RIG_MAX_UNIT_M 0.1        /* the same */
 
 /* SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the limits, fx and
- * fy > 0.  Else SPHC_E_ARGUMENT; the message names field, cause and cure. [pure] */
+ * fy > 0, and 0 in what the model does not use.  Else SPHC_E_ARGUMENT; the message names field, cause and cure.
+ * [pure] */
 SPHC_API sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message);
 /* Pixel of a point given in camera coordinates.  SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of the
  * camera or lies beyond the range in which the distortion is invertible.  SPHC_E_ARGUMENT: null, not finite, or a

@@ -980,8 +980,8 @@ extern "C" {
     pub fn sphc_band_name(band: sphc_band) -> *const c_char;
 
     /// SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the
-    /// limits, fx and fy \> 0. Else SPHC_E_ARGUMENT; the message names field, cause and cure. Thread class:
-    /// pure.
+    /// limits, fx and fy \> 0, and 0 in what the model does not use. Else SPHC_E_ARGUMENT; the message
+    /// names field, cause and cure. Thread class: pure.
     pub fn sphc_camera_check(camera: *const sphc_camera, message: *mut sphc_message) -> sphc_status;
 
     /// Pixel of a point given in camera coordinates. SPHC_OUTSIDE, \*pixel_px untouched, if it is not in
