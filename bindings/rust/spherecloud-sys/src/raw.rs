@@ -780,13 +780,13 @@ pub struct sphc_localizer_result {
     /// Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
     /// perturbation applied on the left: T = exp(xi) T_estimate. Zeros unless LOCALIZED.
     pub covariance: [f64; 36],
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub features_us: u32,
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub align_us: u32,
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub match_us: u32,
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub pose_us: u32,
     /// probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other bounds
     /// sphc_localizer_result_confidence
