@@ -129,7 +129,17 @@ function(sphc_install_package)
     EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   # One of them all: packages of the others depend on this one.
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC COMPONENT runtime)
-  install(FILES ${PROJECT_SOURCE_DIR}/third_party/lzfse/LICENSE TYPE DOC RENAME LICENSE.lzfse COMPONENT runtime)
+  # Of those that have the code; each in a folder of its own, since two packages may not bring one file.
+  set(has_lzfse drivers host)
+  if(NOT TARGET sphc_lzfse)
+    set(has_lzfse)
+  endif()
+  foreach(component ${has_lzfse})
+    if(component IN_LIST components)
+      install(FILES ${PROJECT_SOURCE_DIR}/third_party/lzfse/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}/${component}
+        RENAME LICENSE.lzfse COMPONENT ${component})
+    endif()
+  endforeach()
   if(PROJECT_IS_TOP_LEVEL)
     add_custom_target(uninstall VERBATIM
       COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${SPHC_INSTALL_FILES}/uninstall.cmake)

@@ -3,9 +3,10 @@
 
     build_wheel.py [--out FOLDER] [--library LIBSPHERECLOUD.SO] [--command SPHERECLOUD]
 
-With a library (or SPHERECLOUD_LIBRARY) the wheel carries it, and what it needs that no system must have, and is for
-machines of its kind.  Without one it is for any machine, and finds the installed library.  The same files and
-SOURCE_DATE_EPOCH give the same bytes.
+With a library (or SPHERECLOUD_LIBRARY) the wheel carries it, and what it needs that no system must have, and its tag
+says which machines have the rest: glibc, libstdc++.  Without one it is for any machine, and finds the installed
+library.  A command that needs libraries of this machine makes a wheel for this machine (linux, not manylinux).  The same
+files and SOURCE_DATE_EPOCH give the same bytes.
 """
 import argparse
 import base64
@@ -22,7 +23,15 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 # What a manylinux machine has.
 SYSTEM = re.compile(r"(ld-linux.*|linux-vdso|libc|libm|libdl|libpthread|librt|libstdc\+\+|libgcc_s)\.so")
-OLDEST_GLIBC = (2, 17)  # that pip knows by this kind of name
+# The glibc that a tag of manylinux names, and the youngest symbols of the machine's libstdc++ and libgcc that a wheel of
+# this tag may ask for: of all kinds of machine the least that auditwheel 6 allows.
+MANYLINUX = [((2, 17), {"GLIBCXX": (3, 4, 19), "CXXABI": (1, 3, 7), "GCC": (4, 7, 0)}),
+             ((2, 24), {"GLIBCXX": (3, 4, 22), "CXXABI": (1, 3, 10), "GCC": (4, 7, 0)}),
+             ((2, 27), {"GLIBCXX": (3, 4, 24), "CXXABI": (1, 3, 11), "GCC": (7, 0, 0)}),
+             ((2, 31), {"GLIBCXX": (3, 4, 28), "CXXABI": (1, 3, 12), "GCC": (7, 0, 0)}),
+             ((2, 34), {"GLIBCXX": (3, 4, 29), "CXXABI": (1, 3, 13), "GCC": (7, 0, 0)}),
+             ((2, 35), {"GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13), "GCC": (7, 0, 0)}),
+             ((2, 39), {"GLIBCXX": (3, 4, 33), "CXXABI": (1, 3, 15), "GCC": (14, 0, 0)})]
 
 
 def told(key):
@@ -54,14 +63,35 @@ def licenses(carried):
     return found
 
 
-def tag_of(files):
-    """py3-none-manylinux_X_Y_MACHINE, of the youngest glibc that one of the files asks for."""
-    asked = [OLDEST_GLIBC]
+def asked_of(files):
+    """{"GLIBC", "GLIBCXX" and so on: the youngest version of its symbols that one of the files asks for}"""
+    asked = {}
     for path in files:
-        versions = re.findall(rb"GLIBC_(\d+)\.(\d+)", pathlib.Path(path).read_bytes())
-        asked += [(int(major), int(minor)) for major, minor in versions]
-    major, minor = max(asked)
-    return f"py3-none-manylinux_{major}_{minor}_{os.uname().machine}"
+        for name, text in re.findall(rb"\0(GLIBC|GLIBCXX|CXXABI|GCC)_([0-9.]+)(?=\0)", pathlib.Path(path).read_bytes()):
+            version = tuple(int(part) for part in text.decode().split("."))
+            asked[name.decode()] = max(asked.get(name.decode(), (0,)), version)
+    return asked
+
+
+def platform_of(files):
+    """manylinux_X_Y of the oldest machines that have all that the files ask for; linux where no tag promises that."""
+    asked = asked_of(files)
+    glibc = asked.pop("GLIBC", (0,))[:2]
+    for of_tag, youngest in MANYLINUX:
+        if all(version <= youngest[name] for name, version in asked.items()):
+            major, minor = max(of_tag, glibc)
+            return f"manylinux_{major}_{minor}"
+    return "linux"
+
+
+def tag_of(carried, command):
+    """py3-none-PLATFORM_MACHINE; a command that needs more than is carried may not run on another machine."""
+    if not carried and not command:
+        return "py3-none-any"
+    names = [name for name, _ in carried]
+    is_alone = command and any(name not in names and not name.startswith("libspherecloud.") for name, _ in needed_by(command))
+    platform = "linux" if is_alone else platform_of([path for _, path in carried] + [command] * bool(command))
+    return f"py3-none-{platform}_{os.uname().machine}"
 
 
 def metadata():
@@ -79,7 +109,7 @@ def contents(library, command):
              if path.suffix == ".py" or path.name == "py.typed"}
     carried = [("libspherecloud.so", library), *needed_by(library)] if library else []
     files.update({f"spherecloud/lib/{name}": pathlib.Path(path).read_bytes() for name, path in carried})
-    tag = tag_of([path for _, path in carried]) if carried else "py3-none-any"
+    tag = tag_of(carried, command)
     if command:
         files["spherecloud/bin/spherecloud"] = pathlib.Path(command).read_bytes()
     info = f"{told('name')}-{told('version')}.dist-info"

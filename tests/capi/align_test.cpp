@@ -201,4 +201,32 @@ TEST_F(CInterfaceAligner, FromCpp) {
   expectMentions(refused.text(), "give the pixels");
 }
 
+// For static buffers: of every size, lens and format, and not wasteful where it matters.
+TEST(CInterfaceAlignerMemory, TheUpperBoundHolds) {
+  sphc_aligner_config config = spherecloud::defaultAlignerConfig();
+  for (const uint32_t color_width : {16u, 17u, 641u, 8192u})
+    for (const uint32_t color_height : {16u, 481u, 8192u})
+      for (const uint32_t depth_width : {16u, 17u, 641u, 8192u})
+        for (const uint32_t depth_height : {16u, 481u, 8192u})
+          for (const sphc_format format : {SPHC_FORMAT_DEPTH16, SPHC_FORMAT_DEPTH_F32, SPHC_FORMAT_RANGE16})
+            for (const sphc_camera_model model : {SPHC_CAMERA_PINHOLE, SPHC_CAMERA_KANNALA_BRANDT4}) {
+              config.depth_format = format;
+              config.rig.color_camera = sphc::test::pinhole(color_width, color_height, 500);
+              config.rig.depth_camera = sphc::test::pinhole(depth_width, depth_height, 500);
+              config.rig.depth_camera.model = model;
+              config.rig.depth_camera.param_count = model == SPHC_CAMERA_PINHOLE ? 4 : 8;
+              sphc_memory need = {};
+              ASSERT_EQ(sphc_aligner_memory(&config, &need, nullptr), SPHC_OK);
+              ASSERT_LE(need.state_bytes,
+                        SPHC_ALIGNER_BYTES_MAX(depth_width, depth_height, color_width, color_height));
+            }
+  config.rig.color_camera = config.rig.depth_camera = sphc::test::pinhole(640, 480, 500);
+  config.depth_format = SPHC_FORMAT_DEPTH16;
+  config.rig.depth_camera.model = SPHC_CAMERA_KANNALA_BRANDT4;
+  config.rig.depth_camera.param_count = 8;
+  sphc_memory need = {};
+  ASSERT_EQ(sphc_aligner_memory(&config, &need, nullptr), SPHC_OK);
+  EXPECT_LE(SPHC_ALIGNER_BYTES_MAX(640, 480, 640, 480), 2 * need.state_bytes);
+}
+
 }  // namespace

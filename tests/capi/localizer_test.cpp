@@ -116,6 +116,18 @@ TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_EQ(us, 0u);
 }
 
+// As a counter of the device that is set anew: of some hours at once a stage is told as the longest that there is.
+TEST_F(CInterfaceLocalizer, ClocksMayLeap) {
+  config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 5000000000000; };
+  int64_t now = 0;
+  config_.clock_user = &now;
+  Session timed(config_);
+  const auto frame = sphc::test::sceneFrame(config_, 0);
+  sphc_localizer_result result = clean();
+  EXPECT_EQ(timed.process(frame->frame, &result), SPHC_OK);
+  EXPECT_EQ(result.features_us, UINT32_MAX);
+}
+
 TEST_F(CInterfaceLocalizer, StagesAreTimedByTheCallersClock) {
   config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 1000000; };
   int64_t now = 0;

@@ -80,7 +80,7 @@ def follow(options, folder):
 
     if options.section.startswith("The examples"):
         poses = re.findall(r"^\d+ at ", printed, re.MULTILINE)
-        runs = sum(line.endswith("room.sphc walk") for block in blocks for line in block.text.splitlines())
+        runs = sum("room.sphc walk" in line for block in blocks for line in block.text.splitlines())
         if len(poses) != POSES * runs:
             sys.exit(f"{len(poses)} poses instead of {POSES * runs}")
         return

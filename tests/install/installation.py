@@ -17,7 +17,8 @@ RUNTIME = ("include/spherecloud/spherecloud.h", "include/spherecloud/spherecloud
            "share/doc/spherecloud/NOTICE", "include/spherecloud/spherecloud_signature.h", "{lib}/libspherecloud_signature.a",
            "{lib}/pkgconfig/spherecloud-signature.pc", "include/spherecloud/spherecloud_encryption.h",
            "{lib}/libspherecloud_encryption.a", "{lib}/pkgconfig/spherecloud-encryption.pc", "share/doc/spherecloud/spherecloud.spdx.json")
-ALL = RUNTIME + ("bin/spherecloud", "share/doc/spherecloud/LICENSE.lzfse", "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
+LICENSES_OF_OTHERS = tuple(f"share/doc/spherecloud/{component}/LICENSE.lzfse" for component in ("drivers", "host"))
+ALL = RUNTIME + ("bin/spherecloud", *LICENSES_OF_OTHERS, "share/spherecloud/networks", "include/spherecloud/drivers/replay/replay.h", "{lib}/libsphc_driver_replay.a",
                  "{lib}/pkgconfig/spherecloud-drivers.pc", "share/doc/spherecloud/examples/minimal_c/main.c", "include/spherecloud/drivers/contract/contract.cpp")
 
 PYTHON_PACKAGE = "python3-spherecloud"  # no other way of installing has its files
@@ -104,6 +105,7 @@ def staged(options):
     done("--build", build)
     done("--install", build)
     faults = missing(RUNTIME, prefix, libdir)
+    faults += [f"{path} is installed, whose code is not" for path in prefix.rglob("LICENSE.*")]
     asked = subprocess.run(["pkg-config", "--variable=libdir", "spherecloud"], env=dict(environment, PKG_CONFIG_PATH=f"{prefix}/{libdir}/pkgconfig"),
                            text=True, capture_output=True, check=False)
     if not asked.stdout or not Path(asked.stdout.strip()).samefile(prefix / libdir):

@@ -34,6 +34,13 @@ inline const std::vector<SpoiledRig> &spoiledRigs() {
        [](sphc_rig *r) { r->depth_camera.params[1] = kNan; }},
       {"depth_camera.params[3] is -inf; a parameter must be finite and not beyond 1000000: check the calibration",
        [](sphc_rig *r) { r->depth_camera.params[3] = -kInf; }},
+      {"color_camera.params[10] is 0.25, and model 2 takes 9 parameters; set the others to 0, or give the model "
+       "that has them",
+       [](sphc_rig *r) {
+         r->color_camera.model = SPHC_CAMERA_BROWN5;
+         r->color_camera.param_count = 9;
+         r->color_camera.params[10] = 0.25;
+       }},
       {"color_from_depth.t_m[1] is -10.5; it must lie in -10 to 10: give metres",
        [](sphc_rig *r) { r->color_from_depth.t_m[1] = -10.5; }},
       {"color_from_depth.t_m[2] is nan; it must lie in -10 to 10: give metres",

@@ -589,7 +589,7 @@ class sphc_localizer_result(ctypes.Structure):
     # Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
     # perturbation applied on the left: T = exp(xi) T_estimate. Zeros unless LOCALIZED.
     covariance: ctypes.Array[ctypes.c_double]
-    # time of each stage by config.clock
+    # Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     features_us: int
     align_us: int
     match_us: int
@@ -859,7 +859,8 @@ class Interface:
         # [pure]
         self.sphc_band_name = bound("sphc_band_name", ctypes.c_char_p, [ctypes.c_int32])
         # SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the limits,
-        # fx and fy > 0. Else SPHC_E_ARGUMENT; the message names field, cause and cure. [pure]
+        # fx and fy > 0, and 0 in what the model does not use. Else SPHC_E_ARGUMENT; the message names field, cause
+        # and cure. [pure]
         self.sphc_camera_check = bound("sphc_camera_check", ctypes.c_int32, [
             ctypes.POINTER(sphc_camera), ctypes.POINTER(sphc_message)])
         # Pixel of a point given in camera coordinates. SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of

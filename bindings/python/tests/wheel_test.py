@@ -1,4 +1,5 @@
 """The wheel: the same bytes each time; it installs without a network, and carries all that it needs."""
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -25,6 +26,13 @@ def build(out, **variables):
     return pathlib.Path(run(sys.executable, "-B", BUILD, "--out", out, "--library", library, **variables).strip())
 
 
+def builder():
+    spec = importlib.util.spec_from_file_location("build_wheel", BUILD)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 class Wheel(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -47,6 +55,28 @@ class Wheel(unittest.TestCase):
         numpy = sysconfig.get_paths()["platlib"]
         said = run(python, "-B", HERE / "session.py", PYTHONPATH=numpy, SPHERECLOUD_GOLDEN=golden).split()
         self.assertEqual([path.startswith(str(environment)) for path in said], [True, True], said)
+
+    def platform(self, *symbols):
+        path = self.folder / "library.so"
+        path.write_bytes(b"\x7fELF\0" + b"".join(symbol.encode() + b"\0" for symbol in symbols))
+        return builder().platform_of([path])
+
+    def test_the_tag_is_of_the_machines_that_have_all_of_it(self):
+        self.assertEqual(self.platform("GLIBC_2.2.5", "GLIBC_2.14", "memcpy"), "manylinux_2_17")
+        self.assertEqual(self.platform("GLIBC_2.14", "GLIBCXX_3.4.21", "CXXABI_1.3.9"), "manylinux_2_24")
+        self.assertEqual(self.platform("GLIBC_2.33", "GLIBCXX_3.4.21"), "manylinux_2_33")
+        self.assertEqual(self.platform("GLIBC_2.33", "GLIBCXX_3.4.30", "GCC_3.0"), "manylinux_2_35")
+        self.assertEqual(self.platform("CXXABI_1.3.15"), "manylinux_2_39")
+        self.assertEqual(self.platform("GLIBC_2.14", "GLIBCXX_3.4.999"), "linux")
+
+    def test_a_command_that_needs_this_machine_is_for_this_machine(self):
+        command = self.folder / "spherecloud"
+        command.write_bytes(b"")
+        module = builder()
+        module.needed_by = lambda path: [("libspherecloud.so.1", "/lib/libspherecloud.so.1"), ("libavcodec.so.59", "/lib/a")]
+        self.assertRegex(module.tag_of([], command), "^py3-none-linux_")
+        module.needed_by = lambda path: [("libspherecloud.so.1", "/lib/libspherecloud.so.1")]
+        self.assertRegex(module.tag_of([], command), "^py3-none-manylinux_2_17_")
 
     def test_without_a_library_it_is_for_any_machine(self):
         wheel = pathlib.Path(run(sys.executable, "-B", BUILD, "--out", self.folder).strip())

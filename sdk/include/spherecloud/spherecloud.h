@@ -269,7 +269,8 @@ typedef struct sphc_memory {
 #define SPHC_RIG_MAX_UNIT_M 0.1        /* the same */
 
 /* SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the limits, fx and
- * fy > 0.  Else SPHC_E_ARGUMENT; the message names field, cause and cure. [pure] */
+ * fy > 0, and 0 in what the model does not use.  Else SPHC_E_ARGUMENT; the message names field, cause and cure.
+ * [pure] */
 SPHC_API sphc_status sphc_camera_check(const sphc_camera *camera, sphc_message *message);
 /* Pixel of a point given in camera coordinates.  SPHC_OUTSIDE, *pixel_px untouched, if it is not in front of the
  * camera or lies beyond the range in which the distortion is invertible.  SPHC_E_ARGUMENT: null, not finite, or a
@@ -422,6 +423,10 @@ SPHC_API sphc_status sphc_aligner_config_init(sphc_aligner_config *config, size_
  * colour image. Errors: ARGUMENT, STRUCT_SIZE. [pure] */
 SPHC_API sphc_status sphc_aligner_memory(const sphc_aligner_config *config, sphc_memory *memory,
                                          sphc_message *message);
+/* Upper bound of its state_bytes for any library of this ABI, for memory that is not asked for. */
+#define SPHC_ALIGNER_BYTES_MAX(depth_width, depth_height, color_width, color_height) \
+  (UINT64_C(65536) + UINT64_C(16) * ((depth_width) + 64) * ((depth_height) + 16) +   \
+   UINT64_C(10) * ((color_width) + 64) * ((color_height) + 16))
 /* Makes an aligner in caller memory, borrowed until sphc_aligner_fini; `config` is copied.  Computes a ray for
  * every pixel, which takes as long as some dozen frames.  Errors: ARGUMENT, STRUCT_SIZE, MEMORY_SIZE,
  * MEMORY_ALIGNMENT. [pure] */
@@ -757,7 +762,8 @@ typedef struct sphc_localizer_result {
   /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
-  uint32_t features_us, align_us, match_us, pose_us; /* time of each stage by config.clock */
+  /* Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer. */
+  uint32_t features_us, align_us, match_us, pose_us;
   double confidence; /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
                       * bounds sphc_localizer_result_confidence */
   uint32_t cuts;     /* SPHC_CUT_ bits; 0: nothing was left out */

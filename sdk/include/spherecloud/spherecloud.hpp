@@ -87,6 +87,12 @@ class [[nodiscard]] Status {
   sphc_message message_ = {};
 };
 
+// SPHC_E_UNSUPPORTED where the library that was loaded has another ABI than this header: ask before anything else.
+inline Status checkAbi() {
+  if (sphc_abi() == SPHC_ABI) return Status();
+  return Status(SPHC_E_UNSUPPORTED, "the library has another ABI than the header; build with the library's own");
+}
+
 // ---- memory
 // ------------------------------------------------------------------------------------------------------
 
@@ -166,17 +172,19 @@ class Map {
   Map &operator=(const Map &) = delete;
   ~Map() { sphc_map_fini(&map_); }
 
+  // What a view needs (not the file), for open in the caller's memory.
+  static Status memory(sphc_memory *memory) { return Status(sphc_map_memory(memory)); }
   // Validates and views `file`, which is borrowed until the map ends.  Takes a little memory for the view.
   static Status open(const void *file, std::size_t file_bytes, Map *map) {
     sphc_memory need = {};
-    Status status(sphc_map_memory(&need));
+    const Status status = memory(&need);
     if (!status.ok()) return status;
     Map made;
     made.memory_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
     if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the view of the map");
     return open(made.memory_.data(), made.memory_.size(), file, file_bytes, &made, map);
   }
-  // The same in the caller's memory (sphc_map_memory), borrowed too; takes none of its own.
+  // The same in the caller's memory, borrowed too; takes none of its own.
   static Status open(void *memory, std::size_t memory_bytes, const void *file, std::size_t file_bytes, Map *map) {
     Map made;
     return open(memory, memory_bytes, file, file_bytes, &made, map);
@@ -187,6 +195,10 @@ class Map {
     info.struct_size = sizeof info;
     if (map_) sphc_map_get_info(map_, &info);
     return info;
+  }
+  // Unit direction of a point from the sphere centre; SPHC_E_ARGUMENT: there is no such point.
+  Status direction(std::uint32_t point_index, std::array<double, 3> *direction) const {
+    return Status(sphc_map_direction(map_, point_index, direction->data()));
   }
   const sphc_map *get() const { return map_; }
   explicit operator bool() const { return map_ != nullptr; }
@@ -236,18 +248,25 @@ class Aligner {
   Aligner &operator=(const Aligner &) = delete;
   ~Aligner() { sphc_aligner_fini(&aligner_); }
 
+  // What an aligner of this config needs, for make in the caller's memory.
+  static Status memory(const sphc_aligner_config &config, sphc_memory *memory) {
+    Status status;
+    return status.set(sphc_aligner_memory(&config, memory, status.message()));
+  }
   // Takes its memory from the heap, once, here.
   static Status make(const sphc_aligner_config &config, Aligner *aligner) {
-    Status status;
     sphc_memory need = {};
-    if (status.set(sphc_aligner_memory(&config, &need, status.message())).failed()) return status;
+    const Status status = memory(config, &need);
+    if (!status.ok()) return status;
     Aligner made;
     made.memory_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
     if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the aligner");
-    status.set(
-        sphc_aligner_init(made.memory_.data(), made.memory_.size(), &config, &made.aligner_, status.message()));
-    if (status.ok()) *aligner = std::move(made);
-    return status;
+    return make(config, made.memory_.data(), made.memory_.size(), &made, aligner);
+  }
+  // In the caller's memory, borrowed until the aligner ends; takes none of its own.
+  static Status make(const sphc_aligner_config &config, void *memory, std::size_t memory_bytes, Aligner *aligner) {
+    Aligner made;
+    return make(config, memory, memory_bytes, &made, aligner);
   }
 
   Status process(const sphc_image &depth, const sphc_aligned &aligned) {
@@ -258,6 +277,13 @@ class Aligner {
   explicit operator bool() const { return aligner_ != nullptr; }
 
  private:
+  static Status make(const sphc_aligner_config &config, void *memory, std::size_t memory_bytes, Aligner *made,
+                     Aligner *aligner) {
+    Status status;
+    status.set(sphc_aligner_init(memory, memory_bytes, &config, &made->aligner_, status.message()));
+    if (status.ok()) *aligner = std::move(*made);
+    return status;
+  }
   void swap(Aligner &other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(aligner_, other.aligner_);
@@ -288,6 +314,11 @@ inline sphc_localizer_prediction emptyPrediction() {
   return prediction;
 }
 
+// The probability that the camera is within so many metres and radians of the pose.
+inline double confidenceWithin(const sphc_localizer_result &result, double translation_m, double rotation_rad) {
+  return sphc_localizer_result_confidence(&result, translation_m, rotation_rad);
+}
+
 // What a colour image shows, between the two halves of a frame.
 class Features {
  public:
@@ -302,18 +333,26 @@ class Features {
   Features &operator=(const Features &) = delete;
   ~Features() { sphc_features_fini(&features_); }
 
+  // What features need, for make in the caller's memory.
+  static Status memory(const sphc_localizer_config &config, sphc_memory *memory) {
+    Status status;
+    return status.set(sphc_features_memory(&config, memory, status.message()));
+  }
   // For localizers of this config.  Takes its memory from the heap, once, here.
   static Status make(const sphc_localizer_config &config, Features *features) {
-    Status status;
     sphc_memory need = {};
-    if (status.set(sphc_features_memory(&config, &need, status.message())).failed()) return status;
+    const Status status = memory(config, &need);
+    if (!status.ok()) return status;
     Features made;
     made.memory_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
     if (!made.memory_.data()) return Status(SPHC_E_MEMORY_SIZE, "not enough memory for the features");
-    status.set(
-        sphc_features_init(made.memory_.data(), made.memory_.size(), &config, &made.features_, status.message()));
-    if (status.ok()) *features = std::move(made);
-    return status;
+    return make(config, made.memory_.data(), made.memory_.size(), &made, features);
+  }
+  // In the caller's memory, borrowed until they end; takes none of its own.
+  static Status make(const sphc_localizer_config &config, void *memory, std::size_t memory_bytes,
+                     Features *features) {
+    Features made;
+    return make(config, memory, memory_bytes, &made, features);
   }
 
   // Features of other hardware; of the frame the colour image and its time are read.
@@ -333,6 +372,13 @@ class Features {
   explicit operator bool() const { return features_ != nullptr; }
 
  private:
+  static Status make(const sphc_localizer_config &config, void *memory, std::size_t memory_bytes, Features *made,
+                     Features *features) {
+    Status status;
+    status.set(sphc_features_init(memory, memory_bytes, &config, &made->features_, status.message()));
+    if (status.ok()) *features = std::move(*made);
+    return status;
+  }
   void swap(Features &other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(features_, other.features_);
@@ -355,11 +401,16 @@ class Localizer {
   Localizer &operator=(const Localizer &) = delete;
   ~Localizer() { sphc_localizer_fini(&localizer_); }
 
+  // What a localizer of this config needs, for make in the caller's memory.
+  static Status memory(const sphc_localizer_config &config, sphc_memory *memory) {
+    Status status;
+    return status.set(sphc_localizer_memory(&config, memory, status.message()));
+  }
   // Takes its memory from the heap, once, here.  It has no map yet.
   static Status make(const sphc_localizer_config &config, Localizer *localizer) {
-    Status status;
     sphc_memory need = {};
-    if (status.set(sphc_localizer_memory(&config, &need, status.message())).failed()) return status;
+    const Status status = memory(config, &need);
+    if (!status.ok()) return status;
     Localizer made;
     made.state_ = AlignedBuffer(static_cast<std::size_t>(need.state_bytes), need.alignment);
     made.scratch_ = AlignedBuffer(static_cast<std::size_t>(need.scratch_bytes), need.alignment);
@@ -368,7 +419,7 @@ class Localizer {
     return make(config, made.state_.data(), made.state_.size(), made.scratch_.data(), made.scratch_.size(), &made,
                 localizer);
   }
-  // In the caller's memory (sphc_localizer_memory), borrowed until the localizer ends; takes none of its own.
+  // In the caller's memory, borrowed until the localizer ends; takes none of its own.
   static Status make(const sphc_localizer_config &config, void *state, std::size_t state_bytes, void *scratch,
                      std::size_t scratch_bytes, Localizer *localizer) {
     Localizer made;
@@ -394,8 +445,21 @@ class Localizer {
     return said(sphc_localizer_set_map_transform(localizer_, map_id, &common_from_map, rotation_sigma_rad,
                                                  translation_sigma_m));
   }
+  // As at first: the map lies in no frame that maps share.
+  Status removeMapTransform(std::uint32_t map_id) {
+    return said(sphc_localizer_set_map_transform(localizer_, map_id, nullptr, 0, 0));
+  }
+  std::uint32_t mapCount() const { return sphc_localizer_map_count(localizer_); }
   Status setParameter(sphc_localizer_parameter parameter, double value) {
     return said(sphc_localizer_set_parameter(localizer_, parameter, value));
+  }
+  Status parameter(sphc_localizer_parameter parameter, double *value) const {
+    return Status(sphc_localizer_get_parameter(localizer_, parameter, value));
+  }
+  // What it is where it was not set, and may be set to.
+  static Status parameterRange(sphc_localizer_parameter parameter, sphc_localizer_parameter_range *range) {
+    range->struct_size = sizeof *range;
+    return Status(sphc_localizer_get_parameter_range(parameter, range));
   }
   Status setDepthBias(const sphc_depth_bias &depth) {
     return said(sphc_localizer_set_depth_bias(localizer_, &depth));
@@ -456,6 +520,67 @@ class Localizer {
   sphc_localizer *localizer_ = nullptr;
 };
 
+// ---- cameras
+// -----------------------------------------------------------------------------------------------------
+
+// With as many parameters as are given, in the order of the model: camera(SPHC_CAMERA_PINHOLE, 640, 480, {fx, fy,
+// cx, cy}).  checkCamera says whether they are right.
+template <std::size_t kCount>
+sphc_camera camera(sphc_camera_model model, std::uint32_t width, std::uint32_t height,
+                   const double (&params)[kCount]) {
+  static_assert(kCount <= 12, "no camera model has more than 12 parameters");
+  sphc_camera made = {};
+  made.model = model;
+  made.width = width;
+  made.height = height;
+  made.param_count = static_cast<std::uint32_t>(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) made.params[i] = params[i];
+  return made;
+}
+
+// Identity and millimetres; the cameras are to be set.
+inline sphc_rig defaultRig() {
+  sphc_rig rig = {};
+  sphc_rig_init(&rig);
+  return rig;
+}
+
+inline Status checkCamera(const sphc_camera &camera) {
+  Status status;
+  return status.set(sphc_camera_check(&camera, status.message()));
+}
+
+inline Status checkRig(const sphc_rig &rig) {
+  Status status;
+  return status.set(sphc_rig_check(&rig, status.message()));
+}
+
+// ok(): *pixel_px is set.  code() SPHC_OUTSIDE: the camera has no pixel for this point.
+inline Status project(const sphc_camera &camera, const std::array<double, 3> &point_m,
+                      std::array<double, 2> *pixel_px) {
+  return Status(sphc_camera_project(&camera, point_m.data(), pixel_px->data()));
+}
+
+// ok(): *bearing, a unit vector, is set.  code() SPHC_OUTSIDE: the camera has none for this pixel.
+inline Status unproject(const sphc_camera &camera, const std::array<double, 2> &pixel_px,
+                        std::array<double, 3> *bearing) {
+  return Status(sphc_camera_unproject(&camera, pixel_px.data(), bearing->data()));
+}
+
+// A further camera of a rig, at the colour camera's place; its camera is to be set.
+inline sphc_localizer_camera defaultCamera() {
+  sphc_localizer_camera camera = {};
+  sphc_localizer_camera_init(&camera, sizeof camera);
+  return camera;
+}
+
+// A further depth camera of a rig, with the defaults of defaultConfig; its camera is to be set.
+inline sphc_localizer_depth_camera defaultDepthCamera() {
+  sphc_localizer_depth_camera camera = {};
+  sphc_localizer_depth_camera_init(&camera, sizeof camera);
+  return camera;
+}
+
 // ---- frames and poses
 // --------------------------------------------------------------------------------------------
 
@@ -465,10 +590,35 @@ inline sphc_image image(const void *data, std::uint32_t width, std::uint32_t hei
   return {data, width, height, stride_bytes != 0 ? stride_bytes : sphc_format_row_bytes(format, width), format};
 }
 
+inline sphc_localizer_frame emptyFrame() {
+  sphc_localizer_frame frame = {};
+  sphc_localizer_frame_init(&frame, sizeof frame);
+  return frame;
+}
+
+// Says nothing until its flags are set; for frame.prior.
+inline sphc_localizer_prior emptyPrior() {
+  sphc_localizer_prior prior = {};
+  sphc_localizer_prior_init(&prior, sizeof prior);
+  return prior;
+}
+
+// Images of further cameras; for frame.views and frame.depth_views.
+inline sphc_localizer_view emptyView() {
+  sphc_localizer_view view = {};
+  sphc_localizer_view_init(&view, sizeof view);
+  return view;
+}
+
+inline sphc_localizer_depth_view emptyDepthView() {
+  sphc_localizer_depth_view view = {};
+  sphc_localizer_depth_view_init(&view, sizeof view);
+  return view;
+}
+
 inline sphc_localizer_frame frame(std::uint32_t sequence, std::int64_t color_time_ns, const sphc_image &color,
                                   std::int64_t depth_time_ns, const sphc_image &depth) {
-  sphc_localizer_frame made = {};
-  made.struct_size = sizeof made;
+  sphc_localizer_frame made = emptyFrame();
   made.sequence = sequence;
   made.color_time_ns = color_time_ns;
   made.depth_time_ns = depth_time_ns;
@@ -478,13 +628,6 @@ inline sphc_localizer_frame frame(std::uint32_t sequence, std::int64_t color_tim
 }
 
 inline sphc_rigid identity() { return {{1, 0, 0, 0}, {0, 0, 0}}; }
-
-// Identity and millimetres; the cameras are to be set.
-inline sphc_rig defaultRig() {
-  sphc_rig rig = {};
-  sphc_rig_init(&rig);
-  return rig;
-}
 
 // compose(c_from_b, b_from_a) is c_from_a.
 inline sphc_rigid compose(const sphc_rigid &c_from_b, const sphc_rigid &b_from_a) {
@@ -497,6 +640,12 @@ inline sphc_rigid inverse(const sphc_rigid &b_from_a) {
   sphc_rigid a_from_b = {};
   sphc_rigid_inverse(&b_from_a, &a_from_b);
   return a_from_b;
+}
+
+inline std::array<double, 3> apply(const sphc_rigid &b_from_a, const std::array<double, 3> &x_a) {
+  std::array<double, 3> x_b = {};
+  sphc_rigid_apply(&b_from_a, x_a.data(), x_b.data());
+  return x_b;
 }
 
 // ---- poses as other systems state them

@@ -54,6 +54,18 @@ bool checkSide(uint32_t side, const char *name, const char *field, sphc_message 
   return false;
 }
 
+// A model that takes fewer parameters than were given would project otherwise than the calibration says.
+bool checkUnused(const sphc_camera &camera, const char *name, uint32_t count, sphc_message *message) {
+  for (uint32_t i = count; i < 12; ++i) {
+    if (camera.params[i] == 0) continue;
+    MessageWriter(message) << name << ".params[" << i << "] is " << camera.params[i] << ", and model "
+                           << camera.model << " takes " << count
+                           << " parameters; set the others to 0, or give the model that has them";
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool checkCamera(const sphc_camera &camera, const char *name, sphc_message *message) {
@@ -80,7 +92,7 @@ bool checkCamera(const sphc_camera &camera, const char *name, sphc_message *mess
                            << SPHC_CAMERA_MAX_PARAM << ": check the calibration";
     return false;
   }
-  return true;
+  return checkUnused(camera, name, count, message);
 }
 
 Camera::Camera(const sphc_camera &parameters) : parameters_(parameters) {

@@ -267,7 +267,8 @@ internal static unsafe class Native {
   internal static extern byte* sphc_band_name(Band band);
 
   /// <summary>[pure] SPHC_OK if the camera can be used: known model, right param_count, parameters and size within
-  /// the limits, fx and fy &gt; 0. Else SPHC_E_ARGUMENT; the message names field, cause and cure.</summary>
+  /// the limits, fx and fy &gt; 0, and 0 in what the model does not use. Else SPHC_E_ARGUMENT; the message names
+  /// field, cause and cure.</summary>
   [DllImport(File, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
   internal static extern Status sphc_camera_check(CameraIntrinsics* camera, sphc_message* message);
 

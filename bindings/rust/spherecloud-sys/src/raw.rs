@@ -780,13 +780,13 @@ pub struct sphc_localizer_result {
     /// Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
     /// perturbation applied on the left: T = exp(xi) T_estimate. Zeros unless LOCALIZED.
     pub covariance: [f64; 36],
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub features_us: u32,
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub align_us: u32,
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub match_us: u32,
-    /// time of each stage by config.clock
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
     pub pose_us: u32,
     /// probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other bounds
     /// sphc_localizer_result_confidence
@@ -980,8 +980,8 @@ extern "C" {
     pub fn sphc_band_name(band: sphc_band) -> *const c_char;
 
     /// SPHC_OK if the camera can be used: known model, right param_count, parameters and size within the
-    /// limits, fx and fy \> 0. Else SPHC_E_ARGUMENT; the message names field, cause and cure. Thread class:
-    /// pure.
+    /// limits, fx and fy \> 0, and 0 in what the model does not use. Else SPHC_E_ARGUMENT; the message
+    /// names field, cause and cure. Thread class: pure.
     pub fn sphc_camera_check(camera: *const sphc_camera, message: *mut sphc_message) -> sphc_status;
 
     /// Pixel of a point given in camera coordinates. SPHC_OUTSIDE, \*pixel_px untouched, if it is not in

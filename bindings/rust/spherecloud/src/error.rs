@@ -8,7 +8,8 @@ use crate::Status;
 
 /// Why a call failed: a status to decide by, and a message with cause and cure to read.
 ///
-/// Without the feature `alloc` it holds its text itself.
+/// Without the feature `alloc` it holds its text itself. Where a file could not be read, `source()` is the
+/// `std::io::Error`, which does not count when errors are compared.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Error(Held);
 
@@ -20,12 +21,22 @@ type Held = Told;
 /// What can fail.
 pub type Result<T> = core::result::Result<T, Error>;
 
-#[derive(Clone, PartialEq, Eq)]
+#[derive(Clone)]
 struct Told {
     status: Status,
     length: u8,
     text: [u8; sys::SPHC_MESSAGE_BYTES as usize - 1],
+    #[cfg(feature = "std")]
+    source: Option<std::sync::Arc<std::io::Error>>,
 }
+
+impl PartialEq for Told {
+    fn eq(&self, other: &Self) -> bool {
+        (self.status, self.length, self.text) == (other.status, other.length, other.text)
+    }
+}
+
+impl Eq for Told {}
 
 impl Error {
     /// What kind of failure it is; never [`Status::Ok`].
@@ -42,10 +53,22 @@ impl Error {
     }
 
     pub(crate) fn new(status: Status, message: fmt::Arguments<'_>) -> Self {
-        let mut told = Told { status, length: 0, text: [0; sys::SPHC_MESSAGE_BYTES as usize - 1] };
+        let mut told = Told {
+            status,
+            length: 0,
+            text: [0; sys::SPHC_MESSAGE_BYTES as usize - 1],
+            #[cfg(feature = "std")]
+            source: None,
+        };
         // What does not fit is left out.
         let _ = told.write_fmt(message);
         Self(Held::from(told))
+    }
+
+    #[cfg(feature = "std")]
+    pub(crate) fn because(mut self, source: std::io::Error) -> Self {
+        self.0.source = Some(std::sync::Arc::new(source));
+        self
     }
 }
 
@@ -74,7 +97,11 @@ impl fmt::Debug for Error {
 }
 
 #[cfg(feature = "std")]
-impl std::error::Error for Error {}
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.0.source.as_deref().map(|source| source as _)
+    }
+}
 
 /// A failure of this crate's own.
 macro_rules! error {

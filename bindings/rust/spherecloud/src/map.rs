@@ -139,7 +139,8 @@ impl Map<'static> {
 
     /// Reads a file, checks all of it, and views it.
     ///
-    /// Errors: [`Status::Device`](crate::Status::Device) where the file cannot be read;
+    /// Errors: [`Status::Device`](crate::Status::Device) where the file cannot be read, with the
+    /// `std::io::Error` as source;
     /// [`Status::MapFormat`](crate::Status::MapFormat), [`Status::MapVersion`](crate::Status::MapVersion),
     /// [`Status::MapChecksum`](crate::Status::MapChecksum) and [`Status::MapExtractor`](crate::Status::MapExtractor)
     /// where it is no map for this library.
@@ -156,7 +157,7 @@ impl Map<'static> {
             Ok((buffer, bytes))
         };
         let (buffer, bytes) =
-            read().map_err(|why| error!(Device, "cannot read the map {}: {}", path.display(), why))?;
+            read().map_err(|why| error!(Device, "cannot read the map {}: {}", path.display(), why).because(why))?;
         Self::owning(buffer?, bytes)
     }
 

@@ -59,9 +59,9 @@ impl<const N: usize> core::fmt::Debug for Block<N> {
 /// Bytes that [`Map::borrow_in`](crate::Map::borrow_in) needs at most, in any library of this ABI.
 pub const MAP_BYTES_MAX: usize = sys::SPHC_MAP_BYTES_MAX as usize;
 
-/// Upper bounds of what localizers and features need, in any library of this ABI: for memory whose size the compiler
-/// must know, such as `Block<{ bounds::localizer_state(800, 4) }>`. Of sizes of images count the largest width and the
-/// largest height of all cameras but depth cameras. The macros `_BYTES_MAX` of the C header, in bytes.
+/// Upper bounds of what localizers, features and aligners need, in any library of this ABI: for memory whose size the
+/// compiler must know, such as `Block<{ bounds::localizer_state(800, 4) }>`. Of sizes of images count the largest width
+/// and the largest height of all cameras but depth cameras. The macros `_BYTES_MAX` of the C header, in bytes.
 pub mod bounds {
     /// State of a localizer.
     pub const fn localizer_state(max_keypoints: usize, max_maps: usize) -> usize {
@@ -98,6 +98,11 @@ pub mod bounds {
     /// Features.
     pub const fn features(max_keypoints: usize, width: usize, height: usize) -> usize {
         4096 + 192 * max_keypoints + width * height
+    }
+
+    /// An aligner; of the depth image and of the colour image.
+    pub const fn aligner(depth_width: usize, depth_height: usize, width: usize, height: usize) -> usize {
+        65536 + 16 * (depth_width + 64) * (depth_height + 16) + 10 * (width + 64) * (height + 16)
     }
 }
 

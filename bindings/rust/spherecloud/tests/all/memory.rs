@@ -80,6 +80,9 @@ fn bounds_hold() {
     assert!(need.scratch_bytes <= bounds::localizer_scratch(400, 320, 240));
     assert!(config.features_memory().unwrap().state_bytes <= bounds::features(400, 320, 240));
 
+    let aligner = spherecloud::AlignerConfig::new(config.rig).memory().unwrap();
+    assert!(aligner.state_bytes <= bounds::aligner(200, 160, 320, 240));
+
     let alone = (need.state_bytes, need.scratch_bytes);
     let second = spherecloud::RigDepthCamera::new(config.rig.depth_camera, config.rig.color_from_depth);
     let both = config.clone().with_depth_camera(second).localizer_memory().unwrap();

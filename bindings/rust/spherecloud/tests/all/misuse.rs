@@ -13,6 +13,17 @@ fn refused<T: std::fmt::Debug>(answer: Result<T, Error>, status: Status, word: &
 }
 
 #[test]
+fn files_that_are_not_there_say_why() {
+    use std::error::Error as _;
+    let error = Map::open("/nowhere/room.sphc").unwrap_err();
+    let source = error.source().expect("a source").downcast_ref::<std::io::Error>().expect("of the file");
+    assert_eq!(source.kind(), std::io::ErrorKind::NotFound);
+    assert_eq!(error, error.clone());
+    assert!(error.clone().source().is_some());
+    assert!(Map::from_bytes(&[]).unwrap_err().source().is_none());
+}
+
+#[test]
 fn maps_that_are_none() {
     let file = golden("room.sphc");
     refused(Map::from_bytes(&file[..file.len() / 2]), Status::MapFormat, "");

@@ -44,7 +44,8 @@ final class Native {
 
   /**
    * {@link Status#OK} if the camera can be used: known model, right param_count, parameters and size within the
-   * limits, fx and fy &gt; 0. Else {@link Status#E_ARGUMENT}; the message names field, cause and cure.
+   * limits, fx and fy &gt; 0, and 0 in what the model does not use. Else {@link Status#E_ARGUMENT}; the message
+   * names field, cause and cure.
    */
   static native int cameraCheck(long camera, long message);
 

@@ -28,6 +28,27 @@ public final class Camera extends CameraFields {
     setParams(java.util.Arrays.copyOf(params, 12));
   }
 
+  /** In pixels. */
+  @Override
+  public void setWidth(int width) {
+    super.setWidth(side(width, "width"));
+  }
+
+  /** In pixels. */
+  @Override
+  public void setHeight(int height) {
+    super.setHeight(side(height, "height"));
+  }
+
+  /** A negative number would reach the library as one of billions. */
+  private static int side(int pixels, String name) {
+    if (pixels < 0) {
+      throw new IllegalArgumentException("The " + name + " of a camera's image is " + pixels + "; give "
+          + Limits.CAMERA_MIN_PX + " to " + Limits.CAMERA_MAX_PX + " pixels");
+    }
+    return pixels;
+  }
+
   /** Takes over another one. */
   public void set(Camera other) {
     copy(other, Layout.CAMERA_BYTES);

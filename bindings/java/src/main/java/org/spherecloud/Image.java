@@ -24,7 +24,7 @@ public final class Image extends ImageFields {
    * @see #set(ByteBuffer, int, int, int, Format)
    */
   public void set(ByteBuffer data, int width, int height, Format format) {
-    set(data, width, height, rowBytes(format, width), format);
+    set(data, width, height, neededRow(width, height, format), format);
   }
 
   /**
@@ -32,7 +32,7 @@ public final class Image extends ImageFields {
    *
    * @param data direct; of several planes the first, such as Y of YUV_420_888; its position may change afterwards
    * @param strideBytes from a row to the next; the last row may end with its last pixel
-   * @throws IllegalArgumentException the buffer is not direct, or too short
+   * @throws IllegalArgumentException the buffer is not direct, or too short; no image has this size, or this stride
    */
   public void set(ByteBuffer data, int width, int height, int strideBytes, Format format) {
     Objects.requireNonNull(data, "data");
@@ -74,12 +74,25 @@ public final class Image extends ImageFields {
   }
 
   private static long requiredBytes(int width, int height, int strideBytes, Format format) {
-    int row = rowBytes(format, width);
-    if (row <= 0 || height <= 0 || strideBytes < row) {
-      throw new IllegalArgumentException("No image is " + width + " x " + height + " " + format + " at a stride of "
-          + strideBytes + " bytes; a row has " + row);
+    int row = neededRow(width, height, format);
+    if (strideBytes < row) {
+      throw new IllegalArgumentException("The image has a stride of " + strideBytes + " bytes, and a row of " + width
+          + " pixels " + format + " has " + row + "; give that or more");
     }
     return (long) strideBytes * (height - 1) + row;
+  }
+
+  private static int neededRow(int width, int height, Format format) {
+    if (width <= 0 || height <= 0) {
+      throw new IllegalArgumentException("No image is " + width + " x " + height + " pixels; give a width and a height"
+          + " of 1 and more");
+    }
+    int row = rowBytes(format, width);
+    if (row <= 0) {
+      throw new IllegalArgumentException("No image of " + format + " is " + width + " pixels wide; where pixels share"
+          + " bytes, give a multiple of as many as do");
+    }
+    return row;
   }
 
   /** Fails where the memory behind the buffer was given back, as by Image.close of Android. */

@@ -53,6 +53,19 @@ public class MisuseTest {
   }
 
   @Test
+  public void sizesOfImagesThatCannotBe() {
+    ByteBuffer pixels = ByteBuffer.allocateDirect(64);
+    Image image = new Image();
+    illegal("The width of a camera's image is -5", () -> new Camera(CameraModel.PINHOLE, -5, 480, 1, 1, 1, 1));
+    illegal("The height of a camera's image is -1", () -> new Camera().setHeight(-1));
+    illegal("No image is -5 x 8 pixels", () -> image.set(pixels, -5, 8, Format.GRAY8));
+    illegal("No image is 8 x 0 pixels", () -> image.set(pixels, 8, 0, 8, Format.GRAY8));
+    illegal("No image of GRAY10P is 7 pixels wide", () -> image.set(pixels, 7, 1, Format.GRAY10P));
+    illegal("stride of 7 bytes, and a row of 8 pixels GRAY8 has 8", () -> image.set(pixels, 8, 8, 7, Format.GRAY8));
+    fails(Status.E_ARGUMENT, "width is 0", () -> new Camera(CameraModel.PINHOLE, 0, 480, 1, 1, 1, 1).check());
+  }
+
+  @Test
   public void rigsThatCannotBe() {
     LocalizerConfig config = Session.config();
     config.getRig().getColorFromDepth().setTranslationM(Double.NaN, 0, 0);
