@@ -154,7 +154,7 @@ Outcome build(const BuildOptions &options, const Console &console) {
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source, console);
-  if (!outcome.import.unchecked.empty()) console.warn("Warning: " + outcome.import.unchecked);
+  for (const std::string &doubt : outcome.import.doubts) console.warn("Warning: " + doubt);
   checkContradictions(options, outcome.import);
   if (options.source.model.empty()) outcome.import.model.band = options.band;
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);
