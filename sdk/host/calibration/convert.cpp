@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "host/base/regular_file.h"
+#include "host/base/text_encoding.h"
 #include "host/calibration/nearest_camera.h"
 #include "host/cameras/camera_models.h"
 #include "host/cameras/fault.h"
@@ -24,6 +25,8 @@ TextFile readText(const std::string &path) {
   file.text.resize(static_cast<size_t>(stream.gcount()));
   if (file.text.size() > kMostFileBytes)
     throw std::runtime_error(path + ": over 256 KiB, so no calibration file; give the calibration alone");
+  if (isUtf16(file.text)) throw std::runtime_error(path + ": is in UTF-16; save it as UTF-8");
+  file.text = withoutByteOrderMark(file.text);
   return file;
 }
 

@@ -69,6 +69,7 @@ void warnOfRecording(const RgbdImportSummary &all, std::vector<std::string> *con
   *contradictions = contradictionsOf(all);
   for (const std::string &contradiction : *contradictions)
     console.warn("This recording contradicts itself, and build refuses it: " + contradiction);
+  for (const std::string &doubt : doubtsOfPoses(all)) console.warn("Warning: " + doubt);
   const std::string unchecked = uncheckedOf(all);
   if (!unchecked.empty()) console.warn("Warning: " + unchecked);
 }

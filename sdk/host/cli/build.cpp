@@ -36,9 +36,28 @@ struct BuildOptions {
   bool new_place = false, understood = false, anyway = false, force = false;
 };
 
+std::string ledgerBesideMap(const BuildOptions &options) {
+  return (std::filesystem::path(options.map).parent_path() / "spherecloud.ledger").string();
+}
+
 std::string ledgerPath(const BuildOptions &options) {
   if (!options.ledger.empty()) return options.ledger;
-  return (std::filesystem::path(options.map).parent_path() / "spherecloud.ledger").string();
+  return ledgerBesideMap(options);
+}
+
+// The ledger beside the map, of which this build knows nothing, is a second one of maybe the same places.
+void warnOfOtherLedger(const BuildOptions &options, const Console &console) {
+  const std::string beside = ledgerBesideMap(options);
+  std::error_code error;
+  const auto is_beside = [&](const std::string &path) { return std::filesystem::equivalent(path, beside, error); };
+  const bool is_heeded = std::any_of(options.against.begin(), options.against.end(), is_beside);
+  if (options.ledger.empty() || !std::filesystem::exists(beside, error) || is_beside(options.ledger) || is_heeded)
+    return;
+  console.warn(
+      "Warning: " + beside +
+      " lies beside the map, and --ledger names another: what it released is not "
+      "heeded, and two maps of one place expose its points. Leave out --ledger for an update of a place of "
+      "it, or give it by --against");
 }
 
 std::string notePath(const BuildOptions &options) { return options.map + ".owner.json"; }
@@ -150,11 +169,12 @@ Outcome build(const BuildOptions &options, const Console &console) {
   // What can be refused at once must not cost minutes of mapping, or leave a ledger.
   checkPointSource(options.source);
   fileUse(options).check();
+  warnOfOtherLedger(options, console);
   const auto strategy = options.fakes.empty() ? nullptr : makeFakes(options.fakes, options.fake_options);
   Ledger ledger = openLedger(options);
   const ReleaseRequest request = requestOf(options, ledger, strategy.get());
   outcome.import = importPoints(options.source, console);
-  if (!outcome.import.unchecked.empty()) console.warn("Warning: " + outcome.import.unchecked);
+  for (const std::string &doubt : outcome.import.doubts) console.warn("Warning: " + doubt);
   checkContradictions(options, outcome.import);
   if (options.source.model.empty()) outcome.import.model.band = options.band;
   if (!options.save_model.empty()) writeModelFile(options.save_model, outcome.import.model);

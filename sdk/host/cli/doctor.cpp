@@ -174,6 +174,9 @@ Findings lookAt(DoctorOptions options, const Console &console) {
   append(checks.ofStreams(), &findings);
   const std::string troubles = rig.troubles();
   if (!troubles.empty()) findings.push_back({Grade::kDoubtful, "cameras", troubles});
+  if (recording)
+    for (const std::string &fault : recording->recording().order_faults)
+      findings.push_back({Grade::kDoubtful, "times", fault});
   const sphc_pairer_counts counts = rig.counts();
   append(checks.ofPairs(counts.too_far + counts.overtaken + counts.full), &findings);
   if (recording && checks.fit()) append(findingsOfPoses(recording.get()), &findings);

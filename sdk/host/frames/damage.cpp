@@ -13,6 +13,7 @@ Damage damageOf(const recording::Recording &recording) {
   damage.bad_poses = recording.bad_pose_count;
   damage.bad_accelerations = recording.bad_acceleration_count;
   damage.pose_fault = recording.pose_fault;
+  damage.order_faults = recording.order_faults;
   return damage;
 }
 
@@ -34,6 +35,7 @@ std::vector<std::string> sentencesOf(const Damage &damage) {
   if (damage.bad_accelerations)
     all.push_back("left out: " + counted(damage.bad_accelerations, "acceleration") +
                   ", zero, not finite, or out of order");
+  all.insert(all.end(), damage.order_faults.begin(), damage.order_faults.end());
   if (!damage.pose_fault.empty()) all.push_back(damage.pose_fault);
   return all;
 }

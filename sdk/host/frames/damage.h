@@ -12,7 +12,8 @@ namespace sphc::host {
 struct Damage {
   bool is_cut = false;
   uint64_t changed_parts = 0, lost_images = 0, backward_images = 0, bad_poses = 0, bad_accelerations = 0;
-  std::string pose_fault;  // why there are no poses
+  std::string pose_fault;                 // why there are no poses
+  std::vector<std::string> order_faults;  // where times go back; nothing is left out
 };
 
 Damage damageOf(const recording::Recording &recording);

@@ -11,10 +11,13 @@ namespace {
 
 constexpr double kLogStep = 0.06;          // of the multiple
 constexpr double kAgreePx = 3;             // at a focal length of 500 pixels
+constexpr double kFixedPx = 1.5;           // a menu is found anew where it was
 constexpr double kRatio = 0.8;             // of a match's distance and the second best
 constexpr size_t kAsked = 250;             // keypoints of a frame
 constexpr uint32_t kMostComparisons = 40;  // of a recording
 constexpr uint32_t kMostFramesApart = 12;
+// A part that is sound must not be taken for one that is not.
+constexpr uint32_t kMostParts = 8, kLeastMatchesOfPart = 100;
 constexpr double kLeastParallaxRad = 0.03, kMostTurn = 0.35;
 
 // What others state poses in.  Of mirrored axes those of the camera count alone: the world may lie in any.
@@ -80,17 +83,25 @@ void PoseScaleCheck::begin(const Camera &camera, uint32_t frames) {
   camera_ = camera;
   every_ = std::max(1u, frames / kMostComparisons);
   has_first_ = false;
+  frames_of_part_ = std::max(1u, frames / kMostParts);
+  ++recordings_;
 }
 
 // Pairs begin every so many frames, and end with the first that shows enough parallax, if poses are about right.
-void PoseScaleCheck::add(const Rigid &world_from_camera, const std::vector<Observation> &observations) {
+void PoseScaleCheck::add(uint32_t sequence, const Rigid &world_from_camera,
+                         const std::vector<Observation> &observations) {
+  enterPart(sequence);
   if (observations.size() < 2) return;
   const uint32_t number = count_++;
   if (has_first_) {
     const Rigid now_from_first = world_from_camera.inverse() * world_from_first_;
     const double turn = rotationAngle(now_from_first.rotation);
     const bool is_apart = now_from_first.translation_m.norm() > kLeastParallaxRad * medianDepthM(first_);
-    if (is_apart && turn < kMostTurn) compare(world_from_camera, observations);
+    if (is_apart && turn < kMostTurn) {
+      const Votes votes = compare(world_from_camera, observations);
+      all_.add(votes);
+      parts_.back().votes.add(votes);
+    }
     has_first_ = !is_apart && turn < kMostTurn && number % every_ < kMostFramesApart;
   }
   if (has_first_ || number % every_) return;
@@ -99,7 +110,18 @@ void PoseScaleCheck::add(const Rigid &world_from_camera, const std::vector<Obser
   first_ = observations;
 }
 
-void PoseScaleCheck::compare(const Rigid &world_from_camera, const std::vector<Observation> &observations) {
+void PoseScaleCheck::enterPart(uint32_t sequence) {
+  const bool is_full = !parts_.empty() && parts_.back().frames >= frames_of_part_ &&
+                       parts_.back().votes.matches >= kLeastMatchesOfPart;
+  if (parts_.empty() || is_full || parts_.back().recording != recordings_ - 1)
+    parts_.push_back({recordings_ - 1, sequence, sequence, 0, {}});
+  parts_.back().last_sequence = sequence;
+  ++parts_.back().frames;
+}
+
+PoseScaleCheck::Votes PoseScaleCheck::compare(const Rigid &world_from_camera,
+                                              const std::vector<Observation> &observations) const {
+  Votes votes;
   const Rigid camera_from_world = world_from_camera.inverse();
   const Rigid now_from_first = camera_from_world * world_from_first_;
   const Rigid first_from_world = world_from_first_.inverse();
@@ -112,15 +134,19 @@ void PoseScaleCheck::compare(const Rigid &world_from_camera, const std::vector<O
   for (size_t i = 0; i < first_.size(); i += step) {
     const Observation *match = matchOf(first_[i], observations);
     if (!match) continue;
-    ++matches_;
+    ++votes.matches;
     const Vector3 seen_m = first_from_world * first_[i].position_m;
     const Vector3 turned_m = now_from_first.rotation * seen_m;
+    const bool is_told = agrees(turned_m + now_from_first.translation_m, *match);
+    votes.fixed_in_image += !is_told && (match->pixel_px - first_[i].pixel_px).norm() < kFixedPx;
     for (int k = 0; k < kBins; ++k) {
       const double multiple = std::exp(kLogStep * (k - kSteps));
-      votes_[static_cast<size_t>(k)] += agrees(turned_m + multiple * now_from_first.translation_m, *match);
+      votes.multiples[static_cast<size_t>(k)] += agrees(turned_m + multiple * now_from_first.translation_m, *match);
     }
-    for (size_t k = 0; k < kMistakes; ++k) corrections_[k] += agrees(now_from_first_corrected[k] * seen_m, *match);
+    for (size_t k = 0; k < kMistakes; ++k)
+      votes.corrections[k] += agrees(now_from_first_corrected[k] * seen_m, *match);
   }
+  return votes;
 }
 
 bool PoseScaleCheck::agrees(const Vector3 &point_m, const Observation &match) const {
@@ -129,12 +155,26 @@ bool PoseScaleCheck::agrees(const Vector3 &point_m, const Observation &match) co
   return (pixel_px - match.pixel_px).norm() < kAgreePx * camera_.focal() / 500;
 }
 
-PoseScale PoseScaleCheck::result() const {
-  const auto most = std::max_element(votes_.begin(), votes_.end());
-  const auto k = static_cast<int>(most - votes_.begin());
-  const auto best = std::max_element(corrections_.begin(), corrections_.end());
-  const char *mistake = kKnownMistakes[best - corrections_.begin()].text;
-  return {matches_, votes_[kSteps], *most, std::exp(kLogStep * (k - kSteps)), *best, mistake};
+void PoseScaleCheck::Votes::add(const Votes &more) {
+  matches += more.matches;
+  fixed_in_image += more.fixed_in_image;
+  for (size_t k = 0; k < multiples.size(); ++k) multiples[k] += more.multiples[k];
+  for (size_t k = 0; k < corrections.size(); ++k) corrections[k] += more.corrections[k];
+}
+
+PoseScale PoseScaleCheck::Votes::result() const {
+  const auto most = std::max_element(multiples.begin(), multiples.end());
+  const auto k = static_cast<int>(most - multiples.begin());
+  const auto best = std::max_element(corrections.begin(), corrections.end());
+  const char *mistake = kKnownMistakes[best - corrections.begin()].text;
+  return {matches, multiples[kSteps], *most, std::exp(kLogStep * (k - kSteps)), *best, mistake, fixed_in_image};
+}
+
+std::vector<PoseScalePart> PoseScaleCheck::parts() const {
+  std::vector<PoseScalePart> parts;
+  for (const Part &part : parts_)
+    parts.push_back({part.recording, part.first_sequence, part.last_sequence, part.votes.result()});
+  return parts;
 }
 
 }  // namespace sphc::host

@@ -13,26 +13,42 @@ class PoseScaleCheck {
  public:
   // So many frames are to come.
   void begin(const Camera &camera, uint32_t frames);
-  // Frame after frame.
-  void add(const Rigid &world_from_camera, const std::vector<Observation> &observations);
-  PoseScale result() const;
+  // Frame after frame; the sequence is the frame's number in its recording.
+  void add(uint32_t sequence, const Rigid &world_from_camera, const std::vector<Observation> &observations);
+  PoseScale result() const { return all_.result(); }
+  // Of stretches of each recording, an eighth of it or longer, where fewer frames share too few keypoints.
+  std::vector<PoseScalePart> parts() const;
 
  private:
   static constexpr int kSteps = 40, kBins = 2 * kSteps + 1;  // of the multiple's logarithm, to either side of 1
   static constexpr size_t kMistakes = 8;
 
-  void compare(const Rigid &world_from_camera, const std::vector<Observation> &observations);
+  struct Votes {
+    uint32_t matches = 0, fixed_in_image = 0;
+    std::array<uint32_t, kBins> multiples = {};
+    std::array<uint32_t, kMistakes> corrections = {};  // for what corrects a mistake
+
+    void add(const Votes &more);
+    PoseScale result() const;
+  };
+  struct Part {
+    uint32_t recording, first_sequence, last_sequence, frames;
+    Votes votes;
+  };
+
+  void enterPart(uint32_t sequence);
+  Votes compare(const Rigid &world_from_camera, const std::vector<Observation> &observations) const;
   // Whether a point of the camera lies where the keypoint is.
   bool agrees(const Vector3 &point_m, const Observation &match) const;
 
   Camera camera_;
   uint32_t every_ = 1, count_ = 0;
+  uint32_t recordings_ = 0, frames_of_part_ = 1;
   bool has_first_ = false;
   Rigid world_from_first_;
   std::vector<Observation> first_;
-  uint32_t matches_ = 0;
-  std::array<uint32_t, kBins> votes_ = {};            // for multiples
-  std::array<uint32_t, kMistakes> corrections_ = {};  // for what corrects a mistake
+  Votes all_;
+  std::vector<Part> parts_;
 };
 
 }  // namespace sphc::host

@@ -123,6 +123,7 @@ class Importer {
     summary_->moving = dropMoving(views_, &points);
     PointModel model = modelOf(points);
     summary_->scale = scale_.result();
+    summary_->scale_parts = scale_.parts();
     summary_->points_kept = static_cast<uint32_t>(model.points.size());
     summary_->points_dropped = static_cast<uint32_t>(tracks_.count() - model.points.size());
     return model;
@@ -165,7 +166,7 @@ class Importer {
       const Rigid camera_from_camera_at_depth = cameraFromCameraAtDepth(source, *frame, world_from_camera);
       summary_->frames_with_fault.add(consistency->look(frame->color, frame->color_time_ns, frame->depth,
                                                         frame->depth_time_ns, camera_from_camera_at_depth));
-      place(*frame, world_from_camera, camera_from_camera_at_depth, describer);
+      place(*frame, source.reader->colorOf(i).sequence, world_from_camera, camera_from_camera_at_depth, describer);
     }
   }
 
@@ -183,13 +184,13 @@ class Importer {
     return {};
   }
 
-  void place(const sphc_localizer_frame &frame, const Rigid &world_from_camera,
+  void place(const sphc_localizer_frame &frame, uint32_t sequence, const Rigid &world_from_camera,
              const Rigid &camera_from_camera_at_depth, FrameDescriber *describer) {
     uint32_t keypoints = 0;
     std::vector<Observation> observations =
         describer->describe(frame, world_from_camera, camera_from_camera_at_depth, &keypoints);
     for (Observation &o : observations) o.recording = static_cast<uint32_t>(views_.size() - 1);
-    scale_.add(world_from_camera, observations);
+    scale_.add(sequence, world_from_camera, observations);
     if (!options_.keep_moving) {
       views_.back().add(depthOf(frame.depth), world_from_camera * camera_from_camera_at_depth);
       fixed_.add(world_from_camera.inverse(), &observations);

@@ -46,6 +46,16 @@ struct PoseScale {
   double multiple = 1;              // the best: shifts of poses times this are those that depth says
   uint32_t agree_corrected = 0;     // if poses had the mistake that most speaks for
   const char *mistake = "";         // which, with the cure
+  uint32_t fixed_in_image = 0;      // of the matches: they go along with the camera, as a menu does
+
+  uint32_t ofThePlace() const { return matches - fixed_in_image; }
+};
+
+// The same of a stretch of frames.
+struct PoseScalePart {
+  uint32_t recording;                      // from 0, in the order given
+  uint32_t first_sequence, last_sequence;  // numbers of its frames
+  PoseScale scale;
 };
 
 struct RgbdImportSummary {
@@ -59,6 +69,7 @@ struct RgbdImportSummary {
   uint32_t fixed_in_image = 0;  // of the points that were dropped, those that went along with the camera
   MovingSummary moving;         // those that moved
   PoseScale scale;
+  std::vector<PoseScalePart> scale_parts;
 };
 
 // What of the frames took no part, or not as it should, a sentence each.

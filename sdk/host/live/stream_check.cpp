@@ -36,7 +36,18 @@ struct TimeUnit {
 };
 constexpr TimeUnit kTimeUnits[] = {
     {"milliseconds", "1000", 1e-3}, {"microseconds", "1000000", 1e-6}, {"nanoseconds", "1000000000", 1e-9}};
-constexpr double kFastest_s = 1.0 / 250, kSlowest_s = 1;  // periods of cameras
+constexpr double kFastest_s = 1.0 / 95, kSlowest_s = 1;  // periods of cameras of depth
+// Stills may be ten seconds apart, but neither for so long nor as regularly as a camera gives its images.
+constexpr double kLongestOfStills_s = 1200, kMostUneven = 1.3;
+constexpr size_t kFewestRegular = 10;
+
+bool mayBeStills(const std::vector<double> &periods_ms) {
+  double all_s = 0;
+  for (const double period_ms : periods_ms) all_s += 1e-3 * period_ms;
+  if (all_s > kLongestOfStills_s) return false;
+  return periods_ms.size() < kFewestRegular ||
+         percentile(periods_ms, 0.9) > kMostUneven * percentile(periods_ms, 0.1);
+}
 
 // In which the period is one of a camera, where it is not in seconds; null: none.
 const TimeUnit *unitOfPeriod(double period_s) {
@@ -124,7 +135,7 @@ Finding StreamCheck::rate() const {
   const std::string what = is_color_ ? "colour rate" : "depth rate";
   if (periods_ms_.empty()) return {Grade::kDoubtful, what, "one image only"};
   const double median_ms = percentile(periods_ms_, 0.5), most_ms = percentile(periods_ms_, 1);
-  const TimeUnit *unit = is_recording_ ? unitOfPeriod(1e-3 * median_ms) : nullptr;
+  const TimeUnit *unit = is_recording_ && !mayBeStills(periods_ms_) ? unitOfPeriod(1e-3 * median_ms) : nullptr;
   if (unit)
     return {Grade::kWrong, what,
             "an image every " + fixed(1e-3 * median_ms, 0) + " s, and no camera is so slow: are the times in " +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "failure.h"
+#include "host/base/text_encoding.h"
 #include "host/cameras/camera_models.h"
 #include "host/cameras/rigid_matrix.h"
 #include "pose_track.h"
@@ -24,6 +25,7 @@ namespace {
 
 // Parses, refusing a key given twice in one object (the parser itself would take the last).
 Json parseJson(std::string_view text) {
+  if (host::isUtf16(text)) fail("the file", "is in UTF-16; save it as UTF-8");
   std::map<int, std::set<std::string>> seen;
   const auto watch = [&seen](int depth, Json::parse_event_t event, Json &value) {
     if (event == Json::parse_event_t::object_start) seen[depth + 1].clear();

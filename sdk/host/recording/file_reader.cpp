@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "failure.h"
+#include "host/base/text_encoding.h"
 #include "host/recording/mcap/file.h"
 
 namespace sphc::recording {
@@ -94,10 +95,7 @@ std::string readText(const std::filesystem::path &path) {
   } catch (const Failure &failure) {
     throw Failure(failure.status(), shortPath(path.string()) + ": " + failure.what());
   }
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // that programs of Windows write before UTF-8
-  std::string_view text = textOf(viewOf(content));
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  return std::string(text);
+  return std::string(host::withoutByteOrderMark(textOf(viewOf(content))));
 }
 
 }  // namespace sphc::recording

@@ -62,9 +62,10 @@ struct Recording {
   PoseTrack poses;
   std::vector<TimedAcceleration> accelerations;  // times increase; empty where there is none
   uint32_t bad_pose_count = 0;
-  std::string pose_fault;               // why there are none, with the cure; empty where nothing is to be said
-  uint32_t bad_acceleration_count = 0;  // no acceleration, or not later than the one before
-  uint32_t backward_count = 0;          // of lost_count: images whose time is not after that of the image before
+  std::string pose_fault;                 // why there are none, with the cure; empty where nothing is to be said
+  std::vector<std::string> order_faults;  // of lists that were not in order of time, a sentence each
+  uint32_t bad_acceleration_count = 0;    // no acceleration, or not later than the one before
+  uint32_t backward_count = 0;            // of lost_count: images whose time is not after that of the image before
 
   std::optional<sphc_rig> calibration;  // of a recording that holds one, but for calibration.json in a folder
   std::string calibration_fault;        // why it holds none, with name and cure; empty where nothing is to be said

@@ -252,6 +252,33 @@ TEST_F(Ros2, ACameraOfAnotherSizeThanItsImagesIsNamed) {
                                          "/camera/color/image_raw are 32 x 24; record the camera_info"));
 }
 
+TEST_F(Ros2, SoIsACameraOfAnotherSizeThanItsCompressedImages) {
+  addDepth(0);
+  addDepthInfo();
+  addBody();
+  const cv::Mat color(kHeight, kWidth, CV_8UC3, cv::Scalar::all(70));
+  bag_.add("/camera/color/image_raw/compressed", kCompressed, kStartNs,
+           test::rosCompressedImage(kStartNs, kColorFrame, "rgb8; jpeg compressed bgr8", encoded(color, ".jpg")));
+  bag_.add("/camera/color/camera_info", kInfo, kStartNs,
+           test::rosCameraInfo(kColorFrame, 2 * kWidth, kHeight, "plumb_bob", {}, {30, 31, 15.5, 11.5}));
+  EXPECT_THAT(refusalOfOpen(), HasSubstr("/camera/color/camera_info: is of images of 64 x 24, and those of "
+                                         "/camera/color/image_raw/compressed are 32 x 24"));
+}
+
+TEST_F(Ros2, TimesThatGoBackAreTold) {
+  for (const uint32_t i : {0u, 1u, 5u, 6u, 2u, 3u, 4u}) addColor(i);
+  for (uint32_t i = 0; i < 7; ++i) addDepth(i);
+  addColorInfo();
+  addDepthInfo();
+  addBody();
+  RecordingReader reader(write());
+  EXPECT_EQ(reader.frameCount(), 7u);
+  EXPECT_THAT(
+      reader.recording().order_faults,
+      ::testing::ElementsAre(HasSubstr("the times of /camera/color/image_raw go back once, first at image 4 "
+                                       "(from 0, as they lie in the file) by 132 ms; images were put in")));
+}
+
 TEST_F(Ros2, DepthThatLiesOnColourComesFirst) {
   addImagesAndCameras();
   addBody();

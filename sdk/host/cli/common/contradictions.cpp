@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "host/base/counted.h"
@@ -21,6 +22,10 @@ constexpr double kMostDisagreement = 0.08, kMostOfThin = 0.06;
 // Of keypoints that two frames share, 60 to 97 % of sound recordings lie where the poses say.
 constexpr uint32_t kFewestMatches = 40, kManyMatches = 100;
 constexpr double kMostOfOtherScale = 0.5, kLeastOfAnyScale = 0.2;
+// Below these the poses of some frames are doubtful: 55 % of all, and half of a part that shares many keypoints.
+// Parts that share fewer, of frames far apart, go down to 39 % in sound recordings.
+constexpr double kLeastOfSound = 0.55, kLeastOfSoundPart = 0.5;
+constexpr uint32_t kMatchesOfSurePart = 250;
 constexpr double kSomeFrames = 0.1, kMostFrames = 0.75;
 
 std::string inFrames(uint32_t frames, const RgbdImportSummary &summary, const BitWords &words) {
@@ -43,23 +48,101 @@ constexpr char kPoses[] =
     "the order of the file, and of these images; is depth_unit_m right?";
 
 // Keypoints that two frames share know nothing of the poses, so they tell wrong poses from what moves.
-std::string mistakeOf(const PoseScale &scale) {
-  if (scale.agree_corrected < kFewestMatches || scale.agree_most >= kMostOfOtherScale * scale.agree_corrected)
-    return "";
-  return scale.mistake + (". Then " + std::to_string(scale.agree_corrected)) + " of " +
-         counted(scale.matches, "keypoint") + " that two frames share lie where the poses say, and now " +
-         std::to_string(scale.agree);
+enum class Contradiction { kNone, kMistake, kAnyScale, kOtherScale };
+
+Contradiction contradictionOfScale(const PoseScale &scale) {
+  if (scale.agree_corrected >= kFewestMatches && scale.agree_most < kMostOfOtherScale * scale.agree_corrected)
+    return Contradiction::kMistake;
+  // A menu over the image may be most of what is seen; then the others agree.
+  if (scale.matches >= kManyMatches && scale.agree_most < kLeastOfAnyScale * scale.matches &&
+      scale.agree_most < kLeastOfSoundPart * scale.ofThePlace())
+    return Contradiction::kAnyScale;
+  if (scale.agree_most >= kFewestMatches && scale.agree < kMostOfOtherScale * scale.agree_most)
+    return Contradiction::kOtherScale;
+  return Contradiction::kNone;
 }
 
-std::string contradictionOfScale(const PoseScale &scale) {
-  if (scale.matches >= kManyMatches && scale.agree_most < kLeastOfAnyScale * scale.matches)
-    return "of " + counted(scale.matches, "keypoint") + " that two frames share, only " +
-           std::to_string(scale.agree_most) + " lie where the poses say: " + kPoses;
-  if (scale.agree_most >= kFewestMatches && scale.agree < kMostOfOtherScale * scale.agree_most)
-    return "the camera goes about " + fixed(1 / scale.multiple, 1) +
-           " times as far by the poses as by depth: depth_unit_m of the calibration, or the unit of the poses, is "
-           "another";
+std::string sharedKeypoints(const PoseScale &scale) {
+  return counted(scale.matches, "keypoint") + " that two frames share";
+}
+
+std::string wordsOf(Contradiction contradiction, const PoseScale &scale) {
+  switch (contradiction) {
+    case Contradiction::kNone:
+      break;
+    case Contradiction::kMistake:
+      return scale.mistake + (". Then " + std::to_string(scale.agree_corrected)) + " of " + sharedKeypoints(scale) +
+             " lie where the poses say, and now " + std::to_string(scale.agree);
+    case Contradiction::kAnyScale:
+      return "of " + sharedKeypoints(scale) + ", only " + std::to_string(scale.agree_most) +
+             " lie where the poses say: " + kPoses;
+    case Contradiction::kOtherScale:
+      return "the camera goes about " + fixed(1 / scale.multiple, 1) +
+             " times as far by the poses as by depth: depth_unit_m of the calibration, or the unit of the poses, "
+             "is "
+             "another";
+  }
   return "";
+}
+
+// Neighbours that contradict in the same way are one.
+bool areAlike(const PoseScalePart &a, const PoseScalePart &b) {
+  const Contradiction of_a = contradictionOfScale(a.scale);
+  return a.recording == b.recording && of_a == contradictionOfScale(b.scale) &&
+         (of_a != Contradiction::kMistake || std::string_view(a.scale.mistake) == b.scale.mistake);
+}
+
+void join(const PoseScalePart &next, PoseScalePart *part) {
+  PoseScale &scale = part->scale;
+  if (next.scale.matches > scale.matches) scale.multiple = next.scale.multiple;
+  scale.matches += next.scale.matches;
+  scale.agree += next.scale.agree;
+  scale.fixed_in_image += next.scale.fixed_in_image;
+  scale.agree_most += next.scale.agree_most;
+  scale.agree_corrected += next.scale.agree_corrected;
+  part->last_sequence = next.last_sequence;
+}
+
+// Those that share keypoints enough to be judged.
+std::vector<PoseScalePart> judgedParts(const RgbdImportSummary &summary) {
+  std::vector<PoseScalePart> parts;
+  for (const PoseScalePart &part : summary.scale_parts) {
+    if (part.scale.matches < kManyMatches) continue;
+    if (!parts.empty() && areAlike(parts.back(), part))
+      join(part, &parts.back());
+    else
+      parts.push_back(part);
+  }
+  return parts;
+}
+
+std::string nameOf(const PoseScalePart &part, const RgbdImportSummary &summary) {
+  const std::string of_recording =
+      summary.scale_parts.back().recording > 0 ? " of recording " + std::to_string(part.recording + 1) : "";
+  return "about frames " + std::to_string(part.first_sequence) + " to " + std::to_string(part.last_sequence) +
+         of_recording;
+}
+
+// Where other parts are sound; else the whole is what contradicts.
+std::vector<std::string> contradictionsOfParts(const RgbdImportSummary &summary) {
+  std::vector<std::string> sentences;
+  const std::vector<PoseScalePart> parts = judgedParts(summary);
+  for (const PoseScalePart &part : parts) {
+    const Contradiction contradiction = contradictionOfScale(part.scale);
+    if (contradiction != Contradiction::kNone)
+      sentences.push_back(nameOf(part, summary) + ", unlike others: " + wordsOf(contradiction, part.scale));
+  }
+  return sentences.size() < parts.size() ? sentences : std::vector<std::string>();
+}
+
+// Empty where they agree as in sound recordings, or where too few are compared.
+std::string doubtOf(const PoseScale &scale, uint32_t fewest, double least, const std::string &where) {
+  const uint32_t compared = scale.ofThePlace();
+  if (compared < fewest || scale.agree >= least * compared) return "";
+  return "of " + counted(compared, "keypoint") + " that two frames share, only " +
+         std::to_string(100 * scale.agree / compared) + " % lie where poses and depth say" + where +
+         ", and of sound recordings 60 to 97 %: poses of some frames may be wrong, or depth late; look at the path "
+         "of the camera for jumps and mirrored stretches, and leave such frames out (--first, --last)";
 }
 
 }  // namespace
@@ -77,9 +160,10 @@ std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary) {
 
 std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary) {
   if (summary.frames_used < kFewestFrames) return {};
-  const std::string mistake = mistakeOf(summary.scale);
-  if (!mistake.empty()) return {mistake};
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = contradictionsOfParts(summary);
+  if (!sentences.empty()) return sentences;
+  const Contradiction of_scale = contradictionOfScale(summary.scale);
+  if (of_scale == Contradiction::kMistake) return {wordsOf(of_scale, summary.scale)};
   const double merged =
       static_cast<double>(summary.merged) / static_cast<double>(std::max<uint64_t>(1, summary.lifted));
   const double disagreement = summary.moving.disagreement;
@@ -89,8 +173,19 @@ std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary)
   else if (disagreement > (merged < kThinlyMerged ? kMostOfThin : kMostDisagreement))
     sentences.push_back("the frames disagree on where things are, by " +
                         std::to_string(std::lround(100 * disagreement)) + " % of the depth: " + kPoses);
-  const std::string of_scale = contradictionOfScale(summary.scale);
-  if (!of_scale.empty()) sentences.push_back(of_scale);
+  if (of_scale != Contradiction::kNone) sentences.push_back(wordsOf(of_scale, summary.scale));
+  return sentences;
+}
+
+std::vector<std::string> doubtsOfPoses(const RgbdImportSummary &summary) {
+  if (summary.frames_used < kFewestFrames || !contradictionsOfPoses(summary).empty()) return {};
+  std::vector<std::string> sentences;
+  const auto add = [&sentences](const std::string &doubt) {
+    if (!doubt.empty()) sentences.push_back(doubt);
+  };
+  for (const PoseScalePart &part : summary.scale_parts)
+    add(doubtOf(part.scale, kMatchesOfSurePart, kLeastOfSoundPart, " in " + nameOf(part, summary)));
+  if (sentences.empty()) add(doubtOf(summary.scale, kManyMatches, kLeastOfSound, ""));
   return sentences;
 }
 

@@ -25,7 +25,7 @@ struct ImportedPoints {
   std::string told;                         // how it went, one line
   std::vector<std::string> warnings;        // frames that took no part, faults
   std::vector<std::string> contradictions;  // why no map of this can be right; contradictions.h
-  std::string unchecked;                    // why contradictions cannot be found; empty where they can
+  std::vector<std::string> doubts;          // why it may be wrong all the same; contradictions.h
   nlohmann::ordered_json facts;             // for --json
 };
 // Throw UsageError for options that make no sense together.

@@ -124,11 +124,13 @@ Findings findingsOfPoses(RecordingReader *reader) {
   Findings findings;
   for (const std::string &sentence : contradictionsOfPoses(summary))
     findings.push_back({Grade::kWrong, "poses", sentence});
+  for (const std::string &sentence : doubtsOfPoses(summary))
+    findings.push_back({Grade::kDoubtful, "poses", sentence});
   const std::string unchecked = uncheckedOf(summary);
   if (!unchecked.empty()) findings.push_back({Grade::kDoubtful, "poses", unchecked});
   if (findings.empty())
     findings.push_back({Grade::kFine, "poses",
-                        "of " + counted(summary.scale.matches, "keypoint") + " that two of " +
+                        "of " + counted(summary.scale.ofThePlace(), "keypoint") + " that two of " +
                             counted(summary.frames_used, "frame") + " share, " +
                             std::to_string(summary.scale.agree) + " lie where poses and depth say"});
   return findings;

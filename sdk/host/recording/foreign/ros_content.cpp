@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/recording/foreign/realsense_topics.h"
+#include "host/recording/foreign/ros_images.h"
 #include "host/recording/foreign/ros_messages.h"
 
 namespace sphc::recording {
@@ -30,14 +31,16 @@ void addImage(const BagMessage &message, bool is_compressed, RosContent *content
     return;
   const RosHeader &header = is_compressed ? compressed.header : raw.header;
   RosImageTopic &topic = content->images[message.channel.topic];
-  if (topic.images.empty())
+  if (topic.images.empty()) {
+    const ImageSize size = is_compressed ? rosImageSize(compressed) : ImageSize{raw.width, raw.height};
     topic = {message.channel.topic,
              std::string(is_compressed ? compressed.format : raw.encoding),
              frameOf(message.channel.topic, header),
              {message.channel.encoding, is_compressed},
-             raw.width,
-             raw.height,
+             size.width,
+             size.height,
              {}};
+  }
   topic.images.push_back({timeOfRos(header, message.log_ns), message.place});
 }
 

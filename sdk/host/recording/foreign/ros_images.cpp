@@ -5,7 +5,6 @@
 #include "host/recording/encoded_image.h"
 #include "host/recording/failure.h"
 #include "host/recording/foreign/opaque_pixels.h"
-#include "host/recording/foreign/ros_messages.h"
 #include "host/recording/mcap/depth_rvl.h"
 #include "host/recording/mcap/messages.h"
 
@@ -71,6 +70,11 @@ RosCompressedImage compressedImage(const RosMessage &message) {
   return image;
 }
 
+ImageType compressedTypeOf(ByteView data) {
+  const bool is_png = data.size > 0 && data.data[0] == 0x89;
+  return is_png ? ImageType::kPng : ImageType::kJpeg;
+}
+
 void decodeRvlDepth(ByteView data, const sphc_camera &camera, uint16_t *depth_mm) {
   ByteReader reader(data);
   const uint32_t width = reader.little<uint32_t>();
@@ -82,6 +86,21 @@ void decodeRvlDepth(ByteView data, const sphc_camera &camera, uint16_t *depth_mm
 
 }  // namespace
 
+ImageSize rosImageSize(const RosCompressedImage &image) {
+  ByteReader reader(image.data);
+  if (image.format.find("compressedDepth") != std::string_view::npos) reader.take(kCompressedDepthHeadBytes);
+  if (image.format.find("rvl") != std::string_view::npos) {
+    const uint32_t width = reader.little<uint32_t>(), height = reader.little<uint32_t>();
+    return reader.ok() ? ImageSize{width, height} : ImageSize{0, 0};
+  }
+  const ByteView data = reader.take(reader.left());
+  try {
+    return imageSizeOf(data, compressedTypeOf(data));
+  } catch (const Failure &) {
+    return {0, 0};
+  }
+}
+
 uint16_t millimetresOf(float depth_m) {
   const float depth_mm = std::round(depth_m * 1000.0f);
   return depth_mm >= 1.0f && depth_mm <= 65535.0f ? static_cast<uint16_t>(depth_mm) : uint16_t{0};
@@ -91,8 +110,7 @@ void decodeRosColor(const RosMessage &message, bool is_compressed, const sphc_ca
                     uint8_t *pixels) {
   if (!is_compressed) return decodeRawColor(rawImage(message, camera, true), format, pixels);
   const RosCompressedImage image = compressedImage(message);
-  const bool is_png = image.data.size > 0 && image.data.data[0] == 0x89;
-  decodeImage(image.data, is_png ? ImageType::kPng : ImageType::kJpeg, camera, format, pixels);
+  decodeImage(image.data, compressedTypeOf(image.data), camera, format, pixels);
 }
 
 void decodeRosDepth(const RosMessage &message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm) {

@@ -3,7 +3,8 @@
 
 #include <spherecloud/spherecloud.h>
 
-#include "host/recording/foreign/ros_reader.h"
+#include "host/recording/foreign/ros_messages.h"
+#include "host/recording/image_header.h"
 
 namespace sphc::recording {
 
@@ -13,6 +14,9 @@ namespace sphc::recording {
 void decodeRosColor(const RosMessage &message, bool is_compressed, const sphc_camera &camera, sphc_format format,
                     uint8_t *pixels);
 void decodeRosDepth(const RosMessage &message, bool is_compressed, const sphc_camera &camera, uint16_t *depth_mm);
+
+// As its head tells; 0 x 0 where that cannot be read.
+ImageSize rosImageSize(const RosCompressedImage &image);
 
 // Metres as millimetres; 0 for what is no measurement or beyond 65 m.
 uint16_t millimetresOf(float depth_m);

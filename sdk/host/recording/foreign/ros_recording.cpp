@@ -35,7 +35,24 @@ class RosImages : public LayoutImages {
   RosImageCoding color_, depth_;
 };
 
+// Empty where times grow, as they do where one clock tells them.
+std::string orderFaultOf(const RosImageTopic &topic) {
+  uint32_t backward_count = 0;
+  size_t first = 0;
+  for (size_t i = 1; i < topic.images.size(); ++i)
+    if (topic.images[i].time_ns < topic.images[i - 1].time_ns && ++backward_count == 1) first = i;
+  if (backward_count == 0) return "";
+  const int64_t by_ns = topic.images[first - 1].time_ns - topic.images[first].time_ns;
+  return "the times of " + topic.name + " go back " +
+         (backward_count == 1 ? "once" : std::to_string(backward_count) + " times") + ", first at image " +
+         std::to_string(first) + " (from 0, as they lie in the file) by " + std::to_string(by_ns / 1000000) +
+         " ms; images were put in order of time. If a clock was set back while it recorded, images of two moments "
+         "are mixed now: record it again with a clock that only goes forwards";
+}
+
 std::vector<RecordedImage> imagesOf(const RosImageTopic &topic, Recording *recording) {
+  const std::string order_fault = orderFaultOf(topic);
+  if (!order_fault.empty()) recording->order_faults.push_back(order_fault);
   std::vector<RecordedImage> images;
   images.reserve(topic.images.size());
   for (const RosStamped &stamped : topic.images) {
@@ -51,9 +68,9 @@ std::string sizeText(uint32_t width, uint32_t height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-// Compressed images tell their size when they are decoded.
+// A compressed image of which no decoder knows the size is told of when it is read.
 void requireSizeOf(const RosImageTopic &topic, const sphc_camera &camera) {
-  if (topic.coding.is_compressed || (camera.width == topic.width && camera.height == topic.height)) return;
+  if (topic.width == 0 || (camera.width == topic.width && camera.height == topic.height)) return;
   throw Failure(SPHC_E_ARGUMENT, "is of images of " + sizeText(camera.width, camera.height) + ", and those of " +
                                      topic.name + " are " + sizeText(topic.width, topic.height) +
                                      "; record the camera_info of these images, or give a calibration file");

@@ -129,6 +129,17 @@ TEST(ReadFiles, FormatsTellThemselves) {
   EXPECT_THROW(detectFormat({"f", kColmapCamerasFile}), std::runtime_error);
 }
 
+TEST(ReadFiles, MayBeginWithAByteOrderMark) {
+  const Folder folder;
+  const std::string mark = "\xEF\xBB\xBF";
+  const std::string cameras = folder.write("cameras.txt", mark + kColmapCamerasFile);
+  folder.write("rigs.txt", mark + kColmapRigsFile);
+  EXPECT_EQ(readCalibrationFiles({cameras}, {}, {}).calibration.color_camera.width, 3072u);
+  const sphc_rig rig = calibrationOf(kCameras[0], kCameras[1]);
+  const std::string own = folder.write("own.json", mark + writeCalibration(Format::kSpherecloud, rig)[0].text);
+  EXPECT_EQ(readCalibrationFiles({own}, {}, {}).files[0].format, Format::kSpherecloud);
+}
+
 TEST(ReadFiles, SaysWhichFileIsWrong) {
   const Folder folder;
   const auto refusal = [](const std::string &path) -> std::string {
@@ -142,6 +153,8 @@ TEST(ReadFiles, SaysWhichFileIsWrong) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal("/nonexistent/file"), HasSubstr("/nonexistent/file: no such file"));
   EXPECT_THAT(refusal(folder.write("big", std::string(300000, ' '))), HasSubstr("over 256 KiB"));
+  EXPECT_THAT(refusal(folder.write("wide.json", std::string("\xFF\xFE{\0", 4))),
+              HasSubstr("UTF-16; save it as UTF-8"));
   EXPECT_THAT(refusal(folder.write("empty", "")), HasSubstr("say it with --format"));
   EXPECT_THAT(refusal(folder.write("own.json", "{\"format\": \"spherecloud-calibration\"}")),
               HasSubstr("own.json: version"));

@@ -521,7 +521,13 @@ void expectDiscipline(const TempFolder &folder, const std::string &build, const 
   EXPECT_THAT(other_eta.err, HasSubstr("--i-understand"));
   const std::string elsewhere =
       build + "-m " + again + " --ledger " + (folder / "other") + " --against " + ledger + " --force";
-  EXPECT_THAT(runCommand(elsewhere).err, HasSubstr("released by another ledger"));
+  const Answer heeded = runCommand(elsewhere);
+  EXPECT_THAT(heeded.err, HasSubstr("released by another ledger"));
+  EXPECT_THAT(heeded.err, testing::Not(HasSubstr("is not heeded")));
+  const Answer unheeded =
+      runCommand(build + "-m " + (folder / "unheeded.sphc") + " --ledger " + (folder / "third"));
+  EXPECT_EQ(unheeded.exit_code, kExitDone) << unheeded.err;
+  EXPECT_THAT(unheeded.err, HasSubstr("--ledger names another: what it released is not heeded"));
   EXPECT_THAT(runCommand(elsewhere + " --i-understand").err, HasSubstr("now exposed"));
   EXPECT_NE(std::system(("cmp -s " + map + " " + again).c_str()), 0);
 }

@@ -28,7 +28,7 @@ class StreamCheckTest : public testing::Test {
       capture.stream = stream;
       if (i == frames / 2) number += missing_;
       capture.sequence = number;
-      capture.time_ns = period_ns_ * number + (2 * i >= frames ? pause_ns_ : 0);
+      capture.time_ns = period_ns_ * number + uneven_ns_ * (number % 3) + (2 * i >= frames ? pause_ns_ : 0);
       number += 1 + skip;
       if (color)
         capture.image = {gray.data(), kWidth, kHeight, kWidth, SPHC_FORMAT_GRAY8};
@@ -50,6 +50,7 @@ class StreamCheckTest : public testing::Test {
   sphc_capture capture_ = {};
   int64_t period_ns_ = 33333333;  // from a number to the next
   int64_t pause_ns_ = 0;          // in the middle
+  int64_t uneven_ns_ = 0;         // of a number's third
   uint32_t missing_ = 0;          // numbers, in the middle
   bool is_recording_ = false;
 };
@@ -111,8 +112,20 @@ TEST_F(StreamCheckTest, TimesInAnotherUnitAreNamed) {
   expectNamed(33300000000, "in milliseconds? Seconds are expected; divide the times of images and poses by 1000");
   expectNamed(33300000000000, "in microseconds?");
   expectNamed(33300000000000000, "in nanoseconds?");
-  period_ns_ = 2000000000;
-  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate").grade, Grade::kFine) << "stills";
+}
+
+TEST_F(StreamCheckTest, StillsAreNotInMilliseconds) {
+  is_recording_ = true;
+  for (const int64_t period_ns : {int64_t{2000000000}, int64_t{10000000000}}) {
+    period_ns_ = period_ns;
+    EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate").grade, Grade::kFine) << period_ns;
+  }
+  period_ns_ = 12000000000;
+  StreamCheck few(SPHC_STREAM_COLOR, calibration_, true);
+  feed(&few, SPHC_STREAM_COLOR, 120, 8);
+  EXPECT_EQ(few.findings().at(0).grade, Grade::kFine) << few.findings().at(0).text;
+  uneven_ns_ = 5000000000;  // by hand
+  EXPECT_EQ(found(SPHC_STREAM_COLOR, 120, "colour rate").grade, Grade::kFine);
 }
 
 TEST_F(StreamCheckTest, APauseIsNoRate) {

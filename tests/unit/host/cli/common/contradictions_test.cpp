@@ -96,6 +96,67 @@ TEST(Contradictions, AMistakeThatCorrectedPosesHaveNotIsNamed) {
   EXPECT_THAT(contradictionsOf(walk), IsEmpty()) << "too few to tell";
 }
 
+// A walk of which four parts are so; the whole agrees by half, and no correction of all of it would help.
+RgbdImportSummary walkOfParts(const PoseScale &first, const PoseScale &second, const PoseScale &third,
+                              const PoseScale &fourth) {
+  RgbdImportSummary walk = soundWalk();
+  walk.scale = {1600, 770, 770, 1, 760, "poses are inverse"};
+  walk.scale_parts = {{0, 0, 9, first}, {0, 10, 19, second}, {0, 20, 29, third}, {0, 30, 39, fourth}};
+  return walk;
+}
+
+TEST(Contradictions, APartThatIsUnlikeOthersIsNamedWithItsFrames) {
+  const PoseScale sound = {400, 320, 320, 1, 100, "poses are inverse"};
+  const PoseScale inverse = {400, 20, 30, 2, 310, "poses are inverse"};
+  const PoseScale twice = {400, 20, 300, 0.5}, odd = {400, 20, 30, 3};
+  EXPECT_THAT(contradictionsOf(walkOfParts(sound, sound, sound, sound)), IsEmpty());
+  EXPECT_THAT(
+      contradictionsOf(walkOfParts(sound, sound, inverse, inverse)),
+      ElementsAre("about frames 20 to 39, unlike others: poses are inverse. Then 620 of 800 keypoints that two "
+                  "frames share lie where the poses say, and now 40"));
+  EXPECT_THAT(
+      contradictionsOf(walkOfParts(twice, sound, sound, odd)),
+      ElementsAre(HasSubstr("frames 0 to 9, unlike others: the camera goes about 2.0 times"),
+                  HasSubstr("frames 30 to 39, unlike others: of 400 keypoints that two frames share, only 30")));
+  const PoseScale few = {90, 5, 10, 2, 80, "poses are inverse"};
+  EXPECT_THAT(contradictionsOf(walkOfParts(sound, sound, sound, few)), IsEmpty()) << "too few to tell";
+  RgbdImportSummary all = walkOfParts(inverse, inverse, inverse, inverse);
+  all.scale = {1600, 80, 120, 2, 1240, "poses are inverse"};
+  EXPECT_THAT(contradictionsOf(all), ElementsAre(testing::StartsWith("poses are inverse.")));
+  RgbdImportSummary two = walkOfParts(sound, sound, inverse, inverse);
+  two.scale_parts[2].recording = two.scale_parts[3].recording = 1;
+  EXPECT_THAT(contradictionsOf(two),
+              ElementsAre(testing::StartsWith("about frames 20 to 39 of recording 2, unlike")));
+}
+
+TEST(Contradictions, AMenuOverMostOfWhatIsSeenIsNone) {
+  RgbdImportSummary walk = soundWalk();
+  walk.scale = {600, 90, 90, 1, 0, "", 450};
+  EXPECT_THAT(contradictionsOf(walk), IsEmpty());
+  walk.scale = {600, 5, 10, 3, 0, "", 560};
+  EXPECT_THAT(contradictionsOf(walk), SizeIs(1)) << "a camera that rests, by poses that do not";
+}
+
+TEST(Contradictions, AShareBetweenSoundAndContradictionIsDoubted) {
+  RgbdImportSummary walk = soundWalk();
+  walk.scale = {303, 188, 188, 1};
+  EXPECT_THAT(doubtsOfPoses(walk), IsEmpty());
+  walk.scale = {303, 150, 150, 1};
+  EXPECT_THAT(doubtsOfPoses(walk), ElementsAre(HasSubstr("only 49 % lie where poses and depth say, and of sound")));
+  walk.scale = {90, 40, 40, 1};
+  EXPECT_THAT(doubtsOfPoses(walk), IsEmpty()) << "too few to tell";
+  const PoseScale sound = {400, 320, 320, 1}, weak = {400, 160, 160, 1}, thin = {120, 48, 48, 1};
+  EXPECT_THAT(doubtsOfPoses(walkOfParts(sound, sound, weak, sound)),
+              ElementsAre(HasSubstr("only 40 % lie where poses and depth say in about frames 20 to 29")));
+  RgbdImportSummary far_apart = walkOfParts(sound, sound, thin, sound);
+  far_apart.scale.agree = 1000;
+  EXPECT_THAT(doubtsOfPoses(far_apart), IsEmpty()) << "as where frames are far apart";
+  walk.scale = {600, 250, 250, 1, 0, "", 300};
+  EXPECT_THAT(doubtsOfPoses(walk), IsEmpty()) << "under a menu that is drawn over the image";
+  walk.scale = {4300, 222, 3580, 0.5};
+  EXPECT_THAT(doubtsOfPoses(walk), IsEmpty()) << "it is a contradiction";
+}
+
 TEST(Contradictions, AnotherScaleIsNamed) {
   RgbdImportSummary walk = soundWalk();
   walk.scale = {3900, 3200, 3200, 1};
