@@ -252,7 +252,6 @@ class State(Known):
     RELOCALIZING = 0
     """No pose is trusted; always so in SPHC_MODE_SINGLE."""
     TRACKING = 1
-    """Poses agree, one of them had a confidence of 0.95, and no fault doubts this one."""
     LOST = 2
     """Was tracking, and no pose came, another, or a doubted one; for 1 s at most."""
 

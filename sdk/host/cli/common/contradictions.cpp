@@ -79,8 +79,7 @@ std::string wordsOf(Contradiction contradiction, const PoseScale &scale) {
     case Contradiction::kOtherScale:
       return "the camera goes about " + fixed(1 / scale.multiple, 1) +
              " times as far by the poses as by depth: depth_unit_m of the calibration, or the unit of the poses, "
-             "is "
-             "another";
+             "is another";
   }
   return "";
 }

@@ -5,7 +5,7 @@ package org.spherecloud;
 public enum State {
   /** No pose is trusted; always so in {@link Mode#SINGLE}. */
   RELOCALIZING(0),
-  /** Poses agree, one of them had a confidence of 0.95, and no fault doubts this one. */
+  /** {@code {@link State#TRACKING}}. */
   TRACKING(1),
   /** Was tracking, and no pose came, another, or a doubted one; for 1 s at most. */
   LOST(2),
