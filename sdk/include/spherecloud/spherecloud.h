@@ -472,9 +472,8 @@ SPHC_API const char *sphc_localizer_mode_name(sphc_localizer_mode mode); /* [pur
 typedef int32_t sphc_localizer_state;
 enum {
   SPHC_STATE_RELOCALIZING = 0, /* no pose is trusted; always so in SPHC_MODE_SINGLE */
-  SPHC_STATE_TRACKING =
-      1,              /* poses agree, the whole map made one sure (beyond 0.95), and no fault doubts this one */
-  SPHC_STATE_LOST = 2 /* was tracking, and no pose came, another, or a doubted one; for 1 s at most */
+  SPHC_STATE_TRACKING = 1,     /* poses agree, the whole map made one sure (over 0.95), no fault doubts this one */
+  SPHC_STATE_LOST = 2          /* was tracking, and no pose came, another, or a doubted one; for 1 s at most */
 };
 SPHC_API const char *sphc_localizer_state_name(sphc_localizer_state state); /* [pure] */
 

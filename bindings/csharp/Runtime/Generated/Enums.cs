@@ -251,7 +251,7 @@ public enum LocalizerMode : int {
 public enum LocalizerState : int {
   /// <summary>No pose is trusted; always so in LocalizerMode.Single.</summary>
   Relocalizing = 0,
-  /// <summary>SPHC_STATE_TRACKING of C.</summary>
+  /// <summary>Poses agree, the whole map made one sure (over 0.95), no fault doubts this one.</summary>
   Tracking = 1,
   /// <summary>Was tracking, and no pose came, another, or a doubted one; for 1 s at most.</summary>
   Lost = 2,

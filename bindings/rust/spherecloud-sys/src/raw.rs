@@ -244,6 +244,7 @@ pub const SPHC_MODE_SINGLE: sphc_localizer_mode = 1;
 pub type sphc_localizer_state = i32;
 /// no pose is trusted; always so in SPHC_MODE_SINGLE
 pub const SPHC_STATE_RELOCALIZING: sphc_localizer_state = 0;
+/// poses agree, the whole map made one sure (over 0.95), no fault doubts this one
 pub const SPHC_STATE_TRACKING: sphc_localizer_state = 1;
 /// was tracking, and no pose came, another, or a doubted one; for 1 s at most
 pub const SPHC_STATE_LOST: sphc_localizer_state = 2;
