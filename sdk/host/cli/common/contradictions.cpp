@@ -122,13 +122,14 @@ std::string nameOf(const PoseScalePart &part, const RgbdImportSummary &summary) 
          of_recording;
 }
 
-// Where other parts are sound; else the whole is what contradicts.
+// Where other parts are sound; else the whole is what contradicts.  A part that agrees with nothing is doubted, not
+// refused: a camera that was shaken there may be why.
 std::vector<std::string> contradictionsOfParts(const RgbdImportSummary &summary) {
   std::vector<std::string> sentences;
   const std::vector<PoseScalePart> parts = judgedParts(summary);
   for (const PoseScalePart &part : parts) {
     const Contradiction contradiction = contradictionOfScale(part.scale);
-    if (contradiction != Contradiction::kNone)
+    if (contradiction == Contradiction::kMistake || contradiction == Contradiction::kOtherScale)
       sentences.push_back(nameOf(part, summary) + ", unlike others: " + wordsOf(contradiction, part.scale));
   }
   return sentences.size() < parts.size() ? sentences : std::vector<std::string>();
@@ -182,8 +183,11 @@ std::vector<std::string> doubtsOfPoses(const RgbdImportSummary &summary) {
   const auto add = [&sentences](const std::string &doubt) {
     if (!doubt.empty()) sentences.push_back(doubt);
   };
-  for (const PoseScalePart &part : summary.scale_parts)
-    add(doubtOf(part.scale, kMatchesOfSurePart, kLeastOfSoundPart, " in " + nameOf(part, summary)));
+  for (const PoseScalePart &part : summary.scale_parts) {
+    const bool agrees_with_nothing = contradictionOfScale(part.scale) == Contradiction::kAnyScale;
+    add(doubtOf(part.scale, agrees_with_nothing ? 0 : kMatchesOfSurePart, kLeastOfSoundPart,
+                " in " + nameOf(part, summary)));
+  }
   if (sentences.empty()) add(doubtOf(summary.scale, kManyMatches, kLeastOfSound, ""));
   return sentences;
 }

@@ -114,10 +114,9 @@ TEST(Contradictions, APartThatIsUnlikeOthersIsNamedWithItsFrames) {
       contradictionsOf(walkOfParts(sound, sound, inverse, inverse)),
       ElementsAre("about frames 20 to 39, unlike others: poses are inverse. Then 620 of 800 keypoints that two "
                   "frames share lie where the poses say, and now 40"));
-  EXPECT_THAT(
-      contradictionsOf(walkOfParts(twice, sound, sound, odd)),
-      ElementsAre(HasSubstr("frames 0 to 9, unlike others: the camera goes about 2.0 times"),
-                  HasSubstr("frames 30 to 39, unlike others: of 400 keypoints that two frames share, only 30")));
+  EXPECT_THAT(contradictionsOf(walkOfParts(twice, sound, sound, odd)),
+              ElementsAre(HasSubstr("frames 0 to 9, unlike others: the camera goes about 2.0 times")));
+  EXPECT_THAT(contradictionsOf(walkOfParts(sound, sound, sound, odd)), IsEmpty()) << "it may have been shaken";
   const PoseScale few = {90, 5, 10, 2, 80, "poses are inverse"};
   EXPECT_THAT(contradictionsOf(walkOfParts(sound, sound, sound, few)), IsEmpty()) << "too few to tell";
   RgbdImportSummary all = walkOfParts(inverse, inverse, inverse, inverse);
@@ -146,6 +145,9 @@ TEST(Contradictions, AShareBetweenSoundAndContradictionIsDoubted) {
   walk.scale = {90, 40, 40, 1};
   EXPECT_THAT(doubtsOfPoses(walk), IsEmpty()) << "too few to tell";
   const PoseScale sound = {400, 320, 320, 1}, weak = {400, 160, 160, 1}, thin = {120, 48, 48, 1};
+  const PoseScale odd = {150, 6, 9, 3};
+  EXPECT_THAT(doubtsOfPoses(walkOfParts(sound, sound, sound, odd)),
+              ElementsAre(HasSubstr("only 4 % lie where poses and depth say in about frames 30 to 39")));
   EXPECT_THAT(doubtsOfPoses(walkOfParts(sound, sound, weak, sound)),
               ElementsAre(HasSubstr("only 40 % lie where poses and depth say in about frames 20 to 29")));
   RgbdImportSummary far_apart = walkOfParts(sound, sound, thin, sound);
