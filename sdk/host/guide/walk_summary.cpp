@@ -14,10 +14,12 @@ class Stretches {
   explicit Stretches(int64_t begin_ns) : begin_ns_(begin_ns) {}
 
   void add(int64_t time_ns, GuideAdvice advice) {
+    was_good_ = was_good_ || !advice;
     if (!advice) return;
-    if (!advices_.empty() && time_ns - to_ns_ > kGapNs) end();
+    if (!advices_.empty() && was_good_ && time_ns - to_ns_ > kGapNs) end();
     if (advices_.empty()) from_ns_ = time_ns;
     to_ns_ = time_ns;
+    was_good_ = false;
     advices_.push_back(advice);
   }
   std::vector<HardStretch> all() {
@@ -40,6 +42,7 @@ class Stretches {
   }
 
   int64_t begin_ns_, from_ns_ = 0, to_ns_ = 0;
+  bool was_good_ = false;  // since then; a recording may have one frame a second
   std::vector<GuideAdvice> advices_;
   std::vector<HardStretch> all_;
 };

@@ -34,6 +34,17 @@ TEST(WalkSummaryTest, StretchesAreJoinedOverShortGapsAndSaysWhatHalfOfThemHave) 
   EXPECT_EQ(summary.hard[0].advice, kMoreLight);
 }
 
+TEST(WalkSummaryTest, HardFramesOfASlowRecordingAreOneStretch) {
+  constexpr int64_t kSecond = 1000000000;
+  std::vector<Look> looks;
+  for (int64_t i = 0; i < 20; ++i) looks.push_back({i * kSecond, 0, 0});
+  for (const size_t i : {5, 6, 7, 15, 16}) looks[i].advice = kMoreLight;
+  const WalkSummary summary = summaryOf(looks, {placeAt(0, 0, 100)}, 0, 0);
+  ASSERT_EQ(summary.hard.size(), 2u);
+  EXPECT_NEAR(summary.hard[0].from_s, 5, 1e-9);
+  EXPECT_NEAR(summary.hard[0].to_s, 7, 1e-9);
+}
+
 TEST(WalkSummaryTest, OtherPartsAndWeakPlacesAreHard) {
   const std::vector<GuidePlace> places = {placeAt(0, 0, 100), placeAt(0, 3, 20), placeAt(1, 0, 100)};
   std::vector<Look> looks;
