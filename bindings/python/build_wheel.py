@@ -51,9 +51,11 @@ def needed_by(library):
     return [(name, path) for name, path in found if not SYSTEM.match(name)]
 
 
-def licenses(carried):
+def licenses(carried, command):
     """{name: bytes} of the project's licence, and of the carried libraries as Debian keeps them."""
     found = {name: (ROOT / name).read_bytes() for name in ("LICENSE", "NOTICE")}
+    if command:  # it reads depth of Record3D
+        found["LICENSE.lzfse"] = (ROOT / "third_party/lzfse/LICENSE").read_bytes()
     for name, _ in carried[1:]:
         package = name.replace(".so.", "")  # libhwy.so.1 is of libhwy1
         text = pathlib.Path(f"/usr/share/doc/{package}/copyright")
@@ -67,7 +69,10 @@ def asked_of(files):
     """{"GLIBC", "GLIBCXX" and so on: the youngest version of its symbols that one of the files asks for}"""
     asked = {}
     for path in files:
-        for name, text in re.findall(rb"\0(GLIBC|GLIBCXX|CXXABI|GCC)_([0-9.]+)(?=\0)", pathlib.Path(path).read_bytes()):
+        content = pathlib.Path(path).read_bytes()
+        if b"\0GLIBC_ABI_DT_RELR\0" in content:
+            asked["GLIBC"] = max(asked.get("GLIBC", (0,)), (2, 36))
+        for name, text in re.findall(rb"\0(GLIBC|GLIBCXX|CXXABI|GCC)_(\d+(?:\.\d+)*)(?=\0)", content):
             version = tuple(int(part) for part in text.decode().split("."))
             asked[name.decode()] = max(asked.get(name.decode(), (0,)), version)
     return asked
@@ -89,7 +94,8 @@ def tag_of(carried, command):
     if not carried and not command:
         return "py3-none-any"
     names = [name for name, _ in carried]
-    is_alone = command and any(name not in names and not name.startswith("libspherecloud.") for name, _ in needed_by(command))
+    is_alone = command and any(name not in names and not (carried and name.startswith("libspherecloud."))
+                               for name, _ in needed_by(command))
     platform = "linux" if is_alone else platform_of([path for _, path in carried] + [command] * bool(command))
     return f"py3-none-{platform}_{os.uname().machine}"
 
@@ -116,7 +122,7 @@ def contents(library, command):
     files[f"{info}/METADATA"] = metadata().encode()
     pure = "true" if tag.endswith("any") else "false"
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: build_wheel.py\nRoot-Is-Purelib: {pure}\nTag: {tag}\n".encode()
-    files.update({f"{info}/licenses/{name}": text for name, text in licenses(carried).items()})
+    files.update({f"{info}/licenses/{name}": text for name, text in licenses(carried, command).items()})
     rows = [f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
             for name, data in files.items()]
     files[f"{info}/RECORD"] = ("\n".join([*rows, f"{info}/RECORD,,"]) + "\n").encode()

@@ -4,15 +4,17 @@
  *     sensor_c MAP.sphc WALK.raw [KEPT.raw]
  *
  * Here a raw recording plays the sensor (spherecloud convert walk walk.raw --to raw).  Put your driver in the place
- * of what stands under "the sensor"; the rest stays.
+ * of what stands under "the sensor": open_sensor, wait_for_exposures, and what they keep; the rest stays.
  */
 #include <drivers/raw/raw.h>
 #include <drivers/raw/raw_writer.h>
+#include <errno.h>
 #include <spherecloud/spherecloud.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* The largest that there is room for; more is refused with the bytes that are missing. */
+/* The largest that there is room for; more is refused. */
 enum { KEYPOINTS = 800, MAPS = 1, WIDTH = 1280, HEIGHT = 960, MAP_BYTES = 16 << 20, FRAME_BYTES = 8 << 20 };
 static __attribute__((aligned(64))) uint8_t view[SPHC_MAP_BYTES_MAX],
     state[SPHC_LOCALIZER_STATE_BYTES_MAX(KEYPOINTS, MAPS)],
@@ -25,9 +27,14 @@ static void check(sphc_status status, const char *text) {
   exit(1);
 }
 
+static void fail(const char *path, const char *why) {
+  fprintf(stderr, "%s: %s\n", path, why);
+  exit(1);
+}
+
 static FILE *opened(const char *path, const char *mode) {
   FILE *file = fopen(path, mode);
-  if (!file) check(SPHC_E_DEVICE, path);
+  if (!file) fail(path, strerror(errno));
   return file;
 }
 
@@ -42,6 +49,9 @@ typedef struct exposures {
 } exposures;
 
 typedef struct sensor {
+  sphc_rig rig; /* as it is calibrated */
+  sphc_format color_format;
+  /* what plays the sensor */
   sphc_raw raw;
   uint32_t next;
   uint16_t memory[FRAME_BYTES / 2];
@@ -53,8 +63,11 @@ static int read_file(void *file, uint64_t offset, void *out, size_t bytes) {
 
 static void open_sensor(sensor *from, const char *path) {
   FILE *file = opened(path, "rb");
-  fseek(file, 0, SEEK_END);
-  check(sphc_raw_open(&from->raw, read_file, file, (uint64_t)ftell(file), &message), message.text);
+  const long bytes = fseek(file, 0, SEEK_END) ? -1 : ftell(file);
+  if (bytes < 0) fail(path, "is no file whose length can be told; copy it to a disk");
+  check(sphc_raw_open(&from->raw, read_file, file, (uint64_t)bytes, &message), message.text);
+  from->rig = from->raw.rig;
+  from->color_format = from->raw.color_format;
 }
 
 /* 0: there are no more. */
@@ -80,12 +93,12 @@ static int wait_for_exposures(sensor *from, exposures *pair) {
 
 /* Images stay where the sensor put them, with its stride; times are those of the middle of an exposure. */
 static void fill_frame(const exposures *pair, const sensor *from, sphc_localizer_frame *frame) {
-  const sphc_camera *color = &from->raw.rig.color_camera, *depth = &from->raw.rig.depth_camera;
+  const sphc_camera *color = &from->rig.color_camera, *depth = &from->rig.depth_camera;
   ++frame->sequence;
   frame->color_time_ns = pair->color_begin_ns + pair->color_exposure_ns / 2;
   frame->depth_time_ns = pair->depth_begin_ns + pair->depth_exposure_ns / 2;
   frame->color =
-      (sphc_image){pair->color, color->width, color->height, pair->color_stride_bytes, from->raw.color_format};
+      (sphc_image){pair->color, color->width, color->height, pair->color_stride_bytes, from->color_format};
   frame->depth =
       (sphc_image){pair->depth, depth->width, depth->height, pair->depth_stride_bytes, SPHC_FORMAT_DEPTH16};
 }
@@ -93,6 +106,7 @@ static void fill_frame(const exposures *pair, const sensor *from, sphc_localizer
 static sphc_localizer *make_localizer(const char *map_path, const sphc_rig *rig) {
   FILE *file = opened(map_path, "rb");
   const size_t map_bytes = fread(map_file, 1, sizeof map_file, file);
+  if (fgetc(file) != EOF) fail(map_path, "is larger than there is room for; raise MAP_BYTES");
   fclose(file);
   sphc_map *map = NULL; /* lives as long as the program, as the localizer does */
   sphc_localizer *localizer = NULL;
@@ -117,7 +131,8 @@ static int write_file(void *file, uint64_t offset, const void *bytes, size_t cou
 /* With its pose where there is one, in the frame of the map. */
 static void keep(sphc_raw_writer *writer, const sphc_localizer_frame *frame, const sphc_rigid *map_from_camera) {
   check(sphc_raw_writer_add(writer, frame, map_from_camera, &message), message.text);
-  check(sphc_raw_writer_finish(writer, &message), message.text); /* whole, wherever the power fails */
+  /* So the file is whole after each frame, as far as it has reached the disk: sync it as often as you need. */
+  check(sphc_raw_writer_finish(writer, &message), message.text);
 }
 
 int main(int argc, char **argv) {
@@ -125,11 +140,10 @@ int main(int argc, char **argv) {
   static sphc_raw_writer writer;
   if (argc != 3 && argc != 4) return fprintf(stderr, "usage: %s MAP.sphc WALK.raw [KEPT.raw]\n", argv[0]), 2;
   open_sensor(&from, argv[2]);
-  const sphc_rig *rig = &from.raw.rig;
+  const sphc_rig *rig = &from.rig;
   sphc_localizer *localizer = make_localizer(argv[1], rig);
   FILE *kept = argc == 4 ? opened(argv[3], "wb") : NULL;
-  if (kept)
-    check(sphc_raw_writer_begin(&writer, write_file, kept, rig, from.raw.color_format, &message), message.text);
+  if (kept) check(sphc_raw_writer_begin(&writer, write_file, kept, rig, from.color_format, &message), message.text);
   exposures pair;
   sphc_localizer_frame frame;
   sphc_localizer_result result;
@@ -148,7 +162,7 @@ int main(int argc, char **argv) {
     else
       printf("%u not localized: %s\n", (unsigned)frame.sequence, sphc_localizer_outcome_name(result.outcome));
   }
-  if (kept && fclose(kept)) check(SPHC_E_DEVICE, argv[3]);
+  if (kept && fclose(kept)) fail(argv[3], strerror(errno));
   sphc_localizer_fini(&localizer);
   return 0;
 }

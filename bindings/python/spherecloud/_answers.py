@@ -108,22 +108,22 @@ class ResultFields(Answer):
 
     @property
     def features_us(self) -> int:
-        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer."""
+        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most."""
         return self._raw.features_us
 
     @property
     def align_us(self) -> int:
-        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer."""
+        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most."""
         return self._raw.align_us
 
     @property
     def match_us(self) -> int:
-        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer."""
+        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most."""
         return self._raw.match_us
 
     @property
     def pose_us(self) -> int:
-        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer."""
+        """Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most."""
         return self._raw.pose_us
 
     @property

@@ -589,7 +589,7 @@ class sphc_localizer_result(ctypes.Structure):
     # Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
     # perturbation applied on the left: T = exp(xi) T_estimate. Zeros unless LOCALIZED.
     covariance: ctypes.Array[ctypes.c_double]
-    # Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
+    # Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most.
     features_us: int
     align_us: int
     match_us: int

@@ -252,7 +252,7 @@ class State(Known):
     RELOCALIZING = 0
     """No pose is trusted; always so in SPHC_MODE_SINGLE."""
     TRACKING = 1
-    """Poses agree, the whole map made one sure (over 0.95), no fault doubts this one."""
+    """Poses agree, one of them was sure (over 0.95), and no fault doubts this one."""
     LOST = 2
     """Was tracking, and no pose came, another, or a doubted one; for 1 s at most."""
 

@@ -67,6 +67,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual(self.platform("GLIBC_2.33", "GLIBCXX_3.4.21"), "manylinux_2_33")
         self.assertEqual(self.platform("GLIBC_2.33", "GLIBCXX_3.4.30", "GCC_3.0"), "manylinux_2_35")
         self.assertEqual(self.platform("CXXABI_1.3.15"), "manylinux_2_39")
+        self.assertEqual(self.platform("GLIBC_2.14", "GLIBC_ABI_DT_RELR", "GLIBC_2."), "manylinux_2_36")
         self.assertEqual(self.platform("GLIBC_2.14", "GLIBCXX_3.4.999"), "linux")
 
     def test_a_command_that_needs_this_machine_is_for_this_machine(self):
@@ -76,7 +77,10 @@ class Wheel(unittest.TestCase):
         module.needed_by = lambda path: [("libspherecloud.so.1", "/lib/libspherecloud.so.1"), ("libavcodec.so.59", "/lib/a")]
         self.assertRegex(module.tag_of([], command), "^py3-none-linux_")
         module.needed_by = lambda path: [("libspherecloud.so.1", "/lib/libspherecloud.so.1")]
-        self.assertRegex(module.tag_of([], command), "^py3-none-manylinux_2_17_")
+        self.assertRegex(module.tag_of([], command), "^py3-none-linux_")
+        self.assertRegex(module.tag_of([("libspherecloud.so", command)], command), "^py3-none-manylinux_2_17_")
+        self.assertIn("LICENSE.lzfse", module.licenses([], command))
+        self.assertNotIn("LICENSE.lzfse", module.licenses([], None))
 
     def test_without_a_library_it_is_for_any_machine(self):
         wheel = pathlib.Path(run(sys.executable, "-B", BUILD, "--out", self.folder).strip())

@@ -5,8 +5,9 @@
 namespace sphc::host {
 namespace {
 
-constexpr int64_t kGapNs = 500000000;  // good frames between two hard stretches; fewer are part of one
-constexpr size_t kFewestFrames = 2;    // of a stretch
+constexpr int64_t kGapNs = 500000000;     // good frames between two hard stretches; fewer are part of one
+constexpr int64_t kPauseNs = 3000000000;  // without a frame between two hard ones
+constexpr size_t kFewestFrames = 2;       // of a stretch
 constexpr GuideAdvice kAll[] = {kGoBack, kMoreLight, kOtherRange, kSlower, kMoreTexture, kLookAgain};
 
 class Stretches {
@@ -16,7 +17,7 @@ class Stretches {
   void add(int64_t time_ns, GuideAdvice advice) {
     was_good_ = was_good_ || !advice;
     if (!advice) return;
-    if (!advices_.empty() && was_good_ && time_ns - to_ns_ > kGapNs) end();
+    if (!advices_.empty() && time_ns - to_ns_ > (was_good_ ? kGapNs : kPauseNs)) end();
     if (advices_.empty()) from_ns_ = time_ns;
     to_ns_ = time_ns;
     was_good_ = false;

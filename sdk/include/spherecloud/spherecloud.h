@@ -472,7 +472,7 @@ SPHC_API const char *sphc_localizer_mode_name(sphc_localizer_mode mode); /* [pur
 typedef int32_t sphc_localizer_state;
 enum {
   SPHC_STATE_RELOCALIZING = 0, /* no pose is trusted; always so in SPHC_MODE_SINGLE */
-  SPHC_STATE_TRACKING = 1,     /* poses agree, the whole map made one sure (over 0.95), no fault doubts this one */
+  SPHC_STATE_TRACKING = 1,     /* poses agree, one of them was sure (over 0.95), and no fault doubts this one */
   SPHC_STATE_LOST = 2          /* was tracking, and no pose came, another, or a doubted one; for 1 s at most */
 };
 SPHC_API const char *sphc_localizer_state_name(sphc_localizer_state state); /* [pure] */
@@ -762,7 +762,7 @@ typedef struct sphc_localizer_result {
   /* Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
    * perturbation applied on the left: T = exp(xi) T_estimate.  Zeros unless LOCALIZED. */
   double covariance[36];
-  /* Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer. */
+  /* Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most. */
   uint32_t features_us, align_us, match_us, pose_us;
   double confidence; /* probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other
                       * bounds sphc_localizer_result_confidence */

@@ -45,7 +45,7 @@ struct Hypothesis {
   Leverage leverage;
   bool is_verified = true;      // false where a deadline left out what might have spoken against it
   bool is_ambiguous = false;    // uncertain since another pose fits nearly as well, or for odometry
-  bool has_near_rival = false;  // another pose fits well, but not nearly as well
+  bool has_near_rival = false;  // another pose fits well, but not nearly as well; or there was no time to look
   MatchSet matched;
 
   bool isLocalized() const { return outcome == Outcome::kLocalized; }

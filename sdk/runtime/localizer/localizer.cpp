@@ -200,8 +200,9 @@ void Localizer::answer(const FrameInput &frame, const Deadline &deadline, Faults
     confidence_of_matches_ = confidenceOf(statedCovariance(best().estimate));
     widen(between_.turn_sigma_rad, between_.shift_sigma_m, &best().estimate);
   }
-  if (config_.tracks) compareWithTrack(frame, faults);
   if (isBeyondPrior(calibrator_.current(), config_.depth_prior)) *faults |= kDepthBias;
+  if (wouldMakeTrackSure(known, *faults)) finder_.confirm(known, deadline, work);
+  if (config_.tracks) compareWithTrack(frame, faults);
 }
 
 // A wrong vertical may show in the pose, and may be why there is none.
@@ -231,6 +232,13 @@ void Localizer::compareWithTrack(const FrameInput &frame, Faults *faults) {
   if (odometry_.disagrees()) *faults |= kOdometryDisagrees;
   if (best().isLocalized()) doubtByTrack(frame.color_time_ns, faults);
   if (travel_.isScaled(frame.known, tracker_, best()) && !odometry_.disagrees()) *faults |= kDepthScale;
+}
+
+// Where a pose is expected nothing of the rest of the map is held against it, so a track that began in the wrong
+// one of two rooms would become sure of itself.
+bool Localizer::wouldMakeTrackSure(const Known &known, Faults faults) const {
+  return config_.tracks && best().isLocalized() && best().guided && !isNarrow(known) && !tracker_.isSure() &&
+         surenessOf(faults) > kSureOfTrack;
 }
 
 // By what earlier frames said of the points, and of the camera.
@@ -299,9 +307,10 @@ void Localizer::observe() {
 }
 
 // How sure a track may be of the pose: images that are hardly apart make it less exact, but no other one.
-double Localizer::surenessOf(const LocalizerResult &result) const {
-  if (between_.areApart()) return result.confidence;
-  return doubted(confidence_of_matches_, best(), result.faults, consistency_.isDoubtful());
+double Localizer::surenessOf(Faults faults) const {
+  const double confidence =
+      between_.areApart() ? confidenceOf(statedCovariance(best().estimate)) : confidence_of_matches_;
+  return doubted(confidence, best(), faults, consistency_.isDoubtful());
 }
 
 void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
@@ -311,7 +320,7 @@ void Localizer::learn(int64_t time_ns, LocalizerResult *result) {
     if (!config_.tracks) return;
     if (!between_.areApart()) distances_.keep(best(), finder_.estimator());
     tracker_.goOver(best().map, maps());
-    result->jump = tracker_.accept(best().map, best().estimate, surenessOf(*result),
+    result->jump = tracker_.accept(best().map, best().estimate, surenessOf(result->faults),
                                    (result->faults & kDoubts) != 0, between_.shift_sigma_m);
     trail_.add(time_ns, result->camera_from_map, result->covariance);
   } else if (config_.tracks) {

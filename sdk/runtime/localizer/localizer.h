@@ -76,12 +76,13 @@ class Localizer {
   void checkVertical(const Known &known, const Deadline &deadline, Faults *faults, Work *work);
   void checkFocalLength(const Deadline &deadline, Faults *faults, Work *work) const;
   void compareWithTrack(const FrameInput &frame, Faults *faults);
+  bool wouldMakeTrackSure(const Known &known, Faults faults) const;
   void doubtByTrack(int64_t time_ns, Faults *faults);
   void contradict(Faults by, Faults *faults);
   void checkHandedness(const Deadline &deadline, Faults *faults, Work *work);
   Hints hints() const;
   void observe();
-  double surenessOf(const LocalizerResult &result) const;
+  double surenessOf(Faults faults) const;
   void learn(int64_t time_ns, LocalizerResult *result);
 
   LocalizerConfig config_;

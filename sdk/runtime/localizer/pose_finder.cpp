@@ -5,7 +5,6 @@
 
 #include "runtime/localizer/hints.h"
 #include "runtime/localizer/tuning.h"
-#include "runtime/stages/pose/confidence.h"
 
 namespace sphc {
 
@@ -84,7 +83,6 @@ void PoseFinder::find(const Known &known, const Deadline &deadline, Work *work) 
   if (expects(known, frame_.front->wasCut() ? kMostConeInHasteRad : kMostConeRad, &expected))
     searchNear(known, expected, deadline, work);
   if (!isDone(deadline, work)) searchEverywhere(known, deadline, work);
-  if (wouldMakeTrackSure(known)) confirmInWholeMap(known, deadline, work);
   if (!best_.isLocalized() && work->cuts) best_.outcome = Outcome::kDeadline;
 }
 
@@ -105,25 +103,19 @@ const Hypothesis &PoseFinder::findMirrored(const Deadline &deadline, Work *work)
   return candidate_;
 }
 
-bool PoseFinder::wouldMakeTrackSure(const Known &known) const {
-  return best_.isLocalized() && best_.guided && !isNarrow(known) && !frame_.tracker->isSure() &&
-         confidenceOf(statedCovariance(best_.estimate)) > kSureOfTrack;
-}
-
-// Where a pose is expected nothing of the rest of the map is held against it, so a track that began in the wrong
-// one of two rooms would become sure of itself.  A frame may lack this step for its deadline.
-void PoseFinder::confirmInWholeMap(const Known &known, const Deadline &deadline, Work *work) {
+void PoseFinder::confirm(const Known &known, const Deadline &deadline, Work *work) {
+  const Cuts before = std::exchange(work->cuts, Cuts{0});
   const PosePrior prior = priorFor(known, best_.map);
-  const Rigid guided = best_.estimate.camera_from_map;
   PoseTask task = taskOfWholeMap(best_.map, queryFor(prior, deadline), work);
-  task.expected = &guided;
+  task.expected = &best_.estimate.camera_from_map;
   matchAll(best_.map, &task, work);
   solve(task, work);
-  if (candidate_.isLocalized() && areNear(candidate_.estimate.camera_from_map, guided, kNoJump)) return propose();
-  if (deadline.passed())
-    work->cuts |= kCutVerification;
-  else
-    best_.doubtForRival();
+  const bool is_found =
+      candidate_.isLocalized() && areNear(candidate_.estimate.camera_from_map, *task.expected, kNoJump);
+  const bool was_cut = work->cuts != 0 || deadline.passed();
+  work->cuts |= was_cut ? before | kCutVerification : before;
+  if (!is_found && !was_cut) return best_.doubtForRival();
+  best_.has_near_rival = best_.has_near_rival || was_cut || candidate_.has_near_rival;
 }
 
 bool PoseFinder::expects(const Known &known, double most_cone_rad, Prediction *expected) const {

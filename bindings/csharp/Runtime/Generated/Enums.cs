@@ -251,7 +251,7 @@ public enum LocalizerMode : int {
 public enum LocalizerState : int {
   /// <summary>No pose is trusted; always so in LocalizerMode.Single.</summary>
   Relocalizing = 0,
-  /// <summary>Poses agree, the whole map made one sure (over 0.95), no fault doubts this one.</summary>
+  /// <summary>Poses agree, one of them was sure (over 0.95), and no fault doubts this one.</summary>
   Tracking = 1,
   /// <summary>Was tracking, and no pose came, another, or a doubted one; for 1 s at most.</summary>
   Lost = 2,

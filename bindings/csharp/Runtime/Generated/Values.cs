@@ -84,17 +84,13 @@ public unsafe partial struct LocalizerResult {
   /// <summary>Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
   /// perturbation applied on the left: T = exp(xi) T_estimate. Zeros unless Localized.</summary>
   public PoseCovariance Covariance;
-  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 what is
-  /// longer.</summary>
+  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 at most.</summary>
   public uint FeaturesUs;
-  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 what is
-  /// longer.</summary>
+  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 at most.</summary>
   public uint AlignUs;
-  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 what is
-  /// longer.</summary>
+  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 at most.</summary>
   public uint MatchUs;
-  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 what is
-  /// longer.</summary>
+  /// <summary>Time of each stage by config.Clock: 0 where that stepped back, and 4294967295 at most.</summary>
   public uint PoseUs;
   /// <summary>Probability that the pose is within 5 cm and 5 degrees; 0 unless Localized; for other bounds
   /// LocalizerResult.ConfidenceWithin.</summary>

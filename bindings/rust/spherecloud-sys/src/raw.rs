@@ -244,7 +244,7 @@ pub const SPHC_MODE_SINGLE: sphc_localizer_mode = 1;
 pub type sphc_localizer_state = i32;
 /// no pose is trusted; always so in SPHC_MODE_SINGLE
 pub const SPHC_STATE_RELOCALIZING: sphc_localizer_state = 0;
-/// poses agree, the whole map made one sure (over 0.95), no fault doubts this one
+/// poses agree, one of them was sure (over 0.95), and no fault doubts this one
 pub const SPHC_STATE_TRACKING: sphc_localizer_state = 1;
 /// was tracking, and no pose came, another, or a doubted one; for 1 s at most
 pub const SPHC_STATE_LOST: sphc_localizer_state = 2;
@@ -780,13 +780,13 @@ pub struct sphc_localizer_result {
     /// Row-major 6 x 6 covariance of (rotation vector rad, translation m), both in the camera frame, for a
     /// perturbation applied on the left: T = exp(xi) T_estimate. Zeros unless LOCALIZED.
     pub covariance: [f64; 36],
-    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most.
     pub features_us: u32,
-    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most.
     pub align_us: u32,
-    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most.
     pub match_us: u32,
-    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer.
+    /// Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most.
     pub pose_us: u32,
     /// probability that the pose is within 5 cm and 5 degrees; 0 unless LOCALIZED; for other bounds
     /// sphc_localizer_result_confidence

@@ -253,7 +253,7 @@ open_enum! {
     State, sys::sphc_localizer_state_name {
         /// no pose is trusted; always so in SPHC_MODE_SINGLE
         Relocalizing = sys::SPHC_STATE_RELOCALIZING,
-        /// poses agree, the whole map made one sure (over 0.95), no fault doubts this one
+        /// poses agree, one of them was sure (over 0.95), and no fault doubts this one
         Tracking = sys::SPHC_STATE_TRACKING,
         /// was tracking, and no pose came, another, or a doubted one; for 1 s at most
         Lost = sys::SPHC_STATE_LOST,

@@ -26,6 +26,7 @@ constexpr double kMostOfOtherScale = 0.5, kLeastOfAnyScale = 0.2;
 // Parts that share fewer, of frames far apart, go down to 39 % in sound recordings.
 constexpr double kLeastOfSound = 0.55, kLeastOfSoundPart = 0.5;
 constexpr uint32_t kMatchesOfSurePart = 250;
+constexpr double kOneScale = 0.2;  // of the logarithms of two multiples
 constexpr double kSomeFrames = 0.1, kMostFrames = 0.75;
 
 std::string inFrames(uint32_t frames, const RgbdImportSummary &summary, const BitWords &words) {
@@ -88,7 +89,9 @@ std::string wordsOf(Contradiction contradiction, const PoseScale &scale) {
 bool areAlike(const PoseScalePart &a, const PoseScalePart &b) {
   const Contradiction of_a = contradictionOfScale(a.scale);
   return a.recording == b.recording && of_a == contradictionOfScale(b.scale) &&
-         (of_a != Contradiction::kMistake || std::string_view(a.scale.mistake) == b.scale.mistake);
+         (of_a != Contradiction::kMistake || std::string_view(a.scale.mistake) == b.scale.mistake) &&
+         (of_a != Contradiction::kOtherScale ||
+          std::abs(std::log(a.scale.multiple / b.scale.multiple)) < kOneScale);
 }
 
 void join(const PoseScalePart &next, PoseScalePart *part) {
@@ -183,12 +186,15 @@ std::vector<std::string> doubtsOfPoses(const RgbdImportSummary &summary) {
   const auto add = [&sentences](const std::string &doubt) {
     if (!doubt.empty()) sentences.push_back(doubt);
   };
+  size_t judged = 0;
   for (const PoseScalePart &part : summary.scale_parts) {
+    judged += part.scale.ofThePlace() >= kMatchesOfSurePart;
     const bool agrees_with_nothing = contradictionOfScale(part.scale) == Contradiction::kAnyScale;
     add(doubtOf(part.scale, agrees_with_nothing ? 0 : kMatchesOfSurePart, kLeastOfSoundPart,
                 " in " + nameOf(part, summary)));
   }
-  if (sentences.empty()) add(doubtOf(summary.scale, kManyMatches, kLeastOfSound, ""));
+  const std::string of_whole = doubtOf(summary.scale, kManyMatches, kLeastOfSound, "");
+  if (!of_whole.empty() && (sentences.empty() || 2 * sentences.size() > judged)) return {of_whole};
   return sentences;
 }
 

@@ -29,6 +29,7 @@ class Walk {
   // The next frame, a tenth of a second later.
   sphc_localizer_result see(uint32_t viewpoint, uint32_t room = 0, bool dark = false) {
     const auto made = test::sceneFrame(zoomed(), viewpoint, room);
+    if (upper_share_ < 1) copyBelow(*test::sceneFrame(zoomed(), below_, room), made.get());
     if (dark) std::fill(made->images.gray.begin(), made->images.gray.end(), uint8_t{9});
     for (uint16_t &depth : made->images.depth_mm) depth = static_cast<uint16_t>(depth_scale_ * depth);
     sphc_localizer_frame frame = made->frame;
@@ -76,6 +77,11 @@ class Walk {
   void scaleDepth(double scale) { depth_scale_ = scale; }
   // From now on the cameras' focal lengths are so many times those that were stated.
   void zoom(double true_over_stated) { zoom_ = true_over_stated; }
+  // From now on what is seen is below this share of the rows what another viewpoint sees.
+  void showBelow(double share, uint32_t viewpoint) {
+    upper_share_ = share;
+    below_ = viewpoint;
+  }
   void forget() { sphc_localizer_reset(session_.localizer()); }
   void setClockBack() { time_ns_ -= 2 * kStepNs; }
   void replaceMap() { ASSERT_EQ(sphc_localizer_set_map(session_.localizer(), 0, session_.map()), SPHC_OK); }
@@ -86,6 +92,14 @@ class Walk {
 
  private:
   static Rigid sceneViewpoint(uint32_t i) { return test::sceneViewpoint(i); }
+  void copyBelow(const test::SceneFrame &other, test::SceneFrame *made) const {
+    const auto copy = [this](const auto &from, auto *to) {
+      const auto border = static_cast<ptrdiff_t>(upper_share_ * static_cast<double>(from.size()));
+      std::copy(from.begin() + border, from.end(), to->begin() + border);
+    };
+    copy(other.images.gray, &made->images.gray);
+    copy(other.images.depth_mm, &made->images.depth_mm);
+  }
   sphc_localizer_config zoomed() const {
     sphc_localizer_config config = config_;
     for (sphc_camera *camera : {&config.rig.color_camera, &config.rig.depth_camera})
@@ -102,6 +116,8 @@ class Walk {
   double depth_scale_ = 1;
   double zoom_ = 1;
   double odometry_scale_ = 1;
+  double upper_share_ = 1;
+  uint32_t below_ = 0;
 };
 
 TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
@@ -116,6 +132,22 @@ TEST(LocalizerTracking, AWalkIsTrackedOnceItIsConfirmed) {
     EXPECT_EQ(result.state, SPHC_STATE_TRACKING) << viewpoint;
     EXPECT_EQ(result.guided, 1u) << viewpoint;
     EXPECT_EQ(result.frames, 1u);
+  }
+}
+
+// The first pose has a near rival.
+TEST(LocalizerTracking, ATrackThatIsNotSureBecomesSoInTheWholeMap) {
+  for (const bool shows_two_places : {false, true}) {
+    Walk walk(trackingConfig());
+    walk.useOdometry();
+    walk.showBelow(0.55, 4);
+    ASSERT_DOUBLE_EQ(walk.see(0).confidence, 0.95);
+    walk.showBelow(shows_two_places ? 0.5 : 1, 4);
+    const sphc_localizer_result next = walk.see(1);
+    EXPECT_EQ(next.guided, 1u);
+    EXPECT_EQ(next.state, shows_two_places ? SPHC_STATE_RELOCALIZING : SPHC_STATE_TRACKING);
+    EXPECT_EQ(next.outcome, shows_two_places ? SPHC_OUTCOME_UNCERTAIN : SPHC_OUTCOME_LOCALIZED);
+    EXPECT_EQ(next.hints, shows_two_places ? uint32_t{SPHC_HINT_AMBIGUOUS} : 0u);
   }
 }
 

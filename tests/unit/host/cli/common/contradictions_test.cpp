@@ -150,6 +150,9 @@ TEST(Contradictions, AShareBetweenSoundAndContradictionIsDoubted) {
               ElementsAre(HasSubstr("only 4 % lie where poses and depth say in about frames 30 to 39")));
   EXPECT_THAT(doubtsOfPoses(walkOfParts(sound, sound, weak, sound)),
               ElementsAre(HasSubstr("only 40 % lie where poses and depth say in about frames 20 to 29")));
+  EXPECT_THAT(doubtsOfPoses(walkOfParts(weak, sound, weak, weak)),
+              ElementsAre(HasSubstr("only 48 % lie where poses and depth say, and")))
+      << "once, for all";
   RgbdImportSummary far_apart = walkOfParts(sound, sound, thin, sound);
   far_apart.scale.agree = 1000;
   EXPECT_THAT(doubtsOfPoses(far_apart), IsEmpty()) << "as where frames are far apart";

@@ -73,22 +73,22 @@ abstract class ResultFields extends Struct {
     return getDoubles(Layout.LOCALIZER_RESULT_COVARIANCE, 36);
   }
 
-  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer. */
+  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most. */
   public int getFeaturesUs() {
     return getInt(Layout.LOCALIZER_RESULT_FEATURES_US);
   }
 
-  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer. */
+  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most. */
   public int getAlignUs() {
     return getInt(Layout.LOCALIZER_RESULT_ALIGN_US);
   }
 
-  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer. */
+  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most. */
   public int getMatchUs() {
     return getInt(Layout.LOCALIZER_RESULT_MATCH_US);
   }
 
-  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 what is longer. */
+  /** Time of each stage by config.clock: 0 where that stepped back, and 4294967295 at most. */
   public int getPoseUs() {
     return getInt(Layout.LOCALIZER_RESULT_POSE_US);
   }

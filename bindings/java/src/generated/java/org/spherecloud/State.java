@@ -5,7 +5,7 @@ package org.spherecloud;
 public enum State {
   /** No pose is trusted; always so in {@link Mode#SINGLE}. */
   RELOCALIZING(0),
-  /** Poses agree, the whole map made one sure (over 0.95), no fault doubts this one. */
+  /** Poses agree, one of them was sure (over 0.95), and no fault doubts this one. */
   TRACKING(1),
   /** Was tracking, and no pose came, another, or a doubted one; for 1 s at most. */
   LOST(2),
