@@ -104,38 +104,34 @@ TEST_F(CInterfaceLocalizer, ConfidenceIsAskedWithinOtherBounds) {
   EXPECT_EQ(sphc_localizer_result_confidence(&result, 0.05, degrees), 0) << "nothing was written to it";
 }
 
-TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
-  config_.clock = [](void *user) { return *static_cast<int64_t *>(user) -= 1000000; };
-  int64_t now = INT64_MAX;
-  config_.clock_user = &now;
-  Session timed(config_);
-  const auto frame = sphc::test::sceneFrame(config_, 0);
-  frame->frame.deadline_us = 1000;
+// A frame by a clock of the caller's, which shows this before.
+sphc_localizer_result timedBy(int64_t (*clock)(void *), int64_t now_ns, sphc_localizer_config config,
+                              uint32_t deadline_us = 0) {
+  config.clock = clock;
+  config.clock_user = &now_ns;
+  Session timed(config);
+  const auto frame = sphc::test::sceneFrame(config, 0);
+  frame->frame.deadline_us = deadline_us;
   sphc_localizer_result result = clean();
   EXPECT_EQ(timed.process(frame->frame, &result), SPHC_OK);
+  return result;
+}
+
+TEST_F(CInterfaceLocalizer, ClocksMayStepBackOrStandAtTheirEnd) {
+  const auto stepBack = [](void *user) { return *static_cast<int64_t *>(user) -= 1000000; };
+  const sphc_localizer_result result = timedBy(stepBack, INT64_MAX, config_, 1000);
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_EQ(us, 0u);
 }
 
 // As a counter of the device that is set anew: of some hours at once a stage is told as the longest that there is.
 TEST_F(CInterfaceLocalizer, ClocksMayLeap) {
-  config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 5000000000000; };
-  int64_t now = 0;
-  config_.clock_user = &now;
-  Session timed(config_);
-  const auto frame = sphc::test::sceneFrame(config_, 0);
-  sphc_localizer_result result = clean();
-  EXPECT_EQ(timed.process(frame->frame, &result), SPHC_OK);
-  EXPECT_EQ(result.features_us, UINT32_MAX);
+  const auto leap = [](void *user) { return *static_cast<int64_t *>(user) += 5000000000000; };
+  EXPECT_EQ(timedBy(leap, 0, config_).features_us, UINT32_MAX);
 }
 
 TEST_F(CInterfaceLocalizer, StagesAreTimedByTheCallersClock) {
-  config_.clock = [](void *user) { return *static_cast<int64_t *>(user) += 1000000; };
-  int64_t now = 0;
-  config_.clock_user = &now;
-  Session timed(config_);
-  const auto frame = sphc::test::sceneFrame(config_, 0);
-  sphc_localizer_result result = clean();
-  EXPECT_EQ(timed.process(frame->frame, &result), SPHC_OK);
+  const auto step = [](void *user) { return *static_cast<int64_t *>(user) += 1000000; };
+  const sphc_localizer_result result = timedBy(step, 0, config_);
   for (uint32_t us : {result.features_us, result.align_us, result.match_us, result.pose_us}) EXPECT_GE(us, 1000u);
 }
 

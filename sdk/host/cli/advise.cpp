@@ -70,8 +70,6 @@ void warnOfRecording(const RgbdImportSummary &all, std::vector<std::string> *con
   for (const std::string &contradiction : *contradictions)
     console.warn("This recording contradicts itself, and build refuses it: " + contradiction);
   for (const std::string &doubt : doubtsOfPoses(all)) console.warn("Warning: " + doubt);
-  const std::string unchecked = uncheckedOf(all);
-  if (!unchecked.empty()) console.warn("Warning: " + unchecked);
 }
 
 nlohmann::ordered_json json(const Advice &advice, const std::vector<std::string> &contradictions) {

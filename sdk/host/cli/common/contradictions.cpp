@@ -148,6 +148,15 @@ std::string doubtOf(const PoseScale &scale, uint32_t fewest, double least, const
          "of the camera for jumps and mirrored stretches, and leave such frames out (--first, --last)";
 }
 
+// Of too few frames.
+std::string uncheckedOf(const RgbdImportSummary &summary) {
+  const uint32_t all = summary.frames_used + summary.frames_without_pose + summary.frames_unreadable;
+  return "scale and consistency could not be checked: " + std::to_string(summary.frames_used) + " of " +
+         counted(all, "frame") + (summary.frames_used == 1 ? " has" : " have") +
+         " a pose and can be read, and that takes " + std::to_string(kFewestFrames) +
+         "; give more frames a pose, or measure in the room whether the map is right";
+}
+
 }  // namespace
 
 std::vector<std::string> faultsOfFrames(const RgbdImportSummary &summary) {
@@ -181,30 +190,20 @@ std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary)
 }
 
 std::vector<std::string> doubtsOfPoses(const RgbdImportSummary &summary) {
-  if (summary.frames_used < kFewestFrames || !contradictionsOfPoses(summary).empty()) return {};
+  if (summary.frames_used < kFewestFrames) return {uncheckedOf(summary)};
+  if (!contradictionsOfPoses(summary).empty()) return {};
   std::vector<std::string> sentences;
-  const auto add = [&sentences](const std::string &doubt) {
-    if (!doubt.empty()) sentences.push_back(doubt);
-  };
   size_t judged = 0;
   for (const PoseScalePart &part : summary.scale_parts) {
     judged += part.scale.ofThePlace() >= kMatchesOfSurePart;
     const bool agrees_with_nothing = contradictionOfScale(part.scale) == Contradiction::kAnyScale;
-    add(doubtOf(part.scale, agrees_with_nothing ? 0 : kMatchesOfSurePart, kLeastOfSoundPart,
-                " in " + nameOf(part, summary)));
+    const std::string of_part = doubtOf(part.scale, agrees_with_nothing ? 0 : kMatchesOfSurePart, kLeastOfSoundPart,
+                                        " in " + nameOf(part, summary));
+    if (!of_part.empty()) sentences.push_back(of_part);
   }
   const std::string of_whole = doubtOf(summary.scale, kManyMatches, kLeastOfSound, "");
   if (!of_whole.empty() && (sentences.empty() || 2 * sentences.size() > judged)) return {of_whole};
   return sentences;
-}
-
-std::string uncheckedOf(const RgbdImportSummary &summary) {
-  if (summary.frames_used >= kFewestFrames) return "";
-  const uint32_t all = summary.frames_used + summary.frames_without_pose + summary.frames_unreadable;
-  return "scale and consistency could not be checked: " + std::to_string(summary.frames_used) + " of " +
-         counted(all, "frame") + (summary.frames_used == 1 ? " has" : " have") +
-         " a pose and can be read, and that takes " + std::to_string(kFewestFrames) +
-         "; give more frames a pose, or measure in the room whether the map is right";
 }
 
 }  // namespace sphc::host

@@ -14,9 +14,8 @@ std::vector<std::string> faultsOfFrames(const RgbdImportSummary &summary);
 std::vector<std::string> contradictionsOf(const RgbdImportSummary &summary);
 // Those of poses and depth alone, without faults of the images.
 std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary);
-// Where they do not contradict each other, but agree less than in sound recordings.
+// Why they may be wrong where no contradiction is found: they agree less than in sound recordings, or too few
+// frames have a pose to tell.
 std::vector<std::string> doubtsOfPoses(const RgbdImportSummary &summary);
-// Why contradictions cannot be found.  Empty: they can.
-std::string uncheckedOf(const RgbdImportSummary &summary);
 
 }  // namespace sphc::host

@@ -144,8 +144,6 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
   for (const std::string &fault : faultsOfFrames(summary)) imported.warnings.push_back(fault);
   imported.contradictions = contradictionsOf(summary);
   imported.doubts = doubtsOfPoses(summary);
-  const std::string unchecked = uncheckedOf(summary);
-  if (!unchecked.empty()) imported.doubts.push_back(unchecked);
   imported.facts = {{"frames_used", summary.frames_used},
                     {"frames_without_pose", summary.frames_without_pose},
                     {"frames_unreadable", summary.frames_unreadable},

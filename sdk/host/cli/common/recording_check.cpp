@@ -126,8 +126,6 @@ Findings findingsOfPoses(RecordingReader *reader) {
     findings.push_back({Grade::kWrong, "poses", sentence});
   for (const std::string &sentence : doubtsOfPoses(summary))
     findings.push_back({Grade::kDoubtful, "poses", sentence});
-  const std::string unchecked = uncheckedOf(summary);
-  if (!unchecked.empty()) findings.push_back({Grade::kDoubtful, "poses", unchecked});
   if (findings.empty())
     findings.push_back({Grade::kFine, "poses",
                         "of " + counted(summary.scale.ofThePlace(), "keypoint") + " that two of " +
