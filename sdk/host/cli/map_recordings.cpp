@@ -1,0 +1,195 @@
+#include "host/cli/map_recordings.h"
+
+#include <chrono>
+#include <ctime>
+#include <memory>
+
+#include "host/base/usage_error.h"
+#include "host/cli/common/progress.h"
+#include "host/import/upright.h"
+#include "host/recording/calibration_json.h"
+#include "host/report/trajectory.h"
+
+namespace sphc::host {
+namespace {
+
+// A bar for each of the mapper's steps.
+class Steps {
+ public:
+  void show(const std::string &what, uint32_t done, uint32_t total) {
+    if (what != what_) bar_ = std::make_unique<ProgressBar>(what);
+    what_ = what;
+    bar_->show(done, total);
+  }
+
+ private:
+  std::string what_;
+  std::unique_ptr<ProgressBar> bar_;
+};
+
+std::optional<sphc_rigid> poseOf(const recording::PoseTrack &path, int64_t time_ns) {
+  return path.at(time_ns, recording::ReaderOptions().pose_gap_ns);
+}
+
+// What the recording, or the file of poses, tells of its keyframes.
+void tell(const MapOptions &options, size_t recording, const RecordingReader &reader, Walk *walk) {
+  recording::PoseTrack file;
+  uint32_t bad = 0;
+  if (!options.told.empty()) file = recording::readTumPoses(options.told[recording], &bad);
+  for (WalkFrame &frame : walk->keyframes) {
+    const std::optional<sphc_rigid> told =
+        options.told.empty() ? reader.worldFromCamera(frame.index) : poseOf(file, frame.time_ns);
+    if (told) frame.told_world_from_camera = rigidFromC(*told);
+  }
+}
+
+void checkTold(const MapOptions &options, const Walk &walk) {
+  if (options.trust.use == PoseUse::kNone) return;
+  for (const WalkFrame &frame : walk.keyframes)
+    if (frame.told_world_from_camera) return;
+  throw std::runtime_error(
+      options.told.empty() ? "--poses: the recording holds no pose; give --poses-from FILE, or leave --poses out"
+                           : "--poses-from: no pose is of the time of a frame; is it the file of this recording?");
+}
+
+std::vector<MappedRecording> openAll(const MapOptions &options) {
+  std::vector<MappedRecording> recordings;
+  for (const RecordingOptions &recording : options.all())
+    recordings.push_back({recording.folder, openRecording(recording), {}});
+  return recordings;
+}
+
+// `trial`: in place of the recordings' calibrations; null: those.
+Walk readAll(const MapOptions &options, const TrialCalibration *trial,
+             const std::vector<MappedRecording> &recordings, Steps *steps) {
+  FrameReaderOptions frames;
+  frames.depth_min_m = options.import.depth_min_m;
+  frames.depth_max_m = options.import.depth_max_m;
+  frames.surfaces = trial && trial->surfaces;
+  std::vector<Walk> walks;
+  for (const MappedRecording &recording : recordings) {
+    const std::string what = recordings.size() > 1 ? "reading " + recording.name : "reading";
+    walks.push_back(readWalk(recording.reader.get(), trial ? trial->rig : recording.reader->calibration(), frames,
+                             [&](uint32_t done, uint32_t total) { steps->show(what, done, total); }));
+    if (options.trust.use != PoseUse::kNone || options.judgesTold())
+      tell(options, walks.size() - 1, *recording.reader, &walks.back());
+  }
+  return joinWalks(std::move(walks));
+}
+
+sphc_rig commonCalibration(const std::vector<MappedRecording> &recordings) {
+  const sphc_rig &rig = recordings.front().reader->calibration();
+  for (const MappedRecording &recording : recordings)
+    if (recording::calibrationToJson(recording.reader->calibration()) != recording::calibrationToJson(rig))
+      throw UsageError("--refine-calibration: the calibrations of " + recordings.front().name + " and " +
+                       recording.name + " differ; refine that of each alone, or give --calibration for both");
+  return rig;
+}
+
+void takePoses(MapOutcome *outcome) {
+  const Walk &walk = outcome->walk;
+  const FramePoses &mapped = outcome->mapped.world_from_camera;
+  for (MappedRecording &recording : outcome->recordings) recording.poses.resize(recording.reader->frameCount());
+  for (size_t i = 0; i < walk.keyframes.size(); ++i)
+    outcome->recordings[walk.keyframes[i].recording].poses[walk.keyframes[i].index] = mapped[i];
+  for (const Follower &follower : walk.followers)
+    if (const auto &keyframe = mapped[follower.keyframe])
+      outcome->recordings[follower.recording].poses[follower.index] = *keyframe * follower.keyframe_from_frame;
+}
+
+// Turns the world so that up is +z, where the recordings say what that is.
+void standUpright(const MapOptions &options, MapOutcome *outcome) {
+  if (options.trust.use == PoseUse::kApproximate || options.trust.keeps_axes) return;  // the world is given
+  std::vector<FeltPath> paths;
+  for (const MappedRecording &recording : outcome->recordings) {
+    FeltPath path;
+    path.felt = recording.reader->recording().accelerations;
+    if (path.felt.empty()) continue;
+    path.world_from_camera = recording.path();
+    paths.push_back(std::move(path));
+  }
+  outcome->vertical = measureVertical(paths);
+  if (!outcome->vertical.isKnown()) return;
+  const Rigid upright_from_world = {uprightAxes(-outcome->vertical.up_world), Vector3::Zero()};
+  for (std::optional<Rigid> &pose : outcome->mapped.world_from_camera)
+    if (pose) pose = upright_from_world * *pose;
+  takePoses(outcome);
+}
+
+void score(MappedRecording *recording) {
+  std::vector<PosePair> pairs;
+  double squared_m2 = 0;
+  for (uint32_t i = 0; i < recording->poses.size(); ++i) {
+    const std::optional<sphc_rigid> truth = recording->reader->worldFromCamera(i);
+    if (!recording->poses[i] || !truth) continue;
+    pairs.push_back({*recording->poses[i], rigidFromC(*truth)});
+    squared_m2 += (pairs.back().estimated.translation_m - pairs.back().truth.translation_m).squaredNorm();
+  }
+  if (pairs.size() < kFewestScored) return;
+  recording->score = scoreTrajectory(pairs);
+  recording->is_truth_inverse = isTruthInverse(pairs);
+  recording->unaligned_rmse_m = std::sqrt(squared_m2 / static_cast<double>(pairs.size()));
+}
+
+// The recordings' points, seen by the keyframes from the poses that were found.
+ImportedPoints importFrom(const MapOptions &options, const MapOutcome &outcome) {
+  std::vector<std::vector<bool>> is_keyframe;
+  std::vector<recording::PoseTrack> paths;
+  for (const MappedRecording &recording : outcome.recordings) {
+    is_keyframe.emplace_back(recording.poses.size());
+    paths.push_back(recording.path());
+  }
+  for (const WalkFrame &frame : outcome.walk.keyframes) is_keyframe[frame.recording][frame.index] = true;
+  std::vector<RgbdSource> sources;
+  for (size_t r = 0; r < outcome.recordings.size(); ++r) {
+    const MappedRecording &recording = outcome.recordings[r];
+    sources.push_back({recording.reader.get(),
+                       [&, r](uint32_t i) { return is_keyframe[r][i] && recording.poses[i]; },
+                       [&, r](int64_t time_ns) { return poseOf(paths[r], time_ns); }});
+  }
+  ImportedPoints points = importRecordings(sources, options.import, describeSelection(options.of_each));
+  points.model.band = options.band;
+  return points;
+}
+
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
+  const auto start = std::chrono::steady_clock::now();
+  const double processor_start = processorSeconds();
+  MapOutcome outcome;
+  Steps steps;
+  outcome.use = options.trust.use;
+  outcome.recordings = openAll(options);
+  for (const MappedRecording &recording : outcome.recordings) noteDamage(*recording.reader, console);
+  outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
+  checkTold(options, outcome.walk);
+  for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
+  outcome.mapped =
+      mapWalk(outcome.walk, options.mapping(),
+              [&](const std::string &what, uint32_t done, uint32_t total) { steps.show(what, done, total); });
+  outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
+  takePoses(&outcome);
+  standUpright(options, &outcome);
+  if (options.score)
+    for (MappedRecording &recording : outcome.recordings) score(&recording);
+  outcome.processor_seconds = processorSeconds() - processor_start;
+  outcome.import = importFrom(options, outcome);
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+RefinedCalibration refineCalibration(const MapOptions &options) {
+  const std::vector<MappedRecording> recordings = openAll(options);
+  const sphc_rig given = commonCalibration(recordings);
+  Steps steps;
+  const auto read = [&](const TrialCalibration &trial) { return readAll(options, &trial, recordings, &steps); };
+  return {given, fitCalibration(given, read, options.mapping(),
+                                [&](const std::string &what, uint32_t done, uint32_t total) {
+                                  steps.show(what, done, total);
+                                })};
+}
+
+}  // namespace sphc::host
