@@ -34,10 +34,10 @@ class Joiner {
     members_[from].clear();
   }
 
-  std::vector<Track> takeLongerThan(size_t least) {
+  std::vector<Track> takeJoined() {
     std::vector<Track> tracks;
     for (Track &track : members_)
-      if (track.size() >= least) tracks.push_back(std::move(track));
+      if (track.size() > 1) tracks.push_back(std::move(track));
     return tracks;
   }
 
@@ -65,8 +65,7 @@ Track thinned(Track track, size_t most, size_t turn) {
 
 }  // namespace
 
-std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links,
-                            size_t least) {
+std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links) {
   std::vector<const FrameLink *> surest;
   for (const FrameLink &link : links) surest.push_back(&link);
   std::stable_sort(surest.begin(), surest.end(),
@@ -74,7 +73,7 @@ std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vec
   Joiner joiner(frames);
   for (const FrameLink *link : surest)
     for (const PointMatch &match : link->matches) joiner.join({link->frames.a, match.a}, {link->frames.b, match.b});
-  return joiner.takeLongerThan(least);
+  return joiner.takeJoined();
 }
 
 std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted, size_t longest) {

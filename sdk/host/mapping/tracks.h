@@ -16,9 +16,8 @@ struct Sighting {
 using Track = std::vector<Sighting>;
 
 // Joins matches, those of the surest links first.  A match that would put two keypoints of one frame into a track
-// is wrong and left out.  Tracks of fewer frames than `least` are left out.
-std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links,
-                            size_t least);
+// is wrong and left out.  Two frames make a track: a frame may share most of what it sees with one other alone.
+std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links);
 
 // The longest tracks, as many as give every frame that many sightings where there are such.  Of a track that has
 // more than `longest` sightings so many stay, evenly spread: an adjustment takes the square of them in time.

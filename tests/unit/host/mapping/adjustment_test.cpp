@@ -36,7 +36,7 @@ class AdjustmentTest : public testing::Test {
         links.push_back(exactLink(made, {i, j}, kFrames - (j - i)));
         links.back().matches = matchAll(made.walk.keyframes[i], made.walk.keyframes[j]);
       }
-    adjusted.tracks = tracksOf(made.walk.keyframes, links, 3);
+    adjusted.tracks = tracksOf(made.walk.keyframes, links);
     for (uint32_t i = 0; i < kFrames; ++i) {
       const double s = 0.02 * std::sin(1.7 * i);
       const Rigid off = {rotationFromVector(Vector3(s, 0.5 * s, -s)), Vector3(s, -s, 0.5 * s)};

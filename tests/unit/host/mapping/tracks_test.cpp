@@ -22,7 +22,7 @@ class TracksTest : public testing::Test {
 };
 
 TEST_F(TracksTest, MatchesAreJoinedOverFrames) {
-  const std::vector<Track> tracks = tracksOf(frames_, {linkOf(0, 1, {{0, 1}}, 50), linkOf(1, 3, {{1, 2}}, 40)}, 3);
+  const std::vector<Track> tracks = tracksOf(frames_, {linkOf(0, 1, {{0, 1}}, 50), linkOf(1, 3, {{1, 2}}, 40)});
   ASSERT_EQ(tracks.size(), 1u);
   ASSERT_EQ(tracks[0].size(), 3u);
   EXPECT_EQ(tracks[0][2].frame, 3u);
@@ -32,14 +32,16 @@ TEST_F(TracksTest, MatchesAreJoinedOverFrames) {
 TEST_F(TracksTest, TwoKeypointsOfOneFrameAreNeverOnePoint) {
   // The weaker link says that keypoints 0 and 3 of frame 0 are one.
   const std::vector<Track> tracks =
-      tracksOf(frames_, {linkOf(1, 2, {{1, 1}}, 90), linkOf(0, 2, {{3, 1}}, 20), linkOf(0, 1, {{0, 1}}, 60)}, 2);
+      tracksOf(frames_, {linkOf(1, 2, {{1, 1}}, 90), linkOf(0, 2, {{3, 1}}, 20), linkOf(0, 1, {{0, 1}}, 60)});
   ASSERT_EQ(tracks.size(), 1u);
   ASSERT_EQ(tracks[0].size(), 3u);
   EXPECT_EQ(tracks[0][0].point, 0u);
 }
 
-TEST_F(TracksTest, ShortTracksAreLeftOut) {
-  EXPECT_TRUE(tracksOf(frames_, {linkOf(0, 1, {{0, 0}}, 50)}, 3).empty());
+TEST_F(TracksTest, KeypointsThatNothingMatchesAreInNone) {
+  const std::vector<Track> tracks = tracksOf(frames_, {linkOf(0, 1, {{0, 0}}, 50)});
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_EQ(tracks[0].size(), 2u);
 }
 
 TEST_F(TracksTest, LongTracksComeFirstUntilEveryFrameHasEnough) {

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "host/mapping/stretches.h"
 #include "host/report/trajectory_score.h"
@@ -82,6 +84,39 @@ TEST(WalkMapperTest, AFrameThatAgreesWithNoneIsLeftOut) {
   EXPECT_FALSE(mapped.world_from_camera[10]);
   EXPECT_TRUE(mapped.world_from_camera[19]);
   EXPECT_EQ(stretchesOf(made.walk, mapped.parts, mapped.world_from_camera).left_out.size(), 1u);
+}
+
+bool sees(const WalkFrame &frame, const Descriptor &descriptor) {
+  return std::any_of(frame.descriptors.begin(), frame.descriptors.end(), [&](const Descriptor &of_frame) {
+    return std::equal(std::begin(of_frame.bytes), std::end(of_frame.bytes), std::begin(descriptor.bytes));
+  });
+}
+
+// Of what the other frame sees too so many points stay.
+WalkFrame withFewOf(const WalkFrame &other, size_t most, const WalkFrame &frame) {
+  WalkFrame kept = frame;
+  kept.points.clear();
+  kept.descriptors.clear();
+  size_t shared = 0;
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    if (sees(other, frame.descriptors[i]) && shared++ >= most) continue;
+    kept.points.push_back(frame.points[i]);
+    kept.descriptors.push_back(frame.descriptors[i]);
+  }
+  return kept;
+}
+
+// The last frame shares all but three of its points with one frame alone.
+TEST(WalkMapperTest, WhatTwoFramesSeeHoldsThemTogether) {
+  MadeUpWalk made = makeWalk({20, 0.5, 1});
+  std::vector<WalkFrame> &frames = made.walk.keyframes;
+  frames[19] = withFewOf(frames[17], 3, frames[19]);
+  const MappedWalk mapped = mapWalk(made.walk, {}, {});
+  ASSERT_TRUE(mapped.world_from_camera[19]);
+  const Rigid step = mapped.world_from_camera[19]->inverse() * *mapped.world_from_camera[18];
+  const Rigid off = step * stepOf(made, {18, 19}).inverse();
+  EXPECT_LT(off.translation_m.norm(), 0.02);
+  EXPECT_LT(rotationAngle(off.rotation), 0.01);
 }
 
 // Moves and turns the told poses by chance, and shifts all of them into a world of their own.
