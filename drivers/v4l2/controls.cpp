@@ -178,7 +178,9 @@ sphc_status setControl(const Node &node, uint32_t id, int64_t value, sphc_messag
 
 uint32_t readExposureUs(const Node &node) {
   int64_t automatic = 0, hundreds_us = 0;
-  if (readValue(node, V4L2_CID_EXPOSURE_AUTO, &automatic) == 0) {
+  const int error = readValue(node, V4L2_CID_EXPOSURE_AUTO, &automatic);
+  if (error && error != EINVAL) return 0;  // it has the control, but does not say
+  if (error == 0) {
     const int32_t choice = static_cast<int32_t>(automatic);
     if (choice != V4L2_EXPOSURE_MANUAL && choice != V4L2_EXPOSURE_SHUTTER_PRIORITY) return 0;
   }

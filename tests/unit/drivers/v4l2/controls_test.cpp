@@ -117,6 +117,13 @@ TEST_F(Controls, OfExposureMoveTheTimeToItsMiddle) {
   EXPECT_EQ(capture.time_point, SPHC_TIME_MIDDLE);
 }
 
+TEST_F(Controls, OfExposureAreNotBelievedWhileTheAutomaticCannotBeRead) {
+  fake->findControl(kAuto)->value = V4L2_EXPOSURE_APERTURE_PRIORITY;
+  kernel.failRequest(VIDIOC_G_EXT_CTRLS, EIO);  // of the automatic, which is read first
+  ASSERT_EQ(camera.start(), SPHC_OK);
+  EXPECT_EQ(camera.take().exposure_us, 0u);
+}
+
 TEST_F(Controls, OfExposureAreFollowedWhileRunning) {
   ASSERT_EQ(camera.start(), SPHC_OK);
   camera.release(camera.take());
