@@ -99,7 +99,7 @@ sphc_status Camera::fail(sphc_status status, const char *text) { return explain(
 sphc_status Camera::failCall(const char *call, int error) {
   const sphc_status status = node_.explain(&message_, call, error);
   if (status == SPHC_E_DEVICE_LOST)
-    is_lost_ = true;
+    loss_ = message_;
   else
     ++stats_.device_errors;
   return status;
@@ -109,11 +109,11 @@ sphc_status Camera::failCall(const char *call, int error) {
 
 sphc_status Camera::start() {
   if (is_running_) return fail(SPHC_E_STATE, "start: running already; call stop first");
+  if (loss_.text[0]) return fail(SPHC_E_DEVICE_LOST, loss_.text);
   counter_.restart();
   clock_.restart(node_.nowNs(), periodNs(mode_));
   readExposure();
   bad_frame_ = {};
-  is_lost_ = false;
   const sphc_status status = ring_.streamOn(&message_);
   if (status < 0) return status;
   is_running_ = true;
@@ -167,7 +167,7 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
     return fail(SPHC_E_STRUCT_SIZE,
                 "acquire: capture->struct_size is none this library knows; set it to sizeof(sphc_capture)");
   if (!is_running_) return fail(SPHC_E_STATE, "acquire: not running; call start first");
-  if (is_lost_) return SPHC_E_DEVICE_LOST;  // the message says why
+  if (loss_.text[0]) return fail(SPHC_E_DEVICE_LOST, loss_.text);
   Loan *loan = freeLoan();
   if (!loan) return fail(SPHC_E_STATE, "acquire: loan_limit reached; release a capture first");
 
@@ -222,9 +222,9 @@ sphc_status Camera::takeNews() {
     readExposure();
   }
   if (!news.source_changed) return SPHC_OK;
-  is_lost_ = true;
-  return explain(&message_, SPHC_E_DEVICE_LOST, "%s: its signal has another size now; stop, close and open again",
-                 node_.path());
+  explain(&loss_, SPHC_E_DEVICE_LOST, "%s: its signal has another size now; stop, close and open again",
+          node_.path());
+  return fail(SPHC_E_DEVICE_LOST, loss_.text);
 }
 
 // After poll saw an error: unplugged, or a stream that the kernel has given up.

@@ -73,7 +73,7 @@ class Camera {
   uint32_t slot_stride_bytes_ = 0;
 
   bool is_running_ = false;
-  bool is_lost_ = false;
+  sphc_message loss_ = {};   // why the device is lost, for good; empty while it is not
   uint64_t last_token_ = 0;  // counts through restarts, so that an old loan is never taken for a new one
   FrameCounter counter_;
   FrameClock clock_;

@@ -258,7 +258,12 @@ TEST(Fault, SignalOfAnotherSizeIsLost) {
   sphc_capture capture;
   EXPECT_EQ(running.opened.acquire(&capture), SPHC_E_DEVICE_LOST);
   EXPECT_THAT(running.opened.text(), HasSubstr("another size"));
+  EXPECT_EQ(running.opened.start(), SPHC_E_STATE) << "a failure of another kind";
   EXPECT_EQ(running.opened.acquire(&capture), SPHC_E_DEVICE_LOST);
+  EXPECT_THAT(running.opened.text(), HasSubstr("another size"));
+  running.opened.stop();
+  EXPECT_EQ(running.opened.start(), SPHC_E_DEVICE_LOST) << "its buffers are those of the size before";
+  EXPECT_THAT(running.opened.text(), HasSubstr("another size"));
 }
 
 }  // namespace
