@@ -16,7 +16,7 @@ struct Capability {
 int readCapability(const Node &node, Capability *capability);
 
 struct OfferedFourccs {
-  static constexpr uint32_t kMax = 32;
+  static constexpr uint32_t kMax = 256;
   uint32_t count;
   uint32_t fourccs[kMax];
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 
 #include "capability.h"
 #include "drivers/pixels/explain.h"
@@ -32,8 +33,8 @@ void setProblem(sphc_v4l2_device *device, const char *what, int error) {
 void describeFormats(const Node &node, sphc_v4l2_device *device) {
   OfferedFourccs offered;
   if (const int error = readOfferedFourccs(node, &offered)) return setProblem(device, "VIDIOC_ENUM_FMT", error);
-  device->fourcc_count = offered.count;
-  std::copy(offered.fourccs, offered.fourccs + offered.count, device->fourccs);
+  device->fourcc_count = std::min(offered.count, static_cast<uint32_t>(std::size(device->fourccs)));
+  std::copy(offered.fourccs, offered.fourccs + device->fourcc_count, device->fourccs);
   for (uint32_t i = 0; i < offered.count; ++i) {
     const PixelFormat *format = findPixelFormat(offered.fourccs[i]);
     if (!format) continue;

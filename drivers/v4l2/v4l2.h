@@ -65,8 +65,8 @@ typedef struct sphc_v4l2_device {
   char bus[32];    /* the plug it is in; stays the same through replugging */
   char driver[16]; /* of the kernel */
   uint32_t fourcc_count;
-  uint32_t fourccs[32];          /* layouts it offers, known to us or not */
-  uint32_t can_color, can_depth; /* 1: among them is one for this stream */
+  uint32_t fourccs[32];          /* the first layouts it offers, known to us or not */
+  uint32_t can_color, can_depth; /* 1: among all it offers is one for this stream */
   char problem[96];              /* why it cannot be opened; empty when it can */
 } sphc_v4l2_device;
 

@@ -59,6 +59,20 @@ TEST(Devices, AreCountedBeyondTheCapacity) {
   EXPECT_STREQ(one.node, "/dev/video0");
 }
 
+TEST(Devices, AreListedWithTheFirstOfManyLayouts) {
+  test::FakeKernel kernel;
+  std::vector<test::FakeMode> modes;
+  for (char letter = '0'; letter < '0' + 60; ++letter)
+    modes.push_back({SPHC_V4L2_FOURCC('Q', 'Q', 'Q', letter), kWidth, kHeight, 30});
+  modes.push_back({V4L2_PIX_FMT_Z16, kWidth, kHeight, 30});
+  kernel.plugIn(0, test::FakeCamera(modes));
+  const auto devices = listed(kernel);
+  ASSERT_EQ(devices.size(), 1u);
+  EXPECT_EQ(devices[0].fourcc_count, 32u);
+  EXPECT_EQ(devices[0].fourccs[31], modes[31].fourcc);
+  EXPECT_EQ(devices[0].can_depth, 1u) << "though its layout is not among the first";
+}
+
 TEST(Devices, AreListedWithTheirProblem) {
   test::FakeKernel kernel;
   kernel.plugIn(0, colorCamera());

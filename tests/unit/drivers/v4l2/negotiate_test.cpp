@@ -107,6 +107,16 @@ TEST(Negotiate, SaysWhatThereIsWhenNothingFits) {
   EXPECT_THAT(tried.text, HasSubstr("/dev/video0 offers YUYV MJPG, but no depth (Z16, Y16)"));
 }
 
+TEST(Negotiate, FindsALayoutBehindManyOthers) {  // vivid and the bridges of boards offer dozens
+  std::vector<test::FakeMode> modes;
+  for (char letter = '0'; letter < '0' + 60; ++letter)
+    modes.push_back({SPHC_V4L2_FOURCC('Q', 'Q', 'Q', letter), kWidth, kHeight, 30});
+  modes.push_back({kYuyv, kWidth, kHeight, 30});
+  const Tried tried = tryCamera(test::FakeCamera(modes), configFor(SPHC_STREAM_COLOR));
+  ASSERT_EQ(tried.status, SPHC_OK) << tried.text;
+  EXPECT_EQ(tried.mode.fourcc, kYuyv);
+}
+
 TEST(Negotiate, RefusesModesThatCannotBe) {
   const std::function<void(v4l2_pix_format &)> lies[] = {
       [](v4l2_pix_format &pix) { pix.width = 0; },
