@@ -84,6 +84,14 @@ sphc_status checkFormat(const Node &node, const v4l2_pix_format &pix, const Mode
                  node.path(), mode->buffer_bytes, text.text);
 }
 
+// Where the device names no range, that of its colour space counts.
+pixels::YuvRange rangeOf(const v4l2_pix_format &pix) {
+  const bool is_default = pix.quantization == V4L2_QUANTIZATION_DEFAULT;
+  const bool is_full =
+      is_default ? pix.colorspace == V4L2_COLORSPACE_JPEG : pix.quantization == V4L2_QUANTIZATION_FULL_RANGE;
+  return is_full ? pixels::YuvRange::Full : pixels::YuvRange::Limited;
+}
+
 sphc_status fillMode(const Node &node, const sphc_v4l2_config &config, uint32_t fourcc, const v4l2_pix_format &pix,
                      Mode *mode, sphc_message *message) {
   const PixelFormat *format = findPixelFormat(pix.pixelformat);
@@ -93,8 +101,7 @@ sphc_status fillMode(const Node &node, const sphc_v4l2_config &config, uint32_t 
                    node.path(), fourccText(pix.pixelformat).text, fourccText(fourcc).text);
   *mode = {};
   mode->pixel_format = *format;
-  mode->range =
-      pix.quantization == V4L2_QUANTIZATION_FULL_RANGE ? pixels::YuvRange::Full : pixels::YuvRange::Limited;
+  mode->range = rangeOf(pix);
   mode->width = pix.width;
   mode->height = pix.height;
   mode->buffer_bytes = pix.sizeimage;

@@ -117,6 +117,31 @@ TEST(Negotiate, FindsALayoutBehindManyOthers) {  // vivid and the bridges of boa
   EXPECT_EQ(tried.mode.fourcc, kYuyv);
 }
 
+TEST(Negotiate, TakesTheRangeOfTheColourSpaceWhereTheDeviceNamesNone) {
+  struct Case {
+    uint32_t colorspace, quantization, white;
+  };
+  for (const Case &c : {Case{V4L2_COLORSPACE_JPEG, V4L2_QUANTIZATION_DEFAULT, 255},
+                        Case{V4L2_COLORSPACE_JPEG, V4L2_QUANTIZATION_LIM_RANGE, 235},
+                        Case{V4L2_COLORSPACE_SRGB, V4L2_QUANTIZATION_DEFAULT, 235},
+                        Case{V4L2_COLORSPACE_SRGB, V4L2_QUANTIZATION_FULL_RANGE, 255}}) {
+    test::FakeCamera fake = colorCamera();
+    fake.bend_format = [=](v4l2_pix_format &pix) {
+      pix.colorspace = c.colorspace;
+      pix.quantization = c.quantization;
+    };
+    fake.paint = [=](test::FakeFrame &frame) {
+      for (uint32_t i = 0; i < frame.bytes_used; ++i)
+        frame.data[i] = static_cast<uint8_t>(i % 2 ? 128 : c.white - 20);
+    };
+    sphc_v4l2_config config = configFor(SPHC_STREAM_COLOR);
+    config.format = SPHC_FORMAT_RGB8;
+    RunningCamera running(fake, config);
+    const auto *pixel = static_cast<const uint8_t *>(running.opened.take().image.data);
+    EXPECT_EQ(pixel[0], c.white == 255 ? 235 : 232) << c.colorspace << ' ' << c.quantization;
+  }
+}
+
 TEST(Negotiate, RefusesModesThatCannotBe) {
   const std::function<void(v4l2_pix_format &)> lies[] = {
       [](v4l2_pix_format &pix) { pix.width = 0; },
