@@ -48,6 +48,7 @@ void Camera::describe(sphc_libcamera_info *info) const {
 
 sphc_status Camera::start() {
   if (running_) return explain(&message_, SPHC_E_STATE, "start: running already; call stop first");
+  clock_.restart(readHostClocks());
   const sphc_status status = plugin_.start(device_, &message_);
   if (status != SPHC_OK) return status;
   running_ = true;

@@ -9,7 +9,7 @@ namespace sphc::libcamera {
 namespace {
 
 constexpr int64_t kNsPerUs = 1000, kNsPerS = 1000000000;
-constexpr int64_t kOldestNs = 2 * kNsPerS;  // a frame that was exposed longer ago than this is no fresh frame
+constexpr int64_t kBeforeStartNs = 2 * kNsPerS;  // a frame that was exposed longer before the start is none of it
 constexpr int64_t kEarlyNs = 5000000;  // a time may be that far ahead: the kernel guesses it from the bus's clock
 constexpr int64_t kReadingErrorNs = 1000000;  // two clocks are not read at the same moment
 constexpr int64_t kLongestExposureUs = 10000000;
@@ -20,14 +20,18 @@ int64_t read(clockid_t clock) {
   return now.tv_sec * kNsPerS + now.tv_nsec;
 }
 
-bool isFresh(int64_t age_ns) { return age_ns >= -kEarlyNs && age_ns <= kOldestNs; }
-
 }  // namespace
 
 HostClocks readHostClocks() { return {read(CLOCK_MONOTONIC), read(CLOCK_BOOTTIME)}; }
 
 FrameClock::FrameClock(int64_t period_ns)
     : period_ns_(period_ns > 0 ? period_ns : kNsPerS / 30), is_guessed_(period_ns <= 0) {}
+
+void FrameClock::restart(const HostClocks &now) { oldest_ns_ = now.monotonic_ns - kBeforeStartNs; }
+
+bool FrameClock::isFresh(int64_t start_ns, const HostClocks &arrival) const {
+  return start_ns >= oldest_ns_ && start_ns <= arrival.monotonic_ns + kEarlyNs;
+}
 
 FrameTime FrameClock::frameTime(int64_t sensor_time_ns, int64_t exposure_us, const HostClocks &arrival) {
   const int64_t slept_ns = arrival.boottime_ns - arrival.monotonic_ns;
@@ -39,10 +43,9 @@ FrameTime FrameClock::frameTime(int64_t sensor_time_ns, int64_t exposure_us, con
   };
   const FrameTime on_arrival = {arrival.monotonic_ns, SPHC_TIME_ARRIVAL, sigma_us(2)};
   if (sensor_time_ns <= 0) return on_arrival;
-  const int64_t age_ns = arrival.monotonic_ns - sensor_time_ns;
-  if (!isFresh(age_ns) && isFresh(age_ns + slept_ns_)) is_boottime_ = true;
+  if (!isFresh(sensor_time_ns, arrival) && isFresh(sensor_time_ns - slept_ns_, arrival)) is_boottime_ = true;
   const int64_t start_ns = sensor_time_ns - (is_boottime_ ? slept_ns_ : 0);
-  if (!isFresh(arrival.monotonic_ns - start_ns)) return on_arrival;
+  if (!isFresh(start_ns, arrival)) return on_arrival;
   if (is_guessed_ && last_start_ns_ > 0 && start_ns > last_start_ns_)
     period_ns_ = std::min(std::max(kNsPerS / 30, start_ns - last_start_ns_), kNsPerS);
   last_start_ns_ = start_ns;

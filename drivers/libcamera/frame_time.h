@@ -25,10 +25,16 @@ class FrameClock {
   // 0: not known; that from a frame to the next then, but no less than at 30 Hz.
   explicit FrameClock(int64_t period_ns = 0);
 
+  // The stream starts: its frames are no older, but may wait as long as they like for who takes them over.
+  void restart(const HostClocks &now);
+
   // `sensor_time_ns` of the start of the exposure, or <= 0; `exposure_us` 0: not known.
   FrameTime frameTime(int64_t sensor_time_ns, int64_t exposure_us, const HostClocks &arrival);
 
  private:
+  bool isFresh(int64_t start_ns, const HostClocks &arrival) const;
+
+  int64_t oldest_ns_ = 0;
   int64_t period_ns_;
   bool is_guessed_;
   int64_t last_start_ns_ = 0;

@@ -403,7 +403,10 @@ TEST_F(Libcamera, FallsBackToTheTimeOfArrivalAndSaysSo) {
   fake_->time_shift_ns = 3600 * kS;
   ASSERT_EQ(glance(), SPHC_OK);
   EXPECT_EQ(capture_.time_point, SPHC_TIME_ARRIVAL) << "an hour ahead";
-  EXPECT_EQ(info().without_time, 2u);
+  fake_->time_shift_ns = -3600 * kS;
+  ASSERT_EQ(glance(), SPHC_OK);
+  EXPECT_EQ(capture_.time_point, SPHC_TIME_ARRIVAL) << "an hour before the start";
+  EXPECT_EQ(info().without_time, 3u);
 }
 
 TEST_F(Libcamera, RefusesATimeThatGoesBack) {
@@ -443,8 +446,19 @@ TEST(LibcameraFrameClock, FollowsASleepInTheMidstOfAStream) {
   EXPECT_EQ(clock.frameTime(7301 * kS, 0, {101 * kS, 7301 * kS}).time_ns, 101 * kS);
 }
 
+TEST(LibcameraFrameClock, TakesFramesThatWaitedLongForASlowCaller) {
+  FrameClock clock;
+  clock.restart({100 * kS, 3700 * kS});
+  for (const int64_t slept_ns : {int64_t{0}, 3600 * kS}) {  // the clock of UVC cameras, and that of the book
+    const FrameTime time = clock.frameTime(101 * kS + slept_ns, 0, {110 * kS, 3710 * kS});
+    EXPECT_EQ(time.time_ns, 101 * kS);
+    EXPECT_EQ(time.point, SPHC_TIME_START);
+  }
+}
+
 TEST(LibcameraFrameClock, SurvivesAnyNumber) {
   FrameClock clock;
+  clock.restart({100 * kS, 100 * kS});
   for (const int64_t time_ns : {INT64_MIN, int64_t{-1}, int64_t{0}, int64_t{1}, INT64_MAX})
     for (const int64_t exposure_us : {INT64_MIN, int64_t{-1}, int64_t{1}, INT64_MAX})
       EXPECT_EQ(clock.frameTime(time_ns, exposure_us, {100 * kS, 100 * kS}).point, SPHC_TIME_ARRIVAL);
