@@ -93,14 +93,15 @@ sphc_status Camera::refuse(const sphc_libcamera_frame &frame) {
 sphc_status Camera::convertInto(const Slot &slot, const sphc_libcamera_frame &frame) {
   const sphc_libcamera_buffer &buffer = buffers_[frame.buffer];
   const sphc_libcamera_mode &mode = setup_.mode;
-  const size_t used[2] = {std::min(frame.used_bytes[0], buffer.bytes[0]),
-                          std::min(frame.used_bytes[1], buffer.bytes[1])};
+  const auto used = [&](int plane) {  // what is mapped fits a size_t
+    return static_cast<size_t>(std::min(frame.used_bytes[plane], buffer.bytes[plane]));
+  };
   const pixels::OutImage out = imageOf(slot);
-  if (setup_.format->is_jpeg) return decoder_.decode(buffer.data[0], used[0], out, &message_);
+  if (setup_.format->is_jpeg) return decoder_.decode(buffer.data[0], used(0), out, &message_);
   const pixels::YuvRange range = mode.full_range ? pixels::YuvRange::Full : pixels::YuvRange::Limited;
   pixels::RawImage raw = pixels::contiguous(setup_.format->layout, range, mode.width, mode.height,
-                                            mode.stride_bytes, buffer.data[0], used[0]);
-  if (buffer.data[1]) raw.planes[1] = {buffer.data[1], used[1], mode.stride_bytes};
+                                            mode.stride_bytes, buffer.data[0], used(0));
+  if (buffer.data[1]) raw.planes[1] = {buffer.data[1], used(1), mode.stride_bytes};
   return pixels::convert(raw, out, &message_);
 }
 

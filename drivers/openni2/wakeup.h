@@ -37,7 +37,9 @@ class Wakeup {
   // Under the lock; both come back under it.
   void wait() { pthread_cond_wait(&condition_, &mutex_); }
   void waitUntil(int64_t time_ns) {
-    const timespec time = {time_ns / 1000000000, time_ns % 1000000000};
+    timespec time = {};
+    time.tv_sec = static_cast<time_t>(time_ns / 1000000000);
+    time.tv_nsec = static_cast<long>(time_ns % 1000000000);
     pthread_cond_timedwait(&condition_, &mutex_, &time);
   }
 
