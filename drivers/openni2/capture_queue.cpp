@@ -16,6 +16,7 @@ constexpr size_t kAlignment = 64;
 }  // namespace
 
 bool CaptureQueue::open(uint32_t buffers, size_t buffer_bytes) {
+  if (buffer_bytes > SIZE_MAX / buffers - kAlignment) return false;  // a device names the sizes of its images
   const size_t pitch = (buffer_bytes + kAlignment - 1) / kAlignment * kAlignment;
   memory_.reset(new (std::nothrow) uint8_t[buffers * pitch]);
   if (!memory_) return false;

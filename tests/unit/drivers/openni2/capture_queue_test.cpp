@@ -44,6 +44,12 @@ class CaptureQueueTest : public ::testing::Test {
   sphc_message message_ = {};
 };
 
+TEST(CaptureQueueMemory, IsRefusedWhereItsSizeCannotBeCounted) {
+  CaptureQueue queue;
+  EXPECT_FALSE(queue.open(kMaxBuffers, SIZE_MAX / kMaxBuffers + 1)) << "on 32-bit boards the largest modes are so";
+  EXPECT_FALSE(queue.open(2, SIZE_MAX));
+}
+
 TEST_F(CaptureQueueTest, GivesTheEarlierStreamFirst) {
   push(kDepth, 200, 1);
   push(kColor, 100, 2);
