@@ -73,11 +73,11 @@ sphc_status BufferRing::map(uint32_t index, uint32_t bytes, bool export_dmabuf, 
     exported.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     exported.index = index;
     exported.flags = O_CLOEXEC | O_RDONLY;
-    if (const int error = node_.ioctl(VIDIOC_EXPBUF, &exported))
-      return error == ENODEV ? node_.explain(message, "VIDIOC_EXPBUF", error)
-                             : explain(message, SPHC_E_UNSUPPORTED,
-                                       "%s: cannot export dma-bufs (errno %d); set config.export_dmabuf to 0",
-                                       node_.path(), error);
+    const int error = node_.ioctl(VIDIOC_EXPBUF, &exported);
+    if (error == ENOTTY || error == EINVAL)
+      return explain(message, SPHC_E_UNSUPPORTED,
+                     "%s: cannot export dma-bufs (errno %d); set config.export_dmabuf to 0", node_.path(), error);
+    if (error) return node_.explain(message, "VIDIOC_EXPBUF", error);
     buffer.dmabuf = fd = exported.fd;
     offset = 0;
   }

@@ -142,6 +142,10 @@ TEST(Open, SaysWhenDmabufsCannotBe) {
   const OpenedCamera opened(kernel, config);
   EXPECT_EQ(opened.status, SPHC_E_UNSUPPORTED);
   EXPECT_THAT(opened.message.text, HasSubstr("set config.export_dmabuf to 0"));
+  kernel.failRequest(VIDIOC_EXPBUF, EMFILE);
+  const OpenedCamera too_many(kernel, config);
+  EXPECT_EQ(too_many.status, SPHC_E_DEVICE) << "the camera can";
+  EXPECT_THAT(too_many.message.text, HasSubstr("too many open files; close some"));
 }
 
 TEST(Open, ClosesEverything) {
