@@ -19,7 +19,6 @@ static int get_rigid(const uint8_t *bytes, sphc_rigid *rigid) {
 }
 
 static sphc_status get_rig(const uint8_t *header, sphc_raw *raw, sphc_message *message) {
-  raw->frame_count = get32(header + 12);
   raw->color_format = (sphc_format)get32(header + 16);
   get_camera(header + 24, &raw->rig.color_camera);
   get_camera(header + 24 + kCameraBytes, &raw->rig.depth_camera);
@@ -52,13 +51,15 @@ sphc_status sphc_raw_open(sphc_raw *raw, sphc_raw_read read, void *user, uint64_
   const sphc_status status = get_rig(header, raw, message);
   if (status != SPHC_OK) return status;
   raw->frame_bytes = frame_bytes_of(&raw->rig, raw->color_format);
-  if (file_bytes != place_of(raw->frame_count, raw->frame_bytes))
+  const uint32_t frame_count = get32(header + 12);
+  if (file_bytes != place_of(frame_count, raw->frame_bytes))
     return refuse(
         message, SPHC_E_ARGUMENT,
         "raw recording: not as long as its frames: it was cut, or never finished; copy the file again, or "
         "leave out what comes after the last frame that it counts");
   raw->read = read;
   raw->user = user;
+  raw->frame_count = frame_count; /* not before: a recording that did not open has no frames */
   return SPHC_OK;
 }
 

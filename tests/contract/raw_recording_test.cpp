@@ -266,6 +266,15 @@ TEST_F(RawRecording, TellsAMediumThatFails) {
   EXPECT_THAT(frame.message.text, HasSubstr("cannot be read"));
 }
 
+TEST_F(RawRecording, HasNoFrameWhereItDidNotOpen) {
+  medium_.bytes.pop_back();
+  const Opened opened = open(&medium_);
+  ASSERT_EQ(opened.status, SPHC_E_ARGUMENT);
+  EXPECT_EQ(opened.raw.frame_count, 0u);
+  sphc_raw_frame frame;
+  EXPECT_EQ(sphc_raw_read_head(&opened.raw, 0, &frame, nullptr), SPHC_E_ARGUMENT);
+}
+
 TEST_F(RawRecording, ChecksItsArguments) {
   sphc_raw raw;
   EXPECT_EQ(sphc_raw_open(nullptr, readMedium, &medium_, medium_.bytes.size(), nullptr), SPHC_E_ARGUMENT);
