@@ -200,12 +200,15 @@ sphc_status Camera::nextFilled(int64_t deadline_ns, FilledBuffer *filled) {
 
 // OK: look again.  AGAIN: time is up.
 sphc_status Camera::waitForFrame(int64_t deadline_ns) {
-  const int64_t remaining_ns = deadline_ns - node_.nowNs();
-  if (remaining_ns <= 0) return SPHC_AGAIN;
   pollfd file = {node_.fd(), POLLIN | POLLPRI, 0};
   const Syscalls &syscalls = node_.syscalls();
-  const int ready = syscalls.poll(syscalls.self, &file, remaining_ns);
-  if (ready < 0) return errno == EINTR ? SPHC_OK : failCall("poll", errno);
+  int ready = 0;
+  do {  // signals cost no round
+    const int64_t remaining_ns = deadline_ns - node_.nowNs();
+    if (remaining_ns <= 0) return SPHC_AGAIN;
+    ready = syscalls.poll(syscalls.self, &file, remaining_ns);
+  } while (ready < 0 && errno == EINTR);
+  if (ready < 0) return failCall("poll", errno);
   if (ready == 0) return SPHC_AGAIN;
   if (file.revents & POLLPRI) {
     const sphc_status status = takeNews();

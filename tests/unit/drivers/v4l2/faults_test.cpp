@@ -173,6 +173,12 @@ TEST(Fault, InterruptedCallsAreMadeAgain) {
   EXPECT_EQ(running.opened.acquire(&capture), SPHC_E_DEVICE) << "for ever, but not with us";
 }
 
+TEST(Fault, ManySignalsDoNotEndAWaitEarly) {  // as those of a profiler
+  RunningCamera running(depthCamera(), configFor(SPHC_STREAM_DEPTH));
+  running.kernel.failRequest(test::FakeKernel::kPoll, EINTR, 1000);
+  running.opened.take();
+}
+
 TEST(Fault, SlowCallerStarvesTheDeviceAndIsTold) {
   RunningCamera running(depthCamera(), configFor(SPHC_STREAM_DEPTH));  // 6 buffers
   sequences(running.opened, 3);
