@@ -148,6 +148,9 @@ sphc_status getControl(const Node &node, uint32_t id, int64_t *value, sphc_messa
   if (const int error = readDescription(node, id, &reply))
     return explainControl(node, "VIDIOC_QUERY_EXT_CTRL", id, error, message);
   if (reply.flags & V4L2_CTRL_FLAG_HAS_PAYLOAD) return explainPayload(node, reply, message);
+  if (reply.flags & V4L2_CTRL_FLAG_WRITE_ONLY)
+    return explain(message, SPHC_E_UNSUPPORTED, "%s: %.32s can only be set; remember what it was set to",
+                   node.path(), reply.name);
   int64_t read = 0;
   if (const int error = readValue(node, id, &read))
     return explainControl(node, "VIDIOC_G_EXT_CTRLS", id, error, message);
@@ -173,6 +176,10 @@ sphc_status setControl(const Node &node, uint32_t id, int64_t value, sphc_messag
   controls.count = 1;
   controls.controls = &control;
   const int error = node.ioctl(VIDIOC_S_EXT_CTRLS, &controls);
+  if (error == EINVAL || error == ERANGE)  // the control is there, and the value in its range
+    return explain(message, SPHC_E_ARGUMENT,
+                   "%s: %.32s does not take %lld; v4l2-ctl --list-ctrls-menus has its choices", node.path(),
+                   reply.name, static_cast<long long>(value));
   return error ? explainControl(node, "VIDIOC_S_EXT_CTRLS", id, error, message) : SPHC_OK;
 }
 

@@ -158,10 +158,10 @@ sphc_status sphc_v4l2_list_controls(sphc_v4l2 *v4l2, sphc_v4l2_control *controls
  * Errors: ARGUMENT, UNSUPPORTED (no such control), DEVICE, DEVICE_LOST. [exclusive] */
 sphc_status sphc_v4l2_find_control(sphc_v4l2 *v4l2, const char *name, sphc_v4l2_control *control,
                                    sphc_message *message);
-/* Errors: ARGUMENT, UNSUPPORTED (no such control), DEVICE, DEVICE_LOST. [exclusive] */
+/* Errors: ARGUMENT, UNSUPPORTED (no such control, or one that can only be set), DEVICE, DEVICE_LOST. [exclusive] */
 sphc_status sphc_v4l2_get_control(sphc_v4l2 *v4l2, uint32_t id, int64_t *value, sphc_message *message);
-/* Errors: as above; ARGUMENT: out of range or between two steps (the kernel would bend it silently); UNSUPPORTED:
- * read only; STATE: inactive. [exclusive] */
+/* Errors: as above; ARGUMENT: out of range or between two steps (the kernel would bend it silently), or none of a
+ * menu's choices; UNSUPPORTED: read only; STATE: inactive. [exclusive] */
 sphc_status sphc_v4l2_set_control(sphc_v4l2 *v4l2, uint32_t id, int64_t value, sphc_message *message);
 
 #ifdef __cplusplus

@@ -87,6 +87,21 @@ TEST_F(Controls, AreNotBentSilently) {
   EXPECT_THAT(message.text, HasSubstr("read only"));
 }
 
+TEST_F(Controls, SayThatAValueInRangeIsNoneOfTheChoices) {  // menus of UVC cameras have holes
+  kernel.failRequest(VIDIOC_S_EXT_CTRLS, EINVAL);
+  EXPECT_EQ(set(kAuto, V4L2_EXPOSURE_SHUTTER_PRIORITY), SPHC_E_ARGUMENT);
+  EXPECT_THAT(message.text, HasSubstr("Auto Exposure does not take 2"));
+}
+
+TEST_F(Controls, ThatCanOnlyBeSetAreNotRead) {
+  fake->findControl(V4L2_CID_BRIGHTNESS)->flags = V4L2_CTRL_FLAG_WRITE_ONLY;
+  kernel.failRequest(VIDIOC_G_EXT_CTRLS, EACCES);
+  int64_t value = 77;
+  EXPECT_EQ(sphc_v4l2_get_control(camera.handle, V4L2_CID_BRIGHTNESS, &value, &message), SPHC_E_UNSUPPORTED);
+  EXPECT_THAT(message.text, HasSubstr("Brightness can only be set"));
+  EXPECT_EQ(value, 77);
+}
+
 TEST_F(Controls, ThatAreNotThereAreUnsupported) {
   int64_t value = 77;
   EXPECT_EQ(sphc_v4l2_get_control(camera.handle, V4L2_CID_ZOOM_ABSOLUTE, &value, &message), SPHC_E_UNSUPPORTED);
