@@ -52,6 +52,7 @@ sphc_status Camera::start() {
   const sphc_status status = plugin_.start(device_, &message_);
   if (status != SPHC_OK) return status;
   running_ = true;
+  set_exposure_us_ = config_.exposure_us;
   any_ = false;
   lost_ = refused_ = without_time_ = 0;
   return SPHC_OK;
@@ -117,6 +118,7 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
                    config_.loan_limit);
   sphc_libcamera_frame frame;
   const sphc_status status = plugin_.wait(device_, timeout_us, &frame, &message_);
+  if (status == SPHC_E_DEVICE) set_exposure_us_ = 0;  // may be what was refused
   if (status != SPHC_OK) return status;
   const HostClocks now = readHostClocks();
   if (frame.buffer >= buffers_.size())
@@ -127,7 +129,7 @@ sphc_status Camera::acquire(uint32_t timeout_us, sphc_capture *capture) {
             frame.sequence);
     return refuse(frame);
   }
-  const int64_t exposure_us = frame.exposure_us > 0 ? frame.exposure_us : config_.exposure_us;
+  const int64_t exposure_us = frame.exposure_us > 0 ? frame.exposure_us : set_exposure_us_;
   const FrameTime time = clock_.frameTime(frame.sensor_time_ns, exposure_us, now);
   if (time.time_ns <= last_ns_) {
     explain(&message_, SPHC_E_DEVICE, "frame %u: its time lies %.3f ms before that of the last one; take the next",

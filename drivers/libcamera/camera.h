@@ -50,8 +50,9 @@ class Camera {
   pixels::MjpegDecoder decoder_;
 
   bool running_ = false;
-  bool any_ = false;       // a frame since start
-  uint32_t sequence_ = 0;  // of the last one
+  uint32_t set_exposure_us_ = 0;  // by the config; 0: by the camera itself, for all that is known
+  bool any_ = false;              // a frame since start
+  uint32_t sequence_ = 0;         // of the last one
   int64_t last_ns_ = INT64_MIN;
   uint64_t last_token_ = 0;  // counts on through restarts
   uint64_t lost_ = 0, refused_ = 0, without_time_ = 0;

@@ -148,6 +148,10 @@ void fill(const sphc_libcamera_device &device, std::vector<uint8_t> &bytes) {
 sphc_status wait(sphc_libcamera_device *device, uint32_t timeout_us, sphc_libcamera_frame *frame,
                  sphc_message *message) {
   if (fake().unplugged) return explain(message, SPHC_E_DEVICE_LOST, "unplugged");
+  if (fake().refuses_next) {
+    fake().refuses_next = false;
+    return explain(message, SPHC_E_DEVICE, "refused a buffer or a control");
+  }
   if (fake().stalled || device->queued.empty()) {
     sleepUs(timeout_us);
     return SPHC_AGAIN;

@@ -30,6 +30,7 @@ struct FakeLibcamera {
   bool stalled = false;
   bool unplugged = false;
   bool next_damaged = false;
+  bool refuses_next = false;   // of what was queued
   uint32_t skip = 0;           // sequence numbers, once
   uint64_t missing_bytes = 0;  // of the next frame
   int64_t time_shift_ns = 0;   // of every time

@@ -393,6 +393,21 @@ TEST_F(Libcamera, GivesTheMiddleOfAnExposureThatWasSet) {
   EXPECT_EQ(capture_.exposure_us, 5000u);
 }
 
+TEST_F(Libcamera, DoesNotTellAnExposureThatTheCameraMayHaveRefused) {
+  offer(0, "ExposureTime", 100, 30000);
+  config_.exposure_us = 5000;
+  openAndStart();
+  fake_->refuses_next = true;
+  EXPECT_EQ(glance(), SPHC_E_DEVICE);
+  ASSERT_EQ(glance(), SPHC_OK);
+  EXPECT_EQ(capture_.exposure_us, 0u);
+  EXPECT_EQ(capture_.time_point, SPHC_TIME_START);
+  source_.stop(source_.self);
+  ASSERT_EQ(source_.start(source_.self), SPHC_OK);  // which asks for it again
+  ASSERT_EQ(glance(), SPHC_OK);
+  EXPECT_EQ(capture_.exposure_us, 5000u);
+}
+
 TEST_F(Libcamera, FallsBackToTheTimeOfArrivalAndSaysSo) {
   fake_->gives_time = false;
   openAndStart();
