@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <string>
@@ -198,7 +199,28 @@ TEST(Pairer, LoneStreamIsHandedBackWhenFull) {
   EXPECT_EQ(pairer.push(color(3)), SPHC_OK);
 }
 
-TEST(Pairer, OneSlotStillPairs) {
+// Pairs of two streams at 30 Hz, the depth images `late_ms` later at the host than those of colour.
+size_t pairsOfLateDepth(uint32_t slots, int64_t late_ms) {
+  Pairer pairer = makePairer(slots);
+  std::string out;
+  for (int64_t now = 0; now < 3000; ++now) {
+    if (now % 33 == 0) pairer.push(color(now));
+    out += drain(&pairer);
+    if (now >= late_ms && (now - late_ms) % 33 == 0) pairer.push(depth(now - late_ms + 1));
+    out += drain(&pairer);
+  }
+  return static_cast<size_t>(std::count(out.begin(), out.end(), '+'));
+}
+
+TEST(Pairer, ADelayTakesSlotsByItsRateAndOneMore) {  // docs/capture.md
+  EXPECT_GT(pairsOfLateDepth(2, 0), 85u);
+  EXPECT_LT(pairsOfLateDepth(4, 100), 5u);
+  EXPECT_GT(pairsOfLateDepth(5, 100), 85u);
+  EXPECT_LT(pairsOfLateDepth(5, 150), 5u);
+  EXPECT_GT(pairsOfLateDepth(6, 150), 85u);
+}
+
+TEST(Pairer, OneSlotHoldsNothingBack) {
   Pairer pairer = makePairer(1);
   pairer.push(depth(99));
   EXPECT_EQ(drain(&pairer), "-d99 ");  // full, and nothing to pair with: the next push must find room
