@@ -96,17 +96,24 @@ sphc_status findNode(const Syscalls &syscalls, const char *camera, sphc_stream s
   const bool by_card = startsWith(camera, kCard);
   const char *wanted = camera + std::strlen(by_card ? kCard : kBus);
   bool found = false;
+  sphc_v4l2_device closed = {};  // that it may be, but for its problem
   forEachDevice(syscalls, [&](const sphc_v4l2_device &device) {
-    found = std::strcmp(by_card ? device.card : device.bus, wanted) == 0 && !device.problem[0] &&
-            (stream == SPHC_STREAM_DEPTH ? device.can_depth : device.can_color);
+    const bool is_named = std::strcmp(by_card ? device.card : device.bus, wanted) == 0;
+    if (device.problem[0] && (is_named || !device.card[0]) && !closed.problem[0]) closed = device;
+    found = is_named && !device.problem[0] && (stream == SPHC_STREAM_DEPTH ? device.can_depth : device.can_color);
     if (found) std::snprintf(path->text, sizeof path->text, "%s", device.node);
     return found;
   });
   if (found) return SPHC_OK;
+  const char *wish = stream == SPHC_STREAM_DEPTH ? "depth" : "colour";
+  if (closed.problem[0])
+    return pixels::explain(message, SPHC_E_DEVICE,
+                           "no camera %.64s with a %s stream; is it plugged in? It may be %s (%s)", camera, wish,
+                           closed.node, closed.problem);
   return pixels::explain(
       message, SPHC_E_DEVICE,
       "no camera %.64s with a %s stream; is it plugged in? `spherecloud devices` lists what is there", camera,
-      stream == SPHC_STREAM_DEPTH ? "depth" : "colour");
+      wish);
 }
 
 }  // namespace sphc::v4l2

@@ -106,6 +106,26 @@ TEST(Devices, AreFoundByCardAndBusAndStream) {
   EXPECT_THAT(none.message.text, HasSubstr("no camera card=Fake camera with a depth stream"));
 }
 
+TEST(Devices, ThatCannotBeLookedIntoAreNamedWhereNoneIsFound) {
+  test::FakeKernel kernel;
+  kernel.plugIn(0, colorCamera());
+  plugInHeadset(kernel, {1, 2, 3, 4});
+  kernel.failRequest(test::FakeKernel::kOpen, EACCES);
+  const OpenedCamera refused(kernel, configFor(SPHC_STREAM_COLOR), "card=Fake camera");
+  EXPECT_EQ(refused.status, SPHC_E_DEVICE);
+  EXPECT_THAT(refused.message.text,
+              HasSubstr("/dev/video0 (open: Permission denied; add the user to the node's group"));
+  test::FakeCamera planes = depthCamera();
+  planes.card = "Bridge";
+  planes.caps = V4L2_CAP_VIDEO_CAPTURE_MPLANE | V4L2_CAP_STREAMING;
+  kernel.plugIn(5, planes);
+  const OpenedCamera bridge(kernel, configFor(SPHC_STREAM_DEPTH), "card=Bridge");
+  EXPECT_THAT(bridge.message.text,
+              HasSubstr("/dev/video5 (multi-planar, which this driver cannot; use libcamera)"));
+  const OpenedCamera other(kernel, configFor(SPHC_STREAM_DEPTH), "card=Nothing");
+  EXPECT_THAT(other.message.text, HasSubstr("is it plugged in?")) << "nothing of the bridge's";
+}
+
 TEST(Devices, AreFoundAgainUnderAnotherNumber) {
   test::FakeKernel kernel;
   plugInHeadset(kernel, {0, 1, 2, 3});
