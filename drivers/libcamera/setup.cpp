@@ -84,7 +84,7 @@ sphc_status chooseExposure(const sphc_libcamera_plugin &plugin, sphc_libcamera_d
 sphc_status chooseRate(const sphc_libcamera_plugin &plugin, sphc_libcamera_device *device,
                        const sphc_libcamera_config &config, sphc_message *message) {
   if (config.rate_hz == 0) return SPHC_OK;
-  const int64_t period_us = 1000000 / config.rate_hz;
+  const int64_t period_us = (1000000 + config.rate_hz / 2) / config.rate_hz;
   sphc_libcamera_range range;
   if (plugin.control(device, "FrameDurationLimits", &range) != SPHC_OK)
     return explain(message, SPHC_E_UNSUPPORTED, "rate_hz %u: this camera's rate cannot be set; use 0",

@@ -53,10 +53,13 @@ static struct camera open_camera(const char *name, sphc_stream stream, const sph
 static sphc_map *open_map(const char *path) {
   const int file = open(path, O_RDONLY);
   struct stat info = {0};
-  fstat(file, &info);
-  const void *bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  const void *bytes = MAP_FAILED;
+  if (fstat(file, &info) == 0) bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  if (bytes == MAP_FAILED) {
+    perror(path);
+    exit(EXIT_FAILURE);
+  }
   sphc_map *map = NULL;
-  check(bytes == MAP_FAILED ? SPHC_E_DEVICE : SPHC_OK, path);
   check(sphc_map_init(view, sizeof view, bytes, (size_t)info.st_size, &map, &message), path);
   return map;
 }

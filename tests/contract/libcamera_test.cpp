@@ -224,6 +224,14 @@ TEST_F(Libcamera, SetsTheRateOrRefusesIt) {
   EXPECT_EQ(fake_->controls[0].value, 40000);
 }
 
+// A period of 60 Hz is no whole number of microseconds.
+TEST_F(Libcamera, SetsTheFastestRate) {
+  config_.rate_hz = 60;
+  offer(0, "FrameDurationLimits", 16667, 100000);
+  ASSERT_EQ(open(), SPHC_OK) << message_.text;
+  EXPECT_EQ(fake_->controls[0].value, 16667);
+}
+
 // ---- frames ----------------------------------------------------------------------------------------------------
 
 // The fake's byte i of frame 0.

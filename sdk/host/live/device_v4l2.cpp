@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "drivers/v4l2/v4l2.h"
@@ -36,7 +37,7 @@ class V4l2Device : public Device {
     sphc_v4l2_get_mode(v4l2_, &mode);
     std::string rate;
     if (mode.period_numerator > 0)
-      rate = " at " + std::to_string(mode.period_denominator / mode.period_numerator) + " Hz";
+      rate = " at " + std::to_string(std::lround(double(mode.period_denominator) / mode.period_numerator)) + " Hz";
     return std::string(mode.card) + " (" + mode.node + "), " + fourccText(mode.fourcc) + " " +
            std::to_string(mode.width) + " x " + std::to_string(mode.height) + rate;
   }

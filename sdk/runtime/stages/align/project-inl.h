@@ -25,7 +25,7 @@ using MF = hn::Mask<F32>;
 using VU32 = hn::Vec<U32>;
 
 constexpr float kSteepest = 0.1f;    // relative depth step beyond which a neighbour says nothing more
-constexpr float kGoodError = 0.01f;  // relative depth error of confidence 127
+constexpr float kGoodError = 0.01f;  // relative depth error of half the highest confidence
 constexpr float kPlacedPx = 0.3f;    // 1 sigma of where in its pixel a sample was measured
 constexpr float kSpreadPx = 0.8f;    // the same beside its pixel
 constexpr float kFarPx = 1e6f;       // a pixel of numbers that are too large, or not numbers
