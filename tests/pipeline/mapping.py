@@ -21,8 +21,9 @@ from recordings import HERE, Recording, frames, run
 RESULTS = HERE / "mapping.csv"
 ROOMS = list(range(6001, 6013))  # seeds of room and walk that nothing else uses
 FRAMES, LAP_S = 100, 16  # one lap
-# Frames of each: what maps are made of elsewhere, and all of the walk.
-REAL = {"redkitchen": (0, 597, 3), "hololens": (0, 199, 1), "hololens2": (0, 999, 1)}
+# Recording and frames of each: what maps are made of elsewhere, all of the walk, and a third of it, which is a walk of quick turns.
+REAL = {"redkitchen": ("redkitchen", (0, 597, 3)), "hololens": ("hololens", (0, 199, 1)), "hololens2": ("hololens2", (0, 999, 1)),
+        "hololens_third": ("hololens", (0, 199, 3)), "hololens2_third": ("hololens2", (0, 999, 3))}
 KINDS = ["none", "approximate", "odometry"]
 COLUMNS = ["world", "recording", "poses", "frames", "frames_mapped", "parts", "ate_rigid_m", "ate_unaligned_m", "ate_similarity_m", "scale", "rotation_median_deg",
            "rotation_worst_deg", "processor_s"]
@@ -49,8 +50,9 @@ def row_of(world, name, kind, tool, source, folder):
 
 
 def measure_real(name, kinds, tool, folder):
-    recording = Recording(name, tool, folder)
-    source = recording.place("map") + frames(REAL[name])
+    of, selection = REAL[name]
+    recording = Recording(of, tool, folder)
+    source = recording.place("map") + frames(selection)
     return [row_of("real", name, kind, tool, source, folder) for kind in kinds] if recording.is_there() else []
 
 
