@@ -143,8 +143,8 @@ sphc_status sphc_replay_read_frame(sphc_replay *replay, uint32_t index, sphc_loc
                                    sphc_message *message);
 
 /* Recorded pose of the colour camera at the colour time of frame `index`; the world is the recording's own.
- * Exact when a pose has this very time, else interpolated (config.pose_gap_ns).  SPHC_NOT_LOCALIZED: the recording
- * has none here; the output is untouched.  Errors: ARGUMENT. [shared] */
+ * Exact when a pose has this very time, else interpolated (config.pose_gap_ns), else a pose at most 1 us away.
+ * SPHC_NOT_LOCALIZED: the recording has none here; the output is untouched.  Errors: ARGUMENT. [shared] */
 sphc_status sphc_replay_pose(const sphc_replay *replay, uint32_t index, sphc_rigid *world_from_camera);
 /* The same at any time. [shared] */
 sphc_status sphc_replay_pose_at(const sphc_replay *replay, int64_t time_ns, sphc_rigid *world_from_camera);

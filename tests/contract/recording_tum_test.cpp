@@ -73,8 +73,19 @@ TEST_F(Tum, InterpolatesPosesAcrossSmallGapsOnly) {
   EXPECT_NEAR(pose.q_wxyz[3], std::sin(half_angle), 1e-12);
   EXPECT_NEAR(pose.t_m[2], 1, 1e-12);
   EXPECT_EQ(sphc_replay_pose_at(replay.get(), 1100000000, &pose), SPHC_NOT_LOCALIZED) << "gap of 160 ms";
-  EXPECT_EQ(sphc_replay_pose_at(replay.get(), 999999999, &pose), SPHC_NOT_LOCALIZED) << "before the first";
-  EXPECT_EQ(sphc_replay_pose_at(replay.get(), 1200000001, &pose), SPHC_NOT_LOCALIZED) << "behind the last";
+  EXPECT_EQ(sphc_replay_pose_at(replay.get(), 999998999, &pose), SPHC_NOT_LOCALIZED) << "before the first";
+  EXPECT_EQ(sphc_replay_pose_at(replay.get(), 1200001001, &pose), SPHC_NOT_LOCALIZED) << "behind the last";
+}
+
+TEST_F(Tum, PosesKeepTheirImagesWhenADoubleRoundedTheirTimes) {
+  folder_.write("rgb.txt", "1700000010.3 rgb/000000.png\n1700000010.4 rgb/000001.png\n");
+  folder_.write("groundtruth.txt", "1700000010.299999952 1 0 0 0 0 0 1\n1700000010.400000095 2 0 0 0 0 0 1\n");
+  const OpenReplay replay = open();
+  for (const int64_t time_ns : {1700000010300000000, 1700000010400000000}) {
+    sphc_rigid pose;
+    ASSERT_EQ(sphc_replay_pose_at(replay.get(), time_ns, &pose), SPHC_OK);
+    EXPECT_EQ(pose.t_m[0], time_ns == 1700000010300000000 ? 1 : 2);
+  }
 }
 
 TEST_F(Tum, LeavesBadPosesOut) {

@@ -10,6 +10,14 @@ namespace sphc::recording {
 
 namespace {
 
+// How far a time since 1970 may move when somebody kept it as a double of seconds, or printed six decimals of it.
+constexpr uint64_t kSameTimeNs = 1000;
+
+// Without overflow, whatever times were asked for.
+uint64_t timeBetween(int64_t early_ns, int64_t late_ns) {
+  return static_cast<uint64_t>(late_ns) - static_cast<uint64_t>(early_ns);
+}
+
 double dot4(const double a[4], const double b[4]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
 }  // namespace
@@ -22,14 +30,15 @@ void PoseTrack::add(int64_t time_ns, const sphc_rigid &world_from_camera) {
 std::optional<sphc_rigid> PoseTrack::at(int64_t time_ns, int64_t gap_ns) const {
   const auto after = std::lower_bound(poses_.begin(), poses_.end(), time_ns,
                                       [](const TimedPose &pose, int64_t time) { return pose.time_ns < time; });
-  if (after == poses_.end()) return {};
-  if (after->time_ns == time_ns) return after->pose;
-  if (after == poses_.begin()) return {};
-  const auto before = after - 1;
-  if (after->time_ns - before->time_ns > gap_ns) return {};
-  const double s =
-      static_cast<double>(time_ns - before->time_ns) / static_cast<double>(after->time_ns - before->time_ns);
-  return interpolate(before->pose, after->pose, s);
+  const auto before = after == poses_.begin() ? poses_.end() : after - 1;
+  const uint64_t to_before = before == poses_.end() ? UINT64_MAX : timeBetween(before->time_ns, time_ns);
+  const uint64_t to_after = after == poses_.end() ? UINT64_MAX : timeBetween(time_ns, after->time_ns);
+  if (to_after == 0) return after->pose;
+  if (before != poses_.end() && after != poses_.end() && to_before + to_after <= static_cast<uint64_t>(gap_ns))
+    return interpolate(before->pose, after->pose,
+                       static_cast<double>(to_before) / static_cast<double>(to_before + to_after));
+  if (std::min(to_before, to_after) > kSameTimeNs) return {};
+  return (to_before < to_after ? before : after)->pose;
 }
 
 sphc_rigid interpolate(const sphc_rigid &from, const sphc_rigid &to, double s) {

@@ -18,7 +18,7 @@ class PoseTrack {
  public:
   // Times must not decrease; of equal times the first counts.
   void add(int64_t time_ns, const sphc_rigid &world_from_camera);
-  // Exact at a recorded time, else between neighbours at most `gap_ns` apart.
+  // Exact at a recorded time, else between neighbours at most `gap_ns` apart, else of a time at most 1 us away.
   std::optional<sphc_rigid> at(int64_t time_ns, int64_t gap_ns) const;
   const std::vector<TimedPose> &poses() const { return poses_; }
 
