@@ -42,6 +42,18 @@ TEST_F(Tum, KeepsEveryNanosecond) {
   EXPECT_EQ(frame.depth_time_ns, 1305031102175304123 + kDepthLagNs);
 }
 
+TEST_F(Tum, ReadsPosesAsNumpyAndEvoWriteThem) {
+  folder_.write(
+      "groundtruth.txt",
+      "1.700000010300000000e+09 1.000000000000000000e+00 0.000000000000000000e+00 -2.500000000000000000e-01 "
+      "0.000000000000000000e+00 0.000000000000000000e+00 0.000000000000000000e+00 1.000000000000000000e+00\n");
+  const OpenReplay replay = open();
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  sphc_rigid pose;
+  ASSERT_EQ(sphc_replay_pose_at(replay.get(), 1700000010300000000, &pose), SPHC_OK);
+  EXPECT_EQ(pose.t_m[2], -0.25);
+}
+
 TEST_F(Tum, PairsWithTheNearestDepth) {
   folder_.write("rgb.txt", "1.000 rgb/000000.png\n1.100 rgb/000001.png\n1.200 rgb/000002.png\n");
   folder_.write("depth.txt",
@@ -148,6 +160,8 @@ TEST_F(Tum, NamesTheUnitOfTimesThatAreNotInSeconds) {
                 "looks like nanoseconds; divide the times by 1000000000");
   folder_.write("rgb.txt", "1305031102175304.5 rgb/000000.png\n");
   expectRefused(SPHC_E_ARGUMENT, "microseconds; divide the times by 1000000");
+  folder_.write("rgb.txt", "1.305031102175304123e+18 rgb/000000.png\n");
+  expectRefused(SPHC_E_ARGUMENT, "nanoseconds; divide the times by 1000000000");
   folder_.write("rgb.txt", "1305031102175 rgb/000000.png\n");
   expectRefused(SPHC_E_ARGUMENT, "milliseconds; divide the times by 1000");
   folder_.write("rgb.txt", "9199999999 rgb/000000.png\n9300000000 rgb/000001.png\n");

@@ -23,6 +23,16 @@ TEST(TextField, ReadsSecondsWithoutFloatLoss) {
   EXPECT_EQ(seconds("000.1"), 100000000);
 }
 
+TEST(TextField, ReadsSecondsWithAnExponent) {
+  EXPECT_EQ(seconds("1.305031102175304123e+09"), 1305031102175304123);
+  EXPECT_EQ(seconds("1.700000000299999952e+09"), 1700000000299999952);
+  EXPECT_EQ(seconds("0.000000000000000000e+00"), 0);
+  EXPECT_EQ(seconds("2.999999999999999889e-01"), 300000000);
+  EXPECT_EQ(seconds("1.25E-3"), 1250000);
+  EXPECT_EQ(seconds("12e3"), 12000000000000);
+  EXPECT_EQ(seconds("1e-300"), 0);
+}
+
 TEST(TextField, RoundsDigitsBehindTheNinth) {
   EXPECT_EQ(seconds("1.0000000014"), 1000000001);
   EXPECT_EQ(seconds("1.0000000015"), 1000000002);
@@ -30,7 +40,8 @@ TEST(TextField, RoundsDigitsBehindTheNinth) {
 }
 
 TEST(TextField, RefusesWhatIsNoTime) {
-  for (const char *text : {"", ".", ".5", "-1", "+1", "1e3", "1.5x", "x", "nan", "1.2.3", "99999999999", " 1"})
+  for (const char *text : {"", ".", ".5", "-1", "+1", "1e", "1e3.5", "e3", ".e3", "-1e3", "1.2.3e1", "1e11",
+                           "1e99999999999", "1.5x", "x", "nan", "1.2.3", "99999999999", " 1"})
     EXPECT_EQ(seconds(text), -1) << text;
 }
 

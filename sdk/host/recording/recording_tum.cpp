@@ -59,7 +59,8 @@ void forEachLine(const fs::path &path, const char *expected, const LineParser &p
     std::string_view line = trimmed(rest.substr(0, end));
     rest.remove_prefix(complete ? end + 1 : rest.size());
     if (line.empty() || line[0] == '#' || parse(line, number) || !complete) continue;
-    failLine(path, number, std::string("expected \"") + expected + "\"" + otherUnitOf(takeWord(line)));
+    failLine(path, number,
+             std::string("expected \"") + expected + "\"" + otherUnitOf(withoutExponent(takeWord(line))));
   }
 }
 

@@ -17,8 +17,11 @@ std::string_view trimmed(std::string_view text);
 bool parseDouble(std::string_view field, double &value);
 bool parseUnsigned(std::string_view field, uint32_t &value);
 
+// The same number without an exponent, as in "1.5e+03", which numpy and evo write; other text as it is.
+std::string withoutExponent(std::string_view field);
+
 // Decimal seconds to nanoseconds without a float between them; digits behind the ninth are rounded.
-bool parseSeconds(std::string_view field, int64_t &time_ns);
+bool parseSeconds(std::string_view text, int64_t &time_ns);
 // Its inverse for times >= 0: nine decimals.
 std::string formatSeconds(int64_t time_ns);
 
