@@ -54,6 +54,15 @@ TEST_F(Tum, ReadsPosesAsNumpyAndEvoWriteThem) {
   EXPECT_EQ(pose.t_m[2], -0.25);
 }
 
+TEST_F(Tum, EndingsOfNamesMayBeInCapitals) {
+  std::filesystem::rename(folder_ / "rgb/000000.png", folder_ / "rgb/IMG_0.PNG");
+  folder_.write("rgb.txt", "1305031102.175304123 rgb/IMG_0.PNG\n");
+  const OpenReplay replay = open();
+  sphc_localizer_frame frame;
+  sphc_message message{};
+  EXPECT_EQ(sphc_replay_read_frame(replay.get(), 0, &frame, &message), SPHC_OK) << message.text;
+}
+
 TEST_F(Tum, PairsWithTheNearestDepth) {
   folder_.write("rgb.txt", "1.000 rgb/000000.png\n1.100 rgb/000001.png\n1.200 rgb/000002.png\n");
   folder_.write("depth.txt",

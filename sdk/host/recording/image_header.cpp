@@ -58,7 +58,8 @@ bool readJpegSize(ByteView file, ImageSize &size) {
 }  // namespace
 
 ImageType imageTypeOf(const std::string &file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char &c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   if (ending == ".png") return ImageType::kPng;
   if (ending == ".jpg" || ending == ".jpeg") return ImageType::kJpeg;
   throw Failure(SPHC_E_IMAGE, "is no .png, .jpg or .jpeg; convert it to PNG");
