@@ -24,7 +24,12 @@ void require(sphc_status status, const sphc_message &message) {
 fs::path unfinishedName(const fs::path &path) {
   if (fs::exists(path))
     throw Failure(SPHC_E_STATE, shortPath(path.string()) + ": is there already; give a new name");
-  return path.string() + ".unfinished";
+  const std::string unfinished = path.string() + ".unfinished";
+  if (fs::exists(unfinished))
+    throw Failure(SPHC_E_STATE, shortPath(unfinished) +
+                                    ": is there, which a killed program left or another one writes; remove it, or "
+                                    "give another name");
+  return unfinished;
 }
 
 }  // namespace
