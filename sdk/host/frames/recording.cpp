@@ -3,6 +3,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "host/base/counted.h"
 #include "host/base/usage_error.h"
 
 namespace sphc::host {
@@ -39,6 +40,10 @@ std::unique_ptr<RecordingReader> openRecording(const RecordingOptions &options) 
     throw std::runtime_error(std::string("cannot open the recording: ") + error.what());
   }
   if (reader->frameCount() > 0) return reader;
+  if (const recording::Recording &told = reader->recording(); !told.depth.empty())
+    throw std::runtime_error("none of " + counted(told.depth.size(), "depth image") + " in " + options.folder +
+                             " is of the time of one of " + counted(told.color.size(), "colour image") +
+                             " (at most 20 ms apart); are the times of both in seconds of one clock?");
   throw std::runtime_error("no frame of colour and depth in " + options.folder + " for " +
                            describeSelection(options) +
                            ": check --first, --last, --step, and that depth images are there");

@@ -87,11 +87,16 @@ class Census {
     for (int i = 0; i < 4; ++i) moved_ = moved_ || std::abs(pose.q_wxyz[i] - first_.q_wxyz[i]) > kSamePose;
     for (int i = 0; i < 3; ++i) moved_ = moved_ || std::abs(pose.t_m[i] - first_.t_m[i]) > kSamePose;
   }
-  void check(const RgbdImportSummary &s) const {
+  // `told_poses`: of the recordings, whether a frame has their times or not.
+  void check(const RgbdImportSummary &s, uint64_t told_poses) const {
     const auto count = [](uint64_t n) { return std::to_string(n); };
     if (s.frames_used == 0 && s.frames_unreadable > 0)
       throw std::runtime_error("not one frame can be read: of " + count(s.frames_unreadable) +
                                " with a pose the first says: " + s.first_unreadable);
+    if (s.frames_used == 0 && told_poses > 0)
+      throw std::runtime_error("none of the recording's " + counted(told_poses, "pose") +
+                               " is of the time of a frame; are the times of poses and images in seconds of one "
+                               "clock?");
     if (s.frames_used == 0)
       throw std::runtime_error(
           "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "
@@ -115,9 +120,13 @@ class Importer {
   }
 
   PointModel import(const std::vector<RgbdSource> &recordings) {
-    for (const RgbdSource &source : recordings) total_ += source.reader->frameCount();
+    uint64_t told_poses = 0;
+    for (const RgbdSource &source : recordings) {
+      total_ += source.reader->frameCount();
+      if (!source.poses) told_poses += source.reader->recording().poses.poses().size();
+    }
     for (const RgbdSource &source : recordings) add(source);
-    census_.check(*summary_);
+    census_.check(*summary_, told_poses);
     std::vector<TrackedPoint> points = tracks_.points();
     if (!options_.keep_moving) summary_->fixed_in_image = fixed_.dropFrom(&points);
     summary_->moving = dropMoving(views_, &points);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/contract/temp_folder.h"
+#include "tests/contract/tiny_recording.h"
 #include "tests/support/refusal.h"
 
 namespace sphc::host {
@@ -14,6 +16,16 @@ TEST(Recording, OneThatIsNotThereIsNamed) {
   EXPECT_THAT(
       test::refusal([&] { openRecording(options); }),
       testing::AllOf(testing::StartsWith("cannot open the recording: "), testing::HasSubstr("/nonexistent")));
+}
+
+TEST(Recording, ColourAndDepthThatNeverMeetAreNamedAsTheCause) {
+  const contract::TempFolder folder;
+  contract::writeTinyRecording(folder.path().string(), 3);
+  folder.write("depth.txt", "5.0 depth/000000.png\n6.0 depth/000001.png\n");
+  RecordingOptions options;
+  options.folder = folder.path().string();
+  EXPECT_THAT(test::refusal([&] { openRecording(options); }),
+              testing::AllOf(testing::HasSubstr("none of 2 depth images"), testing::HasSubstr("3 colour images")));
 }
 
 TEST(Recording, AStepOfZeroChoosesNothing) {

@@ -55,6 +55,11 @@ TEST_F(RgbdImportTest, NoPosesAreNamedAsTheCause) {
   EXPECT_THAT(refusal(), HasSubstr("a map needs poses"));
 }
 
+TEST_F(RgbdImportTest, PosesOfOtherTimesAreNamedAsTheCause) {
+  std::ofstream(walk() + "/groundtruth.txt") << "1.5 0 0 0 0 0 0 1\n2.5 1 0 0 0 0 0 1\n";
+  EXPECT_THAT(refusal(), HasSubstr("none of the recording's 2 poses is of the time of a frame"));
+}
+
 TEST_F(RgbdImportTest, PosesFromElsewhereStandForTheRecordings) {
   setPoses("");
   RecordingOptions recording;
