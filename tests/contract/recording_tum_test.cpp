@@ -143,6 +143,11 @@ TEST_F(Tum, ListsMayBeginWithAByteOrderMark) {
   EXPECT_EQ(sphc_replay_frame_count(replay.get()), 6u);
 }
 
+TEST_F(Tum, AListInUtf16IsNamed) {
+  folder_.write("rgb.txt", std::string("\xFF\xFEx\0", 4));
+  expectRefused(SPHC_E_ARGUMENT, "rgb.txt: is in UTF-16; save it as UTF-8");
+}
+
 TEST_F(Tum, NamesTheLineThatIsWrong) {
   const std::string good = folder_.read("rgb.txt");
   folder_.write("rgb.txt", "1.0 rgb/000000.png\nx rgb/000001.png\n");

@@ -95,7 +95,10 @@ std::string readText(const std::filesystem::path &path) {
   } catch (const Failure &failure) {
     throw Failure(failure.status(), shortPath(path.string()) + ": " + failure.what());
   }
-  return std::string(host::withoutByteOrderMark(textOf(viewOf(content))));
+  const std::string_view text = textOf(viewOf(content));
+  if (host::isUtf16(text))
+    throw Failure(SPHC_E_ARGUMENT, shortPath(path.string()) + ": is in UTF-16; save it as UTF-8");
+  return std::string(host::withoutByteOrderMark(text));
 }
 
 }  // namespace sphc::recording
