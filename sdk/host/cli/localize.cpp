@@ -1,5 +1,7 @@
 // spherecloud localize: where was the camera, frame by frame?
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "host/base/counted.h"
 #include "host/base/usage_error.h"
@@ -107,20 +109,24 @@ cv::Mat imageOf(RecordingReader *reader, const FrameRecord &frame) {
   return image ? bgrFromImage(image->color) : cv::Mat();
 }
 
-void writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReader *reader, const Console &console) {
+// Gives a line to be said of each.
+std::vector<std::string> writeOutputs(const LocalizeOptions &options, const Run &run, RecordingReader *reader,
+                                      const Console &console) {
+  std::vector<std::string> told;
   if (!options.trajectory.empty()) {
     writeFile(options.trajectory, tumTrajectory(run));
-    console.say("Trajectory (" + run.base + "_from_camera): " + options.trajectory);
+    told.push_back("Trajectory (" + run.base + "_from_camera): " + options.trajectory);
   }
   if (!options.frames_json.empty()) {
     writeFile(options.frames_json, framesJsonLines(run));
-    console.say("A JSON line a frame: " + options.frames_json);
+    told.push_back("A JSON line a frame: " + options.frames_json);
   }
-  if (options.report.empty()) return;
+  if (options.report.empty()) return told;
   const ReportSummary report =
       writeReport(options.report, run, [reader](const FrameRecord &frame) { return imageOf(reader, frame); });
   if (!report.problem.empty()) console.warn("note: " + report.problem);
-  console.say("Report with pictures: " + report.page);
+  told.push_back("Report with pictures: " + report.page);
+  return told;
 }
 
 // Frames that contradict themselves have no pose; what is wrong with their cameras is wrong with the others' too.
@@ -159,8 +165,9 @@ int run(const LocalizeOptions &options, const Console &console) {
     console.warn(
         "note: --align: fewer than 3 localized frames have a pose in the recording, so no errors are known");
   const Summary summary = summarize(done);
+  const auto told = writeOutputs(options, done, reader.get(), console);  // before words, whose reader may be gone
   console.say(tableText(tableRows(done, summary)));
-  writeOutputs(options, done, reader.get(), console);
+  for (const std::string &line : told) console.say(line);
   console.give(summaryJson(done, summary));
   noteContradictions(summary, console);
   noteTruth(done, summary, console);

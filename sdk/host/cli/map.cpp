@@ -1,6 +1,7 @@
 // spherecloud map: from walks without poses, or with poses that are a little wrong, to a point model and a path.
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 #include "host/base/counted.h"
 #include "host/base/write_file.h"
@@ -46,18 +47,17 @@ std::string trajectoryText(const MappedRecording &recording) {
   return text;
 }
 
-// A model of next to nothing of the walk would pass for one of the place.
-void checkMapped(const MapOutcome &outcome) {
+// A model of next to nothing of the walk would pass for one of the place.  Empty where it is of enough.
+std::string whyNoModel(const MapOutcome &outcome) {
   uint64_t frames = 0, mapped = 0;
   for (const MappedRecording &recording : outcome.recordings) {
     frames += recording.poses.size();
     mapped += recording.framesMapped();
   }
-  if (kLeastMappedOf * mapped >= frames) return;
-  throw std::runtime_error(
-      "only " + std::to_string(mapped) + " of " + counted(frames, "frame") +
-      " found a place, fewer than a third, so no model was written; walk once more, slowly, in good light and "
-      "where there is much to see, or choose the frames of the part that is worth a map by --first and --last");
+  if (kLeastMappedOf * mapped >= frames) return "";
+  return "only " + std::to_string(mapped) + " of " + counted(frames, "frame") +
+         " found a place, fewer than a third, so no model was written; walk once more, slowly, in good light and "
+         "where there is much to see, or choose the frames of the part that is worth a map by --first and --last";
 }
 
 // Writes the calibration that the walk agrees with best; the map is then made with it.  How far it moved pixels.
@@ -79,16 +79,19 @@ void tellOfMap(const MapOptions &options, const MapOutcome &outcome, const Conso
                    ": fewer than 3 frames have a pose that was found and one that the recording holds");
 }
 
-void writeFiles(const MapOptions &options, const MapOutcome &outcome, const Console &console) {
+void writeFiles(const MapOptions &options, const MapOutcome &outcome) {
   writeModelFile(options.model, outcome.import.model);
+  for (size_t i = 0; i < options.trajectories.size(); ++i)
+    writeFile(options.trajectories[i], trajectoryText(outcome.recordings[i]));
+}
+
+void tellOfFiles(const MapOptions &options, const MapOutcome &outcome, const Console &console) {
   console.say(outcome.import.told);
   console.say("Wrote " + options.model +
               ": where every point is. Keep it, never ship it. Next:\n  spherecloud build --model " +
               options.model + " --map room.sphc");
-  for (size_t i = 0; i < options.trajectories.size(); ++i) {
-    writeFile(options.trajectories[i], trajectoryText(outcome.recordings[i]));
-    console.say("Trajectory (world_from_camera): " + options.trajectories[i]);
-  }
+  for (const std::string &trajectory : options.trajectories)
+    console.say("Trajectory (world_from_camera): " + trajectory);
 }
 
 nlohmann::ordered_json resultJson(const MapOptions &options, const MapOutcome &outcome,
@@ -109,9 +112,11 @@ int run(const CLI::App &app, MapOptions options, const Console &console) {
   std::optional<CalibrationDifference> refined;
   if (!options.refined_calibration.empty()) refined = refine(&options, console);
   const MapOutcome outcome = mapRecordings(options, console);
+  const std::string why_none = whyNoModel(outcome);
+  if (why_none.empty()) writeFiles(options, outcome);  // before words, whose reader may be gone
   tellOfMap(options, outcome, console);
-  checkMapped(outcome);
-  writeFiles(options, outcome, console);
+  if (!why_none.empty()) throw std::runtime_error(why_none);
+  tellOfFiles(options, outcome, console);
   console.give(resultJson(options, outcome, refined));
   return outcome.isApart() ? kExitWalkApart : kExitDone;
 }

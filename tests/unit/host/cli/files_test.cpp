@@ -269,6 +269,19 @@ TEST_F(FilesTest, AFullDiskIsNoSuccess) {
   }
 }
 
+// As behind `| head` or `| grep -q`, which end at the first line that they want.
+TEST_F(FilesTest, FilesAreWrittenThoughNobodyReadsTheWords) {
+  const std::string poses = at("unread.tum"), lines = at("unread.jsonl"), model = at("unread.model");
+  runProgram("sh -c", "'" SPHC_COMMAND " localize -r " + at("walk") + " -m " + at("room.sphc") + " --trajectory " +
+                          poses + " --frames-json " + lines + " >/dev/full'");
+  EXPECT_TRUE(fs::exists(poses));
+  EXPECT_TRUE(fs::exists(lines));
+  runProgram("sh -c", "'" SPHC_COMMAND " map -r " + at("walk") + " --model " + model + " --trajectory " + poses +
+                          ".map >/dev/full'");
+  EXPECT_TRUE(fs::exists(model));
+  EXPECT_TRUE(fs::exists(poses + ".map"));
+}
+
 // Where the library knows the bounds, the command line is wrong all the same.
 TEST_F(FilesTest, AValueThatTheLocalizerRefusesIsWrongUse) {
   for (const std::string option : {"--ratio 7", "--max-keypoints 1", "--probes -1", "--min-inliers nan",
