@@ -76,6 +76,17 @@ void noteUselessOdometry(const LocalizeOptions &options, const RecordingReader &
     console.warn("note: --odometry: --mode single treats each frame alone, so odometry changes nothing");
 }
 
+// They would be neither truth nor odometry without a word.
+void notePosesOfOtherTimes(const LocalizeOptions &options, const RecordingReader &reader, const Console &console) {
+  const size_t poses = reader.recording().poses.poses().size();
+  if (poses == 0 || (!options.odometry && options.owner_notes.empty())) return;
+  for (uint32_t i = 0; i < reader.frameCount(); ++i)
+    if (reader.worldFromCamera(i)) return;
+  console.warn(
+      "note: none of the recording's " + counted(poses, "pose") +
+      " is of the time of one of these frames; are the times of poses and images in seconds of one clock?");
+}
+
 Run localize(const LocalizeOptions &options, RecordingReader *reader, const Console &console) {
   Run run;
   run.recording = options.recording.folder + " (" + describeSelection(options.recording) + ")";
@@ -85,6 +96,7 @@ Run localize(const LocalizeOptions &options, RecordingReader *reader, const Cons
   input.reader = reader;
   input.deadline_us = options.deadline_us;
   if (options.odometry) noteUselessOdometry(options, *reader, console);
+  notePosesOfOtherTimes(options, *reader, console);
   input.play_odometry = options.odometry;
   input.config = options.config;
   input.parameters = options.parameters;

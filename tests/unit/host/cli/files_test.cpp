@@ -335,6 +335,16 @@ TEST_F(FilesTest, OdometryThatIsNotThereIsSaid) {
   EXPECT_EQ(nlohmann::json::parse(single.out)["settings"]["odometry"], "played");
 }
 
+TEST_F(FilesTest, PosesOfAnotherClockAreSaid) {
+  fs::copy(at("walk"), at("apart"), fs::copy_options::recursive);
+  put("apart/groundtruth.txt", "1700000000.5 0 0 0 0 0 0 1\n1700000001.5 0 0 0 0 0 0 1\n");
+  const std::string localize = " -m " + at("room.sphc"), note = "none of the recording's 2 poses is of the time";
+  for (const std::string &option : {std::string(" --odometry"), " --owner-note " + at("room.sphc.owner.json")}) {
+    EXPECT_THAT(runCommand("localize -r " + at("apart") + localize + option).err, HasSubstr(note));
+    EXPECT_THAT(runCommand("localize -r " + at("walk") + localize + option).err, testing::Not(HasSubstr(note)));
+  }
+}
+
 TEST_F(FilesTest, NotesComeInAnyOrderAndMapsOnce) {
   const std::string localize = "localize -r " + at("walk") + " -m " + at("room.sphc");
   fs::copy_file(at("room.sphc"), at("copy.sphc"));
