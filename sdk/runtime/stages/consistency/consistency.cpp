@@ -88,7 +88,7 @@ bool Consistency::edgesDisagree(const ConsistencyView &view) {
   doubtful_ = doubtful_ || (tells && score < kDoubtfullyOff);
   if (!config_.follows) return tells && score < kSurelyOff;
   EdgeDoubt &doubt = view.are_apart ? apart_ : together_;
-  const int64_t since_ns = elapsedNs(doubt.told_time_ns, view.color_time_ns);
+  const uint64_t since_ns = elapsedNs(doubt.told_time_ns, view.color_time_ns);
   double sum = doubt.told_sum;
   if (view.are_apart) sum = std::max(0.0, sum - kFades * secondsOf(since_ns));
   if (tells) {

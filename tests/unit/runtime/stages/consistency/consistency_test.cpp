@@ -184,6 +184,13 @@ TEST(Consistency, TimesMayBeAsFarApartAsTheyCan) {
     EXPECT_EQ(held.consistency.look(MadeView().view(time_ns)), Faults{0}) << time_ns;
 }
 
+TEST(Consistency, TheFirstTimeMayBeAnything) {
+  for (const int64_t time_ns : {INT64_MIN, int64_t{0}, INT64_MAX / 2 + kStepNs, INT64_MAX}) {
+    HeldConsistency held(true);
+    EXPECT_EQ(held.consistency.look(MadeView().view(time_ns)), Faults{0}) << time_ns;
+  }
+}
+
 TEST(Consistency, ACameraThatRestsIsNoFault) {
   HeldConsistency held(true);
   for (int32_t i = 0; i < 4; ++i) EXPECT_EQ(held.consistency.look(MadeView().view(i * kStepNs)), Faults{0}) << i;
