@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/recording/failure.h"
+#include "host/recording/recording.h"
 #include "host/recording/writer_7scenes.h"
 #include "temp_folder.h"
 #include "tiny_recording.h"
@@ -97,6 +98,14 @@ TEST_F(SevenScenes, ReadsHalfTurns) {
     ASSERT_EQ(sphc_replay_pose(replay.get(), i, &pose), SPHC_OK);
     for (int k = 0; k < 4; ++k) EXPECT_EQ(std::fabs(pose.q_wxyz[k]), k == one_at[i] ? 1 : 0) << i;
   }
+}
+
+TEST_F(SevenScenes, SaysHowAPoseIsWrittenWhereNoneIs) {
+  addFrame(7, "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n");
+  EXPECT_THAT(recording::openRecording(folder_.path()).pose_fault,
+              AllOf(HasSubstr("four rows of four numbers"), HasSubstr("frame-000007.pose.txt")));
+  addFrame(8);
+  EXPECT_EQ(recording::openRecording(folder_.path()).pose_fault, "");
 }
 
 TEST_F(SevenScenes, HasNoPoseWhereTheFileIsBad) {

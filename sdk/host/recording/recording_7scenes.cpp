@@ -66,6 +66,9 @@ void readPoses(const fs::path &folder, std::vector<RecordedImage> &files, Record
     else
       ++recording.bad_pose_count;
   }
+  if (!files.empty() && recording.poses.poses().empty())
+    recording.pose_fault = "not one of its *.pose.txt is a pose (" + files.front().file +
+                           ", for example); write each as four rows of four numbers with spaces between them";
 }
 
 }  // namespace
