@@ -111,12 +111,11 @@ int run(const AdviseOptions &options, const Console &console) {
       [&](const RgbdImportSummary &all) { warnOfRecording(all, &contradictions, console); },
       [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   for (const std::string &left_out : advice.left_out) console.warn("note: " + left_out);
+  if (!options.picture.empty()) drawAdvice(options.picture, advice);  // before words, whose reader may be gone
   tell(options, advice, console);
-  if (!options.picture.empty()) {
-    drawAdvice(options.picture, advice);
+  if (!options.picture.empty())
     console.say("Picture, private: " + options.picture +
                 " (rings: no points; crosses: where failed frames looked)");
-  }
   console.give(json(advice, contradictions));
   return kExitDone;
 }

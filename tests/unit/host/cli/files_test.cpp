@@ -280,6 +280,11 @@ TEST_F(FilesTest, FilesAreWrittenThoughNobodyReadsTheWords) {
                           ".map >/dev/full'");
   EXPECT_TRUE(fs::exists(model));
   EXPECT_TRUE(fs::exists(poses + ".map"));
+  ASSERT_EQ(runCommand("simulate --frames 4 --rate 3 --out " + at("advised")).exit_code, kExitDone);
+  const std::string picture = at("advised.png");
+  runProgram("sh -c",
+             "'" SPHC_COMMAND " advise --folds 2 -r " + at("advised") + " --picture " + picture + " >/dev/full'");
+  EXPECT_TRUE(fs::exists(picture));
 }
 
 // Where the library knows the bounds, the command line is wrong all the same.
