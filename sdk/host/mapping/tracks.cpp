@@ -76,13 +76,14 @@ std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vec
   return joiner.takeJoined();
 }
 
-std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted, size_t longest) {
+std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, const TrackBudget &budget) {
   std::stable_sort(tracks.begin(), tracks.end(),
                    [](const Track &x, const Track &y) { return x.size() > y.size(); });
-  for (size_t i = 0; i < tracks.size(); ++i) tracks[i] = thinned(std::move(tracks[i]), longest, i);
+  for (size_t i = 0; i < tracks.size(); ++i) tracks[i] = thinned(std::move(tracks[i]), budget.of_track, i);
   std::vector<size_t> sightings(frames);
   std::vector<Track> taken;
   for (Track &track : tracks) {
+    const size_t wanted = track.size() > 2 ? budget.of_frame : budget.of_frame_with_pairs;
     const bool is_wanted =
         std::any_of(track.begin(), track.end(), [&](const Sighting &s) { return sightings[s.frame] < wanted; });
     if (!is_wanted) continue;

@@ -19,8 +19,14 @@ using Track = std::vector<Sighting>;
 // is wrong and left out.  Two frames make a track: a frame may share most of what it sees with one other alone.
 std::vector<Track> tracksOf(const std::vector<WalkFrame> &frames, const std::vector<FrameLink> &links);
 
-// The longest tracks, as many as give every frame that many sightings where there are such.  Of a track that has
-// more than `longest` sightings so many stay, evenly spread: an adjustment takes the square of them in time.
-std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, size_t wanted, size_t longest);
+// How many sightings of tracks a frame has at least, where there are such; and of a track at most.
+struct TrackBudget {
+  size_t of_frame = 600;
+  size_t of_frame_with_pairs = 300;  // as many too where tracks of two frames are needed for it
+  size_t of_track = 60;              // an adjustment takes the square of them in time
+};
+
+// The longest tracks, until every frame has its sightings.  Of a track that has too many, evenly spread ones stay.
+std::vector<Track> enoughTracks(std::vector<Track> tracks, size_t frames, const TrackBudget &budget);
 
 }  // namespace sphc::host

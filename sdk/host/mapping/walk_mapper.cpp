@@ -10,7 +10,6 @@ namespace sphc::host {
 namespace {
 
 constexpr LinkDemands kNeighbours = {20, 0.25}, kLoops = {30, 0.25}, kExpected = {15, 0.25};
-constexpr size_t kSightingsOfFrame = 600, kLongestTrack = 60;
 constexpr int kFirstSteps = 10, kLastSteps = 15;  // of an adjustment, at most
 // What is believed of a depth sensor, as the localizer's default has it.
 constexpr double kOffsetSigmaM = 0.003, kSlopeSigma = 0.02;
@@ -95,7 +94,7 @@ class WalkMapper {
   }
 
   AdjustmentSummary adjustPoints(int steps, bool is_last) {
-    adjusted_.tracks = enoughTracks(tracksOf(frames_, links_), frames_.size(), kSightingsOfFrame, kLongestTrack);
+    adjusted_.tracks = enoughTracks(tracksOf(frames_, links_), frames_.size(), TrackBudget());
     return adjustAgain(steps, is_last);
   }
 

@@ -46,9 +46,17 @@ TEST_F(TracksTest, KeypointsThatNothingMatchesAreInNone) {
 
 TEST_F(TracksTest, LongTracksComeFirstUntilEveryFrameHasEnough) {
   const Track longer = {{0, 0}, {1, 0}, {2, 0}}, shorter = {{0, 1}, {1, 1}}, other = {{2, 1}, {3, 1}};
-  const std::vector<Track> taken = enoughTracks({shorter, other, longer}, 4, 1, 10);
+  const std::vector<Track> taken = enoughTracks({shorter, other, longer}, 4, {1, 1, 10});
   ASSERT_EQ(taken.size(), 2u);
   EXPECT_EQ(taken[0].size(), 3u);
+  EXPECT_EQ(taken[1][1].frame, 3u);
+}
+
+TEST_F(TracksTest, PairsComeInWhereLongerTracksAreFew) {
+  const std::vector<Track> tracks = {{{0, 0}, {1, 0}, {2, 0}}, {{0, 1}, {1, 1}}, {{2, 1}, {3, 1}}};
+  EXPECT_EQ(enoughTracks(tracks, 4, {10, 0, 10}).size(), 1u);
+  const std::vector<Track> taken = enoughTracks(tracks, 4, {10, 1, 10});
+  ASSERT_EQ(taken.size(), 2u) << "frame 3 has nothing else";
   EXPECT_EQ(taken[1][1].frame, 3u);
 }
 
@@ -58,7 +66,7 @@ TEST_F(TracksTest, OfALongTrackEvenlySpreadSightingsStay) {
   for (uint32_t i = 0; i < kTracks; ++i)
     for (uint32_t frame = 0; frame < kFrames; ++frame) tracks[i].push_back({frame, i});
   std::vector<size_t> of_frame(kFrames);
-  for (const Track &track : enoughTracks(tracks, kFrames, kTracks, kLongest)) {
+  for (const Track &track : enoughTracks(tracks, kFrames, {kTracks, 0, kLongest})) {
     ASSERT_EQ(track.size(), size_t{kLongest});
     for (size_t i = 1; i < track.size(); ++i) EXPECT_NEAR(track[i].frame - track[i - 1].frame, 10, 1);
     for (const Sighting &sighting : track) ++of_frame[sighting.frame];
