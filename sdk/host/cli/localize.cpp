@@ -18,6 +18,7 @@
 #include "host/cli/common/trust_options.h"
 #include "host/evaluate/localize_run.h"
 #include "host/evaluate/map_file.h"
+#include "host/frames/recording.h"
 #include "host/report/aligned_truth.h"
 #include "host/report/json.h"
 #include "host/report/overlay.h"
@@ -82,9 +83,7 @@ void notePosesOfOtherTimes(const LocalizeOptions &options, const RecordingReader
   if (poses == 0 || (!options.odometry && options.owner_notes.empty())) return;
   for (uint32_t i = 0; i < reader.frameCount(); ++i)
     if (reader.worldFromCamera(i)) return;
-  console.warn(
-      "note: none of the recording's " + counted(poses, "pose") +
-      " is of the time of one of these frames; are the times of poses and images in seconds of one clock?");
+  console.warn("note: none of the recording's " + counted(poses, "pose") + kIsOfOtherTimes);
 }
 
 Run localize(const LocalizeOptions &options, RecordingReader *reader, const Console &console) {

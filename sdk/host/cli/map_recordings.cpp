@@ -21,6 +21,10 @@ class Steps {
     what_ = what;
     bar_->show(done, total);
   }
+  // For the mapper; borrows this.
+  MappingProgress progress() {
+    return [this](const std::string &what, uint32_t done, uint32_t total) { show(what, done, total); };
+  }
 
  private:
   std::string what_;
@@ -167,9 +171,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome.walk);
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
-  outcome.mapped =
-      mapWalk(outcome.walk, options.mapping(),
-              [&](const std::string &what, uint32_t done, uint32_t total) { steps.show(what, done, total); });
+  outcome.mapped = mapWalk(outcome.walk, options.mapping(), steps.progress());
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   takePoses(&outcome);
   standUpright(options, &outcome);
@@ -186,10 +188,7 @@ RefinedCalibration refineCalibration(const MapOptions &options) {
   const sphc_rig given = commonCalibration(recordings);
   Steps steps;
   const auto read = [&](const TrialCalibration &trial) { return readAll(options, &trial, recordings, &steps); };
-  return {given, fitCalibration(given, read, options.mapping(),
-                                [&](const std::string &what, uint32_t done, uint32_t total) {
-                                  steps.show(what, done, total);
-                                })};
+  return {given, fitCalibration(given, read, options.mapping(), steps.progress())};
 }
 
 }  // namespace sphc::host

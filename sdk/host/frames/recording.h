@@ -17,6 +17,10 @@ struct RecordingOptions {
   bool isPart() const { return first > 0 || last < UINT32_MAX || step > 1; }
 };
 
+// How what is said of poses ends where no frame has one of them.
+constexpr char kIsOfOtherTimes[] =
+    " is of the time of a frame that was chosen; are the times of poses and images in seconds of one clock?";
+
 // Throws UsageError.
 void checkSelection(const RecordingOptions &options);
 // Throws UsageError, or std::runtime_error with cause and cure, also when the selection holds no frame.

@@ -94,9 +94,7 @@ class Census {
       throw std::runtime_error("not one frame can be read: of " + count(s.frames_unreadable) +
                                " with a pose the first says: " + s.first_unreadable);
     if (s.frames_used == 0 && told_poses > 0)
-      throw std::runtime_error("none of the recording's " + counted(told_poses, "pose") +
-                               " is of the time of a frame; are the times of poses and images in seconds of one "
-                               "clock?");
+      throw std::runtime_error("none of the recording's " + counted(told_poses, "pose") + kIsOfOtherTimes);
     if (s.frames_used == 0)
       throw std::runtime_error(
           "no frame of the recording has both images and a pose; a map needs poses (*.pose.txt or "

@@ -9,6 +9,7 @@
 
 #include "host/base/counted.h"
 #include "host/cli/common/contradictions.h"
+#include "host/frames/recording.h"
 #include "host/import/rgbd_import.h"
 #include "host/recording/failure.h"
 #include "host/recording/image_reader.h"
@@ -112,9 +113,7 @@ Findings findingsOfPoses(RecordingReader *reader) {
   if (poses == 0) return {};
   const std::vector<bool> chosen = framesToCompare(*reader);
   if (std::find(chosen.begin(), chosen.end(), true) == chosen.end())
-    return {{Grade::kWrong, "poses",
-             "none of " + counted(poses, "pose") +
-                 " is of the time of a frame; are the times of poses and images in seconds of one clock?"}};
+    return {{Grade::kWrong, "poses", "none of " + counted(poses, "pose") + kIsOfOtherTimes}};
   RgbdImportSummary summary;
   try {
     importRgbd({{reader, [&chosen](uint32_t i) { return chosen[i]; }}}, {}, {}, &summary);
