@@ -112,9 +112,12 @@ sphc_status checkKeypoints(const sphc_features_arrays &arrays, const sphc::Image
 void copyFrom(const sphc_features_arrays &arrays, FrameFeatures *features) {
   const sphc::FeatureRoom &room = features->room;
   features->count = arrays.count;
+  features->seen_cameras = 0;
   for (uint32_t i = 0; i < arrays.count; ++i) {
     room.keypoints[i] = keypointAt(arrays, i);
-    if (!room.camera_of.empty()) room.camera_of[i] = static_cast<uint8_t>(cameraAt(arrays, i));
+    const uint32_t camera = cameraAt(arrays, i);
+    if (camera > 0) features->seen_cameras |= sphc::seenBit(camera - 1);
+    if (!room.camera_of.empty()) room.camera_of[i] = static_cast<uint8_t>(camera);
     std::memmove(room.descriptors[i].bytes, arrays.descriptors + size_t{i} * arrays.descriptor_stride_bytes,
                  SPHC_DESCRIPTOR_BYTES);
   }

@@ -32,6 +32,10 @@ struct FurtherView {
 };
 using FurtherViews = FixedVector<FurtherView, kMostCameras - 1>;  // in the order of the cameras
 
+// Whose images the features of a frame are of: bit i is the i-th of the further cameras.
+using SeenCameras = uint32_t;
+constexpr SeenCameras seenBit(size_t further) { return SeenCameras{1} << further; }
+
 // The image of a depth camera, of its layout; without bytes it has none in this frame.
 struct DepthView {
   ByteView depth;

@@ -13,6 +13,7 @@ struct FrameFeatures {
 
   FeatureRoom room;
   uint32_t count = 0;  // strongest first
+  SeenCameras seen_cameras = 0;
   Span<uint8_t> gray_room;
   GrayView gray;         // in gray_room
   bool cut = false;      // did a deadline leave something out?

@@ -18,6 +18,13 @@ constexpr double kUselessSigma = 1e3;  // of a keypoint where the camera model h
 // its share there.
 constexpr double kLeastZM = 0.05;
 
+SeenCameras seenOf(const FurtherViews &further) {
+  SeenCameras seen = 0;
+  for (size_t i = 0; i < further.size(); ++i)
+    if (further[i].image.bytes.data) seen |= seenBit(i);
+  return seen;
+}
+
 // Takes what the camera sees to the frame of the colour camera; false for a point that is hardly in front of it.
 bool toColor(const Rigid &color_from_camera, LiftedPoint *lifted) {
   const Vector3 point_m = color_from_camera * lifted->point_m;
@@ -64,6 +71,7 @@ void FrontEnd::init(const LocalizerConfig &config) {
 void FrontEnd::extract(const ColorView &color, const FurtherViews &further, const Deadline &deadline) {
   gray_view_ = grayOf(color, gray_);
   keypoint_count_ = extractor_.extract(gray_view_, further, room_, deadline);
+  seen_cameras_ = seenOf(further);
   cut_ = extractor_.wasCut();
   lifted_count_ = 0;
 }
@@ -72,6 +80,7 @@ void FrontEnd::extractInto(const ColorView &color, const FurtherViews &further, 
                            FrameFeatures *features) {
   features->keepGray(color);
   features->count = extractor_.extract(features->gray, further, features->room, deadline);
+  features->seen_cameras = seenOf(further);
   features->cut = extractor_.wasCut();
 }
 
@@ -82,6 +91,7 @@ void FrontEnd::show(const FrameFeatures &features) {
   std::copy_n(features.room.descriptors.begin(), features.count, room_.descriptors.begin());
   if (!room_.camera_of.empty())
     std::copy_n(features.room.camera_of.begin(), features.count, room_.camera_of.begin());
+  seen_cameras_ = features.seen_cameras;
   cut_ = features.cut;
   lifted_count_ = 0;
 }

@@ -51,6 +51,7 @@ class FrontEnd {
 
   // The image of the last extract or show, as it was processed.
   GrayView gray() const { return gray_view_; }
+  SeenCameras seenCameras() const { return seen_cameras_; }
   uint32_t keypointCount() const { return keypoint_count_; }
   uint32_t liftedCount() const { return lifted_count_; }
   Span<const Keypoint> keypoints() const { return room_.keypoints.first(keypoint_count_); }  // strongest first
@@ -95,6 +96,7 @@ class FrontEnd {
   Span<LiftedPoint> lifted_;
   Span<uint32_t> keypoint_of_;
   uint32_t keypoint_count_ = 0, lifted_count_ = 0;
+  SeenCameras seen_cameras_ = 0;
   bool cut_ = false;
   GrayView gray_view_;  // gray_, or the caller's image where that is grey, or that of features
 };

@@ -134,7 +134,7 @@ void Localizer::follow(const FrameInput &frame) {
 LocalizerResult Localizer::locateShown(const FrameInput &frame, const Deadline &deadline, int64_t begin_ns) {
   LocalizerResult result;
   result.depth = calibrator_.current();
-  const RigOfFrame rig = rigOfFrame(config_, frame, tracker());
+  const RigOfFrame rig = rigOfFrame(config_, frame, front_.seenCameras(), tracker());
   between_ = rig.between;
   const DepthImages depth = read(frame.depth);
   const DepthPlace &first_depth = rig.cameras.depth[0];

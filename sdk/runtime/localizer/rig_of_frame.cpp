@@ -26,7 +26,8 @@ class WayToColor {
 
 }  // namespace
 
-RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, const Tracker *tracker) {
+RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, SeenCameras seen,
+                      const Tracker *tracker) {
   RigOfFrame rig;
   BetweenImages unused;  // of an image that is not there
   const WayToColor way(frame.color_time_ns, tracker);
@@ -38,7 +39,7 @@ RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, co
     const RigCamera &known = config.further[i];
     rig.cameras.further.push({view.camera.value_or(known.camera),
                               way.place(view.time_ns, view.color_from_camera.value_or(known.color_from_camera),
-                                        view.image.bytes.data ? &rig.between : &unused),
+                                        seen & seenBit(i) ? &rig.between : &unused),
                               known.row_time_s});
   }
   for (size_t i = 0; i < frame.depth.size(); ++i) {

@@ -14,6 +14,8 @@ struct RigOfFrame {
 };
 
 // Each frame, after the tracker has advanced to it.  Without a tracker (null) nothing tells how the camera moves.
-RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, const Tracker *tracker);
+// `seen`: images of further cameras may be gone by now.
+RigOfFrame rigOfFrame(const LocalizerConfig &config, const FrameInput &frame, SeenCameras seen,
+                      const Tracker *tracker);
 
 }  // namespace sphc

@@ -29,7 +29,6 @@ FrameInput frameAt(int64_t time_ns) {
   depth.color_from_depth = beside(0.04);
   frame.depth.push(depth);
   FurtherView further;
-  further.image.bytes.data = &kByte;
   further.time_ns = time_ns;
   frame.further.push(further);
   return frame;
@@ -38,7 +37,7 @@ FrameInput frameAt(int64_t time_ns) {
 double xOf(const Rigid &transform) { return transform.translation_m.x(); }
 
 TEST(RigOfFrame, OfOneTimeIsAsItWasBuilt) {
-  const RigOfFrame rig = rigOfFrame(configOfThree(), frameAt(kStep), nullptr);
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frameAt(kStep), seenBit(0), nullptr);
   EXPECT_EQ(xOf(rig.cameras.depth[0].color_from_depth), 0.04);
   EXPECT_EQ(xOf(rig.cameras.further[0].color_from_camera), 0.06);
   EXPECT_EQ(rig.between.shift_sigma_m, 0);
@@ -48,7 +47,7 @@ TEST(RigOfFrame, OfOneTimeIsAsItWasBuilt) {
 TEST(RigOfFrame, WithoutATrackerTheWayIsUnknown) {
   FrameInput frame = frameAt(10 * kStep);
   frame.depth[0].time_ns -= 3 * kStep;
-  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, nullptr);
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, seenBit(0), nullptr);
   EXPECT_EQ(xOf(rig.cameras.depth[0].color_from_depth), 0.04);
   EXPECT_NEAR(rig.between.apart_s, 0.099, 1e-9);
   EXPECT_TRUE(rig.between.areApart());
@@ -59,13 +58,12 @@ TEST(RigOfFrame, WithoutATrackerTheWayIsUnknown) {
 TEST(RigOfFrame, AnImageThatIsNotThereDoesNotCount) {
   FrameInput frame = frameAt(10 * kStep);
   frame.further[0].time_ns = 0;
-  EXPECT_TRUE(rigOfFrame(configOfThree(), frame, nullptr).between.areApart());
-  EXPECT_FALSE(rigOfFrame(configOfThree(), frame, nullptr).between_first_depth.areApart());
-  frame.further[0].image.bytes.data = nullptr;
-  EXPECT_EQ(rigOfFrame(configOfThree(), frame, nullptr).between.apart_s, 0);
+  EXPECT_TRUE(rigOfFrame(configOfThree(), frame, seenBit(0), nullptr).between.areApart());
+  EXPECT_FALSE(rigOfFrame(configOfThree(), frame, seenBit(0), nullptr).between_first_depth.areApart());
+  EXPECT_EQ(rigOfFrame(configOfThree(), frame, 0, nullptr).between.apart_s, 0);
   frame.depth[0].time_ns = 0;
   frame.depth[0].depth.data = nullptr;
-  EXPECT_EQ(rigOfFrame(configOfThree(), frame, nullptr).between.apart_s, 0);
+  EXPECT_EQ(rigOfFrame(configOfThree(), frame, 0, nullptr).between.apart_s, 0);
 }
 
 // The camera goes 1 cm a frame along x, so what it saw two frames ago lies 2 cm behind.
@@ -77,7 +75,7 @@ TEST(RigOfFrame, OdometryTakesImagesToTheTimeOfColour) {
   }
   FrameInput frame = frameAt(4 * kStep);
   frame.depth[0].time_ns -= 2 * kStep;
-  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, &tracker);
+  const RigOfFrame rig = rigOfFrame(configOfThree(), frame, seenBit(0), &tracker);
   EXPECT_NEAR(xOf(rig.cameras.depth[0].color_from_depth), 0.04 - 0.02, 1e-9);
   EXPECT_EQ(xOf(rig.cameras.further[0].color_from_camera), 0.06);
   EXPECT_EQ(rig.between.apart_s, 0);
