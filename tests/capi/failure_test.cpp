@@ -192,6 +192,32 @@ TEST_F(CInterfaceFailure, AnImageInsideTheLocalizersMemory) {
   refuses(frame, "state memory overlaps the color image");
 }
 
+// A part of a larger image ends before the padding of its last row, and there the localizer's memory may begin.
+TEST_F(CInterfaceFailure, AnImageThatEndsWhereTheStateBegins) {
+  sphc_memory need = {};
+  ASSERT_EQ(sphc_localizer_memory(&config_, &need, nullptr), SPHC_OK);
+  const sphc_image &tight = frame_->frame.color;
+  const size_t stride = tight.width + 64, image_bytes = stride * (tight.height - 1) + tight.width;
+  const size_t begin = (image_bytes + need.alignment - 1) / need.alignment * need.alignment;
+  GuardedMemory memory(begin + need.state_bytes, need.alignment);
+  uint8_t *const state = static_cast<uint8_t *>(memory.data()) + begin, *const pixels = state - image_bytes;
+  for (size_t y = 0; y < tight.height; ++y)
+    std::memcpy(pixels + y * stride, static_cast<const uint8_t *>(tight.data) + y * tight.width, tight.width);
+  sphc_localizer *made = nullptr;
+  const Init i = good();
+  ASSERT_EQ(sphc_localizer_init(state, need.state_bytes, i.scratch, i.scratch_bytes, &config_, &made, nullptr),
+            SPHC_OK);
+  sphc_localizer_frame frame = frame_->frame;
+  frame.color.data = pixels;
+  frame.color.stride_bytes = static_cast<uint32_t>(stride);
+  sphc_localizer_result result = {};
+  result.struct_size = sizeof result;
+  EXPECT_EQ(sphc_localizer_process(made, &frame, &result), SPHC_NOT_LOCALIZED) << sphc_localizer_message(made);
+  frame.color.data = pixels + 1;
+  EXPECT_EQ(sphc_localizer_process(made, &frame, &result), SPHC_E_ARGUMENT);
+  expectMentions(sphc_localizer_message(made), "state memory overlaps the color image");
+}
+
 TEST_F(CInterfaceFailure, ARigThatWasForgotten) {
   sphc_localizer_config config;
   ASSERT_EQ(sphc_localizer_config_init(&config, sizeof config), SPHC_OK);

@@ -347,6 +347,14 @@ TEST_F(Halves, MemoryIsNotTheLocalizers) {
   expectMentions(sphc_features_message(inside), "scratch memory overlaps features");
 }
 
+TEST_F(Halves, ImagesAreNotInTheLocalizersMemory) {
+  Session session(config_);
+  sphc_localizer_frame wrong = frame(0);
+  wrong.color.data = session.scratch().data();
+  EXPECT_EQ(sphc_localizer_extract(session.localizer(), &wrong, features_.handle), SPHC_E_ARGUMENT);
+  expectMentions(sphc_features_message(features_.handle), "scratch memory overlaps the color image");
+}
+
 TEST_F(Halves, EachHalfHasItsDeadline) {
   sphc::test::SteppingClock clock(200000);
   config_.clock = &sphc::test::SteppingClock::read;

@@ -312,9 +312,9 @@ sphc_status sphc_localizer_process(sphc_localizer *localizer, const sphc_localiz
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
   uint32_t struct_size = 0;
-  const sphc::FrameLimits limits = limitsOf(*localizer, true);
-  sphc_status status = sphc::readFrame(frame, limits, &copy, message);
-  if (status == SPHC_OK) status = sphc::checkImagesApart(copy, limits, *localizer, message);
+  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, true), &copy, message);
+  if (status == SPHC_OK) status = sphc::checkDepthImagesApart(copy.frame, *localizer, message);
+  if (status == SPHC_OK) status = sphc::checkColorImagesApart(copy.frame, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
   if (status != SPHC_OK) return status;
   Localizer &own_localizer = localizer->localizer;
@@ -329,6 +329,7 @@ sphc_status sphc_localizer_extract(sphc_localizer *localizer, const sphc_localiz
   message->text[0] = '\0';
   sphc::FrameCopy copy;
   sphc_status status = sphc::readFeatureFrame(frame, limitsOf(*localizer, true), &copy, message);
+  if (status == SPHC_OK) status = sphc::checkColorImagesApart(copy.frame, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkFeatures(*features, *localizer, message);
   if (status != SPHC_OK) return status;
   // Not looked at, and not validated.
@@ -347,9 +348,8 @@ sphc_status sphc_localizer_locate(sphc_localizer *localizer, const sphc_localize
   sphc_message *message = localizer->beginCall();
   sphc::FrameCopy copy;
   uint32_t struct_size = 0;
-  const sphc::FrameLimits limits = limitsOf(*localizer, false);
-  sphc_status status = sphc::readFrame(frame, limits, &copy, message);
-  if (status == SPHC_OK) status = sphc::checkImagesApart(copy, limits, *localizer, message);
+  sphc_status status = sphc::readFrame(frame, limitsOf(*localizer, false), &copy, message);
+  if (status == SPHC_OK) status = sphc::checkDepthImagesApart(copy.frame, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkFeaturesOf(copy.frame, features, *localizer, message);
   if (status == SPHC_OK) status = sphc::checkStruct("result", result, message, &struct_size);
   if (status != SPHC_OK) return status;

@@ -13,6 +13,15 @@ sphc_status checkApartFrom(const sphc_localizer &localizer, const MemoryRange &o
   return status == SPHC_OK ? checkApart(localizer.scratch, other, message) : status;
 }
 
+// Of what is read: behind the last row there may be no padding, and so the localizer's memory.
+sphc_status checkImageApart(const sphc_localizer &localizer, const char *name, const sphc_image &image,
+                            sphc_message *message) {
+  if (!image.data) return SPHC_OK;
+  const size_t bytes =
+      size_t{image.stride_bytes} * (image.height - 1) + sphc_format_row_bytes(image.format, image.width);
+  return checkApartFrom(localizer, {name, image.data, bytes}, message);
+}
+
 }  // namespace
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
@@ -86,20 +95,19 @@ sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_featur
   return checkFeatures(*features, localizer, message);
 }
 
-sphc_status checkImagesApart(const FrameCopy &copy, const FrameLimits &limits, const sphc_localizer &localizer,
-                             sphc_message *message) {
-  const sphc_localizer_frame &frame = copy.frame;
-  sphc_status status = SPHC_OK;
-  const auto check = [&](const char *name, const sphc_image &image) {
-    const size_t bytes = static_cast<size_t>(image.stride_bytes) * image.height;
-    if (status == SPHC_OK && image.data) status = checkApartFrom(localizer, {name, image.data, bytes}, message);
-  };
-  check("the depth image", frame.depth);
-  for (uint32_t i = 0; i < frame.depth_view_count; ++i)
-    check("the depth image of a view", copy.depth_views[i].depth);
-  if (!limits.looks_at_images) return status;
-  check("the color image", frame.color);
-  for (uint32_t i = 0; i < frame.view_count; ++i) check("the image of a view", copy.views[i].image);
+sphc_status checkColorImagesApart(const sphc_localizer_frame &frame, const sphc_localizer &localizer,
+                                  sphc_message *message) {
+  sphc_status status = checkImageApart(localizer, "the color image", frame.color, message);
+  for (uint32_t i = 0; i < frame.view_count && status == SPHC_OK; ++i)
+    status = checkImageApart(localizer, "the image of a view", frame.views[i].image, message);
+  return status;
+}
+
+sphc_status checkDepthImagesApart(const sphc_localizer_frame &frame, const sphc_localizer &localizer,
+                                  sphc_message *message) {
+  sphc_status status = checkImageApart(localizer, "the depth image", frame.depth, message);
+  for (uint32_t i = 0; i < frame.depth_view_count && status == SPHC_OK; ++i)
+    status = checkImageApart(localizer, "the depth image of a view", frame.depth_views[i].depth, message);
   return status;
 }
 

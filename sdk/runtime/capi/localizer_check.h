@@ -15,9 +15,11 @@ sphc_status checkFeatures(const sphc_features &features, const sphc_localizer &l
 // And of this frame?
 sphc_status checkFeaturesOf(const sphc_localizer_frame &frame, const sphc_features *features,
                             const sphc_localizer &localizer, sphc_message *message);
-// Are the images apart from what the localizer writes to while it reads them?
-sphc_status checkImagesApart(const FrameCopy &copy, const FrameLimits &limits, const sphc_localizer &localizer,
-                             sphc_message *message);
+// Are the images that a half of a frame reads apart from what the localizer writes to meanwhile?
+sphc_status checkColorImagesApart(const sphc_localizer_frame &frame, const sphc_localizer &localizer,
+                                  sphc_message *message);
+sphc_status checkDepthImagesApart(const sphc_localizer_frame &frame, const sphc_localizer &localizer,
+                                  sphc_message *message);
 // Is it apart from a map's view and file?
 sphc_status checkApartFromMap(const MemoryRange &written, const sphc_map &map, sphc_message *message);
 
