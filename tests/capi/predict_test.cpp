@@ -1,6 +1,7 @@
 // Where the camera is at other times than those of frames, and how far a pose jumps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -100,6 +101,33 @@ TEST_F(CInterfacePredict, ForASecondAfterTheLastPose) {
   predict(time_ns_ + kSecondNs + 1, SPHC_NOT_LOCALIZED);
   predict(time_ns_ - kStepNs, SPHC_OK);
   predict(time_ns_ - kStepNs - 1, SPHC_NOT_LOCALIZED);
+}
+
+// Odometry leads on for longer, and says where to search; it is no pose.
+TEST_F(CInterfacePredict, NotFromAnOlderPoseHoweverOdometryLedOn) {
+  see(0), see(1);
+  const auto blind = sphc::test::sceneFrame(config_, 1);
+  std::fill(blind->images.gray.begin(), blind->images.gray.end(), uint8_t{90});
+  sphc_localizer_prior prior;
+  ASSERT_EQ(sphc_localizer_prior_init(&prior, sizeof prior), SPHC_OK);
+  prior.flags = SPHC_PRIOR_ODOMETRY;
+  prior.odometry_rotation_sigma_rad = prior.odometry_translation_sigma_m = 1e-3;
+  blind->frame.prior = &prior;
+  // With the last pose too, from which odometry leads on.
+  const auto made = sphc::test::sceneFrame(config_, 1);
+  made->frame.prior = &prior;
+  sphc_localizer_result result = {};
+  result.struct_size = sizeof result;
+  made->frame.color_time_ns = made->frame.depth_time_ns = time_ns_ += kStepNs;
+  ASSERT_EQ(session_->process(made->frame, &result), SPHC_OK);
+  const int64_t pose_ns = time_ns_;
+  for (int i = 0; i < 11; ++i) {
+    blind->frame.color_time_ns = blind->frame.depth_time_ns = time_ns_ += kStepNs;
+    ASSERT_EQ(session_->process(blind->frame, &result), SPHC_NOT_LOCALIZED);
+  }
+  EXPECT_EQ(predict(pose_ns + kSecondNs, SPHC_OK).pose_time_ns, pose_ns);
+  for (const int64_t time_ns : {pose_ns + kSecondNs + 1, time_ns_ - 1, time_ns_})
+    predict(time_ns, SPHC_NOT_LOCALIZED);
 }
 
 TEST_F(CInterfacePredict, TimesMayLieAnywhere) {

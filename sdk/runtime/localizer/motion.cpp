@@ -87,7 +87,8 @@ Step Trail::step(uint32_t steps) const {
 bool moveTo(int64_t time_ns, const Motion &motion, MovedPose *moved) {
   const bool before = time_ns < motion.time_ns;
   const uint64_t apart_ns = apartNs(time_ns, motion.time_ns);
-  if (before ? apart_ns > kNearNs : elapsedNs(motion.pose_time_ns, time_ns) > Tracker::kForgetNs) return false;
+  if (before && apart_ns > kNearNs) return false;
+  if (elapsedNs(motion.pose_time_ns, time_ns) > Tracker::kForgetNs) return false;
   const double ahead_s = before ? -secondsOf(apart_ns) : secondsOf(apart_ns);
   const Step &step = motion.step;
   const double steps_per_s = step.seconds > 0 ? 1 / step.seconds : 0, steps = ahead_s * steps_per_s;

@@ -113,6 +113,8 @@ TEST(Motion, EndsASecondAfterThePoseAndATenthBeforeTheFrame) {
   EXPECT_FALSE(moveTo(kStart + kMotionSecond / 2 + 1, motion, &moved));
   EXPECT_TRUE(moveTo(kStart - kMotionSecond / 10, motion, &moved));
   EXPECT_FALSE(moveTo(kStart - kMotionSecond / 10 - 1, motion, &moved));
+  motion.pose_time_ns = kStart - 2 * kMotionSecond;
+  EXPECT_FALSE(moveTo(kStart - kMotionSecond / 10, motion, &moved));
 }
 
 TEST(Motion, TimesMayLieAnywhere) {
