@@ -137,6 +137,22 @@ TEST(DepthCameras, HowTheSecondIsOffIsLearntWhereBothMeasure) {
   EXPECT_NEAR(believed_m, kOffM, 0.2 * kOffM) << "what is said to measure alike is believed";
 }
 
+// Rows are taken to one time by the depth of each keypoint, which is looked up once more for its place.
+TEST(DepthCameras, ARollingShutterTeachesEachMeasurementOnce) {
+  DepthRig rig;
+  rig.second.offset_sigma_m = 0.03;
+  DepthRig rolling;
+  rolling.second.offset_sigma_m = 0.03;
+  rolling.config.color_row_time_ns = 1;  // and nothing moves
+  Session at_once(rig.config), by_rows(rolling.config);
+  for (uint32_t i = 0; i < 3; ++i) {
+    DepthFrame off(rig, i, 0.03);
+    resultOf(&at_once, off.frame());
+    resultOf(&by_rows, off.frame());
+    EXPECT_NEAR(differenceM(&at_once, &by_rows), 0, 1e-6) << "frame " << i;
+  }
+}
+
 TEST(DepthCameras, OdometryTakesALateSecondToTheTimeOfColour) {
   constexpr int64_t kStepNs = 33000000;
   DepthRig rig;

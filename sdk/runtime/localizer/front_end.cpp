@@ -154,15 +154,16 @@ void FrontEnd::mirror() {
   }
 }
 
-// Point seen at a pixel, in the frame of the eye, by the depth camera that is surest of it.
-bool FrontEnd::measure(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px, Vector3 *point_m,
-                       double *sigma_m) {
+// Point seen at a pixel, in the frame of the eye, by the depth camera that is surest of it.  `teaches`: how the two
+// are off against each other.
+bool FrontEnd::measure(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px, bool teaches,
+                       Vector3 *point_m, double *sigma_m) {
   const bool is_first = eye.aligners[0].lift(depth[0], pixel_px, point_m, sigma_m);
   if (depth.size() < 2 || !depth[1].data) return is_first;
   Vector3 point;
   double sigma = 0;
   if (!eye.aligners[1].lift(depth[1], pixel_px, &point, &sigma)) return is_first;
-  if (is_first && teaches_ && &eye == &color_) relation_.learn({point_m->z(), *sigma_m}, {point.z(), sigma});
+  if (is_first && teaches) relation_.learn({point_m->z(), *sigma_m}, {point.z(), sigma});
   const DepthRelation::Measured related = relation_.asFirst({point.z(), sigma});
   if (is_first && *sigma_m <= related.sigma_m) return true;
   *point_m = point * (related.z_m / point.z());
@@ -175,7 +176,7 @@ Vector2 FrontEnd::atMidTime(const Eye &eye, const DepthImages &depth, const Vect
   if (eye.row_time_s == 0) return pixel_px;
   Vector3 point_m;
   double sigma_z = 0;
-  if (!measure(eye, depth, pixel_px, &point_m, &sigma_z)) {
+  if (!measure(eye, depth, pixel_px, false, &point_m, &sigma_z)) {
     if (!eye.view().bearing(pixel_px, &point_m)) return pixel_px;
     point_m *= tuning::kRayM;
   }
@@ -202,7 +203,7 @@ bool FrontEnd::liftOne(const DepthImages &depth, uint32_t k, double *z_m) {
   lifted_[k] = ray;
   double sigma_z = 0;
   Vector3 point_m;
-  if (!measure(eye, depth, pixel_px, &point_m, &sigma_z)) return false;
+  if (!measure(eye, depth, pixel_px, teaches_ && !is_further, &point_m, &sigma_z)) return false;
   const double z = *z_m = point_m.z();
   LiftedPoint lifted = {point_m, hypotOf(sigma_px * z / eye.focal_px, map_sigma_m_),
                         hypotOf(sigma_z * point_m.norm() / z, map_sigma_m_)};

@@ -75,7 +75,7 @@ class FrontEnd {
     return camera == 0 ? color_ : further_[camera - 1];
   }
   void setRig(const FrameRig &rig);
-  bool measure(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px, Vector3 *point_m,
+  bool measure(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px, bool teaches, Vector3 *point_m,
                double *sigma_m);
   Vector2 atMidTime(const Eye &eye, const DepthImages &depth, const Vector2 &pixel_px);
   bool liftOne(const DepthImages &depth, uint32_t keypoint, double *z_m);
