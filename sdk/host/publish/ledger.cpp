@@ -87,7 +87,8 @@ void checkMode(const std::string &path) {
   if (!S_ISREG(facts.st_mode))
     refuse(path, std::string(S_ISDIR(facts.st_mode) ? "this is a folder" : "this is a device or a pipe") +
                      "; give the ledger itself, a file");
-  if (isLedger(path) && isForOthers(facts.st_mode))
+  // Of an empty file a ledger is made, in its mode.
+  if ((facts.st_size == 0 || isLedger(path)) && isForOthers(facts.st_mode))
     refuse(path, "others may read it, and it tells real points from fake ones; run: chmod 600 " + path);
 }
 
@@ -274,7 +275,8 @@ Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
 
 Ledger Ledger::openToRead(const std::string &path) {
   checkMode(path);
-  Ledger ledger(path, SQLITE_OPEN_READONLY);
+  // Who may only read cannot undo what a killed build left half written.
+  Ledger ledger(path, SQLITE_OPEN_READWRITE);
   ledger.read(nullptr);
   return ledger;
 }

@@ -151,6 +151,36 @@ TEST_F(LedgerTest, ItsOwnerAloneMayReadIt) {
   EXPECT_THROW(Ledger::openToRead(path_), std::runtime_error);
 }
 
+// As touch makes it.
+TEST_F(LedgerTest, NoKeyIsWrittenIntoAnEmptyFileThatOthersMayRead) {
+  std::ofstream(path_).flush();
+  chmod(path_.c_str(), 0644);
+  EXPECT_THAT(refusal(), HasSubstr("chmod 600"));
+  chmod(path_.c_str(), 0600);
+  EXPECT_EQ(refusal(), "accepted");
+}
+
+// A build that was killed while it recorded leaves a journal, which whoever comes next plays back.
+TEST_F(LedgerTest, WhatAKilledBuildHalfRecordedIsUndone) {
+  const std::string killed = path_ + "_killed", journal = "-journal";
+  const auto copy = [](const std::string &from, const std::string &to) {
+    std::ofstream(to, std::ios::binary) << std::ifstream(from, std::ios::binary).rdbuf();
+    chmod(to.c_str(), 0600);
+  };
+  Ledger::openOrMake(killed, nullptr).record(makePlace(1, 200));
+  sqlite3 *database = nullptr;
+  ASSERT_EQ(sqlite3_open(killed.c_str(), &database), SQLITE_OK);
+  // Little memory makes it write before it commits.
+  ASSERT_EQ(sqlite3_exec(database, "PRAGMA cache_size = 2; BEGIN; UPDATE point SET real = 0, shown = zeroblob(128)",
+                         nullptr, nullptr, nullptr),
+            SQLITE_OK);
+  copy(killed, path_);
+  copy(killed + journal, path_ + journal);
+  sqlite3_close(database);
+  expectSame(Ledger::openToRead(path_).places().front(), makePlace(1, 200));
+  unlink(killed.c_str());
+}
+
 TEST_F(LedgerTest, DrawsAKeyAndKeepsIt) {
   SecretKey drawn = {};
   {
