@@ -17,6 +17,7 @@ constexpr double kMostScale = 1.2;       // models are metric, but their makers 
 constexpr double kShortestEdgeM = 0.15;  // of a triangle that says how things are turned
 constexpr size_t kLeastSupport = 15;     // pairs; chance gives a handful
 constexpr size_t kMostAlignments = 6;
+constexpr double kEdgeWindow = 0.1;  // of logarithms of ratios
 constexpr int kSamples = 20000, kRefinements = 5;
 
 double reach(const PointPair &pair) { return kReachM + 3 * pair.sigma_m; }
@@ -90,7 +91,34 @@ size_t alignOnce(const std::vector<PointPair> &pairs, Similarity *best) {
   return best_support;
 }
 
+// The logarithms of ratios of edges between random pairs.
+std::vector<double> edgeRatios(const std::vector<PointPair> &pairs) {
+  Random random(pairs.size());
+  std::vector<double> ratios;
+  for (int i = 0; i < kSamples && !pairs.empty(); ++i) {
+    const PointPair &a = pairs[random.below(static_cast<uint32_t>(pairs.size()))];
+    const PointPair &b = pairs[random.below(static_cast<uint32_t>(pairs.size()))];
+    const double model = (a.model_m - b.model_m).norm(), place = (a.place_m - b.place_m).norm();
+    if (model > 0 && place > kShortestEdgeM) ratios.push_back(std::log(place / model));
+  }
+  return ratios;
+}
+
 }  // namespace
+
+double otherScale(const std::vector<PointPair> &pairs) {
+  std::vector<double> ratios = edgeRatios(pairs);
+  std::sort(ratios.begin(), ratios.end());
+  double scale = 1;
+  size_t most = 0;
+  for (size_t begin = 0, end = 0; begin < ratios.size(); ++begin) {
+    while (end < ratios.size() && ratios[end] < ratios[begin] + kEdgeWindow) ++end;
+    if (end - begin <= most) continue;
+    most = end - begin;
+    scale = std::exp(ratios[begin + most / 2]);
+  }
+  return scale > 1 / kMostScale && scale < kMostScale ? 1 : scale;
+}
 
 std::vector<PointPair> pairByDescriptor(const std::vector<ModelPoint> &place, const std::vector<ModelPoint> &model,
                                         size_t count) {

@@ -20,4 +20,8 @@ std::vector<PointPair> pairByDescriptor(const std::vector<ModelPoint> &place, co
 // support is no alignment.
 std::vector<Similarity> alignments(std::vector<PointPair> pairs);
 
+// Place over model: the most frequent ratio of the edges between pairs, within a tenth or so, where metric models
+// do not differ as much; else 1.
+double otherScale(const std::vector<PointPair> &pairs);
+
 }  // namespace sphc::host

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/import/point_grid.h"
 #include "host/publish/alignment.h"
@@ -42,22 +43,45 @@ Identity identityOf(const ModelPoint &point, const std::vector<Similarity> &plac
   return identity;
 }
 
-}  // namespace
-
-Recognition recognize(const Place &place, const PointModel &model) {
+std::vector<PointPair> pairsOf(const Place &place, const PointModel &model) {
   std::vector<ModelPoint> known;
+  for (const PlacePoint &point : place.points) known.push_back(point.seen);
+  return pairByDescriptor(known, model.points, kPaired);
+}
+
+Recognition recognizeBy(std::vector<Similarity> place_from_model, const Place &place, const PointModel &model) {
   PointGrid grid(kCubeM);
-  for (const PlacePoint &point : place.points) {
-    grid.add(point.seen.position_m, known.size());
-    known.push_back(point.seen);
-  }
+  for (size_t i = 0; i < place.points.size(); ++i) grid.add(place.points[i].seen.position_m, i);
   Recognition recognition;
-  recognition.place_from_model = alignments(pairByDescriptor(known, model.points, kPaired));
+  recognition.place_from_model = std::move(place_from_model);
   for (const ModelPoint &point : model.points) {
     recognition.identities.push_back(identityOf(point, recognition.place_from_model, place, grid));
     recognition.known += recognition.identities.back() == Identity::kKnown;
   }
   return recognition;
+}
+
+}  // namespace
+
+Recognition recognize(const Place &place, const PointModel &model) {
+  return recognizeBy(alignments(pairsOf(place, model)), place, model);
+}
+
+double scaleToPlace(const Place &place, const PointModel &model, double least_known) {
+  const double scale = otherScale(pairsOf(place, model));
+  if (scale == 1) return 0;
+  PointModel scaled = model;
+  for (ModelPoint &point : scaled.points) {
+    point.position_m *= scale;
+    point.sigma_m *= scale;
+  }
+  const Recognition r = recognize(place, scaled);
+  if (r.place_from_model.empty() || static_cast<double>(r.known) < least_known) return 0;
+  return scale * r.place_from_model.front().scale;
+}
+
+size_t knownInPlaceFrame(const Place &place, const PointModel &model) {
+  return recognizeBy({Similarity()}, place, model).known;
 }
 
 }  // namespace sphc::host

@@ -27,4 +27,11 @@ struct Recognition {
 // By descriptors that match and positions that agree, whatever frame the model is in.
 Recognition recognize(const Place &place, const PointModel &model);
 
+// The same room in another unit: what the model has to be multiplied by to show so many points of the place or
+// more; 0 where that is not so, or where it is a metric model of it as it stands.
+double scaleToPlace(const Place &place, const PointModel &model, double least_known);
+
+// Points that the place has where the model says, whose world is the place's.
+size_t knownInPlaceFrame(const Place &place, const PointModel &model);
+
 }  // namespace sphc::host

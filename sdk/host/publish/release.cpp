@@ -56,6 +56,22 @@ void refuseForeign(const Recognition *recognition, const PointModel &model) {
       "--new-place only what it does not have, or say --i-understand");
 }
 
+// Directions stay what they are at any scale, so the two maps would be of one place all the same.
+void refuseOtherScale(const std::vector<Place> &places, const PointModel &model) {
+  for (const Place &place : places) {
+    const double least = kSamePlaceShare * static_cast<double>(model.points.size());
+    const double scale = scaleToPlace(place, model, least);
+    if (scale == 0) continue;
+    char why[96];
+    std::snprintf(why, sizeof why, "the recording shows place %u of a ledger, but is %.3g times as large as it was",
+                  place.number, 1 / scale);
+    throw std::runtime_error(
+        why + std::string(". A second, independent map of one place exposes the points that both have. Give the "
+                          "scale or the unit of depth that the release had (--scale; depth_unit_m of the "
+                          "calibration), or say --i-understand"));
+  }
+}
+
 void refuseChange(const Place &place, sphc_band band, const ReleaseRequest &request) {
   char was[64];
   std::snprintf(was, sizeof was, "place %u was released with eta %.4g", place.number, place.eta);
@@ -203,6 +219,8 @@ NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
   const auto foreign = recognizeAll(blind ? std::vector<Place>() : request.foreign, model);
   if (!request.new_place) refuseForeign(samePlace(foreign, model), model);
   const Recognition *here = request.new_place ? nullptr : samePlace(own, model);
+  if (!here && !blind)
+    for (const auto *places : {&request.own, &request.foreign}) refuseOtherScale(*places, model);
   std::vector<ModelPoint> fresh = freshPoints(model, here, allBut(here, own, foreign), &summary);
   if (request.new_place) refuseLittleNew(fresh.size(), model, summary);
   Place place;

@@ -55,6 +55,13 @@ TEST(Alignment, AFewPairsOrAnotherScaleAreNone) {
   EXPECT_TRUE(alignments({}).empty());
 }
 
+TEST(Alignment, AnotherScaleIsTold) {
+  for (const double scale : {0.2, 1.6, 40.0})
+    EXPECT_NEAR(otherScale(pairsOf(turned(scale), 100, 80)) / scale, 1, 0.15) << scale;
+  for (const double scale : {0.9, 1.0, 1.1}) EXPECT_EQ(otherScale(pairsOf(turned(scale), 100, 80)), 1) << scale;
+  EXPECT_EQ(otherScale({}), 1);
+}
+
 TEST(Alignment, PairsAreOfPointsThatLookAlikeAndNoOthers) {
   const PointModel room = test::madeUpRoom(200, 5), other = test::madeUpRoom(200, 6);
   const PointModel again = test::seenAgain(room, 7);

@@ -38,6 +38,27 @@ TEST(Recognition, AModelThatIsALittleTooLarge) {
   EXPECT_EQ(r.known, 1000u);
 }
 
+TEST(Recognition, AModelInAnotherUnitIsToldWithIt) {
+  const PointModel room = test::madeUpRoom(1000, 1);
+  for (const double times : {0.001, 0.2, 3.0, 5.0}) {
+    PointModel again = test::seenAgain(room, 2, test::otherWorld());
+    for (ModelPoint &point : again.points) {
+      point.position_m *= times;
+      point.sigma_m *= times;
+    }
+    EXPECT_EQ(recognize(placeOf(room), again).known, 0u);
+    EXPECT_NEAR(scaleToPlace(placeOf(room), again, 900) * times, 1, 0.01) << times;
+  }
+  EXPECT_EQ(scaleToPlace(placeOf(room), test::seenAgain(room, 2), 300), 0);
+  EXPECT_EQ(scaleToPlace(placeOf(room), test::madeUpRoom(1000, 2), 300), 0);
+}
+
+TEST(Recognition, ThePlacesFrameIsToldFromAnother) {
+  const PointModel room = test::madeUpRoom(1000, 1);
+  EXPECT_EQ(knownInPlaceFrame(placeOf(room), test::seenAgain(room, 2)), 1000u);
+  EXPECT_EQ(knownInPlaceFrame(placeOf(room), test::seenAgain(room, 2, test::otherWorld())), 0u);
+}
+
 TEST(Recognition, AnotherRoomIsAnother) {
   const Recognition r = recognize(placeOf(test::madeUpRoom(2000, 1)), test::madeUpRoom(2000, 2));
   EXPECT_TRUE(r.place_from_model.empty());

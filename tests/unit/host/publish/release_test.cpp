@@ -256,6 +256,21 @@ TEST(Release, ASecondIndependentReleaseIsRefused) {
   EXPECT_EQ(refusal(test::madeUpRoom(1000, 6), other_ledger), "");
 }
 
+// Of a wrong unit of depth that was put right: the directions are the same, and would have other fakes.
+TEST(Release, ASecondReleaseAtAnotherScaleIsRefused) {
+  const PointModel room = test::madeUpRoom(1000, 1);
+  const NewRelease first = makeRelease(room, releaseRequest());
+  PointModel larger = test::seenAgain(room, 2, test::otherWorld());
+  for (ModelPoint &point : larger.points) point.position_m *= 5;
+  EXPECT_THAT(refusal(larger, releaseRequest({first.place})), HasSubstr("5 times as large"));
+  ReleaseRequest of_others = releaseRequest({}, 2);
+  of_others.foreign = {first.place};
+  of_others.new_place = true;
+  EXPECT_THAT(refusal(larger, of_others), HasSubstr("5 times as large"));
+  of_others.understood = true;
+  EXPECT_EQ(refusal(larger, of_others), "");
+}
+
 TEST(Release, APlaceKeepsItsBand) {
   PointModel room = test::madeUpRoom(1000, 1);
   room.band = SPHC_BAND_INFRARED;
