@@ -23,8 +23,8 @@ struct FigureKind {
 };
 
 struct Measurement {
-  std::string figure;  // the name of one of the attack's kinds
-  double value;
+  std::string figure;           // the name of one of the attack's kinds
+  std::optional<double> value;  // none: it could not be measured, and the remark says why
   std::string remark = {};
   double standard_error = 0;
 };

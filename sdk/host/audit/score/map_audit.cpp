@@ -95,7 +95,8 @@ class MapAuditor {
     for (const Measurement &measured : result.measurements) {
       const auto kind = std::find_if(attack.figures.begin(), attack.figures.end(),
                                      [&](const FigureKind &k) { return k.name == measured.figure; });
-      audit_.figures.push_back({*kind, measured.value, measured.standard_error, measured.remark});
+      audit_.figures.push_back({*kind, measured.value, measured.standard_error, measured.remark, true,
+                                !measured.value && mayStayUnmeasured(rules_, attack, *kind, {})});
     }
     if (!result.views.empty()) audit_.views = std::move(result.views);
     if (!result.real_or_fake.empty()) audit_.real_or_fake = std::move(result.real_or_fake);

@@ -61,7 +61,13 @@ class Painter {
   std::vector<Inverter> inverters_;
 };
 
-double ratioOf(double own, double papers) { return papers > 0 ? own / papers : 0; }
+// Pictures that tell something have to be compared with something; no pictures at all tell nothing.
+Measurement ratioOf(const std::string &figure, double own, double papers, size_t views, const std::string &seen) {
+  if (views == 0) return {figure, {}, "no view shows enough points for a picture"};
+  if (papers > 0) return {figure, own / papers, seen};
+  if (own > 0) return {figure, {}, seen + ", and the paper's fakes tell none of them, to compare with"};
+  return {figure, 0, seen};
+}
 
 AttackResult runInversion(AuditContext *context) {
   Painter painter(context);
@@ -74,12 +80,14 @@ AttackResult runInversion(AuditContext *context) {
   SecretRandom random(kControlKey);
   shuffle(&shuffled.descriptors, &random);
   const Told chance = painter.paint("descriptors shuffled", shuffled);
-  const auto views = static_cast<double>(std::max<size_t>(1, painter.result.views.size()));
-  const auto errorOf = [&](double share) { return std::sqrt(share * (1 - share) / views); };
-  painter.result.measurements = {{"inversion.of_papers", ratioOf(own.coarse, paper.coarse),
-                                  std::to_string(painter.result.views.size()) +
-                                      (context->input().views.empty() ? " views, pseudo truth" : " views")},
-                                 {"inversion.of_papers_fine", ratioOf(own.fine, paper.fine)},
+  const size_t count = painter.result.views.size();
+  const std::string seen =
+      std::to_string(count) + (context->input().views.empty() ? " views, pseudo truth" : " views");
+  const auto errorOf = [&](double share) {
+    return std::sqrt(share * (1 - share) / std::max(1.0, static_cast<double>(count)));
+  };
+  painter.result.measurements = {ratioOf("inversion.of_papers", own.coarse, paper.coarse, count, seen),
+                                 ratioOf("inversion.of_papers_fine", own.fine, paper.fine, count, seen),
                                  {"inversion.retrieval", own.coarse, "", errorOf(own.coarse)},
                                  {"inversion.retrieval_fine", own.fine, "", errorOf(own.fine)},
                                  {"inversion.retrieval_paper", paper.coarse},

@@ -6,9 +6,14 @@
 namespace sphc::host {
 namespace {
 
+Measurement aucOf(const AuditContext &context, double strongest) {
+  if (context.eta() < 1) return {"real_or_fake.auc", strongest};
+  return {"real_or_fake.auc", {}, "every entry is real: there is no fake to be told from it"};
+}
+
 AttackResult runRealOrFake(AuditContext *context) {
   const RealOrFakeScores &strongest = context->realOrFake().scores.back();
-  AttackResult result = {{{"real_or_fake.auc", strongest.auc},
+  AttackResult result = {{aucOf(*context, strongest.auc),
                           {"real_or_fake.precision_at_eta", strongest.precision_at_eta,
                            "eta is " + std::to_string(context->eta()).substr(0, 5)},
                           {"real_or_fake.first_tenth", strongest.precision_at_tenth},

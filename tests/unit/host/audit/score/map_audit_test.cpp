@@ -136,15 +136,19 @@ TEST(MapAudit, AReleaseThatTheLedgerListsAndNobodyGivesIsMissed) {
   const test::MadeUpRelease second = test::released(room, 1, 1.0 / 3, {first.place});
   EXPECT_EQ(figure(audit(inputOf(first)), "intersection.gain").verdict(), Verdict::kDoesNotApply);
   AuditInput input = inputOf(second);
-  EXPECT_THAT(audit(input).missingGates(), testing::ElementsAre("triangulation.pose_found", "intersection.gain"));
+  AuditRules rules;
+  rules.allow_unmeasured = {"inversion"};  // so few points show no picture
+  EXPECT_THAT(audit(input, rules).missingGates(),
+              testing::ElementsAre("triangulation.pose_found", "intersection.gain"));
   input.releases = {first.file};
-  const MapAudit whole = audit(input);
+  const MapAudit whole = audit(input, rules);
   EXPECT_THAT(whole.missingGates(), IsEmpty());
   EXPECT_EQ(figure(whole, "triangulation.pose_found").verdict(), Verdict::kHolds);
   EXPECT_EQ(figure(whole, "intersection.gain").verdict(), Verdict::kHolds);
   // Another map in its place does not make it known.
   input.releases = {test::released(test::madeUpRoom(600, 7), 1, 1.0 / 3).file};
-  EXPECT_THAT(audit(input).missingGates(), testing::ElementsAre("triangulation.pose_found", "intersection.gain"));
+  EXPECT_THAT(audit(input, rules).missingGates(),
+              testing::ElementsAre("triangulation.pose_found", "intersection.gain"));
 }
 
 TEST(MapAudit, ACarelessSecondReleaseIsFound) {
@@ -214,6 +218,20 @@ TEST(MapAudit, ThePapersFakesLieInNoLayers) {
   rules.only = {"real_or_fake"};
   const MapAudit result = audit(inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3)), rules);
   EXPECT_THROW(figure(result, "real_or_fake.auc_of_layers"), std::runtime_error);
+}
+
+// Nothing is hidden, and there are too few points for a picture: that is no reason to hold.
+TEST(MapAudit, AMapOfRealPointsAloneFailsClosed) {
+  const AuditInput input = inputOf(test::released(test::madeUpRoom(70, 1), 1, 1));
+  const MapAudit result = audit(input);
+  EXPECT_THAT(result.missingGates(),
+              testing::ElementsAre("real_or_fake.auc", "inversion.of_papers", "inversion.of_papers_fine"));
+  EXPECT_THAT(figure(result, "real_or_fake.auc").remark, HasSubstr("every entry is real"));
+  EXPECT_THAT(figure(result, "inversion.of_papers").remark, HasSubstr("no view shows enough points"));
+  EXPECT_EQ(result.outcome(), AuditOutcome::kNotMeasured);
+  AuditRules rules;
+  rules.allow_unmeasured = {"real_or_fake", "inversion"};
+  EXPECT_EQ(audit(input, rules).outcome(), AuditOutcome::kHolds);
 }
 
 TEST(MapAudit, AnotherPlacesTruthIsRefused) {
