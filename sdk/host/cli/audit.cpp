@@ -12,14 +12,19 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/import_recording.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/privacy_results.h"
 #include "host/cli/common/progress.h"
 #include "host/evaluate/map_file.h"
 #include "host/publish/ledger.h"
+#include "host/publish/recognition.h"
 #include "host/report/table.h"
 
 namespace sphc::host {
 namespace {
+
+constexpr double kLeastKnown =
+    0.05;  // of what the mapping recording's frames show, the map has several times as much
 
 struct AuditOptions {
   std::string map, truth, report, figures, name, networks;
@@ -66,6 +71,20 @@ std::vector<uint8_t> readMap(const std::string &path) {
   return bytes;
 }
 
+// In another world, or of another place, it says nothing of the map, and pictures would not be told.
+void checkWorld(const AuditOptions &options, const Place &place, const std::vector<PointModel> &frames) {
+  size_t seen = 0, known = 0;
+  for (const PointModel &frame : frames) {
+    seen += frame.points.size();
+    known += knownInPlaceFrame(place, frame);
+  }
+  if (static_cast<double>(known) >= kLeastKnown * static_cast<double>(seen)) return;
+  throw std::runtime_error("--recording: of " + std::to_string(seen) + " points that " + options.recording.folder +
+                           " shows, " + std::to_string(known) +
+                           " lie where the ledger has them; give the first recording of the place, whose world the "
+                           "ledger has, and the frames that were mapped");
+}
+
 std::string networksOf(const AuditOptions &options) {
   if (!options.networks.empty() && !std::filesystem::is_directory(options.networks))
     throw std::runtime_error("--networks " + options.networks +
@@ -94,9 +113,10 @@ AuditInput inputOf(const AuditOptions &options, const Console &console) {
   if (options.truth.empty()) return input;
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
+  std::vector<PointModel> frames = importFrames(options.recording, options.queries, "querying  ", console);
+  checkWorld(options, *input.place, frames);
   if (isRun("inversion", options)) input.views = viewsOf(options, *input.place);
-  for (PointModel &frame : importFrames(options.recording, options.queries, "querying  ", console))
-    input.queries.push_back(std::move(frame.points));
+  for (PointModel &frame : frames) input.queries.push_back(std::move(frame.points));
   if (options.has_photos)
     for (PointModel &frame : importFrames(photosOf(options), options.queries, "photos    ", console))
       input.photos.push_back(std::move(frame.points));
@@ -241,7 +261,10 @@ Command auditCommand(CLI::App *root) {
   addRecordingOptions(app, &options->recording);
   app->get_option("--recording")->required(false);
   app->add_option("--release", options->releases, "Other maps of the place that were published")->type_name("MAP");
-  app->add_option("--queries", options->queries, "Frames of a client")->capture_default_str()->type_name("N");
+  app->add_option("--queries", options->queries, "Frames of a client")
+      ->capture_default_str()
+      ->check(wholeFrom(1, 100000))
+      ->type_name("N");
   auto *photos = app->add_option("--photos", options->photos.folder,
                                  "Frames of the place that the map was not made of, posed in the same world")
                      ->type_name("PATH");

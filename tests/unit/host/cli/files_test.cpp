@@ -211,6 +211,17 @@ TEST_F(FilesTest, AuditKeepsTheLedger) {
   expectKept(at("spherecloud.ledger"), audit + at("spherecloud.ledger"), kExitUsage, "--truth reads");
 }
 
+// Its pictures would be told by chance, and hold.
+TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
+  ASSERT_EQ(runCommand("simulate --frames 2 --rate 3 --seed 8 --out " + at("another")).exit_code, kExitDone);
+  const std::string audit = "audit " + at("room.sphc") + " --truth " + at("spherecloud.ledger") +
+                            " --only querying_client --quick --recording ";
+  const Answer another = runCommand(audit + at("another"));
+  EXPECT_EQ(another.exit_code, kExitFailure);
+  EXPECT_THAT(another.err, HasSubstr("give the first recording of the place"));
+  EXPECT_EQ(runCommand(audit + at("walk")).exit_code, kExitAuditIncomplete) << "the others are left out";
+}
+
 TEST_F(FilesTest, RecordingsAreWholeOrNotThere) {
   expectKept(at("walk/rgb.txt"), "convert " + at("walk") + " " + at("walk/in.mcap"), kExitUsage, "lies in");
   expectKept(at("room.sphc"), "simulate --frames 1 --out " + at("room.sphc"), kExitFailure, "never replaced");
