@@ -24,8 +24,9 @@ std::string outPath(const SignOptions &options) {
 
 std::string called(const std::string &name) { return name.empty() ? "a map without a name" : "the map " + name; }
 
-// A device that has seen a release refuses the ones before it, and one that asks for a name every other name.
-void checkGoesOn(const SignOptions &options, const SigningKey &key) {
+// A device that has seen a release refuses the ones before it, and one that asks for a name every other name.  Of
+// two maps with one number it would take either.
+void checkGoesOn(const SignOptions &options, const MapFile &map, const SigningKey &key) {
   const std::string out = outPath(options);
   const std::optional<Stated> before = statedBy(key.publicKey(), out);
   if (!before || options.force) return;
@@ -36,6 +37,10 @@ void checkGoesOn(const SignOptions &options, const SigningKey &key) {
     throw std::runtime_error("--release " + std::to_string(options.release) + ": " + out + " states release " +
                              std::to_string(before->release) +
                              " already, and devices refuse what is older; give a greater number, or --force");
+  if (options.release == before->release && !before->isOf(map.bytes.data(), map.bytes.size()))
+    throw std::runtime_error("--release " + std::to_string(options.release) + ": " + out +
+                             " states this release of another map, and a device takes either for the last; give a "
+                             "greater number, or --force");
 }
 
 int sign(const SignOptions &options, const Console &console) {
@@ -47,7 +52,7 @@ int sign(const SignOptions &options, const Console &console) {
   files.check();
   const SigningKey key = SigningKey::read(options.key);
   const MapFile map = openMapFile(options.map);  // nothing but a map is ever signed
-  checkGoesOn(options, key);
+  checkGoesOn(options, map, key);
   const Signature signature = signMap(map.bytes.data(), map.bytes.size(), key, options.release, options.name);
   writeFile(out, signature.data(), signature.size());
   const std::string id = keyIdText(key.publicKey());

@@ -75,7 +75,15 @@ std::optional<Stated> statedBy(const sphc_signature_key &key, const std::string 
   uint8_t id[SPHC_KEY_ID_BYTES];
   sphc_statement_key_id(key.bytes, id);
   if (!std::equal(id, id + sizeof id, statement.key_id)) return std::nullopt;
-  return Stated{statement.release, statement.name};
+  Stated stated = {statement.release, statement.name};
+  std::copy(statement.map_sha512, statement.map_sha512 + SPHC_SHA512_BYTES, stated.map_sha512.begin());
+  return stated;
+}
+
+bool Stated::isOf(const void *map, size_t map_bytes) const {
+  std::array<uint8_t, SPHC_SHA512_BYTES> hash;
+  sphc_sha512(map, map_bytes, hash.data());
+  return hash == map_sha512;
 }
 
 }  // namespace sphc::host

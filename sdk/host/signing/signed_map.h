@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/signing/key_file.h"
+#include "signature/sha512.h"
 #include "spherecloud/spherecloud_signature.h"
 
 namespace sphc::host {
@@ -38,6 +39,8 @@ sphc_signature_statement checkSignature(const Trust &trust, const std::string &m
 struct Stated {
   uint64_t release = 0;
   std::string name;
+  std::array<uint8_t, SPHC_SHA512_BYTES> map_sha512 = {};
+  bool isOf(const void *map, size_t map_bytes) const;
 };
 // What a signature file that is there says; nothing where there is none, or one by another key.
 std::optional<Stated> statedBy(const sphc_signature_key &key, const std::string &signature_path);

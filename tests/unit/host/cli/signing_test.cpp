@@ -88,6 +88,15 @@ TEST_F(SigningTest, ReleasesOnlyGrow) {
   EXPECT_EQ(verify("--least-release 6").exit_code, kExitDone);
 }
 
+TEST_F(SigningTest, AReleaseIsOneMap) {
+  EXPECT_EQ(sign("--release 7 --name kitchen").exit_code, kExitDone) << "the same map again";
+  writeTinyMap(map_, 41);
+  const Answer another = sign("--release 7 --name kitchen");
+  EXPECT_EQ(another.exit_code, kExitFailure);
+  EXPECT_THAT(another.err, HasSubstr("states this release of another map"));
+  EXPECT_EQ(sign("--release 8 --name kitchen").exit_code, kExitDone);
+}
+
 TEST_F(SigningTest, ASignatureOfAnotherNameStays) {
   for (const char *options : {"--release 9 --name hall", "--release 9"}) {
     const Answer other = sign(options);
