@@ -42,8 +42,11 @@ def told(key):
 
 def needed_by(library):
     """The files that a library needs and that not every system has: [(name, path)]."""
-    lines = subprocess.run(["ldd", library], capture_output=True, text=True, check=True).stdout.splitlines()
-    pairs = [line.split(" => ") for line in lines if " => " in line]
+    ldd = subprocess.run(["ldd", library], capture_output=True, text=True)
+    if ldd.returncode:
+        why = (ldd.stderr or ldd.stdout).strip()
+        sys.exit(f"{library} cannot go into a wheel ({why}); build it, and name the file that the build made")
+    pairs = [line.split(" => ") for line in ldd.stdout.splitlines() if " => " in line]
     found = [(name.strip(), path.rpartition(" (")[0].strip()) for name, path in pairs]
     missing = [name for name, path in found if "not found" in path or not path]
     if missing:

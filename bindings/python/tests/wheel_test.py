@@ -45,6 +45,11 @@ class Wheel(unittest.TestCase):
         self.assertEqual(first.read_bytes(), second.read_bytes())
         self.assertNotEqual(first.read_bytes(), later.read_bytes())
 
+    def test_what_no_wheel_can_carry_is_named(self):
+        for wrong in (self.folder / "libspherecloud.so", HERE / "session.py"):
+            with self.assertRaisesRegex(SystemExit, f"{wrong} cannot go into a wheel .* build it"):
+                builder().needed_by(wrong)
+
     def test_it_plays_the_session(self):
         wheel, environment = build(self.folder), self.folder / "environment"
         self.assertRegex(wheel.name, r"-py3-none-manylinux_2_\d+_")
