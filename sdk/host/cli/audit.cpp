@@ -268,8 +268,12 @@ Command auditCommand(CLI::App *root) {
   auto *photos = app->add_option("--photos", options->photos.folder,
                                  "Frames of the place that the map was not made of, posed in the same world")
                      ->type_name("PATH");
-  auto *first = app->add_option("--photos-first", options->photos.first, "First of them")->type_name("N");
-  auto *last = app->add_option("--photos-last", options->photos.last, "Last of them")->type_name("N");
+  auto *first = app->add_option("--photos-first", options->photos.first, "First of them")
+                    ->transform(wholeFrom(0, UINT32_MAX))
+                    ->type_name("N");
+  auto *last = app->add_option("--photos-last", options->photos.last, "Last of them")
+                   ->transform(wholeFrom(0, UINT32_MAX))
+                   ->type_name("N");
   app->add_option("--limit", options->limits, "Another limit: NAME=NUMBER")->type_name("NAME=X");
   app->add_option("--allow-unmeasured", options->allow_unmeasured,
                   "What may stay unmeasured: a figure, an attack, or truth, networks, releases; repeat")

@@ -223,7 +223,7 @@ Command liveCommand(CLI::App *root) {
                 "The light that the colour camera sees; a map must be of the same");
   addAmplitudeOption(app, &options->config.amplitude_min);
   app->add_option("--frames", options->frames, "End after so many frames; 0: never")
-      ->check(wholeFrom(0, UINT32_MAX));
+      ->transform(wholeFrom(0, UINT32_MAX));
   app->add_option("--seconds", options->seconds, "End after so long; 0: never")->check(notNegative());
   app->add_flag("--every", options->every, "Process every frame, however late; else only the newest");
   return {app, [options](const Console &console) { return run(*options, console); }};

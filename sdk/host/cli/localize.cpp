@@ -222,7 +222,7 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
     return app->add_option(name, field, text)->capture_default_str()->group("Localizer");
   };
   add("--seed", config->seed, "Seed of the random samples; the same seed gives the same answers")
-      ->check(wholeFrom(0));
+      ->transform(wholeFrom(0));
   add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096");
   add("--ratio", parameters->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
   add("--max-iterations", parameters->max_iterations, "Most samples drawn for a frame");
@@ -278,7 +278,7 @@ Command localizeCommand(CLI::App *root) {
   app->add_option("--deadline-us", options->deadline_us,
                   "Time for a frame, after which the best pose so far is given out; 0: no deadline")
       ->capture_default_str()
-      ->check(wholeFrom(0, UINT32_MAX))
+      ->transform(wholeFrom(0, UINT32_MAX))
       ->group("Localizer");
   return {app, [options](const Console &console) { return run(*options, console); }};
 }

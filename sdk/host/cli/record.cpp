@@ -191,7 +191,7 @@ Command recordCommand(CLI::App *root) {
   app->add_option("--jpeg", options->recorder.jpeg_quality,
                   "Colour as JPEG of this quality, 1 to 100; 0: as it came")
       ->capture_default_str()
-      ->check(wholeFrom(0, 100));
+      ->transform(wholeFrom(0, 100));
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

@@ -84,7 +84,7 @@ Command signCommand(CLI::App *root) {
   app->add_option("--release", options->release,
                   "Number of the release, greater than that of all maps of this name before it")
       ->required()
-      ->check(wholeFrom(0))
+      ->transform(wholeFrom(0))
       ->type_name("N");
   app->add_option("--name", options->name, "Which map it is, so that no other of yours takes its place [none]")
       ->type_name("NAME");

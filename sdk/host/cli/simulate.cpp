@@ -198,7 +198,7 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("PATH");
   app->add_option("--frames", config.frame_count, "How many frames")
       ->capture_default_str()
-      ->check(wholeFrom(1, 1000000))
+      ->transform(wholeFrom(1, 1000000))
       ->type_name("N");
   app->add_option("--rate", config.frame_rate_hz, "Frames a second, 0.1 to 120")
       ->capture_default_str()
@@ -216,18 +216,18 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("S");
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
-      ->check(wholeFrom(0))
+      ->transform(wholeFrom(0))
       ->type_name("N");
   app->add_option("--walk-seed", config.walk_seed, "Another walk and noise for every number")
       ->capture_default_str()
-      ->check(wholeFrom(0))
+      ->transform(wholeFrom(0))
       ->type_name("N");
   app->add_option("--with", options->with, kWithHelp)->type_name("NAMES");
   app->add_option("--arrangement", config.arrangement_seed,
                   "Another arrangement of what people move (chairs, boxes, plants, books, small things, pictures)\n"
                   "for every number: half stands elsewhere, a quarter is gone; 0: as the room has it")
       ->capture_default_str()
-      ->check(wholeFrom(0))
+      ->transform(wholeFrom(0))
       ->type_name("N");
   app->add_option("--from", config.walk_start_s, "Seconds on the walk at which frame 0 is; 16 is lap two")
       ->capture_default_str()
@@ -235,7 +235,7 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->type_name("S");
   app->add_option("--threads", config.threads, "At most so many, up to 64; 0: all cores")
       ->capture_default_str()
-      ->check(wholeFrom(0, 64))
+      ->transform(wholeFrom(0, 64))
       ->type_name("N");
   app->add_option("--accelerometer", options->accelerometer_hz,
                   "Also what an accelerometer measures, so many times a second [none]; X.mcap keeps it")

@@ -36,14 +36,14 @@ CLI::Validator notNegative() { return checkOf(0, std::numeric_limits<double>::ma
 
 CLI::Validator wholeFrom(uint64_t least, uint64_t most) {
   return CLI::Validator(
-      [least, most](const std::string &text) {
+      [least, most](std::string &text) {
         const bool has_digits_alone = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
         errno = 0;
         const uint64_t value = std::strtoull(text.c_str(), nullptr, 10);
-        const bool is_in_bounds = value >= least && value <= most && errno == 0;
-        return has_digits_alone && is_in_bounds
-                   ? std::string()
-                   : text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+        if (!has_digits_alone || value < least || value > most || errno != 0)
+          return text + " is not a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+        text = std::to_string(value);
+        return std::string();
       },
       "");
 }

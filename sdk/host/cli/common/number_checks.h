@@ -10,7 +10,8 @@ namespace sphc::host {
 CLI::Validator between(double least, double most);
 // From 0 on: seconds, metres.
 CLI::Validator notNegative();
-// Of a whole number, as a seed (from 0) or a step (from 1).
+// For transform(), of a whole number, as a seed (from 0) or a step (from 1).  Zeros in front, as in names of files,
+// go: CLI11 would take the rest for octal.
 CLI::Validator wholeFrom(uint64_t least, uint64_t most = UINT64_MAX);
 
 }  // namespace sphc::host

@@ -15,15 +15,15 @@ void addFrameOptions(CLI::App *app, RecordingOptions *options) {
       ->group(kGroup);
   app->add_option("--first", options->first, "Number of the first frame [0]")
       ->type_name("N")
-      ->check(wholeFrom(0, UINT32_MAX))
+      ->transform(wholeFrom(0, UINT32_MAX))
       ->group(kGroup);
   app->add_option("--last", options->last, "Number of the last frame [all]")
       ->type_name("N")
-      ->check(wholeFrom(0, UINT32_MAX))
+      ->transform(wholeFrom(0, UINT32_MAX))
       ->group(kGroup);
   app->add_option("--step", options->step, "Take every N-th: first, first + N, ... [1]")
       ->type_name("N")
-      ->check(wholeFrom(1, UINT32_MAX))
+      ->transform(wholeFrom(1, UINT32_MAX))
       ->group(kGroup);
 }
 

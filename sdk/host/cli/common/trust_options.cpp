@@ -15,7 +15,7 @@ void addTrustOptions(CLI::App *app, TrustOptions *options) {
           ->type_name("FILE")
           ->group(group);
   app->add_option("--least-release", options->least_release, "A map that was signed as an older release is refused")
-      ->check(wholeFrom(0))
+      ->transform(wholeFrom(0))
       ->needs(keys)
       ->type_name("N")
       ->group(group);

@@ -26,5 +26,16 @@ TEST(NumberChecks, AWholeNumberHasNoSign) {
   for (const char *text : {"0", "-1"}) EXPECT_FALSE(takes(wholeFrom(1), text)) << text;
 }
 
+// Names of files have zeros in front, and nobody counts in octal.
+TEST(NumberChecks, ZerosInFrontSayNothing) {
+  uint32_t number = 0;
+  CLI::App app;
+  app.add_option("--first", number)->transform(wholeFrom(0, 1000));
+  for (const auto &[text, value] : {std::pair("000620", 620u), {"0089", 89u}, {"000", 0u}, {"07", 7u}}) {
+    app.parse(std::string("--first ") + text);
+    EXPECT_EQ(number, value) << text;
+  }
+}
+
 }  // namespace
 }  // namespace sphc::host
