@@ -82,11 +82,12 @@ int inspect(const InspectOptions &options, const Console &console) {
   const MapFile file = openMapFile(options.map, trustOf(options.trust));
   const MapFacts facts = mapFacts(file, options.map);
   const MapAnatomy anatomy = dissect(file, facts);
+  const std::string path = picturePath(options);
+  double peak = 0;
+  if (!path.empty()) writePicture(path, drawDirections(facts.directions, &peak));  // before words, as in localize
   tell(facts, anatomy, console);
   nlohmann::ordered_json value = json(facts, anatomy);
-  if (const std::string path = picturePath(options); !path.empty()) {
-    double peak = 0;
-    writePicture(path, drawDirections(facts.directions, &peak));
+  if (!path.empty()) {
     console.say("Picture of the directions, as a map of the sky: " + path + "\n  (the brightest spot is " +
                 fixed(peak, 1) + " times denser than an even spread)");
     value["picture"] = path;

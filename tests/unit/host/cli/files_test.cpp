@@ -296,6 +296,9 @@ TEST_F(FilesTest, FilesAreWrittenThoughNobodyReadsTheWords) {
   runProgram("sh -c",
              "'" SPHC_COMMAND " advise --folds 2 -r " + at("advised") + " --picture " + picture + " >/dev/full'");
   EXPECT_TRUE(fs::exists(picture));
+  const std::string sky = at("unread.png");
+  runProgram("sh -c", "'" SPHC_COMMAND " inspect " + at("room.sphc") + " --picture " + sky + " >/dev/full'");
+  EXPECT_TRUE(fs::exists(sky));
 }
 
 // Where the library knows the bounds, the command line is wrong all the same.
