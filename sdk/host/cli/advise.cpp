@@ -102,6 +102,7 @@ int run(const AdviseOptions &options, const Console &console) {
   files.reads(options.advice.recording);
   files.writes("--picture", options.picture, holds(kPictureMark));
   files.check();
+  if (!options.picture.empty()) checkPictureName(options.picture);
   const auto reader = openRecording(options.advice.recording);
   noteDamage(*reader, console);
   ProgressBar bar("holding out");

@@ -32,9 +32,13 @@ std::vector<uint8_t> markChunk() {
 
 const std::string kPictureMark("tEXtSoftware\0spherecloud", 24);
 
-void writePicture(const std::string &path, const cv::Mat &picture) {
+void checkPictureName(const std::string &path) {
   if (std::filesystem::path(path).extension() != ".png")
     throw std::runtime_error("cannot write the picture " + path + ": end its name in .png");
+}
+
+void writePicture(const std::string &path, const cv::Mat &picture) {
+  checkPictureName(path);
   std::vector<uint8_t> png;
   cv::imencode(".png", picture, png);
   const std::vector<uint8_t> mark = markChunk();

@@ -201,6 +201,14 @@ TEST(Inspect, NamesAPictureItCannotWrite) {
   EXPECT_THAT(answer.err, HasSubstr("picture.what"));
 }
 
+// The recording is not there: the name is looked at before hours of work.
+TEST(Advise, NamesAPictureItCannotWriteAtOnce) {
+  const TempFolder folder;
+  const Answer answer = runCommand("advise -r " + (folder / "none") + " --picture " + (folder / "advice.jpg"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("advice.jpg: end its name in .png"));
+}
+
 // Files of two folders, compared to the byte.
 bool sameFiles(const std::string &a, const std::string &b) {
   return std::system(("diff -r " + a + " " + b + " >/dev/null").c_str()) == 0;
