@@ -1,7 +1,9 @@
 #include "host/cli/common/program.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <spherecloud/spherecloud.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -148,9 +150,17 @@ void catchCrashes() {
   sigaction(SIGSEGV, &action, &before_fault);
 }
 
+// A file would get the number of an output that whoever started the program closed, and words would go into it.
+// What is opened in its place for reading takes none either.
+void holdStandardFiles() {
+  for (int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(number, F_GETFD) < 0) open("/dev/null", O_RDONLY);
+}
+
 }  // namespace
 
 int runProgram(const Program &program, int argc, char **argv) {
+  holdStandardFiles();
   std::set_new_handler(noteThatMemoryRanOut);
   std::set_terminate(onTerminate);
   catchCrashes();

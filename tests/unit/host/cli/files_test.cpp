@@ -301,6 +301,16 @@ TEST_F(FilesTest, FilesAreWrittenThoughNobodyReadsTheWords) {
   EXPECT_TRUE(fs::exists(sky));
 }
 
+// As of a program that was sent into the background: a file that it opens must not become its output.
+TEST_F(FilesTest, WordsForNobodyGoIntoNoFile) {
+  const std::string walk = at("background");
+  const Answer answer =
+      runProgram("sh -c", "'" SPHC_COMMAND " simulate --frames 1 --out " + walk + " <&- >&- 2>&-'");
+  EXPECT_EQ(answer.exit_code, kExitFailure) << "nobody hears that it is done";
+  EXPECT_THAT(fileText(walk + "/depth.txt"), testing::Not(HasSubstr("Recorded")));
+  EXPECT_EQ(runCommand("convert " + walk + " " + at("background.mcap")).exit_code, kExitDone);
+}
+
 // Where the library knows the bounds, the command line is wrong all the same.
 TEST_F(FilesTest, AValueThatTheLocalizerRefusesIsWrongUse) {
   for (const std::string option : {"--ratio 7", "--max-keypoints 1", "--probes -1", "--min-inliers nan",
