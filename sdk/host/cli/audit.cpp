@@ -8,6 +8,7 @@
 #include "host/audit/score/centre_views.h"
 #include "host/audit/score/map_audit.h"
 #include "host/base/usage_error.h"
+#include "host/base/write_file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
@@ -166,6 +167,13 @@ std::vector<PrivacyRow> rowsOf(const AuditOptions &options, const MapAudit &audi
   return rows;
 }
 
+// What is there and no table of ours may go: it is empty, or --force was given.
+void writeFigures(const std::string &path, const std::vector<PrivacyRow> &rows) {
+  if (std::filesystem::is_regular_file(path) && !holds(kPrivacyHead)(path))
+    writeFile(path, std::string(kPrivacyHead) + "\n");
+  updatePrivacyResults(path, rows);
+}
+
 Row rowOf(const AuditFigure &figure) {
   const FigureKind &kind = figure.kind;
   const std::string limit = kind.limit ? (kind.at_most ? ", at most " : ", at least ") + fixed(*kind.limit, 2) : "";
@@ -231,7 +239,7 @@ int run(const AuditOptions &options, const Console &console) {
   const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
   bar.show(1, 1);
   const std::string page = options.report.empty() ? "" : writeAuditPage(options.report, options.map, audit);
-  if (!options.figures.empty()) updatePrivacyResults(options.figures, rowsOf(options, audit, input));
+  if (!options.figures.empty()) writeFigures(options.figures, rowsOf(options, audit, input));
   tell(audit, page, console);
   return exitCodeOf(audit.outcome());
 }

@@ -222,6 +222,17 @@ TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
   EXPECT_EQ(runCommand(audit + at("walk")).exit_code, kExitAuditIncomplete) << "the others are left out";
 }
 
+TEST_F(FilesTest, AuditReplacesAnotherTableByForceAndAnEmptyOneAnyway) {
+  put("empty.csv", "");
+  put("others.csv", "name,age\n");
+  const std::string audit = "audit " + at("room.sphc") + " --quick --only density --figures ";
+  expectKept(at("others.csv"), audit + at("others.csv"), kExitFailure, "--force");
+  for (const std::string &figures : {at("empty.csv"), at("others.csv") + " --force"})
+    EXPECT_EQ(runCommand(audit + figures).exit_code, kExitAuditIncomplete) << figures;
+  for (const std::string &table : {at("empty.csv"), at("others.csv")})
+    EXPECT_EQ(fileText(table).rfind("attack,map,", 0), 0u) << table;
+}
+
 TEST_F(FilesTest, RecordingsAreWholeOrNotThere) {
   expectKept(at("walk/rgb.txt"), "convert " + at("walk") + " " + at("walk/in.mcap"), kExitUsage, "lies in");
   expectKept(at("room.sphc"), "simulate --frames 1 --out " + at("room.sphc"), kExitFailure, "never replaced");
