@@ -110,8 +110,9 @@ Command inspectCommand(CLI::App *root) {
       "Example:\n  spherecloud inspect room.sphc\nWhat comes out: three small tables, and "
       "room.sphc.directions.png.");
   app->add_option("map", options->map, "Map file")->required()->type_name("FILE");
-  app->add_option("--picture", options->picture, "Where the picture goes [FILE.directions.png]")->type_name("PNG");
-  app->add_flag("--no-picture", options->no_picture, "No picture");
+  auto *picture = app->add_option("--picture", options->picture, "Where the picture goes [FILE.directions.png]")
+                      ->type_name("PNG");
+  app->add_flag("--no-picture", options->no_picture, "No picture")->excludes(picture);
   addTrustOptions(app, &options->trust);
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return inspect(*options, console); }};

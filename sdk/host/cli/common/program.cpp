@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <set>
 #include <sstream>
 
 #include "host/base/usage_error.h"
@@ -33,11 +34,16 @@ class Formatter : public CLI::Formatter {
   }
 };
 
+// What the help calls them.
+bool takesNames(const CLI::Option &option) {
+  static const std::set<std::string> types = {"FILE", "DIR", "FOLDER", "PATH", "MAP", "PNG", "CSV", "CAMERA"};
+  return types.count(option.get_type_name()) > 0;
+}
+
 // A name that a script left empty must not be taken for "none".
 void checkNames(const CLI::App &command) {
   for (const CLI::Option *option : command.get_options()) {
-    const std::string type = option->get_type_name();
-    if (type != "FILE" && type != "DIR" && type != "PATH") continue;
+    if (!takesNames(*option)) continue;
     for (const std::string &name : option->results())
       if (name.empty()) throw UsageError(option->get_name() + " is empty; give a name, or leave the option out");
   }

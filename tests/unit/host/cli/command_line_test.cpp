@@ -119,7 +119,14 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"build --recording r --map m --fakes patchwork --sigma2 2", "--sigma2 says nothing of --fakes patchwork"},
       {"convert a b --jpeg 90", "--jpeg is of an MCAP file"},
       {"convert a b.raw --depth-codec rvl", "--depth-codec is of an MCAP file"},
-      {"simulate --out walk.raw", "`spherecloud convert` makes a .raw file"}};
+      {"simulate --out walk.raw", "`spherecloud convert` makes a .raw file"},
+      {"inspect m --picture p.png --no-picture", "--picture excludes --no-picture"},
+      {"inspect m --picture ''", "--picture is empty"},
+      {"advise -r r --picture ''", "--picture is empty"},
+      {"audit m --report ''", "--report is empty"},
+      {"audit m --figures ''", "--figures is empty"},
+      {"doctor --device ''", "--device is empty"},
+      {"live -m m --color '' --depth ''", "--color is empty"}};
   for (const auto &[command, reason] : mistakes) {
     const Answer answer = runCommand(command);
     EXPECT_EQ(answer.exit_code, kExitUsage) << command;
