@@ -65,10 +65,13 @@ const char kPlotLook[] =
     "set grid linecolor rgb '#e2e8f0' linewidth 1\n"
     "set key textcolor rgb '#334155'\n";
 
+void removePlot(const std::string &folder, const std::string &name) {
+  for (const char *ending : {".gp", ".svg", ".png"}) std::filesystem::remove(folder + "/" + name + ending);
+}
+
 PlotResult plot(const std::string &folder, const std::string &name, const std::string &script, PlotSize size) {
+  removePlot(folder, name);  // of another run
   writeFile(folder + "/" + name + ".gp", terminals(name, script, size));
-  for (const char *ending : {".svg", ".png"})
-    std::filesystem::remove(folder + "/" + name + ending);  // of another run
   int status = 0;
   const bool was_run = runGnuplot(folder, name + ".gp", &status);
   removeEmpty(folder + "/gnuplot.log");

@@ -13,6 +13,9 @@ struct PlotSize {
   int width_px = 760, height_px = 420;
 };
 
+// Removes FOLDER/NAME.gp, NAME.svg and NAME.png, as far as they are there.
+void removePlot(const std::string &folder, const std::string &name);
+
 // Writes FOLDER/NAME.gp (which anybody can run again) and from it NAME.svg and NAME.png.  `script` is everything
 // but terminal and output, and its last line the plot command.  What gnuplot says, if it does, goes to
 // FOLDER/gnuplot.log.  Throws std::runtime_error when the folder cannot be written.

@@ -59,8 +59,10 @@ void addPlots(const std::string &folder, const Run &run, const Summary &summary,
   const std::string plots = folder + "/plots";
   makeFolder(plots);
   std::filesystem::remove(plots + "/gnuplot.log");
-  for (const Drawing &drawing : {pathFromTop(run), stageTimes(summary), translationCdf(run), rotationCdf(run),
-                                 reliability(run), timeline(run)}) {
+  const std::vector<Drawing> drawings = {pathFromTop(run), stageTimes(summary), translationCdf(run),
+                                         rotationCdf(run), reliability(run),    timeline(run)};
+  for (const Drawing &drawing : drawings) removePlot(plots, drawing.name);  // of another run
+  for (const Drawing &drawing : drawings) {
     if (drawing.script.empty()) continue;
     const PlotResult result = plot(plots, drawing.name, drawing.script, drawing.size);
     if (result == PlotResult::kNoGnuplot) {

@@ -101,6 +101,17 @@ TEST_F(ReportTest, LeavesNoPictureOfAnEarlierRun) {
   EXPECT_FALSE(std::filesystem::exists(folder_ + "/overlay_not_localized_1.jpg"));
 }
 
+// With the truth there were curves of errors.
+TEST_F(ReportTest, LeavesNoPlotOfAnEarlierRun) {
+  const std::string curve = folder_ + "/plots/translation_error";
+  write();
+  ASSERT_TRUE(std::filesystem::exists(curve + ".gp"));
+  for (FrameRecord &frame : run_.frames) frame.has_truth = false;
+  write();
+  for (const char *ending : {".gp", ".svg", ".png"})
+    EXPECT_FALSE(std::filesystem::exists(curve + ending)) << ending;
+}
+
 TEST_F(ReportTest, NamesTheFolderThatCannotBeWritten) {
   try {
     writeReport("/dev/null/report", run_, nullptr);
