@@ -178,7 +178,7 @@ std::string settingsTable(const Run &run) {
 std::string mapSection(const Run &run, const PageContent &content) {
   std::vector<Row> rows;
   for (const MapFacts &map : run.maps) {
-    if (run.maps.size() > 1) rows.push_back({"map", escapeHtml(map.path), ""});
+    if (run.maps.size() > 1) rows.push_back({"map", map.path, ""});
     rows.push_back({"points, real and fake", std::to_string(map.points), "the file does not tell them apart"});
     rows.push_back({"bytes", humanBytes(static_cast<double>(map.file_bytes)), ""});
     rows.push_back({"map id", map.id.substr(0, 12) + "…", "random name of this build"});

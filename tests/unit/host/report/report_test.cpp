@@ -112,6 +112,12 @@ TEST_F(ReportTest, LeavesNoPlotOfAnEarlierRun) {
     EXPECT_FALSE(std::filesystem::exists(curve + ending)) << ending;
 }
 
+TEST_F(ReportTest, NamesSeveralMapsAsTheyAreCalled) {
+  run_.maps.push_back(run_.maps[0]);
+  run_.maps[1].path = "kitchen & <hall>.sphc";
+  EXPECT_THAT(write(), HasSubstr("<td class='value'>kitchen &amp; &lt;hall&gt;.sphc</td>"));
+}
+
 TEST_F(ReportTest, NamesTheFolderThatCannotBeWritten) {
   try {
     writeReport("/dev/null/report", run_, nullptr);
