@@ -176,7 +176,7 @@ const char kSimulateExample[] =
     "  spherecloud simulate --out later --from 16 --frames 100 --arrangement 2   lap two, things moved\n"
     "What comes out: a folder in the TUM layout, with calibration.json, rgb/, depth/ and groundtruth.txt; or one\n"
     "MCAP file with all of that.\n"
-    "The same options give the same bytes on every machine.";
+    "The same options give the same bytes; another machine's C library may round sines otherwise.";
 
 const char kWithHelp[] =
     "What makes the world hard, joined by commas:\n"
