@@ -271,7 +271,7 @@ Command auditCommand(CLI::App *root) {
   app->add_option("--release", options->releases, "Other maps of the place that were published")->type_name("MAP");
   app->add_option("--queries", options->queries, "Frames of a client")
       ->capture_default_str()
-      ->check(wholeFrom(1, 100000))
+      ->transform(wholeFrom(1, 100000))
       ->type_name("N");
   auto *photos = app->add_option("--photos", options->photos.folder,
                                  "Frames of the place that the map was not made of, posed in the same world")
