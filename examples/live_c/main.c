@@ -54,7 +54,8 @@ static sphc_map *open_map(const char *path) {
   const int file = open(path, O_RDONLY);
   struct stat info = {0};
   const void *bytes = MAP_FAILED;
-  if (fstat(file, &info) == 0) bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  if (file >= 0 && fstat(file, &info) == 0)
+    bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
   if (bytes == MAP_FAILED) {
     perror(path);
     exit(EXIT_FAILURE);

@@ -30,10 +30,14 @@ static void check(sphc_status status, const char *what) {
 static sphc_map *open_map(const char *path) {
   const int file = open(path, O_RDONLY);
   struct stat info = {0};
-  fstat(file, &info);
-  const void *bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  const void *bytes = MAP_FAILED;
+  if (file >= 0 && fstat(file, &info) == 0)
+    bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  if (bytes == MAP_FAILED) {
+    perror(path);
+    exit(1);
+  }
   sphc_map *map = NULL;
-  check(bytes == MAP_FAILED ? SPHC_E_DEVICE : SPHC_OK, path);
   check(sphc_map_init(view, sizeof view, bytes, (size_t)info.st_size, &map, &message), path);
   return map;
 }

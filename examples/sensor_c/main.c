@@ -139,6 +139,7 @@ int main(int argc, char **argv) {
   static sensor from;
   static sphc_raw_writer writer;
   if (argc != 3 && argc != 4) return fprintf(stderr, "usage: %s MAP.sphc WALK.raw [KEPT.raw]\n", argv[0]), 2;
+  if (argc == 4 && !strcmp(argv[2], argv[3])) fail(argv[3], "plays the sensor; keep the frames in another file");
   open_sensor(&from, argv[2]);
   const sphc_rig *rig = &from.rig;
   sphc_localizer *localizer = make_localizer(argv[1], rig);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whole frames beside package peers, through the command line alone; writes frame.csv.
 
-    frame.py --spherecloud BIN --python PYTHON --out DIR
+    frame.py --lab BIN --python PYTHON --out DIR
 
 Maps of 50 000 points of both real recordings, and of 10 000 to 1 000 000 of one, all at eta 33 %.  DIR gets maps, a folder of
 figures and drawings a run, and the scaling plot.  PYTHON has the peers' packages (docs/bench.md).
@@ -50,9 +50,9 @@ def measure(tool, python, name, out):
     mapped = [option.replace("--", "--mapping-") if isinstance(option, str) else option
               for option in frames(RECORDINGS[run["recording"]]["map"])]
     only = [option for variant in run.get("ours", OURS) + run["peers"] for option in ("--only", variant)]
-    part = out / "results.csv"
-    call(tool, "frame", *recording.place("query"), *frames(run["query"]), *maps(tool, run, out), *mapped, *only, "--name", name,
-         "--python", python, "--out", out, "--results", part)
+    folder, part = out / name, out / (name + ".csv")
+    call(tool, "frame", *recording.place("query"), *frames(run["query"]), *maps(tool, run, out / "maps" / name), *mapped, *only, "--name", name,
+         "--python", python, "--out", folder, "--results", part)
     return part.read_text().splitlines()
 
 
@@ -68,7 +68,7 @@ def main():
             sys.exit("%s is not there; set SPHC_DATA" % folder)
     lines = []
     for name in RUNS:
-        head, *rows = measure(arguments.lab, arguments.python, name, arguments.out / name)
+        head, *rows = measure(arguments.lab, arguments.python, name, arguments.out)
         lines += ([] if lines else [head]) + rows
     RESULTS.write_text("\n".join(lines) + "\n")
 
