@@ -159,6 +159,18 @@ TEST_F(CInterfaceFormats, TheSameDepthGivesTheSameBytes) {
   expectSame(expected, "12 bits");
 }
 
+TEST_F(CInterfaceFormats, ASensorThatIsStuckIsNamedInEachFormat) {
+  const size_t pixels = made_->images.depth_mm.size();
+  const std::vector<uint16_t> mm(pixels, 2000);
+  const std::vector<float> m(pixels, 2);
+  for (const sphc_format format :
+       {SPHC_FORMAT_DEPTH16, SPHC_FORMAT_RANGE16, SPHC_FORMAT_DEPTH_F32, SPHC_FORMAT_RANGE_F32}) {
+    const bool is_float = format == SPHC_FORMAT_DEPTH_F32 || format == SPHC_FORMAT_RANGE_F32;
+    setDepth(is_float ? static_cast<const void *>(m.data()) : mm.data(), format);
+    EXPECT_TRUE(localize(SPHC_NOT_LOCALIZED).faults & SPHC_FAULT_DEPTH_CONSTANT) << sphc_format_name(format);
+  }
+}
+
 TEST_F(CInterfaceFormats, RangesAreDistancesFromTheCentre) {
   localize();
   const double by_depth_m = error_m_;

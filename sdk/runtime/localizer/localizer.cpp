@@ -48,7 +48,8 @@ void Localizer::init(const LocalizerConfig &config) {
   front_.init(config);
   finder_.init(config);
   calibrator_.init(config.depth_prior);
-  consistency_.init({config.color_camera, config.depth[0].camera, config.depth[0].sensor, config.tracks});
+  const RigDepthCamera &first = config.depth[0];
+  consistency_.init({config.color_camera, first.camera, first.sensor, config.tracks, first.layout.is_range});
   distances_.reset();
 }
 

@@ -39,7 +39,7 @@ void Consistency::layout(Arena &state, Arena &scratch, Consistency *consistency)
 
 void Consistency::init(const ConsistencyConfig &config) {
   config_ = config;
-  samples_.init(config.depth_camera, config.depth_sensor);
+  samples_.init(config.depth_camera, config.depth_sensor, config.depth_is_range);
   reset();
 }
 

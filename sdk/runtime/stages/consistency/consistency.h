@@ -12,7 +12,8 @@ namespace sphc {
 struct ConsistencyConfig {
   Camera color_camera, depth_camera;
   DepthSensor depth_sensor = {};
-  bool follows = false;  // do frames follow each other?  Else each is looked at alone
+  bool follows = false;         // do frames follow each other?  Else each is looked at alone
+  bool depth_is_range = false;  // is it measured so?  Images hold z all the same
 };
 
 struct ConsistencyView {

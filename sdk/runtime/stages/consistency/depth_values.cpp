@@ -10,6 +10,9 @@ constexpr int32_t kReach = 4;                         // samples from the middle
 constexpr float kSlanted2 = 0.006f;                   // squared relative change of the inverse depth over the reach
 constexpr float kSmooth = 0.05f;  // relative deviation of the samples between from a straight line
 
+// The pixel in the middle of a cell, of so many that share `pixels`.
+int32_t middleOf(int32_t cell, int32_t cells, int32_t pixels) { return (2 * cell + 1) * pixels / (2 * cells); }
+
 // The least of three of one sign, else 0.
 float leastOf(float a, float b, float c) {
   const float least = std::min(a, std::min(b, c)), most = std::max(a, std::max(b, c));
@@ -27,12 +30,14 @@ void DepthSamples::layout(Arena &state, DepthSamples *samples) {
   s.bends_ = state.take<float>("consistency.samples", kCount);
 }
 
-void DepthSamples::init(const Camera &camera, const DepthSensor &sensor) {
+void DepthSamples::init(const Camera &camera, const DepthSensor &sensor, bool is_range) {
   sensor_ = sensor;
+  is_range_ = is_range;
   for (int32_t row = 0; row < kRows; ++row) {
     for (int32_t column = 0; column < kColumns; ++column) {
       Vector2 ray = Vector2::Zero();
-      const Vector2 px = {(column + 0.5) * camera.width() / kColumns, (row + 0.5) * camera.height() / kRows};
+      const Vector2 px = {middleOf(column, kColumns, camera.width()) + 0.5,
+                          middleOf(row, kRows, camera.height()) + 0.5};
       if (!camera.unproject(px, &ray)) ray = Vector2::Zero();
       rays_[static_cast<size_t>(row * kColumns + column)] = {static_cast<float>(ray.x()),
                                                              static_cast<float>(ray.y())};
@@ -42,12 +47,12 @@ void DepthSamples::init(const Camera &camera, const DepthSensor &sensor) {
 
 DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   DepthValues found;
-  uint16_t seen[DepthValues::kMostDistinct] = {};
+  uint32_t seen[DepthValues::kMostDistinct] = {};
   for (int32_t row = 0; row < kRows; ++row) {
-    const int32_t y = (2 * row + 1) * depth.height / (2 * kRows);
+    const int32_t y = middleOf(row, kRows, depth.height);
     for (int32_t column = 0; column < kColumns; ++column) {
       const size_t at = static_cast<size_t>(row * kColumns + column);
-      const int32_t x = (2 * column + 1) * depth.width / (2 * kColumns);
+      const int32_t x = middleOf(column, kColumns, depth.width);
       const uint16_t value = values_[at] = depth.row(y)[x];
       const double z = value * sensor_.unit_m;
       const bool in_range = value != 0 && z >= sensor_.min_m && z <= sensor_.max_m;
@@ -56,7 +61,9 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
       found.measured += value != 0;
       found.in_range += in_range;
       if (!in_range || found.distinct == DepthValues::kMostDistinct) continue;
-      if (std::find(seen, seen + found.distinct, value) == seen + found.distinct) seen[found.distinct++] = value;
+      const uint32_t measured = asMeasured(value, at);
+      if (std::find(seen, seen + found.distinct, measured) == seen + found.distinct)
+        seen[found.distinct++] = measured;
     }
   }
   for (int32_t row = kReach; row < kRows - kReach; ++row)
@@ -66,6 +73,13 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   std::nth_element(begin, middle, begin + found.slanted);
   found.bend = static_cast<double>(*middle);
   return found;
+}
+
+// Off by a unit at most, since z was rounded to one.
+uint32_t DepthSamples::asMeasured(uint16_t z, size_t at) const {
+  if (!is_range_) return z;
+  const Ray ray = rays_[at];
+  return static_cast<uint32_t>(static_cast<float>(z) * sqrtOf(1 + ray.x * ray.x + ray.y * ray.y) + 0.5f);
 }
 
 // One over the mean depth of the pixels around that are on the surface of the middle one.

@@ -27,8 +27,9 @@ class DepthSamples {
   static constexpr size_t kCount = size_t{kColumns} * kRows;
 
   static void layout(Arena &state, DepthSamples *samples);
-  // After layout with memory: makes the table of rays.
-  void init(const Camera &camera, const DepthSensor &sensor);
+  // After layout with memory: makes the table of rays.  `is_range`: the sensor measures distances from its centre,
+  // of which the images hold z.
+  void init(const Camera &camera, const DepthSensor &sensor, bool is_range);
   DepthValues look(ImageView<uint16_t> depth);
   // Measurements of the last look, row by row; 0 where there is none.
   Span<const uint16_t> values() const { return values_; }
@@ -37,11 +38,13 @@ class DepthSamples {
   struct Ray {
     float x, y;
   };
+  uint32_t asMeasured(uint16_t z, size_t at) const;
   void addBend(int32_t column, int32_t row, DepthValues *found);
   float smoothInverse(ImageView<uint16_t> depth, int32_t x, int32_t y) const;
   bool isSmooth(size_t at, size_t step) const;
 
   DepthSensor sensor_ = {};
+  bool is_range_ = false;
   Span<Ray> rays_;
   Span<uint16_t> values_;
   Span<float> inverse_;  // 1 / m; 0 where there is no measurement in range

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/base/random.h"
 #include "tests/unit/runtime/stages/consistency/made_view.h"
@@ -26,6 +27,23 @@ TEST(Consistency, NamesDepthThatIsConstant) {
   MadeView view;
   std::fill(view.depth().begin(), view.depth().end(), uint16_t{2000});
   EXPECT_EQ(held.consistency.look(view.view()) & kDepthConstant, kDepthConstant);
+}
+
+// z is another one at each pixel.
+TEST(Consistency, NamesARangeThatIsConstant) {
+  MadeView view;
+  for (int32_t y = 0; y < MadeView::kHeight; ++y)
+    for (int32_t x = 0; x < MadeView::kWidth; ++x) {
+      const double u = (x + 0.5 - 160) / MadeView::kFocal, v = (y + 0.5 - 120) / MadeView::kFocal;
+      view.depth()[static_cast<size_t>(y * MadeView::kWidth + x)] =
+          static_cast<uint16_t>(2000 / std::sqrt(1 + u * u + v * v) + 0.5);
+    }
+  HeldConsistency of_z(false), of_range(false);
+  ConsistencyConfig config = MadeView::config(false);
+  config.depth_is_range = true;
+  of_range.consistency.init(config);
+  EXPECT_EQ(of_z.consistency.look(view.view()) & kDepthConstant, Faults{0});
+  EXPECT_EQ(of_range.consistency.look(view.view()) & kDepthConstant, kDepthConstant);
 }
 
 TEST(Consistency, NamesDepthOutOfRange) {
