@@ -99,8 +99,8 @@ sphc_status sphc_openni2_get_info(const sphc_openni2 *openni2, sphc_openni2_info
 
 /* ---- as a source ---- */
 
-/* Fills *source (struct_size too) with the contract of spherecloud.h; valid until sphc_openni2_close.  A handle has
- * one source; a second call gives the same one.
+/* Fills *source (struct_size too) with the contract of spherecloud_capture.h; valid until sphc_openni2_close.  A
+ * handle has one source; a second call gives the same one.
  *
  *   time_ns      the device's timestamp, on its own clock (SPHC_CLOCK_SOURCE); a jump of that clock is bridged
  *   sequence     the device's frame index: a gap is a loss, whether the device or this driver lost it

@@ -109,13 +109,13 @@ sphc_status sphc_replay_rig(const sphc_replay *replay, sphc_rig *rig);
 
 /* ---- as a source -------------------------------------------------------------------------------------------- */
 
-/* Fills *source (struct_size too) with the contract of spherecloud.h; valid until sphc_replay_close.  A handle has
- * one source; a second call gives the same one.  Every start begins at the first chosen capture.  capture.time_ns
- * is the recorded time, and so are clock, exposure and the rest where the recording knows them (clocks are those of
- * the host that recorded), capture.sequence the frame number (7-Scenes) or the place in the list (TUM): frames that
- * the config leaves out show as gaps. acquire: E_DEVICE when an image is missing or corrupt, E_IMAGE when it does
- * not fit the calibration; source.message names the file, and the next acquire goes on behind it.  Errors:
- * ARGUMENT. [exclusive] */
+/* Fills *source (struct_size too) with the contract of spherecloud_capture.h; valid until sphc_replay_close.  A
+ * handle has one source; a second call gives the same one.  Every start begins at the first chosen capture.
+ * capture.time_ns is the recorded time, and so are clock, exposure and the rest where the recording knows them
+ * (clocks are those of the host that recorded), capture.sequence the frame number (7-Scenes) or the place in the
+ * list (TUM): frames that the config leaves out show as gaps. acquire: E_DEVICE when an image is missing or
+ * corrupt, E_IMAGE when it does not fit the calibration; source.message names the file, and the next acquire goes
+ * on behind it.  Errors: ARGUMENT. [exclusive] */
 sphc_status sphc_replay_source(sphc_replay *replay, sphc_source *source);
 
 /* ---- frame by frame ----------------------------------------------------------------------------------------- */

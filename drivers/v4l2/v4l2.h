@@ -4,7 +4,7 @@
  *     sphc_v4l2_config_init(&config, sizeof config);
  *     config.stream = SPHC_STREAM_DEPTH;
  *     sphc_v4l2_open("/dev/video2", &config, &camera, &message);
- *     sphc_v4l2_source(camera, &source);               start, acquire, release, stop (spherecloud.h)
+ *     sphc_v4l2_source(camera, &source);               start, acquire, release, stop (spherecloud_capture.h)
  *     sphc_v4l2_close(&camera);
  *
  * Colour comes as YUYV, UYVY, NV12, GREY, RGB3, BGR3, XR24 or MJPG and leaves as GRAY8, RGB8 or BGR8; depth comes
@@ -88,7 +88,7 @@ sphc_status sphc_v4l2_open(const char *camera, const sphc_v4l2_config *config, s
 /* Ends every loan.  Accepts null and pointer to null; sets *v4l2 to null. [exclusive] */
 void sphc_v4l2_close(sphc_v4l2 **v4l2);
 
-/* Fills *source (struct_size too) with the contract of spherecloud.h; valid until sphc_v4l2_close.
+/* Fills *source (struct_size too) with the contract of spherecloud_capture.h; valid until sphc_v4l2_close.
  * start: E_DEVICE (such as too little USB bandwidth).  acquire: SPHC_AGAIN when no good frame came within the
  * timeout: the message says so, and why the last bad one was left out; E_DEVICE: the next acquire goes on;
  * E_DEVICE_LOST: unplugged, or the signal changed its size: stop, close, open again.  Errors: ARGUMENT. [exclusive]

@@ -45,6 +45,9 @@ public static unsafe class Library {
       return VersionProblem(Native.sphc_abi(), Text.Of(Native.sphc_version_string()));
     } catch (DllNotFoundException missing) {
       return new DllNotFoundException(WhereToLook + " The system says: " + missing.Message, missing);
+    } catch (BadImageFormatException other) {
+      return new DllNotFoundException("A library '" + Native.File + "' was found, but it is not one of this processor: " +
+                                      other.Message, other);
     } catch (EntryPointNotFoundException other) {
       return new DllNotFoundException("A library '" + Native.File + "' was found, but it is not that of SphereCloud " +
                                       Native.Version + ": " + other.Message, other);
@@ -68,7 +71,7 @@ public static unsafe class Library {
   private const string WhereToLook =
       "The native library '" + Native.File + "' was not found: libspherecloud.so, spherecloud.dll or " +
       "libspherecloud.dylib. Looked beside the program and where the system looks for libraries. In Unity put it into " +
-      "Runtime/Plugins of the package with Tools~/place_library.py. With .NET set SPHERECLOUD_LIBRARY to its path or " +
+      "Runtime/Plugins of the package with Tools~/place_library.py. With .NET 8 or newer set SPHERECLOUD_LIBRARY to its path, or " +
       "put it beside the program. With Mono name its folder in LD_LIBRARY_PATH, or its path in a <dllmap>.";
 }
 

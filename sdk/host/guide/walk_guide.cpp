@@ -132,7 +132,7 @@ std::optional<ClosedLoop> WalkGuide::closeLoop(const Located &here) {
     places_.support(place, found->inliers);
     places_.markSeenAgain(place);
   }
-  const bool is_new = then.part != now_.part || now_.time_ns - loop_ns_ > kQuietNs;
+  const bool is_new = then.part != now_.part || !loop_ns_ || now_.time_ns - *loop_ns_ > kQuietNs;
   loop_ns_ = now_.time_ns;
   if (then.part != now_.part) {
     const Rigid then_from_now =

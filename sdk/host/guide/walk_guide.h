@@ -52,7 +52,7 @@ class WalkGuide {
   std::optional<Beside> previous_;     // the last frame that follows it
   std::optional<GuidePlace> located_;  // the last frame that had a place
   int64_t whole_ns_ = 0;               // when the walk last was in its largest part
-  int64_t loop_ns_ = 0;                // when a loop was last seen
+  std::optional<int64_t> loop_ns_;     // when a loop was last seen
   uint32_t loops_ = 0;
 };
 

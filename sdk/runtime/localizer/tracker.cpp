@@ -15,6 +15,10 @@ using namespace tuning;
 
 constexpr double kTwoPoses = 2.236;  // of 2 a - b, where a and b have standard deviation 1
 
+bool isVague(const Prediction &expected) {
+  return expected.rotation_sigma_rad > kVagueTurnRad || expected.translation_sigma_m > kVagueShiftM;
+}
+
 // Beyond what a head does, odometry itself has jumped: its frame is another one now, as after a loop is closed.
 bool isOfHead(const Rigid &step, uint64_t took_ns, const Odometry &odometry) {
   const double dt = secondsOf(took_ns);
@@ -113,6 +117,11 @@ bool Tracker::predict(Prediction *prediction) const {
   return true;
 }
 
+bool Tracker::isSure() const {
+  Prediction expected;
+  return is_sure_ && predict(&expected) && !isVague(expected);
+}
+
 Jump Tracker::jumpTo(uint32_t map, const Rigid &found, Prediction *expected) const {
   if (!predict(expected)) return {kRelocalized, 0, 0};
   if (expected->map != map) return {kMapChanged, 0, 0};
@@ -140,7 +149,7 @@ Jump Tracker::accept(uint32_t map, const Estimate &estimate, double confidence, 
   Prediction expected;
   Jump jump = jumpTo(map, estimate.camera_from_map, &expected);
   const bool agrees = !jump.events;
-  is_sure_ = (agrees && is_sure_) || confidence > kSureOfTrack;
+  is_sure_ = (agrees && isSure()) || confidence > kSureOfTrack;
   if (agrees && is_sure_ && !is_doubted) {
     state_ = TrackingState::kTracking;
     trusted_time_ns_ = time_ns_;

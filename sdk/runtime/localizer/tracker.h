@@ -11,7 +11,8 @@
 //                  another pose, or none                     RELOCALIZING
 //   TRACKING       a pose where it was expected              TRACKING
 //                  another pose, or none                     LOST
-//   LOST           such a pose                               TRACKING
+//   LOST           such a pose, expected nearly enough to
+//                  tell, or a sure one                       TRACKING
 //                  nothing trusted for kForgetNs            RELOCALIZING
 //                  (what odometry carries is expected for longer: kForgetCarriedNs)
 //   any            a time that does not grow, or a gap of    RELOCALIZING
@@ -68,8 +69,8 @@ class Tracker {
   bool vetoes(uint32_t map, const Estimate &estimate) const;
 
   TrackingState state() const { return state_; }
-  // Does what is expected go on from a pose that was sure?
-  bool isSure() const { return has_pose_ && is_sure_; }
+  // Does what is expected go on from a pose that was sure, and tell where the camera is?
+  bool isSure() const;
   // How far the camera went between frames?
   bool knowsShifts() const { return has_odometry_ && odometry_.scale_sigma == 0; }
   // Motion of the camera since the frame before, by odometry; false where it is not known.

@@ -250,6 +250,9 @@ constexpr PoseBounds kNoJumpOfTrack = {0.05, degrees(3)};
 constexpr double kTimesSupport = 2;
 // A track is trusted from a pose of more confidence than this on (decision 88): not from one with a near rival.
 constexpr double kSureOfTrack = 0.95;
+// Where the camera is expected so vaguely, 1 sigma, any pose is one that agrees, and no track goes on with it.
+// Chosen: as after a third of a second without odometry.
+constexpr double kVagueTurnRad = 0.35, kVagueShiftM = 0.25;
 // Odometry is left out that so often moved by as much as a jump otherwise than poses did, on the way or in so many
 // steps in a row.  Of its shifts it is not asked what a scale of depth explains, up to this factor.  Chosen.
 constexpr uint32_t kContradictionsOfOdometry = 2, kStepsApart = 3;

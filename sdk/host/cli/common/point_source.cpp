@@ -14,6 +14,8 @@
 namespace sphc::host {
 namespace {
 
+constexpr const char *kMappingGroup = "Mapping";
+
 void addColmapOptions(CLI::App *app, PointSource *source) {
   const char *group = "COLMAP";
   ColmapImportOptions &colmap = source->colmap;
@@ -165,34 +167,37 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
 }
 
 void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
-  const char *group = "Mapping";
   app->add_option("--max-keypoints", import->max_keypoints, "Strongest keypoints of a frame")
       ->capture_default_str()
       ->check(CLI::Range(1u, 100000u))
-      ->group(group);
+      ->group(kMappingGroup);
   app->add_option("--min-observations", import->min_observations, "Frames that must agree on a point")
       ->capture_default_str()
       ->check(CLI::Range(1u, 100000u))
-      ->group(group);
+      ->group(kMappingGroup);
   app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
       ->capture_default_str()
       ->check(between(0.01, 100))
-      ->group(group);
+      ->group(kMappingGroup);
   app->add_option("--depth-max", import->depth_max_m, "Farthest depth used, metres")
       ->capture_default_str()
       ->check(notNegative())
-      ->group(group);
+      ->group(kMappingGroup);
   app->add_flag("--keep-moving", import->keep_moving,
                 "Keep points on people, hands, feet, things that were moved, and what is drawn over the image")
-      ->group(group);
+      ->group(kMappingGroup);
 }
 
 void addPointSourceOptions(CLI::App *app, PointSource *source) {
   addRecordingOptions(app, &source->recording)->required(false);
   addMappingOptions(app, &source->import);
   addColmapOptions(app, source);
-  app->add_option("--model", source->model, "Point model to take in place of a recording: from --save-model")
-      ->type_name("FILE");
+  auto *model =
+      app->add_option("--model", source->model, "Point model to take in place of a recording: from --save-model")
+          ->type_name("FILE");
+  const auto is_of_mapping = [](const CLI::Option *option) { return option->get_group() == kMappingGroup; };
+  for (CLI::Option *option : app->get_options(is_of_mapping))
+    option->excludes(model)->excludes(app->get_option("--colmap"));  // these have their points already
 }
 
 void checkMappingOptions(const RgbdImportOptions &import) {

@@ -8,10 +8,8 @@ namespace {
 constexpr int32_t kSmoothPx = 2, kSurfaceShare = 20;  // pixels around a sample, within 1 / 20 of it, are averaged
 constexpr int32_t kReach = 4;                         // samples from the middle of a place to its ends
 constexpr float kSlanted2 = 0.006f;                   // squared relative change of the inverse depth over the reach
-constexpr float kSmooth = 0.05f;  // relative deviation of the samples between from a straight line
-
-// The pixel in the middle of a cell, of so many that share `pixels`.
-int32_t middleOf(int32_t cell, int32_t cells, int32_t pixels) { return (2 * cell + 1) * pixels / (2 * cells); }
+constexpr float kSmooth = 0.05f;       // relative deviation of the samples between from a straight line
+constexpr uint32_t kRangeShare = 256;  // two ranges within 1 / 256 may have been measured alike
 
 // The least of three of one sign, else 0.
 float leastOf(float a, float b, float c) {
@@ -36,8 +34,7 @@ void DepthSamples::init(const Camera &camera, const DepthSensor &sensor, bool is
   for (int32_t row = 0; row < kRows; ++row) {
     for (int32_t column = 0; column < kColumns; ++column) {
       Vector2 ray = Vector2::Zero();
-      const Vector2 px = {middleOf(column, kColumns, camera.width()) + 0.5,
-                          middleOf(row, kRows, camera.height()) + 0.5};
+      const Vector2 px = {(column + 0.5) * camera.width() / kColumns, (row + 0.5) * camera.height() / kRows};
       if (!camera.unproject(px, &ray)) ray = Vector2::Zero();
       rays_[static_cast<size_t>(row * kColumns + column)] = {static_cast<float>(ray.x()),
                                                              static_cast<float>(ray.y())};
@@ -49,10 +46,10 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   DepthValues found;
   uint32_t seen[DepthValues::kMostDistinct] = {};
   for (int32_t row = 0; row < kRows; ++row) {
-    const int32_t y = middleOf(row, kRows, depth.height);
+    const int32_t y = (2 * row + 1) * depth.height / (2 * kRows);
     for (int32_t column = 0; column < kColumns; ++column) {
       const size_t at = static_cast<size_t>(row * kColumns + column);
-      const int32_t x = middleOf(column, kColumns, depth.width);
+      const int32_t x = (2 * column + 1) * depth.width / (2 * kColumns);
       const uint16_t value = values_[at] = depth.row(y)[x];
       const double z = value * sensor_.unit_m;
       const bool in_range = value != 0 && z >= sensor_.min_m && z <= sensor_.max_m;
@@ -62,8 +59,11 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
       found.in_range += in_range;
       if (!in_range || found.distinct == DepthValues::kMostDistinct) continue;
       const uint32_t measured = asMeasured(value, at);
-      if (std::find(seen, seen + found.distinct, measured) == seen + found.distinct)
-        seen[found.distinct++] = measured;
+      const auto is_same = [&](uint32_t other) {
+        const uint32_t apart = std::max(measured, other) - std::min(measured, other);
+        return apart <= (is_range_ ? other / kRangeShare : 0);
+      };
+      if (std::none_of(seen, seen + found.distinct, is_same)) seen[found.distinct++] = measured;
     }
   }
   for (int32_t row = kReach; row < kRows - kReach; ++row)
@@ -75,7 +75,7 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   return found;
 }
 
-// Off by a unit at most, since z was rounded to one.
+// A range: off by what z was rounded, and by how far a pixel is from the ray of its sample.
 uint32_t DepthSamples::asMeasured(uint16_t z, size_t at) const {
   if (!is_range_) return z;
   const Ray ray = rays_[at];

@@ -120,6 +120,8 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"convert a b --jpeg 90", "--jpeg is of an MCAP file"},
       {"convert a b.raw --depth-codec rvl", "--depth-codec is of an MCAP file"},
       {"simulate --out walk.raw", "`spherecloud convert` makes a .raw file"},
+      {"build --map m --model p --min-observations 9", "--min-observations excludes --model"},
+      {"build --map m --colmap c --images i --scale 1 --keep-moving", "--keep-moving excludes --colmap"},
       {"inspect m --picture p.png --no-picture", "--picture excludes --no-picture"},
       {"inspect m --picture ''", "--picture is empty"},
       {"advise -r r --picture ''", "--picture is empty"},

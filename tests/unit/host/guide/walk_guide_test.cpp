@@ -84,6 +84,7 @@ TEST_F(WalkGuideTest, WhoReturnsIsToldWhereTo) {
   EXPECT_TRUE(loops().empty());
   walk(&wall_, 800, 0, 20);
   ASSERT_EQ(loops().size(), 1u);
+  EXPECT_EQ(steps_.back().loops, 1u);
   const GuideStep &closed = *std::find_if(steps_.begin(), steps_.end(), [](const auto &s) { return s.loop; });
   // Where both were: a frame each 20 px on the way there, and on the way back.
   const int there_px = 20 * static_cast<int>(closed.loop->time_then_ns / kPeriodNs - 1),

@@ -70,6 +70,21 @@ TEST_F(TrackerTest, ATrackIsTrustedFromASurePoseOn) {
   EXPECT_EQ(bringVague(24 * kFrame, poseAt(0)), TrackingState::kTracking);
 }
 
+// After half a second without odometry nearly every pose of a room is one that agrees.
+TEST_F(TrackerTest, ATrackThatWasLostForLongNeedsASurePoseAgain) {
+  track();
+  const int64_t third = 3 * kFrame + kSecond / 3, half = 3 * kFrame + kSecond / 2;
+  const Tracker tracked = tracker_;
+  EXPECT_EQ(bringVague(third, poseAt(0.1)), TrackingState::kTracking);
+  tracker_ = tracked;
+  bringNone(half - kFrame);
+  EXPECT_FALSE(tracker_.isSure());
+  EXPECT_EQ(bringVague(half, poseAt(0.1)), TrackingState::kLost);
+  EXPECT_EQ(bringVague(half + kFrame, poseAt(0.1)), TrackingState::kLost);
+  bring(half + 2 * kFrame, poseAt(0.1));
+  EXPECT_EQ(tracker_.state(), TrackingState::kTracking);
+}
+
 TEST_F(TrackerTest, TheSurePoseMayBeTheFirst) {
   bring(kFrame, poseAt(0));
   EXPECT_EQ(bringVague(2 * kFrame, poseAt(0)), TrackingState::kTracking);
