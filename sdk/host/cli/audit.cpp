@@ -24,8 +24,8 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kLeastKnown =
-    0.05;  // of what the mapping recording's frames show, the map has several times as much
+// Of what the mapping recording's frames show, the map has several times as much.
+constexpr double kLeastKnown = 0.05;
 
 struct AuditOptions {
   std::string map, truth, report, figures, name, networks;

@@ -62,11 +62,11 @@ class Painter {
 };
 
 // Pictures that tell something have to be compared with something; no pictures at all tell nothing.
-Measurement ratioOf(const std::string &figure, double own, double papers, size_t views, const std::string &seen) {
+Measurement ratioOf(const std::string &figure, double own, double papers, size_t views) {
   if (views == 0) return {figure, {}, "no view shows enough points for a picture"};
-  if (papers > 0) return {figure, own / papers, seen};
-  if (own > 0) return {figure, {}, seen + ", and the paper's fakes tell none of them, to compare with"};
-  return {figure, 0, seen};
+  if (papers > 0) return {figure, own / papers};
+  if (own > 0) return {figure, {}, "the paper's fakes tell none of the views, to compare with"};
+  return {figure, 0};
 }
 
 AttackResult runInversion(AuditContext *context) {
@@ -81,13 +81,14 @@ AttackResult runInversion(AuditContext *context) {
   shuffle(&shuffled.descriptors, &random);
   const Told chance = painter.paint("descriptors shuffled", shuffled);
   const size_t count = painter.result.views.size();
-  const std::string seen =
-      std::to_string(count) + (context->input().views.empty() ? " views, pseudo truth" : " views");
+  Measurement of_papers = ratioOf("inversion.of_papers", own.coarse, paper.coarse, count);
+  if (of_papers.value)
+    of_papers.remark = std::to_string(count) + (context->input().views.empty() ? " views, pseudo truth" : " views");
   const auto errorOf = [&](double share) {
     return std::sqrt(share * (1 - share) / std::max(1.0, static_cast<double>(count)));
   };
-  painter.result.measurements = {ratioOf("inversion.of_papers", own.coarse, paper.coarse, count, seen),
-                                 ratioOf("inversion.of_papers_fine", own.fine, paper.fine, count, seen),
+  painter.result.measurements = {of_papers,
+                                 ratioOf("inversion.of_papers_fine", own.fine, paper.fine, count),
                                  {"inversion.retrieval", own.coarse, "", errorOf(own.coarse)},
                                  {"inversion.retrieval_fine", own.fine, "", errorOf(own.fine)},
                                  {"inversion.retrieval_paper", paper.coarse},
