@@ -192,6 +192,22 @@ TEST_F(CInterfaceFailure, AnImageInsideTheLocalizersMemory) {
   refuses(frame, "state memory overlaps the color image");
 }
 
+TEST_F(CInterfaceFailure, AnAmplitudeImageInsideTheLocalizersMemory) {
+  config_.amplitude_min = 1;
+  SetUp();
+  const sphc_camera &camera = config_.rig.depth_camera;
+  sphc_localizer *made = nullptr;
+  const Init i = good();
+  ASSERT_EQ(sphc_localizer_init(i.state, i.state_bytes, i.scratch, i.scratch_bytes, i.config, &made, nullptr),
+            SPHC_OK);
+  sphc_localizer_frame frame = frame_->frame;
+  frame.amplitude = {i.scratch, camera.width, camera.height, camera.width, SPHC_FORMAT_GRAY8};
+  sphc_localizer_result result = {};
+  result.struct_size = sizeof result;
+  EXPECT_EQ(sphc_localizer_process(made, &frame, &result), SPHC_E_ARGUMENT);
+  expectMentions(sphc_localizer_message(made), "scratch memory overlaps the amplitude image");
+}
+
 // A part of a larger image ends before the padding of its last row, and there the localizer's memory may begin.
 TEST_F(CInterfaceFailure, AnImageThatEndsWhereTheStateBegins) {
   sphc_memory need = {};

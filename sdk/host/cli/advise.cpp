@@ -9,6 +9,7 @@
 #include "host/cli/common/contradictions.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/report/coverage_picture.h"
@@ -144,7 +145,7 @@ Command adviseCommand(CLI::App *root) {
   addRecordingOptions(app, &options->advice.recording);
   app->add_option("--folds", options->advice.folds, "Blocks of frames held out in turn")
       ->capture_default_str()
-      ->check(CLI::Range(2, 100));
+      ->transform(wholeFrom(2, 100));
   app->add_option("--picture", options->picture, "Coverage as a map of the sky")->type_name("PNG");
   addForceOption(app, &options->force);
   return {app, [options](const Console &console) { return run(*options, console); }};

@@ -14,6 +14,7 @@
 #include "host/cli/common/few_warnings.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/new_recording.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/cli/common/recording_out.h"
@@ -343,7 +344,7 @@ Command convertCommand(CLI::App *root) {
           oneOf<sphc_depth_codec>({{"zstd", SPHC_DEPTH_ZSTD}, {"rvl", SPHC_DEPTH_RVL}, {"raw", SPHC_DEPTH_RAW}}))
       ->type_name("zstd|rvl|raw");
   app->add_option("--jpeg", options->recorder.jpeg_quality, "Colour in a file as JPEG of this quality [raw]")
-      ->check(CLI::Range(1u, 100u))
+      ->transform(wholeFrom(1, 100))
       ->type_name("Q");
   return {app, [options](const Console &console) { return convert(*options, console); }};
 }

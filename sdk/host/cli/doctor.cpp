@@ -8,6 +8,7 @@
 
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/recording_check.h"
 #include "host/cli/common/rig_options.h"
 #include "host/live/consistency_check.h"
@@ -222,7 +223,7 @@ Command doctorCommand(CLI::App *root) {
   addRigOptions(app, &options->rig);
   app->add_option("--frames", options->frames, "Pairs to check")
       ->capture_default_str()
-      ->check(CLI::Range(1, 10000));
+      ->transform(wholeFrom(1, 10000));
   return {app, [options](const Console &console) { return run(*options, console); }};
 }
 

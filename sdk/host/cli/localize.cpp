@@ -223,7 +223,8 @@ void addLocalizerOptions(CLI::App *app, sphc_localizer_config *config, Parameter
   };
   add("--seed", config->seed, "Seed of the random samples; the same seed gives the same answers")
       ->transform(wholeFrom(0));
-  add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096");
+  add("--max-keypoints", config->max_keypoints, "Strongest keypoints of a frame, 64 to 4096")
+      ->transform(wholeFrom(0, UINT32_MAX));
   add("--ratio", parameters->max_ratio, "Ratio test: best distance over second best, 0.1 to 1");
   add("--max-iterations", parameters->max_iterations, "Most samples drawn for a frame");
   add("--min-inliers", parameters->min_inliers, "A pose with fewer is not given out");

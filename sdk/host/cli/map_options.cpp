@@ -127,7 +127,7 @@ void addMapOptions(CLI::App *app, MapOptions *options) {
       ->type_name("FILE");
   app->add_option("--threads", options->threads, "At most so many; 0: one for each core")
       ->capture_default_str()
-      ->check(CLI::Range(0, 256).description(""))
+      ->transform(wholeFrom(0, 256))
       ->type_name("N");
   app->add_flag("--score", options->score, "Compare with the recording's own poses");
   addPoseOptions(app, options);

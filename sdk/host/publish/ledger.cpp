@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -20,13 +21,14 @@
 namespace sphc::host {
 namespace {
 
-constexpr int64_t kApplication = 0x53504C47, kVersion = 2;  // "SPLG"
+constexpr int64_t kApplication = 0x53504C47, kFirstVersion = 1, kVersion = 3;  // "SPLG"
 constexpr double kFarthestM = 1e6;
 
 const char kSchema[] = R"(
 CREATE TABLE owner (secret_key BLOB NOT NULL);
 CREATE TABLE place (number INTEGER PRIMARY KEY, centre_x REAL NOT NULL, centre_y REAL NOT NULL, centre_z REAL NOT NULL,
-                    eta REAL NOT NULL, strategy TEXT NOT NULL, band INTEGER NOT NULL);
+                    eta REAL NOT NULL, strategy TEXT NOT NULL, band INTEGER NOT NULL,
+                    fake_option REAL NOT NULL);
 CREATE TABLE release (place INTEGER NOT NULL, number INTEGER NOT NULL, map_id BLOB NOT NULL, crc32 INTEGER NOT NULL,
                       points INTEGER NOT NULL, time_s INTEGER NOT NULL, PRIMARY KEY (place, number));
 CREATE TABLE point (place INTEGER NOT NULL, number INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,
@@ -35,14 +37,12 @@ CREATE TABLE point (place INTEGER NOT NULL, number INTEGER NOT NULL, x REAL NOT 
                     PRIMARY KEY (place, number));
 )";
 
-// Before there were bands, all was visible.
-constexpr int64_t kVersionWithoutBand = 1;
-const char kAddBand[] = R"(
-BEGIN;
-ALTER TABLE place ADD COLUMN band INTEGER NOT NULL DEFAULT 0;
-PRAGMA user_version = 2;
-COMMIT;
-)";
+// Of `place`.  Earlier ledgers lack it, and mean 0: before there were bands, all was visible.
+struct AddedColumn {
+  int64_t version;  // the first that has it
+  const char *name, *type;
+};
+const AddedColumn kBand = {2, "band", "INTEGER"}, kFakeOption = {3, "fake_option", "REAL"};
 
 [[noreturn]] void refuse(const std::string &path, const std::string &why) {
   throw std::runtime_error("ledger " + path + ": " + why);
@@ -99,6 +99,22 @@ int64_t valueOf(sqlite3 *database, const char *statement) {
 
 int64_t versionOf(sqlite3 *database) { return valueOf(database, "PRAGMA user_version"); }
 
+std::string setVersion(int64_t version) { return "PRAGMA user_version = " + std::to_string(version) + ";"; }
+
+std::string orZero(const AddedColumn &column, int64_t version) {
+  return version < column.version ? "0" : column.name;
+}
+
+// What makes one of this version a new one.
+std::string upgradeFrom(int64_t version) {
+  std::string statements = "BEGIN;";
+  for (const AddedColumn &column : {kBand, kFakeOption})
+    if (version < column.version)
+      statements +=
+          std::string("ALTER TABLE place ADD COLUMN ") + column.name + " " + column.type + " NOT NULL DEFAULT 0;";
+  return statements + setVersion(kVersion) + "COMMIT;";
+}
+
 // Tables alone, since a view can hold more rows than any file.
 void checkContent(sqlite3 *database) {
   SqliteStatement check(database, "PRAGMA quick_check(1)");
@@ -127,7 +143,9 @@ PlacePoint pointOf(SqliteStatement *row) {
   return point;
 }
 
-bool isSound(const Place &place) { return isNear(place.centre_m) && place.eta > 0 && place.eta <= 1; }
+bool isSound(const Place &place) {
+  return isNear(place.centre_m) && place.eta > 0 && place.eta <= 1 && place.fake_option >= 0;
+}
 
 std::vector<PlacePoint> readPoints(sqlite3 *database, uint32_t place) {
   SqliteStatement rows(database,
@@ -182,10 +200,10 @@ void writeReleases(sqlite3 *database, const Place &place) {
 
 // One that is there stays; what is no number is an error, which OR IGNORE would hide.
 void writePlace(sqlite3 *database, const Place &place) {
-  SqliteStatement insert(database, "INSERT INTO place VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
+  SqliteStatement insert(database, "INSERT INTO place VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING");
   const Vector3 &c = place.centre_m;
   insert.bind(int64_t{place.number}).bind(c.x()).bind(c.y()).bind(c.z()).bind(place.eta).bind(place.strategy);
-  insert.bind(int64_t{place.band}).run();
+  insert.bind(int64_t{place.band}).bind(place.fake_option).run();
   writePoints(database, place);
   writeReleases(database, place);
 }
@@ -203,7 +221,8 @@ void Ledger::Closer::operator()(sqlite3 *database) const {
 
 Ledger::Ledger(const std::string &path, int flags) : path_(path) {
   sqlite3 *database = nullptr;
-  const int result = sqlite3_open_v2(path.c_str(), &database, flags, nullptr);
+  // Of its whole path, since SQLite keeps one of the name ":memory:" nowhere.
+  const int result = sqlite3_open_v2(std::filesystem::absolute(path).c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (result != SQLITE_OK)
     refuse(path, "cannot be opened: " + sqliteError(database) + "; choose the right file with --ledger");
@@ -219,7 +238,7 @@ void Ledger::make(const SecretKey &key) {
   SqliteStatement insert(database_.get(), "INSERT INTO owner VALUES (?)");
   insert.bind(key.data(), key.size()).run();
   run(("PRAGMA application_id = " + std::to_string(kApplication)).c_str());
-  run(("PRAGMA user_version = " + std::to_string(kVersion)).c_str());
+  run(setVersion(kVersion).c_str());
 }
 
 bool Ledger::isEmpty() const {
@@ -236,7 +255,7 @@ void Ledger::read(const SecretKey *expected) {
     if (valueOf(database_.get(), "PRAGMA application_id") != kApplication)
       throw std::runtime_error("this is not a ledger; choose the right file with --ledger");
     const int64_t version = versionOf(database_.get());
-    if (version != kVersion && version != kVersionWithoutBand)
+    if (version < kFirstVersion || version > kVersion)
       throw std::runtime_error("it was written by another version of this program; use that one");
     checkContent(database_.get());
     SqliteStatement owner(database_.get(), "SELECT secret_key FROM owner");
@@ -269,7 +288,8 @@ Ledger Ledger::openOrMake(const std::string &path, const SecretKey *key) {
   if (ledger.isEmpty()) ledger.make(key ? *key : newSecretKey());
   ledger.run("COMMIT");
   ledger.read(key);
-  if (versionOf(ledger.database_.get()) == kVersionWithoutBand) ledger.run(kAddBand);
+  const int64_t version = versionOf(ledger.database_.get());
+  if (version < kVersion) ledger.run(upgradeFrom(version).c_str());
   return ledger;
 }
 
@@ -284,9 +304,10 @@ Ledger Ledger::openToRead(const std::string &path) {
 std::vector<Place> Ledger::places() const {
   try {
     std::vector<Place> places;
-    const std::string band = versionOf(database_.get()) == kVersionWithoutBand ? "0" : "band";
-    const std::string query =
-        "SELECT number, centre_x, centre_y, centre_z, eta, strategy, " + band + " FROM place ORDER BY number";
+    const int64_t version = versionOf(database_.get());
+    const std::string query = "SELECT number, centre_x, centre_y, centre_z, eta, strategy, " +
+                              orZero(kBand, version) + ", " + orZero(kFakeOption, version) +
+                              " FROM place ORDER BY number";
     SqliteStatement rows(database_.get(), query.c_str());
     while (rows.step()) {
       Place place;
@@ -295,6 +316,7 @@ std::vector<Place> Ledger::places() const {
       place.eta = rows.real(4);
       place.strategy = rows.text(5);
       place.band = static_cast<sphc_band>(rows.integer(6));
+      place.fake_option = rows.real(7);
       if (place.number != places.size() + 1 || !isSound(place) || rows.integer(6) < SPHC_BAND_VISIBLE ||
           rows.integer(6) > SPHC_BAND_INFRARED)
         throw std::runtime_error("a place is damaged; take the backup");

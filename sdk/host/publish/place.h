@@ -34,7 +34,8 @@ struct Place {
   uint32_t number = 0;                 // in its ledger, from 1
   Vector3 centre_m = Vector3::Zero();  // in the place's frame, which is the world of its first recording
   double eta = 0;
-  std::string strategy;  // of the fakes
+  std::string strategy;    // of the fakes
+  double fake_option = 0;  // of FakeOptions, that of the strategy; 0: released before ledgers kept it
   sphc_band band = SPHC_BAND_VISIBLE;
   std::vector<PlacePoint> points;  // in the order in which they were published
   std::vector<Release> releases;

@@ -87,6 +87,19 @@ void refuseChange(const Place &place, sphc_band band, const ReleaseRequest &requ
   if (request.strategy && request.strategy->name() != place.strategy)
     throw std::runtime_error(was + (" and fakes '" + place.strategy + "', not '" + request.strategy->name() + "'") +
                              cure);
+  if (request.strategy && place.fake_option > 0 && request.strategy->option() != place.fake_option) {
+    char option[96];
+    std::snprintf(option, sizeof option, " and fakes '%s' of %.6g, not of %.6g", place.strategy.c_str(),
+                  place.fake_option, request.strategy->option());
+    throw std::runtime_error(was + std::string(option) + cure);
+  }
+}
+
+// As the place was released.
+std::unique_ptr<FakeStrategy> usualFakes(const Place &place) {
+  FakeOptions options;
+  if (place.fake_option > 0) options.sigma2 = options.patch_deg = place.fake_option;
+  return makeFakes(place.strategy, options);
 }
 
 // A new map of a place that other maps have already.
@@ -121,6 +134,7 @@ Place newPlace(const std::vector<ModelPoint> &points, sphc_band band, const Rele
   place.number = static_cast<uint32_t>(request.own.size() + 1);
   place.eta = request.eta.value_or(kDefaultEta);
   place.strategy = request.strategy ? request.strategy->name() : kDefaultFakes;
+  place.fake_option = request.strategy ? request.strategy->option() : usualFakes(place)->option();
   if (!points.empty()) place.centre_m = centreOf(points);
   return place;
 }
@@ -145,7 +159,7 @@ size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Pl
   shuffle(&points, &random);
   std::vector<SpherePoint> directions;
   for (const ModelPoint &point : points) directions.push_back(seenFrom(place->centre_m, point));
-  const std::unique_ptr<FakeStrategy> usual = request.strategy ? nullptr : makeFakes(place->strategy);
+  const std::unique_ptr<FakeStrategy> usual = request.strategy ? nullptr : usualFakes(*place);
   const FakeStrategy &strategy = request.strategy ? *request.strategy : *usual;
   const std::vector<Assignment> assignments = strategy.assignments(directions, real, &random);
   for (size_t i = 0; i < points.size(); ++i)

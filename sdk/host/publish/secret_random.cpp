@@ -48,6 +48,10 @@ SecretKey readSecretKey(const std::string &path) {
     throw std::runtime_error(
         "key file " + path +
         " does not hold exactly 64 hexadecimal digits; leave --key out, and the ledger draws one");
+  if (sodium_is_zero(key.data(), key.size()))
+    throw std::runtime_error(
+        "key file " + path +
+        " holds zeros alone, which anybody guesses; leave --key out, and the ledger draws one");
   checkPrivate(path, "it tells real points from fake ones");
   return key;
 }

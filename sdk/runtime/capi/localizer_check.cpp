@@ -22,6 +22,16 @@ sphc_status checkImageApart(const sphc_localizer &localizer, const char *name, c
   return checkApartFrom(localizer, {name, image.data, bytes}, message);
 }
 
+// Of the i-th depth camera.  An amplitude image that is not looked at may be anything.
+sphc_status checkDepthImageApart(const sphc_localizer &localizer, uint32_t i, const sphc_image &depth,
+                                 const sphc_image &amplitude, sphc_message *message) {
+  const char *name = i == 0 ? "the depth image" : "the depth image of a view";
+  const sphc_status status = checkImageApart(localizer, name, depth, message);
+  const bool is_read = depth.data && localizer.localizer.config().depth[i].least_amplitude > 0;
+  return status == SPHC_OK && is_read ? checkImageApart(localizer, "the amplitude image", amplitude, message)
+                                      : status;
+}
+
 }  // namespace
 
 sphc_status checkPlacement(const sphc_rigid &common_from_map, double rotation_sigma_rad, double translation_sigma_m,
@@ -105,9 +115,11 @@ sphc_status checkColorImagesApart(const sphc_localizer_frame &frame, const sphc_
 
 sphc_status checkDepthImagesApart(const sphc_localizer_frame &frame, const sphc_localizer &localizer,
                                   sphc_message *message) {
-  sphc_status status = checkImageApart(localizer, "the depth image", frame.depth, message);
-  for (uint32_t i = 0; i < frame.depth_view_count && status == SPHC_OK; ++i)
-    status = checkImageApart(localizer, "the depth image of a view", frame.depth_views[i].depth, message);
+  sphc_status status = checkDepthImageApart(localizer, 0, frame.depth, frame.amplitude, message);
+  for (uint32_t i = 0; i < frame.depth_view_count && status == SPHC_OK; ++i) {
+    const sphc_localizer_depth_view &view = frame.depth_views[i];
+    status = checkDepthImageApart(localizer, i + 1, view.depth, view.amplitude, message);
+  }
   return status;
 }
 

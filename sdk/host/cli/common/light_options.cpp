@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/cli/common/choices.h"
+#include "host/cli/common/number_checks.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -24,7 +25,7 @@ CLI::Option *addAmplitudeOption(CLI::App *app, uint32_t *amplitude_min) {
           "Depth is ignored where the sensor saw less of its own light, and between two surfaces; 0: all is "
           "believed")
       ->capture_default_str()
-      ->check(CLI::Range(0u, 65535u))
+      ->transform(wholeFrom(0, 65535))
       ->type_name("N");
 }
 

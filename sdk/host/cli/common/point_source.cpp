@@ -169,11 +169,11 @@ ImportedPoints importRecordings(const std::vector<RgbdSource> &recordings, const
 void addMappingOptions(CLI::App *app, RgbdImportOptions *import) {
   app->add_option("--max-keypoints", import->max_keypoints, "Strongest keypoints of a frame")
       ->capture_default_str()
-      ->check(CLI::Range(1u, 100000u))
+      ->transform(wholeFrom(1, 100000))
       ->group(kMappingGroup);
   app->add_option("--min-observations", import->min_observations, "Frames that must agree on a point")
       ->capture_default_str()
-      ->check(CLI::Range(1u, 100000u))
+      ->transform(wholeFrom(1, 100000))
       ->group(kMappingGroup);
   app->add_option("--depth-min", import->depth_min_m, "Nearest depth used, metres")
       ->capture_default_str()

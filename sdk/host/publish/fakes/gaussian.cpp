@@ -8,9 +8,10 @@ namespace {
 
 class GaussianFakes : public FakeStrategy {
  public:
-  explicit GaussianFakes(double variance) : sigma_(std::sqrt(variance)) {}
+  explicit GaussianFakes(double variance) : variance_(variance), sigma_(std::sqrt(variance)) {}
 
   std::string name() const override { return "gaussian"; }
+  double option() const override { return variance_; }
 
   std::vector<Assignment> assignments(const std::vector<SpherePoint> &points, size_t real_count,
                                       SecretRandom *random) const override {
@@ -33,7 +34,7 @@ class GaussianFakes : public FakeStrategy {
     return z.normalized();
   }
 
-  double sigma_;
+  double variance_, sigma_;
 };
 
 }  // namespace

@@ -78,16 +78,17 @@ void bringNear(const Pile &go, double width_rad, Pile *partners, SecretRandom *r
 class PatchworkFakes : public FakeStrategy {
  public:
   PatchworkFakes(const char *name, bool from_beside, double patch_deg)
-      : name_(name), from_beside_(from_beside), width_rad_(patch_deg * kPi / 180) {
+      : name_(name), from_beside_(from_beside), patch_deg_(patch_deg) {
     if (!(patch_deg >= 2 && patch_deg <= 60))
       throw std::runtime_error("patches are " + std::to_string(patch_deg) + " degrees wide; it must be 2 to 60");
   }
 
   std::string name() const override { return name_; }
+  double option() const override { return patch_deg_; }
 
   std::vector<Assignment> assignments(const std::vector<SpherePoint> &points, size_t real_count,
                                       SecretRandom *random) const override {
-    double width_rad = width_rad_;
+    double width_rad = patch_deg_ * kPi / 180;
     const std::vector<Patch> patches = cutIntoPatches(points, &width_rad, random);
     const double eta = static_cast<double>(real_count) / static_cast<double>(points.size());
     const std::vector<bool> real = drawReal(patches, eta, width_rad, random);
@@ -119,7 +120,7 @@ class PatchworkFakes : public FakeStrategy {
 
   const char *name_;
   bool from_beside_;
-  double width_rad_;
+  double patch_deg_;
 };
 
 }  // namespace

@@ -27,6 +27,8 @@ class FakeStrategy {
  public:
   virtual ~FakeStrategy() = default;
   virtual std::string name() const = 0;
+  // That of FakeOptions which shapes these fakes.
+  virtual double option() const = 0;
   // A assignment a point, in order.  About `real_count` of them are real, and at least one.  `points` come in an
   // order that says nothing.
   virtual std::vector<Assignment> assignments(const std::vector<SpherePoint> &points, size_t real_count,

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -52,6 +53,7 @@ Place makePlace(uint32_t number, size_t points) {
   place.centre_m = {1.0 / 3, -2e-9, 1e5};
   place.eta = 1.0 / 3;
   place.strategy = "gaussian";
+  place.fake_option = 0.2;
   for (const ModelPoint &point : test::madeUpRoom(static_cast<uint32_t>(points), number).points) {
     const uint16_t u = static_cast<uint16_t>(1 + random.below(65535)), v = 65535;
     place.points.push_back({point, {u, v}, test::randomDescriptor(&random), random.below(2) == 1, 1});
@@ -66,6 +68,7 @@ void expectSame(const Place &a, const Place &b) {
   EXPECT_EQ(a.eta, b.eta);
   EXPECT_EQ(a.strategy, b.strategy);
   EXPECT_EQ(a.band, b.band);
+  EXPECT_EQ(a.fake_option, b.fake_option);
   ASSERT_EQ(a.points.size(), b.points.size());
   for (size_t i = 0; i < a.points.size(); ++i) {
     const PlacePoint &p = a.points[i], &q = b.points[i];
@@ -126,11 +129,12 @@ TEST_F(LedgerTest, APlaceWithoutACentreIsNotHalfRecorded) {
   EXPECT_EQ(ledger.places().size(), 1u);
 }
 
-// As one was written before places had a band.
+// As one was written before places had a band, and what shaped their fakes.
 TEST_F(LedgerTest, AnOlderOneIsOfVisiblePlaces) {
-  const Place place = makePlace(1, 20);
+  Place place = makePlace(1, 20);
   Ledger::openOrMake(path_, nullptr).record(place);
-  change("ALTER TABLE place DROP COLUMN band; PRAGMA user_version = 1");
+  place.fake_option = 0;
+  change("ALTER TABLE place DROP COLUMN band; ALTER TABLE place DROP COLUMN fake_option; PRAGMA user_version = 1");
   expectSame(Ledger::openToRead(path_).places().at(0), place);
   Place infrared = makePlace(2, 20);
   infrared.band = SPHC_BAND_INFRARED;
@@ -139,6 +143,19 @@ TEST_F(LedgerTest, AnOlderOneIsOfVisiblePlaces) {
   ASSERT_EQ(places.size(), 2u);
   expectSame(places[0], place);
   expectSame(places[1], infrared);
+}
+
+// SQLite would keep it nowhere.
+TEST_F(LedgerTest, OneNamedAsADatabaseInMemoryIsAFile) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(testing::TempDir());
+  const Place place = makePlace(1, 20);
+  Ledger::openOrMake(":memory:", nullptr).record(place);
+  const std::vector<Place> places = Ledger::openToRead(":memory:").places();
+  unlink(":memory:");
+  std::filesystem::current_path(before);
+  ASSERT_EQ(places.size(), 1u);
+  expectSame(places[0], place);
 }
 
 TEST_F(LedgerTest, ItsOwnerAloneMayReadIt) {
@@ -282,8 +299,8 @@ TEST_F(LedgerTest, DamageIsSeen) {
         "UPDATE point SET v = 65536 WHERE number = 3", "UPDATE point SET x = 9e999 WHERE number = 3",
         "UPDATE point SET sigma = -1 WHERE number = 3", "UPDATE place SET eta = 0", "UPDATE place SET number = 2",
         "UPDATE place SET centre_x = 1e7", "UPDATE release SET points = 100", "UPDATE release SET map_id = x''",
-        "UPDATE place SET band = 2", "UPDATE place SET band = -1", "DELETE FROM owner", "PRAGMA user_version = 3",
-        "CREATE VIEW v AS SELECT 1"}) {
+        "UPDATE place SET band = 2", "UPDATE place SET band = -1", "UPDATE place SET fake_option = -1",
+        "DELETE FROM owner", "PRAGMA user_version = 4", "CREATE VIEW v AS SELECT 1"}) {
     unlink(path_.c_str());
     Ledger::openOrMake(path_, nullptr).record(makePlace(1, 20));
     EXPECT_EQ(refusal(), "accepted");

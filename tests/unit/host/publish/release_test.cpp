@@ -237,6 +237,24 @@ TEST(Release, UnlessToldOtherwiseANewPlaceHasTheDefaultFakesAndAKnownOneItsOwn) 
   EXPECT_GT(update.summary.added, 0u);
 }
 
+TEST(Release, AnUpdateKeepsWhatShapedTheFakes) {
+  const PointModel room = test::madeUpRoom(1000, 1), larger = test::madeUpRoom(1500, 1);
+  const auto wide = patchworkFakes(20), usual = patchworkFakes();
+  ReleaseRequest request = releaseRequest();
+  request.strategy = wide.get();
+  request.own = {makeRelease(room, request).place};
+  EXPECT_EQ(request.own[0].fake_option, 20);
+  const std::vector<uint8_t> said = makeRelease(larger, request).file;
+  request.strategy = nullptr;
+  EXPECT_EQ(makeRelease(larger, request).file, said);
+  request.strategy = usual.get();
+  EXPECT_THAT(refusal(larger, request), HasSubstr("fakes 'patchwork' of 20, not of 8"));
+  // Of a ledger that did not keep it, the owner knows best.
+  request.own[0].fake_option = 0;
+  EXPECT_EQ(refusal(larger, request), "");
+  EXPECT_NE(makeRelease(larger, request).file, said);
+}
+
 TEST(Release, ASecondIndependentReleaseIsRefused) {
   const PointModel room = test::madeUpRoom(1000, 1);
   const NewRelease first = makeRelease(room, releaseRequest());

@@ -81,9 +81,9 @@ TEST(KeyedHash, EachKeyPurposeAndContentHasItsOwn) {
 TEST(SecretKeyFile, EachFaultIsExplained) {
   const std::string path = keyPath("bad");
   const std::string digits(64, 'a');
-  for (const std::string &text :
-       {std::string(), std::string(63, 'a'), std::string(65, 'a'), std::string(66, 'a'), std::string(64, 'g'),
-        digits + " " + digits, digits + "\nmore", "0x" + digits, digits + std::string(300, ' ') + "more"}) {
+  for (const std::string &text : {std::string(), std::string(63, 'a'), std::string(65, 'a'), std::string(66, 'a'),
+                                  std::string(64, 'g'), std::string(64, '0'), digits + " " + digits,
+                                  digits + "\nmore", "0x" + digits, digits + std::string(300, ' ') + "more"}) {
     write(path, text);
     try {
       readSecretKey(path);
