@@ -63,7 +63,7 @@ class RigCamera:
 
     def raw(self) -> _interface.sphc_localizer_camera:
         return _interface.sphc_localizer_camera(ctypes.sizeof(_interface.sphc_localizer_camera), 0, self.camera.raw(),
-                                                self.color_from_camera.raw(), whole(self.row_time_ns, "row_time_ns"))
+                                                self.color_from_camera.raw(), nanoseconds(self.row_time_ns, "row_time_ns"))
 
 
 @dataclasses.dataclass(frozen=True)

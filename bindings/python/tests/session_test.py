@@ -133,7 +133,7 @@ class Session(unittest.TestCase):
         self.assertTrue(result.localized and result.guided)
 
     def test_what_one_frame_was_told_is_not_told_of_the_next(self):
-        beside = sphc.RigCamera(session.COLOR, sphc.Rigid())
+        beside = sphc.RigCamera(session.COLOR, sphc.Rigid(), row_time_ns=-30_000)
         second = sphc.RigDepthCamera(session.DEPTH, sphc.Rigid())
         told = dict(prior=session.prior(session.ROWS[-1]), color_camera=session.COLOR, color_from_depth=sphc.Rigid(),
                     depth_camera=session.DEPTH, views=[sphc.View(None, 0)], depth_views=[sphc.DepthView(None, 0)])
@@ -168,7 +168,7 @@ class Session(unittest.TestCase):
 
     def test_further_cameras(self):
         frame = self.first()
-        beside = sphc.RigCamera(session.COLOR, sphc.Rigid())
+        beside = sphc.RigCamera(session.COLOR, sphc.Rigid(), row_time_ns=-30_000)
         with session.localizer({session.MAP_ID: self.map}, cameras=[beside]) as rig:
             frame.views = [sphc.View(frame.color, frame.color_time_ns, session.COLOR, sphc.Rigid())]
             self.assertTrue(rig.process(frame).localized)
