@@ -32,6 +32,11 @@ Clock = typing.Callable[[], int]
 _LEVELS = {LogLevel.ERROR: logging.ERROR, LogLevel.WARNING: logging.WARNING, LogLevel.INFO: logging.INFO,
            LogLevel.DEBUG: logging.DEBUG}
 
+# How the library reads the usual clock: `user` is the clock, and no function of Python's lies between.  At the beginning of
+# one Python may raise an interrupt, which nothing could catch there.
+_USUAL = time.monotonic_ns
+_read_usual = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.py_object)(operator.methodcaller("__call__"))
+
 
 def to_logging(level: LogLevel, text: str) -> None:
     """Where the log goes if nobody says more: Python's logger "spherecloud"."""
@@ -48,18 +53,19 @@ class _Callbacks:
         def say(_: object, level: int, text: bytes, length: int) -> None:
             self._run(lambda: log and log(LogLevel(level), text.decode(errors="replace")), lambda: None)
 
-        usual = time.monotonic_ns
-        now: Clock = usual if clock is usual else lambda: typing.cast(int, self._run(clock, usual))
-
         def read(_: object) -> int:
             try:
-                return operator.index(now())
+                return operator.index(self._run(clock, _USUAL))
             except BaseException as fault:  # an interrupt, or a clock that gives no whole number
                 self.fault = fault
-                return usual()
+                return _USUAL()
 
         self.log = _interface.sphc_log_fn(say) if log else _interface.sphc_log_fn()
-        self.clock = _interface.sphc_clock_fn(read) if clock else _interface.sphc_clock_fn()
+        self.clock, self.clock_user = _interface.sphc_clock_fn(), id(_USUAL)
+        if clock is _USUAL:
+            self.clock = ctypes.cast(_read_usual, _interface.sphc_clock_fn)
+        elif clock:
+            self.clock = _interface.sphc_clock_fn(read)
 
     @property
     def fault(self) -> BaseException | None:
@@ -141,7 +147,8 @@ class Localizer:
         config = _interface.sphc_localizer_config()
         check(self._c.sphc_localizer_config_init(config, ctypes.sizeof(config)), "sphc_localizer_config_init")
         configure(config, given)
-        config.rig, config.log, config.clock = of_type(rig, Rig, "rig").raw(), self._callbacks.log, self._callbacks.clock
+        config.rig, config.log = of_type(rig, Rig, "rig").raw(), self._callbacks.log
+        config.clock, config.clock_user = self._callbacks.clock, self._callbacks.clock_user
         config.cameras = ctypes.addressof(self._cameras) if len(self._cameras) else None
         config.camera_count = len(self._cameras)
         config.depth_cameras = ctypes.addressof(self._depth_cameras) if len(self._depth_cameras) else None

@@ -1,5 +1,6 @@
 """What C found in the golden session is found in every way that Python can ask."""
 import math
+import signal
 import threading
 import time
 import unittest
@@ -133,7 +134,7 @@ class Session(unittest.TestCase):
         self.assertTrue(result.localized and result.guided)
 
     def test_what_one_frame_was_told_is_not_told_of_the_next(self):
-        beside = sphc.RigCamera(session.COLOR, sphc.Rigid(), row_time_ns=-30_000)
+        beside = sphc.RigCamera(session.COLOR, sphc.Rigid())
         second = sphc.RigDepthCamera(session.DEPTH, sphc.Rigid())
         told = dict(prior=session.prior(session.ROWS[-1]), color_camera=session.COLOR, color_from_depth=sphc.Rigid(),
                     depth_camera=session.DEPTH, views=[sphc.View(None, 0)], depth_views=[sphc.DepthView(None, 0)])
@@ -165,6 +166,18 @@ class Session(unittest.TestCase):
         with session.localizer({session.MAP_ID: self.map}, clock=interrupted) as made:
             with self.assertRaises(KeyboardInterrupt):
                 made.process(self.first())
+
+    def test_an_interrupt_comes_up_wherever_it_comes(self):
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        frame = self.first()
+        with session.localizer({session.MAP_ID: self.map}, log=None) as made:
+            for index in range(20):  # a frame takes some milliseconds
+                with self.assertRaises(KeyboardInterrupt):
+                    signal.setitimer(signal.ITIMER_REAL, 2e-4 * (1 + index))
+                    made.process(frame)
+                    time.sleep(1)
+            self.assertTrue(made.process(frame).localized)
 
     def test_further_cameras(self):
         frame = self.first()
