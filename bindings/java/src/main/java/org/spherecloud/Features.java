@@ -47,7 +47,7 @@ public final class Features implements AutoCloseable {
    *     the features stay what they were
    */
   public void set(Frame frame, FeatureArrays arrays) {
-    Objects.requireNonNull(frame, "frame").requireImages();
+    Objects.requireNonNull(frame, "frame").getColor().requireData();
     Objects.requireNonNull(arrays, "arrays");
     Struct told = arrays.told();
     enter();

@@ -101,10 +101,20 @@ public final class Frame extends FrameFields {
 
   /** Fails where the memory of an image was given back. */
   void requireImages() {
+    requireColorImages();
+    requireDepthImages();
+  }
+
+  /** The same of the images that the first half of a frame reads. */
+  void requireColorImages() {
     getColor().requireData();
+    for (int i = 0; i < views.capacity(); i++) views.at(i).getImage().requireData();
+  }
+
+  /** The same of the second half. */
+  void requireDepthImages() {
     getDepth().requireData();
     getAmplitude().requireData();
-    for (int i = 0; i < views.capacity(); i++) views.at(i).getImage().requireData();
     for (int i = 0; i < depthViews.capacity(); i++) depthViews.at(i).requireImages();
   }
 }

@@ -160,7 +160,7 @@ public final class Localizer implements AutoCloseable {
     Objects.requireNonNull(features, "features");
     extraction.enter();
     try {
-      frame.requireImages();
+      frame.requireColorImages();
       long into = features.enter();
       try {
         features.check(Native.localizerExtract(pointer, frame.address, into));
@@ -185,8 +185,7 @@ public final class Localizer implements AutoCloseable {
     Objects.requireNonNull(result, "result");
     enter();
     try {
-      frame.getDepth().requireData();
-      frame.getAmplitude().requireData();
+      frame.requireDepthImages();
       long from = features.enterShared();
       try {
         return answered(Native.localizerLocate(pointer, frame.address, from, result.address));

@@ -144,9 +144,16 @@ public class LifetimeTest {
       Frame frame = Session.frame(ROW);
       frame.getColor().set((ByteBuffer) buffer, 320, 240, Format.GRAY8);
       localizer.process(frame, new Result());
+      Frame ofDepth = new Frame(0, 1);
+      ofDepth.getColor().set(Session.image(ROW.text("color_file")), 320, 240, Format.GRAY8);
+      ofDepth.getDepthView(0).getDepth().set((ByteBuffer) buffer, 200, 160, Format.DEPTH16);
       arena.close();
       assertThrows(IllegalStateException.class, () -> localizer.process(frame, new Result()));
       assertThrows(IllegalStateException.class, () -> localizer.extract(frame, features));
+      assertThrows(IllegalStateException.class, () -> features.set(frame, new FeatureArrays(0)));
+      assertThrows(IllegalStateException.class, () -> localizer.locate(ofDepth, features, new Result()));
+      localizer.extract(ofDepth, features); // which reads no depth
+      features.set(ofDepth, new FeatureArrays(0));
     }
   }
 
