@@ -1,3 +1,4 @@
+using System.Globalization;
 using System.Runtime.InteropServices;
 
 namespace SphereCloud {
@@ -17,7 +18,7 @@ public struct Vector2d {
 
   /// <summary>"(x, y)".</summary>
   public override string ToString() {
-    return "(" + X + ", " + Y + ")";
+    return string.Format(CultureInfo.InvariantCulture, "({0}, {1})", X, Y);
   }
 }
 
@@ -40,7 +41,7 @@ public struct Vector3d {
 
   /// <summary>"(x, y, z)".</summary>
   public override string ToString() {
-    return "(" + X + ", " + Y + ", " + Z + ")";
+    return string.Format(CultureInfo.InvariantCulture, "({0}, {1}, {2})", X, Y, Z);
   }
 }
 
@@ -69,7 +70,7 @@ public struct Quaterniond {
 
   /// <summary>"(w, x, y, z)".</summary>
   public override string ToString() {
-    return "(" + W + ", " + X + ", " + Y + ", " + Z + ")";
+    return string.Format(CultureInfo.InvariantCulture, "({0}, {1}, {2}, {3})", W, X, Y, Z);
   }
 }
 

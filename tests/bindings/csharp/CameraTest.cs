@@ -1,4 +1,6 @@
 using System;
+using System.Globalization;
+using System.Threading;
 using SphereCloud;
 
 /// <summary>Cameras, rigs and rigid transforms.</summary>
@@ -48,5 +50,17 @@ internal static class CameraTest {
     Expect.Near(Session.Numbers(Rigid.Identity), Session.Numbers(bFromA * bFromA.Inverse()), 1e-12, "identity");
     var cFromB = new Rigid(Quaterniond.Identity, new Vector3d(0, 0, 1));
     Expect.Near(new double[] {half, 0, 0, half, 1, 2, 4}, Session.Numbers(cFromB * bFromA), 1e-12, "composed");
+  }
+  /// <summary>A comma is not both the decimal point and what stands between numbers.</summary>
+  public static void NumbersAreWrittenAlikeInEveryCulture() {
+    CultureInfo before = Thread.CurrentThread.CurrentCulture;
+    Thread.CurrentThread.CurrentCulture = new CultureInfo("de-DE");
+    try {
+      var rigid = new Rigid(new Quaterniond(1, 0, 0, 0.5), new Vector3d(0.25, -2, 3));
+      Expect.Equal("(1, 0, 0, 0.5) (0.25, -2, 3) m", rigid.ToString(), "rigid");
+      Expect.Equal("(1.5, 2)", new Vector2d(1.5, 2).ToString(), "pixel");
+    } finally {
+      Thread.CurrentThread.CurrentCulture = before;
+    }
   }
 }
