@@ -111,6 +111,9 @@ class Slot:
         if not row <= strides[0] < 2**32:
             raise self._refuse(f"rows must follow each other downwards, apart or side by side, and the strides are {strides}; "
                                "numpy.ascontiguousarray makes them so")
+        if pixel and width not in (None, shape[1]):
+            raise self._refuse(f"the array is {shape[1]} pixels wide, not {width}; give Image a width only of formats whose pixels "
+                               "share bytes")
         if not pixel and (width is None or not 0 < interface().sphc_format_row_bytes(format, width) <= row):
             raise self._refuse(f"pixels of {format.name} share bytes, and {row} bytes a row do not say how many: give Image "
                                f"a width that fits them, not {width}")
