@@ -48,9 +48,13 @@ class Prior:
         up = [numbers(v, 3, "up") if v is not None else (0.0,) * 3 for v in (self.up_camera, self.up_map)]
         return _interface.sphc_localizer_prior(
             ctypes.sizeof(_interface.sphc_localizer_prior), self.parts(), whole(self.map_id, "map_id"), 0,
-            (self.camera_from_map or Rigid()).raw(), self.rotation_sigma_rad, self.translation_sigma_m,
-            up[0], up[1], self.up_sigma_rad, (self.odometry_from_camera or Rigid()).raw(),
+            _raw(self.camera_from_map, "camera_from_map"), self.rotation_sigma_rad, self.translation_sigma_m,
+            up[0], up[1], self.up_sigma_rad, _raw(self.odometry_from_camera, "odometry_from_camera"),
             self.odometry_rotation_sigma_rad, self.odometry_translation_sigma_m)
+
+
+def _raw(pose: Rigid | None, name: str) -> _interface.sphc_rigid:
+    return (of_type(pose, Rigid, name, "; Rigid.from_matrix makes one") if pose is not None else Rigid()).raw()
 
 
 @dataclasses.dataclass(frozen=True)

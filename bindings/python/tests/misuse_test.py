@@ -126,6 +126,8 @@ class Misuse(unittest.TestCase):
                      lambda: self.localizer.set_depth_bias(None),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, views=[self.frame.color])),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, color_camera="x")),
+                     lambda: self.localizer.process(dataclasses.replace(self.frame, prior=sphc.Prior(7, np.eye(4)))),
+                     lambda: self.localizer.process(dataclasses.replace(self.frame, prior=sphc.Prior(7, odometry_from_camera=np.eye(4)))),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, color=sphc.Image(self.frame.color, 99))),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, color=sphc.Image([1], sphc.Format.GRAY8))),
                      lambda: sphc.Aligner(session.RIG).process(self.frame.depth, sphc.Aligned(depth=[1]))):
