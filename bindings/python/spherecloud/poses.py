@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import math
 import struct
 import typing
 
@@ -69,8 +70,9 @@ class Rigid:
         return Rigid(tuple(row / np.linalg.norm(row)), tuple(matrix[:3, 3]))
 
     def rotation(self) -> Floats:
-        """The 3 x 3 rotation matrix."""
-        w, x, y, z = self.q_wxyz
+        """The 3 x 3 rotation matrix.  The quaternion is normalised, as by the library, and one of zeros is the identity."""
+        length = math.hypot(*self.q_wxyz) or 1.0
+        w, x, y, z = (part / length for part in self.q_wxyz)
         return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                          [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
                          [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])

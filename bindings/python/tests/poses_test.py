@@ -57,6 +57,9 @@ class Rigids(unittest.TestCase):
         np.testing.assert_allclose(TURNED.inverse().matrix(), np.linalg.inv(TURNED.matrix()), atol=1e-15)
         points = np.arange(12.0).reshape(2, 2, 3)
         np.testing.assert_allclose(TURNED @ points, (TURNED.matrix() @ np.append(points, np.ones((2, 2, 1)), 2)[..., None])[..., :3, 0])
+        for q_wxyz in ((1, 1, 0, 0), (0.999, 0, 0, 0.1), (0, 0, 0, 0)):  # normalised by the library too
+            pose, point = sphc.Rigid(q_wxyz, (1, 2, 3)), (4, 5, 6)
+            np.testing.assert_allclose(pose @ point, (pose @ sphc.Rigid(t_m=point)).t_m, atol=1e-14)
 
     def test_matrices_come_back(self):
         for q in np.random.default_rng(1).normal(size=(50, 4)).tolist() + [[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]:
