@@ -110,8 +110,8 @@ def _rows(array: npt.NDArray[typing.Any], row: tuple[int, ...], kind: np.dtype[t
           what: str) -> npt.NDArray[typing.Any]:
     """The array, packed; a copy only where its rows do not lie one behind the other."""
     if not isinstance(array, np.ndarray) or array.dtype != kind or array.shape[1:] != row or array.ndim != 1 + len(row):
-        shape = getattr(array, "shape", type(array).__name__)
-        raise Error(Status.E_ARGUMENT, f"{what}: (count{''.join(f', {n}' for n in row)}) of {kind} is needed, not {shape}")
+        given = f"{array.shape} of {array.dtype}" if isinstance(array, np.ndarray) else type(array).__name__
+        raise Error(Status.E_ARGUMENT, f"{what}: (count{''.join(f', {n}' for n in row)}) of {kind} is needed, not {given}")
     return np.require(array, requirements=["C", "A"])
 
 

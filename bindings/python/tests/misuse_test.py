@@ -188,6 +188,8 @@ class Misuse(unittest.TestCase):
         self.refused(sphc.Status.E_ARGUMENT, "descriptor", features.set, self.frame, arrays)
         arrays.descriptors = arrays.descriptors[:, :64]
         self.refused(sphc.Status.E_ARGUMENT, "128", features.set, self.frame, arrays)
+        arrays.descriptors = arrays.descriptors.astype(np.int64)
+        self.refused(sphc.Status.E_ARGUMENT, "uint8 is needed, not .* of int64", features.set, self.frame, arrays)
 
     def test_aligned_images_that_are_too_small(self):
         aligner = sphc.Aligner(session.RIG)
