@@ -54,7 +54,8 @@ class Aligner:
         check(interface().sphc_aligner_init(memory.ctypes.data, memory.size, config, ctypes.byref(made.pointer), message),
               message)
         self._owned: Owned | None = made
-        self._turn, self._shape = threading.Lock(), (rig.color_camera.height, rig.color_camera.width)
+        # A handler of a signal runs within a call of its own thread, and may close.
+        self._turn, self._shape = threading.RLock(), (rig.color_camera.height, rig.color_camera.width)
         self._image = _interface.sphc_image()
         self._slot = Slot(self._image, depth_kinds(depth_format), "depth")
 
@@ -70,12 +71,13 @@ class Aligner:
         for name, kind in _PLANES:
             self._lend(raw, name, kind, getattr(out, name))
         with self._turn:
-            if self._owned is None:
-                raise closed("aligner")
             self._slot.put(depth)
-            status = interface().sphc_aligner_process(self._owned.pointer, self._image, raw)
+            owned = self._owned
+            if owned is None:
+                raise closed("aligner")
+            status = interface().sphc_aligner_process(owned.pointer, self._image, raw)
             if status < 0:
-                check(status, interface().sphc_aligner_message(self._owned.pointer).decode())
+                check(status, interface().sphc_aligner_message(owned.pointer).decode())
         return out
 
     def _lend(self, raw: _interface.sphc_aligned, name: str, kind: np.dtype[np.generic], plane: Array | None) -> None:

@@ -111,6 +111,28 @@ class Lifetimes(unittest.TestCase):
         other.join()
         self.assertEqual(order, [True, "closed"])
 
+    def test_a_call_on_its_own_thread_may_close_an_aligner(self):
+        """As a handler of a signal does, which runs between two steps of the call."""
+        aligner, caught = sphc.Aligner(session.RIG), []
+
+        class Closing(np.ndarray):
+            @property
+            def __array_interface__(self):
+                aligner.close()
+                return np.asarray(self).__array_interface__
+
+        def work():
+            try:
+                aligner.process(depth)
+            except sphc.Error as error:
+                caught.append(error.status)
+        depth = session.frame(session.ROWS[0]).depth.view(Closing)
+        depth.flags.writeable = False  # so that its interface is asked for its address
+        call = threading.Thread(target=work, daemon=True)
+        call.start()
+        call.join(10)
+        self.assertEqual(caught, [sphc.Status.E_STATE])
+
 
 if __name__ == "__main__":
     unittest.main()
