@@ -58,7 +58,7 @@ class Recordings(unittest.TestCase):
         self.assertEqual(self.recording(header(rig, 0, 1)).rig, rig)
         recording = self.recording()
         self.assertEqual([recorded.world_from_camera for recorded in recording], self.poses)
-        for recorded, written in zip(recording, self.frames, strict=True):
+        for recorded, written in zip(recording, self.frames):
             np.testing.assert_array_equal(recorded.frame.color, written.color)
             np.testing.assert_array_equal(recorded.frame.depth, written.depth)
             self.assertEqual((recorded.frame.color_time_ns, recorded.frame.depth_time_ns, recorded.frame.sequence),
