@@ -131,7 +131,12 @@ const char *toldWord(const MapOutcome &outcome) {
 
 void warnOfPoses(const MapOutcome &outcome, const Console &console) {
   const MappedWalk &m = outcome.mapped;
-  if (m.is_unbelieved)
+  if (m.is_unbelieved && outcome.use == PoseUse::kApproximate && m.told_wrong == 0)
+    console.warn(
+        "note: the poses are of frames that are not in the map, so none was used, and the world is the first "
+        "frame's "
+        "camera: give poses of all of the walk, or map the part that has them by --first and --last");
+  else if (m.is_unbelieved)
     console.warn(
         "note: the images contradict the recording's poses altogether, so none was used" +
         std::string(outcome.use == PoseUse::kApproximate ? ", and the world is the first frame's camera" : "") +

@@ -154,6 +154,11 @@ std::vector<uint32_t> PoseBeliefs::parts(const std::vector<FrameLink> &links) co
   return connectedParts(told_.size(), pairs);
 }
 
+void PoseBeliefs::dropOutside(const std::vector<uint32_t> &parts) {
+  for (size_t i = 0; i < anchors_.size(); ++i)
+    if (parts[i] != 0) anchors_[i].reset();
+}
+
 void PoseBeliefs::addTo(ceres::Problem *problem, ceres::LossFunction *loss, const FramePoses &world_from_camera,
                         std::vector<PoseBlock> *blocks) const {
   for (size_t i = 0; i < anchors_.size(); ++i)

@@ -47,6 +47,9 @@ class PoseBeliefs {
   // Approximate: believes no pose where the mapped poses disprove most of them.  Steps of odometry stay.
   void dropDisproved(const FramePoses &world_from_camera);
 
+  // Approximate: leaves out the poses of frames that are not in part 0.  They hold nothing of what is mapped.
+  void dropOutside(const std::vector<uint32_t> &parts);
+
   // As connectedParts(), where steps and anchors connect too; an anchor needs a link to do so.
   std::vector<uint32_t> parts(const std::vector<FrameLink> &links) const;
   // Residuals of those that have poses.  The problem does not own the loss.

@@ -40,7 +40,7 @@ class WalkMapper {
           "them (spherecloud doctor), and are the frames near enough in time to show the same?");
     mapped_.contradicting = dropWeakBridges(frames_.size(), &links_);
     beliefs_.judge(links_);
-    mapped_.parts = beliefs_.parts(links_);
+    findParts();
     adjusted_.world_from_camera = posesAlongLinks(links_, mapped_.parts, beliefs_);
     adjustToLinks(links_, beliefs_, &adjusted_.world_from_camera);
     dropContradicting();
@@ -78,6 +78,11 @@ class WalkMapper {
     }
   }
 
+  void findParts() {
+    mapped_.parts = beliefs_.parts(links_);
+    beliefs_.dropOutside(mapped_.parts);
+  }
+
   // Links that the others contradict, and frames that had nothing else.
   void dropContradicting() {
     const size_t before = links_.size();
@@ -88,7 +93,7 @@ class WalkMapper {
     links_.erase(std::remove_if(links_.begin(), links_.end(), contradicts), links_.end());
     mapped_.contradicting += before - links_.size();
     beliefs_.dropContradicted(poses);
-    mapped_.parts = beliefs_.parts(links_);
+    findParts();
     for (size_t i = 0; i < poses.size(); ++i)
       if (mapped_.parts[i] != 0) poses[i].reset();
   }

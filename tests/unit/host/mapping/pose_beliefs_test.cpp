@@ -112,6 +112,16 @@ TEST_F(PoseBeliefsTest, AnchorsConnectPartsThatImagesDoNot) {
   EXPECT_NE(parts[19], 0u);
 }
 
+TEST_F(PoseBeliefsTest, AnchorsOfOtherPartsAreLeftOut) {
+  trust_.use = PoseUse::kApproximate;
+  PoseBeliefs beliefs = judged();
+  std::vector<uint32_t> parts(40, 1);
+  parts[7] = 0;
+  beliefs.dropOutside(parts);
+  EXPECT_EQ(anchorsOf(beliefs), 1u);
+  EXPECT_TRUE(beliefs.anchors()[7]);
+}
+
 TEST_F(PoseBeliefsTest, PosesByChanceAreNotBelieved) {
   trust_.use = PoseUse::kApproximate;
   for (size_t i = 0; i < 40; ++i)

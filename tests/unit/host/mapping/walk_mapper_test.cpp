@@ -221,6 +221,20 @@ TEST(WalkMapperTest, ApproximatePosesPlacePartsThatNeverMet) {
   EXPECT_LT(worstOffM(made, mapped), 0.05);
 }
 
+// The larger part was told nothing: it is mapped in a world of its own.
+TEST(WalkMapperTest, PosesOfASmallerPartHoldNothing) {
+  MadeUpWalk made = joined(makeWalk({30, 1, 1}), makeWalk({20, 0.5, 1, 0, 0, 2}));
+  tellTheTruth(&made, 0, 0);
+  for (size_t i = 0; i < 30; ++i) made.walk.keyframes[i].told_world_from_camera.reset();
+  const MappedWalk mapped = mapWalk(made.walk, {trustIn(PoseUse::kApproximate)}, {});
+  EXPECT_EQ(scoreOf(made, mapped).frames, 30u);
+  EXPECT_TRUE(mapped.world_from_camera[0]->rotation.isIdentity(1e-9));
+  EXPECT_FALSE(mapped.is_in_told_world);
+  EXPECT_TRUE(mapped.is_unbelieved);
+  EXPECT_EQ(mapped.told, 20u);
+  EXPECT_EQ(mapped.told_wrong, 0u);
+}
+
 TEST(WalkMapperTest, OdometryGivesTheAxesWhereThatIsAskedFor) {
   MadeUpWalk made = makeWalk({20, 0.5, 1});
   tellTheTruth(&made, 0, 0);
