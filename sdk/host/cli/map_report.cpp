@@ -19,6 +19,9 @@ constexpr double kMostFarDepths = 0.06, kMostRaySigmas = 2;
 // half of what the path is off (squared): a short path has no scale of its own.
 constexpr double kMostScale = 0.02, kExplained = 0.7;
 
+// What is wrong with poses of which most are wrong.
+const char kAskOfPoses[] = ": are they of this recording, world_from_camera, and in metres?";
+
 std::string count(size_t n) { return std::to_string(n); }
 
 nlohmann::ordered_json causesJson(const Stretch &stretch) {
@@ -140,10 +143,11 @@ void warnOfPoses(const MapOutcome &outcome, const Console &console) {
     console.warn(
         "note: the images contradict the recording's poses altogether, so none was used" +
         std::string(outcome.use == PoseUse::kApproximate ? ", and the world is the first frame's camera" : "") +
-        ": are they of this recording, world_from_camera, and in metres?");
+        kAskOfPoses);
   else if (m.told_wrong)
     console.warn("note: " + count(m.told_wrong) + " of " + count(m.told) + " " + toldWord(outcome) +
-                 " are off by more than 4 sigma of what was stated; the images were believed more");
+                 " are off by more than 4 sigma of what was stated; the images were believed more" +
+                 (2 * m.told_wrong > m.told ? kAskOfPoses : ""));
 }
 
 void warnOfTruth(const MapOutcome &outcome, const Console &console) {

@@ -125,6 +125,8 @@ TEST_F(MapTest, PosesThatAreInversesAreNamed) {
   EXPECT_THAT(named.err, HasSubstr("are inverses, camera_from_world; the score expects world_from_camera"));
   EXPECT_THAT(named.err, Not(HasSubstr("depth_unit_m")));
   EXPECT_THAT(runCommand("map -r " + at("walk") + map).err, Not(HasSubstr("inverses")));
+  EXPECT_THAT(runCommand("map -r " + at("inverse") + map + " --poses approximate").err,
+              HasSubstr("are they of this recording, world_from_camera, and in metres?"));
 }
 
 // A walk of which all but the first frames show nothing.
