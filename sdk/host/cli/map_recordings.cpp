@@ -35,31 +35,67 @@ std::optional<sphc_rigid> poseOf(const recording::PoseTrack &path, int64_t time_
   return path.at(time_ns, recording::ReaderOptions().pose_gap_ns);
 }
 
-// What the recording, or the file of poses, tells of its keyframes.
-void tell(const MapOptions &options, size_t recording, const RecordingReader &reader, Walk *walk) {
-  recording::PoseTrack file;
-  uint32_t bad = 0;
-  if (!options.told.empty()) file = recording::readTumPoses(options.told[recording], &bad);
-  for (WalkFrame &frame : walk->keyframes) {
-    const std::optional<sphc_rigid> told =
-        options.told.empty() ? reader.worldFromCamera(frame.index) : poseOf(file, frame.time_ns);
-    if (told) frame.told_world_from_camera = rigidFromC(*told);
-  }
+// What the recording, or its file of poses, tells of a time.
+std::optional<sphc_rigid> toldAt(const MapOptions &options, const MappedRecording &recording, int64_t time_ns) {
+  return options.told.empty() ? recording.reader->worldFromCameraAt(time_ns) : poseOf(recording.told, time_ns);
 }
 
+void tell(const MapOptions &options, const MappedRecording &recording, Walk *walk) {
+  for (WalkFrame &frame : walk->keyframes)
+    if (const std::optional<sphc_rigid> told = toldAt(options, recording, frame.time_ns))
+      frame.told_world_from_camera = rigidFromC(*told);
+}
+
+bool isTold(const MapOptions &options, const MappedRecording &recording) {
+  for (uint32_t i = 0; i < recording.reader->frameCount(); ++i)
+    if (toldAt(options, recording, recording.reader->colorOf(i).time_ns)) return true;
+  return false;
+}
+
+[[noreturn]] void refuseTold(const MapOptions &options) {
+  throw std::runtime_error(
+      options.told.empty() ? "--poses: the recording holds no pose; give --poses-from FILE, or leave --poses out"
+                           : "--poses-from: no pose is of the time of a frame; is it the file of this recording?");
+}
+
+// Before images are read, which takes minutes.
+void checkTold(const MapOptions &options, const std::vector<MappedRecording> &recordings) {
+  if (options.trust.use == PoseUse::kNone) return;
+  for (const MappedRecording &recording : recordings)
+    if (isTold(options, recording)) return;
+  refuseTold(options);
+}
+
+// The frames that are mapped may be none of those that were told.
 void checkTold(const MapOptions &options, const Walk &walk) {
   if (options.trust.use == PoseUse::kNone) return;
   for (const WalkFrame &frame : walk.keyframes)
     if (frame.told_world_from_camera) return;
-  throw std::runtime_error(
-      options.told.empty() ? "--poses: the recording holds no pose; give --poses-from FILE, or leave --poses out"
-                           : "--poses-from: no pose is of the time of a frame; is it the file of this recording?");
+  refuseTold(options);
+}
+
+// Says what of the recordings and of their poses takes no part.
+void noteAll(const MapOptions &options, const std::vector<MappedRecording> &recordings, const Console &console) {
+  for (size_t i = 0; i < recordings.size(); ++i) {
+    noteDamage(*recordings[i].reader, console);
+    if (options.told.empty()) continue;
+    Damage damage;
+    damage.bad_poses = recordings[i].bad_told;
+    noteDamage(options.told[i], damage, console);
+  }
+  if (options.trust.use == PoseUse::kNone || recordings.size() == 1) return;
+  for (const MappedRecording &recording : recordings)
+    if (!isTold(options, recording))
+      console.warn("note: no pose is of the time of a frame of " + recording.name + ", so it is mapped without" +
+                   (options.told.empty() ? "" : ": is its file of poses the right one?"));
 }
 
 std::vector<MappedRecording> openAll(const MapOptions &options) {
   std::vector<MappedRecording> recordings;
   for (const RecordingOptions &recording : options.all())
     recordings.push_back({recording.folder, openRecording(recording), {}});
+  for (size_t i = 0; i < options.told.size(); ++i)
+    recordings[i].told = recording::readTumPoses(options.told[i], &recordings[i].bad_told);
   return recordings;
 }
 
@@ -73,10 +109,15 @@ Walk readAll(const MapOptions &options, const TrialCalibration *trial,
   std::vector<Walk> walks;
   for (const MappedRecording &recording : recordings) {
     const std::string what = recordings.size() > 1 ? "reading " + recording.name : "reading";
-    walks.push_back(readWalk(recording.reader.get(), trial ? trial->rig : recording.reader->calibration(), frames,
-                             [&](uint32_t done, uint32_t total) { steps->show(what, done, total); }));
-    if (options.trust.use != PoseUse::kNone || options.judgesTold())
-      tell(options, walks.size() - 1, *recording.reader, &walks.back());
+    const auto show = [&](uint32_t done, uint32_t total) { steps->show(what, done, total); };
+    try {
+      walks.push_back(
+          readWalk(recording.reader.get(), trial ? trial->rig : recording.reader->calibration(), frames, show));
+    } catch (const std::runtime_error &error) {
+      if (recordings.size() == 1) throw;
+      throw std::runtime_error(recording.name + ": " + error.what());  // which of them
+    }
+    if (options.trust.use != PoseUse::kNone || options.judgesTold()) tell(options, recording, &walks.back());
   }
   return joinWalks(std::move(walks));
 }
@@ -167,7 +208,8 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   Steps steps;
   outcome.use = options.trust.use;
   outcome.recordings = openAll(options);
-  for (const MappedRecording &recording : outcome.recordings) noteDamage(*recording.reader, console);
+  noteAll(options, outcome.recordings, console);
+  checkTold(options, outcome.recordings);
   outcome.walk = readAll(options, nullptr, outcome.recordings, &steps);
   checkTold(options, outcome.walk);
   for (MappedRecording &recording : outcome.recordings) recording.times = timesOf(*recording.reader);
@@ -186,6 +228,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
 RefinedCalibration refineCalibration(const MapOptions &options) {
   const std::vector<MappedRecording> recordings = openAll(options);
   const sphc_rig given = commonCalibration(recordings);
+  checkTold(options, recordings);
   Steps steps;
   const auto read = [&](const TrialCalibration &trial) { return readAll(options, &trial, recordings, &steps); };
   return {given, fitCalibration(given, read, options.mapping(), steps.progress())};

@@ -20,8 +20,10 @@ struct MappedRecording {
   std::vector<std::optional<Rigid>> poses;  // of its frames, world_from_camera; none of those that found no place
   std::optional<TrajectoryScore> score = {};
   WalkTimes times = {};
-  double unaligned_rmse_m = 0;    // of the score too, where the world is the recording's
-  bool is_truth_inverse = false;  // likewise of the score
+  double unaligned_rmse_m = 0;     // of the score too, where the world is the recording's
+  bool is_truth_inverse = false;   // likewise of the score
+  recording::PoseTrack told = {};  // those of --poses-from, in place of the recording's own
+  uint32_t bad_told = 0;           // of that file, left out
 
   uint32_t framesMapped() const;
   recording::PoseTrack path() const;  // through all of them

@@ -267,6 +267,38 @@ TEST_F(MapTest, PosesComeFromAFileAndAreCheckedAgainstTheImages) {
   EXPECT_EQ(runCommand(map + " --upright").exit_code, kExitUsage);
 }
 
+// What cannot be used is known before images are read, and before a calibration is fitted and written.
+TEST_F(MapTest, PosesThatAreOfNoUseAreNamedFirst) {
+  std::ofstream(at("years.tum")) << "500 0 0 0 0 0 0 1\n";
+  std::ofstream(at("nothing.tum")) << "1 nan 0 0 0 0 0 1\n1.2 0 0 0 0 0 0 0\n";
+  const std::string map =
+      "map -r " + at("walk") + " --model " + at("early.model") + " --poses odometry --poses-from ";
+  const Answer refined = runCommand(map + at("years.tum") + " --refine-calibration " + at("early.json"));
+  EXPECT_EQ(refined.exit_code, kExitFailure);
+  EXPECT_THAT(refined.err, HasSubstr("no pose is of the time of a frame"));
+  EXPECT_FALSE(fs::exists(at("early.json")));
+  const Answer bad = runCommand(map + at("nothing.tum"));
+  EXPECT_EQ(bad.exit_code, kExitFailure);
+  EXPECT_THAT(bad.err, HasSubstr("nothing.tum: left out: 2 poses, unknown, no rotation"));
+}
+
+// The larger part has no poses, so those of the smaller one hold nothing.
+TEST_F(MapTest, PosesOfAnotherPartDoNotStopTheMap) {
+  const Answer other = runCommand("simulate --frames 6 --rate 5 --seed 9 --out " + at("small"));
+  ASSERT_EQ(other.exit_code, kExitDone) << other.err;
+  std::ofstream(at("none.tum")) << "500 0 0 0 0 0 0 1\n";
+  const Answer mapped = runCommand("map -r " + at("walk") + " -r " + at("small") +
+                                   " --poses approximate --poses-from " + at("none.tum") + " --poses-from " +
+                                   at("small/groundtruth.txt") + " --model " + at("larger.model") + " --json");
+  EXPECT_EQ(mapped.exit_code, kExitWalkApart) << mapped.err;
+  EXPECT_THAT(mapped.err, HasSubstr("no pose is of the time of a frame of " + at("walk")));
+  EXPECT_THAT(mapped.err, HasSubstr("the poses are of frames that are not in the map, so none was used"));
+  EXPECT_THAT(mapped.err, Not(HasSubstr("contradict")));
+  const auto summary = nlohmann::json::parse(mapped.out);
+  EXPECT_EQ(summary["frames_mapped"], 10);
+  EXPECT_EQ(summary["poses"]["used"], false);
+}
+
 // The walk as a ROS bag with an accelerometer, of which the transform may be wrong by a quarter turn about the
 // view.
 std::string bagOfWalk(const std::string &walk, double gravity_mps2) {
@@ -360,6 +392,11 @@ TEST_F(MapTest, WhatCannotBeMappedIsRefusedWithItsCure) {
   EXPECT_FALSE(fs::exists(at("one.model")));
   const Answer missing = runCommand("map -r " + at("nowhere") + " --model " + at("x.model"));
   EXPECT_THAT(missing.err, HasSubstr("cannot open the recording"));
+  // Of several, the one that is at fault.
+  writeBlindWalk(at("walk"), at("blind0"), 0);
+  const Answer blind = runCommand("map -r " + at("walk") + " -r " + at("blind0") + " --model " + at("x.model"));
+  EXPECT_EQ(blind.exit_code, kExitFailure);
+  EXPECT_THAT(blind.err, HasSubstr(at("blind0") + ": no keypoint has depth"));
 }
 
 TEST_F(MapTest, ARecordingIsGivenOnce) {
