@@ -143,8 +143,8 @@ void takePoses(MapOutcome *outcome) {
 }
 
 // Turns the world so that up is +z, where the recordings say what that is.
-void standUpright(const MapOptions &options, MapOutcome *outcome) {
-  if (options.trust.use == PoseUse::kApproximate || options.trust.keeps_axes) return;  // the world is given
+void standUpright(MapOutcome *outcome) {
+  if (outcome->mapped.is_in_told_world || outcome->mapped.has_told_axes) return;  // the world is given
   std::vector<FeltPath> paths;
   for (const MappedRecording &recording : outcome->recordings) {
     FeltPath path;
@@ -207,6 +207,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   MapOutcome outcome;
   Steps steps;
   outcome.use = options.trust.use;
+  outcome.wants_told_axes = options.trust.keeps_axes;
   outcome.recordings = openAll(options);
   noteAll(options, outcome.recordings, console);
   checkTold(options, outcome.recordings);
@@ -216,7 +217,7 @@ MapOutcome mapRecordings(const MapOptions &options, const Console &console) {
   outcome.mapped = mapWalk(outcome.walk, options.mapping(), steps.progress());
   outcome.stretches = stretchesOf(outcome.walk, outcome.mapped.parts, outcome.mapped.world_from_camera);
   takePoses(&outcome);
-  standUpright(options, &outcome);
+  standUpright(&outcome);
   if (options.score)
     for (MappedRecording &recording : outcome.recordings) score(&recording);
   outcome.processor_seconds = processorSeconds() - processor_start;

@@ -132,18 +132,28 @@ const char *toldWord(const MapOutcome &outcome) {
   return outcome.use == PoseUse::kOdometry ? "steps of the odometry" : "poses";
 }
 
+// What became of a world that was to be told.
+std::string worldInstead(const MapOutcome &outcome) {
+  if (outcome.use == PoseUse::kOdometry && !outcome.wants_told_axes) return "";
+  return outcome.vertical.isKnown() ? ", and the world has its up from the accelerations alone"
+                                    : ", and the world is the first frame's camera";
+}
+
+// None of what was told is wrong, but none is of a frame that has a place.
+bool isToldElsewhere(const MapOutcome &outcome) {
+  const MappedWalk &m = outcome.mapped;
+  if (m.is_unbelieved) return outcome.use == PoseUse::kApproximate && m.told_wrong == 0;
+  return outcome.wants_told_axes && !m.has_told_axes;
+}
+
 void warnOfPoses(const MapOutcome &outcome, const Console &console) {
   const MappedWalk &m = outcome.mapped;
-  if (m.is_unbelieved && outcome.use == PoseUse::kApproximate && m.told_wrong == 0)
-    console.warn(
-        "note: the poses are of frames that are not in the map, so none was used, and the world is the first "
-        "frame's "
-        "camera: give poses of all of the walk, or map the part that has them by --first and --last");
+  if (isToldElsewhere(outcome))
+    console.warn("note: the poses are of frames that are not in the map, so none was used" + worldInstead(outcome) +
+                 ": give poses of all of the walk, or map the part that has them by --first and --last");
   else if (m.is_unbelieved)
-    console.warn(
-        "note: the images contradict the recording's poses altogether, so none was used" +
-        std::string(outcome.use == PoseUse::kApproximate ? ", and the world is the first frame's camera" : "") +
-        kAskOfPoses);
+    console.warn("note: the images contradict the recording's poses altogether, so none was used" +
+                 worldInstead(outcome) + kAskOfPoses);
   else if (m.told_wrong)
     console.warn("note: " + count(m.told_wrong) + " of " + count(m.told) + " " + toldWord(outcome) +
                  " are off by more than 4 sigma of what was stated; the images were believed more" +

@@ -31,6 +31,7 @@ struct MappedRecording {
 
 struct MapOutcome {
   PoseUse use = PoseUse::kNone;
+  bool wants_told_axes = false;  // by --upright
   Walk walk;
   MappedWalk mapped;
   Stretches stretches;

@@ -129,10 +129,16 @@ class WalkMapper {
   Rigid worldFromAdjusted(const Rigid &first) const {
     if (mapped_.is_in_told_world) return {};
     const Rigid world_from_adjusted = first.inverse();
-    if (!options_.trust.keeps_axes || mapped_.is_unbelieved) return world_from_adjusted;
+    if (!mapped_.has_told_axes) return world_from_adjusted;
     return Rigid{toldAxesFromMapped(beliefs_.told(), adjusted_.world_from_camera) * first.rotation,
                  Vector3::Zero()} *
            world_from_adjusted;
+  }
+
+  bool isAnyTold(const FramePoses &poses) const {
+    for (size_t i = 0; i < poses.size(); ++i)
+      if (poses[i] && beliefs_.told()[i]) return true;
+    return false;
   }
 
   MappedWalk result() {
@@ -148,6 +154,7 @@ class WalkMapper {
     mapped_.told_wrong = beliefs_.contradictedBy(poses);
     mapped_.is_in_told_world = beliefs_.hasAnchors();
     mapped_.is_unbelieved = mapped_.told > 0 && !beliefs_.hasAnchors() && beliefs_.steps().empty();
+    mapped_.has_told_axes = options_.trust.keeps_axes && !mapped_.is_unbelieved && isAnyTold(poses);
     const Rigid world_from_adjusted = worldFromAdjusted(**first);
     for (const auto &pose : poses)
       mapped_.world_from_camera.push_back(pose ? std::make_optional(world_from_adjusted * *pose) : std::nullopt);

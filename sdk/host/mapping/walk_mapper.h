@@ -34,6 +34,7 @@ struct MappedWalk {
   // Poses (of odometry: steps) that were told, and how many of them the map contradicts.
   size_t told = 0, told_wrong = 0;
   bool is_in_told_world = false;
+  bool has_told_axes = false;  // as was asked for
   // None of what was told was used: the links contradict it altogether or, where none is wrong, it is of frames
   // that have no pose here.
   bool is_unbelieved = false;

@@ -259,7 +259,10 @@ TEST_F(MapTest, PosesComeFromAFileAndAreCheckedAgainstTheImages) {
   const Answer wrong = runCommand(map + " --poses odometry --poses-from " + at("wrong.tum") + " --score --json");
   ASSERT_EQ(wrong.exit_code, kExitDone) << wrong.err;
   EXPECT_THAT(wrong.err, HasSubstr("contradict the recording's poses altogether"));
+  EXPECT_THAT(wrong.err, Not(HasSubstr("first frame's camera"))) << "it was to be nothing else";
   EXPECT_LT(nlohmann::json::parse(wrong.out)["score"]["rigid_rmse_m"], 0.01);
+  EXPECT_THAT(runCommand(map + " --poses odometry --upright --poses-from " + at("wrong.tum")).err,
+              HasSubstr("so none was used, and the world is the first frame's camera"));
   std::ofstream(at("late.tum")) << "500 0 0 0 0 0 0 1\n";
   EXPECT_THAT(runCommand(map + " --poses odometry --poses-from " + at("late.tum")).err,
               HasSubstr("no pose is of the time of a frame"));
@@ -351,6 +354,19 @@ TEST_F(MapTest, AccelerationsTurnTheMapUpright) {
     const Vector3 up_camera = rigidFromC(*truth.worldFromCamera(i)).rotation.transpose() * Vector3::UnitZ();
     EXPECT_GT((rigidFromC(found.poses()[i].pose).rotation * up_camera).z(), std::cos(0.01)) << i;
   }
+}
+
+// They give no world, so it is upright all the same.
+TEST_F(MapTest, AccelerationsStandInForPosesThatAreNotBelieved) {
+  std::ofstream(at("felt.mcap"), std::ios::binary) << bagOfWalk(at("walk"), 9.81);
+  std::ofstream wrong(at("felt.tum"));
+  for (int i = 0; i < 10; ++i) wrong << 1 + 0.4 * i << " " << 50 * i * i << " 0 0 0 0 0 1\n";
+  wrong.close();
+  const Answer mapped = runCommand("map -r " + at("felt.mcap") + " --poses approximate --poses-from " +
+                                   at("felt.tum") + " --model " + at("felt.model") + " --json");
+  ASSERT_EQ(mapped.exit_code, kExitDone) << mapped.err;
+  EXPECT_THAT(mapped.err, HasSubstr("so none was used, and the world has its up from the accelerations alone"));
+  EXPECT_EQ(nlohmann::json::parse(mapped.out)["vertical"]["used"], true);
 }
 
 TEST_F(MapTest, AccelerationsOfOtherUnitsAreNamedAlsoInACopy) {

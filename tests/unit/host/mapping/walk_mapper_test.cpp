@@ -245,6 +245,16 @@ TEST(WalkMapperTest, OdometryGivesTheAxesWhereThatIsAskedFor) {
     EXPECT_LT(rotationAngle(mapped.world_from_camera[i]->rotation * made.world_from_camera[i].rotation.transpose()),
               0.005);
   EXPECT_TRUE(mapped.world_from_camera[0]->translation_m.isZero(1e-9));
+  EXPECT_TRUE(mapped.has_told_axes);
+}
+
+TEST(WalkMapperTest, OdometryOfASmallerPartGivesNoAxes) {
+  MadeUpWalk made = joined(makeWalk({30, 1, 1}), makeWalk({20, 0.5, 1, 0, 0, 2}));
+  tellTheTruth(&made, 0, 0);
+  for (size_t i = 0; i < 30; ++i) made.walk.keyframes[i].told_world_from_camera.reset();
+  PoseTrust trust = trustIn(PoseUse::kOdometry);
+  trust.keeps_axes = true;
+  EXPECT_FALSE(mapWalk(made.walk, {trust}, {}).has_told_axes);
 }
 
 // The other half of the turn, and the first half once more, by somebody else.
