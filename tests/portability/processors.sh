@@ -4,7 +4,7 @@
 #   tests/portability/processors.sh [BUILD]
 #
 # First the whole suite with other picks of the C library (GLIBC_TUNABLES) and of OpenCV, then the programs of the unit
-# tests under qemu-user's processors.  It takes half an hour and more; tests/run.sh has the quickest part (processors.*).
+# tests under qemu-user's processors.  It takes forty minutes and more; tests/run.sh has the quickest part (processors.*).
 # The last line counts; the status is 0 if all pass.
 set -uo pipefail
 build=$(cd "${1:-build/release}" && pwd) || exit 1

@@ -278,7 +278,7 @@ class Outcome(Known):
     NO_CONSENSUS = 4
     """No pose agrees with clearly more matches than chance would."""
     UNCERTAIN = 5
-    """A pose was found but the matches pin it down too weakly: degenerate geometry."""
+    """A pose was found, but weakly, unconfirmed, or beside another that fits too."""
     DEADLINE = 6
     """No pose before frame.deadline_us; result.cuts says what was left out."""
     CONTRADICTION = 7
@@ -346,8 +346,8 @@ class Hint(enum.IntFlag):
     NOT_IN_MAP = 16
     """The image shows enough, but not what the map shows: "you are elsewhere"."""
     AMBIGUOUS = 32
-    """Another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the track: "look
-    around"."""
+    """UNCERTAIN: another pose fits nearly as well, or the one that was found jumps from the track, or the whole map
+    denies it: "look around"."""
 
 
 class Event(enum.IntFlag):

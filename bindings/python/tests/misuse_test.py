@@ -49,7 +49,8 @@ class Misuse(unittest.TestCase):
         for wrong, words in ((color[:-1], "239"), (color.astype(np.float64), "float64"), (color[:, ::-1], "side by side"),
                              (color[::-1], "downwards"), (np.broadcast_to(color[:1], color.shape), "downwards"),
                              (color[:, :, None].repeat(2, 2), "none of"), (color.ravel(), "none of"),
-                             (np.zeros((240, 640), np.uint8)[:, ::2], "side by side"), (sphc.Image(np.zeros((240, 640), np.uint8)[:, 340:], sphc.Format.GRAY8, 320), "300 pixels wide, not 320"),
+                             (np.zeros((240, 640), np.uint8)[:, ::2], "side by side"),
+                             (sphc.Image(np.zeros((240, 640), np.uint8)[:, 340:], sphc.Format.GRAY8, 320), "300 pixels wide, not 320"),
                              (np.empty((0, 0), np.uint8), "no pixels"),
                              (sphc.Image(color, sphc.Format.RGB8), "RGB8"), (sphc.Image(color, sphc.Format.GRAY10P), "a width"),
                              (sphc.Image(color, sphc.Format.GRAY10P, 640), "a width that fits"), (None, "color")):

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/base/counted.h"
 #include "host/report/run.h"
 
 namespace sphc::host {
@@ -18,8 +19,8 @@ std::string milliseconds(double seconds) { return fixed(1000 * std::abs(seconds)
 std::vector<std::string> complaintsOf(const WalkTimes &times) {
   std::vector<std::string> said;
   if (times.backward > 0)
-    said.push_back("the times of " + std::to_string(times.backward) +
-                   " images go backwards, and these are left out: a clock was set while it recorded; stamp images "
+    said.push_back("the times of " + counted(times.backward, "image") +
+                   " go backwards, and these are left out: a clock was set while it recorded; stamp images "
                    "by a clock that only goes forwards, and record once more");
   for (const Pause &pause : times.pauses)
     said.push_back("no frame was taken from " + fixed(pause.from_s, 1) + " to " + fixed(pause.to_s, 1) +

@@ -44,7 +44,7 @@ const char *outcomeAdvice(sphc_localizer_outcome outcome) {
     case SPHC_OUTCOME_NO_CONSENSUS:
       return "no pose agrees with clearly more matches than chance would";
     case SPHC_OUTCOME_UNCERTAIN:
-      return "a pose was found, but the matches pin it down too weakly";
+      return "a pose was found, but few matches fix it, no second search agrees, or another fits nearly as well";
     case SPHC_OUTCOME_DEADLINE:
       return "no pose before the deadline";
     case SPHC_OUTCOME_CONTRADICTION:

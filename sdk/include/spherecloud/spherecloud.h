@@ -672,7 +672,7 @@ enum {
   SPHC_OUTCOME_FEW_DEPTHS = 2,    /* too few keypoints with depth: sensor blind, or calibration wrong */
   SPHC_OUTCOME_FEW_MATCHES = 3,   /* too few look like anything in the map: another place, or much changed */
   SPHC_OUTCOME_NO_CONSENSUS = 4,  /* no pose agrees with clearly more matches than chance would */
-  SPHC_OUTCOME_UNCERTAIN = 5,     /* a pose was found but the matches pin it down too weakly: degenerate geometry */
+  SPHC_OUTCOME_UNCERTAIN = 5,     /* a pose was found, but weakly, unconfirmed, or beside another that fits too */
   SPHC_OUTCOME_DEADLINE = 6,      /* no pose before frame.deadline_us; result.cuts says what was left out */
   SPHC_OUTCOME_CONTRADICTION = 7  /* the frame contradicts itself, and no pose is given; result.faults says how */
 };
@@ -723,8 +723,8 @@ enum {
   SPHC_HINT_TOO_PLAIN = 4u,         /* little stands out in a bright and sharp image: "look elsewhere" */
   SPHC_HINT_NO_DEPTH_IN_RANGE = 8u, /* few keypoints have depth: "step back, or closer; glass has no depth" */
   SPHC_HINT_NOT_IN_MAP = 16u,       /* the image shows enough, but not what the map shows: "you are elsewhere" */
-  SPHC_HINT_AMBIGUOUS = 32u         /* another pose fits nearly as well, or the one that was found, which is
-                                     * UNCERTAIN, jumps from the track: "look around" */
+  SPHC_HINT_AMBIGUOUS = 32u         /* UNCERTAIN: another pose fits nearly as well, or the one that was found
+                                     * jumps from the track, or the whole map denies it: "look around" */
 };
 SPHC_API const char *sphc_localizer_hint_name(uint32_t hint); /* [pure] */
 

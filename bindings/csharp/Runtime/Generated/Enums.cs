@@ -282,7 +282,7 @@ public enum LocalizerOutcome : int {
   FewMatches = 3,
   /// <summary>No pose agrees with clearly more matches than chance would.</summary>
   NoConsensus = 4,
-  /// <summary>A pose was found but the matches pin it down too weakly: degenerate geometry.</summary>
+  /// <summary>A pose was found, but weakly, unconfirmed, or beside another that fits too.</summary>
   Uncertain = 5,
   /// <summary>No pose before frame.DeadlineUs; result.Cuts says what was left out.</summary>
   Deadline = 6,
@@ -363,8 +363,8 @@ public enum Hints : uint {
   NoDepthInRange = 8,
   /// <summary>The image shows enough, but not what the map shows: "you are elsewhere".</summary>
   NotInMap = 16,
-  /// <summary>Another pose fits nearly as well, or the one that was found, which is Uncertain, jumps from the
-  /// track: "look around".</summary>
+  /// <summary>Uncertain: another pose fits nearly as well, or the one that was found jumps from the track, or the
+  /// whole map denies it: "look around".</summary>
   Ambiguous = 32,
 }
 

@@ -262,7 +262,7 @@ pub const SPHC_OUTCOME_FEW_DEPTHS: sphc_localizer_outcome = 2;
 pub const SPHC_OUTCOME_FEW_MATCHES: sphc_localizer_outcome = 3;
 /// no pose agrees with clearly more matches than chance would
 pub const SPHC_OUTCOME_NO_CONSENSUS: sphc_localizer_outcome = 4;
-/// a pose was found but the matches pin it down too weakly: degenerate geometry
+/// a pose was found, but weakly, unconfirmed, or beside another that fits too
 pub const SPHC_OUTCOME_UNCERTAIN: sphc_localizer_outcome = 5;
 /// no pose before frame.deadline_us; result.cuts says what was left out
 pub const SPHC_OUTCOME_DEADLINE: sphc_localizer_outcome = 6;
@@ -316,8 +316,8 @@ pub const SPHC_HINT_TOO_PLAIN: u32 = 4;
 pub const SPHC_HINT_NO_DEPTH_IN_RANGE: u32 = 8;
 /// the image shows enough, but not what the map shows: "you are elsewhere"
 pub const SPHC_HINT_NOT_IN_MAP: u32 = 16;
-/// another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the
-/// track: "look around"
+/// UNCERTAIN: another pose fits nearly as well, or the one that was found jumps from the track, or the
+/// whole map denies it: "look around"
 pub const SPHC_HINT_AMBIGUOUS: u32 = 32;
 /// nothing was expected: the first pose, or the first after 1 s without (10 s with odometry)
 pub const SPHC_EVENT_RELOCALIZED: u32 = 1;

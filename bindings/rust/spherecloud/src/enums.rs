@@ -273,7 +273,7 @@ open_enum! {
         FewMatches = sys::SPHC_OUTCOME_FEW_MATCHES,
         /// no pose agrees with clearly more matches than chance would
         NoConsensus = sys::SPHC_OUTCOME_NO_CONSENSUS,
-        /// a pose was found but the matches pin it down too weakly: degenerate geometry
+        /// a pose was found, but weakly, unconfirmed, or beside another that fits too
         Uncertain = sys::SPHC_OUTCOME_UNCERTAIN,
         /// no pose before frame.deadline_us; result.cuts says what was left out
         Deadline = sys::SPHC_OUTCOME_DEADLINE,
@@ -346,8 +346,8 @@ flags! {
         NO_DEPTH_IN_RANGE = sys::SPHC_HINT_NO_DEPTH_IN_RANGE,
         /// the image shows enough, but not what the map shows: "you are elsewhere"
         NOT_IN_MAP = sys::SPHC_HINT_NOT_IN_MAP,
-        /// another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the
-        /// track: "look around"
+        /// UNCERTAIN: another pose fits nearly as well, or the one that was found jumps from the track, or the
+        /// whole map denies it: "look around"
         AMBIGUOUS = sys::SPHC_HINT_AMBIGUOUS,
     }
 }

@@ -17,8 +17,8 @@ public enum Hint {
   /** The image shows enough, but not what the map shows: "you are elsewhere". */
   NOT_IN_MAP(16),
   /**
-   * Another pose fits nearly as well, or the one that was found, which is UNCERTAIN, jumps from the track: "look
-   * around".
+   * UNCERTAIN: another pose fits nearly as well, or the one that was found jumps from the track, or the whole map
+   * denies it: "look around".
    */
   AMBIGUOUS(32);
 

@@ -13,7 +13,7 @@ public enum Outcome {
   FEW_MATCHES(3),
   /** No pose agrees with clearly more matches than chance would. */
   NO_CONSENSUS(4),
-  /** A pose was found but the matches pin it down too weakly: degenerate geometry. */
+  /** A pose was found, but weakly, unconfirmed, or beside another that fits too. */
   UNCERTAIN(5),
   /** No pose before frame.deadline_us; result.cuts says what was left out. */
   DEADLINE(6),
