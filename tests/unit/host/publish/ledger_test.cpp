@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -327,6 +328,8 @@ TEST_F(LedgerTest, DamagedBytesAreNoDanger) {
       EXPECT_LE(Ledger::openToRead(path_).places().size(), 1u);
     } catch (const std::runtime_error &error) {
       EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("ledger " + path_ + ": "), HasSubstr("; ")));
+      const std::string words = error.what();
+      EXPECT_TRUE(std::none_of(words.begin(), words.end(), [](unsigned char c) { return c < ' '; })) << words;
       ++refused;
     }
   }
