@@ -27,8 +27,7 @@ void forgetHeader(tjhandle handle) {
   tjDecompress2(handle, &no_jpeg, 1, &pixel, 1, 1, 1, TJPF_GRAY, 0);
 }
 
-// Cheap cameras pad a frame before its end mark.  The decoder complains when it looks for that mark, and has
-// written every row by then.
+// Cheap cameras pad a frame before its end mark, and the decoder complains when it looks for that mark.
 bool isPadding(tjhandle handle) {
   return tjGetErrorCode(handle) == TJERR_WARNING &&
          std::strstr(tjGetErrorStr2(handle), "extraneous bytes before marker 0xd9") != nullptr;
@@ -62,11 +61,20 @@ sphc_status MjpegDecoder::decode(const uint8_t *data, size_t bytes, const OutIma
                    out.width, out.height);
   // A warning means damage that the decoder papered over; a progressive frame may not keep it busy for ever.
   const int flags = TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
-  if (tjDecompress2(handle_, data, bytes, out.data, width, static_cast<int>(out.stride_bytes), height,
-                    turboFormat(out.format), flags) != 0 &&
-      !isPadding(handle_))
-    return explainTurbo(message, handle_, bytes);
-  return SPHC_OK;
+  const size_t row_bytes = size_t{out.width} * sphc_format_bytes(out.format);
+  uint8_t &last = out.data[size_t{out.stride_bytes} * (out.height - 1) + row_bytes - 1];
+  // A progressive frame is read to its end before a row is written, and one with restart marks that was cut looks
+  // padded too: the rest would be the last frame's.  So the last byte is marked; twice, for it may be like the
+  // mark.
+  for (const uint8_t mark : {uint8_t{0x5a}, uint8_t{0xa5}}) {
+    last = mark;
+    if (tjDecompress2(handle_, data, bytes, out.data, width, static_cast<int>(out.stride_bytes), height,
+                      turboFormat(out.format), flags) == 0)
+      return SPHC_OK;
+    if (!isPadding(handle_)) break;
+    if (last != mark) return SPHC_OK;
+  }
+  return explainTurbo(message, handle_, bytes);
 }
 
 }  // namespace sphc::pixels

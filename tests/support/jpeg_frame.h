@@ -9,14 +9,14 @@
 
 namespace sphc::test {
 
-// `rgb` is tightly packed.
+// `rgb` is tightly packed; `flags` as TJFLAG_PROGRESSIVE.
 inline std::vector<uint8_t> jpegFrame(const std::vector<uint8_t> &rgb, uint32_t width, uint32_t height,
-                                      int subsampling = TJSAMP_422, int quality = 95) {
+                                      int subsampling = TJSAMP_422, int quality = 95, int flags = 0) {
   const tjhandle encoder = tjInitCompress();
   unsigned char *jpeg = nullptr;
   unsigned long bytes = 0;
   const int failed = tjCompress2(encoder, rgb.data(), static_cast<int>(width), 0, static_cast<int>(height),
-                                 TJPF_RGB, &jpeg, &bytes, subsampling, quality, 0);
+                                 TJPF_RGB, &jpeg, &bytes, subsampling, quality, flags);
   const std::vector<uint8_t> frame(jpeg, jpeg + bytes);
   tjFree(jpeg);
   tjDestroy(encoder);

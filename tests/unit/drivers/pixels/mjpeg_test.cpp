@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include "tests/support/jpeg_frame.h"
@@ -33,6 +35,12 @@ Decoded decode(const std::vector<uint8_t> &frame, sphc_format format = SPHC_FORM
 const std::vector<uint8_t> kRgb = test::gradientRgb(kJpegWidth, kJpegHeight);
 const std::vector<uint8_t> kFrame = test::jpegFrame(kRgb, kJpegWidth, kJpegHeight);
 
+// Before its end mark.
+std::vector<uint8_t> padded(std::vector<uint8_t> frame) {
+  frame.insert(frame.end() - 2, 7, uint8_t{0});
+  return frame;
+}
+
 TEST(Mjpeg, DecodesEverySubsampling) {
   for (const int subsampling : {TJSAMP_444, TJSAMP_422, TJSAMP_420}) {
     const Decoded rgb = decode(test::jpegFrame(kRgb, kJpegWidth, kJpegHeight, subsampling));
@@ -62,11 +70,40 @@ TEST(Mjpeg, NeedsNoHuffmanTablesAndIgnoresWhatFollowsTheEnd) {
 }
 
 TEST(Mjpeg, TakesPaddingBeforeTheEndMark) {
-  std::vector<uint8_t> padded = kFrame;
-  padded.insert(padded.end() - 2, 7, uint8_t{0});
-  const Decoded decoded = decode(padded);
+  const Decoded decoded = decode(padded(kFrame));
   EXPECT_EQ(decoded.status, SPHC_OK) << decoded.message.text;
   EXPECT_EQ(decoded.pixels, decode(kFrame).pixels);
+}
+
+TEST(Mjpeg, TakesPaddingWhateverTheImageEndsWith) {
+  for (const int value : {0x5a, 0xa5, 0, 0xff}) {
+    const std::vector<uint8_t> flat(kRgb.size(), static_cast<uint8_t>(value));
+    const Decoded decoded = decode(padded(test::jpegFrame(flat, kJpegWidth, kJpegHeight)));
+    EXPECT_EQ(decoded.status, SPHC_OK) << value << ": " << decoded.message.text;
+    EXPECT_EQ(decoded.pixels, flat);
+  }
+}
+
+// The decoder looks for the end mark before it writes a row: the image would be the last frame's.
+TEST(Mjpeg, RefusesAPaddedFrameOfWhichNoRowIsWritten) {
+  const auto frame = test::jpegFrame(kRgb, kJpegWidth, kJpegHeight, TJSAMP_422, 95, TJFLAG_PROGRESSIVE);
+  EXPECT_EQ(decode(frame).status, SPHC_OK);
+  EXPECT_EQ(decode(padded(frame)).status, SPHC_E_IMAGE);
+}
+
+// As when packets are lost: what is left of one part looks like padding, and the rows behind it would be the last
+// frame's.
+TEST(Mjpeg, RefusesAFrameWithRestartMarksThatIsCutAndPadded) {
+  setenv("TJ_RESTART", "1", 1);  // of the encoder: a mark behind each row of blocks
+  const std::vector<uint8_t> frame = test::jpegFrame(kRgb, kJpegWidth, kJpegHeight);
+  unsetenv("TJ_RESTART");
+  EXPECT_EQ(decode(padded(frame)).pixels, decode(kFrame).pixels);
+  const uint8_t mark[] = {0xff, 0xd0}, end[] = {0xff, 0xd9};
+  const auto first = std::search(frame.begin(), frame.end(), mark, mark + 2);
+  ASSERT_NE(first, frame.end());
+  std::vector<uint8_t> cut(frame.begin(), first);
+  cut.insert(cut.end(), end, end + 2);
+  EXPECT_EQ(decode(padded(cut)).status, SPHC_E_IMAGE);
 }
 
 TEST(Mjpeg, RefusesAFrameCutAnywhereBeforeItsEndMark) {
