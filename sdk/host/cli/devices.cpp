@@ -10,7 +10,7 @@ void say(const Found &found, const Console &console) {
   if (found.cameras.empty()) console.say("No camera was found. `spherecloud doctor` tells what to check.");
   for (const FoundCamera &camera : found.cameras) {
     console.say(camera.spec);
-    console.say("    " + camera.name + ", " + camera.offers);
+    if (const std::string words = nameAndOffers(camera); !words.empty()) console.say("    " + words);
     if (!camera.problem.empty()) console.say("    PROBLEM: " + camera.problem);
   }
   for (const std::string &note : found.notes) console.say("note: " + note);

@@ -43,9 +43,8 @@ Findings lookAround() {
   Findings findings;
   const Found found = findCameras();
   for (const FoundCamera &camera : found.cameras)
-    findings.push_back(camera.problem.empty()
-                           ? Finding{Grade::kFine, camera.spec, camera.name + ", " + camera.offers}
-                           : Finding{Grade::kWrong, camera.spec, camera.problem});
+    findings.push_back(camera.problem.empty() ? Finding{Grade::kFine, camera.spec, nameAndOffers(camera)}
+                                              : Finding{Grade::kWrong, camera.spec, camera.problem});
   for (const std::string &note : found.notes) findings.push_back({Grade::kDoubtful, "driver", note});
   if (found.cameras.empty())
     findings.push_back({Grade::kWrong, "cameras",

@@ -64,6 +64,7 @@ std::unique_ptr<Device> openV4l2(const std::string &address, const Wish &wish) {
 constexpr uint32_t kMostV4l2 = 64;
 
 std::string offersOf(const sphc_v4l2_device &device) {
+  if (device.problem[0]) return "";  // it was not asked
   std::string text = device.can_color ? "colour" : "";
   if (device.can_depth) text += text.empty() ? "depth" : " and depth";
   if (text.empty()) text = "nothing that we read";

@@ -4,6 +4,10 @@
 
 namespace sphc::host {
 
+std::string nameAndOffers(const FoundCamera &camera) {
+  return camera.name + (camera.name.empty() || camera.offers.empty() ? "" : ", ") + camera.offers;
+}
+
 Found findCameras() {
   Found found;
   for (const DeviceKind &kind : deviceKinds())

@@ -8,9 +8,11 @@ namespace sphc::host {
 struct FoundCamera {
   std::string spec;  // for openDevice
   std::string name;
-  std::string offers;   // "colour: YUYV MJPG", "colour and depth"
+  std::string offers;   // "colour: YUYV MJPG", "colour and depth"; "" where it could not be asked
   std::string problem;  // why it cannot be opened; "" where it can
 };
+// "Integrated Camera, colour: YUYV MJPG"; a camera may tell neither.
+std::string nameAndOffers(const FoundCamera &camera);
 
 struct Found {
   std::vector<FoundCamera> cameras;

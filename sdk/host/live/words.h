@@ -15,11 +15,14 @@ inline std::string countsInWords(std::initializer_list<std::pair<const char *, u
   return words;
 }
 
-// "YUYV"
+// "YUYV"; the bit that names the big-endian variant of a layout is shown as Linux does: "Y16 -BE".
 inline std::string fourccText(uint32_t fourcc) {
   std::string text;
-  for (int i = 0; i < 4; ++i) text += static_cast<char>(fourcc >> (8 * i) & 0x7f);
-  return text;
+  for (int i = 0; i < 4; ++i) {
+    const char letter = static_cast<char>(fourcc >> (8 * i) & 0x7f);
+    text += letter >= ' ' && letter <= '~' ? letter : '?';
+  }
+  return fourcc >> 31 ? text + "-BE" : text;
 }
 
 }  // namespace sphc::host
