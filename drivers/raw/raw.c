@@ -69,14 +69,16 @@ static sphc_status get_head(const uint8_t *head, sphc_raw_frame *recorded, sphc_
   if (crc32_of(0, head, kHeadBytes - 4) != get32(head + kHeadBytes - 4))
     return refuse(message, SPHC_E_DEVICE,
                   "raw recording: a frame's head has changed (checksum); copy the file again");
-  memset(recorded, 0, sizeof *recorded);
-  recorded->frame.struct_size = sizeof recorded->frame;
-  recorded->frame.sequence = get32(head);
-  recorded->has_pose = get32(head + 4);
-  recorded->frame.color_time_ns = (int64_t)get64(head + 8);
-  recorded->frame.depth_time_ns = (int64_t)get64(head + 16);
-  if (recorded->has_pose > 1 || (recorded->has_pose && !get_rigid(head + 24, &recorded->world_from_camera)))
+  sphc_raw_frame told;
+  memset(&told, 0, sizeof told);
+  told.frame.struct_size = sizeof told.frame;
+  told.frame.sequence = get32(head);
+  told.has_pose = get32(head + 4);
+  told.frame.color_time_ns = (int64_t)get64(head + 8);
+  told.frame.depth_time_ns = (int64_t)get64(head + 16);
+  if (told.has_pose > 1 || (told.has_pose && !get_rigid(head + 24, &told.world_from_camera)))
     return refuse(message, SPHC_E_DEVICE, "raw recording: a frame's pose is none; convert it again");
+  *recorded = told;
   return SPHC_OK;
 }
 
@@ -102,7 +104,8 @@ sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memor
                   "memory is null, odd or too small; give raw->frame_bytes, aligned to 2");
   if (raw->read(raw->user, place_of(index, raw->frame_bytes), bytes, raw->frame_bytes) != 0)
     return refuse(message, SPHC_E_DEVICE, "raw recording: a frame cannot be read; check the storage");
-  const sphc_status status = get_head(bytes, recorded, message);
+  sphc_raw_frame told; /* what is refused leaves *recorded as it was */
+  const sphc_status status = get_head(bytes, &told, message);
   if (status != SPHC_OK) return status;
   if (crc32_of(0, bytes + kHeadBytes, raw->frame_bytes - kHeadBytes) != get32(bytes + kHeadBytes - 8))
     return refuse(message, SPHC_E_DEVICE, "raw recording: an image has changed (checksum); copy the file again");
@@ -115,7 +118,8 @@ sphc_status sphc_raw_read_frame(const sphc_raw *raw, uint32_t index, void *memor
   const sphc_image depth_image = {depth, d->width, d->height, 2 * d->width, SPHC_FORMAT_DEPTH16};
   const sphc_image color_image = {color, c->width, c->height, c->width * sphc_format_bytes(raw->color_format),
                                   raw->color_format};
-  recorded->frame.depth = depth_image;
-  recorded->frame.color = color_image;
+  told.frame.depth = depth_image;
+  told.frame.color = color_image;
+  *recorded = told;
   return SPHC_OK;
 }

@@ -247,6 +247,7 @@ TEST_F(RawRecording, NoticesEveryFlippedByteOfAFrameAndReadsTheOthers) {
     medium_.bytes[start + i] ^= 0x10;
     const ReadFrame changed = read(opened.raw, 1);
     ASSERT_EQ(changed.status, SPHC_E_DEVICE) << i;
+    ASSERT_EQ(changed.recorded.frame.struct_size, 0u) << i << ": what is refused leaves the output alone";
     ASSERT_THAT(changed.message.text, HasSubstr("checksum"));
     medium_.bytes[start + i] ^= 0x10;
   }
