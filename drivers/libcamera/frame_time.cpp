@@ -50,7 +50,9 @@ FrameTime FrameClock::frameTime(int64_t sensor_time_ns, int64_t exposure_us, con
     period_ns_ = std::min(std::max(kNsPerS / 30, start_ns - last_start_ns_), kNsPerS);
   last_start_ns_ = start_ns;
   if (exposure_us <= 0 || exposure_us > kLongestExposureUs) return {start_ns, SPHC_TIME_START, sigma_us(1)};
-  return {start_ns + exposure_us * kNsPerUs / 2, SPHC_TIME_MIDDLE, sigma_us(0.5)};
+  const int64_t middle_ns = start_ns + exposure_us * kNsPerUs / 2;
+  if (!isFresh(middle_ns, arrival)) return {start_ns, SPHC_TIME_START, sigma_us(1)};  // it was not exposed so long
+  return {middle_ns, SPHC_TIME_MIDDLE, sigma_us(0.5)};
 }
 
 }  // namespace sphc::libcamera

@@ -479,6 +479,14 @@ TEST(LibcameraFrameClock, TakesFramesThatWaitedLongForASlowCaller) {
   }
 }
 
+// Once believed, it would have all frames of the next seconds refused as earlier ones.
+TEST(LibcameraFrameClock, DoesNotBelieveAnExposureWhoseMiddleIsStillToCome) {
+  FrameClock clock;
+  const FrameTime time = clock.frameTime(100 * kS - 30 * kMs, 8000000, {100 * kS, 100 * kS});
+  EXPECT_EQ(time.time_ns, 100 * kS - 30 * kMs);
+  EXPECT_EQ(time.point, SPHC_TIME_START);
+}
+
 TEST(LibcameraFrameClock, SurvivesAnyNumber) {
   FrameClock clock;
   clock.restart({100 * kS, 100 * kS});
