@@ -11,7 +11,8 @@ namespace {
 constexpr int64_t kUnknownPeriodNs = 66666667;  // slower than most
 constexpr int64_t kMillisecondNs = 1000000;
 constexpr int64_t kMaxPeriodNs = 60000 * kMillisecondNs;
-// uvcvideo stamps the first packet of a frame, so before stream-on is not possible; vivid's lie up to 29 ms ahead.
+// uvcvideo stamps the first packet of a frame, so before stream-on is not possible; vivid's ends of frames lie up
+// to nine tenths of a period ahead, 29 ms at 30 Hz.
 constexpr int64_t kBeforeStartNs = 100 * kMillisecondNs, kFutureNs = 100 * kMillisecondNs;
 constexpr uint32_t kLeastSigmaUs = 1000;  // of any time that the host takes
 
