@@ -46,7 +46,8 @@ typedef struct sphc_v4l2_config {
   uint32_t fourccs[SPHC_V4L2_MAX_FOURCCS]; /* layouts to try, the best one first; all 0: all that we know and the
                                               device has, the cheapest to convert first */
   uint32_t buffers;                        /* the kernel's; 3 to SPHC_V4L2_MAX_BUFFERS; 6 */
-  uint32_t loan_limit;                     /* of the source; 2 to buffers - 1; 3 */
+  uint32_t loan_limit;                     /* of the source; 2 to buffers - 1; 3, too few for the 4 slots that a
+                                              pairer has by default: it needs one more than slots */
   uint32_t
       allow_adjusting;    /* 0; 1: take what the device makes of the wish (sphc_v4l2_mode.adjusted), not an error */
   uint32_t export_dmabuf; /* 0; 1: buffers are dma-bufs (sphc_v4l2_dmabuf) */

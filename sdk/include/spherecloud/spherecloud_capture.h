@@ -74,7 +74,7 @@ typedef struct sphc_source {
   sphc_status (*start)(void *self);
   /* Next capture in order of time; the caller sets capture->struct_size before.  SPHC_AGAIN: none within
    * timeout_us.  SPHC_END: a recording is over. SPHC_E_DEVICE_LOST: unplugged.  SPHC_E_STATE: not running, or
-   * loan_limit reached. */
+   * loan_limit reached.  SPHC_E_DEVICE, SPHC_E_IMAGE: trouble with one capture, and the next acquire goes on. */
   sphc_status (*acquire)(void *self, uint32_t timeout_us, sphc_capture *capture);
   /* Every acquired capture exactly once, before stop; one that is not on loan is ignored. */
   void (*release)(void *self, const sphc_capture *capture);
@@ -127,7 +127,7 @@ SPHC_API void sphc_pairer_fini(sphc_pairer **pairer); /* [exclusive] */
  * push.  Captures are paired by sphc_capture_middle_ns.  SPHC_E_CAPACITY: its stream's slots are full; pop first
  * (drops come out there).  SPHC_E_ARGUMENT: earlier than the one before it, on another clock than the first
  * capture (sphc_clock_mapper brings times to one clock), or a stream, clock or time_point that has no name here.
- * [exclusive] */
+ * SPHC_E_STRUCT_SIZE: of another header. [exclusive] */
 SPHC_API sphc_status sphc_pairer_push(sphc_pairer *pairer, const sphc_capture *capture);
 /* SPHC_OK: *color and *depth are the oldest time-matched pair, on loan to the caller, who releases both to their
  * source after use; *dropped has stream NONE.  SPHC_AGAIN with dropped->stream NONE: nothing more until the next
@@ -146,9 +146,9 @@ typedef struct sphc_clock_mapper_config {
   uint32_t struct_size;
   uint32_t max_drift_ppm; /* the clocks differ by no more, parts per million; 1 to 10000 */
   int64_t window_ns;      /* what lies further back is forgotten; 1 s to 1 h */
-  int64_t delay_ns;       /* from a source time to its arrival, at the least: exposure, readout, transfer */
-  int64_t delay_sigma_ns; /* of delay_ns, 1 sigma; at least 0 */
-  int64_t jump_ns;        /* a larger step is a clock that was set, and starts anew; at least 1 */
+  int64_t delay_ns;       /* from a source time to its arrival, at the least: exposure, readout, ...; within 1 h */
+  int64_t delay_sigma_ns; /* of delay_ns, 1 sigma; 0 to 1 h */
+  int64_t jump_ns;        /* a larger step is a clock that was set, and starts anew; 1 ns to 1 h */
 } sphc_clock_mapper_config;
 
 /* host time = source time + offset, the offset growing by drift_ppm.  A drift as large as the config's
