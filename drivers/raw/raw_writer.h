@@ -43,9 +43,9 @@ sphc_status sphc_raw_writer_begin(sphc_raw_writer *writer, sphc_raw_write write,
 /* Writes a frame: sequence, times, colour and depth (DEPTH16, in the rig's units) of `frame`, which are borrowed
  * and are read twice, so they must not change; rows may be padded.  `world_from_camera` is the pose of the colour
  * camera at color_time_ns, in a world of the caller's own, or null where it is not known. Errors: ARGUMENT (null,
- * the pose, times that go back or are below 0), STRUCT_SIZE (of the frame), IMAGE (an image does not fit its camera
- * or the format), DEVICE (`write` failed), STATE (4294967295 frames are written): nothing is counted, and the next
- * frame takes its place. [exclusive] of the writer */
+ * the pose, a time below 0, of colour one that does not grow, of depth one that goes back), STRUCT_SIZE (of the
+ * frame), IMAGE (an image does not fit its camera or the format), DEVICE (`write` failed), STATE (4294967295 frames
+ * are written): nothing is counted, and the next frame takes its place. [exclusive] of the writer */
 sphc_status sphc_raw_writer_add(sphc_raw_writer *writer, const sphc_localizer_frame *frame,
                                 const sphc_rigid *world_from_camera, sphc_message *message);
 
