@@ -18,7 +18,8 @@ class MjpegDecoder {
 
   // E_IMAGE when the frame is no JPEG, is cut or damaged where a decoder can see it (JPEG has no checksum), or has
   // another size than `out`, which may have been written to; E_STATE when not ready; E_UNSUPPORTED for DEPTH16.
-  // Bytes behind the end mark are ignored, and frames without Huffman tables have the standard ones, as cameras do.
+  // Bytes behind the end mark are ignored, padding before it too but in a progressive frame, which is refused, and
+  // frames without Huffman tables have the standard ones, as cameras do.
   sphc_status decode(const uint8_t *data, size_t bytes, const OutImage &out, sphc_message *message);
 
  private:
