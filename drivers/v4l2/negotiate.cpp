@@ -2,8 +2,10 @@
 
 #include <linux/videodev2.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <iterator>
 
 #include "capability.h"
 #include "drivers/pixels/explain.h"
@@ -21,14 +23,20 @@ struct Candidates {
   uint32_t fourccs[OfferedFourccs::kMax];
 };
 
+bool hasWish(const sphc_v4l2_config &config) {
+  return std::any_of(std::begin(config.fourccs), std::end(config.fourccs), [](uint32_t wish) { return wish != 0; });
+}
+
 // The caller's wish, or ours when there is none, as far as the device has it.
 Candidates findCandidates(const sphc_v4l2_config &config, const OfferedFourccs &offered) {
-  const bool is_automatic = config.fourccs[0] == 0;
-  const uint32_t *wanted = is_automatic ? preferredFourccs(config.format) : config.fourccs;
-  const uint32_t limit = is_automatic ? OfferedFourccs::kMax : SPHC_V4L2_MAX_FOURCCS;
   Candidates candidates;
-  for (uint32_t i = 0; i < limit && wanted[i] != 0; ++i)
-    if (offered.contains(wanted[i])) candidates.fourccs[candidates.count++] = wanted[i];
+  const auto take = [&](uint32_t fourcc) {
+    if (fourcc != 0 && offered.contains(fourcc)) candidates.fourccs[candidates.count++] = fourcc;
+  };
+  if (hasWish(config))
+    std::for_each(std::begin(config.fourccs), std::end(config.fourccs), take);
+  else
+    for (const uint32_t *ours = preferredFourccs(config.format); *ours != 0; ++ours) take(*ours);
   return candidates;
 }
 
@@ -41,7 +49,7 @@ sphc_status explainNoCandidate(const Node &node, const sphc_v4l2_config &config,
         std::snprintf(list + used, sizeof list - used, "%s%s", i ? " " : "", fourccText(offered.fourccs[i]).text));
   return explain(message, SPHC_E_UNSUPPORTED, "%s offers %s, but no %s; another node of the camera may",
                  node.path(), list,
-                 config.fourccs[0]                    ? "layout of config.fourccs"
+                 hasWish(config)                      ? "layout of config.fourccs"
                  : config.stream == SPHC_STREAM_DEPTH ? "depth (Z16, Y16)"
                                                       : "colour that this driver knows");
 }

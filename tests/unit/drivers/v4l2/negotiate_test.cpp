@@ -54,6 +54,17 @@ TEST(Negotiate, FollowsTheCallersOrder) {
   EXPECT_EQ(tryCamera(fake, config).mode.fourcc, kMjpg);
 }
 
+TEST(Negotiate, FollowsTheCallersOrderAcrossGaps) {
+  sphc_v4l2_config config = configFor(SPHC_STREAM_COLOR);
+  config.fourccs[1] = kMjpg;
+  config.fourccs[3] = kYuyv;
+  const test::FakeCamera fake({{kYuyv, kWidth, kHeight, 30}, {kMjpg, kWidth, kHeight, 30}});
+  EXPECT_EQ(tryCamera(fake, config).mode.fourcc, kMjpg);
+  EXPECT_EQ(tryCamera(colorCamera(), config).mode.fourcc, kYuyv);
+  EXPECT_THAT(tryCamera(test::FakeCamera({{V4L2_PIX_FMT_NV12, kWidth, kHeight, 30}}), config).text,
+              HasSubstr("but no layout of config.fourccs"));
+}
+
 TEST(Negotiate, NoticesASilentlySubstitutedSize) {
   sphc_v4l2_config config = configFor(SPHC_STREAM_COLOR);
   const test::FakeCamera fake({{kYuyv, 64, 36, 30}});
