@@ -78,7 +78,9 @@ sphc_status chooseExposure(const sphc_libcamera_plugin &plugin, sphc_libcamera_d
     return explain(message, SPHC_E_UNSUPPORTED,
                    "exposure_us %u: this camera takes %lld to %lld; choose between them", config.exposure_us,
                    static_cast<long long>(range.min), static_cast<long long>(range.max));
-  return plugin.set(device, "ExposureTime", config.exposure_us);
+  const sphc_status status = plugin.set(device, "ExposureTime", config.exposure_us);
+  if (status == SPHC_OK) return SPHC_OK;
+  return explain(message, status, "exposure_us %u: this camera refuses it; use 0", config.exposure_us);
 }
 
 sphc_status chooseRate(const sphc_libcamera_plugin &plugin, sphc_libcamera_device *device,
@@ -93,7 +95,9 @@ sphc_status chooseRate(const sphc_libcamera_plugin &plugin, sphc_libcamera_devic
     return explain(message, SPHC_E_UNSUPPORTED,
                    "rate_hz %u: a frame of this camera takes %lld to %lld us; choose a rate between",
                    config.rate_hz, static_cast<long long>(range.min), static_cast<long long>(range.max));
-  return plugin.set(device, "FrameDurationLimits", period_us);
+  const sphc_status status = plugin.set(device, "FrameDurationLimits", period_us);
+  if (status == SPHC_OK) return SPHC_OK;
+  return explain(message, status, "rate_hz %u: this camera refuses it; use 0", config.rate_hz);
 }
 
 }  // namespace

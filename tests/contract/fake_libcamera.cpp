@@ -124,7 +124,7 @@ sphc_status control(const sphc_libcamera_device *, const char *name, sphc_libcam
 
 sphc_status set(sphc_libcamera_device *, const char *name, int64_t value) {
   FakeControl *found = findControl(name);
-  if (!found) return SPHC_E_UNSUPPORTED;
+  if (!found || fake().refuses_settings) return SPHC_E_UNSUPPORTED;
   found->value = value;
   return SPHC_OK;
 }

@@ -25,6 +25,7 @@ struct FakeLibcamera {
   FakeControl controls[kFakeControls] = {};  // null names: not offered
   bool speaks_our_version = true;
   bool cannot_start = false;
+  bool refuses_settings = false;
 
   // What goes wrong with frames to come.
   bool stalled = false;

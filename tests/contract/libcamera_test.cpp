@@ -214,6 +214,18 @@ TEST_F(Libcamera, RefusesAnExposureThatTheCameraCannotTake) {
   expectRefused(SPHC_E_UNSUPPORTED, "100 to 4000");
 }
 
+// A control of a type that the plug-in does not know.
+TEST_F(Libcamera, SaysWhichSettingTheCameraRefuses) {
+  fake_->refuses_settings = true;
+  offer(0, "ExposureTime", 100, 30000);
+  offer(1, "FrameDurationLimits", 10000, 100000);
+  config_.exposure_us = 5000;
+  expectRefused(SPHC_E_UNSUPPORTED, "exposure_us 5000");
+  config_.exposure_us = 0;
+  config_.rate_hz = 25;
+  expectRefused(SPHC_E_UNSUPPORTED, "rate_hz 25: this camera refuses it");
+}
+
 TEST_F(Libcamera, SetsTheRateOrRefusesIt) {
   config_.rate_hz = 25;
   expectRefused(SPHC_E_UNSUPPORTED, "rate_hz 25");
