@@ -10,6 +10,10 @@ constexpr int32_t kFinePx = 400;           // a wider image is walked in steps o
 constexpr int32_t kGapShare = 64;          // of the image's width: holes up to this wide lie beside edges
 constexpr size_t kMostAlone = 48;          // of one measurement, in any sound image
 constexpr uint32_t kNear = 10, kFar = 11;  // the far side is at least 11 / 10 as far as the near one
+// A sensor or filter that smooths makes a ramp of an edge: measurements side by side that go on in its sense, each
+// by an eighth of the first step and more.
+constexpr uint32_t kRampSteps = 8;
+constexpr int32_t kRampShare = 16;  // of the image's width: the most to either side
 
 bool isBeyond(uint32_t far, uint32_t near) { return kNear * far > kFar * near; }
 
@@ -30,15 +34,34 @@ struct DepthEdges::Walk {
 
   uint16_t at(int32_t i) const { return along_y ? depth.row(i)[line] : depth.row(line)[i]; }
   bool inRange(uint16_t value) const { return value >= low && value <= high; }
-  // `toward_far`: 1 or -1 along the line.
-  DepthEdge edge(const Measurement &near, int32_t toward_far) const {
-    const int32_t i = near.at;
+  // Of a ramp between its ends, which may be next to each other.
+  DepthEdge edge(const Measurement &near, const Measurement &far) const {
+    const int32_t i = lastOfNear(near, far), toward_far = far.at > near.at ? 1 : -1;
     const int32_t x = along_y ? line : i, y = along_y ? i : line;
     const int32_t cell = y * kRows / depth.height * kColumns + x * kColumns / depth.width;
     const float beyond = 0.5f * static_cast<float>(toward_far * step);
     return {static_cast<float>(x) + 0.5f + (along_y ? 0 : beyond),
             static_cast<float>(y) + 0.5f + (along_y ? beyond : 0), static_cast<uint16_t>(near.depth),
             static_cast<uint16_t>(cell), along_y};
+  }
+  // Where the ramp of an edge ends that leads from `begin` on, in steps of `least` and more: `toward` 1 or -1 along
+  // the line, to far or near.
+  Measurement rampEnd(const Measurement &begin, int32_t toward, bool to_far, uint32_t least) const {
+    Measurement end = begin;
+    for (int32_t i = begin.at + toward * step; i >= 0 && i < length; i += toward * step) {
+      const uint32_t here = at(i), near = to_far ? end.depth : here, far = to_far ? here : end.depth;
+      if (!inRange(at(i)) || far < near + least || toward * (i - begin.at) > depth.width / kRampShare) break;
+      end = {here, i};
+    }
+    return end;
+  }
+  // The last of the ramp from near to far that is nearer than its middle.
+  int32_t lastOfNear(const Measurement &near, const Measurement &far) const {
+    const int32_t on = far.at > near.at ? step : -step;
+    int32_t last = near.at;
+    for (int32_t i = near.at; i != far.at; i += on)
+      if (inRange(at(i)) && 2u * at(i) <= near.depth + far.depth) last = i;
+    return last;
   }
   // The neighbour of i further on; 0: it has none.
   uint32_t after(int32_t i) const {
@@ -104,7 +127,11 @@ void DepthEdges::meet(const Walk &walk, const Measurement &before, const Measure
   const bool of_two = before.depth && after &&
                       (farther ? isBeyond(std::min(here.depth, after), std::max(before.depth, last.depth))
                                : isBeyond(std::min(before.depth, last.depth), std::max(here.depth, after)));
-  if (of_two || !walk.needs_two) keep(walk.edge(farther ? last : here, farther ? 1 : -1), of_two);
+  if (!of_two && walk.needs_two) return;
+  const uint32_t least =
+      std::max(1u, (std::max(here.depth, last.depth) - std::min(here.depth, last.depth)) / kRampSteps);
+  const Measurement first = walk.rampEnd(last, -1, !farther, least), second = walk.rampEnd(here, 1, farther, least);
+  keep(farther ? walk.edge(first, second) : walk.edge(second, first), of_two);
 }
 
 void DepthEdges::keep(const DepthEdge &edge, bool of_two) {

@@ -7,10 +7,11 @@
 namespace sphc {
 
 struct DepthEdge {
-  float x_px, y_px;  // where the near side ends, centre of the top-left pixel (0.5, 0.5)
-  uint16_t near;     // its measurement, sensor units
-  uint16_t cell;     // of the image, in which it lies
-  bool along_y;      // the depth changes down the image, else across it
+  // Where the near side ends, or a smooth edge is half way to the far one; centre of the top-left pixel (0.5, 0.5).
+  float x_px, y_px;
+  uint16_t near;  // the near side's measurement, sensor units
+  uint16_t cell;  // of the image, in which it lies
+  bool along_y;   // the depth changes down the image, else across it
 };
 
 // Edges spread over the image: the first that is met in each cell of a grid, across the image and down it.  What a

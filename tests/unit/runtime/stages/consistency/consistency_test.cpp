@@ -124,6 +124,20 @@ TEST(Consistency, WhatEdgesSaidFadesByTheTimeSinceTheySaidIt) {
   EXPECT_FALSE(doubtsAfter(20, 4000000000));
 }
 
+// As a sensor or filter smooths that lets no hole and no flying pixel stand.
+TEST(Consistency, DepthThatIsSmoothIsNoContradiction) {
+  for (const int32_t radius_px : {1, 2, 4}) {
+    HeldConsistency held(true);
+    for (int32_t i = 0; i < 16; ++i) {
+      MadeView made(3 * i, 3 * i);
+      made.smoothDepth(radius_px);
+      EXPECT_EQ(held.consistency.look(made.view(i * kStepNs)) & kDepthColorDisagree, Faults{0}) << radius_px;
+      EXPECT_FALSE(held.consistency.isDoubtful()) << radius_px;
+    }
+    EXPECT_GT(held.consistency.agreement().edges, 20u) << radius_px;
+  }
+}
+
 // Noise has its edges anywhere.
 TEST(Consistency, InTheDarkEdgesSayNothing) {
   for (const bool follows : {false, true}) {

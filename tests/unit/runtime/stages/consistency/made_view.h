@@ -1,5 +1,6 @@
 // A made-up pair of images: a slanted wall behind boxes, whose edges both images show.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,18 @@ class MadeView {
   static ConsistencyConfig config(bool follows) {
     const Camera made(camera());
     return {made, made, {0.001, 0.25, 6, 0.004, 0.002}, follows};
+  }
+  // Each measurement becomes the mean of those around it.
+  void smoothDepth(int32_t radius_px) {
+    const std::vector<uint16_t> sharp = depth_;
+    for (int32_t y = 0; y < kHeight; ++y)
+      for (int32_t x = 0; x < kWidth; ++x) {
+        uint32_t sum = 0, count = 0;
+        for (int32_t v = std::max(0, y - radius_px); v <= std::min(kHeight - 1, y + radius_px); ++v)
+          for (int32_t u = std::max(0, x - radius_px); u <= std::min(kWidth - 1, x + radius_px); ++u, ++count)
+            sum += sharp[static_cast<size_t>(v * kWidth + u)];
+        depth_[static_cast<size_t>(y * kWidth + x)] = static_cast<uint16_t>(sum / count);
+      }
   }
   std::vector<uint8_t> &gray() { return gray_; }
   std::vector<uint16_t> &depth() { return depth_; }
