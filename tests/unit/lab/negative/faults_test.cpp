@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -74,6 +75,23 @@ TEST(SensorFaults, SoundFramesMayBeNoisyOrBright) {
       EXPECT_EQ(fault.named_by, 0u);
     }
   }
+}
+
+TEST(SensorFaults, ASmoothedDepthIsTheMeanOfWhatIsMeasuredAround) {
+  const std::vector<SensorFault> sound = allFaults();
+  const auto smoothed = std::find_if(
+      sound.begin(), sound.end(), [](const SensorFault &fault) { return fault.name == "healthy, depth smoothed"; });
+  ASSERT_NE(smoothed, sound.end());
+  EXPECT_EQ(smoothed->named_by, 0u);
+  Sequence changed = madeSequence();
+  std::vector<uint16_t> &depth = changed.shots[0].depth;
+  std::fill(depth.begin(), depth.end(), uint16_t{1000});
+  depth[5 * 32 + 5] = 0;
+  depth[9 * 32 + 9] = 1900;
+  smoothed->apply(&changed);
+  EXPECT_EQ(depth[5 * 32 + 5], 1000);
+  for (const size_t at : {8 * 32 + 8, 9 * 32 + 9, 10 * 32 + 9}) EXPECT_EQ(depth[at], 1100);
+  for (const size_t at : {0, 9 * 32 + 11, 15 * 32 + 31}) EXPECT_EQ(depth[at], 1000);
 }
 
 TEST(SensorFaults, LateDepthIsThatOfEarlierFrames) {
