@@ -27,7 +27,7 @@ std::string color(const char *rgb) { return std::string("linecolor rgb '") + rgb
 // ---- path ----
 
 struct Path {
-  Points truth, estimate, link, lost;
+  Points truth, estimate, unjudged, lost;  // unjudged: answers where the truth is not known
   std::array<double, 2> centre = {};
 };
 
@@ -47,7 +47,11 @@ Path splitPath(const Run &run) {
                seen = view.project(frame.base_from_camera.t_m);
     if (frame.has_truth) path.truth.push_back({truth[0], truth[1], 0});
     if (frame.has_truth && !frame.localized) path.lost.push_back({truth[0], truth[1], 0});
-    if (frame.localized) path.estimate.push_back({seen[0], seen[1], 100 * frame.translation_error_m});
+    if (!frame.localized) continue;
+    if (frame.has_truth)
+      path.estimate.push_back({seen[0], seen[1], 100 * frame.translation_error_m});
+    else
+      path.unjudged.push_back({seen[0], seen[1], 0});
   }
   return path;
 }
@@ -74,7 +78,7 @@ struct Extent {
 // Sets whether the sphere centre is in the picture: not when it is so far off that the path would shrink to a dot.
 Extent extentOf(const Path &path, bool *with_centre) {
   Extent e;
-  for (const Points *points : {&path.truth, &path.estimate}) {
+  for (const Points *points : {&path.truth, &path.estimate, &path.unjudged}) {
     for (const auto &p : *points) e.hold(p[0], p[1]);
   }
   *with_centre = e.lengthWith(path.centre) < 1.6 * e.length();
@@ -107,15 +111,21 @@ const char kErrorColors[] =
 std::string pathScript(const Path &path, const Extent &extent, bool with_centre) {
   const bool truth = !path.truth.empty();
   std::string script = kPlotLook + block("truth", path.truth) + block("estimate", path.estimate) +
-                       block("lost", path.lost) + block("centre", {{path.centre[0], path.centre[1], 0}});
+                       block("unjudged", path.unjudged) + block("lost", path.lost) +
+                       block("centre", {{path.centre[0], path.centre[1], 0}});
   script += "set size ratio -1\nset xlabel 'metres'\nset ylabel 'metres'\n";
   script += range("xrange", extent.low[0], extent.high[0]) + range("yrange", extent.low[1], extent.high[1]);
   script += "set key outside top center horizontal reverse Left samplen 2\n";
   if (truth) script += kErrorColors;
+  const std::string dots = " with points pointtype 7 pointsize 0.7 ";
   script += "plot ";
-  if (truth) script += "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', ";
-  script += std::string("$estimate using 1:2") + (truth ? ":3" : "") + " with points pointtype 7 pointsize 0.7 " +
-            (truth ? "linecolor palette" : color(kBlueHex)) + " title 'estimate'";
+  if (truth)
+    script +=
+        "$truth using 1:2 with lines linewidth 5 linecolor rgb '#cbd5e1' title 'truth', $estimate using 1:2:3" +
+        dots + "linecolor palette title 'estimate'";
+  if (!path.unjudged.empty())
+    script += (truth ? ", " : "") + std::string("$unjudged using 1:2") + dots + color(kBlueHex) +
+              (truth ? " title 'truth not known'" : " title 'estimate'");
   const std::string mark = " with points linewidth 1.8 ";
   if (!path.lost.empty())
     script += ", $lost using 1:2" + mark + "pointtype 2 " + color(kRedHex) + " title 'not localized'";
@@ -177,12 +187,13 @@ std::string cdfScript(const Points &points, const std::string &unit, double mark
 
 Drawing pathFromTop(const Run &run) {
   const Path path = splitPath(run);
-  if (path.truth.empty() && path.estimate.empty()) return {"path", "", "", "", {}};
+  if (path.truth.empty() && path.unjudged.empty()) return {"path", "", "", "", {}};
   bool with_centre = false;
   const Extent extent = extentOf(path, &with_centre);
   std::string caption = path.truth.empty()
                             ? "Every dot is one answer, in the map's own frame."
                             : "Every dot is one answer, coloured by how far it is from the true place (grey line).";
+  if (!path.truth.empty() && !path.unjudged.empty()) caption += " Of the blue ones the true place is not known.";
   if (with_centre) caption += " The star is the sphere centre, from which the map's directions point.";
   return {"path", "The path from above", caption, pathScript(path, extent, with_centre), pathSize(extent)};
 }

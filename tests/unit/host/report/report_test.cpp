@@ -89,6 +89,25 @@ TEST_F(ReportTest, WorksWithoutTruth) {
   EXPECT_THAT(page, Not(HasSubstr("How far off")));
 }
 
+// Errors colour the dots, and where there is no truth there is no error: such a dot must not look exact.
+TEST_F(ReportTest, DrawsAnswersWithoutTruthApart) {
+  const auto script = [this] {
+    write();
+    const auto bytes = readBytes(folder_ + "/plots/path.gp");
+    return std::string(bytes.begin(), bytes.end());
+  };
+  EXPECT_THAT(script(), Not(HasSubstr("$unjudged using")));
+  run_.frames[3].has_truth = false;
+  const std::string some = script();
+  EXPECT_THAT(some, HasSubstr("$estimate using 1:2:3"));
+  EXPECT_THAT(some, HasSubstr("'truth not known'"));
+  EXPECT_THAT(write(), HasSubstr("Of the blue ones the true place is not known."));
+  for (FrameRecord &frame : run_.frames) frame.has_truth = false;
+  const std::string none = script();
+  EXPECT_THAT(none, Not(HasSubstr("$estimate using")));
+  EXPECT_THAT(none, HasSubstr("title 'estimate'"));
+}
+
 TEST_F(ReportTest, WorksWhenNothingWasLocalized) {
   run_.frames = {lostFrame(1)};
   EXPECT_THAT(write(), HasSubstr("no consensus"));
