@@ -51,6 +51,7 @@ struct Result {
 struct Facts {
   bool is_mcap;
   uint32_t depth_count, pose_count, acceleration_count;
+  uint32_t depth_in_frames = 0;  // where it goes frame by frame
 };
 
 struct ReplayCloser {
@@ -219,13 +220,21 @@ Result write7Scenes(RecordingReader *reader, const std::string &folder, const Co
   return result;
 }
 
+// Frames of colour faster than depth share depth images, one after the other.
+uint32_t depthInFrames(const RecordingReader &reader) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < reader.frameCount(); ++i)
+    count += i == 0 || &reader.depthOf(i) != &reader.depthOf(i - 1);
+  return count;
+}
+
 Result convertFrames(const ConvertOptions &options, const Console &console, Facts *facts) {
   const auto reader = openRecording(options.in);
   noteDamage(*reader, console);
   const recording::Recording &recording = reader->recording();
   *facts = {recording.layout == recording::Layout::kMcap, static_cast<uint32_t>(recording.depth.size()),
             static_cast<uint32_t>(recording.poses.poses().size()),
-            static_cast<uint32_t>(recording.accelerations.size())};
+            static_cast<uint32_t>(recording.accelerations.size()), depthInFrames(*reader)};
   return options.target == Target::kRaw ? writeRaw(reader.get(), options.out, console)
                                         : write7Scenes(reader.get(), options.out, console);
 }
@@ -252,9 +261,9 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
   if (facts.acceleration_count && options.target != Target::kMcap)
     console.warn("note: left out: " + counted(facts.acceleration_count, "acceleration") +
                  "; an MCAP file keeps them");
-  const uint32_t paired = result.depth + result.unreadable, posed = result.poses + result.unreadable_poses;
-  if (options.isByFrame() && facts.depth_count > paired)
-    console.warn("note: left out: " + counted(facts.depth_count - paired, "depth image") +
+  const uint32_t posed = result.poses + result.unreadable_poses;
+  if (options.isByFrame() && facts.depth_count > facts.depth_in_frames)
+    console.warn("note: left out: " + counted(facts.depth_count - facts.depth_in_frames, "depth image") +
                  " without a colour image near in time");
   if (options.isByFrame() && !options.in.isPart() && facts.pose_count > posed)
     console.warn("note: left out: " + counted(facts.pose_count - posed, "pose") + " between frames");

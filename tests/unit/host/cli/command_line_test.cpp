@@ -301,6 +301,22 @@ TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
   EXPECT_NE(frames[13]["outcome"], "unreadable");
 }
 
+// Colour faster than depth shares depth images: as many frames as depth images do not mean that all of these went.
+TEST(Convert, TellsOfDepthImagesLeftOutWhereFramesShareOthers) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 4 --rate 6 --out " + walk).exit_code, kExitDone);
+  std::ofstream list(walk + "/rgb.txt");
+  for (int i = 0; i < 4; ++i) list << "1.00" << 2 * i << " rgb/00000" << i << ".png\n";
+  list.close();
+  for (const char *to : {"seq-01 --to 7scenes", "walk.raw --to raw"}) {
+    const Answer converted = runCommand("convert " + walk + " " + (folder / to));
+    ASSERT_EQ(converted.exit_code, kExitDone) << converted.err;
+    EXPECT_THAT(converted.out, HasSubstr("4 depth images"));
+    EXPECT_THAT(converted.err, HasSubstr("left out: 3 depth images without a colour image near in time"));
+  }
+}
+
 TEST(Advise, TellsOfFramesThatTookNoPart) {
   const TempFolder folder;
   const std::string walk = folder / "walk", advise = "advise --json --folds 2 -r " + walk;
