@@ -74,6 +74,19 @@ TEST_F(SevenScenes, TakesNumberAndTimeFromTheFileName) {
   }
 }
 
+// A camera's own count may begin anywhere, and is written as it is.
+TEST_F(SevenScenes, TakesTheLargestNumber) {
+  for (const uint32_t number : {999999999u, 1000000000u, UINT32_MAX}) addFrame(number);
+  const OpenReplay replay = open();
+  ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
+  ASSERT_EQ(sphc_replay_frame_count(replay.get()), 3u);
+  sphc_replay_frame_info frame{};
+  frame.struct_size = sizeof frame;
+  ASSERT_EQ(sphc_replay_get_frame_info(replay.get(), 2, &frame), SPHC_OK);
+  EXPECT_EQ(frame.sequence, UINT32_MAX);
+  EXPECT_EQ(frame.color_time_ns, 143165576500000000);
+}
+
 TEST_F(SevenScenes, ReadsPoseMatrices) {
   addFrame(0);
   const OpenReplay replay = open();

@@ -24,10 +24,12 @@ struct FrameFile {
 // frame-NNNNNN.KIND
 bool parseFrameFile(std::string_view name, FrameFile &file) {
   constexpr std::string_view kPrefix = "frame-";
+  constexpr size_t kMostDigits = 10;  // of an unsigned number of 32 bits, as sources count
   if (name.substr(0, kPrefix.size()) != kPrefix) return false;
   name.remove_prefix(kPrefix.size());
   const size_t dot = name.find('.');
-  if (dot == std::string_view::npos || dot > 9 || !parseUnsigned(name.substr(0, dot), file.number)) return false;
+  if (dot == std::string_view::npos || dot > kMostDigits || !parseUnsigned(name.substr(0, dot), file.number))
+    return false;
   file.kind = name.substr(dot + 1);
   return true;
 }
