@@ -48,7 +48,8 @@ class KeypointGrid {
 cv::Mat readGray(const std::string &folder, const ColmapImage &image, const sphc_camera &camera) {
   const std::string path = (std::filesystem::path(folder) / image.name).string();
   checkIsFile(path, "COLMAP's folder of images");
-  cv::Mat gray = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  // As COLMAP saw it, however a viewer is told to turn it.
+  cv::Mat gray = cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
   if (gray.empty()) throw std::runtime_error("cannot read the image " + path + "; name COLMAP's folder of images");
   if (gray.cols != static_cast<int>(camera.width) || gray.rows != static_cast<int>(camera.height))
     throw std::runtime_error("the image " + path + " is " + std::to_string(gray.cols) + " x " +

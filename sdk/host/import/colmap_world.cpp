@@ -34,15 +34,16 @@ double medianOf(std::vector<Vote> votes) {
   return votes.back().value;
 }
 
-// X.png for X.jpg, and X.depth.png for X.color.jpg.
+// X.depth.png for X.color.jpg, else X.png for X.jpg.  The first comes first: where depth lies beside colour, X.png
+// may be the colour image itself.
 fs::path depthPath(const std::string &folder, const std::string &name) {
-  fs::path path = fs::path(name).replace_extension(".png");
-  if (!fs::exists(fs::path(folder) / path)) {
-    std::string file = path.filename().string();
-    const size_t color = file.rfind("color");
-    if (color != std::string::npos) path.replace_filename(file.replace(color, 5, "depth"));
-  }
-  return fs::path(folder) / path;
+  const fs::path path = fs::path(folder) / fs::path(name).replace_extension(".png");
+  std::string file = path.filename().string();
+  const size_t color = file.rfind("color");
+  if (color == std::string::npos) return path;
+  fs::path beside = path;
+  beside.replace_filename(file.replace(color, 5, "depth"));
+  return fs::exists(beside) ? beside : path;
 }
 
 class DepthImages {

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -72,6 +73,23 @@ TEST_F(ColmapImport, MetresByDepthImages) {
   EXPECT_LT(summary_.scale_spread, 1e-6);
 }
 
+// As 7-Scenes has them: the colour images' own names are none of depth images.
+TEST_F(ColmapImport, MetresByDepthImagesBesideColour) {
+  ColmapModel model = tinyColmapModel(kUnitsPerMetre);
+  std::filesystem::create_directories(folder_ / "sub");
+  for (auto &[id, image] : model.images) {
+    image.name.insert(image.name.rfind('.'), ".color");
+    std::string depth = folder_ / image.name;
+    cv::imwrite(depth, cv::Mat(72, 96, CV_8UC3, cv::Scalar(1, 2, 3)));
+    cv::imwrite(depth.replace(depth.rfind("color"), 5, "depth"),
+                cv::Mat(72, 96, CV_16UC1, cv::Scalar(1000 * test::kTinyWallM)));
+  }
+  test::writeColmapFiles(folder_.path().string(), binaryFiles(model));
+  options_.depth = folder_.path().string();
+  import();
+  EXPECT_NEAR(summary_.metres_per_unit, 1 / kUnitsPerMetre, 1e-6);
+}
+
 TEST_F(ColmapImport, WithoutDepthAtThePointsTheMessageSaysHowImagesAreNamed) {
   options_.depth = folder_ / "nothing";
   EXPECT_THAT(refusal([this] { import(); }), HasSubstr("X.png for X.jpg"));
@@ -97,6 +115,26 @@ TEST_F(ColmapImport, AMissingImageIsNamed) {
   writeWall(folder_.path().string(), 1);
   cv::imwrite(folder_ / "a.png", cv::Mat(10, 10, CV_8UC1));
   EXPECT_THAT(refusal([this] { import(); }), HasSubstr("is 10 x 10, its camera 96 x 72"));
+}
+
+// A note of EXIF says how to turn the image for a person, and COLMAP's keypoints are of the image as it is.
+TEST_F(ColmapImport, ATurnedImageIsReadAsItIs) {
+  std::vector<uint8_t> jpeg;
+  cv::imencode(".jpg", cv::Mat(72, 96, CV_8UC1, cv::Scalar(90)), jpeg);
+  const std::string quarter_turn(
+      "\xff\xe1\x00\x22"
+      "Exif\0\0MM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0",
+      36);
+  jpeg.insert(jpeg.begin() + 2, quarter_turn.begin(), quarter_turn.end());
+  std::filesystem::create_directories(folder_ / "sub");
+  for (const char *name : {"a.png", "b.png", "sub/c d.png"})
+    std::ofstream(folder_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char *>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
+  ASSERT_EQ(cv::imread(folder_ / "a.png").cols, 72) << "of the test";
+  options_.metres_per_unit = 1;
+  options_.descriptors = ColmapDescriptors::kAgain;
+  options_.images = folder_.path().string();
+  EXPECT_EQ(import().points.size(), 0u) << "of a grey wall";
 }
 
 TEST_F(ColmapImport, APipeInThePlaceOfAnImageIsNotWaitedFor) {
