@@ -27,6 +27,7 @@ struct SimulateOptions {
   sphc_simulated_config config = {};
   std::optional<double> lap_s;
   std::string with;
+  const CLI::Option *exposure = nullptr;
   double accelerometer_hz = 0;
   bool ideal_depth = false, raw_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
 };
@@ -153,6 +154,8 @@ int simulate(const SimulateOptions &options, const Console &console) {
     console.warn("note: a folder keeps no amplitudes of the depth; --out X.mcap does");
   if (options.accelerometer_hz > 0 && !out->keepsAccelerations())
     console.warn("note: a folder keeps no accelerations; --out X.mcap does");
+  if (options.no_blur && options.exposure->count() > 0)
+    console.warn("note: --exposure: with --no-blur nothing blurs, so it changes nothing");
   tellNext(options.out, config, console);
   console.give({{"recording", options.out},
                 {"frames", config.frame_count},
@@ -208,12 +211,13 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->default_str("16; of a flat 150")
       ->check(between(4, 3600))
       ->type_name("S");
-  app->add_option(
-         "--exposure", config.exposure_s,
-         "Seconds that the colour camera exposes in the light by default: how long motion blurs; 0 to 0.05")
-      ->capture_default_str()
-      ->check(between(0, 0.05))
-      ->type_name("S");
+  options->exposure =
+      app->add_option(
+             "--exposure", config.exposure_s,
+             "Seconds that the colour camera exposes in the light by default: how long motion blurs; 0 to 0.05")
+          ->capture_default_str()
+          ->check(between(0, 0.05))
+          ->type_name("S");
   app->add_option("--seed", config.seed, "Another room for every number")
       ->capture_default_str()
       ->transform(wholeFrom(0))

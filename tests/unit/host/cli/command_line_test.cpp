@@ -615,6 +615,13 @@ void expectAmplitudes(const TempFolder &folder, const std::string &map) {
               HasSubstr("keeps no amplitudes"));
 }
 
+TEST(Simulate, SaysThatAnExposureWithoutBlurChangesNothing) {
+  const TempFolder folder;
+  const std::string simulate = "simulate --frames 1 --out ", note = "note: --exposure: with --no-blur";
+  EXPECT_THAT(runCommand(simulate + (folder / "both") + " --no-blur --exposure 0.02").err, HasSubstr(note));
+  EXPECT_THAT(runCommand(simulate + (folder / "one") + " --no-blur").err, Not(HasSubstr(note)));
+}
+
 // The command's page explains every key.
 void expectExplained(const nlohmann::json &json) {
   static const std::string page = fileText(SPHC_COMMAND_PAGE);
