@@ -230,9 +230,10 @@ Drawing timeline(const Run &run) {
       lost.push_back({x, static_cast<double>(frame.inliers), 0});
   }
   std::string script = kPlotLook + block("matches", matches) + block("inliers", inliers) + block("lost", lost);
+  // All digits: a camera's own count may be in the millions, where gnuplot would write powers of ten.
   script +=
-      "set yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\nset key outside top center horizontal reverse "
-      "Left samplen 2\n";
+      "set format x '%.12g'\nset yrange [0:*]\nset xlabel 'frame'\nset ylabel 'count'\n"
+      "set key outside top center horizontal reverse Left samplen 2\n";
   script += "set style fill transparent solid 0.15 noborder\n";
   script += "plot $matches using 1:2 with lines linewidth 1.5 " + color(kAmberHex) +
             " title 'matches with the map', " + "$inliers using 1:2 with impulses linewidth 2 " + color(kGreenHex) +

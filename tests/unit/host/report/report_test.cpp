@@ -108,6 +108,15 @@ TEST_F(ReportTest, DrawsAnswersWithoutTruthApart) {
   EXPECT_THAT(none, HasSubstr("title 'estimate'"));
 }
 
+TEST_F(ReportTest, LargeNumbersOfFramesKeepTheirDigits) {
+  for (FrameRecord &frame : run_.frames) frame.sequence += 1999999998;
+  write();
+  const std::string drawn = folder_ + "/plots/timeline.svg";
+  if (!std::filesystem::exists(drawn)) GTEST_SKIP() << "gnuplot is not installed";
+  const auto bytes = readBytes(drawn);
+  EXPECT_THAT(std::string(bytes.begin(), bytes.end()), HasSubstr("2000000002"));
+}
+
 TEST_F(ReportTest, WorksWhenNothingWasLocalized) {
   run_.frames = {lostFrame(1)};
   EXPECT_THAT(write(), HasSubstr("no consensus"));
