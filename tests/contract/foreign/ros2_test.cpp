@@ -157,6 +157,20 @@ TEST_F(Ros2, CamerasAndTheTransformBetweenThem) {
   EXPECT_NEAR(color_from_depth.t_m[2], 0, 1e-12);
 }
 
+TEST_F(Ros2, ATopicWithRectWithinAWordIsNotRectified) {
+  for (uint32_t i = 0; i < 3; ++i) {
+    addColor(i, "/direct/color/image_raw");
+    addDepth(i);
+  }
+  bag_.add("/direct/color/camera_info", kInfo, kStartNs,
+           test::rosCameraInfo(kColorFrame, kWidth, kHeight, "plumb_bob", {0.1, 0, 0, 0, 0}, {30, 31, 15.5, 11.5}));
+  addDepthInfo();
+  addBody();
+  const RecordingReader reader(write());
+  EXPECT_EQ(reader.calibration().color_camera.model, SPHC_CAMERA_BROWN5);
+  EXPECT_EQ(reader.calibration().color_camera.params[0], 30);
+}
+
 void expectWalksForward(const RecordingReader &reader) {
   for (uint32_t i = 0; i < 3; ++i) {
     const std::optional<sphc_rigid> pose = reader.worldFromCamera(i);

@@ -81,7 +81,7 @@ sphc_camera cameraOfTopic(const RosContent &content, const RosImageTopic &topic)
   if (!info)
     throw Failure(SPHC_E_ARGUMENT, "no " + infoTopicOf(topic.name) + "; record it too, or give a calibration file");
   try {
-    const sphc_camera camera = rosCamera(*info, topic.name.find("rect") != std::string::npos);
+    const sphc_camera camera = rosCamera(*info, isOfRectified(topic));
     requireSizeOf(topic, camera);
     return camera;
   } catch (const Failure &failure) {

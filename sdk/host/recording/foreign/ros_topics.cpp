@@ -47,7 +47,7 @@ int colorScore(const RosImageTopic &topic) {
 // Depth that lies on colour comes first.
 int depthScore(const RosImageTopic &topic, const RosImageTopic &color) {
   if (!isDepthTopic(topic) || topic.images.empty()) return 0;
-  return 1 + (topic.coding.is_compressed ? 0 : 1) + (has(topic.name, "rect") ? 2 : 0) +
+  return 1 + (topic.coding.is_compressed ? 0 : 1) + (isOfRectified(topic) ? 2 : 0) +
          (topic.frame == color.frame ? 4 : 0);
 }
 
@@ -83,6 +83,13 @@ const RosImageTopic &chooseColor(const RosContent &content, const std::string &f
 
 const RosImageTopic &chooseDepth(const RosContent &content, const RosImageTopic &color, const std::string &file) {
   return chooseTopic(content, "depth", file, [&](const RosImageTopic &topic) { return depthScore(topic, color); });
+}
+
+bool isOfRectified(const RosImageTopic &topic) {
+  const std::string &name = topic.name;
+  for (size_t at = name.find("rect"); at != std::string::npos; at = name.find("rect", at + 1))
+    if (at == 0 || !std::isalpha(static_cast<unsigned char>(name[at - 1]))) return true;
+  return false;
 }
 
 std::string infoTopicOf(const std::string &image_topic) {

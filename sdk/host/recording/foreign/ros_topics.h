@@ -49,6 +49,9 @@ struct RosContent {
 const RosImageTopic &chooseColor(const RosContent &content, const std::string &file);
 const RosImageTopic &chooseDepth(const RosContent &content, const RosImageTopic &color, const std::string &file);
 
+// By a word of the topic that begins with "rect", as "image_rect_color" has one and "direct" has none.
+bool isOfRectified(const RosImageTopic &topic);
+
 // The camera_info beside a topic of images, or the only one of its frame; null when there is none.
 const RosCameraInfo *infoOf(const RosContent &content, const RosImageTopic &topic);
 // ".../camera_info", as it should be called.
