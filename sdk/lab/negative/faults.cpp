@@ -29,8 +29,8 @@ void addNeighbours(const Measured *line, size_t count, size_t stride, size_t rea
     }
 }
 
-// As a filter does that smooths and fills small holes: the mean of what is measured around.
-void smoothDepth(Sequence *sequence) {
+// As a filter does: the mean of what is measured around.
+void smooth(bool fills_holes, Sequence *sequence) {
   const size_t width = sequence->depthWidth(), height = sequence->depthHeight();
   const size_t reach = std::max<size_t>(1, (width + 50) / 100);
   for (Shot &shot : sequence->shots) {
@@ -39,9 +39,13 @@ void smoothDepth(Sequence *sequence) {
     for (size_t y = 0; y < height; ++y) addNeighbours(&own[y * width], width, 1, reach, &across[y * width]);
     for (size_t x = 0; x < width; ++x) addNeighbours(&across[x], height, width, reach, &around[x]);
     for (size_t i = 0; i < around.size(); ++i)
-      shot.depth[i] = static_cast<uint16_t>(around[i].sum / std::max(1u, around[i].count));
+      if (own[i].count || fills_holes)
+        shot.depth[i] = static_cast<uint16_t>(around[i].sum / std::max(1u, around[i].count));
   }
 }
+
+void smoothDepth(Sequence *sequence) { smooth(false, sequence); }
+void smoothAndFillDepth(Sequence *sequence) { smooth(true, sequence); }
 
 // In the values of the image: what was bright is white.
 void doubleTheLight(Sequence *sequence) {
@@ -55,6 +59,7 @@ std::vector<SensorFault> soundFrames() {
           {"healthy, odometry", [](Sequence *) {}, 0, true, false},
           {"healthy, depth noise 2.5 %", addNoiseOfDepth, 0, false, false},
           {"healthy, depth smoothed", smoothDepth, 0, false, false},
+          {"healthy, depth smoothed, holes filled", smoothAndFillDepth, 0, false, false},
           {"healthy, twice the light", doubleTheLight, 0, false, false}};
 }
 
