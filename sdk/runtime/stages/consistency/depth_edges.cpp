@@ -34,35 +34,11 @@ struct DepthEdges::Walk {
 
   uint16_t at(int32_t i) const { return along_y ? depth.row(i)[line] : depth.row(line)[i]; }
   bool inRange(uint16_t value) const { return value >= low && value <= high; }
-  // Of a ramp between its ends, which may be next to each other.
-  DepthEdge edge(const Measurement &near, const Measurement &far) const {
-    const int32_t i = lastOfNear(near, far), toward_far = far.at > near.at ? 1 : -1;
-    const int32_t x = along_y ? line : i, y = along_y ? i : line;
-    const int32_t cell = y * kRows / depth.height * kColumns + x * kColumns / depth.width;
-    const float beyond = 0.5f * static_cast<float>(toward_far * step);
-    return {static_cast<float>(x) + 0.5f + (along_y ? 0 : beyond),
-            static_cast<float>(y) + 0.5f + (along_y ? beyond : 0), static_cast<uint16_t>(near.depth),
-            static_cast<uint16_t>(cell), along_y};
-  }
+  // At the last place before the middle of a ramp between its ends, which may be next to each other.
+  DepthEdge edge(const Measurement &near, const Measurement &far) const;
   // Where the ramp of an edge ends that leads from `begin` on, in steps of `least` and more: `toward` 1 or -1 along
   // the line, to far or near.
-  Measurement rampEnd(const Measurement &begin, int32_t toward, bool to_far, uint32_t least) const {
-    Measurement end = begin;
-    for (int32_t i = begin.at + toward * step; i >= 0 && i < length; i += toward * step) {
-      const uint32_t here = at(i), near = to_far ? end.depth : here, far = to_far ? here : end.depth;
-      if (!inRange(at(i)) || far < near + least || toward * (i - begin.at) > depth.width / kRampShare) break;
-      end = {here, i};
-    }
-    return end;
-  }
-  // The last of the ramp from near to far that is nearer than its middle.
-  int32_t lastOfNear(const Measurement &near, const Measurement &far) const {
-    const int32_t on = far.at > near.at ? step : -step;
-    int32_t last = near.at;
-    for (int32_t i = near.at; i != far.at; i += on)
-      if (inRange(at(i)) && 2u * at(i) <= near.depth + far.depth) last = i;
-    return last;
-  }
+  Measurement rampEnd(const Measurement &begin, int32_t toward, bool to_far, uint32_t least) const;
   // The neighbour of i further on; 0: it has none.
   uint32_t after(int32_t i) const {
     for (int32_t j = i + step; j < length && j - i <= gap; j += step)
@@ -70,6 +46,31 @@ struct DepthEdges::Walk {
     return 0;
   }
 };
+
+DepthEdge DepthEdges::Walk::edge(const Measurement &near, const Measurement &far) const {
+  const int32_t toward_far = far.at > near.at ? 1 : -1;
+  int32_t last = near.at;
+  for (int32_t i = near.at; i != far.at; i += toward_far * step)
+    if (inRange(at(i)) && 2u * at(i) <= near.depth + far.depth) last = i;
+  const int32_t x = along_y ? line : last, y = along_y ? last : line;
+  const int32_t cell = y * kRows / depth.height * kColumns + x * kColumns / depth.width;
+  const float beyond = 0.5f * static_cast<float>(toward_far * step);
+  return {static_cast<float>(x) + 0.5f + (along_y ? 0 : beyond),
+          static_cast<float>(y) + 0.5f + (along_y ? beyond : 0), static_cast<uint16_t>(near.depth),
+          static_cast<uint16_t>(cell), along_y};
+}
+
+DepthEdges::Measurement DepthEdges::Walk::rampEnd(const Measurement &begin, int32_t toward, bool to_far,
+                                                  uint32_t least) const {
+  const int32_t on = toward * step, most = depth.width / kRampShare / step;
+  Measurement end = begin;
+  for (int32_t i = begin.at + on, k = 0; k < most && i >= 0 && i < length; i += on, ++k) {
+    const uint32_t here = at(i), near = to_far ? end.depth : here, far = to_far ? here : end.depth;
+    if (!inRange(at(i)) || far < near + least) break;
+    end = {here, i};
+  }
+  return end;
+}
 
 void DepthEdges::layout(Arena &scratch, DepthEdges *edges) {
   DepthEdges discarded;
@@ -128,10 +129,11 @@ void DepthEdges::meet(const Walk &walk, const Measurement &before, const Measure
                       (farther ? isBeyond(std::min(here.depth, after), std::max(before.depth, last.depth))
                                : isBeyond(std::min(before.depth, last.depth), std::max(here.depth, after)));
   if (!of_two && walk.needs_two) return;
-  const uint32_t least =
-      std::max(1u, (std::max(here.depth, last.depth) - std::min(here.depth, last.depth)) / kRampSteps);
-  const Measurement first = walk.rampEnd(last, -1, !farther, least), second = walk.rampEnd(here, 1, farther, least);
-  keep(farther ? walk.edge(first, second) : walk.edge(second, first), of_two);
+  const Measurement &near = farther ? last : here, &far = farther ? here : last;
+  const int32_t toward_far = farther ? 1 : -1;
+  const uint32_t least = std::max(uint32_t{1}, (far.depth - near.depth) / kRampSteps);
+  keep(walk.edge(walk.rampEnd(near, -toward_far, false, least), walk.rampEnd(far, toward_far, true, least)),
+       of_two);
 }
 
 void DepthEdges::keep(const DepthEdge &edge, bool of_two) {
