@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 
 #include "lab/common/normal.h"
 #include "lab/negative/fault.h"
@@ -15,32 +16,21 @@ void addNoiseOfDepth(Sequence *sequence) {
       if (value) value = static_cast<uint16_t>(std::clamp(value * (1 + kShare * normalOf(&random)), 1.0, 65535.0));
 }
 
-// Sum and number of measurements.
-struct Measured {
-  uint32_t sum = 0, count = 0;
-};
-
-// Of those up to `reach` away along a line of `count`, which lie `stride` apart.
-void addNeighbours(const Measured *line, size_t count, size_t stride, size_t reach, Measured *out) {
-  for (size_t i = 0; i < count; ++i)
-    for (size_t j = i - std::min(i, reach); j <= std::min(count - 1, i + reach); ++j) {
-      out[i * stride].sum += line[j * stride].sum;
-      out[i * stride].count += line[j * stride].count;
-    }
-}
-
 // As a filter does: the mean of what is measured around.
 void smooth(bool fills_holes, Sequence *sequence) {
-  const size_t width = sequence->depthWidth(), height = sequence->depthHeight();
-  const size_t reach = std::max<size_t>(1, (width + 50) / 100);
+  const auto width = static_cast<int>(sequence->depthWidth()), height = static_cast<int>(sequence->depthHeight());
+  const int across = 2 * std::max(1, (width + 50) / 100) + 1;
+  const auto sumAround = [across](const cv::Mat &image) {
+    cv::Mat sum;
+    cv::boxFilter(image, sum, CV_64F, {across, across}, {-1, -1}, false, cv::BORDER_CONSTANT);
+    return sum;
+  };
   for (Shot &shot : sequence->shots) {
-    std::vector<Measured> own, across(width * height), around(width * height);
-    for (const uint16_t value : shot.depth) own.push_back({value, value ? 1u : 0u});
-    for (size_t y = 0; y < height; ++y) addNeighbours(&own[y * width], width, 1, reach, &across[y * width]);
-    for (size_t x = 0; x < width; ++x) addNeighbours(&across[x], height, width, reach, &around[x]);
-    for (size_t i = 0; i < around.size(); ++i)
-      if (own[i].count || fills_holes)
-        shot.depth[i] = static_cast<uint16_t>(around[i].sum / std::max(1u, around[i].count));
+    const cv::Mat depth(height, width, CV_16UC1, shot.depth.data()), is_measured = (depth != 0) / 255;
+    const cv::Mat sum = sumAround(depth), count = sumAround(is_measured);
+    for (size_t i = 0; i < shot.depth.size(); ++i)
+      if (shot.depth[i] || fills_holes)
+        shot.depth[i] = static_cast<uint16_t>(sum.ptr<double>()[i] / std::max(1.0, count.ptr<double>()[i]));
   }
 }
 

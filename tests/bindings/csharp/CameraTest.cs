@@ -51,6 +51,7 @@ internal static class CameraTest {
     var cFromB = new Rigid(Quaterniond.Identity, new Vector3d(0, 0, 1));
     Expect.Near(new double[] {half, 0, 0, half, 1, 2, 4}, Session.Numbers(cFromB * bFromA), 1e-12, "composed");
   }
+
   /// <summary>A comma is not both the decimal point and what stands between numbers.</summary>
   public static void NumbersAreWrittenAlikeInEveryCulture() {
     CultureInfo before = Thread.CurrentThread.CurrentCulture;

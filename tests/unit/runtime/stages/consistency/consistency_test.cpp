@@ -124,7 +124,7 @@ TEST(Consistency, WhatEdgesSaidFadesByTheTimeSinceTheySaidIt) {
   EXPECT_FALSE(doubtsAfter(20, 4000000000));
 }
 
-// As a sensor or filter smooths that lets no hole and no flying pixel stand.
+// A sensor may smooth its depth, and no step is left at an edge.
 TEST(Consistency, DepthThatIsSmoothIsNoContradiction) {
   for (const int32_t radius_px : {1, 2, 4}) {
     HeldConsistency held(true);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "tests/support/arena_memory.h"
+
 namespace sphc {
 namespace {
 
@@ -30,23 +32,17 @@ struct MadeEdge {
 
 class Edges {
  public:
-  Edges() {
-    Arena need;
-    DepthEdges::layout(need, nullptr);
-    memory_.resize(need.used() + kArenaAlignment);
-    uint8_t *start = memory_.data();
-    start += (kArenaAlignment - reinterpret_cast<uintptr_t>(start) % kArenaAlignment) % kArenaAlignment;
-    Arena own(start);
-    DepthEdges::layout(own, &edges_);
-  }
+  Edges()
+      : memory_(
+            [this](Arena &arena, bool has_memory) { DepthEdges::layout(arena, has_memory ? &edges_ : nullptr); }) {}
   Span<const DepthEdge> find(const std::vector<uint16_t> &depth) {
     edges_.find({depth.data(), kWidth, kHeight, kWidth}, {0.001, 0.25, 6, 0.004, 0.002});
     return edges_.edges();
   }
 
  private:
-  std::vector<uint8_t> memory_;
   DepthEdges edges_;
+  test::ArenaMemory memory_;
 };
 
 TEST(DepthEdges, LieWhereTheNearSideEndsHoweverSmoothTheyAre) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/stages/consistency/consistency.h"
+#include "tests/support/arena_memory.h"
 
 namespace sphc {
 
@@ -65,20 +66,16 @@ class MadeView {
 // In memory of its own.
 class HeldConsistency {
  public:
-  explicit HeldConsistency(bool follows) {
-    Arena state, scratch;
-    Consistency::layout(state, scratch, nullptr);
-    memory_.resize(state.used() + scratch.used() + kArenaAlignment);
-    uint8_t *start = memory_.data();
-    start += (kArenaAlignment - reinterpret_cast<uintptr_t>(start) % kArenaAlignment) % kArenaAlignment;
-    Arena own_state(start), own_scratch(start + state.used());
-    Consistency::layout(own_state, own_scratch, &consistency);
+  explicit HeldConsistency(bool follows)
+      : memory_([this](Arena &arena, bool has_memory) {
+          Consistency::layout(arena, arena, has_memory ? &consistency : nullptr);
+        }) {
     consistency.init(MadeView::config(follows));
   }
   Consistency consistency;
 
  private:
-  std::vector<uint8_t> memory_;
+  test::ArenaMemory memory_;
 };
 
 }  // namespace sphc
