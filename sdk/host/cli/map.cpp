@@ -99,6 +99,8 @@ nlohmann::ordered_json resultJson(const MapOptions &options, const MapOutcome &o
   nlohmann::ordered_json json = {{"model", options.model}};
   json.update(mapJson(outcome));
   if (options.trajectories.size() == 1) json["trajectory"] = options.trajectories[0];
+  for (size_t i = 0; i < options.trajectories.size(); ++i)
+    json["recordings"][i]["trajectory"] = options.trajectories[i];
   if (refined)
     json["refined_calibration"] = {{"path", options.refined_calibration},
                                    {"color_px", refined->color.largest_px},

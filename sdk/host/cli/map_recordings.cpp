@@ -46,7 +46,7 @@ void tell(const MapOptions &options, const MappedRecording &recording, Walk *wal
       frame.told_world_from_camera = rigidFromC(*told);
 }
 
-bool isTold(const MapOptions &options, const MappedRecording &recording) {
+bool hasToldPose(const MapOptions &options, const MappedRecording &recording) {
   for (uint32_t i = 0; i < recording.reader->frameCount(); ++i)
     if (toldAt(options, recording, recording.reader->colorOf(i).time_ns)) return true;
   return false;
@@ -62,7 +62,7 @@ bool isTold(const MapOptions &options, const MappedRecording &recording) {
 void checkTold(const MapOptions &options, const std::vector<MappedRecording> &recordings) {
   if (options.trust.use == PoseUse::kNone) return;
   for (const MappedRecording &recording : recordings)
-    if (isTold(options, recording)) return;
+    if (recording.is_told) return;
   refuseTold(options);
 }
 
@@ -85,7 +85,7 @@ void noteAll(const MapOptions &options, const std::vector<MappedRecording> &reco
   }
   if (options.trust.use == PoseUse::kNone || recordings.size() == 1) return;
   for (const MappedRecording &recording : recordings)
-    if (!isTold(options, recording))
+    if (!recording.is_told)
       console.warn("note: no pose is of the time of a frame of " + recording.name + ", so it is mapped without" +
                    (options.told.empty() ? "" : ": is its file of poses the right one?"));
 }
@@ -96,6 +96,7 @@ std::vector<MappedRecording> openAll(const MapOptions &options) {
     recordings.push_back({recording.folder, openRecording(recording), {}});
   for (size_t i = 0; i < options.told.size(); ++i)
     recordings[i].told = recording::readTumPoses(options.told[i], &recordings[i].bad_told);
+  for (MappedRecording &recording : recordings) recording.is_told = hasToldPose(options, recording);
   return recordings;
 }
 

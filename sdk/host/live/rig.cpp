@@ -33,7 +33,7 @@ Rig::Rig(const RigOptions &options, Tell trouble) : options_(options), trouble_(
   }
   makePairer();
   for (Camera &camera : cameras_) {
-    camera.device = openDevice(camera.spec, camera.wish);
+    camera.device = options_.open(camera.spec, camera.wish);
     start(&camera);
   }
 }
@@ -128,7 +128,8 @@ bool Rig::acquireFrom(Camera *camera, std::chrono::microseconds timeout) {
   if (camera->ended) return false;
   if (!camera->device) tryAgain(camera);
   if (!camera->device) {
-    std::this_thread::sleep_for(timeout);
+    const auto until_retry = std::chrono::duration_cast<std::chrono::microseconds>(camera->retry - Clock::now());
+    std::this_thread::sleep_for(std::min(timeout, until_retry));
     return false;
   }
   const sphc_source &source = camera->device->source();
@@ -193,12 +194,15 @@ void Rig::tryAgain(Camera *camera) {
   if (Clock::now() < camera->retry) return;
   camera->retry = Clock::now() + kRetry;
   try {
-    camera->device = openDevice(camera->spec, camera->wish);
+    camera->device = options_.open(camera->spec, camera->wish);
     start(camera);
     camera->reopened = true;
+    camera->why_not_back.clear();
     trouble_(camera->spec + ": is back");
-  } catch (const std::exception &) {  // not yet
+  } catch (const std::exception &error) {  // not yet: unplugged still, or another program was quicker
     camera->device.reset();
+    if (camera->why_not_back != error.what()) trouble_("not back yet: " + std::string(error.what()));
+    camera->why_not_back = error.what();
   }
 }
 
@@ -212,7 +216,9 @@ std::vector<std::string> Rig::descriptions() const {
 std::string Rig::troubles() const {
   std::string all;
   for (const Camera &camera : cameras_) {
-    const std::string words = camera.device ? camera.device->troubles() : "unplugged";
+    const std::string words = camera.device                 ? camera.device->troubles()
+                              : camera.why_not_back.empty() ? "unplugged"
+                                                            : "not back yet: " + camera.why_not_back;
     if (!words.empty()) all += (all.empty() ? "" : "; ") + camera.spec + ": " + words;
   }
   return all;

@@ -19,6 +19,7 @@ struct RigOptions {
   std::string both, color, depth;  // `both`, or the other two: lines of text for openDevice
   Wish wish;
   double tolerance_ms = 20;
+  std::function<std::unique_ptr<Device>(const std::string &spec, const Wish &wish)> open = openDevice;
 };
 
 // Taken at about the same time; on loan.
@@ -58,6 +59,7 @@ class Rig {
     std::string spec;
     Wish wish;
     std::unique_ptr<Device> device;  // null while it is unplugged
+    std::string why_not_back;        // as the last try to open it said
     bool ended = false;
     Clock::time_point retry;
     uint32_t failures = 0;  // in a row

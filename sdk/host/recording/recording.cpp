@@ -90,7 +90,7 @@ void selectFrames(const Selection &selection, Recording &recording) {
     if (isChosen(selection, image.sequence)) color.push_back(image);
   if (color.empty())
     throw Failure(SPHC_E_ARGUMENT,
-                  "selection: first " + std::to_string(selection.first) +
+                  shortPath(recording.path.string()) + ": first " + std::to_string(selection.first) +
                       (selection.last < UINT32_MAX ? ", last " + std::to_string(selection.last) : "") +
                       (selection.step > 1 ? ", step " + std::to_string(selection.step) : "") +
                       " chooses no frame; the recording has numbers " + std::to_string(lowest) + " to " +

@@ -254,7 +254,7 @@ TEST(Convert, TakesAPartOfARecording) {
   EXPECT_EQ(runCommand("convert " + walk + " ''").exit_code, kExitUsage);
   const Answer beyond = runCommand("convert " + walk + " " + (folder / "none") + " --first 9");
   EXPECT_EQ(beyond.exit_code, kExitFailure);
-  EXPECT_THAT(beyond.err, HasSubstr("first 9 chooses no frame; the recording has numbers 0 to 8"));
+  EXPECT_THAT(beyond.err, HasSubstr(walk + ": first 9 chooses no frame; the recording has numbers 0 to 8"));
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 

@@ -397,6 +397,7 @@ TEST_F(MapTest, SeveralRecordingsBecomeOneMapAndAStrangerIsNamed) {
   EXPECT_EQ(recordings[2]["frames_mapped"], 0);
   EXPECT_LT(recordings[1]["score"]["rigid_rmse_m"], 0.01);
   EXPECT_FALSE(recordings[2].contains("score"));
+  EXPECT_EQ(recordings[1]["trajectory"], at("2.tum"));
   std::ifstream second(at("2.tum"));
   EXPECT_EQ(std::count(std::istreambuf_iterator<char>(second), {}, '\n'), 9);
 }

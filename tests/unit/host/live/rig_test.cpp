@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <stdexcept>
 
 #include "tests/contract/temp_folder.h"
@@ -87,6 +88,46 @@ TEST_F(RigTest, ManyCapturesWithoutAPairAreNothing) {
   EXPECT_EQ(captures, 200u);
   EXPECT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kEnd);
   EXPECT_EQ(captures, 300u);
+}
+
+// A camera that is unplugged at its first frame, and then a recording in its place.
+class LostDevice : public Device {
+ public:
+  LostDevice() {
+    source_.struct_size = sizeof source_;
+    source_.self = this;
+    source_.start = [](void *) -> sphc_status { return SPHC_OK; };
+    source_.acquire = [](void *, uint32_t, sphc_capture *) -> sphc_status { return SPHC_E_DEVICE_LOST; };
+    source_.release = [](void *, const sphc_capture *) {};
+    source_.stop = [](void *) {};
+    source_.message = [](const void *) -> const char * { return "the camera was unplugged"; };
+  }
+  std::string describe() const override { return "a camera"; }
+};
+
+TEST_F(RigTest, SaysWhyALostCameraIsNotBackAndGoesOnOnceItIs) {
+  const char *const kInstead[] = {"no such device", "no such device", "busy: another program has it"};
+  uint32_t tries = 0;
+  options_.open = [&](const std::string &spec, const Wish &wish) -> std::unique_ptr<Device> {
+    const uint32_t earlier = tries++;
+    if (earlier == 0) return std::make_unique<LostDevice>();
+    if (earlier <= std::size(kInstead)) throw std::runtime_error(spec + ": " + kInstead[earlier - 1]);
+    return openDevice(spec, wish);
+  };
+  const auto rig = open();
+  CapturePair pair;
+  ASSERT_EQ(rig->next(std::chrono::milliseconds(100), &pair), Rig::Got::kNothing);
+  EXPECT_EQ(rig->losses(), 1u);
+  EXPECT_EQ(rig->troubles(), options_.both + ": unplugged");
+  while (tries <= std::size(kInstead))
+    ASSERT_EQ(rig->next(std::chrono::milliseconds(100), &pair), Rig::Got::kNothing);
+  EXPECT_EQ(rig->troubles(), options_.both + ": not back yet: " + options_.both + ": busy: another program has it");
+  ASSERT_EQ(rig->next(std::chrono::seconds(10), &pair), Rig::Got::kPair);
+  rig->release(pair);
+  EXPECT_EQ(rig->troubles(), "");
+  EXPECT_EQ(troubles_, options_.both + ": the camera was unplugged; waiting for it to come back\n" +
+                           "not back yet: " + options_.both + ": no such device\n" + "not back yet: " +
+                           options_.both + ": busy: another program has it\n" + options_.both + ": is back\n");
 }
 
 // Two cameras, each with a clock of its own: both come out on the host's.
