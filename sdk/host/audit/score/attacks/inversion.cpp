@@ -13,6 +13,7 @@ namespace {
 
 constexpr size_t kQuickViews = 24;
 constexpr SecretKey kControlKey = {1};  // of a control; hides nothing
+const char *const kNoView = "no view shows enough points for a picture";
 const char *const kNetworks[] = {"mixed", "patchwork"};
 
 // Share of the views that pictures tell: each the most that any attacker reaches.
@@ -63,7 +64,7 @@ class Painter {
 
 // Pictures that tell something have to be compared with something; no pictures at all tell nothing.
 Measurement ratioOf(const std::string &figure, double own, double papers, size_t views) {
-  if (views == 0) return {figure, {}, "no view shows enough points for a picture"};
+  if (views == 0) return {figure, {}, kNoView};
   if (papers > 0) return {figure, own / papers};
   if (own > 0) return {figure, {}, "the paper's fakes tell none of the views, to compare with"};
   return {figure, 0};
@@ -95,6 +96,8 @@ AttackResult runInversion(AuditContext *context) {
                                  {"inversion.retrieval_fine_paper", paper.fine},
                                  {"inversion.retrieval_shuffled", chance.coarse},
                                  {"inversion.retrieval_fine_shuffled", chance.fine}};
+  if (count == 0)
+    for (Measurement &measured : painter.result.measurements) measured = {measured.figure, {}, kNoView};
   return std::move(painter.result);
 }
 

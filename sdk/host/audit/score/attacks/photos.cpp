@@ -78,6 +78,9 @@ AttackResult runPhotoSpread(AuditContext *context) {
     scores.push_back(companyOf(components, i, here.real, network) - companyOf(components, i, here.fake, network));
     real.push_back(context->truth()[i].real);
   }
+  if (std::set<bool>(real.begin(), real.end()).size() < 2)
+    return {
+        {{"photos.spread_auc", {}, "beside what photos mark there are no real and fake entries to be told apart"}}};
   const Auc auc = areaUnderCurve(scores, real);
   return {{{"photos.spread_auc", auc.value, std::to_string(scores.size()) + " entries", auc.standard_error}}};
 }

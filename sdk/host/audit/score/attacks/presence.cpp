@@ -35,6 +35,10 @@ AttackResult runPresence(AuditContext *context) {
       ask(negatives(object), false);
     }
   }
+  if (present.empty()) {
+    const std::string why = "no photo shows " + std::to_string(kObjectPoints) + " points that are not mapped";
+    return {{{"presence.auc", {}, why}, {"presence.auc_mirrored_too", {}, why}}};
+  }
   const Auc asked = areaUnderCurve(plain, present), both = areaUnderCurve(mirrored_too, present);
   return {{{"presence.auc", asked.value, std::to_string(present.size() / 2) + " objects", asked.standard_error},
            {"presence.auc_mirrored_too", both.value, "", both.standard_error}}};

@@ -18,8 +18,10 @@ AttackResult runRealOrFake(AuditContext *context) {
                            "eta is " + std::to_string(context->eta()).substr(0, 5)},
                           {"real_or_fake.first_tenth", strongest.precision_at_tenth},
                           {"real_or_fake.auc_paper", context->paper().study.scores.back().auc}}};
-  if (strongest.auc_of_layers > 0)
-    result.measurements.push_back({"real_or_fake.auc_of_layers", strongest.auc_of_layers});
+  result.measurements.push_back(
+      strongest.auc_of_layers > 0
+          ? Measurement{"real_or_fake.auc_of_layers", strongest.auc_of_layers}
+          : Measurement{"real_or_fake.auc_of_layers", {}, "the paper's fakes lie in no stacks, which have layers"});
   result.real_or_fake = context->realOrFake().scores;
   return result;
 }

@@ -213,11 +213,27 @@ TEST(MapAudit, PhotosAndTheMirrorTell) {
   EXPECT_EQ(figure(audit(input, rules), "photos.share_of_real").value, 0);
 }
 
+// A limit of what cannot be measured is no limit that holds.
 TEST(MapAudit, ThePapersFakesLieInNoLayers) {
   AuditRules rules;
   rules.only = {"real_or_fake"};
+  rules.limits["real_or_fake.auc_of_layers"] = 0.5;
   const MapAudit result = audit(inputOf(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3)), rules);
-  EXPECT_THROW(figure(result, "real_or_fake.auc_of_layers"), std::runtime_error);
+  EXPECT_THAT(figure(result, "real_or_fake.auc_of_layers").remark, HasSubstr("no stacks"));
+  EXPECT_THAT(result.missingGates(), Contains("real_or_fake.auc_of_layers"));
+}
+
+TEST(MapAudit, PhotosThatShowTooLittleMeasureNothing) {
+  const PointModel room = test::madeUpRoom(300, 1);
+  AuditInput input = inputOf(test::released(room, 1, 1.0 / 3));
+  input.queries = {room.points};  // the very keypoints that are mapped
+  AuditRules rules;
+  rules.only = {"presence", "photo_spread"};
+  rules.limits = {{"presence.auc", 0.9}, {"presence.auc_mirrored_too", 0.9}, {"photos.spread_auc", 0.9}};
+  const MapAudit result = audit(input, rules);
+  for (const auto &[name, limit] : rules.limits)
+    EXPECT_EQ(figure(result, name).verdict(), Verdict::kNotMeasured) << name;
+  EXPECT_THAT(figure(result, "presence.auc").remark, HasSubstr("no photo shows 40 points"));
 }
 
 // Nothing is hidden, and there are too few points for a picture: that is no reason to hold.
@@ -227,7 +243,8 @@ TEST(MapAudit, AMapOfRealPointsAloneFailsClosed) {
   EXPECT_THAT(result.missingGates(),
               testing::ElementsAre("real_or_fake.auc", "inversion.of_papers", "inversion.of_papers_fine"));
   EXPECT_THAT(figure(result, "real_or_fake.auc").remark, HasSubstr("every entry is real"));
-  EXPECT_THAT(figure(result, "inversion.of_papers").remark, HasSubstr("no view shows enough points"));
+  for (const char *name : {"inversion.of_papers", "inversion.retrieval", "inversion.retrieval_fine_shuffled"})
+    EXPECT_THAT(figure(result, name).remark, HasSubstr("no view shows enough points")) << name;
   EXPECT_EQ(result.outcome(), AuditOutcome::kNotMeasured);
   AuditRules rules;
   rules.allow_unmeasured = {"real_or_fake", "inversion"};
