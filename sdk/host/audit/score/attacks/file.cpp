@@ -7,6 +7,11 @@
 #include "host/audit/score/release_scores.h"
 
 namespace sphc::host {
+namespace {
+
+constexpr double kLeastError = 1e-6;  // of an AUC
+
+}  // namespace
 
 Attack fileAttack() {
   return {"file",
@@ -27,7 +32,8 @@ Attack fileCuesAttack() {
             double worst = 0;
             for (const Cue &cue : fileCues(context->map())) {
               const Auc auc = scoreCue(cue, context->truth());
-              worst = std::max(worst, std::abs(auc.value - 0.5) / auc.standard_error);
+              // A cue that is never wrong has no error at all.
+              worst = std::max(worst, std::abs(auc.value - 0.5) / std::max(auc.standard_error, kLeastError));
             }
             return AttackResult{{{"file.cues_sigma", worst}}};
           }};

@@ -64,6 +64,19 @@ TEST(MapAudit, TheFileItselfHolds) {
   EXPECT_EQ(figure(result, "real_or_fake.auc").value, strongest);
 }
 
+// Its error is zero, which no number of sigmas says.
+TEST(MapAudit, ACueThatIsNeverWrongIsANumberOfSigmas) {
+  test::MadeUpRelease release = withEvenFakes(test::released(test::madeUpRoom(500, 1), 1, 1.0 / 3));
+  for (PlacePoint &point : release.place.points)
+    if (point.real) point.direction.u |= 1;
+  release.file = encodeMap(publishedCloud(release.place, {1}), {});
+  AuditRules rules;
+  rules.only = {"file_cues"};
+  const AuditFigure cues = figure(audit(inputOf(release), rules), "file.cues_sigma");
+  EXPECT_EQ(cues.verdict(), Verdict::kBroken);
+  EXPECT_TRUE(std::isfinite(cues.value.value()));
+}
+
 TEST(MapAudit, ACarelessFileDoesNotHold) {
   const test::MadeUpRelease good = test::released(test::madeUpRoom(600, 1), 1, 1.0 / 3);
   const MapAudit even = audit(inputOf(withEvenFakes(good)));
