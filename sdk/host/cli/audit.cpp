@@ -66,10 +66,29 @@ std::vector<InversionView> viewsOf(const AuditOptions &options, const Place &pla
   return viewsFromCentre(openRecording(options.recording).get(), place.centre_m);
 }
 
+// What is no map is refused by its name, and before the attacks.
 std::vector<uint8_t> readMap(const std::string &path) {
   std::vector<uint8_t> bytes = readMapFile(path);
   checkIsNotEncrypted(path, bytes.data(), bytes.size());
+  try {
+    publishedIn(bytes);
+  } catch (const std::runtime_error &error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
   return bytes;
+}
+
+// Beside itself a map gives nothing away, so every limit would hold.
+std::vector<std::vector<uint8_t>> readReleases(const AuditOptions &options, const std::vector<uint8_t> &map) {
+  std::vector<std::vector<uint8_t>> releases;
+  for (const std::string &path : options.releases) {
+    releases.push_back(readMap(path));
+    if (releases.back() == map)
+      throw std::runtime_error(
+          "--release " + path +
+          " is the map that is audited; give the other releases of the place, or leave it out");
+  }
+  return releases;
 }
 
 // In another world, or of another place, it says nothing of the map, and pictures would not be told.
@@ -109,7 +128,7 @@ AuditInput inputOf(const AuditOptions &options, const Console &console) {
   AuditInput input;
   input.file = readMap(options.map);
   input.quick = options.quick;
-  for (const std::string &release : options.releases) input.releases.push_back(readMap(release));
+  input.releases = readReleases(options, input.file);
   input.networks = networksOf(options);
   if (options.truth.empty()) return input;
   input.place = placeOf(options, input.file);

@@ -211,6 +211,22 @@ TEST_F(FilesTest, AuditKeepsTheLedger) {
   expectKept(at("spherecloud.ledger"), audit + at("spherecloud.ledger"), kExitUsage, "--truth reads");
 }
 
+// Beside itself it would hold.
+TEST_F(FilesTest, AnAuditBesideTheMapItselfIsRefused) {
+  fs::copy(at("room.sphc"), at("copy.sphc"));
+  const Answer itself =
+      runCommand("audit " + at("room.sphc") + " --only triangulation --release " + at("copy.sphc"));
+  EXPECT_EQ(itself.exit_code, kExitFailure);
+  EXPECT_THAT(itself.err, HasSubstr("copy.sphc is the map that is audited; give the other releases"));
+}
+
+TEST_F(FilesTest, AReleaseThatIsNoMapIsRefusedByItsNameBeforeTheAttacks) {
+  put("release.sphc", "no map");
+  const Answer answer = runCommand("audit " + at("room.sphc") + " --only file --release " + at("release.sphc"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("release.sphc: no valid map"));
+}
+
 // Its pictures would be told by chance, and hold.
 TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
   ASSERT_EQ(runCommand("simulate --frames 2 --rate 3 --seed 8 --out " + at("another")).exit_code, kExitDone);
