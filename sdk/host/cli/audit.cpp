@@ -1,5 +1,6 @@
 // spherecloud audit: attacks a map before others do.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -153,7 +154,7 @@ AuditRules rulesOf(const AuditOptions &options) {
       size_t used = 0;
       const std::string number = equals == std::string::npos ? "" : text.substr(equals + 1);
       const double value = std::stod(number, &used);
-      if (used != number.size() || !(value == value)) throw std::invalid_argument(number);
+      if (used != number.size() || !std::isfinite(value)) throw std::invalid_argument(number);
       rules.limits[text.substr(0, equals)] = value;
     } catch (const std::logic_error &) {
       throw UsageError("--limit " + text + " is not NAME=NUMBER, as in --limit real_or_fake.auc=0.55");
@@ -195,7 +196,7 @@ void writeFigures(const std::string &path, const std::vector<PrivacyRow> &rows) 
 
 Row rowOf(const AuditFigure &figure) {
   const FigureKind &kind = figure.kind;
-  const std::string limit = kind.limit ? (kind.at_most ? ", at most " : ", at least ") + fixed(*kind.limit, 2) : "";
+  const std::string limit = kind.limit ? (kind.at_most ? ", at most " : ", at least ") + fixed(*kind.limit, 3) : "";
   const std::string remark = figure.remark.empty() ? "" : " (" + figure.remark + ")";
   return {kind.name, figure.value ? fixed(*figure.value, 3) : "-",
           wordFor(figure) + limit + ": " + kind.about + remark};

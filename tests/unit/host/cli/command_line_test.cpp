@@ -100,6 +100,14 @@ TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
             kExitAuditFailed);
 }
 
+// A value of 0.558 is no "BROKEN, at most 0.56".
+TEST(CommandLine, AnAuditTellsItsLimitsAsPreciselyAsItsFigures) {
+  const TempFolder folder;
+  writeTinyMap(folder / "m.sphc", 200);
+  const Answer audit = runCommand("audit " + (folder / "m.sphc") + " --only file --limit file.stray_bytes=0.555");
+  EXPECT_THAT(audit.out, HasSubstr("holds, at most 0.555: "));
+}
+
 TEST(CommandLine, UsageNamesTheSubcommand) {
   EXPECT_THAT(runCommand("build").err, HasSubstr("Try: spherecloud build --help"));
 }
@@ -127,6 +135,7 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"advise -r r --picture ''", "--picture is empty"},
       {"audit m --report ''", "--report is empty"},
       {"audit m --figures ''", "--figures is empty"},
+      {"audit m --limit density.at_centre=inf", "density.at_centre=inf is not NAME=NUMBER"},
       {"doctor --device ''", "--device is empty"},
       {"live -m m --color '' --depth ''", "--color is empty"}};
   for (const auto &[command, reason] : mistakes) {
