@@ -93,17 +93,16 @@ std::vector<std::vector<uint8_t>> readReleases(const AuditOptions &options, cons
 }
 
 // In another world, or of another place, it says nothing of the map, and pictures would not be told.
-void checkWorld(const AuditOptions &options, const Place &place, const std::vector<PointModel> &frames) {
+void checkWorld(const std::string &option, const std::string &folder, const Place &place,
+                const std::vector<PointModel> &frames, const char *cure) {
   size_t seen = 0, known = 0;
   for (const PointModel &frame : frames) {
     seen += frame.points.size();
     known += knownInPlaceFrame(place, frame);
   }
   if (static_cast<double>(known) >= kLeastKnown * static_cast<double>(seen)) return;
-  throw std::runtime_error("--recording: of " + std::to_string(seen) + " points that " + options.recording.folder +
-                           " shows, " + std::to_string(known) +
-                           " lie where the ledger has them; give the first recording of the place, whose world the "
-                           "ledger has, and the frames that were mapped");
+  throw std::runtime_error(option + ": of " + std::to_string(seen) + " points that " + folder + " shows, " +
+                           std::to_string(known) + " lie where the ledger has them; " + cure);
 }
 
 std::string networksOf(const AuditOptions &options) {
@@ -125,6 +124,18 @@ RecordingOptions photosOf(const AuditOptions &options) {
   return photos;
 }
 
+std::vector<PointModel> readPhotos(const AuditOptions &options, const Place &place, const Console &console) {
+  const RecordingOptions photos = photosOf(options);
+  std::vector<PointModel> frames;
+  try {
+    frames = importFrames(photos, options.queries, "photos    ", console);
+  } catch (const std::runtime_error &error) {
+    throw std::runtime_error(std::string("--photos: ") + error.what());
+  }
+  checkWorld("--photos", photos.folder, place, frames, "give frames of the place, posed in the recording's world");
+  return frames;
+}
+
 AuditInput inputOf(const AuditOptions &options, const Console &console) {
   AuditInput input;
   input.file = readMap(options.map);
@@ -135,11 +146,12 @@ AuditInput inputOf(const AuditOptions &options, const Console &console) {
   input.place = placeOf(options, input.file);
   if (options.recording.folder.empty()) return input;
   std::vector<PointModel> frames = importFrames(options.recording, options.queries, "querying  ", console);
-  checkWorld(options, *input.place, frames);
+  checkWorld("--recording", options.recording.folder, *input.place, frames,
+             "give the first recording of the place, whose world the ledger has, and the frames that were mapped");
   if (isRun("inversion", options)) input.views = viewsOf(options, *input.place);
   for (PointModel &frame : frames) input.queries.push_back(std::move(frame.points));
   if (options.has_photos)
-    for (PointModel &frame : importFrames(photosOf(options), options.queries, "photos    ", console))
+    for (PointModel &frame : readPhotos(options, *input.place, console))
       input.photos.push_back(std::move(frame.points));
   return input;
 }
@@ -252,6 +264,8 @@ int run(const AuditOptions &options, const Console &console) {
     throw UsageError("--recording tells nothing without --truth; give the ledger too");
   if (options.has_photos && options.recording.folder.empty())
     throw UsageError("--photos tell nothing without --recording; give what the map was made of too");
+  if (options.photos.last < options.photos.first)
+    throw UsageError("--photos-last lies before --photos-first; swap them");
   const AuditRules rules = rulesOf(options);
   fileUse(options).check();
   const AuditInput input = inputOf(options, console);

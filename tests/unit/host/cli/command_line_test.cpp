@@ -136,6 +136,7 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"audit m --report ''", "--report is empty"},
       {"audit m --figures ''", "--figures is empty"},
       {"audit m --limit density.at_centre=inf", "density.at_centre=inf is not NAME=NUMBER"},
+      {"audit m --truth t -r r --photos-first 3 --photos-last 2", "--photos-last lies before --photos-first"},
       {"doctor --device ''", "--device is empty"},
       {"live -m m --color '' --depth ''", "--color is empty"}};
   for (const auto &[command, reason] : mistakes) {

@@ -236,6 +236,13 @@ TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
   EXPECT_EQ(another.exit_code, kExitFailure);
   EXPECT_THAT(another.err, HasSubstr("give the first recording of the place"));
   EXPECT_EQ(runCommand(audit + at("walk")).exit_code, kExitAuditIncomplete) << "the others are left out";
+  // Photos of it would mark nothing.
+  const Answer photos = runCommand(audit + at("walk") + " --photos " + at("another"));
+  EXPECT_EQ(photos.exit_code, kExitFailure);
+  EXPECT_THAT(photos.err, HasSubstr("--photos: of "));
+  EXPECT_THAT(photos.err, HasSubstr("give frames of the place, posed in the recording's world"));
+  const Answer none = runCommand(audit + at("walk") + " --photos-first 9");
+  EXPECT_THAT(none.err, HasSubstr("--photos: cannot open the recording: selection: first 9 chooses no frame"));
 }
 
 TEST_F(FilesTest, AuditReplacesAnotherTableByForceAndAnEmptyOneAnyway) {
