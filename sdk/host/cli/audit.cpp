@@ -301,11 +301,13 @@ Command auditCommand(CLI::App *root) {
   app->add_option("map", options->map, "Map file")->required()->type_name("MAP");
   app->add_option("--truth", options->truth, "Ledger that released the map")->type_name("FILE");
   addRecordingOptions(app, &options->recording);
-  app->get_option("--recording")->required(false);
+  CLI::Option *recording = app->get_option("--recording")->required(false);
+  for (const char *name : {"--calibration", "--first", "--last", "--step"}) app->get_option(name)->needs(recording);
   app->add_option("--release", options->releases, "Other maps of the place that were published")->type_name("MAP");
   app->add_option("--queries", options->queries, "Frames of a client")
       ->capture_default_str()
       ->transform(wholeFrom(1, 100000))
+      ->needs(recording)
       ->type_name("N");
   auto *photos = app->add_option("--photos", options->photos.folder,
                                  "Frames of the place that the map was not made of, posed in the same world")
@@ -318,7 +320,7 @@ Command auditCommand(CLI::App *root) {
                    ->type_name("N");
   app->add_option("--limit", options->limits, "Another limit: NAME=NUMBER")->type_name("NAME=X");
   app->add_option("--allow-unmeasured", options->allow_unmeasured,
-                  "What may stay unmeasured: a figure, an attack, or truth, networks, releases; repeat")
+                  "What may stay unmeasured: a figure, an attack, or truth, recording, networks, releases; repeat")
       ->expected(1)
       ->take_all()
       ->type_name("NAME");
@@ -327,8 +329,11 @@ Command auditCommand(CLI::App *root) {
       ->take_all()
       ->type_name("ATTACK");
   app->add_option("--report", options->report, "Folder for a page with pictures")->type_name("FOLDER");
-  app->add_option("--figures", options->figures, "Write the figures into this table too")->type_name("CSV");
-  app->add_option("--name", options->name, "Name of the map in that table [the file's]")->type_name("NAME");
+  CLI::Option *figures = app->add_option("--figures", options->figures, "Write the figures into this table too");
+  figures->type_name("CSV");
+  app->add_option("--name", options->name, "Name of the map in that table [the file's]")
+      ->needs(figures)
+      ->type_name("NAME");
   app->add_option("--networks", options->networks, "Folder of the attackers' networks [the command's own]")
       ->type_name("FOLDER");
   app->add_flag("--quick", options->quick, "Fewer lines and views: within half a minute");
