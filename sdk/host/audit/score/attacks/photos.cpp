@@ -9,6 +9,7 @@
 #include "host/audit/score/auc.h"
 #include "host/audit/score/audit_context.h"
 #include "host/audit/score/release_scores.h"
+#include "host/base/counted.h"
 
 namespace sphc::host {
 namespace {
@@ -36,13 +37,13 @@ AttackResult runPhotos(AuditContext *context) {
   const size_t entries = context->truth().size();
   const auto real = static_cast<size_t>(std::count_if(context->truth().begin(), context->truth().end(),
                                                       [](const EntryTruth &entry) { return entry.real; }));
-  return {
-      {{"photos.share_of_real", shareOf(plain.real, real),
-        std::to_string(kPhotos) + (context->input().photos.empty() ? " photos of the mapping walk" : " photos")},
-       {"photos.precision", plain.precision()},
-       {"photos.share_of_fakes", shareOf(mirrored_fake, entries - real)},
-       {"photos.precision_mirrored", shareOf(mirrored_fake, mirrored.believed)},
-       {"photos.reach", shareOf(realBeside(marks.real, context->truth(), context->layers()), real)}}};
+  return {{{"photos.share_of_real", shareOf(plain.real, real),
+            counted(everyNth(context->photos(), kPhotos).size(), "photo") +
+                (context->input().photos.empty() ? " of the mapping walk" : "")},
+           {"photos.precision", plain.precision()},
+           {"photos.share_of_fakes", shareOf(mirrored_fake, entries - real)},
+           {"photos.precision_mirrored", shareOf(mirrored_fake, mirrored.believed)},
+           {"photos.reach", shareOf(realBeside(marks.real, context->truth(), context->layers()), real)}}};
 }
 
 // How well an entry goes with some that are marked in its stack: the mean by the pairs' network.

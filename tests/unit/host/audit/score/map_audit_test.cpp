@@ -209,6 +209,7 @@ TEST(MapAudit, PhotosAndTheMirrorTell) {
   EXPECT_EQ(value("presence.auc_mirrored_too"), 1);
   EXPECT_GT(value("presence.auc"), 0.9);
   EXPECT_GT(value("photos.share_of_real"), 0.03);
+  EXPECT_EQ(figure(result, "photos.share_of_real").remark, "3 photos of the mapping walk");
   EXPECT_EQ(value("photos.precision"), 1);
   EXPECT_GT(value("photos.share_of_fakes"), 0.03);
   EXPECT_EQ(value("photos.precision_mirrored"), 1);
