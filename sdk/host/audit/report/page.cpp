@@ -1,5 +1,6 @@
 #include "host/audit/report/page.h"
 
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/audit/score/inversion_sheet.h"
@@ -103,7 +104,12 @@ std::string writeAuditPage(const std::string &folder, const std::string &map, co
       "</section>" + pictures + "</main></html>\n";
   const std::string page = folder + "/audit.html";
   writeFile(page, html);  // first: by it the next audit knows the folder
-  if (!png.empty()) writeFile(folder + "/inversion.png", png);
+  const std::string picture = folder + "/inversion.png";
+  std::error_code ignored;
+  if (png.empty())
+    std::filesystem::remove(picture, ignored);  // of an audit before
+  else
+    writeFile(picture, png);
   return page;
 }
 

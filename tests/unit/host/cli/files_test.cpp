@@ -211,6 +211,14 @@ TEST_F(FilesTest, AuditKeepsTheLedger) {
   expectKept(at("spherecloud.ledger"), audit + at("spherecloud.ledger"), kExitUsage, "--truth reads");
 }
 
+TEST_F(FilesTest, AnAuditsReportHasNoPictureOfAnAuditBefore) {
+  const std::string audit = "audit " + at("room.sphc") + " --only file --report " + at("report");
+  ASSERT_EQ(runCommand(audit).exit_code, kExitAuditIncomplete);
+  put("report/inversion.png", "of an audit before");
+  ASSERT_EQ(runCommand(audit).exit_code, kExitAuditIncomplete);
+  EXPECT_FALSE(fs::exists(at("report/inversion.png")));
+}
+
 // Beside itself it would hold.
 TEST_F(FilesTest, AnAuditBesideTheMapItselfIsRefused) {
   fs::copy(at("room.sphc"), at("copy.sphc"));
