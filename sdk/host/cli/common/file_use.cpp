@@ -63,8 +63,12 @@ void checkParent(const std::string &option, const std::string &path) {
     refuse(option, path, "has too long a name; give one of at most " + std::to_string(kMostBytes) + " bytes");
   std::error_code error;
   const fs::path folder = plain(path).parent_path();
-  if (!fs::is_directory(folder, error))
-    refuse(option, path, "cannot be written: there is no folder " + folder.string() + "; make it first");
+  fs::path named = fs::absolute(path);
+  if (!named.has_filename()) named = named.parent_path();  // "walk/" is "walk"
+  // "none/.." is a folder only where none is one.
+  for (const fs::path &needed : {folder, named.parent_path()})
+    if (!fs::is_directory(needed, error))
+      refuse(option, path, "cannot be written: there is no folder " + needed.string() + "; make it first");
   checkMayMake(option, path, folder);
 }
 

@@ -91,6 +91,7 @@ TEST_F(FileUseTest, ForceIsForFilesOfOthersAlone) {
   fs::create_directory(folder_ / "other");
   EXPECT_THAT(refusal(folder_ / "other", true), HasSubstr("is a folder"));
   EXPECT_THAT(refusal(folder_ / "none/new", true), HasSubstr("there is no folder"));
+  EXPECT_THAT(refusal(folder_ / "none/../new", true), HasSubstr("none/..; make it first"));
 }
 
 TEST_F(FileUseTest, AMinusIsNoName) {
@@ -188,6 +189,7 @@ TEST_F(FileUseTest, ARecordingIsNeverReplaced) {
     return std::string("fine");
   };
   EXPECT_EQ(refused("new.mcap"), "fine");
+  EXPECT_EQ(refused("new/"), "fine");
   EXPECT_THAT(refused("map"), HasSubstr("never replaced"));
   EXPECT_THAT(refused("walk"), HasSubstr("never replaced"));
   fs::create_directory(folder_ / "empty");
