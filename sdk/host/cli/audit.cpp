@@ -236,7 +236,7 @@ void tell(const MapAudit &audit, const std::string &page, const Console &console
                           {"retrieval_coarse", result.coarse.top1},
                           {"retrieval_fine", result.fine.top1}});
   console.say(tableText(rows));
-  if (!page.empty()) console.say("Report: " + page);
+  if (!page.empty()) console.say((audit.views.empty() ? "Report: " : "Report, private: ") + page);
   console.say(outcomeText(audit));
   console.give({{"holds", audit.outcome() == AuditOutcome::kHolds},
                 {"not_measured", audit.missingGates()},
