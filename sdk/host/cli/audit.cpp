@@ -100,7 +100,7 @@ void checkWorld(const std::string &option, const std::string &folder, const Plac
     seen += frame.points.size();
     known += knownInPlaceFrame(place, frame);
   }
-  if (static_cast<double>(known) >= kLeastKnown * static_cast<double>(seen)) return;
+  if (seen > 0 && static_cast<double>(known) >= kLeastKnown * static_cast<double>(seen)) return;
   throw std::runtime_error(option + ": of " + std::to_string(seen) + " points that " + folder + " shows, " +
                            std::to_string(known) + " lie where the ledger has them; " + cure);
 }

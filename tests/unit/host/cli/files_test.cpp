@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "command_runner.h"
@@ -244,6 +245,11 @@ TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
   EXPECT_EQ(another.exit_code, kExitFailure);
   EXPECT_THAT(another.err, HasSubstr("give the first recording of the place"));
   EXPECT_EQ(runCommand(audit + at("walk")).exit_code, kExitAuditIncomplete) << "the others are left out";
+  // And so would a recording that shows nothing, here since all depth is too near.
+  const std::string near = std::regex_replace(fileText(at("walk/calibration.json")),
+                                              std::regex("(\"depth_unit_m\": )[0-9.e-]+"), "$010.00001");
+  put("near.json", near);
+  EXPECT_THAT(runCommand(audit + at("walk") + " -c " + at("near.json")).err, HasSubstr("--recording: of 0 points"));
   // Photos of it would mark nothing.
   const Answer photos = runCommand(audit + at("walk") + " --photos " + at("another"));
   EXPECT_EQ(photos.exit_code, kExitFailure);
