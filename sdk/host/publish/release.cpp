@@ -139,11 +139,13 @@ Place newPlace(const std::vector<ModelPoint> &points, sphc_band band, const Rele
   return place;
 }
 
+size_t realOf(size_t points, double eta) { return static_cast<size_t>(eta * static_cast<double>(points)); }
+
 // Gives the points their assignments, once and for all.  How many there are.
 size_t publish(std::vector<ModelPoint> points, const ReleaseRequest &request, Place *place) {
   const auto at_centre = [&](const ModelPoint &p) { return (p.position_m - place->centre_m).norm() < kNearestM; };
   points.erase(std::remove_if(points.begin(), points.end(), at_centre), points.end());
-  const size_t real = static_cast<size_t>(place->eta * static_cast<double>(points.size()));
+  const size_t real = realOf(points.size(), place->eta);
   const uint32_t release = static_cast<uint32_t>(place->releases.size() + 1);
   if (points.size() < kLeastBatch)
     throw std::runtime_error("there are " + std::to_string(points.size()) +
@@ -244,7 +246,7 @@ NewRelease makeRelease(const PointModel &all, const ReleaseRequest &request) {
     summary.is_update = true;
     summary.place_from_world = here->place_from_model.front();
     toPlace(summary.place_from_world, &fresh);
-    if (fresh.size() < kLeastBatch) summary.held_back = fresh.size();
+    if (fresh.size() < kLeastBatch || realOf(fresh.size(), place.eta) == 0) summary.held_back = fresh.size();
   } else {
     place = newPlace(fresh, model.band, request);
   }

@@ -198,6 +198,18 @@ TEST(Release, AFewNewPointsWaitForMore) {
   EXPECT_EQ(releaseAfter(held, room).summary.added, 100u);
 }
 
+// An update cannot have another eta, so that is no cure.
+TEST(Release, NewPointsOfWhichNotOneWouldBeRealWaitForMore) {
+  const PointModel room = test::madeUpRoom(1200, 1);
+  ReleaseRequest request = releaseRequest();
+  request.eta = 0.01;
+  const NewRelease first = makeRelease(test::part(room, 0, 1000), request);
+  const NewRelease held = releaseAfter(first, test::part(room, 0, 1090));
+  EXPECT_EQ(held.summary.held_back, 90u);
+  EXPECT_EQ(held.file, first.file);
+  EXPECT_EQ(releaseAfter(held, room).summary.added, 200u);
+}
+
 TEST(Release, NearDuplicatesAreMergedFirst) {
   const PointModel room = test::madeUpRoom(500, 1);
   const NewRelease made = makeRelease(test::joined(room, test::seenAgain(room, 2)), releaseRequest());
