@@ -22,6 +22,11 @@ constexpr uint32_t kChanceStep_px = 5;
 constexpr uint32_t kGap_px = 10;
 constexpr double kMeasured = 0.2, kHardlyReached = 0.02;  // shares of pixels
 
+bool isIdentity(const sphc_rigid &rigid) {
+  const double *q = rigid.q_wxyz, *t = rigid.t_m;
+  return q[1] == 0 && q[2] == 0 && q[3] == 0 && t[0] == 0 && t[1] == 0 && t[2] == 0;
+}
+
 std::vector<uint8_t> grayOf(const sphc_image &image) {
   const size_t channels = image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
   std::vector<uint8_t> gray(size_t{image.width} * image.height);
@@ -55,7 +60,9 @@ GeometryCheck::GeometryCheck(const sphc_rig &calibration) : calibration_(calibra
 
 bool GeometryCheck::canBe(Mistake mistake) const {
   const sphc_camera &color = calibration_.color_camera, &depth = calibration_.depth_camera;
-  const bool registered = std::memcmp(&color, &depth, sizeof color) == 0;
+  // Two cameras of one make may have the same numbers, and stand apart.
+  const bool registered =
+      std::memcmp(&color, &depth, sizeof color) == 0 && isIdentity(calibration_.color_from_depth);
   if (mistake == kRegistered) return !registered && color.width == depth.width && color.height == depth.height;
   return mistake != kInverse || !registered;
 }

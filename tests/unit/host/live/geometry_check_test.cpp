@@ -64,6 +64,41 @@ TEST_F(GeometryCheckTest, MirroringAndTurningAreNamed) {
   EXPECT_NE(turned.text.find("half a turn"), std::string::npos) << turned.text;
 }
 
+// Boards before a wall, seen by two pinhole cameras of the same numbers; the colour camera stands 10 cm to the
+// right.
+Finding lookWithTwins(const sphc_rig &calibration, bool registered) {
+  constexpr uint32_t kWidth = 320, kHeight = 240, kBoard = 30, kGap = 64;
+  constexpr uint32_t kShift = 20;  // of the boards, 1.5 m away, in pixels
+  std::vector<uint8_t> color(kWidth * kHeight, 40);
+  std::vector<uint16_t> depth(kWidth * kHeight, 3000);
+  for (uint32_t y = 16; y < kHeight - 16; ++y)
+    for (uint32_t x = 40; x < kWidth - 40; ++x) {
+      if (x % kGap >= kBoard || y % kGap >= kBoard) continue;
+      color[y * kWidth + x - kShift] = 200;
+      depth[y * kWidth + x - (registered ? kShift : 0)] = 1500;
+    }
+  GeometryCheck check(calibration);
+  for (int i = 0; i < 4; ++i)
+    check.look({color.data(), kWidth, kHeight, kWidth, SPHC_FORMAT_GRAY8},
+               {depth.data(), kWidth, kHeight, 2 * kWidth, SPHC_FORMAT_DEPTH16});
+  return check.finding();
+}
+
+TEST(GeometryCheckOfTwins, ATransformTheWrongWayRoundOrNotNeededIsNamed) {
+  sphc_rig rig;
+  sphc_rig_init(&rig);
+  rig.color_camera = rig.depth_camera = {SPHC_CAMERA_PINHOLE, 320, 240, 4, {300, 300, 160, 120}};
+  rig.color_from_depth.t_m[0] = -0.1;
+  const Finding sound = lookWithTwins(rig, false);
+  EXPECT_EQ(sound.grade, Finding::Grade::kFine) << sound.text;
+  const Finding registered = lookWithTwins(rig, true);
+  EXPECT_NE(registered.text.find("registered to colour"), std::string::npos) << registered.text;
+  rig.color_from_depth.t_m[0] = 0.1;
+  const Finding inverse = lookWithTwins(rig, false);
+  EXPECT_EQ(inverse.grade, Finding::Grade::kWrong);
+  EXPECT_NE(inverse.text.find("the wrong way round"), std::string::npos) << inverse.text;
+}
+
 TEST_F(GeometryCheckTest, ABlankWallTellsNothing) {
   const Finding finding = look(
       calibration_, [](std::vector<uint16_t> *depth) { std::fill(depth->begin(), depth->end(), uint16_t{2000}); });
