@@ -171,6 +171,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "depth_registered", "true or false"}),
     [](const auto &suite) { return suite.param.name; });
 
+// Of lists in lists; to show or to destroy them must not use up the stack.
+TEST(Calibration, RefusesWhatIsNestedDeeply) {
+  const std::string lists = std::string(200000, '[') + std::string(200000, ']');
+  for (const char *from : {"\"pinhole\"", "0.5", "[290, 291, 160, 120]"}) {
+    const Parsed parsed = parse(replaced(kGood, from, lists.c_str()));
+    EXPECT_EQ(parsed.status, SPHC_E_ARGUMENT);
+    EXPECT_THAT(parsed.message, AllOf(HasSubstr("rig.json"), HasSubstr("nested too deeply")));
+  }
+}
+
 TEST(Calibration, ExplainsAFileThatIsNotThere) {
   const TempFolder folder;
   sphc_rig calibration;

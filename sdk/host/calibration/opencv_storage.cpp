@@ -16,6 +16,24 @@ namespace sphc::host {
 namespace {
 
 constexpr size_t kMostElements = 64;
+constexpr size_t kDeepest = 500;  // levels, which OpenCV's parser calls itself for
+
+// Is it nested so deeply that OpenCV's parser would use up the stack?  Of brackets and tags the levels are counted.
+// In YAML a line can open levels without them, as in "- - -" and "a: a: a:"; there its signs are counted.
+bool isTooDeep(const std::string &text) {
+  const bool is_yaml = text.rfind("%YAML", 0) == 0;
+  size_t depth = 0, signs = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : '\0';
+    const bool closes_tag = c == '/' && next == '>';
+    if (c == '[' || c == '{' || (c == '<' && next != '/' && next != '!' && next != '?')) ++depth;
+    if ((c == ']' || c == '}' || (c == '<' && next == '/') || closes_tag) && depth > 0) --depth;
+    if (c == '\n') signs = 0;
+    if (is_yaml && (c == ':' || (c == '-' && depth == 0))) ++signs;
+    if (depth + signs > kDeepest) return true;
+  }
+  return false;
+}
 
 // OpenCV prints what it throws; we say it once, with the file's name.
 class QuietOpencv {
@@ -157,6 +175,7 @@ std::string opencvCamera(const std::string &n, const sphc_camera &camera) {
 
 CalibrationPart readOpencv(const TextFile &file) {
   const QuietOpencv quiet;
+  if (isTooDeep(file.text)) refuse(file.name, "the file", "is nested too deeply for a calibration; write it anew");
   const char *what = "no valid OpenCV FileStorage, which begins with %YAML:1.0, { or <?xml; write the file anew: ";
   try {
     return read(file);

@@ -19,15 +19,19 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+constexpr int kDeepest = 16;  // a calibration has three levels; what writes a value out again calls itself
+
 [[noreturn]] void fail(const std::string &key, const std::string &text) {
   throw Failure(SPHC_E_ARGUMENT, key + ": " + text);
 }
 
-// Parses, refusing a key given twice in one object (the parser itself would take the last).
+// Parses, refusing a key given twice in one object (the parser itself would take the last), and what is nested
+// deeply.
 Json parseJson(std::string_view text) {
   if (host::isUtf16(text)) fail("the file", "is in UTF-16; save it as UTF-8");
   std::map<int, std::set<std::string>> seen;
   const auto watch = [&seen](int depth, Json::parse_event_t event, Json &value) {
+    if (depth > kDeepest) fail("the file", "is nested too deeply for a calibration; write it anew");
     if (event == Json::parse_event_t::object_start) seen[depth + 1].clear();
     if (event == Json::parse_event_t::key && !seen[depth].insert(value.get<std::string>()).second)
       fail(value.get<std::string>(), "given twice; remove one");

@@ -69,6 +69,21 @@ TEST(OpencvStorage, OpencvReadsWhatWeWrite) {
   EXPECT_NEAR(t.at<double>(1, 0), 0.5, 1e-15);
 }
 
+// OpenCV's own parser calls itself for each level, down to the end of the stack.
+TEST(OpencvStorage, RefusesWhatIsNestedDeeply) {
+  const auto repeated = [](const std::string &word) {
+    std::string all;
+    while (all.size() < 240000) all += word;
+    return all;
+  };
+  const std::string yaml = "%YAML:1.0\n---\n";
+  for (const std::string &text :
+       {"{\"camera_matrix\": " + repeated("["), yaml + "camera_matrix: " + repeated("{a: "),
+        yaml + "camera_matrix:\n  " + repeated("- "), yaml + repeated("a:"), yaml + "a:\n  " + repeated("-"),
+        "<?xml version=\"1.0\"?>\n<opencv_storage>" + repeated("<a>")})
+    expectRefused(Format::kOpencv, "all", {{"all", text.c_str(), "the file", "nested too deeply"}});
+}
+
 TEST(OpencvStorage, SaysWhatIsWrong) {
   expectRefused(Format::kOpencv, kOpencvStereoFile,
                 {{"%YAML:1.0", "# YAML", "the file", "no valid OpenCV FileStorage"},
