@@ -52,7 +52,9 @@ constexpr char kPoses[] =
 enum class Contradiction { kNone, kMistake, kAnyScale, kOtherScale };
 
 Contradiction contradictionOfScale(const PoseScale &scale) {
-  if (scale.agree_corrected >= kFewestMatches && scale.agree_most < kMostOfOtherScale * scale.agree_corrected)
+  // A few keypoints agree by chance under one correction of many.
+  if (scale.agree_corrected >= kFewestMatches && scale.agree_corrected >= kLeastOfAnyScale * scale.ofThePlace() &&
+      scale.agree_most < kMostOfOtherScale * scale.agree_corrected)
     return Contradiction::kMistake;
   // A menu over the image may be most of what is seen; then the others agree.
   if (scale.matches >= kManyMatches && scale.agree_most < kLeastOfAnyScale * scale.matches &&
@@ -67,7 +69,13 @@ std::string sharedKeypoints(const PoseScale &scale) {
   return counted(scale.matches, "keypoint") + " that two frames share";
 }
 
-std::string wordsOf(Contradiction contradiction, const PoseScale &scale) {
+constexpr char kScaleOfAll[] = "depth_unit_m of the calibration, or the unit of the poses, is another";
+// A recording has one unit for all frames; a wrong focal length shows more in some.
+constexpr char kScaleOfPart[] =
+    "poses there are of another scale, or focal lengths of the calibration are wrong; leave these frames out "
+    "(--first, --last), or calibrate again";
+
+std::string wordsOf(Contradiction contradiction, const PoseScale &scale, const char *of_scale) {
   switch (contradiction) {
     case Contradiction::kNone:
       break;
@@ -79,8 +87,7 @@ std::string wordsOf(Contradiction contradiction, const PoseScale &scale) {
              " lie where the poses say: " + kPoses;
     case Contradiction::kOtherScale:
       return "the camera goes about " + fixed(1 / scale.multiple, 1) +
-             " times as far by the poses as by depth: depth_unit_m of the calibration, or the unit of the poses, "
-             "is another";
+             " times as far by the poses as by depth: " + of_scale;
   }
   return "";
 }
@@ -130,10 +137,13 @@ std::string nameOf(const PoseScalePart &part, const RgbdImportSummary &summary) 
 std::vector<std::string> contradictionsOfParts(const RgbdImportSummary &summary) {
   std::vector<std::string> sentences;
   const std::vector<PoseScalePart> parts = judgedParts(summary);
+  const bool one_unit = summary.scale_parts.empty() || summary.scale_parts.back().recording == 0;
+  const char *of_scale = one_unit ? kScaleOfPart : kScaleOfAll;
   for (const PoseScalePart &part : parts) {
     const Contradiction contradiction = contradictionOfScale(part.scale);
     if (contradiction == Contradiction::kMistake || contradiction == Contradiction::kOtherScale)
-      sentences.push_back(nameOf(part, summary) + ", unlike others: " + wordsOf(contradiction, part.scale));
+      sentences.push_back(nameOf(part, summary) +
+                          ", unlike others: " + wordsOf(contradiction, part.scale, of_scale));
   }
   return sentences.size() < parts.size() ? sentences : std::vector<std::string>();
 }
@@ -175,7 +185,7 @@ std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary)
   std::vector<std::string> sentences = contradictionsOfParts(summary);
   if (!sentences.empty()) return sentences;
   const Contradiction of_scale = contradictionOfScale(summary.scale);
-  if (of_scale == Contradiction::kMistake) return {wordsOf(of_scale, summary.scale)};
+  if (of_scale == Contradiction::kMistake) return {wordsOf(of_scale, summary.scale, kScaleOfAll)};
   const double merged =
       static_cast<double>(summary.merged) / static_cast<double>(std::max<uint64_t>(1, summary.lifted));
   const double disagreement = summary.moving.disagreement;
@@ -185,7 +195,7 @@ std::vector<std::string> contradictionsOfPoses(const RgbdImportSummary &summary)
   else if (disagreement > (merged < kThinlyMerged ? kMostOfThin : kMostDisagreement))
     sentences.push_back("the frames disagree on where things are, by " +
                         std::to_string(std::lround(100 * disagreement)) + " % of the depth: " + kPoses);
-  if (of_scale != Contradiction::kNone) sentences.push_back(wordsOf(of_scale, summary.scale));
+  if (of_scale != Contradiction::kNone) sentences.push_back(wordsOf(of_scale, summary.scale, kScaleOfAll));
   return sentences;
 }
 

@@ -9,9 +9,11 @@
 namespace sphc::host {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 RgbdImportSummary soundWalk() {
@@ -94,6 +96,9 @@ TEST(Contradictions, AMistakeThatCorrectedPosesHaveNotIsNamed) {
   walk.moving.disagreement = 0.004;
   walk.scale = {60, 0, 0, 1, 30, "poses are inverse"};
   EXPECT_THAT(contradictionsOf(walk), IsEmpty()) << "too few to tell";
+  walk.scale = {7000, 5, 12, 2, 77, "poses are inverse"};
+  EXPECT_THAT(contradictionsOf(walk), ElementsAre(HasSubstr("only 12 lie where the poses say")))
+      << "a correction by which hardly more agree is none";
 }
 
 // A walk of which four parts are so; the whole agrees by half, and no correction of all of it would help.
@@ -115,7 +120,8 @@ TEST(Contradictions, APartThatIsUnlikeOthersIsNamedWithItsFrames) {
       ElementsAre("about frames 20 to 39, unlike others: poses are inverse. Then 620 of 800 keypoints that two "
                   "frames share lie where the poses say, and now 40"));
   EXPECT_THAT(contradictionsOf(walkOfParts(twice, sound, sound, odd)),
-              ElementsAre(HasSubstr("frames 0 to 9, unlike others: the camera goes about 2.0 times")));
+              ElementsAre(AllOf(HasSubstr("frames 0 to 9, unlike others: the camera goes about 2.0 times"),
+                                HasSubstr("focal lengths"), Not(HasSubstr("depth_unit_m")))));
   EXPECT_THAT(contradictionsOf(walkOfParts(sound, sound, sound, odd)), IsEmpty()) << "it may have been shaken";
   const PoseScale few = {90, 5, 10, 2, 80, "poses are inverse"};
   EXPECT_THAT(contradictionsOf(walkOfParts(sound, sound, sound, few)), IsEmpty()) << "too few to tell";
@@ -126,6 +132,9 @@ TEST(Contradictions, APartThatIsUnlikeOthersIsNamedWithItsFrames) {
   two.scale_parts[2].recording = two.scale_parts[3].recording = 1;
   EXPECT_THAT(contradictionsOf(two),
               ElementsAre(testing::StartsWith("about frames 20 to 39 of recording 2, unlike")));
+  two = walkOfParts(sound, sound, twice, twice);
+  two.scale_parts[2].recording = two.scale_parts[3].recording = 1;
+  EXPECT_THAT(contradictionsOf(two), ElementsAre(HasSubstr("depth_unit_m"))) << "its own calibration";
 }
 
 TEST(Contradictions, AMenuOverMostOfWhatIsSeenIsNone) {
