@@ -242,22 +242,27 @@ void addOptions(CLI::App *app, CalibrationOptions *options) {
   app->add_option("--color", options->join.color, "Name of the colour camera in the files [color, or the first]")
       ->type_name("NAME")
       ->group(group);
-  app->add_option("--depth", options->join.depth, "Name of the depth camera in the files [depth, or the second]")
-      ->type_name("NAME")
-      ->group(group);
+  CLI::Option *depth = app->add_option("--depth", options->join.depth,
+                                       "Name of the depth camera in the files [depth, or the second]")
+                           ->type_name("NAME")
+                           ->group(group);
   app->add_option("--color-size", options->color_size,
                   "Size of colour images; with azure-kinect it chooses the mode")
       ->type_name("WxH")
       ->group(group);
-  app->add_option("--depth-size", options->depth_size, "Size of depth images, likewise")
-      ->type_name("WxH")
-      ->group(group);
-  app->add_option("--color-from-depth", options->color_from_depth, "QW,QX,QY,QZ,TX,TY,TZ; metres")
-      ->delimiter(',')
-      ->expected(7)
-      ->type_name("POSE")
-      ->group(group);
+  CLI::Option *depth_size = app->add_option("--depth-size", options->depth_size, "Size of depth images, likewise")
+                                ->type_name("WxH")
+                                ->group(group);
+  CLI::Option *color_from_depth =
+      app->add_option("--color-from-depth", options->color_from_depth, "QW,QX,QY,QZ,TX,TY,TZ; metres")
+          ->delimiter(',')
+          ->expected(7)
+          ->type_name("POSE")
+          ->group(group);
   app->add_flag("--registered", options->join.registered, "Depth lies on colour already: one camera is enough")
+      ->excludes(depth)
+      ->excludes(depth_size)
+      ->excludes(color_from_depth)
       ->group(group);
   app->add_option("--depth-unit", options->depth_unit_m,
                   "Metres per unit of the depth image [the file's, or 0.001]")

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/usage_error.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/number_checks.h"
@@ -186,6 +187,8 @@ Findings lookAt(DoctorOptions options, const Console &console) {
 int run(const DoctorOptions &options, const Console &console) {
   const bool has_cameras = !options.rig.both.empty() || !options.rig.color.empty() || !options.rig.depth.empty();
   if (has_cameras) checkRigOptions(options.rig);
+  if (!has_cameras && !options.rig.wish.calibration.empty())
+    throw UsageError("--calibration is of cameras; give --device, or --color and --depth, too");
   const Findings findings = has_cameras ? lookAt(options, console) : lookAround();
   bool wrong = false;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();

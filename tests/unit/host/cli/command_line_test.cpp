@@ -125,6 +125,9 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"build --recording r --map m --fakes gaussian --patch-deg 20",
        "--patch-deg says nothing of --fakes gaussian"},
       {"build --recording r --map m --fakes patchwork --sigma2 2", "--sigma2 says nothing of --fakes patchwork"},
+      {"calibration c --registered --color-from-depth 1,0,0,0,0,0,0", "--color-from-depth excludes --registered"},
+      {"calibration c --registered --depth cam1", "--depth excludes --registered"},
+      {"calibration c --registered --depth-size 640x480", "--depth-size excludes --registered"},
       {"convert a b --jpeg 90", "--jpeg is of an MCAP file"},
       {"convert a b.raw --depth-codec rvl", "--depth-codec is of an MCAP file"},
       {"simulate --out walk.raw", "`spherecloud convert` makes a .raw file"},
@@ -141,6 +144,7 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"audit m --limit density.at_centre=inf", "density.at_centre=inf is not NAME=NUMBER"},
       {"audit m --truth t -r r --photos-first 3 --photos-last 2", "--photos-last lies before --photos-first"},
       {"doctor --device ''", "--device is empty"},
+      {"doctor --calibration c", "--calibration is of cameras"},
       {"live -m m --color '' --depth ''", "--color is empty"}};
   for (const auto &[command, reason] : mistakes) {
     const Answer answer = runCommand(command);
