@@ -62,6 +62,18 @@ std::vector<RaySample> sampleCamera(const sphc_camera &camera_c) {
   return samples;
 }
 
+double shareWithoutRay(const sphc_camera &camera) {
+  return 1 - static_cast<double>(sampleCamera(camera).size()) / (kSampledColumns * kSampledRows);
+}
+
+std::string doubtOfField(const sphc_camera &camera) {
+  const double percent = 100 * shareWithoutRay(camera);
+  if (percent < 1) return {};
+  return "no ray at " + std::to_string(std::lround(percent)) +
+         " % of the pixels, where the distortion turns back or they look 89 degrees off the axis and more: nothing "
+         "is seen there; check focal lengths and distortion, or calibrate with points up to the corners";
+}
+
 // Levenberg and Marquardt's damped least squares.
 NearestCamera nearestCamera(const std::vector<RaySample> &samples, WantedModel wanted, const sphc_camera &start) {
   sphc_camera camera = firstGuess(wanted, start);

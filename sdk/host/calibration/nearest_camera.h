@@ -1,5 +1,6 @@
 // The camera of a wanted model that comes nearest to given pixels, by least squares over the image.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "runtime/geometry/camera.h"
@@ -12,6 +13,10 @@ struct RaySample {
 };
 // On a grid over the image, where the camera sees at all.
 std::vector<RaySample> sampleCamera(const sphc_camera &camera);
+// Share of the image, 0 to 1, where it does not: the distortion turns back, or it is 89 degrees and more off axis.
+double shareWithoutRay(const sphc_camera &camera);
+// That, and the cure, for people; empty where it is less than a hundredth.
+std::string doubtOfField(const sphc_camera &camera);
 
 // A model whose parameters behind the first `free_params` stay 0.
 struct WantedModel {

@@ -8,6 +8,7 @@
 #include "host/base/write_file.h"
 #include "host/calibration/compare.h"
 #include "host/calibration/convert.h"
+#include "host/calibration/nearest_camera.h"
 #include "host/cameras/camera_models.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
@@ -88,12 +89,14 @@ double angleDeg(const sphc_rigid &rigid) {
   return 2 * std::atan2(std::hypot(q[1], q[2], q[3]), std::fabs(q[0])) * 180 / M_PI;
 }
 
+std::string degrees(double angle_deg) { return std::isfinite(angle_deg) ? fixed(angle_deg, 1) : "?"; }
+
 Row cameraRow(const std::string &name, const sphc_camera &camera) {
   return {name, modelOf(camera),
           std::to_string(camera.width) + " x " + std::to_string(camera.height) + ", focal lengths " +
               fixed(camera.params[0], 2) + ", " + fixed(camera.params[1], 2) + " px, centre " +
               fixed(camera.params[2], 2) + ", " + fixed(camera.params[3], 2) + ", sees " +
-              fixed(fieldOfViewDeg(camera, true), 1) + " x " + fixed(fieldOfViewDeg(camera, false), 1) + " deg"};
+              degrees(fieldOfViewDeg(camera, true)) + " x " + degrees(fieldOfViewDeg(camera, false)) + " deg"};
 }
 
 void show(const ReadCalibration &read, const Console &console) {
@@ -104,6 +107,9 @@ void show(const ReadCalibration &read, const Console &console) {
                          {"baseline", fixed(1000 * baselineM(c.color_from_depth), 2) + " mm",
                           "turned by " + fixed(angleDeg(c.color_from_depth), 2) + " deg"},
                          {"depth unit", fixed(1000 * c.depth_unit_m, 3) + " mm", ""}}));
+  for (const auto &[name, camera] : {std::pair("colour", c.color_camera), std::pair("depth", c.depth_camera)})
+    if (const std::string doubt = doubtOfField(camera); !doubt.empty())
+      console.warn(std::string("Warning: the ") + name + " camera has " + doubt);
 }
 
 nlohmann::ordered_json cameraJson(const sphc_camera &camera) {
@@ -111,7 +117,8 @@ nlohmann::ordered_json cameraJson(const sphc_camera &camera) {
           {"width", camera.width},
           {"height", camera.height},
           {"params", std::vector<double>(camera.params, camera.params + camera.param_count)},
-          {"field_of_view_deg", {fieldOfViewDeg(camera, true), fieldOfViewDeg(camera, false)}}};
+          {"field_of_view_deg", {fieldOfViewDeg(camera, true), fieldOfViewDeg(camera, false)}},
+          {"without_ray_percent", 100 * shareWithoutRay(camera)}};
 }
 
 nlohmann::ordered_json readJson(const ReadCalibration &read) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/usage_error.h"
+#include "host/calibration/nearest_camera.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/number_checks.h"
@@ -79,6 +80,16 @@ class Troubles {
 
 void append(Findings more, Findings *findings) {
   for (Finding &finding : more) findings->push_back(std::move(finding));
+}
+
+// A calibration that does not reach the corners, say.
+Findings findingsOfField(const sphc_rig &calibration) {
+  Findings findings;
+  for (const auto &[what, camera] :
+       {std::pair("colour camera", calibration.color_camera), std::pair("depth camera", calibration.depth_camera)})
+    if (const std::string doubt = doubtOfField(camera); !doubt.empty())
+      findings.push_back({Grade::kDoubtful, what, "by the calibration it has " + doubt});
+  return findings;
 }
 
 // What comes of the cameras, and the pairs of it, each looked at as it comes.
@@ -171,7 +182,8 @@ Findings lookAt(DoctorOptions options, const Console &console) {
     if (Findings useless = findingsOfImages(*recording); !useless.empty()) return useless;
   CaptureChecks checks(calibration, recording != nullptr);
   watch(options, recording != nullptr, &rig, &checks);
-  Findings findings = of_captures.findings();
+  Findings findings = findingsOfField(calibration);
+  append(of_captures.findings(), &findings);
   append(checks.ofStreams(), &findings);
   const std::string troubles = rig.troubles();
   if (!troubles.empty()) findings.push_back({Grade::kDoubtful, "cameras", troubles});

@@ -500,6 +500,24 @@ TEST(Calibration, ShowsAndConverts) {
   }
 }
 
+TEST(Calibration, PixelsWithoutARayAreNamed) {
+  const TempFolder folder;
+  std::string folded = kChain;  // the distortion of cam1 turns back before the edges of its image
+  folded.replace(folded.find("0.1, -0.2,"), 10, "-2.0, 0.0,");
+  std::ofstream(folder / "folded.yaml") << folded;
+  std::ofstream(folder / "chain.yaml") << kChain;
+  const Answer sound = runCommand("calibration --json " + (folder / "chain.yaml"));
+  EXPECT_EQ(sound.err, "");
+  EXPECT_EQ(nlohmann::json::parse(sound.out)["depth_camera"]["without_ray_percent"], 0);
+  const Answer shown = runCommand("calibration " + (folder / "folded.yaml"));
+  EXPECT_EQ(shown.exit_code, kExitDone);
+  EXPECT_THAT(shown.out, AllOf(HasSubstr("sees ? x ? deg"), Not(HasSubstr("nan"))));
+  EXPECT_THAT(shown.err, AllOf(HasSubstr("the depth camera has no ray at "), HasSubstr("up to the corners")));
+  const auto json = nlohmann::json::parse(runCommand("calibration --json " + (folder / "folded.yaml")).out);
+  EXPECT_TRUE(json["depth_camera"]["field_of_view_deg"][0].is_null());
+  EXPECT_GT(json["depth_camera"]["without_ray_percent"], 50);
+}
+
 TEST(Calibration, ApproximatesOnlyWhenTold) {
   const TempFolder folder;
   std::ofstream(folder / "chain.yaml") << kChain;

@@ -86,6 +86,15 @@ TEST_F(DoctorTest, PosesOfAnotherScaleThanDepthAreNamedByAdviseToo) {
   EXPECT_TRUE(nlohmann::json::parse(sound.out)["contradictions"].empty()) << sound.err;
 }
 
+TEST_F(DoctorTest, PixelsWithoutARayAreNamed) {
+  const std::string walk = copyOfWalk("folded");
+  auto calibration = nlohmann::json::parse(fileText(walk + "/calibration.json"));
+  calibration["color_camera"]["params"][4] = -2.0;  // turns back well before the corners
+  std::ofstream(walk + "/calibration.json") << calibration.dump();
+  EXPECT_THAT(doctor(walk).out, HasSubstr("look   colour camera  by the calibration it has no ray at "));
+  EXPECT_THAT(doctor(at("walk")).out, Not(HasSubstr("no ray")));
+}
+
 TEST_F(DoctorTest, FewPosesAreTooFewToCheckAndAreNamed) {
   const std::string walk = copyOfWalk("few");
   std::istringstream lines(fileText(walk + "/groundtruth.txt"));
