@@ -46,6 +46,12 @@ std::vector<std::string> filesOf(const std::string &path) {
   return files;
 }
 
+std::string namesOf(const std::vector<std::string> &files) {
+  std::string names;
+  for (const std::string &file : files) names += (names.empty() ? "" : ", ") + file;
+  return names;
+}
+
 // What of a format may stand in for a camera that it cannot hold.
 std::vector<WantedModel> modelsOf(Format format) {
   if (format == Format::kKalibr) return {{SPHC_CAMERA_BROWN5, 8}, {SPHC_CAMERA_KANNALA_BRANDT4, 8}};
@@ -85,7 +91,11 @@ ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std:
     parts.push_back(readCalibration(own, file, rigs ? &*rigs : nullptr));
     result.files.push_back({file.name, own});
   }
-  result.calibration = joinParts(parts, options);
+  try {
+    result.calibration = joinParts(parts, options);
+  } catch (const std::runtime_error &error) {  // which knows cameras, and no files
+    throw std::runtime_error(namesOf(files) + ": " + error.what());
+  }
   return result;
 }
 

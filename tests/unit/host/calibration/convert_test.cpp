@@ -158,6 +158,8 @@ TEST(ReadFiles, SaysWhichFileIsWrong) {
   EXPECT_THAT(refusal(folder.write("empty", "")), HasSubstr("say it with --format"));
   EXPECT_THAT(refusal(folder.write("own.json", "{\"format\": \"spherecloud-calibration\"}")),
               HasSubstr("own.json: version"));
+  EXPECT_THAT(refusal(folder.write("chain.yaml", changed(kKalibrFile, "intrinsics: [", "intrinsics: [-"))),
+              HasSubstr("chain.yaml: color_camera.params[0] is -"));
 }
 
 }  // namespace
