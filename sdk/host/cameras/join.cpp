@@ -1,5 +1,6 @@
 #include "host/cameras/join.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "host/cameras/fault.h"
@@ -23,10 +24,13 @@ std::string namesOf(const std::vector<Candidate> &all) {
 }
 
 const Candidate *findName(const std::vector<Candidate> &all, const std::string &name) {
+  const Candidate *found = nullptr;
   for (const Candidate &candidate : all) {
-    if (candidate.named->name == name) return &candidate;
+    if (candidate.named->name != name) continue;
+    if (found) throw std::runtime_error("these files have two cameras " + shown(name) + "; name one file of it");
+    found = &candidate;
   }
-  return nullptr;
+  return found;
 }
 
 // By the wanted name, by the role as a name, by its place.
@@ -68,6 +72,13 @@ sphc_camera resized(const NamedCamera &named, ImageSize size, const std::string 
     throw std::runtime_error("camera " + shown(named.name) + ": the file does not say the image's size; give --" +
                              role + "-size WIDTHxHEIGHT");
   if (size.width == 0) return camera;
+  // One side may be known alone.
+  const bool other_width = camera.width != 0 && camera.width != size.width;
+  if (!known && (other_width || (camera.height != 0 && camera.height != size.height)))
+    throw std::runtime_error(role + " images of " + sizeText(size.width, size.height) + ": the file gives camera " +
+                             shown(named.name) + (other_width ? " the width " : " the height ") +
+                             std::to_string(other_width ? camera.width : camera.height) + "; give --" + role +
+                             "-size of the images that it was calibrated with");
   if (!known) {
     camera.width = size.width;
     camera.height = size.height;
@@ -85,6 +96,9 @@ sphc_camera resized(const NamedCamera &named, ImageSize size, const std::string 
 sphc_rigid colorFromDepth(const std::vector<CalibrationPart> &parts, const JoinOptions &options,
                           const Candidate &color, const Candidate &depth) {
   if (options.color_from_depth) return *options.color_from_depth;
+  const auto has_transform = [](const CalibrationPart &part) { return part.second_from_first.has_value(); };
+  if (std::count_if(parts.begin(), parts.end(), has_transform) > 1)
+    throw std::runtime_error("two of these files have R and T; name one of them");
   for (const CalibrationPart &part : parts) {
     if (!part.second_from_first) continue;
     if (color.place + depth.place != 1)

@@ -73,6 +73,28 @@ TEST(Join, ASizeThatTheFileLacksIsAskedFor) {
   EXPECT_EQ(joinParts({part}, options).depth_camera.height, 240u);
 }
 
+TEST(Join, ASizeThatTheFileHalfHasIsNotReplaced) {
+  const std::string text = changed(kOpencvStereoFile, "image_height: 480\n", "");
+  JoinOptions options;
+  options.color_size = options.depth_size = {1280, 720};
+  EXPECT_THAT(refusal({readOpencv({"f", text})}, options), testing::HasSubstr("camera '1' the width 640"));
+  options.color_size = options.depth_size = {640, 480};
+  EXPECT_EQ(joinParts({readOpencv({"f", text})}, options).depth_camera.height, 480u);
+}
+
+TEST(Join, WhatStandsTwiceIsNotChosenFrom) {
+  using testing::HasSubstr;
+  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
+                        depth = readRos({"depth.yaml", kRosDepthFile});
+  CalibrationPart extrinsics;
+  extrinsics.second_from_first = kBaseline;
+  JoinOptions options;
+  options.color = color.cameras[0].name;
+  options.depth = depth.cameras[0].name;
+  EXPECT_THAT(refusal({color, depth, color, extrinsics}, options), HasSubstr("two cameras 'narrow_stereo'"));
+  EXPECT_THAT(refusal({color, depth, extrinsics, extrinsics}, {}), HasSubstr("two of these files have R and T"));
+}
+
 TEST(Join, SaysWhatIsMissing) {
   using testing::HasSubstr;
   const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
