@@ -167,7 +167,7 @@ Finding GeometryCheck::finding() const {
     return {
         Finding::Grade::kWrong, "geometry",
         "as calibrated, depth falls beside the image; give focal lengths and centres in pixels of images of this "
-        "size, and t_m of color_from_depth in metres"};
+        "size, t_m of color_from_depth in metres, and the depth_unit_m of these images"};
   if (too_few && (best == kNone || distances_px_[best].size() < 3 * kFewestEdges))
     return {Finding::Grade::kDoubtful, "geometry",
             "too few edges in depth to tell; show the cameras a room with things in it, 1 to 3 m away"};

@@ -110,9 +110,12 @@ TEST_F(GeometryCheckTest, ACalibrationInOtherUnitsIsNamed) {
   sphc_rig in_widths = calibration_, in_mm = calibration_;
   for (int i = 0; i < 4; ++i) in_widths.color_camera.params[i] /= in_widths.color_camera.width;
   for (double &value : in_mm.color_from_depth.t_m) value *= 200;  // the localizer takes no more than 10 m
-  for (const sphc_rig &wrong : {in_widths, in_mm}) {
+  sphc_rig in_inches = calibration_;
+  in_inches.depth_unit_m = 0.0254;
+  for (const sphc_rig &wrong : {in_widths, in_mm, in_inches}) {
     const Finding finding = look(wrong);
     EXPECT_EQ(finding.grade, Finding::Grade::kWrong);
+    EXPECT_NE(finding.text.find("depth_unit_m"), std::string::npos) << finding.text;
     EXPECT_NE(finding.text.find("in pixels"), std::string::npos) << finding.text;
   }
 }
