@@ -19,9 +19,11 @@ namespace {
 
 constexpr uint64_t kLeastMappedOf = 3;  // one of so many frames is to find a place
 constexpr double kMostRefinedPx = 25;   // 1.5 % of focal length, 6 px, 0.7 degrees and 11 mm together are 20
+constexpr size_t kFewestToRefine = 50;  // 25 frames have moved a sound calibration by 12 px
 
-void tellOfFit(const MapOptions &options, const CalibrationFit &fit, const CalibrationDifference &moved,
+void tellOfFit(const MapOptions &options, const RefinedCalibration &refined, const CalibrationDifference &moved,
                const Console &console) {
+  const CalibrationFit &fit = refined.fit;
   if (fit.rounds == 0) {
     console.say("The calibration stays as it is, in " + options.refined_calibration +
                 " too: the walk agrees with no other by much better.");
@@ -33,6 +35,10 @@ void tellOfFit(const MapOptions &options, const CalibrationFit &fit, const Calib
               fixed(1000 * fit.before.depth_off_m, 1) + " (medians). Rays of the colour camera moved by up to " +
               fixed(moved.color.largest_px, 1) + " px, depth at 1 m by up to " +
               fixed(moved.depth_to_color[1].largest_px, 1) + " px in the colour image.");
+  if (refined.frames < kFewestToRefine)
+    console.warn("note: " + counted(refined.frames, "frame") +
+                 " may be too few to refine a calibration by, and a sound one may be worse now; give " +
+                 std::to_string(kFewestToRefine) + " or more, in which the camera walks and turns");
   if (std::max(moved.color.largest_px, moved.depth_to_color[1].largest_px) > kMostRefinedPx)
     console.warn(
         "note: that is more than a calibration is off that is a little off, so the refined one may be wrong "
@@ -66,7 +72,7 @@ CalibrationDifference refine(MapOptions *options, const Console &console) {
   recording::writeCalibration(options->refined_calibration, refined.fit.calibration);
   options->of_each.calibration = options->refined_calibration;
   const CalibrationDifference moved = compareCalibrations(refined.given, refined.fit.calibration);
-  tellOfFit(*options, refined.fit, moved, console);
+  tellOfFit(*options, refined, moved, console);
   return moved;
 }
 

@@ -232,8 +232,14 @@ RefinedCalibration refineCalibration(const MapOptions &options) {
   const sphc_rig given = commonCalibration(recordings);
   checkTold(options, recordings);
   Steps steps;
-  const auto read = [&](const TrialCalibration &trial) { return readAll(options, &trial, recordings, &steps); };
-  return {given, fitCalibration(given, read, options.mapping(), steps.progress())};
+  RefinedCalibration refined = {given, {}, 0};
+  const auto read = [&](const TrialCalibration &trial) {
+    Walk walk = readAll(options, &trial, recordings, &steps);
+    refined.frames = walk.frameCount();
+    return walk;
+  };
+  refined.fit = fitCalibration(given, read, options.mapping(), steps.progress());
+  return refined;
 }
 
 }  // namespace sphc::host
