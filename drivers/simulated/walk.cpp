@@ -40,7 +40,7 @@ void Walk::draw(uint64_t seed) {
   std::copy(height, height + kWaves, height_);
   std::copy(gaze, gaze + kWaves, gaze_);
   std::copy(pitch, pitch + kWaves, pitch_);
-  step_cycles_ = std::max(1.0, std::round(2 * lap_s_ * 1.7));  // 1.7 steps a second
+  step_cycles_ = 2 * std::round(lap_s_ * 1.7);  // 1.7 steps a second; even, as sway has half of them
   roll_phase_ = rng.real(0, 2 * kPi);
 }
 

@@ -92,6 +92,18 @@ TEST(SimulatedScene, WithNothingNothingMovesAndNothingIsSeenThrough) {
   EXPECT_TRUE(bare.scene.outdoors.empty());
 }
 
+// Also where a lap takes an odd number of steps.
+TEST(SimulatedScene, TheWalkClosesWhateverALapTakes) {
+  const Bare room(0);
+  for (const double lap_s : {5.0, 12.0, 15.0, 16.0}) {
+    const Walk walk(room.scene, kSeed, lap_s, false);
+    const Pose before = walk.at(2 * lap_s - 1e-6), after = walk.at(2 * lap_s);
+    EXPECT_LT(norm(after.center - before.center), 1e-5) << lap_s;
+    for (int i = 0; i < 3; ++i)
+      EXPECT_LT(norm(after.rotation.row[i] - before.rotation.row[i]), 1e-5) << lap_s << " s a lap";
+  }
+}
+
 TEST(SimulatedScene, HandsComeIntoViewCloseBy) {
   const Bare bare(SPHC_SIMULATED_HANDS);
   double least = 1, most = 0;
