@@ -69,7 +69,7 @@ void addPlots(const std::string &folder, const Run &run, const Summary &summary,
       content->plot_problem =
           "The plots are missing because gnuplot is not installed. Install it (apt-get install "
           "gnuplot-nox) and run the same command again, or run gnuplot on the scripts in plots/.";
-      return;
+      continue;  // their scripts are written
     }
     if (result == PlotResult::kFailed) {
       content->plot_problem = "gnuplot could not draw " + drawing.name + "; plots/gnuplot.log says why.";

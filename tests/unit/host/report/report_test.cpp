@@ -71,6 +71,8 @@ TEST_F(ReportTest, SaysSoWithoutGnuplot) {
   EXPECT_THAT(problem_, HasSubstr("apt-get install gnuplot-nox"));
   EXPECT_THAT(page, HasSubstr("gnuplot is not installed"));
   EXPECT_THAT(page, Not(HasSubstr("<svg")));
+  for (const char *name : {"path", "stage_times", "translation_error", "rotation_error", "timeline"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ + "/plots/" + name + ".gp")) << name;
 }
 
 TEST_F(ReportTest, DrawsReliabilityWhereThereIsAConfidence) {
