@@ -1,6 +1,5 @@
 // spherecloud convert: a recording into another layout.
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -272,8 +271,6 @@ void tellLosses(const ConvertOptions &options, const Facts &facts, const Result 
   if (result.unpaired)
     console.warn("note: left out: " + counted(result.unpaired, "colour image") + " without depth");
 }
-
-bool isRaw(const std::string &path) { return std::filesystem::path(path).extension() == ".raw"; }
 
 Target targetByName(const std::string &out) {
   if (isMcap(out)) return Target::kMcap;

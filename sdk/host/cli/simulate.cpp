@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -135,7 +134,7 @@ void tellNext(const std::string &out, const sphc_simulated_config &config, const
 }
 
 int simulate(const SimulateOptions &options, const Console &console) {
-  if (std::filesystem::path(options.out).extension() == ".raw")
+  if (isRaw(options.out))
     throw UsageError("--out is a folder or a .mcap file; `spherecloud convert` makes a .raw file of either");
   FileUse files(false);
   files.writesRecording("--out", options.out);

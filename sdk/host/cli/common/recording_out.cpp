@@ -1,5 +1,8 @@
 #include "host/cli/common/recording_out.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include "host/base/checked_call.h"
 #include "host/cli/common/new_recording.h"
 #include "host/recording/writer_tum.h"
@@ -68,12 +71,16 @@ class FolderOut : public RecordingOut {
   recording::TumWriter writer_;
 };
 
+bool endsWith(const std::string &path, const std::string &ending) {
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == b; };
+  return path.size() > ending.size() &&
+         std::equal(path.end() - static_cast<std::ptrdiff_t>(ending.size()), path.end(), ending.begin(), same);
+}
+
 }  // namespace
 
-bool isMcap(const std::string &path) {
-  const std::string ending = ".mcap";
-  return path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
-}
+bool isMcap(const std::string &path) { return endsWith(path, ".mcap"); }
+bool isRaw(const std::string &path) { return endsWith(path, ".raw"); }
 
 std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_rig &calibration,
                                               const sphc_recorder_config &config) {

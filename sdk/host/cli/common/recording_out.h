@@ -25,7 +25,9 @@ class RecordingOut {
   virtual void close() = 0;
 };
 
-bool isMcap(const std::string &path);  // by its ending
+// By the ending, small letters or large.
+bool isMcap(const std::string &path);
+bool isRaw(const std::string &path);
 
 // `config` is that of a file.
 std::unique_ptr<RecordingOut> createRecording(const std::string &path, const sphc_rig &calibration,

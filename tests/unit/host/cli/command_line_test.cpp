@@ -131,6 +131,7 @@ TEST(CommandLine, WhatHasNoEffectIsRefusedByName) {
       {"convert a b --jpeg 90", "--jpeg is of an MCAP file"},
       {"convert a b.raw --depth-codec rvl", "--depth-codec is of an MCAP file"},
       {"simulate --out walk.raw", "`spherecloud convert` makes a .raw file"},
+      {"simulate --out walk.RAW", "`spherecloud convert` makes a .raw file"},
       {"build --map m --model p --min-observations 9", "--min-observations excludes --model"},
       {"build --map m --colmap c --images i --scale 1 --keep-moving", "--keep-moving excludes --colmap"},
       {"inspect m --picture p.png --no-picture", "--picture excludes --no-picture"},
@@ -273,6 +274,16 @@ TEST(Convert, TakesAPartOfARecording) {
   EXPECT_EQ(beyond.exit_code, kExitFailure);
   EXPECT_THAT(beyond.err, HasSubstr(walk + ": first 9 chooses no frame; the recording has numbers 0 to 8"));
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST(Convert, AnEndingInLargeLettersIsOneToo) {
+  const TempFolder folder;
+  const std::string mcap = folder / "walk.MCAP", raw = folder / "walk.Raw";
+  ASSERT_EQ(runCommand("simulate --frames 1 --out " + mcap).exit_code, kExitDone);
+  EXPECT_TRUE(std::filesystem::is_regular_file(mcap));
+  ASSERT_EQ(runCommand("convert " + mcap + " " + raw).exit_code, kExitDone);
+  EXPECT_TRUE(std::filesystem::is_regular_file(raw));
+  EXPECT_EQ(recording::RecordingReader(raw).frameCount(), 1u);
 }
 
 TEST(Convert, WritesNothingOfARecordingWithoutImages) {
