@@ -51,6 +51,16 @@ sphc_simulated_config configOf(const SimulateOptions &options) {
   return config;
 }
 
+// All of the config is of options.
+template <typename Make>
+auto madeOfOptions(const Make &make) {
+  try {
+    return make();
+  } catch (const ArgumentError &error) {
+    throw UsageError(error.what());
+  }
+}
+
 Simulated openHeadset(const sphc_simulated_config &config) {
   sphc_simulated *simulated = nullptr;
   orThrow("cannot make the simulated headset",
@@ -140,8 +150,8 @@ int simulate(const SimulateOptions &options, const Console &console) {
   files.writesRecording("--out", options.out);
   files.check();
   const auto start = std::chrono::steady_clock::now();
-  const sphc_simulated_config config = configOf(options);
-  const Simulated simulated = openHeadset(config);
+  const sphc_simulated_config config = madeOfOptions([&] { return configOf(options); });
+  const Simulated simulated = madeOfOptions([&] { return openHeadset(config); });
   const Interrupt interrupt;  // from before there is a file
   const auto out = createRecording(options.out, calibrationOf(simulated.get()), patientRecorderConfig());
   record(simulated.get(), interrupt, {simulated.get(), options.accelerometer_hz, config.start_time_ns}, out.get());
