@@ -36,11 +36,13 @@ sphc_simulated_config configOf(const std::string &address) {
     } else if (key == "arrangement") {
       config.arrangement_seed = value();
     } else {
-      throw std::runtime_error("simulated: " + key + " is unknown; there are seed=, walk-seed=, arrangement=");
+      throw std::runtime_error("simulated: " + key +
+                               " is unknown; there are seed=, walk-seed=, arrangement=, and names alone, as in "
+                               "simulated:people,tiles");
     }
     begin = end + 1;
   }
-  orThrow("simulated:",
+  orThrow("simulated:" + address,
           [&](sphc_message *message) { return sphc_simulated_parse_with(names.c_str(), &config.with, message); });
   if ((config.with & SPHC_SIMULATED_FLAT) != 0) config.lap_s = SPHC_SIMULATED_LAP_OF_FLAT_S;
   return config;
@@ -52,7 +54,7 @@ class SimulatedDevice : public Device {
     if (!wish.color || !wish.depth)
       throw std::runtime_error("simulated: gives both streams; say --device simulated:");
     const sphc_simulated_config config = configOf(address);
-    orThrow("simulated:",
+    orThrow("simulated:" + address,
             [&](sphc_message *message) { return sphc_simulated_open(&config, &simulated_, message); });
     source_.struct_size = sizeof source_;
     orThrow("simulated:", [&](sphc_message *) { return sphc_simulated_source(simulated_, &source_); });
