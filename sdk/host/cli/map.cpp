@@ -8,6 +8,7 @@
 #include "host/calibration/compare.h"
 #include "host/cli/commands.h"
 #include "host/cli/common/exit_code.h"
+#include "host/cli/common/shell_word.h"
 #include "host/cli/map_recordings.h"
 #include "host/import/model_file.h"
 #include "host/mapping/solver_memory.h"
@@ -95,7 +96,7 @@ void tellOfFiles(const MapOptions &options, const MapOutcome &outcome, const Con
   console.say(outcome.import.told);
   console.say("Wrote " + options.model +
               ": where every point is. Keep it, never ship it. Next:\n  spherecloud build --model " +
-              options.model + " --map room.sphc");
+              shellWord(options.model) + " --map room.sphc");
   for (const std::string &trajectory : options.trajectories)
     console.say("Trajectory (world_from_camera): " + trajectory);
 }

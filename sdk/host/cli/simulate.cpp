@@ -15,6 +15,7 @@
 #include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_out.h"
+#include "host/cli/common/shell_word.h"
 #include "host/live/interrupt.h"
 #include "host/report/run.h"
 
@@ -138,7 +139,7 @@ void tellNext(const std::string &out, const sphc_simulated_config &config, const
   const auto second_lap = static_cast<uint32_t>(std::lround(std::max(lap_frames, 0.0)));
   if (second_lap == 0 || second_lap >= config.frame_count) return;
   console.say("Lap one is frames 0 to " + std::to_string(second_lap - 1) +
-              ": make a map of it with\n  spherecloud build --recording " + out + " --last " +
+              ": make a map of it with\n  spherecloud build --recording " + shellWord(out) + " --last " +
               std::to_string(second_lap - 1) + " --map room.sphc\nLap two, from frame " +
               std::to_string(second_lap) + " on, can then be localized in it.");
 }
