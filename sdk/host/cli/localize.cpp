@@ -66,7 +66,7 @@ void readNotes(const LocalizeOptions &options, LocalizeInput *input, Run *run) {
     const Vector3 centre = centreByNote(options.owner_notes, input->maps[i], options.maps[i]);
     input->centres_in_world_m.push_back({centre.x(), centre.y(), centre.z()});
   }
-  run->centre_m = input->centres_in_world_m.front();
+  run->centres_m = input->centres_in_world_m;
   run->base = "world";
 }
 

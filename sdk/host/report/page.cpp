@@ -187,10 +187,10 @@ std::string mapSection(const Run &run, const PageContent &content) {
     rows.push_back({"band", bandName(map.band), "the light of its images"});
   }
   PagePicture picture = content.directions;
-  picture.caption =
-      "All directions in the map, seen from its centre, as a map of the sky: longitude to the left, up is up. "
-      "The brightest spot is " +
-      fixed(content.direction_peak, 1) + " times denser than an even spread.";
+  picture.caption = std::string("All directions in the ") + (run.maps.size() > 1 ? "first " : "") +
+                    "map, seen from its centre, as a map of the sky: longitude to the left, up is up. "
+                    "The brightest spot is " +
+                    fixed(content.direction_peak, 1) + " times denser than an even spread.";
   return "<div class='columns' style='align-items:center'>" + figure(picture) + "<div>" + tableOf(rows) +
          "</div></div>";
 }

@@ -28,26 +28,42 @@ std::string color(const char *rgb) { return std::string("linecolor rgb '") + rgb
 
 struct Path {
   Points truth, estimate, unjudged, lost;  // unjudged: answers where the truth is not known
-  std::array<double, 2> centre = {};
+  Points centres;
 };
 
-Path splitPath(const Run &run) {
+// Of several maps, each with a frame of its own: the one that most answers are in.  SPHC_MAP_NONE: all share one.
+uint32_t mapToDraw(const Run &run) {
+  std::vector<uint32_t> answers(run.maps.size());
+  if (run.base != "map") return SPHC_MAP_NONE;
+  for (const FrameRecord &frame : run.frames)
+    if (frame.localized && frame.map < answers.size()) ++answers[frame.map];
+  if (std::count(answers.begin(), answers.end(), 0u) + 1 >= static_cast<std::ptrdiff_t>(answers.size()))
+    return SPHC_MAP_NONE;
+  return static_cast<uint32_t>(std::max_element(answers.begin(), answers.end()) - answers.begin());
+}
+
+bool isDrawn(const FrameRecord &frame, uint32_t map) { return map == SPHC_MAP_NONE || frame.map == map; }
+
+Path splitPath(const Run &run, uint32_t map) {
   std::vector<sphc_rigid> poses;
   for (const FrameRecord &frame : run.frames) {
     if (frame.has_truth)
       poses.push_back(frame.truth_base_from_camera);
-    else if (frame.localized)
+    else if (frame.localized && isDrawn(frame, map))
       poses.push_back(frame.base_from_camera);
   }
   const TopView view = topView(poses);
   Path path;
-  path.centre = view.project(run.centre_m.data());
+  for (const auto &centre_m : run.centres_m) {
+    const auto centre = view.project(centre_m.data());
+    path.centres.push_back({centre[0], centre[1], 0});
+  }
   for (const FrameRecord &frame : run.frames) {
     const auto truth = view.project(frame.truth_base_from_camera.t_m),
                seen = view.project(frame.base_from_camera.t_m);
     if (frame.has_truth) path.truth.push_back({truth[0], truth[1], 0});
     if (frame.has_truth && !frame.localized) path.lost.push_back({truth[0], truth[1], 0});
-    if (!frame.localized) continue;
+    if (!frame.localized || !isDrawn(frame, map)) continue;
     if (frame.has_truth)
       path.estimate.push_back({seen[0], seen[1], 100 * frame.translation_error_m});
     else
@@ -68,21 +84,23 @@ struct Extent {
   }
   double length() const { return std::max(high[0] - low[0], high[1] - low[1]); }
   // How much longer it would get if it held the point too.
-  double lengthWith(const std::array<double, 2> &point) const {
+  double lengthWith(const std::array<double, 3> &point) const {
     Extent larger = *this;
     larger.hold(point[0], point[1]);
     return larger.length();
   }
 };
 
-// Sets whether the sphere centre is in the picture: not when it is so far off that the path would shrink to a dot.
-Extent extentOf(const Path &path, bool *with_centre) {
+// Leaves out the sphere centres that are so far off that the path would shrink to a dot.
+Extent extentOf(Path *path) {
   Extent e;
-  for (const Points *points : {&path.truth, &path.estimate, &path.unjudged}) {
+  for (const Points *points : {&path->truth, &path->estimate, &path->unjudged}) {
     for (const auto &p : *points) e.hold(p[0], p[1]);
   }
-  *with_centre = e.lengthWith(path.centre) < 1.6 * e.length();
-  if (*with_centre) e.hold(path.centre[0], path.centre[1]);
+  const double most = 1.6 * e.length();
+  const auto is_far = [&e, most](const auto &centre) { return e.lengthWith(centre) >= most; };
+  path->centres.erase(std::remove_if(path->centres.begin(), path->centres.end(), is_far), path->centres.end());
+  for (const auto &centre : path->centres) e.hold(centre[0], centre[1]);
   const double margin = 0.05 + 0.06 * e.length();
   for (size_t i = 0; i < 2; ++i) {
     e.low[i] -= margin;
@@ -108,11 +126,10 @@ const char kErrorColors[] =
     "set colorbox user origin 0.93,0.2 size 0.018,0.6 noborder\n"
     "set rmargin at screen 0.9\n";
 
-std::string pathScript(const Path &path, const Extent &extent, bool with_centre) {
+std::string pathScript(const Path &path, const Extent &extent) {
   const bool truth = !path.truth.empty();
   std::string script = kPlotLook + block("truth", path.truth) + block("estimate", path.estimate) +
-                       block("unjudged", path.unjudged) + block("lost", path.lost) +
-                       block("centre", {{path.centre[0], path.centre[1], 0}});
+                       block("unjudged", path.unjudged) + block("lost", path.lost) + block("centre", path.centres);
   script += "set size ratio -1\nset xlabel 'metres'\nset ylabel 'metres'\n";
   script += range("xrange", extent.low[0], extent.high[0]) + range("yrange", extent.low[1], extent.high[1]);
   script += "set key outside top center horizontal reverse Left samplen 2\n";
@@ -129,9 +146,9 @@ std::string pathScript(const Path &path, const Extent &extent, bool with_centre)
   const std::string mark = " with points linewidth 1.8 ";
   if (!path.lost.empty())
     script += ", $lost using 1:2" + mark + "pointtype 2 " + color(kRedHex) + " title 'not localized'";
-  if (with_centre)
-    script +=
-        ", $centre using 1:2" + mark + "pointtype 3 pointsize 1.6 " + color(kVioletHex) + " title 'sphere centre'";
+  if (!path.centres.empty())
+    script += ", $centre using 1:2" + mark + "pointtype 3 pointsize 1.6 " + color(kVioletHex) + " title 'sphere " +
+              (path.centres.size() > 1 ? "centres'" : "centre'");
   return script;
 }
 
@@ -186,16 +203,22 @@ std::string cdfScript(const Points &points, const std::string &unit, double mark
 }  // namespace
 
 Drawing pathFromTop(const Run &run) {
-  const Path path = splitPath(run);
+  const uint32_t map = mapToDraw(run);
+  Path path = splitPath(run, map);
   if (path.truth.empty() && path.unjudged.empty()) return {"path", "", "", "", {}};
-  bool with_centre = false;
-  const Extent extent = extentOf(path, &with_centre);
+  const Extent extent = extentOf(&path);
   std::string caption = path.truth.empty()
                             ? "Every dot is one answer, in the map's own frame."
                             : "Every dot is one answer, coloured by how far it is from the true place (grey line).";
   if (!path.truth.empty() && !path.unjudged.empty()) caption += " Of the blue ones the true place is not known.";
-  if (with_centre) caption += " The star is the sphere centre, from which the map's directions point.";
-  return {"path", "The path from above", caption, pathScript(path, extent, with_centre), pathSize(extent)};
+  if (map != SPHC_MAP_NONE)
+    caption = "Every dot is one answer in " + run.maps[map].path +
+              ", in that map's own frame. Answers in other maps have frames of their own and are not drawn.";
+  if (path.centres.size() > 1)
+    caption += " The stars are the sphere centres, from which the maps' directions point.";
+  else if (!path.centres.empty())
+    caption += " The star is the sphere centre, from which the map's directions point.";
+  return {"path", "The path from above", caption, pathScript(path, extent), pathSize(extent)};
 }
 
 Drawing translationCdf(const Run &run) {

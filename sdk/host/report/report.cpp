@@ -102,7 +102,8 @@ std::vector<std::array<double, 3>> uprightDirections(const Run &run) {
 }
 
 void addDirections(const std::string &folder, const Run &run, PageContent *content) {
-  content->directions.title = "All that the map shows of the room";
+  content->directions.title =
+      run.maps.size() > 1 ? "All that the first map shows of its room" : "All that the map shows of the room";
   content->directions.mime = "image/png";
   double peak_upright = 0;
   const cv::Mat picture = drawDirections(uprightDirections(run), &peak_upright);

@@ -71,9 +71,10 @@ struct MapFacts {
 
 struct Run {
   std::string recording;
-  std::string base = "map";             // "world" or "map"
-  std::array<double, 3> centre_m = {};  // the first sphere's centre in the base
-  std::vector<MapFacts> maps;           // one at least
+  std::string base = "map";  // "world" or "map": of several maps each its own
+  // Of the spheres, in the base: one for each map, or one for all, the origin of each.
+  std::vector<std::array<double, 3>> centres_m = {{0, 0, 0}};
+  std::vector<MapFacts> maps;  // one at least
   size_t state_bytes = 0, scratch_bytes = 0;
   std::vector<MemoryPiece> memory;
   std::vector<Setting> settings;

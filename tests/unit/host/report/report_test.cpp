@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "frames.h"
@@ -108,6 +109,41 @@ TEST_F(ReportTest, DrawsAnswersWithoutTruthApart) {
   const std::string none = script();
   EXPECT_THAT(none, Not(HasSubstr("$estimate using")));
   EXPECT_THAT(none, HasSubstr("title 'estimate'"));
+}
+
+TEST_F(ReportTest, OfSeveralMapsAllCentresAreDrawn) {
+  run_.base = "world";
+  run_.maps.resize(2, run_.maps.front());
+  run_.centres_m = {{0.1, 0.2, 1}, {0.5, 0.1, 1}, {90, 0, 1}};  // the last is too far off
+  const std::string page = write();
+  EXPECT_THAT(page, HasSubstr("The stars are the sphere centres"));
+  EXPECT_THAT(page, HasSubstr("All directions in the first map"));
+  const auto bytes = readBytes(folder_ + "/plots/path.gp");
+  const std::string script(bytes.begin(), bytes.end());
+  const size_t begin = script.find("$centre << EOD\n") + 15, end = script.find("EOD\n", begin);
+  EXPECT_EQ(std::count(script.begin() + static_cast<std::ptrdiff_t>(begin),
+                       script.begin() + static_cast<std::ptrdiff_t>(end), '\n'),
+            2);
+}
+
+// Without the owner's notes each map has a frame of its own.
+TEST_F(ReportTest, AnswersInFramesOfSeveralMapsAreNotDrawnAsOnePath) {
+  run_.maps.resize(2, run_.maps.front());
+  run_.maps[1].path = "hall.sphc";
+  for (FrameRecord &frame : run_.frames) {
+    frame.has_truth = false;
+    frame.map = frame.sequence < 3 ? 0 : 1;
+  }
+  EXPECT_THAT(write(), HasSubstr("Every dot is one answer in hall.sphc, in that map&#39;s own frame."));
+  const auto bytes = readBytes(folder_ + "/plots/path.gp");
+  const std::string script(bytes.begin(), bytes.end());
+  const size_t begin = script.find("$unjudged << EOD\n") + 17, end = script.find("EOD\n", begin);
+  EXPECT_EQ(std::count(script.begin() + static_cast<std::ptrdiff_t>(begin),
+                       script.begin() + static_cast<std::ptrdiff_t>(end), '\n'),
+            5)
+      << "frames 3 to 7";
+  for (FrameRecord &frame : run_.frames) frame.map = 1;
+  EXPECT_THAT(write(), HasSubstr("Every dot is one answer, in the map&#39;s own frame."));
 }
 
 TEST_F(ReportTest, LargeNumbersOfFramesKeepTheirDigits) {
