@@ -84,7 +84,14 @@ const char kNoTruth[] =
     R"(<p class='warn'>The truth was not given, so this report cannot say how exact the answers are.
 Run again with <code>--owner-note</code> on a recording that has poses.</p>)";
 
-std::string howToRead(const Summary &s) { return std::string(kHowToRead) + (s.with_truth ? "" : kNoTruth); }
+const char kNoPoses[] =
+    R"(<p class='warn'>No pose of the recording can be compared, so this report cannot say how exact the answers are.
+It needs a recording with poses at the times of its images.</p>)";
+
+std::string howToRead(const Run &run, const Summary &s) {
+  if (s.with_truth) return kHowToRead;
+  return std::string(kHowToRead) + (run.base == "map" ? kNoTruth : kNoPoses);
+}
 
 std::string warningOf(const Summary &s) {
   if (!s.wrong) return "";
@@ -213,7 +220,7 @@ std::string reportPage(const Run &run, const Summary &s, const PageContent &cont
           (run.maps.size() > 1 ? " and " + std::to_string(run.maps.size() - 1) + " more" : "") +
           "</p></div></header>\n<main>\n";
   html += cards(run, s) + warningOf(s);
-  html += section("What you are looking at", howToRead(s));
+  html += section("What you are looking at", howToRead(run, s));
   html += section("In pictures", plotSection(content));
   if (!content.overlays.empty())
     html += section("What the camera saw", kOverlayIntro + figures(content.overlays, "overlays"));

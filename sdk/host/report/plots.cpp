@@ -207,8 +207,9 @@ Drawing pathFromTop(const Run &run) {
   Path path = splitPath(run, map);
   if (path.truth.empty() && path.unjudged.empty()) return {"path", "", "", "", {}};
   const Extent extent = extentOf(&path);
+  const std::string frame = run.base == "map" ? "the map's own frame" : "the world that the map was made in";
   std::string caption = path.truth.empty()
-                            ? "Every dot is one answer, in the map's own frame."
+                            ? "Every dot is one answer, in " + frame + "."
                             : "Every dot is one answer, coloured by how far it is from the true place (grey line).";
   if (!path.truth.empty() && !path.unjudged.empty()) caption += " Of the blue ones the true place is not known.";
   if (map != SPHC_MAP_NONE)

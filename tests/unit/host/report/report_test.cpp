@@ -87,9 +87,15 @@ TEST_F(ReportTest, DrawsReliabilityWhereThereIsAConfidence) {
 
 TEST_F(ReportTest, WorksWithoutTruth) {
   for (FrameRecord &frame : run_.frames) frame.has_truth = false;
-  const std::string page = write();
+  std::string page = write();
   EXPECT_THAT(page, HasSubstr("The truth was not given"));
   EXPECT_THAT(page, Not(HasSubstr("How far off")));
+  EXPECT_THAT(page, HasSubstr("in the map&#39;s own frame"));
+  run_.base = "world";  // with the owner's note, of a recording without poses
+  page = write();
+  EXPECT_THAT(page, HasSubstr("in the world that the map was made in"));
+  EXPECT_THAT(page, Not(HasSubstr("Run again with")));
+  EXPECT_THAT(page, HasSubstr("It needs a recording with poses"));
 }
 
 // Errors colour the dots, and where there is no truth there is no error: such a dot must not look exact.
