@@ -63,6 +63,10 @@ uint16_t units(double z_m) {
   return static_cast<uint16_t>(std::clamp(std::round(z_m / SPHC_SIMULATED_DEPTH_UNIT_M), 0.0, 65535.0));
 }
 
+void toUnits(const std::vector<float> &z_m, uint16_t *depth) {
+  std::transform(z_m.begin(), z_m.end(), depth, [](float z) { return units(static_cast<double>(z)); });
+}
+
 bool isMissing(const Echo &echo, float z_max, uint64_t chance) {
   if (echo.z > z_max || echo.light < kBlind * 0.25f) return true;
   const float seen = std::clamp((echo.light - kBlind * 0.5f) / (kDim - kBlind * 0.5f), 0.0f, 1.0f);
@@ -96,7 +100,7 @@ double measureRaw(const sphc_simulated_config &config, const Echo &echo, float z
 void Headset::renderIdealDepth(uint32_t index, uint16_t *depth) const {
   std::vector<float> z(size_t{kDepthWidth} * kDepthHeight);
   oracleDepth(depthTime(index), z.data());
-  std::transform(z.begin(), z.end(), depth, [](float z_m) { return units(static_cast<double>(z_m)); });
+  toUnits(z, depth);
 }
 
 View Headset::depthView(uint32_t index) const {
@@ -122,6 +126,11 @@ void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
 }
 
 void Headset::renderViewDepth(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint16_t *depth) const {
+  if (config_.ideal_depth != 0) {
+    std::vector<float> z(size_t{camera.width} * camera.height);
+    oracleView(camera, pose, time_ns, z.data());
+    return toUnits(z, depth);
+  }
   const RayTable rays(camera);
   measureDepth({camera, rays, time_ns, noiseSeed(pose, time_ns, 1)}, pose, depth);
 }

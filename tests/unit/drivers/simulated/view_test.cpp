@@ -1,6 +1,7 @@
 // Cameras that the headset does not have.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <vector>
 
 #include "handle.h"
@@ -62,6 +63,27 @@ TEST_F(SimulatedView, DepthIsMeasuredAsByTheToFCamera) {
   }
   EXPECT_GT(measured, pixels / 2);
   EXPECT_GT(near, 9 * measured / 10);
+}
+
+TEST(SimulatedIdealView, DepthIsExactWhereThatOfTheHeadsetIs) {
+  sphc_simulated_config config = defaults();
+  config.ideal_depth = 1;
+  const Handle room(config);
+  sphc_rig rig;
+  int64_t color_ns = 0, depth_ns = 0;
+  sphc_rigid world_from_color, world_from_depth;
+  ASSERT_EQ(sphc_simulated_rig(room.get(), &rig), SPHC_OK);
+  ASSERT_EQ(sphc_simulated_frame_times(room.get(), 5, &color_ns, &depth_ns), SPHC_OK);
+  ASSERT_EQ(sphc_simulated_pose_at(room.get(), depth_ns, &world_from_color), SPHC_OK);
+  sphc_rigid_compose(&world_from_color, &rig.color_from_depth, &world_from_depth);
+  std::vector<uint16_t> of_headset(kDepthPixels), of_view(kDepthPixels);
+  ASSERT_EQ(sphc_simulated_render_depth(room.get(), 5, of_headset.data()), SPHC_OK);
+  ASSERT_EQ(sphc_simulated_render_view(room.get(), depth_ns, &rig.depth_camera, &world_from_depth, nullptr,
+                                       of_view.data(), nullptr),
+            SPHC_OK);
+  size_t equal = 0;
+  for (size_t i = 0; i < kDepthPixels; ++i) equal += std::abs(of_headset[i] - of_view[i]) <= 1;
+  EXPECT_GT(equal, kDepthPixels - 50) << "but for the rounding of the pose, at edges";
 }
 
 TEST_F(SimulatedView, CamerasThatCannotBeDrawnAreRefused) {
