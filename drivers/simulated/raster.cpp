@@ -208,7 +208,7 @@ Seen Raster::look(const Hit &hit, uint32_t lane, const Ray2 &ray) const {
   const Vec3f n{where.normal.x / shape.half.x, where.normal.y / shape.half.y, where.normal.z / shape.half.z};
   const Vec3f d{in.direction.x * shape.half.x, in.direction.y * shape.half.y, in.direction.z * shape.half.z};
   const float cosine = -dot(n, d) / std::sqrt(dot(n, n) * dot(d, d));
-  return {&pool_.texture(shape.texture[where.face]), where.u, where.v, std::max(cosine, 0.02f)};
+  return {&pool_.painted(shape.texture[where.face]), where.u, where.v, std::max(cosine, 0.02f)};
 }
 
 }  // namespace sphc::simulated

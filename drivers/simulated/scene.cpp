@@ -1,10 +1,11 @@
 #include "drivers/simulated/scene.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "drivers/simulated/flat.h"
-#include "drivers/simulated/parallel.h"
+#include "drivers/simulated/painter.h"
 
 namespace sphc::simulated {
 namespace {
@@ -55,31 +56,9 @@ Scene buildScene(const sphc_simulated_config &config, std::vector<Job> &jobs) {
 Scene makeScene(const sphc_simulated_config &config) {
   std::vector<Job> jobs;
   Scene scene = buildScene(config, jobs);
-  scene.pool.allocate();
-  const std::vector<Shape> fixed(scene.shapes.begin(), scene.shapes.begin() + scene.fixed_count);
-  const Bvh bvh(fixed);
-  // Largest first, so that no thread is left with a wall at the end.
-  const auto area = [&](const Job &job) {
-    const Texture &texture = scene.pool.texture(job.texture);
-    return static_cast<uint64_t>(texture.width) * texture.height;
-  };
-  std::stable_sort(jobs.begin(), jobs.end(), [&](const Job &a, const Job &b) { return area(a) > area(b); });
-  parallelFor(static_cast<uint32_t>(jobs.size()), config.threads, [&](uint32_t i) {
-    const Job &job = jobs[i];
-    const Shape &shape = job.shape < scene.shapes.size() ? scene.shapes[job.shape] : scene.outdoors[0];
-    const Texture &texture = scene.pool.texture(job.texture);
-    float width_m = 0, height_m = 0;
-    faceSize(shape, job.face, &width_m, &height_m);
-    Canvas canvas(scene.pool.texels(job.texture), texture.width, texture.height, width_m, height_m);
-    paint(canvas, job.material, job.style, job.seed);
-    Texel *texels = scene.pool.texels(job.texture);
-    if (isBright(job.material)) {
-      glow(scene.lighting, shape, job.material, texture, texels);
-    } else {
-      shade(bvh, scene.plan, scene.lighting, shape, job.face, texture, texels);
-    }
-    scene.pool.buildPyramid(job.texture);
-  });
+  const auto painter = std::make_shared<const Painter>(scene, jobs);
+  scene.pool.allocate(
+      [painter](uint32_t index, const Texture &texture, Texel *texels) { painter->paint(index, texture, texels); });
   return scene;
 }
 

@@ -1,4 +1,5 @@
-// scene.h - the finished room: solids with painted, lit faces.  Immutable once made.
+// scene.h - the finished room: solids with painted, lit faces.  Nothing of it changes once it is made; a face is
+// painted when it is first seen.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,10 @@
 #include "drivers/simulated/texture.h"
 
 #include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <new>
+#include <utility>
 
 namespace sphc::simulated {
 namespace {
@@ -27,6 +31,11 @@ inline uint32_t levelWidth(uint32_t width, int level) { return std::max(width >>
 
 }  // namespace
 
+struct TexturePool::Painted {
+  std::atomic<bool> done{false};
+  std::once_flag once;
+};
+
 uint32_t TexturePool::add(float width_m, float height_m, float texel_m) {
   constexpr float kMaxSide = 4096;
   const auto side = [&](float size_m) {
@@ -48,13 +57,33 @@ uint32_t TexturePool::add(float width_m, float height_m, float texel_m) {
   return size() - 1;
 }
 
-void TexturePool::buildPyramid(uint32_t index) {
-  const Texture &texture = textures_[index];
+void TexturePool::allocate(Paint paint) {
+  paint_ = std::move(paint);
+  painted_ = std::shared_ptr<Painted[]>(new Painted[textures_.size()]);
+  texels_.reset(static_cast<Texel *>(std::calloc(total_, sizeof(Texel))));
+  if (!texels_) throw std::bad_alloc();
+}
+
+const Texture &TexturePool::painted(uint32_t index) const {
+  if (!painted_[index].done.load(std::memory_order_acquire)) paint(index);
+  return textures_[index];
+}
+
+void TexturePool::paint(uint32_t index) const {
+  std::call_once(painted_[index].once, [&] {
+    const Texture &texture = textures_[index];
+    paint_(index, texture, texels_.get() + texture.offset[0]);
+    buildPyramid(texture);
+    painted_[index].done.store(true, std::memory_order_release);
+  });
+}
+
+void TexturePool::buildPyramid(const Texture &texture) const {
   for (int level = 1; level < texture.levels; ++level) {
     const uint32_t from_w = levelWidth(texture.width, level - 1), from_h = levelWidth(texture.height, level - 1);
     const uint32_t w = levelWidth(texture.width, level), h = levelWidth(texture.height, level);
-    const Texel *from = texels_.data() + texture.offset[level - 1];
-    Texel *to = texels_.data() + texture.offset[level];
+    const Texel *from = texels_.get() + texture.offset[level - 1];
+    Texel *to = texels_.get() + texture.offset[level];
     for (uint32_t y = 0; y < h; ++y) {
       const Texel *row0 = from + static_cast<size_t>(std::min(2 * y, from_h - 1)) * from_w;
       const Texel *row1 = from + static_cast<size_t>(std::min(2 * y + 1, from_h - 1)) * from_w;
@@ -81,7 +110,7 @@ Texel TexturePool::sample(const Texture &texture, float u, float v, int wanted_l
   const auto y256 = static_cast<int32_t>(std::clamp(y, 0.0f, static_cast<float>(h - 1)) * 256.0f);
   const int32_t x0 = x256 >> 8, y0 = y256 >> 8;
   const int32_t x1 = std::min(x0 + 1, w - 1);
-  const Texel *row0 = texels_.data() + texture.offset[level] + static_cast<size_t>(y0) * static_cast<size_t>(w);
+  const Texel *row0 = texels_.get() + texture.offset[level] + static_cast<size_t>(y0) * static_cast<size_t>(w);
   const Texel *row1 = y0 + 1 < h ? row0 + w : row0;
   const auto fx = static_cast<uint32_t>(x256 & 255), fy = static_cast<uint32_t>(y256 & 255);
   return gather(mix(mix(spread(row0[x0]), spread(row0[x1]), fx), mix(spread(row1[x0]), spread(row1[x1]), fx), fy));

@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace sphc::simulated {
@@ -21,24 +24,35 @@ struct Texture {
 
 class TexturePool {
  public:
-  // Makes room for a texture and its pyramid; contents are zero.  Returns its index.
+  // Fills level 0 of the texture of this index.
+  using Paint = std::function<void(uint32_t index, const Texture &texture, Texel *texels)>;
+
+  // Makes room for a texture and its pyramid.  Returns its index.
   uint32_t add(float width_m, float height_m, float texel_m);
-  // Once after all `add`s.
-  void allocate() { texels_.assign(total_, 0); }
-  Texel *texels(uint32_t index) { return texels_.data() + textures_[index].offset[0]; }
-  // Fills levels 1 and up from level 0.
-  void buildPyramid(uint32_t index);
+  // Once after all `add`s.  Throws std::bad_alloc.
+  void allocate(Paint paint);
+  // To be sampled.  Whoever asks for it first paints it, while others who want the same one wait.
+  const Texture &painted(uint32_t index) const;
 
   const Texture &texture(uint32_t index) const { return textures_[index]; }
   uint32_t size() const { return static_cast<uint32_t>(textures_.size()); }
-  size_t bytes() const { return texels_.size() * sizeof(Texel); }
-  // Bilinear in one level (clamped to those there are); u and v in [0, 1].
+  // Bilinear in one level (clamped to those there are) of a painted texture; u and v in [0, 1].
   Texel sample(const Texture &texture, float u, float v, int level) const;
 
  private:
+  struct Painted;
+  struct Free {
+    void operator()(Texel *texels) const { std::free(texels); }
+  };
+  void paint(uint32_t index) const;
+  // Fills levels 1 and up from level 0.
+  void buildPyramid(const Texture &texture) const;
+
   std::vector<Texture> textures_;
-  std::vector<Texel> texels_;
   size_t total_ = 0;
+  Paint paint_;
+  std::shared_ptr<Painted[]> painted_;     // of each texture
+  std::unique_ptr<Texel[], Free> texels_;  // memory that the system gives where something is painted
 };
 
 }  // namespace sphc::simulated

@@ -25,14 +25,12 @@ Tone floorUnder(uint32_t with) {
   const Bvh bvh(scene.shapes);
   TexturePool pool;
   const uint32_t index = pool.add(6, 5, 0.05f);
-  pool.allocate();
   const Texture texture = pool.texture(index);
   const size_t count = size_t{texture.width} * texture.height;
-  std::fill_n(pool.texels(index), count, 0x80808080u);
-  shade(bvh, scene.plan, lightingOf(with), scene.shapes[0], 4, texture, pool.texels(index));
+  std::vector<Texel> texels(count, 0x80808080u);
+  shade(bvh, scene.plan, lightingOf(with), scene.shapes[0], 4, texture, texels.data());
   Tone tone;
-  for (size_t i = 0; i < count; ++i) {
-    const Texel texel = pool.texels(index)[i];
+  for (const Texel texel : texels) {
     tone.red += (texel & 255) / static_cast<double>(count);
     tone.blue += ((texel >> 16) & 255) / static_cast<double>(count);
     tone.brightest = std::max(tone.brightest, static_cast<double>(texel & 255));
