@@ -271,7 +271,6 @@ int run(const AuditOptions &options, const Console &console) {
   const AuditInput input = inputOf(options, console);
   ProgressBar bar("auditing  ");
   const MapAudit audit = auditMap(input, rules, [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
-  bar.show(1, 1);
   const std::string page = options.report.empty() ? "" : writeAuditPage(options.report, options.map, audit);
   if (!options.figures.empty()) writeFigures(options.figures, rowsOf(options, audit, input));
   tell(audit, page, console);

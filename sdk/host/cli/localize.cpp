@@ -1,5 +1,6 @@
 // spherecloud localize: where was the camera, frame by frame?
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -153,6 +154,19 @@ void noteContradictions(const Summary &summary, const Console &console) {
                "doctor");
 }
 
+// A path whose poses lie in the frames of several maps is none.
+void noteMixedFrames(const LocalizeOptions &options, const Run &run, const Console &console) {
+  if (options.trajectory.empty() || run.base != "map") return;
+  std::set<uint32_t> maps;
+  for (const FrameRecord &frame : run.frames)
+    if (frame.localized) maps.insert(frame.map);
+  if (maps.size() < 2) return;
+  console.warn(
+      "note: --trajectory: its poses are of " + std::to_string(maps.size()) +
+      " maps, each in the frame of its own; give --owner-note for each --map, or take --frames-json, which "
+      "names the map of each pose");
+}
+
 // Poses that are sure and far from the truth, most of them: then it is the truth that lies elsewhere.
 void noteTruth(const Run &run, const Summary &summary, const Console &console) {
   uint32_t sure = 0;
@@ -180,6 +194,7 @@ int run(const LocalizeOptions &options, const Console &console) {
   console.say(tableText(tableRows(done, summary)));
   for (const std::string &line : told) console.say(line);
   console.give(summaryJson(done, summary));
+  noteMixedFrames(options, done, console);
   noteContradictions(summary, console);
   noteTruth(done, summary, console);
   if (summary.localized > 0) return kExitDone;

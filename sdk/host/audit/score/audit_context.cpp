@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "host/audit/attack/photos.h"
 #include "host/audit/attack/real_or_fake.h"
@@ -46,7 +47,8 @@ RealOrFakeStudy studyOf(const Published &map, const std::vector<bool> &real, con
 
 }  // namespace
 
-AuditContext::AuditContext(const AuditInput &input) : input_(input), map_(publishedIn(input.file)) {
+AuditContext::AuditContext(const AuditInput &input, std::function<void(double share)> progress)
+    : input_(input), progress_(std::move(progress)), map_(publishedIn(input.file)) {
   if (!input.place) return;
   releases_not_given_ = releasesNotGivenOf(input);
   truth_ = truthOf(map_, *input.place);

@@ -1,5 +1,6 @@
 // What attacks share: each artefact is computed when an attack first asks for it, and once.
 #pragma once
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,10 +34,12 @@ struct PhotoMarks {
 class AuditContext {
  public:
   // Throws std::runtime_error when the file is no map, or is not of the input's place.  `input` must outlive this.
-  explicit AuditContext(const AuditInput &input);
+  // `progress` hears what share of its work the attack that runs has done.
+  AuditContext(const AuditInput &input, std::function<void(double share)> progress);
 
   const AuditInput &input() const { return input_; }
   const Published &map() const { return map_; }
+  void tellDone(double share) const { progress_(share); }
   // Other releases of the place that the ledger lists and the input does not have.
   size_t releasesNotGiven() const { return releases_not_given_; }
 
@@ -58,6 +61,7 @@ class AuditContext {
 
  private:
   const AuditInput &input_;
+  std::function<void(double share)> progress_;
   Published map_;
   size_t releases_not_given_ = 0;
   std::vector<EntryTruth> truth_;

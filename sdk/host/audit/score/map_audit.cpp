@@ -54,24 +54,29 @@ bool mayStayUnmeasured(const AuditRules &rules, const Attack &attack, const Figu
 class MapAuditor {
  public:
   MapAuditor(const AuditInput &input, const AuditRules &rules, const AuditProgress &progress)
-      : rules_(rules), progress_(progress), context_(input) {
+      : rules_(rules), progress_(progress), context_(input, [this](double share) { tell(share); }) {
     audit_.quick = input.quick;
   }
 
   MapAudit run() {
-    std::vector<Attack> attacks = allAttacks();
-    for (uint32_t k = 0; k < attacks.size(); ++k) {
-      Attack &attack = attacks[k];
+    for (Attack &attack : attacks_) {
       for (FigureKind &kind : attack.figures)
         if (const auto limit = rules_.limits.find(kind.name); limit != rules_.limits.end())
           kind.limit = limit->second;
-      progress_(k, static_cast<uint32_t>(attacks.size()));
       run(attack);
+      ++done_;
+      tell(0);
     }
     return std::move(audit_);
   }
 
  private:
+  // Of the attack that runs.
+  void tell(double share) const {
+    const double all = 100 * (static_cast<double>(done_) + share) / static_cast<double>(attacks_.size());
+    progress_(static_cast<uint32_t>(all), 100);
+  }
+
   void run(const Attack &attack) {
     if (!rules_.only.empty() && !contains(rules_.only, attack.name)) {
       leaveOut(attack, {}, "left out by --only");
@@ -116,6 +121,8 @@ class MapAuditor {
 
   const AuditRules &rules_;
   const AuditProgress &progress_;
+  std::vector<Attack> attacks_ = allAttacks();
+  size_t done_ = 0;  // of these
   AuditContext context_;
   MapAudit audit_;
 };

@@ -49,7 +49,7 @@ struct MapAudit {
   std::vector<std::string> allowedGates() const;  // not measured, as the rules allow
 };
 
-// Told before each attack how many are done.
+// Told after each attack, and each step of the long ones, how much is done: per cent, of 100.
 using AuditProgress = std::function<void(uint32_t done, uint32_t total)>;
 
 // Throws std::runtime_error, with cause and cure, when the map cannot be read or is not of the place, or by

@@ -436,6 +436,18 @@ TEST_F(FilesTest, NotesComeInAnyOrderAndMapsOnce) {
                                    at("elsewhere.sphc.owner.json") + " --owner-note " + at("room.sphc.owner.json"));
   ASSERT_EQ(turned.exit_code, kExitDone) << turned.err;
   EXPECT_EQ(nlohmann::json::parse(turned.out)["within_5cm_5deg"], 3);
+
+  // Poses of both maps in one path.
+  fs::copy(at("walk"), at("both"), fs::copy_options::recursive);
+  for (const char *file : {"/rgb/000002.png", "/depth/000002.png"})
+    fs::copy_file(at("elsewhere") + file, at("both") + file, fs::copy_options::overwrite_existing);
+  const std::string mixed = "localize --mode single -r " + at("both") + " -m " + at("room.sphc") + " -m " +
+                            at("elsewhere.sphc") + " --trajectory " + at("both.tum"),
+                    note = "--trajectory: its poses are of 2 maps, each in the frame of its own";
+  EXPECT_THAT(runCommand(mixed).err, HasSubstr(note));
+  const std::string notes =
+      " --owner-note " + at("room.sphc.owner.json") + " --owner-note " + at("elsewhere.sphc.owner.json");
+  EXPECT_THAT(runCommand(mixed + notes).err, testing::Not(HasSubstr(note)));
 }
 
 // The focal length of another camera.

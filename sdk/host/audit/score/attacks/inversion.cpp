@@ -26,7 +26,7 @@ Told better(const Told &a, const Told &b) { return {std::max(a.coarse, b.coarse)
 // Paints sets of points by every network, and keeps the pictures that show most.
 class Painter {
  public:
-  explicit Painter(AuditContext *context) {
+  explicit Painter(AuditContext *context) : context_(*context) {
     const AuditInput &input = context->input();
     for (const char *network : kNetworks) inverters_.emplace_back(input.networks, network);
     const Published &points = context->unprotected();
@@ -43,6 +43,7 @@ class Painter {
           invert(&inverter, what, points.directions, points.descriptors, weights, result.views);
       if (finest.hits.empty() || painted.fine.top1 > finest.top1) finest = painted.fine;
       if (best.pictures.empty() || painted.coarse.top1 > best.coarse.top1) best = std::move(painted);
+      context_.tellDone(++painted_ / static_cast<double>(kSets * inverters_.size()));
     }
     best.fine = finest;
     result.inversions.push_back(std::move(best));
@@ -59,7 +60,11 @@ class Painter {
   AttackResult result;
 
  private:
+  static constexpr size_t kSets = 6;  // that are painted
+
+  const AuditContext &context_;
   std::vector<Inverter> inverters_;
+  uint32_t painted_ = 0;  // sets, by each network
 };
 
 // Pictures that tell something have to be compared with something; no pictures at all tell nothing.

@@ -13,6 +13,7 @@ Measurement aucOf(const AuditContext &context, double strongest) {
 
 AttackResult runRealOrFake(AuditContext *context) {
   const RealOrFakeScores &strongest = context->realOrFake().scores.back();
+  context->tellDone(0.5);
   AttackResult result = {{aucOf(*context, strongest.auc),
                           {"real_or_fake.precision_at_eta", strongest.precision_at_eta,
                            "eta is " + std::to_string(context->eta()).substr(0, 5)},

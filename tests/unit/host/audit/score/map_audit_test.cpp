@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/audit/attack/real_or_fake.h"
 #include "host/audit/score/auc.h"
@@ -62,6 +63,20 @@ TEST(MapAudit, TheFileItselfHolds) {
   for (const RealOrFakeGuess &guess : guessRealOrFake(release.map, SPHC_NETWORKS))
     strongest = std::max(strongest, areaUnderCurve(guess.scores, real).value);
   EXPECT_EQ(figure(result, "real_or_fake.auc").value, strongest);
+}
+
+TEST(MapAudit, TellsHowMuchIsDoneWithinAnAttackToo) {
+  const test::MadeUpRelease release = test::released(test::madeUpRoom(300, 1), 1, 1.0 / 3);
+  AuditRules rules;
+  rules.only = {"inversion"};
+  std::vector<uint32_t> told;
+  auditMap(inputOf(release), rules, [&](uint32_t done, uint32_t total) {
+    EXPECT_EQ(total, 100u);
+    told.push_back(done);
+  });
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 100u);
+  EXPECT_GT(std::set<uint32_t>(told.begin(), told.end()).size(), 8u);
 }
 
 // Its error is zero, which no number of sigmas says.
