@@ -17,9 +17,9 @@
  * s, 960 frames) are exactly two laps; frame_rate_hz 6.25 and frame_count 200 are the same walk with fewer frames.
  *   Same bytes The same config gives the same bytes, whatever `threads` says and in whatever order frames are
  * asked. Memory     this driver is a tool of the workstation: it allocates at open and while it renders (about 100
- * MB for the textures, as they come into view; eight times that in a flat). Threads    a handle never changes after opening, but for the
- * state of its one source; hence most of it is [shared].  Rendering starts up to `threads` threads and joins them
- * before it returns.
+ * MB for the textures, as they come into view; eight times that in a flat). Threads    a handle never changes after
+ * opening, but for the state of its one source; hence most of it is [shared].  Rendering starts up to `threads`
+ * threads and joins them before it returns.
  */
 #ifndef SPHERECLOUD_DRIVERS_SIMULATED_H
 #define SPHERECLOUD_DRIVERS_SIMULATED_H
