@@ -13,6 +13,7 @@ from pathlib import Path
 
 import check_code
 import check_commands
+import check_scripts
 import check_links
 import check_words
 import make_bindings
@@ -70,6 +71,10 @@ class Checks(unittest.TestCase):
 
     def commands(self):
         return check_commands.all_faults(self.root, [self.command()])
+
+    def scripts(self, text):
+        self.write("tests/pipeline/figures.py", text)
+        return check_scripts.all_faults(self.root, [self.command()])
 
     def words(self):
         return check_words.all_faults(self.root, [self.command()])
@@ -144,6 +149,17 @@ class Checks(unittest.TestCase):
         self.page("Say `--recording walk`, or `--gone=1`.\n")
         faults = check_commands.all_faults(self.root, [self.command(), lab])
         self.assertEqual(faults, ["docs/one.md:1: no command has the option --gone"])
+
+    def test_a_script_calls_what_is_gone(self):
+        self.assertEqual(self.scripts('run([tool, "build", "--recording", walk])\n'), [])
+        self.assertEqual(self.scripts('run([lab.tool, "build", *["--gone", walk]])\n'),
+                         ["tests/pipeline/figures.py:1: build has no option --gone"])
+        self.assertEqual(self.scripts('run([tool, "bend"])\n'),
+                         ["tests/pipeline/figures.py:1: no command has the subcommand bend"])
+
+    def test_a_script_names_an_option_that_is_gone(self):
+        script = 'parser.add_argument("--own")\nx = ["--own", "--recording", f"--{name}"]\ny = {"a": "--gone"}\n'
+        self.assertEqual(self.scripts(script), ["tests/pipeline/figures.py:3: no command has the option --gone"])
 
     def test_a_target_that_is_gone(self):
         self.write("tests/CMakeLists.txt", "add_custom_target(kept_results)\nsphc_label(unit some_test)\n")
