@@ -120,7 +120,8 @@ class Localizer:
         Error(E_ARGUMENT): the rig or a parameter cannot be used; the message names field, cause and cure.
         """
         by_id: typing.Mapping[int, Map] = {0: maps} if isinstance(maps, Map) else of_type(
-            maps or {}, collections.abc.Mapping, "maps", "; give a Map, or Maps by id")
+            maps or {}, collections.abc.Mapping, "maps",  # type: ignore[type-abstract]
+            "; give a Map, or Maps by id")
         given = {"max_keypoints": max_keypoints, "max_maps": max_maps, "mode": mode, "seed": seed,
                  "depth_min_m": depth_min_m, "depth_max_m": depth_max_m, "depth_sigma_m": depth_sigma_m,
                  "depth_sigma_per_m2": depth_sigma_per_m2, "pixel_sigma_px": pixel_sigma_px, "map_sigma_m": map_sigma_m,
