@@ -213,20 +213,20 @@ TEST_F(FilesTest, AuditKeepsTheLedger) {
 }
 
 TEST_F(FilesTest, AnAuditsReportHasNoPictureOfAnAuditBefore) {
-  const std::string audit = "audit " + at("room.sphc") + " --only file --report " + at("report");
+  const std::string audit = "audit " + at("room.sphc") + " --only file --report " + at("audit");
   ASSERT_EQ(runCommand(audit).exit_code, kExitAuditIncomplete);
-  put("report/inversion.png", "of an audit before");
+  put("audit/inversion.png", "of an audit before");
   ASSERT_EQ(runCommand(audit).exit_code, kExitAuditIncomplete);
-  EXPECT_FALSE(fs::exists(at("report/inversion.png")));
+  EXPECT_FALSE(fs::exists(at("audit/inversion.png")));
 }
 
 // Beside itself it would hold.
 TEST_F(FilesTest, AnAuditBesideTheMapItselfIsRefused) {
-  fs::copy(at("room.sphc"), at("copy.sphc"));
+  fs::copy(at("room.sphc"), at("itself.sphc"));
   const Answer itself =
-      runCommand("audit " + at("room.sphc") + " --only triangulation --release " + at("copy.sphc"));
+      runCommand("audit " + at("room.sphc") + " --only triangulation --release " + at("itself.sphc"));
   EXPECT_EQ(itself.exit_code, kExitFailure);
-  EXPECT_THAT(itself.err, HasSubstr("copy.sphc is the map that is audited; give the other releases"));
+  EXPECT_THAT(itself.err, HasSubstr("itself.sphc is the map that is audited; give the other releases"));
 }
 
 TEST_F(FilesTest, AReleaseThatIsNoMapIsRefusedByItsNameBeforeTheAttacks) {
@@ -256,7 +256,8 @@ TEST_F(FilesTest, AnAuditByTheRecordingOfAnotherRoomIsRefused) {
   EXPECT_THAT(photos.err, HasSubstr("--photos: of "));
   EXPECT_THAT(photos.err, HasSubstr("give frames of the place, posed in the recording's world"));
   const Answer none = runCommand(audit + at("walk") + " --photos-first 9");
-  EXPECT_THAT(none.err, HasSubstr("--photos: cannot open the recording: selection: first 9 chooses no frame"));
+  EXPECT_THAT(none.err,
+              HasSubstr("--photos: cannot open the recording: " + at("walk") + ": first 9 chooses no frame"));
 }
 
 TEST_F(FilesTest, AuditReplacesAnotherTableByForceAndAnEmptyOneAnyway) {
