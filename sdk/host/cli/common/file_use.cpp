@@ -63,7 +63,7 @@ void checkParent(const std::string &option, const std::string &path) {
     refuse(option, path, "has too long a name; give one of at most " + std::to_string(kMostBytes) + " bytes");
   std::error_code error;
   const fs::path folder = plain(path).parent_path();
-  fs::path named = fs::absolute(path);
+  fs::path named = fs::absolute(path, error);
   if (!named.has_filename()) named = named.parent_path();  // "walk/" is "walk"
   // "none/.." is a folder only where none is one.
   for (const fs::path &needed : {folder, named.parent_path()})
