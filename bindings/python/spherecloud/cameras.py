@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _interface
-from ._calls import check, whole
+from ._calls import check, of_type, whole
 from ._library import interface
 from .enums import CameraModel, Status
 from .errors import Error
@@ -89,8 +89,9 @@ class Rig:
     depth_unit_m: float = 0.001
 
     def raw(self) -> _interface.sphc_rig:
-        return _interface.sphc_rig(self.color_camera.raw(), self.depth_camera.raw(), self.color_from_depth.raw(),
-                                   self.depth_unit_m)
+        return _interface.sphc_rig(of_type(self.color_camera, Camera, "color_camera").raw(),
+                                   of_type(self.depth_camera, Camera, "depth_camera").raw(),
+                                   of_type(self.color_from_depth, Rigid, "color_from_depth").raw(), self.depth_unit_m)
 
     def check(self) -> None:
         """Error(E_ARGUMENT) if the rig cannot be used; the message names field, cause and cure."""

@@ -181,9 +181,9 @@ class FrameStruct:
         """Returns what must stay alive until the call is over."""
         raw, color, depth = self.raw, of_type(frame, Frame, "frame").color, frame.depth
         sequence, deadline_us, color_ns, depth_ns = frame.sequence, frame.deadline_us, frame.color_time_ns, frame.depth_time_ns
-        if not (0 <= sequence < _WORDS and 0 <= deadline_us < _WORDS and -_HALF <= color_ns < _HALF and -_HALF <= depth_ns < _HALF):
-            _refuse_numbers(frame)
         try:
+            if not (0 <= sequence < _WORDS and 0 <= deadline_us < _WORDS and -_HALF <= color_ns < _HALF and -_HALF <= depth_ns < _HALF):
+                _refuse_numbers(frame)
             raw.sequence, raw.deadline_us, raw.color_time_ns, raw.depth_time_ns = sequence, deadline_us, color_ns, depth_ns
         except TypeError:
             _refuse_numbers(frame)

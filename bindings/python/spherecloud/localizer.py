@@ -47,6 +47,9 @@ class _Callbacks:
     """Functions of Python's for the library.  What they raise, such as an interrupt, comes up after the call."""
 
     def __init__(self, log: Log | None, clock: Clock | None) -> None:
+        for name, call in ("log", log), ("clock", clock):
+            if call is not None and not callable(call):
+                raise TypeError(f"{name} is a function or None, not {type(call).__name__}")
         self._local = threading.local()  # a fault is of the thread whose call it happened in
         self.inside: list[int] = []  # threads that are in a callback, from which the library must not be entered again
 
@@ -130,9 +133,10 @@ class Localizer:
                  "color_band": color_band, "color_row_time_ns": color_row_time_ns, "log_level": log_level}
         self._c, self._callbacks = interface(), _Callbacks(log, clock)
         self._process, self._made_result = self._c.sphc_localizer_process, _interface.sphc_localizer_result.from_buffer_copy
-        self._cameras = (_interface.sphc_localizer_camera * len(cameras))(*(camera.raw() for camera in cameras))
+        self._cameras = (_interface.sphc_localizer_camera * len(cameras))(
+            *(of_type(camera, RigCamera, "one of cameras").raw() for camera in cameras))
         self._depth_cameras = (_interface.sphc_localizer_depth_camera * len(depth_cameras))(
-            *(camera.raw() for camera in depth_cameras))
+            *(of_type(camera, RigDepthCamera, "one of depth_cameras").raw() for camera in depth_cameras))
         self._config = self._made_config(rig, given)
         self._extracting, self._locating = threading.RLock(), threading.RLock()
         depth_formats = [camera.format for camera in depth_cameras]

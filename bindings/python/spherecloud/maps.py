@@ -29,7 +29,10 @@ class Map:
 
     def __init__(self, file: bytes | bytearray | memoryview) -> None:
         """Copies the bytes of a map file.  Errors: E_MAP_FORMAT, E_MAP_VERSION, E_MAP_CHECKSUM, E_MAP_EXTRACTOR."""
-        content = np.frombuffer(file, np.uint8) if len(file) else np.empty(0, np.uint8)
+        try:
+            content = np.frombuffer(file, np.uint8) if len(file) else np.empty(0, np.uint8)
+        except TypeError:
+            raise TypeError(f"file is the bytes of a map, not {type(file).__name__}; Map.open(path) reads one") from None
         need, message = _interface.sphc_memory(), _interface.sphc_message()
         check(interface().sphc_map_memory(need), "sphc_map_memory")
         kept = aligned(content.size, need.alignment)

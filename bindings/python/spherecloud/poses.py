@@ -19,7 +19,10 @@ Floats = npt.NDArray[np.float64]
 
 
 def numbers(values: typing.Iterable[float], count: int, what: str) -> tuple[float, ...]:
-    made = tuple(float(value) for value in values)
+    try:
+        made = tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what} has {count} numbers, and is {values!r}") from None
     if len(made) != count:
         raise ValueError(f"{what} has {count} numbers, not {len(made)}")
     return made

@@ -131,7 +131,12 @@ class Misuse(unittest.TestCase):
                      lambda: self.localizer.process(dataclasses.replace(self.frame, prior=sphc.Prior(7, odometry_from_camera=np.eye(4)))),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, color=sphc.Image(self.frame.color, 99))),
                      lambda: self.localizer.process(dataclasses.replace(self.frame, color=sphc.Image([1], sphc.Format.GRAY8))),
-                     lambda: sphc.Aligner(session.RIG).process(self.frame.depth, sphc.Aligned(depth=[1]))):
+                     lambda: sphc.Aligner(session.RIG).process(self.frame.depth, sphc.Aligned(depth=[1])),
+                     lambda: sphc.Map("room.sphc"), lambda: sphc.Map(3), lambda: sphc.Rig(1, 2).check(),
+                     lambda: sphc.Localizer(session.RIG, log=3), lambda: sphc.Localizer(session.RIG, clock=3),
+                     lambda: sphc.Localizer(session.RIG, cameras=[session.RIG]),
+                     lambda: sphc.Localizer(session.RIG, depth_cameras=[session.RIG]),
+                     lambda: self.localizer.process(dataclasses.replace(self.frame, deadline_us="soon"))):
             with self.assertRaisesRegex(TypeError, "not "):
                 call()
         masked = dataclasses.replace(self.frame, depth=np.ma.masked_equal(self.frame.depth, 0))
@@ -139,6 +144,11 @@ class Misuse(unittest.TestCase):
         metres = dataclasses.replace(self.frame, depth=self.frame.depth.astype(np.float32))
         self.refused(sphc.Status.E_IMAGE, "depth_format", self.localizer.process, metres)
         self.goes_on()
+
+    def test_numbers_that_are_none_are_named(self):
+        for given in "abc", (1, "b", 3), 5:
+            with self.assertRaisesRegex(TypeError, "t_m has 3 numbers, and is"):
+                sphc.Rigid(t_m=given)
 
     def test_a_clock_that_gives_no_whole_number(self):
         localizer = sphc.Localizer(session.RIG, self.map, clock=time.monotonic)
