@@ -64,7 +64,9 @@ Place placeOf(const AuditOptions &options, const std::vector<uint8_t> &file) {
 }
 
 std::vector<InversionView> viewsOf(const AuditOptions &options, const Place &place) {
-  return viewsFromCentre(openRecording(options.recording).get(), place.centre_m);
+  ProgressBar bar("looking   ");
+  return viewsFromCentre(openRecording(options.recording).get(), place.centre_m,
+                         [&bar](uint32_t done, uint32_t total) { bar.show(done, total); });
 }
 
 // What is no map is refused by its name, and before the attacks.

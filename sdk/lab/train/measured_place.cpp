@@ -110,7 +110,7 @@ MeasuredPlace readPlace(const std::string &description, SecretRandom *random) {
   const Vector3 centre_m = centreOf(model.points);
   for (const ModelPoint &point : model.points) place.points.push_back(seenFrom(centre_m, point));
   shuffle(&place.points, random);
-  place.centre_views = viewsFromCentre(reader.get(), centre_m);
+  place.centre_views = viewsFromCentre(reader.get(), centre_m, [](uint32_t, uint32_t) {});
   FrameReader(reader.get(), Camera(reader->calibration().color_camera), model).read(&place);
   return place;
 }

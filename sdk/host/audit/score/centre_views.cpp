@@ -82,11 +82,12 @@ Matrix3 turned(double yaw_deg, double pitch_deg) {
 
 }  // namespace
 
-Panorama panoramaFrom(recording::RecordingReader *reader, const Vector3 &centre_m) {
+Panorama panoramaFrom(recording::RecordingReader *reader, const Vector3 &centre_m, const FramesRead &progress) {
   const FramePainter painter(reader->calibration(), centre_m);
   Panorama panorama;
   uint32_t painted = 0;
   for (uint32_t i = 0; i < reader->frameCount(); ++i) {
+    progress(i, reader->frameCount());
     const std::optional<sphc_rigid> pose = reader->worldFromCamera(i);
     if (!pose) continue;
     const std::optional<sphc_localizer_frame> frame = reader->tryRead(i);
@@ -116,8 +117,9 @@ std::vector<Matrix3> choosePoses(recording::RecordingReader *reader, const Panor
   return chosen;
 }
 
-std::vector<InversionView> viewsFromCentre(recording::RecordingReader *reader, const Vector3 &centre_m) {
-  const Panorama panorama = panoramaFrom(reader, centre_m);
+std::vector<InversionView> viewsFromCentre(recording::RecordingReader *reader, const Vector3 &centre_m,
+                                           const FramesRead &progress) {
+  const Panorama panorama = panoramaFrom(reader, centre_m, progress);
   std::vector<InversionView> views;
   for (const Matrix3 &rotation : choosePoses(reader, panorama, kApartDeg, kSeenShare))
     views.push_back({rotation, panorama.view(rotation)});

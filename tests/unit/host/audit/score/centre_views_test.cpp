@@ -82,7 +82,12 @@ class PanoramaFrom : public testing::Test {
 
 TEST_F(PanoramaFrom, PaintsWhatTheCentreWouldSee) {
   const Vector3 centre(-0.2, 0.1, 0.1);
-  const Panorama panorama = panoramaFrom(reader_.get(), centre);
+  std::vector<uint32_t> told;
+  const Panorama panorama = panoramaFrom(reader_.get(), centre, [&](uint32_t done, uint32_t total) {
+    EXPECT_EQ(total, reader_->frameCount());
+    told.push_back(done);
+  });
+  EXPECT_EQ(told.size(), reader_->frameCount());
   const Matrix3 camera_from_map = Eigen::AngleAxisd(-25 * kDegree, Vector3::UnitY()).toRotationMatrix();
   const TruthView view = panorama.view(camera_from_map);
   EXPECT_GT(view.seenShare(), 0.95);  // but for a strip above, which no frame saw
@@ -101,7 +106,7 @@ TEST_F(PanoramaFrom, PaintsWhatTheCentreWouldSee) {
 }
 
 TEST_F(PanoramaFrom, PosesAreApartAndKnown) {
-  const Panorama panorama = panoramaFrom(reader_.get(), Vector3::Zero());
+  const Panorama panorama = panoramaFrom(reader_.get(), Vector3::Zero(), [](uint32_t, uint32_t) {});
   const std::vector<Matrix3> poses = choosePoses(reader_.get(), panorama, 20, 0.7);
   EXPECT_GE(poses.size(), 3u);  // at 0, 24 and 48 degrees
   for (size_t i = 0; i < poses.size(); ++i) {
