@@ -20,7 +20,8 @@ std::string cureOf(GuideAdvice bit) { return bit ? wordsOf(bit).cure : ""; }
 
 std::string adviceText(GuideAdvice urgent, const GuideStep &step) {
   if (urgent != kGoBack) return cureOf(urgent);
-  const std::string cause = cureOf(mostUrgent(step.advice & ~kGoBack));
+  // To look again here is no way back.
+  const std::string cause = cureOf(mostUrgent(step.advice & ~(kGoBack | kLookAgain)));
   return "LOST: go back to where you were " + ago(step.lost_s) + (cause.empty() ? "" : " (" + cause + ")");
 }
 

@@ -44,6 +44,14 @@ TEST(GuideLineTest, WhoIsLostIsToldTheCauseToo) {
   EXPECT_EQ(line.hear(step), "LOST: go back to where you were 7 s ago (more light)");
 }
 
+// In a part of its own, which hangs together weakly.
+TEST(GuideLineTest, WhoIsLostIsNotToldToLookAgain) {
+  GuideLine line;
+  GuideStep step = saidAt(12, kGoBack | kLookAgain);
+  step.lost_s = 3;
+  EXPECT_EQ(line.hear(step), "LOST: go back to where you were 3 s ago");
+}
+
 TEST(GuideLineTest, ALoopIsSaid) {
   GuideLine line;
   GuideStep step = saidAt(30, 0);
