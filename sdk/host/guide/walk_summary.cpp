@@ -68,6 +68,8 @@ WalkSummary summaryOf(const std::vector<Look> &looks, const std::vector<GuidePla
       summary.path_m +=
           (places[i].part_from_camera.translation_m - places[i - 1].part_from_camera.translation_m).norm();
   }
+  // A place alone is held to nothing, so that is no weakness.
+  const bool may_be_thin = std::count(parts.begin(), parts.end(), largest_part) > 1;
   std::sort(parts.begin(), parts.end());
   summary.parts = static_cast<uint32_t>(std::unique(parts.begin(), parts.end()) - parts.begin());
   Stretches stretches(looks.front().time_ns);
@@ -75,7 +77,7 @@ WalkSummary summaryOf(const std::vector<Look> &looks, const std::vector<GuidePla
     const bool is_in = look.place != UINT32_MAX && places[look.place].part == largest_part;
     summary.followed += is_in;
     GuideAdvice advice = is_in ? look.advice : look.advice | kGoBack;
-    if (is_in && places[look.place].support < kThinInliers) advice |= kLookAgain;
+    if (is_in && may_be_thin && places[look.place].support < kThinInliers) advice |= kLookAgain;
     stretches.add(look.time_ns, advice);
   }
   summary.hard = stretches.all();

@@ -59,5 +59,13 @@ TEST(WalkSummaryTest, OtherPartsAndWeakPlacesAreHard) {
   EXPECT_NEAR(summary.path_m, 3, 1e-9);
 }
 
+// As who stands still at the begin.
+TEST(WalkSummaryTest, TheOnlyPlaceIsNotThin) {
+  std::vector<Look> looks;
+  for (int64_t i = 0; i < 10; ++i) looks.push_back({i * kStepNs, 0, 0});
+  EXPECT_TRUE(summaryOf(looks, {placeAt(0, 0, 0)}, 0, 0).hard.empty());
+  EXPECT_EQ(summaryOf(looks, {placeAt(0, 0, 0), placeAt(0, 1, 0)}, 0, 0).hard.size(), 1u);
+}
+
 }  // namespace
 }  // namespace sphc::host
