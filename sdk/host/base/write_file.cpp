@@ -17,6 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kNewPart = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW;
+
+mode_t modeOf(Readers readers) { return readers == Readers::kOwner ? 0600 : 0666; }
+
 [[noreturn]] void fail(const std::string &path) {
   throw std::runtime_error("cannot write " + path + ": " + std::strerror(errno) +
                            "; check that its folder is there, writable, and the disk not full");
@@ -95,7 +99,7 @@ void writeFile(const std::string &path, const void *bytes, size_t count, Readers
     fail(path);
   }
   const std::string beside = partName(target);
-  OpenFile file(beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, readers == Readers::kOwner ? 0600 : 0666);
+  OpenFile file(beside, kNewPart, modeOf(readers));
   if (!file.isOpen()) fail(path);
   RemovedAtEnd unfinished(beside);
   bool done = true;
@@ -131,8 +135,11 @@ void renameToNew(const std::string &from, const std::string &to) {
 
 void writeNewFile(const std::string &path, const std::string &text, Readers readers) {
   const std::string beside = partName(path);
+  OpenFile file(beside, kNewPart, modeOf(readers));
+  if (!file.isOpen()) fail(path);
   RemovedAtEnd unfinished(beside);
-  writeFile(beside, text, readers);
+  const bool is_private = readers != Readers::kOwner || file.setMode(0600);
+  if (!is_private || !file.put(text.data(), text.size()) || !file.sync() || !file.close()) fail(path);
   try {
     renameToNew(beside, path);
   } catch (const std::runtime_error &) {

@@ -63,7 +63,13 @@ std::array<uint8_t, 64> SigningKey::sign(const uint8_t *bytes, size_t count) con
 
 void SigningKey::write(const std::string &path, const std::string &public_path) const {
   writeKeyText(path, kSecretHead, secret_.data(), Readers::kOwner);
-  writeKeyText(public_path, kPublicHead, public_key_.bytes, Readers::kAll);
+  try {
+    writeKeyText(public_path, kPublicHead, public_key_.bytes, Readers::kAll);
+  } catch (...) {  // no command makes the public key of a secret one
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    throw;
+  }
 }
 
 sphc_signature_key readPublicKey(const std::string &path) {

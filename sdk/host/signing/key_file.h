@@ -28,7 +28,7 @@ class SigningKey {
   const sphc_signature_key &publicKey() const { return public_key_; }
   // The Ed25519 signature of some bytes.
   std::array<uint8_t, 64> sign(const uint8_t *bytes, size_t count) const;
-  // The file with mode 0600, and the public key's beside it.  Throws as writeNewFile does.
+  // The file with mode 0600, and the public key's beside it: both or none.  Throws as writeNewFile does.
   void write(const std::string &path, const std::string &public_path) const;
 
  private:

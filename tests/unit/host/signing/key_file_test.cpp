@@ -78,6 +78,18 @@ TEST_F(KeyFileTest, TheSeedGivesThePublicKeyOfTheStandard) {
   EXPECT_EQ(text("golden.pub"), std::string("spherecloud public signing key 1\n") + test::kKey + "\n");
 }
 
+// As where the disk is full: half a pair would only be in the way of the next one.
+TEST_F(KeyFileTest, APairIsWrittenWholeOrNotAtAll) {
+  const std::string nowhere = at("absent/half.key.pub");
+  try {
+    goldenKey().write(at("half.key"), nowhere);
+    ADD_FAILURE() << "a key in no folder";
+  } catch (const std::runtime_error &error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("cannot write " + nowhere + ":"), Not(HasSubstr(".part"))));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
 TEST_F(KeyFileTest, TwoKeysDiffer) {
   EXPECT_NE(keyIdText(SigningKey::draw().publicKey()), keyIdText(SigningKey::draw().publicKey()));
 }
