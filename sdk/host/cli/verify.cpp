@@ -11,12 +11,16 @@ namespace {
 
 struct VerifyOptions {
   std::string map, signature, name;
+  CLI::Option *has_name = nullptr;
   TrustOptions trust;
 };
 
 int verify(const VerifyOptions &options, const Console &console) {
   Trust trust = trustOf(options.trust);
-  trust.name = options.name;
+  if (options.has_name->count() > 0) {
+    checkMapName(options.name);
+    trust.name = options.name;
+  }
   trust.signature = options.signature;
   const sphc_signature_statement said = openMapFile(options.map, trust).statement;
   const std::string id = keyIdText(trust.keys[said.key_index]), name = said.name;
@@ -40,7 +44,9 @@ Command verifyCommand(CLI::App *root) {
       "Example:\n  spherecloud verify room.sphc --trusted-key maps.key.pub --least-release 7 --name kitchen");
   app->add_option("map", options->map, "Map file")->required()->type_name("FILE");
   app->add_option("--signature", options->signature, "Its signature [MAP.sig]")->type_name("FILE");
-  app->add_option("--name", options->name, "The name that it must have been signed under [any]")->type_name("NAME");
+  options->has_name = app->add_option("--name", options->name,
+                                      "The name that it must have been signed under; '': without one [any]")
+                          ->type_name("NAME");
   addTrustOptions(app, &options->trust);
   app->get_option("--trusted-key")->required();
   return {app, [options](const Console &console) { return verify(*options, console); }};

@@ -21,22 +21,52 @@ std::vector<uint8_t> readSignature(const std::string &path) {
   return bytes;
 }
 
+// The character at a place of UTF-8, and how many bytes it has; 0: it is none.
+size_t readCharacter(const std::string &text, size_t at, uint32_t *character) {
+  constexpr uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // of so many bytes
+  const auto first = static_cast<uint8_t>(text[at]);
+  const size_t bytes = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
+  if (bytes == 0 || at + bytes > text.size()) return 0;
+  *character = bytes == 1 ? first : first & 0x7f >> bytes;
+  for (size_t i = 1; i < bytes; ++i) {
+    const auto next = static_cast<uint8_t>(text[at + i]);
+    if (next >> 6 != 2) return 0;
+    *character = *character << 6 | (next & 0x3f);
+  }
+  const bool is_surrogate = *character >= 0xd800 && *character < 0xe000;
+  return *character < kLeast[bytes] || *character > 0x10ffff || is_surrogate ? 0 : bytes;
+}
+
+// Others would come out of JSON changed, or do something to a terminal.
+bool canBeShown(const std::string &text) {
+  uint32_t character = 0;
+  for (size_t at = 0, bytes = 0; at < text.size(); at += bytes) {
+    bytes = readCharacter(text, at, &character);
+    if (bytes == 0 || character < 0x20 || (character >= 0x7f && character < 0xa0)) return false;
+  }
+  return true;
+}
+
 sphc_signature_policy policyOf(const Trust &trust) {
   sphc_signature_policy policy;
   sphc_signature_policy_init(&policy, sizeof policy);
   policy.keys = trust.keys.data();
   policy.key_count = static_cast<uint32_t>(trust.keys.size());
   policy.least_release = trust.least_release;
-  policy.name = trust.name.empty() ? nullptr : trust.name.c_str();
+  policy.name = trust.name ? trust.name->c_str() : nullptr;
   return policy;
 }
 
 }  // namespace
 
+void checkMapName(const std::string &name) {
+  if (name.size() >= SPHC_SIGNATURE_NAME_BYTES) throw UsageError("--name: a name has at most 31 bytes");
+  if (!canBeShown(name)) throw UsageError("--name: a name is text in UTF-8 without control characters");
+}
+
 Signature signMap(const void *map, size_t map_bytes, const SigningKey &key, uint64_t release,
                   const std::string &name) {
-  if (name.size() >= SPHC_SIGNATURE_NAME_BYTES || name.find('\0') != std::string::npos)
-    throw UsageError("--name: a name has at most 31 bytes");
+  checkMapName(name);
   sphc_statement statement = {};
   statement.release = release;
   statement.map_bytes = map_bytes;

@@ -19,7 +19,10 @@ constexpr char kSignatureHead[] = "SPHERECLOUD-SIG1";
 // Where it stands, unless something else is said.
 inline std::string signaturePath(const std::string &map) { return map + ".sig"; }
 
-// `name` has at most 31 bytes, none of them zero; UsageError otherwise.
+// A name is UTF-8 of at most 31 bytes, without control characters; UsageError otherwise.
+void checkMapName(const std::string &name);
+
+// Throws as checkMapName does.
 Signature signMap(const void *map, size_t map_bytes, const SigningKey &key, uint64_t release,
                   const std::string &name);
 
@@ -27,8 +30,8 @@ Signature signMap(const void *map, size_t map_bytes, const SigningKey &key, uint
 struct Trust {
   std::vector<sphc_signature_key> keys;
   uint64_t least_release = 0;
-  std::string name;       // empty: any
-  std::string signature;  // file; empty: signaturePath of the map
+  std::optional<std::string> name;  // none: any; empty: only a map that was signed without one
+  std::string signature;            // file; empty: signaturePath of the map
 };
 
 // Throws std::runtime_error with cause and cure unless the signature file makes the map one to accept.  `map` is

@@ -69,6 +69,16 @@ TEST_F(SigningTest, RefusalsHaveACause) {
   expectRefused(trust, "only signed maps are accepted");
 }
 
+// As of a script in which a variable is not set: "any" would accept too much.
+TEST_F(SigningTest, VerifyTakesTheNameAtItsWord) {
+  EXPECT_THAT(verify("--name ''").err, HasSubstr("another name"));
+  EXPECT_EQ(sign("--release 8 --force").exit_code, kExitDone);
+  EXPECT_EQ(verify("--name ''").exit_code, kExitDone);
+  const Answer too_long = verify("--name " + std::string(32, 'x'));
+  EXPECT_EQ(too_long.exit_code, kExitUsage);
+  EXPECT_THAT(too_long.err, HasSubstr("--name: a name has at most 31 bytes"));
+}
+
 TEST_F(SigningTest, LocalizeRefusesToo) {
   const std::string walk = folder_ / "walk";
   ASSERT_EQ(runCommand("simulate --frames 1 --rate 1 --out " + walk).exit_code, kExitDone);

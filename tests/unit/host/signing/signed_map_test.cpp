@@ -75,14 +75,26 @@ TEST_F(SignedMapTest, RefusalsSayWhyAndName) {
   sign(3, "hall");
   trust_.least_release = 4;
   EXPECT_THAT(refusal(), HasSubstr("older release"));
-  trust_ = {{test::keyOfHex(test::kOtherKey)}, 0, "", path_};
+  trust_ = {{test::keyOfHex(test::kOtherKey)}, 0, std::nullopt, path_};
   EXPECT_THAT(refusal(), HasSubstr("not trusted"));
 }
 
 TEST_F(SignedMapTest, NamesThatDoNotFitAreWrongUse) {
   EXPECT_THROW(sign(1, std::string(32, 'x')), UsageError);
   EXPECT_THROW(sign(1, std::string("a\0b", 3)), UsageError);
+  const std::string no_text[] = {"\xff", "caf\xc3",  "\xc0\xaf", "\xed\xa0\x80", "\xf5\x80\x80\x80",
+                                 "a\nb", "\x1b[31m", "\x7f",     "\xc2\x9b"};
+  for (const std::string &name : no_text) EXPECT_THROW(sign(1, name), UsageError) << name;
+  EXPECT_NO_THROW(sign(1, "caf\xc3\xa9 \xe5\x8e\xa8 \xf0\x9f\x8d\xb3"));
   EXPECT_NO_THROW(sign(1, std::string(31, 'x')));
+  EXPECT_EQ(check().release, 1u);
+}
+
+TEST_F(SignedMapTest, AnEmptyNameIsOfAMapWithoutOne) {
+  trust_.name = "";
+  sign(1, "hall");
+  EXPECT_THAT(refusal(), HasSubstr("another name"));
+  sign(1, "");
   EXPECT_EQ(check().release, 1u);
 }
 
