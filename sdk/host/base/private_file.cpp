@@ -20,7 +20,9 @@ namespace {
 // Closes itself.
 struct Descriptor {
   explicit Descriptor(int of) : number(of) {}
-  ~Descriptor() { close(number); }
+  ~Descriptor() {
+    if (number >= 0) close(number);  // else errno would no longer say why there is none
+  }
   Descriptor(const Descriptor &) = delete;
   Descriptor &operator=(const Descriptor &) = delete;
   int number;

@@ -12,7 +12,12 @@
 namespace sphc::host {
 namespace {
 
-constexpr char kKeyHead[] = "spherecloud secret encryption key 1";
+[[noreturn]] void refuseEncryptionKey(const std::string &path) {
+  const std::string kind = kindOfKey(path);
+  throw std::runtime_error("key file " + path + " holds " +
+                           (kind.empty() ? "no key of encrypted maps" : kind + ", and none of encrypted maps") +
+                           "; give the file that spherecloud key --for encryption wrote");
+}
 
 }  // namespace
 
@@ -30,9 +35,7 @@ EncryptionKey::EncryptionKey(EncryptionKey &&other) noexcept : key_(other.key_) 
 EncryptionKey EncryptionKey::read(const std::string &path) {
   startSodium();
   KeyBytes bytes;
-  if (!readKeyText(path, kKeyHead, &bytes))
-    throw std::runtime_error("key file " + path +
-                             " holds no key of encrypted maps; spherecloud key --for encryption makes one");
+  if (!readKeyText(path, kSecretEncryptionHead, &bytes)) refuseEncryptionKey(path);
   EncryptionKey key(bytes);
   wipe(&bytes);
   checkPrivate(path, "whoever has it decrypts your maps");
@@ -46,7 +49,7 @@ std::string EncryptionKey::idText() const {
 }
 
 void EncryptionKey::write(const std::string &path) const {
-  writeKeyText(path, kKeyHead, key_.bytes, Readers::kOwner);
+  writeKeyText(path, kSecretEncryptionHead, key_.bytes, Readers::kOwner);
 }
 
 std::vector<uint8_t> encryptMap(const void *map, size_t map_bytes, const EncryptionKey &key) {

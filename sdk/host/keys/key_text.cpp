@@ -2,6 +2,9 @@
 
 #include <sodium.h>
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
@@ -41,7 +44,9 @@ void wipe(KeyBytes *key) { sodium_memzero(key->data(), key->size()); }
 bool readKeyText(const std::string &path, const std::string &head, KeyBytes *key) {
   WipedText read{std::string(head.size() + 1 + 2 * key->size() + 2, '\0')};
   const std::optional<size_t> got = readPrivate(path, read.text.data(), read.text.size());
-  if (!got) throw std::runtime_error("key file " + path + " cannot be read; spherecloud key makes one");
+  if (!got)
+    throw std::runtime_error("key file " + path + " cannot be read: " + std::strerror(errno) +
+                             "; give the file that spherecloud key wrote");
   const size_t wanted = head.size() + 1 + 2 * key->size();
   if (*got < wanted || *got > wanted + 1 || (*got == wanted + 1 && read.text[wanted] != '\n')) return false;
   if (read.text.compare(0, head.size() + 1, head + "\n") != 0) return false;
@@ -51,6 +56,23 @@ bool readKeyText(const std::string &path, const std::string &head, KeyBytes *key
                        bytes == key->size();
   if (!is_read) wipe(key);
   return is_read;
+}
+
+std::string kindOfKey(const std::string &path) {
+  struct Kind {
+    const char *head, *words;
+  };
+  constexpr Kind kKinds[] = {{kSecretSigningHead, "a secret key that signs maps"},
+                             {kPublicSigningHead, "a public key"},
+                             {kSecretEncryptionHead, "a key of encrypted maps"}};
+  if (!std::filesystem::is_regular_file(path)) return "";
+  for (const Kind &kind : kKinds) {
+    KeyBytes bytes;
+    if (!readKeyText(path, kind.head, &bytes)) continue;
+    wipe(&bytes);
+    return kind.words;
+  }
+  return "";
 }
 
 void writeKeyText(const std::string &path, const std::string &head, const uint8_t *key, Readers readers) {

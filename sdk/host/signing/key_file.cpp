@@ -15,14 +15,9 @@
 namespace sphc::host {
 namespace {
 
-constexpr char kSecretHead[] = "spherecloud secret signing key 1";
-constexpr char kPublicHead[] = "spherecloud public signing key 1";
-
-[[noreturn]] void refuseSecret(const std::string &path) {
-  KeyBytes bytes;
-  const bool is_public = std::filesystem::is_regular_file(path) && readKeyText(path, kPublicHead, &bytes);
-  throw std::runtime_error("key file " + path + (is_public ? " holds a public key" : " holds no secret key") +
-                           ", and only a secret one signs; give the file without .pub that spherecloud key wrote");
+[[noreturn]] void refuseKey(const std::string &path, const std::string &wanted, const std::string &cure) {
+  const std::string kind = kindOfKey(path);
+  throw std::runtime_error("key file " + path + " holds " + (kind.empty() ? "no " + wanted : kind) + cure);
 }
 
 }  // namespace
@@ -48,7 +43,9 @@ SigningKey SigningKey::draw() {
 SigningKey SigningKey::read(const std::string &path) {
   startSodium();
   Seed seed;
-  if (!readKeyText(path, kSecretHead, &seed)) refuseSecret(path);
+  if (!readKeyText(path, kSecretSigningHead, &seed))
+    refuseKey(path, "secret key",
+              ", and only a secret one of signatures signs; give the file without .pub that spherecloud key wrote");
   SigningKey key(seed);
   wipe(&seed);
   checkPrivate(path, "whoever has it signs maps in your name");
@@ -62,9 +59,9 @@ std::array<uint8_t, 64> SigningKey::sign(const uint8_t *bytes, size_t count) con
 }
 
 void SigningKey::write(const std::string &path, const std::string &public_path) const {
-  writeKeyText(path, kSecretHead, secret_.data(), Readers::kOwner);
+  writeKeyText(path, kSecretSigningHead, secret_.data(), Readers::kOwner);
   try {
-    writeKeyText(public_path, kPublicHead, public_key_.bytes, Readers::kAll);
+    writeKeyText(public_path, kPublicSigningHead, public_key_.bytes, Readers::kAll);
   } catch (...) {  // no command makes the public key of a secret one
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
@@ -74,9 +71,9 @@ void SigningKey::write(const std::string &path, const std::string &public_path) 
 
 sphc_signature_key readPublicKey(const std::string &path) {
   KeyBytes bytes;
-  if (!readKeyText(path, kPublicHead, &bytes))
-    throw std::runtime_error("key file " + path +
-                             " holds no public key; give the file ending in .pub that spherecloud key wrote");
+  if (!readKeyText(path, kPublicSigningHead, &bytes))
+    refuseKey(path, "public key",
+              ", and only a public one is trusted; give the file ending in .pub that spherecloud key wrote");
   if (!sphc_ed25519_is_good_key(bytes.data()))
     throw std::runtime_error("key file " + path +
                              " holds a number for which anybody can sign; get the public key anew from its owner");

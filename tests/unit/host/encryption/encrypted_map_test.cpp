@@ -96,8 +96,10 @@ TEST_F(EncryptionKeyTest, WhatIsNoneIsRefused) {
   EXPECT_THAT(refusal(), HasSubstr("cannot be read"));
   std::ofstream(path_) << "spherecloud secret signing key 1\n" << std::string(64, 'a') << "\n";
   fs::permissions(path_, fs::perms::owner_read | fs::perms::owner_write);
-  EXPECT_THAT(refusal(), HasSubstr("holds no key of encrypted maps"));
+  EXPECT_THAT(refusal(), HasSubstr("holds a secret key that signs maps, and none of encrypted maps"));
   EXPECT_THAT(refusal(), Not(HasSubstr("aaaa")));
+  std::ofstream(path_) << "spherecloud secret encryption key 1\n" << std::string(63, 'a') << "\n";  // cut
+  EXPECT_THAT(refusal(), HasSubstr("holds no key of encrypted maps"));
 }
 
 TEST_F(EncryptionKeyTest, OneThatOthersReadIsRefused) {

@@ -113,7 +113,8 @@ TEST_F(KeyFileTest, FilesThatHoldNoSecretKeyAreRefused) {
     put("bad.key", content);
     EXPECT_THAT(refusal(SigningKey::read, "bad.key", seed.substr(1)), HasSubstr("holds no secret key")) << content;
   }
-  EXPECT_THAT(refusal(SigningKey::read, "absent.key"), HasSubstr("spherecloud key makes one"));
+  EXPECT_THAT(refusal(SigningKey::read, "absent.key"),
+              HasSubstr("cannot be read: No such file or directory; give the file"));
 }
 
 // Everybody may read it, and that is not what is wrong with it.
@@ -122,6 +123,13 @@ TEST_F(KeyFileTest, APublicKeyInPlaceOfTheSecretOneIsNamed) {
   fs::permissions(at("maps.key.pub"), fs::perms(0644));
   EXPECT_THAT(refusal(SigningKey::read, "maps.key.pub"),
               AllOf(HasSubstr("holds a public key"), HasSubstr("file without .pub"), Not(HasSubstr("chmod"))));
+}
+
+TEST_F(KeyFileTest, AKeyOfEncryptedMapsIsNamed) {
+  put("rooms.key", std::string("spherecloud secret encryption key 1\n") + test::kSeed + "\n");
+  EXPECT_THAT(refusal(SigningKey::read, "rooms.key", test::kSeed),
+              HasSubstr("holds a key of encrypted maps, and only a secret one of signatures signs"));
+  EXPECT_THAT(refusal(readPublicKey, "rooms.key", test::kSeed), HasSubstr("holds a key of encrypted maps"));
 }
 
 TEST_F(KeyFileTest, ASecretIsNeverTakenForAPublicKey) {
