@@ -160,7 +160,13 @@ int run(const RecordOptions &options, const Console &console) {
                              recording.part());
   }
   sayResult(options, tally, statistics, rig, guide.get(), console);
-  return tally.color > 0 && tally.depth > 0 ? kExitDone : kExitFailure;
+  if (tally.color > 0 && tally.depth > 0) return kExitDone;
+  console.warn(std::string("Not one ") +
+               (tally.depth > 0   ? "colour "
+                : tally.color > 0 ? "depth "
+                                  : "") +
+               "image came, so no map can be made of this. `spherecloud doctor` says what the cameras do.");
+  return kExitFailure;
 }
 
 const char kRecordExample[] =

@@ -77,6 +77,15 @@ TEST_F(GuideTest, ARecordingIsGuidedAndLosesNothing) {
   EXPECT_EQ(result["guide"]["skipped"], 0);
 }
 
+TEST_F(GuideTest, ARecordingWithoutDepthSaysWhatIsMissing) {
+  for (const auto &image : std::filesystem::directory_iterator(at("wall") + "/depth"))
+    std::filesystem::resize_file(image.path(), 0);
+  const Answer answer = runCommand("record --device replay:" + at("wall") + " --out " + at("half.mcap"));
+  EXPECT_EQ(answer.exit_code, kExitFailure);
+  EXPECT_THAT(answer.err, HasSubstr("Not one depth image came"));
+  EXPECT_THAT(answer.err, HasSubstr("spherecloud doctor"));
+}
+
 TEST_F(GuideTest, PeopleGetATableAtTheEnd) {
   const Answer answer = runCommand("record --guide --device replay:" + at("wall") + " --out " + at("walk.mcap"));
   ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
