@@ -25,11 +25,13 @@ void RecordGuide::see(const CapturePair &pair) {
   if (may_wait_) thread_.wait();
   if (thread_.offer(frame))
     pace_.looked(frame.color_time_ns);
-  else
+  else if (thread_.failure().empty())
     ++skipped_;
 }
 
 std::string RecordGuide::text() {
+  const std::string failure = thread_.failure();
+  if (!failure.empty()) return "NO GUIDANCE: " + failure;  // what was said last is no advice any more
   const std::lock_guard<std::mutex> lock(mutex_);
   return text_;
 }
