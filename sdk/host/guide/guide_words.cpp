@@ -1,5 +1,6 @@
 #include "host/guide/guide_words.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/report/run.h"
@@ -29,6 +30,13 @@ std::string loopText(const ClosedLoop &loop, int64_t now_ns) {
   if (loop.is_begin) return "you are back where you began: a loop is closed";
   return "you are back where you were " + ago(1e-9 * static_cast<double>(now_ns - loop.time_then_ns)) +
          ": a loop is closed";
+}
+
+// A glance elsewhere is none.  In a slow recording no two lost frames may be near each other.
+bool hasLostStretches(const WalkSummary &s) {
+  return 2 * s.followed < s.frames || std::any_of(s.hard.begin(), s.hard.end(), [](const HardStretch &stretch) {
+           return (stretch.advice & kGoBack) != 0;
+         });
 }
 
 }  // namespace
@@ -102,7 +110,7 @@ std::vector<Row> summaryRows(const WalkSummary &s) {
 std::string nextSteps(const WalkSummary &s) {
   std::string text;
   const auto add = [&](const std::string &what) { text += (text.empty() ? "" : "\n") + what; };
-  if (s.followed < s.frames)
+  if (hasLostStretches(s))
     add("Walk the stretches again that are lost, slowly, and begin at what was seen before them.");
   if (s.loops == 0)
     add("The walk closed no loop, so nothing tells how far it drifts: end it where it began, with the same view.");

@@ -75,9 +75,14 @@ TEST(GuideWordsTest, ProgramsGetNamesAndTheLoop) {
 TEST(GuideWordsTest, NextStepsAreOfWhatIsMissing) {
   WalkSummary summary;
   summary.frames = 10;
-  summary.followed = 9;
+  summary.followed = 8;
+  summary.hard = {{1, 2, kGoBack}};
   EXPECT_THAT(nextSteps(summary), HasSubstr("lost"));
   EXPECT_THAT(nextSteps(summary), HasSubstr("no loop"));
+  summary.hard = {{1, 2, kSlower}};  // two glances elsewhere besides, which the table does not name
+  EXPECT_THAT(nextSteps(summary), testing::Not(HasSubstr("lost")));
+  summary.followed = 4;
+  EXPECT_THAT(nextSteps(summary), HasSubstr("lost"));
   summary.followed = 10;
   summary.loops = 1;
   EXPECT_EQ(nextSteps(summary), "");
