@@ -128,10 +128,8 @@ std::optional<ClosedLoop> WalkGuide::closeLoop(const Located &here) {
   const std::optional<FoundLoop> found = loop_search_.look(here);
   if (!found) return std::nullopt;
   const GuidePlace then = places_[found->place];
-  for (const uint32_t place : {found->place, here.place}) {
-    places_.support(place, found->inliers);
-    places_.markSeenAgain(place);
-  }
+  for (const uint32_t place : {found->place, here.place}) places_.support(place, found->inliers);
+  places_.markSeenAgain(found->place);
   const bool is_new = then.part != now_.part || !loop_ns_ || now_.time_ns - *loop_ns_ > kQuietNs;
   loop_ns_ = now_.time_ns;
   if (then.part != now_.part) {

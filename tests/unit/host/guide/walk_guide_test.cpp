@@ -92,6 +92,8 @@ TEST_F(WalkGuideTest, WhoReturnsIsToldWhereTo) {
   EXPECT_NEAR(closed.loop->now_from_then.translation_m.x(), (there_px - back_px) / kWallFocalPx * kWallM, 0.02);
   EXPECT_EQ(guide_.summary().parts, 1u);
   EXPECT_TRUE(guide_.summary().begin_seen_again);
+  EXPECT_GE(guide_.summary().seen_again, 3u);
+  EXPECT_LE(2 * guide_.summary().seen_again, guide_.summary().places) << "those on the way back were seen once";
   EXPECT_EQ(allAdvice(), 0u);
 }
 
