@@ -77,7 +77,9 @@ std::string kindOfKey(const std::string &path) {
 
 void writeKeyText(const std::string &path, const std::string &head, const uint8_t *key, Readers readers) {
   const WipedText digits{secretDigits(key, KeyBytes().size())};
-  const WipedText text{head + "\n" + digits.text + "\n"};
+  WipedText text;
+  text.text.reserve(head.size() + digits.text.size() + 2);  // a text that grows leaves its bytes where it was
+  text.text.append(head).append("\n").append(digits.text).append("\n");
   writeNewFile(path, text.text, readers);
 }
 
