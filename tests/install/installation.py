@@ -75,13 +75,15 @@ def refusals(options):
         said, went_on = find(arguments, options.prefix)
         if went_on != (why is None) or (why or "found: 1, new variables: ''") not in said:
             faults.append(f"find_package(SphereCloud {arguments}) says: {said}")
-    with tempfile.TemporaryDirectory(dir=options.prefix.parent) as place:
-        partial = Path(place) / "prefix"
-        shutil.copytree(options.prefix, partial, symlinks=True, copy_function=os.link)
-        (partial / options.libdir / "cmake" / "SphereCloud" / "SphereCloud-host.cmake").unlink()
-        said, went_on = find("REQUIRED COMPONENTS host", partial)
-    if went_on or 'the component "host" is not in this installation of SphereCloud; build and install it with -DSPHC_HOST=ON.' not in said:
-        faults.append(f"without the host find_package says: {said}")
+    cures = {"host": "build and install it with -DSPHC_HOST=ON.", "signature": 'install the component "signature" too.'}
+    for component, cure in cures.items():
+        with tempfile.TemporaryDirectory(dir=options.prefix.parent) as place:
+            partial = Path(place) / "prefix"
+            shutil.copytree(options.prefix, partial, symlinks=True, copy_function=os.link)
+            (partial / options.libdir / "cmake" / "SphereCloud" / f"SphereCloud-{component}.cmake").unlink()
+            said, went_on = find(f"REQUIRED COMPONENTS {component}", partial)
+        if went_on or f'the component "{component}" is not in this installation of SphereCloud; {cure}' not in said:
+            faults.append(f"without the component {component} find_package says: {said}")
     return faults
 
 
