@@ -107,8 +107,15 @@ function(sphc_install_package)
   install(FILES ${SPHC_INSTALL_FILES}/SphereCloudConfig.cmake ${description} DESTINATION ${SPHC_INSTALL_CMAKEDIR}
     COMPONENT development)
 
-  file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-  string(REGEX REPLACE "/$" "" to_prefix ${to_prefix})
+  # From the prefix, wherever that is moved to; a folder that is told in full stays where it is.
+  cmake_path(APPEND pc_libdir "\${prefix}" ${CMAKE_INSTALL_LIBDIR})
+  cmake_path(APPEND pc_includedir "\${prefix}" ${CMAKE_INSTALL_INCLUDEDIR})
+  set(to_prefix ${CMAKE_INSTALL_PREFIX})
+  if(NOT IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
+    file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+    string(REGEX REPLACE "/$" "" to_prefix ${to_prefix})
+    string(PREPEND to_prefix "\${pcfiledir}/")
+  endif()
   set(of_cxx ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES}) # what a C compiler does not link by itself
   list(REMOVE_ITEM of_cxx ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
   sphc_linker_flags(runtime_libraries ${SPHC_HWY_LIBRARIES} ${of_cxx})

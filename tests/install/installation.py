@@ -117,13 +117,34 @@ def staged(options):
         faults.append(f"from another folder of libraries find_package says: {said}")
 
     (prefix / "include" / "of_others.h").touch()
-    done("--build", build, "--target", "uninstall")
-    left = sorted(str(path.relative_to(prefix)) for path in prefix.rglob("*"))
-    if left != ["include", "include/of_others.h"]:
-        faults.append(f"uninstalling leaves {left}")
+    for again in ((), ("--component", "runtime")):
+        if again:
+            done("--install", build, *again)
+        done("--build", build, "--target", "uninstall")
+        left = sorted(str(path.relative_to(prefix)) for path in prefix.rglob("*"))
+        if left != ["include", "include/of_others.h"]:
+            faults.append(f"uninstalling leaves {left} {again}")
     again = cmake("--build", build, "--target", "uninstall")
     if again.returncode == 0 or "nothing to uninstall" not in again.stdout + again.stderr:
         faults.append(f"uninstalling once more says: {again.stdout}{again.stderr}")
+    return faults
+
+
+def told_in_full(options):
+    """Folders of libraries and headers that are absolute, as some distributions have them, are where pkg-config says."""
+    folder = options.prefix.parent / "told in full"
+    shutil.rmtree(folder, ignore_errors=True)
+    wanted = {"libdir": "/opt/of this/lib", "includedir": "/opt/of this/headers"}  # nothing is installed
+    done = subprocess.run(["cmake", "-S", options.root, "-B", folder / "build", "-G", "Ninja", *(f"-DSPHC_{part}=OFF" for part in ("HOST", "DRIVERS", "EXAMPLES", "TESTS")),
+                           *(f"-DCMAKE_INSTALL_{name.upper()}={path}" for name, path in wanted.items())], text=True, capture_output=True, check=False)
+    if done.returncode:
+        return [done.stdout + done.stderr]
+    faults, environment = [], dict(os.environ, PKG_CONFIG_PATH=str(folder / "build/install"))
+    for package in (path.stem for path in (folder / "build/install").glob("*.pc")):
+        for name, path in wanted.items():
+            said = subprocess.run(["pkg-config", f"--variable={name}", package], env=environment, text=True, capture_output=True, check=False)
+            if said.stdout.replace("\\ ", " ").strip() != path:
+                faults.append(f"{package}: {name} is {said.stdout}{said.stderr} instead of {path}")
     return faults
 
 
@@ -185,7 +206,7 @@ def names_in(folder):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    checks = {check.__name__: check for check in (complete, refusals, staged, packages)}
+    checks = {check.__name__: check for check in (complete, refusals, staged, told_in_full, packages)}
     parser.add_argument("check", choices=checks)
     parser.add_argument("--root", type=Path, required=True)
     parser.add_argument("--build", type=Path, required=True)

@@ -1,10 +1,18 @@
-# cmake -DBUILD=FOLDER -P uninstall.cmake: removes what `cmake --install FOLDER` installed last, and folders that are empty
-# then.  DESTDIR has to be what it was.
+# cmake -DBUILD=FOLDER -P uninstall.cmake: removes what `cmake --install FOLDER` installed last, all of it or components, and
+# folders that are empty then.  DESTDIR has to be what it was.
 set(manifest ${BUILD}/install_manifest.txt)
-if(NOT EXISTS ${manifest})
+file(GLOB of_components ${BUILD}/install_manifest_*.txt) # of --component
+set(files)
+foreach(list ${manifest} ${of_components})
+  if(EXISTS ${list})
+    file(STRINGS ${list} some)
+    list(APPEND files ${some})
+  endif()
+endforeach()
+if(NOT files)
   message(FATAL_ERROR "nothing to uninstall: there is no ${manifest}, which `cmake --install ${BUILD}` writes")
 endif()
-file(STRINGS ${manifest} files)
+list(REMOVE_DUPLICATES files)
 foreach(file ${files})
   set(file $ENV{DESTDIR}${file})
   message(STATUS "removing ${file}")
@@ -15,4 +23,4 @@ foreach(file ${files})
     execute_process(COMMAND rmdir ${file} RESULT_VARIABLE failed ERROR_QUIET)
   endwhile()
 endforeach()
-file(REMOVE ${manifest})
+file(REMOVE ${manifest} ${of_components})
