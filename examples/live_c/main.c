@@ -54,8 +54,13 @@ static sphc_map *open_map(const char *path) {
   const int file = open(path, O_RDONLY);
   struct stat info = {0};
   const void *bytes = MAP_FAILED;
-  if (file >= 0 && fstat(file, &info) == 0)
+  if (file >= 0 && fstat(file, &info) == 0) {
+    if (!S_ISREG(info.st_mode) || info.st_size == 0) {
+      fprintf(stderr, "%s: is empty, or no file; give the map that the builder wrote\n", path);
+      exit(EXIT_FAILURE);
+    }
     bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  }
   if (bytes == MAP_FAILED) {
     perror(path);
     exit(EXIT_FAILURE);
@@ -109,7 +114,10 @@ static void localize(sphc_localizer *localizer, const sphc_capture *color, const
 }
 
 int main(int argc, char **argv) {
-  if (argc < 5) return fprintf(stderr, "usage: %s COLOR DEPTH CALIBRATION MAP [FRAMES]\n", argv[0]), 2;
+  char *after = NULL; /* the number */
+  const long frames = argc > 5 ? strtol(argv[5], &after, 10) : -1;
+  if (argc < 5 || argc > 6 || (argc == 6 && (*after || frames < 1)))
+    return fprintf(stderr, "usage: %s COLOR DEPTH CALIBRATION MAP [FRAMES]\n", argv[0]), 2;
   sphc_rig rig;
   check(sphc_calibration_read(argv[3], &rig, &message), argv[3]);
   sphc_map *map = open_map(argv[4]);
@@ -122,7 +130,6 @@ int main(int argc, char **argv) {
   config.tolerance_ns = 34000000; /* nobody synchronises two webcams: half a period at 15 Hz */
   check(sphc_pairer_init(pairs, sizeof pairs, &config, &pairer, &message), "pairer");
 
-  const long frames = argc > 5 ? atol(argv[5]) : -1;
   for (long done = 0; done != frames;) {
     sphc_capture of_color, of_depth, dropped;
     const sphc_status status = sphc_pairer_pop(pairer, &of_color, &of_depth, &dropped);

@@ -31,8 +31,13 @@ static sphc_map *open_map(const char *path) {
   const int file = open(path, O_RDONLY);
   struct stat info = {0};
   const void *bytes = MAP_FAILED;
-  if (file >= 0 && fstat(file, &info) == 0)
+  if (file >= 0 && fstat(file, &info) == 0) {
+    if (!S_ISREG(info.st_mode) || info.st_size == 0) {
+      fprintf(stderr, "%s: is empty, or no file; give the map that the builder wrote\n", path);
+      exit(1);
+    }
     bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+  }
   if (bytes == MAP_FAILED) {
     perror(path);
     exit(1);

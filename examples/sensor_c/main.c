@@ -6,6 +6,7 @@
  * Here a raw recording plays the sensor (spherecloud convert walk walk.raw --to raw).  Put your driver in the place
  * of what stands under "the sensor": open_sensor, wait_for_exposures, and what they keep; the rest stays.
  */
+#define _POSIX_C_SOURCE 200809L
 #include <drivers/raw/raw.h>
 #include <drivers/raw/raw_writer.h>
 #include <errno.h>
@@ -13,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* The largest that there is room for; more is refused. */
 enum { KEYPOINTS = 800, MAPS = 1, WIDTH = 1280, HEIGHT = 960, MAP_BYTES = 16 << 20, FRAME_BYTES = 8 << 20 };
@@ -124,6 +126,12 @@ static sphc_localizer *make_localizer(const char *map_path, const sphc_rig *rig)
 
 /* ---- what is kept ---- */
 
+/* By whatever names: opening the file would empty it. */
+static int same_file(const char *one, const char *other) {
+  struct stat a, b;
+  return stat(one, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 static int write_file(void *file, uint64_t offset, const void *bytes, size_t count) {
   return fseek(file, (long)offset, SEEK_SET) || fwrite(bytes, 1, count, file) != count;
 }
@@ -139,7 +147,8 @@ int main(int argc, char **argv) {
   static sensor from;
   static sphc_raw_writer writer;
   if (argc != 3 && argc != 4) return fprintf(stderr, "usage: %s MAP.sphc WALK.raw [KEPT.raw]\n", argv[0]), 2;
-  if (argc == 4 && !strcmp(argv[2], argv[3])) fail(argv[3], "plays the sensor; keep the frames in another file");
+  if (argc == 4 && same_file(argv[2], argv[3])) fail(argv[3], "plays the sensor; keep the frames in another file");
+  if (argc == 4 && same_file(argv[1], argv[3])) fail(argv[3], "is the map; keep the frames in another file");
   open_sensor(&from, argv[2]);
   const sphc_rig *rig = &from.rig;
   sphc_localizer *localizer = make_localizer(argv[1], rig);

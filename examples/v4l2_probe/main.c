@@ -93,7 +93,13 @@ static int captureSome(sphc_v4l2 *camera, int count) {
 }
 
 int main(int argc, char **argv) {
-  if (argc < 3) return listCameras();
+  if (argc == 1) return listCameras();
+  const int known = argc > 2 && (!strcmp(argv[2], "color") || !strcmp(argv[2], "depth"));
+  const int count = argc > 6 ? atoi(argv[6]) : 30;
+  if (!known || argc == 4 || argc > 7 || count < 1) {
+    fprintf(stderr, "usage: %s [CAMERA color|depth [WIDTH HEIGHT [FPS [COUNT]]]]\n", argv[0]);
+    return 2;
+  }
   sphc_v4l2_config config;
   sphc_v4l2_config_init(&config, sizeof config);
   config.stream = strcmp(argv[2], "depth") == 0 ? SPHC_STREAM_DEPTH : SPHC_STREAM_COLOR;
@@ -105,7 +111,7 @@ int main(int argc, char **argv) {
   const sphc_status status = sphc_v4l2_open(argv[1], &config, &camera, &message);
   if (status < 0) return fail("open", status, message.text);
   printMode(camera);
-  const int failed = captureSome(camera, argc > 6 ? atoi(argv[6]) : 30);
+  const int failed = captureSome(camera, count);
   printStats(camera);
   sphc_v4l2_close(&camera);
   return failed;
