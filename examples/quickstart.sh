@@ -10,6 +10,14 @@
 # out/quickstart; run it again at will.
 set -euo pipefail
 
+if [ $# != 0 ]; then # it has no options
+  [[ $1 = -h || $1 = --help ]] || exec >&2
+  sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//p}' "${BASH_SOURCE[0]}"
+  [[ $1 = -h || $1 = --help ]] && exit 0
+  printf '\nquickstart: takes no arguments, and there is "%s"\n' "$1"
+  exit 2
+fi
+
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/quickstart
 out=$root/out/quickstart

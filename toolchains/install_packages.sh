@@ -2,6 +2,17 @@
 # install_packages.sh SECTION... - installs what is missing of these sections of packages.txt (Debian).
 set -eu
 list=$(dirname "$0")/packages.txt
+sections=$(sed -n 's/^\[\(.*\)\]$/\1/p' "$list" | tr '\n' ' ')
+if [ $# = 0 ]; then
+  echo "usage: install_packages.sh SECTION...; sections: $sections" >&2
+  exit 2
+fi
+for section in "$@"; do
+  grep -qxF "[$section]" "$list" || {
+    echo "install_packages.sh: there is no section \"$section\"; sections: $sections" >&2
+    exit 2
+  }
+done
 command -v dpkg-query >/dev/null || {
   echo "this is no Debian; install by hand what $list names" >&2
   exit 1
