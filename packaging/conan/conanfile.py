@@ -34,6 +34,10 @@ class SphereCloud(ConanFile):
                         "third_party/*", "toolchains/*"):
             copy(self, pattern, root, self.export_sources_folder)
 
+    def config_options(self):
+        if re.match(r"armv([4-7]|8_32)", str(self.settings.arch)):  # which knows single lanes alone
+            self.options.simd = "scalar"
+
     def requirements(self):
         if not self.options.system:
             self.requires("eigen/3.4.0")
