@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/base/regular_file.h"
@@ -21,28 +22,17 @@ std::vector<uint8_t> readSignature(const std::string &path) {
   return bytes;
 }
 
-// The character at a place of UTF-8, and how many bytes it has; 0: it is none.
-size_t readCharacter(const std::string &text, size_t at, uint32_t *character) {
-  constexpr uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // of so many bytes
-  const auto first = static_cast<uint8_t>(text[at]);
-  const size_t bytes = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
-  if (bytes == 0 || at + bytes > text.size()) return 0;
-  *character = bytes == 1 ? first : first & 0x7f >> bytes;
-  for (size_t i = 1; i < bytes; ++i) {
-    const auto next = static_cast<uint8_t>(text[at + i]);
-    if (next >> 6 != 2) return 0;
-    *character = *character << 6 | (next & 0x3f);
-  }
-  const bool is_surrogate = *character >= 0xd800 && *character < 0xe000;
-  return *character < kLeast[bytes] || *character > 0x10ffff || is_surrogate ? 0 : bytes;
-}
-
 // Others would come out of JSON changed, or do something to a terminal.
 bool canBeShown(const std::string &text) {
-  uint32_t character = 0;
-  for (size_t at = 0, bytes = 0; at < text.size(); at += bytes) {
-    bytes = readCharacter(text, at, &character);
-    if (bytes == 0 || character < 0x20 || (character >= 0x7f && character < 0xa0)) return false;
+  const auto byte = [&text](size_t at) { return static_cast<uint8_t>(text[at]); };
+  for (size_t i = 0; i < text.size(); ++i) {
+    const bool is_two_byte_control = byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) < 0xA0;
+    if (byte(i) < ' ' || byte(i) == 0x7F || is_two_byte_control) return false;
+  }
+  try {
+    nlohmann::json(text).dump();
+  } catch (const nlohmann::json::type_error &) {  // no UTF-8
+    return false;
   }
   return true;
 }
