@@ -6,6 +6,7 @@
 
 #include "host/base/checked_call.h"
 #include "host/frames/align_edges.h"
+#include "host/recording/calibration_json.h"
 #include "host/report/run.h"
 #include "host/report/statistics.h"
 
@@ -21,11 +22,6 @@ constexpr double kFewestApart_px =
 constexpr uint32_t kChanceStep_px = 5;
 constexpr uint32_t kGap_px = 10;
 constexpr double kMeasured = 0.2, kHardlyReached = 0.02;  // shares of pixels
-
-bool isIdentity(const sphc_rigid &rigid) {
-  const double *q = rigid.q_wxyz, *t = rigid.t_m;
-  return q[1] == 0 && q[2] == 0 && q[3] == 0 && t[0] == 0 && t[1] == 0 && t[2] == 0;
-}
 
 std::vector<uint8_t> grayOf(const sphc_image &image) {
   const size_t channels = image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
@@ -60,9 +56,7 @@ GeometryCheck::GeometryCheck(const sphc_rig &calibration) : calibration_(calibra
 
 bool GeometryCheck::canBe(Mistake mistake) const {
   const sphc_camera &color = calibration_.color_camera, &depth = calibration_.depth_camera;
-  // Two cameras of one make may have the same numbers, and stand apart.
-  const bool registered =
-      std::memcmp(&color, &depth, sizeof color) == 0 && isIdentity(calibration_.color_from_depth);
+  const bool registered = recording::isRegistered(calibration_);
   if (mistake == kRegistered) return !registered && color.width == depth.width && color.height == depth.height;
   return mistake != kInverse || !registered;
 }

@@ -17,6 +17,17 @@ namespace sphc::recording {
 
 using Json = nlohmann::ordered_json;
 
+bool isRegistered(const sphc_rig &rig) {
+  const sphc_camera &a = rig.color_camera;
+  const sphc_camera &b = rig.depth_camera;
+  constexpr sphc_rigid kIdentity = {{1, 0, 0, 0}, {0, 0, 0}};
+  const sphc_rigid &color_from_depth = rig.color_from_depth;
+  return a.model == b.model && a.width == b.width && a.height == b.height &&
+         std::equal(a.params, a.params + 12, b.params) &&
+         std::equal(color_from_depth.q_wxyz, color_from_depth.q_wxyz + 4, kIdentity.q_wxyz) &&
+         std::equal(color_from_depth.t_m, color_from_depth.t_m + 3, kIdentity.t_m);
+}
+
 namespace {
 
 constexpr int kDeepest = 16;  // a calibration has three levels; what writes a value out again calls itself
@@ -157,17 +168,6 @@ double readPixelShift(ObjectReader &reader) {
   if (center != 0.5 && center != 0.0)
     fail("pixel_center", "must be 0.5 (COLMAP: the first pixel's centre) or 0 (OpenCV)");
   return 0.5 - center;
-}
-
-bool isRegistered(const sphc_rig &rig) {
-  const sphc_camera &a = rig.color_camera;
-  const sphc_camera &b = rig.depth_camera;
-  constexpr sphc_rigid kIdentity = {{1, 0, 0, 0}, {0, 0, 0}};
-  const sphc_rigid &color_from_depth = rig.color_from_depth;
-  return a.model == b.model && a.width == b.width && a.height == b.height &&
-         std::equal(a.params, a.params + 12, b.params) &&
-         std::equal(color_from_depth.q_wxyz, color_from_depth.q_wxyz + 4, kIdentity.q_wxyz) &&
-         std::equal(color_from_depth.t_m, color_from_depth.t_m + 3, kIdentity.t_m);
 }
 
 // Depth camera and transform; "depth_registered": true stands for both.

@@ -12,6 +12,9 @@ namespace sphc::recording {
 // The rig, where it can be used; else throws Failure with sphc_rig_check's message.
 const sphc_rig &requireGood(const sphc_rig &rig);
 
+// Does depth lie on the colour image?  Then the file has one camera, which is where the other is.
+bool isRegistered(const sphc_rig &rig);
+
 // Throw Failure with the file's name.  What is written reads back to the bit.
 sphc_rig readCalibration(const std::filesystem::path &path);
 void writeCalibration(const std::filesystem::path &path, const sphc_rig &rig);
