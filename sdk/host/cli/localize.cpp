@@ -1,6 +1,5 @@
 // spherecloud localize: where was the camera, frame by frame?
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -156,13 +155,10 @@ void noteContradictions(const Summary &summary, const Console &console) {
 
 // A path whose poses lie in the frames of several maps is none.
 void noteMixedFrames(const LocalizeOptions &options, const Run &run, const Console &console) {
-  if (options.trajectory.empty() || run.base != "map") return;
-  std::set<uint32_t> maps;
-  for (const FrameRecord &frame : run.frames)
-    if (frame.localized) maps.insert(frame.map);
-  if (maps.size() < 2) return;
+  const size_t bases = basesOfAnswers(run);
+  if (options.trajectory.empty() || bases < 2) return;
   console.warn(
-      "note: --trajectory: its poses are of " + std::to_string(maps.size()) +
+      "note: --trajectory: its poses are of " + std::to_string(bases) +
       " maps, each in the frame of its own; give --owner-note for each --map, or take --frames-json, which "
       "names the map of each pose");
 }

@@ -33,12 +33,8 @@ struct Path {
 
 // Of several maps, each with a frame of its own: the one that most answers are in.  SPHC_MAP_NONE: all share one.
 uint32_t mapToDraw(const Run &run) {
-  std::vector<uint32_t> answers(run.maps.size());
-  if (run.base != "map") return SPHC_MAP_NONE;
-  for (const FrameRecord &frame : run.frames)
-    if (frame.localized && frame.map < answers.size()) ++answers[frame.map];
-  if (std::count(answers.begin(), answers.end(), 0u) + 1 >= static_cast<std::ptrdiff_t>(answers.size()))
-    return SPHC_MAP_NONE;
+  if (basesOfAnswers(run) < 2) return SPHC_MAP_NONE;
+  const std::vector<size_t> answers = answersByMap(run);
   return static_cast<uint32_t>(std::max_element(answers.begin(), answers.end()) - answers.begin());
 }
 

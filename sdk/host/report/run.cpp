@@ -1,5 +1,6 @@
 #include "host/report/run.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "host/report/bit_words.h"
@@ -86,6 +87,19 @@ uint64_t mapBytes(const Run &run) {
   uint64_t bytes = 0;
   for (const MapFacts &map : run.maps) bytes += map.file_bytes;
   return bytes;
+}
+
+std::vector<size_t> answersByMap(const Run &run) {
+  std::vector<size_t> answers(run.maps.size());
+  for (const FrameRecord &frame : run.frames)
+    if (frame.localized && frame.map < answers.size()) ++answers[frame.map];
+  return answers;
+}
+
+size_t basesOfAnswers(const Run &run) {
+  if (run.base != "map") return 1;
+  const std::vector<size_t> answers = answersByMap(run);
+  return answers.size() - static_cast<size_t>(std::count(answers.begin(), answers.end(), size_t{0}));
 }
 
 std::string fixed(double value, int digits) {
