@@ -66,6 +66,12 @@ void syncFolderOf(const std::string &path) {
   if (file.isOpen() && !file.sync() && errno != EINVAL && errno != EROFS) fail(path);
 }
 
+// All of a part, on the disk, and closed.
+bool fill(OpenFile *part, const void *bytes, size_t count, Readers readers) {
+  return (readers != Readers::kOwner || part->setMode(0600)) && part->put(bytes, count) && part->sync() &&
+         part->close();
+}
+
 // What has the name at the end is gone, whatever was thrown.  The name must outlive it.
 class RemovedAtEnd {
  public:
@@ -102,12 +108,10 @@ void writeFile(const std::string &path, const void *bytes, size_t count, Readers
   OpenFile file(beside, kNewPart, modeOf(readers));
   if (!file.isOpen()) fail(path);
   RemovedAtEnd unfinished(beside);
-  bool done = true;
-  if (readers == Readers::kOwner) done = file.setMode(0600);
-  if (readers == Readers::kAll && is_there) done = file.setMode(old.st_mode & 0777);
-  done = done && file.put(bytes, count) && file.sync() && file.close() &&
-         std::rename(beside.c_str(), target.c_str()) == 0;
-  if (!done) fail(path);
+  const bool keeps_mode = readers == Readers::kAll && is_there;
+  if ((keeps_mode && !file.setMode(old.st_mode & 0777)) || !fill(&file, bytes, count, readers) ||
+      std::rename(beside.c_str(), target.c_str()) != 0)
+    fail(path);
   unfinished.keep();
   syncFolderOf(target);
 }
@@ -138,8 +142,7 @@ void writeNewFile(const std::string &path, const std::string &text, Readers read
   OpenFile file(beside, kNewPart, modeOf(readers));
   if (!file.isOpen()) fail(path);
   RemovedAtEnd unfinished(beside);
-  const bool is_private = readers != Readers::kOwner || file.setMode(0600);
-  if (!is_private || !file.put(text.data(), text.size()) || !file.sync() || !file.close()) fail(path);
+  if (!fill(&file, text.data(), text.size(), readers)) fail(path);
   try {
     renameToNew(beside, path);
   } catch (const std::runtime_error &) {

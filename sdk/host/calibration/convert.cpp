@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/base/listed.h"
 #include "host/base/regular_file.h"
 #include "host/base/text_encoding.h"
 #include "host/calibration/nearest_camera.h"
@@ -44,12 +45,6 @@ std::vector<std::string> filesOf(const std::string &path) {
   std::vector<std::string> files;
   for (const char *name : kRosNames) files.push_back(path + "/" + name);
   return files;
-}
-
-std::string namesOf(const std::vector<std::string> &files) {
-  std::string names;
-  for (const std::string &file : files) names += (names.empty() ? "" : ", ") + file;
-  return names;
 }
 
 // What of a format may stand in for a camera that it cannot hold.
@@ -94,7 +89,7 @@ ReadCalibration readCalibrationFiles(const std::vector<std::string> &paths, std:
   try {
     result.calibration = joinParts(parts, options);
   } catch (const std::runtime_error &error) {  // which knows cameras, and no files
-    throw std::runtime_error(namesOf(files) + ": " + error.what());
+    throw std::runtime_error(listed(files) + ": " + error.what());
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/audit/score/inversion_sheet.h"
+#include "host/base/listed.h"
 #include "host/base/write_file.h"
 #include "host/report/encode.h"
 #include "host/report/file.h"
@@ -39,12 +40,6 @@ std::string retrievalTable(const MapAudit &audit) {
             text(result.fine) + "</td></tr>";
   }
   return html + "</table>";
-}
-
-std::string listed(const std::vector<std::string> &names) {
-  std::string text;
-  for (const std::string &name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 }  // namespace
