@@ -96,7 +96,8 @@ std::vector<MappedRecording> openAll(const MapOptions &options) {
     recordings.push_back({recording.folder, openRecording(recording), {}});
   for (size_t i = 0; i < options.told.size(); ++i)
     recordings[i].told = recording::readTumPoses(options.told[i], &recordings[i].bad_told);
-  for (MappedRecording &recording : recordings) recording.is_told = hasToldPose(options, recording);
+  if (options.trust.use != PoseUse::kNone)
+    for (MappedRecording &recording : recordings) recording.is_told = hasToldPose(options, recording);
   return recordings;
 }
 

@@ -24,7 +24,7 @@ struct MappedRecording {
   bool is_truth_inverse = false;   // likewise of the score
   recording::PoseTrack told = {};  // those of --poses-from, in place of the recording's own
   uint32_t bad_told = 0;           // of that file, left out
-  bool is_told = false;            // a frame at least has a pose, of the recording or of the file
+  bool is_told = false;            // where poses are used: a frame at least has one, of the recording or the file
 
   uint32_t framesMapped() const;
   recording::PoseTrack path() const;  // through all of them
