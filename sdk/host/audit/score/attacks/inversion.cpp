@@ -67,9 +67,8 @@ class Painter {
   uint32_t painted_ = 0;  // sets, by each network
 };
 
-// Pictures that tell something have to be compared with something; no pictures at all tell nothing.
-Measurement ratioOf(const std::string &figure, double own, double papers, size_t views) {
-  if (views == 0) return {figure, {}, kNoView};
+// Pictures that tell something have to be compared with something.
+Measurement ratioOf(const std::string &figure, double own, double papers) {
   if (papers > 0) return {figure, own / papers};
   if (own > 0) return {figure, {}, "the paper's fakes tell none of the views, to compare with"};
   return {figure, 0};
@@ -87,21 +86,21 @@ AttackResult runInversion(AuditContext *context) {
   shuffle(&shuffled.descriptors, &random);
   const Told chance = painter.paint("descriptors shuffled", shuffled);
   const size_t count = painter.result.views.size();
-  Measurement of_papers = ratioOf("inversion.of_papers", own.coarse, paper.coarse, count);
+  Measurement of_papers = ratioOf("inversion.of_papers", own.coarse, paper.coarse);
   if (of_papers.value)
     of_papers.remark = std::to_string(count) + (context->input().views.empty() ? " views, pseudo truth" : " views");
   const auto errorOf = [&](double share) {
     return std::sqrt(share * (1 - share) / std::max(1.0, static_cast<double>(count)));
   };
   painter.result.measurements = {of_papers,
-                                 ratioOf("inversion.of_papers_fine", own.fine, paper.fine, count),
+                                 ratioOf("inversion.of_papers_fine", own.fine, paper.fine),
                                  {"inversion.retrieval", own.coarse, "", errorOf(own.coarse)},
                                  {"inversion.retrieval_fine", own.fine, "", errorOf(own.fine)},
                                  {"inversion.retrieval_paper", paper.coarse},
                                  {"inversion.retrieval_fine_paper", paper.fine},
                                  {"inversion.retrieval_shuffled", chance.coarse},
                                  {"inversion.retrieval_fine_shuffled", chance.fine}};
-  if (count == 0)
+  if (count == 0)  // no pictures at all tell nothing
     for (Measurement &measured : painter.result.measurements) measured = {measured.figure, {}, kNoView};
   return std::move(painter.result);
 }
