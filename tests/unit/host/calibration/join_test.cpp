@@ -18,11 +18,18 @@ std::string refusal(const std::vector<CalibrationPart> &parts, const JoinOptions
 
 const sphc_rigid kBaseline = {{1, 0, 0, 0}, {0.1, 0, 0}};
 
+struct RosParts {
+  CalibrationPart color, depth, extrinsics;
+};
+
+RosParts rosParts() {
+  RosParts parts = {readRos({"color.yaml", kRosColorFile}), readRos({"depth.yaml", kRosDepthFile}), {}};
+  parts.extrinsics.second_from_first = kBaseline;
+  return parts;
+}
+
 TEST(Join, FilesInTheOrderColourDepthExtrinsics) {
-  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
-                        depth = readRos({"depth.yaml", kRosDepthFile});
-  CalibrationPart extrinsics;
-  extrinsics.second_from_first = kBaseline;
+  const auto [color, depth, extrinsics] = rosParts();
   const sphc_rig joined = joinParts({color, depth, extrinsics}, {});
   EXPECT_EQ(joined.color_camera.width, 640u);
   EXPECT_EQ(joined.depth_camera.width, 320u);
@@ -31,10 +38,7 @@ TEST(Join, FilesInTheOrderColourDepthExtrinsics) {
 }
 
 TEST(Join, NamesSwapTheCamerasAndTheTransform) {
-  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
-                        depth = readRos({"depth.yaml", kRosDepthFile});
-  CalibrationPart extrinsics;
-  extrinsics.second_from_first = kBaseline;
+  const auto [color, depth, extrinsics] = rosParts();
   JoinOptions options;
   options.color = "tof";
   options.depth = "narrow_stereo";
@@ -84,10 +88,7 @@ TEST(Join, ASizeThatTheFileHalfHasIsNotReplaced) {
 
 TEST(Join, WhatStandsTwiceIsNotChosenFrom) {
   using testing::HasSubstr;
-  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
-                        depth = readRos({"depth.yaml", kRosDepthFile});
-  CalibrationPart extrinsics;
-  extrinsics.second_from_first = kBaseline;
+  const auto [color, depth, extrinsics] = rosParts();
   JoinOptions options;
   options.color = color.cameras[0].name;
   options.depth = depth.cameras[0].name;
@@ -97,10 +98,7 @@ TEST(Join, WhatStandsTwiceIsNotChosenFrom) {
 
 TEST(Join, SaysWhatIsMissing) {
   using testing::HasSubstr;
-  const CalibrationPart color = readRos({"color.yaml", kRosColorFile}),
-                        depth = readRos({"depth.yaml", kRosDepthFile});
-  CalibrationPart extrinsics;
-  extrinsics.second_from_first = kBaseline;
+  const auto [color, depth, extrinsics] = rosParts();
   EXPECT_THAT(refusal({extrinsics}, {}), HasSubstr("no camera"));
   EXPECT_THAT(refusal({color}, {}), HasSubstr("say --registered"));
   EXPECT_THAT(refusal({color, depth}, {}), HasSubstr("--color-from-depth QW,QX,QY,QZ,TX,TY,TZ"));
