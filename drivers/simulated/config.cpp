@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "drivers/simulated/cameras.h"
 #include "drivers/simulated/with.h"
 
 namespace sphc::simulated {
@@ -76,7 +77,7 @@ sphc_status checkConfig(const sphc_simulated_config *config, sphc_message *messa
   for (const auto &s : switches) {
     if (checkSwitch(s.name, s.value, message) != SPHC_OK) return SPHC_E_ARGUMENT;
   }
-  if (checkWith(c.with, message) != SPHC_OK) return SPHC_E_ARGUMENT;
+  if (checkWith(c.with, message) != SPHC_OK || checkCameras(c, message) != SPHC_OK) return SPHC_E_ARGUMENT;
   // Frames must come in order of time: colour, depth, colour, depth (or the other way round throughout).
   const double half_period_ns = 0.5e9 / c.frame_rate_hz;
   if (!(std::fabs(static_cast<double>(c.depth_delay_ns)) < half_period_ns)) {

@@ -25,48 +25,13 @@ void oracle(const Scene &scene, const std::vector<Shape> &shapes, const sphc_cam
   });
 }
 
-static_assert(kColorWidth % kTile == 0 && kDepthWidth % kTile == 0 && kTile % kLanes == 0, "rows are cut in fours");
-
 }  // namespace
-
-sphc_camera colorCamera() {
-  sphc_camera camera{};
-  camera.model = SPHC_CAMERA_BROWN5;
-  camera.width = kColorWidth;
-  camera.height = kColorHeight;
-  camera.param_count = 9;
-  const double params[9] = {520.4, 519.7, 322.3, 238.6, -0.052, 0.021, 0.0005, -0.0004, -0.002};
-  for (int i = 0; i < 9; ++i) camera.params[i] = params[i];
-  return camera;
-}
-
-sphc_camera depthCamera() {
-  sphc_camera camera{};
-  camera.model = SPHC_CAMERA_KANNALA_BRANDT4;
-  camera.width = kDepthWidth;
-  camera.height = kDepthHeight;
-  camera.param_count = 8;
-  const double params[8] = {232.6, 232.9, 158.4, 145.3, 0.018, -0.011, 0.004, -0.001};
-  for (int i = 0; i < 8; ++i) camera.params[i] = params[i];
-  return camera;
-}
-
-sphc_rigid colorFromDepth() {
-  // About one degree down, half a degree to the left, a little roll: as two parts on one bracket are.
-  const double w = 1, x = -0.0096, y = 0.0047, z = 0.0031;
-  const double scale = 1 / std::sqrt(w * w + x * x + y * y + z * z);
-  return {{w * scale, x * scale, y * scale, z * scale}, {0.0382, -0.0041, 0.0063}};
-}
-
-sphc_rig rig() { return {colorCamera(), depthCamera(), colorFromDepth(), SPHC_SIMULATED_DEPTH_UNIT_M}; }
 
 Headset::Headset(const sphc_simulated_config &config)
     : config_(config),
-      color_(colorCamera()),
-      depth_(depthCamera()),
-      color_from_depth_(poseOf(colorFromDepth())),
-      color_rays_(color_),
-      depth_rays_(depth_),
+      cameras_(camerasOf(config.cameras)),
+      color_rays_(colorCamera()),
+      depth_rays_(depthCamera()),
       scene_(makeScene(config)),
       walk_(scene_, config.walk_seed, config.lap_s, (config.with & SPHC_SIMULATED_FEET) != 0) {}
 
@@ -78,7 +43,9 @@ Pose Headset::colorPoseAfter(int64_t time_ns, double offset_s) const {
   return walk_.at(walkTime(time_ns) + offset_s);
 }
 
-Pose Headset::depthPose(int64_t time_ns) const { return compose(colorPose(time_ns), color_from_depth_); }
+Pose Headset::depthPose(int64_t time_ns) const {
+  return compose(colorPose(time_ns), poseOf(cameras_.rig.color_from_depth));
+}
 
 uint64_t Headset::noiseSeed(uint32_t index, uint64_t stream) const {
   // Counted from the begin of the walk, so that lap two has the noise of lap two wherever frame 0 is.
@@ -102,7 +69,7 @@ std::vector<Shape> Headset::shapesAt(int64_t time_ns) const {
 }
 
 void Headset::oracleColor(int64_t time_ns, float *depth_m) const {
-  oracle(scene_, shapesAt(time_ns), color_, color_rays_, colorPose(time_ns), config_.threads, depth_m);
+  oracle(scene_, shapesAt(time_ns), colorCamera(), color_rays_, colorPose(time_ns), config_.threads, depth_m);
 }
 
 void Headset::oracleView(const sphc_camera &camera, const Pose &pose, int64_t time_ns, float *depth_m) const {
@@ -110,7 +77,7 @@ void Headset::oracleView(const sphc_camera &camera, const Pose &pose, int64_t ti
 }
 
 void Headset::oracleDepth(int64_t time_ns, float *depth_m) const {
-  oracle(scene_, shapesAt(time_ns), depth_, depth_rays_, depthPose(time_ns), config_.threads, depth_m);
+  oracle(scene_, shapesAt(time_ns), depthCamera(), depth_rays_, depthPose(time_ns), config_.threads, depth_m);
 }
 
 }  // namespace sphc::simulated

@@ -2,6 +2,7 @@
 // any number of threads may ask it for images.
 #pragma once
 
+#include "drivers/simulated/cameras.h"
 #include "drivers/simulated/lens.h"
 #include "drivers/simulated/scene.h"
 #include "drivers/simulated/simulated.h"
@@ -9,20 +10,13 @@
 
 namespace sphc::simulated {
 
-constexpr uint32_t kColorWidth = SPHC_SIMULATED_COLOR_WIDTH, kColorHeight = SPHC_SIMULATED_COLOR_HEIGHT;
-constexpr uint32_t kDepthWidth = SPHC_SIMULATED_DEPTH_WIDTH, kDepthHeight = SPHC_SIMULATED_DEPTH_HEIGHT;
-
-sphc_camera colorCamera();
-sphc_camera depthCamera();
-sphc_rigid colorFromDepth();
-sphc_rig rig();
-
 class Raster;
 
 // A camera at one moment.
 struct View {
   const sphc_camera &camera;
   const RayTable &rays;
+  float vignetting;
   int64_t time_ns;
   uint64_t seed;  // of its noise
 };
@@ -33,6 +27,7 @@ class Headset {
   explicit Headset(const sphc_simulated_config &config);
 
   const sphc_simulated_config &config() const { return config_; }
+  const sphc_rig &rig() const { return cameras_.rig; }
   int64_t colorTime(uint32_t index) const;
   int64_t depthTime(uint32_t index) const { return colorTime(index) + config_.depth_delay_ns; }
   // Seconds after the begin of the walk.
@@ -68,6 +63,8 @@ class Headset {
   Pose depthPose(int64_t time_ns) const;
   // The solids, where they are at a time.
   std::vector<Shape> shapesAt(int64_t time_ns) const;
+  const sphc_camera &colorCamera() const { return cameras_.rig.color_camera; }
+  const sphc_camera &depthCamera() const { return cameras_.rig.depth_camera; }
   void renderIdealDepth(uint32_t index, uint16_t *depth) const;
   View depthView(uint32_t index) const;
   // Calls visit(pixel, echo, ray) for all pixels, from several threads.
@@ -78,8 +75,7 @@ class Headset {
   uint64_t noiseSeed(const Pose &pose, int64_t time_ns, uint64_t stream) const;
 
   sphc_simulated_config config_;
-  sphc_camera color_, depth_;
-  Pose color_from_depth_;
+  Cameras cameras_;
   RayTable color_rays_, depth_rays_;
   Scene scene_;
   Walk walk_;

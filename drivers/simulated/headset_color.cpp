@@ -59,12 +59,19 @@ float exposureAt(double time_s) {
   return static_cast<float>(1 + 0.14 * std::sin(0.83 * time_s) + 0.07 * std::sin(2.1 * time_s + 1.3));
 }
 
+// How much wider a pixel is in the plane z = 1 than on the axis: that of a fisheye keeps its angle.
+float stretch(const View &view, uint32_t column, uint32_t row) {
+  if (view.camera.model != SPHC_CAMERA_KANNALA_BRANDT4) return 1;
+  const Ray2 &ray = view.rays.center(column, row);
+  return std::sqrt(1 + ray.x * ray.x + ray.y * ray.y);
+}
+
 }  // namespace
 
 void Headset::gatherLight(const View &view, const Raster &raster, std::vector<Light> *lights) const {
   static const Squares kSquares;
   // A ray stands for half a pixel on a side; a little sharper than that keeps fine texture.
-  const float footprint = 0.6f / static_cast<float>(view.camera.params[0]);
+  const float footprint_on_axis = 0.6f / static_cast<float>(view.camera.params[0]);
   parallelFor(raster.tileRows(), config_.threads, [&](uint32_t tile_row) {
     raster.forTileRow(tile_row, [&](uint32_t column, uint32_t row, const Raster::List &list) {
       Light sum;
@@ -73,6 +80,7 @@ void Headset::gatherLight(const View &view, const Raster &raster, std::vector<Li
         rays.lane[i] = view.rays.at(column, row, kColorOffsets[i][0], kColorOffsets[i][1]);
       }
       const Hits hits = raster.cast(list, rays);
+      const float footprint = footprint_on_axis * stretch(view, column, row);
       for (uint32_t i = 0; i < kLanes; ++i) {
         const Hit &hit = hits.lane[i];
         const Seen seen = raster.look(hit, i, rays.lane[i]);
@@ -100,25 +108,26 @@ void Headset::renderColor(uint32_t index, uint8_t *rgb) const {
   const std::vector<Shape> shapes = shapesAt(time_ns);
   const Vec3d ahead = {0, 0, 1}, turned = colorPoseAfter(time_ns, exposure_s / 2).rotation * ahead -
                                           colorPoseAfter(time_ns, -exposure_s / 2).rotation * ahead;
-  const double turned_px = std::sqrt(dot(turned, turned)) * color_.params[0];
+  const double turned_px = std::sqrt(dot(turned, turned)) * colorCamera().params[0];
   const auto parts = static_cast<uint32_t>(std::clamp(std::ceil(turned_px / kLongestPartPx), 1.0, kMostParts));
-  const View view = {color_, color_rays_, time_ns, noiseSeed(index, 0)};
-  std::vector<Light> lights(static_cast<size_t>(kColorWidth) * kColorHeight);
+  const View view = {colorCamera(), color_rays_, cameras_.vignetting, time_ns, noiseSeed(index, 0)};
+  std::vector<Light> lights(static_cast<size_t>(colorCamera().width) * colorCamera().height);
   for (uint32_t part = 0; part < parts; ++part) {
     Pose poses[kLanes];
     for (uint32_t i = 0; i < kLanes; ++i) {
       const double share = (part * kLanes + i + 0.5) / (parts * kLanes) - 0.5;
       poses[i] = colorPoseAfter(time_ns, config_.motion_blur != 0 ? share * exposure_s : 0);
     }
-    gatherLight(view, Raster(scene_, shapes, color_, color_rays_, poses), &lights);
+    gatherLight(view, Raster(scene_, shapes, colorCamera(), color_rays_, poses), &lights);
   }
   developAll(view, lights, parts, rgb);
-  if ((config_.with & SPHC_SIMULATED_MENU) != 0) drawMenu(walkTime(time_ns), rgb);
+  if ((config_.with & SPHC_SIMULATED_MENU) != 0)
+    drawMenu(walkTime(time_ns), colorCamera().width, colorCamera().height, rgb);
 }
 
 void Headset::renderView(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint8_t *rgb) const {
   const RayTable rays(camera);
-  const View view = {camera, rays, time_ns, noiseSeed(pose, time_ns, 0)};
+  const View view = {camera, rays, cameras_.vignetting, time_ns, noiseSeed(pose, time_ns, 0)};
   const std::vector<Shape> shapes = shapesAt(time_ns);
   std::vector<Light> lights(static_cast<size_t>(camera.width) * camera.height);
   gatherLight(view, Raster(scene_, shapes, camera, rays, {pose, pose, pose, pose}), &lights);
@@ -136,7 +145,8 @@ void Headset::developAll(const View &view, const std::vector<Light> &lights, uin
     for (uint32_t column = 0; column < width; ++column) {
       const Ray2 &center = view.rays.center(column, row);
       const float off_axis = center.x * center.x + center.y * center.y;
-      const float vignette = 1.0f / ((1 + 0.45f * off_axis) * (1 + 0.45f * off_axis));
+      const float fall = 1 + view.vignetting * off_axis;
+      const float vignette = 1.0f / (fall * fall);
       const float scale = gain * vignette / static_cast<float>(parts * kLanes);
       const uint64_t pixel = static_cast<uint64_t>(row) * width + column;
       const Light &light = lights[pixel];

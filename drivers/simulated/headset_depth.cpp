@@ -5,6 +5,7 @@
 #include "drivers/simulated/headset.h"
 #include "drivers/simulated/parallel.h"
 #include "drivers/simulated/raster.h"
+#include "drivers/simulated/smooth_depth.h"
 
 namespace sphc::simulated {
 namespace {
@@ -98,13 +99,13 @@ double measureRaw(const sphc_simulated_config &config, const Echo &echo, float z
 }  // namespace
 
 void Headset::renderIdealDepth(uint32_t index, uint16_t *depth) const {
-  std::vector<float> z(size_t{kDepthWidth} * kDepthHeight);
+  std::vector<float> z(size_t{depthCamera().width} * depthCamera().height);
   oracleDepth(depthTime(index), z.data());
   toUnits(z, depth);
 }
 
 View Headset::depthView(uint32_t index) const {
-  return {depth_, depth_rays_, depthTime(index), noiseSeed(index, 1)};
+  return {depthCamera(), depth_rays_, 0, depthTime(index), noiseSeed(index, 1)};
 }
 
 template <typename Visit>
@@ -123,6 +124,7 @@ void Headset::forEchoes(const View &view, const Pose &pose, const Visit &visit) 
 void Headset::renderDepth(uint32_t index, uint16_t *depth) const {
   if (config_.ideal_depth != 0) return renderIdealDepth(index, depth);
   measureDepth(depthView(index), depthPose(depthTime(index)), depth);
+  if (cameras_.smooths_depth) smoothDepth(depthCamera().width, depthCamera().height, depth);
 }
 
 void Headset::renderViewDepth(const sphc_camera &camera, const Pose &pose, int64_t time_ns, uint16_t *depth) const {
@@ -132,7 +134,7 @@ void Headset::renderViewDepth(const sphc_camera &camera, const Pose &pose, int64
     return toUnits(z, depth);
   }
   const RayTable rays(camera);
-  measureDepth({camera, rays, time_ns, noiseSeed(pose, time_ns, 1)}, pose, depth);
+  measureDepth({camera, rays, 0, time_ns, noiseSeed(pose, time_ns, 1)}, pose, depth);
 }
 
 void Headset::measureDepth(const View &view, const Pose &pose, uint16_t *depth) const {

@@ -6,7 +6,7 @@
 
 namespace sphc::simulated {
 
-// `rgb` is the image of the headset's colour camera, `time_s` what the line of text tells.
-void drawMenu(double time_s, uint8_t *rgb);
+// `rgb` is the tightly packed image of the colour camera, `time_s` what the line of text tells.
+void drawMenu(double time_s, uint32_t width, uint32_t height, uint8_t *rgb);
 
 }  // namespace sphc::simulated

@@ -70,7 +70,7 @@ sphc_status sphc_simulated_source(sphc_simulated *simulated, sphc_source *source
 
 sphc_status sphc_simulated_rig(const sphc_simulated *simulated, sphc_rig *rig) {
   if (simulated == nullptr || rig == nullptr) return SPHC_E_ARGUMENT;
-  *rig = sphc::simulated::rig();
+  *rig = simulated->headset.rig();
   return SPHC_OK;
 }
 

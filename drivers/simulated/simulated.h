@@ -30,7 +30,7 @@
 extern "C" {
 #endif
 
-/* The two cameras' image sizes; constant. */
+/* The image sizes of the headset's own cameras, which are the default; those of all are in sphc_simulated_rig. */
 #define SPHC_SIMULATED_COLOR_WIDTH 640u
 #define SPHC_SIMULATED_COLOR_HEIGHT 480u
 #define SPHC_SIMULATED_DEPTH_WIDTH 320u
@@ -58,6 +58,18 @@ enum {
   SPHC_SIMULATED_MENU = 1u << 14   /* a line of text and a menu are drawn over the colour image */
 };
 #define SPHC_SIMULATED_LAP_OF_FLAT_S 150.0 /* lap_s for a flat: about a third of a metre a second */
+
+/* What the person wears or holds, for sphc_simulated_config.cameras.  The walk is the same. */
+enum {
+  SPHC_SIMULATED_CAMERAS_HEADSET = 0, /* colour 640 x 480 BROWN5, 63 degrees wide; ToF 320 x 288 KANNALA_BRANDT4 */
+  SPHC_SIMULATED_CAMERAS_PHONE = 1,   /* colour 1440 x 1080 and depth 256 x 192, both BROWN5 without distortion, 67
+                                         degrees wide; depth is as of the colour camera, with small holes filled and
+                                         edges smoothed over 5 pixels */
+  SPHC_SIMULATED_CAMERAS_WIDE = 2,    /* colour 640 x 480, 111 degrees wide, and ToF 320 x 288, 100 degrees wide,
+                                         both KANNALA_BRANDT4 */
+  SPHC_SIMULATED_CAMERAS_GLASSES =
+      3 /* colour 480 x 360, 59 degrees wide, and depth of 64 x 48 zones, both BROWN5 */
+};
 
 typedef struct sphc_simulated_config {
   uint32_t struct_size;
@@ -97,8 +109,8 @@ typedef struct sphc_simulated_config {
 
   uint32_t raw_depth; /* 1: what a ToF module measures before it drops what it does not believe: noise where little
                          light comes back, anything where nearly none does, all mixed pixels of edges; the source's
-                         depth captures then have amplitudes; default 0 */
-  uint32_t reserved;
+                         depth captures then have amplitudes; not with those of a phone; default 0 */
+  uint32_t cameras;   /* SPHC_SIMULATED_CAMERAS_...; default that of a headset */
 } sphc_simulated_config;
 
 typedef struct sphc_simulated sphc_simulated;
@@ -110,6 +122,10 @@ sphc_status sphc_simulated_config_init(sphc_simulated_config *config, size_t str
 /* The bits of names as in "feet,people,tiles", in any order; "" gives 0.  *with is written on success.  ARGUMENT: a
  * null pointer, or a name that is none (which, and all there are). [pure] */
 sphc_status sphc_simulated_parse_with(const char *names, uint32_t *with, sphc_message *message);
+
+/* The number of "headset", "phone", "wide" or "glasses".  *cameras is written on success.  ARGUMENT: a null
+ * pointer, or a name that is none (which, and all there are). [pure] */
+sphc_status sphc_simulated_parse_cameras(const char *name, uint32_t *cameras, sphc_message *message);
 
 /* Builds and paints the room.  `config` is copied.  On success *simulated is owned by the caller, who closes it.
  * Errors: ARGUMENT (which field, the value seen and the range), STRUCT_SIZE, MEMORY_SIZE (out of memory), INTERNAL.
@@ -128,7 +144,7 @@ void sphc_simulated_close(sphc_simulated **simulated);
  * begins again from frame 0.  Errors of this call: ARGUMENT, STRUCT_SIZE. [shared] */
 sphc_status sphc_simulated_source(sphc_simulated *simulated, sphc_source *source);
 
-/* The exact calibration: colour is BROWN5, depth KANNALA_BRANDT4; the same for every seed.  ARGUMENT: a null
+/* The exact calibration, and the sizes of all images: of config.cameras, the same for every seed.  ARGUMENT: a null
  * pointer. [shared] */
 sphc_status sphc_simulated_rig(const sphc_simulated *simulated, sphc_rig *rig);
 
@@ -150,25 +166,26 @@ sphc_status sphc_simulated_pose_at(const sphc_simulated *simulated, int64_t time
 sphc_status sphc_simulated_felt_at(const sphc_simulated *simulated, int64_t time_ns, double felt_mps2[3]);
 
 /* Exact z depth in metres, along the colour camera's axis, at the centre of every colour pixel at this time;
- * row-major, COLOR_WIDTH x COLOR_HEIGHT floats in caller memory.  No noise, no blur.  0 never happens: the room is
+ * row-major, as many floats in caller memory.  No noise, no blur.  0 never happens: the room is
  * closed.  In a mirror it is the depth of what is seen there, behind the glass of a window that of the street.
  * Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_oracle_depth(const sphc_simulated *simulated, int64_t time_ns, float *depth_m);
 
-/* The same for the ToF camera: z along its own axis, DEPTH_WIDTH x DEPTH_HEIGHT floats. [shared] */
+/* The same for the ToF camera: z along its own axis, a float for each of its pixels. [shared] */
 sphc_status sphc_simulated_oracle_tof_depth(const sphc_simulated *simulated, int64_t time_ns, float *depth_m);
 
-/* Renders the colour image of frame `index` (RGB8, tightly packed, COLOR_WIDTH * COLOR_HEIGHT * 3 bytes) into
+/* Renders the colour image of frame `index` (RGB8, tightly packed, 3 bytes a pixel of the colour camera) into
  * caller memory: the very bytes the source gives.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 sphc_status sphc_simulated_render_color(const sphc_simulated *simulated, uint32_t index, uint8_t *rgb);
 
-/* Renders the depth image of frame `index` (tightly packed, DEPTH_WIDTH * DEPTH_HEIGHT values in DEPTH_UNIT_M) into
- * caller memory: the very bytes the source gives.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
+/* Renders the depth image of frame `index` (tightly packed, a value in DEPTH_UNIT_M for each pixel of the ToF
+ * camera) into caller memory: the very bytes the source gives.  Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared]
+ */
 sphc_status sphc_simulated_render_depth(const sphc_simulated *simulated, uint32_t index, uint16_t *depth);
 
 /* The light that came back to each pixel of the depth image of frame `index`, as its sensor counts it: 5500 from a
  * wall of reflectance 0.55 at 1 m, falling with the square of the distance; what is below SPHC_SIMULATED_FAINT is
- * not to be believed.  DEPTH_WIDTH * DEPTH_HEIGHT values in caller memory, for sphc_localizer_frame.amplitude
+ * not to be believed.  As many values as depth has, in caller memory, for sphc_localizer_frame.amplitude
  * (GRAY16). Errors: ARGUMENT, MEMORY_SIZE, INTERNAL. [shared] */
 #define SPHC_SIMULATED_FAINT 75u
 sphc_status sphc_simulated_render_amplitude(const sphc_simulated *simulated, uint32_t index, uint16_t *amplitude);

@@ -8,8 +8,19 @@
 
 namespace sphc::simulated {
 
+namespace {
+
+// A colour image, or depth and its amplitudes.
+size_t slotBytes(const sphc_rig &rig) {
+  const size_t color_pixels = size_t{rig.color_camera.width} * rig.color_camera.height;
+  const size_t depth_pixels = size_t{rig.depth_camera.width} * rig.depth_camera.height;
+  return std::max(3 * color_pixels, 2 * sizeof(uint16_t) * depth_pixels);
+}
+
+}  // namespace
+
 Source::Source(const Headset &headset) : headset_(headset) {
-  for (Slot &slot : slots_) slot.bytes = std::make_unique<uint8_t[]>(kSlotBytes);
+  for (Slot &slot : slots_) slot.bytes = std::make_unique<uint8_t[]>(slotBytes(headset.rig()));
 }
 
 void Source::fill(sphc_source *source) {
@@ -81,24 +92,24 @@ void Source::render(Slot &slot, sphc_stream stream, uint32_t index, sphc_capture
   out.stream = stream;
   out.sequence = index;
   out.image.data = slot.bytes.get();
+  const sphc_camera &camera =
+      stream == SPHC_STREAM_COLOR ? headset_.rig().color_camera : headset_.rig().depth_camera;
+  out.image.width = camera.width;
+  out.image.height = camera.height;
   if (stream == SPHC_STREAM_COLOR) {
     headset_.renderColor(index, slot.bytes.get());
     out.time_ns = headset_.colorTime(index);
-    out.image.width = kColorWidth;
-    out.image.height = kColorHeight;
-    out.image.stride_bytes = kColorWidth * 3;
+    out.image.stride_bytes = camera.width * 3;
     out.image.format = SPHC_FORMAT_RGB8;
   } else {
     // Storage from new[] is aligned for any scalar.
     auto *const depth = reinterpret_cast<uint16_t *>(slot.bytes.get());
     headset_.renderDepth(index, depth);
     out.time_ns = headset_.depthTime(index);
-    out.image.width = kDepthWidth;
-    out.image.height = kDepthHeight;
-    out.image.stride_bytes = kDepthWidth * static_cast<uint32_t>(sizeof(uint16_t));
+    out.image.stride_bytes = camera.width * static_cast<uint32_t>(sizeof(uint16_t));
     out.image.format = SPHC_FORMAT_DEPTH16;
     if (headset_.config().raw_depth != 0) {  // a module that drops nothing tells what is to be dropped
-      uint16_t *const amplitude = depth + size_t{kDepthWidth} * kDepthHeight;
+      uint16_t *const amplitude = depth + size_t{camera.width} * camera.height;
       headset_.renderAmplitude(index, amplitude);
       out.amplitude = out.image;
       out.amplitude.data = amplitude;

@@ -15,9 +15,6 @@ class Source {
 
  private:
   static constexpr uint32_t kSlots = SPHC_SIMULATED_LOAN_LIMIT;
-  static constexpr size_t kSlotBytes = size_t{kColorWidth} * kColorHeight * 3;
-  static_assert(kSlotBytes >= 2 * size_t{kDepthWidth} * kDepthHeight * sizeof(uint16_t),
-                "a slot holds a colour image, or depth and its amplitudes");
 
   struct Slot {
     std::unique_ptr<uint8_t[]> bytes;

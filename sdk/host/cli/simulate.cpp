@@ -26,7 +26,7 @@ struct SimulateOptions {
   std::string out;
   sphc_simulated_config config = {};
   std::optional<double> lap_s;
-  std::string with;
+  std::string with, cameras = "headset";
   const CLI::Option *exposure = nullptr;
   double accelerometer_hz = 0;
   bool ideal_depth = false, raw_depth = false, no_noise = false, no_blur = false, no_exposure_drift = false;
@@ -46,6 +46,9 @@ sphc_simulated_config configOf(const SimulateOptions &options) {
   config.exposure_drift = options.no_exposure_drift ? 0 : 1;
   orThrow("--with", [&](sphc_message *message) {
     return sphc_simulated_parse_with(options.with.c_str(), &config.with, message);
+  });
+  orThrow("--cameras", [&](sphc_message *message) {
+    return sphc_simulated_parse_cameras(options.cameras.c_str(), &config.cameras, message);
   });
   const bool is_flat = (config.with & SPHC_SIMULATED_FLAT) != 0;
   config.lap_s = options.lap_s.value_or(is_flat ? SPHC_SIMULATED_LAP_OF_FLAT_S : config.lap_s);
@@ -203,6 +206,13 @@ const char kWithHelp[] =
     "  flat            eight rooms in a ring, with doorways; a lap goes through all\n"
     "  menu            a line of text and a menu, drawn over the colour image";
 
+const char kCamerasHelp[] =
+    "Whose cameras:\n"
+    "  headset   colour 640 x 480 of 63 degrees, ToF 320 x 288\n"
+    "  phone     colour 1440 x 1080 of 67 degrees, depth 256 x 192: smoothed, and as of the colour camera\n"
+    "  wide      fisheyes: colour 640 x 480 of 111 degrees, ToF 320 x 288 of 100\n"
+    "  glasses   colour 480 x 360 of 59 degrees, depth of 64 x 48 zones";
+
 // Bounds are the driver's; of the rate they are those at which colour and depth, 4 ms apart, take turns.
 void addOptions(CLI::App *app, SimulateOptions *options) {
   sphc_simulated_config &config = options->config;
@@ -237,6 +247,7 @@ void addOptions(CLI::App *app, SimulateOptions *options) {
       ->transform(wholeFrom(0))
       ->type_name("N");
   app->add_option("--with", options->with, kWithHelp)->type_name("NAMES");
+  app->add_option("--cameras", options->cameras, kCamerasHelp)->capture_default_str()->type_name("NAME");
   app->add_option("--arrangement", config.arrangement_seed,
                   "Another arrangement of what people move (chairs, boxes, plants, books, small things, pictures)\n"
                   "for every number: half stands elsewhere, a quarter is gone; 0: as the room has it")

@@ -16,7 +16,8 @@ uint64_t numberOf(const std::string &item, const std::string &text) {
   return number;
 }
 
-// An address is a list: names of what makes the world hard, and seed=N, walk-seed=N, arrangement=N.
+// An address is a list: names of what makes the world hard, and seed=N, walk-seed=N, arrangement=N,
+// cameras=NAME.
 sphc_simulated_config configOf(const std::string &address) {
   sphc_simulated_config config;
   sphc_simulated_config_init(&config, sizeof config);
@@ -35,10 +36,15 @@ sphc_simulated_config configOf(const std::string &address) {
       config.walk_seed = value();
     } else if (key == "arrangement") {
       config.arrangement_seed = value();
+    } else if (key == "cameras") {
+      orThrow("simulated:" + address, [&](sphc_message *message) {
+        return sphc_simulated_parse_cameras(item.c_str() + equals + 1, &config.cameras, message);
+      });
     } else {
-      throw std::runtime_error("simulated: " + key +
-                               " is unknown; there are seed=, walk-seed=, arrangement=, and names alone, as in "
-                               "simulated:people,tiles");
+      throw std::runtime_error(
+          "simulated: " + key +
+          " is unknown; there are seed=, walk-seed=, arrangement=, cameras=, and names alone, as in "
+          "simulated:people,tiles");
     }
     begin = end + 1;
   }

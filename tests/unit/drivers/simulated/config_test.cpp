@@ -45,6 +45,12 @@ TEST(SimulatedConfig, OpenNamesTheFieldAndTheCure) {
       {"with", [](auto &c) { c.with = 1u << 20; }},
       {"with", [](auto &c) { c.with = SPHC_SIMULATED_DAY | SPHC_SIMULATED_NIGHT; }},
       {"walk_start_s", [](auto &c) { c.walk_start_s = -1; }},
+      {"cameras is 4", [](auto &c) { c.cameras = 4; }},
+      {"a phone gives smoothed depth",
+       [](auto &c) {
+         c.raw_depth = 1;
+         c.cameras = SPHC_SIMULATED_CAMERAS_PHONE;
+       }},
   };
   for (const auto &c : cases) {
     sphc_simulated_config config = defaults();

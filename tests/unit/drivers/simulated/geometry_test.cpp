@@ -12,7 +12,9 @@ namespace sphc::simulated {
 namespace {
 
 TEST(SimulatedLens, UnprojectInvertsProject) {
-  for (const sphc_camera &camera : {colorCamera(), depthCamera()}) {
+  for (uint32_t kind = 0; kind < 8; ++kind) {
+    const sphc_rig rig = camerasOf(kind / 2).rig;
+    const sphc_camera &camera = kind % 2 == 0 ? rig.color_camera : rig.depth_camera;
     for (double y = 0.5; y < camera.height; y += 20) {
       for (double x = 0.5; x < camera.width; x += 20) {
         const double pixel_px[2] = {x, y};
@@ -27,8 +29,9 @@ TEST(SimulatedLens, UnprojectInvertsProject) {
 }
 
 TEST(SimulatedLens, TheTofCameraCoversTheColorImage) {
-  const sphc_camera color = colorCamera(), depth = depthCamera();
-  const Pose color_from_depth = poseOf(colorFromDepth());
+  const sphc_rig rig = camerasOf(SPHC_SIMULATED_CAMERAS_HEADSET).rig;
+  const sphc_camera &color = rig.color_camera, &depth = rig.depth_camera;
+  const Pose color_from_depth = poseOf(rig.color_from_depth);
   for (const double x : {0.5, 639.5}) {
     for (const double y : {0.5, 479.5}) {
       const double pixel_px[2] = {x, y};

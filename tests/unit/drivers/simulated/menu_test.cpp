@@ -11,6 +11,8 @@ namespace {
 
 using Image = std::vector<uint8_t>;
 
+constexpr uint32_t kWidth = SPHC_SIMULATED_COLOR_WIDTH, kHeight = SPHC_SIMULATED_COLOR_HEIGHT;
+
 Image colorOf(uint32_t with, uint32_t frame) {
   sphc_simulated_config config = defaults();
   config.with = with;
@@ -36,9 +38,9 @@ TEST(SimulatedMenu, CoversATenthOfTheImage) {
 TEST(SimulatedMenu, StaysButForItsTime) {
   const Image none(3 * kColorPixels, 128);
   Image first = none, soon = none, later = none;
-  drawMenu(3.1, first.data());
-  drawMenu(3.9, soon.data());
-  drawMenu(14.2, later.data());
+  drawMenu(3.1, kWidth, kHeight, first.data());
+  drawMenu(3.9, kWidth, kHeight, soon.data());
+  drawMenu(14.2, kWidth, kHeight, later.data());
   EXPECT_EQ(first, soon);
   EXPECT_GT(shareOfOthers(first, later), 0);
   EXPECT_LT(shareOfOthers(first, later), 0.1 * shareOfOthers(first, none));

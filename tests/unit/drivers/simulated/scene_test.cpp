@@ -23,7 +23,7 @@ class Bare {
   explicit Bare(uint32_t with, uint64_t arrangement_seed = 0)
       : scene(buildScene(configOf(with, arrangement_seed), jobs)),
         walk(scene, kSeed, kLap_s, (with & SPHC_SIMULATED_FEET) != 0),
-        camera_(colorCamera()),
+        camera_(camerasOf(SPHC_SIMULATED_CAMERAS_HEADSET).rig.color_camera),
         rays_(camera_) {}
 
   struct Ray {

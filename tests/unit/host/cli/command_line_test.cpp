@@ -76,7 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
         "build --map m --colmap c --images i --scale 1 --gravity down", "advise --recording r --folds 1",
         "build --recording r --map m --eta 1.5", "build --recording r --map m --against",
         "localize --recording r --map m --step 0", "localize --recording r --map m --first 9 --last 3",
-        "simulate --out x --with hnads", "simulate --out x --with day,night"));
+        "simulate --out x --with hnads", "simulate --out x --with day,night", "simulate --out x --cameras watch",
+        "simulate --out x --cameras phone --raw-depth"));
 
 TEST(CommandLine, ALapOfAFlatTakesLongerThanOneOfARoom) {
   const TempFolder folder;

@@ -171,6 +171,7 @@ TEST_F(RigTest, SaysWhatCannotBeOpenedAndTheCure) {
   EXPECT_NE(says("simulated:foot", both).find("feet,people"), std::string::npos);
   EXPECT_NE(says("simulated:feet,room=3", both).find("room is unknown; there are seed="), std::string::npos);
   EXPECT_EQ(says("simulated:tiles,carpet", both).find("simulated:tiles,carpet: simulated: with has"), 0u);
+  EXPECT_NE(says("simulated:cameras=watch", both).find("there are headset, phone"), std::string::npos);
   EXPECT_NE(says("simulated:seed=x", both).find("seed=7"), std::string::npos);
   EXPECT_NE(says("replay:/no/such/walk", both).find("/no/such/walk"), std::string::npos);
 }
