@@ -46,13 +46,18 @@ std::vector<uint8_t> imageEdges(const std::vector<uint8_t> &gray, uint32_t width
   return found;
 }
 
+std::vector<float> distancesToEdges(const std::vector<uint8_t> &edges, uint32_t width, uint32_t height) {
+  cv::Mat elsewhere(static_cast<int>(height), static_cast<int>(width), CV_8U), distance;
+  for (size_t i = 0; i < edges.size(); ++i) elsewhere.data[i] = edges[i] ? 0 : 1;
+  cv::distanceTransform(elsewhere, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  return {distance.ptr<float>(), distance.ptr<float>() + edges.size()};
+}
+
 void edgeDistances(const std::vector<uint8_t> &from, const std::vector<uint8_t> &to, uint32_t width,
                    uint32_t height, std::vector<double> *distances) {
-  cv::Mat elsewhere(static_cast<int>(height), static_cast<int>(width), CV_8U), distance;
-  for (size_t i = 0; i < to.size(); ++i) elsewhere.data[i] = to[i] ? 0 : 1;
-  cv::distanceTransform(elsewhere, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const std::vector<float> distance = distancesToEdges(to, width, height);
   for (size_t i = 0; i < from.size(); ++i)
-    if (from[i]) distances->push_back(static_cast<double>(distance.ptr<float>()[i]));
+    if (from[i]) distances->push_back(static_cast<double>(distance[i]));
 }
 
 }  // namespace sphc::host

@@ -6,6 +6,7 @@
 
 #include "host/base/checked_call.h"
 #include "host/frames/align_edges.h"
+#include "host/live/depth_edge_points.h"
 #include "host/recording/calibration_json.h"
 #include "host/report/run.h"
 #include "host/report/statistics.h"
@@ -16,43 +17,70 @@ namespace {
 constexpr size_t kFewestEdges = 300;
 constexpr double kClearly = 0.7;  // of the distance as calibrated, or by chance
 constexpr double kSurely = 0.5;   // of the distance by chance: five mistakes are tried, and one is lucky
-constexpr double kFine_px = 4;    // as calibrated
+// Median distances as calibrated.
+constexpr double kUsual_px = 3;       // where depth is not much coarser than colour
+constexpr double kUsualShare = 0.75;  // of a pixel of depth, where it is
+constexpr double kBeyondUsual_px = 1;
+constexpr uint32_t kLeastWidth_px = 480;  // of colour, where it is looked at as coarsely as depth
 constexpr double kFewestApart_px =
     2;  // a median pixel nearer to an edge than this is in an image of nothing but edges
 constexpr uint32_t kChanceStep_px = 5;
-constexpr uint32_t kGap_px = 10;
 constexpr double kMeasured = 0.2, kHardlyReached = 0.02;  // shares of pixels
 
-std::vector<uint8_t> grayOf(const sphc_image &image) {
-  const size_t channels = image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
-  std::vector<uint8_t> gray(size_t{image.width} * image.height);
-  for (uint32_t y = 0; y < image.height; ++y) {
+// Means of squares of `square` pixels; what is left over on the right and below is left out.
+std::vector<uint8_t> grayOf(const sphc_image &image, uint32_t square) {
+  const uint32_t channels = image.format == SPHC_FORMAT_GRAY8 ? 1 : 3;
+  const uint32_t width = image.width / square, height = image.height / square;
+  std::vector<uint32_t> sums(size_t{width} * height);
+  for (uint32_t y = 0; y < height * square; ++y) {
     const auto *row = static_cast<const uint8_t *>(image.data) + size_t{y} * image.stride_bytes;
-    for (uint32_t x = 0; x < image.width; ++x)  // green is nearly grey
-      gray[size_t{y} * image.width + x] = row[channels * x + (channels == 3 ? 1 : 0)];
+    for (uint32_t x = 0; x < width * square; ++x)  // green is nearly grey
+      sums[size_t{y / square} * width + x / square] += row[channels * x + (channels == 3 ? 1 : 0)];
   }
+  std::vector<uint8_t> gray(sums.size());
+  std::transform(sums.begin(), sums.end(), gray.begin(),
+                 [square](uint32_t sum) { return static_cast<uint8_t>(sum / (square * square)); });
   return gray;
+}
+
+// The camera of such means.
+sphc_camera shrunk(const sphc_camera &camera, uint32_t square) {
+  sphc_camera result = camera;
+  result.width = camera.width / square;
+  result.height = camera.height / square;
+  for (int i = 0; i < 4; ++i) result.params[i] = camera.params[i] / square;
+  return result;
+}
+
+// Pixels of colour across one of depth.
+double coarsenessOf(const sphc_rig &rig) { return rig.color_camera.params[0] / rig.depth_camera.params[0]; }
+
+// Fine texture has edges all over, which hide those of coarse depth.
+uint32_t squareOf(const sphc_rig &rig) {
+  const double most = std::min(coarsenessOf(rig), static_cast<double>(rig.color_camera.width) / kLeastWidth_px);
+  return static_cast<uint32_t>(std::max(1.0, most));
 }
 
 size_t withDepth(const std::vector<uint16_t> &depth) {
   return depth.size() - static_cast<size_t>(std::count(depth.begin(), depth.end(), 0));
 }
 
-std::vector<uint16_t> flipped(const sphc_image &depth, bool left_right, bool up_down) {
+std::vector<uint16_t> packed(const sphc_image &depth) {
   std::vector<uint16_t> out(size_t{depth.width} * depth.height);
-  for (uint32_t y = 0; y < depth.height; ++y) {
-    const uint32_t from = up_down ? depth.height - 1 - y : y;
-    uint16_t *row = &out[size_t{y} * depth.width];
-    std::memcpy(row, static_cast<const uint8_t *>(depth.data) + size_t{from} * depth.stride_bytes,
-                size_t{2} * depth.width);
-    if (left_right) std::reverse(row, row + depth.width);
-  }
+  for (uint32_t y = 0; y < depth.height; ++y)
+    std::memcpy(&out[size_t{y} * depth.width],
+                static_cast<const uint8_t *>(depth.data) + size_t{y} * depth.stride_bytes, size_t{2} * depth.width);
   return out;
 }
 
 }  // namespace
 
-GeometryCheck::GeometryCheck(const sphc_rig &calibration) : calibration_(calibration) {}
+GeometryCheck::GeometryCheck(const sphc_rig &calibration)
+    : calibration_(calibration),
+      square_(squareOf(calibration)),
+      usual_px_(std::max(kUsual_px, kUsualShare * coarsenessOf(calibration))) {
+  calibration_.color_camera = shrunk(calibration.color_camera, square_);
+}
 
 bool GeometryCheck::canBe(Mistake mistake) const {
   const sphc_camera &color = calibration_.color_camera, &depth = calibration_.depth_camera;
@@ -71,10 +99,28 @@ sphc_rig GeometryCheck::calibrationOf(Mistake mistake) const {
   return calibration;
 }
 
-std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth, Mistake mistake) const {
+// Where an edge of depth falls in the image.
+std::optional<GeometryCheck::Pixel> GeometryCheck::projected(const DepthEdgePoint &edge, Mistake mistake,
+                                                             const sphc_rig &rig) const {
+  const sphc_camera &depth = rig.depth_camera, &color = rig.color_camera;
+  const bool mirrored = mistake == kMirrored || mistake == kTurned;
+  const bool upside_down = mistake == kUpsideDown || mistake == kTurned;
+  const double from_px[2] = {mirrored ? depth.width - edge.x_px : edge.x_px,
+                             upside_down ? depth.height - edge.y_px : edge.y_px};
+  double bearing[3], point_m[3], px[2];
+  if (sphc_camera_unproject(&depth, from_px, bearing) != SPHC_OK) return std::nullopt;
+  for (double &c : bearing) c *= edge.near * rig.depth_unit_m / bearing[2];
+  sphc_rigid_apply(&rig.color_from_depth, bearing, point_m);
+  if (sphc_camera_project(&color, point_m, px) != SPHC_OK) return std::nullopt;
+  if (!(px[0] >= 0 && px[1] >= 0 && px[0] < color.width && px[1] < color.height)) return std::nullopt;
+  return Pixel{static_cast<uint32_t>(px[0]), static_cast<uint32_t>(px[1])};
+}
+
+// As calibrated.
+std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth) const {
   sphc_aligner_config config;
   sphc_aligner_config_init(&config, sizeof config);
-  config.rig = calibrationOf(mistake);
+  config.rig = calibration_;
   sphc_memory need = {};
   orThrow("aligner", [&](sphc_message *message) { return sphc_aligner_memory(&config, &need, message); });
   spherecloud::AlignedBuffer memory(need.state_bytes, need.alignment);
@@ -82,17 +128,12 @@ std::vector<uint16_t> GeometryCheck::aligned(const sphc_image &depth, Mistake mi
   orThrow("aligner", [&](sphc_message *message) {
     return sphc_aligner_init(memory.data(), memory.size(), &config, &aligner, message);
   });
-  const std::vector<uint16_t> turned =
-      flipped(depth, mistake == kMirrored || mistake == kTurned, mistake == kUpsideDown || mistake == kTurned);
-  sphc_image image = depth;
-  image.data = turned.data();
-  image.stride_bytes = 2 * image.width;
   std::vector<uint16_t> out(size_t{config.rig.color_camera.width} * config.rig.color_camera.height);
   sphc_aligned wanted = {};
   wanted.struct_size = sizeof wanted;
   wanted.depth = out.data();
   wanted.depth_stride_bytes = 2 * config.rig.color_camera.width;
-  const sphc_status status = sphc_aligner_process(aligner, &image, &wanted);
+  const sphc_status status = sphc_aligner_process(aligner, &depth, &wanted);
   if (status < 0) throw std::runtime_error(std::string("depth: ") + sphc_aligner_message(aligner));
   return out;
 }
@@ -104,24 +145,27 @@ bool GeometryCheck::missesTheImage() const {
 }
 
 void GeometryCheck::look(const sphc_image &color, const sphc_image &depth) {
-  const std::vector<uint8_t> edges = imageEdges(grayOf(color), color.width, color.height);
+  const uint32_t width = calibration_.color_camera.width, height = calibration_.color_camera.height;
+  const std::vector<uint8_t> edges = imageEdges(grayOf(color, square_), width, height);
   const auto edge_count = static_cast<size_t>(std::count(edges.begin(), edges.end(), 1));
   if (edge_count == 0) return;
   image_edges_ += edge_count;
-  measured_ += withDepth(flipped(depth, false, false));
-  in_depth_ += size_t{depth.width} * depth.height;
-  std::vector<uint8_t> any(edges.size());
-  for (size_t i = 0; i < any.size(); i += kChanceStep_px) any[i] = 1;
-  edgeDistances(any, edges, color.width, color.height, &chance_px_);
+  const std::vector<float> distance_px = distancesToEdges(edges, width, height);
+  for (size_t i = 0; i < distance_px.size(); i += kChanceStep_px)
+    chance_px_.push_back(static_cast<double>(distance_px[i]));
+  const std::vector<uint16_t> measured = packed(depth), lies = aligned(depth);
+  measured_ += withDepth(measured);
+  in_depth_ += measured.size();
+  reached_ += withDepth(lies);
+  in_image_ += lies.size();
+  const std::vector<DepthEdgePoint> points = depthEdgePoints(measured, depth.width, depth.height);
   for (int mistake = 0; mistake < kMistakes; ++mistake) {
     if (!canBe(static_cast<Mistake>(mistake))) continue;
-    const std::vector<uint16_t> lies = aligned(depth, static_cast<Mistake>(mistake));
-    if (mistake == kNone) {
-      reached_ += withDepth(lies);
-      in_image_ += lies.size();
-    }
-    edgeDistances(depthEdges(lies, color.width, color.height, kGap_px), edges, color.width, color.height,
-                  &distances_px_[static_cast<size_t>(mistake)]);
+    const sphc_rig rig = calibrationOf(static_cast<Mistake>(mistake));
+    for (const DepthEdgePoint &point : points)
+      if (const std::optional<Pixel> at = projected(point, static_cast<Mistake>(mistake), rig))
+        distances_px_[static_cast<size_t>(mistake)].push_back(
+            static_cast<double>(distance_px[size_t{at->y} * width + at->x]));
   }
 }
 
@@ -149,6 +193,7 @@ Finding GeometryCheck::finding() const {
       "color_from_depth the wrong way round; it should take points of the depth camera to the colour camera"};
   if (const std::optional<Finding> nothing = nothingToTell()) return *nothing;
   const double chance_px = percentile(chance_px_, 0.5);
+  const auto in_px = [this](double compared_px) { return fixed(compared_px * square_, 1); };
   std::array<double, kMistakes> medians_px;
   for (size_t i = 0; i < kMistakes; ++i) {
     medians_px[i] = distances_px_[i].size() < kFewestEdges ? 1e9 : percentile(distances_px_[i], 0.5);
@@ -157,7 +202,7 @@ Finding GeometryCheck::finding() const {
   const size_t best =
       static_cast<size_t>(std::min_element(medians_px.begin(), medians_px.end()) - medians_px.begin());
   const bool too_few = distances_px_[kNone].size() < kFewestEdges;
-  if (too_few && missesTheImage())
+  if (missesTheImage())
     return {
         Finding::Grade::kWrong, "geometry",
         "as calibrated, depth falls beside the image; give focal lengths and centres in pixels of images of this "
@@ -165,20 +210,19 @@ Finding GeometryCheck::finding() const {
   if (too_few && (best == kNone || distances_px_[best].size() < 3 * kFewestEdges))
     return {Finding::Grade::kDoubtful, "geometry",
             "too few edges in depth to tell; show the cameras a room with things in it, 1 to 3 m away"};
-  const std::string seen = too_few
-                               ? "hardly an edge of depth lies in the image"
-                               : "edges of depth lie " + fixed(calibrated_px, 1) + " px from edges of the image";
+  const std::string seen = too_few ? "hardly an edge of depth lies in the image"
+                                   : "edges of depth lie " + in_px(calibrated_px) + " px from edges of the image";
   if (best != kNone && medians_px[best] < kClearly * calibrated_px && medians_px[best] < kSurely * chance_px)
     return {Finding::Grade::kWrong, "geometry",
-            seen + " as calibrated, and " + fixed(medians_px[best], 1) + " px if it is " + kNames[best]};
+            seen + " as calibrated, and " + in_px(medians_px[best]) + " px if it is " + kNames[best]};
   if (calibrated_px > kClearly * chance_px)
     return {Finding::Grade::kWrong, "geometry",
-            seen + ", and any pixel does within " + fixed(chance_px, 1) +
+            seen + ", and any pixel does within " + in_px(chance_px) +
                 " px: the two show different things. Is depth stale, late or mere noise, or the calibration of "
                 "other cameras?"};
-  if (calibrated_px > kFine_px)
+  if (calibrated_px * square_ > usual_px_ + kBeyondUsual_px)
     return {Finding::Grade::kDoubtful, "geometry",
-            seen + "; 1 to 3 px are usual: is this these cameras' calibration?"};
+            seen + "; at most " + fixed(usual_px_, 0) + " px are usual: is this these cameras' calibration?"};
   return {Finding::Grade::kFine, "geometry", seen + "; no mirroring, turning or registration would do better"};
 }
 

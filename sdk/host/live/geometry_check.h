@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/live/depth_edge_points.h"
 #include "host/live/finding.h"
 #include "host/recording/calibration.h"
 
@@ -25,9 +26,15 @@ class GeometryCheck {
   sphc_rig calibrationOf(Mistake mistake) const;
   std::optional<Finding> nothingToTell() const;
   bool missesTheImage() const;
-  std::vector<uint16_t> aligned(const sphc_image &depth, Mistake mistake) const;
+  std::vector<uint16_t> aligned(const sphc_image &depth) const;
+  struct Pixel {
+    uint32_t x, y;
+  };
+  std::optional<Pixel> projected(const DepthEdgePoint &edge, Mistake mistake, const sphc_rig &rig) const;
 
-  sphc_rig calibration_;
+  sphc_rig calibration_;  // its colour camera is that of squares of pixels
+  uint32_t square_;       // pixels of colour across one that is compared
+  double usual_px_;       // of colour
   std::array<std::vector<double>, kMistakes> distances_px_;
   std::vector<double> chance_px_;  // of any pixel
   size_t image_edges_ = 0;

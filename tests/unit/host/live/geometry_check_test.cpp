@@ -15,6 +15,15 @@ namespace {
 
 constexpr uint32_t kWalkFrames = 4;  // far apart
 
+Finding lookAt(const std::vector<WalkImages> &walk, const sphc_rig &calibration) {
+  GeometryCheck check(calibration);
+  const sphc_camera &c = calibration.color_camera, &d = calibration.depth_camera;
+  for (const WalkImages &images : walk)
+    check.look({images.color.data(), c.width, c.height, 3 * c.width, SPHC_FORMAT_RGB8},
+               {images.depth.data(), d.width, d.height, 2 * d.width, SPHC_FORMAT_DEPTH16});
+  return check.finding();
+}
+
 // A few views of the simulated room, rendered once.
 class GeometryCheckTest : public testing::Test {
  protected:
@@ -27,17 +36,13 @@ class GeometryCheckTest : public testing::Test {
   Finding look(
       const sphc_rig &calibration, const Spoil &spoil = [](std::vector<uint16_t> *) {},
       const SpoilColor &spoil_color = [](std::vector<uint8_t> *) {}, size_t late = 0) {
-    GeometryCheck check(calibration);
-    const sphc_camera &c = calibration.color_camera, &d = calibration.depth_camera;
-    for (size_t i = 0; i < images_.size(); ++i) {
-      std::vector<uint16_t> depth = images_[(i + late) % images_.size()].depth;
-      std::vector<uint8_t> color = images_[i].color;
-      spoil(&depth);
-      spoil_color(&color);
-      check.look({color.data(), c.width, c.height, 3 * c.width, SPHC_FORMAT_RGB8},
-                 {depth.data(), d.width, d.height, 2 * d.width, SPHC_FORMAT_DEPTH16});
+    std::vector<WalkImages> walk = images_;
+    for (size_t i = 0; i < walk.size(); ++i) {
+      walk[i].depth = images_[(i + late) % images_.size()].depth;
+      spoil(&walk[i].depth);
+      spoil_color(&walk[i].color);
     }
-    return check.finding();
+    return lookAt(walk, calibration);
   }
 
   static sphc_rig calibration_;
@@ -49,6 +54,22 @@ std::vector<WalkImages> GeometryCheckTest::images_;
 TEST_F(GeometryCheckTest, ATrueCalibrationIsFine) {
   const Finding finding = look(calibration_);
   EXPECT_EQ(finding.grade, Finding::Grade::kFine) << finding.text;
+}
+
+TEST(GeometryCheckOfAPhone, EdgesOfCoarseDepthMayLieAPixelOfDepthApart) {
+  sphc_rig calibration;
+  const std::vector<WalkImages> walk = renderWalk(kWalkFrames, 0.5, &calibration, SPHC_SIMULATED_CAMERAS_PHONE);
+  const Finding sound = lookAt(walk, calibration);
+  EXPECT_EQ(sound.grade, Finding::Grade::kFine) << sound.text;
+  std::vector<WalkImages> turned = walk;
+  for (WalkImages &images : turned) std::reverse(images.depth.begin(), images.depth.end());
+  const Finding half_a_turn = lookAt(turned, calibration);
+  EXPECT_EQ(half_a_turn.grade, Finding::Grade::kWrong);
+  EXPECT_NE(half_a_turn.text.find("half a turn"), std::string::npos) << half_a_turn.text;
+  calibration.color_from_depth.t_m[0] = 0.04;
+  const Finding beside = lookAt(walk, calibration);
+  EXPECT_EQ(beside.grade, Finding::Grade::kDoubtful);
+  EXPECT_NE(beside.text.find("at most 4 px are usual"), std::string::npos) << beside.text;
 }
 
 TEST_F(GeometryCheckTest, MirroringAndTurningAreNamed) {
