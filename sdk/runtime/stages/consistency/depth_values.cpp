@@ -17,6 +17,9 @@ float leastOf(float a, float b, float c) {
   return least > 0 ? least : std::min(most, 0.0f);
 }
 
+// The pixel of a sample, of a row or a column of `size` pixels with `count` samples.
+int32_t pixelOf(int32_t sample, int32_t count, int32_t size) { return (2 * sample + 1) * size / (2 * count); }
+
 }  // namespace
 
 void DepthSamples::layout(Arena &state, DepthSamples *samples) {
@@ -34,7 +37,10 @@ void DepthSamples::init(const Camera &camera, const DepthSensor &sensor, bool is
   for (int32_t row = 0; row < kRows; ++row) {
     for (int32_t column = 0; column < kColumns; ++column) {
       Vector2 ray = Vector2::Zero();
-      const Vector2 px = {(column + 0.5) * camera.width() / kColumns, (row + 0.5) * camera.height() / kRows};
+      // The pixel's own centre: in an image of few pixels that of the sample lies elsewhere, and planes would look
+      // bent.
+      const Vector2 px = {pixelOf(column, kColumns, camera.width()) + 0.5,
+                          pixelOf(row, kRows, camera.height()) + 0.5};
       if (!camera.unproject(px, &ray)) ray = Vector2::Zero();
       rays_[static_cast<size_t>(row * kColumns + column)] = {static_cast<float>(ray.x()),
                                                              static_cast<float>(ray.y())};
@@ -46,10 +52,10 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   DepthValues found;
   uint32_t seen[DepthValues::kMostDistinct] = {};
   for (int32_t row = 0; row < kRows; ++row) {
-    const int32_t y = (2 * row + 1) * depth.height / (2 * kRows);
+    const int32_t y = pixelOf(row, kRows, depth.height);
     for (int32_t column = 0; column < kColumns; ++column) {
       const size_t at = static_cast<size_t>(row * kColumns + column);
-      const int32_t x = (2 * column + 1) * depth.width / (2 * kColumns);
+      const int32_t x = pixelOf(column, kColumns, depth.width);
       const uint16_t value = values_[at] = depth.row(y)[x];
       const double z = value * sensor_.unit_m;
       const bool in_range = value != 0 && z >= sensor_.min_m && z <= sensor_.max_m;
@@ -75,7 +81,7 @@ DepthValues DepthSamples::look(ImageView<uint16_t> depth) {
   return found;
 }
 
-// A range: off by what z was rounded, and by how far a pixel is from the ray of its sample.
+// A range: off by what z was rounded.
 uint32_t DepthSamples::asMeasured(uint16_t z, size_t at) const {
   if (!is_range_) return z;
   const Ray ray = rays_[at];
