@@ -44,7 +44,7 @@ enum {
 enum { SPHC_REPLAY_STREAM_COLOR = 1u, SPHC_REPLAY_STREAM_DEPTH = 2u };
 
 /* Frames are chosen by the number of their colour image: NNNNNN in the 7-Scenes layout, the place in rgb.txt, from
- * 0, in the TUM layout.  A depth image goes with the colour image nearest in time. */
+ * 0, in the TUM layout.  A depth image goes with the colour image nearest in time, and with its frames. */
 typedef struct sphc_replay_config {
   uint32_t struct_size;
   sphc_replay_mode mode;     /* FAST */

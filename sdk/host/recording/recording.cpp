@@ -27,6 +27,21 @@ bool isChosen(const Selection &selection, uint32_t sequence) {
          (sequence - selection.first) % selection.step == 0;
 }
 
+// What goes with a chosen colour image, and what a chosen frame has, though another colour image be nearer to it.
+std::vector<RecordedImage> chosenDepth(const Selection &selection, int64_t tolerance_ns,
+                                       const Recording &recording) {
+  const auto is_chosen = [&](size_t color) { return isChosen(selection, recording.color[color].sequence); };
+  std::vector<bool> kept;
+  for (const RecordedImage &image : recording.depth)
+    kept.push_back(is_chosen(nearestInTime(recording.color, image.time_ns)));
+  for (const FramePair &pair : pairFrames(recording, tolerance_ns))
+    if (is_chosen(pair.color)) kept[pair.depth] = true;
+  std::vector<RecordedImage> depth;
+  for (size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) depth.push_back(recording.depth[i]);
+  return depth;
+}
+
 bool holdsSequences(const fs::path &folder) {
   for (const fs::directory_entry &entry : fs::directory_iterator(folder))
     if (entry.is_directory() && entry.path().filename().string().rfind("seq-", 0) == 0) return true;
@@ -78,13 +93,10 @@ Recording openRecording(const fs::path &folder) {
   }
 }
 
-void selectFrames(const Selection &selection, Recording &recording) {
+void selectFrames(const Selection &selection, int64_t tolerance_ns, Recording &recording) {
   const uint32_t lowest = recording.color.front().sequence;
   const uint32_t highest = recording.color.back().sequence;
-  std::vector<RecordedImage> depth;
-  for (const RecordedImage &image : recording.depth)
-    if (isChosen(selection, recording.color[nearestInTime(recording.color, image.time_ns)].sequence))
-      depth.push_back(image);
+  std::vector<RecordedImage> depth = chosenDepth(selection, tolerance_ns, recording);
   std::vector<RecordedImage> color;
   for (const RecordedImage &image : recording.color)
     if (isChosen(selection, image.sequence)) color.push_back(image);

@@ -88,8 +88,8 @@ struct FramePair {
 // Finds the layout and reads lists and poses, no image; throws Failure.
 Recording openRecording(const std::filesystem::path &path);
 
-// Keeps the frames that are chosen; throws Failure when that is none.
-void selectFrames(const Selection &selection, Recording &recording);
+// Keeps the chosen frames, each with the depth image that it has among all; throws Failure when that is none.
+void selectFrames(const Selection &selection, int64_t tolerance_ns, Recording &recording);
 
 // Each colour image with the depth image nearest in time, where there is one within the tolerance; of a recording
 // by frames, with its own.

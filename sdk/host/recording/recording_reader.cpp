@@ -9,9 +9,9 @@ namespace sphc::recording {
 
 namespace {
 
-Recording openSelected(const std::filesystem::path &path, const Selection &selection) {
+Recording openSelected(const std::filesystem::path &path, const ReaderOptions &options) {
   Recording recording = openRecording(path);
-  selectFrames(selection, recording);
+  selectFrames(options.selection, options.pair_tolerance_ns, recording);
   return recording;
 }
 
@@ -27,7 +27,7 @@ sphc_rig calibrationFor(const Recording &recording, const std::filesystem::path 
 }  // namespace
 
 RecordingReader::RecordingReader(const std::filesystem::path &path, const ReaderOptions &options)
-    : recording_(openSelected(path, options.selection)),
+    : recording_(openSelected(path, options)),
       calibration_(calibrationFor(recording_, options.calibration)),
       pose_gap_ns_(options.pose_gap_ns),
       frames_(pairFrames(recording_, options.pair_tolerance_ns)),

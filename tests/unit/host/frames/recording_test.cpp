@@ -28,6 +28,25 @@ TEST(Recording, ColourAndDepthThatNeverMeetAreNamedAsTheCause) {
               testing::AllOf(testing::HasSubstr("none of 2 depth images"), testing::HasSubstr("3 colour images")));
 }
 
+// Colour comes twice as often as depth, so each depth image is that of two frames.
+TEST(Recording, AChosenFrameKeepsTheDepthThatItHasAmongAll) {
+  const contract::TempFolder folder;
+  contract::writeTinyRecording(folder.path().string(), 6);
+  folder.write("rgb.txt", "1.00 rgb/000000.png\n1.01 rgb/000001.png\n1.02 rgb/000002.png\n1.03 rgb/000003.png\n");
+  folder.write("depth.txt", "1.00 depth/000000.png\n1.02 depth/000002.png\n");
+  RecordingOptions options;
+  options.folder = folder.path().string();
+  const auto all = openRecording(options);
+  ASSERT_EQ(all->frameCount(), 4u);
+  options.first = 1;
+  options.step = 2;
+  const auto odd = openRecording(options);
+  ASSERT_EQ(odd->frameCount(), 2u);
+  for (uint32_t i = 0; i < 2; ++i) EXPECT_EQ(odd->depthOf(i).time_ns, all->depthOf(2 * i + 1).time_ns);
+  options.last = 1;
+  EXPECT_EQ(openRecording(options)->frameCount(), 1u);
+}
+
 TEST(Recording, AStepOfZeroChoosesNothing) {
   RecordingOptions options;
   options.step = 0;
