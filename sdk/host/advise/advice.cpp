@@ -51,7 +51,8 @@ class Trial {
     setCameras(reader_->calibration(), &input_.config);
   }
 
-  std::vector<FrameRecord> frames(double eta, std::set<std::string> *left_out) {
+  // Those that cannot be read are not among them; the import of all frames has told of these.
+  std::vector<FrameRecord> frames(double eta) {
     ReleaseRequest request;
     request.key = kKey;
     request.eta = eta;
@@ -62,7 +63,7 @@ class Trial {
     input_.centres_in_world_m = {{centre_m.x(), centre_m.y(), centre_m.z()}};
     Run run;
     localizeFrames(
-        input_, [](uint32_t, uint32_t) {}, [left_out](const std::string &why) { left_out->insert(why); }, &run);
+        input_, [](uint32_t, uint32_t) {}, [](const std::string &) {}, &run);
     return run.frames;
   }
 
@@ -114,7 +115,7 @@ Advice advise(RecordingReader *reader, const AdviceOptions &options,
   RgbdImportSummary summary;
   const PointModel whole = importRgbd({{reader}}, options.import, nullptr, &summary);
   mapped(summary);
-  for (const std::string &sentence : framesLeftOut(summary)) advice.left_out.insert(sentence);
+  advice.left_out = framesLeftOut(summary);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);
   advice.coverage = coverageOf(advice.directions, kMostHoles);
@@ -132,7 +133,7 @@ Advice advise(RecordingReader *reader, const AdviceOptions &options,
     held_out.last = block.last_sequence;
     Trial trial(options, model, held_out);
     for (size_t i = 0; i < options.etas.size(); ++i) {
-      const std::vector<FrameRecord> frames = trial.frames(options.etas[i], &advice.left_out);
+      const std::vector<FrameRecord> frames = trial.frames(options.etas[i]);
       count(frames, &advice.recalls[i], &errors_m[i]);
       if (options.etas[i] == options.judged_eta) addFailures(frames, &advice.failures);
     }

@@ -2,7 +2,6 @@
 #pragma once
 #include <array>
 #include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -34,7 +33,7 @@ struct Failure {
 };
 
 struct Advice {
-  std::set<std::string> left_out;  // frames that took no part, a sentence each
+  std::vector<std::string> left_out;  // what became of frames that took no part
   size_t points = 0;
   Coverage coverage;
   std::vector<std::array<double, 3>> directions;  // of all points, from their centre
