@@ -24,7 +24,7 @@ struct Options {
 DeadlineInput inputOf(const Options &options, const std::vector<MapFile> &maps, const Vector3 &centre) {
   const auto reader = openRecording(options.recording);
   DeadlineInput input;
-  input.sequences = readSequences(reader.get(), reader->frameCount());
+  input.sequence = readFrames(reader.get());
   input.maps = &maps;
   input.centre_in_world_m = {centre.x(), centre.y(), centre.z()};
   input.config = options.config;
@@ -34,9 +34,8 @@ DeadlineInput inputOf(const Options &options, const std::vector<MapFile> &maps, 
   input.deadlines_us = options.deadlines_us;
   input.half = options.half;
   uint64_t seed = 0;
-  for (Sequence &sequence : input.sequences)
-    for (Shot &shot : sequence.shots)
-      if (options.noise) makeNoise(++seed, &shot);
+  for (Shot &shot : input.sequence.shots)
+    if (options.noise) makeNoise(++seed, &shot);
   return input;
 }
 

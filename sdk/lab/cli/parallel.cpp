@@ -20,8 +20,7 @@ int runParallelCommand(const ParallelOptions &options, const Console &console) {
   std::vector<MapFile> maps;
   maps.push_back(openMapFile(options.map));
   const auto reader = openRecording(options.recording);
-  const ParallelInput input = {readSequences(reader.get(), reader->frameCount()), &maps, options.threads,
-                               options.repeats};
+  const ParallelInput input = {readFrames(reader.get()), &maps, options.threads, options.repeats};
   const std::vector<ParallelRow> rows = runParallel(input);
   console.say(parallelText(rows));
   console.give(parallelJson(rows));

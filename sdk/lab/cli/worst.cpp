@@ -1,5 +1,4 @@
 // spherecloud-lab worst: what do hostile frames and maps cost?
-#include <algorithm>
 #include <memory>
 
 #include "host/cli/common/exit_code.h"
@@ -17,25 +16,11 @@ struct Options {
   sphc_localizer_config config = spherecloud::defaultConfig();
 };
 
-// So many frames, spread over the recording: the first of each of so many sequences.
-Sequence spreadFrames(const Options &options) {
-  const auto reader = openRecording(options.recording);
-  Sequence spread;
-  for (Sequence &sequence : readSequences(reader.get(), options.frames)) {
-    spread.rig = sequence.rig;
-    spread.color_format = sequence.color_format;
-    const size_t shots = std::max<size_t>(1, options.frames * kSequenceFrames / reader->frameCount());
-    for (size_t i = 0; i < shots && i < sequence.shots.size() && spread.shots.size() < options.frames; ++i)
-      spread.shots.push_back(std::move(sequence.shots[i * sequence.shots.size() / shots]));
-  }
-  return spread;
-}
-
 int run(const Options &options, const Console &console) {
   const MapFile map = openMapFile(options.map);
   const Vector3 centre = centreByNote({options.map + ".owner.json"}, map, options.map);
   WorstInput input;
-  input.sequence = spreadFrames(options);
+  input.sequence = readFrames(openRecording(options.recording).get(), options.frames);
   input.map = &map;
   input.centre_in_world_m = {centre.x(), centre.y(), centre.z()};
   input.config = options.config;

@@ -48,7 +48,7 @@ std::vector<Lane> lanesOf(const DeadlineInput &input) {
 std::vector<spherecloud::Localizer> localizersOf(const DeadlineInput &input, size_t count, uint32_t repeat,
                                                  ProcessorClock *clock) {
   sphc_localizer_config config = input.config;
-  setCameras(input.sequences.front().rig, &config);
+  setCameras(input.sequence.rig, &config);
   config.clock = nowOf;
   config.clock_user = clock;
   config.seed += repeat;
@@ -63,10 +63,10 @@ uint32_t halfOf(const std::vector<double> &times_us) {
   return static_cast<uint32_t>(percentile({times_us.end() - count, times_us.end()}, 0.5) / 2);
 }
 
-void process(const DeadlineInput &input, const Sequence &sequence, const Shot &shot,
-             spherecloud::Localizer *localizer, ProcessorClock *clock, Lane *lane) {
+void process(const DeadlineInput &input, const Shot &shot, spherecloud::Localizer *localizer, ProcessorClock *clock,
+             Lane *lane) {
   DeadlineRow &row = lane->row;
-  sphc_localizer_frame frame = frameOf(sequence, shot, row.frames++);
+  sphc_localizer_frame frame = frameOf(input.sequence, shot, row.frames++);
   frame.prior = nullptr;
   frame.deadline_us = row.deadline_us;
   sphc_localizer_result result = spherecloud::emptyResult();
@@ -94,19 +94,16 @@ std::vector<DeadlineRow> runDeadlines(const DeadlineInput &input,
                                       const std::function<void(uint32_t, uint32_t)> &progress) {
   std::vector<Lane> lanes = lanesOf(input);
   ProcessorClock clock;
-  uint32_t total = 0;
-  for (const Sequence &sequence : input.sequences)
-    total += input.repeats * static_cast<uint32_t>(sequence.shots.size());
+  const uint32_t total = input.repeats * static_cast<uint32_t>(input.sequence.shots.size());
   for (uint32_t repeat = 0; repeat < input.repeats; ++repeat) {
     std::vector<spherecloud::Localizer> localizers = localizersOf(input, lanes.size(), repeat, &clock);
-    for (const Sequence &sequence : input.sequences)
-      for (const Shot &shot : sequence.shots) {
-        for (size_t i = 0; i < lanes.size(); ++i) {
-          if (lanes[i].half) lanes[i].deadlines_us.push_back(lanes[i].row.deadline_us = halfOf(lanes[0].times_us));
-          process(input, sequence, shot, &localizers[i], &clock, &lanes[i]);
-        }
-        if (progress) progress(lanes[0].row.frames, total);
+    for (const Shot &shot : input.sequence.shots) {
+      for (size_t i = 0; i < lanes.size(); ++i) {
+        if (lanes[i].half) lanes[i].deadlines_us.push_back(lanes[i].row.deadline_us = halfOf(lanes[0].times_us));
+        process(input, shot, &localizers[i], &clock, &lanes[i]);
       }
+      if (progress) progress(lanes[0].row.frames, total);
+    }
   }
   std::vector<DeadlineRow> rows;
   for (Lane &lane : lanes) rows.push_back(rowOf(std::move(lane)));

@@ -13,7 +13,7 @@ namespace sphc::host {
 constexpr uint32_t kLateUs = 300;  // after its deadline a frame is late
 
 struct DeadlineInput {
-  std::vector<Sequence> sequences;  // one after another
+  Sequence sequence;
   const std::vector<MapFile> *maps = nullptr;
   std::array<double, 3> centre_in_world_m = {};
   sphc_localizer_config config = {};  // without rig and clock

@@ -30,8 +30,10 @@ struct Sequence {
 constexpr uint32_t kSequenceFrames = 30;
 
 // Frames in sequences of kSequenceFrames, `most` at most, spread evenly over the recording; frames that cannot be
-// read are left out.
+// read are left out.  Throws std::runtime_error where none can, as readFrames does.
 std::vector<Sequence> readSequences(recording::RecordingReader *reader, uint32_t most);
+// All frames, or `most` of them, spread evenly over the recording.
+Sequence readFrames(recording::RecordingReader *reader, uint32_t most = UINT32_MAX);
 // Borrows.
 sphc_localizer_frame frameOf(const Sequence &sequence, const Shot &shot, uint32_t number);
 

@@ -29,7 +29,7 @@ Contender contenderOf(const ParallelInput &input, uint32_t threads) {
   Contender made = {threads, nullptr, spherecloud::defaultConfig(), {}};
   made.config.mode = SPHC_MODE_SINGLE;
   made.config.depth_offset_sigma_m = made.config.depth_slope_sigma = 0;  // frames know nothing of each other
-  setCameras(input.sequences.front().rig, &made.config);
+  setCameras(input.sequence.rig, &made.config);
   if (threads > 1) {
     made.pool = std::make_unique<TaskThreads>(threads);
     made.config.parallel = TaskThreads::run;
@@ -77,21 +77,20 @@ std::vector<ParallelRow> runParallel(const ParallelInput &input) {
   }
   Random random(1);
   std::vector<Samples> medians(rows.size());
-  for (const Sequence &sequence : input.sequences)
-    for (const Shot &shot : sequence.shots) {
-      sphc_localizer_frame frame = frameOf(sequence, shot, rows[0].frames);
-      frame.prior = nullptr;
-      std::vector<Samples> of_frame(rows.size());
-      std::vector<sphc_localizer_result> results(rows.size());
-      for (uint32_t repeat = 0; repeat < input.repeats; ++repeat)
-        for (const size_t i : shuffledOrder(rows.size(), &random))
-          results[i] = process(frame, &contenders[i], &of_frame[i]);
-      for (size_t i = 0; i < rows.size(); ++i) {
-        ++rows[i].frames;
-        rows[i].same += std::memcmp(&results[i], &results[0], sizeof results[0]) == 0;
-        addMedians(of_frame[i], &medians[i]);
-      }
+  for (const Shot &shot : input.sequence.shots) {
+    sphc_localizer_frame frame = frameOf(input.sequence, shot, rows[0].frames);
+    frame.prior = nullptr;
+    std::vector<Samples> of_frame(rows.size());
+    std::vector<sphc_localizer_result> results(rows.size());
+    for (uint32_t repeat = 0; repeat < input.repeats; ++repeat)
+      for (const size_t i : shuffledOrder(rows.size(), &random))
+        results[i] = process(frame, &contenders[i], &of_frame[i]);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      ++rows[i].frames;
+      rows[i].same += std::memcmp(&results[i], &results[0], sizeof results[0]) == 0;
+      addMedians(of_frame[i], &medians[i]);
     }
+  }
   for (size_t i = 0; i < rows.size(); ++i)
     rows[i].times = {percentile(medians[i].total_ms, 0.5), percentile(medians[i].features_ms, 0.5),
                      percentile(medians[i].match_ms, 0.5)};

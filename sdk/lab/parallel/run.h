@@ -8,7 +8,7 @@
 namespace sphc::host {
 
 struct ParallelInput {
-  std::vector<Sequence> sequences;
+  Sequence sequence;
   const std::vector<MapFile> *maps = nullptr;
   std::vector<uint32_t> threads;
   uint32_t repeats = 1;

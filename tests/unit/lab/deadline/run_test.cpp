@@ -18,7 +18,7 @@ class DeadlineTest : public testing::Test {
   DeadlineTest() {
     sphc::test::RoomFrames room(kShots);
     input_.config = room.config;
-    input_.sequences = {room.sequence};
+    input_.sequence = room.sequence;
     input_.centre_in_world_m = room.centre_in_world_m;
     maps_.push_back(std::move(room.map));
     input_.maps = &maps_;
@@ -69,7 +69,7 @@ TEST_F(DeadlineTest, TablesSayWhatWasCounted) {
 }
 
 TEST_F(DeadlineTest, NoiseIsTheSameOfTheSameSeed) {
-  Shot a = input_.sequences[0].shots[0], b = input_.sequences[0].shots[1], c = a;
+  Shot a = input_.sequence.shots[0], b = input_.sequence.shots[1], c = a;
   makeNoise(1, &a);
   makeNoise(1, &b);
   makeNoise(2, &c);
