@@ -5,6 +5,7 @@
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "lab/cli/commands.h"
+#include "lab/cli/options.h"
 #include "lab/deadline/frames.h"
 #include "lab/deadline/table.h"
 
@@ -22,7 +23,7 @@ struct Options {
 };
 
 DeadlineInput inputOf(const Options &options, const std::vector<MapFile> &maps, const Vector3 &centre) {
-  const auto reader = openRecording(options.recording);
+  const auto reader = openRecordingWithPoses(options.recording);
   DeadlineInput input;
   input.sequence = readFrames(reader.get());
   input.maps = &maps;

@@ -27,7 +27,8 @@ std::vector<SensorFault> chosenFaults(const NegativeOptions &options) {
 }
 
 int run(const NegativeOptions &options, const Console &console) {
-  const auto reader = openRecording(options.recording);
+  const auto reader =
+      options.elsewhere ? openRecording(options.recording) : openRecordingWithPoses(options.recording);
   const std::vector<SensorFault> faults = chosenFaults(options);
   std::vector<MapFile> maps;
   maps.push_back(openMapFile(options.map));

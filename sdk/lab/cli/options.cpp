@@ -1,5 +1,7 @@
 #include "lab/cli/options.h"
 
+#include <stdexcept>
+
 #include "host/base/usage_error.h"
 #include "host/cli/common/choices.h"
 
@@ -32,6 +34,15 @@ void addOnlyOption(CLI::App *app, std::vector<std::string> *only, const std::str
       ->expected(1)
       ->take_all()
       ->type_name("NAME");
+}
+
+std::unique_ptr<RecordingReader> openRecordingWithPoses(const RecordingOptions &options) {
+  auto reader = openRecording(options);
+  for (uint32_t i = 0; i < reader->frameCount(); ++i)
+    if (reader->worldFromCamera(i)) return reader;
+  throw std::runtime_error("no frame of " + options.folder +
+                           " has a pose (groundtruth.txt, *.pose.txt), so nothing tells right from wrong; give a "
+                           "recording with poses");
 }
 
 bool isChosen(const std::vector<std::string> &only, const std::string &name) {

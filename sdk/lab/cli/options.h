@@ -2,9 +2,11 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "host/frames/recording.h"
 #include "lab/pose/bench.h"
 
 namespace sphc::host {
@@ -21,6 +23,10 @@ void addPoseRunOptions(CLI::App *app, PoseRunOptions *options, const std::string
 
 void addRepeatOption(CLI::App *app, uint32_t *repeats);
 void addOnlyOption(CLI::App *app, std::vector<std::string> *only, const std::string &what);
+
+// For what is compared with the recording's poses: throws std::runtime_error where no frame has one, and as
+// openRecording does.
+std::unique_ptr<RecordingReader> openRecordingWithPoses(const RecordingOptions &options);
 
 // With no names everything is chosen.
 bool isChosen(const std::vector<std::string> &only, const std::string &name);

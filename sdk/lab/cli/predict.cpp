@@ -4,6 +4,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/recording_options.h"
 #include "lab/cli/commands.h"
+#include "lab/cli/options.h"
 #include "lab/predict/table.h"
 
 namespace sphc::host {
@@ -19,7 +20,7 @@ int run(const PredictOptions &options, const Console &console) {
   std::vector<MapFile> maps;
   maps.push_back(openMapFile(options.map));
   const Vector3 centre = centreByNote({options.map + ".owner.json"}, maps[0], options.map);
-  const auto reader = openRecording(options.recording);
+  const auto reader = openRecordingWithPoses(options.recording);
   PredictInput input;
   input.reader = reader.get();
   input.maps = &maps;

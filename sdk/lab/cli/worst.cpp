@@ -4,6 +4,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/recording_options.h"
 #include "lab/cli/commands.h"
+#include "lab/cli/options.h"
 #include "lab/worst/table.h"
 
 namespace sphc::host {
@@ -20,7 +21,7 @@ int run(const Options &options, const Console &console) {
   const MapFile map = openMapFile(options.map);
   const Vector3 centre = centreByNote({options.map + ".owner.json"}, map, options.map);
   WorstInput input;
-  input.sequence = readFrames(openRecording(options.recording).get(), options.frames);
+  input.sequence = readFrames(openRecordingWithPoses(options.recording).get(), options.frames);
   input.map = &map;
   input.centre_in_world_m = {centre.x(), centre.y(), centre.z()};
   input.config = options.config;
