@@ -45,7 +45,6 @@ PredictRow rowOf(int64_t ahead_ns, bool odometry, const Errors &errors) {
   row.ahead_ns = ahead_ns;
   row.odometry = odometry;
   row.predictions = static_cast<uint32_t>(errors.m.size());
-  if (errors.m.empty()) return row;
   row.error_m = percentile(errors.m, 0.5), row.error_deg = percentile(errors.deg, 0.5);
   row.still_m = percentile(errors.still_m, 0.5), row.still_deg = percentile(errors.still_deg, 0.5);
   row.shift_sigmas = percentile(errors.shift_sigmas, 0.6827),

@@ -19,8 +19,6 @@ const char *nameOf(RigTof tof) {
   return "";
 }
 
-double medianOf(const std::vector<double> &values) { return values.empty() ? 0 : percentile(values, 0.5); }
-
 }  // namespace
 
 std::string rigText(const std::vector<RigRow> &rows) {
@@ -30,7 +28,8 @@ std::string rigText(const std::vector<RigRow> &rows) {
     char line[160];
     std::snprintf(line, sizeof line, "%-5s %7u  %-14s %7u %10u %6u %6u %12.1f %12.2f %9.2f\n", row.view.c_str(),
                   row.setup.cameras, nameOf(row.setup.tof), row.frames, row.localized, row.right, row.wrong,
-                  medianOf(row.errors_mm), medianOf(row.features_us) / 1e3, medianOf(row.frame_us) / 1e3);
+                  percentile(row.errors_mm, 0.5), percentile(row.features_us, 0.5) / 1e3,
+                  percentile(row.frame_us, 0.5) / 1e3);
     text += line;
   }
   return text;

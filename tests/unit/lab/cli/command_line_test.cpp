@@ -100,6 +100,26 @@ TEST(Lab, ComparesPredictionsWithTheWalk) {
   EXPECT_EQ(rows[3]["ahead_ns"], 33000000);
   EXPECT_TRUE(rows[3]["odometry"]);
   EXPECT_GT(rows[1]["last_pose_error_m"], rows[0]["last_pose_error_m"]);
+  const std::string elsewhere = folder / "elsewhere";
+  ASSERT_EQ(runCommand("simulate --seed 9 --frames 2 --rate 30 --out " + elsewhere).exit_code, kExitDone);
+  const Answer none = runLab("predict -r " + elsewhere + " --map " + (folder / "maps/map_9000.sphc") + " --json");
+  const auto first = nlohmann::json::parse(none.out)[0];
+  EXPECT_EQ(first["predictions"], 0);
+  EXPECT_TRUE(first["error_m"].is_null()) << "nothing was measured";
+}
+
+TEST(Lab, RefusesARecordingWithoutPosesWhereTheyTellRightFromWrong) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk", map = folder / "maps/map_500.sphc";
+  ASSERT_EQ(runCommand("simulate --frames 2 --rate 6 --out " + walk).exit_code, kExitDone);
+  ASSERT_EQ(runLab("map -r " + walk + " --points 500 --out " + (folder / "maps")).exit_code, kExitDone);
+  std::filesystem::remove(walk + "/groundtruth.txt");
+  for (const std::string command : {"deadline", "worst", "negative", "predict"}) {
+    const Answer answer = runLab(command + " -r " + walk + " --map " + map);
+    EXPECT_EQ(answer.exit_code, kExitFailure) << command;
+    EXPECT_THAT(answer.err, HasSubstr("no frame of " + walk + " has a pose")) << command;
+  }
+  EXPECT_EQ(runLab("negative --elsewhere -r " + walk + " --map " + map).exit_code, kExitDone);
 }
 
 }  // namespace
