@@ -122,11 +122,17 @@ void addInputOptions(CLI::App *app, CompareOptions *options) {
   app->get_option("--recording")->required(false);
   const char *group = "Queries";
   RecordingOptions &queries = options->recording.queries;
-  app->add_option("--query-first", queries.first, "First frame to localize [0]")->type_name("N")->group(group);
-  app->add_option("--query-last", queries.last, "Last frame to localize [all]")->type_name("N")->group(group);
+  app->add_option("--query-first", queries.first, "First frame to localize [0]")
+      ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX))
+      ->group(group);
+  app->add_option("--query-last", queries.last, "Last frame to localize [all]")
+      ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX))
+      ->group(group);
   app->add_option("--query-step", queries.step, "Localize every N-th frame [1]")
       ->type_name("N")
-      ->check(CLI::PositiveNumber)
+      ->transform(wholeFrom(1, UINT32_MAX))
       ->group(group);
   app->add_option("--eta", options->recording.etas, "Sphere clouds made of the recording [1 0.333]")
       ->check(between(1e-3, 1))

@@ -6,6 +6,7 @@
 #include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "lab/cli/commands.h"
@@ -101,12 +102,16 @@ void addOptions(CLI::App *app, FeaturesCommandOptions *options) {
   app->add_option("--first", options->first, "Number of its first frame [0]")
       ->expected(1)
       ->take_all()
-      ->type_name("N");
+      ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX));
   app->add_option("--last", options->last, "Number of its last frame [all]")
       ->expected(1)
       ->take_all()
-      ->type_name("N");
-  app->add_option("--step", options->step, "Take every N-th frame [1]")->type_name("N")->check(CLI::PositiveNumber);
+      ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX));
+  app->add_option("--step", options->step, "Take every N-th frame [1]")
+      ->type_name("N")
+      ->transform(wholeFrom(1, UINT32_MAX));
   addRepeatOption(app, &options->bench.repeats);
   app->add_option("--every", options->bench.every, "Frames from one pair to the next")
       ->capture_default_str()

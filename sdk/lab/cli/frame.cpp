@@ -5,6 +5,7 @@
 #include "host/base/write_file.h"
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/cli/common/recording_options.h"
 #include "host/evaluate/localize_run.h"
@@ -203,13 +204,15 @@ void addOptions(CLI::App *app, FrameOptions *options) {
   const char *group = "Peers";
   app->add_option("--mapping-first", options->mapping.first, "First frame that peers map [0]")
       ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX))
       ->group(group);
   app->add_option("--mapping-last", options->mapping.last, "Last one; needed for peers")
       ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX))
       ->group(group);
   app->add_option("--mapping-step", options->mapping.step, "Every N-th of them [1]")
       ->type_name("N")
-      ->check(CLI::PositiveNumber)
+      ->transform(wholeFrom(1, UINT32_MAX))
       ->group(group);
   app->add_flag("--no-peers", options->no_peers, "The library alone")->group(group);
   app->add_option("--python", options->python, "Python that has the packages")

@@ -8,6 +8,7 @@
 #include "host/cli/common/exit_code.h"
 #include "host/cli/common/file_use.h"
 #include "host/cli/common/import_recording.h"
+#include "host/cli/common/number_checks.h"
 #include "host/cli/common/progress.h"
 #include "host/publish/map_writer.h"
 #include "host/report/file.h"
@@ -120,13 +121,15 @@ void addOptions(CLI::App *app, MatchOptions *options) {
   app->add_option("--query-first", options->queries.first, "First frame that asks [0]")
       ->required()
       ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX))
       ->group(group);
   app->add_option("--query-last", options->queries.last, "Last frame that asks [all]")
       ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX))
       ->group(group);
   app->add_option("--query-step", options->queries.step, "Every N-th frame asks [1]")
       ->type_name("N")
-      ->check(CLI::PositiveNumber)
+      ->transform(wholeFrom(1, UINT32_MAX))
       ->group(group);
   app->add_option("--queries", options->query_count, "Keypoints that ask")
       ->capture_default_str()

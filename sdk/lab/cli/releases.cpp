@@ -78,11 +78,18 @@ Command releasesCommand(CLI::App *root) {
   app->description("Attacks on several releases of one place.\n\n" + std::string(kReleasesHelp));
   app->footer(kReleasesExample);
   addRecordingOptions(app, &options->recording);
-  app->add_option("--more-last", options->more_last, "Last frame of the update")->required()->type_name("N");
+  app->add_option("--more-last", options->more_last, "Last frame of the update")
+      ->required()
+      ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX));
   app->add_option("--other-first", options->other.first, "First of the other frames of the place")
       ->required()
-      ->type_name("N");
-  app->add_option("--other-last", options->other.last, "Last of them")->required()->type_name("N");
+      ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX));
+  app->add_option("--other-last", options->other.last, "Last of them")
+      ->required()
+      ->type_name("N")
+      ->transform(wholeFrom(0, UINT32_MAX));
   app->add_option("--strangers", options->strangers.folder, "Recording of another place")
       ->required()
       ->type_name("PATH");

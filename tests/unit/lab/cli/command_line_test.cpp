@@ -47,6 +47,19 @@ INSTANTIATE_TEST_SUITE_P(EachMistake, LabUsageTest,
                                          "pose f --depth radar", "pose f --repeat 0", "frame --recording r",
                                          "map --recording r --out o", "map --recording r --out o --points 0"));
 
+// As in names of files; CLI11 takes them for octal.
+TEST(Lab, NumbersOfFramesMayHaveZerosInFront) {
+  for (const std::string command : {"match --query-first 009 --query-last 009 --query-step 01",
+                                    "compare --query-first 009 --query-last 009 --query-step 01",
+                                    "frame --map m --mapping-first 009 --mapping-last 009 --mapping-step 01",
+                                    "features --first 009 --last 009 --step 01",
+                                    "releases --more-last 009 --other-first 009 --other-last 009 --strangers s"}) {
+    const Answer answer = runLab(command + " --recording /nonexistent");
+    EXPECT_EQ(answer.exit_code, kExitFailure) << command;
+    EXPECT_THAT(answer.err, HasSubstr("/nonexistent")) << command;
+  }
+}
+
 // Maps of wanted sizes, and the library's own variants on them.
 TEST(Lab, MakesMapsOfWantedSizesAndTimesFramesOnThem) {
   const TempFolder folder;
