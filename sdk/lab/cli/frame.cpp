@@ -15,6 +15,7 @@
 #include "lab/cli/commands.h"
 #include "lab/cli/options.h"
 #include "lab/cli/words.h"
+#include "lab/common/recording_name.h"
 #include "lab/frame/ours.h"
 #include "lab/frame/peer.h"
 #include "lab/frame/plots.h"
@@ -165,7 +166,7 @@ int run(FrameOptions options, const Console &console) {
   files.writesFolder("--out", options.out, holds(kPlotHead));
   files.check();
   const int core = pinToOneCore();
-  if (options.name.empty()) options.name = std::filesystem::path(options.recording.folder).filename().string();
+  if (options.name.empty()) options.name = recordingName(options.recording.folder).string();
   console.say(pinnedText(core, "CPU time"));
   FrameCommand command(options, console);
   const std::vector<FrameTable> tables = command.measure();

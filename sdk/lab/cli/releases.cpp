@@ -1,5 +1,3 @@
-
-#include <filesystem>
 #include <memory>
 
 #include "host/audit/score/release_audit.h"
@@ -10,6 +8,7 @@
 #include "host/cli/common/privacy_results.h"
 #include "host/report/table.h"
 #include "lab/cli/commands.h"
+#include "lab/common/recording_name.h"
 
 namespace sphc::host {
 namespace {
@@ -47,8 +46,7 @@ int run(ReleasesOptions options, const Console &console) {
   RecordingOptions more = options.recording;
   more.last = options.more_last;
   ReleaseAuditInput input;
-  input.map =
-      options.name.empty() ? std::filesystem::path(options.recording.folder).filename().string() : options.name;
+  input.map = options.name.empty() ? recordingName(options.recording.folder).string() : options.name;
   input.first = importRecording(options.recording, "mapping   ");
   input.more = importRecording(more, "10 % more ");
   input.other = importRecording(options.other, "others    ");

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <filesystem>
 
 #include "host/cli/common/import_recording.h"
 #include "host/cli/common/progress.h"
 #include "host/publish/fakes/strategy.h"
 #include "host/publish/sphere_cloud.h"
+#include "lab/common/recording_name.h"
 #include "lab/compare/input.h"
 #include "lab/pose/case.h"
 #include "lab/pose/described_frames.h"
@@ -69,8 +69,7 @@ ComparedSphere sphereOf(const CompareInput &input, const std::vector<Assignment>
 
 CompareInput recordCompareInput(const CompareRecordingOptions &options) {
   CompareInput input;
-  const std::filesystem::path path = options.mapping.folder;
-  input.name = (path.has_filename() ? path : path.parent_path()).stem().string();
+  input.name = recordingName(options.mapping.folder).stem().string();
   const PointModel model = importRecording(options.mapping, "mapping   ");
   const Vector3 centre_m = centreOf(model.points);
   input.points_m = pointsAbout(centre_m, model);

@@ -70,13 +70,14 @@ TEST(Lab, MakesMapsOfWantedSizesAndTimesFramesOnThem) {
   ASSERT_EQ(made.exit_code, kExitDone) << made.err;
   EXPECT_EQ(nlohmann::json::parse(made.out)["maps"][0]["own_points"], 500);
   EXPECT_LT(nlohmann::json::parse(made.out)["maps"][1]["own_points"], 9000);
-  const std::string frame = "frame -r " + walk + " --first 1 --step 2 --repeat 1 --no-peers --map ";
+  const std::string frame = "frame -r " + walk + "/ --first 1 --step 2 --repeat 1 --no-peers --map ";
   const Answer timed = runLab(frame + (folder / "maps/map_500.sphc") + " --map " + (folder / "maps/map_9000.sphc") +
                               " --results " + (folder / "frame.csv") + " --json");
   ASSERT_EQ(timed.exit_code, kExitDone) << timed.err;
   const auto tables = nlohmann::json::parse(timed.out)["tables"];
   ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[1]["points"], 9000);
+  EXPECT_EQ(tables[1]["recording"], "walk");
   for (const auto &variant : tables[1]["variants"]) {
     EXPECT_EQ(variant["frames"], 3);
     EXPECT_EQ(variant["within_5cm_5deg_percent"], 100) << variant["variant"];
