@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "host/base/checked_call.h"
 #include "host/base/usage_error.h"
@@ -46,6 +47,13 @@ const char *modelName(sphc_camera_model model) {
 std::string describeCamera(const sphc_camera &camera) {
   return std::to_string(camera.width) + " x " + std::to_string(camera.height) + ", " + modelName(camera.model) +
          ", f " + fixed(camera.params[0], 1) + " px";
+}
+
+// All its digits: 1e-5 is not 0.
+std::string numberText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
 }
 
 // One sigma of a 3-vector's length, from its block of the covariance.
@@ -159,20 +167,21 @@ std::vector<Setting> describeConfig(const sphc_localizer_config &config, const P
           {"color_band", bandName(config.color_band)},
           {"seed", std::to_string(config.seed)},
           {"max_keypoints", std::to_string(config.max_keypoints)},
-          {"max_ratio", fixed(parameters.max_ratio, 3)},
-          {"max_iterations", fixed(parameters.max_iterations, 0)},
-          {"min_inliers", fixed(parameters.min_inliers, 0)},
-          {"probes", fixed(parameters.probes, 0)},
-          {"depth_min_m", fixed(config.depth_min_m, 3)},
-          {"depth_max_m", fixed(config.depth_max_m, 3)},
-          {"depth_unit_m", fixed(config.rig.depth_unit_m, 6)},
-          {"depth_sigma_m", fixed(config.depth_sigma_m, 4)},
-          {"depth_sigma_per_m2", fixed(config.depth_sigma_per_m2, 4)},
+          {"max_ratio", numberText(parameters.max_ratio)},
+          {"max_iterations", numberText(parameters.max_iterations)},
+          {"min_inliers", numberText(parameters.min_inliers)},
+          {"probes", numberText(parameters.probes)},
+          {"depth_min_m", numberText(config.depth_min_m)},
+          {"depth_max_m", numberText(config.depth_max_m)},
+          {"depth_unit_m", numberText(config.rig.depth_unit_m)},
+          {"depth_sigma_m", numberText(config.depth_sigma_m)},
+          {"depth_sigma_per_m2", numberText(config.depth_sigma_per_m2)},
           {"amplitude_min", std::to_string(config.amplitude_min)},
-          {"pixel_sigma_px", fixed(config.pixel_sigma_px, 2)},
-          {"map_sigma_m", fixed(config.map_sigma_m, 4)},
-          {"depth_offset_sigma_m", fixed(config.depth_offset_sigma_m, 4)},
-          {"depth_slope_sigma", fixed(config.depth_slope_sigma, 4)},
+          {"pixel_sigma_px", numberText(config.pixel_sigma_px)},
+          {"map_sigma_m", numberText(config.map_sigma_m)},
+          {"depth_mid_m", numberText(config.depth_mid_m)},
+          {"depth_offset_sigma_m", numberText(config.depth_offset_sigma_m)},
+          {"depth_slope_sigma", numberText(config.depth_slope_sigma)},
           {"mode", config.mode == SPHC_MODE_TRACKING ? "tracking" : "single"}};
 }
 
