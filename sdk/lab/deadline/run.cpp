@@ -11,8 +11,6 @@
 namespace sphc::host {
 namespace {
 
-constexpr double kRightM = 0.05, kRightDeg = 5;
-
 int64_t nowOf(void *clock) { return static_cast<ProcessorClock *>(clock)->now_ns(); }
 
 void count(const DeadlineInput &input, const Shot &shot, const sphc_localizer_result &result, DeadlineRow *row) {
@@ -22,8 +20,8 @@ void count(const DeadlineInput &input, const Shot &shot, const sphc_localizer_re
   row->verification_cut += (result.cuts & SPHC_CUT_VERIFICATION) != 0;
   if (result.outcome != SPHC_OUTCOME_LOCALIZED || !shot.world_from_camera) return;
   const PoseError error = errorOf(result.camera_from_map, input.centre_in_world_m, *shot.world_from_camera);
-  row->right += error.translation_m <= kRightM && error.rotation_deg <= kRightDeg;
-  row->wrong += error.translation_m > kWrongM || error.rotation_deg > kWrongDeg;
+  row->right += isGood(error);
+  row->wrong += isWrong(error);
 }
 
 // One deadline, and what came of the frames under it.

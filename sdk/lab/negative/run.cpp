@@ -4,19 +4,24 @@
 #include <cmath>
 
 #include "host/evaluate/localize_run.h"
+#include "host/report/statistics.h"
 
 namespace sphc::host {
 
 PoseError errorOf(const sphc_rigid &camera_from_map, const std::array<double, 3> &centre_in_world_m,
                   const sphc_rigid &truth_world_from_camera) {
-  sphc_rigid world_from_camera = spherecloud::inverse(camera_from_map), off;
+  sphc_rigid world_from_camera = spherecloud::inverse(camera_from_map);
   for (size_t i = 0; i < 3; ++i) world_from_camera.t_m[i] += centre_in_world_m[i];
-  double apart2 = 0;
-  for (size_t i = 0; i < 3; ++i) apart2 += std::pow(world_from_camera.t_m[i] - truth_world_from_camera.t_m[i], 2);
-  const sphc_rigid truth = spherecloud::inverse(truth_world_from_camera);
-  sphc_rigid_compose(&truth, &world_from_camera, &off);
-  const double *q = off.q_wxyz;
-  return {std::sqrt(apart2), 2 * std::atan2(std::hypot(q[1], q[2], q[3]), std::abs(q[0])) * 180 / M_PI};
+  return {translationErrorM(world_from_camera, truth_world_from_camera),
+          rotationErrorDeg(world_from_camera, truth_world_from_camera)};
+}
+
+bool isGood(const PoseError &error) {
+  return error.translation_m <= kGoodTranslationM && error.rotation_deg <= kGoodRotationDeg;
+}
+
+bool isWrong(const PoseError &error) {
+  return error.translation_m > kWrongTranslationM || error.rotation_deg > kWrongRotationDeg;
 }
 
 namespace {
@@ -69,7 +74,7 @@ class FaultRun {
       if (!shot.world_from_camera) return;
       error = errorOf(result.camera_from_map, input_.centre_in_world_m, *shot.world_from_camera);
     }
-    if (error.translation_m <= kWrongM && error.rotation_deg <= kWrongDeg) return;
+    if (!isWrong(error)) return;
     ++row_.wrong;
     if (!(result.confidence > kSureConfidence)) return;
     ++row_.wrong_sure;

@@ -8,7 +8,6 @@
 
 namespace sphc::host {
 
-constexpr double kWrongM = 0.25, kWrongDeg = 10;  // beyond either a pose is wrong
 constexpr double kSureConfidence = 0.5;
 
 struct PoseError {
@@ -16,6 +15,9 @@ struct PoseError {
 };
 PoseError errorOf(const sphc_rigid &camera_from_map, const std::array<double, 3> &centre_in_world_m,
                   const sphc_rigid &truth_world_from_camera);
+// By the bounds of host/report/statistics.h.
+bool isGood(const PoseError &error);
+bool isWrong(const PoseError &error);
 
 struct NegativeRow {
   std::string fault, mode;

@@ -5,13 +5,12 @@
 #include <stdexcept>
 
 #include "host/evaluate/localize_run.h"
+#include "host/report/statistics.h"
 #include "lab/common/pose_error.h"
 
 namespace sphc::host {
 namespace {
 
-// Right is what is nearer, wrong what is farther.
-constexpr double kRightM = 0.05, kRightRad = 5 * M_PI / 180, kWrongM = 0.25, kWrongRad = 10 * M_PI / 180;
 constexpr uint32_t kHeadings = 16;
 const RigSetup kSetups[] = {{1, RigTof::kWide}, {2, RigTof::kWide},  {3, RigTof::kWide},
                             {4, RigTof::kWide}, {4, RigTof::kAhead}, {4, RigTof::kAheadAndLeft}};
@@ -58,10 +57,10 @@ void judge(const sphc_localizer_result &result, const Rigid &truth, RigRow *row)
   row->frame_us.push_back(result.features_us + result.align_us + result.match_us + result.pose_us);
   if (result.outcome != SPHC_OUTCOME_LOCALIZED) return;
   const Rigid found = rigidFromC(result.camera_from_map);
-  const double shift_m = shiftM(found, truth), turn_rad = turnRad(found, truth);
+  const double shift_m = shiftM(found, truth), turn_deg = turnRad(found, truth) * 180 / M_PI;
   ++row->localized;
-  row->right += shift_m < kRightM && turn_rad < kRightRad;
-  row->wrong += shift_m > kWrongM || turn_rad > kWrongRad;
+  row->right += shift_m <= kGoodTranslationM && turn_deg <= kGoodRotationDeg;
+  row->wrong += shift_m > kWrongTranslationM || turn_deg > kWrongRotationDeg;
   row->errors_mm.push_back(1000 * shift_m);
 }
 

@@ -70,7 +70,7 @@ void count(const WorstInput &input, const Shot &shot, const sphc_localizer_resul
   ++row->localized;
   if (!shot.world_from_camera) return;
   const PoseError error = errorOf(result.camera_from_map, input.centre_in_world_m, *shot.world_from_camera);
-  row->wrong += error.translation_m > kWrongM || error.rotation_deg > kWrongDeg;
+  row->wrong += isWrong(error);
 }
 
 void measureMemory(Contender *contender, WorstRow *row) {
