@@ -1,4 +1,4 @@
-
+// spherecloud-lab align: depth alignment beside its peers.
 #include <memory>
 
 #include "host/base/checked_call.h"

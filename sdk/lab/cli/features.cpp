@@ -1,4 +1,4 @@
-
+// spherecloud-lab features: keypoint extractors on the frames of a recording.
 #include <filesystem>
 #include <memory>
 

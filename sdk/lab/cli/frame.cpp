@@ -1,4 +1,4 @@
-
+// spherecloud-lab frame: whole frames, ours beside package peers.
 #include <filesystem>
 #include <memory>
 

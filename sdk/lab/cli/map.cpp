@@ -1,4 +1,4 @@
-
+// spherecloud-lab map: maps of wanted sizes, to measure with.
 #include <iterator>
 #include <memory>
 

@@ -1,4 +1,4 @@
-
+// spherecloud-lab match: matchers of descriptors on maps of growing size.
 #include <algorithm>
 #include <chrono>
 #include <cstring>

@@ -1,4 +1,4 @@
-
+// spherecloud-lab recording: depth codecs side by side, and the cost of the recorder.
 #include <filesystem>
 #include <memory>
 

@@ -1,3 +1,4 @@
+// spherecloud-lab releases: attacks on several releases of one place.
 #include <memory>
 
 #include "host/audit/score/release_audit.h"
