@@ -18,14 +18,18 @@ struct Block {
   uint32_t first_sequence, last_sequence;  // numbers of the recording
 };
 
+// Of the frames that have a pose: a block that had all of them would leave none for the map.
 std::vector<Block> blocksOf(const RecordingReader &reader, uint32_t folds) {
-  const uint32_t count = reader.frameCount();
+  std::vector<uint32_t> posed;
+  for (uint32_t i = 0; i < reader.frameCount(); ++i)
+    if (reader.worldFromCamera(i)) posed.push_back(i);
+  const size_t count = posed.size();
   if (count < 2 * folds)
-    throw std::runtime_error("the recording has " + counted(count, "frame") + ", too few for " +
-                             std::to_string(folds) + " folds of two; record more, or give --folds");
+    throw std::runtime_error("the recording has " + counted(count, "frame") + " with a pose, too few for " +
+                             std::to_string(folds) + " folds of two; record more, or give fewer --folds");
   std::vector<Block> blocks;
-  for (uint32_t k = 0; k < folds; ++k) {
-    const uint32_t first = k * count / folds, last = (k + 1) * count / folds - 1;
+  for (size_t k = 0; k < folds; ++k) {
+    const uint32_t first = posed[k * count / folds], last = posed[(k + 1) * count / folds - 1];
     blocks.push_back({first, last, reader.colorOf(first).sequence, reader.colorOf(last).sequence});
   }
   return blocks;
@@ -110,11 +114,11 @@ void addFailures(const std::vector<FrameRecord> &frames, std::vector<Failure> *f
 Advice advise(RecordingReader *reader, const AdviceOptions &options,
               const std::function<void(const RgbdImportSummary &all)> &mapped,
               const std::function<void(uint32_t done, uint32_t total)> &progress) {
-  const std::vector<Block> blocks = blocksOf(*reader, options.folds);
   Advice advice;
   RgbdImportSummary summary;
   const PointModel whole = importRgbd({{reader}}, options.import, nullptr, &summary);
   mapped(summary);
+  const std::vector<Block> blocks = blocksOf(*reader, options.folds);
   advice.left_out = framesLeftOut(summary);
   advice.points = whole.points.size();
   advice.directions = directionsOf(whole);

@@ -383,6 +383,22 @@ TEST(Advise, DoesNotEndAtABlockThatCannotBeRead) {
   EXPECT_EQ(nlohmann::json::parse(advice.out)["recall"][0]["frames"], 4);
 }
 
+// As where tracking was lost: with blocks of all frames, the first had all that a map is made of.
+TEST(Advise, HoldsOutFramesWithAPose) {
+  const TempFolder folder;
+  const std::string walk = folder / "walk";
+  ASSERT_EQ(runCommand("simulate --frames 8 --rate 6 --out " + walk).exit_code, kExitDone);
+  std::istringstream poses(fileText(walk + "/groundtruth.txt"));
+  std::string line, kept;
+  for (int i = 0; i < 5 && std::getline(poses, line); ++i) kept += line + "\n";  // the heading and four
+  std::ofstream(walk + "/groundtruth.txt") << kept;
+  const Answer advice = runCommand("advise --json --folds 2 -r " + walk);
+  ASSERT_EQ(advice.exit_code, kExitDone) << advice.err;
+  EXPECT_EQ(nlohmann::json::parse(advice.out)["recall"][0]["frames"], 4);
+  EXPECT_THAT(runCommand("advise --folds 3 -r " + walk).err,
+              HasSubstr("4 frames with a pose, too few for 3 folds"));
+}
+
 TEST(Advise, SaysThatNoFrameWouldBeLocalized) {
   const TempFolder folder;
   const std::string walk = folder / "walk";
