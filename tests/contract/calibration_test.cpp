@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "file_size_limit.h"
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -49,7 +49,7 @@ Parsed parse(const std::string &text) {
 }
 
 TEST(Calibration, AFullDiskLeavesTheOldFile) {
-  const TempFolder temp;
+  const test::TempFolder temp;
   const std::string path = temp / "rig.json";
   sphc_rig rig = tinyCalibration();
   ASSERT_EQ(sphc_calibration_write(path.c_str(), &rig, nullptr), SPHC_OK);
@@ -182,7 +182,7 @@ TEST(Calibration, RefusesWhatIsNestedDeeply) {
 }
 
 TEST(Calibration, ExplainsAFileThatIsNotThere) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   sphc_rig calibration;
   sphc_rig_init(&calibration);
   sphc_message message{};
@@ -193,7 +193,7 @@ TEST(Calibration, ExplainsAFileThatIsNotThere) {
 }
 
 TEST(Calibration, RefusesWhatIsNoRegularFile) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   sphc_rig calibration;
   sphc_rig_init(&calibration);
   sphc_message message{};
@@ -217,7 +217,7 @@ TEST(Calibration, ShortensALongPathInMessages) {
 }
 
 TEST(Calibration, ReadsBackTheSameBits) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const sphc_rig written = tinyCalibration();
   sphc_message message{};
   ASSERT_EQ(sphc_calibration_write((folder / "c.json").c_str(), &written, &message), SPHC_OK) << message.text;
@@ -228,7 +228,7 @@ TEST(Calibration, ReadsBackTheSameBits) {
 }
 
 TEST(Calibration, RefusesToWriteWhatItWouldNotRead) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   sphc_rig calibration = tinyCalibration();
   calibration.depth_camera.params[8] = std::numeric_limits<double>::quiet_NaN();
   sphc_message message{};

@@ -3,8 +3,8 @@
 #include "drivers.h"
 #include "drivers/openni2/openni2.h"
 #include "openni2/oni_file.h"
-#include "temp_folder.h"
 #include "tests/support/openni2/virtual_tof.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::contract {
 
@@ -40,7 +40,7 @@ class RunningCamera {
 class RecordingCopy {
  public:
   RecordingCopy() {
-    static const TempFolder folder;
+    static const test::TempFolder folder;
     static const std::string original = folder / "original.oni";
     if (!std::filesystem::exists(original)) writeOniFile(original, false);
     const std::string copy = folder_ / "copy.oni";
@@ -53,7 +53,7 @@ class RecordingCopy {
   sphc_openni2 *get() { return camera_; }
 
  private:
-  TempFolder folder_;
+  test::TempFolder folder_;
   sphc_openni2 *camera_ = nullptr;
 };
 

@@ -1,5 +1,5 @@
 #include "drivers.h"
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_mcap.h"
 
 namespace sphc::contract {
@@ -19,7 +19,7 @@ struct ReplayOfTempFolder {
     config.mode = mode;
     replay = std::make_unique<OpenReplay>(path, nullptr, &config);
   }
-  TempFolder folder;
+  test::TempFolder folder;
   std::unique_ptr<OpenReplay> replay;
 };
 

@@ -9,9 +9,9 @@
 #include "host/recording/failure.h"
 #include "host/recording/recording_reader.h"
 #include "host/recording/writer_raw.h"
-#include "temp_folder.h"
 #include "tests/support/session.h"
 #include "tests/support/spoiled_rigs.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_mcap.h"
 
 namespace sphc::contract {
@@ -85,7 +85,7 @@ class RawRecording : public ::testing::Test {
     medium_.bytes = folder_.read("walk.raw");
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
   Medium medium_;
 };
 
@@ -318,7 +318,7 @@ TEST_F(RawRecording, AFullDiskAtItsBeginningLeavesNothing) {
 
 // A frame from the raw recording gives the pose that the same frame from the replay driver gives, to the bit.
 TEST(RawRecordingPoses, AreThoseOfTheReplay) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const sphc_localizer_config config = test::sceneConfig();
   sphc_recording_writer *writer = nullptr;
   sphc_message message = {};

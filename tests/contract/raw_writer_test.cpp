@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "drivers/raw/raw.h"
-#include "temp_folder.h"
 #include "tests/support/spoiled_rigs.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -122,7 +122,7 @@ TEST_F(RawWriterOfDevices, WritesGreyForTheWorkstation) {
     ASSERT_EQ(add(frame), SPHC_OK) << message_.text;
   }
   ASSERT_EQ(finish(), SPHC_OK);
-  const TempFolder folder;
+  const test::TempFolder folder;
   folder.write("walk.raw", storage_.bytes);
   sphc_replay_config config = replayConfig();
   config.color_format = SPHC_FORMAT_GRAY8;

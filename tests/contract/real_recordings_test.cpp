@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -84,7 +84,7 @@ constexpr const char *kHeadset = R"({"format": "spherecloud-calibration", "versi
 
 TEST(RealRecordings, KinectIn7ScenesLayout) {
   FIND_RECORDING(folder, "redkitchen/seq-01");
-  const TempFolder temp;
+  const test::TempFolder temp;
   temp.write("rig.json", kKinect);
   sphc_replay_config config = replayConfig();
   config.first = 620;
@@ -102,7 +102,7 @@ TEST(RealRecordings, KinectIn7ScenesLayout) {
 
 TEST(RealRecordings, KinectPoseIsThatOfTheFile) {
   FIND_RECORDING(folder, "redkitchen/seq-01");
-  const TempFolder temp;
+  const test::TempFolder temp;
   temp.write("rig.json", kKinect);
   sphc_replay_config config = replayConfig();
   config.first = config.last = 150;
@@ -116,7 +116,7 @@ TEST(RealRecordings, KinectPoseIsThatOfTheFile) {
 
 TEST(RealRecordings, HeadsetInTumLayout) {
   FIND_RECORDING(folder, "hololens");
-  const TempFolder temp;
+  const test::TempFolder temp;
   temp.write("rig.json", kHeadset);
   const OpenReplay replay(folder.string(), (temp / "rig.json").c_str());
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();
@@ -141,7 +141,7 @@ TEST(RealRecordings, HeadsetInTumLayout) {
 
 TEST(RealRecordings, CalibrationOfAnotherIsRefused) {
   FIND_RECORDING(folder, "hololens");
-  const TempFolder temp;
+  const test::TempFolder temp;
   temp.write("rig.json", kKinect);
   const OpenReplay replay(folder.string(), (temp / "rig.json").c_str());
   ASSERT_EQ(replay.status(), SPHC_OK);

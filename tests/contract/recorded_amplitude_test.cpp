@@ -6,7 +6,7 @@
 
 #include "host/recording/mcap/writer.h"
 #include "host/recording/recorder.h"
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_mcap.h"
 
 namespace sphc::contract {
@@ -68,7 +68,7 @@ class RecordedAmplitude : public ::testing::Test {
     return status;
   }
 
-  TempFolder temp_;
+  test::TempFolder temp_;
   sphc_recorder_config config_ = recorderConfig();
   bool has_amplitude_ = false;
 };

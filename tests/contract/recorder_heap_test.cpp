@@ -6,7 +6,7 @@
 #include <new>
 #include <thread>
 
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_mcap.h"
 
 namespace {
@@ -38,7 +38,7 @@ void waitUntilWritten(const sphc_recorder *recorder, uint64_t count) {
 
 TEST(RecorderHeap, TakesNothingAfterTheFirstCaptures) {
   for (const sphc_depth_codec codec : {SPHC_DEPTH_RAW, SPHC_DEPTH_RVL, SPHC_DEPTH_ZSTD}) {
-    const TempFolder folder;
+    const test::TempFolder folder;
     sphc_recorder_config config = recorderConfig();
     config.depth_codec = codec;
     config.sync_ms = 10;

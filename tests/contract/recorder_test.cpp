@@ -11,7 +11,7 @@
 
 #include "file_size_limit.h"
 #include "host/recording/recording_encoder.h"
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_mcap.h"
 
 namespace sphc::contract {
@@ -58,7 +58,7 @@ class Recorder : public ::testing::Test {
  protected:
   std::string file() const { return temp_ / "walk.mcap"; }
 
-  TempFolder temp_;
+  test::TempFolder temp_;
   sphc_recorder_config config_ = recorderConfig();
 };
 

@@ -9,7 +9,7 @@
 #include "host/recording/failure.h"
 #include "host/recording/recording.h"
 #include "host/recording/writer_7scenes.h"
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -49,7 +49,7 @@ class SevenScenes : public ::testing::Test {
     return OpenReplay(folder_.path().string(), nullptr, config);
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(SevenScenes, TakesNumberAndTimeFromTheFileName) {

@@ -3,9 +3,9 @@
 #include <sys/stat.h>
 
 #include "host/recording/calibration_json.h"
-#include "temp_folder.h"
 #include "tests/support/nobody.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -28,7 +28,7 @@ class Tum : public ::testing::Test {
     EXPECT_THAT(replay.message(), HasSubstr(text));
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(Tum, KeepsEveryNanosecond) {
@@ -188,7 +188,7 @@ TEST_F(Tum, NamesTheUnitOfTimesThatAreNotInSeconds) {
 }
 
 TEST_F(Tum, ReadsNothingOutsideItsFolder) {
-  const TempFolder elsewhere;
+  const test::TempFolder elsewhere;
   std::filesystem::copy(folder_ / "rgb/000000.png", elsewhere / "secret.png");
   std::filesystem::create_directory_symlink(elsewhere.path(), folder_ / "way");
   std::filesystem::create_symlink(elsewhere / "secret.png", folder_ / "rgb/link.png");

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -33,14 +33,14 @@ class RecordingWriter : public ::testing::Test {
     return sphc_recording_add_frame(writer_, &frame, &message_);
   }
 
-  TempFolder temp_;
+  test::TempFolder temp_;
   sphc_recording_writer *writer_ = nullptr;
   sphc_message message_ = {};
   TinyImages images_{0};
 };
 
 TEST_F(RecordingWriter, WritesWhatReplayReadsBackBitForBit) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyRecording(folder.path().string(), 3);
   const OpenReplay replay(folder.path().string());
   ASSERT_EQ(replay.status(), SPHC_OK) << replay.message();

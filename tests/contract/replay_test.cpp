@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "temp_folder.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 class Replay : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    temp_ = new TempFolder;
+    temp_ = new test::TempFolder;
     writeTinyRecording(temp_->path().string(), 4);
   }
   static void TearDownTestSuite() {
@@ -29,10 +29,10 @@ class Replay : public ::testing::Test {
   }
   static std::string folder() { return temp_->path().string(); }
 
-  static TempFolder *temp_;
+  static test::TempFolder *temp_;
   sphc_replay_config config_ = replayConfig();
 };
-TempFolder *Replay::temp_ = nullptr;
+test::TempFolder *Replay::temp_ = nullptr;
 
 TEST_F(Replay, RefusesABadConfig) {
   const auto refusal = [&](auto change) {
@@ -57,7 +57,7 @@ TEST_F(Replay, RefusesABadConfig) {
 }
 
 TEST_F(Replay, RefusesAFolderWithoutARecording) {
-  const TempFolder empty;
+  const test::TempFolder empty;
   const OpenReplay replay(empty.path().string());
   EXPECT_EQ(replay.status(), SPHC_E_DEVICE);
   EXPECT_THAT(replay.message(), AllOf(HasSubstr("rgb.txt"), HasSubstr("frame-000000.color.png")));
@@ -144,7 +144,7 @@ TEST_F(Replay, KeepsTheRecordedPaceInRealTime) {
 }
 
 TEST_F(Replay, SaysAgainUntilTheTimeHasCome) {
-  const TempFolder slow;
+  const test::TempFolder slow;
   writeTinyRecording(slow.path().string(), 2);
   slow.write("rgb.txt", "10.0 rgb/000000.png\n1000.0 rgb/000001.png\n");
   slow.write("depth.txt", "10.0 depth/000000.png\n");

@@ -9,8 +9,8 @@
 #include "host/recording/recorder.h"
 #include "host/recording/recording_writer.h"
 #include "host/recording/writer_raw.h"
-#include "temp_folder.h"
 #include "tests/support/spoiled_rigs.h"
+#include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
 namespace sphc::contract {
@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 void refusesSpoiledRigs(
     const std::function<sphc_status(const std::string &path, const sphc_rig &rig, sphc_message *message)> &write) {
   for (const SpoiledRig &spoiled : test::spoiledRigs()) {
-    const TempFolder folder;
+    const test::TempFolder folder;
     sphc_rig rig = tinyCalibration();
     spoiled.spoil(&rig);
     sphc_message message = {};

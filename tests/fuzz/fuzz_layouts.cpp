@@ -4,10 +4,10 @@
 #include <string>
 
 #include "drivers/replay/replay.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/fuzz/recording_seeds.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/hl2ss.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::fuzz {
 namespace {
@@ -25,7 +25,7 @@ std::string takeFile(std::string *rest) {
   return file;
 }
 
-void openFolder(const contract::TempFolder &folder, bool has_images = false) {
+void openFolder(const test::TempFolder &folder, bool has_images = false) {
   sphc_replay *replay = nullptr;
   sphc_message message = {};
   const sphc_status status = sphc_replay_open(folder.path().c_str(), nullptr, nullptr, &replay, &message);
@@ -43,7 +43,7 @@ void openFolder(const contract::TempFolder &folder, bool has_images = false) {
 }
 
 // The calibration of a recording of hl2ss: a pinhole camera's rays.
-void writeHl2ssCalibration(const contract::TempFolder &folder) {
+void writeHl2ssCalibration(const test::TempFolder &folder) {
   const auto write = [&](const char *name, const std::vector<float> &values) {
     folder.write(std::string("rm_depth_longthrow/") + name,
                  {reinterpret_cast<const char *>(values.data()), values.size() * sizeof(float)});
@@ -77,7 +77,7 @@ std::string hl2ssDepth() {
 }  // namespace
 
 void tum(const uint8_t *data, size_t bytes) {
-  static const contract::TempFolder folder;
+  static const test::TempFolder folder;
   std::string rest(data, data + bytes);
   folder.write("calibration.json", kCalibration);
   for (const char *name : {"rgb.txt", "depth.txt", "groundtruth.txt"}) folder.write(name, takeFile(&rest));
@@ -92,7 +92,7 @@ std::vector<std::vector<uint8_t>> tumSeeds() {
 }
 
 void sevenScenes(const uint8_t *data, size_t bytes) {
-  static const contract::TempFolder folder;
+  static const test::TempFolder folder;
   std::string rest(data, data + bytes);
   folder.write("calibration.json", kCalibration);
   for (const char *name : {"frame-000000", "frame-000001"}) {
@@ -111,7 +111,7 @@ std::vector<std::vector<uint8_t>> sevenScenesSeeds() {
 
 void hl2ssFolder(const uint8_t *data, size_t bytes) {
   if (bytes == 0) return;
-  static const contract::TempFolder folder;
+  static const test::TempFolder folder;
   static const std::string color = hl2ssColor(255), depth = hl2ssDepth();
   if (!std::filesystem::exists(folder.path() / "rm_depth_longthrow")) writeHl2ssCalibration(folder);
   const std::string file(data + 1, data + bytes);

@@ -1,16 +1,12 @@
 #include "tests/fuzz/recording_seeds.h"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "host/recording/encoded_image.h"
 #include "host/recording/mcap/depth_rvl.h"
 #include "host/recording/mcap/depth_zstd.h"
 #include "host/recording/mcap/messages.h"
 #include "host/recording/recorder.h"
 #include "host/recording/writer_raw.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::fuzz {
 namespace {
@@ -39,34 +35,20 @@ sphc_rig smallCalibration() {
   return calibration;
 }
 
-// A file that goes with its object, its name free.
-class SeedFile {
- public:
-  SeedFile() : folder_((std::filesystem::temp_directory_path() / "sphc_XXXXXX").string()) {
-    if (!mkdtemp(folder_.data())) broken("there is a temporary folder");
-  }
-  ~SeedFile() { std::filesystem::remove_all(folder_); }
-  SeedFile(const SeedFile &) = delete;
-  SeedFile &operator=(const SeedFile &) = delete;
-  std::string path() const { return folder_ + "/seed"; }
-  std::vector<uint8_t> bytes() const {
-    std::ifstream stream(path(), std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  }
-
- private:
-  std::string folder_;
-};
+std::vector<uint8_t> seedIn(const test::TempFolder &folder) {
+  const std::string text = folder.read("seed");
+  return {text.begin(), text.end()};
+}
 
 std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality) {
-  const SeedFile file;
+  const test::TempFolder folder;
   const sphc_rig calibration = smallCalibration();
   sphc_recorder_config config;
   sphc_recorder_config_init(&config, sizeof config);
   config.depth_codec = codec;
   config.jpeg_quality = jpeg_quality;
   sphc_recorder *recorder = nullptr;
-  sphc_recorder_open(file.path().c_str(), &calibration, &config, &recorder, nullptr);
+  sphc_recorder_open((folder / "seed").c_str(), &calibration, &config, &recorder, nullptr);
   const std::vector<uint16_t> depth = depthPixels();
   const std::vector<uint8_t> color = colorPixels();
   for (uint32_t i = 0; i < 6; ++i) {
@@ -85,7 +67,7 @@ std::vector<uint8_t> recordedFile(sphc_depth_codec codec, uint32_t jpeg_quality)
     sphc_recorder_add_acceleration(recorder, 1000 + 10 * i, felt_mps2, nullptr);
   }
   sphc_recorder_close(&recorder, nullptr);
-  return file.bytes();
+  return seedIn(folder);
 }
 
 // By the list of kinds in fuzz_recording.cpp.
@@ -103,10 +85,10 @@ std::vector<std::vector<uint8_t>> recordingSeeds() {
 }
 
 std::vector<std::vector<uint8_t>> rawRecordingSeeds() {
-  const SeedFile file;
+  const test::TempFolder folder;
   const std::vector<uint16_t> depth = depthPixels();
   const std::vector<uint8_t> color = colorPixels();
-  recording::RawWriter writer(file.path(), smallCalibration(), SPHC_FORMAT_BGR8);
+  recording::RawWriter writer(folder / "seed", smallCalibration(), SPHC_FORMAT_BGR8);
   for (uint32_t i = 0; i < 2; ++i) {
     sphc_localizer_frame frame = {};
     frame.struct_size = sizeof frame;
@@ -119,7 +101,7 @@ std::vector<std::vector<uint8_t>> rawRecordingSeeds() {
     writer.add(frame, i ? &pose : nullptr);
   }
   writer.finish();
-  std::vector<uint8_t> as_it_is = file.bytes(), repaired = as_it_is;
+  std::vector<uint8_t> as_it_is = seedIn(folder), repaired = as_it_is;
   as_it_is.insert(as_it_is.begin(), uint8_t{1});
   repaired.insert(repaired.begin(), uint8_t{0});
   return {as_it_is, repaired};

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -18,12 +16,9 @@
 #include "tests/unit/host/calibration/golden_files.h"
 #endif
 #ifdef SPHC_FUZZ_COLMAP
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "host/import/model_file.h"
 #include "tests/support/made_up_model.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/import/tiny_colmap.h"
 #endif
 
@@ -144,12 +139,9 @@ std::vector<std::vector<uint8_t>> foreignSeeds() {
 
 #ifdef SPHC_FUZZ_COLMAP
 std::vector<uint8_t> databaseSeed(test::Schema schema) {
-  const std::string path = std::filesystem::temp_directory_path() / ("seed" + std::to_string(getpid()) + ".db");
-  test::writeColmapDatabase(path, test::tinyColmapModel(1), schema);
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  std::filesystem::remove(path);
-  return bytes;
+  const test::TempFolder folder;
+  test::writeColmapDatabase(folder / "seed.db", test::tinyColmapModel(1), schema);
+  return bytesOf(folder.read("seed.db"));
 }
 #endif
 

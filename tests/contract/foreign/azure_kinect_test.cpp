@@ -6,9 +6,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/recording/recording_reader.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/matroska.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/calibration/golden_files.h"
 
 namespace sphc::contract {
@@ -112,7 +112,7 @@ class AzureKinect : public ::testing::Test {
   }
 
   KinectFile file_;
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 void expectKinectFrames(RecordingReader &reader) {

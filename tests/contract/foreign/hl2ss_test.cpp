@@ -7,9 +7,9 @@
 
 #include "host/recording/calibration_json.h"
 #include "host/recording/recording_reader.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/hl2ss.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 #ifdef SPHC_TEST_LIBAVCODEC
 #include "tests/support/packet_encoder.h"
 #endif
@@ -159,7 +159,7 @@ class Hl2ss : public ::testing::Test {
     EXPECT_GT(seen, kThrowPx * 19 / 20) << "all but those whose rays are not told";
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(Hl2ss, ImagesAndTimes) {

@@ -13,9 +13,9 @@
 #include "host/recording/foreign/lzfse_bytes.h"
 #include "host/recording/foreign/record3d_metadata.h"
 #include "host/recording/recording_reader.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/lzfse_samples.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 #ifdef SPHC_TEST_LIBZIP
 #include "tests/support/zip_bytes.h"
 #endif
@@ -85,7 +85,7 @@ TEST(Record3dMetadata, WhatIsWrongIsNamed) {
 }
 
 TEST(FilesThatAreNotRead, SayTheWayOut) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::pair<std::string, const char *> files[] = {{"#ROSBAG V1.2\n", "rosbag fix"},
                                                         {std::string("SQLite format 3\0", 16), "ros2 bag convert"}};
   for (const auto &[bytes, cure] : files) {
@@ -157,7 +157,7 @@ class R3d : public ::testing::TestWithParam<bool> {
     return refusal([&] { RecordingReader(write()).read(i); });
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
   std::map<std::string, recording::Bytes> files_;
 };
 
@@ -264,7 +264,7 @@ TEST_P(ZippedR3d, AnyOtherZipIsRefused) {
 INSTANTIATE_TEST_SUITE_P(Zip, ZippedR3d, ::testing::Values(true));
 #else
 TEST(R3dWithoutLibzip, IsRefused) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   folder.write("walk.r3d", std::string("PK\x03\x04") + std::string(30, '\0'));
   EXPECT_THAT(refusal([&] { RecordingReader reader(folder / "walk.r3d"); }), HasSubstr("install libzip-dev"));
 }
@@ -308,7 +308,7 @@ class Record3d : public ::testing::TestWithParam<const char *> {
     return refusal([&] { RecordingReader reader(folder_.path()); });
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_P(Record3d, ImagesPosesAndCameras) {

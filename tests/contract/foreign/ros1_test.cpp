@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "host/recording/recording_reader.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/refusal.h"
 #include "tests/support/ros1_bag.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::contract {
 namespace {
@@ -60,7 +60,7 @@ class Ros1 : public ::testing::Test {
   }
 
   Ros1Bag bag_;
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 void expectRos1Pixels(RecordingReader &reader) {

@@ -6,9 +6,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/recording/recording_reader.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/refusal.h"
 #include "tests/support/ros_bag.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::contract {
 namespace {
@@ -114,7 +114,7 @@ class Ros2 : public ::testing::Test {
   }
 
   RosBag bag_;
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 void expectSamePixels(RecordingReader &reader) {

@@ -10,8 +10,8 @@
 #include "host/recording/failure.h"
 #include "host/recording/foreign/stray_text.h"
 #include "host/recording/recording_reader.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::contract {
 namespace {
@@ -71,7 +71,7 @@ class StrayScanner : public ::testing::Test {
     return refusal([&] { RecordingReader reader(folder_.path()); });
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(StrayScanner, ImagesPosesAndCameras) {

@@ -8,8 +8,8 @@
 #include "host/recording/foreign/pgm.h"
 #include "host/recording/foreign/stream_recorder_text.h"
 #include "host/recording/recording_reader.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::contract {
 namespace {
@@ -94,7 +94,7 @@ class StreamRecorder : public ::testing::Test {
     return refusal([&] { RecordingReader reader(folder_.path()); });
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(StreamRecorder, ImagesAndTimes) {

@@ -8,7 +8,7 @@
 
 #include "oni_file.h"
 #include "open_camera.h"
-#include "tests/contract/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace {
 
@@ -69,7 +69,7 @@ TEST_F(OneReader, AsksForFramesOfCamerasThatThreadsOpenAndClose) {
 }
 
 TEST_F(OneReader, AsksForFramesOfRecordingsToo) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string path = folder / "made.oni";
   ASSERT_GT(writeOniFile(path, false), 0);
   others = 0;  // the recorder is the test's
@@ -86,7 +86,7 @@ TEST_F(OneReader, AsksForFramesOfRecordingsToo) {
 
 // A file that was asked twice gives two frames, of which the first is lost.
 TEST_F(OneReader, AsksAFileForAFrameWhenItHasTheOneBefore) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string path = folder / "made.oni";
   ASSERT_GT(writeOniFile(path, false), 0);
   in_vain = frames = 0;

@@ -3,7 +3,7 @@
 
 #include "oni_file.h"
 #include "open_camera.h"
-#include "tests/contract/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::contract {
 
@@ -67,7 +67,7 @@ class OniRecording : public VirtualCameras {
     }
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
   int last_index_ = 0;
 };
 

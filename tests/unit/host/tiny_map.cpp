@@ -1,21 +1,11 @@
 #include "tests/unit/host/tiny_map.h"
 
-#include <stdlib.h>
-
 #include <cmath>
-#include <filesystem>
 
 #include "host/base/write_file.h"
 #include "host/publish/map_writer.h"
 
 namespace sphc::host {
-
-TempFolder::TempFolder() {
-  char path[] = "/tmp/sphc_cli_XXXXXX";
-  if (mkdtemp(path)) path_ = path;
-}
-
-TempFolder::~TempFolder() { std::filesystem::remove_all(path_); }
 
 void writeTinyMap(const std::string &path, uint32_t points) {
   SphereCloud cloud;

@@ -3,34 +3,14 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "golden.h"
 #include "host/calibration/compare.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
-
-class Folder {
- public:
-  Folder() {
-    char path[] = "/tmp/sphc_calibration_XXXXXX";
-    if (mkdtemp(path)) path_ = path;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder &) = delete;
-  Folder &operator=(const Folder &) = delete;
-
-  std::string write(const std::string &name, const std::string &text) const {
-    std::ofstream(path_ + "/" + name, std::ios::binary) << text;
-    return path_ + "/" + name;
-  }
-
- private:
-  std::string path_;
-};
 
 const sphc_camera kCameras[] = {
     {SPHC_CAMERA_PINHOLE, 640, 480, 4, {525.5, 524.25, 320.125, 238}},
@@ -52,7 +32,7 @@ sphc_rig calibrationOf(const sphc_camera &color, const sphc_camera &depth) {
 }
 
 sphc_rig writtenAndRead(Format format, const sphc_rig &calibration) {
-  const Folder folder;
+  const test::TempFolder folder;
   std::vector<std::string> paths;
   for (const TextFile &file : writeCalibration(format, calibration))
     paths.push_back(folder.write(file.name.empty() ? "file" : file.name, file.text));
@@ -111,7 +91,7 @@ TEST(Fit, RefusesWhatTheFormatCannotHoldUnlessToldSo) {
 }
 
 TEST(ReadFiles, ColmapFindsItsRigsBesideTheCameras) {
-  const Folder folder;
+  const test::TempFolder folder;
   const std::string cameras = folder.write("cameras.txt", kColmapCamerasFile);
   folder.write("rigs.txt", kColmapRigsFile);
   const std::string parent = std::filesystem::path(cameras).parent_path().string();
@@ -130,7 +110,7 @@ TEST(ReadFiles, FormatsTellThemselves) {
 }
 
 TEST(ReadFiles, MayBeginWithAByteOrderMark) {
-  const Folder folder;
+  const test::TempFolder folder;
   const std::string mark = "\xEF\xBB\xBF";
   const std::string cameras = folder.write("cameras.txt", mark + kColmapCamerasFile);
   folder.write("rigs.txt", mark + kColmapRigsFile);
@@ -141,7 +121,7 @@ TEST(ReadFiles, MayBeginWithAByteOrderMark) {
 }
 
 TEST(ReadFiles, SaysWhichFileIsWrong) {
-  const Folder folder;
+  const test::TempFolder folder;
   const auto refusal = [](const std::string &path) -> std::string {
     try {
       readCalibrationFiles({path}, {}, {});

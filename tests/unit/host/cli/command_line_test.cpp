@@ -11,6 +11,7 @@
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
 #include "host/recording/recording_reader.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -80,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         "simulate --out x --cameras phone --raw-depth"));
 
 TEST(CommandLine, ALapOfAFlatTakesLongerThanOneOfARoom) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const Answer answer = runCommand("simulate --json --with flat --frames 1 --out " + (folder / "flat"));
   ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("\"lap_s\": 150"));
@@ -89,7 +90,7 @@ TEST(CommandLine, ALapOfAFlatTakesLongerThanOneOfARoom) {
 }
 
 TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "m.sphc", 200);
   const std::string audit =
       "audit " + (folder / "m.sphc") + " --quick --json --limit file.order_sigma=1e9 --limit density.at_centre=0";
@@ -104,7 +105,7 @@ TEST(CommandLine, AnAuditThatCouldNotMeasureAllEndsWithFive) {
 
 // A value of 0.558 is no "BROKEN, at most 0.56".
 TEST(CommandLine, AnAuditTellsItsLimitsAsPreciselyAsItsFigures) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "m.sphc", 200);
   const Answer audit = runCommand("audit " + (folder / "m.sphc") + " --only file --limit file.stray_bytes=0.555");
   EXPECT_THAT(audit.out, HasSubstr("holds, at most 0.555: "));
@@ -177,7 +178,7 @@ TEST(CommandLine, APathThatCannotBeLookedUpIsNamedWithTheCure) {
 }
 
 TEST(Info, PrintsOneScreenOrJson) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "tiny.sphc", 40);
   const Answer human = runCommand("info " + (folder / "tiny.sphc"));
   EXPECT_EQ(human.exit_code, kExitDone);
@@ -189,7 +190,7 @@ TEST(Info, PrintsOneScreenOrJson) {
 }
 
 TEST(Info, RefusesADamagedMap) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "tiny.sphc", 40);
   std::fstream file(folder / "tiny.sphc", std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(500);
@@ -201,7 +202,7 @@ TEST(Info, RefusesADamagedMap) {
 }
 
 TEST(Inspect, AccountsForEveryByteAndDrawsAPicture) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "tiny.sphc", 40);
   const Answer answer = runCommand("inspect --json " + (folder / "tiny.sphc"));
   ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
@@ -215,7 +216,7 @@ TEST(Inspect, AccountsForEveryByteAndDrawsAPicture) {
 
 // JSON is UTF-8, and names of files are bytes.
 TEST(Inspect, GivesJsonOfANameThatIsNoText) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "t\xffny.sphc", 40);
   const Answer answer = runCommand("inspect --json " + (folder / "t\xffny.sphc"));
   ASSERT_EQ(answer.exit_code, kExitDone) << answer.err;
@@ -223,7 +224,7 @@ TEST(Inspect, GivesJsonOfANameThatIsNoText) {
 }
 
 TEST(Inspect, NamesAPictureItCannotWrite) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "tiny.sphc", 40);
   const Answer answer = runCommand("inspect " + (folder / "tiny.sphc") + " --picture " + (folder / "picture.what"));
   EXPECT_EQ(answer.exit_code, kExitFailure);
@@ -232,7 +233,7 @@ TEST(Inspect, NamesAPictureItCannotWrite) {
 
 // The recording is not there: the name is looked at before hours of work.
 TEST(Advise, NamesAPictureItCannotWriteAtOnce) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const Answer answer = runCommand("advise -r " + (folder / "none") + " --picture " + (folder / "advice.jpg"));
   EXPECT_EQ(answer.exit_code, kExitFailure);
   EXPECT_THAT(answer.err, HasSubstr("advice.jpg: end its name in .png"));
@@ -245,7 +246,7 @@ bool sameFiles(const std::string &a, const std::string &b) {
 
 // Frames keep their times; poses are those of the part and of a second around it.
 TEST(Convert, TakesAPartOfARecording) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk.mcap", part = folder / "part", one = folder / "one.raw";
   ASSERT_EQ(runCommand("simulate --frames 9 --rate 2 --out " + walk).exit_code, kExitDone);
   const Answer cut = runCommand("convert --json " + walk + " " + part + " --first 3 --last 6 --step 2");
@@ -279,7 +280,7 @@ TEST(Convert, TakesAPartOfARecording) {
 }
 
 TEST(Convert, AnEndingInLargeLettersIsOneToo) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string mcap = folder / "walk.MCAP", raw = folder / "walk.Raw";
   ASSERT_EQ(runCommand("simulate --frames 1 --out " + mcap).exit_code, kExitDone);
   EXPECT_TRUE(std::filesystem::is_regular_file(mcap));
@@ -289,7 +290,7 @@ TEST(Convert, AnEndingInLargeLettersIsOneToo) {
 }
 
 TEST(Convert, WritesNothingOfARecordingWithoutImages) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk", out = folder / "out";
   ASSERT_EQ(runCommand("simulate --frames 2 --rate 2 --out " + walk).exit_code, kExitDone);
   for (const char *image : {"rgb/000000", "rgb/000001", "depth/000000", "depth/000001"})
@@ -304,7 +305,7 @@ TEST(Convert, WritesNothingOfARecordingWithoutImages) {
 }
 
 TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk", map = folder / "room.sphc";
   ASSERT_EQ(runCommand("simulate --frames 14 --rate 6 --out " + walk).exit_code, kExitDone);
   ASSERT_EQ(runCommand("build --map " + map + " -r " + walk).exit_code, kExitDone);
@@ -333,7 +334,7 @@ TEST(Warnings, OfManyFramesTheFirstTenAreNamedAndTheOthersCounted) {
 
 // Colour faster than depth shares depth images: as many frames as depth images do not mean that all of these went.
 TEST(Convert, TellsOfDepthImagesLeftOutWhereFramesShareOthers) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk";
   ASSERT_EQ(runCommand("simulate --frames 4 --rate 6 --out " + walk).exit_code, kExitDone);
   std::ofstream list(walk + "/rgb.txt");
@@ -348,7 +349,7 @@ TEST(Convert, TellsOfDepthImagesLeftOutWhereFramesShareOthers) {
 }
 
 TEST(Advise, TellsOfFramesThatTookNoPart) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk", advise = "advise --json --folds 2 -r " + walk;
   ASSERT_EQ(runCommand("simulate --frames 4 --rate 6 --out " + walk).exit_code, kExitDone);
   const Answer sound = runCommand(advise);
@@ -374,7 +375,7 @@ TEST(Advise, TellsOfFramesThatTookNoPart) {
 
 // Whoever looks at such a recording needs advice most.
 TEST(Advise, DoesNotEndAtABlockThatCannotBeRead) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk";
   ASSERT_EQ(runCommand("simulate --frames 6 --rate 6 --out " + walk).exit_code, kExitDone);
   for (const char *frame : {"0", "1"}) std::ofstream(walk + "/rgb/00000" + frame + ".png") << "no image";
@@ -400,7 +401,7 @@ TEST(Advise, HoldsOutFramesWithAPose) {
 }
 
 TEST(Advise, SaysThatNoFrameWouldBeLocalized) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk";
   ASSERT_EQ(runCommand("simulate --frames 6 --rate 0.6 --out " + walk).exit_code, kExitDone);
   const Answer advice = runCommand("advise --folds 2 -r " + walk);
@@ -411,7 +412,7 @@ TEST(Advise, SaysThatNoFrameWouldBeLocalized) {
 
 // A line of groundtruth.txt without a finite pose, and a recorder that was cut off: every command says so.
 TEST(Damage, IsSaidByWhateverReadsARecording) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk", cut = folder / "cut.mcap", map = folder / "tiny.sphc";
   writeTinyMap(map, 40);
   ASSERT_EQ(runCommand("simulate --frames 3 --rate 6 --out " + walk).exit_code, kExitDone);
@@ -446,7 +447,7 @@ TEST(Damage, IsSaidByWhateverReadsARecording) {
 }
 
 TEST(Convert, KeepsAccelerationsInAFile) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk.mcap", part = folder / "part.mcap";
   ASSERT_EQ(runCommand("simulate --frames 9 --rate 2 --accelerometer 50 --out " + walk).exit_code, kExitDone);
   ASSERT_EQ(recording::openRecording(walk).accelerations.size(), 201u);
@@ -469,7 +470,7 @@ TEST(Convert, KeepsAccelerationsInAFile) {
 }
 
 TEST(Convert, GoesThroughEveryLayoutAndBack) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string file = folder / "walk.mcap", walk = folder / "walk", scenes = folder / "seq-01";
   ASSERT_EQ(runCommand("simulate --frames 2 --rate 6 --out " + file).exit_code, kExitDone);
   const Answer unpacked = runCommand("convert --json " + file + " " + walk);
@@ -509,7 +510,7 @@ const char kChain[] =
     "  T_cn_cnm1: [[1, 0, 0, 0.02], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}\n";
 
 TEST(Calibration, ShowsAndConverts) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   std::ofstream(folder / "chain.yaml") << kChain;
   const Answer shown = runCommand("calibration " + (folder / "chain.yaml"));
   ASSERT_EQ(shown.exit_code, kExitDone) << shown.err;
@@ -530,7 +531,7 @@ TEST(Calibration, ShowsAndConverts) {
 }
 
 TEST(Calibration, PixelsWithoutARayAreNamed) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   std::string folded = kChain;  // the distortion of cam1 turns back before the edges of its image
   folded.replace(folded.find("0.1, -0.2,"), 10, "-2.0, 0.0,");
   std::ofstream(folder / "folded.yaml") << folded;
@@ -548,7 +549,7 @@ TEST(Calibration, PixelsWithoutARayAreNamed) {
 }
 
 TEST(Calibration, ApproximatesOnlyWhenTold) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   std::ofstream(folder / "chain.yaml") << kChain;
   const std::string command =
       "calibration " + (folder / "chain.yaml") + " --to azure-kinect --out " + (folder / "k.json");
@@ -565,7 +566,7 @@ TEST(Calibration, ApproximatesOnlyWhenTold) {
 }
 
 TEST(Calibration, OptionsSayWhatAFileLeavesOpen) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   std::ofstream(folder / "cameras.txt") << "1 PINHOLE 640 480 500 501 320 240\n2 PINHOLE 320 240 250 251 160 120\n";
   const std::string command =
       "calibration " + (folder / "cameras.txt") + " --json --color 2 --depth 1 --depth-unit 0.0002";
@@ -581,7 +582,7 @@ TEST(Calibration, OptionsSayWhatAFileLeavesOpen) {
 }
 
 // A recording in a camera's place.
-void expectCaptures(const TempFolder &folder, const std::string &walk, const std::string &map) {
+void expectCaptures(const test::TempFolder &folder, const std::string &walk, const std::string &map) {
   const std::string camera = " --device replay:" + walk;
   const Answer live = runCommand("live --json --map " + map + camera);
   EXPECT_EQ(live.exit_code, kExitDone) << live.err;
@@ -607,7 +608,7 @@ void expectCaptures(const TempFolder &folder, const std::string &walk, const std
 }
 
 // What the ledger beside the map allows, and what not.
-void expectDiscipline(const TempFolder &folder, const std::string &build, const std::string &map) {
+void expectDiscipline(const test::TempFolder &folder, const std::string &build, const std::string &map) {
   const std::string again = folder / "again.sphc", ledger = folder / "spherecloud.ledger";
   const Answer same = runCommand(build + "--json -m " + again);
   ASSERT_EQ(same.exit_code, kExitDone) << same.err;
@@ -631,7 +632,7 @@ void expectDiscipline(const TempFolder &folder, const std::string &build, const 
 }
 
 // Maps and cameras of two bands are kept apart.
-void expectBands(const TempFolder &folder, const std::string &build, const std::string &localize) {
+void expectBands(const test::TempFolder &folder, const std::string &build, const std::string &localize) {
   const std::string infrared = folder / "infrared.sphc", model = folder / "infrared.model";
   EXPECT_THAT(runCommand(build + "-m " + infrared + " --band infrared").err, HasSubstr("another band"));
   const std::string ledger = " --ledger " + (folder / "infrared.ledger");
@@ -655,7 +656,7 @@ void expectBands(const TempFolder &folder, const std::string &build, const std::
 }
 
 // From the headset to the localizer, and not lost on the way without a word.
-void expectAmplitudes(const TempFolder &folder, const std::string &map) {
+void expectAmplitudes(const test::TempFolder &folder, const std::string &map) {
   const std::string raw = folder / "raw.mcap", again = folder / "raw_again.mcap";
   ASSERT_EQ(runCommand("simulate --raw-depth --frames 2 --rate 6 --out " + raw).exit_code, kExitDone);
   ASSERT_EQ(runCommand("convert " + raw + " " + again).exit_code, kExitDone);
@@ -680,7 +681,7 @@ void expectAmplitudes(const TempFolder &folder, const std::string &map) {
 }
 
 TEST(Simulate, SaysThatAnExposureWithoutBlurChangesNothing) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string simulate = "simulate --frames 1 --out ", note = "note: --exposure: with --no-blur";
   EXPECT_THAT(runCommand(simulate + (folder / "both") + " --no-blur --exposure 0.02").err, HasSubstr(note));
   EXPECT_THAT(runCommand(simulate + (folder / "one") + " --no-blur").err, Not(HasSubstr(note)));
@@ -698,7 +699,7 @@ void expectExplained(const nlohmann::json &json) {
 
 // The whole way on a few frames of a simulated walk.
 TEST(RoundTrip, SimulateBuildLocalize) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk", map = folder / "room.sphc";
   const Answer recorded = runCommand("simulate --json --frames 6 --rate 6 --out " + walk);
   ASSERT_EQ(recorded.exit_code, kExitDone) << recorded.err;

@@ -7,7 +7,7 @@
 
 #include "host/report/file.h"
 #include "tests/support/refusals/record.h"
-#include "tests/unit/host/tiny_map.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -33,7 +33,7 @@ std::string fileText(const std::string &path) {
 Answer runCommand(const std::string &arguments) { return runProgram(SPHC_COMMAND, arguments); }
 
 Answer runProgram(const std::string &program, const std::string &arguments) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string command =
       program + " " + arguments + " >" + (folder / "out") + " 2>" + (folder / "err") + " </dev/null";
   const int status = std::system(command.c_str());

@@ -14,7 +14,7 @@
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
 #include "host/report/run.h"
-#include "tests/unit/host/tiny_map.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -28,7 +28,7 @@ using testing::Not;
 class DoctorTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<TempFolder>();
+    folder_ = std::make_unique<test::TempFolder>();
     const Answer walk = runCommand("simulate --frames 12 --rate 5 --out " + at("walk"));
     ASSERT_EQ(walk.exit_code, kExitDone) << walk.err;
   }
@@ -53,9 +53,9 @@ class DoctorTest : public testing::Test {
     }
   }
 
-  static std::unique_ptr<TempFolder> folder_;
+  static std::unique_ptr<test::TempFolder> folder_;
 };
-std::unique_ptr<TempFolder> DoctorTest::folder_;
+std::unique_ptr<test::TempFolder> DoctorTest::folder_;
 
 // The places of the poses are twice as far apart.
 std::string twiceAsFar(double time_s, const std::string &pose) {

@@ -9,6 +9,7 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -33,7 +34,7 @@ class EncryptionCommandTest : public testing::Test {
     return runCommand("decrypt " + map_ + ".enc --key " + key + " --out " + (folder_ / "again.sphc"));
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
   std::string map_, key_;
 };
 

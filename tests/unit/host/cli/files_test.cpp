@@ -11,7 +11,7 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
-#include "tests/unit/host/tiny_map.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -28,7 +28,7 @@ unsigned modeOf(const std::string &path) {
 class FilesTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<TempFolder>();
+    folder_ = std::make_unique<test::TempFolder>();
     const Answer walk = runCommand("simulate --frames 3 --rate 3 --out " + at("walk"));
     ASSERT_EQ(walk.exit_code, kExitDone) << walk.err;
     const Answer map = runCommand("build -r " + at("walk") + " -m " + at("room.sphc"));
@@ -48,9 +48,9 @@ class FilesTest : public testing::Test {
     EXPECT_EQ(fileText(file), before) << command;
   }
 
-  static std::unique_ptr<TempFolder> folder_;
+  static std::unique_ptr<test::TempFolder> folder_;
 };
-std::unique_ptr<TempFolder> FilesTest::folder_;
+std::unique_ptr<test::TempFolder> FilesTest::folder_;
 
 // A private model stands for the recording that it was made of: with one key the map has the same bytes.
 TEST_F(FilesTest, AMapOfASavedModelIsTheMapMadeAtOnce) {

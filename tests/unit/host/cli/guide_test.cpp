@@ -9,8 +9,8 @@
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
 #include "host/recording/recording_writer.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/guide/made_up_wall.h"
-#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {
@@ -45,7 +45,7 @@ class GuideTest : public testing::Test {
  protected:
   void SetUp() override { writeWall(at("wall")); }
   std::string at(const std::string &name) const { return folder_ / name; }
-  TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(GuideTest, WhatCannotBeReadOrComparedIsRefused) {

@@ -22,7 +22,7 @@
 #include "runtime/geometry/rigid.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/ros_bag.h"
-#include "tests/unit/host/tiny_map.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -34,15 +34,15 @@ using testing::HasSubstr;
 class MapTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<TempFolder>();
+    folder_ = std::make_unique<test::TempFolder>();
     const Answer walk = runCommand("simulate --frames 10 --rate 5 --out " + at("walk"));
     ASSERT_EQ(walk.exit_code, kExitDone) << walk.err;
   }
   static void TearDownTestSuite() { folder_.reset(); }
   static std::string at(const std::string &name) { return *folder_ / name; }
-  static std::unique_ptr<TempFolder> folder_;
+  static std::unique_ptr<test::TempFolder> folder_;
 };
-std::unique_ptr<TempFolder> MapTest::folder_;
+std::unique_ptr<test::TempFolder> MapTest::folder_;
 
 TEST_F(MapTest, AWalkWithoutPosesBecomesAMapThatLocalizes) {
   fs::copy(at("walk"), at("blind"), fs::copy_options::recursive);

@@ -10,6 +10,7 @@
 
 #include "command_runner.h"
 #include "host/cli/common/exit_code.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
@@ -42,7 +43,7 @@ class SigningTest : public testing::Test {
     }
   }
 
-  TempFolder folder_;
+  test::TempFolder folder_;
   std::string map_, key_;
 };
 

@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {
 
 TEST(MapAnatomy, OfAnEvenSpiral) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   writeTinyMap(folder / "spiral.sphc", 3000);
   const MapFile file = openMapFile(folder / "spiral.sphc");
   const MapFacts facts = mapFacts(file, folder / "spiral.sphc");

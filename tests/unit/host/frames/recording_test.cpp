@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/contract/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -19,7 +19,7 @@ TEST(Recording, OneThatIsNotThereIsNamed) {
 }
 
 TEST(Recording, ColourAndDepthThatNeverMeetAreNamedAsTheCause) {
-  const contract::TempFolder folder;
+  const test::TempFolder folder;
   contract::writeTinyRecording(folder.path().string(), 3);
   folder.write("depth.txt", "5.0 depth/000000.png\n6.0 depth/000001.png\n");
   RecordingOptions options;

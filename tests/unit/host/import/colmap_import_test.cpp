@@ -12,8 +12,8 @@
 #include "host/import/colmap_descriptors.h"
 #include "host/import/colmap_world.h"
 #include "host/import/upright.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/import/tiny_colmap.h"
 
 namespace sphc::host {
@@ -45,7 +45,7 @@ class ColmapImport : public testing::Test {
   PointModel import() { return importColmap(options_, nullptr, &summary_); }
 
   static constexpr double kUnitsPerMetre = 5;
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
   ColmapImportOptions options_;
   ColmapImportSummary summary_;
 };
@@ -152,7 +152,7 @@ TEST_F(ColmapImport, APipeInThePlaceOfAnImageIsNotWaitedFor) {
 class ColmapDatabase : public testing::TestWithParam<Schema> {};
 
 TEST_P(ColmapDatabase, DescriptorsHaveOurOrientations) {
-  const contract::TempFolder folder;
+  const test::TempFolder folder;
   const ColmapModel model = tinyColmapModel(1);
   test::writeColmapDatabase(folder / "d.db", model, GetParam());
   const DescriptorsOfPoints found = describeFromDatabase(model, folder / "d.db");
@@ -163,7 +163,7 @@ TEST_P(ColmapDatabase, DescriptorsHaveOurOrientations) {
 }
 
 TEST_P(ColmapDatabase, OfAnotherModelIsRefused) {
-  const contract::TempFolder folder;
+  const test::TempFolder folder;
   ColmapModel fewer = tinyColmapModel(1);
   fewer.images[2].keypoints_px.resize(5);
   test::writeColmapDatabase(folder / "fewer.db", fewer, GetParam());
@@ -179,7 +179,7 @@ TEST_P(ColmapDatabase, OfAnotherModelIsRefused) {
 INSTANTIATE_TEST_SUITE_P(Schema, ColmapDatabase, testing::Values(Schema::kOld, Schema::kNew));
 
 TEST(ColmapDatabaseTypes, LearnedDescriptorsAreRefused) {
-  const contract::TempFolder folder;
+  const test::TempFolder folder;
   test::writeColmapDatabase(folder / "d.db", tinyColmapModel(1), Schema::kNew, 1);
   EXPECT_THAT(refusal([&] { describeFromDatabase(tinyColmapModel(1), folder / "d.db"); }),
               HasSubstr("not SIFT; describe the images again"));

@@ -15,6 +15,7 @@
 #include "tests/support/made_up_model.h"
 #include "tests/support/refusal.h"
 #include "tests/support/release_request.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -25,14 +26,8 @@ constexpr size_t kHeaderBytes = 32, kPointBytes = 164, kCrcAt = 28, kSigmaAt = 2
 
 class ModelFile : public testing::Test {
  protected:
-  ModelFile() {
-    char folder[] = "/tmp/sphc_model_XXXXXX";
-    folder_ = mkdtemp(folder);
-    path_ = folder_ + "/room.model";
-  }
-  ~ModelFile() override { std::filesystem::remove_all(folder_); }
-
-  std::string folder_, path_;
+  const test::TempFolder folder_;
+  const std::string path_ = folder_ / "room.model";
 };
 
 void expectSame(const PointModel &a, const PointModel &b) {
@@ -98,16 +93,16 @@ TEST_F(ModelFile, ReplacesAPointModel) {
   writeModelFile(path_, test::madeUpRoom(10, 1));
   writeModelFile(path_, test::madeUpRoom(20, 2));
   expectSame(readModelFile(path_), test::madeUpRoom(20, 2));
-  const std::string other = folder_ + "/notes.txt";
+  const std::string other = folder_ / "notes.txt";
   std::ofstream(other) << "what matters";
   EXPECT_FALSE(isModelFile(other));
-  EXPECT_THAT(test::refusal([&] { writeModelFile(folder_, {}); }), HasSubstr("cannot write"));
-  EXPECT_THAT(test::refusal([&] { writeModelFile(folder_ + "/none/x", {}); }), HasSubstr("cannot write"));
+  EXPECT_THAT(test::refusal([&] { writeModelFile(folder_.path(), {}); }), HasSubstr("cannot write"));
+  EXPECT_THAT(test::refusal([&] { writeModelFile(folder_ / "none/x", {}); }), HasSubstr("cannot write"));
 }
 
 TEST_F(ModelFile, WhatIsNoFileIsRefusedAtOnce) {
   EXPECT_THAT(test::refusal([&] { readModelFile(path_); }), HasSubstr("is the file there?"));
-  EXPECT_THAT(test::refusal([&] { readModelFile(folder_); }), HasSubstr("it is no file"));
+  EXPECT_THAT(test::refusal([&] { readModelFile(folder_.path()); }), HasSubstr("it is no file"));
   ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
   EXPECT_THAT(test::refusal([&] { readModelFile(path_); }), HasSubstr("it is no file"));
 }

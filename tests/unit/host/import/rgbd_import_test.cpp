@@ -9,9 +9,9 @@
 
 #include "host/frames/recording.h"
 #include "host/import/near_duplicates.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/session.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -40,7 +40,7 @@ class RgbdImportTest : public testing::Test {
       if (!pose.empty()) file << time << " " << pose << "\n";
   }
 
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(RgbdImportTest, TakesARecordingWithPoses) { EXPECT_EQ(refusal(), ""); }
@@ -136,7 +136,7 @@ class LateDepthTest : public testing::Test {
                              rigidFromC(config.rig.color_from_depth));
   }
 
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
   mutable int walks_ = 0;
 };
 

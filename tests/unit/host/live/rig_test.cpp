@@ -5,8 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "tests/contract/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -33,7 +33,7 @@ class RigTest : public testing::Test {
     return std::make_unique<Rig>(options_, [this](const std::string &trouble) { troubles_ += trouble + "\n"; });
   }
 
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
   RigOptions options_;
   std::string troubles_;
 };

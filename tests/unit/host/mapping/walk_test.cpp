@@ -7,9 +7,9 @@
 
 #include "host/frames/recording.h"
 #include "spotted_images.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -31,7 +31,7 @@ class WalkTest : public testing::Test {
     for (const auto &image : std::filesystem::directory_iterator(folder() + "/rgb"))
       std::filesystem::resize_file(image.path(), 20);
   }
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 // Pixels of 48 x 32 have next to no keypoints, which is what the person is told.
@@ -55,7 +55,7 @@ TEST(WalkKeyframes, LieFartherApartInALongWalk) {
 
 // A frame that shows what the one before it did takes its pose from it.
 TEST(SpottedWalkTest, FramesThatShowTheSameFollowTheirKeyframe) {
-  const contract::TempFolder folder;
+  const test::TempFolder folder;
   const sphc_rig rig = spottedRig();
   sphc_recording_writer *writer = nullptr;
   ASSERT_EQ(sphc_recording_create((folder / "wall").c_str(), &rig, &writer, nullptr), SPHC_OK);

@@ -7,7 +7,7 @@
 #include "host/recording/calibration_json.h"
 #include "host/recording/mcap/records.h"
 #include "spotted_images.h"
-#include "tests/contract/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -29,7 +29,7 @@ class WalkTimesTest : public testing::Test {
     recording::writeCalibration(folder_ / "calibration.json", spottedRig());
     return timesOf(recording::RecordingReader(folder_.path()));
   }
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(WalkTimesTest, SoundClocksShowNothing) {

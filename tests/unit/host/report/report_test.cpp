@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "frames.h"
 #include "host/report/file.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -19,25 +19,22 @@ using testing::Not;
 class ReportTest : public testing::Test {
  protected:
   void SetUp() override {
-    char folder[] = "/tmp/sphc_report_XXXXXX";
-    ASSERT_NE(mkdtemp(folder), nullptr);
-    folder_ = folder;
     run_.recording = "walk <one>";
     run_.maps.resize(1);
     run_.maps[0].directions = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
     for (uint32_t i = 0; i < 8; ++i) run_.frames.push_back(goodFrame(i, 0.004 * i, 0.1 * i));
     run_.frames.push_back(lostFrame(8));
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string write() {
     const ImageOfFrame gray = [](const FrameRecord &) { return cv::Mat(48, 64, CV_8UC3, cv::Scalar(90, 90, 90)); };
-    problem_ = writeReport(folder_, run_, gray).problem;
-    const auto bytes = readBytes(folder_ + "/report.html");
+    problem_ = writeReport(folder_.path(), run_, gray).problem;
+    const auto bytes = readBytes(folder_ / "report.html");
     return {bytes.begin(), bytes.end()};
   }
 
-  std::string folder_, problem_;
+  const test::TempFolder folder_;
+  std::string problem_;
   host::Run run_;
 };
 
@@ -49,7 +46,7 @@ TEST_F(ReportTest, IsOnePageThatNeedsNothingElse) {
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   for (const char *file : {"overlay_best.jpg", "overlay_not_localized_1.jpg", "map_directions.png", "frames.jsonl",
                            "summary.json", "trajectory.tum", "plots/path.gp"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder_ + "/" + file)) << file;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / file)) << file;
   }
 }
 
@@ -73,7 +70,7 @@ TEST_F(ReportTest, SaysSoWithoutGnuplot) {
   EXPECT_THAT(page, HasSubstr("gnuplot is not installed"));
   EXPECT_THAT(page, Not(HasSubstr("<svg")));
   for (const char *name : {"path", "stage_times", "translation_error", "rotation_error", "timeline"})
-    EXPECT_TRUE(std::filesystem::exists(folder_ + "/plots/" + name + ".gp")) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / (std::string("plots/") + name + ".gp"))) << name;
 }
 
 TEST_F(ReportTest, DrawsReliabilityWhereThereIsAConfidence) {
@@ -81,8 +78,8 @@ TEST_F(ReportTest, DrawsReliabilityWhereThereIsAConfidence) {
   for (FrameRecord &frame : run_.frames) frame.confidence = 0.9;
   EXPECT_THAT(write(), HasSubstr("Is it as sure as it may be?"));
   EXPECT_EQ(problem_, "");
-  EXPECT_TRUE(std::filesystem::exists(folder_ + "/plots/reliability.png"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ + "/plots/gnuplot.log")) << "there was nothing to say";
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "plots/reliability.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "plots/gnuplot.log")) << "there was nothing to say";
 }
 
 TEST_F(ReportTest, WorksWithoutTruth) {
@@ -102,7 +99,7 @@ TEST_F(ReportTest, WorksWithoutTruth) {
 TEST_F(ReportTest, DrawsAnswersWithoutTruthApart) {
   const auto script = [this] {
     write();
-    const auto bytes = readBytes(folder_ + "/plots/path.gp");
+    const auto bytes = readBytes(folder_ / "plots/path.gp");
     return std::string(bytes.begin(), bytes.end());
   };
   EXPECT_THAT(script(), Not(HasSubstr("$unjudged using")));
@@ -124,7 +121,7 @@ TEST_F(ReportTest, OfSeveralMapsAllCentresAreDrawn) {
   const std::string page = write();
   EXPECT_THAT(page, HasSubstr("The stars are the sphere centres"));
   EXPECT_THAT(page, HasSubstr("All directions in the first map"));
-  const auto bytes = readBytes(folder_ + "/plots/path.gp");
+  const auto bytes = readBytes(folder_ / "plots/path.gp");
   const std::string script(bytes.begin(), bytes.end());
   const size_t begin = script.find("$centre << EOD\n") + 15, end = script.find("EOD\n", begin);
   EXPECT_EQ(std::count(script.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -141,7 +138,7 @@ TEST_F(ReportTest, AnswersInFramesOfSeveralMapsAreNotDrawnAsOnePath) {
     frame.map = frame.sequence < 3 ? 0 : 1;
   }
   EXPECT_THAT(write(), HasSubstr("Every dot is one answer in hall.sphc, in that map&#39;s own frame."));
-  const auto bytes = readBytes(folder_ + "/plots/path.gp");
+  const auto bytes = readBytes(folder_ / "plots/path.gp");
   const std::string script(bytes.begin(), bytes.end());
   const size_t begin = script.find("$unjudged << EOD\n") + 17, end = script.find("EOD\n", begin);
   EXPECT_EQ(std::count(script.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -155,7 +152,7 @@ TEST_F(ReportTest, AnswersInFramesOfSeveralMapsAreNotDrawnAsOnePath) {
 TEST_F(ReportTest, LargeNumbersOfFramesKeepTheirDigits) {
   for (FrameRecord &frame : run_.frames) frame.sequence += 1999999998;
   write();
-  const std::string drawn = folder_ + "/plots/timeline.svg";
+  const std::string drawn = folder_ / "plots/timeline.svg";
   if (!std::filesystem::exists(drawn)) GTEST_SKIP() << "gnuplot is not installed";
   const auto bytes = readBytes(drawn);
   EXPECT_THAT(std::string(bytes.begin(), bytes.end()), HasSubstr("2000000002"));
@@ -170,12 +167,12 @@ TEST_F(ReportTest, LeavesNoPictureOfAnEarlierRun) {
   write();
   run_.frames.pop_back();
   write();
-  EXPECT_FALSE(std::filesystem::exists(folder_ + "/overlay_not_localized_1.jpg"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "overlay_not_localized_1.jpg"));
 }
 
 // With the truth there were curves of errors.
 TEST_F(ReportTest, LeavesNoPlotOfAnEarlierRun) {
-  const std::string curve = folder_ + "/plots/translation_error";
+  const std::string curve = folder_ / "plots/translation_error";
   write();
   ASSERT_TRUE(std::filesystem::exists(curve + ".gp"));
   for (FrameRecord &frame : run_.frames) frame.has_truth = false;

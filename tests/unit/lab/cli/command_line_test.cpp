@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/common/exit_code.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/cli/command_runner.h"
-#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {
@@ -62,7 +62,7 @@ TEST(Lab, NumbersOfFramesMayHaveZerosInFront) {
 
 // Maps of wanted sizes, and the library's own variants on them.
 TEST(Lab, MakesMapsOfWantedSizesAndTimesFramesOnThem) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk";
   ASSERT_EQ(runCommand("simulate --frames 6 --rate 6 --out " + walk).exit_code, kExitDone);
   const Answer made =
@@ -94,7 +94,7 @@ TEST(Lab, MakesMapsOfWantedSizesAndTimesFramesOnThem) {
 }
 
 TEST(Lab, ComparesPredictionsWithTheWalk) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   const std::string walk = folder / "walk";
   ASSERT_EQ(runCommand("simulate --frames 8 --rate 30 --out " + walk).exit_code, kExitDone);
   const Answer made = runLab("map -r " + walk + " --step 3 --points 9000 --out " + (folder / "maps") + " --json");

@@ -9,7 +9,7 @@
 #include "host/recording/recording_writer.h"
 #include "runtime/base/elementary.h"
 #include "runtime/geometry/rigid.h"
-#include "tests/contract/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -76,7 +76,7 @@ class PanoramaFrom : public testing::Test {
     reader_ = std::make_unique<recording::RecordingReader>(folder_ / "ball");
   }
 
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
   std::unique_ptr<recording::RecordingReader> reader_;
 };
 

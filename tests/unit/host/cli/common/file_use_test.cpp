@@ -10,7 +10,7 @@
 
 #include "host/base/usage_error.h"
 #include "tests/support/nobody.h"
-#include "tests/unit/host/tiny_map.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -56,7 +56,7 @@ class FileUseTest : public testing::Test {
     return files;
   }
 
-  const TempFolder folder_;
+  const test::TempFolder folder_;
 };
 
 TEST_F(FileUseTest, ANewFileAndOneOfOursAreFine) {

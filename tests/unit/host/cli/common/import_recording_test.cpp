@@ -6,14 +6,14 @@
 #include <fstream>
 
 #include "host/cli/common/console.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/cli/command_runner.h"
-#include "tests/unit/host/tiny_map.h"
 
 namespace sphc::host {
 namespace {
 
 TEST(ImportFrames, TakesThoseWithImagesAndAPose) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   RecordingOptions walk;
   walk.folder = folder / "walk";
   ASSERT_EQ(runCommand("simulate --frames 6 --rate 2 --out " + walk.folder).exit_code, 0);

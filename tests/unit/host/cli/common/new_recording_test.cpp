@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "tests/unit/host/tiny_map.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(NewRecording, HasItsNameOnceItIsWhole) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   NewRecording file(folder / "a.mcap", NewRecording::IfCut::kRemove);
   EXPECT_EQ(file.part(), folder / "a.mcap.part");
   std::ofstream(file.part()) << "all";
@@ -33,7 +33,7 @@ TEST(NewRecording, HasItsNameOnceItIsWhole) {
 }
 
 TEST(NewRecording, WhatWasCutGoesOrStays) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   for (const auto if_cut : {NewRecording::IfCut::kRemove, NewRecording::IfCut::kKeep}) {
     NewRecording walk(folder / "walk", if_cut);
     fs::create_directory(walk.part());
@@ -45,7 +45,7 @@ TEST(NewRecording, WhatWasCutGoesOrStays) {
 }
 
 TEST(NewRecording, TakesNobodysPlace) {
-  const TempFolder folder;
+  const test::TempFolder folder;
   NewRecording file(folder / "a.mcap", NewRecording::IfCut::kKeep);
   std::ofstream(file.part()) << "new";
   std::ofstream(folder / "a.mcap") << "came meanwhile";

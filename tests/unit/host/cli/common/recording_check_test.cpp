@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "host/recording/calibration_json.h"
-#include "tests/contract/temp_folder.h"
 #include "tests/contract/tiny_recording.h"
 #include "tests/support/ros_bag.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -41,7 +41,7 @@ class RecordingCheckTest : public testing::Test {
   }
 
   static constexpr uint32_t kFrames = 12;
-  contract::TempFolder folder_;
+  test::TempFolder folder_;
 };
 
 TEST_F(RecordingCheckTest, SoundImagesAreNotTalkedOf) { EXPECT_THAT(ofImages(), IsEmpty()); }

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sphc::contract {
+namespace sphc::test {
 
 class TempFolder {
  public:
@@ -27,9 +27,11 @@ class TempFolder {
   const std::filesystem::path &path() const { return path_; }
   std::string operator/(const std::string &name) const { return (path_ / name).string(); }
 
-  void write(const std::string &name, const std::string &text) const {
+  // Its path.
+  std::string write(const std::string &name, const std::string &text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << text;
+    return *this / name;
   }
   std::string read(const std::string &name) const {
     std::ifstream stream(path_ / name, std::ios::binary);
@@ -40,4 +42,4 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace sphc::contract
+}  // namespace sphc::test
