@@ -9,14 +9,16 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/support/temp_folder.h"
+
 namespace sphc::host {
 namespace {
 
 namespace fs = std::filesystem;
 
 TEST(PrivateFile, IsOneThatOnlyItsOwnerReads) {
-  const std::string path = (fs::path(testing::TempDir()) / "private_file_test.key").string();
-  std::ofstream(path) << "secret";
+  const test::TempFolder folder;
+  const std::string path = folder.write("private.key", "secret");
   fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
   EXPECT_NO_THROW(checkPrivate(path, "it opens doors"));
   for (const fs::perms more : {fs::perms::group_read, fs::perms::others_read, fs::perms::group_write}) {
@@ -43,8 +45,8 @@ std::string whyNoKey(const std::string &path) {
 }
 
 TEST(PrivateFile, IsReadWithoutWaiting) {
-  const std::string path = (fs::path(testing::TempDir()) / "private_file_test.pipe").string();
-  fs::remove(path);
+  const test::TempFolder folder;
+  const std::string path = folder / "pipe";
   EXPECT_EQ(whyNoKey(path), "not there");
   char bytes[4];
   std::ofstream(path) << "sec";
@@ -55,9 +57,8 @@ TEST(PrivateFile, IsReadWithoutWaiting) {
   fs::remove(path);
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   EXPECT_EQ(whyNoKey(path), "key file " + path + " is a pipe into which nobody writes; give the file itself");
-  fs::remove(path);
   EXPECT_EQ(whyNoKey("/dev/zero"), "key file /dev/zero is a device; give the file itself");
-  EXPECT_EQ(whyNoKey(testing::TempDir()), "key file " + testing::TempDir() + " is a folder; give the file itself");
+  EXPECT_EQ(whyNoKey(folder.path()), "key file " + folder.path().string() + " is a folder; give the file itself");
 }
 
 // What is written later is waited for.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "tests/support/nobody.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -25,28 +26,25 @@ std::string refusal(const std::string &path) {
 }
 
 TEST(RegularFile, IsWhatIsReadToItsEnd) {
-  const std::string path = (fs::path(testing::TempDir()) / "regular_file_test").string();
-  fs::remove(path);
+  const test::TempFolder folder;
+  const std::string path = folder / "map";
   EXPECT_EQ(refusal(path), "") << "nothing is there";
   std::ofstream(path) << "a map";
   EXPECT_EQ(refusal(path), "");
   fs::remove(path);
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   EXPECT_EQ(refusal(path), path + " is a device or a pipe; give the map itself");
-  fs::remove(path);
   EXPECT_EQ(refusal("/dev/zero"), "/dev/zero is a device or a pipe; give the map itself");
-  EXPECT_EQ(refusal(testing::TempDir()), testing::TempDir() + " is a folder; give the map itself");
+  EXPECT_EQ(refusal(folder.path()), folder.path().string() + " is a folder; give the map itself");
 }
 
 TEST(RegularFile, ThatMayNotBeReadIsNamedWithTheCause) {
-  const std::string path = (fs::path(testing::TempDir()) / "unreadable_file_test").string();
-  std::ofstream(path) << "a map";
+  const test::TempFolder folder;
+  fs::permissions(folder.path(), fs::perms::all);  // somebody else comes as far as the file
+  const std::string path = folder.write("map", "a map");
   fs::permissions(path, fs::perms::none);
-  {
-    const test::Nobody nobody;
-    EXPECT_EQ(refusal(path), path + ": Permission denied; check its permissions and those of its folders");
-  }
-  fs::remove(path);
+  const test::Nobody nobody;
+  EXPECT_EQ(refusal(path), path + ": Permission denied; check its permissions and those of its folders");
 }
 
 }  // namespace

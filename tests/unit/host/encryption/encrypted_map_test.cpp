@@ -6,10 +6,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "tests/support/golden_encryption.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -68,8 +68,6 @@ TEST(EncryptedMap, RefusalsSayWhyAndName) {
 
 class EncryptionKeyTest : public testing::Test {
  protected:
-  EncryptionKeyTest() : path_((fs::path(testing::TempDir()) / "encryption_key_test.key").string()) {}
-  ~EncryptionKeyTest() override { fs::remove(path_); }
   std::string refusal() const {
     try {
       EncryptionKey::read(path_);
@@ -79,7 +77,8 @@ class EncryptionKeyTest : public testing::Test {
     }
     return "read";
   }
-  std::string path_;
+  const test::TempFolder folder_;
+  const std::string path_ = folder_ / "rooms.key";
 };
 
 TEST_F(EncryptionKeyTest, IsReadAsItWasWritten) {

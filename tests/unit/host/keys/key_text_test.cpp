@@ -2,32 +2,23 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
 
-class KeyTextTest : public testing::Test {
- protected:
-  KeyTextTest() : path_((std::filesystem::path(testing::TempDir()) / "key_text_test").string()) {}
-  ~KeyTextTest() override { std::filesystem::remove(path_); }
-  std::string path_;
-};
-
-TEST_F(KeyTextTest, HasTwoLines) {
+TEST(KeyText, HasTwoLines) {
+  const test::TempFolder folder;
+  const std::string path = folder / "a.key";
   KeyBytes key;
   key.fill(0xab);
-  writeKeyText(path_, "what for", key.data(), Readers::kOwner);
-  std::ifstream in(path_);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  writeKeyText(path, "what for", key.data(), Readers::kOwner);
   std::string digits;
   for (size_t i = 0; i < key.size(); ++i) digits += "ab";
-  EXPECT_EQ(text, "what for\n" + digits + "\n");
+  EXPECT_EQ(folder.read("a.key"), "what for\n" + digits + "\n");
   KeyBytes read = {};
-  EXPECT_FALSE(readKeyText(path_, "another purpose", &read));
-  EXPECT_TRUE(readKeyText(path_, "what for", &read));
+  EXPECT_FALSE(readKeyText(path, "another purpose", &read));
+  EXPECT_TRUE(readKeyText(path, "what for", &read));
   EXPECT_EQ(read, key);
   wipe(&read);
   EXPECT_EQ(read, KeyBytes{});

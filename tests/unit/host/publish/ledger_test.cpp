@@ -15,6 +15,7 @@
 
 #include "tests/support/made_up_model.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -149,11 +150,12 @@ TEST_F(LedgerTest, AnOlderOneIsOfVisiblePlaces) {
 // SQLite would keep it nowhere.
 TEST_F(LedgerTest, OneNamedAsADatabaseInMemoryIsAFile) {
   const std::filesystem::path before = std::filesystem::current_path();
-  std::filesystem::current_path(testing::TempDir());
+  const test::TempFolder folder;
+  std::filesystem::current_path(folder.path());
   const Place place = makePlace(1, 20);
   Ledger::openOrMake(":memory:", nullptr).record(place);
   const std::vector<Place> places = Ledger::openToRead(":memory:").places();
-  unlink(":memory:");
+  EXPECT_TRUE(std::filesystem::exists(folder / ":memory:"));
   std::filesystem::current_path(before);
   ASSERT_EQ(places.size(), 1u);
   expectSame(places[0], place);

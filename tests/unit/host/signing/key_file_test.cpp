@@ -5,11 +5,10 @@
 #include <sys/stat.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "tests/support/golden_signature.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -21,17 +20,10 @@ using testing::Not;
 
 class KeyFileTest : public testing::Test {
  protected:
-  KeyFileTest() : folder_(fs::path(testing::TempDir()) / "key_file_test") { fs::create_directories(folder_); }
-  ~KeyFileTest() override { fs::remove_all(folder_); }
-
-  std::string at(const std::string &name) const { return (folder_ / name).string(); }
-  std::string text(const std::string &name) const {
-    std::ifstream in(at(name));
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
+  std::string at(const std::string &name) const { return folder_ / name; }
+  std::string text(const std::string &name) const { return folder_.read(name); }
   void put(const std::string &name, const std::string &content) const {
-    std::ofstream(at(name)) << content;
-    fs::permissions(at(name), fs::perms::owner_read | fs::perms::owner_write);
+    fs::permissions(folder_.write(name, content), fs::perms::owner_read | fs::perms::owner_write);
   }
   // What reading says, which names the file and never what it holds.
   template <typename Read>
@@ -49,7 +41,7 @@ class KeyFileTest : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  const test::TempFolder folder_;
 };
 
 SigningKey goldenKey() {
@@ -87,7 +79,7 @@ TEST_F(KeyFileTest, APairIsWrittenWholeOrNotAtAll) {
   } catch (const std::runtime_error &error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("cannot write " + nowhere + ":"), Not(HasSubstr(".part"))));
   }
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(KeyFileTest, TwoKeysDiffer) {

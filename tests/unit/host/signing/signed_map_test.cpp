@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "host/base/usage_error.h"
 #include "host/base/write_file.h"
 #include "tests/support/golden_signature.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -21,7 +21,7 @@ TEST(SignatureFile, StandsBesideTheMap) { EXPECT_EQ(signaturePath("maps/a.sphc")
 
 class SignedMapTest : public testing::Test {
  protected:
-  SignedMapTest() : path_((fs::path(testing::TempDir()) / "signed_map_test.sig").string()) {
+  SignedMapTest() {
     SigningKey::Seed seed;
     const std::vector<uint8_t> bytes = test::bytesOfHex(test::kSeed);
     std::copy(bytes.begin(), bytes.end(), seed.begin());
@@ -29,7 +29,6 @@ class SignedMapTest : public testing::Test {
     trust_.keys = {key_->publicKey()};
     trust_.signature = path_;
   }
-  ~SignedMapTest() override { fs::remove(path_); }
 
   void sign(uint64_t release, const std::string &name) {
     const Signature signature = signMap(map_.data(), map_.size(), *key_, release, name);
@@ -45,7 +44,8 @@ class SignedMapTest : public testing::Test {
     return "accepted";
   }
 
-  std::string path_;
+  const test::TempFolder folder_;
+  const std::string path_ = folder_ / "a.sphc.sig";
   std::vector<uint8_t> map_ = test::goldenMap();
   std::unique_ptr<SigningKey> key_;
   Trust trust_;

@@ -3,11 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "pose_bytes.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -133,15 +132,11 @@ TEST(PoseFile, PointsThatDoNotFitAreRefused) {
 }
 
 TEST(PoseFile, TruePointsAreFoundBesideTheFile) {
-  const std::filesystem::path folder = testing::TempDir() + "/pose_file_test";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const sphc::test::TempFolder folder;
   const auto write = [&folder](const char *name, const PoseBytes &bytes) {
-    std::ofstream(folder / name, std::ios::binary)
-        .write(reinterpret_cast<const char *>(bytes.bytes.data()),
-               static_cast<std::streamsize>(bytes.bytes.size()));
+    folder.write(name, {bytes.bytes.begin(), bytes.bytes.end()});
   };
-  const std::string path = (folder / "r_eta33_odd.bin").string();
+  const std::string path = folder / "r_eta33_odd.bin";
   EXPECT_TRUE(readTruePoints(path).queries.empty());
   write("r_eta100_odd.bin", goodPoseFile().put<uint32_t>(test::kAtEta, 100));
   EXPECT_TRUE(readTruePoints(path).queries.empty());

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/audit/attack/mirror.h"
 #include "host/audit/score/auc.h"
+#include "tests/support/temp_folder.h"
 #include "tests/unit/host/audit/made_up_cloud.h"
 
 namespace sphc::host {
@@ -73,11 +73,9 @@ TEST(RealOrFake, TooFewPointsAreRefused) {
   EXPECT_THROW(guessRealOrFake(cloud.published, kNetworks), std::runtime_error);
 }
 
-std::string fileWith(const std::string &text) {
-  const std::string path = testing::TempDir() + "real_or_fake_" +
-                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
-  std::ofstream(path) << text;
-  return path;
+RealOrFakeClassifier classifierOf(const std::string &text) {
+  const test::TempFolder folder;
+  return RealOrFakeClassifier(folder.write("model.json", text));
 }
 
 nlohmann::json shipped() {
@@ -89,8 +87,7 @@ TEST(RealOrFakeModel, ACopyOfTheShippedOneSaysTheSame) {
   const MapNeighbours neighbours = neighboursIn(cloud.published);
   const RealOrFakeFeatures features =
       realOrFakeFeatures(cloud.published, neighbours, CoOccurrence(std::string(kNetworks) + "/co_occurrence.json"));
-  const Eigen::ArrayXf copied =
-      RealOrFakeClassifier(fileWith(shipped().dump())).probabilities(features, neighbours.beside);
+  const Eigen::ArrayXf copied = classifierOf(shipped().dump()).probabilities(features, neighbours.beside);
   EXPECT_GT(copied.maxCoeff() - copied.minCoeff(), 0.02f);  // it does tell points from each other
   for (const RealOrFakeGuess &guess : guessRealOrFake(cloud.published, kNetworks)) {
     if (guess.attacker != "knows gaussian") continue;
@@ -103,21 +100,21 @@ TEST(RealOrFakeModel, ACopyOfTheShippedOneSaysTheSame) {
 
 TEST(RealOrFakeModel, OthersAreRefused) {
   EXPECT_THROW(RealOrFakeClassifier(std::string("/nowhere/model.json")), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(fileWith("{")), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(fileWith("[1]")), std::runtime_error);
+  EXPECT_THROW(classifierOf("{"), std::runtime_error);
+  EXPECT_THROW(classifierOf("[1]"), std::runtime_error);
   EXPECT_THROW(RealOrFakeClassifier(std::string(kNetworks) + "/co_occurrence.json"), std::runtime_error);
   const auto spoilt = [](const char *pointer, const nlohmann::json &value) {
     nlohmann::json json = shipped();
     json[nlohmann::json::json_pointer(pointer)] = value;
-    return fileWith(json.dump());
+    return classifierOf(json.dump());
   };
-  EXPECT_THROW(RealOrFakeClassifier(spoilt("/first", 1)), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(spoilt("/first/mean", {1, 2})), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(spoilt("/first/mean/0", "a")), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(spoilt("/first/mean/0", 1e300)), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(spoilt("/second/layers", nlohmann::json::array())), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(spoilt("/second/layers/1/weights/3", {1})), std::runtime_error);
-  EXPECT_THROW(RealOrFakeClassifier(spoilt("/second/layers/2", nullptr)), std::runtime_error);
+  EXPECT_THROW(spoilt("/first", 1), std::runtime_error);
+  EXPECT_THROW(spoilt("/first/mean", {1, 2}), std::runtime_error);
+  EXPECT_THROW(spoilt("/first/mean/0", "a"), std::runtime_error);
+  EXPECT_THROW(spoilt("/first/mean/0", 1e300), std::runtime_error);
+  EXPECT_THROW(spoilt("/second/layers", nlohmann::json::array()), std::runtime_error);
+  EXPECT_THROW(spoilt("/second/layers/1/weights/3", {1}), std::runtime_error);
+  EXPECT_THROW(spoilt("/second/layers/2", nullptr), std::runtime_error);
 }
 
 TEST(Mlp, ComputesByHand) {

@@ -7,6 +7,7 @@
 
 #include "host/audit/attack/mlp.h"
 #include "host/audit/attack/stack_features.h"
+#include "tests/support/temp_folder.h"
 
 namespace sphc::host {
 namespace {
@@ -63,12 +64,11 @@ TEST(StackClassifier, OtherStacksDoNotMatterAndCompanyDoes) {
 TEST(StackClassifier, OtherModelsAreRefused) {
   EXPECT_THROW(StackClassifier(std::string("/nowhere/model.json")), std::runtime_error);
   EXPECT_THROW(StackClassifier(std::string(SPHC_NETWORKS) + "/co_occurrence.json"), std::runtime_error);
-  const auto spoilt = [](const char *pointer, const nlohmann::json &value) {
+  const test::TempFolder folder;
+  const auto spoilt = [&folder](const char *pointer, const nlohmann::json &value) {
     nlohmann::json json = readModel(kModel, "spherecloud stacks 1");
     json[nlohmann::json::json_pointer(pointer)] = value;
-    const std::string path = testing::TempDir() + "stacks.json";
-    std::ofstream(path) << json;
-    return path;
+    return folder.write("stacks.json", json.dump());
   };
   EXPECT_NO_THROW(StackClassifier(spoilt("/strategy", "any")));
   for (const char *pointer : {"/mean", "/looks_first", "/looks_second/weights", "/told/bias", "/blocks",
