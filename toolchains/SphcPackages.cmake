@@ -39,5 +39,6 @@ sphc_package(host spherecloud-tools utils "Recordings to maps, maps to poses: th
 sphc_package(python python3-spherecloud python "Python package of spherecloud" "${library} ${same}, python3 (>= 3.9), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, spherecloud-tools")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/install/prerm)
 set(CPACK_DEBIAN_DRIVERS_PACKAGE_RECOMMENDS "libopencv-dev, libzstd-dev, zlib1g-dev, liblz4-dev, libavcodec-dev, libopenexr-dev, libzip-dev, libturbojpeg0-dev, libopenni2-dev")
 include(CPack)
