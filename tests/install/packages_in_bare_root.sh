@@ -51,6 +51,6 @@ page "find_package" "CMake: find_package" --static
 page "find_package, shared" "CMake: the shared library"
 step "drivers" "apt-get install -y /debs/libspherecloud-drivers-dev*.deb; pkg-config --modversion spherecloud-drivers"
 page "the examples, by one line" "The examples: each by one line"
-step "removed again" "apt-get purge -y 'libspherecloud*' 'spherecloud*' 'python3-spherecloud*'; ! find /usr -iname '*spherecloud*' | grep .; echo nothing is left"
+step "removed again" "apt-get purge -y 'libspherecloud*' 'spherecloud*' 'python3-spherecloud*'; ! find /usr -iname '*spherecloud*' | grep . && echo nothing is left"
 printf '%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" = 0 ]
