@@ -10,6 +10,11 @@ set -uo pipefail
 build=$(cd "${1:-build/release}" && pwd) || exit 1
 failed=0 passed=0
 
+# Without those that are about threads and devices, or start the command.
+mapfile -t programs < <(cd "$build/tests/unit" && find . -type f -executable '(' -name '*unit_*' -o -name '*_test' ')' |
+  grep -vE 'simulated|v4l2|openni2|live|cli' | sort)
+[ ${#programs[@]} -gt 0 ] || { echo "$build has no unit tests; build it first" >&2; exit 1; }
+
 # step NAME COMMAND...
 step() {
   local name=$1 log
@@ -29,16 +34,14 @@ step() {
 # Without multiply-add, as processors before 2013; and as the first of x86-64.
 for without in -AVX2,-FMA,-FMA4,-AVX512F -AVX2,-FMA,-FMA4,-AVX512F,-AVX,-SSE4_2,-SSE4_1,-SSSE3; do
   step "the whole suite, hwcaps=$without" env GLIBC_TUNABLES="glibc.cpu.hwcaps=$without" \
-    OPENCV_CPU_DISABLE=AVX512-SKX,AVX2,FP16,AVX ctest --test-dir "$build" -j "$(nproc)" -LE guest --output-on-failure
+    OPENCV_CPU_DISABLE=AVX512-SKX,AVX2,FP16,AVX ctest --test-dir "$build" -j "$(nproc)" -LE guest --output-on-failure --no-tests=error
 done
 
-mapfile -t programs < <(find "$build/tests/unit" -type f -executable -name '*unit_*' -o -type f -executable -name '*_test' |
-  grep -vE 'simulated|v4l2|openni2|live|cli' | sort) # those are about threads and devices, or start the command
 # A spawned program that is not there is not told to its parent by qemu-user.
 filter=-Coprocess.AProgramThatIsNotThereIsToldByName
 for processor in Nehalem Haswell max; do
   for program in "${programs[@]}"; do
-    step "$(basename "$program") on $processor" qemu-x86_64 -cpu "$processor" "$program" --gtest_brief=1 --gtest_filter="$filter"
+    step "$(basename "$program") on $processor" qemu-x86_64 -cpu "$processor" "$build/tests/unit/$program" --gtest_brief=1 --gtest_filter="$filter"
   done
 done
 
