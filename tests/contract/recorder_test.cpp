@@ -639,14 +639,17 @@ TEST_F(Recorder, AKilledRecordingIsReplayed) {
       const TinyImages images(i);
       for (const sphc_stream stream : {SPHC_STREAM_COLOR, SPHC_STREAM_DEPTH}) {
         const sphc_capture capture = tinyCapture(i, stream, images);
-        while (sphc_recorder_add(recorder.get(), &capture, nullptr) != SPHC_OK) _exit(1);
+        if (sphc_recorder_add(recorder.get(), &capture, nullptr) != SPHC_OK) _exit(1);
       }
     }
   }
   const auto bytes = [&] { return std::filesystem::exists(file()) ? std::filesystem::file_size(file()) : 0; };
-  while (bytes() < 300000) usleep(1000);
-  ASSERT_EQ(kill(child, SIGKILL), 0);
   int state = 0;
+  while (bytes() < 300000) {
+    ASSERT_EQ(waitpid(child, &state, WNOHANG), 0) << "it ended by itself";
+    usleep(1000);
+  }
+  ASSERT_EQ(kill(child, SIGKILL), 0);
   ASSERT_EQ(waitpid(child, &state, 0), child);
   ASSERT_TRUE(WIFSIGNALED(state));
   const sphc_replay_config tight = tightConfig();
