@@ -139,8 +139,10 @@ def told_in_full(options):
                            *(f"-DCMAKE_INSTALL_{name.upper()}={path}" for name, path in wanted.items())], text=True, capture_output=True, check=False)
     if done.returncode:
         return [done.stdout + done.stderr]
-    faults, environment = [], dict(os.environ, PKG_CONFIG_PATH=str(folder / "build/install"))
-    for package in (path.stem for path in (folder / "build/install").glob("*.pc")):
+    packages_told = [path.stem for path in (folder / "build/install").glob("*.pc")]
+    faults = [] if "spherecloud" in packages_told else [f"pkg-config is told of {packages_told}"]
+    environment = dict(os.environ, PKG_CONFIG_PATH=str(folder / "build/install"))
+    for package in packages_told:
         for name, path in wanted.items():
             said = subprocess.run(["pkg-config", f"--variable={name}", package], env=environment, text=True, capture_output=True, check=False)
             if said.stdout.replace("\\ ", " ").strip() != path:
