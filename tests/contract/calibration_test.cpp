@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "file_size_limit.h"
+#include "host/recording/calibration_json.h"
 #include "tests/support/temp_folder.h"
 #include "tiny_recording.h"
 
@@ -100,6 +101,26 @@ TEST(Calibration, TakesRegisteredDepthForTheColourCamera) {
   EXPECT_EQ(std::memcmp(&parsed.calibration.color_camera, &parsed.calibration.depth_camera, sizeof(sphc_camera)),
             0);
   EXPECT_EQ(parsed.calibration.color_from_depth.q_wxyz[0], 1);
+}
+
+// What has one number of its own is not registered, and is not written so.
+TEST(Calibration, OneNumberApartIsNotRegistered) {
+  const Parsed registered = parse(R"({"format": "spherecloud-calibration", "version": 1, "pixel_center": 0.5,
+    "color_camera": {"model": "pinhole", "width": 640, "height": 480, "params": [525, 526, 320, 240]},
+    "depth_unit_m": 0.001, "depth_registered": true})");
+  ASSERT_EQ(registered.status, SPHC_OK) << registered.message;
+  ASSERT_TRUE(recording::isRegistered(registered.calibration));
+  void (*const changes[])(sphc_rig *) = {[](sphc_rig *c) { c->depth_camera.model = SPHC_CAMERA_BROWN5; },
+                                         [](sphc_rig *c) { c->depth_camera.width = 320; },
+                                         [](sphc_rig *c) { c->depth_camera.height = 240; },
+                                         [](sphc_rig *c) { c->depth_camera.params[3] = 241; },
+                                         [](sphc_rig *c) { c->color_from_depth.q_wxyz[3] = 1e-9; },
+                                         [](sphc_rig *c) { c->color_from_depth.t_m[2] = 1e-9; }};
+  for (const auto &change : changes) {
+    sphc_rig rig = registered.calibration;
+    change(&rig);
+    EXPECT_FALSE(recording::isRegistered(rig)) << &change - changes;
+  }
 }
 
 struct Mistake {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 #include "drivers/raw/raw.h"
 #include "file_size_limit.h"
@@ -225,14 +226,61 @@ uint32_t crcOf(const std::string &bytes) {
   return ~crc;
 }
 
+// The checksum of a part, which is its last word, is right again.
+void seal(std::string *bytes, size_t begin, size_t count) {
+  const uint32_t crc = crcOf(bytes->substr(begin, count - 4));
+  std::memcpy(bytes->data() + begin + count - 4, &crc, sizeof crc);
+}
+
+// With another value in a part, at a place of it.
+template <typename Value>
+std::string changed(std::string bytes, size_t begin, size_t count, size_t at, Value value) {
+  std::memcpy(bytes.data() + begin + at, &value, sizeof value);
+  seal(&bytes, begin, count);
+  return bytes;
+}
+
+TEST_F(RawRecording, RefusesAHeaderThatNobodyWritesWhereItsChecksumIsRight) {
+  const struct {
+    size_t at;
+    uint32_t word;
+    const char *message;
+  } wrong[] = {{8, 2, "not of version 1"},
+               {16, SPHC_FORMAT_DEPTH16, "colour format is not known"},
+               {20, 1, "the header has changed"},
+               {312, 1, "the header has changed"}};
+  for (const auto &each : wrong) {
+    Medium medium{changed(medium_.bytes, 0, kHeaderBytes, each.at, each.word)};
+    const Opened opened = open(&medium);
+    EXPECT_EQ(opened.status, SPHC_E_ARGUMENT) << each.at;
+    EXPECT_THAT(opened.message.text, HasSubstr(each.message));
+  }
+}
+
+TEST_F(RawRecording, RefusesAPoseThatIsNoneWhereItsChecksumIsRight) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), far = 1e10;
+  constexpr size_t kHasPoseAt = 4, kRotationAt = 24, kOffsetAt = 56;
+  const auto with = [&](size_t at, auto value) {
+    return changed(medium_.bytes, kHeaderBytes, kHeadBytes, at, value);
+  };
+  for (const std::string &bytes : {with(kHasPoseAt, uint32_t{2}), with(kRotationAt, nan), with(kRotationAt, 2.0),
+                                   with(kOffsetAt, nan), with(kOffsetAt, far), with(kOffsetAt, -far)}) {
+    Medium medium{bytes};
+    const ReadFrame frame = read(open(&medium).raw, 0);
+    EXPECT_EQ(frame.status, SPHC_E_DEVICE);
+    EXPECT_THAT(frame.message.text, HasSubstr("a frame's pose is none"));
+  }
+  Medium sound{with(kOffsetAt, 1.0)};
+  EXPECT_EQ(read(open(&sound).raw, 0).status, SPHC_OK);
+}
+
 TEST_F(RawRecording, RefusesARigAsAllDo) {
   const sphc_rig good = open(&medium_).raw.rig;
   for (const test::SpoiledRig &spoiled : test::spoiledRigs()) {
     sphc_rig rig = good;
     spoiled.spoil(&rig);
     std::memcpy(medium_.bytes.data() + 24, &rig, sizeof rig);  // laid out as in memory, on little-endian machines
-    const uint32_t crc = crcOf(medium_.bytes.substr(0, kHeaderBytes - 4));
-    std::memcpy(medium_.bytes.data() + kHeaderBytes - 4, &crc, sizeof crc);
+    seal(&medium_.bytes, 0, kHeaderBytes);
     const Opened opened = open(&medium_);
     EXPECT_EQ(opened.status, SPHC_E_ARGUMENT);
     EXPECT_STREQ(opened.message.text, spoiled.message);
