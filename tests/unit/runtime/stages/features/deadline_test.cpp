@@ -11,12 +11,6 @@ namespace {
 
 constexpr int64_t kStepNs = 1000;
 
-bool isSame(const Features &a, const Features &b) {
-  return a.keypoints.size() == b.keypoints.size() &&
-         std::memcmp(a.keypoints.data(), b.keypoints.data(), a.keypoints.size() * sizeof(Keypoint)) == 0 &&
-         std::memcmp(a.descriptors.data(), b.descriptors.data(), a.descriptors.size() * sizeof(Descriptor)) == 0;
-}
-
 std::vector<Keypoint> finerThan(float scale_px, const Features &features) {
   std::vector<Keypoint> finer;
   for (const Keypoint &k : features.keypoints)
@@ -64,7 +58,7 @@ class FeatureDeadline : public testing::Test {
 
 TEST_F(FeatureDeadline, ADistantOneChangesNothing) {
   const Features plain = (*extractor_)(image_);
-  EXPECT_TRUE(isSame(plain, within(1000000)));
+  EXPECT_TRUE(same(plain, within(1000000)));
   EXPECT_FALSE(extractor_->wasCut());
   EXPECT_EQ(plain.keypoints.size(), 300u);
 }
@@ -73,7 +67,7 @@ TEST_F(FeatureDeadline, WithoutOneNoClockIsReadAndNothingIsKept) {
   const Features plain = (*extractor_)(image_);
   within(60);
   const uint64_t before = clock_.reads;
-  EXPECT_TRUE(isSame(plain, (*extractor_)(image_)));
+  EXPECT_TRUE(same(plain, (*extractor_)(image_)));
   EXPECT_EQ(clock_.reads, before);
   EXPECT_FALSE(extractor_->wasCut());
 }
