@@ -348,10 +348,16 @@ uint32_t FakeKernel::mappings() const {
       std::count_if(mappings_.begin(), mappings_.end(), [](const Mapping &m) { return !!m.camera; }));
 }
 
+int32_t FakeKernel::openReads() const {
+  int32_t reads = 0;
+  for (const File &file : files_) reads += file.reads;
+  return reads;
+}
+
 int FakeKernel::addFile(const std::shared_ptr<FakeCamera> &camera, int32_t buffer) {
   for (size_t i = 0; i < files_.size(); ++i) {
     if (files_[i].camera) continue;
-    files_[i] = {camera, buffer};
+    files_[i] = {camera, buffer, 0};
     return kFirstFile + static_cast<int>(i);
   }
   return failWith(EMFILE);
@@ -385,11 +391,18 @@ int FakeKernel::close(int fd) {
   return error ? failWith(error) : 0;  // it is closed all the same
 }
 
+int FakeKernel::syncBuffer(File *file, unsigned long request, const void *argument) {
+  if (request != DMA_BUF_IOCTL_SYNC) return failWith(ENOTTY);
+  const uint64_t flags = static_cast<const dma_buf_sync *>(argument)->flags;
+  file->reads += (flags & DMA_BUF_SYNC_END) ? -1 : 1;
+  return 0;
+}
+
 int FakeKernel::ioctl(int fd, unsigned long request, void *argument) {
   if (const int error = interfere(request)) return failWith(error);
   File *file = fileOf(fd);
   if (!file) return failWith(EBADF);
-  if (file->buffer >= 0) return request == DMA_BUF_IOCTL_SYNC ? 0 : failWith(ENOTTY);
+  if (file->buffer >= 0) return syncBuffer(file, request, argument);
   if (file->camera->is_gone_) return failWith(ENODEV);
   if (request == VIDIOC_EXPBUF) {
     auto *exported = static_cast<v4l2_exportbuffer *>(argument);

@@ -135,12 +135,14 @@ class FakeKernel {
   uint32_t calls() const { return calls_; }
   uint32_t openFiles() const;
   uint32_t mappings() const;
+  int32_t openReads() const;  // of dma-bufs, begun and not ended
   int64_t now_ns = 1000000000;
 
  private:
   struct File {
     std::shared_ptr<FakeCamera> camera;  // null: free
     int32_t buffer;                      // of a dma-buf; else -1
+    int32_t reads;                       // of a dma-buf, begun and not ended
   };
   struct Mapping {
     std::shared_ptr<FakeCamera> camera;
@@ -157,6 +159,7 @@ class FakeKernel {
   int open(const char *path);
   int close(int fd);
   int ioctl(int fd, unsigned long request, void *argument);
+  static int syncBuffer(File *file, unsigned long request, const void *argument);
   void *mmap(size_t bytes, int fd, int64_t offset);
   int munmap(void *memory, size_t bytes);
   int poll(pollfd *file, int64_t timeout_ns);

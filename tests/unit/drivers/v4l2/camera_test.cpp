@@ -142,6 +142,21 @@ TEST(Camera, GivesTheDmabufOfALoanAlone) {
   EXPECT_EQ(sphc_v4l2_dmabuf(copying.opened.handle, &copied, &first_fd), SPHC_E_UNSUPPORTED);
 }
 
+// Without it the processor may see what the device has not written yet, or the other way round.
+TEST(Camera, ReadsOfADmabufBeginWithTheLoanAndEndWithIt) {
+  sphc_v4l2_config config = configFor(SPHC_STREAM_DEPTH);
+  config.export_dmabuf = 1;
+  RunningCamera running(depthCamera(), config);
+  EXPECT_EQ(running.kernel.openReads(), 0);
+  const sphc_capture first = running.opened.take();
+  running.opened.take();
+  EXPECT_EQ(running.kernel.openReads(), 2);
+  running.opened.release(first);
+  EXPECT_EQ(running.kernel.openReads(), 1);
+  running.opened.stop();
+  EXPECT_EQ(running.kernel.openReads(), 0);
+}
+
 TEST(Camera, BeginsAgainAfterStop) {
   RunningCamera running(depthCamera(), configFor(SPHC_STREAM_DEPTH));
   int64_t last_ns = 0;

@@ -138,6 +138,17 @@ TEST(Fault, TimeJumpIsReplacedByArrivalAndCounted) {
   }
 }
 
+TEST(Fault, TimeWhoseMicrosecondsAreASecondIsReplaced) {
+  test::FakeCamera fake = depthCamera();
+  fake.bend_dequeued = [](v4l2_buffer &buffer) {
+    --buffer.timestamp.tv_sec;
+    buffer.timestamp.tv_usec += 1000000;
+  };
+  RunningCamera running(std::move(fake), configFor(SPHC_STREAM_DEPTH));
+  EXPECT_EQ(running.opened.take().time_point, SPHC_TIME_ARRIVAL);
+  EXPECT_EQ(running.opened.stats().time_replaced, 1u);
+}
+
 // ---- waiting ---------------------------------------------------------------------------------------------------
 
 TEST(Fault, StallIsAgainUntilItGoesOn) {

@@ -90,6 +90,13 @@ TEST(FrameClock, NeverGoesBackNorStandsStill) {
   EXPECT_FALSE(stamped(clock, kStart + 81 * kMs, kSoe, kStart + 90 * kMs).is_replaced);
 }
 
+TEST(FrameClock, ATimeAheadDoesNotHoldUpTheNextStart) {
+  FrameClock clock = startedClock();
+  EXPECT_FALSE(stamped(clock, kStart + 90 * kMs, kEof, kStart + 20 * kMs).is_replaced);
+  clock.restart(kStart + 30 * kMs, kPeriod);
+  EXPECT_FALSE(stamped(clock, kStart + 40 * kMs, kSoe, kStart + 50 * kMs).is_replaced);
+}
+
 TEST(FrameClock, TakesFramesThatWaitedLongForASlowCaller) {
   FrameClock clock = startedClock();
   EXPECT_FALSE(stamped(clock, kStart + 10 * kMs, kSoe, kStart + 60000 * kMs).is_replaced);

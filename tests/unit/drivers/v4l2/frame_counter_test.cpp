@@ -63,6 +63,15 @@ TEST(FrameCounter, TakesAnotherCountForTheNextFrame) {
   EXPECT_EQ(counter.step(500, 9).sequence, 4u);
 }
 
+TEST(FrameCounter, AGapOfMoreThanSomeMinutesIsAnotherCount) {
+  FrameCounter counter;
+  counter.step(0, 0);
+  EXPECT_EQ(counter.step(10000, 1).lost, 9999u);
+  const FrameCounter::Step step = counter.step(20001, 2);
+  EXPECT_EQ(step.kind, Kind::Uncounted);
+  EXPECT_EQ(step.lost, 0u);
+}
+
 TEST(FrameCounter, BeginsAgain) {
   FrameCounter counter;
   counter.step(5, 0);

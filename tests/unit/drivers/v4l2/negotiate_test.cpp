@@ -80,6 +80,8 @@ TEST(Negotiate, NoticesASilentlySubstitutedSize) {
 
 TEST(Negotiate, NoticesASilentlySubstitutedRate) {
   sphc_v4l2_config config = configFor(SPHC_STREAM_COLOR);
+  EXPECT_THAT(tryCamera(test::FakeCamera({{kYuyv, kWidth, kHeight, 60}}), config).text,
+              HasSubstr("at 1/60 s a frame"));
   const test::FakeCamera fake({{kYuyv, kWidth, kHeight, 15}});
   EXPECT_THAT(tryCamera(fake, config).text, HasSubstr("at 1/15 s a frame"));
   config.allow_adjusting = 1;
